@@ -1,0 +1,343 @@
+"""Text to expression: the few signs a coefficient may be written with, and nothing that could run.
+
+The grammar, with ``^`` meaning ``**``::
+
+    sum      = term { ("+" | "-") term }
+    term     = factor { ("*" | "/") factor }
+    factor   = ("+" | "-") factor | power
+    power    = atom [ "**" ["+" | "-"] integer ]
+    atom     = number | name | function "(" sum [ "," integer ] ")" | "(" sum ")"
+    function = "sqrt" | "cbrt" | "root"
+
+Numbers are read as written: ``0.1`` is one tenth.
+"""
+
+from __future__ import annotations
+
+import re
+from collections.abc import Callable, Iterator, Mapping
+from dataclasses import dataclass, field, replace
+from typing import NoReturn
+
+from flint import fmpq
+
+from garkcli.errors import ExpressionError, LimitExceeded, UndefinedValue
+
+MAX_LENGTH = 20_000
+"""Longest text of one coefficient, in characters."""
+MAX_DEPTH = 60
+"""Deepest nesting of parentheses, signs and functions."""
+MAX_DIGITS = 1_000
+"""Most digits of one number, its decimal exponent written out."""
+MAX_EXPONENT = 64
+"""Largest exponent after ``**``."""
+MAX_ROOT = 12
+"""Largest index of a root."""
+
+
+@dataclass(frozen=True, slots=True)
+class Expression:
+    """A node; ``start`` and ``end`` are its offsets in the text and do not take part in comparisons."""
+
+    start: int = field(default=0, compare=False, kw_only=True)
+    end: int = field(default=0, compare=False, kw_only=True)
+
+
+@dataclass(frozen=True, slots=True)
+class Literal(Expression):
+    """A rational number."""
+
+    value: fmpq
+
+
+@dataclass(frozen=True, slots=True)
+class Name(Expression):
+    """A parameter."""
+
+    name: str
+
+
+@dataclass(frozen=True, slots=True)
+class Chain(Expression):
+    """Operands joined from left to right by ``+ -`` or by ``* /``; ``signs`` stand before each operand.
+
+    Kept flat, so that the depth of an expression is that of its parentheses.
+    """
+
+    signs: str
+    operands: tuple[Expression, ...]
+
+
+@dataclass(frozen=True, slots=True)
+class Power(Expression):
+    """An integer power."""
+
+    base: Expression
+    exponent: int
+
+
+@dataclass(frozen=True, slots=True)
+class Root(Expression):
+    """The real root of ``radicand`` of index ``index`` ≥ 2."""
+
+    radicand: Expression
+    index: int
+
+
+_TOKEN = re.compile(
+    r"[ \t\r\n]*(?:(?P<number>(?:[0-9]+(?:\.[0-9]*)?|\.[0-9]+)(?:[eE][+-]?[0-9]+)?)"
+    r"|(?P<name>[A-Za-z_][A-Za-z_0-9]*)|(?P<op>\*\*|[-+*/^(),])|(?P<end>$))"
+)
+_INDEX = {"sqrt": 2, "cbrt": 3}
+FUNCTIONS = frozenset({*_INDEX, "root"})
+"""Names with a meaning of their own: no parameter may be called so."""
+
+
+def parse(text: str) -> Expression:
+    """Read ``text``.
+
+    Raises:
+        ExpressionError: it is not in the grammar; the error knows the offset.
+        LimitExceeded: it is, but beyond the limits of this module.
+
+    >>> parse("1/2 - sqrt(3)/6").signs
+    '+-'
+    """
+    if len(text) > MAX_LENGTH:
+        raise LimitExceeded(
+            f"a coefficient of {len(text)} characters (limit {MAX_LENGTH})", "write it shorter", 0, MAX_LENGTH
+        )
+    return _Parser(text).whole()
+
+
+class _Parser:
+    """Recursive descent over the tokens of one text."""
+
+    def __init__(self, text: str) -> None:
+        self.text = text
+        self.depth = 0
+        self.tokens = self._tokens()
+        self.kind, self.value, self.start, self.end = next(self.tokens)
+        self.last_end = 0
+
+    def _tokens(self) -> Iterator[tuple[str, str, int, int]]:
+        position = 0
+        while True:
+            match = _TOKEN.match(self.text, position)
+            if match is None:
+                rest = self.text[position:]
+                offset = position + len(rest) - len(rest.lstrip(" \t\r\n"))
+                sign = self.text[offset]
+                cure = "use the sign - (hyphen)" if sign in "−–—" else "see the grammar of numbers"
+                raise ExpressionError(f"the sign {sign!r} has no place in a number", cure, offset, offset + 1)
+            kind = match.lastgroup or "end"
+            start, end = match.span(kind)
+            yield kind, match.group(kind), start, end
+            position = end
+
+    def _advance(self) -> str:
+        value, self.last_end = self.value, self.end
+        if self.kind != "end":
+            self.kind, self.value, self.start, self.end = next(self.tokens)
+        return value
+
+    def _fail(self, message: str, cure: str = "") -> NoReturn:
+        raise ExpressionError(message, cure, self.start, max(self.end, self.start + 1))
+
+    def _expect(self, sign: str, opened: int) -> None:
+        if self.value != sign:
+            found = repr(self.value) if self.kind != "end" else "the end"
+            self._fail(f"{sign!r} expected, {found} found", f"the parenthesis at column {opened + 1} is open")
+        self._advance()
+
+    def whole(self) -> Expression:
+        if self.kind == "end":
+            self._fail("no number here", "write a number, such as 1/2")
+        result = self.sum()
+        if self.kind != "end":
+            cure = "write products with *" if self.kind in {"name", "number"} or self.value == "(" else ""
+            self._fail(f"{self.value!r} is not expected here", cure)
+        return result
+
+    def sum(self) -> Expression:
+        return self._chain("+-", self.term)
+
+    def term(self) -> Expression:
+        return self._chain("*/", self.factor)
+
+    def _chain(self, signs: str, operand: Callable[[], Expression]) -> Expression:
+        start = self.start
+        joined, operands = signs[0], [operand()]
+        while self.kind == "op" and self.value in {signs[0], signs[1]}:
+            joined += self._advance()
+            operands.append(operand())
+        return operands[0] if len(operands) == 1 else Chain(joined, tuple(operands), start=start, end=self.last_end)
+
+    def factor(self) -> Expression:
+        self.depth += 1
+        if self.depth > MAX_DEPTH:
+            raise LimitExceeded(
+                f"nested more than {MAX_DEPTH} deep", "write it flatter", self.start, self.start + 1
+            )
+        try:
+            start = self.start
+            if self.kind == "op" and self.value in {"+", "-"}:
+                sign = self._advance()
+                inner = self.factor()
+                if sign == "+":
+                    return inner
+                if isinstance(inner, Literal):
+                    return Literal(-inner.value, start=start, end=self.last_end)
+                return Chain("-", (inner,), start=start, end=self.last_end)
+            return self.power()
+        finally:
+            self.depth -= 1
+
+    def power(self) -> Expression:
+        start = self.start
+        base = self.atom()
+        if self.kind != "op" or self.value not in {"**", "^"}:
+            return base
+        self._advance()
+        negative = False
+        if self.kind == "op" and self.value in {"+", "-"}:
+            negative = self._advance() == "-"
+        exponent = self._integer("an exponent", MAX_EXPONENT)
+        if self.kind == "op" and self.value in {"**", "^"}:
+            self._fail("a power of a power", "use parentheses and small exponents")
+        return Power(base, -exponent if negative else exponent, start=start, end=self.last_end)
+
+    def _integer(self, what: str, limit: int) -> int:
+        if self.kind != "number" or not self.value.isdigit():
+            self._fail(f"{what} is a small whole number", "for roots write sqrt(…), cbrt(…) or root(…, n)")
+        if len(self.value) > 4 or int(self.value) > limit:
+            raise LimitExceeded(f"{what} is larger than {limit}", "use a smaller one", self.start, self.end)
+        return int(self._advance())
+
+    def atom(self) -> Expression:
+        start = self.start
+        if self.kind == "number":
+            value = read_decimal(self.value, start)
+            self._advance()
+            return Literal(value, start=start, end=self.last_end)
+        if self.kind == "name":
+            name = self._advance()
+            if self.value == "(":
+                return self._function(name, start)
+            return Name(name, start=start, end=self.last_end)
+        if self.value == "(":
+            self._advance()
+            inner = self.sum()
+            self._expect(")", start)
+            return inner
+        at_end = self.kind == "end"
+        return self._fail("the text ends where a number is due" if at_end else "a number is expected here")
+
+    def _function(self, name: str, start: int) -> Expression:
+        if name not in FUNCTIONS:
+            raise ExpressionError(
+                f"{name!r} is not a function of coefficients",
+                "there are sqrt(x), cbrt(x) and root(x, n)",
+                start,
+                self.last_end,
+            )
+        opened = self.start
+        self._advance()
+        radicand = self.sum()
+        index = _INDEX.get(name, 0)
+        if not index:
+            self._expect(",", opened)
+            index = self._integer("the index of a root", MAX_ROOT)
+            if index < 2:
+                self._fail("the index of a root is 2 or more")
+        self._expect(")", opened)
+        return Root(radicand, index, start=start, end=self.last_end)
+
+
+def read_decimal(text: str, start: int = 0) -> fmpq:
+    """The rational number that a decimal text is, exactly.
+
+    >>> read_decimal("0.1"), read_decimal("25e-3")
+    (1/10, 1/40)
+    """
+    mantissa, _, exponent = text.lower().partition("e")
+    whole, _, fraction = mantissa.partition(".")
+    shift = int(exponent) if exponent and len(exponent) < 8 else (MAX_DIGITS + 1 if exponent else 0)
+    if len(whole) + len(fraction) + abs(shift) > MAX_DIGITS:
+        raise LimitExceeded(
+            f"a number of more than {MAX_DIGITS} digits", "write fewer digits", start, start + len(text)
+        )
+    scale = shift - len(fraction)
+    return fmpq(int(whole + fraction) * 10 ** max(scale, 0), 10 ** max(-scale, 0))
+
+
+def substitute(expression: Expression, values: Mapping[str, Expression]) -> Expression:
+    """``expression`` with each name replaced by its value; offsets stay those of ``expression``.
+
+    Raises:
+        UndefinedValue: a name has no value.
+    """
+    match expression:
+        case Name(name=name):
+            if name not in values:
+                raise UndefinedValue(
+                    f"{name!r} is not a parameter",
+                    f"define it under parameters: {{{name}: 1/2}}",
+                    expression.start,
+                    expression.end,
+                )
+            return values[name]
+        case Chain(operands=operands):
+            return replace(expression, operands=tuple(substitute(x, values) for x in operands))
+        case Power(base=base):
+            return replace(expression, base=substitute(base, values))
+        case Root(radicand=radicand):
+            return replace(expression, radicand=substitute(radicand, values))
+    return expression
+
+
+def roots_in(expression: Expression) -> Iterator[Root]:
+    """Every root in ``expression``, the inner ones first."""
+    match expression:
+        case Chain(operands=operands):
+            for operand in operands:
+                yield from roots_in(operand)
+        case Power(base=base):
+            yield from roots_in(base)
+        case Root(radicand=radicand):
+            yield from roots_in(radicand)
+            yield expression
+
+
+def format_expression(expression: Expression, latex: bool = False) -> str:
+    """The expression as text that ``parse`` reads again, or as LaTeX."""
+    match expression:
+        case Literal(value=value):
+            if latex and value.q != 1:
+                return f"{'-' if value < 0 else ''}\\frac{{{abs(value.p)}}}{{{value.q}}}"
+            return str(value)
+        case Name(name=name):
+            return name
+        case Chain(signs=signs, operands=operands):
+            parts = [
+                sign + _bracketed(x, signs[0] in "*/" or sign == "-", latex)
+                for sign, x in zip(signs, operands, strict=True)
+            ]
+            return "".join(parts).removeprefix("+").removeprefix("*")
+        case Power(base=base, exponent=exponent):
+            text = _bracketed(base, True, latex)
+            return f"{text}^{{{exponent}}}" if latex else f"{text}**{exponent}"
+        case Root(radicand=radicand, index=index):
+            inner = format_expression(radicand, latex)
+            if latex:
+                return f"\\sqrt{{{inner}}}" if index == 2 else f"\\sqrt[{index}]{{{inner}}}"
+            names = {n: name for name, n in _INDEX.items()}
+            return f"{names[index]}({inner})" if index in names else f"root({inner}, {index})"
+    raise TypeError(f"no expression: {expression!r}")
+
+
+def _bracketed(expression: Expression, tight: bool, latex: bool) -> str:
+    text = format_expression(expression, latex)
+    simple = isinstance(expression, (Name, Root)) or (isinstance(expression, Literal) and text.isdigit())
+    loose = isinstance(expression, Chain) or not simple
+    return f"({text})" if loose and tight else text

@@ -1,0 +1,163 @@
+"""Number fields ℚ(θ): arithmetic with radicals that is never rounded.
+
+An element is a polynomial in θ modulo the minimal polynomial of θ, in python-flint. Rational elements are
+plain ``fmpq``, so a number here is ``fmpq | Algebraic`` and zero is falsy in both.
+"""
+
+from __future__ import annotations
+
+from collections.abc import Sequence
+from functools import cached_property
+from itertools import combinations_with_replacement
+from typing import TypeAlias
+
+from flint import fmpq, fmpq_mat, fmpq_poly, fmpz
+
+from garkcli.exact.expression import Expression
+
+ZERO = fmpq(0)
+ONE = fmpq(1)
+
+
+class NumberField:
+    """K = ℚ(θ) with the radicals it was made for.
+
+    Args:
+        modulus: the minimal polynomial of θ, irreducible over ℚ.
+        radicals: each radical of the source as ``(expression, element)``; they generate K.
+    """
+
+    def __init__(self, modulus: fmpq_poly, radicals: Sequence[tuple[Expression, fmpq_poly]]) -> None:
+        self.modulus = modulus
+        self.degree: int = modulus.degree()
+        self.radicals = tuple(radicals)
+
+    def element(self, poly: fmpq_poly) -> Number:
+        """The class of ``poly`` modulo the minimal polynomial; a plain rational where it is one."""
+        poly %= self.modulus
+        return poly[0] if poly.degree() < 1 else Algebraic(self, poly)
+
+    def from_coordinates(self, coordinates: Sequence[fmpq]) -> Number:
+        """The element Σ coordinates[k] θ^k."""
+        return self.element(fmpq_poly(list(coordinates)))
+
+    @cached_property
+    def monomials(self) -> tuple[tuple[int, ...], ...]:
+        """Products of radicals that form a basis of K over ℚ, as tuples of indices into ``radicals``."""
+        return self._basis[0]
+
+    @cached_property
+    def _basis(self) -> tuple[tuple[tuple[int, ...], ...], fmpq_mat]:
+        chosen: list[tuple[int, ...]] = []
+        rows: list[list[fmpq]] = []
+        size = 0
+        while len(rows) < self.degree:
+            for word in combinations_with_replacement(range(len(self.radicals)), size):
+                value = fmpq_poly([1])
+                for index in word:
+                    value = value * self.radicals[index][1] % self.modulus
+                row = [value[k] for k in range(self.degree)]
+                if fmpq_mat([*rows, row]).rank() > len(rows):
+                    chosen.append(word)
+                    rows.append(row)
+                if len(rows) == self.degree:
+                    break
+            size += 1
+        return tuple(chosen), fmpq_mat(rows).transpose().inv()
+
+    def in_radicals(self, number: Algebraic) -> list[fmpq]:
+        """The coordinates of ``number`` in the basis ``monomials``."""
+        column = fmpq_mat(self.degree, 1, [number.poly[k] for k in range(self.degree)])
+        return (self._basis[1] * column).entries()
+
+
+class Algebraic:
+    """An irrational element of a number field."""
+
+    __slots__ = ("field", "poly")
+
+    def __init__(self, field: NumberField, poly: fmpq_poly) -> None:
+        self.field = field
+        self.poly = poly
+
+    def _poly_of(self, other: object) -> fmpq_poly | None:
+        if isinstance(other, Algebraic):
+            if other.field is not self.field:
+                raise TypeError("numbers of two different fields")
+            return other.poly
+        if isinstance(other, (fmpq, fmpz, int)):
+            return fmpq_poly([other])
+        return None
+
+    def __add__(self, other: object) -> Number:
+        poly = self._poly_of(other)
+        return NotImplemented if poly is None else self.field.element(self.poly + poly)
+
+    __radd__ = __add__
+
+    def __sub__(self, other: object) -> Number:
+        poly = self._poly_of(other)
+        return NotImplemented if poly is None else self.field.element(self.poly - poly)
+
+    def __rsub__(self, other: object) -> Number:
+        return -(self - other)
+
+    def __neg__(self) -> Algebraic:
+        return Algebraic(self.field, -self.poly)
+
+    def __mul__(self, other: object) -> Number:
+        poly = self._poly_of(other)
+        return NotImplemented if poly is None else self.field.element(self.poly * poly)
+
+    __rmul__ = __mul__
+
+    def inverse(self) -> Number:
+        """1/self, by the extended Euclidean algorithm."""
+        gcd, cofactor, _ = self.poly.xgcd(self.field.modulus)
+        return self.field.element(cofactor / gcd[0])
+
+    def __truediv__(self, other: object) -> Number:
+        if isinstance(other, Algebraic):
+            return self * other.inverse()
+        if isinstance(other, (fmpq, fmpz, int)):
+            return Algebraic(self.field, self.poly / fmpq(other))
+        return NotImplemented
+
+    def __rtruediv__(self, other: object) -> Number:
+        return self.inverse() * other  # type: ignore[operator]
+
+    def __pow__(self, exponent: int) -> Number:
+        result: Number = ONE
+        base: Number = self if exponent >= 0 else self.inverse()
+        for bit in bin(abs(exponent))[2:]:
+            result = result * result
+            if bit == "1":
+                result = result * base
+        return result
+
+    def __bool__(self) -> bool:
+        return True  # zero is rational, hence never an Algebraic
+
+    def __eq__(self, other: object) -> bool:
+        if isinstance(other, Algebraic):
+            return self.field is other.field and self.poly == other.poly
+        return False
+
+    def __hash__(self) -> int:
+        return hash(tuple(self.poly.coeffs()))
+
+    def __repr__(self) -> str:
+        from garkcli.exact.display import to_text
+
+        return to_text(self)
+
+
+Number: TypeAlias = fmpq | Algebraic
+"""An exact real number."""
+
+
+def coordinates(number: Number, degree: int) -> list[fmpq]:
+    """The coordinates of ``number`` in 1, θ, …, θ^(degree−1)."""
+    if isinstance(number, Algebraic):
+        return [number.poly[k] for k in range(degree)]
+    return [number] + [ZERO] * (degree - 1)

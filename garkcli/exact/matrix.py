@@ -1,0 +1,123 @@
+"""Matrices of exact numbers, as tuples of rows.
+
+Rational matrices go through python-flint; matrices over a number field through plain elimination, which is
+fast enough for the few stages that spelled-out radicals ever have.
+"""
+
+from __future__ import annotations
+
+from collections.abc import Iterable, Sequence
+from typing import TypeAlias, cast
+
+from flint import fmpq, fmpq_mat
+
+from garkcli.exact.field import ONE, ZERO, Algebraic, Number
+
+Vector: TypeAlias = tuple[Number, ...]
+Matrix: TypeAlias = tuple[Vector, ...]
+
+
+class SingularMatrixError(ArithmeticError):
+    """A linear system without a unique solution."""
+
+
+def is_rational(rows: Iterable[Iterable[Number]]) -> bool:
+    """Whether no entry is irrational."""
+    return not any(isinstance(x, Algebraic) for row in rows for x in row)
+
+
+def from_flint(matrix: fmpq_mat) -> Matrix:
+    """The same matrix as tuples."""
+    return tuple(tuple(row) for row in matrix.tolist())
+
+
+def to_flint(rows: Sequence[Sequence[Number]], columns: int) -> fmpq_mat:
+    """A rational matrix for python-flint; ``columns`` tells the width when there are no rows."""
+    return fmpq_mat(len(rows), columns, cast("list[fmpq]", [x for row in rows for x in row]))
+
+
+def identity(size: int) -> Matrix:
+    """The unit matrix."""
+    return tuple(tuple(ONE if i == j else ZERO for j in range(size)) for i in range(size))
+
+
+def transpose(a: Matrix) -> Matrix:
+    """Rows and columns exchanged; ``a`` has at least one row."""
+    return tuple(zip(*a, strict=True))
+
+
+def add(a: Matrix, b: Matrix) -> Matrix:
+    """A + b."""
+    return tuple(tuple(x + y for x, y in zip(r, s, strict=True)) for r, s in zip(a, b, strict=True))
+
+
+def subtract(a: Matrix, b: Matrix) -> Matrix:
+    """A − b."""
+    return tuple(tuple(x - y for x, y in zip(r, s, strict=True)) for r, s in zip(a, b, strict=True))
+
+
+def scale(factor: Number, a: Matrix) -> Matrix:
+    """Factor · a."""
+    return tuple(tuple(factor * x for x in row) for row in a)
+
+
+def outer(u: Vector, v: Vector) -> Matrix:
+    """U vᵀ."""
+    return tuple(tuple(x * y for y in v) for x in u)
+
+
+def dot(u: Sequence[Number], v: Sequence[Number]) -> Number:
+    """Σ u_i v_i."""
+    total: Number = ZERO
+    for x, y in zip(u, v, strict=True):
+        if x and y:
+            total = total + x * y
+    return total
+
+
+def apply(a: Matrix, v: Sequence[Number]) -> Vector:
+    """A v."""
+    return tuple(dot(row, v) for row in a)
+
+
+def apply_left(u: Sequence[Number], a: Matrix) -> Vector:
+    """uᵀ A."""
+    return tuple(dot(u, column) for column in zip(*a, strict=True))
+
+
+def multiply(a: Matrix, b: Matrix) -> Matrix:
+    """A B."""
+    if is_rational(a) and is_rational(b):
+        return from_flint(to_flint(a, len(b)) * to_flint(b, len(b[0])))
+    columns = transpose(b)
+    return tuple(tuple(dot(row, column) for column in columns) for row in a)
+
+
+def solve(a: Matrix, b: Matrix) -> Matrix:
+    """A⁻¹ B.
+
+    Raises:
+        SingularMatrixError: A is singular.
+
+    >>> solve(((fmpq(2), fmpq(0)), (fmpq(0), fmpq(4))), ((fmpq(1),), (fmpq(1),)))
+    ((1/2,), (1/4,))
+    """
+    if is_rational(a) and is_rational(b):
+        try:
+            return from_flint(to_flint(a, len(a)).solve(to_flint(b, len(b[0]))))
+        except ZeroDivisionError:
+            raise SingularMatrixError from None
+    rows = [[*r, *s] for r, s in zip(a, b, strict=True)]
+    n = len(rows)
+    for k in range(n):
+        pivot = next((i for i in range(k, n) if rows[i][k]), None)
+        if pivot is None:
+            raise SingularMatrixError
+        rows[k], rows[pivot] = rows[pivot], rows[k]
+        inverse = ONE / rows[k][k]
+        rows[k] = [x * inverse if x else x for x in rows[k]]
+        for i in range(n):
+            factor = rows[i][k]
+            if i != k and factor:
+                rows[i] = [x - factor * y if y else x for x, y in zip(rows[i], rows[k], strict=True)]
+    return tuple(tuple(row[n:]) for row in rows)

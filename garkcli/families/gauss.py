@@ -1,0 +1,9 @@
+"""Gauss methods: order 2s."""
+
+from garkcli.families.polynomials import collocation_method, legendre
+from garkcli.tableau.method import Method
+
+
+def gauss(s: int) -> Method:
+    """The s-stage Gauss method; Hairer, Lubich & Wanner, *Geometric Numerical Integration*, II.1.3."""
+    return collocation_method(f"Gauss {s}", legendre(s))

@@ -1,0 +1,98 @@
+"""The one list of families: name, stages, maker, a line for people."""
+
+from __future__ import annotations
+
+from collections.abc import Callable, Mapping
+from dataclasses import dataclass
+from difflib import get_close_matches
+from functools import partial
+
+from garkcli.errors import UnknownFamily
+from garkcli.families import explicit, gauss, lobatto, radau
+from garkcli.tableau.method import Method
+
+MAX_STAGES = 200
+"""Most stages of a family."""
+
+
+@dataclass(frozen=True)
+class Family:
+    """A family of diagonal methods.
+
+    Attributes:
+        name: as in method files.
+        make: the method with a given number of stages.
+        smallest: the fewest stages it has.
+        largest: the most stages it has; equal to ``smallest`` for a single method.
+        order: its order in terms of s, for people.
+        summary: one line.
+    """
+
+    name: str
+    make: Callable[[int], Method]
+    smallest: int
+    largest: int
+    order: str
+    summary: str
+
+
+def _named(name: str, order: str, summary: str) -> Family:
+    stages = explicit.STAGES[name]
+    return Family(name, lambda _: explicit.named(name), stages, stages, order, summary)
+
+
+_any = partial(Family, largest=MAX_STAGES)
+FAMILIES: Mapping[str, Family] = {
+    family.name: family
+    for family in (
+        _any("gauss", gauss.gauss, 1, order="2s", summary="collocation at the Gauss nodes; symplectic"),
+        _any("radau-ia", radau.radau_ia, 1, order="2s - 1", summary="first node 0, D(s)"),
+        _any("radau-iia", radau.radau_iia, 1, order="2s - 1", summary="collocation, last node 1"),
+        _any("lobatto-iiia", lobatto.lobatto_iiia, 2, order="2s - 2", summary="collocation, nodes 0 and 1"),
+        _any("lobatto-iiib", lobatto.lobatto_iiib, 2, order="2s - 2", summary="symplectic conjugate of IIIA"),
+        _any("lobatto-iiic", lobatto.lobatto_iiic, 2, order="2s - 2", summary="a_i1 = b_1, stiffly accurate"),
+        _any("lobatto-iiic*", lobatto.lobatto_iiic_star, 2, order="2s - 2", summary="conjugate of IIIC"),
+        _any(
+            "lobatto-iiid",
+            lobatto.lobatto_iiid,
+            2,
+            order="2s - 2",
+            summary="mean of IIIC and IIIC*; symplectic",
+        ),
+        _named("explicit-euler", "1", "one explicit stage"),
+        _named("explicit-midpoint", "2", "Runge's method"),
+        _named("heun", "2", "the explicit trapezoidal rule"),
+        _named("kutta", "3", "Kutta's method of order 3"),
+        _named("rk4", "4", "the classical Runge-Kutta method"),
+        _any("ssp2", explicit.ssp2, 2, order="2", summary="explicit, strong-stability-preserving SSPRK(s,2)"),
+    )
+}
+"""Every family by name."""
+
+
+def diagonal_method(name: str, stages: int | None = None) -> Method:
+    """The member of a family.
+
+    Args:
+        name: a key of ``FAMILIES``.
+        stages: how many; may be left out for a family of one method.
+
+    Raises:
+        UnknownFamily: no such family, or not with that many stages.
+
+    >>> diagonal_method("gauss", 2).space.modulus
+    x^2 + (-1)*x + 1/6
+    """
+    family = FAMILIES.get(name)
+    if family is None:
+        close = get_close_matches(name, FAMILIES, n=1)
+        raise UnknownFamily(f"no family {name!r}", f"did you mean {close[0]!r}?" if close else "see: gark list")
+    s = family.smallest if stages is None and family.smallest == family.largest else stages
+    if s is None:
+        raise UnknownFamily(f"the family {name} needs its number of stages", f"write stages: {family.smallest}")
+    if not family.smallest <= s <= family.largest:
+        have = str(family.smallest) if family.smallest == family.largest else f"{family.smallest} or more"
+        if s > family.largest:
+            have += f", at most {family.largest}"
+        raise UnknownFamily(f"{name} with {s} stages does not exist", f"it has {have}")
+    return family.make(s)

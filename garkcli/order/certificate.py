@@ -1,0 +1,174 @@
+"""The exact order, with a witness, in time polynomial in the order.
+
+Instead of evaluating every tree, carry along the affine spans of the normalised stage vectors
+
+    ψ(u) = γ(u)/ρ(u) · 𝒜^[u],      ψ(τ) = 𝟙,      ψ(u) = ⊙_i A^{l,ν_i} (ρ(u_i) ψ(u_i)),
+
+in which the order condition of u reads b_lᵀ ψ(u) = 1/ρ(u). The right-hand side depends on the order alone and
+ψ is affine in each branch, so all conditions of one order hold if and only if they hold for a set of trees whose
+ψ span, and there are at most s + 1 of those a colour. ``docs/exact-order.md`` has the proof.
+"""
+
+from __future__ import annotations
+
+from collections.abc import Iterator, Sequence
+from dataclasses import dataclass
+from typing import cast
+
+from flint import fmpq, fmpq_mat
+
+from garkcli.exact.field import Number, coordinates
+from garkcli.exact.matrix import Matrix, Vector, dot, to_flint
+from garkcli.exact.span import AffineSpan
+from garkcli.tableau.tableau import Tableau
+from garkcli.trees.tree import Tree
+
+DEFAULT_LIMIT = 60
+"""The order at which the search stops when nothing has failed."""
+
+
+@dataclass(frozen=True)
+class Witness:
+    """A tree whose order condition fails.
+
+    Attributes:
+        tree: the tree; its colours count from 0.
+        value: b_lᵀ 𝒜^[u], exact.
+        required: 1/γ(u).
+    """
+
+    tree: Tree
+    value: Number
+    required: fmpq
+
+    @property
+    def residual(self) -> Number:
+        """Value − required; not zero."""
+        return self.value - self.required
+
+
+@dataclass(frozen=True)
+class Order:
+    """The outcome: every condition up to ``order`` holds.
+
+    ``witness`` fails at ``order + 1``; it is None when the search stopped at its limit, and ``order`` is then a
+    lower bound.
+    """
+
+    order: int
+    witness: Witness | None
+
+    @property
+    def is_lower_bound(self) -> bool:
+        """Whether the search stopped at its limit with nothing failing."""
+        return self.witness is None
+
+
+@dataclass(frozen=True)
+class _Forest:
+    """A spanning member: the product of the branches' contributions, and the branches."""
+
+    vector: Vector
+    branches: tuple[Tree, ...]
+
+
+def find_order(tableau: Tableau, limit: int = DEFAULT_LIMIT) -> Order:
+    """The exact order of a tableau, by affine spans.
+
+    Args:
+        tableau: any tableau; its coupling graph decides which trees count.
+        limit: the order at which to stop.
+
+    Returns:
+        The largest r ≤ limit for which the conditions of all trees of order ≤ r hold.
+    """
+    spans = _Spans(tableau)
+    for order in range(1, limit + 1):
+        for l, colour in enumerate(tableau.colours):
+            for forest in spans.stage_vectors(l, order):
+                value = dot(colour.b, forest.vector)
+                if value != fmpq(1, order):
+                    tree = Tree(l, forest.branches)
+                    return Order(order - 1, Witness(tree, value * fmpq(order, tree.density), fmpq(1, tree.density)))
+    return Order(limit, None)
+
+
+class _Spans:
+    """Spanning members of Θ (branches) and Φ (forests) for each stage space, made on demand."""
+
+    def __init__(self, tableau: Tableau) -> None:
+        self.tableau = tableau
+        self.degree = tableau.degree
+        self.maps = {key: self._flatten(block) for key, block in tableau.blocks.items()}
+        self.forests: list[list[list[_Forest]]] = [[[_Forest(space.one, ())]] for space in tableau.spaces]
+        self.branches: list[list[list[_Forest]]] = [[[]] for _ in tableau.spaces]
+
+    def stage_vectors(self, colour: int, order: int) -> Sequence[_Forest]:
+        """Members that span Ψ_order of a colour."""
+        rows = self.tableau.colours[colour].rows
+        self._extend(rows, order - 1)
+        if self.tableau.colours[colour].is_linear and order > 1:
+            return self.branches[rows][order - 1]
+        return self.forests[rows][order - 1]
+
+    def _extend(self, rows: int, size: int) -> None:
+        while len(self.forests[rows]) <= size:
+            k = len(self.forests[rows])
+            self.branches[rows].append(self._spanning(rows, self._new_branches(rows, k)))
+            self.forests[rows].append(self._spanning(rows, self._new_forests(rows, k)))
+
+    def _new_branches(self, rows: int, order: int) -> Iterator[list[_Forest]]:
+        """Θ_order: order · A ψ over the colours that the stages see."""
+        for m in range(self.tableau.size):
+            if (rows, m) in self.maps:
+                members = self.stage_vectors(m, order)
+                images = self._apply(self.maps[rows, m] * order, [x.vector for x in members])
+                yield [_Forest(image, (Tree(m, x.branches),)) for image, x in zip(images, members, strict=True)]
+
+    def _new_forests(self, rows: int, order: int) -> Iterator[list[_Forest]]:
+        """Φ_order: one branch, or the smallest branch times the forest of the others."""
+        space, branches, forests = self.tableau.spaces[rows], self.branches[rows], self.forests[rows]
+        yield branches[order]
+        for j in range(1, order // 2 + 1):
+            for branch in branches[j]:
+                yield [
+                    _Forest(space.product(branch.vector, x.vector), (*branch.branches, *x.branches))
+                    for x in forests[order - j]
+                ]
+
+    def _spanning(self, rows: int, batches: Iterator[list[_Forest]]) -> list[_Forest]:
+        span = AffineSpan(self.tableau.spaces[rows].stages * self.degree)
+        members: list[_Forest] = []
+        for batch in batches:
+            members += [batch[i] for i in span.insert([self._flat(x.vector) for x in batch])]
+            if span.is_full:
+                break
+        return members
+
+    def _flat(self, vector: Vector) -> list[fmpq]:
+        """Coordinates over ℚ: each number by its coordinates in 1, θ, …"""
+        if self.degree == 1:
+            return cast("list[fmpq]", list(vector))
+        return [x for number in vector for x in coordinates(number, self.degree)]
+
+    def _flatten(self, block: Matrix) -> fmpq_mat:
+        """The block as a map over ℚ, transposed to act on rows: each number by its multiplication matrix."""
+        field, d = self.tableau.field, self.degree
+        if field is None:
+            return to_flint(block, len(block[0])).transpose()
+        theta = [field.from_coordinates([fmpq(int(i == k)) for i in range(d)]) for k in range(d)]
+        columns = [
+            [x for row in block for x in coordinates(row[j] * power, d)]
+            for j in range(len(block[0]))
+            for power in theta
+        ]
+        return fmpq_mat(columns)
+
+    def _apply(self, block: fmpq_mat, vectors: Sequence[Vector]) -> list[Vector]:
+        if not vectors:
+            return []
+        rows = (fmpq_mat([self._flat(v) for v in vectors]) * block).tolist()
+        field, d = self.tableau.field, self.degree
+        if field is None:
+            return [tuple(row) for row in rows]
+        return [tuple(field.from_coordinates(row[i : i + d]) for i in range(0, len(row), d)) for row in rows]

@@ -1,0 +1,98 @@
+"""One order condition at a time: elementary weight, required value, residual."""
+
+from __future__ import annotations
+
+from collections.abc import Iterable, Iterator
+from dataclasses import dataclass
+
+from flint import fmpq
+
+from garkcli.errors import MethodError
+from garkcli.exact.field import Number
+from garkcli.exact.matrix import Vector, apply, dot
+from garkcli.tableau.tableau import Tableau
+from garkcli.trees.tree import Tree
+
+
+@dataclass(frozen=True)
+class Condition:
+    """The order condition b_lᵀ 𝒜^[u] = 1/γ(u) of one tree, eq. (bA).
+
+    Attributes:
+        tree: u, with colours counted from 0.
+        value: the elementary weight b_lᵀ 𝒜^[u], exact.
+    """
+
+    tree: Tree
+    value: Number
+
+    @property
+    def required(self) -> fmpq:
+        """1/γ(u)."""
+        return fmpq(1, self.tree.density)
+
+    @property
+    def residual(self) -> Number:
+        """Value − required."""
+        return self.value - self.required
+
+    @property
+    def holds(self) -> bool:
+        """Whether the residual is exactly zero."""
+        return not self.residual
+
+    @property
+    def is_coupling(self) -> bool:
+        """Whether more than one colour takes part; otherwise it is a condition of a diagonal method."""
+        return len(self.tree.colours) > 1
+
+
+def conditions(tableau: Tableau, trees: Iterable[Tree]) -> Iterator[Condition]:
+    """The conditions of ``trees`` for ``tableau``; stage vectors of shared branches are computed once.
+
+    Raises:
+        MethodError: a tree that the coupling graph does not admit.
+    """
+    memo: dict[Tree, Vector] = {}
+    for tree in trees:
+        yield Condition(tree, dot(tableau.colours[tree.root].b, _stage_vector(tableau, tree, memo)))
+
+
+def elementary_weight(tableau: Tableau, tree: Tree) -> Number:
+    """b_lᵀ 𝒜^[u], exact.
+
+    Raises:
+        MethodError: the coupling graph does not admit the tree.
+    """
+    return next(conditions(tableau, [tree])).value
+
+
+def is_admissible(tableau: Tableau, tree: Tree) -> bool:
+    """Whether every parent sees its branches and no linear colour has two branches."""
+    colour = tableau.colours[tree.root]
+    if colour.is_linear and len(tree.branches) > 1:
+        return False
+    return all(
+        tableau.block(tree.root, branch.root) is not None and is_admissible(tableau, branch)
+        for branch in tree.branches
+    )
+
+
+def _stage_vector(tableau: Tableau, tree: Tree, memo: dict[Tree, Vector]) -> Vector:
+    """𝒜^[u], eqs. (Ataul) and (Au)."""
+    if tree in memo:
+        return memo[tree]
+    space = tableau.space(tree.root)
+    if tableau.colours[tree.root].is_linear and len(tree.branches) > 1:
+        raise MethodError(
+            f"colour {tableau.colours[tree.root].name} is linear: its vertices have one branch at most"
+        )
+    vector = space.one
+    for branch in tree.branches:
+        block = tableau.block(tree.root, branch.root)
+        if block is None:
+            seer, seen = tableau.colours[tree.root].name, tableau.colours[branch.root].name
+            raise MethodError(f"colour {seer} does not see colour {seen}: the tree is not admissible")
+        vector = space.product(vector, apply(block, _stage_vector(tableau, branch, memo)))
+    memo[tree] = vector
+    return vector

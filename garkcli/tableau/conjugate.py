@@ -1,0 +1,109 @@
+"""The symplectic conjugate, eq. (wAhat), and symplecticity, in any stage space.
+
+Â^{l,m} = (𝟙 − (B^l)⁻¹ (A^{m,l})ᵀ) B^m,      here   Â^{l,m} f = b_m(f)·𝟙 − (A^{m,l})* f.
+"""
+
+from __future__ import annotations
+
+from dataclasses import replace
+
+from garkcli.errors import ZeroWeight
+from garkcli.exact.matrix import Matrix, SingularMatrixError, Vector, apply, outer, subtract, transpose
+from garkcli.tableau.stages import PointSpace, StageSpace
+from garkcli.tableau.tableau import Colour, Tableau
+
+
+def conjugate_block(block: Matrix, here: StageSpace, b: Vector, other: StageSpace, b_other: Vector) -> Matrix:
+    """Â^{l,m} from A^{m,l}, with l ``here`` and m the ``other`` colour.
+
+    Args:
+        block: A^{m,l}, shape (stages of m, stages of l).
+        here: the stage space of l.
+        b: the weights of l.
+        other: the stage space of m.
+        b_other: the weights of m.
+
+    Returns:
+        Â^{l,m}, shape (stages of l, stages of m).
+
+    Raises:
+        ZeroWeight: b^{l} has a zero weight.
+    """
+    try:
+        adjoint = other.adjoint(block, b_other, here, b)
+    except SingularMatrixError:
+        zero = f", b_{b.index(0) + 1} = 0" if isinstance(here, PointSpace) else ""
+        raise ZeroWeight(
+            f"the symplectic conjugate divides by the weights b{zero}",
+            "conjugates exist for nonzero weights only; with structure: separable fewer are divided by",
+        ) from None
+    return subtract(outer(here.one, b_other), adjoint)
+
+
+def conjugate(tableau: Tableau) -> Tableau:
+    """The symplectic conjugate (Â^{l,m}, b, c); conjugated again it is ``tableau``.
+
+    For a partitioned tableau (A, Â) it is the partitioned tableau of the conjugates: the momentum blocks come
+    from the position blocks and the other way round.
+
+    Raises:
+        ZeroWeight: a conjugate would divide by zero.
+    """
+    if tableau.is_partitioned:
+        return replace(tableau, blocks=_exchanged(tableau))
+    spaces = tuple(tableau.space(l) for l in range(tableau.size))
+    colours = tuple(replace(colour, rows=l) for l, colour in enumerate(tableau.colours))
+    blocks = {(l, m): conjugate_of(tableau, l, m) for m, l in tableau.edges()}
+    return Tableau(spaces, colours, blocks)
+
+
+def conjugate_of(tableau: Tableau, l: int, m: int) -> Matrix:
+    """Â^{l,m} of a tableau in which A^{m,l} exists."""
+    block = tableau.block(m, l)
+    if block is None:
+        raise KeyError((l, m))
+    here, other = tableau.colours[l], tableau.colours[m]
+    try:
+        return conjugate_block(block, tableau.space(l), here.b, tableau.space(m), other.b)
+    except ZeroWeight as error:
+        raise ZeroWeight(f"colour {here.name}: {error.message}", error.help) from None
+
+
+def _exchanged(tableau: Tableau) -> dict[tuple[int, int], Matrix]:
+    return {
+        (tableau.colours[l].rows, m): conjugate_of(tableau, l, m)
+        for m, l in tableau.edges()
+        if _are_opposite(tableau.colours[l], tableau.colours[m])
+    }
+
+
+def _are_opposite(one: Colour, other: Colour) -> bool:
+    """Whether the symplectic form pairs what the two vector fields drive."""
+    return {one.part, other.part} in ({"q", "p"}, {"y"})
+
+
+def is_symplectic(tableau: Tableau) -> bool:
+    """Whether b_i b_j = b_i a_{ij} + b_j a_{ji} between all colours that the symplectic form pairs.
+
+    For a GARK tableau: it is its own conjugate. For a partitioned one: its momentum blocks are the conjugates
+    of its position blocks, with the same weights where positions and momenta share stages. No weight is
+    divided by.
+    """
+    for l, one in enumerate(tableau.colours):
+        for m, other in enumerate(tableau.colours):
+            if _are_opposite(one, other) and not _is_symplectic_between(tableau, l, m):
+                return False
+            if one.rows == other.rows and {one.part, other.part} == {"q", "p"} and one.b != other.b:
+                return False
+    return True
+
+
+def _is_symplectic_between(tableau: Tableau, l: int, m: int) -> bool:
+    forth, back = tableau.block(l, m), tableau.block(m, l)
+    if forth is None or back is None:
+        return forth is back
+    b_l, b_m = tableau.colours[l].b, tableau.colours[m].b
+    gram_l, gram_m = tableau.space(l).gram(b_l), tableau.space(m).gram(b_m)
+    left = tuple(apply(gram_l, column) for column in transpose(forth))  # (G_l A^{l,m})ᵀ
+    right = tuple(apply(gram_m, column) for column in transpose(back))  # (A^{m,l})ᵀ G_m
+    return all(left[j][i] + right[i][j] == b_l[i] * b_m[j] for i in range(len(b_l)) for j in range(len(b_m)))

@@ -1,0 +1,144 @@
+"""Every kind of method as one tableau: RK, GARK, ARK, PRK, the symplectic pair and its special cases."""
+
+from __future__ import annotations
+
+from collections.abc import Iterable, Mapping, Sequence
+from dataclasses import replace
+
+from garkcli.errors import MethodError
+from garkcli.exact.field import ZERO
+from garkcli.exact.matrix import Matrix, Vector, apply
+from garkcli.tableau.conjugate import conjugate_of
+from garkcli.tableau.method import Method
+from garkcli.tableau.stages import PointSpace
+from garkcli.tableau.tableau import Colour, Part, Tableau
+
+
+def gark(methods: Sequence[Method], transfer: Mapping[tuple[int, int], Matrix]) -> Tableau:
+    """The tableau with the diagonal ``methods`` and the off-diagonal blocks ``transfer[l, m]``, eq. (GARK)."""
+    colours = tuple(Colour(str(l + 1), l, method.b, method.c, l) for l, method in enumerate(methods))
+    diagonal = {(l, l): method.A for l, method in enumerate(methods)}
+    return Tableau(tuple(method.space for method in methods), colours, diagonal | dict(transfer))
+
+
+def spelled_out(
+    A: Sequence[Sequence[Matrix | None]],
+    b: Sequence[Vector],
+    c: Sequence[Vector | None],
+    linear: Iterable[int] = (),
+) -> Tableau:
+    """A GARK tableau block by block; missing nodes are the row sums of A^{l,l}, or of the first block there."""
+    linear = frozenset(linear)
+    nodes = [given if given is not None else _row_sums(l, A[l], len(b[l])) for l, given in enumerate(c)]
+    blocks = {(l, m): block for l, row in enumerate(A) for m, block in enumerate(row) if block is not None}
+    colours = tuple(
+        Colour(str(l + 1), l, weights, nodes[l], l, is_linear=l in linear) for l, weights in enumerate(b)
+    )
+    return Tableau(tuple(PointSpace(points) for points in nodes), colours, blocks)
+
+
+def _row_sums(l: int, row: Sequence[Matrix | None], stages: int) -> Vector:
+    block = row[l] if row[l] is not None else next((x for x in row if x is not None), None)
+    if block is None:
+        return (ZERO,) * stages
+    return apply(block, PointSpace(block[0]).one)
+
+
+def additive(A: Sequence[Matrix], b: Sequence[Vector], c: Vector | None) -> Tableau:
+    """An additive method: one set of stages, a matrix and a row of weights a colour."""
+    nodes = c if c is not None else _row_sums(0, A, len(A[0]))
+    colours = tuple(Colour(str(l + 1), 0, weights, nodes, l) for l, weights in enumerate(b))
+    return Tableau((PointSpace(nodes),), colours, {(0, m): block for m, block in enumerate(A)})
+
+
+def partitioned(q: Method, p: Method) -> Tableau:
+    """A partitioned method for q̇ = v(q, p), ṗ = f(q, p), both with the same stages."""
+    return Tableau(
+        (q.space,),
+        (Colour("q", 0, q.b, q.c, 0, "q"), Colour("p", 0, p.b, p.c, 1, "p")),
+        {(0, 0): q.A, (0, 1): p.A},
+    )
+
+
+def separable_prk(q: tuple[Matrix, Vector, Vector | None], p: tuple[Matrix, Vector, Vector | None]) -> Tableau:
+    """A partitioned method for q̇ = V(p), ṗ = F(q), each part given as (A, b, c); blocks may be rectangular.
+
+    The rows of q.A are the positions at which forces are evaluated, so q.c are the nodes of the force colour,
+    and the rows of p.A, with nodes p.c, those of the velocity colour.
+    """
+    (A_q, b_q, c_q), (A_p, b_p, c_p) = q, p
+    at_momenta = c_p if c_p is not None else _row_sums(0, [A_p], len(b_q))
+    at_positions = c_q if c_q is not None else _row_sums(0, [A_q], len(b_p))
+    return Tableau(
+        (PointSpace(at_momenta), PointSpace(at_positions)),
+        (Colour("q", 0, b_q, at_momenta, 0, "q"), Colour("p", 1, b_p, at_positions, 1, "p")),
+        {(0, 1): A_p, (1, 0): A_q},
+    )
+
+
+def with_linear(tableau: Tableau, names: Iterable[str]) -> Tableau:
+    """The same tableau where the vector fields of the colours called ``names`` are linear."""
+    names = frozenset(names)
+    colours = (replace(x, is_linear=True) if x.name in names else x for x in tableau.colours)
+    return replace(tableau, colours=tuple(colours))
+
+
+def symplectic_pair(tableau: Tableau, velocities: Sequence[int], forces: Sequence[int]) -> Tableau:
+    """The pair (Q, P) of a GARK tableau Q and its conjugate P, for the vector fields that the problem has.
+
+    Colours V^l for l in ``velocities`` and F^l for l in ``forces``; V^l and F^l have the same stages. An l in one
+    of the two only is a Hamiltonian of p alone or of q alone, whose stages need the other part only:
+
+    ========================  =====================  ======================================
+    velocities, forces        structure              blocks
+    ========================  =====================  ======================================
+    all, all                  general, eq. (varGARK) A^{l,m}, Â^{l,m}
+    {1}, {1, 2}               semi-separable         A^{1,1}, A^{2,1}, Â^{1,1}, Â^{1,2}
+    {1}, {2}                  separable              A^{2,1}, Â^{1,2}
+    ========================  =====================  ======================================
+
+    Raises:
+        ZeroWeight: a conjugate that is needed would divide by zero.
+        MethodError: the tableau is partitioned already.
+    """
+    if tableau.is_partitioned:
+        raise MethodError("the method is partitioned already", "give the tableau of the positions")
+    used = [l for l in range(tableau.size) if l in velocities or l in forces]
+    row = {l: k for k, l in enumerate(used)}
+
+    def colour(name: str, l: int, part: Part) -> Colour:
+        return replace(tableau.colours[l], name=f"{name}{tableau.colours[l].name}", rows=row[l], part=part)
+
+    V = [colour("V", l, "q") for l in velocities]
+    F = [colour("F", l, "p") for l in forces]
+    blocks: dict[tuple[int, int], Matrix] = {}
+    for l in forces:
+        for k, m in enumerate(velocities):
+            if (block := tableau.block(l, m)) is not None:
+                blocks[row[l], k] = block
+    for l in velocities:
+        for k, m in enumerate(forces, start=len(V)):
+            if tableau.block(m, l) is not None:
+                blocks[row[l], k] = conjugate_of(tableau, l, m)
+    return Tableau(tuple(tableau.space(l) for l in used), (*V, *F), blocks)
+
+
+def pair(tableau: Tableau) -> Tableau:
+    """The symplectic pair (Q, P), eq. (varGARK): 2N colours V¹…Vᴺ, F¹…Fᴺ.
+
+    A tableau that is partitioned already keeps its position blocks, and its momentum blocks become their
+    conjugates.
+
+    Raises:
+        ZeroWeight: a conjugate would divide by zero.
+    """
+    if not tableau.is_partitioned:
+        return symplectic_pair(tableau, range(tableau.size), range(tableau.size))
+    is_q = [colour.part == "q" for colour in tableau.colours]
+    kept = {(k, m): block for (k, m), block in tableau.blocks.items() if is_q[m]}
+    made = {
+        (tableau.colours[l].rows, m): conjugate_of(tableau, l, m)
+        for m, l in tableau.edges()
+        if is_q[l] and not is_q[m]
+    }
+    return replace(tableau, blocks=kept | made)

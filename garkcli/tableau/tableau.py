@@ -1,0 +1,119 @@
+"""The tableau: colours, the graph of who sees whom, and the blocks on its edges."""
+
+from __future__ import annotations
+
+from collections.abc import Iterator, Mapping
+from dataclasses import dataclass
+from functools import cached_property
+from typing import Literal, TypeAlias
+
+from garkcli.errors import ShapeMismatch
+from garkcli.exact.field import Algebraic, NumberField
+from garkcli.exact.matrix import Matrix, Vector
+from garkcli.tableau.stages import StageSpace
+
+Part: TypeAlias = Literal["y", "q", "p"]
+"""The part of the unknowns that a colour's vector field drives: all of them, positions, or momenta."""
+
+
+@dataclass(frozen=True)
+class Colour:
+    """One vector field and the stages at which the method evaluates it.
+
+    Attributes:
+        name: for people, ``1`` or ``V1``.
+        rows: index of the stage space of its stages; colours may share one.
+        b: its weights, a functional on that space.
+        c: its nodes, an element of that space. They enter B, C, D and consistency only.
+        term: which term of the split, H^{l} or f^{l}, the vector field comes from, counted from 0.
+        part: what the vector field drives.
+        is_linear: whether the vector field is linear, so that a vertex has one branch at most.
+    """
+
+    name: str
+    rows: int
+    b: Vector
+    c: Vector
+    term: int = 0
+    part: Part = "y"
+    is_linear: bool = False
+
+
+@dataclass(frozen=True)
+class Tableau:
+    """A GARK tableau as a directed graph of colours.
+
+    Attributes:
+        spaces: the stage spaces.
+        colours: the vector fields, in the order of the file.
+        blocks: ``blocks[k, m]`` maps stage values of colour m to increments in space k, shape
+            (stages of space k, stages of colour m). No entry: the stages of space k do not see colour m.
+
+    Errors:
+        ShapeMismatch: a block or a row of weights of the wrong size.
+    """
+
+    spaces: tuple[StageSpace, ...]
+    colours: tuple[Colour, ...]
+    blocks: Mapping[tuple[int, int], Matrix]
+
+    def __post_init__(self) -> None:
+        for number, colour in enumerate(self.colours, start=1):
+            s = self.spaces[colour.rows].stages
+            for what, row in (("b", colour.b), ("c", colour.c)):
+                if len(row) != s:
+                    raise ShapeMismatch(
+                        f"{what}^{{{number}}} has {len(row)} entries for {s} stages",
+                        f"give {s} entries",
+                    )
+        for (k, m), block in self.blocks.items():
+            rows, columns = self.spaces[k].stages, self.space(m).stages
+            if len(block) != rows or any(len(row) != columns for row in block):
+                raise ShapeMismatch(
+                    f"the block {k + 1},{m + 1} is not {rows} by {columns}",
+                    f"it maps the {columns} stages of colour {m + 1} to {rows} stages",
+                )
+
+    @property
+    def size(self) -> int:
+        """N, the number of colours."""
+        return len(self.colours)
+
+    def space(self, colour: int) -> StageSpace:
+        """The stage space of a colour."""
+        return self.spaces[self.colours[colour].rows]
+
+    def block(self, l: int, m: int) -> Matrix | None:
+        """A^{l,m}, or None where the stages of colour l do not see colour m."""
+        return self.blocks.get((self.colours[l].rows, m))
+
+    def edges(self) -> Iterator[tuple[int, int]]:
+        """All (l, m) for which A^{l,m} exists."""
+        for l in range(self.size):
+            for m in range(self.size):
+                if self.block(l, m) is not None:
+                    yield l, m
+
+    @property
+    def is_partitioned(self) -> bool:
+        """Whether the colours drive positions or momenta, as in the symplectic pair."""
+        return any(colour.part != "y" for colour in self.colours)
+
+    @cached_property
+    def field(self) -> NumberField | None:
+        """The number field of the coefficients; None when all are rational."""
+        for colour in self.colours:
+            for x in (*colour.b, *colour.c):
+                if isinstance(x, Algebraic):
+                    return x.field
+        for block in self.blocks.values():
+            for row in block:
+                for x in row:
+                    if isinstance(x, Algebraic):
+                        return x.field
+        return None
+
+    @property
+    def degree(self) -> int:
+        """The dimension over ℚ of the domain of the coefficients."""
+        return self.field.degree if self.field else 1

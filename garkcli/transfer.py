@@ -1,0 +1,104 @@
+"""Off-diagonal blocks made from the diagonal methods, section "Some techniques to construct the transfer matrices".
+
+All of it happens in stage spaces: a stage vector of m is lifted to the polynomial of degree < s_m it stands
+for, and reduced to the stages of l. Every function returns a block A^{l,m} of shape (s_l, s_m).
+"""
+
+from __future__ import annotations
+
+from collections.abc import Callable, Mapping, Sequence
+from typing import TypeAlias
+
+from garkcli.exact.field import Number
+from garkcli.exact.matrix import Matrix, add, multiply, scale
+from garkcli.tableau.conjugate import conjugate_block
+from garkcli.tableau.method import Method
+from garkcli.tableau.stages import integration
+
+Rule: TypeAlias = Callable[[Method, Method], Matrix]
+
+
+def collocation(l: Method, m: Method) -> Matrix:
+    """a_{ij} = ∫_0^{c_i^l} L_j^m, eq. (coll).
+
+    Raises:
+        CoincidingNodes: two nodes of ``m`` are equal.
+    """
+    integrals = multiply(integration(m.stages), m.space.lifts())
+    return multiply(l.space.reductions(m.stages + 1), integrals)
+
+
+def interpolation(l: Method, m: Method) -> Matrix:
+    """A^{l,m} = L^m(c^l) A^{m,m}, eq. (interp).
+
+    Raises:
+        CoincidingNodes: two nodes of ``m`` are equal.
+    """
+    return multiply(l.space.reductions(m.stages), multiply(m.space.lifts(), m.A))
+
+
+def conjugate_rule(rule: Rule) -> Rule:
+    """The rule whose block is Â^{l,m}, the conjugate of the block A^{m,l} that ``rule`` makes.
+
+    The new rule raises ``ZeroWeight`` where the conjugate would divide by zero.
+    """
+
+    def conjugated(l: Method, m: Method) -> Matrix:
+        return conjugate_block(rule(m, l), l.space, l.b, m.space, m.b)
+
+    return conjugated
+
+
+RULES: Mapping[str, Rule] = {
+    "collocation": collocation,
+    "interpolation": interpolation,
+    "conjugate-collocation": conjugate_rule(collocation),
+    "conjugate-interpolation": conjugate_rule(interpolation),
+}
+"""The rules that make one block from two methods."""
+
+PAIR_RULES: Mapping[str, Rule] = {
+    "symplectic-collocation": collocation,
+    "symplectic-interpolation": interpolation,
+}
+"""The rules that make both blocks of a pair of colours, each with the rule for the first of them."""
+
+SUMMARIES: Mapping[str, str] = {
+    "collocation": "a_ij = ∫_0^{c_i} L_j, with the Lagrange polynomials of the nodes of m",
+    "interpolation": "the stages of method m, interpolated at the nodes of l",
+    "conjugate-collocation": "the block of the symplectic conjugate of the collocation construction",
+    "conjugate-interpolation": "the block of the symplectic conjugate of the interpolation construction",
+    "symplectic-collocation": "collocation on the method of smaller order; the opposite block its conjugate",
+    "symplectic-interpolation": "interpolation on the method of smaller order; the opposite block its conjugate",
+}
+"""One line a rule, for people."""
+
+
+def combination(terms: Sequence[tuple[Number, Rule]], l: Method, m: Method) -> Matrix:
+    """Σ τ_k A_k^{l,m} over the rules; consistent where the weights τ_k sum to 1, eq. (lincomb)."""
+    blocks = [scale(weight, rule(l, m)) for weight, rule in terms]
+    total = blocks[0]
+    for block in blocks[1:]:
+        total = add(total, block)
+    return total
+
+
+def build_on(methods: Sequence[Method], orders: Sequence[int], l: int, m: int) -> int:
+    """Which of two colours a ``symplectic-`` rule builds on: smaller order, fewer stages, lower number."""
+    return min((l, m), key=lambda k: (orders[k], methods[k].stages, k))
+
+
+def symplectic_blocks(
+    rule: Rule, methods: Sequence[Method], base: int, other: int
+) -> dict[tuple[int, int], Matrix]:
+    """A^{other,base} by ``rule``, and A^{base,other} as its symplectic conjugate.
+
+    The off-diagonal blocks are then conjugate to each other, so Â^{l,m} = A^{l,m} for l ≠ m.
+
+    Raises:
+        ZeroWeight: ``base`` has a zero weight.
+    """
+    l, m = methods[other], methods[base]
+    block = rule(l, m)
+    opposite = conjugate_block(block, m.space, m.b, l.space, l.b)
+    return {(other, base): block, (base, other): opposite}

@@ -1,0 +1,80 @@
+"""An N-tree: a rooted tree whose vertices carry colours, one colour for each vector field."""
+
+from __future__ import annotations
+
+from functools import cached_property
+from itertools import groupby
+from math import factorial, prod
+from typing import TYPE_CHECKING
+
+if TYPE_CHECKING:
+    from collections.abc import Iterable, Iterator
+
+
+class Tree:
+    """The N-tree ``[u_1, …, u_m]^[l]``: a root of colour ``l`` and the branches left when it is removed.
+
+    ``root`` counts colours from 0. ``branches`` are kept in one canonical order, so that equal trees
+    compare equal whatever the order in which their branches were given.
+
+    >>> cherry = Tree(0, [Tree(1), Tree(1)])
+    >>> cherry.order, cherry.density, cherry.symmetry
+    (3, 3, 2)
+    >>> Tree(0, [Tree(0), Tree(1)]).symmetry
+    1
+
+    Source: Zanna, section "Order conditions for GARK methods"; Butcher, *B-Series* (2021), chapter 2.
+    """
+
+    __slots__ = ("__dict__", "branches", "order", "root")
+
+    def __init__(self, root: int, branches: Iterable[Tree] = ()) -> None:
+        self.root = root
+        self.branches: tuple[Tree, ...] = tuple(sorted(branches, key=Tree.sort_key))
+        self.order: int = 1 + sum(u.order for u in self.branches)
+
+    def sort_key(self) -> tuple[object, ...]:
+        """A total order on trees, the one of the tree table's ids.
+
+        By order, then root colour, then the orders and root colours of the branches, the last branch
+        first, then the branches themselves.
+        """
+        return self._key
+
+    @cached_property
+    def _key(self) -> tuple[object, ...]:
+        outline = tuple((u.order, u.root) for u in reversed(self.branches))
+        return (self.order, self.root, outline, tuple(u._key for u in self.branches))
+
+    @cached_property
+    def density(self) -> int:
+        """γ(u) = ρ(u) γ(u_1) … γ(u_m)."""
+        return self.order * prod(u.density for u in self.branches)
+
+    @cached_property
+    def symmetry(self) -> int:
+        """σ(u): the number of automorphisms that keep the root and every colour."""
+        repeats = (len(list(group)) for _, group in groupby(self.branches))
+        return prod(u.symmetry for u in self.branches) * prod(factorial(k) for k in repeats)
+
+    def vertices(self) -> Iterator[Tree]:
+        """Every vertex, as the subtree hanging from it, the root first."""
+        yield self
+        for u in self.branches:
+            yield from u.vertices()
+
+    @property
+    def colours(self) -> frozenset[int]:
+        """The colours that occur, counted from 0."""
+        return frozenset(u.root for u in self.vertices())
+
+    def __eq__(self, other: object) -> bool:
+        if not isinstance(other, Tree):
+            return NotImplemented
+        return self._key == other._key
+
+    def __hash__(self) -> int:
+        return hash(self._key)
+
+    def __repr__(self) -> str:
+        return f"Tree({self.root}, {list(self.branches)!r})" if self.branches else f"Tree({self.root})"
