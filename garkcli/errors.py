@@ -85,7 +85,8 @@ class Fault:
 class MethodFileError(GarkError):
     """A file that cannot be read as a method: every fault found in it, in file order."""
 
-    def __init__(self, source: str, faults: Sequence[Fault]) -> None:
+    def __init__(self, source: str, faults: Sequence[Fault], text: str = "") -> None:
         super().__init__("; ".join(fault.message for fault in faults))
         self.source = source
         self.faults = tuple(faults)
+        self.text = text

@@ -1,0 +1,272 @@
+"""A description to a method: the one place where files meet mathematics."""
+
+from __future__ import annotations
+
+from collections.abc import Callable, Mapping
+from dataclasses import dataclass
+from functools import partial
+from typing import TypeAlias, TypeVar
+
+from flint import fmpq
+from yaml.nodes import Node
+
+from garkcli.errors import GarkError, MethodError, MethodFileError, UnknownFamily
+from garkcli.exact.field import ONE, ZERO, Number
+from garkcli.exact.matrix import Matrix
+from garkcli.families.registry import diagonal_method
+from garkcli.methodfile.description import (
+    ArkText,
+    ButcherText,
+    ClaimText,
+    Description,
+    FamilyText,
+    Form,
+    MatrixText,
+    MethodsText,
+    PrkText,
+    RuleText,
+    Structure,
+    TableauText,
+)
+from garkcli.methodfile.numbers import Entry, Numbers, Row, Values
+from garkcli.methodfile.source import Source
+from garkcli.order.certificate import find_order
+from garkcli.tableau.conjugate import conjugate
+from garkcli.tableau.forms import (
+    additive,
+    gark,
+    partitioned,
+    separable_prk,
+    spelled_out,
+    symplectic_pair,
+    with_linear,
+)
+from garkcli.tableau.method import Method, butcher
+from garkcli.tableau.pointwise import method_in_points, simple_nodes
+from garkcli.tableau.stages import PolynomialSpace
+from garkcli.tableau.tableau import Tableau
+from garkcli.transfer import PAIR_RULES, RULES, Rule, build_on, combination, symplectic_blocks
+
+T = TypeVar("T")
+Blocks: TypeAlias = dict[tuple[int, int], Matrix]
+
+
+@dataclass(frozen=True)
+class MethodFile:
+    """One method file, read.
+
+    Attributes:
+        source: the path as given, or ``<stdin>``.
+        text: the file as it was read.
+        name: the name it gives, or its path.
+        tableau: the method that its order conditions are about.
+        form: which of the four forms the coefficients have.
+        structure: which vector fields the problem has.
+        is_conjugate: whether the file describes the conjugate of what it spells out.
+        tolerance: the rounding it admits, or None.
+        claims: what ``expect`` says.
+    """
+
+    source: str
+    text: str
+    name: str
+    tableau: Tableau
+    form: Form
+    structure: Structure
+    is_conjugate: bool
+    tolerance: fmpq | None
+    claims: tuple[ClaimText, ...]
+    reference: str = ""
+    description: str = ""
+
+
+class Builder:
+    """Builds the tableau of one description; what the mathematics refuses becomes a fault at its place."""
+
+    def __init__(self, source: Source, values: Values, nodes: Mapping[int, Row]) -> None:
+        self.source = source
+        self.values = values
+        self.nodes = nodes
+
+    def tableau(self, description: Description) -> Tableau:
+        """The tableau that the file describes.
+
+        Raises:
+            MethodFileError: the numbers do not make a method.
+        """
+        content = description.content
+        match content:
+            case MethodsText():
+                tableau = self._methods(content, description.structure)
+            case TableauText():
+                tableau = self._spelled_out(content)
+            case ArkText():
+                A = [self.values.matrix(rows) for rows in content.A]
+                b = [self.values.vector(row) for row in content.b]
+                tableau = additive(A, b, self.values.vector(content.c) if content.c else None)
+            case PrkText():
+                tableau = self._prk(content, description.structure)
+        if description.is_conjugate:
+            tableau = self._at(description.node, lambda: conjugate(tableau))
+        return tableau
+
+    def _at(self, node: Node, make: Callable[[], T]) -> T:
+        """The result of ``make``; what it refuses becomes a fault at ``node``."""
+        try:
+            return make()
+        except MethodFileError:
+            raise
+        except GarkError as error:
+            self.source.fault(node, error.message, error.help)
+            raise self.source.error() from None
+
+    def _spelled_out(self, text: TableauText) -> Tableau:
+        A = [[None if rows is None else self.values.matrix(rows) for rows in row] for row in text.A]
+        b = [self.values.vector(row) for row in text.b]
+        c = [None if row is None else self.values.vector(row) for row in text.c]
+        return spelled_out(A, b, c, text.linear)
+
+    def _prk(self, text: PrkText, structure: Structure) -> Tableau:
+        q, p = (
+            (
+                self.values.matrix(part.A),
+                self.values.vector(part.b),
+                self.values.vector(part.c) if part.c else None,
+            )
+            for part in (text.q, text.p)
+        )
+        if structure == "general":
+            return partitioned(butcher(q[0], q[1], q[2]), butcher(p[0], p[1], p[2]))
+        tableau = separable_prk(q, p)
+        return with_linear(tableau, ["q"]) if structure == "nystrom" else tableau
+
+    # -- methods and transfer -------------------------------------------------------------------------------
+
+    def _methods(self, text: MethodsText, structure: Structure) -> Tableau:
+        methods = [self._diagonal(l, method) for l, method in enumerate(text.methods)]
+        tableau = gark(methods, self._transfer(text, methods, structure))
+        if structure == "general":
+            return tableau
+        velocities, forces = ([0], [0, 1]) if structure == "semi-separable" else ([0], [1])
+        both = self._at(text.methods[0].node, lambda: symplectic_pair(tableau, velocities, forces))
+        return with_linear(both, ["V1"]) if structure == "nystrom" else both
+
+    def _diagonal(self, l: int, text: FamilyText | ButcherText) -> Method:
+        if isinstance(text, FamilyText):
+            method = self._at(text.node, lambda: diagonal_method(text.name, text.stages))
+            return method_in_points(method, self.values.vector(self.nodes[l])) if l in self.nodes else method
+        c = self.values.vector(text.c) if text.c is not None else None
+        return butcher(self.values.matrix(text.A), self.values.vector(text.b), c, text.name)
+
+    def _transfer(self, text: MethodsText, methods: list[Method], structure: Structure) -> Blocks:
+        """The off-diagonal blocks that the structure needs."""
+        needed = [(l, m) for l in range(len(methods)) for m in range(len(methods)) if l != m]
+        if structure != "general":
+            needed = [(1, 0)]
+        orders = _Orders(methods)
+        blocks: Blocks = {}
+        for l, m in needed:
+            block = text.transfer.blocks.get((l, m)) or _pair_rule(text, m, l) or text.transfer.default
+            if block is None:
+                node = text.methods[0].node
+                message = f"A^{{{l + 1},{m + 1}}} has no rule"
+                self.source.fault(node, message, "give it one, or a default, under transfer")
+                self.source.close()
+            elif isinstance(block, MatrixText):
+                blocks[l, m] = self._matrix(block, methods, l, m)
+            else:
+                blocks[l, m] = self._at(block.node, partial(self._by_rule, block, methods, orders, l, m))
+        return blocks
+
+    def _matrix(self, block: MatrixText, methods: list[Method], l: int, m: int) -> Matrix:
+        shape, found = (methods[l].stages, methods[m].stages), (len(block.rows), len(block.rows[0]))
+        if found != shape:
+            message = f"A^{{{l + 1},{m + 1}}} is {found[0]} by {found[1]} and should be {shape[0]} by {shape[1]}"
+            self.source.fault(block.node, message, "it has a row a stage of l and a column a stage of m")
+            self.source.close()
+        return self.values.matrix(block.rows)
+
+    def _by_rule(self, text: RuleText, methods: list[Method], orders: _Orders, l: int, m: int) -> Matrix:
+        rule, weight = text.terms[0]
+        if weight is None and rule in PAIR_RULES:
+            base = build_on(methods, [orders[k] for k in range(len(methods))], l, m)
+            other = l if base == m else m
+            return symplectic_blocks(PAIR_RULES[rule], methods, base, other)[l, m]
+        if weight is None:
+            return RULES[rule](methods[l], methods[m])
+        terms: list[tuple[Number, Rule]] = [
+            (self.values.number(tau), RULES[name]) for name, tau in text.terms if tau is not None
+        ]
+        total = sum((tau for tau, _ in terms), start=ZERO)
+        if total != ONE:
+            raise MethodError(
+                f"the weights of the combination sum to {total}, not to 1",
+                "weights that sum to 1 keep the block consistent",
+            )
+        return combination(terms, methods[l], methods[m])
+
+
+class _Orders:
+    """The orders of the diagonal methods, found when first asked for."""
+
+    def __init__(self, methods: list[Method]) -> None:
+        self.methods = methods
+        self._found: dict[int, int] = {}
+
+    def __getitem__(self, l: int) -> int:
+        if l not in self._found:
+            self._found[l] = find_order(gark([self.methods[l]], {})).order
+        return self._found[l]
+
+
+def _pair_rule(text: MethodsText, l: int, m: int) -> RuleText | None:
+    """The rule given for the block (l, m), when it makes the opposite block too."""
+    block = text.transfer.blocks.get((l, m))
+    is_pair = isinstance(block, RuleText) and block.terms[0][0] in PAIR_RULES
+    return block if is_pair and isinstance(block, RuleText) else None
+
+
+def refuse_unknown_families(description: Description, source: Source) -> None:
+    """Note every family that does not exist, or not with that many stages."""
+    content = description.content
+    for text in content.methods if isinstance(content, MethodsText) else ():
+        if isinstance(text, FamilyText):
+            try:
+                diagonal_method(text.name, text.stages)
+            except UnknownFamily as error:
+                source.fault(text.node, error.message, error.help)
+
+
+def nodes_to_spell_out(description: Description, numbers: Numbers) -> dict[int, Row]:
+    """For each family that meets a spelled-out block, its nodes as coefficients of the file.
+
+    The entries of such a block refer to single stages, so its methods need one coordinate a stage.
+    """
+    content = description.content
+    if not isinstance(content, MethodsText):
+        return {}
+    rows: dict[int, Row] = {}
+    for (l, m), block in content.transfer.blocks.items():
+        for k in (l, m):
+            text = content.methods[k]
+            if isinstance(block, MatrixText) and isinstance(text, FamilyText) and k not in rows:
+                nodes = _family_nodes(text, numbers)
+                if nodes is not None:
+                    rows[k] = nodes
+                    numbers.entries += nodes
+    return rows
+
+
+def _family_nodes(text: FamilyText, numbers: Numbers) -> Row | None:
+    try:
+        space = diagonal_method(text.name, text.stages).space
+    except UnknownFamily:
+        return None  # reported where the method is built
+    if not isinstance(space, PolynomialSpace):
+        return None
+    nodes = simple_nodes(space)
+    if nodes is None:
+        message = f"a block next to {text.name} is spelled out, whose nodes have no simple radicals"
+        numbers.source.fault(text.node, message, "make the block by a rule, or spell the method out")
+        return None
+    return tuple(Entry(node, text.node, f"node {i} of {text.name}") for i, node in enumerate(nodes, start=1))

@@ -1,0 +1,136 @@
+"""The claims of a file: reading ``expect``, and holding it against what was found."""
+
+from __future__ import annotations
+
+import re
+from dataclasses import dataclass
+from typing import TypeAlias
+
+from yaml.nodes import Node, ScalarNode, SequenceNode
+
+from garkcli.methodfile.description import ClaimText
+from garkcli.methodfile.source import Source, is_null
+from garkcli.order.check import Analysis
+from garkcli.order.outcome import Claim
+from garkcli.order.simplifying import Simplifying
+
+NUMBERS = ("order", "conjugate-order", "pair-order", "bound", "pair-bound")
+TABLES = ("B", "C", "D")
+CLAIMS = (*NUMBERS, *TABLES, "symplectic")
+"""Everything a file may claim."""
+_AT_LEAST = re.compile(r">=\s*([0-9]{1,4})")
+
+
+@dataclass(frozen=True)
+class AtLeast:
+    """A claim ``>= least``."""
+
+    least: int
+
+    def __str__(self) -> str:
+        return f">= {self.least}"
+
+
+Wanted: TypeAlias = "int | AtLeast | bool | list[Wanted] | None"
+
+
+def read(source: Source, node: Node | None) -> tuple[ClaimText, ...]:
+    """The claims of ``expect``; faulty ones are noted."""
+    if node is None:
+        return ()
+    claims = []
+    for key, value_node in source.mapping(node, "expect", CLAIMS).items():
+        where = f"expect, {key}"
+        if key == "symplectic":
+            word = source.choice(value_node, where, ("true", "false"))
+            wanted: Wanted = word == "true"
+        elif key in TABLES:
+            wanted = _table(source, value_node, where, depth=1 if key == "B" else 2)
+        else:
+            wanted = _number(source, value_node, where)
+        claims.append(ClaimText(value_node, key, wanted))
+    return tuple(claims)
+
+
+def _number(source: Source, node: Node, where: str) -> Wanted:
+    text = source.scalar(node, where) or ""
+    at_least = _AT_LEAST.fullmatch(text)
+    if at_least:
+        return AtLeast(int(at_least[1]))
+    if text.isascii() and text.isdigit() and len(text) < 5:
+        return int(text)
+    if isinstance(node, ScalarNode):
+        source.fault(node, f'{where}: a number or ">= n" is expected, not {text!r}')
+    return None
+
+
+def _table(source: Source, node: Node, where: str, depth: int) -> Wanted:
+    if not isinstance(node, SequenceNode):
+        source.fault(node, f"{where}: a list is expected", "one number a colour, for C and D a row a colour")
+        return None
+    if depth > 1:
+        return [_table(source, item, where, depth - 1) for item in node.value]
+    return [None if is_null(item) else _number(source, item, where) for item in node.value]
+
+
+def highest_order(claims: tuple[ClaimText, ...]) -> int:
+    """The largest number that occurs in the claims: so far must be looked, and one further."""
+    return max((_largest(claim.value) for claim in claims), default=0)
+
+
+def _largest(wanted: object) -> int:
+    if isinstance(wanted, list):
+        return max((_largest(x) for x in wanted), default=0)
+    if isinstance(wanted, AtLeast):
+        return wanted.least
+    return wanted if isinstance(wanted, int) else 0
+
+
+def verify(claims: tuple[ClaimText, ...], analysis: Analysis) -> tuple[Claim, ...]:
+    """Hold each claim against the truth."""
+    return tuple(_verified(claim, _found(claim.key, analysis)) for claim in claims)
+
+
+def _found(key: str, analysis: Analysis) -> object:
+    conjugate, pair, both = analysis.conjugate_order, analysis.pair_order, analysis.pair_simplifying
+    table: Simplifying = analysis.simplifying
+    return {
+        "order": analysis.order.order,
+        "conjugate-order": conjugate.order if conjugate else None,
+        "pair-order": pair.order if pair else None,
+        "bound": table.bound,
+        "pair-bound": both.bound if both else None,
+        "B": list(table.B),
+        "C": [list(row) for row in table.C],
+        "D": [list(row) for row in table.D],
+        "symplectic": analysis.symplectic,
+    }[key]
+
+
+def _verified(claim: ClaimText, found: object) -> Claim:
+    mark = claim.node.start_mark
+    return Claim(
+        claim=claim.key,
+        expected=_text(claim.value),
+        found="none: a weight is zero" if found is None else _text(found),
+        holds=_agrees(claim.value, found),
+        line=mark.line + 1,
+        column=mark.column + 1,
+    )
+
+
+def _agrees(wanted: object, found: object) -> bool:
+    if isinstance(wanted, list):
+        same = isinstance(found, list) and len(found) == len(wanted)
+        return same and all(_agrees(x, y) for x, y in zip(wanted, found, strict=True))  # type: ignore[call-overload]
+    if isinstance(wanted, AtLeast):
+        return isinstance(found, int) and found >= wanted.least
+    return type(wanted) is type(found) and wanted == found
+
+
+def _text(value: object) -> str:
+    if isinstance(value, list):
+        return f"[{', '.join(_text(x) for x in value)}]"
+    if value is None:
+        return "null"
+    return str(value).lower() if isinstance(value, bool) else str(value)

@@ -1,0 +1,109 @@
+"""From a path to methods: reading, describing, building, with every fault of a file at once."""
+
+from __future__ import annotations
+
+import sys
+from collections.abc import Iterable, Iterator
+from pathlib import Path
+
+from flint import fmpq
+
+from garkcli.errors import Fault, MethodFileError
+from garkcli.methodfile.build import Builder, MethodFile, nodes_to_spell_out, refuse_unknown_families
+from garkcli.methodfile.description import Description
+from garkcli.methodfile.numbers import Values
+from garkcli.methodfile.reader import Reader
+from garkcli.methodfile.source import MAX_BYTES, Source
+
+SUFFIX = ".gark.yaml"
+"""How method files end."""
+STDIN = "-"
+
+
+def find_files(paths: Iterable[str]) -> Iterator[str]:
+    """The files meant by ``paths``: a directory stands for all method files below it, in order."""
+    for path in paths:
+        if path != STDIN and Path(path).is_dir():
+            found = sorted(str(file) for file in Path(path).rglob(f"*{SUFFIX}"))
+            if not found:
+                raise MethodFileError(path, [Fault(f"no {SUFFIX} files in this directory")])
+            yield from found
+        else:
+            yield path
+
+
+def load(path: str) -> MethodFile:
+    """Read one method file, or standard input for ``-``.
+
+    Raises:
+        MethodFileError: every fault of the file, with positions.
+    """
+    if path == STDIN:
+        return loads(_decoded(path, sys.stdin.buffer.read(MAX_BYTES + 1)), "<stdin>")
+    file = Path(path)
+    if not file.exists():
+        raise MethodFileError(path, [Fault("no such file")])
+    if not file.is_file():
+        raise MethodFileError(path, [Fault("not a regular file", "give a method file or a directory of them")])
+    try:
+        with file.open("rb") as stream:
+            data = stream.read(MAX_BYTES + 1)
+    except OSError as error:
+        raise MethodFileError(path, [Fault(f"cannot be read: {error.strerror}")]) from None
+    return loads(_decoded(path, data), path)
+
+
+def _decoded(name: str, data: bytes) -> str:
+    if len(data) > MAX_BYTES:
+        raise MethodFileError(name, [Fault(f"a file of more than {MAX_BYTES} bytes", "split it", 1, 1)])
+    try:
+        return data.decode("utf-8-sig")
+    except UnicodeDecodeError as error:
+        line = data[: error.start].count(b"\n") + 1
+        raise MethodFileError(name, [Fault("not UTF-8 text", "save the file as UTF-8", line, 1)]) from None
+
+
+def loads(text: str, source: str = "<text>") -> MethodFile:
+    """Read a method file from its text.
+
+    Raises:
+        MethodFileError: every fault of the text, with positions.
+
+    >>> loads("methods: [{family: gauss, stages: 2}]").tableau.size
+    1
+    """
+    reading = Source(source, text)
+    reader = Reader(reading)
+    description = reader.read()
+    if description is None:
+        raise reading.error()
+    refuse_unknown_families(description, reading)
+    nodes = nodes_to_spell_out(description, reader.numbers)
+    values = Values(reader.numbers)
+    reading.close()
+    tableau = Builder(reading, values, nodes).tableau(description)
+    reading.close()
+    return MethodFile(
+        source=source,
+        text=text,
+        name=description.name or source,
+        tableau=tableau,
+        form=description.form,
+        structure=description.structure,
+        is_conjugate=description.is_conjugate,
+        tolerance=_tolerance(description, values, reading),
+        claims=description.claims,
+        reference=description.reference,
+        description=description.description,
+    )
+
+
+def _tolerance(description: Description, values: Values, source: Source) -> fmpq | None:
+    entry = description.tolerance
+    if entry is None:
+        return None
+    value = values.number(entry)
+    if not isinstance(value, fmpq) or not 0 < value < 1:
+        source.fault(entry.node, "tolerance: a number between 0 and 1 is expected", "for instance 1e-13")
+        raise source.error()
+    return value

@@ -1,0 +1,166 @@
+"""Coefficients in a file: text to expressions, all of one file to one exact domain."""
+
+from __future__ import annotations
+
+import re
+from collections.abc import Mapping
+from dataclasses import dataclass, field
+from typing import TypeAlias
+
+from yaml.nodes import Node, ScalarNode
+
+from garkcli.errors import ExpressionError, LimitExceeded, UndefinedValue
+from garkcli.exact.domain import Domain
+from garkcli.exact.expression import FUNCTIONS, Expression, Literal, parse, substitute
+from garkcli.exact.field import ZERO, Number
+from garkcli.exact.matrix import Matrix, Vector
+from garkcli.methodfile.source import Source
+
+_READ_DIFFERENTLY = re.compile(
+    r"[-+]?(0[0-9_]+|0[xob][0-9a-f_]+|[0-9][0-9_]*(:[0-5]?[0-9])+(\.[0-9_]*)?|[0-9_]*_[0-9_.]*)", re.IGNORECASE
+)
+"""Plain scalars that YAML 1.1 reads as another number than they look: octal, hexadecimal, base 60, with _."""
+_WORDS = {"bool", "null", "timestamp", "merge"}
+
+
+@dataclass(frozen=True)
+class Entry:
+    """One coefficient: its expression and where it stands."""
+
+    expression: Expression
+    node: Node
+    where: str
+
+
+Row: TypeAlias = tuple[Entry, ...]
+Rows: TypeAlias = tuple[Row, ...]
+
+
+@dataclass
+class Numbers:
+    """Reads the coefficients of one file; ``parameters`` are substituted as they are read."""
+
+    source: Source
+    parameters: Mapping[str, Expression] = field(default_factory=dict)
+    entries: list[Entry] = field(default_factory=list)
+
+    def entry(self, node: Node, where: str) -> Entry:
+        """One coefficient; a faulty one is noted and read as zero, so that reading goes on."""
+        expression: Expression = Literal(ZERO)
+        text = self.source.scalar(node, where)
+        if text is not None and not self._is_misread(node, text, where):
+            try:
+                expression = substitute(parse(text), self.parameters)
+            except ExpressionError as error:
+                self.source.expression_fault(node, where, error)
+        entry = Entry(expression, node, where)
+        self.entries.append(entry)
+        return entry
+
+    def _is_misread(self, node: Node, text: str, where: str) -> bool:
+        if not isinstance(node, ScalarNode) or node.style in {"'", '"'}:
+            return False
+        kind = str(node.tag).rpartition(":")[2]
+        if kind in _WORDS:
+            self.source.fault(node, f"{where}: {text or 'nothing'!r} is no number: YAML reads it as {kind}")
+            return True
+        if _READ_DIFFERENTLY.fullmatch(text):
+            cure = "write the number in plain decimal digits"
+            self.source.fault(node, f"{where}: YAML reads {text} as another number than it looks", cure)
+            return True
+        if text.lower().lstrip("+-") in {".inf", ".nan"}:
+            self.source.fault(node, f"{where}: {text} is not a number", "coefficients are finite")
+            return True
+        return False
+
+    def row(self, node: Node, where: str) -> Row:
+        """A row of coefficients; a single value is a row of one."""
+        if isinstance(node, ScalarNode):
+            return (self.entry(node, where),)
+        items = self.source.items(node, where)
+        if not items and not self.source.faults:
+            self.source.fault(node, f"{where} is empty", "every method has a stage")
+        return tuple(self.entry(item, f"{where}, entry {j}") for j, item in enumerate(items, start=1))
+
+    def matrix(self, node: Node, where: str) -> Rows:
+        """A matrix, row by row, with every row equally long."""
+        rows = tuple(
+            self.row(item, f"{where}, row {i}") for i, item in enumerate(self.source.items(node, where), 1)
+        )
+        for i, row in enumerate(rows[1:], start=2):
+            if len(row) != len(rows[0]):
+                item = node.value[i - 1]
+                message = f"{where}, row {i} has {len(row)} entries, row 1 has {len(rows[0])}"
+                self.source.fault(item, message, "give every row the same number")
+        if not rows and not self.source.faults:
+            self.source.fault(node, f"{where} is empty", "every method has a stage")
+        return rows
+
+    def expect_shape(self, rows: Rows, node: Node, where: str, shape: tuple[int, int], why: str) -> None:
+        """Note a matrix that does not have the given shape."""
+        found = (len(rows), len(rows[0]) if rows else 0)
+        if found != shape and all(len(row) == found[1] for row in rows):
+            message = f"{where} is {found[0]} by {found[1]} and should be {shape[0]} by {shape[1]}"
+            self.source.fault(node, message, why)
+
+
+class Values:
+    """The exact values of all coefficients of a file, in their common domain."""
+
+    def __init__(self, numbers: Numbers) -> None:
+        source = numbers.source
+        self._values: dict[int, Number] = {}
+        try:
+            domain = Domain(entry.expression for entry in numbers.entries)
+        except (UndefinedValue, LimitExceeded):
+            self._find_culprits(numbers)
+            return
+        for entry in numbers.entries:
+            try:
+                self._values[id(entry)] = domain.evaluate(entry.expression)
+            except ExpressionError as error:
+                source.expression_fault(entry.node, entry.where, error)
+
+    def _find_culprits(self, numbers: Numbers) -> None:
+        """Which coefficients have no value of their own; failing that, the file as a whole."""
+        before = len(numbers.source.faults)
+        for entry in numbers.entries:
+            try:
+                Domain([entry.expression])
+            except ExpressionError as error:
+                numbers.source.expression_fault(entry.node, entry.where, error)
+        if len(numbers.source.faults) == before:
+            try:
+                Domain(entry.expression for entry in numbers.entries)
+            except ExpressionError as error:
+                numbers.source.fault(numbers.entries[0].node, error.message, error.help)
+
+    def number(self, entry: Entry) -> Number:
+        """The value of a coefficient."""
+        return self._values[id(entry)]
+
+    def vector(self, row: Row) -> Vector:
+        """The values of a row."""
+        return tuple(self._values[id(entry)] for entry in row)
+
+    def matrix(self, rows: Rows) -> Matrix:
+        """The values of a matrix."""
+        return tuple(self.vector(row) for row in rows)
+
+
+def read_parameters(source: Source, node: Node | None) -> dict[str, Expression]:
+    """The values of ``parameters``; each may use those before it."""
+    if node is None:
+        return {}
+    values: dict[str, Expression] = {}
+    for name, value_node in source.mapping(node, "parameters", ()).items():
+        numbers = Numbers(source, dict(values))
+        if name in FUNCTIONS or not name.isidentifier() or not name.isascii():
+            source.fault(value_node, f"parameters: {name!r} cannot be the name of a parameter", "use letters")
+        elif isinstance(value_node, ScalarNode) and value_node.value == "free":
+            cure = "give it a value, for instance 1/2"
+            source.fault(value_node, f"parameters: {name} is free; orders are decided for given values", cure)
+            values[name] = Literal(ZERO)
+        else:
+            values[name] = numbers.entry(value_node, f"parameters: {name}").expression
+    return values

@@ -1,0 +1,338 @@
+"""YAML nodes to a ``Description``: every key, shape and word checked, faults collected as they are met."""
+
+from __future__ import annotations
+
+import re
+from typing import cast
+
+from yaml.nodes import MappingNode, Node, ScalarNode, SequenceNode
+
+from garkcli.methodfile import expectations
+from garkcli.methodfile.description import (
+    FORMS,
+    STRUCTURES,
+    ArkText,
+    BlockText,
+    ButcherText,
+    Description,
+    FamilyText,
+    Form,
+    MatrixText,
+    MethodsText,
+    PrkText,
+    RuleText,
+    Structure,
+    TableauText,
+    TransferText,
+)
+from garkcli.methodfile.numbers import Numbers, Row, Rows, read_parameters
+from garkcli.methodfile.source import Source, is_null
+from garkcli.transfer import PAIR_RULES, RULES
+
+KEYS = (
+    "gark",
+    "name",
+    "description",
+    "reference",
+    *FORMS,
+    "transfer",
+    "structure",
+    "conjugate",
+    "linear",
+    "parameters",
+    "tolerance",
+    "expect",
+)
+"""The keys of a method file."""
+ALL_RULES = (*RULES, *PAIR_RULES)
+_BLOCK = re.compile(r"\s*([1-9][0-9]{0,3})\s*,\s*([1-9][0-9]{0,3})\s*")
+
+
+class Reader:
+    """Reads one file."""
+
+    def __init__(self, source: Source) -> None:
+        self.source = source
+        self.numbers = Numbers(source)
+
+    def read(self) -> Description | None:
+        """The description; None, with faults noted in the source, where there is none."""
+        source = self.source
+        root = source.compose()
+        if root is None:
+            return None
+        entries = source.mapping(root, "the file", KEYS)
+        version = entries.get("gark")
+        if version is not None and source.scalar(version, "gark") != "1":
+            source.fault(version, "gark: this program reads version 1 of the format", "write gark: 1")
+        self.numbers.parameters = read_parameters(source, entries.get("parameters"))
+        form = self._form(root, entries)
+        if form is None:
+            return None
+        structure = self._structure(form, entries)
+        content = self._content(form, structure, entries)
+        if content is None:
+            return None
+        self._refuse_misplaced(form, entries)
+        text = {
+            key: source.scalar(entries[key], key) or ""
+            for key in ("name", "description", "reference")
+            if key in entries
+        }
+        tolerance = entries.get("tolerance")
+        return Description(
+            form=form,
+            content=content,
+            node=entries[form],
+            structure=structure,
+            is_conjugate=self._is_conjugate(entries.get("conjugate")),
+            tolerance=self.numbers.entry(tolerance, "tolerance") if tolerance is not None else None,
+            claims=expectations.read(source, entries.get("expect")),
+            **text,
+        )
+
+    def _form(self, root: Node, entries: dict[str, Node]) -> Form | None:
+        present = [key for key in FORMS if key in entries]
+        if len(present) == 1:
+            return present[0]
+        if not present:
+            self.source.fault(root, "no coefficients", f"give one of the keys {', '.join(FORMS)}")
+        for key in present[1:]:
+            message = f"{key}: the coefficients are given by {present[0]} already"
+            self.source.fault(entries[key], message, f"keep one of {', '.join(present)}")
+        return None
+
+    def _structure(self, form: Form, entries: dict[str, Node]) -> Structure:
+        node = entries.get("structure")
+        word = self.source.choice(node, "structure", STRUCTURES) if node is not None else None
+        if node is not None and form in {"tableau", "ark"} and word != "general":
+            cure = "write absent blocks as null" if form == "tableau" else "use methods, tableau or prk"
+            self.source.fault(node, f"structure does not go with {form}", cure)
+        if node is not None and form == "prk" and word == "semi-separable":
+            self.source.fault(node, "a prk cannot be semi-separable: that takes two Hamiltonians", "use methods")
+        return cast("Structure", word or "general")
+
+    def _is_conjugate(self, node: Node | None) -> bool:
+        return node is not None and self.source.choice(node, "conjugate", ("true", "false")) == "true"
+
+    def _refuse_misplaced(self, form: Form, entries: dict[str, Node]) -> None:
+        for key, home in (("transfer", "methods"), ("linear", "tableau")):
+            if key in entries and form != home:
+                self.source.fault(entries[key], f"{key} goes with {home}, not with {form}", "leave it out")
+
+    def _content(
+        self, form: Form, structure: Structure, entries: dict[str, Node]
+    ) -> MethodsText | TableauText | ArkText | PrkText | None:
+        node = entries[form]
+        if form == "methods":
+            return self._methods(node, structure, entries.get("transfer"))
+        if form == "tableau":
+            return self._tableau(node, entries.get("linear"))
+        if form == "ark":
+            return self._ark(node)
+        return self._prk(node, structure)
+
+    # -- methods and transfer -------------------------------------------------------------------------------
+
+    def _methods(self, node: Node, structure: Structure, transfer: Node | None) -> MethodsText | None:
+        items = self.source.items(node, "methods")
+        methods = [self._method(item, f"methods, {l}") for l, item in enumerate(items, start=1)]
+        if not items and isinstance(node, SequenceNode):
+            self.source.fault(node, "methods is empty", "list at least one diagonal method")
+        if structure != "general" and len(items) != 2:
+            self.source.fault(node, f"structure: {structure} is for two colours, not {len(items)}")
+        if len(items) > 1 and transfer is None:
+            cure = "write transfer: collocation (or interpolation)"
+            self.source.fault(node, "two colours or more need a transfer rule", cure)
+        rules = self._transfer(transfer, len(items)) if transfer is not None else TransferText(None, {})
+        found = tuple(method for method in methods if method is not None)
+        return MethodsText(found, rules) if found and len(found) == len(methods) else None
+
+    def _method(self, node: Node, where: str) -> FamilyText | ButcherText | None:
+        keys = {key.value for key, _ in node.value} if isinstance(node, MappingNode) else set()
+        if "family" not in keys and isinstance(node, MappingNode):
+            return self._butcher(node, where)
+        entries = self.source.mapping(node, where, ("family", "stages", "name"))
+        if "family" not in entries:
+            return None
+        name = self.source.scalar(entries["family"], f"{where}, family")
+        stages = None
+        if "stages" in entries:
+            stages = self.source.whole(entries["stages"], f"{where}, stages", smallest=1)
+            if stages is None:
+                return None
+        return FamilyText(node, name, stages) if name is not None else None
+
+    def _butcher(self, node: Node, where: str, square: bool = True) -> ButcherText | None:
+        entries = self.source.mapping(node, where, ("name", "A", "b", "c"))
+        missing = [key for key in ("A", "b") if key not in entries]
+        if missing:
+            cure = "give family and stages, or A and b" if square else "give A, b and perhaps c"
+            self.source.fault(node, f"{where}: {' and '.join(missing)} missing", cure)
+            return None
+        A = self.numbers.matrix(entries["A"], f"{where}, A")
+        b = self.numbers.row(entries["b"], f"{where}, b")
+        c = self.numbers.row(entries["c"], f"{where}, c") if "c" in entries else None
+        if square:
+            s = len(b)
+            self.numbers.expect_shape(A, entries["A"], f"{where}, A", (s, s), f"b has {s} entries")
+            if c is not None and len(c) != s:
+                self.source.fault(entries["c"], f"{where}, c has {len(c)} entries for {s} stages")
+        name = self.source.scalar(entries["name"], f"{where}, name") if "name" in entries else ""
+        return ButcherText(node, name or "", A, b, c) if A and b else None
+
+    def _transfer(self, node: Node, colours: int) -> TransferText:
+        keys = {key.value for key, _ in node.value} if isinstance(node, MappingNode) else set()
+        if not keys & {"default", "blocks"}:
+            return TransferText(self._rule(node, "transfer"), {})
+        entries = self.source.mapping(node, "transfer", ("default", "blocks"))
+        default = self._rule(entries["default"], "transfer, default") if "default" in entries else None
+        blocks: dict[tuple[int, int], BlockText] = {}
+        if "blocks" in entries:
+            for key, value in self.source.mapping(entries["blocks"], "transfer, blocks", ()).items():
+                place = _BLOCK.fullmatch(key)
+                l, m = (int(place[1]) - 1, int(place[2]) - 1) if place else (0, 0)
+                if l == m or max(l, m) >= colours:
+                    message = f"transfer, blocks: {key!r} names no off-diagonal block of {colours} colours"
+                    self.source.fault(value, message, 'write for instance "1,2" for the block A^{1,2}')
+                    continue
+                where = f"A^{{{l + 1},{m + 1}}}"
+                block = (
+                    MatrixText(value, self.numbers.matrix(value, where))
+                    if isinstance(value, SequenceNode)
+                    else self._rule(value, where)
+                )
+                if block is not None:
+                    blocks[l, m] = block
+        return TransferText(default, blocks)
+
+    def _rule(self, node: Node, where: str) -> RuleText | None:
+        if isinstance(node, ScalarNode):
+            rule = self.source.choice(node, where, ALL_RULES)
+            return RuleText(node, ((rule, None),)) if rule else None
+        entries = self.source.mapping(node, where, RULES)
+        if not entries:
+            return None
+        terms = ((rule, self.numbers.entry(x, f"{where}, weight of {rule}")) for rule, x in entries.items())
+        return RuleText(node, tuple(terms))
+
+    # -- spelled-out forms ----------------------------------------------------------------------------------
+
+    def _tableau(self, node: Node, linear: Node | None) -> TableauText | None:
+        entries = self._required(node, "tableau")
+        if entries is None:
+            return None
+        b_nodes = self.source.items(entries["b"], "b")
+        b = tuple(self.numbers.row(item, f"b^{{{l}}}") for l, item in enumerate(b_nodes, start=1))
+        rows = self.source.items(entries["A"], "A")
+        if len(rows) != len(b):
+            message = f"A has {len(rows)} rows of blocks and b {len(b)} rows of weights"
+            self.source.fault(entries["A"], message, "both have one a colour")
+            return None
+        A = tuple(self._block_row(l, row, b) for l, row in enumerate(rows))
+        c = self._node_rows(entries.get("c"), b)
+        if not b or not all(b) or any(len(row) != len(b) for row in A):
+            return None
+        return TableauText(A, b, c, self._linear(linear, len(b)))
+
+    def _required(self, node: Node, where: str) -> dict[str, Node] | None:
+        entries = self.source.mapping(node, where, ("c", "A", "b"))
+        missing = [key for key in ("A", "b") if key not in entries]
+        if missing and isinstance(node, MappingNode):
+            self.source.fault(node, f"{where}: {' and '.join(missing)} missing", "give A and b")
+        return None if missing else entries
+
+    def _block_row(self, l: int, node: Node, b: tuple[Row, ...]) -> tuple[Rows | None, ...]:
+        items = self.source.items(node, f"A, row {l + 1} of blocks")
+        if len(items) != len(b):
+            message = f"row {l + 1} of blocks has {len(items)} blocks for {len(b)} colours"
+            self.source.fault(node, message, "write null for a block that does not exist")
+        blocks: list[Rows | None] = []
+        for m, item in enumerate(items[: len(b)]):
+            where = f"A^{{{l + 1},{m + 1}}}"
+            if is_null(item):
+                blocks.append(None)
+                continue
+            rows = self.numbers.matrix(item, where)
+            shape = (len(b[l]), len(b[m]))
+            why = f"b^{{{l + 1}}} has {shape[0]} entries and b^{{{m + 1}}} has {shape[1]}"
+            self.numbers.expect_shape(rows, item, where, shape, why)
+            blocks.append(rows)
+        return tuple(blocks)
+
+    def _node_rows(self, node: Node | None, b: tuple[Row, ...]) -> tuple[Row | None, ...]:
+        if node is None:
+            return (None,) * len(b)
+        items = self.source.items(node, "c")
+        if len(items) != len(b):
+            self.source.fault(node, f"c has {len(items)} rows for {len(b)} colours", "give one a colour")
+            return (None,) * len(b)
+        rows: list[Row | None] = []
+        for l, item in enumerate(items):
+            row = None if is_null(item) else self.numbers.row(item, f"c^{{{l + 1}}}")
+            if row is not None and len(row) != len(b[l]):
+                message = f"c^{{{l + 1}}} has {len(row)} entries, b^{{{l + 1}}} has {len(b[l])}"
+                self.source.fault(item, message, "both have one a stage")
+            rows.append(row)
+        return tuple(rows)
+
+    def _linear(self, node: Node | None, colours: int) -> tuple[int, ...]:
+        if node is None:
+            return ()
+        found = []
+        for item in self.source.items(node, "linear"):
+            colour = self.source.whole(item, "linear", smallest=1)
+            if colour is not None and colour > colours:
+                self.source.fault(item, f"linear: there is no colour {colour}", f"there are {colours}")
+            elif colour is not None:
+                found.append(colour - 1)
+        return tuple(found)
+
+    def _ark(self, node: Node) -> ArkText | None:
+        entries = self._required(node, "ark")
+        if entries is None:
+            return None
+        items = self.source.items(entries["A"], "A")
+        A = tuple(self.numbers.matrix(item, f"A^{{{m}}}") for m, item in enumerate(items, start=1))
+        b_items = self.source.items(entries["b"], "b")
+        if any(isinstance(item, SequenceNode) for item in b_items):
+            b = tuple(self.numbers.row(item, f"b^{{{m}}}") for m, item in enumerate(b_items, start=1))
+        else:
+            b = (self.numbers.row(entries["b"], "b"),) * len(A)
+        c = self.numbers.row(entries["c"], "c") if "c" in entries else None
+        if len(b) != len(A):
+            message = f"b has {len(b)} rows for {len(A)} colours"
+            self.source.fault(entries["b"], message, "give a row a colour, or a single shared row")
+            return None
+        if not A or not all(A) or not all(b):
+            return None
+        s = len(A[0])
+        for m, (rows, item) in enumerate(zip(A, items, strict=True), start=1):
+            self.numbers.expect_shape(rows, item, f"A^{{{m}}}", (s, s), "the colours of an ark share stages")
+        for m, row in enumerate(b, start=1):
+            if len(row) != s:
+                self.source.fault(entries["b"], f"b^{{{m}}} has {len(row)} entries for {s} stages")
+        if c is not None and len(c) != s:
+            self.source.fault(entries["c"], f"c has {len(c)} entries for {s} stages")
+        return ArkText(A, b, c)
+
+    def _prk(self, node: Node, structure: Structure) -> PrkText | None:
+        entries = self.source.mapping(node, "prk", ("q", "p"))
+        if set(entries) != {"q", "p"}:
+            if isinstance(node, MappingNode):
+                self.source.fault(node, "prk: both parts q and p are needed", "give q: {A, b} and p: {A, b}")
+            return None
+        q, p = (self._butcher(entries[part], f"prk, {part}", square=False) for part in ("q", "p"))
+        if q is None or p is None:
+            return None
+        s_v, s_f = len(q.b), len(p.b)
+        if structure == "general" and s_v != s_f:
+            message = f"prk: q has {s_v} weights and p has {s_f}"
+            self.source.fault(node, message, "a general problem needs one set of stages; or structure: separable")
+        for part, text, shape in (("q", q, (s_f, s_v)), ("p", p, (s_v, s_f))):
+            where = f"prk, {part}"
+            why = f"q.b has {s_v} entries and p.b has {s_f}"
+            self.numbers.expect_shape(text.A, text.node, f"{where}, A", shape, why)
+            if text.c is not None and len(text.c) != shape[0]:
+                self.source.fault(text.node, f"{where}, c has {len(text.c)} entries for {shape[0]} nodes")
+        return PrkText(q, p)

@@ -1,0 +1,177 @@
+"""YAML text to nodes with positions, within limits, and the list in which faults are collected.
+
+``yaml.compose`` keeps what ``safe_load`` loses: where each value stands, keys that occur twice, and the text of
+a number as it was written.
+"""
+
+from __future__ import annotations
+
+from collections.abc import Iterable, Iterator
+from difflib import get_close_matches
+
+import yaml
+from yaml.nodes import MappingNode, Node, ScalarNode, SequenceNode
+
+from garkcli.errors import ExpressionError, Fault, MethodFileError
+
+MAX_BYTES = 4_000_000
+"""Largest file that is read."""
+MAX_NODES = 400_000
+"""Most YAML values in one file, with aliases counted each time they are used."""
+MAX_NESTING = 12
+"""Deepest nesting of lists and mappings; method files need six."""
+
+_LOADER = getattr(yaml, "CSafeLoader", yaml.SafeLoader)
+
+
+class Source:
+    """One file being read: its name, its text, and the faults found so far."""
+
+    def __init__(self, name: str, text: str) -> None:
+        self.name = name
+        self.text = text
+        self.faults: list[Fault] = []
+
+    def fault(self, node: Node | None, message: str, cure: str = "", offset: int = 0) -> None:
+        """Note a fault at ``node``, ``offset`` characters into its text."""
+        if node is None:
+            self.faults.append(Fault(message, cure, 1, 1))
+            return
+        mark = node.start_mark
+        quoted = isinstance(node, ScalarNode) and node.style in {"'", '"'}
+        self.faults.append(Fault(message, cure, mark.line + 1, mark.column + 1 + quoted + offset))
+
+    def expression_fault(self, node: Node, where: str, error: ExpressionError) -> None:
+        """Note what is wrong with the text of a number."""
+        self.fault(node, f"{where}: {error.message}", error.help, error.start)
+
+    def close(self) -> None:
+        """Raise what has been found.
+
+        Raises:
+            MethodFileError: there are faults; all of them, in file order.
+        """
+        if self.faults:
+            raise self.error()
+
+    def error(self) -> MethodFileError:
+        """What has been found, as one error; faults in file order, each once."""
+        return MethodFileError(self.name, sorted(set(self.faults), key=lambda f: (f.line, f.column)), self.text)
+
+    def compose(self) -> MappingNode | None:
+        """The root of the file; None, with faults noted, where there is no mapping."""
+        if len(self.text) > MAX_BYTES:
+            self.fault(None, f"a file of more than {MAX_BYTES} characters", "split it")
+            return None
+        try:
+            root = yaml.compose(self.text, Loader=_LOADER)
+            if root is None:
+                self.fault(None, "the file is empty", "the smallest file has methods and transfer")
+                return None
+            _walk(root)
+        except RecursionError:
+            self.fault(None, f"nested more than {MAX_NESTING} deep", "write it flatter")
+            return None
+        except yaml.MarkedYAMLError as error:
+            mark = error.problem_mark or error.context_mark
+            place = (mark.line + 1, mark.column + 1) if mark else (1, 1)
+            self.faults.append(Fault(f"this is not YAML: {error.problem or error.context}", "", *place))
+            return None
+        except yaml.YAMLError as error:
+            self.faults.append(Fault(f"this is not YAML: {str(error).splitlines()[0]}", "", 1, 1))
+            return None
+        except _TooLarge as error:
+            self.fault(error.node, error.message, error.cure)
+            return None
+        if not isinstance(root, MappingNode):
+            self.fault(root, "a method file is a mapping of keys to values", "start with methods: or tableau:")
+            return None
+        return root
+
+    def mapping(self, node: Node, where: str, allowed: Iterable[str]) -> dict[str, Node]:
+        """The entries of a mapping by key; doubled and unknown keys are noted."""
+        if not isinstance(node, MappingNode):
+            self.fault(node, f"{where}: a mapping of keys to values is expected here")
+            return {}
+        known = list(allowed)
+        entries: dict[str, Node] = {}
+        for key_node, value in node.value:
+            key = key_node.value if isinstance(key_node, ScalarNode) else "?"
+            if key in entries:
+                self.fault(key_node, f"{where}: the key {key!r} stands here twice", "keep one of them")
+            elif known and key not in known:
+                close = get_close_matches(key, known, n=1)
+                cure = f"did you mean {close[0]!r}?" if close else f"known here: {', '.join(known)}"
+                self.fault(key_node, f"{where}: unknown key {key!r}", cure)
+            else:
+                entries[key] = value
+        return entries
+
+    def items(self, node: Node, where: str) -> list[Node]:
+        """The items of a list."""
+        if not isinstance(node, SequenceNode):
+            self.fault(node, f"{where}: a list is expected here", "write it in brackets: [ , ]")
+            return []
+        return list(node.value)
+
+    def scalar(self, node: Node, where: str) -> str | None:
+        """The text of a single value, as written."""
+        if not isinstance(node, ScalarNode):
+            self.fault(node, f"{where}: a single value is expected here")
+            return None
+        return str(node.value)
+
+    def whole(self, node: Node, where: str, smallest: int = 0) -> int | None:
+        """A whole number written in plain decimal digits."""
+        text = self.scalar(node, where)
+        if text is None:
+            return None
+        plain = text.isascii() and text.isdigit() and (text == "0" or not text.startswith("0"))
+        if not plain or len(text) > 6 or int(text) < smallest:
+            self.fault(node, f"{where}: a whole number of at least {smallest} is expected, not {text!r}")
+            return None
+        return int(text)
+
+    def choice(self, node: Node, where: str, known: Iterable[str]) -> str | None:
+        """One of a few words."""
+        text = self.scalar(node, where)
+        if text is None or text in (known := list(known)):
+            return text
+        close = get_close_matches(text, known, n=1)
+        cure = f"did you mean {close[0]!r}?" if close else f"one of: {', '.join(known)}"
+        self.fault(node, f"{where}: {text!r} is not known", cure)
+        return None
+
+
+class _TooLarge(Exception):
+    def __init__(self, node: Node, message: str, cure: str) -> None:
+        super().__init__(message)
+        self.node, self.message, self.cure = node, message, cure
+
+
+def _walk(root: Node) -> None:
+    """Count every value as often as it is used, so that no alias multiplies work unseen."""
+    count = 0
+    pending: list[tuple[Node, int]] = [(root, 1)]
+    while pending:
+        node, depth = pending.pop()
+        count += 1
+        if count > MAX_NODES:
+            raise _TooLarge(root, f"more than {MAX_NODES} values in one file", "aliases count each time")
+        if depth > MAX_NESTING:
+            raise _TooLarge(node, f"nested more than {MAX_NESTING} deep", "no method needs that")
+        pending += ((child, depth + 1) for child in _children(node))
+
+
+def _children(node: Node) -> Iterator[Node]:
+    if isinstance(node, SequenceNode):
+        yield from node.value
+    elif isinstance(node, MappingNode):
+        for key, value in node.value:
+            yield key
+            yield value
+
+
+def is_null(node: Node) -> bool:
+    """Whether the value is YAML's null."""
+    return isinstance(node, ScalarNode) and node.tag == "tag:yaml.org,2002:null"

@@ -1,0 +1,224 @@
+"""A tableau entry by entry, as it is printed: in radicals where the nodes have simple ones, else in decimals.
+
+A block of a polynomial space has the entries A_{ij} = (A L_j)(c_i), L_j the Lagrange polynomials of the nodes;
+with the Vandermonde matrices V of the nodes that is V_l A V_m⁻¹.
+"""
+
+from __future__ import annotations
+
+from collections.abc import Callable, Sequence
+from dataclasses import dataclass, replace
+from functools import cache
+from typing import Any, TypeAlias
+
+from flint import arb, arb_mat, ctx, fmpq_poly
+
+from garkcli.exact.display import to_ball
+from garkcli.exact.domain import Domain, enclose, square_free
+from garkcli.exact.expression import Chain, Expression, Literal, Root
+from garkcli.exact.field import ONE, ZERO, Algebraic, Number
+from garkcli.exact.matrix import Matrix, Vector, apply, apply_left, identity, multiply, solve
+from garkcli.tableau.method import Method
+from garkcli.tableau.stages import PointSpace, PolynomialSpace, StageSpace
+from garkcli.tableau.tableau import Tableau
+
+Cell: TypeAlias = Number | arb
+
+
+@dataclass(frozen=True)
+class Entries:
+    """The entries of a tableau, colour by colour.
+
+    Attributes:
+        c: the nodes, one row a colour.
+        A: ``A[l][m]`` is a matrix, or None where the block does not exist.
+        b: the weights, one row a colour.
+        is_exact: whether the entries are exact numbers; otherwise enclosures.
+        digits: the decimal digits that enclosures are good for.
+    """
+
+    c: tuple[tuple[Cell, ...], ...]
+    A: tuple[tuple[tuple[tuple[Cell, ...], ...] | None, ...], ...]
+    b: tuple[tuple[Cell, ...], ...]
+    is_exact: bool
+    digits: int
+
+
+def entries(tableau: Tableau, digits: int = 17) -> Entries:
+    """All entries: exact where every colour's nodes are rational or quadratic, enclosures otherwise."""
+    exact = in_points(tableau)
+    return numeric_entries(tableau, digits) if exact is None else _listed(exact, digits)
+
+
+def _listed(tableau: Tableau, digits: int) -> Entries:
+    colours = range(tableau.size)
+    return Entries(
+        c=tuple(colour.c for colour in tableau.colours),
+        A=tuple(tuple(tableau.block(l, m) for m in colours) for l in colours),
+        b=tuple(colour.b for colour in tableau.colours),
+        is_exact=True,
+        digits=digits,
+    )
+
+
+def simple_nodes(space: PolynomialSpace) -> tuple[Expression, ...] | None:
+    """The nodes in ascending order, as expressions with at most a square root each; None if they need more.
+
+    >>> from garkcli.families.registry import diagonal_method
+    >>> from garkcli.exact.expression import format_expression
+    >>> [format_expression(c) for c in simple_nodes(diagonal_method("gauss", 2).space)]
+    ['1/2-(1/6*sqrt(3))', '1/2+(1/6*sqrt(3))']
+    """
+    nodes: list[Expression] = []
+    for factor, _ in space.modulus.factor()[1]:
+        if factor.degree() > 2:
+            return None
+        nodes += _roots(fmpq_poly(factor))
+    return tuple(sorted(nodes, key=_position))
+
+
+def _roots(factor: fmpq_poly) -> list[Expression]:
+    if factor.degree() == 1:
+        return [Literal(-factor[0] / factor[1])]
+    middle = -factor[1] / (2 * factor[2])
+    radicand = middle * middle - factor[0] / factor[2]
+    d = square_free(radicand)
+    half_width = Chain("**", (Literal((radicand / d).sqrt()), Root(Literal(d), 2)))
+    return [Chain(f"+{sign}", (Literal(middle), half_width)) for sign in "-+"]
+
+
+def _position(node: Expression) -> float:
+    return float(enclose(node))
+
+
+def method_in_points(method: Method, nodes: Vector) -> Method:
+    """A family's method with one coordinate a stage, its nodes given as exact numbers in ascending order."""
+    space = PointSpace(nodes)
+    V, inverse = space.reductions(space.stages), space.lifts()
+    A = multiply(V, multiply(method.A, inverse))
+    return replace(method, space=space, A=A, b=apply_left(method.b, inverse))
+
+
+def in_points(tableau: Tableau) -> Tableau | None:
+    """The same tableau with one coordinate a stage; None where some nodes have no simple radicals."""
+    polynomial = {
+        k: simple_nodes(space) for k, space in enumerate(tableau.spaces) if isinstance(space, PolynomialSpace)
+    }
+    if any(nodes is None for nodes in polynomial.values()):
+        return None
+    if not polynomial:
+        return tableau
+    known = [radical for radical, _ in tableau.field.radicals] if tableau.field else []
+    domain = Domain([*known, *(node for nodes in polynomial.values() for node in nodes or ())])
+    embed = _embedding(tableau, domain)
+
+    @cache
+    def frame(k: int) -> tuple[PointSpace, Matrix, Matrix]:
+        """The new space k, and the maps of coordinates into it and back."""
+        old = tableau.spaces[k]
+        nodes = polynomial.get(k)
+        if nodes is None:
+            points = tuple(embed(x) for x in old.nodes)
+            return PointSpace(points), identity(old.stages), identity(old.stages)
+        space = PointSpace(tuple(domain.evaluate(node) for node in nodes))
+        V = space.reductions(space.stages)
+        return space, V, solve(V, identity(space.stages))
+
+    def column(m: int) -> Matrix:
+        return frame(tableau.colours[m].rows)[2]
+
+    blocks = {
+        (k, m): multiply(frame(k)[1], multiply(_embedded(block, embed), column(m)))
+        for (k, m), block in tableau.blocks.items()
+    }
+    colours = tuple(
+        replace(
+            colour,
+            b=apply_left(tuple(map(embed, colour.b)), column(m)),
+            c=apply(frame(colour.rows)[1], tuple(map(embed, colour.c))),
+        )
+        for m, colour in enumerate(tableau.colours)
+    )
+    return Tableau(tuple(frame(k)[0] for k in range(len(tableau.spaces))), colours, blocks)
+
+
+def _embedding(tableau: Tableau, domain: Domain) -> Callable[[Number], Number]:
+    """The map of the tableau's numbers into a larger domain."""
+    field = tableau.field
+    if field is None:
+        return lambda number: number
+    radicals = [domain.evaluate(radical) for radical, _ in field.radicals]
+
+    def embed(number: Number) -> Number:
+        if not isinstance(number, Algebraic):
+            return number
+        total: Number = ZERO
+        for coefficient, word in zip(field.in_radicals(number), field.monomials, strict=True):
+            term: Number = ONE * coefficient
+            for index in word:
+                term = term * radicals[index]
+            total = total + term
+        return total
+
+    return embed
+
+
+def _embedded(block: Matrix, embed: Callable[[Number], Number]) -> Matrix:
+    return tuple(tuple(map(embed, row)) for row in block)
+
+
+def numeric_entries(tableau: Tableau, digits: int = 17) -> Entries:
+    """All entries as enclosures narrower than 10^(−digits)."""
+    precision = ctx.prec
+    goal = int(digits * 3.33) + 8
+    try:
+        ctx.prec = goal + 64
+        while True:
+            found = _numeric(tableau, digits)
+            if all(float(x.rad()) < 10.0**-digits for x in _balls(found)):
+                return found
+            ctx.prec *= 2
+    finally:
+        ctx.prec = precision
+
+
+def _balls(found: Entries) -> Sequence[arb]:
+    cells = [x for row in (*found.c, *found.b) for x in row]
+    cells += [x for blocks in found.A for block in blocks if block for row in block for x in row]
+    return [x for x in cells if isinstance(x, arb)]
+
+
+def _numeric(tableau: Tableau, digits: int) -> Entries:
+    frames = [_numeric_frame(space) for space in tableau.spaces]
+
+    def block(l: int, m: int) -> tuple[tuple[arb, ...], ...] | None:
+        exact = tableau.block(l, m)
+        if exact is None:
+            return None
+        V, back = frames[tableau.colours[l].rows][0], frames[tableau.colours[m].rows][1]
+        return tuple(tuple(row) for row in (V * _to_arb(exact) * back).tolist())
+
+    colours = tableau.colours
+    return Entries(
+        c=tuple(tuple((frames[x.rows][0] * _to_arb([[y] for y in x.c])).entries()) for x in colours),
+        A=tuple(tuple(block(l, m) for m in range(tableau.size)) for l in range(tableau.size)),
+        b=tuple(tuple((_to_arb([x.b]) * frames[x.rows][1]).entries()) for x in colours),
+        is_exact=False,
+        digits=digits,
+    )
+
+
+def _numeric_frame(space: StageSpace) -> tuple[arb_mat, arb_mat]:
+    """The maps of coordinates to stage values and back."""
+    s = space.stages
+    if not isinstance(space, PolynomialSpace):
+        unit = arb_mat([[int(i == j) for j in range(s)] for i in range(s)])
+        return unit, unit
+    roots: list[tuple[Any, int]] = space.modulus.numer().complex_roots()  # type: ignore[assignment]
+    nodes = sorted((root.real for root, _ in roots), key=float)
+    V = arb_mat([[node**k for k in range(s)] for node in nodes])
+    return V, V.inv()
+
+
+def _to_arb(rows: Sequence[Sequence[Number]]) -> arb_mat:
+    return arb_mat([[to_ball(x, int(ctx.prec / 3.33)) for x in row] for row in rows])

@@ -1,0 +1,146 @@
+"""The trees of one order in blocks of bounded size: for streaming, and for those with given colours only."""
+
+from __future__ import annotations
+
+from dataclasses import dataclass
+from typing import TYPE_CHECKING
+
+import numpy as np
+
+from garkcli.trees.columns import Columns
+from garkcli.trees.count import Admissible, Edges
+from garkcli.trees.table import TreeTable, first_ids, segments_of
+from garkcli.trees.tree import Tree
+
+if TYPE_CHECKING:
+    from collections.abc import Collection, Iterator
+
+    from garkcli.trees.columns import Column
+
+BLOCK_SIZE = 1 << 18
+"""Trees in a block unless asked for otherwise."""
+
+MAX_USING = 62
+"""Colours that can be asked for at once: a bit each."""
+
+
+@dataclass(frozen=True)
+class Block:
+    """Some trees of one order, following each other in the table unless they were selected.
+
+    ``columns`` hold the trees, whose parents' ids are those of ``lower``, the table of the orders below.
+    """
+
+    columns: Columns
+    lower: TreeTable
+
+    def __len__(self) -> int:
+        return len(self.columns)
+
+    def notation(self, colours: bool = True) -> list[str]:
+        """Bracket text of the trees."""
+        return self.lower.texts(self.columns, colours)
+
+    def trees(self) -> Iterator[Tree]:
+        """The trees, one after the other."""
+        rows = zip(
+            self.columns.stem.tolist(), self.columns.branch.tolist(), self.columns.root.tolist(), strict=True
+        )
+        for stem, branch, root in rows:
+            if branch < 0:
+                yield Tree(root)
+            else:
+                yield Tree(root, [*self.lower.tree(stem).branches, self.lower.tree(branch)])
+
+
+def iter_blocks(
+    colours: int,
+    order: int,
+    block_size: int = BLOCK_SIZE,
+    edges: Edges | None = None,
+    linear: Collection[int] = (),
+    roots: Collection[int] | None = None,
+) -> Iterator[Block]:
+    """All trees of one order, in the order of the table, in blocks of at most ``block_size`` trees.
+
+    Only the lower orders are held in memory. ``roots``: the root colours wanted, from 0, all by default;
+    ``edges`` and ``linear`` as in :class:`Admissible`. Raises :class:`TableTooLarge` when the lower orders
+    are too many, ``ValueError`` for a block size below 1.
+
+    >>> sum(len(block) for block in iter_blocks(2, 5))
+    214
+    """
+    if block_size < 1:
+        raise ValueError(f"a block holds at least one tree, not {block_size}")
+    admissible = Admissible.of(colours, edges, linear)
+    wanted = [root for root in range(colours) if roots is None or root in roots]
+    lower = TreeTable.of(admissible, max(order - 1, 1))
+    if order == 1:
+        for root in wanted:
+            yield Block(Columns.vertices(range(root, root + 1)), lower)
+        return
+    starts = first_ids(admissible, order)
+    for root in wanted:
+        for _, growth in segments_of(admissible, starts, order, lower.columns, root):
+            for start in range(0, len(growth), block_size):
+                yield Block(growth.make(start, min(start + block_size, len(growth))), lower)
+
+
+def select(
+    colours: int,
+    order: int,
+    *,
+    root: int | None = None,
+    only: Collection[int] | None = None,
+    using: Collection[int] = (),
+    block_size: int = BLOCK_SIZE,
+    edges: Edges | None = None,
+    linear: Collection[int] = (),
+) -> Iterator[Block]:
+    """The trees of one order with a given root colour, or made of given colours; colours count from 0.
+
+    ``only``: no vertex has another colour than these (the others are not generated); ``using``: each of
+    these colours occurs. Blocks are never empty. Raises ``ValueError`` for a colour that does not exist,
+    and what :func:`iter_blocks` raises, both when the first block is asked for.
+
+    >>> [u for block in select(2, 3, root=0, using=[1]) for u in block.notation()]
+    ['[[]_1,[]_2]_1', '[[]_2,[]_2]_1', '[[[]_2]_1]_1', '[[[]_1]_2]_1', '[[[]_2]_2]_1']
+    """
+    for colour in {*(only or ()), *using, *(() if root is None else (root,))}:
+        if not 0 <= colour < colours:
+            raise ValueError(f"there is no colour {colour} among the {colours} colours 0, 1, …")
+    within = set(range(colours) if only is None else only)
+    narrowed = [
+        [(edges is None or bool(edges[above][m])) and {above, m} <= within for m in range(colours)]
+        for above in range(colours)
+    ]
+    if len(set(using)) > min(order, MAX_USING):
+        return  # more colours than vertices, or than any tree that can be listed has
+    bits = np.zeros(colours, np.int64)
+    bits[sorted(set(using))] = 1 << np.arange(len(set(using)))
+    used: Column | None = None  # for every tree of the lower orders which of the colours occur
+    for block in iter_blocks(
+        colours, order, block_size, narrowed, linear, within if root is None else {root} & within
+    ):
+        if used is None:
+            used = _used_by_all(block.lower, bits)
+        keep = _used(block.columns, bits, used) == bits.sum()
+        if keep.all():
+            yield block
+        elif keep.any():
+            yield Block(block.columns.part(keep), block.lower)
+
+
+def _used(trees: Columns, bits: Column, known: Column) -> Column:
+    """A bit for each colour that occurs; ``known`` has those of the parents."""
+    return np.where(trees.branch < 0, bits[trees.root], known[trees.stem] | known[trees.branch])
+
+
+def _used_by_all(table: TreeTable, bits: Column) -> Column:
+    """A bit for each colour that occurs, for every tree of a table."""
+    used = np.zeros(len(table), np.int64)
+    for order in range(1, table.max_order + 1):
+        ids = table.ids(order)
+        here = slice(ids.start, ids.stop)
+        used[here] = _used(table.columns.part(here), bits, used)
+    return used

@@ -1,0 +1,161 @@
+"""The columns of the tree table and how they grow: all N-trees of an order from two smaller ones each.
+
+Every tree with two vertices or more is uniquely u = stem ∘ branch: the branch is the last one of the root,
+the one with the largest id. For a given stem the admissible branches of one order and root colour are a
+contiguous range of ids, so that a whole order is made with ``repeat`` and ``arange``.
+"""
+
+from __future__ import annotations
+
+from dataclasses import dataclass
+from typing import TYPE_CHECKING, Any, TypeAlias
+
+import numpy as np
+
+if TYPE_CHECKING:
+    from numpy.typing import DTypeLike
+
+Column: TypeAlias = "np.ndarray[tuple[int], np.dtype[Any]]"
+
+LAST_INT64_ORDER = 20
+"""γ ≤ n! and σ ≤ (n - 1)!, and 20! < 2⁶³ < 21!; beyond, the columns σ and γ hold Python integers."""
+
+
+def exact_dtype(order: int) -> DTypeLike:
+    """The type of the columns σ and γ of trees up to an order: one that cannot overflow."""
+    return np.int64 if order <= LAST_INT64_ORDER else np.dtype(object)
+
+
+@dataclass(frozen=True, slots=True)
+class Columns:
+    """Trees as columns of equal length, one entry a tree.
+
+    ``stem``, ``branch``: the ids of the two parents, -1 for a single vertex; ``root``: the root colour,
+    from 0; ``order``: ρ(u); ``multiplicity``: how often the last branch occurs at the root (0 for a single
+    vertex); ``sigma``: the symmetry σ(u); ``gamma``: the density γ(u). σ and γ are exact: int64 up to
+    order 20, Python integers beyond.
+    """
+
+    stem: Column
+    branch: Column
+    root: Column
+    order: Column
+    multiplicity: Column
+    sigma: Column
+    gamma: Column
+
+    @classmethod
+    def empty(cls, length: int, exact: DTypeLike) -> Columns:
+        """Columns to be filled; ``exact`` is the type of σ and γ."""
+        ids = [np.empty(length, np.int64) for _ in range(2)]
+        small = [np.empty(length, np.int16) for _ in range(3)]
+        return cls(*ids, *small, *[np.empty(length, exact) for _ in range(2)])
+
+    @classmethod
+    def vertices(cls, roots: range) -> Columns:
+        """The trees of order 1 with these root colours."""
+        made = cls.empty(len(roots), np.int64)
+        made.stem[:] = made.branch[:] = -1
+        made.root[:] = roots
+        made.multiplicity[:] = 0
+        made.order[:] = made.sigma[:] = made.gamma[:] = 1
+        return made
+
+    def __len__(self) -> int:
+        return len(self.stem)
+
+    def all(self) -> tuple[Column, ...]:
+        """The seven columns, in the order of the fields."""
+        return (
+            self.stem,
+            self.branch,
+            self.root,
+            self.order,
+            self.multiplicity,
+            self.sigma,
+            self.gamma,
+        )
+
+    def part(self, which: slice | Column) -> Columns:
+        """The trees of a slice, a mask or an array of positions."""
+        return Columns(*[column[which] for column in self.all()])
+
+    def write(self, start: int, trees: Columns) -> None:
+        """Put trees at position ``start`` and following."""
+        for column, values in zip(self.all(), trees.all(), strict=True):
+            column[start : start + len(trees)] = values
+
+    def freeze(self) -> Columns:
+        """Make the columns read-only."""
+        for column in self.all():
+            column.flags.writeable = False
+        return self
+
+
+@dataclass(frozen=True, slots=True)
+class Segment:
+    """The trees of one order and root colour whose last branch has one order and root colour.
+
+    They follow each other in the table at ``ids``; ``stems`` and ``branches`` are the ranges of ids that
+    the parents come from.
+    """
+
+    order: int
+    root: int
+    branch_order: int
+    branch_root: int
+    ids: range
+    stems: range
+    branches: range
+
+
+class Growth:
+    """The trees of one segment to be, counted at once and made in pieces as large as asked for.
+
+    ``lower``: the columns of all trees of lower order, at least; ``stems``, ``branches``: the ids of the
+    possible parents, of one order and root colour each.
+    """
+
+    def __init__(self, lower: Columns, order: int, stems: range, branches: range) -> None:
+        self.lower = lower
+        self.order = order
+        self.stems = stems
+        self._last = lower.branch[stems.start : stems.stop]
+        self._begin = np.maximum(self._last, branches.start)
+        self._count = np.maximum(branches.stop - self._begin, 0)
+        self._end = np.cumsum(self._count)
+
+    def __len__(self) -> int:
+        return int(self._end[-1]) if len(self._end) else 0
+
+    def make(self, start: int, stop: int) -> Columns:
+        """The trees at positions start, …, stop - 1 of the segment, with 0 ≤ start < stop ≤ len."""
+        lower, order = self.lower, self.order
+        i = int(np.searchsorted(self._end, start, side="right"))
+        j = int(np.searchsorted(self._end, stop, side="left")) + 1
+        begin, count = self._begin[i:j].copy(), self._count[i:j].copy()
+        skipped = start - int(self._end[i] - self._count[i])
+        begin[0] += skipped
+        count[0] -= skipped
+        count[-1] -= int(self._end[j - 1]) - stop
+        heads = np.cumsum(count) - count
+
+        stems = slice(self.stems.start + i, self.stems.start + j)
+        branch = np.repeat(begin - heads, count)
+        branch += np.arange(stop - start)
+        again = np.flatnonzero((begin == self._last[i:j]) & (count > 0))  # the stem's last branch once more
+        exact = exact_dtype(order)
+        multiplicity = np.ones(stop - start, np.int16)
+        multiplicity[heads[again]] += lower.multiplicity[stems][again]
+        sigma = np.repeat(lower.sigma[stems].astype(exact, copy=False), count) * lower.sigma[branch]
+        sigma[heads[again]] *= multiplicity[heads[again]]
+        stem_gamma = lower.gamma[stems].astype(exact, copy=False) // int(lower.order[stems.start]) * order
+        return Columns(
+            stem=np.repeat(np.arange(stems.start, stems.stop), count),
+            branch=branch,
+            root=np.full(stop - start, lower.root[stems.start], np.int16),
+            order=np.full(stop - start, order, np.int16),
+            multiplicity=multiplicity,
+            sigma=sigma,
+            gamma=np.repeat(stem_gamma, count) * lower.gamma[branch],
+        )

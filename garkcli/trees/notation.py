@@ -1,0 +1,229 @@
+"""Trees and their order conditions in text: bracket notation read and written, plain and LaTeX.
+
+A tree is its branches in brackets, then its root's colour: ``[[]_2,[]_2]_1``. Text counts colours from 1,
+code from 0; this module converts. Larger branches are written first, as the paper does in its Table 1.
+"""
+
+from __future__ import annotations
+
+import re
+from typing import TYPE_CHECKING
+
+from garkcli.trees.tree import Tree
+
+if TYPE_CHECKING:
+    from collections.abc import Iterator, Sequence
+
+MAX_LENGTH = 20_000
+"""Characters in the text of a tree."""
+MAX_VERTICES = 1000
+"""Vertices of a tree in text; σ and γ then stay below the 4300 digits that Python writes."""
+MAX_DEPTH = 150
+"""Vertices on a path from the root to a leaf; keeps every recursion over trees far from Python's limit."""
+MAX_COLOUR = 32_767
+"""The largest colour number in text: what the columns of the tree table can hold."""
+
+LETTERS = "lmnuvwxyzpqrst"
+"""Names for the vertices of a shape, in the paper's order; beyond them the same again with primes."""
+
+_BLANK = re.compile(r"\s*")
+_DIGITS = re.compile(r"[0-9]*")
+
+
+class NotationError(ValueError):
+    """A text that is not a tree: ``message`` what is wrong, ``help`` the cure, ``offset`` where (from 0)."""
+
+    def __init__(self, message: str, help: str, offset: int) -> None:  # noqa: A002 -- the word users see
+        super().__init__(f"{message} at character {offset + 1}; {help}")
+        self.message = message
+        self.help = help
+        self.offset = offset
+
+
+def parse_tree(text: str) -> Tree:
+    """Read a tree in bracket notation; blanks are free, and colours may be left out everywhere (all 1).
+
+    Raises :class:`NotationError` with the offset of the fault, also for a text longer than ``MAX_LENGTH``,
+    with more vertices than ``MAX_VERTICES``, deeper than ``MAX_DEPTH`` or with a colour beyond ``MAX_COLOUR``.
+
+    >>> parse_tree("[[]_2, []_2]_1")
+    Tree(0, [Tree(1), Tree(1)])
+    >>> parse_tree("[[]]").order
+    2
+    """
+    if len(text) > MAX_LENGTH:
+        cure = f"write one of at most {MAX_LENGTH} characters"
+        raise NotationError("the tree is too long", cure, MAX_LENGTH)
+    return _Reader(text).read()
+
+
+class _Reader:
+    """Reads one tree from left to right, with a stack of open brackets instead of recursion."""
+
+    def __init__(self, text: str) -> None:
+        self.text = text
+        self.position = 0
+        self.vertices = 1
+        self.coloured: bool | None = None  # settled by the first vertex closed
+
+    def read(self) -> Tree:
+        self._take("[", "a tree begins with '['", "write a tree as [[]_2,[]_2]_1")
+        stack: list[list[Tree]] = [[]]  # for each open bracket the branches read so far
+        while True:
+            if self._next() == "[" and not stack[-1]:
+                self._open(stack)
+                continue
+            self._take("]", "',' or ']' is missing", "branches are separated by commas and closed by ']'")
+            branches = stack.pop()
+            tree = Tree(self._colour(), branches)
+            if not stack:
+                break
+            stack[-1].append(tree)
+            if self._next() == ",":
+                self.position += 1
+                self._open(stack)
+        if self.position < len(self.text):
+            raise NotationError("text after the end of the tree", "give one tree", self.position)
+        return tree
+
+    def _open(self, stack: list[list[Tree]]) -> None:
+        at = self.position
+        self._take("[", "a branch is missing", "a branch is a tree, such as []_1")
+        if len(stack) >= MAX_DEPTH:
+            cure = f"at most {MAX_DEPTH} vertices may follow each other"
+            raise NotationError("the tree is too deep", cure, at)
+        self.vertices += 1
+        if self.vertices > MAX_VERTICES:
+            raise NotationError("the tree is too large", f"at most {MAX_VERTICES} vertices are read", at)
+        stack.append([])
+
+    def _next(self) -> str:
+        """The next character that is not blank, which becomes the position; empty at the end."""
+        blank = _BLANK.match(self.text, self.position)
+        self.position = blank.end() if blank else self.position
+        return self.text[self.position : self.position + 1]
+
+    def _take(self, sign: str, message: str, cure: str) -> None:
+        if self._next() != sign:
+            raise NotationError(message, cure, self.position)
+        self.position += 1
+
+    def _colour(self) -> int:
+        """The colour after a closing bracket, from 0; 0 where colours are left out."""
+        start = self.position
+        coloured = self._next() == "_"
+        if self.coloured is None:
+            self.coloured = coloured
+        if coloured != self.coloured:
+            cure = "give every vertex a colour, as []_1, or none"
+            raise NotationError(
+                "only some of the vertices have colours", cure, self.position if coloured else start
+            )
+        if not coloured:
+            return 0
+        self.position += 1
+        self._next()
+        digits = _DIGITS.match(self.text, self.position)
+        number = digits.group() if digits else ""
+        if not number:
+            raise NotationError("a colour is missing after '_'", "colours are numbers from 1", self.position)
+        if len(number) > len(str(MAX_COLOUR)) or not 1 <= int(number) <= MAX_COLOUR:
+            raise NotationError("no such colour", f"colours are numbers from 1 to {MAX_COLOUR}", self.position)
+        self.position += len(number)
+        self._next()
+        return int(number) - 1
+
+
+def written_order(tree: Tree) -> list[Tree]:
+    """The branches as they are written and drawn: larger ones first, else in the order of the tree."""
+    return sorted(tree.branches, key=lambda u: -u.order)
+
+
+def format_tree(tree: Tree, colours: bool = True) -> str:
+    """Bracket notation, which :func:`parse_tree` reads again; ``colours=False`` leaves the colours out.
+
+    >>> format_tree(Tree(0, [Tree(1), Tree(0, [Tree(1)])]))
+    '[[[]_2]_1,[]_2]_1'
+    >>> format_tree(Tree(0, [Tree(0), Tree(0)]), colours=False)
+    '[[],[]]'
+    """
+    inside = ",".join([format_tree(u, colours) for u in written_order(tree)])
+    return f"[{inside}]_{tree.root + 1}" if colours else f"[{inside}]"
+
+
+def format_latex(tree: Tree, colours: bool = True) -> str:
+    r"""The paper's notation: τ^{[l]} for a single vertex of colour l, [u_1, …, u_m]^{[l]} for the rest.
+
+    >>> print(format_latex(Tree(0, [Tree(0), Tree(1)])))
+    [\tau^{[1]},\tau^{[2]}]^{[1]}
+    """
+    inside = ",".join([format_latex(u, colours) for u in written_order(tree)])
+    colour = f"^{{[{tree.root + 1}]}}" if colours else ""
+    return (f"[{inside}]" if inside else r"\tau") + colour
+
+
+def vertex_letters(tree: Tree) -> tuple[str, ...]:
+    """A letter for each vertex, the root first, in the paper's order l, m, n, u, v, w, …
+
+    >>> vertex_letters(Tree(0, [Tree(0), Tree(0)]))
+    ('l', 'm', 'n')
+    """
+    return tuple(LETTERS[i % len(LETTERS)] + "'" * (i // len(LETTERS)) for i in range(tree.order))
+
+
+def condition_text(tree: Tree, letters: Sequence[str] | None = None) -> str:
+    """The order condition b^T 𝒜^[u] = 1/γ(u) of a tree (the paper's eq. bA) in plain text.
+
+    Without ``letters`` the colours are numbers, from 1. With them each vertex has a name of its own, in
+    the order of writing, the root first: the condition of a shape, for all colours l, m, n, …;
+    :func:`vertex_letters` gives the paper's.
+
+    >>> u = Tree(0, [Tree(1), Tree(0, [Tree(1)])])
+    >>> condition_text(u)
+    'b{1}ᵀ((A{1,1}A{1,2}𝟙) ⊙ (A{1,2}𝟙)) = 1/8'
+    >>> condition_text(u, vertex_letters(u))
+    'b{l}ᵀ((A{l,m}A{m,n}𝟙) ⊙ (A{l,u}𝟙)) = 1/8'
+    """
+    root, weight = _Formula("A{%s,%s}", "𝟙", " ⊙ ", letters).of(tree)
+    required = "1" if tree.density == 1 else f"1/{tree.density}"
+    return f"b{{{root}}}ᵀ{weight} = {required}"
+
+
+def condition_latex(tree: Tree, letters: Sequence[str] | None = None) -> str:
+    r"""The order condition of a tree in LaTeX, as in the paper's Table 1; ``letters`` as in the plain text.
+
+    The vector of ones is the paper's ``\mathbbm{1}``, of package ``bbm``; ``\mathbb`` has no digits.
+
+    >>> print(condition_latex(Tree(0, [Tree(1)])))
+    {b^{\{1\}}}^T A^{\{1,2\}} \mathbbm{1}^{\{2\}} = \frac12
+    """
+    formula = _Formula(r"A^{\{%s,%s\}} ", r"\mathbbm{1}^{\{%s\}}", r" \odot ", letters)
+    root, weight = formula.of(tree)
+    density = str(tree.density)
+    required = "1" if density == "1" else rf"\frac1{density}" if len(density) == 1 else rf"\frac1{{{density}}}"
+    return rf"{{b^{{\{{{root}\}}}}}}^T {weight} = {required}"
+
+
+class _Formula:
+    """Writes 𝒜^[u] (the paper's eqs. Ataul and Au) with the given signs, naming vertices as it meets them."""
+
+    def __init__(self, block: str, one: str, times: str, letters: Sequence[str] | None) -> None:
+        self.block = block
+        self.one = one
+        self.times = times
+        self.names: Iterator[str] | None = None if letters is None else iter(letters)
+
+    def of(self, tree: Tree) -> tuple[str, str]:
+        """The name of the root, and 𝒜^[u]; raises ``ValueError`` when there are too few letters."""
+        name = str(tree.root + 1) if self.names is None else next(self.names, "")
+        if not name:
+            raise ValueError("each vertex needs a letter; vertex_letters gives as many as there are vertices")
+        if not tree.branches:
+            return name, self.one % name if "%" in self.one else self.one
+        factors: list[str] = []
+        for u in written_order(tree):
+            below, vector = self.of(u)
+            factors.append(self.block % (name, below) + vector)
+        if len(factors) == 1:
+            return name, factors[0]
+        return name, "(" + self.times.join([f"({factor})" for factor in factors]) + ")"

@@ -1,0 +1,185 @@
+"""The tree table: all N-trees up to an order as integer columns; an N-tree is the ids of two smaller ones.
+
+>>> table = TreeTable.upto(1, 4)
+>>> table.notation(range(len(table)), colours=False)
+['[]', '[[]]', '[[],[]]', '[[[]]]', '[[],[],[]]', '[[[]],[]]', '[[[],[]]]', '[[[[]]]]']
+>>> table.gamma.tolist(), table.sigma.tolist()
+([1, 2, 3, 6, 4, 8, 12, 24], [1, 1, 2, 1, 6, 1, 2, 1])
+"""
+
+from __future__ import annotations
+
+from dataclasses import dataclass, field
+from itertools import accumulate
+from typing import TYPE_CHECKING
+
+import numpy as np
+
+from garkcli.trees.columns import Columns, Growth, Segment, exact_dtype
+from garkcli.trees.count import Admissible, Edges, counts_upto
+from garkcli.trees.texts import Texts
+from garkcli.trees.tree import Tree
+
+if TYPE_CHECKING:
+    from collections.abc import Collection, Iterable, Sequence
+
+    from garkcli.trees.columns import Column
+
+MAX_TREES = 40_000_000
+"""The largest table that is made, in trees: some 35 bytes each."""
+
+
+class TableTooLarge(ValueError):
+    """More trees were asked for than are ever held in memory at once."""
+
+
+@dataclass(frozen=True)
+class TreeTable:
+    """All admissible N-trees of order 1, …, ``max_order``, sorted by order, root colour and last branch.
+
+    A tree's id is its position. The ids of one order and root colour are contiguous: :meth:`ids`. The
+    order of ids is the order of :class:`Tree`. The columns are read-only arrays; see :class:`Columns`.
+    """
+
+    admissible: Admissible
+    max_order: int
+    columns: Columns
+    starts: tuple[tuple[int, ...], ...]  # [order - 1][root]: the first id; one more entry for the end
+    segments: tuple[Segment, ...]
+    _texts: dict[bool, Texts] = field(default_factory=dict, repr=False, compare=False)
+
+    @classmethod
+    def upto(cls, colours: int, order: int, edges: Edges | None = None, linear: Collection[int] = ()) -> TreeTable:
+        """Generate the table; ``edges`` and ``linear`` as in :class:`Admissible`.
+
+        Raises :class:`TableTooLarge` beyond ``MAX_TREES`` trees: :func:`iter_blocks` goes one order
+        further in bounded memory, and :mod:`garkcli.trees.count` counts any order.
+        """
+        return cls.of(Admissible.of(colours, edges, linear), order)
+
+    @classmethod
+    def of(cls, admissible: Admissible, order: int) -> TreeTable:
+        """Generate the table of the trees meant by ``admissible``."""
+        starts = first_ids(admissible, order)
+        size = starts[-1][-1]
+        if size > MAX_TREES:
+            raise TableTooLarge(
+                f"{size} trees of order up to {order} with {admissible.colours} colours are more than the"
+                f" {MAX_TREES} a table holds; ask for a lower order, or count without generating"
+            )
+        columns = Columns.empty(size, exact_dtype(order))
+        columns.write(0, Columns.vertices(range(admissible.colours)))
+        segments: list[Segment] = []
+        for n in range(2, order + 1):
+            segments += _fill(columns, admissible, starts, n)
+        return cls(admissible, order, columns.freeze(), starts, tuple(segments))
+
+    def __len__(self) -> int:
+        return len(self.columns)
+
+    @property
+    def colours(self) -> int:
+        """The number N of colours."""
+        return self.admissible.colours
+
+    @property
+    def stem(self) -> Column:
+        """The id of the tree without its last branch; -1 for a single vertex."""
+        return self.columns.stem
+
+    @property
+    def branch(self) -> Column:
+        """The id of the last branch; -1 for a single vertex."""
+        return self.columns.branch
+
+    @property
+    def root(self) -> Column:
+        """The root colour, from 0."""
+        return self.columns.root
+
+    @property
+    def order(self) -> Column:
+        """ρ(u), the number of vertices."""
+        return self.columns.order
+
+    @property
+    def multiplicity(self) -> Column:
+        """How often the last branch occurs at the root."""
+        return self.columns.multiplicity
+
+    @property
+    def sigma(self) -> Column:
+        """The symmetry σ(u), exact."""
+        return self.columns.sigma
+
+    @property
+    def gamma(self) -> Column:
+        """The density γ(u), exact."""
+        return self.columns.gamma
+
+    def ids(self, order: int, root: int | None = None) -> range:
+        """The ids of the trees of one order, all of them or those with one root colour (from 0)."""
+        starts = self.starts[order - 1]
+        return range(starts[0], starts[-1]) if root is None else range(starts[root], starts[root + 1])
+
+    def tree(self, tree_id: int) -> Tree:
+        """The tree with an id; raises ``IndexError`` when there is none."""
+        if not 0 <= tree_id < len(self):
+            raise IndexError(f"no tree {tree_id} in a table of {len(self)} trees")
+        stem, branch = self.columns.stem, self.columns.branch
+        branches = []
+        u = tree_id
+        while (last := int(branch[u])) >= 0:
+            branches.append(self.tree(last))
+            u = int(stem[u])
+        return Tree(int(self.columns.root[u]), branches)
+
+    def notation(self, ids: Iterable[int] | Column, colours: bool = True) -> list[str]:
+        """Bracket text of many trees, the same as ``format_tree``, built from the texts of their parents."""
+        which = ids if isinstance(ids, np.ndarray) else np.fromiter(ids, np.int64)
+        return self.texts(self.columns.part(which), colours)
+
+    def texts(self, trees: Columns, colours: bool = True) -> list[str]:
+        """Bracket text of trees whose parents are in this table, such as those of a block."""
+        return self._texts.setdefault(colours, Texts(self.columns, colours)).of(trees)
+
+
+def first_ids(admissible: Admissible, order: int) -> tuple[tuple[int, ...], ...]:
+    """The first id of each order and root colour, as in ``TreeTable.starts``."""
+    starts: list[tuple[int, ...]] = []
+    first = 0
+    for counts in counts_upto(admissible, order):
+        starts.append(tuple(accumulate(counts, initial=first)))
+        first = starts[-1][-1]
+    return tuple(starts)
+
+
+def segments_of(
+    admissible: Admissible, starts: Sequence[Sequence[int]], order: int, lower: Columns, root: int
+) -> list[tuple[Segment, Growth]]:
+    """The segments of one order and root colour that are not empty, with what makes their trees."""
+    made = []
+    start = starts[order - 1][root]
+    for branch_order in range(1, order):
+        rest = order - branch_order
+        if rest > 1 and admissible.is_linear(root):
+            continue
+        stems = range(starts[rest - 1][root], starts[rest - 1][root + 1])
+        for colour in admissible.branches[root]:
+            branches = range(starts[branch_order - 1][colour], starts[branch_order - 1][colour + 1])
+            growth = Growth(lower, order, stems, branches)
+            if len(growth):
+                ids = range(start, start + len(growth))
+                made.append((Segment(order, root, branch_order, colour, ids, stems, branches), growth))
+                start = ids.stop
+    return made
+
+
+def _fill(columns: Columns, admissible: Admissible, starts: Sequence[Sequence[int]], order: int) -> list[Segment]:
+    """Write the trees of one order into the table; the lower orders are there already."""
+    segments = []
+    for root in range(admissible.colours):
+        for segment, growth in segments_of(admissible, starts, order, columns, root):
+            columns.write(segment.ids.start, growth.make(0, len(growth)))
+            segments.append(segment)
+    return segments

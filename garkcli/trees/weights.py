@@ -1,0 +1,125 @@
+"""The elementary weights b_l^T 𝒜^[u] of all trees of a table, in floating point."""
+
+from __future__ import annotations
+
+from typing import TYPE_CHECKING, Any, TypeAlias
+
+import numpy as np
+
+if TYPE_CHECKING:
+    from collections.abc import Mapping, Sequence
+
+    from garkcli.trees.columns import Segment
+    from garkcli.trees.table import TreeTable
+
+Floats: TypeAlias = "np.ndarray[Any, np.dtype[np.float64]]"
+
+CHUNK = 1 << 16
+"""Trees whose stage vectors are gathered at once: bounds the memory of the highest order."""
+
+
+def elementary_weights(
+    table: TreeTable,
+    rows: Sequence[int],
+    blocks: Mapping[tuple[int, int], Floats],
+    weights: Sequence[Floats],
+) -> Floats:
+    """b_l^T 𝒜^[u] for every tree u of the table, in the order of its ids (the paper's eqs. Au and bA).
+
+    ``rows[l]`` is the stage space of colour l (two colours may share one), ``weights[l]`` the vector b_l of
+    shape (s,) with s the dimension of that space, and ``blocks[space, m]`` the matrix A of shape
+    (s_space, s_rows[m]) that a vertex whose colour has that space applies to a branch of colour m. The stage
+    vectors of the highest order are never held together. Raises ``ValueError`` when a block that the
+    table's trees need is missing or has the wrong shape.
+
+    >>> from garkcli.trees.table import TreeTable
+    >>> midpoint = {(0, 0): np.array([[0.5]])}
+    >>> elementary_weights(TreeTable.upto(1, 3), [0], midpoint, [np.array([1.0])])
+    array([1.  , 0.5 , 0.25, 0.25])
+    """
+    _check(table, rows, blocks, weights)
+    return _Evaluation(table, rows, blocks, weights).run()
+
+
+def _check(
+    table: TreeTable,
+    rows: Sequence[int],
+    blocks: Mapping[tuple[int, int], Floats],
+    weights: Sequence[Floats],
+) -> None:
+    if len(rows) != table.colours or len(weights) != table.colours:
+        raise ValueError(f"a table of {table.colours} colours needs as many stage spaces and weights")
+    for l, branches in enumerate(table.admissible.branches):
+        if weights[l].shape != weights[rows.index(rows[l])].shape or weights[l].ndim != 1:
+            raise ValueError(f"the weights of colour {l} do not fit its stage space {rows[l]}")
+        for m in branches if table.max_order > 1 else ():
+            block = blocks.get((rows[l], m))
+            if block is None:
+                raise ValueError(
+                    f"no block for stage space {rows[l]} and colour {m}; give the table edges without it"
+                )
+            if block.shape != (len(weights[l]), len(weights[m])):
+                raise ValueError(
+                    f"the block of stage space {rows[l]} and colour {m} has shape {block.shape}, not"
+                    f" {(len(weights[l]), len(weights[m]))}"
+                )
+
+
+class _Evaluation:
+    """𝒜^[u] = 𝒜^[stem] ⊙ (A 𝒜^[branch]), one gathered product for each segment of the table.
+
+    ``vectors[n, l]``: 𝒜^[u] of the trees of order n with root colour l, one row each, in the order of ids;
+    ``applied[space, n, m]``: A 𝒜^[u] for those with root colour m, as a branch in that stage space.
+    """
+
+    def __init__(
+        self,
+        table: TreeTable,
+        rows: Sequence[int],
+        blocks: Mapping[tuple[int, int], Floats],
+        weights: Sequence[Floats],
+    ) -> None:
+        self.table = table
+        self.rows = rows
+        self.blocks = blocks
+        self.weights = weights
+        self.vectors: dict[tuple[int, int], Floats] = {}
+        self.applied: dict[tuple[int, int, int], Floats] = {}
+        self.values = np.empty(len(table))
+
+    def run(self) -> Floats:
+        for colour, b in enumerate(self.weights):
+            self.vectors[1, colour] = np.ones((1, len(b)))
+            self.values[colour] = b.sum()
+        for order in range(2, self.table.max_order + 1):
+            self._apply(order - 1)
+            last = order == self.table.max_order
+            if not last:
+                for colour, b in enumerate(self.weights):
+                    self.vectors[order, colour] = np.empty((len(self.table.ids(order, colour)), len(b)))
+            for segment in self.table.segments:
+                if segment.order == order:
+                    self._evaluate(segment, keep=not last)
+        return self.values
+
+    def _apply(self, order: int) -> None:
+        """Apply every block that is needed to the vectors of the trees of one order."""
+        for colour, branches in enumerate(self.table.admissible.branches):
+            space = self.rows[colour]
+            for m in branches:
+                if (space, order, m) not in self.applied:
+                    self.applied[space, order, m] = self.vectors[order, m] @ self.blocks[space, m].T
+
+    def _evaluate(self, segment: Segment, keep: bool) -> None:
+        """Values, and if wanted the vectors, of the trees of a segment."""
+        table, root = self.table, segment.root
+        stems = self.vectors[segment.order - segment.branch_order, root]
+        branches = self.applied[self.rows[root], segment.branch_order, segment.branch_root]
+        first = table.ids(segment.order, root).start
+        for start in range(segment.ids.start, segment.ids.stop, CHUNK):
+            here = slice(start, min(start + CHUNK, segment.ids.stop))
+            product = stems[table.stem[here] - segment.stems.start]
+            product *= branches[table.branch[here] - segment.branches.start]
+            self.values[here] = product @ self.weights[root]
+            if keep:
+                self.vectors[segment.order, root][here.start - first : here.stop - first] = product
