@@ -126,7 +126,7 @@ class Values:
         before = len(numbers.source.faults)
         for entry in numbers.entries:
             try:
-                Domain([entry.expression])
+                Domain([entry.expression]).evaluate(entry.expression)
             except ExpressionError as error:
                 numbers.source.expression_fault(entry.node, entry.where, error)
         if len(numbers.source.faults) == before:

@@ -79,9 +79,7 @@ def is_admissible(tableau: Tableau, tree: Tree) -> bool:
 
 
 def _stage_vector(tableau: Tableau, tree: Tree, memo: dict[Tree, Vector]) -> Vector:
-    """𝒜^[u], eqs. (Ataul) and (Au)."""
-    if tree in memo:
-        return memo[tree]
+    """𝒜^[u], eqs. (Ataul) and (Au); branches are kept in ``memo``, the tree itself is not."""
     space = tableau.space(tree.root)
     if tableau.colours[tree.root].is_linear and len(tree.branches) > 1:
         raise MethodError(
@@ -93,6 +91,32 @@ def _stage_vector(tableau: Tableau, tree: Tree, memo: dict[Tree, Vector]) -> Vec
         if block is None:
             seer, seen = tableau.colours[tree.root].name, tableau.colours[branch.root].name
             raise MethodError(f"colour {seer} does not see colour {seen}: the tree is not admissible")
-        vector = space.product(vector, apply(block, _stage_vector(tableau, branch, memo)))
-    memo[tree] = vector
+        if branch not in memo:
+            memo[branch] = _stage_vector(tableau, branch, memo)
+        vector = space.product(vector, apply(block, memo[branch]))
     return vector
+
+
+def coupling_graph(tableau: Tableau) -> tuple[tuple[tuple[bool, ...], ...], frozenset[int]]:
+    """Which trees are admissible: ``edges[l][m]`` whether colour l sees colour m, and the linear colours."""
+    colours = range(tableau.size)
+    edges = tuple(tuple(tableau.block(l, m) is not None for m in colours) for l in colours)
+    return edges, frozenset(l for l in colours if tableau.colours[l].is_linear)
+
+
+def twin_roots(tableau: Tableau) -> dict[int, tuple[int, ...]]:
+    """The first of each group of colours whose conditions are identical as roots, with the whole group.
+
+    Colours that share stages and weights, as V^l and F^l of the symplectic pair, give every tree the same
+    elementary weight when they are its root.
+    """
+    groups: dict[int, tuple[int, ...]] = {}
+    for l, colour in enumerate(tableau.colours):
+        for first in groups:
+            other = tableau.colours[first]
+            if (colour.rows, colour.b, colour.is_linear) == (other.rows, other.b, other.is_linear):
+                groups[first] += (l,)
+                break
+        else:
+            groups[l] = (l,)
+    return groups

@@ -1,0 +1,128 @@
+"""``gark conditions``."""
+
+from __future__ import annotations
+
+from collections.abc import Iterator
+from typing import TYPE_CHECKING
+
+import click
+
+from garkcli.cli.options import CONTEXT, Output, common
+from garkcli.errors import UsageProblem
+
+if TYPE_CHECKING:
+    from garkcli.report.conditions import ConditionRow
+    from garkcli.tableau.tableau import Tableau
+
+
+@click.command("conditions", context_settings=CONTEXT)
+@click.argument("file", required=False, metavar="[FILE]")
+@click.option("--colours", "-N", type=click.IntRange(1, 1000), metavar="N", help="How many colours, without FILE.")
+@click.option(
+    "--order",
+    "-n",
+    type=click.IntRange(1, 100),
+    default=4,
+    show_default=True,
+    metavar="n",
+    help="Every order up to n.",
+)
+@click.option("--only", is_flag=True, help="Order n alone.")
+@click.option(
+    "--coloured/--shapes",
+    "coloured",
+    default=None,
+    help="A row for each colouring, or a row for all of them (without FILE).",
+)
+@click.option("--conjugate", "which", flag_value="conjugate", help="Of the symplectic conjugate of FILE.")
+@click.option("--pair", "which", flag_value="pair", help="Of the symplectic pair of FILE.")
+@click.option("--failing", is_flag=True, help="Only conditions of FILE that do not hold.")
+@click.option(
+    "--sort",
+    type=click.Choice(["tree", "worst"]),
+    default="tree",
+    show_default=True,
+    help="Order of the rows; worst: the largest residual first.",
+)
+@common(["text", "json", "csv", "latex"])
+def command(
+    file: str | None,
+    colours: int | None,
+    order: int,
+    only: bool,
+    coloured: bool | None,
+    which: str | None,
+    failing: bool,
+    sort: str,
+    output: Output,
+) -> int:
+    """The order-condition table.
+
+    Without FILE the paper's Table 1 for any order: a row for each tree shape, to hold for all colours (text and
+    latex), or a row for each coloured tree (json and csv). With FILE every condition of that method with its
+    exact value, the required value and the residual; identical conditions are listed once.
+    """
+    from garkcli.report import conditions as report
+
+    orders = range(order, order + 1) if only else range(1, order + 1)
+    if file is None:
+        if which or failing or sort != "tree":
+            raise UsageProblem("values are those of a method", "give a FILE")
+        if coloured is None:
+            coloured = output.format in {"json", "csv"} and colours is not None
+        rows = _table(colours or 1, orders, coloured)
+    else:
+        if colours is not None or coloured is not None:
+            raise UsageProblem("the colours are those of FILE", "leave out --colours, --coloured, --shapes")
+        rows = _valued(_chosen(file, which), orders)
+        if failing:
+            rows = (row for row in rows if row.condition is not None and not row.condition.holds)
+        if sort == "worst":
+            rows = iter(sorted(rows, key=_badness, reverse=True))
+    output.write(report.render(rows, output.format, output.paint, output.width))
+    return 0
+
+
+def _chosen(file: str, which: str | None) -> Tableau:
+    from garkcli.methodfile.load import load
+    from garkcli.tableau.conjugate import conjugate
+    from garkcli.tableau.forms import pair
+
+    tableau = load(file).tableau
+    return conjugate(tableau) if which == "conjugate" else pair(tableau) if which == "pair" else tableau
+
+
+def _table(colours: int, orders: range, coloured: bool) -> Iterator[ConditionRow]:
+    from garkcli.report.conditions import ConditionRow
+    from garkcli.trees.blocks import iter_blocks
+
+    for n in orders:
+        for block in iter_blocks(colours if coloured else 1, n, block_size=1 << 14):
+            for tree in block.trees():
+                yield ConditionRow(tree, is_shape=not coloured)
+
+
+def _valued(tableau: Tableau, orders: range) -> Iterator[ConditionRow]:
+    from garkcli.order.conditions import conditions, coupling_graph, twin_roots
+    from garkcli.report.conditions import ConditionRow
+    from garkcli.trees.blocks import iter_blocks
+    from garkcli.trees.tree import Tree
+
+    edges, linear = coupling_graph(tableau)
+    twins = twin_roots(tableau)
+
+    def trees() -> Iterator[Tree]:
+        for n in orders:
+            blocks = iter_blocks(tableau.size, n, edges=edges, linear=linear, roots=twins, block_size=1 << 14)
+            for block in blocks:
+                yield from block.trees()
+
+    for condition in conditions(tableau, trees()):
+        multiplicity = len(twins[condition.tree.root])
+        yield ConditionRow(condition.tree, False, condition, multiplicity)
+
+
+def _badness(row: ConditionRow) -> float:
+    from garkcli.exact.display import to_float
+
+    return abs(to_float(row.condition.residual)) if row.condition is not None else 0.0

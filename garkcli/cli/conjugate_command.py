@@ -1,0 +1,55 @@
+"""``gark conjugate``."""
+
+from __future__ import annotations
+
+import click
+
+from garkcli.cli.options import CONTEXT, Output, common
+
+
+@click.command("conjugate", context_settings=CONTEXT)
+@click.argument("file", metavar="FILE")
+@click.option("--pair", "is_pair", is_flag=True, help="The symplectic pair, 2N colours, instead.")
+@click.option(
+    "--digits",
+    type=click.IntRange(1, 1000),
+    default=17,
+    show_default=True,
+    metavar="N",
+    help="Digits of entries that have no simple radicals.",
+)
+@common(["text", "yaml", "json", "latex"])
+def command(file: str, is_pair: bool, digits: int, output: Output) -> int:
+    """The symplectic conjugate tableau of a method.
+
+    With --format yaml it is a method file that loads again; conjugated again it gives the original blocks
+    exactly. Where the nodes have no simple radicals that file says `conjugate: true` instead of entries.
+    """
+    from garkcli.methodfile.load import load
+    from garkcli.tableau.conjugate import conjugate
+    from garkcli.tableau.forms import pair
+
+    method = load(file)
+    name = f"symplectic {'pair' if is_pair else 'conjugate'} of {method.name}"
+    made = pair(method.tableau) if is_pair else conjugate(method.tableau)
+    if output.format != "yaml":
+        from garkcli.cli.rendering import write_tableau
+
+        write_tableau(made, name, digits, output)
+        return 0
+    from garkcli.errors import UsageProblem
+    from garkcli.methodfile.writer import can_spell_out, write_conjugate_of, write_tableau_file
+    from garkcli.tableau.pointwise import in_points
+
+    exact = in_points(made)
+    if exact is not None and (is_pair or can_spell_out(exact)):
+        output.write(write_tableau_file(exact, name))
+    elif is_pair:
+        raise UsageProblem(
+            "the nodes have no simple radicals, so the pair cannot be spelled out exactly",
+            "gark check reports on the pair; --format json gives decimals",
+        )
+    else:
+        output.note("the conjugate is described by the key conjugate: true, exactly, not spelled out")
+        output.write(write_conjugate_of(method, name))
+    return 0

@@ -1,0 +1,24 @@
+"""A tableau in the format asked for."""
+
+from __future__ import annotations
+
+from garkcli.cli.options import Output
+from garkcli.tableau.pointwise import entries
+from garkcli.tableau.tableau import Tableau
+
+
+def write_tableau(tableau: Tableau, name: str, digits: int, output: Output) -> None:
+    """Write a tableau as text, JSON or LaTeX."""
+    found = entries(tableau, digits)
+    if output.format == "json":
+        from garkcli.report import tableau_json
+
+        output.write(tableau_json.render(tableau, found, name))
+    elif output.format == "latex":
+        from garkcli.report import tableau_latex
+
+        output.write(tableau_latex.render(tableau, found, name))
+    else:
+        from garkcli.report import tableau_text
+
+        output.write(tableau_text.render(tableau, found, name, output.paint, output.width))

@@ -1,0 +1,106 @@
+"""A small log–log plot in plain text, for terminals."""
+
+from __future__ import annotations
+
+from collections.abc import Mapping, Sequence
+from math import ceil, floor
+from typing import TypeAlias
+
+from flint import arb, fmpq
+
+Positive: TypeAlias = float | fmpq | arb
+"""What can be plotted; balls and fractions reach beyond the range of floats."""
+
+POINT, LINE = "•", "·"
+
+
+def log10(x: Positive) -> float:
+    """The decimal logarithm of a positive number, however small.
+
+    >>> log10(fmpq(1, 10**400))
+    -400.0
+    """
+    return float(arb(x).log() / arb(10).log())
+
+
+def terminal_plot(
+    hs: Sequence[Positive],
+    errors: Sequence[Positive],
+    width: int = 60,
+    height: int = 16,
+    order: int | None = None,
+) -> str:
+    """Errors against step sizes, both on logarithmic axes, as lines of text without a final newline.
+
+    Args:
+        hs: step sizes, positive.
+        errors: an error for each; those that are not positive are left out.
+        width: columns inside the frame; the lines are 12 longer at most.
+        height: lines inside the frame.
+        order: the slope of a dotted line through the smallest step; none by default.
+
+    >>> print(terminal_plot([1, 0.1, 0.01], [1, 0.01, 0.0001], width=21, height=5))
+         error
+    1e+0 ┤                    •
+         │
+    1e-2 ┤          •
+         │
+    1e-4 ┤•
+         └┬─────────┬─────────┬
+        0.01       0.1        1  h
+    """
+    points = sorted((log10(h), log10(e)) for h, e in zip(hs, errors, strict=True) if e > 0)
+    if not points:
+        return "no positive errors to plot"
+    left, right = points[0][0], max(points[-1][0], points[0][0] + 0.1)
+    bottom, top = floor(min(y for _, y in points)), ceil(max(y for _, y in points))
+    top = max(top, bottom + 1)
+    field = [[" "] * width for _ in range(height)]
+
+    def put(x: float, y: float, mark: str) -> None:
+        line = _cell(top - y, top - bottom, height)
+        if 0 <= line < height:
+            field[line][_cell(x - left, right - left, width)] = mark
+
+    if order is not None:
+        for column in range(width):
+            x = left + (right - left) * column / (width - 1)
+            put(x, points[0][1] + order * (x - points[0][0]), LINE)
+    for x, y in points:
+        put(x, y, POINT)
+    rows = {_cell(top - k, top - bottom, height): f"1e{k:+d}" for k in _decades(bottom, top, (height + 1) // 2)}
+    columns = {
+        _cell(x - left, right - left, width): _short(x) for x in (*range(ceil(left), floor(right) + 1), left, right)
+    }
+    return "\n".join(_framed(field, rows, columns))
+
+
+def _cell(distance: float, extent: float, cells: int) -> int:
+    return round(distance / extent * (cells - 1))
+
+
+def _decades(bottom: int, top: int, most: int) -> range:
+    """Whole exponents from the top down, so far apart that they are at most ``most``."""
+    apart = max(1, -(-(top - bottom) // max(most - 1, 1)))
+    return range(top, bottom - 1, -apart)
+
+
+def _short(exponent: float) -> str:
+    return f"{10**exponent:.2g}" if abs(exponent) < 300 else f"1e{exponent:+.1f}"
+
+
+def _framed(field: Sequence[Sequence[str]], rows: Mapping[int, str], columns: Mapping[int, str]) -> list[str]:
+    """The field with its axes; ``rows`` and ``columns`` say where they have a mark, and its label."""
+    margin = max(len(text) for text in rows.values())
+    lines = [" " * margin + " error"]
+    for i, row in enumerate(field):
+        lines.append(f"{rows.get(i, ''):>{margin}} {'┤' if i in rows else '│'}{''.join(row)}".rstrip())
+    width = len(field[0])
+    lines.append(" " * margin + " └" + "".join("┬" if j in columns else "─" for j in range(width)))
+    labels = [" "] * (margin + width + 8)
+    for j in sorted(columns, key=lambda j: (0 < j < width - 1, j)):  # the ends first, then what still fits
+        text = columns[j]
+        start = margin + 2 + j - len(text) // 2
+        if all(x == " " for x in labels[start - 1 : start + len(text) + 1]):
+            labels[start : start + len(text)] = text
+    return [*lines, "".join(labels).rstrip() + "  h"]

@@ -1,0 +1,100 @@
+"""``gark check --format json``: exact numbers as strings, colours and stages from 1. Shape: docs/json.md."""
+
+from __future__ import annotations
+
+import json
+from collections.abc import Sequence
+from typing import Any
+
+from garkcli.exact.display import to_text
+from garkcli.order.certificate import Order
+from garkcli.order.check import Analysis
+from garkcli.order.outcome import Outcome
+from garkcli.order.simplifying import Simplifying
+from garkcli.tableau.tableau import Tableau
+from garkcli.trees.notation import format_tree
+
+SCHEMA = "gark/check/1"
+
+
+def render(outcomes: Sequence[Outcome]) -> str:
+    """The report as JSON text."""
+    return json.dumps(as_data(outcomes), indent=2, ensure_ascii=False) + "\n"
+
+
+def as_data(outcomes: Sequence[Outcome]) -> dict[str, Any]:
+    """The report as plain data."""
+    failed = sum(not outcome.ok for outcome in outcomes)
+    return {
+        "schema": SCHEMA,
+        "files": [_outcome(outcome) for outcome in outcomes],
+        "summary": {"files": len(outcomes), "failed": failed},
+    }
+
+
+def colours_data(tableau: Tableau) -> list[dict[str, Any]]:
+    """The colours with their stages."""
+    return [{"name": x.name, "stages": tableau.spaces[x.rows].stages} for x in tableau.colours]
+
+
+def _outcome(outcome: Outcome) -> dict[str, Any]:
+    head: dict[str, Any] = {"file": outcome.file, "name": outcome.name, "ok": outcome.ok}
+    if outcome.analysis is None:
+        errors = [
+            {"line": x.line or None, "column": x.column or None, "message": x.message, "help": x.help}
+            for x in outcome.faults
+        ]
+        return {**head, "errors": errors}
+    claims = [
+        {"claim": x.claim, "expected": x.expected, "found": x.found, "holds": x.holds, "line": x.line}
+        for x in outcome.claims
+    ]
+    return {**head, "structure": outcome.structure, **_analysis(outcome, outcome.analysis), "claims": claims}
+
+
+def _analysis(outcome: Outcome, analysis: Analysis) -> dict[str, Any]:
+    both = analysis.pair_simplifying
+    return {
+        "exact": outcome.tolerance is None,
+        "tolerance": None if outcome.tolerance is None else str(outcome.tolerance),
+        "colours": colours_data(analysis.tableau),
+        "consistent": not analysis.inconsistent,
+        "inconsistent_blocks": [[l + 1, m + 1] for l, m in analysis.inconsistent],
+        "conjugate_consistent": None if analysis.conjugate is None else not analysis.conjugate_inconsistent,
+        "symplectic": analysis.symplectic,
+        **_order("", analysis.order),
+        **_order("conjugate_", analysis.conjugate_order),
+        **_order("pair_", analysis.pair_order),
+        "simplifying": _simplifying(analysis.simplifying),
+        "pair_bound": None if both is None else both.bound,
+    }
+
+
+def _order(prefix: str, order: Order | None) -> dict[str, Any]:
+    if order is None:
+        return {f"{prefix}order": None, f"{prefix}witness": None}
+    found: dict[str, Any] = {f"{prefix}order": order.order, f"{prefix}witness": None}
+    if order.is_lower_bound:
+        found[f"{prefix}order_is_lower_bound"] = True
+    if order.witness is not None:
+        found[f"{prefix}witness"] = {
+            "order": order.witness.tree.order,
+            "tree": format_tree(order.witness.tree),
+            "value": to_text(order.witness.value),
+            "required": to_text(order.witness.required),
+            "residual": to_text(order.witness.residual),
+        }
+    return found
+
+
+def _simplifying(found: Simplifying) -> dict[str, Any]:
+    return {
+        "B": list(found.B),
+        "C": [list(row) for row in found.C],
+        "D": [list(row) for row in found.D],
+        "r": found.r,
+        "eta": found.eta,
+        "zeta": found.zeta,
+        "xi": found.xi,
+        "bound": found.bound,
+    }

@@ -1,0 +1,204 @@
+"""``gark check`` for people."""
+
+from __future__ import annotations
+
+from collections.abc import Sequence
+
+from garkcli.exact.display import to_text
+from garkcli.order.certificate import Order, Witness
+from garkcli.order.check import Analysis
+from garkcli.order.outcome import Claim, Outcome
+from garkcli.order.simplifying import Simplifying
+from garkcli.report.paint import Paint, aligned, beside
+from garkcli.tableau.tableau import Tableau
+from garkcli.trees.drawing import draw_text
+from garkcli.trees.notation import format_tree
+
+_LABEL = 17
+
+
+def render(outcomes: Sequence[Outcome], paint: Paint, verbosity: int = 0) -> str:
+    """The report on some files.
+
+    Args:
+        outcomes: what was found.
+        paint: colour or none.
+        verbosity: −1 shows faults and failed claims only; 0 one file in full, several a line each; 1 all in full.
+    """
+    full = verbosity > 0 or (len(outcomes) == 1 and verbosity == 0)
+    blocks = [_outcome(outcome, paint, full, verbosity < 0) for outcome in outcomes]
+    text = ("\n\n" if full else "\n").join(block for block in blocks if block)
+    if len(outcomes) > 1 and verbosity >= 0:
+        text += "\n\n" + _summary(outcomes, paint)
+    return text + "\n" if text else ""
+
+
+def _outcome(outcome: Outcome, paint: Paint, full: bool, quiet: bool) -> str:
+    if outcome.analysis is None:
+        return faults_text(outcome, paint)
+    if full:
+        return "\n".join(_full(outcome, outcome.analysis, paint))
+    lines = [] if quiet and outcome.ok else [_line(outcome, outcome.analysis, paint)]
+    return "\n".join([*lines, *(_claim(outcome, claim, paint) for claim in outcome.failed_claims)])
+
+
+def _summary(outcomes: Sequence[Outcome], paint: Paint) -> str:
+    failed = sum(not outcome.ok for outcome in outcomes)
+    claims = sum(len(outcome.claims) for outcome in outcomes)
+    text = f"{len(outcomes)} files, {claims} claims: "
+    return text + paint.verdict(not failed, "all hold", f"{failed} file{'s' * (failed > 1)} failed")
+
+
+def faults_text(outcome: Outcome, paint: Paint) -> str:
+    """Every fault of a file that cannot be read, with a caret under the text."""
+    source = outcome.text.splitlines()
+    lines: list[str] = []
+    for fault in outcome.faults:
+        place = f"{outcome.file}:{fault.line}:{fault.column}" if fault.line else outcome.file
+        lines.append(f"{place}: {paint('bad', 'error')}: {fault.message}")
+        if 0 < fault.line <= len(source):
+            lines += _excerpt(source[fault.line - 1], fault.line, fault.column, paint)
+        if fault.help:
+            lines.append(f"      {paint('note', 'help')}: {fault.help}")
+    return "\n".join(lines)
+
+
+def _excerpt(text: str, line: int, column: int, paint: Paint, width: int = 72) -> list[str]:
+    """The source line, cut to the terminal, with a caret under ``column``."""
+    start = max(0, min(column - 1 - width // 2, len(text) - width))
+    shown = text[start : start + width].replace("\t", " ")
+    return [
+        f"{line:5} | {shown}",
+        f"      | {' ' * (column - 1 - start)}{paint('bad', '^')}",
+    ]
+
+
+def _line(outcome: Outcome, analysis: Analysis, paint: Paint) -> str:
+    mark = paint.verdict(outcome.ok, "ok  ", "FAIL")
+    found = [f"order {_number(analysis.order)}"]
+    if analysis.pair_order is not None and not analysis.tableau.is_partitioned:
+        found.append(f"pair {_number(analysis.pair_order)}")
+    claims = f"{len(outcome.claims)} claim{'s' * (len(outcome.claims) != 1)}"
+    return f"{mark} {outcome.file}: {', '.join(found)}  ({claims})"
+
+
+def _number(order: Order) -> str:
+    return f"at least {order.order}" if order.is_lower_bound else str(order.order)
+
+
+def _full(outcome: Outcome, analysis: Analysis, paint: Paint) -> list[str]:
+    tableau = analysis.tableau
+    title = outcome.file if outcome.name == outcome.file else f"{outcome.file}: {outcome.name}"
+    lines = [paint("strong", title), f"  {_kind(tableau, outcome.structure)}", ""]
+    lines += _orders(analysis, paint)
+    lines += ["", *_conditions(analysis)]
+    lines += ["", *_properties(analysis, paint)]
+    if outcome.claims:
+        lines += ["", *(_claim(outcome, claim, paint) for claim in outcome.claims)]
+    return lines
+
+
+def _kind(tableau: Tableau, structure: str) -> str:
+    stages = ", ".join(f"{x.name}: {tableau.spaces[x.rows].stages}" for x in tableau.colours)
+    colours = "1 colour" if tableau.size == 1 else f"{tableau.size} colours"
+    domain = "rational arithmetic" if tableau.degree == 1 else f"a number field of degree {tableau.degree}"
+    special = "" if structure == "general" else f"for {structure} problems; "
+    return f"{special}{colours}, stages {stages}; exact, in {domain}"
+
+
+def _orders(analysis: Analysis, paint: Paint) -> list[str]:
+    lines: list[str] = []
+    shown: list[Witness] = []
+    for label, order, tableau in (
+        ("order", analysis.order, analysis.tableau),
+        ("conjugate order", analysis.conjugate_order, analysis.conjugate),
+        ("pair order", analysis.pair_order, analysis.pair),
+    ):
+        if order is None or tableau is None:
+            lines.append(f"  {label:{_LABEL}}none: {analysis.obstacle}")
+            continue
+        lines += _order(label, order, tableau, paint, shown)
+    return lines
+
+
+def _order(label: str, order: Order, tableau: Tableau, paint: Paint, shown: list[Witness]) -> list[str]:
+    """An order with its witness, drawn unless the same failure was shown before."""
+    head = f"  {label:{_LABEL}}{paint('strong', _number(order))}"
+    witness = order.witness
+    if witness is None:
+        return [f"{head}   every condition up to order {order.order} holds; no further was looked"]
+    if witness in shown:
+        return [f"{head}   fails at order {witness.tree.order}, as above"]
+    shown.append(witness)
+    colours = tableau.size > 1
+    tree = format_tree(witness.tree, colours)
+    text = [f"fails at order {witness.tree.order}: {tree}", *_residual(witness), *_legend(witness, tableau)]
+    picture = draw_text(witness.tree, colours, width=30)
+    if max(len(line) for line in text) + max(len(line) for line in picture) < 74:
+        text = beside(text, picture)
+    return [head, *(f"      {line}" for line in text)]
+
+
+def _legend(witness: Witness, tableau: Tableau) -> list[str]:
+    """What the numbers of the colours mean, where colours have other names."""
+    named = [f"{l + 1} is {tableau.colours[l].name}" for l in sorted(witness.tree.colours)]
+    plain = all(colour.name == str(l + 1) for l, colour in enumerate(tableau.colours))
+    return [] if plain else [f"colour {', '.join(named)}"]
+
+
+def _residual(witness: Witness) -> list[str]:
+    value, residual = to_text(witness.value), to_text(witness.residual)
+    if len(value) + len(residual) < 50:
+        return [f"{value} instead of {witness.required}, off by {residual}"]
+    return [f"value    {value}", f"required {witness.required}", f"residual {residual}"]
+
+
+def _conditions(analysis: Analysis) -> list[str]:
+    found = analysis.simplifying
+    limit = analysis.limit
+    rows = [f"  {'B(r)':{_LABEL}}{'  '.join(_capped(x, limit) for x in found.B)}"]
+    for label, table in (("C(eta)", found.C), ("D(zeta)", found.D)):
+        cells = [["-" if x is None else _capped(x, limit) for x in row] for row in table]
+        rows += [f"  {label if i == 0 else '':{_LABEL}}{line}" for i, line in enumerate(aligned(cells))]
+    rows.append(f"  {'bound':{_LABEL}}{_bound(found)}")
+    if analysis.pair_simplifying is not None and analysis.pair_simplifying is not found:
+        rows.append(f"  {'pair bound':{_LABEL}}{_bound(analysis.pair_simplifying)}")
+    return rows
+
+
+def _capped(number: int, limit: int) -> str:
+    return f">={number}" if number >= limit else str(number)
+
+
+def _bound(found: Simplifying) -> str:
+    r, eta, zeta, xi = found.r, found.eta, found.zeta, found.xi
+    return f"{found.bound} = min{{r, 2η+2, ξ+1, η+ζ+1}}   r = {r}, η = {eta}, ζ = {zeta}, ξ = {xi}"
+
+
+def _properties(analysis: Analysis, paint: Paint) -> list[str]:
+    names = [colour.name for colour in analysis.tableau.colours]
+    lines = [f"  {'consistent':{_LABEL}}{_consistent(analysis.inconsistent, names, 'A', paint)}"]
+    if analysis.conjugate is not None:
+        text = _consistent(analysis.conjugate_inconsistent, names, "Â", paint)
+        lines.append(f"  {'conjugate nodes':{_LABEL}}{text}")
+    own = "its own conjugate" if not analysis.tableau.is_partitioned else "each part the conjugate of the other"
+    lines.append(f"  {'symplectic':{_LABEL}}{'yes, ' + own if analysis.symplectic else 'no'}")
+    return lines
+
+
+def _consistent(wrong: Sequence[tuple[int, int]], names: Sequence[str], letter: str, paint: Paint) -> str:
+    if not wrong:
+        return f"{paint('good', 'yes')}, {letter}{{l,m}}𝟙 = c{{l}} for every block"
+    blocks = ", ".join(f"{letter}{{{names[l]},{names[m]}}}𝟙" for l, m in wrong[:4])
+    more = f" and {len(wrong) - 4} more" if len(wrong) > 4 else ""
+    return f"{paint('bad', 'no')}: {blocks}{more} differ{'s' * (len(wrong) == 1)} from c"
+
+
+def _claim(outcome: Outcome, claim: Claim, paint: Paint) -> str:
+    if claim.holds:
+        return f"  {paint('good', 'claim holds')}      {claim.claim}: {claim.expected}"
+    place = f"{outcome.file}:{claim.line}:{claim.column}"
+    return (
+        f"  {paint('bad', 'CLAIM FAILS')}      {claim.claim}: expected {claim.expected}, found {claim.found}"
+        f"  ({place})"
+    )

@@ -1,0 +1,159 @@
+"""The order-condition table, as in the paper's Table 1 or with the values of a method."""
+
+from __future__ import annotations
+
+import json
+from collections.abc import Iterable, Iterator
+from dataclasses import dataclass
+from itertools import groupby
+from typing import Any
+
+from garkcli.exact.display import to_text
+from garkcli.order.conditions import Condition
+from garkcli.report.paint import Paint
+from garkcli.trees.notation import condition_latex, condition_text, format_latex, format_tree, vertex_letters
+from garkcli.trees.tree import Tree
+
+
+@dataclass(frozen=True)
+class ConditionRow:
+    """One line of the table.
+
+    Attributes:
+        tree: the tree; its colours mean nothing where ``is_shape``.
+        is_shape: whether the row stands for all colourings of the tree.
+        condition: its value for a method, where there is one.
+        multiplicity: how many identical conditions the row stands for, as those of V^l and F^l.
+    """
+
+    tree: Tree
+    is_shape: bool
+    condition: Condition | None = None
+    multiplicity: int = 1
+
+    @property
+    def formula(self) -> str:
+        """The condition in the paper's notation, in plain text."""
+        return condition_text(self.tree, vertex_letters(self.tree) if self.is_shape else None)
+
+    @property
+    def latex(self) -> str:
+        """The condition in the paper's notation, in LaTeX."""
+        return condition_latex(self.tree, vertex_letters(self.tree) if self.is_shape else None)
+
+
+def render(rows: Iterable[ConditionRow], format: str, paint: Paint, width: int = 80) -> Iterator[str]:  # noqa: A002
+    """The table as pieces of text."""
+    if format == "json":
+        yield '{"schema": "gark/conditions/1", "conditions": ['
+        separator = "\n"
+        for row in rows:
+            yield separator + json.dumps(_data(row), ensure_ascii=False)
+            separator = ",\n"
+        yield "\n]}\n"
+    elif format == "csv":
+        yield from _csv(rows)
+    elif format == "latex":
+        yield from _latex(rows)
+    else:
+        yield from _text(rows, paint, width)
+
+
+def _data(row: ConditionRow) -> dict[str, Any]:
+    tree = row.tree
+    data: dict[str, Any] = {
+        "tree": format_tree(tree, not row.is_shape),
+        "root": None if row.is_shape else tree.root + 1,
+        "order": tree.order,
+        "sigma": tree.symmetry,
+        "gamma": tree.density,
+        "condition": row.formula,
+    }
+    if row.is_shape:
+        data["for_all"] = list(vertex_letters(tree))
+    if row.condition is not None:
+        data |= {
+            "value": to_text(row.condition.value),
+            "required": to_text(row.condition.required),
+            "residual": to_text(row.condition.residual),
+            "holds": row.condition.holds,
+            "kind": "coupling" if row.condition.is_coupling else "diagonal",
+            "multiplicity": row.multiplicity,
+        }
+    return data
+
+
+def _csv(rows: Iterable[ConditionRow]) -> Iterator[str]:
+    keys: list[str] = []
+    for row in rows:
+        data = {k: x for k, x in _data(row).items() if k != "for_all"}
+        if not keys:
+            keys = list(data)
+            yield ",".join(keys) + "\n"
+        yield ",".join(_quoted(data[key]) for key in keys) + "\n"
+
+
+def _quoted(value: object) -> str:
+    text = "" if value is None else str(value).lower() if isinstance(value, bool) else str(value)
+    return f'"{text}"' if any(sign in text for sign in ", ") else text
+
+
+def _text(rows: Iterable[ConditionRow], paint: Paint, width: int) -> Iterator[str]:
+    count = failed = 0
+    valued = False
+    for order, group in groupby(rows, key=lambda row: row.tree.order):
+        yield paint("strong", f"order {order}") + "\n"
+        for row in group:
+            yield from _lines(row, paint, width)
+            count += 1
+            valued = valued or row.condition is not None
+            failed += row.condition is not None and not row.condition.holds
+    noun = "condition" if count == 1 else "conditions"
+    verdict = f", {failed} fail{'s' * (failed == 1)}" if failed else ", all hold" if valued and count else ""
+    yield f"{count} {noun}{verdict}\n"
+
+
+def _lines(row: ConditionRow, paint: Paint, width: int) -> Iterator[str]:
+    tree = format_tree(row.tree, not row.is_shape)
+    mark = ""
+    after = f"∀ {','.join(vertex_letters(row.tree))}" if row.is_shape else ""
+    if row.condition is not None:
+        mark = paint.verdict(row.condition.holds, "holds  ", "FAILS  ")
+        after = "" if row.multiplicity == 1 else f"({row.multiplicity} times)"
+    sizes = f"σ = {row.tree.symmetry}  γ = {row.tree.density}"
+    one = f"  {tree:<22} {sizes:<17} {row.formula}   {after}".rstrip()
+    if row.condition is None and len(one) <= width:
+        yield one + "\n"
+    else:
+        yield f"  {mark}{tree:<22} {sizes}".rstrip() + "\n"
+        yield f"      {row.formula}   {after}".rstrip() + "\n"
+    if row.condition is not None and not row.condition.holds:
+        kind = "coupling" if row.condition.is_coupling else "diagonal"
+        value, residual = to_text(row.condition.value), to_text(row.condition.residual)
+        yield f"      is {value}, off by {residual}  ({kind} condition)\n"
+
+
+def _latex(rows: Iterable[ConditionRow]) -> Iterator[str]:
+    yield "% needs amsmath, longtable and \\newcommand{\\mathbbm}[1]{\\mathbf{#1}} or package bbm\n"
+    first = True
+    columns = 0
+    for row in rows:
+        valued = row.condition is not None
+        if first:
+            columns = 6 if valued else 5
+            head = ["$u$", r"$\rho(u)$", r"$\gamma(u)$", "order condition"]
+            head += ["value", "residual"] if valued else ["for all"]
+            yield f"\\begin{{longtable}}{{{'l' * columns}}}\n  \\hline\n  {' & '.join(head)} \\\\ \\hline\n"
+            first = False
+        cells = [f"${format_latex(row.tree, not row.is_shape)}$", str(row.tree.order), str(row.tree.density)]
+        cells.append(f"${row.latex}$")
+        if row.condition is not None:
+            from garkcli.exact.display import to_latex
+
+            cells += [f"${to_latex(row.condition.value)}$", f"${to_latex(row.condition.residual)}$"]
+        else:
+            letters = ",".join(vertex_letters(row.tree)) if row.is_shape else ""
+            cells.append(rf"$\forall\, {letters}$" if letters else "")
+        yield "  " + " & ".join(cells) + " \\\\\n"
+    if not first:
+        yield "  \\hline\n\\end{longtable}\n"

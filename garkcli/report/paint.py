@@ -1,0 +1,42 @@
+"""Colour for the terminal, and columns that line up."""
+
+from __future__ import annotations
+
+from collections.abc import Sequence
+from dataclasses import dataclass
+
+_CODES = {"good": "32", "bad": "31;1", "strong": "1", "faint": "2", "note": "36"}
+
+
+@dataclass(frozen=True)
+class Paint:
+    """Marks text for a terminal when ``color`` is on; nothing is told by colour alone."""
+
+    color: bool = False
+
+    def __call__(self, style: str, text: str) -> str:
+        """``text`` in one of the styles good, bad, strong, faint, note."""
+        return f"\x1b[{_CODES[style]}m{text}\x1b[0m" if self.color and text else text
+
+    def verdict(self, holds: bool, yes: str = "yes", no: str = "no") -> str:
+        """A word that is good or bad news."""
+        return self("good", yes) if holds else self("bad", no)
+
+
+def aligned(rows: Sequence[Sequence[str]], gap: str = "  ", right: bool = True) -> list[str]:
+    """Rows of cells as lines with columns of equal width.
+
+    >>> aligned([["1/2", "-1"], ["0", "1/36"]])
+    ['1/2    -1', '  0  1/36']
+    """
+    widths = [max(len(row[j]) for row in rows) for j in range(len(rows[0]))] if rows else []
+    place = str.rjust if right else str.ljust
+    return [gap.join(place(x, w) for x, w in zip(row, widths, strict=True)).rstrip() for row in rows]
+
+
+def beside(left: Sequence[str], right: Sequence[str], gap: str = "   ") -> list[str]:
+    """Two blocks of lines next to each other."""
+    width = max((len(line) for line in left), default=0)
+    height = max(len(left), len(right))
+    rows = zip([*left, *[""] * (height - len(left))], [*right, *[""] * (height - len(right))], strict=True)
+    return [f"{a.ljust(width)}{gap}{b}".rstrip() for a, b in rows]

@@ -1,0 +1,93 @@
+"""A tableau for people: as the paper prints it where it fits, block by block where it does not."""
+
+from __future__ import annotations
+
+from garkcli.exact.display import to_text
+from garkcli.report.paint import Paint, aligned
+from garkcli.tableau.pointwise import Cell, Entries
+from garkcli.tableau.tableau import Tableau
+
+
+def cell_text(cell: Cell, digits: int) -> str:
+    """An entry as text: exact, or rounded to ``digits`` significant digits."""
+    from flint import arb
+
+    if not isinstance(cell, arb):
+        return to_text(cell)
+    return "0" if cell.contains(0) else cell.str(digits, radius=False)
+
+
+def render(tableau: Tableau, entries: Entries, title: str, paint: Paint, width: int = 80) -> str:
+    """The whole tableau.
+
+    Args:
+        tableau: for the names of its colours.
+        entries: its entries, see ``garkcli.tableau.pointwise``.
+        title: the first line.
+        paint: colour or none.
+        width: columns of the terminal.
+    """
+    lines = [paint("strong", title)]
+    if not entries.is_exact:
+        lines.append(f"the nodes have no simple radicals: decimals, {entries.digits} digits")
+    grid = _grid(tableau, entries)
+    fits = max(len(line) for line in grid) <= width
+    lines += ["", *(grid if fits else _listing(tableau, entries))]
+    return "\n".join(lines) + "\n"
+
+
+def _grid(tableau: Tableau, entries: Entries) -> list[str]:
+    """C | A^{1,1} | A^{1,2} | …, one colour under the other, b below."""
+    digits, N = entries.digits, tableau.size
+    shown = _distinct_rows(tableau)
+    nodes = [cell_text(x, digits) for l in shown for x in entries.c[l]]
+    texts = [aligned([[x] for x in ["", *nodes, ""]])]
+    for m in range(N):
+        stages = len(entries.b[m])
+        rows: list[list[str]] = [[""] * stages]
+        for l in shown:
+            block = entries.A[l][m]
+            height = len(entries.c[l])
+            absent = [["."] * stages] * height
+            rows += absent if block is None else [[cell_text(x, digits) for x in row] for row in block]
+        rows.append([cell_text(x, digits) for x in entries.b[m]])
+        lines = aligned(rows)
+        lines[0] = tableau.colours[m].name
+        texts.append(lines)
+    widths = [max(map(len, text)) for text in texts]
+    body = [" | ".join(t[i].rjust(w) for t, w in zip(texts, widths, strict=True)) for i in range(len(texts[0]))]
+    rule = "-+-".join("-" * w for w in widths)
+    out = [body[0], rule]
+    start = 1
+    for l in shown:
+        height = len(entries.c[l])
+        out += [*body[start : start + height], rule]
+        start += height
+    return [line.rstrip() for line in [*out, body[-1]]]
+
+
+def _distinct_rows(tableau: Tableau) -> list[int]:
+    """One colour for each stage space: colours that share stages share rows."""
+    seen: dict[int, int] = {}
+    for l, colour in enumerate(tableau.colours):
+        seen.setdefault(colour.rows, l)
+    return list(seen.values())
+
+
+def _listing(tableau: Tableau, entries: Entries) -> list[str]:
+    """Each block on its own."""
+    digits, names = entries.digits, [colour.name for colour in tableau.colours]
+    lines: list[str] = []
+    for l in range(tableau.size):
+        c = ", ".join(cell_text(x, digits) for x in entries.c[l])
+        b = ", ".join(cell_text(x, digits) for x in entries.b[l])
+        lines += [f"c{{{names[l]}}} = {c}", f"b{{{names[l]}}} = {b}", ""]
+    for l in _distinct_rows(tableau):
+        for m in range(tableau.size):
+            block = entries.A[l][m]
+            if block is not None:
+                lines += [f"A{{{names[l]},{names[m]}}} ="]
+                cells = [[cell_text(x, digits) for x in row] for row in block]
+                lines += [f"    {line}" for line in aligned(cells, right=False)]
+                lines.append("")
+    return lines[:-1]

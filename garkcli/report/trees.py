@@ -1,0 +1,169 @@
+"""``gark trees``: a stream of rows in every format, so that the first lines appear at once."""
+
+from __future__ import annotations
+
+import json
+from collections.abc import Iterable, Iterator, Sequence
+from dataclasses import dataclass
+from itertools import groupby
+from typing import NamedTuple, TypeAlias
+
+from garkcli.report.paint import Paint
+from garkcli.trees.drawing import draw_text
+from garkcli.trees.notation import format_latex, parse_tree
+
+Counts: TypeAlias = Sequence[tuple[int, tuple[int, ...]]]
+"""For each order, the numbers of trees by root colour."""
+_DRAWN_ORDER = 4
+"""Up to this order the text shows the drawn trees too."""
+
+
+@dataclass(frozen=True)
+class Query:
+    """What was asked for: colours count from 1 in ``root`` and from 0 in ``used``."""
+
+    colours: int
+    order: int
+    upto: bool
+    root: int | None
+    used: tuple[int, ...] = ()
+
+
+class TreeRow(NamedTuple):
+    """One tree: its text, root colour from 0, order, symmetry σ and density γ."""
+
+    tree: str
+    root: int
+    order: int
+    sigma: int
+    gamma: int
+
+
+def render(
+    query: Query,
+    rows: Iterable[TreeRow],
+    counts: Counts | None,
+    format: str,
+    paint: Paint,  # noqa: A002
+) -> Iterator[str]:
+    """The rows as pieces of text, each a whole line or more."""
+    if format == "json":
+        yield from _json(query, rows, counts)
+    elif format == "ndjson":
+        for row in rows:
+            yield json.dumps(_data(row)) + "\n"
+    elif format == "csv":
+        yield "tree,root,order,sigma,gamma\n"
+        for row in rows:
+            yield f'"{row.tree}",{row.root + 1},{row.order},{row.sigma},{row.gamma}\n'
+    elif format == "latex":
+        yield from _latex(rows)
+    else:
+        yield from _text(query, rows, counts, paint)
+
+
+def render_counts(query: Query, counts: Counts, format: str, paint: Paint) -> Iterator[str]:  # noqa: A002
+    """The counts alone."""
+    if format in {"json", "ndjson"}:
+        head = _head(query, counts)
+        if query.upto:
+            head["by_order"] = {str(n): sum(_kept(query, by_root)) for n, by_root in counts}
+        yield json.dumps(head, indent=None if format == "ndjson" else 2) + "\n"
+        return
+    if format == "csv":
+        yield "order,root,count\n"
+        for n, by_root in counts:
+            for root, count in _roots(query, by_root):
+                yield f"{n},{root},{count}\n"
+        return
+    for n, by_root in counts:
+        total = str(sum(_kept(query, by_root)))
+        if format == "latex":
+            yield f"{n} & {total} \\\\\n"
+            continue
+        roots = ", ".join(f"root {root}: {count}" for root, count in _roots(query, by_root))
+        yield f"order {n}: {paint('strong', total)}" + (f"   ({roots})" if query.colours > 1 else "") + "\n"
+
+
+def _roots(query: Query, by_root: Sequence[int]) -> list[tuple[int, int]]:
+    return [(l, k) for l, k in enumerate(by_root, start=1) if query.root in {None, l}]
+
+
+def _kept(query: Query, by_root: Sequence[int]) -> list[int]:
+    return [count for _, count in _roots(query, by_root)]
+
+
+def _head(query: Query, counts: Counts) -> dict[str, object]:
+    by_root: dict[str, int] = {}
+    for _, row in counts:
+        for root, count in _roots(query, row):
+            by_root[str(root)] = by_root.get(str(root), 0) + count
+    return {
+        "schema": "gark/trees/1",
+        "colours": query.colours,
+        "order": query.order,
+        "upto": query.upto,
+        "count": sum(by_root.values()),
+        "by_root": by_root,
+    }
+
+
+def _data(row: TreeRow) -> dict[str, object]:
+    return {
+        "tree": row.tree,
+        "root": row.root + 1,
+        "order": row.order,
+        "sigma": row.sigma,
+        "gamma": row.gamma,
+    }
+
+
+def _json(query: Query, rows: Iterable[TreeRow], counts: Counts | None) -> Iterator[str]:
+    if counts is None:
+        rows = list(rows)
+        counts = _counted(query, rows)
+    head = json.dumps(_head(query, counts))
+    yield head[:-1] + ', "trees": ['
+    separator = "\n"
+    for row in rows:
+        yield f"{separator}{json.dumps(_data(row))}"
+        separator = ",\n"
+    yield "\n]}\n"
+
+
+def _counted(query: Query, rows: Sequence[TreeRow]) -> Counts:
+    found = {n: [0] * query.colours for n in range(1, query.order + 1)}
+    for row in rows:
+        found[row.order][row.root] += 1
+    return [(n, tuple(by_root)) for n, by_root in found.items() if query.upto or n == query.order]
+
+
+def _text(query: Query, rows: Iterable[TreeRow], counts: Counts | None, paint: Paint) -> Iterator[str]:
+    many = query.colours > 1
+    for (n, root), group in groupby(rows, key=lambda row: (row.order, row.root)):
+        heading = f"order {n}" + (f", root colour {root + 1}" if many else "")
+        yield paint("strong", heading) + "\n"
+        for row in group:
+            yield from _entry(row, many)
+    if counts is not None:
+        total = sum(sum(_kept(query, by_root)) for _, by_root in counts)
+        yield f"{total} tree{'s' * (total != 1)}\n"
+
+
+def _entry(row: TreeRow, many: bool) -> Iterator[str]:
+    text = f"  {row.tree:<28} σ = {row.sigma:<4} γ = {row.gamma}"
+    if row.order > _DRAWN_ORDER:
+        yield text.rstrip() + "\n"
+        return
+    first, *rest = draw_text(parse_tree(row.tree), many)
+    yield f"{text:<52}{first}".rstrip() + "\n"
+    for line in rest:
+        yield f"{'':<52}{line}\n"
+
+
+def _latex(rows: Iterable[TreeRow]) -> Iterator[str]:
+    yield "\\begin{tabular}{lccc}\n  \\hline\n  $u$ & $\\rho$ & $\\sigma$ & $\\gamma$ \\\\ \\hline\n"
+    for row in rows:
+        tree = format_latex(parse_tree(row.tree))
+        yield f"  ${tree}$ & {row.order} & {row.sigma} & {row.gamma} \\\\\n"
+    yield "  \\hline\n\\end{tabular}\n"
