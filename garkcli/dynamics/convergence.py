@@ -51,8 +51,8 @@ class Row:
         error: ‖(Δq, Δp/ω)‖₂ at t_end, in units of q, to ``ERROR_BITS``. Balls, because the errors of methods of
             high order lie below the range of floats; ``float(row.error)`` where they do not.
         slope: of log error over log h, between the row before and this one; None in the first row.
-        energy_error: |H(t_end) − H(0)|: zero if and only if the step conserves H exactly; an upper bound, much
-            smaller than the error, where the two energies could not be told apart.
+        energy_error: |H(t_end) − H(0)|. Zero only where that is proved, as for a step that conserves H; an upper
+            bound, far smaller than the error, where the two energies could not be told apart.
     """
 
     h: fmpq

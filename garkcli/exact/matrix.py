@@ -47,17 +47,17 @@ def transpose(a: Matrix) -> Matrix:
 
 
 def add(a: Matrix, b: Matrix) -> Matrix:
-    """A + b."""
+    """The sum a + b."""
     return tuple(tuple(x + y for x, y in zip(r, s, strict=True)) for r, s in zip(a, b, strict=True))
 
 
 def subtract(a: Matrix, b: Matrix) -> Matrix:
-    """A − b."""
+    """The difference a − b."""
     return tuple(tuple(x - y for x, y in zip(r, s, strict=True)) for r, s in zip(a, b, strict=True))
 
 
 def scale(factor: Number, a: Matrix) -> Matrix:
-    """Factor · a."""
+    """The multiple factor · a."""
     return tuple(tuple(factor * x for x in row) for row in a)
 
 
@@ -76,7 +76,7 @@ def dot(u: Sequence[Number], v: Sequence[Number]) -> Number:
 
 
 def apply(a: Matrix, v: Sequence[Number]) -> Vector:
-    """A v."""
+    """The vector A v."""
     return tuple(dot(row, v) for row in a)
 
 
@@ -86,7 +86,7 @@ def apply_left(u: Sequence[Number], a: Matrix) -> Vector:
 
 
 def multiply(a: Matrix, b: Matrix) -> Matrix:
-    """A B."""
+    """The product A B."""
     if is_rational(a) and is_rational(b):
         return from_flint(to_flint(a, len(b)) * to_flint(b, len(b[0])))
     columns = transpose(b)
@@ -94,7 +94,7 @@ def multiply(a: Matrix, b: Matrix) -> Matrix:
 
 
 def solve(a: Matrix, b: Matrix) -> Matrix:
-    """A⁻¹ B.
+    """The solution A⁻¹ B of a linear system.
 
     Raises:
         SingularMatrixError: A is singular.

@@ -44,7 +44,7 @@ def render(
     rows: Iterable[TreeRow],
     counts: Counts | None,
     format: str,
-    paint: Paint,  # noqa: A002
+    paint: Paint,
 ) -> Iterator[str]:
     """The rows as pieces of text, each a whole line or more."""
     if format == "json":

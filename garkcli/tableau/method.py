@@ -27,7 +27,7 @@ class Method:
 
     @property
     def stages(self) -> int:
-        """S."""
+        """The number of stages, s."""
         return self.space.stages
 
     @property

@@ -53,7 +53,7 @@ class StageSpace(ABC):
 
     @abstractmethod
     def product(self, u: Vector, v: Vector) -> Vector:
-        """U ⊙ v."""
+        """The product u ⊙ v."""
 
     @abstractmethod
     def times(self, functional: Vector, v: Vector) -> Vector:
@@ -72,7 +72,7 @@ class StageSpace(ABC):
         """
 
     def power(self, v: Vector, exponent: int) -> Vector:
-        """V ⊙ … ⊙ v."""
+        """The power v ⊙ … ⊙ v."""
         result = self.one
         for _ in range(exponent):
             result = self.product(result, v)
@@ -215,5 +215,5 @@ def integral(moments: int) -> Vector:
 
 
 def integration(degree: int) -> Matrix:
-    """F ↦ ∫_0^x f on polynomials of degree < ``degree``, shape (degree + 1, degree)."""
+    """The map f ↦ ∫_0^x f on polynomials of degree < ``degree``, shape (degree + 1, degree)."""
     return tuple(tuple(fmpq(1, i) if i == j + 1 else ZERO for j in range(degree)) for i in range(degree + 1))

@@ -15,7 +15,7 @@ from garkcli.errors import UsageProblem
 from garkcli.families.registry import diagonal_method
 from garkcli.tableau.forms import gark, pair, spelled_out, symplectic_pair
 from garkcli.tableau.tableau import Tableau
-from garkcli.transfer import collocation, interpolation
+from garkcli.transfer import collocation
 
 ONE = fmpq(1)
 
@@ -71,13 +71,14 @@ def test_order_can_be_invisible() -> None:
 
 
 def test_split_decides_what_is_visible() -> None:
-    """Interpolation blocks between rk4 and Gauss 2 show a lower order as soon as both colours take part."""
-    one, other = diagonal_method("gauss", 2), diagonal_method("lobatto-iiia", 3)
-    tableau = gark([one, other], {(0, 1): interpolation(one, other), (1, 0): interpolation(other, one)})
-    unsplit = converge(tableau, Oscillator(ONE, ((ONE, ONE), (fmpq(0), fmpq(0)))))
+    """Gauss 1 × Gauss 2: order 4 while only the second has a field, order 2 as soon as the first takes part."""
+    one, other = diagonal_method("gauss", 1), diagonal_method("gauss", 2)
+    tableau = gark([one, other], {(0, 1): collocation(one, other), (1, 0): collocation(other, one)})
+    unsplit = converge(tableau, Oscillator(ONE, ((fmpq(0), fmpq(0)), (ONE, ONE))))
     split = converge(tableau, default(tableau))
-    assert (unsplit.visible_order, split.visible_order) == (4, 3)
-    assert split.observed_order == pytest.approx(3, abs=1e-3)
+    assert (unsplit.visible_order, split.visible_order) == (4, 2)
+    assert unsplit.observed_order == pytest.approx(4, abs=1e-3)
+    assert split.observed_order == pytest.approx(2, abs=1e-3)
 
 
 def test_errors_are_those_of_stepping() -> None:
@@ -115,15 +116,17 @@ def test_gauss_conserves_energy_exactly() -> None:
 
 
 def test_coincidence_is_bounded_and_not_called_zero() -> None:
-    """Leapfrog with h = 1 has R⁶ = I: its energy is back after 6 steps, by chance, and only a bound is given."""
-    euler = symplectic_pair(alone("explicit-midpoint"), [0], [0])
-    one = ((fmpq(0),),)
-    full = ((ONE,),)
-    leap = spelled_out([[one, one], [full, one]], [(ONE,), (ONE,)], [None, None])  # q first, then p with the new q
-    row = converge(leap, default(leap), fmpq(6), [ONE]).rows[0]
-    assert 0 < row.energy_error < 1e-60
-    assert row.error > 0.1
-    assert euler.size == 2
+    """Symplectic Euler with ωh = 1 has R⁶ = I: its energy is back after 6 steps, by chance.
+
+    With ω = 1 all entries are whole numbers and the zero is exact; with ω = 3 there are thirds, and a bound.
+    """
+    none, full = ((fmpq(0),),), ((ONE,),)
+    tableau = spelled_out([[none, none], [full, none]], [(ONE,), (ONE,)], [None, None])  # p with the new q
+    whole = converge(tableau, default(tableau), fmpq(6), [ONE]).rows[0]
+    thirds = converge(tableau, default(tableau, fmpq(3)), fmpq(2), [fmpq(1, 3)]).rows[0]
+    assert whole.energy_error == 0
+    assert 0 < thirds.energy_error < 1e-60
+    assert thirds.error > 0.1
 
 
 def test_inconsistent_method_has_order_zero() -> None:
@@ -149,11 +152,11 @@ def test_disagreement_is_possible() -> None:
 
 
 def test_rounded_coefficients_end_the_ladder() -> None:
-    """rk4 with weights rounded to 9 digits: order 4 within the tolerance, order 0 without."""
+    """rk4 with weights rounded to 10 digits: order 4 within the tolerance, order 0 without."""
     rk4 = diagonal_method("rk4")
-    b = tuple(fmpq(round(10**9 * x), 10**9) for x in (1 / 6, 1 / 3, 1 / 3, 1 / 6))
+    b = tuple(fmpq(x, 10**10) for x in (1666666667, 3333333333, 3333333333, 1666666666))
     tableau = spelled_out([[rk4.A]], [b], [None])
-    within = converge(tableau, default(tableau), predicted=4, tolerance=1e-8)
+    within = converge(tableau, default(tableau), predicted=4, tolerance=1e-9)
     assert within.agrees
     assert len(within.rows) < 8
     assert converge(tableau, default(tableau)).visible_order == 0

@@ -53,7 +53,7 @@ def exact_energy_errors(tableau: Tableau, problem: Oscillator, h: fmpq, steps: i
 )
 def test_energy_errors_are_exact_to_the_last_digits(tableau: Tableau, omega: fmpq) -> None:
     """Against rational arithmetic: also errors of 1e-17 of the energy come out to nearly all their digits."""
-    steps = 150
+    steps = 120
     expected = np.array(exact_energy_errors(tableau, default(tableau, omega), HALF, steps))
     result = drift(tableau, default(tableau, omega), HALF * steps, HALF)
     assert result.steps == steps

@@ -1,0 +1,46 @@
+# A new machine needs Python 3.11 or later with pip and venv; everything else is set up here.
+PYTHON ?= python3
+VENV   := .venv
+BIN    := $(VENV)/bin
+READY  := $(VENV)/.ready
+
+.DEFAULT_GOAL := help
+.PHONY: help run test lint types layers pytest bench format clean
+
+help: ## this list
+	@grep -E '^[a-z]+:.*## ' $(MAKEFILE_LIST) | sed 's/:.*## /\t/' | expand -t 12
+
+$(READY): pyproject.toml
+	$(PYTHON) -m venv $(VENV)
+	$(BIN)/python -m pip install --quiet --disable-pip-version-check --editable ".[dev]"
+	touch $(READY)
+
+run: $(READY) ## check the paper's methods and run the oscillator convergence test on the rectangular method
+	$(BIN)/gark check methods
+	$(BIN)/gark converge methods/rectangular.gark.yaml --problem oscillator
+
+test: lint types layers pytest ## linter, types, layers of imports, and all tests
+
+lint: $(READY)
+	$(BIN)/ruff check .
+	$(BIN)/ruff format --check .
+
+types: $(READY)
+	$(BIN)/mypy
+
+layers: $(READY)
+	$(BIN)/lint-imports --no-logo
+
+pytest: $(READY)
+	$(BIN)/python -m pytest
+
+bench: $(READY) ## benchmarks, as ratios within one run
+	$(BIN)/python -m pip install --quiet --disable-pip-version-check --editable ".[bench]"
+	$(BIN)/python -m pytest tests/benchmarks -s --override-ini addopts="-q --import-mode=importlib" --override-ini norecursedirs=".*"
+
+format: $(READY) ## put the code into its one format
+	$(BIN)/ruff check --fix .
+	$(BIN)/ruff format .
+
+clean: ## remove everything that was made
+	rm -rf $(VENV) build dist *.egg-info .pytest_cache .mypy_cache .ruff_cache .hypothesis .import_linter_cache

@@ -1,0 +1,129 @@
+"""``gark converge``: the table of errors and the energy over a long time."""
+
+from __future__ import annotations
+
+import json
+from typing import Any
+
+from garkcli.dynamics.convergence import LINEAR_ONLY, Convergence, Row
+from garkcli.dynamics.energy import Drift
+from garkcli.dynamics.problems import Oscillator
+from garkcli.exact.display import to_float
+from garkcli.report.asciiplot import terminal_plot
+from garkcli.report.paint import Paint, aligned
+
+
+def render(result: Convergence, name: str, format: str, paint: Paint) -> str:  # noqa: A002
+    """The convergence test as text, JSON or CSV."""
+    if format == "json":
+        return json.dumps(_data(result, name), indent=2, ensure_ascii=False) + "\n"
+    if format == "csv":
+        rows = ((row.h, _short(row.error), _slope(row), _short(row.energy_error)) for row in result.rows)
+        return "h,error,slope,energy_error\n" + "".join(f"{h},{e},{s},{d}\n" for h, e, s, d in rows)
+    return "\n".join(_text(result, name, paint)) + "\n"
+
+
+def _short(ball: Any) -> str:
+    return "0" if ball.is_zero() else str(ball.str(4, radius=False))
+
+
+def _slope(row: Row) -> str:
+    return "" if row.slope is None else f"{row.slope:.3f}"
+
+
+def _data(result: Convergence, name: str) -> dict[str, Any]:
+    return {
+        "schema": "gark/converge/1",
+        "problem": "oscillator",
+        "name": name,
+        "omega": str(result.problem.omega),
+        "split": [[str(k), str(v)] for k, v in result.problem.shares],
+        "t_end": str(result.t_end),
+        "predicted_order": result.predicted_order,
+        "visible_order": result.visible_order,
+        "observed_order": result.observed_order,
+        "agrees": result.agrees,
+        "steps": [
+            {
+                "h": to_float(row.h),
+                "h_exact": str(row.h),
+                "error": float(row.error),
+                "slope": row.slope,
+                "energy_error": float(row.energy_error),
+            }
+            for row in result.rows
+        ],
+        "note": LINEAR_ONLY,
+    }
+
+
+def describe(problem: Oscillator) -> str:
+    """The oscillator and its split in one line."""
+    shares = ", ".join(f"H{{{l}}}: {_energy(k, v)}" for l, (k, v) in enumerate(problem.shares, start=1))
+    return f"q̈ = −ω²q, ω = {problem.omega}; {shares}"
+
+
+def _energy(k: object, v: object) -> str:
+    terms = [
+        f"{'' if share == 1 else f'{share}·'}{energy}" for share, energy in ((k, "½p²"), (v, "½ω²q²")) if share != 0
+    ]
+    return " + ".join(terms) or "0"
+
+
+def _text(result: Convergence, name: str, paint: Paint) -> list[str]:
+    lines = [paint("strong", name), f"  {describe(result.problem)}; to t = {result.t_end}", ""]
+    rows = [["h", "error", "slope", "energy error"]]
+    rows += [[str(row.h), _short(row.error), _slope(row), _short(row.energy_error)] for row in result.rows]
+    lines += [f"  {line}" for line in aligned(rows, gap="   ")]
+    observed = "none" if result.observed_order is None else f"{result.observed_order:.2f}"
+    verdict = paint.verdict(result.agrees, "they agree", "THEY DISAGREE")
+    lines += [
+        "",
+        f"  order   observed {observed}, on this problem {result.visible_order} exactly, "
+        f"of the method {result.predicted_order}: {verdict}",
+        *(f"  {line}" for line in _wrapped(LINEAR_ONLY)),
+    ]
+    positive = [row for row in result.rows if not row.error.contains(0)]
+    if len(positive) > 1:
+        hs, errors = [row.h for row in positive], [row.error for row in positive]
+        lines += ["", *(f"  {line}" for line in terminal_plot(hs, errors).splitlines())]
+    return lines
+
+
+def _wrapped(text: str, width: int = 76) -> list[str]:
+    from textwrap import wrap
+
+    return wrap(text, width)
+
+
+def render_drift(result: Drift, name: str, format: str, paint: Paint) -> str:  # noqa: A002
+    """The energy over a long time as text, JSON or CSV."""
+    if format == "json":
+        data = {
+            "schema": "gark/drift/1",
+            "problem": "oscillator",
+            "name": name,
+            "step": to_float(result.step),
+            "t_end": to_float(result.t_end),
+            "steps": result.steps,
+            "initial_energy": result.initial_energy,
+            "max_energy_error": result.max_energy_error,
+            "drift": result.drift,
+            "blew_up": result.blew_up,
+        }
+        return json.dumps(data, indent=2, ensure_ascii=False) + "\n"
+    if format == "csv":
+        rows = zip(result.times, result.energy_errors, strict=True)
+        return "t,energy_error\n" + "".join(f"{t!r},{e!r}\n" for t, e in rows)
+    total = result.drift * to_float(result.t_end)
+    lines = [
+        paint("strong", name),
+        f"  {describe(result.problem)}",
+        f"  step {result.step} to t = {result.t_end}: {result.steps} steps, energy {result.initial_energy:.6g}",
+        "",
+        f"  largest energy error  {result.max_energy_error:.4e}",
+        f"  drift                 {result.drift:.2e} per unit of time, {total:.2e} in all",
+    ]
+    if result.blew_up:
+        lines.append(f"  {paint('bad', 'unstable')}: the energy has blown up")
+    return "\n".join(lines) + "\n"
