@@ -15,7 +15,7 @@ GarkError                     what is wrong, and the cure
 
 from __future__ import annotations
 
-from collections.abc import Sequence
+from collections.abc import Iterable, Sequence
 from dataclasses import dataclass
 
 
@@ -72,7 +72,7 @@ class UsageProblem(GarkError):
     """The options of a command do not fit the method or each other."""
 
 
-@dataclass(frozen=True, slots=True)
+@dataclass(frozen=True)
 class Fault:
     """One fault of a method file; ``line`` and ``column`` count from 1 and are 0 where unknown."""
 
@@ -80,6 +80,19 @@ class Fault:
     help: str = ""
     line: int = 0
     column: int = 0
+
+
+def did_you_mean(word: str, known: Iterable[str]) -> str:
+    """The cure for a misspelt word: the nearest known one, or all of them.
+
+    >>> did_you_mean("colocation", ["collocation", "interpolation"])
+    "did you mean 'collocation'?"
+    """
+    from difflib import get_close_matches  # paid for by mistakes alone
+
+    known = list(known)
+    close = get_close_matches(word, known, n=1)
+    return f"did you mean {close[0]!r}?" if close else f"one of: {', '.join(known)}"
 
 
 class MethodFileError(GarkError):

@@ -4,7 +4,6 @@ from __future__ import annotations
 
 import os
 import sys
-import tempfile
 from collections.abc import Callable, Iterable, Sequence
 from contextlib import suppress
 from pathlib import Path
@@ -103,6 +102,8 @@ def write_whole(path: str, pieces: Iterable[str]) -> None:
     Raises:
         UsageProblem: the file cannot be written; nothing is left behind.
     """
+    import tempfile
+
     target = Path(path)
     temporary = ""
     try:

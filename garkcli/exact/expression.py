@@ -35,7 +35,7 @@ MAX_ROOT = 12
 """Largest index of a root."""
 
 
-@dataclass(frozen=True, slots=True)
+@dataclass(frozen=True)
 class Expression:
     """A node; ``start`` and ``end`` are its offsets in the text and do not take part in comparisons."""
 
@@ -43,21 +43,21 @@ class Expression:
     end: int = field(default=0, compare=False, kw_only=True)
 
 
-@dataclass(frozen=True, slots=True)
+@dataclass(frozen=True)
 class Literal(Expression):
     """A rational number."""
 
     value: fmpq
 
 
-@dataclass(frozen=True, slots=True)
+@dataclass(frozen=True)
 class Name(Expression):
     """A parameter."""
 
     name: str
 
 
-@dataclass(frozen=True, slots=True)
+@dataclass(frozen=True)
 class Chain(Expression):
     """Operands joined from left to right by ``+ -`` or by ``* /``; ``signs`` stand before each operand.
 
@@ -68,7 +68,7 @@ class Chain(Expression):
     operands: tuple[Expression, ...]
 
 
-@dataclass(frozen=True, slots=True)
+@dataclass(frozen=True)
 class Power(Expression):
     """An integer power."""
 
@@ -76,7 +76,7 @@ class Power(Expression):
     exponent: int
 
 
-@dataclass(frozen=True, slots=True)
+@dataclass(frozen=True)
 class Root(Expression):
     """The real root of ``radicand`` of index ``index`` ≥ 2."""
 

@@ -4,10 +4,9 @@ from __future__ import annotations
 
 from collections.abc import Callable, Mapping
 from dataclasses import dataclass
-from difflib import get_close_matches
 from functools import partial
 
-from garkcli.errors import UnknownFamily
+from garkcli.errors import UnknownFamily, did_you_mean
 from garkcli.families import explicit, gauss, lobatto, radau
 from garkcli.tableau.method import Method
 
@@ -85,8 +84,7 @@ def diagonal_method(name: str, stages: int | None = None) -> Method:
     """
     family = FAMILIES.get(name)
     if family is None:
-        close = get_close_matches(name, FAMILIES, n=1)
-        raise UnknownFamily(f"no family {name!r}", f"did you mean {close[0]!r}?" if close else "see: gark list")
+        raise UnknownFamily(f"no family {name!r}", did_you_mean(name, FAMILIES))
     s = family.smallest if stages is None and family.smallest == family.largest else stages
     if s is None:
         raise UnknownFamily(f"the family {name} needs its number of stages", f"write stages: {family.smallest}")

@@ -42,7 +42,6 @@ from garkcli.tableau.forms import (
     with_linear,
 )
 from garkcli.tableau.method import Method, butcher
-from garkcli.tableau.pointwise import method_in_points, simple_nodes
 from garkcli.tableau.stages import PolynomialSpace
 from garkcli.tableau.tableau import Tableau
 from garkcli.transfer import PAIR_RULES, RULES, Rule, build_on, combination, symplectic_blocks
@@ -154,7 +153,11 @@ class Builder:
     def _diagonal(self, l: int, text: FamilyText | ButcherText) -> Method:
         if isinstance(text, FamilyText):
             method = self._at(text.node, lambda: diagonal_method(text.name, text.stages))
-            return method_in_points(method, self.values.vector(self.nodes[l])) if l in self.nodes else method
+            if l not in self.nodes:
+                return method
+            from garkcli.tableau.pointwise import method_in_points
+
+            return method_in_points(method, self.values.vector(self.nodes[l]))
         c = self.values.vector(text.c) if text.c is not None else None
         return butcher(self.values.matrix(text.A), self.values.vector(text.b), c, text.name)
 
@@ -264,6 +267,8 @@ def _family_nodes(text: FamilyText, numbers: Numbers) -> Row | None:
         return None  # reported where the method is built
     if not isinstance(space, PolynomialSpace):
         return None
+    from garkcli.tableau.pointwise import simple_nodes  # few files need it
+
     nodes = simple_nodes(space)
     if nodes is None:
         message = f"a block next to {text.name} is spelled out, whose nodes have no simple radicals"

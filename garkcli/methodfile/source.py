@@ -7,12 +7,11 @@ a number as it was written.
 from __future__ import annotations
 
 from collections.abc import Iterable, Iterator
-from difflib import get_close_matches
 
 import yaml
 from yaml.nodes import MappingNode, Node, ScalarNode, SequenceNode
 
-from garkcli.errors import ExpressionError, Fault, MethodFileError
+from garkcli.errors import ExpressionError, Fault, MethodFileError, did_you_mean
 
 MAX_BYTES = 4_000_000
 """Largest file that is read."""
@@ -100,9 +99,7 @@ class Source:
             if key in entries:
                 self.fault(key_node, f"{where}: the key {key!r} stands here twice", "keep one of them")
             elif known and key not in known:
-                close = get_close_matches(key, known, n=1)
-                cure = f"did you mean {close[0]!r}?" if close else f"known here: {', '.join(known)}"
-                self.fault(key_node, f"{where}: unknown key {key!r}", cure)
+                self.fault(key_node, f"{where}: unknown key {key!r}", did_you_mean(key, known))
             else:
                 entries[key] = value
         return entries
@@ -137,9 +134,7 @@ class Source:
         text = self.scalar(node, where)
         if text is None or text in (known := list(known)):
             return text
-        close = get_close_matches(text, known, n=1)
-        cure = f"did you mean {close[0]!r}?" if close else f"one of: {', '.join(known)}"
-        self.fault(node, f"{where}: {text!r} is not known", cure)
+        self.fault(node, f"{where}: {text!r} is not known", did_you_mean(text, known))
         return None
 
 

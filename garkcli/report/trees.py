@@ -43,7 +43,7 @@ def render(
     query: Query,
     rows: Iterable[TreeRow],
     counts: Counts | None,
-    format: str,
+    format: str,  # noqa: A002
     paint: Paint,
 ) -> Iterator[str]:
     """The rows as pieces of text, each a whole line or more."""

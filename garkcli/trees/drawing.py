@@ -2,7 +2,6 @@
 
 from __future__ import annotations
 
-from html import escape
 from typing import TYPE_CHECKING, NamedTuple
 
 from garkcli.trees.notation import written_order
@@ -190,6 +189,8 @@ def _svg_tree(vertices: Sequence[Vertex], middle: float, ground: float) -> list[
 
 
 def _svg_caption(lines: Sequence[str], middle: float, top: float) -> list[str]:
+    from html import escape  # brings a table of entities along
+
     return [
         f'<text x="{middle:.1f}" y="{top + CAPTION_STEP * (i + 1) + 2:.1f}" fill="#222222">{escape(line)}</text>'
         for i, line in enumerate(lines)
