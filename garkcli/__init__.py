@@ -1,3 +1,76 @@
-"""gark: order conditions and design of generalized additive Runge-Kutta methods, decided exactly."""
+"""gark: order conditions and design of generalized additive Runge-Kutta methods, decided exactly.
+
+The public names are loaded when they are first used, so importing the package costs nothing.
+"""
+
+from __future__ import annotations
+
+from importlib import import_module
+from typing import TYPE_CHECKING, Any
+
+if TYPE_CHECKING:
+    from garkcli.dynamics.convergence import converge
+    from garkcli.families.registry import diagonal_method
+    from garkcli.methodfile.check import check_file
+    from garkcli.methodfile.load import load, loads
+    from garkcli.order.certificate import find_order
+    from garkcli.order.check import analyse
+    from garkcli.order.conditions import conditions, elementary_weight
+    from garkcli.order.simplifying import simplifying
+    from garkcli.tableau.conjugate import conjugate, is_symplectic
+    from garkcli.tableau.forms import gark, pair, symplectic_pair
+    from garkcli.tableau.tableau import Tableau
+    from garkcli.trees.notation import format_tree, parse_tree
+    from garkcli.trees.tree import Tree
 
 __version__ = "0.1.0"
+
+_HOMES = {
+    "analyse": "order.check",
+    "check_file": "methodfile.check",
+    "conditions": "order.conditions",
+    "conjugate": "tableau.conjugate",
+    "converge": "dynamics.convergence",
+    "diagonal_method": "families.registry",
+    "elementary_weight": "order.conditions",
+    "find_order": "order.certificate",
+    "format_tree": "trees.notation",
+    "gark": "tableau.forms",
+    "is_symplectic": "tableau.conjugate",
+    "load": "methodfile.load",
+    "loads": "methodfile.load",
+    "pair": "tableau.forms",
+    "parse_tree": "trees.notation",
+    "simplifying": "order.simplifying",
+    "symplectic_pair": "tableau.forms",
+    "Tableau": "tableau.tableau",
+    "Tree": "trees.tree",
+}
+
+__all__ = [
+    "Tableau",
+    "Tree",
+    "analyse",
+    "check_file",
+    "conditions",
+    "conjugate",
+    "converge",
+    "diagonal_method",
+    "elementary_weight",
+    "find_order",
+    "format_tree",
+    "gark",
+    "is_symplectic",
+    "load",
+    "loads",
+    "pair",
+    "parse_tree",
+    "simplifying",
+    "symplectic_pair",
+]
+
+
+def __getattr__(name: str) -> Any:
+    if name not in _HOMES:
+        raise AttributeError(f"module 'garkcli' has no attribute {name!r}")
+    return getattr(import_module(f"garkcli.{_HOMES[name]}"), name)

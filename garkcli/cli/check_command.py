@@ -32,8 +32,11 @@ def command(files: tuple[str, ...], max_order: int, output: Output) -> int:
     """
     from garkcli.methodfile.check import check_file
     from garkcli.methodfile.load import find_files
+    from garkcli.report.progress import tracked
 
-    outcomes = [check_file(path, max_order) for path in find_files(files)]
+    paths = list(find_files(files))
+    bar = output.verbosity >= 0
+    outcomes = [check_file(path, max_order) for path in tracked(paths, len(paths), "checking", bar)]
     if output.format == "json":
         from garkcli.report import check_json
 

@@ -63,6 +63,7 @@ def command(
     exact value, the required value and the residual; identical conditions are listed once.
     """
     from garkcli.report import conditions as report
+    from garkcli.report.progress import tracked
 
     orders = range(order, order + 1) if only else range(1, order + 1)
     if file is None:
@@ -79,6 +80,7 @@ def command(
             rows = (row for row in rows if row.condition is not None and not row.condition.holds)
         if sort == "worst":
             rows = iter(sorted(rows, key=_badness, reverse=True))
+    rows = tracked(rows, None, "conditions", output.may_show_progress)
     output.write(report.render(rows, output.format, output.paint, output.width))
     return 0
 

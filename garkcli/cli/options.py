@@ -90,6 +90,11 @@ class Output:
             return
         write_whole(self.path, pieces)
 
+    @property
+    def may_show_progress(self) -> bool:
+        """Whether a bar on stderr disturbs nobody: not when the report itself scrolls by on the terminal."""
+        return self.verbosity >= 0 and (self.path is not None or not sys.stdout.isatty())
+
     def note(self, text: str) -> None:
         """A remark beside the report, on stderr."""
         if self.verbosity >= 0:

@@ -51,6 +51,7 @@ def command(
     A tree is its root's colour after its bracketed branches: []_1 is a single vertex of colour 1.
     """
     from garkcli.report import trees as report
+    from garkcli.report.progress import tracked
 
     used = _colours(colours_used, colours)
     if root is not None and root > colours:
@@ -66,7 +67,10 @@ def command(
         _draw(svg, query, orders)
         output.note(f"wrote {svg}")
         return 0
-    output.write(report.render(query, _rows(query, orders), _totals(query), output.format, output.paint))
+    totals = _totals(query)
+    count_all = None if totals is None else sum(map(sum, (report.kept(query, by_root) for _, by_root in totals)))
+    rows = tracked(_rows(query, orders), count_all, "trees", output.may_show_progress)
+    output.write(report.render(query, rows, totals, output.format, output.paint))
     return 0
 
 

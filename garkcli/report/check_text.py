@@ -99,11 +99,12 @@ def _full(outcome: Outcome, analysis: Analysis, paint: Paint) -> list[str]:
 
 
 def _kind(tableau: Tableau, structure: str) -> str:
-    stages = ", ".join(f"{x.name}: {tableau.spaces[x.rows].stages}" for x in tableau.colours)
+    plain = all(x.name == str(l) for l, x in enumerate(tableau.colours, start=1))
+    stages = ", ".join(f"{'' if plain else x.name + ': '}{tableau.spaces[x.rows].stages}" for x in tableau.colours)
     colours = "1 colour" if tableau.size == 1 else f"{tableau.size} colours"
     domain = "rational arithmetic" if tableau.degree == 1 else f"a number field of degree {tableau.degree}"
     special = "" if structure == "general" else f"for {structure} problems; "
-    return f"{special}{colours}, stages {stages}; exact, in {domain}"
+    return f"{special}{colours}, stages {stages}; decided in {domain}"
 
 
 def _orders(analysis: Analysis, paint: Paint) -> list[str]:

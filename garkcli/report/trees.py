@@ -67,7 +67,7 @@ def render_counts(query: Query, counts: Counts, format: str, paint: Paint) -> It
     if format in {"json", "ndjson"}:
         head = _head(query, counts)
         if query.upto:
-            head["by_order"] = {str(n): sum(_kept(query, by_root)) for n, by_root in counts}
+            head["by_order"] = {str(n): sum(kept(query, by_root)) for n, by_root in counts}
         yield json.dumps(head, indent=None if format == "ndjson" else 2) + "\n"
         return
     if format == "csv":
@@ -77,19 +77,21 @@ def render_counts(query: Query, counts: Counts, format: str, paint: Paint) -> It
                 yield f"{n},{root},{count}\n"
         return
     for n, by_root in counts:
-        total = str(sum(_kept(query, by_root)))
+        total = str(sum(kept(query, by_root)))
         if format == "latex":
             yield f"{n} & {total} \\\\\n"
             continue
-        roots = ", ".join(f"root {root}: {count}" for root, count in _roots(query, by_root))
-        yield f"order {n}: {paint('strong', total)}" + (f"   ({roots})" if query.colours > 1 else "") + "\n"
+        yield f"order {n}: {paint('strong', total)}\n"
+        if query.colours > 1:
+            yield from (f"  root colour {root}: {count}\n" for root, count in _roots(query, by_root))
 
 
 def _roots(query: Query, by_root: Sequence[int]) -> list[tuple[int, int]]:
     return [(l, k) for l, k in enumerate(by_root, start=1) if query.root in {None, l}]
 
 
-def _kept(query: Query, by_root: Sequence[int]) -> list[int]:
+def kept(query: Query, by_root: Sequence[int]) -> list[int]:
+    """The numbers of the root colours that were asked for."""
     return [count for _, count in _roots(query, by_root)]
 
 
@@ -146,7 +148,7 @@ def _text(query: Query, rows: Iterable[TreeRow], counts: Counts | None, paint: P
         for row in group:
             yield from _entry(row, many)
     if counts is not None:
-        total = sum(sum(_kept(query, by_root)) for _, by_root in counts)
+        total = sum(sum(kept(query, by_root)) for _, by_root in counts)
         yield f"{total} tree{'s' * (total != 1)}\n"
 
 

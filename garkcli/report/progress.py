@@ -1,0 +1,50 @@
+"""A progress bar on stderr, on a terminal, for work that lasts longer than half a second."""
+
+from __future__ import annotations
+
+import sys
+from collections.abc import Iterable, Iterator
+from time import monotonic
+from typing import TypeVar
+
+T = TypeVar("T")
+PATIENCE = 0.5
+"""Seconds of work before a bar appears."""
+_EVERY = 64
+
+
+def tracked(items: Iterable[T], total: int | None, what: str, wanted: bool = True) -> Iterator[T]:
+    """The same items; a bar counts them once they have taken longer than ``PATIENCE``.
+
+    Args:
+        items: what is worked through.
+        total: how many there will be; None where nobody knows.
+        what: the word beside the bar.
+        wanted: False for a report that goes to the same terminal as the bar, or for ``--quiet``.
+    """
+    if not wanted or not sys.stderr.isatty():
+        yield from items
+        return
+    start, done, iterator = monotonic(), 0, iter(items)
+    for item in iterator:
+        yield item
+        done += 1
+        if monotonic() - start > PATIENCE:
+            yield from _with_bar(iterator, total, done, what)
+            return
+
+
+def _with_bar(items: Iterator[T], total: int | None, done: int, what: str) -> Iterator[T]:
+    from rich.console import Console
+    from rich.progress import BarColumn, MofNCompleteColumn, Progress, TextColumn, TimeRemainingColumn
+
+    columns = (TextColumn(what), BarColumn(), MofNCompleteColumn(), TimeRemainingColumn())
+    with Progress(*columns, console=Console(stderr=True), transient=True) as progress:
+        task = progress.add_task(what, total=total, completed=done)
+        pending = 0
+        for item in items:
+            yield item
+            pending += 1
+            if pending == _EVERY or total is None or total < 1000:
+                progress.advance(task, pending)
+                pending = 0
