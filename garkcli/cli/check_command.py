@@ -17,8 +17,13 @@ from garkcli.cli.options import CONTEXT, Output, common
     metavar="N",
     help="Where the search for orders stops; then the order is a lower bound.",
 )
+@click.option(
+    "--error-constants",
+    is_flag=True,
+    help="The norms of the principal error coefficients, over all trees of the first failing order.",
+)
 @common(["text", "json"])
-def command(files: tuple[str, ...], max_order: int, output: Output) -> int:
+def command(files: tuple[str, ...], max_order: int, error_constants: bool, output: Output) -> int:
     r"""Everything known about each method, and its claims.
 
     FILE is a method file, a directory (all *.gark.yaml below it), or - for standard input.
@@ -36,7 +41,9 @@ def command(files: tuple[str, ...], max_order: int, output: Output) -> int:
 
     paths = list(find_files(files))
     bar = output.verbosity >= 0
-    outcomes = [check_file(path, max_order) for path in tracked(paths, len(paths), "checking", bar)]
+    outcomes = [
+        check_file(path, max_order, error_constants) for path in tracked(paths, len(paths), "checking", bar)
+    ]
     if output.format == "json":
         from garkcli.report import check_json
 

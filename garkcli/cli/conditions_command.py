@@ -105,23 +105,12 @@ def _table(colours: int, orders: range, coloured: bool) -> Iterator[ConditionRow
 
 
 def _valued(tableau: Tableau, orders: range) -> Iterator[ConditionRow]:
-    from garkcli.order.conditions import conditions, coupling_graph, twin_roots
+    from garkcli.order.listing import all_conditions
     from garkcli.report.conditions import ConditionRow
-    from garkcli.trees.blocks import iter_blocks
-    from garkcli.trees.tree import Tree
 
-    edges, linear = coupling_graph(tableau)
-    twins = twin_roots(tableau)
-
-    def trees() -> Iterator[Tree]:
-        for n in orders:
-            blocks = iter_blocks(tableau.size, n, edges=edges, linear=linear, roots=twins, block_size=1 << 14)
-            for block in blocks:
-                yield from block.trees()
-
-    for condition in conditions(tableau, trees()):
-        multiplicity = len(twins[condition.tree.root])
-        yield ConditionRow(condition.tree, False, condition, multiplicity)
+    for n in orders:
+        for condition, multiplicity in all_conditions(tableau, n):
+            yield ConditionRow(condition.tree, False, condition, multiplicity)
 
 
 def _badness(row: ConditionRow) -> float:

@@ -3,11 +3,16 @@
 from __future__ import annotations
 
 from dataclasses import dataclass
+from typing import TYPE_CHECKING
 
 from flint import fmpq
 
 from garkcli.errors import Fault
 from garkcli.order.check import Analysis
+
+if TYPE_CHECKING:
+    from garkcli.order.blame import Blame
+    from garkcli.order.constants import ErrorConstants
 
 
 @dataclass(frozen=True)
@@ -44,6 +49,8 @@ class Outcome:
         faults: why it cannot be read; empty where it can.
         text: the file as read, for showing lines of it.
         tolerance: the rounding that the file admits; None where it claims exactness.
+        blame: where the order falls short of a claim, what the failing conditions tell; None otherwise.
+        constants: the error constants at the first failing order, where they were asked for.
     """
 
     file: str
@@ -54,6 +61,8 @@ class Outcome:
     faults: tuple[Fault, ...] = ()
     text: str = ""
     tolerance: fmpq | None = None
+    blame: Blame | None = None
+    constants: ErrorConstants | None = None
 
     @property
     def failed_claims(self) -> tuple[Claim, ...]:

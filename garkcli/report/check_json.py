@@ -11,6 +11,7 @@ from garkcli.order.certificate import Order
 from garkcli.order.check import Analysis
 from garkcli.order.outcome import Outcome
 from garkcli.order.simplifying import Simplifying
+from garkcli.report.hints import hints_data
 from garkcli.tableau.tableau import Tableau
 from garkcli.trees.notation import format_tree
 
@@ -67,6 +68,7 @@ def _analysis(outcome: Outcome, analysis: Analysis) -> dict[str, Any]:
         **_order("pair_", analysis.pair_order),
         "simplifying": _simplifying(analysis.simplifying),
         "pair_bound": None if both is None else both.bound,
+        **hints_data(outcome),
     }
 
 

@@ -39,7 +39,12 @@ def _outcome(outcome: Outcome, paint: Paint, full: bool, quiet: bool) -> str:
     if full:
         return "\n".join(_full(outcome, outcome.analysis, paint))
     lines = [] if quiet and outcome.ok else [_line(outcome, outcome.analysis, paint)]
-    return "\n".join([*lines, *(_claim(outcome, claim, paint) for claim in outcome.failed_claims)])
+    lines += [_claim(outcome, claim, paint) for claim in outcome.failed_claims]
+    if outcome.blame is not None:
+        from garkcli.report.hints import blame_lines
+
+        lines += blame_lines(outcome.blame, outcome.analysis.tableau, paint)
+    return "\n".join(lines)
 
 
 def _summary(outcomes: Sequence[Outcome], paint: Paint) -> str:
@@ -93,8 +98,16 @@ def _full(outcome: Outcome, analysis: Analysis, paint: Paint) -> list[str]:
     lines += _orders(analysis, paint)
     lines += ["", *_conditions(analysis)]
     lines += ["", *_properties(analysis, paint)]
+    if outcome.constants is not None:
+        from garkcli.report.hints import constants_lines
+
+        lines += ["", *constants_lines(outcome.constants)]
     if outcome.claims:
         lines += ["", *(_claim(outcome, claim, paint) for claim in outcome.claims)]
+    if outcome.blame is not None:
+        from garkcli.report.hints import blame_lines
+
+        lines += ["", *blame_lines(outcome.blame, tableau, paint)]
     return lines
 
 

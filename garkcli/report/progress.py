@@ -25,10 +25,9 @@ def tracked(items: Iterable[T], total: int | None, what: str, wanted: bool = Tru
     if not wanted or not sys.stderr.isatty():
         yield from items
         return
-    start, done, iterator = monotonic(), 0, iter(items)
-    for item in iterator:
+    start, iterator = monotonic(), iter(items)
+    for done, item in enumerate(iterator, start=1):
         yield item
-        done += 1
         if monotonic() - start > PATIENCE:
             yield from _with_bar(iterator, total, done, what)
             return

@@ -1,0 +1,107 @@
+"""What the failing conditions tell: the likely culprit, a possible repair, the error constants."""
+
+from __future__ import annotations
+
+from collections.abc import Sequence
+from typing import Any
+
+from garkcli.exact.display import to_text
+from garkcli.order.blame import Blame, Repair
+from garkcli.order.constants import ErrorConstants, Norms
+from garkcli.order.outcome import Outcome
+from garkcli.report.paint import Paint
+from garkcli.tableau.tableau import Tableau
+from garkcli.trees.notation import format_tree
+
+
+def blame_lines(blame: Blame, tableau: Tableau, paint: Paint) -> list[str]:
+    """The hints for people."""
+    names = [colour.name for colour in tableau.colours]
+    lines = [
+        f"  {paint('note', 'hint')}: {blame.failing} of the {blame.total} conditions of order {blame.order} fail"
+        + (", all of them coupling conditions" if blame.only_coupling and tableau.size > 1 else "")
+    ]
+    if blame.culprit is not None and tableau.size > 1:
+        lines.append(f"        {_block(blame.culprit, names)} takes part in every one of them: look there first")
+    elif len(blame.in_every) > 1:
+        lines.append(f"        in every one of them: {_blocks(blame.in_every, names)}")
+    if blame.in_none:
+        lines.append(f"        in none of them: {_blocks(blame.in_none, names)}")
+    lines += [
+        f"        the claimed order would hold with {_place(repair, names)} = {to_text(repair.new)} "
+        f"instead of {to_text(repair.old)}"
+        for repair in blame.repairs[:3]
+    ]
+    return lines
+
+
+def _block(block: tuple[int, int], names: Sequence[str]) -> str:
+    return f"A{{{names[block[0]]},{names[block[1]]}}}"
+
+
+def _blocks(blocks: Sequence[tuple[int, int]], names: Sequence[str]) -> str:
+    return ", ".join(_block(block, names) for block in blocks)
+
+
+def _place(repair: Repair, names: Sequence[str]) -> str:
+    if repair.m is None or repair.i is None:
+        return f"b{{{names[repair.l]}}}, entry {repair.j + 1},"
+    return f"{_block((repair.l, repair.m), names)}, row {repair.i + 1}, entry {repair.j + 1},"
+
+
+def constants_lines(constants: ErrorConstants) -> list[str]:
+    """The error constants for people."""
+    how = "exact" if constants.is_exact else "in floats"
+    lines = [f"  error coefficients of order {constants.order} ({how})"]
+    for label, norms in (("all trees", constants.all), ("coupling trees", constants.coupling)):
+        worst = "" if norms.worst is None else f" at {format_tree(norms.worst)}"
+        lines.append(
+            f"    {label:<15}{norms.trees:>8} trees   2-norm {norms.two:.6g}   largest {norms.largest:.6g}{worst}"
+        )
+    return lines
+
+
+def hints_data(outcome: Outcome) -> dict[str, Any]:
+    """Blame and error constants for machines; only what there is."""
+    data: dict[str, Any] = {}
+    blame, constants = outcome.blame, outcome.constants
+    if blame is not None:
+        data["blame"] = {
+            "order": blame.order,
+            "failing": blame.failing,
+            "conditions": blame.total,
+            "only_coupling": blame.only_coupling,
+            "culprit": None if blame.culprit is None else [k + 1 for k in blame.culprit],
+            "in_every": [[l + 1, m + 1] for l, m in blame.in_every],
+            "in_none": [[l + 1, m + 1] for l, m in blame.in_none],
+            "repairs": [_repair(repair) for repair in blame.repairs],
+        }
+    if constants is not None:
+        data["error_constants"] = {
+            "order": constants.order,
+            "exact": constants.is_exact,
+            "all": _norms(constants.all),
+            "coupling": _norms(constants.coupling),
+        }
+    return data
+
+
+def _repair(repair: Repair) -> dict[str, Any]:
+    weights = repair.m is None or repair.i is None
+    place = {
+        "b" if weights else "A": [repair.l + 1] if repair.m is None else [repair.l + 1, repair.m + 1],
+        "row": None if repair.i is None else repair.i + 1,
+        "entry": repair.j + 1,
+    }
+    return {**place, "old": to_text(repair.old), "new": to_text(repair.new)}
+
+
+def _norms(norms: Norms) -> dict[str, Any]:
+    return {
+        "trees": norms.trees,
+        "two_norm_squared": None if norms.two_squared is None else to_text(norms.two_squared),
+        "two_norm": norms.two,
+        "inf_norm": norms.largest,
+        "worst": None if norms.worst is None else format_tree(norms.worst),
+        "worst_value": None if norms.worst_value is None else to_text(norms.worst_value),
+    }
