@@ -44,6 +44,7 @@ if TYPE_CHECKING:
     show_default=True,
     help="Order of the rows; worst: the largest residual first.",
 )
+@click.option("--document", is_flag=True, help="With --format latex: a document that compiles as it stands.")
 @common(["text", "json", "csv", "latex"])
 def command(
     file: str | None,
@@ -54,6 +55,7 @@ def command(
     which: str | None,
     failing: bool,
     sort: str,
+    document: bool,
     output: Output,
 ) -> int:
     """The order-condition table.
@@ -81,7 +83,7 @@ def command(
         if sort == "worst":
             rows = iter(sorted(rows, key=_badness, reverse=True))
     rows = tracked(rows, None, "conditions", output.may_show_progress)
-    output.write(report.render(rows, output.format, output.paint, output.width))
+    output.write(report.render(rows, output.format, output.paint, output.width, document))
     return 0
 
 

@@ -27,23 +27,25 @@ MAX_PICTURES = 2000
     metavar="N",
     help="How many colours.",
 )
-@click.option(
-    "--order", "-n", type=click.IntRange(1, 10000), required=True, metavar="n", help="The number of vertices."
-)
+@click.option("--order", "-n", type=click.IntRange(1, 10000), metavar="n", help="The number of vertices.")
 @click.option("--upto", is_flag=True, help="Every order from 1 to n.")
 @click.option("--root", type=click.IntRange(1), metavar="L", help="Only trees whose root has colour L.")
 @click.option("--colours-used", metavar="L,M,...", help="Only trees in which each of these colours occurs.")
 @click.option("--count", is_flag=True, help="Count without generating, for any order.")
+@click.option("--tree", "one", metavar="TEXT", help="One tree, such as [[]_2,[]_1]_1, instead of an order.")
 @click.option("--svg", metavar="FILE", help="Draw a sheet of all the trees into FILE.")
+@click.option("--document", is_flag=True, help="With --format latex: a document that compiles as it stands.")
 @common(["text", "json", "ndjson", "csv", "latex"])
 def command(
     colours: int,
-    order: int,
+    order: int | None,
     upto: bool,
     root: int | None,
     colours_used: str | None,
     count: bool,
     svg: str | None,
+    one: str | None,
+    document: bool,
     output: Output,
 ) -> int:
     """Enumerate the N-trees of an order, by root colour, with order, symmetry and density.
@@ -56,6 +58,10 @@ def command(
     used = _colours(colours_used, colours)
     if root is not None and root > colours:
         raise UsageProblem(f"there is no colour {root}", f"--colours {colours} numbers them from 1")
+    if one is not None:
+        return _single(one, svg, document, output)
+    if order is None:
+        raise UsageProblem("which order?", "give --order n, or --tree for one tree")
     orders = range(1, order + 1) if upto else range(order, order + 1)
     query = report.Query(colours, order, upto, root, used)
     if count:
@@ -70,7 +76,31 @@ def command(
     totals = _totals(query)
     count_all = None if totals is None else sum(map(sum, (report.kept(query, by_root) for _, by_root in totals)))
     rows = tracked(_rows(query, orders), count_all, "trees", output.may_show_progress)
-    output.write(report.render(query, rows, totals, output.format, output.paint))
+    output.write(report.render(query, rows, totals, output.format, output.paint, document))
+    return 0
+
+
+def _single(text: str, svg: str | None, document: bool, output: Output) -> int:
+    """One tree, given in bracket text."""
+    from garkcli.cli.options import write_whole
+    from garkcli.report import trees as report
+    from garkcli.trees.drawing import draw_svg_sheet
+    from garkcli.trees.notation import NotationError, format_tree, parse_tree
+
+    try:
+        tree = parse_tree(text)
+    except NotationError as error:
+        raise UsageProblem(f"--tree, column {error.offset + 1}: {error.message}", error.help) from None
+    colours = 1 + max(tree.colours)
+    written = format_tree(tree, colours > 1)
+    if svg is not None:
+        write_whole(svg, [draw_svg_sheet([tree], [written])])
+        output.note(f"wrote {svg}")
+        return 0
+    row = report.TreeRow(written, tree.root, tree.order, tree.symmetry, tree.density)
+    counts = [(tree.order, tuple(int(l == tree.root) for l in range(colours)))]
+    query = report.Query(colours, tree.order, False, tree.root + 1)
+    output.write(report.render(query, [row], counts, output.format, output.paint, document))
     return 0
 
 

@@ -10,7 +10,9 @@ from typing import Any
 
 from garkcli.exact.display import to_text
 from garkcli.order.conditions import Condition
+from garkcli.report.latex import fragment
 from garkcli.report.paint import Paint
+from garkcli.trees.drawing import tikz
 from garkcli.trees.notation import condition_latex, condition_text, format_latex, format_tree, vertex_letters
 from garkcli.trees.tree import Tree
 
@@ -42,7 +44,13 @@ class ConditionRow:
         return condition_latex(self.tree, vertex_letters(self.tree) if self.is_shape else None)
 
 
-def render(rows: Iterable[ConditionRow], format: str, paint: Paint, width: int = 80) -> Iterator[str]:  # noqa: A002
+def render(
+    rows: Iterable[ConditionRow],
+    format: str,  # noqa: A002
+    paint: Paint,
+    width: int = 80,
+    is_document: bool = False,
+) -> Iterator[str]:
     """The table as pieces of text."""
     if format == "json":
         yield '{"schema": "gark/conditions/1", "conditions": ['
@@ -54,7 +62,7 @@ def render(rows: Iterable[ConditionRow], format: str, paint: Paint, width: int =
     elif format == "csv":
         yield from _csv(rows)
     elif format == "latex":
-        yield from _latex(rows)
+        yield from fragment(_latex(rows), is_document)
     else:
         yield from _text(rows, paint, width)
 
@@ -134,18 +142,22 @@ def _lines(row: ConditionRow, paint: Paint, width: int) -> Iterator[str]:
 
 
 def _latex(rows: Iterable[ConditionRow]) -> Iterator[str]:
-    yield "% needs amsmath, longtable and \\newcommand{\\mathbbm}[1]{\\mathbf{#1}} or package bbm\n"
     first = True
     columns = 0
     for row in rows:
         valued = row.condition is not None
         if first:
-            columns = 6 if valued else 5
-            head = ["$u$", r"$\rho(u)$", r"$\gamma(u)$", "order condition"]
+            columns = 7 if valued else 6
+            head = ["", "$u$", r"$\rho(u)$", r"$\gamma(u)$", "order condition"]
             head += ["value", "residual"] if valued else ["for all"]
             yield f"\\begin{{longtable}}{{{'l' * columns}}}\n  \\hline\n  {' & '.join(head)} \\\\ \\hline\n"
             first = False
-        cells = [f"${format_latex(row.tree, not row.is_shape)}$", str(row.tree.order), str(row.tree.density)]
+        cells = [
+            f"{tikz(row.tree, colours=not row.is_shape)}\n",
+            f"${format_latex(row.tree, not row.is_shape)}$",
+            str(row.tree.order),
+            str(row.tree.density),
+        ]
         cells.append(f"${row.latex}$")
         if row.condition is not None:
             from garkcli.exact.display import to_latex

@@ -8,8 +8,9 @@ from dataclasses import dataclass
 from itertools import groupby
 from typing import NamedTuple, TypeAlias
 
+from garkcli.report.latex import fragment
 from garkcli.report.paint import Paint
-from garkcli.trees.drawing import draw_text
+from garkcli.trees.drawing import draw_text, tikz
 from garkcli.trees.notation import format_latex, parse_tree
 
 Counts: TypeAlias = Sequence[tuple[int, tuple[int, ...]]]
@@ -45,6 +46,7 @@ def render(
     counts: Counts | None,
     format: str,  # noqa: A002
     paint: Paint,
+    is_document: bool = False,
 ) -> Iterator[str]:
     """The rows as pieces of text, each a whole line or more."""
     if format == "json":
@@ -57,7 +59,7 @@ def render(
         for row in rows:
             yield f'"{row.tree}",{row.root + 1},{row.order},{row.sigma},{row.gamma}\n'
     elif format == "latex":
-        yield from _latex(rows)
+        yield from fragment(_latex(rows, query.colours > 1), is_document)
     else:
         yield from _text(query, rows, counts, paint)
 
@@ -163,9 +165,10 @@ def _entry(row: TreeRow, many: bool) -> Iterator[str]:
         yield f"{'':<52}{line}\n"
 
 
-def _latex(rows: Iterable[TreeRow]) -> Iterator[str]:
-    yield "\\begin{tabular}{lccc}\n  \\hline\n  $u$ & $\\rho$ & $\\sigma$ & $\\gamma$ \\\\ \\hline\n"
+def _latex(rows: Iterable[TreeRow], many: bool) -> Iterator[str]:
+    yield "\\begin{longtable}{clccc}\n  \\hline\n"
+    yield "  & $u$ & $\\rho(u)$ & $\\sigma(u)$ & $\\gamma(u)$ \\\\ \\hline\n"
     for row in rows:
-        tree = format_latex(parse_tree(row.tree))
-        yield f"  ${tree}$ & {row.order} & {row.sigma} & {row.gamma} \\\\\n"
-    yield "  \\hline\n\\end{tabular}\n"
+        tree = parse_tree(row.tree)
+        yield f"  {tikz(tree)} &\n  ${format_latex(tree, many)}$ & {row.order} & {row.sigma} & {row.gamma} \\\\\n"
+    yield "  \\hline\n\\end{longtable}\n"

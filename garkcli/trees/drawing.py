@@ -197,19 +197,25 @@ def _svg_caption(lines: Sequence[str], middle: float, top: float) -> list[str]:
     ]
 
 
-def tikz(tree: Tree, scale: float = 0.6) -> str:
+def tikz(tree: Tree, scale: float = 0.6, colours: bool = True) -> str:
     r"""A ``tikzpicture`` of plain nodes with coordinates in units of ``scale`` cm; needs ``tikz`` only.
+
+    Without ``colours`` the vertices are plain black dots, at half the scale.
 
     >>> from garkcli.trees.tree import Tree
     >>> print(tikz(Tree(0)).splitlines()[0])
     \begin{tikzpicture}[x=0.6cm,y=0.6cm,baseline=(v0.base)]
     """
     vertices = layout(tree)
+    scale = scale if colours else scale / 2
     lines = [rf"\begin{{tikzpicture}}[x={scale:g}cm,y={scale:g}cm,baseline=(v0.base)]"]
     for k, v in enumerate(vertices):
         fill, ink = (_tikz_colour(value) for value in PALETTE[v.colour % len(PALETTE)])
         style = f"circle,draw,inner sep=0pt,minimum size=4mm,font=\\scriptsize,fill={fill},text={ink}"
-        lines.append(rf"  \node[{style}] (v{k}) at ({v.x:g},{v.y}) {{{v.colour + 1}}};")
+        label = str(v.colour + 1)
+        if not colours:
+            style, label = "circle,fill,inner sep=0pt,minimum size=1.2mm", ""
+        lines.append(rf"  \node[{style}] (v{k}) at ({v.x:g},{v.y}) {{{label}}};")
     lines += [rf"  \draw (v{v.parent}) -- (v{k});" for k, v in enumerate(vertices) if v.parent >= 0]
     return "\n".join([*lines, r"\end{tikzpicture}", ""])
 
