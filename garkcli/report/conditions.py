@@ -166,6 +166,6 @@ def _latex(rows: Iterable[ConditionRow]) -> Iterator[str]:
         else:
             letters = ",".join(vertex_letters(row.tree)) if row.is_shape else ""
             cells.append(rf"$\forall\, {letters}$" if letters else "")
-        yield "  " + " & ".join(cells) + " \\\\\n"
+        yield "  " + " & ".join(cells) + " \\\\[4pt]\n"
     if not first:
         yield "  \\hline\n\\end{longtable}\n"

@@ -1,0 +1,53 @@
+"""Times and memory of whole processes and of calls; benchmarks compare two of them measured in one run."""
+
+from __future__ import annotations
+
+import resource
+import subprocess
+import sys
+from collections.abc import Callable, Sequence
+from pathlib import Path
+from time import perf_counter
+
+ROOT = Path(__file__).resolve().parents[2]
+GARK = [str(Path(sys.executable).with_name("gark"))]
+PYTHON = [sys.executable]
+
+
+def seconds(run: Callable[[], object], repeat: int = 5) -> float:
+    """The best of some runs: what the work costs when nothing disturbs it."""
+    times = []
+    for _ in range(repeat):
+        start = perf_counter()
+        run()
+        times.append(perf_counter() - start)
+    return min(times)
+
+
+def process(command: Sequence[str]) -> Callable[[], object]:
+    """A run of a whole process, from the root of the checkout; its exit code has to be 0."""
+    return lambda: subprocess.run(command, cwd=ROOT, check=True, stdout=subprocess.DEVNULL)
+
+
+def interleaved(one: Callable[[], object], other: Callable[[], object], repeat: int = 15) -> tuple[float, float]:
+    """The best times of two runs that take turns, so that a busy machine disturbs both alike."""
+    pairs = [(seconds(one, 1), seconds(other, 1)) for _ in range(repeat)]
+    return min(a for a, _ in pairs), min(b for _, b in pairs)
+
+
+def peak_megabytes(code: str) -> float:
+    """The largest resident size of a Python process that runs ``code``."""
+    script = f"{code}\nimport resource; print(resource.getrusage(resource.RUSAGE_SELF).ru_maxrss / 1024)"
+    out = subprocess.run([*PYTHON, "-c", script], cwd=ROOT, check=True, capture_output=True, text=True).stdout
+    return float(out.split()[-1])
+
+
+def peak_of_children() -> float:
+    """The largest resident size of any process that was waited for, in megabytes."""
+    return resource.getrusage(resource.RUSAGE_CHILDREN).ru_maxrss / 1024
+
+
+def report(what: str, ratio: float, target: float, detail: str) -> None:
+    """Print one line and hold the ratio against its target."""
+    print(f"\n  {what}: {ratio:.3g} (target {target:g}); {detail}")
+    assert ratio <= target, f"{what}: {ratio:.3g} is more than {target:g}"

@@ -1,0 +1,19 @@
+"""How soon the commands answer, against the time of ``python -c "import sympy"`` in the same run."""
+
+from __future__ import annotations
+
+import pytest
+
+from tests.benchmarks.measuring import GARK, PYTHON, interleaved, process, report
+
+SYMPY = process([*PYTHON, "-c", "import sympy"])
+
+
+@pytest.mark.parametrize(
+    ("arguments", "target"),
+    [(["check", "methods/collocation.gark.yaml"], 0.6), (["--help"], 0.3)],
+)
+def test_startup(arguments: list[str], target: float) -> None:
+    """A check of the collocation example, and the help, cost a fraction of importing sympy."""
+    ours, sympys = interleaved(process([*GARK, *arguments]), SYMPY)
+    report(f"gark {' '.join(arguments)} / import sympy", ours / sympys, target, f"{ours:.3f} s, {sympys:.3f} s")

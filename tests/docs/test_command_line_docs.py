@@ -1,0 +1,36 @@
+"""The reference in docs/command-line.md is what the commands say of themselves."""
+
+from __future__ import annotations
+
+import os
+from pathlib import Path
+
+from click.testing import CliRunner
+
+from garkcli.cli.main import COMMANDS, gark
+
+PAGE = Path(__file__).resolve().parents[2] / "docs" / "command-line.md"
+MARK = "<!-- reference -->\n"
+
+
+def reference() -> str:
+    """The help of every command, in 80 columns."""
+    runner = CliRunner()
+    parts = []
+    for name in COMMANDS:
+        result = runner.invoke(gark, [name, "--help"], prog_name="gark", terminal_width=80, max_content_width=80)
+        assert result.exit_code == 0, result.output
+        parts.append(f"### gark {name}\n\n```text\n{result.output.rstrip()}\n```\n")
+    return "\n".join(parts)
+
+
+def test_reference_is_the_help() -> None:
+    """Every option that the reference shows exists, and every option that exists is shown."""
+    page = PAGE.read_text(encoding="utf-8")
+    head, mark, found = page.partition(MARK)
+    assert mark
+    wanted = "\n" + reference()
+    if os.environ.get("GARK_UPDATE_SNAPSHOTS"):
+        PAGE.write_text(head + mark + wanted, encoding="utf-8")
+        return
+    assert found == wanted
