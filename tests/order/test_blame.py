@@ -1,0 +1,71 @@
+"""Who is to blame for a failing order."""
+
+from __future__ import annotations
+
+from dataclasses import replace
+from pathlib import Path
+
+import pytest
+from flint import fmpq
+
+from garkcli import Tableau, conjugate, find_order, load
+from garkcli.order.blame import Repair, find_blame
+
+ROOT = Path(__file__).resolve().parents[2]
+
+
+def example(name: str) -> Tableau:
+    """A method of the distribution."""
+    return load(str(ROOT / "methods" / f"{name}.gark.yaml")).tableau
+
+
+def test_misprinted_collocation_example() -> None:
+    """The paper's misprinted block A^{1,2} is named; no single entry repairs four wrong ones."""
+    tableau = load(str(ROOT / "tests/examples/failing/collocation-misprinted.gark.yaml")).tableau
+    blame = find_blame(tableau, 3, 4)
+    assert blame is not None
+    assert blame.culprit == (0, 1)
+    assert blame.in_every == ((0, 1),)
+    assert blame.in_none == ((1, 1),)
+    assert blame.only_coupling
+    assert (blame.failing, blame.total) == (4, 14)
+    assert blame.repairs == ()
+
+
+@pytest.mark.parametrize(("key", "i", "j"), [((0, 0), 1, 0), ((0, 1), 0, 1), ((1, 0), 2, 1), ((1, 1), 2, 1)])
+def test_single_wrong_entry(key: tuple[int, int], i: int, j: int) -> None:
+    """One entry changed in any block is found again, with its true value, and its block is the culprit."""
+    tableau = example("collocation-conjugate")
+    block = [list(row) for row in tableau.blocks[key]]
+    true = block[i][j]
+    block[i][j] = true + fmpq(1, 7)
+    wrong = replace(tableau, blocks={**tableau.blocks, key: tuple(map(tuple, block))})
+    blame = find_blame(wrong, find_order(wrong).order + 1, 4)
+    assert blame is not None
+    assert blame.culprit == key
+    assert Repair(*key, i, j, true + fmpq(1, 7), true) in blame.repairs
+    assert blame.only_coupling == (key[0] != key[1])
+
+
+def test_single_wrong_weight() -> None:
+    """A wrong weight is found, though the sum of the weights alone would allow each of them to be the wrong one."""
+    tableau = example("collocation-conjugate")
+    b = tableau.colours[1].b
+    colours = (tableau.colours[0], replace(tableau.colours[1], b=(b[0], fmpq(3, 5), b[2])))
+    blame = find_blame(replace(tableau, colours=colours), 1, 4)
+    assert blame is not None
+    assert [(x.l, x.m, x.j, x.new) for x in blame.repairs] == [(1, None, 1, fmpq(2, 3))]
+
+
+def test_right_method_has_no_repair_for_more() -> None:
+    """Where the method is right as it is, no change of one entry is proposed for an order it cannot have."""
+    tableau = example("rectangular")
+    blame = find_blame(tableau, 5, 6)
+    assert blame is not None
+    assert blame.repairs == ()
+
+
+def test_too_many_conditions() -> None:
+    """Beyond the limit nothing is listed and nothing is claimed."""
+    tableau = example("gauss6-lobatto7")
+    assert find_blame(conjugate(tableau), 13, 14) is None

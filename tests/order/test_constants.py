@@ -1,0 +1,82 @@
+"""Error constants: two code paths, and textbook values."""
+
+from __future__ import annotations
+
+from pathlib import Path
+
+import pytest
+from flint import fmpq
+
+from garkcli import Tableau, diagonal_method, find_order, gark, load, pair
+from garkcli.order import constants
+from garkcli.order.constants import error_constants
+
+ROOT = Path(__file__).resolve().parents[2]
+
+
+def example(name: str) -> Tableau:
+    """A method of the distribution."""
+    return load(str(ROOT / "methods" / f"{name}.gark.yaml")).tableau
+
+
+@pytest.mark.parametrize("name", ["collocation", "rectangular", "semi-separable", "ark-ars222", "three-colours"])
+def test_exact_and_float_paths_agree(name: str, monkeypatch: pytest.MonkeyPatch) -> None:
+    """The exact sum over trees and the float one over the tree table give the same norms."""
+    tableau = example(name)
+    order = find_order(tableau).order + 1
+    exact = error_constants(tableau, order)
+    monkeypatch.setattr(constants, "EXACT_CONDITIONS", 0)
+    floats = error_constants(tableau, order)
+    assert exact is not None
+    assert floats is not None
+    assert (exact.is_exact, floats.is_exact) == (True, False)
+    for one, other in ((exact.all, floats.all), (exact.coupling, floats.coupling)):
+        assert one.trees == other.trees
+        assert one.two == pytest.approx(other.two, rel=1e-9)
+        assert one.largest == pytest.approx(other.largest, rel=1e-9)
+
+
+def test_twin_roots_count_twice(monkeypatch: pytest.MonkeyPatch) -> None:
+    """In the pair the conditions of V^l and F^l are evaluated once and counted twice."""
+    both = pair(example("collocation"))
+    exact = error_constants(both, 5)
+    assert exact is not None
+    assert exact.all.trees == 5996
+    monkeypatch.setattr(constants, "EXACT_CONDITIONS", 0)
+    floats = error_constants(both, 5)
+    assert floats is not None
+    assert exact.all.two == pytest.approx(floats.all.two, rel=1e-9)
+
+
+def test_classical_method() -> None:
+    """The classical method of order 4: by hand, Σ e² over the nine trees of order 5."""
+    found = error_constants(gark([diagonal_method("rk4")], {}), 5)
+    assert found is not None
+    by_hand = [
+        (fmpq(5, 24) - fmpq(1, 5)) / 24,
+        (fmpq(5, 48) - fmpq(1, 10)) / 2,
+        (fmpq(1, 16) - fmpq(1, 15)) / 2,
+        (fmpq(1, 24) - fmpq(1, 30)) / 1,
+        (fmpq(1, 16) - fmpq(1, 20)) / 2,
+        (fmpq(1, 24) - fmpq(1, 20)) / 6,
+        (fmpq(1, 48) - fmpq(1, 40)) / 1,
+        (fmpq(1, 48) - fmpq(1, 60)) / 2,
+        (fmpq(0) - fmpq(1, 120)) / 1,
+    ]
+    assert found.all.trees == 9
+    assert found.all.two_squared == sum((e * e for e in by_hand), start=fmpq(0))
+    assert found.coupling.trees == 0
+
+
+def test_gauss_is_better_than_rk4() -> None:
+    """Gauss 2 has the smaller principal error of the two methods of order 4."""
+    gauss = error_constants(gark([diagonal_method("gauss", 2)], {}), 5)
+    rk4 = error_constants(gark([diagonal_method("rk4")], {}), 5)
+    assert gauss is not None
+    assert rk4 is not None
+    assert 0 < gauss.all.two < rk4.all.two
+
+
+def test_too_many_trees() -> None:
+    """Beyond the limit there are no error constants, and none are made up."""
+    assert error_constants(pair(example("gauss6-lobatto7")), 13) is None
