@@ -2,9 +2,18 @@
 
 from __future__ import annotations
 
+import os
+from collections.abc import Sequence
+from typing import TYPE_CHECKING
+
 import click
 
 from garkcli.cli.options import CONTEXT, Output, common
+
+if TYPE_CHECKING:
+    from garkcli.order.outcome import Outcome
+
+FORMATS = ["auto", "text", "json", "sarif", "junit", "github", "markdown"]
 
 
 @click.command("check", context_settings=CONTEXT)
@@ -22,34 +31,63 @@ from garkcli.cli.options import CONTEXT, Output, common
     is_flag=True,
     help="The norms of the principal error coefficients, over all trees of the first failing order.",
 )
-@common(["text", "json"])
-def command(files: tuple[str, ...], max_order: int, error_constants: bool, output: Output) -> int:
+@click.option("--baseline", metavar="REPORT", help="Fail only on what is worse than in an earlier JSON report.")
+@click.option(
+    "-j",
+    "--jobs",
+    type=click.IntRange(0, 256),
+    default=1,
+    show_default=True,
+    metavar="N",
+    help="Check N files at a time; 0 for as many as there are processors.",
+)
+@common(FORMATS)
+def command(
+    files: tuple[str, ...], max_order: int, error_constants: bool, baseline: str | None, jobs: int, output: Output
+) -> int:
     r"""Everything known about each method, and its claims.
 
     FILE is a method file, a directory (all *.gark.yaml below it), or - for standard input.
 
     The exact order of the tableau, of its symplectic conjugate and of their pair, each with a tree whose
     condition fails next; B, C and D of every block and the bound they give; consistency and symplecticity;
-    the claims under `expect`.
+    the claims under `expect`. The format auto is github in GitHub Actions and text elsewhere.
 
     \b
     Exit code: 0 every claim holds, 1 a claim fails, 2 a file cannot be read as a method.
     """
-    from garkcli.methodfile.check import check_file
+    from garkcli.cli.parallel import check_files
     from garkcli.methodfile.load import find_files
     from garkcli.report.progress import tracked
 
-    paths = list(find_files(files))
-    bar = output.verbosity >= 0
-    outcomes = [
-        check_file(path, max_order, error_constants) for path in tracked(paths, len(paths), "checking", bar)
-    ]
-    if output.format == "json":
-        from garkcli.report import check_json
+    earlier = None
+    if baseline is not None:
+        from garkcli.report.baseline import read_baseline
 
-        output.write(check_json.render(outcomes))
-    else:
+        earlier = read_baseline(baseline)
+    paths = list(find_files(files))
+    running = check_files(paths, max_order, error_constants, jobs or os.cpu_count() or 1)
+    outcomes = list(tracked(running, len(paths), "checking", output.verbosity >= 0))
+    if earlier is not None:
+        from garkcli.report import baseline as comparison
+
+        worse = comparison.regressions(outcomes, earlier)
+        output.write(comparison.render(worse, len(outcomes)))
+        return int(bool(worse))
+    output.write(_rendered(outcomes, output))
+    return max(outcome.exit_code for outcome in outcomes)
+
+
+def _rendered(outcomes: Sequence[Outcome], output: Output) -> str:
+    """The report in the format asked for."""
+    format = output.format  # noqa: A001 -- the option's name
+    if format == "auto":
+        format = "github" if os.environ.get("GITHUB_ACTIONS") == "true" else "text"  # noqa: A001
+    if format == "text":
         from garkcli.report import check_text
 
-        output.write(check_text.render(outcomes, output.paint, output.verbosity))
-    return max(outcome.exit_code for outcome in outcomes)
+        return check_text.render(outcomes, output.paint, output.verbosity)
+    from importlib import import_module
+
+    text: str = import_module(f"garkcli.report.check_{format}").render(outcomes)
+    return text

@@ -22,6 +22,7 @@ COMMANDS = {
     "conjugate": "the symplectic conjugate tableau, or the pair",
     "converge": "the convergence test on a problem",
     "list": "families, transfer rules, problems",
+    "schema": "the JSON Schema of method files, for editors",
 }
 """Every command with its line in the help; the module of the same name in this room has it."""
 

@@ -1,0 +1,28 @@
+"""Many files side by side, with the same outcome as one after the other."""
+
+from __future__ import annotations
+
+from collections.abc import Callable, Iterator, Sequence
+from functools import partial
+
+from garkcli.methodfile.check import check_file
+from garkcli.order.outcome import Outcome
+
+
+def check_files(paths: Sequence[str], limit: int, want_constants: bool, jobs: int) -> Iterator[Outcome]:
+    """Check ``paths`` in their order, ``jobs`` of them at a time."""
+    work: Callable[[str], Outcome] = partial(check_file, limit=limit, want_constants=want_constants)
+    jobs = min(jobs, len(paths))
+    if jobs < 2 or "-" in paths:
+        yield from map(work, paths)
+        return
+    import multiprocessing
+
+    from garkcli.exact.pickling import register
+
+    register()
+    # fork keeps the modules that are loaded already, where the system has it
+    method = "fork" if "fork" in multiprocessing.get_all_start_methods() else None
+    context = multiprocessing.get_context(method)
+    with context.Pool(jobs, initializer=register) as pool:
+        yield from pool.imap(work, paths, chunksize=max(1, min(8, len(paths) // (4 * jobs))))

@@ -1,0 +1,170 @@
+"""The JSON Schema (draft-07) of method files, for editors; made from the same lists that the loader checks by.
+
+It says what can be said about one value at a time. Sizes that have to fit each other, names of parameters and
+everything mathematical are for ``gark check``.
+"""
+
+from __future__ import annotations
+
+from typing import Any, TypeAlias
+
+from garkcli.families.registry import FAMILIES, MAX_STAGES
+from garkcli.methodfile.description import FORMS, STRUCTURES
+from garkcli.methodfile.expectations import NUMBERS, TABLES
+from garkcli.methodfile.reader import ALL_RULES
+from garkcli.transfer import RULES, SUMMARIES
+
+Schema: TypeAlias = dict[str, Any]
+
+_NUMBER: Schema = {
+    "description": "A coefficient: a number, or text such as 1/2 - sqrt(3)/6, read exactly as written.",
+    "type": ["number", "string"],
+}
+_ROW: Schema = {"anyOf": [{"type": "array", "items": _NUMBER, "minItems": 1}, _NUMBER]}
+_MATRIX: Schema = {"type": "array", "items": {"$ref": "#/definitions/row"}, "minItems": 1}
+_TEXT: Schema = {"type": ["string", "number", "boolean", "null"]}
+
+
+def method_file_schema() -> Schema:
+    """The schema as plain data."""
+    return {
+        "$schema": "http://json-schema.org/draft-07/schema#",
+        "title": "gark method file",
+        "description": "One Runge-Kutta method: GARK, ARK, PRK, or built from diagonal methods.",
+        "type": "object",
+        "additionalProperties": False,
+        "oneOf": [{"required": [form]} for form in FORMS],
+        "allOf": [_goes_with("transfer", "methods"), _goes_with("linear", "tableau")],
+        "properties": _properties(),
+        "definitions": {
+            "number": _NUMBER,
+            "row": _ROW,
+            "matrix": _MATRIX,
+            "butcher": _butcher(),
+            "method": {"oneOf": [_family(), {"$ref": "#/definitions/butcher"}]},
+            "rule": _rule(),
+        },
+    }
+
+
+def _goes_with(key: str, form: str) -> Schema:
+    return {"if": {"required": [key]}, "then": {"required": [form]}}
+
+
+def _properties() -> Schema:
+    return {
+        "gark": {"description": "Version of the format.", "enum": [1, "1"]},
+        "name": {**_TEXT, "description": "What people call the method."},
+        "description": {**_TEXT, "description": "What it is for."},
+        "reference": {**_TEXT, "description": "Where it was published."},
+        "methods": {
+            "description": "The diagonal methods, one a colour.",
+            "type": "array",
+            "minItems": 1,
+            "items": {"$ref": "#/definitions/method"},
+        },
+        "transfer": _transfer(),
+        "tableau": _tableau(),
+        "ark": _ark(),
+        "prk": _closed({"q": {"$ref": "#/definitions/butcher"}, "p": {"$ref": "#/definitions/butcher"}}, "q", "p"),
+        "structure": {"description": "Which vector fields the problem has.", "enum": list(STRUCTURES)},
+        "conjugate": {"description": "The method is the symplectic conjugate of all this.", "type": "boolean"},
+        "linear": {
+            "description": "Colours whose vector field is linear.",
+            "type": "array",
+            "items": {"type": "integer", "minimum": 1},
+        },
+        "parameters": {"type": "object", "additionalProperties": {"$ref": "#/definitions/number"}},
+        "tolerance": {**_NUMBER, "description": "The rounding of the coefficients, for instance 1e-13."},
+        "expect": _expect(),
+    }
+
+
+def _closed(properties: Schema, *required: str) -> Schema:
+    return {
+        "type": "object",
+        "properties": properties,
+        "required": list(required),
+        "additionalProperties": False,
+    }
+
+
+def _family() -> Schema:
+    names = {"enum": list(FAMILIES), "description": "A family of methods, see gark list."}
+    stages = {"type": "integer", "minimum": 1, "maximum": MAX_STAGES}
+    family = _closed({"family": names, "stages": stages, "name": _TEXT}, "family")
+    single = [name for name, x in FAMILIES.items() if x.smallest == x.largest]
+    return {**family, "if": {"properties": {"family": {"enum": single}}}, "else": {"required": ["stages"]}}
+
+
+def _butcher() -> Schema:
+    properties = {
+        "name": _TEXT,
+        "A": {"$ref": "#/definitions/matrix"},
+        "b": {"$ref": "#/definitions/row"},
+        "c": {"$ref": "#/definitions/row"},
+    }
+    return _closed(properties, "A", "b")
+
+
+def _rule() -> Schema:
+    words = [{"const": rule, "description": SUMMARIES[rule]} for rule in ALL_RULES]
+    weights = {rule: {"$ref": "#/definitions/number"} for rule in RULES}
+    combination = {"type": "object", "properties": weights, "additionalProperties": False, "minProperties": 1}
+    return {"oneOf": [*words, combination]}
+
+
+def _transfer() -> Schema:
+    rule: Schema = {"$ref": "#/definitions/rule"}
+    block = {"anyOf": [rule, {"$ref": "#/definitions/matrix"}]}
+    blocks = {
+        "type": "object",
+        "propertyNames": {"pattern": r"^\s*[1-9][0-9]{0,3}\s*,\s*[1-9][0-9]{0,3}\s*$"},
+        "additionalProperties": block,
+    }
+    split = {
+        "type": "object",
+        "properties": {"default": rule, "blocks": blocks},
+        "additionalProperties": False,
+        "minProperties": 1,
+    }
+    return {"description": "How the off-diagonal blocks are made.", "anyOf": [rule, split]}
+
+
+def _tableau() -> Schema:
+    block = {"anyOf": [{"$ref": "#/definitions/matrix"}, {"type": "null"}]}
+    properties = {
+        "A": {"type": "array", "minItems": 1, "items": {"type": "array", "minItems": 1, "items": block}},
+        "b": {"type": "array", "minItems": 1, "items": {"$ref": "#/definitions/row"}},
+        "c": {
+            "type": "array",
+            "minItems": 1,
+            "items": {"anyOf": [{"$ref": "#/definitions/row"}, {"type": "null"}]},
+        },
+    }
+    return {**_closed(properties, "A", "b"), "description": "Every block A^{l,m}; null where there is none."}
+
+
+def _ark() -> Schema:
+    rows = {"anyOf": [{"$ref": "#/definitions/row"}, {"type": "array", "items": {"$ref": "#/definitions/row"}}]}
+    properties = {
+        "A": {"type": "array", "minItems": 1, "items": {"$ref": "#/definitions/matrix"}},
+        "b": rows,
+        "c": {"$ref": "#/definitions/row"},
+    }
+    return {**_closed(properties, "A", "b"), "description": "An additive method with shared stages."}
+
+
+def _expect() -> Schema:
+    number = {"anyOf": [{"type": "integer", "minimum": 0}, {"type": "string", "pattern": "^>=\\s*[0-9]{1,4}$"}]}
+    entry = {"anyOf": [*number["anyOf"], {"type": "null"}]}
+    row = {"type": "array", "items": entry}
+    properties: Schema = dict.fromkeys(NUMBERS, number)
+    properties |= {key: row if key == "B" else {"type": "array", "items": row} for key in TABLES}
+    properties["symplectic"] = {"type": "boolean"}
+    return {
+        "description": "Claims that gark check confirms.",
+        "type": "object",
+        "properties": properties,
+        "additionalProperties": False,
+    }

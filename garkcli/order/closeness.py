@@ -1,0 +1,102 @@
+"""Whether exact numbers, vectors and functionals are within a tolerance of zero; never decided by floats.
+
+Elements of a stage space are measured by their values at the nodes, functionals and bilinear forms by their
+coefficients there: the entries that a printed tableau has.
+"""
+
+from __future__ import annotations
+
+from collections.abc import Sequence
+from typing import Any
+
+from flint import arb, arb_mat, ctx, fmpq
+
+from garkcli.exact.display import to_ball
+from garkcli.exact.field import Algebraic, Number
+from garkcli.exact.matrix import Matrix, Vector
+from garkcli.tableau.stages import PolynomialSpace, StageSpace
+
+FIRST_BITS = 128
+"""Precision at which values at irrational nodes are compared first; doubled until they tell."""
+MOST_BITS = 8192
+"""Precision at which a value at an irrational node that still cannot be told from the tolerance counts as equal."""
+
+
+def within(number: Number, tolerance: fmpq) -> bool:
+    """Whether |number| ≤ tolerance.
+
+    >>> within(fmpq(-1, 10), fmpq(1, 10)), within(fmpq(2, 19), fmpq(1, 10))
+    (True, False)
+    """
+    if not isinstance(number, Algebraic):
+        return bool(abs(number) <= tolerance)
+    digits = 17
+    while True:  # an irrational number is never equal to a rational one
+        size = abs(to_ball(number, digits))
+        with ctx.workprec(4 * digits):
+            if size < tolerance or size > tolerance:
+                return bool(size < tolerance)
+        digits *= 2
+
+
+def vector_within(space: StageSpace, vector: Vector, tolerance: fmpq) -> bool:
+    """Whether an element of a stage space is within the tolerance of zero at every node."""
+    return form_within(space, None, tuple((x,) for x in vector), tolerance, dual=False)
+
+
+def functional_within(space: StageSpace, functional: Vector, tolerance: fmpq) -> bool:
+    """Whether a functional, Σ w_i f(c_i), has all |w_i| ≤ tolerance."""
+    return form_within(space, None, tuple((x,) for x in functional), tolerance)
+
+
+def form_within(
+    space: StageSpace, other: StageSpace | None, matrix: Matrix, tolerance: fmpq, dual: bool = True
+) -> bool:
+    """Whether a bilinear form Σ m_ij f(c_i) g(c_j) has all |m_ij| ≤ tolerance.
+
+    Args:
+        space: where f lives, s rows of ``matrix``.
+        other: where g lives; None for numbers.
+        matrix: the form on the coordinates of both.
+        tolerance: not negative.
+        dual: whether the rows are coefficients of a functional; otherwise coordinates of elements.
+    """
+    entries = [x for row in matrix for x in row]
+    if not any(entries):
+        return True
+    if not any(isinstance(x, PolynomialSpace) for x in (space, other)):
+        return all(within(x, tolerance) for x in entries)
+    bits = FIRST_BITS
+    while bits <= MOST_BITS:
+        with ctx.workprec(bits):
+            sizes = [abs(x) for x in _at_nodes(space, other, matrix, dual).entries()]
+            if any(size > tolerance for size in sizes):
+                return False
+            if all(size <= tolerance for size in sizes):
+                return True
+        bits *= 2
+    return True
+
+
+def _at_nodes(space: StageSpace, other: StageSpace | None, matrix: Matrix, dual: bool) -> arb_mat:
+    digits = int(ctx.prec * 0.302)
+    balls = arb_mat([[to_ball(x, digits) for x in row] for row in matrix])
+    V = _powers_of_nodes(space)
+    if V is not None:
+        balls = V.inv().transpose() * balls if dual else V * balls
+    W = _powers_of_nodes(other)
+    return balls if W is None else balls * W.inv()
+
+
+def _powers_of_nodes(space: StageSpace | None) -> arb_mat | None:
+    """The Vandermonde matrix of the nodes; None where coordinates are values at the nodes already."""
+    if not isinstance(space, PolynomialSpace):
+        return None
+    nodes = real_roots(space)
+    return arb_mat([[node**k for k in range(space.stages)] for node in nodes])
+
+
+def real_roots(space: PolynomialSpace) -> Sequence[arb]:
+    """The nodes in ascending order, at the current precision."""
+    roots: list[tuple[Any, int]] = space.modulus.numer().complex_roots()  # type: ignore[assignment]
+    return sorted((root.real for root, _ in roots), key=float)

@@ -1,0 +1,175 @@
+"""The order within a tolerance, of tableaus whose coefficients are rounded.
+
+A condition is met when |b_lᵀ 𝒜^[u] − 1/γ(u)| ≤ t. That is decided by proof, never by floats: exactly as far as the
+conditions hold exactly, then by all trees of an order in ball arithmetic, or by bounds from approximate spans where
+the trees are too many. A residual whose ball holds t is evaluated exactly; one that equals t counts as met.
+"""
+
+from __future__ import annotations
+
+from dataclasses import dataclass, field
+from functools import cached_property
+from typing import Literal, TypeAlias
+
+from flint import arb, ctx, fmpq
+
+from garkcli.exact.display import to_ball
+from garkcli.order.approximate_spans import ApproximateSpans
+from garkcli.order.certificate import DEFAULT_LIMIT, Witness, find_order
+from garkcli.order.closeness import within
+from garkcli.order.conditions import coupling_graph, elementary_weight
+from garkcli.order.enclosure import enclose_tableau
+from garkcli.order.residuals import TreeResiduals
+from garkcli.tableau.tableau import Tableau
+from garkcli.trees.count import Admissible, counts_upto
+from garkcli.trees.tree import Tree
+
+FEW_TREES = 20_000
+"""Up to so many trees an order is decided by listing them; beyond, spans are tried first."""
+MOST_TREES = 500_000
+"""Beyond so many trees of an order they are not listed at all."""
+FEW_DOUBTS = 64
+"""So many residuals near the tolerance are evaluated exactly; more of them, in finer balls first."""
+MOST_BITS = 8192
+"""The finest balls; what they leave in doubt is evaluated exactly however much there is."""
+GUARD = 96
+"""Bits beyond those of the tolerance that balls begin with."""
+GRAIN = 64
+"""Spans count what is shorter than this part of the tolerance as an error."""
+
+Means: TypeAlias = Literal["exact", "trees", "spans"]
+"""How an order was decided: conditions hold exactly; every tree was evaluated; by bounds on all trees."""
+
+
+@dataclass(frozen=True)
+class RoundedOrder:
+    """The outcome: every condition up to ``order`` is met within ``tolerance``.
+
+    Attributes:
+        order: the largest such order, a lower bound where there is no witness.
+        tolerance: t ≥ 0.
+        witness: a tree of the next order with |residual| > t; its value is exact.
+        undecided: whether the next order was too much to decide; otherwise a search without witness stopped at
+            its limit.
+        sizes: for each order 1, 2, … that was decided a bound on all |residuals|; for the order that fails, the
+            |residual| of the witness.
+        means: what decided each of these orders.
+    """
+
+    order: int
+    tolerance: fmpq
+    witness: Witness | None
+    undecided: bool = False
+    sizes: tuple[arb, ...] = field(default=(), compare=False)
+    means: tuple[Means, ...] = ()
+
+    @property
+    def is_lower_bound(self) -> bool:
+        """Whether nothing is known to fail."""
+        return self.witness is None
+
+    @property
+    def largest_residual(self) -> arb:
+        """A bound on all |residuals| up to ``order``."""
+        bound = arb(0)
+        for size in self.sizes[: self.order]:
+            bound = bound.max(size)
+        return bound
+
+
+def find_order_within(tableau: Tableau, tolerance: fmpq, limit: int = DEFAULT_LIMIT) -> RoundedOrder:
+    """The largest r ≤ ``limit`` for which all conditions of order ≤ r are met within ``tolerance``.
+
+    Args:
+        tableau: any tableau; its coupling graph decides which trees count.
+        tolerance: t ≥ 0; with 0 this is ``find_order``.
+        limit: the order at which to stop.
+    """
+    exact = find_order(tableau, limit)
+    verdicts = [_Verdict("exact", arb(0))] * exact.order
+    if exact.witness is not None:
+        if within(exact.witness.residual, tolerance):
+            decision = _Decision(tableau, tolerance)
+            while len(verdicts) < limit and (not verdicts or verdicts[-1].is_met):
+                verdicts.append(decision.of(len(verdicts) + 1))
+        else:
+            verdicts.append(_Verdict("exact", abs(to_ball(exact.witness.residual)), exact.witness))
+    decided = [verdict for verdict in verdicts if verdict.size is not None]
+    return RoundedOrder(
+        order=sum(verdict.is_met for verdict in verdicts),
+        tolerance=tolerance,
+        witness=verdicts[-1].witness if verdicts else None,
+        undecided=len(decided) < len(verdicts),
+        sizes=tuple(verdict.size for verdict in decided if verdict.size is not None),
+        means=tuple(verdict.means for verdict in decided),
+    )
+
+
+@dataclass(frozen=True, eq=False)
+class _Verdict:
+    """What became of one order: met with ``size`` a bound, failed with a witness, or undecided: neither."""
+
+    means: Means
+    size: arb | None = None
+    witness: Witness | None = None
+
+    @property
+    def is_met(self) -> bool:
+        return self.size is not None and self.witness is None
+
+
+class _Decision:
+    """One order after the other of one tableau, with one tolerance > 0."""
+
+    def __init__(self, tableau: Tableau, tolerance: fmpq) -> None:
+        self.tableau = tableau
+        self.tolerance = tolerance
+        self.magnitude = int(tolerance.q.bit_length()) - int(tolerance.p.bit_length()) + 1
+        self.bits = GUARD + max(self.magnitude, 0)
+        self.admissible = Admissible.of(tableau.size, *coupling_graph(tableau))
+
+    @cached_property
+    def trees(self) -> TreeResiduals:
+        return TreeResiduals(self.tableau, enclose_tableau(self.tableau, self.bits))
+
+    @cached_property
+    def spans(self) -> ApproximateSpans:
+        bits = GUARD + 6 * max(self.magnitude, 8)  # each member as short as the grain costs bits
+        return ApproximateSpans(self.tableau, enclose_tableau(self.tableau, bits), arb(self.tolerance) / GRAIN)
+
+    def of(self, order: int) -> _Verdict:
+        count = sum(counts_upto(self.admissible, order)[-1])
+        if count > FEW_TREES:
+            verdict = self._by_spans(order)
+            if verdict.size is not None or count > MOST_TREES:
+                return verdict
+        return self._by_trees(order)
+
+    def _by_spans(self, order: int) -> _Verdict:
+        sizes = self.spans.sizes(order)
+        with ctx.workprec(self.bits):
+            limit = arb(self.tolerance)
+            if sizes.bound <= limit:
+                return _Verdict("spans", sizes.bound)
+            if sizes.largest is not None and sizes.reached > limit:
+                return _Verdict("spans", sizes.reached, self._witness(sizes.largest))
+        return _Verdict("spans")
+
+    def _by_trees(self, order: int) -> _Verdict:
+        with ctx.workprec(self.bits):
+            limit = arb(self.tolerance)
+        sizes = self.trees.sizes(order, limit)
+        if sizes.largest is not None and sizes.reached > limit:
+            return _Verdict("trees", sizes.reached, self._witness(sizes.largest))
+        if len(sizes.doubtful) > FEW_DOUBTS and self.bits < MOST_BITS:
+            self.bits *= 2
+            del self.trees
+            return self._by_trees(order)
+        for tree in sizes.doubtful:
+            witness = self._witness(tree)
+            if not within(witness.residual, self.tolerance):
+                return _Verdict("trees", abs(to_ball(witness.residual)), witness)
+        return _Verdict("trees", sizes.bound)
+
+    def _witness(self, tree: Tree) -> Witness:
+        return Witness(tree, elementary_weight(self.tableau, tree), fmpq(1, tree.density))

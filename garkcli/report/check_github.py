@@ -1,0 +1,31 @@
+"""``gark check --format github``: annotations on the lines of a pull request, then the summary."""
+
+from __future__ import annotations
+
+from collections.abc import Sequence
+
+from garkcli.order.outcome import Outcome
+from garkcli.report import check_text
+from garkcli.report.findings import Finding, findings
+from garkcli.report.paint import Paint
+
+
+def render(outcomes: Sequence[Outcome]) -> str:
+    """A workflow command for each finding, and what every file has for the log."""
+    lines = [_annotation(x) for outcome in outcomes for x in findings(outcome)]
+    text = check_text.render(outcomes, Paint(False), 0 if len(outcomes) > 1 else -1)
+    return "".join(f"{line}\n" for line in lines) + text
+
+
+def _annotation(finding: Finding) -> str:
+    place = f"file={_property(finding.file)},line={finding.line},col={finding.column}"
+    text = f"{finding.message}; {finding.help}" if finding.help else finding.message
+    return f"::error {place},title={_property('gark: ' + finding.rule)}::{_data(text)}"
+
+
+def _data(text: str) -> str:
+    return text.replace("%", "%25").replace("\r", "%0D").replace("\n", "%0A")
+
+
+def _property(text: str) -> str:
+    return _data(text).replace(":", "%3A").replace(",", "%2C")

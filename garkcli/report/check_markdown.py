@@ -1,0 +1,51 @@
+"""``gark check --format markdown``: a table for a pull request or a page."""
+
+from __future__ import annotations
+
+from collections.abc import Sequence
+
+from garkcli.order.certificate import Order
+from garkcli.order.outcome import Outcome
+from garkcli.report.findings import findings
+
+
+def render(outcomes: Sequence[Outcome]) -> str:
+    """A row a file, then the findings."""
+    lines = [
+        "| file | order | conjugate | pair | bound | symplectic | claims |",
+        "|---|---|---|---|---|---|---|",
+        *(_row(outcome) for outcome in outcomes),
+    ]
+    found = [x for outcome in outcomes for x in findings(outcome)]
+    if found:
+        lines += ["", *(f"- `{_code(x.file)}:{x.line}:{x.column}`: {_cell(x.message)}" for x in found)]
+    return "\n".join(lines) + "\n"
+
+
+def _row(outcome: Outcome) -> str:
+    analysis = outcome.analysis
+    if analysis is None:
+        cells = [f"`{_code(outcome.file)}`", "unreadable", "", "", "", "", ""]
+    else:
+        claims, failed = len(outcome.claims), len(outcome.failed_claims)
+        orders = (analysis.order, analysis.conjugate_order, analysis.pair_order)
+        cells = [
+            f"`{_code(outcome.file)}`",
+            *(_order(order) for order in orders),
+            str(analysis.simplifying.bound),
+            "yes" if analysis.symplectic else "no",
+            f"**{failed} of {claims} fail**" if failed else f"{claims} hold",
+        ]
+    return f"| {' | '.join(cells)} |"
+
+
+def _order(order: Order | None) -> str:
+    return "" if order is None else f"at least {order.order}" if order.is_lower_bound else str(order.order)
+
+
+def _cell(text: str) -> str:
+    return text.replace("\\", "\\\\").replace("|", "\\|").replace("<", "&lt;").replace("\n", " ")
+
+
+def _code(text: str) -> str:
+    return text.replace("`", "'").replace("|", "\\|").replace("\n", " ")
