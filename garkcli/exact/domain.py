@@ -1,25 +1,28 @@
 """The smallest exact domain for a set of expressions: ℚ, or a number field ℚ(θ) that holds their radicals.
 
-Rational numbers and square roots of one square class stay in python-flint. Every other set of radicals is
-handed to sympy, which finds a primitive element; only the radicals go there, never whole coefficients.
+Square roots of one square class give ℚ(√d) at once; any other set of radicals is adjoined root by root, see
+``garkcli.exact.tower``.
 """
 
 from __future__ import annotations
 
 import operator
 from collections.abc import Iterable
-from typing import Any
+from functools import partial
 
-from flint import arb, ctx, fmpq, fmpq_poly, fmpz
+from flint import arb, ctx, fmpq, fmpq_poly
 
 from garkcli.errors import LimitExceeded, UndefinedValue
 from garkcli.exact.expression import Chain, Expression, Literal, Name, Power, Root, roots_in
 from garkcli.exact.field import ONE, ZERO, Algebraic, Number, NumberField
+from garkcli.exact.tower import RATIONALS, Tower
 
 MAX_BITS = 60_000
 """Largest numerator or denominator a coefficient may grow to, in bits."""
-MAX_RADICALS = 16
+MAX_RADICALS = 32
 """Most different radicals of one file."""
+MAX_DEGREE = 96
+"""Largest degree of the number field of one file."""
 MAX_PRECISION = 8192
 """Bits to which a nested radicand is evaluated before its sign is decided exactly."""
 
@@ -129,17 +132,42 @@ class Domain:
         return True
 
     def _generated(self, roots: list[Root]) -> None:
-        """ℚ(all roots), by sympy's primitive element."""
-        from sympy import QQ
-        from sympy.polys.constructor import construct_domain
+        """ℚ(all roots), adjoined one after the other, the inner ones first."""
+        tower, kept = RATIONALS, list[Root]()
+        for root in roots:
+            radicand = self._within(tower, kept, root.radicand)
+            if not radicand:
+                self._values[root] = ZERO
+                continue
+            if tower.degree * root.index > MAX_DEGREE:
+                raise LimitExceeded(
+                    f"radicals of degree {tower.degree * root.index} together (limit {MAX_DEGREE})",
+                    "write the coefficients in fewer or simpler radicals",
+                    root.start,
+                    root.end,
+                )
+            kept.append(root)
+            # the list grows with the loop, so its present state is bound here
+            tower = tower.adjoin(root.index, radicand, partial(_enclosures, tuple(kept)))
+        if tower.degree > 1:
+            self.field = NumberField(tower.modulus, list(zip(kept, tower.elements, strict=True)))
+        for root, poly in zip(kept, tower.elements, strict=True):
+            self._values[root] = poly[0] if self.field is None else self.field.element(poly)
 
-        domain, elements = construct_domain([_to_sympy(root) for root in roots], extension=True)
-        if domain == QQ:
-            self._values |= {root: _rational(x) for root, x in zip(roots, elements, strict=True)}
-            return
-        polys = [_polynomial(x.to_list()) for x in elements]
-        self.field = NumberField(_polynomial(domain.mod.to_list()), list(zip(roots, polys, strict=True)))
-        self._values |= {root: self.field.element(f) for root, f in zip(roots, polys, strict=True)}
+    def _within(self, tower: Tower, roots: list[Root], expression: Expression) -> fmpq_poly:
+        """The value of an expression in the roots adjoined so far, as a polynomial in θ."""
+        field = NumberField(tower.modulus, ())
+        known = {root: field.element(poly) for root, poly in zip(roots, tower.elements, strict=True)}
+        outer, self._values = self._values, {**self._values, **known}
+        try:
+            value = self.evaluate(expression)
+        finally:
+            self._values = outer
+        return value.poly if isinstance(value, Algebraic) else fmpq_poly([value])
+
+
+def _enclosures(roots: tuple[Root, ...]) -> list[arb]:
+    return [enclose(root) for root in roots]
 
 
 def square_free(number: fmpq) -> fmpq:
@@ -224,33 +252,3 @@ def _bounded(number: Number | None, at: Expression) -> Number:
 def _square_root(number: fmpq) -> fmpq | None:
     p, q = number.p.isqrt(), number.q.isqrt()
     return fmpq(p, q) if p * p == number.p and q * q == number.q else None
-
-
-def _to_sympy(expression: Expression) -> Any:
-    """The same expression for sympy, built node by node: no text is handed over."""
-    import sympy
-
-    match expression:
-        case Literal(value=value):
-            return sympy.Rational(int(value.p), int(value.q))
-        case Chain(signs=signs, operands=operands):
-            terms = [_to_sympy(x) for x in operands]
-            if signs[0] in "+-":
-                return sympy.Add(*(x if sign == "+" else -x for sign, x in zip(signs, terms, strict=True)))
-            return sympy.Mul(*(x if sign == "*" else 1 / x for sign, x in zip(signs, terms, strict=True)))
-        case Power(base=base, exponent=exponent):
-            return _to_sympy(base) ** exponent
-        case Root(radicand=radicand, index=index):
-            inside = _to_sympy(radicand)
-            if index % 2 and _sign(radicand) < 0:
-                return -sympy.root(-inside, index)
-            return sympy.root(inside, index)
-    raise TypeError(f"no value: {expression!r}")
-
-
-def _rational(number: Any) -> fmpq:
-    return fmpq(fmpz(int(number.numerator)), fmpz(int(number.denominator)))
-
-
-def _polynomial(descending: list[Any]) -> fmpq_poly:
-    return fmpq_poly([_rational(x) for x in reversed(descending)])

@@ -8,7 +8,6 @@ from __future__ import annotations
 
 from collections.abc import Sequence
 from functools import cached_property
-from itertools import combinations_with_replacement
 from typing import TypeAlias
 
 from flint import fmpq, fmpq_mat, fmpq_poly, fmpz
@@ -48,22 +47,26 @@ class NumberField:
 
     @cached_property
     def _basis(self) -> tuple[tuple[tuple[int, ...], ...], fmpq_mat]:
+        """A multiple of a product that depends on smaller ones does so too: only chosen products are extended."""
         chosen: list[tuple[int, ...]] = []
-        rows: list[list[fmpq]] = []
-        size = 0
-        while len(rows) < self.degree:
-            for word in combinations_with_replacement(range(len(self.radicals)), size):
-                value = fmpq_poly([1])
-                for index in word:
-                    value = value * self.radicals[index][1] % self.modulus
-                row = [value[k] for k in range(self.degree)]
-                if fmpq_mat([*rows, row]).rank() > len(rows):
-                    chosen.append(word)
-                    rows.append(row)
-                if len(rows) == self.degree:
-                    break
-            size += 1
-        return tuple(chosen), fmpq_mat(rows).transpose().inv()
+        columns: list[list[fmpq]] = []
+        level = {(): fmpq_poly([1])}
+        while level:
+            words = list(level)
+            candidates = [[level[word][k] for k in range(self.degree)] for word in words]
+            reduced, rank = fmpq_mat([*columns, *candidates]).transpose().rref()
+            pivots = [next(j for j, x in enumerate(row) if x) for row in reduced.tolist()[:rank]]
+            new = [j - len(columns) for j in pivots if j >= len(columns)]
+            chosen += [words[j] for j in new]
+            columns += [candidates[j] for j in new]
+            level = {
+                (*words[j], index): level[words[j]] * self.radicals[index][1] % self.modulus
+                for j in new
+                for index in range(words[j][-1] if words[j] else 0, len(self.radicals))
+            }
+            if len(columns) == self.degree:
+                break
+        return tuple(chosen), fmpq_mat(columns).transpose().inv()
 
     def in_radicals(self, number: Algebraic) -> list[fmpq]:
         """The coordinates of ``number`` in the basis ``monomials``."""

@@ -26,7 +26,7 @@ from garkcli.methodfile.description import (
     TransferText,
 )
 from garkcli.methodfile.numbers import Numbers, Row, Rows, read_parameters
-from garkcli.methodfile.source import Source, is_null
+from garkcli.methodfile.source import Source, is_null, keys_of
 from garkcli.transfer import PAIR_RULES, RULES
 
 KEYS = (
@@ -149,7 +149,7 @@ class Reader:
         return MethodsText(found, rules) if found and len(found) == len(methods) else None
 
     def _method(self, node: Node, where: str) -> FamilyText | ButcherText | None:
-        keys = {key.value for key, _ in node.value} if isinstance(node, MappingNode) else set()
+        keys = keys_of(node)
         if "family" not in keys and isinstance(node, MappingNode):
             return self._butcher(node, where)
         entries = self.source.mapping(node, where, ("family", "stages", "name"))
@@ -182,7 +182,7 @@ class Reader:
         return ButcherText(node, name or "", A, b, c) if A and b else None
 
     def _transfer(self, node: Node, colours: int) -> TransferText:
-        keys = {key.value for key, _ in node.value} if isinstance(node, MappingNode) else set()
+        keys = keys_of(node)
         if not keys & {"default", "blocks"}:
             return TransferText(self._rule(node, "transfer"), {})
         entries = self.source.mapping(node, "transfer", ("default", "blocks"))

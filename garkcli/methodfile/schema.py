@@ -19,6 +19,7 @@ Schema: TypeAlias = dict[str, Any]
 _NUMBER: Schema = {
     "description": "A coefficient: a number, or text such as 1/2 - sqrt(3)/6, read exactly as written.",
     "type": ["number", "string"],
+    "pattern": r"^[-+*/^(),.\sA-Za-z0-9_]+$",
 }
 _ROW: Schema = {"anyOf": [{"type": "array", "items": _NUMBER, "minItems": 1}, _NUMBER]}
 _MATRIX: Schema = {"type": "array", "items": {"$ref": "#/definitions/row"}, "minItems": 1}
@@ -34,7 +35,22 @@ def method_file_schema() -> Schema:
         "type": "object",
         "additionalProperties": False,
         "oneOf": [{"required": [form]} for form in FORMS],
-        "allOf": [_goes_with("transfer", "methods"), _goes_with("linear", "tableau")],
+        "allOf": [
+            _goes_with("transfer", "methods"),
+            _goes_with("linear", "tableau"),
+            {
+                "if": {"required": ["methods"], "properties": {"methods": {"minItems": 2}}},
+                "then": {"required": ["transfer"]},
+            },
+            {
+                "if": {"required": ["structure"], "properties": {"structure": {"not": {"const": "general"}}}},
+                "then": {"anyOf": [{"required": ["methods"]}, {"required": ["prk"]}]},
+            },
+            {
+                "if": {"required": ["prk"]},
+                "then": {"properties": {"structure": {"not": {"const": "semi-separable"}}}},
+            },
+        ],
         "properties": _properties(),
         "definitions": {
             "number": _NUMBER,
@@ -156,7 +172,7 @@ def _ark() -> Schema:
 
 
 def _expect() -> Schema:
-    number = {"anyOf": [{"type": "integer", "minimum": 0}, {"type": "string", "pattern": "^>=\\s*[0-9]{1,4}$"}]}
+    number = {"anyOf": [{"type": "integer", "minimum": 0}, {"type": "string", "pattern": "^(>=\\s*)?[0-9]{1,4}$"}]}
     entry = {"anyOf": [*number["anyOf"], {"type": "null"}]}
     row = {"type": "array", "items": entry}
     properties: Schema = dict.fromkeys(NUMBERS, number)

@@ -167,6 +167,13 @@ def _children(node: Node) -> Iterator[Node]:
             yield value
 
 
+def keys_of(node: Node) -> set[str]:
+    """The keys of a mapping that are plain texts; none for anything else."""
+    if not isinstance(node, MappingNode):
+        return set()
+    return {key.value for key, _ in node.value if isinstance(key, ScalarNode)}
+
+
 def is_null(node: Node) -> bool:
     """Whether the value is YAML's null."""
     return isinstance(node, ScalarNode) and node.tag == "tag:yaml.org,2002:null"

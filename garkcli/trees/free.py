@@ -1,0 +1,213 @@
+"""Free N-trees: what is left of a rooted tree when its root may move along the edges.
+
+Rooted trees stand for free trees here: a free tree is the set of its rootings, and it is listed and
+recognised by the rooting at its centroid, where no branch has more than half of the vertices.
+"""
+
+from __future__ import annotations
+
+from collections.abc import Collection, Iterator, Sequence
+from dataclasses import dataclass, field
+from functools import cached_property
+from itertools import chain, combinations_with_replacement, groupby, product
+from typing import Literal, TypeAlias
+
+from garkcli.trees.count import Admissible
+from garkcli.trees.tree import Tree
+
+Part: TypeAlias = Literal["y", "q", "p"]
+"""What a colour drives: all unknowns (a GARK method), positions or momenta (a symplectic pair)."""
+
+_PARTNER: dict[Part, Part] = {"y": "y", "q": "p", "p": "q"}
+
+
+@dataclass(frozen=True)
+class Structure:
+    """The colours of a symplectic tableau and how a tree's root moves among them.
+
+    A vertex of the free tree is a term H^{l} of the split; a colour is a term together with what it drives.
+    Below a vertex of term l hangs ``(m, "q")``, V^m, through A^{l,m} or ``(m, "p")``, F^m, through Â^{l,m}.
+    With the root moved across that edge the upper vertex hangs below as ``(l, "p")`` or ``(l, "q")``, so an
+    edge needs both vector fields: the stages of H^{l} see V^m only if there is a force F^l to use it.
+
+    Attributes:
+        colours: for each colour of the tableau its term, any number, and its part.
+        quadratic: terms H^{l} of degree two, whose vector fields are linear: two edges at a vertex at most.
+
+    >>> Structure(((0, "q"), (1, "p"))).admissible.branches
+    ((1,), (0,))
+    """
+
+    colours: tuple[tuple[int, Part], ...]
+    quadratic: frozenset[int] = frozenset()
+
+    def __post_init__(self) -> None:
+        if not self.colours:
+            raise ValueError("a symplectic tableau needs at least one colour")
+        if len(set(self.colours)) < len(self.colours):
+            raise ValueError("two colours are the same part of the same term")
+        if self.is_directed == any(part == "y" for _, part in self.colours):
+            raise ValueError("colours drive positions and momenta, or all of them everything")
+
+    @classmethod
+    def pair(
+        cls, velocities: Collection[int], forces: Collection[int], quadratic: Collection[int] = ()
+    ) -> Structure:
+        """The pair (A, Â) with V^l for l in ``velocities`` and F^l for l in ``forces``, in this order."""
+        V: list[tuple[int, Part]] = [(l, "q") for l in velocities]
+        F: list[tuple[int, Part]] = [(l, "p") for l in forces]
+        return cls((*V, *F), frozenset(quadratic))
+
+    @classmethod
+    def self_conjugate(cls, colours: int) -> Structure:
+        """A symplectic GARK tableau: b^l_i b^m_j = b^l_i a^{l,m}_{ij} + b^m_j a^{m,l}_{ji}."""
+        return cls(tuple((l, "y") for l in range(colours)))
+
+    @property
+    def is_directed(self) -> bool:
+        """Whether the edges of the free trees have a direction: from l to m for A^{l,m}, back for Â^{l,m}."""
+        return any(part != "y" for _, part in self.colours)
+
+    @cached_property
+    def leaders(self) -> dict[int, int]:
+        """For each term the colour that its vertex has as a root: the first one."""
+        first: dict[int, int] = {}
+        for colour, (term, _) in enumerate(self.colours):
+            first.setdefault(term, colour)
+        return first
+
+    @cached_property
+    def _number(self) -> dict[tuple[int, Part], int]:
+        return {nature: colour for colour, nature in enumerate(self.colours)}
+
+    @cached_property
+    def admissible(self) -> Admissible:
+        """The rooted trees that have an order condition."""
+        everything = range(len(self.colours))
+        edges = [[self._turned(above, below) is not None for below in everything] for above in everything]
+        linear = [colour for colour, (term, _) in enumerate(self.colours) if term in self.quadratic]
+        return Admissible.of(len(self.colours), edges, linear)
+
+    def _turned(self, above: int, below: int) -> int | None:
+        """The colour of the upper vertex once the root has moved below it; None where there is no edge."""
+        return self._number.get((self.colours[above][0], _PARTNER[self.colours[below][1]]))
+
+    def is_forward(self, colour: int) -> bool:
+        """Whether an edge down to this colour points down: through A, not through the conjugate Â."""
+        return self.colours[colour][1] != "p"
+
+    def lead(self, tree: Tree) -> Tree:
+        """The same tree with the first of the colours that its root may have."""
+        leader = self.leaders[self.colours[tree.root][0]]
+        return tree if leader == tree.root else Tree(leader, tree.branches)
+
+    def twins(self, tree: Tree) -> Iterator[Tree]:
+        """The tree with every colour that its root may have: V^l and F^l share stages and weights."""
+        term = self.colours[tree.root][0]
+        for colour, (other, _) in enumerate(self.colours):
+            if other == term:
+                yield Tree(colour, tree.branches)
+
+    def move_root(self, tree: Tree, index: int) -> Tree:
+        """The rooting at the root of one branch: u∘v becomes v∘u.
+
+        Raises ``ValueError`` when the structure has no such edge.
+        """
+        branch = tree.branches[index]
+        colour = self._turned(tree.root, branch.root)
+        if colour is None:
+            raise ValueError(f"colour {tree.root + 1} does not see colour {branch.root + 1}")
+        rest = Tree(colour, tree.branches[:index] + tree.branches[index + 1 :])
+        return self.lead(Tree(branch.root, (*branch.branches, rest)))
+
+    def rootings(self, tree: Tree) -> Iterator[Tree]:
+        """The rooting at every vertex, with repeats where vertices are alike."""
+        waiting: list[tuple[Tree, tuple[Tree, ...]]] = [(self.lead(tree), tree.branches)]
+        while waiting:
+            here, onward = waiting.pop()
+            yield here
+            waiting.extend((self.move_root(here, here.branches.index(u)), u.branches) for u in onward)
+
+    def is_admissible(self, tree: Tree) -> bool:
+        """Whether every edge exists and no linear vector field has two branches."""
+        below = self.admissible.branches[tree.root]
+        if len(tree.branches) > 1 and self.admissible.is_linear(tree.root):
+            return False
+        return all(u.root in below and self.is_admissible(u) for u in tree.branches)
+
+    def centred(self, tree: Tree) -> Tree:
+        """The rooting at the centroid, one for each free tree.
+
+        Of two centroids it is the tail of the edge between them, or the half that comes first.
+        """
+        here = self.lead(tree)
+        while here.branches and 2 * here.branches[-1].order > here.order:
+            here = self.move_root(here, len(here.branches) - 1)
+        if not here.branches or 2 * here.branches[-1].order < here.order:
+            return here
+        *rest, half = here.branches
+        if self.is_directed:
+            is_first = self.is_forward(half.root)
+        else:
+            is_first = Tree(here.root, rest).sort_key() <= half.sort_key()
+        return here if is_first else self.move_root(here, len(rest))
+
+
+@dataclass(frozen=True)
+class Grower:
+    """Lists the free trees of a structure by their centroids, each once; keeps trees of half the order only."""
+
+    structure: Structure
+    _planted: dict[tuple[int, int], tuple[Tree, ...]] = field(default_factory=dict, repr=False, compare=False)
+
+    def one_centroid(self, root: int, order: int) -> Iterator[Tree]:
+        """The free trees with one centroid, rooted there, in the order of trees."""
+        edges = 2 if self.structure.admissible.is_linear(root) else order
+        for branches in self._forests(root, order - 1, (order - 1) // 2, edges):
+            yield Tree(root, branches)
+
+    def two_centroids(self, root: int, order: int) -> Iterator[Tree]:
+        """The free trees with two centroids, two halves that differ, rooted as ``Structure.centred`` does."""
+        for colour in self.structure.admissible.branches[root] if order % 2 == 0 else ():
+            if not self.structure.is_forward(colour) or (colour < root and not self.structure.is_directed):
+                continue
+            halves = self.planted(colour, order // 2)
+            for position, u in enumerate(self.planted(root, order // 2)):
+                mirrored = colour == root and not self.structure.is_directed
+                for v in halves[position + 1 :] if mirrored else halves:
+                    yield Tree(root, (*u.branches, v))
+
+    def planted(self, root: int, order: int) -> tuple[Tree, ...]:
+        """The rooted trees that may hang below a vertex, or be half of a tree, in the order of trees."""
+        key = (order, root)
+        if key not in self._planted:
+            edges = 1 if self.structure.admissible.is_linear(root) else order
+            forests = self._forests(root, order - 1, order - 1, edges)
+            self._planted[key] = tuple(Tree(root, branches) for branches in forests)
+        return self._planted[key]
+
+    def _forests(self, root: int, total: int, largest: int, edges: int) -> Iterator[tuple[Tree, ...]]:
+        """The branches that a root may have: ``total`` vertices, ``largest`` and ``edges`` at most."""
+        colours = self.structure.admissible.branches[root]
+        for outline in _outlines(total, (largest, max(colours, default=0)), colours, edges):
+            groups = [(kind, len(list(alike))) for kind, alike in groupby(reversed(outline))]
+            chosen = [
+                combinations_with_replacement(self.planted(colour, order), times)
+                for (order, colour), times in groups
+            ]
+            for parts in product(*chosen):
+                yield tuple(chain.from_iterable(parts))
+
+
+def _outlines(
+    total: int, bound: tuple[int, int], colours: Sequence[int], edges: int
+) -> Iterator[tuple[tuple[int, int], ...]]:
+    """Orders and colours of the branches, the last branch first, each at most ``bound``, in lexicographic order."""
+    if total == 0:
+        yield ()
+    elif edges > 0:
+        for order in range(1, min(total, bound[0]) + 1):
+            for colour in colours:
+                if (order, colour) <= bound:
+                    for rest in _outlines(total - order, (order, colour), colours, edges - 1):
+                        yield ((order, colour), *rest)

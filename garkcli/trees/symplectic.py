@@ -1,0 +1,210 @@
+"""The independent order conditions of symplectic methods: one for each free tree that is not superfluous.
+
+Write Φ(u) = b_lᵀ 𝒜^[u] for the elementary weight and u∘v for u with v as one more branch of its root. In a
+symplectic pair b^l_i â^{l,m}_{ij} = b^l_i b^m_j − b^m_j a^{m,l}_{ji}. Put on one edge of a tree this reads
+
+    Φ(u∘v) + Φ(v∘u) = Φ(u) Φ(v),                                                              (1)
+
+where in v∘u the root has moved across the edge, which carries Â if it carried A, and A if it carried Â. The
+numbers 1/γ satisfy (1) as well, for the exact flow is symplectic. So once the conditions of lower order
+hold, those of u∘v and v∘u are equivalent, and all rootings of one free tree give *one* condition. The free
+tree has a term H^{l} at each vertex, and each edge a direction, from l to m for A^{l,m}. In a symplectic GARK
+method Â = A, edges have no direction, and u∘u is *superfluous*: (1) is 2 Φ(u∘u) = Φ(u)².
+
+Theorem. For every choice of one real number for each free tree of order up to n, the superfluous ones left
+out, some symplectic method with nonzero weights has these elementary weights. So no condition follows from
+the others, and the rank of the Jacobian of all conditions up to order n is the number of free trees.
+
+Proof. Let w_{ij} = a^{l,m}_{ij} / b^m_j, free in a pair, and w_{ij} = 1/2 + z_{ij} with z_{ij} = −z_{ji} in a
+symplectic GARK method. Up to sign and products of lower weights, Φ(u) is the sum S_T, over the stages at the
+vertices of the free tree T of u, of Π b over the vertices times Π w (or z) over the edges.
+
+(a) The S_T are linearly independent functions of b and w (or z). Take a method with one stage for each vertex
+of T: the monomial with each of its vertices and edges once has in S_T the coefficient |Aut T|, in the sum of
+any other tree 0. In z automorphisms count with the sign (−1)^(edges turned round), and S_T is zero exactly when
+one of them exchanges the ends of an edge, that is, when T is u∘u.
+
+(b) The attained vectors (S_T) are a subgroup of ℝ^K: two methods side by side, with w (or z) zero between them,
+add them, and −b with −w (or −z) negates them.
+
+(c) No linear functional vanishes on all dS, for by (a) it would vanish on S. So enough methods side by side have a
+Jacobian of rank K; the subgroup contains an open set, hence is everything. ∎
+
+``docs/symplectic-conditions.md`` says more. Sources: Sanz-Serna and Abia, SIAM J. Numer. Anal. 28 (1991) 1081; Abia
+and Sanz-Serna, Math. Comp. 60 (1993) 617; Araújo, Murua and Sanz-Serna, SIAM J. Numer. Anal. 34 (1997) 1926;
+Hairer, Lubich and Wanner, *Geometric Numerical Integration*, VI.7 and IX.10.
+"""
+
+from __future__ import annotations
+
+from collections.abc import Iterator
+from dataclasses import dataclass
+from functools import cached_property
+from typing import Literal, TypeAlias, get_args
+
+from garkcli.trees.count import counts_upto
+from garkcli.trees.free import Grower, Structure
+from garkcli.trees.tree import Tree
+
+Kind: TypeAlias = Literal["pair", "self-conjugate", "semi-separable", "separable", "nystrom"]
+"""Symplectic methods with a name; :class:`Structure` has all of them."""
+
+KINDS: tuple[Kind, ...] = get_args(Kind)
+
+
+def structure_of(kind: Kind, colours: int = 2) -> Structure:
+    """The structure of a kind of symplectic method.
+
+    ==============  =============================================  =============================
+    kind            problem                                        colours of the trees, from 0
+    ==============  =============================================  =============================
+    pair            H = Σ H^{l}(q, p), the paper's eq. (varGARK)   V¹…Vᴺ, F¹…Fᴺ
+    self-conjugate  y' = Σ f^{l}(y), GARK with Â = A               1…N
+    semi-separable  H = H^{1}(q, p) + H^{2}(q)                     V¹, F¹, F²
+    separable       H = H^{1}(p) + H^{2}(q)                        V¹, F²
+    nystrom         the same with H^{1} quadratic                  V¹, F²
+    ==============  =============================================  =============================
+
+    Args:
+        kind: one of ``KINDS``.
+        colours: N, the number of terms; 2 for the last three.
+
+    Raises:
+        ValueError: N below 1, or not 2 where it has to be.
+    """
+    if kind == "pair":
+        return Structure.pair(range(colours), range(colours))
+    if kind == "self-conjugate":
+        return Structure.self_conjugate(colours)
+    if colours != 2:
+        raise ValueError(f"{kind} problems have 2 terms, not {colours}")
+    if kind == "semi-separable":
+        return Structure.pair([0], [0, 1])
+    return Structure.pair([0], [1], quadratic=[0] if kind == "nystrom" else [])
+
+
+@dataclass(frozen=True)
+class ConditionClass:
+    """Order conditions that are equivalent once those of lower order hold: a free tree.
+
+    Attributes:
+        centred: the free tree, rooted at its centroid.
+        structure: the kind of method.
+    """
+
+    centred: Tree
+    structure: Structure
+
+    @property
+    def order(self) -> int:
+        """The number of vertices."""
+        return self.centred.order
+
+    @property
+    def representative(self) -> Tree:
+        """The tree whose condition stands for the class: the rooting at the centroid.
+
+        Where a quadratic term does not admit that root, the first rooting that has a condition.
+        """
+        return next(filter(self.structure.is_admissible, self.structure.rootings(self.centred)))
+
+    @cached_property
+    def members(self) -> tuple[Tree, ...]:
+        """All rooted trees of the class, sorted: at every vertex, with every colour of the same stages."""
+        rootings = set(filter(self.structure.is_admissible, self.structure.rootings(self.centred)))
+        twins = (twin for rooting in rootings for twin in self.structure.twins(rooting))
+        return tuple(sorted(twins, key=Tree.sort_key))
+
+    @property
+    def is_superfluous(self) -> bool:
+        """Whether the condition follows from those of lower order: the tree is u∘u with Â = A."""
+        if self.structure.is_directed or self.order % 2 or 2 * self.centred.branches[-1].order < self.order:
+            return False
+        *rest, half = self.centred.branches
+        return Tree(self.centred.root, rest) == half
+
+
+def independent_classes(structure: Structure, order: int) -> Iterator[ConditionClass]:
+    """The independent conditions of one order, each once, sorted by the trees rooted at the centroid.
+
+    Trees of at most half the order are kept in memory. Raises ``ValueError`` for an order below 1.
+
+    >>> from garkcli.trees.notation import format_tree
+    >>> [format_tree(c.representative) for c in independent_classes(Structure.pair([0], [0]), 3)]
+    ['[[]_1,[]_1]_1', '[[]_1,[]_2]_1', '[[]_2,[]_2]_1']
+    """
+    _check(order)
+    grower = Grower(structure)
+    for root in sorted(structure.leaders.values()):
+        for tree in grower.one_centroid(root, order):
+            yield ConditionClass(tree, structure)
+        for tree in grower.two_centroids(root, order):
+            yield ConditionClass(tree, structure)
+
+
+def superfluous_classes(structure: Structure, order: int) -> Iterator[ConditionClass]:
+    """The free trees u∘u of one order, whose conditions hold once those of lower order do; none for a pair.
+
+    >>> [c.representative for c in superfluous_classes(Structure.self_conjugate(1), 2)]
+    [Tree(0, [Tree(0)])]
+    """
+    _check(order)
+    if structure.is_directed or order % 2:
+        return
+    grower = Grower(structure)
+    for root in structure.leaders.values():
+        for u in grower.planted(root, order // 2):
+            yield ConditionClass(Tree(root, (*u.branches, u)), structure)
+
+
+def class_of(structure: Structure, tree: Tree) -> ConditionClass:
+    """The class in which the condition of a tree lies, superfluous or not.
+
+    Raises:
+        ValueError: the structure has no such tree.
+    """
+    if not tree.colours <= set(range(len(structure.colours))) or not structure.is_admissible(tree):
+        raise ValueError("the method has no order condition for this tree")
+    return ConditionClass(structure.centred(tree), structure)
+
+
+def count_classes(structure: Structure, order: int) -> int:
+    """The number of independent conditions of one order, without generating a tree.
+
+    A free tree with as many classes of alike vertices as v has v − 1 classes of alike edges, or v when an
+    edge may be turned round: when it is superfluous. So the number is that of the trees with a marked vertex
+    less that of the trees with a marked edge (Otter's dissymmetry).
+
+    >>> [count_classes(Structure.pair([0], [0]), n) for n in range(1, 10)]
+    [1, 1, 3, 8, 27, 91, 350, 1376, 5743]
+    >>> [count_classes(Structure.self_conjugate(1), n) for n in range(1, 10)]
+    [1, 0, 1, 1, 3, 4, 11, 19, 47]
+    """
+    _check(order)
+    admissible = structure.admissible
+    halves = counts_upto(admissible, order)  # [n - 1][colour]: trees that hang from an edge
+    vertices = edges = 0
+    for leader in structure.leaders.values():
+        vertices += halves[order - 1][leader]
+        if admissible.is_linear(leader):
+            branches = [sum(row[m] for m in admissible.branches[leader]) for row in halves]
+            vertices += _pairs(branches, branches, order - 1, same=True)
+        for m in admissible.branches[leader]:
+            if structure.is_forward(m) and (structure.is_directed or m >= leader):
+                same = m == leader and not structure.is_directed
+                upper, lower = ([row[colour] for row in halves] for colour in (leader, m))
+                edges += _pairs(upper, lower, order, same)
+    return vertices - edges
+
+
+def _pairs(ones: list[int], others: list[int], total: int, same: bool) -> int:
+    """How many pairs of trees have ``total`` vertices together; ``same``: without regard to their order."""
+    ordered = sum(ones[k - 1] * others[total - k - 1] for k in range(1, total))
+    if not same:
+        return ordered
+    return (ordered + (ones[total // 2 - 1] if total and total % 2 == 0 else 0)) // 2
+
+
+def _check(order: int) -> None:
+    if order < 1:
+        raise ValueError(f"the order of a tree is at least 1, not {order}")

@@ -1,0 +1,87 @@
+"""The program as a process: what only a real process shows."""
+
+import os
+import subprocess
+import sys
+
+import pytest
+
+from tests.cli.harness import ROOT
+
+FAILING = "tests/examples/failing/collocation-misprinted.gark.yaml"
+
+
+def run(*arguments: str, python: tuple[str, ...] = ("-m", "garkcli")) -> subprocess.CompletedProcess[str]:
+    """Run the program with the interpreter of the tests."""
+    command = [sys.executable, *python, *arguments]
+    environment = {**os.environ, "COLUMNS": "80", "PYTHONPATH": str(ROOT)}
+    return subprocess.run(command, cwd=ROOT, env=environment, capture_output=True, text=True, timeout=60)
+
+
+@pytest.mark.parametrize(
+    ("code", "arguments"),
+    [
+        (0, ("check", "methods/rectangular.gark.yaml")),
+        (1, ("check", FAILING)),
+        (2, ("check", "tests/examples/invalid/octal.gark.yaml")),
+        (2, ("nonsense",)),
+    ],
+)
+def test_exit_codes_of_the_process(code: int, arguments: tuple[str, ...]) -> None:
+    """``python -m garkcli`` ends with the documented exit code and no traceback."""
+    done = run(*arguments)
+    assert done.returncode == code
+    assert "Traceback" not in done.stderr
+
+
+def test_a_reader_that_goes_away_is_no_fault() -> None:
+    """``| head -1`` shows the first line; the program ends quietly, with nothing on stderr."""
+    command = f'"{sys.executable}" -m garkcli trees -N 3 -n 8 | head -1'
+    environment = {**os.environ, "PYTHONPATH": str(ROOT)}
+    done = subprocess.run(
+        command, shell=True, cwd=ROOT, env=environment, capture_output=True, text=True, timeout=60
+    )
+    assert done.stdout == "order 8, root colour 1\n"
+    assert done.stderr == ""
+
+
+def test_check_imports_no_heavy_package() -> None:
+    """``gark check`` on a file of families needs neither sympy nor numpy nor matplotlib."""
+    script = (
+        "import sys\n"
+        "from garkcli.cli import main\n"
+        "try:\n"
+        "    main(['check', 'methods/collocation.gark.yaml'])\n"
+        "except SystemExit as end:\n"
+        "    heavy = sorted({'sympy', 'numpy', 'matplotlib', 'rich', 'mpmath'} & set(sys.modules))\n"
+        "    print(end.code, heavy, file=sys.stderr)\n"
+    )
+    assert run(python=("-c", script)).stderr == "0 []\n"
+
+
+def test_help_imports_no_mathematics() -> None:
+    """``gark --help`` answers without loading the number library or the YAML reader."""
+    script = (
+        "import sys\n"
+        "from garkcli.cli import main\n"
+        "try:\n"
+        "    main(['--help'])\n"
+        "except SystemExit:\n"
+        "    print(sorted({'flint', 'yaml', 'numpy', 'sympy'} & set(sys.modules)), file=sys.stderr)\n"
+    )
+    assert run(python=("-c", script)).stderr == "[]\n"
+
+
+def test_a_fault_of_the_program_is_owned_up_to() -> None:
+    """An exception that no room expects ends in exit code 3 and a request to report it, not in a traceback."""
+    script = (
+        "import garkcli.cli.list_command, garkcli.report.listing as listing\n"
+        "from garkcli.cli import main\n"
+        "def broken(*_): raise RuntimeError('broken')\n"
+        "listing.render = broken\n"
+        "main(['list'])\n"
+    )
+    done = run(python=("-c", script))
+    assert done.returncode == 3
+    assert done.stderr.startswith("gark: internal fault: RuntimeError: broken\n")
+    assert "Traceback" not in done.stderr

@@ -1,0 +1,58 @@
+"""The pre-commit hook and the GitHub action, by running what they run."""
+
+from __future__ import annotations
+
+import os
+import re
+import subprocess
+import sys
+from pathlib import Path
+
+import pytest
+import yaml
+
+ROOT = Path(__file__).resolve().parents[2]
+GOOD = "methods/collocation.gark.yaml"
+BAD = "tests/examples/failing/collocation-misprinted.gark.yaml"
+
+
+def run(command: str, **variables: str) -> subprocess.CompletedProcess[str]:
+    """Run a shell command as the two integrations do, with the installed ``gark`` on the path."""
+    path = f"{Path(sys.executable).parent}{os.pathsep}{os.environ['PATH']}"
+    environment = {**os.environ, "PATH": path, **variables}
+    return subprocess.run(
+        ["bash", "-euo", "pipefail", "-c", command], cwd=ROOT, env=environment, capture_output=True, text=True
+    )
+
+
+@pytest.mark.parametrize(("file", "code"), [(GOOD, 0), (BAD, 1)])
+def test_pre_commit_hook(file: str, code: int) -> None:
+    """The hook's entry passes a right file and fails a wrong one, and its pattern picks method files alone."""
+    (hook,) = yaml.safe_load((ROOT / ".pre-commit-hooks.yaml").read_text())
+    assert re.search(hook["files"], file)
+    assert not re.search(hook["files"], "docker-compose.yaml")
+    assert run(f"{hook['entry']} {file}").returncode == code
+
+
+@pytest.mark.parametrize(("file", "code"), [(GOOD, 0), (BAD, 1)])
+def test_action(file: str, code: int) -> None:
+    """The action's last step passes a right file, and annotates the line of a wrong claim."""
+    action = yaml.safe_load((ROOT / "action.yml").read_text())
+    step = action["runs"]["steps"][-1]
+    inputs = {name: x["default"] for name, x in action["inputs"].items()} | {"files": file}
+    variables = {
+        name: re.sub(r"\$\{\{ inputs\.([a-z-]+) \}\}", lambda match: inputs[match[1]], text)
+        for name, text in step["env"].items()
+    }
+    result = run(step["run"], **variables)
+    assert result.returncode == code, result.stderr
+    line = (ROOT / BAD).read_text().splitlines().index("expect: {order: 4}") + 1
+    assert (f"::error file={BAD},line={line}," in result.stdout) == bool(code)
+
+
+def test_action_installs_this_project() -> None:
+    """What the action installs is the directory it lies in, and that directory is the project."""
+    action = yaml.safe_load((ROOT / "action.yml").read_text())
+    install = next(step for step in action["runs"]["steps"] if step.get("name") == "install")
+    assert install["run"].endswith('"$GITHUB_ACTION_PATH"')
+    assert 'name = "garkcli"' in (ROOT / "pyproject.toml").read_text()

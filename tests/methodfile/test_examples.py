@@ -1,0 +1,99 @@
+"""The example files: what is valid loads and keeps its claims, what is invalid is refused with its faults."""
+
+import time
+from pathlib import Path
+
+import pytest
+
+from garkcli.errors import MethodFileError
+from garkcli.families.registry import FAMILIES
+from garkcli.methodfile.check import check_file
+from garkcli.methodfile.description import FORMS, STRUCTURES
+from garkcli.methodfile.expectations import CLAIMS
+from garkcli.methodfile.load import load
+from garkcli.methodfile.reader import ALL_RULES, KEYS
+from garkcli.order.outcome import Outcome
+from garkcli.report.check_text import faults_text
+from garkcli.report.paint import Paint
+from tests.examples.snapshots import assert_recorded
+
+EXAMPLES = Path(__file__).parents[1] / "examples"
+SUFFIX = ".gark.yaml"
+VALID = sorted((EXAMPLES / "valid").glob(f"*{SUFFIX}"))
+INVALID = sorted((EXAMPLES / "invalid").glob(f"*{SUFFIX}"))
+SECONDS = 5
+PENDING = {
+    "ark-empty": "refused without a fault",
+    "block-doubled": "the later key wins in silence",
+    "parameters-that-explode": "never ends",
+    "radicals-of-large-degree": "never ends",
+    "tableau-empty": "refused without a fault",
+}
+"""Examples that the program does not treat as it should."""
+
+
+def stem(path: Path) -> str:
+    """The name of an example without its suffix."""
+    return path.name.removesuffix(SUFFIX)
+
+
+@pytest.mark.parametrize("path", VALID, ids=stem)
+def test_a_valid_file_keeps_its_claims(path: Path) -> None:
+    """The file loads and every claim under ``expect`` holds."""
+    outcome = check_file(str(path))
+    assert outcome.faults == ()
+    assert [claim for claim in outcome.claims if not claim.holds] == []
+    assert outcome.ok
+
+
+def pending(path: Path) -> object:
+    """The example, as one that is expected to fail where it is among ``PENDING``."""
+    reason = PENDING.get(stem(path))
+    marks = pytest.mark.xfail(reason=str(reason), strict=True, run=reason != "never ends") if reason else ()
+    return pytest.param(path, marks=marks, id=stem(path))
+
+
+@pytest.mark.parametrize("path", [pending(path) for path in INVALID])
+def test_an_invalid_file_is_refused_with_its_faults(path: Path, monkeypatch: pytest.MonkeyPatch) -> None:
+    """The file raises MethodFileError, soon, with the recorded faults, each with a place inside the file."""
+    monkeypatch.chdir(path.parent)
+    start = time.perf_counter()
+    with pytest.raises(MethodFileError) as caught:
+        load(path.name)
+    assert time.perf_counter() - start < SECONDS
+    error = caught.value
+    places = [(fault.line, fault.column) for fault in error.faults]
+    assert places
+    assert min(places) >= (1, 1)
+    assert places == sorted(places)
+    assert max(line for line, _ in places) <= max(1, error.text.count("\n") + 1)
+    outcome = Outcome(error.source, error.source, faults=error.faults, text=error.text)
+    assert_recorded(path.with_name(f"{stem(path)}.txt"), faults_text(outcome, Paint()) + "\n")
+
+
+def test_every_record_belongs_to_an_example() -> None:
+    """No record outlives the invalid file it was made from."""
+    records = {path.stem for path in (EXAMPLES / "invalid").glob("*.txt")}
+    assert records == {stem(path) for path in INVALID} - set(PENDING)
+
+
+def words(paths: list[Path]) -> str:
+    """The text of all the files."""
+    return "\n".join(path.read_text(encoding="utf-8") for path in paths)
+
+
+@pytest.mark.parametrize(
+    "vocabulary",
+    [KEYS, FORMS, STRUCTURES, ALL_RULES, CLAIMS, tuple(FAMILIES), ("sqrt(", "cbrt(", "root(", "^", "**")],
+)
+def test_the_valid_files_say_every_word_of_the_format(vocabulary: tuple[str, ...]) -> None:
+    """No key, form, structure, rule, claim, family or function is without an example that loads."""
+    text = words(VALID)
+    assert [word for word in vocabulary if word not in text] == []
+
+
+def test_the_misprinted_table_fails_its_claim() -> None:
+    """The collocation example as the paper prints it is a method, of order 2 where order 4 is claimed."""
+    outcome = check_file(str(EXAMPLES / "failing" / f"collocation-misprinted{SUFFIX}"))
+    assert [(x.claim, x.expected, x.found) for x in outcome.failed_claims] == [("order", "4", "2")]
+    assert outcome.exit_code == 1

@@ -1,0 +1,102 @@
+"""Coefficients: the text is taken at its word."""
+
+from collections.abc import Mapping
+
+import pytest
+from flint import fmpq
+from hypothesis import given
+from hypothesis import strategies as st
+
+from garkcli.errors import MethodFileError
+from garkcli.exact.display import to_text
+from garkcli.exact.field import Number
+from garkcli.methodfile.load import loads
+
+
+def value(scalar: str, parameters: Mapping[str, str] | None = None) -> Number:
+    """What the program reads for a coefficient."""
+    header = "parameters: {" + ", ".join(f"{k}: {x}" for k, x in (parameters or {}).items()) + "}\n"
+    block = loads(f"{header}tableau: {{c: [[0]], A: [[[[{scalar}]]]], b: [[1]]}}").tableau.block(0, 0)
+    assert block is not None
+    return block[0][0]
+
+
+@pytest.mark.parametrize(
+    ("scalar", "expected"),
+    [
+        ("0.1", fmpq(1, 10)),
+        ("'0.1'", fmpq(1, 10)),
+        ("1e-3", fmpq(1, 1000)),
+        ("2.5E+1", fmpq(25)),
+        (".5", fmpq(1, 2)),
+        ("7.", fmpq(7)),
+        ("-3", fmpq(-3)),
+        ("+3", fmpq(3)),
+        ("1/3", fmpq(1, 3)),
+        ("1/2/2", fmpq(1, 4)),
+        ("1 - 2 - 3", fmpq(-4)),
+        ("-2**2", fmpq(-4)),
+        ("(-2)^2", fmpq(4)),
+        ("2**-3", fmpq(1, 8)),
+        ("2*-1", fmpq(-2)),
+        ("sqrt(9/4)", fmpq(3, 2)),
+        ("cbrt(-27)", fmpq(-3)),
+        ('"root(16, 4)"', fmpq(2)),
+        ("sqrt(2)**2", fmpq(2)),
+        ("sqrt(2)*sqrt(3) - sqrt(6)", fmpq(0)),
+        ("sqrt(3 + 2*sqrt(2)) - sqrt(2)", fmpq(1)),
+        ("1/(1 + sqrt(2)) - sqrt(2)", fmpq(-1)),
+        ("9" * 400, fmpq(10**400 - 1)),
+    ],
+)
+def test_a_coefficient_is_the_number_it_is_written_as(scalar: str, expected: fmpq) -> None:
+    """Every notation gives its exact rational value; decimals are never binary floats."""
+    assert value(scalar) == expected
+
+
+@given(st.integers(-(10**30), 10**30), st.integers(1, 10**30))
+def test_every_fraction_is_read_exactly(p: int, q: int) -> None:
+    """p/q is the rational number p/q, of any size."""
+    assert value(f"{p}/{q}") == fmpq(p, q)
+
+
+@given(st.decimals(allow_nan=False, allow_infinity=False, min_value=-1000, max_value=1000, places=25))
+def test_every_decimal_is_read_exactly(number: object) -> None:
+    """A decimal of 28 digits is that decimal, which no float could hold."""
+    text = f"{number:f}"
+    whole, _, fraction = text.partition(".")
+    assert value(text) == fmpq(int(whole + fraction), 10 ** len(fraction))
+
+
+def test_parameters_are_chained() -> None:
+    """A parameter may use those before it, and its value is exact."""
+    chain = {"g": "1 - sqrt(2)/2", "d": "1 - 1/(2*g)", "e": "d - d"}
+    assert to_text(value("g", chain)) == "1 - sqrt(2)/2"
+    assert value("2*g*(1 - d)", chain) == 1
+    assert value("e", chain) == 0
+
+
+def test_a_parameter_is_a_value_and_not_a_text() -> None:
+    """-s**2 of s = 1 + 1 is -(2**2): a parameter is put in as if in parentheses."""
+    assert value("-s**2", {"s": "1 + 1"}) == -4
+    assert value("6/s", {"s": "1 + 1"}) == 3
+
+
+@pytest.mark.parametrize("scalar", ["010", "0x10", "1_000", "1:30", "yes", "on", "~", "2001-12-14", ".inf", ".NaN"])
+def test_a_plain_scalar_that_yaml_reads_as_something_else_is_refused(scalar: str) -> None:
+    """What YAML 1.1 takes for an octal, a base-60 number, a word or a date is never silently a coefficient."""
+    with pytest.raises(MethodFileError) as caught:
+        value(scalar)
+    assert scalar in caught.value.faults[0].message or scalar == "~"
+
+
+def test_nothing_in_a_file_is_executed(tmp_path: object) -> None:
+    """A call in a coefficient is refused, and what it would have done has not happened."""
+    mark = f"{tmp_path}/executed"
+    with pytest.raises(MethodFileError):
+        value(f"\"__import__('pathlib').Path('{mark}').touch()\"")
+    with pytest.raises(MethodFileError):
+        loads(f"methods: [!!python/object/apply:os.system ['touch {mark}']]")
+    from pathlib import Path
+
+    assert not Path(mark).exists()

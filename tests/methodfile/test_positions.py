@@ -1,0 +1,145 @@
+"""Where faults are: all of them, in file order, with the caret under the culprit."""
+
+import subprocess
+import sys
+from pathlib import Path
+
+import pytest
+
+from garkcli.errors import Fault, MethodFileError
+from garkcli.methodfile.load import load, loads
+from garkcli.methodfile.source import Source
+from garkcli.order.outcome import Outcome
+from garkcli.report.check_text import faults_text
+from garkcli.report.paint import Paint
+
+
+def faults(text: str) -> tuple[Fault, ...]:
+    """What is wrong with the text of a method file."""
+    with pytest.raises(MethodFileError) as caught:
+        loads(text, "m")
+    return caught.value.faults
+
+
+def under_caret(text: str) -> list[str]:
+    """For each fault the rest of the line that its caret stands under, read off the rendered report."""
+    found = faults(text)
+    lines = faults_text(Outcome("m", "m", faults=found, text=text), Paint()).splitlines()
+    carets = [i for i, line in enumerate(lines) if line.lstrip(" |") == "^"]
+    return [lines[i - 1][lines[i].index("^") :] for i in carets]
+
+
+def test_all_faults_of_a_file_come_at_once_and_in_file_order() -> None:
+    """Ten faults of ten kinds, read in an order that is not the file's, are reported line by line."""
+    text = (
+        "nam: x\n"
+        "structure: nystrm\n"
+        "tolerance: [1]\n"
+        "parameters: {tau: 1/0x}\n"
+        "methods:\n"
+        "  - {family: gaus, stages: 2}\n"
+        "  - A: [[0, 1], [1, yes]]\n"
+        "    b: [1/2, 010]\n"
+        "transfer: colocation\n"
+        "expect: {order: four}\n"
+    )
+    found = faults(text)
+    assert [fault.line for fault in found] == [1, 2, 3, 4, 6, 7, 8, 9, 10]
+    assert all(fault.column > 0 for fault in found)
+
+
+@pytest.mark.parametrize(
+    ("scalar", "culprit"),
+    [
+        ("1/2 + gama", "gama"),
+        ("'1/2 + gama'", "gama'"),
+        ('"1/2 + gama"', 'gama"'),
+        ("1/2 − 1/6", "− 1/6"),
+        ('"1/2 − 1/6"', '− 1/6"'),
+        ("2*(1/3 + 1/0)", "0)"),
+        ('"  sqrt(1 - 2)"', 'sqrt(1 - 2)"'),
+        ("3**2**2", "**2"),
+        ("2**99", "99"),
+        ("sine(1)", "sine(1)"),
+        ("1 2 3", "2 3"),
+        ('"root(2, 1.5)"', '1.5)"'),
+        ('"(1/2"', '"'),
+    ],
+)
+def test_the_caret_stands_under_the_culprit(scalar: str, culprit: str) -> None:
+    """Inside a plain or a quoted scalar the caret is at the very sign that is wrong: ``culprit`` is the rest."""
+    text = f"methods:\n  - A: [[0, 0], [0, 0]]\n    b: [1/2, {scalar}]\n"
+    assert scalar.endswith(culprit)
+    assert under_caret(text) == [f"{culprit}]"]
+
+
+def test_the_caret_finds_its_place_in_a_long_line() -> None:
+    """A line that is cut to the terminal keeps the culprit in view, with the caret under it."""
+    row = ", ".join(["1/7"] * 60)
+    text = f"methods:\n  - A: [[{row}, oops, {row}]]\n    b: [1]\n"
+    assert any(rest.startswith("oops, 1/7") for rest in under_caret(text))
+
+
+def test_a_missing_file_has_no_line() -> None:
+    """What is wrong with a path is no fault of a line: the place is 0."""
+    with pytest.raises(MethodFileError) as caught:
+        load("no-such-file.gark.yaml")
+    assert caught.value.faults == (Fault("no such file"),)
+
+
+def test_a_fault_is_told_once_where_one_node_is_used_twice() -> None:
+    """An anchor that is read for two colours is reported at its place, once for each colour it is read for."""
+    text = "tableau:\n  A: [[&a [[x]], *a], [null, *a]]\n  b: [[1], [1]]\n"
+    found = faults(text)
+    assert len(found) == len(set(found)) == 3
+    assert {(fault.line, fault.column) for fault in found} == {(2, 13)}
+
+
+def test_limits_are_part_of_the_fault() -> None:
+    """A file that would exhaust the machine is refused with the limit it passes."""
+    assert "400000 values" in faults("a: &a [" + "1, " * 1000 + "1]\nb: [" + "*a, " * 500 + "*a]\n")[0].message
+    assert "12 deep" in faults("methods: " + "[" * 40 + "]" * 40)[0].message
+    assert "1000 digits" in faults("methods: [{A: [[1e2000]], b: [1]}]")[0].message
+    assert "20000" in faults(f"methods: [{{A: [[{'1+' * 10001}1]], b: [1]}}]")[0].message
+
+
+@pytest.mark.xfail(reason="reading stops where the coefficients are missing", strict=True)
+def test_the_rest_of_a_file_is_read_where_coefficients_are_missing() -> None:
+    """Faults of other keys are reported beside a form that cannot be read."""
+    text = "tableau: {b: [[1]]}\ntransfer: collocation\nconjugate: perhaps\nexpect: {order: four}\n"
+    assert [fault.line for fault in faults(text)] == [1, 2, 3, 4]
+
+
+@pytest.mark.xfail(reason="building stops at the first fault", strict=True)
+def test_every_block_that_cannot_be_made_is_reported() -> None:
+    """Weights that do not sum to 1, a zero weight and coinciding nodes are reported in one run."""
+    text = (
+        "methods: [{family: gauss, stages: 2}, {family: rk4}, {A: [[0]], b: [0]}]\n"
+        "transfer:\n"
+        "  default: collocation\n"
+        "  blocks:\n"
+        '    "1,3": {interpolation: 1/2, collocation: 1/3}\n'
+        '    "3,1": conjugate-collocation\n'
+        '    "1,2": interpolation\n'
+    )
+    assert {5, 6, 7} <= {fault.line for fault in faults(text)}
+
+
+@pytest.mark.xfail(reason="faults of one place are sorted out of a set", strict=True)
+def test_faults_of_one_place_keep_the_order_they_were_met_in() -> None:
+    """What a file is told does not depend on the hash seed of the run."""
+    source = Source("m", "")
+    messages = [f"fault {n}" for n in range(40)]
+    for message in messages:
+        source.fault(None, message)
+    assert [fault.message for fault in source.error().faults] == messages
+
+
+@pytest.mark.xfail(reason="libyaml's composer recurses in C until the stack ends", strict=True)
+def test_yaml_nested_without_end_is_refused(tmp_path: Path) -> None:
+    """A file of 100 000 opening brackets is refused with a fault; the process survives it."""
+    path = tmp_path / "deep.gark.yaml"
+    path.write_text("methods: " + "[" * 100_000 + "]" * 100_000)
+    run = subprocess.run([sys.executable, "-m", "garkcli", "check", str(path)], capture_output=True, text=True)
+    assert run.returncode == 2
+    assert "12 deep" in run.stdout

@@ -1,0 +1,120 @@
+"""LaTeX reports: balanced, and with the signs of the paper."""
+
+import re
+from collections.abc import Iterator
+
+import pytest
+from hypothesis import given
+from hypothesis import strategies as st
+
+from garkcli.exact.display import to_latex
+from garkcli.exact.domain import Domain
+from garkcli.exact.expression import parse
+from tests.cli.harness import gark
+
+RUNS = [
+    ("tableau", "methods/collocation.gark.yaml"),
+    ("tableau", "methods/stoermer-verlet.gark.yaml"),
+    ("tableau", "methods/three-colours.gark.yaml"),
+    ("tableau", "tests/examples/valid/conjugate.gark.yaml"),
+    ("conjugate", "methods/collocation.gark.yaml", "--pair"),
+    ("conditions", "-n", "5"),
+    ("conditions", "-N", "2", "-n", "3", "--coloured"),
+    ("conditions", "methods/collocation-conjugate.gark.yaml", "-n", "3"),
+    ("conditions", "methods/ark-ars222.gark.yaml", "-n", "3", "--failing"),
+    ("trees", "-N", "2", "-n", "4"),
+]
+
+
+def latex(*arguments: str) -> str:
+    """A LaTeX report, its comments left out."""
+    run = gark(*arguments, "--format", "latex")
+    assert run.code == 0, run.err
+    return "\n".join(line for line in run.out.splitlines() if not line.startswith("%"))
+
+
+def unbalanced(text: str) -> Iterator[str]:
+    """What is opened and not closed, or closed and not opened."""
+    depth = 0
+    for sign in re.findall(r"(?<!\\)[{}]", text):
+        depth += 1 if sign == "{" else -1
+        if depth < 0:
+            yield "}"
+    yield from "{" * depth
+    stack: list[str] = []
+    for kind, name in re.findall(r"\\(begin|end)\{(\w+)\*?\}", text):
+        if kind == "begin":
+            stack.append(name)
+        elif not stack or stack.pop() != name:
+            yield name
+    yield from stack
+    if len(re.findall(r"(?<!\\)\$", text)) % 2:
+        yield "$"
+    if text.count(r"\[") - len(re.findall(r"\\\\\[", text)) != text.count(r"\]"):
+        yield "["
+
+
+@pytest.mark.parametrize("arguments", RUNS, ids=" ".join)
+def test_latex_is_balanced(arguments: tuple[str, ...]) -> None:
+    """Braces, environments, dollars and displays are closed, and no sign outside LaTeX's reach is left."""
+    text = latex(*arguments)
+    assert text.strip()
+    assert list(unbalanced(text)) == []
+    assert "**" not in text
+    assert "sqrt(" not in text
+
+
+def test_the_check_for_balance_can_fail() -> None:
+    """The helper of these tests notices what is not closed."""
+    for text in ("{", "}", r"\begin{array}", r"\begin{a}\end{b}", "$x", r"\[x"):
+        assert list(unbalanced(text)), text
+
+
+def test_every_row_of_a_tableau_has_every_column() -> None:
+    """The array of the collocation example has a node and 2 + 3 entries in each of its 2 + 3 + 1 rows."""
+    text = latex("tableau", "methods/collocation.gark.yaml")
+    rows = [line for line in text.splitlines() if "&" in line]
+    assert [row.count("&") for row in rows] == [5] * 6
+    assert r"\begin{array}{c|cc|ccc}" in text
+    assert r"\frac{1}{2}-\frac{\sqrt{3}}{6}" in text
+    assert text.count(r"\hline") == 2
+
+
+def test_conditions_carry_the_signs_of_the_paper() -> None:
+    """Table 1: A^{l,m}, b^{l}, the componentwise product and the quantifier stand in the table."""
+    text = latex("conditions", "-n", "3")
+    for fragment in (r"A^{\{l,m\}}", r"b^{\{l\}}", r"\odot", r"\forall", r"\mathbbm{1}", r"[\tau,\tau]"):
+        assert fragment in text
+
+
+numbers = st.sampled_from(
+    ["0", "-1", "1/3", "-7/12", "sqrt(3)/6", "-sqrt(3)", "1/2 - sqrt(3)/6", "-1/2 + 5*sqrt(3)/4"]
+)
+
+
+@pytest.mark.parametrize(
+    ("text", "expected"),
+    [
+        ("0", "0"),
+        ("-3", "-3"),
+        ("-7/12", r"-\frac{7}{12}"),
+        ("sqrt(3)", r"\sqrt{3}"),
+        ("-sqrt(3)/6", r"-\frac{\sqrt{3}}{6}"),
+        ("1/2 - 5*sqrt(3)/4", r"\frac{1}{2}-\frac{5\sqrt{3}}{4}"),
+        ("cbrt(2)", r"\sqrt[3]{2}"),
+        ("cbrt(2)**2", r"\sqrt[3]{2}^{2}"),
+    ],
+)
+def test_a_number_in_latex(text: str, expected: str) -> None:
+    """Signs, fractions and roots of a number, as the paper would print them."""
+    expression = parse(text)
+    assert to_latex(Domain([expression]).evaluate(expression)) == expected
+
+
+@given(numbers, numbers)
+def test_the_latex_of_every_sum_is_balanced(one: str, other: str) -> None:
+    """No sign is doubled and no brace left open, whatever cancels."""
+    expression = parse(f"({one}) - ({other})")
+    text = to_latex(Domain([expression]).evaluate(expression))
+    assert list(unbalanced(text)) == []
+    assert not re.search(r"\+-|--|\+\+|-\+|^\+", text)
