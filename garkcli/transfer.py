@@ -68,8 +68,8 @@ SUMMARIES: Mapping[str, str] = {
     "interpolation": "the stages of method m, interpolated at the nodes of l",
     "conjugate-collocation": "the block of the symplectic conjugate of the collocation construction",
     "conjugate-interpolation": "the block of the symplectic conjugate of the interpolation construction",
-    "symplectic-collocation": "collocation on the method of smaller order; the opposite block its conjugate",
-    "symplectic-interpolation": "interpolation on the method of smaller order; the opposite block its conjugate",
+    "symplectic-collocation": "collocation on the lower-order method; the opposite block its conjugate",
+    "symplectic-interpolation": "interpolation on the lower-order method; the opposite block its conjugate",
 }
 """One line a rule, for people."""
 

@@ -8,11 +8,14 @@ from typing import TYPE_CHECKING
 import click
 
 from garkcli.cli.options import CONTEXT, Output, common
+from garkcli.cli.trees_command import kind_asked, symplectic_options
 from garkcli.errors import UsageProblem
 
 if TYPE_CHECKING:
     from garkcli.report.conditions import ConditionRow
+    from garkcli.report.symplectic import Subject
     from garkcli.tableau.tableau import Tableau
+    from garkcli.trees.symplectic import Kind
 
 
 @click.command("conditions", context_settings=CONTEXT)
@@ -45,6 +48,7 @@ if TYPE_CHECKING:
     help="Order of the rows; worst: the largest residual first.",
 )
 @click.option("--document", is_flag=True, help="With --format latex: a document that compiles as it stands.")
+@symplectic_options
 @common(["text", "json", "csv", "latex"])
 def command(
     file: str | None,
@@ -56,6 +60,9 @@ def command(
     failing: bool,
     sort: str,
     document: bool,
+    symplectic: bool,
+    kind: str | None,
+    members: bool,
     output: Output,
 ) -> int:
     """The order-condition table.
@@ -63,27 +70,37 @@ def command(
     Without FILE the paper's Table 1 for any order: a row for each tree shape, to hold for all colours (text and
     latex), or a row for each coloured tree (json and csv). With FILE every condition of that method with its
     exact value, the required value and the residual; identical conditions are listed once.
+
+    With --symplectic one condition of each class of those that are equivalent for symplectic methods; with FILE
+    for its symplectic pair, unless it is symplectic itself.
     """
     from garkcli.report import conditions as report
     from garkcli.report.progress import tracked
 
+    asked = kind_asked(symplectic, kind, members)
     orders = range(order, order + 1) if only else range(1, order + 1)
-    if file is None:
-        if which or failing or sort != "tree":
-            raise UsageProblem("values are those of a method", "give a FILE")
+    if file is None and (which or failing or sort != "tree"):
+        raise UsageProblem("values are those of a method", "give a FILE")
+    if file is not None and (colours is not None or coloured is not None):
+        raise UsageProblem("the colours are those of FILE", "leave out --colours, --coloured, --shapes")
+    subject = None
+    if asked is not None:
+        if coloured is not None:
+            raise UsageProblem("free trees have colours", "leave out --coloured and --shapes")
+        subject = _subject(asked, colours, orders) if file is None else _of_file(_chosen(file, which), kind, orders)
+        rows = _independent(subject, members)
+    elif file is None:
         if coloured is None:
             coloured = output.format in {"json", "csv"} and colours is not None
         rows = _table(colours or 1, orders, coloured)
     else:
-        if colours is not None or coloured is not None:
-            raise UsageProblem("the colours are those of FILE", "leave out --colours, --coloured, --shapes")
         rows = _valued(_chosen(file, which), orders)
-        if failing:
-            rows = (row for row in rows if row.condition is not None and not row.condition.holds)
-        if sort == "worst":
-            rows = iter(sorted(rows, key=_badness, reverse=True))
+    if failing:
+        rows = (row for row in rows if row.condition is not None and not row.condition.holds)
+    if sort == "worst":
+        rows = iter(sorted(rows, key=_badness, reverse=True))
     rows = tracked(rows, None, "conditions", output.may_show_progress)
-    output.write(report.render(rows, output.format, output.paint, output.width, document))
+    output.write(report.render(rows, output.format, output.paint, output.width, document, subject))
     return 0
 
 
@@ -94,6 +111,32 @@ def _chosen(file: str, which: str | None) -> Tableau:
 
     tableau = load(file).tableau
     return conjugate(tableau) if which == "conjugate" else pair(tableau) if which == "pair" else tableau
+
+
+def _subject(kind: Kind, terms: int | None, orders: range) -> Subject:
+    from garkcli.report.symplectic import subject_of_kind
+
+    return subject_of_kind(kind, terms, orders)
+
+
+def _of_file(tableau: Tableau, kind: str | None, orders: range) -> Subject:
+    from garkcli.report.symplectic import subject_of_method
+
+    if kind is not None:
+        raise UsageProblem("the kind is that of FILE", "leave out --kind; --pair asks for the pair")
+    return subject_of_method(tableau, orders)
+
+
+def _independent(subject: Subject, members: bool) -> Iterator[ConditionRow]:
+    """A row for each class, with its value where the subject is a method."""
+    from garkcli.order.conditions import conditions
+    from garkcli.report.conditions import ConditionRow
+
+    for found in subject.classes():
+        tree = found.representative
+        valued = None if subject.tableau is None else next(conditions(subject.tableau, [tree]))
+        trees = found.members
+        yield ConditionRow(tree, False, valued, stands_for=len(trees), members=trees if members else ())
 
 
 def _table(colours: int, orders: range, coloured: bool) -> Iterator[ConditionRow]:

@@ -72,7 +72,7 @@ def command(
     if drift:
         return _drift(tableau, oscillator, method.name, time, _positive("--step", step), plot, output)
     sizes = None if steps is None else [_positive("--steps", h) for h in steps.split(",")]
-    return _converge(tableau, oscillator, method.name, time, sizes, plot, output)
+    return _converge(tableau, oscillator, method, time, sizes, plot, output)
 
 
 def _applied(method: MethodFile, output: Output) -> Tableau:
@@ -92,7 +92,7 @@ def _applied(method: MethodFile, output: Output) -> Tableau:
 def _converge(
     tableau: Tableau,
     problem: Oscillator,
-    name: str,
+    method: MethodFile,
     t_end: fmpq | None,
     steps: list[fmpq] | None,
     plot: str | None,
@@ -101,8 +101,14 @@ def _converge(
     from garkcli.dynamics.convergence import converge
     from garkcli.report import convergence as report
 
-    result = converge(tableau, problem, t_end, steps)
-    output.write(report.render(result, name, output.format, output.paint))
+    predicted, tolerance = None, 0.0
+    if method.tolerance is not None:
+        from garkcli.exact.display import to_float
+        from garkcli.order.rounded import find_order_within
+
+        predicted, tolerance = find_order_within(tableau, method.tolerance).order, to_float(method.tolerance)
+    result = converge(tableau, problem, t_end, steps, predicted, tolerance)
+    output.write(report.render(result, method.name, output.format, output.paint))
     if plot is not None:
         from garkcli.report.plot import convergence_figure, save
 

@@ -2,19 +2,53 @@
 
 from __future__ import annotations
 
-from collections.abc import Iterator
-from typing import TYPE_CHECKING
+from collections.abc import Callable, Iterable, Iterator
+from typing import TYPE_CHECKING, Any, TypeVar, cast
 
 import click
 
 from garkcli.cli.options import CONTEXT, Output, common
 from garkcli.errors import UsageProblem
+from garkcli.trees.symplectic import KINDS, Kind
 
 if TYPE_CHECKING:
     from garkcli.report.trees import Query, TreeRow
+    from garkcli.trees.tree import Tree
 
+F = TypeVar("F", bound=Callable[..., Any])
 MAX_PICTURES = 2000
 """Most trees on one sheet of pictures."""
+
+
+def symplectic_options(function: F) -> F:
+    """``--symplectic``, ``--kind`` and ``--members``."""
+    options = [
+        click.option(
+            "--symplectic", is_flag=True, help="Independent conditions of symplectic methods: free trees."
+        ),
+        click.option(
+            "--kind",
+            type=click.Choice(KINDS),
+            help="With --symplectic: which methods, the pair (A, Â) unless given.",
+        ),
+        click.option("--members", is_flag=True, help="With --symplectic: all rooted trees of each free tree."),
+    ]
+    for option in reversed(options):
+        function = option(function)
+    return function
+
+
+def kind_asked(symplectic: bool, kind: str | None, members: bool) -> Kind | None:
+    """The kind of symplectic methods; None where all trees are meant.
+
+    Raises:
+        UsageProblem: options of ``--symplectic`` without it.
+    """
+    if symplectic:
+        return cast("Kind", kind or "pair")
+    if kind is not None or members:
+        raise UsageProblem(f"{'--members' if kind is None else '--kind'} is about free trees", "add --symplectic")
+    return None
 
 
 @click.command("trees", context_settings=CONTEXT)
@@ -22,10 +56,8 @@ MAX_PICTURES = 2000
     "--colours",
     "-N",
     type=click.IntRange(1, 1000),
-    default=1,
-    show_default=True,
     metavar="N",
-    help="How many colours.",
+    help="How many colours, 1 unless given; with --symplectic, terms of the split.",
 )
 @click.option("--order", "-n", type=click.IntRange(1, 10000), metavar="n", help="The number of vertices.")
 @click.option("--upto", is_flag=True, help="Every order from 1 to n.")
@@ -35,9 +67,10 @@ MAX_PICTURES = 2000
 @click.option("--tree", "one", metavar="TEXT", help="One tree, such as [[]_2,[]_1]_1, instead of an order.")
 @click.option("--svg", metavar="FILE", help="Draw a sheet of all the trees into FILE.")
 @click.option("--document", is_flag=True, help="With --format latex: a document that compiles as it stands.")
+@symplectic_options
 @common(["text", "json", "ndjson", "csv", "latex"])
 def command(
-    colours: int,
+    colours: int | None,
     order: int | None,
     upto: bool,
     root: int | None,
@@ -46,37 +79,89 @@ def command(
     svg: str | None,
     one: str | None,
     document: bool,
+    symplectic: bool,
+    kind: str | None,
+    members: bool,
     output: Output,
 ) -> int:
     """Enumerate the N-trees of an order, by root colour, with order, symmetry and density.
 
-    A tree is its root's colour after its bracketed branches: []_1 is a single vertex of colour 1.
+    A tree is its root's colour after its bracketed branches: []_1 is a single vertex of colour 1. With
+    --symplectic the rooted trees that differ in the place of their root are one row: their conditions are
+    equivalent for symplectic methods.
     """
     from garkcli.report import trees as report
-    from garkcli.report.progress import tracked
 
+    asked = kind_asked(symplectic, kind, members)
+    if asked is not None:
+        if root is not None or colours_used is not None or one is not None:
+            raise UsageProblem("free trees have no root", "leave out --root, --colours-used and --tree")
+        return _free_trees(asked, colours, _orders(order, upto), count, members, svg, document, output)
+    colours = colours or 1
     used = _colours(colours_used, colours)
     if root is not None and root > colours:
         raise UsageProblem(f"there is no colour {root}", f"--colours {colours} numbers them from 1")
     if one is not None:
         return _single(one, svg, document, output)
-    if order is None:
-        raise UsageProblem("which order?", "give --order n, or --tree for one tree")
-    orders = range(1, order + 1) if upto else range(order, order + 1)
-    query = report.Query(colours, order, upto, root, used)
+    orders = _orders(order, upto)
+    query = report.Query(colours, orders[-1], upto, root, used)
     if count:
         if used:
             raise UsageProblem("--count knows no --colours-used", "leave one of them out")
         output.write(report.render_counts(query, _counts(query), output.format, output.paint))
         return 0
     if svg is not None:
-        _draw(svg, query, orders)
+        from garkcli.trees.notation import parse_tree
+
+        _draw(svg, (parse_tree(row.tree) for row in _rows(query, orders)), colours > 1)
         output.note(f"wrote {svg}")
         return 0
+    _list(query, orders, document, output)
+    return 0
+
+
+def _orders(order: int | None, upto: bool) -> range:
+    if order is None:
+        raise UsageProblem("which order?", "give --order n, or --tree for one tree")
+    return range(1, order + 1) if upto else range(order, order + 1)
+
+
+def _list(query: Query, orders: range, document: bool, output: Output) -> None:
+    """A row for each tree."""
+    from garkcli.report import trees as report
+    from garkcli.report.progress import tracked
+
     totals = _totals(query)
     count_all = None if totals is None else sum(map(sum, (report.kept(query, by_root) for _, by_root in totals)))
     rows = tracked(_rows(query, orders), count_all, "trees", output.may_show_progress)
     output.write(report.render(query, rows, totals, output.format, output.paint, document))
+
+
+def _free_trees(
+    kind: Kind,
+    terms: int | None,
+    orders: range,
+    count: bool,
+    members: bool,
+    svg: str | None,
+    document: bool,
+    output: Output,
+) -> int:
+    """A row for each class of equivalent conditions of symplectic methods."""
+    from garkcli.report import symplectic as report
+    from garkcli.report.progress import tracked
+
+    subject = report.subject_of_kind(kind, terms, orders)
+    if count:
+        output.write(report.render_class_counts(subject, output.format, output.paint))
+    elif svg is not None:
+        trees = (found.representative for found in subject.classes())
+        _draw(svg, trees, subject.has_colours)
+        output.note(f"wrote {svg}")
+    else:
+        classes = tracked(subject.classes(), subject.independent, "trees", output.may_show_progress)
+        pieces = report.render_classes(subject, classes, output.format, output.paint, members, document)
+        output.write(pieces)
     return 0
 
 
@@ -143,15 +228,14 @@ def _rows(query: Query, orders: range) -> Iterator[TreeRow]:
             )
 
 
-def _draw(path: str, query: Query, orders: range) -> None:
+def _draw(path: str, listed: Iterable[Tree], coloured: bool) -> None:
     from itertools import islice
 
     from garkcli.cli.options import write_whole
     from garkcli.trees.drawing import draw_svg_sheet
-    from garkcli.trees.notation import parse_tree
+    from garkcli.trees.notation import format_tree
 
-    rows = list(islice(_rows(query, orders), MAX_PICTURES + 1))
-    if len(rows) > MAX_PICTURES:
+    trees = list(islice(listed, MAX_PICTURES + 1))
+    if len(trees) > MAX_PICTURES:
         raise UsageProblem(f"more than {MAX_PICTURES} trees do not fit on a sheet", "draw one order or one root")
-    trees = [parse_tree(row.tree) for row in rows]
-    write_whole(path, [draw_svg_sheet(trees, [row.tree for row in rows])])
+    write_whole(path, [draw_svg_sheet(trees, [format_tree(tree, coloured) for tree in trees])])

@@ -19,7 +19,7 @@ from garkcli.exact.matrix import Matrix
 from garkcli.tableau.tableau import Colour, Tableau
 
 PROBLEMS: Mapping[str, str] = {
-    "oscillator": "q̈ = −ω²q, split as ½p² and equal parts of ½ω²q²; linear: sees the unbranched trees only",
+    "oscillator": "q̈ = −ω²q as ½p² and parts of ½ω²q²; sees the unbranched trees only",
 }
 """One line a problem, for people."""
 

@@ -83,6 +83,18 @@ def to_decimal(number: Number, digits: int = 17) -> str:
     return to_ball(number, digits).str(digits, radius=False)
 
 
+def decimal(number: fmpq) -> str:
+    """A positive rational as people write tolerances: ``1e-13``, or a fraction where it is no such decimal.
+
+    >>> decimal(fmpq(1, 10**13)), decimal(fmpq(5, 10**8)), decimal(fmpq(1, 3))
+    ('1e-13', '5e-8', '1/3')
+    """
+    exponent = 0
+    while number.q != 1 and exponent < 400:
+        number, exponent = number * 10, exponent + 1
+    return f"{number}e-{exponent}" if number.q == 1 and exponent else str(number / fmpq(10) ** exponent)
+
+
 def to_float(number: Number) -> float:
     """The nearest float, or nearly so."""
     return float(to_ball(number))

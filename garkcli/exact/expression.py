@@ -21,7 +21,7 @@ from typing import NoReturn
 
 from flint import fmpq
 
-from garkcli.errors import ExpressionError, LimitExceeded, UndefinedValue
+from garkcli.errors import ExpressionError, LimitExceeded, UndefinedValue, did_you_mean
 
 MAX_LENGTH = 20_000
 """Longest text of one coefficient, in characters."""
@@ -89,6 +89,13 @@ _TOKEN = re.compile(
     r"|(?P<name>[A-Za-z_][A-Za-z_0-9]*)|(?P<op>\*\*|[-+*/^(),])|(?P<end>$))"
 )
 _INDEX = {"sqrt": 2, "cbrt": 3}
+_SIGN_CURES = dict.fromkeys("−–—", "use the sign - (hyphen)") | {
+    "√": "write sqrt(x)",
+    "½": "write 1/2",
+    "²": "write x**2",
+    "·": "use the sign *",
+    "×": "use the sign *",
+}
 FUNCTIONS = frozenset({*_INDEX, "root"})
 """Names with a meaning of their own: no parameter may be called so."""
 
@@ -128,7 +135,7 @@ class _Parser:
                 rest = self.text[position:]
                 offset = position + len(rest) - len(rest.lstrip(" \t\r\n"))
                 sign = self.text[offset]
-                cure = "use the sign - (hyphen)" if sign in "−–—" else "see the grammar of numbers"
+                cure = _SIGN_CURES.get(sign, "write digits 0-9, + - * / ** ( ), sqrt(x), cbrt(x), root(x, n)")
                 raise ExpressionError(f"the sign {sign!r} has no place in a number", cure, offset, offset + 1)
             kind = match.lastgroup or "end"
             start, end = match.span(kind)
@@ -271,6 +278,20 @@ def read_decimal(text: str, start: int = 0) -> fmpq:
     return fmpq(int(whole + fraction) * 10 ** max(scale, 0), 10 ** max(-scale, 0))
 
 
+def size_of(expression: Expression, sizes: Mapping[str, int]) -> int:
+    """How many nodes ``expression`` has, each name counting for what it stands for (1 if it is not known)."""
+    match expression:
+        case Name(name=name):
+            return sizes.get(name, 1)
+        case Chain(operands=operands):
+            return 1 + sum(size_of(x, sizes) for x in operands)
+        case Power(base=base):
+            return 1 + size_of(base, sizes)
+        case Root(radicand=radicand):
+            return 1 + size_of(radicand, sizes)
+    return 1
+
+
 def substitute(expression: Expression, values: Mapping[str, Expression]) -> Expression:
     """``expression`` with each name replaced by its value; offsets stay those of ``expression``.
 
@@ -280,9 +301,11 @@ def substitute(expression: Expression, values: Mapping[str, Expression]) -> Expr
     match expression:
         case Name(name=name):
             if name not in values:
+                near = did_you_mean(name, values) if values else ""
+                cure = near if near.startswith("did") else f"define it, before its use: parameters: {{{name}: 1/2}}"
                 raise UndefinedValue(
                     f"{name!r} is not a parameter",
-                    f"define it under parameters: {{{name}: 1/2}}",
+                    cure,
                     expression.start,
                     expression.end,
                 )

@@ -50,7 +50,7 @@ class NumberField:
         """A multiple of a product that depends on smaller ones does so too: only chosen products are extended."""
         chosen: list[tuple[int, ...]] = []
         columns: list[list[fmpq]] = []
-        level = {(): fmpq_poly([1])}
+        level: dict[tuple[int, ...], fmpq_poly] = {(): fmpq_poly([1])}
         while level:
             words = list(level)
             candidates = [[level[word][k] for k in range(self.degree)] for word in words]

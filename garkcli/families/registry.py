@@ -63,7 +63,7 @@ FAMILIES: Mapping[str, Family] = {
         _named("heun", "2", "the explicit trapezoidal rule"),
         _named("kutta", "3", "Kutta's method of order 3"),
         _named("rk4", "4", "the classical Runge-Kutta method"),
-        _any("ssp2", explicit.ssp2, 2, order="2", summary="explicit, strong-stability-preserving SSPRK(s,2)"),
+        _any("ssp2", explicit.ssp2, 2, order="2", summary="explicit, strong-stability-preserving"),
     )
 }
 """Every family by name."""

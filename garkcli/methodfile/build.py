@@ -4,13 +4,12 @@ from __future__ import annotations
 
 from collections.abc import Callable, Mapping
 from dataclasses import dataclass
-from functools import partial
 from typing import TypeAlias, TypeVar
 
 from flint import fmpq
 from yaml.nodes import Node
 
-from garkcli.errors import GarkError, MethodError, MethodFileError, UnknownFamily
+from garkcli.errors import GarkError, MethodError, MethodFileError, ShapeMismatch, UnknownFamily
 from garkcli.exact.field import ONE, ZERO, Number
 from garkcli.exact.matrix import Matrix
 from garkcli.families.registry import diagonal_method
@@ -170,23 +169,26 @@ class Builder:
         blocks: Blocks = {}
         for l, m in needed:
             block = text.transfer.blocks.get((l, m)) or _pair_rule(text, m, l) or text.transfer.default
-            if block is None:
-                node = text.methods[0].node
-                message = f"A^{{{l + 1},{m + 1}}} has no rule"
-                self.source.fault(node, message, "give it one, or a default, under transfer")
-                self.source.close()
-            elif isinstance(block, MatrixText):
-                blocks[l, m] = self._matrix(block, methods, l, m)
-            else:
-                blocks[l, m] = self._at(block.node, partial(self._by_rule, block, methods, orders, l, m))
+            try:
+                if block is None:
+                    raise MethodError("it has no rule", "give it one, or a default, under transfer")
+                if isinstance(block, MatrixText):
+                    blocks[l, m] = self._matrix(block, methods, l, m)
+                else:
+                    blocks[l, m] = self._by_rule(block, methods, orders, l, m)
+            except GarkError as error:
+                node = block.node if block is not None else text.methods[0].node
+                self.source.fault(node, f"A^{{{l + 1},{m + 1}}}: {error.message}", error.help)
+        self.source.close()
         return blocks
 
     def _matrix(self, block: MatrixText, methods: list[Method], l: int, m: int) -> Matrix:
         shape, found = (methods[l].stages, methods[m].stages), (len(block.rows), len(block.rows[0]))
         if found != shape:
-            message = f"A^{{{l + 1},{m + 1}}} is {found[0]} by {found[1]} and should be {shape[0]} by {shape[1]}"
-            self.source.fault(block.node, message, "it has a row a stage of l and a column a stage of m")
-            self.source.close()
+            raise ShapeMismatch(
+                f"a matrix of {found[0]} by {found[1]} should be {shape[0]} by {shape[1]}",
+                f"a row for each stage of method {l + 1}, a column for each of method {m + 1}",
+            )
         return self.values.matrix(block.rows)
 
     def _by_rule(self, text: RuleText, methods: list[Method], orders: _Orders, l: int, m: int) -> Matrix:

@@ -28,7 +28,7 @@ def check_file(path: str, limit: int = DEFAULT_LIMIT, want_constants: bool = Fal
         method = load(path)
     except MethodFileError as error:
         return Outcome(error.source, error.source, faults=error.faults, text=error.text)
-    analysis = analyse(method.tableau, max(limit, highest_order(method.claims) + 1))
+    analysis = analyse(method.tableau, max(limit, highest_order(method.claims) + 1), method.tolerance)
     first_failing = None if analysis.order.is_lower_bound else analysis.order.order + 1
     constants = None
     if want_constants and first_failing is not None:
@@ -42,7 +42,6 @@ def check_file(path: str, limit: int = DEFAULT_LIMIT, want_constants: bool = Fal
         analysis=analysis,
         claims=verify(method.claims, analysis),
         text=method.text,
-        tolerance=method.tolerance,
         blame=_blame(method, first_failing),
         constants=constants,
     )
@@ -51,7 +50,7 @@ def check_file(path: str, limit: int = DEFAULT_LIMIT, want_constants: bool = Fal
 def _blame(method: MethodFile, first_failing: int | None) -> Blame | None:
     """What is to blame for an order smaller than the file claims."""
     claimed = highest_order(tuple(claim for claim in method.claims if claim.key == "order"))
-    if first_failing is None or first_failing > claimed:
+    if first_failing is None or first_failing > claimed or method.tolerance is not None:
         return None
     from garkcli.order.blame import find_blame  # paid for by failures alone
 

@@ -5,6 +5,7 @@ from __future__ import annotations
 from dataclasses import dataclass, field
 from typing import Literal, TypeAlias
 
+from flint import fmpq
 from yaml.nodes import Node
 
 from garkcli.methodfile.numbers import Entry, Row, Rows
@@ -118,5 +119,5 @@ class Description:
     name: str = ""
     description: str = ""
     reference: str = ""
-    tolerance: Entry | None = None
+    tolerance: fmpq | None = None
     claims: tuple[ClaimText, ...] = field(default=())

@@ -94,17 +94,23 @@ def verify(claims: tuple[ClaimText, ...], analysis: Analysis) -> tuple[Claim, ..
 def _found(key: str, analysis: Analysis) -> object:
     conjugate, pair, both = analysis.conjugate_order, analysis.pair_order, analysis.pair_simplifying
     table: Simplifying = analysis.simplifying
+    limit = analysis.limit
     return {
-        "order": analysis.order.order,
-        "conjugate-order": conjugate.order if conjugate else None,
-        "pair-order": pair.order if pair else None,
+        "order": _capped(analysis.order.order, limit),
+        "conjugate-order": _capped(conjugate.order, limit) if conjugate else None,
+        "pair-order": _capped(pair.order, limit) if pair else None,
         "bound": table.bound,
         "pair-bound": both.bound if both else None,
-        "B": list(table.B),
-        "C": [list(row) for row in table.C],
-        "D": [list(row) for row in table.D],
+        "B": [_capped(x, limit) for x in table.B],
+        "C": [[_capped(x, limit) for x in row] for row in table.C],
+        "D": [[_capped(x, limit) for x in row] for row in table.D],
         "symplectic": analysis.symplectic,
     }[key]
+
+
+def _capped(number: int | None, limit: int) -> object:
+    """A number at which the search stopped is known to be at least that large, no more."""
+    return AtLeast(number) if number is not None and number >= limit else number
 
 
 def _verified(claim: ClaimText, found: object) -> Claim:
@@ -124,7 +130,8 @@ def _agrees(wanted: object, found: object) -> bool:
         same = isinstance(found, list) and len(found) == len(wanted)
         return same and all(_agrees(x, y) for x, y in zip(wanted, found, strict=True))  # type: ignore[call-overload]
     if isinstance(wanted, AtLeast):
-        return isinstance(found, int) and found >= wanted.least
+        known = found.least if isinstance(found, AtLeast) else found
+        return isinstance(known, int) and known >= wanted.least
     return type(wanted) is type(found) and wanted == found
 
 

@@ -6,11 +6,8 @@ import sys
 from collections.abc import Iterable, Iterator
 from pathlib import Path
 
-from flint import fmpq
-
 from garkcli.errors import Fault, MethodFileError
 from garkcli.methodfile.build import Builder, MethodFile, nodes_to_spell_out, refuse_unknown_families
-from garkcli.methodfile.description import Description
 from garkcli.methodfile.numbers import Values
 from garkcli.methodfile.reader import Reader
 from garkcli.methodfile.source import MAX_BYTES, Source
@@ -25,9 +22,7 @@ def find_files(paths: Iterable[str]) -> Iterator[str]:
     for path in paths:
         if path != STDIN and Path(path).is_dir():
             found = sorted(str(file) for file in Path(path).rglob(f"*{SUFFIX}"))
-            if not found:
-                raise MethodFileError(path, [Fault(f"no {SUFFIX} files in this directory")])
-            yield from found
+            yield from found or [path]
         else:
             yield path
 
@@ -41,6 +36,9 @@ def load(path: str) -> MethodFile:
     if path == STDIN:
         return loads(_decoded(path, sys.stdin.buffer.read(MAX_BYTES + 1)), "<stdin>")
     file = Path(path)
+    if file.is_dir():
+        fault = Fault(f"no {SUFFIX} files in this directory", "name the files, or rename them")
+        raise MethodFileError(path, [fault])
     if not file.exists():
         raise MethodFileError(path, [Fault("no such file")])
     if not file.is_file():
@@ -91,19 +89,8 @@ def loads(text: str, source: str = "<text>") -> MethodFile:
         form=description.form,
         structure=description.structure,
         is_conjugate=description.is_conjugate,
-        tolerance=_tolerance(description, values, reading),
+        tolerance=description.tolerance,
         claims=description.claims,
         reference=description.reference,
         description=description.description,
     )
-
-
-def _tolerance(description: Description, values: Values, source: Source) -> fmpq | None:
-    entry = description.tolerance
-    if entry is None:
-        return None
-    value = values.number(entry)
-    if not isinstance(value, fmpq) or not 0 < value < 1:
-        source.fault(entry.node, "tolerance: a number between 0 and 1 is expected", "for instance 1e-13")
-        raise source.error()
-    return value

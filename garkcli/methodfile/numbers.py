@@ -3,7 +3,6 @@
 from __future__ import annotations
 
 import re
-from collections.abc import Mapping
 from dataclasses import dataclass, field
 from typing import TypeAlias
 
@@ -11,7 +10,7 @@ from yaml.nodes import Node, ScalarNode
 
 from garkcli.errors import ExpressionError, LimitExceeded, UndefinedValue
 from garkcli.exact.domain import Domain
-from garkcli.exact.expression import FUNCTIONS, Expression, Literal, parse, substitute
+from garkcli.exact.expression import FUNCTIONS, Expression, Literal, parse, size_of, substitute
 from garkcli.exact.field import ZERO, Number
 from garkcli.exact.matrix import Matrix, Vector
 from garkcli.methodfile.source import Source
@@ -20,6 +19,8 @@ _READ_DIFFERENTLY = re.compile(
     r"[-+]?(0[0-9_]+|0[xob][0-9a-f_]+|[0-9][0-9_]*(:[0-5]?[0-9])+(\.[0-9_]*)?|[0-9_]*_[0-9_.]*)", re.IGNORECASE
 )
 """Plain scalars that YAML 1.1 reads as another number than they look: octal, hexadecimal, base 60, with _."""
+MAX_SIZE = 2_000
+"""Most operations of one coefficient, those of the parameters in it written out."""
 _WORDS = {"bool", "null", "timestamp", "merge"}
 
 
@@ -41,8 +42,14 @@ class Numbers:
     """Reads the coefficients of one file; ``parameters`` are substituted as they are read."""
 
     source: Source
-    parameters: Mapping[str, Expression] = field(default_factory=dict)
+    parameters: dict[str, Expression] = field(default_factory=dict)
     entries: list[Entry] = field(default_factory=list)
+    _sizes: dict[str, int] = field(default_factory=dict)
+
+    def define(self, name: str, value: Expression) -> None:
+        """Let ``name`` stand for ``value`` in all coefficients read from now on."""
+        self.parameters[name] = value
+        self._sizes[name] = size_of(value, {})
 
     def entry(self, node: Node, where: str) -> Entry:
         """One coefficient; a faulty one is noted and read as zero, so that reading goes on."""
@@ -50,9 +57,13 @@ class Numbers:
         text = self.source.scalar(node, where)
         if text is not None and not self._is_misread(node, text, where):
             try:
-                expression = substitute(parse(text), self.parameters)
+                parsed = parse(text)
+                if size_of(parsed, self._sizes) > MAX_SIZE:
+                    message = f"more than {MAX_SIZE} operations, with the parameters written out"
+                    raise LimitExceeded(message, "write it shorter", 0, len(text))
+                expression = substitute(parsed, self.parameters)
             except ExpressionError as error:
-                self.source.expression_fault(node, where, error)
+                self.source.expression_fault(node, where, _explained(error, text, node))
         entry = Entry(expression, node, where)
         self.entries.append(entry)
         return entry
@@ -62,13 +73,14 @@ class Numbers:
             return False
         kind = str(node.tag).rpartition(":")[2]
         if kind in _WORDS:
-            self.source.fault(node, f"{where}: {text or 'nothing'!r} is no number: YAML reads it as {kind}")
+            message = f"{where}: {text or 'nothing'!r} is no number: YAML reads it as {kind}"
+            self.source.fault(node, message, "write a number, such as 1/2")
             return True
         if _READ_DIFFERENTLY.fullmatch(text):
-            cure = "write the number in plain decimal digits"
-            self.source.fault(node, f"{where}: YAML reads {text} as another number than it looks", cure)
+            cure = "leave out the _" if "_" in text else "write the number in plain decimal digits"
+            self.source.fault(node, f"{where}: {text} means different numbers to different readers of YAML", cure)
             return True
-        if text.lower().lstrip("+-") in {".inf", ".nan"}:
+        if text.lower().lstrip("+-") in {".inf", ".nan", "nan", "inf", "infinity"}:
             self.source.fault(node, f"{where}: {text} is not a number", "coefficients are finite")
             return True
         return False
@@ -102,6 +114,15 @@ class Numbers:
         if found != shape and all(len(row) == found[1] for row in rows):
             message = f"{where} is {found[0]} by {found[1]} and should be {shape[0]} by {shape[1]}"
             self.source.fault(node, message, why)
+
+
+def _explained(error: ExpressionError, text: str, node: Node) -> ExpressionError:
+    """The cure for what YAML cut in two: root(x, n) without quotes inside brackets."""
+    plain = isinstance(node, ScalarNode) and node.style not in {"'", '"'}
+    if plain and "root(" in text and text.count("(") > text.count(")"):
+        cure = 'inside brackets YAML ends a value at a comma: quote it, "root(x, n)"'
+        return ExpressionError(error.message, cure, error.start, error.end)
+    return error
 
 
 class Values:
@@ -148,19 +169,24 @@ class Values:
         return tuple(self.vector(row) for row in rows)
 
 
-def read_parameters(source: Source, node: Node | None) -> dict[str, Expression]:
-    """The values of ``parameters``; each may use those before it."""
+def read_parameters(numbers: Numbers, node: Node | None) -> None:
+    """Read ``parameters`` into ``numbers``; each may use those before it.
+
+    The values join the coefficients of the file, so that a faulty one is reported where it stands.
+    """
     if node is None:
-        return {}
-    values: dict[str, Expression] = {}
+        return
+    source = numbers.source
     for name, value_node in source.mapping(node, "parameters", ()).items():
-        numbers = Numbers(source, dict(values))
-        if name in FUNCTIONS or not name.isidentifier() or not name.isascii():
-            source.fault(value_node, f"parameters: {name!r} cannot be the name of a parameter", "use letters")
+        where = f"parameters: {name}"
+        value: Expression = Literal(ZERO)
+        if name in FUNCTIONS:
+            source.fault(value_node, f"{where} is a function already", "choose another name")
+        elif not name.isidentifier() or not name.isascii():
+            source.fault(value_node, f"{where} cannot be the name of a parameter", "use letters, digits and _")
         elif isinstance(value_node, ScalarNode) and value_node.value == "free":
             cure = "give it a value, for instance 1/2"
-            source.fault(value_node, f"parameters: {name} is free; orders are decided for given values", cure)
-            values[name] = Literal(ZERO)
+            source.fault(value_node, f"{where} is free; orders are decided for given values", cure)
         else:
-            values[name] = numbers.entry(value_node, f"parameters: {name}").expression
-    return values
+            value = numbers.entry(value_node, where).expression
+        numbers.define(name, value)

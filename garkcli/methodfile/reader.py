@@ -5,8 +5,11 @@ from __future__ import annotations
 import re
 from typing import cast
 
+from flint import fmpq
 from yaml.nodes import MappingNode, Node, ScalarNode, SequenceNode
 
+from garkcli.errors import LimitExceeded
+from garkcli.exact.expression import read_decimal
 from garkcli.methodfile import expectations
 from garkcli.methodfile.description import (
     FORMS,
@@ -45,7 +48,12 @@ KEYS = (
 )
 """The keys of a method file."""
 ALL_RULES = (*RULES, *PAIR_RULES)
+_DECIMAL = re.compile(r"([0-9]+(\.[0-9]*)?|\.[0-9]+)([eE][+-]?[0-9]+)?", re.ASCII)
 _BLOCK = re.compile(r"\s*([1-9][0-9]{0,3})\s*,\s*([1-9][0-9]{0,3})\s*")
+
+
+def _entries(count: int) -> str:
+    return "1 entry" if count == 1 else f"{count} entries"
 
 
 class Reader:
@@ -65,31 +73,50 @@ class Reader:
         version = entries.get("gark")
         if version is not None and source.scalar(version, "gark") != "1":
             source.fault(version, "gark: this program reads version 1 of the format", "write gark: 1")
-        self.numbers.parameters = read_parameters(source, entries.get("parameters"))
-        form = self._form(root, entries)
-        if form is None:
-            return None
-        structure = self._structure(form, entries)
-        content = self._content(form, structure, entries)
-        if content is None:
-            return None
-        self._refuse_misplaced(form, entries)
         text = {
             key: source.scalar(entries[key], key) or ""
             for key in ("name", "description", "reference")
             if key in entries
         }
-        tolerance = entries.get("tolerance")
+        tolerance = self._tolerance(entries.get("tolerance"))
+        is_conjugate = self._is_conjugate(entries.get("conjugate"))
+        claims = expectations.read(source, entries.get("expect"))
+        read_parameters(self.numbers, entries.get("parameters"))
+        form = self._form(root, entries)
+        if form is None:
+            return None
+        self._refuse_misplaced(form, entries)
+        structure = self._structure(form, entries)
+        content = self._content(form, structure, entries)
+        if content is None:
+            return None
         return Description(
             form=form,
             content=content,
             node=entries[form],
             structure=structure,
-            is_conjugate=self._is_conjugate(entries.get("conjugate")),
-            tolerance=self.numbers.entry(tolerance, "tolerance") if tolerance is not None else None,
-            claims=expectations.read(source, entries.get("expect")),
+            is_conjugate=is_conjugate,
+            tolerance=tolerance,
+            claims=claims,
             **text,
         )
+
+    def _tolerance(self, node: Node | None) -> fmpq | None:
+        """A rational number between 0 and 1; no parameters, as it is no coefficient."""
+        if node is None:
+            return None
+        text = self.source.scalar(node, "tolerance")
+        if text is None:
+            return None
+        try:
+            value = read_decimal(text) if _DECIMAL.fullmatch(text) else None
+        except LimitExceeded:
+            value = None
+        if value is None or not 0 < value < 1:
+            message = f"tolerance: a decimal number between 0 and 1 is expected, not {text!r}"
+            self.source.fault(node, message, "for instance 1e-13")
+            return None
+        return value
 
     def _form(self, root: Node, entries: dict[str, Node]) -> Form | None:
         present = [key for key in FORMS if key in entries]
@@ -136,7 +163,7 @@ class Reader:
 
     def _methods(self, node: Node, structure: Structure, transfer: Node | None) -> MethodsText | None:
         items = self.source.items(node, "methods")
-        methods = [self._method(item, f"methods, {l}") for l, item in enumerate(items, start=1)]
+        methods = [self._method(item, l) for l, item in enumerate(items, start=1)]
         if not items and isinstance(node, SequenceNode):
             self.source.fault(node, "methods is empty", "list at least one diagonal method")
         if structure != "general" and len(items) != 2:
@@ -148,12 +175,16 @@ class Reader:
         found = tuple(method for method in methods if method is not None)
         return MethodsText(found, rules) if found and len(found) == len(methods) else None
 
-    def _method(self, node: Node, where: str) -> FamilyText | ButcherText | None:
-        keys = keys_of(node)
+    def _method(self, node: Node, l: int) -> FamilyText | ButcherText | None:
+        keys, where = keys_of(node), f"method {l}"
+        if isinstance(node, MappingNode) and keys & {"stages"} and not keys & {"family", "A", "b"}:
+            self.source.fault(node, f"{where}: family missing", "write for instance family: gauss")
+            return None
         if "family" not in keys and isinstance(node, MappingNode):
-            return self._butcher(node, where)
+            return self._butcher(node, where, (f"A^{{{l},{l}}}", f"b^{{{l}}}", f"c^{{{l}}}"))
+        before = len(self.source.faults)
         entries = self.source.mapping(node, where, ("family", "stages", "name"))
-        if "family" not in entries:
+        if "family" not in entries or len(self.source.faults) > before:
             return None
         name = self.source.scalar(entries["family"], f"{where}, family")
         stages = None
@@ -163,21 +194,24 @@ class Reader:
                 return None
         return FamilyText(node, name, stages) if name is not None else None
 
-    def _butcher(self, node: Node, where: str, square: bool = True) -> ButcherText | None:
+    def _butcher(
+        self, node: Node, where: str, names: tuple[str, str, str], square: bool = True
+    ) -> ButcherText | None:
+        """A method spelled out; ``names`` are what its A, b and c are called in messages."""
         entries = self.source.mapping(node, where, ("name", "A", "b", "c"))
         missing = [key for key in ("A", "b") if key not in entries]
         if missing:
             cure = "give family and stages, or A and b" if square else "give A, b and perhaps c"
             self.source.fault(node, f"{where}: {' and '.join(missing)} missing", cure)
             return None
-        A = self.numbers.matrix(entries["A"], f"{where}, A")
-        b = self.numbers.row(entries["b"], f"{where}, b")
-        c = self.numbers.row(entries["c"], f"{where}, c") if "c" in entries else None
+        A = self.numbers.matrix(entries["A"], names[0])
+        b = self.numbers.row(entries["b"], names[1])
+        c = self.numbers.row(entries["c"], names[2]) if "c" in entries else None
         if square:
             s = len(b)
-            self.numbers.expect_shape(A, entries["A"], f"{where}, A", (s, s), f"b has {s} entries")
+            self.numbers.expect_shape(A, entries["A"], names[0], (s, s), f"{names[1]} has {_entries(s)}")
             if c is not None and len(c) != s:
-                self.source.fault(entries["c"], f"{where}, c has {len(c)} entries for {s} stages")
+                self.source.fault(entries["c"], f"{names[2]} has {_entries(len(c))} for {s} stages")
         name = self.source.scalar(entries["name"], f"{where}, name") if "name" in entries else ""
         return ButcherText(node, name or "", A, b, c) if A and b else None
 
@@ -197,6 +231,8 @@ class Reader:
                     self.source.fault(value, message, 'write for instance "1,2" for the block A^{1,2}')
                     continue
                 where = f"A^{{{l + 1},{m + 1}}}"
+                if (l, m) in blocks:
+                    self.source.fault(value, f"transfer, blocks: {where} is given twice", "keep one of them")
                 block = (
                     MatrixText(value, self.numbers.matrix(value, where))
                     if isinstance(value, SequenceNode)
@@ -210,8 +246,15 @@ class Reader:
         if isinstance(node, ScalarNode):
             rule = self.source.choice(node, where, ALL_RULES)
             return RuleText(node, ((rule, None),)) if rule else None
+        mixed = sorted(keys_of(node) & set(PAIR_RULES))
+        if mixed:
+            message = f"{where}: {mixed[0]} makes both blocks of a pair of colours and cannot be combined"
+            self.source.fault(node, message, f"write {mixed[0]} on its own")
+            return None
         entries = self.source.mapping(node, where, RULES)
         if not entries:
+            if isinstance(node, MappingNode) and not node.value:
+                self.source.fault(node, f"{where}: no rule", f"one of: {', '.join(ALL_RULES)}")
             return None
         terms = ((rule, self.numbers.entry(x, f"{where}, weight of {rule}")) for rule, x in entries.items())
         return RuleText(node, tuple(terms))
@@ -223,10 +266,12 @@ class Reader:
         if entries is None:
             return None
         b_nodes = self.source.items(entries["b"], "b")
+        if isinstance(entries["b"], SequenceNode) and not b_nodes:
+            self.source.fault(entries["b"], "b is empty", "give a row of weights a colour")
         b = tuple(self.numbers.row(item, f"b^{{{l}}}") for l, item in enumerate(b_nodes, start=1))
         rows = self.source.items(entries["A"], "A")
         if len(rows) != len(b):
-            message = f"A has {len(rows)} rows of blocks and b {len(b)} rows of weights"
+            message = f"A has {len(rows)} row(s) of blocks and b {len(b)} rows of weights"
             self.source.fault(entries["A"], message, "both have one a colour")
             return None
         A = tuple(self._block_row(l, row, b) for l, row in enumerate(rows))
@@ -255,7 +300,7 @@ class Reader:
                 continue
             rows = self.numbers.matrix(item, where)
             shape = (len(b[l]), len(b[m]))
-            why = f"b^{{{l + 1}}} has {shape[0]} entries and b^{{{m + 1}}} has {shape[1]}"
+            why = f"b^{{{l + 1}}} has {_entries(shape[0])} and b^{{{m + 1}}} has {shape[1]}"
             self.numbers.expect_shape(rows, item, where, shape, why)
             blocks.append(rows)
         return tuple(blocks)
@@ -271,7 +316,7 @@ class Reader:
         for l, item in enumerate(items):
             row = None if is_null(item) else self.numbers.row(item, f"c^{{{l + 1}}}")
             if row is not None and len(row) != len(b[l]):
-                message = f"c^{{{l + 1}}} has {len(row)} entries, b^{{{l + 1}}} has {len(b[l])}"
+                message = f"c^{{{l + 1}}} has {_entries(len(row))}, b^{{{l + 1}}} has {len(b[l])}"
                 self.source.fault(item, message, "both have one a stage")
             rows.append(row)
         return tuple(rows)
@@ -293,6 +338,8 @@ class Reader:
         if entries is None:
             return None
         items = self.source.items(entries["A"], "A")
+        if isinstance(entries["A"], SequenceNode) and not items:
+            self.source.fault(entries["A"], "A is empty", "give a matrix a colour")
         A = tuple(self.numbers.matrix(item, f"A^{{{m}}}") for m, item in enumerate(items, start=1))
         b_items = self.source.items(entries["b"], "b")
         if any(isinstance(item, SequenceNode) for item in b_items):
@@ -309,11 +356,13 @@ class Reader:
         s = len(A[0])
         for m, (rows, item) in enumerate(zip(A, items, strict=True), start=1):
             self.numbers.expect_shape(rows, item, f"A^{{{m}}}", (s, s), "the colours of an ark share stages")
-        for m, row in enumerate(b, start=1):
+        shared = all(row is b[0] for row in b)
+        for m, row in enumerate(b[:1] if shared else b, start=1):
             if len(row) != s:
-                self.source.fault(entries["b"], f"b^{{{m}}} has {len(row)} entries for {s} stages")
+                which = "b" if shared else f"b^{{{m}}}"
+                self.source.fault(entries["b"], f"{which} has {_entries(len(row))} for {s} stages")
         if c is not None and len(c) != s:
-            self.source.fault(entries["c"], f"c has {len(c)} entries for {s} stages")
+            self.source.fault(entries["c"], f"c has {_entries(len(c))} for {s} stages")
         return ArkText(A, b, c)
 
     def _prk(self, node: Node, structure: Structure) -> PrkText | None:
@@ -322,7 +371,7 @@ class Reader:
             if isinstance(node, MappingNode):
                 self.source.fault(node, "prk: both parts q and p are needed", "give q: {A, b} and p: {A, b}")
             return None
-        q, p = (self._butcher(entries[part], f"prk, {part}", square=False) for part in ("q", "p"))
+        q, p = (self._butcher(entries[x], f"prk, {x}", (f"{x}.A", f"{x}.b", f"{x}.c"), square=False) for x in "qp")
         if q is None or p is None:
             return None
         s_v, s_f = len(q.b), len(p.b)
@@ -330,9 +379,8 @@ class Reader:
             message = f"prk: q has {s_v} weights and p has {s_f}"
             self.source.fault(node, message, "a general problem needs one set of stages; or structure: separable")
         for part, text, shape in (("q", q, (s_f, s_v)), ("p", p, (s_v, s_f))):
-            where = f"prk, {part}"
-            why = f"q.b has {s_v} entries and p.b has {s_f}"
-            self.numbers.expect_shape(text.A, text.node, f"{where}, A", shape, why)
+            why = f"q.b has {_entries(s_v)} and p.b has {s_f}"
+            self.numbers.expect_shape(text.A, text.node, f"{part}.A", shape, why)
             if text.c is not None and len(text.c) != shape[0]:
-                self.source.fault(text.node, f"{where}, c has {len(text.c)} entries for {shape[0]} nodes")
+                self.source.fault(text.node, f"{part}.c has {_entries(len(text.c))} for {shape[0]} nodes")
         return PrkText(q, p)

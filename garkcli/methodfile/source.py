@@ -54,8 +54,10 @@ class Source:
             raise self.error()
 
     def error(self) -> MethodFileError:
-        """What has been found, as one error; faults in file order, each once."""
-        return MethodFileError(self.name, sorted(set(self.faults), key=lambda f: (f.line, f.column)), self.text)
+        """What has been found, as one error; faults in file order, each once, and at least one."""
+        if not self.faults:
+            self.fault(None, "this is not a method file", "see docs/method-file.md")
+        return MethodFileError(self.name, sorted(dict.fromkeys(self.faults), key=_place), self.text)
 
     def compose(self) -> MappingNode | None:
         """The root of the file; None, with faults noted, where there is no mapping."""
@@ -63,6 +65,8 @@ class Source:
             self.fault(None, f"a file of more than {MAX_BYTES} characters", "split it")
             return None
         try:
+            if len(self.text) > _SHALLOW:
+                _refuse_deep(self.text)
             root = yaml.compose(self.text, Loader=_LOADER)
             if root is None:
                 self.fault(None, "the file is empty", "the smallest file has methods and transfer")
@@ -79,8 +83,8 @@ class Source:
         except yaml.YAMLError as error:
             self.faults.append(Fault(f"this is not YAML: {str(error).splitlines()[0]}", "", 1, 1))
             return None
-        except _TooLarge as error:
-            self.fault(error.node, error.message, error.cure)
+        except _TooLargeError as error:
+            self.faults.append(Fault(error.message, error.cure, error.line, error.column))
             return None
         if not isinstance(root, MappingNode):
             self.fault(root, "a method file is a mapping of keys to values", "start with methods: or tableau:")
@@ -95,7 +99,10 @@ class Source:
         known = list(allowed)
         entries: dict[str, Node] = {}
         for key_node, value in node.value:
-            key = key_node.value if isinstance(key_node, ScalarNode) else "?"
+            if not isinstance(key_node, ScalarNode):
+                self.fault(key_node, f"{where}: a key is a plain word")
+                continue
+            key = key_node.value
             if key in entries:
                 self.fault(key_node, f"{where}: the key {key!r} stands here twice", "keep one of them")
             elif known and key not in known:
@@ -138,10 +145,29 @@ class Source:
         return None
 
 
-class _TooLarge(Exception):
-    def __init__(self, node: Node, message: str, cure: str) -> None:
+class _TooLargeError(Exception):
+    def __init__(self, at: Node | yaml.Event, message: str, cure: str) -> None:
         super().__init__(message)
-        self.node, self.message, self.cure = node, message, cure
+        mark = at.start_mark
+        self.line, self.column = (mark.line + 1, mark.column + 1) if mark else (1, 1)
+        self.message, self.cure = message, cure
+
+
+_TOO_DEEP = f"nested more than {MAX_NESTING} deep"
+_SHALLOW = 5_000
+"""Texts up to this length cannot be nested deeply enough to hurt the parser."""
+
+
+def _refuse_deep(text: str) -> None:
+    """Refuse deep nesting while it is still a flat list of events: composing it recurses in C."""
+    depth = 0
+    for event in yaml.parse(text, Loader=_LOADER):
+        if isinstance(event, (yaml.SequenceStartEvent, yaml.MappingStartEvent)):
+            depth += 1
+            if depth > MAX_NESTING:
+                raise _TooLargeError(event, _TOO_DEEP, "no method needs that")
+        elif isinstance(event, (yaml.SequenceEndEvent, yaml.MappingEndEvent)):
+            depth -= 1
 
 
 def _walk(root: Node) -> None:
@@ -152,9 +178,9 @@ def _walk(root: Node) -> None:
         node, depth = pending.pop()
         count += 1
         if count > MAX_NODES:
-            raise _TooLarge(root, f"more than {MAX_NODES} values in one file", "aliases count each time")
+            raise _TooLargeError(root, f"more than {MAX_NODES} values in one file", "aliases count each time")
         if depth > MAX_NESTING:
-            raise _TooLarge(node, f"nested more than {MAX_NESTING} deep", "no method needs that")
+            raise _TooLargeError(node, _TOO_DEEP, "an anchor may contain itself")
         pending += ((child, depth + 1) for child in _children(node))
 
 
@@ -165,6 +191,10 @@ def _children(node: Node) -> Iterator[Node]:
         for key, value in node.value:
             yield key
             yield value
+
+
+def _place(fault: Fault) -> tuple[int, int]:
+    return fault.line, fault.column
 
 
 def keys_of(node: Node) -> set[str]:

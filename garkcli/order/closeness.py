@@ -32,8 +32,9 @@ def within(number: Number, tolerance: fmpq) -> bool:
         return bool(abs(number) <= tolerance)
     digits = 17
     while True:  # an irrational number is never equal to a rational one
-        size = abs(to_ball(number, digits))
+        ball = to_ball(number, digits)
         with ctx.workprec(4 * digits):
+            size = abs(ball)
             if size < tolerance or size > tolerance:
                 return bool(size < tolerance)
         digits *= 2
@@ -62,8 +63,8 @@ def form_within(
         dual: whether the rows are coefficients of a functional; otherwise coordinates of elements.
     """
     entries = [x for row in matrix for x in row]
-    if not any(entries):
-        return True
+    if not any(entries) or not tolerance:
+        return not any(entries)
     if not any(isinstance(x, PolynomialSpace) for x in (space, other)):
         return all(within(x, tolerance) for x in entries)
     bits = FIRST_BITS

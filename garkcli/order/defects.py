@@ -6,15 +6,11 @@ within t where all its values at the nodes are, ``closeness`` says how.
 
 from __future__ import annotations
 
-from collections.abc import Callable
-
 from flint import fmpq
 
 from garkcli.exact.field import Number
 from garkcli.exact.matrix import Matrix, Vector, apply, apply_left, dot, outer, subtract, transpose
-from garkcli.order.certificate import DEFAULT_LIMIT
-from garkcli.order.closeness import form_within, functional_within, vector_within, within
-from garkcli.order.simplifying import Simplifying
+from garkcli.order.closeness import form_within, functional_within
 from garkcli.tableau.tableau import Tableau
 
 
@@ -67,42 +63,6 @@ class Defects:
         if block is None:
             raise KeyError((l, m))
         return block
-
-
-def simplifying_within(tableau: Tableau, tolerance: fmpq, limit: int = DEFAULT_LIMIT) -> Simplifying:
-    """B, C and D of a tableau, each entry of each condition within ``tolerance``; searches stop at ``limit``."""
-    defects, spaces = Defects(tableau), [tableau.space(l) for l in range(tableau.size)]
-    colours = range(tableau.size)
-
-    def largest(is_met: Callable[[int], bool]) -> int:
-        return next((k - 1 for k in range(1, limit + 1) if not is_met(k)), limit)
-
-    def r(l: int) -> int:
-        return largest(lambda k: within(defects.B(l, k), tolerance))
-
-    def eta(l: int, m: int) -> int | None:
-        if tableau.block(l, m) is None:
-            return None
-        return largest(lambda k: vector_within(spaces[l], defects.C(l, m, k), tolerance))
-
-    def zeta(l: int, m: int) -> int | None:
-        if tableau.block(l, m) is None:
-            return None
-        return largest(lambda k: functional_within(spaces[m], defects.D(l, m, k), tolerance))
-
-    return Simplifying(
-        tuple(r(l) for l in colours),
-        tuple(tuple(eta(l, m) for m in colours) for l in colours),
-        tuple(tuple(zeta(l, m) for m in colours) for l in colours),
-    )
-
-
-def consistent_within(tableau: Tableau, tolerance: fmpq) -> dict[tuple[int, int], bool]:
-    """For each block that exists whether A^{l,m} 𝟙 is within ``tolerance`` of c^{l}, stage by stage."""
-    defects = Defects(tableau)
-    return {
-        (l, m): vector_within(tableau.space(l), defects.consistency(l, m), tolerance) for l, m in tableau.edges()
-    }
 
 
 def is_symplectic_within(tableau: Tableau, tolerance: fmpq) -> bool:

@@ -5,8 +5,6 @@ from __future__ import annotations
 from dataclasses import dataclass
 from typing import TYPE_CHECKING
 
-from flint import fmpq
-
 from garkcli.errors import Fault
 from garkcli.order.check import Analysis
 
@@ -48,7 +46,6 @@ class Outcome:
         claims: every claim of the file.
         faults: why it cannot be read; empty where it can.
         text: the file as read, for showing lines of it.
-        tolerance: the rounding that the file admits; None where it claims exactness.
         blame: where the order falls short of a claim, what the failing conditions tell; None otherwise.
         constants: the error constants at the first failing order, where they were asked for.
     """
@@ -60,7 +57,6 @@ class Outcome:
     claims: tuple[Claim, ...] = ()
     faults: tuple[Fault, ...] = ()
     text: str = ""
-    tolerance: fmpq | None = None
     blame: Blame | None = None
     constants: ErrorConstants | None = None
 

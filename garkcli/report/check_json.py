@@ -4,16 +4,19 @@ from __future__ import annotations
 
 import json
 from collections.abc import Sequence
-from typing import Any
+from typing import TYPE_CHECKING, Any
 
-from garkcli.exact.display import to_text
+from garkcli.exact.display import decimal, to_text
 from garkcli.order.certificate import Order
-from garkcli.order.check import Analysis
+from garkcli.order.check import Analysis, AnyOrder
 from garkcli.order.outcome import Outcome
 from garkcli.order.simplifying import Simplifying
 from garkcli.report.hints import hints_data
 from garkcli.tableau.tableau import Tableau
 from garkcli.trees.notation import format_tree
+
+if TYPE_CHECKING:
+    from garkcli.order.suggestion import Suggestion
 
 SCHEMA = "gark/check/1"
 
@@ -56,8 +59,8 @@ def _outcome(outcome: Outcome) -> dict[str, Any]:
 def _analysis(outcome: Outcome, analysis: Analysis) -> dict[str, Any]:
     both = analysis.pair_simplifying
     return {
-        "exact": outcome.tolerance is None,
-        "tolerance": None if outcome.tolerance is None else str(outcome.tolerance),
+        "exact": analysis.tolerance is None,
+        "tolerance": None if analysis.tolerance is None else decimal(analysis.tolerance),
         "colours": colours_data(analysis.tableau),
         "consistent": not analysis.inconsistent,
         "inconsistent_blocks": [[l + 1, m + 1] for l, m in analysis.inconsistent],
@@ -69,15 +72,20 @@ def _analysis(outcome: Outcome, analysis: Analysis) -> dict[str, Any]:
         "simplifying": _simplifying(analysis.simplifying),
         "pair_bound": None if both is None else both.bound,
         **hints_data(outcome),
+        **_suggested(analysis.suggestion),
     }
 
 
-def _order(prefix: str, order: Order | None) -> dict[str, Any]:
+def _order(prefix: str, order: AnyOrder | None) -> dict[str, Any]:
     if order is None:
         return {f"{prefix}order": None, f"{prefix}witness": None}
     found: dict[str, Any] = {f"{prefix}order": order.order, f"{prefix}witness": None}
     if order.is_lower_bound:
         found[f"{prefix}order_is_lower_bound"] = True
+    if not isinstance(order, Order):
+        found[f"{prefix}order_largest_residual"] = float(order.largest_residual.upper())
+        if order.undecided:
+            found[f"{prefix}order_undecided"] = True
     if order.witness is not None:
         found[f"{prefix}witness"] = {
             "order": order.witness.tree.order,
@@ -87,6 +95,13 @@ def _order(prefix: str, order: Order | None) -> dict[str, Any]:
             "residual": to_text(order.witness.residual),
         }
     return found
+
+
+def _suggested(found: Suggestion | None) -> dict[str, Any]:
+    if found is None:
+        return {}
+    sizes = {"rounding": float(found.rounding.upper()), "genuine": float(found.genuine.upper())}
+    return {"suggestion": {"line": found.line, "order": found.order, **sizes}}
 
 
 def _simplifying(found: Simplifying) -> dict[str, Any]:

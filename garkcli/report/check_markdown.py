@@ -4,7 +4,7 @@ from __future__ import annotations
 
 from collections.abc import Sequence
 
-from garkcli.order.certificate import Order
+from garkcli.order.check import AnyOrder
 from garkcli.order.outcome import Outcome
 from garkcli.report.findings import findings
 
@@ -39,7 +39,7 @@ def _row(outcome: Outcome) -> str:
     return f"| {' | '.join(cells)} |"
 
 
-def _order(order: Order | None) -> str:
+def _order(order: AnyOrder | None) -> str:
     return "" if order is None else f"at least {order.order}" if order.is_lower_bound else str(order.order)
 
 

@@ -62,6 +62,8 @@ def _checked() -> Schema:
         orders[f"{prefix}order"] = {"type": ["integer", "null"] if prefix else "integer", "minimum": 0}
         orders[f"{prefix}witness"] = {"oneOf": [{"type": "null"}, _witness()]}
         bounds[f"{prefix}order_is_lower_bound"] = {"const": True}
+        bounds[f"{prefix}order_largest_residual"] = {"type": "number", "minimum": 0}
+        bounds[f"{prefix}order_undecided"] = {"const": True}
     required = {
         "file": {"type": "string"},
         "name": {"type": "string"},
@@ -82,7 +84,10 @@ def _checked() -> Schema:
         "pair_bound": {"type": ["integer", "null"], "minimum": 0},
         "claims": {"type": "array", "items": _claim()},
     }
-    return _object(required, {**bounds, "blame": _blame(), "error_constants": _constants()})
+    size = {"type": "number", "minimum": 0}
+    suggestion = _object({"line": {"type": "string"}, "order": _COUNT, "rounding": size, "genuine": size})
+    optional = {"blame": _blame(), "error_constants": _constants(), "suggestion": suggestion}
+    return _object(required, {**bounds, **optional})
 
 
 def _witness() -> Schema:

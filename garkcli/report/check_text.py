@@ -3,16 +3,22 @@
 from __future__ import annotations
 
 from collections.abc import Sequence
+from typing import TYPE_CHECKING
 
-from garkcli.exact.display import to_text
+from flint import arb, fmpq
+
+from garkcli.exact.display import decimal, to_decimal, to_text
 from garkcli.order.certificate import Order, Witness
-from garkcli.order.check import Analysis
+from garkcli.order.check import Analysis, AnyOrder
 from garkcli.order.outcome import Claim, Outcome
 from garkcli.order.simplifying import Simplifying
 from garkcli.report.paint import Paint, aligned, beside
 from garkcli.tableau.tableau import Tableau
 from garkcli.trees.drawing import draw_text
 from garkcli.trees.notation import format_tree
+
+if TYPE_CHECKING:
+    from garkcli.order.suggestion import Suggestion
 
 _LABEL = 17
 
@@ -87,15 +93,17 @@ def _line(outcome: Outcome, analysis: Analysis, paint: Paint) -> str:
     return f"{mark} {outcome.file}: {', '.join(found)}  ({claims})"
 
 
-def _number(order: Order) -> str:
+def _number(order: AnyOrder) -> str:
     return f"at least {order.order}" if order.is_lower_bound else str(order.order)
 
 
 def _full(outcome: Outcome, analysis: Analysis, paint: Paint) -> list[str]:
     tableau = analysis.tableau
     title = outcome.file if outcome.name == outcome.file else f"{outcome.file}: {outcome.name}"
-    lines = [paint("strong", title), f"  {_kind(tableau, outcome.structure)}", ""]
+    lines = [paint("strong", title), f"  {_kind(tableau, outcome.structure, analysis.tolerance)}", ""]
     lines += _orders(analysis, paint)
+    if analysis.suggestion is not None:
+        lines += _suggested(analysis.suggestion, paint)
     lines += ["", *_conditions(analysis)]
     lines += ["", *_properties(analysis, paint)]
     if outcome.constants is not None:
@@ -111,13 +119,14 @@ def _full(outcome: Outcome, analysis: Analysis, paint: Paint) -> list[str]:
     return lines
 
 
-def _kind(tableau: Tableau, structure: str) -> str:
+def _kind(tableau: Tableau, structure: str, tolerance: fmpq | None) -> str:
     plain = all(x.name == str(l) for l, x in enumerate(tableau.colours, start=1))
     stages = ", ".join(f"{'' if plain else x.name + ': '}{tableau.spaces[x.rows].stages}" for x in tableau.colours)
     colours = "1 colour" if tableau.size == 1 else f"{tableau.size} colours"
     domain = "rational arithmetic" if tableau.degree == 1 else f"a number field of degree {tableau.degree}"
     special = "" if structure == "general" else f"for {structure} problems; "
-    return f"{special}{colours}, stages {stages}; decided in {domain}"
+    how = f"decided in {domain}" if tolerance is None else f"within {decimal(tolerance)}"
+    return f"{special}{colours}, stages {stages}; {how}"
 
 
 def _orders(analysis: Analysis, paint: Paint) -> list[str]:
@@ -129,16 +138,20 @@ def _orders(analysis: Analysis, paint: Paint) -> list[str]:
         ("pair order", analysis.pair_order, analysis.pair),
     ):
         if order is None or tableau is None:
-            lines.append(f"  {label:{_LABEL}}none: {analysis.obstacle}")
+            lines += [f"  {label:{_LABEL}}none", f"      {analysis.obstacle}"]
             continue
         lines += _order(label, order, tableau, paint, shown)
     return lines
 
 
-def _order(label: str, order: Order, tableau: Tableau, paint: Paint, shown: list[Witness]) -> list[str]:
+def _order(label: str, order: AnyOrder, tableau: Tableau, paint: Paint, shown: list[Witness]) -> list[str]:
     """An order with its witness, drawn unless the same failure was shown before."""
     head = f"  {label:{_LABEL}}{paint('strong', _number(order))}"
+    if not isinstance(order, Order):
+        head += f"   within {decimal(order.tolerance)}, residuals up to {_size(order.largest_residual)}"
     witness = order.witness
+    if witness is None and not isinstance(order, Order) and order.undecided:
+        return [f"{head}; order {order.order + 1} is too much to decide"]
     if witness is None:
         return [f"{head}   every condition up to order {order.order} holds; no further was looked"]
     if witness in shown:
@@ -153,6 +166,20 @@ def _order(label: str, order: Order, tableau: Tableau, paint: Paint, shown: list
     return [head, *(f"      {line}" for line in text)]
 
 
+def _suggested(found: Suggestion, paint: Paint) -> list[str]:
+    """The coefficients look rounded: what to add to the file."""
+    return [
+        f"  {paint('note', 'hint')}: up to order {found.order} the residuals are at most {_size(found.rounding)}, "
+        f"then {_size(found.genuine)}:",
+        f"        the coefficients look rounded; with the line  {found.line}  the order is {found.order}",
+    ]
+
+
+def _size(ball: arb) -> str:
+    """A bound in two digits."""
+    return "0" if ball == 0 else ball.upper().str(2, radius=False)
+
+
 def _legend(witness: Witness, tableau: Tableau) -> list[str]:
     """What the numbers of the colours mean, where colours have other names."""
     named = [f"{l + 1} is {tableau.colours[l].name}" for l in sorted(witness.tree.colours)]
@@ -162,6 +189,9 @@ def _legend(witness: Witness, tableau: Tableau) -> list[str]:
 
 def _residual(witness: Witness) -> list[str]:
     value, residual = to_text(witness.value), to_text(witness.residual)
+    if len(value) > 60 or len(residual) > 60:
+        value, residual = to_decimal(witness.value, 8), to_decimal(witness.residual, 4)
+        return [f"about {value} instead of {witness.required}, off by {residual}"]
     if len(value) + len(residual) < 50:
         return [f"{value} instead of {witness.required}, off by {residual}"]
     return [f"value    {value}", f"required {witness.required}", f"residual {residual}"]
@@ -191,18 +221,21 @@ def _bound(found: Simplifying) -> str:
 
 def _properties(analysis: Analysis, paint: Paint) -> list[str]:
     names = [colour.name for colour in analysis.tableau.colours]
-    lines = [f"  {'consistent':{_LABEL}}{_consistent(analysis.inconsistent, names, 'A', paint)}"]
+    near = "" if analysis.tolerance is None else f" within {decimal(analysis.tolerance)}"
+    lines = [f"  {'consistent':{_LABEL}}{_consistent(analysis.inconsistent, names, 'A', near, paint)}"]
     if analysis.conjugate is not None:
-        text = _consistent(analysis.conjugate_inconsistent, names, "Â", paint)
+        text = _consistent(analysis.conjugate_inconsistent, names, "Â", near, paint)
         lines.append(f"  {'conjugate nodes':{_LABEL}}{text}")
     own = "its own conjugate" if not analysis.tableau.is_partitioned else "each part the conjugate of the other"
-    lines.append(f"  {'symplectic':{_LABEL}}{'yes, ' + own if analysis.symplectic else 'no'}")
+    lines.append(f"  {'symplectic':{_LABEL}}{f'yes{near}, {own}' if analysis.symplectic else 'no'}")
     return lines
 
 
-def _consistent(wrong: Sequence[tuple[int, int]], names: Sequence[str], letter: str, paint: Paint) -> str:
+def _consistent(
+    wrong: Sequence[tuple[int, int]], names: Sequence[str], letter: str, near: str, paint: Paint
+) -> str:
     if not wrong:
-        return f"{paint('good', 'yes')}, {letter}{{l,m}}𝟙 = c{{l}} for every block"
+        return f"{paint('good', 'yes' + near)}, {letter}{{l,m}}𝟙 = c{{l}} for every block"
     blocks = ", ".join(f"{letter}{{{names[l]},{names[m]}}}𝟙" for l, m in wrong[:4])
     more = f" and {len(wrong) - 4} more" if len(wrong) > 4 else ""
     return f"{paint('bad', 'no')}: {blocks}{more} differ{'s' * (len(wrong) == 1)} from c"

@@ -12,10 +12,11 @@ from garkcli.report.latex import fragment
 from garkcli.report.paint import Paint
 from garkcli.trees.drawing import draw_text, tikz
 from garkcli.trees.notation import format_latex, parse_tree
+from garkcli.trees.tree import Tree
 
 Counts: TypeAlias = Sequence[tuple[int, tuple[int, ...]]]
 """For each order, the numbers of trees by root colour."""
-_DRAWN_ORDER = 4
+DRAWN_ORDER = 4
 """Up to this order the text shows the drawn trees too."""
 
 
@@ -156,7 +157,7 @@ def _text(query: Query, rows: Iterable[TreeRow], counts: Counts | None, paint: P
 
 def _entry(row: TreeRow, many: bool) -> Iterator[str]:
     text = f"  {row.tree:<28} σ = {row.sigma:<4} γ = {row.gamma}"
-    if row.order > _DRAWN_ORDER:
+    if row.order > DRAWN_ORDER:
         yield text.rstrip() + "\n"
         return
     first, *rest = draw_text(parse_tree(row.tree), many)
@@ -170,5 +171,11 @@ def _latex(rows: Iterable[TreeRow], many: bool) -> Iterator[str]:
     yield "  & $u$ & $\\rho(u)$ & $\\sigma(u)$ & $\\gamma(u)$ \\\\ \\hline\n"
     for row in rows:
         tree = parse_tree(row.tree)
-        yield f"  {tikz(tree)} &\n  ${format_latex(tree, many)}$ & {row.order} & {row.sigma} & {row.gamma} \\\\\n"
+        sizes = f"{row.order} & {row.sigma} & {row.gamma}"
+        yield f"  {picture(tree)} &\n  ${format_latex(tree, many)}$ & {sizes} \\\\\n"
     yield "  \\hline\n\\end{longtable}\n"
+
+
+def picture(tree: Tree, colours: bool = True) -> str:
+    """A drawing for a cell of a LaTeX table whose rows are indented by two."""
+    return tikz(tree, colours=colours).strip().replace("\n", "\n  ")

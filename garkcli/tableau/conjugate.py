@@ -35,7 +35,7 @@ def conjugate_block(block: Matrix, here: StageSpace, b: Vector, other: StageSpac
         zero = f", b_{b.index(0) + 1} = 0" if isinstance(here, PointSpace) else ""
         raise ZeroWeight(
             f"the symplectic conjugate divides by the weights b{zero}",
-            "conjugates exist for nonzero weights only; with structure: separable fewer are divided by",
+            "a conjugate exists for nonzero weights only",
         ) from None
     return subtract(outer(here.one, b_other), adjoint)
 

@@ -175,7 +175,7 @@ def numeric_entries(tableau: Tableau, digits: int = 17) -> Entries:
         ctx.prec = goal + 64
         while True:
             found = _numeric(tableau, digits)
-            if all(float(x.rad()) < 10.0**-digits for x in _balls(found)):
+            if all(x.rad() < arb(10) ** -digits for x in _balls(found)):
                 return found
             ctx.prec *= 2
     finally:

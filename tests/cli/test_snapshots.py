@@ -49,16 +49,8 @@ RUNS = {
     "usage-option": ("trees", "-N", "2", "-n", "3", "--root", "4"),
     "no-such-file": ("tableau", "nowhere.gark.yaml"),
 }
-TOO_WIDE = {"check-zero-weight", "list"}
-"""Runs whose lines do not fit yet."""
 SOURCES = {"conditions-latex"}
 """Runs that write for a program, where lines may be long."""
-
-
-def narrow(name: str) -> object:
-    """The run, as one that is expected to fail where it is among ``TOO_WIDE``."""
-    marks = pytest.mark.xfail(reason="lines of more than 80 columns", strict=True) if name in TOO_WIDE else ()
-    return pytest.param(name, marks=marks, id=name)
 
 
 def record(arguments: tuple[str, ...], run: Run) -> str:
@@ -75,7 +67,7 @@ def test_a_run_is_as_recorded(name: str) -> None:
     assert_recorded(SNAPSHOTS / f"{name}.txt", record(RUNS[name], run))
 
 
-@pytest.mark.parametrize("name", [narrow(name) for name in RUNS if name not in SOURCES])
+@pytest.mark.parametrize("name", [name for name in RUNS if name not in SOURCES])
 def test_a_run_fits_the_terminal(name: str) -> None:
     """No line of the report is wider than 80 columns, file names apart."""
     run = gark(*RUNS[name])

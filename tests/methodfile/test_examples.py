@@ -22,14 +22,6 @@ SUFFIX = ".gark.yaml"
 VALID = sorted((EXAMPLES / "valid").glob(f"*{SUFFIX}"))
 INVALID = sorted((EXAMPLES / "invalid").glob(f"*{SUFFIX}"))
 SECONDS = 5
-PENDING = {
-    "ark-empty": "refused without a fault",
-    "block-doubled": "the later key wins in silence",
-    "parameters-that-explode": "never ends",
-    "radicals-of-large-degree": "never ends",
-    "tableau-empty": "refused without a fault",
-}
-"""Examples that the program does not treat as it should."""
 
 
 def stem(path: Path) -> str:
@@ -46,14 +38,7 @@ def test_a_valid_file_keeps_its_claims(path: Path) -> None:
     assert outcome.ok
 
 
-def pending(path: Path) -> object:
-    """The example, as one that is expected to fail where it is among ``PENDING``."""
-    reason = PENDING.get(stem(path))
-    marks = pytest.mark.xfail(reason=str(reason), strict=True, run=reason != "never ends") if reason else ()
-    return pytest.param(path, marks=marks, id=stem(path))
-
-
-@pytest.mark.parametrize("path", [pending(path) for path in INVALID])
+@pytest.mark.parametrize("path", INVALID, ids=stem)
 def test_an_invalid_file_is_refused_with_its_faults(path: Path, monkeypatch: pytest.MonkeyPatch) -> None:
     """The file raises MethodFileError, soon, with the recorded faults, each with a place inside the file."""
     monkeypatch.chdir(path.parent)
@@ -74,7 +59,7 @@ def test_an_invalid_file_is_refused_with_its_faults(path: Path, monkeypatch: pyt
 def test_every_record_belongs_to_an_example() -> None:
     """No record outlives the invalid file it was made from."""
     records = {path.stem for path in (EXAMPLES / "invalid").glob("*.txt")}
-    assert records == {stem(path) for path in INVALID} - set(PENDING)
+    assert records == {stem(path) for path in INVALID}
 
 
 def words(paths: list[Path]) -> str:

@@ -90,7 +90,6 @@ def test_no_conjugate_is_no_order() -> None:
         assert found.found == "none: a weight is zero"
 
 
-@pytest.mark.xfail(reason="the tolerance is read and not used", strict=True)
 def test_rounded_coefficients_have_their_order_within_the_tolerance() -> None:
     """Gauss 2 to fifteen digits has order 4 within 1e-13, though order 1 exactly."""
     rounded = Path(__file__).parents[1] / "examples" / "valid" / "rounded.gark.yaml"
