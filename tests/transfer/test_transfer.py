@@ -1,0 +1,219 @@
+"""Transfer matrices: from their definitions, in combinations, and as conjugates of each other."""
+
+from __future__ import annotations
+
+from random import Random
+
+import pytest
+from flint import fmpq, fmpq_poly
+from hypothesis import given
+from hypothesis import strategies as st
+
+from garkcli.errors import CoincidingNodes, ZeroWeight
+from garkcli.exact.matrix import Matrix, Vector
+from garkcli.order.certificate import find_order
+from garkcli.order.simplifying import simplifying
+from garkcli.tableau.conjugate import conjugate
+from garkcli.tableau.forms import gark, pair
+from garkcli.tableau.method import Method, butcher
+from garkcli.tableau.stages import PolynomialSpace
+from garkcli.transfer import (
+    PAIR_RULES,
+    RULES,
+    SUMMARIES,
+    build_on,
+    collocation,
+    combination,
+    conjugate_rule,
+    interpolation,
+    symplectic_blocks,
+)
+from tests.oracles import samples
+from tests.oracles.points import lagrange, value
+from tests.oracles.stages import image
+
+NAMES = ["gauss 1", "gauss 2", "gauss 3", "radau-ia 2", "radau-iia 3", "lobatto-iiia 3", "lobatto-iiic 4", "kutta"]
+names = st.sampled_from(NAMES)
+rationals = st.fractions(-5, 5, max_denominator=9).map(lambda x: fmpq(x.numerator, x.denominator))
+
+
+@st.composite
+def point_methods(draw: st.DrawFn) -> Method:
+    """A method with random rational coefficients, distinct nodes and no zero weight."""
+    s = draw(st.integers(1, 4))
+    c = draw(st.lists(rationals, min_size=s, max_size=s, unique=True))
+    b = draw(st.lists(rationals.filter(bool), min_size=s, max_size=s))
+    A = draw(st.lists(st.lists(rationals, min_size=s, max_size=s).map(tuple), min_size=s, max_size=s))
+    return butcher(tuple(A), tuple(b), tuple(c))
+
+
+def integral(f: Vector, x: fmpq) -> fmpq:
+    """∫_0^x f."""
+    return sum((a * x ** (k + 1) / (k + 1) for k, a in enumerate(f)), fmpq(0))
+
+
+@given(point_methods(), point_methods())
+def test_collocation_is_its_definition(l: Method, m: Method) -> None:
+    """Eq. (coll): a_ij = ∫_0^{c_i} L_j, entry by entry."""
+    wanted = tuple(tuple(integral(lagrange(m.c, j), c) for j in range(m.stages)) for c in l.c)
+    assert collocation(l, m) == wanted
+
+
+@given(point_methods(), point_methods())
+def test_interpolation_is_its_definition(l: Method, m: Method) -> None:
+    """Eq. (interp): L^{m}(c^{l}) A^{m,m}, entry by entry."""
+    L = tuple(tuple(value(lagrange(m.c, j), c) for j in range(m.stages)) for c in l.c)
+    wanted = tuple(
+        tuple(sum((x * m.A[k][j] for k, x in enumerate(row)), fmpq(0)) for j in range(m.stages)) for row in L
+    )
+    assert interpolation(l, m) == wanted
+
+
+@given(point_methods(), point_methods())
+def test_conjugate_rules_are_their_definition(l: Method, m: Method) -> None:
+    """Eq. (wAhat): â_ij = b_j − b_j a_ji / b_i, from the block A^{m,l} of the rule."""
+    for rule in (collocation, interpolation):
+        a = rule(m, l)
+        wanted = tuple(tuple(m.b[j] - m.b[j] * a[j][i] / l.b[i] for j in range(m.stages)) for i in range(l.stages))
+        assert conjugate_rule(rule)(l, m) == wanted
+
+
+@given(names, names, st.lists(rationals, min_size=4, max_size=4))
+def test_combinations_are_sums(l: str, m: str, weights: list[fmpq]) -> None:
+    """Σ τ_k A_k entry by entry, with the rules in any order."""
+    here, there = samples.method(l), samples.method(m)
+    if not all(here.b):
+        return
+    blocks = [rule(here, there) for rule in RULES.values()]
+    terms = list(zip(weights, RULES.values(), strict=True))
+    found = combination(terms, here, there)
+    for i in range(here.stages):
+        for j in range(there.stages):
+            assert found[i][j] == sum((w * A[i][j] for w, A in zip(weights, blocks, strict=True)), fmpq(0))
+    assert combination(terms[::-1], here, there) == found
+
+
+@given(names, names, rationals)
+def test_combinations_integrate_low_degrees(l: str, m: str, tau: fmpq) -> None:
+    """τ interpolation + (1 − τ) collocation integrates what m itself integrates, below degree s_m − 1."""
+    here, there = samples.method(l), samples.method(m)
+    block = combination([(tau, interpolation), (1 - tau, collocation)], here, there)
+    if not isinstance(here.space, PolynomialSpace) or not isinstance(there.space, PolynomialSpace):
+        return
+    for k in range(min(there.stages - 1, _stage_order(there))):
+        power = tuple(fmpq(int(i == k)) for i in range(there.stages))
+        integral_of_it = fmpq_poly([0] * (k + 1) + [fmpq(1, k + 1)]) % here.space.modulus
+        assert image(block, power) == tuple(integral_of_it[i] for i in range(here.stages))
+
+
+def _stage_order(method: Method) -> int:
+    found = simplifying(gark([method], {}), 10).C[0][0]
+    assert found is not None
+    return found
+
+
+@given(st.sampled_from(NAMES[:-1]), st.sampled_from(NAMES[:-1]), rationals)
+def test_stage_order_does_not_depend_on_tau(l: str, m: str, tau: fmpq) -> None:
+    """The corollary: C^{l,m}(min(η^{m,m}, s_m − 1)) holds for every τ, and beyond it for τ alone where it does."""
+    tableau = samples.everywhere(samples.mixture(str(1 - tau), str(tau), "0", "0"), l, m)
+    found = simplifying(tableau, 10).C
+    for k, n in ((0, 1), (1, 0)):
+        own, mixed = found[n][n], found[k][n]
+        assert own is not None
+        assert mixed is not None
+        assert mixed >= min(own, tableau.space(n).stages - 1)
+
+
+@pytest.mark.parametrize("rule", RULES)
+def test_at_its_own_nodes_a_rule_gives_the_diagonal_back(rule: str) -> None:
+    """Where c^{l} = c^{m} all rules give A^{m,m} of a symplectic collocation method."""
+    method = samples.method("gauss 3")
+    assert RULES[rule](method, method) == method.A
+
+
+def test_rules_differ_where_the_method_is_no_collocation_method() -> None:
+    """At its own nodes interpolation gives A^{m,m}, collocation the collocation method with those nodes."""
+    ia = samples.method("radau-ia 2")
+    assert interpolation(ia, ia) == ia.A
+    assert collocation(ia, ia) != ia.A
+    iiib, iiia = samples.method("lobatto-iiib 3"), samples.method("lobatto-iiia 3")
+    assert collocation(iiib, iiib) == iiia.A
+
+
+@given(st.sampled_from(NAMES[:-1]), st.sampled_from(NAMES[:-1]), st.sampled_from(sorted(PAIR_RULES)))
+def test_symplectic_blocks_are_conjugate_to_each_other(base: str, other: str, rule: str) -> None:
+    """A^{other,base} is by the rule, and conjugating the tableau leaves both off-diagonal blocks as they are."""
+    methods = [samples.method(base), samples.method(other)]
+    blocks = symplectic_blocks(PAIR_RULES[rule], methods, 0, 1)
+    assert blocks[1, 0] == PAIR_RULES[rule](methods[1], methods[0])
+    Q = gark(methods, blocks)
+    P = conjugate(Q)
+    assert (P.block(0, 1), P.block(1, 0)) == (Q.block(0, 1), Q.block(1, 0))
+
+
+SYMPLECTIC = [
+    ("gauss 2", "lobatto-iiia 4"),
+    ("gauss 2", "lobatto-iiia 3"),
+    ("radau-iia 2", "gauss 2"),
+    ("gauss 1", "gauss 3"),
+    ("lobatto-iiia 3", "gauss 3"),
+    ("radau-ia 2", "lobatto-iiic 3"),
+]
+
+
+@pytest.mark.parametrize("rule", PAIR_RULES)
+@pytest.mark.parametrize("names", SYMPLECTIC)
+def test_symplectic_rules_keep_the_smaller_order(rule: str, names: tuple[str, str]) -> None:
+    """Built on the method of smaller order, Q and its pair have the smaller of the two orders."""
+    methods = [samples.method(name) for name in names]
+    orders = [find_order(gark([method], {})).order for method in methods]
+    base = build_on(methods, orders, 0, 1)
+    assert orders[base] == min(orders)
+    Q = gark(methods, symplectic_blocks(PAIR_RULES[rule], methods, base, 1 - base))
+    assert find_order(Q).order == find_order(pair(Q)).order == min(orders)
+
+
+def test_what_a_symplectic_rule_builds_on() -> None:
+    """Smaller order first, then fewer stages, then the lower number, whichever way round it is asked."""
+    methods = [samples.method(name) for name in ("lobatto-iiia 3", "gauss 2", "gauss 1", "gauss 2")]
+    orders = [4, 4, 2, 4]
+    assert build_on(methods, orders, 0, 2) == build_on(methods, orders, 2, 0) == 2
+    assert build_on(methods, orders, 0, 1) == build_on(methods, orders, 1, 0) == 1
+    assert build_on(methods, orders, 1, 3) == build_on(methods, orders, 3, 1) == 1
+
+
+def test_coinciding_nodes() -> None:
+    """No rule interpolates through two equal nodes; at them it does."""
+    rk4, gauss = samples.method("rk4"), samples.method("gauss 2")
+    for rule in (collocation, interpolation):
+        with pytest.raises(CoincidingNodes, match="c_2 and c_3 are both 1/2"):
+            rule(gauss, rk4)
+        assert len(rule(rk4, gauss)) == 4
+
+
+def test_zero_weights() -> None:
+    """A conjugate rule divides by the weights of l, not by those of m."""
+    midpoint, gauss = samples.method("explicit-midpoint"), samples.method("gauss 2")
+    with pytest.raises(ZeroWeight, match="b_1 = 0"):
+        conjugate_rule(collocation)(midpoint, gauss)
+    block: Matrix = conjugate_rule(collocation)(gauss, midpoint)
+    assert len(block) == 2
+    with pytest.raises(ZeroWeight):
+        symplectic_blocks(collocation, [midpoint, gauss], 0, 1)
+    assert set(symplectic_blocks(collocation, [gauss, midpoint], 0, 1)) == {(0, 1), (1, 0)}
+
+
+def test_every_rule_has_its_line() -> None:
+    """The summaries for people cover all rules and nothing else."""
+    assert set(SUMMARIES) == set(RULES) | set(PAIR_RULES)
+
+
+@pytest.mark.parametrize("seed", range(10))
+def test_all_combinations_are_consistent(seed: int) -> None:
+    """Weights that sum to 1 give A^{l,m} 𝟙 = c^{l} where all rules do."""
+    dice = Random(seed)
+    weights = [samples.small(dice) for _ in range(3)]
+    rule = samples.mixture(*(str(x) for x in (*weights, 1 - sum(weights, fmpq(0)))))
+    tableau = samples.everywhere(rule, "gauss 2", "lobatto-iiia 3")
+    found = simplifying(tableau, 3).C
+    assert all(x is not None and x >= 1 for row in found for x in row)
