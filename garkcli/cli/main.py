@@ -94,7 +94,8 @@ def main(arguments: Sequence[str] | None = None) -> NoReturn:
     except Exception as error:
         if "--debug" in arguments:
             raise
-        click.echo(f"gark: internal fault: {type(error).__name__}: {error}", err=True)
+        what = f"{type(error).__name__}: {error}".splitlines()[0]
+        click.echo(f"gark: internal fault: {what[:200]}", err=True)
         click.echo(f"please report it, with the command and the file, to {REPORT_TO}", err=True)
         code = 3
     sys.exit(code)

@@ -85,18 +85,19 @@ class _Evaluation:
         self.weights = weights
         self.vectors: dict[tuple[int, int], Floats] = {}
         self.applied: dict[tuple[int, int, int], Floats] = {}
-        self.values = np.empty(len(table))
+        self.dtype = np.result_type(float, *weights, *blocks.values())
+        self.values = np.empty(len(table), self.dtype)
 
     def run(self) -> Floats:
         for colour, b in enumerate(self.weights):
-            self.vectors[1, colour] = np.ones((1, len(b)))
+            self.vectors[1, colour] = np.ones((1, len(b)), self.dtype)
             self.values[colour] = b.sum()
         for order in range(2, self.table.max_order + 1):
             self._apply(order - 1)
             last = order == self.table.max_order
             if not last:
                 for colour, b in enumerate(self.weights):
-                    self.vectors[order, colour] = np.empty((len(self.table.ids(order, colour)), len(b)))
+                    self.vectors[order, colour] = np.empty((len(self.table.ids(order, colour)), len(b)), self.dtype)
             for segment in self.table.segments:
                 if segment.order == order:
                     self._evaluate(segment, keep=not last)

@@ -1,0 +1,60 @@
+"""The catalogue as method files: the whole way from YAML to verdict."""
+
+from __future__ import annotations
+
+import json
+from collections.abc import Iterable
+from pathlib import Path
+from typing import Any
+
+import numpy as np
+import pytest
+
+from garkcli.methodfile.load import loads
+from garkcli.order.conditions import coupling_graph
+from garkcli.tableau.pointwise import numeric_entries
+from garkcli.trees.table import TreeTable
+from garkcli.trees.weights import elementary_weights
+from tests.catalogue.catalogue import entries
+from tests.catalogue.method_files import method_file
+from tests.cli.harness import gark
+
+ENTRIES = entries()
+
+
+def test_one_call_over_the_directory(tmp_path: Path) -> None:
+    """All 94 methods have their verified order: exactly, or within the rounding that the file states."""
+    for name, entry in ENTRIES.items():
+        (tmp_path / f"{name}.gark.yaml").write_text(method_file(entry), encoding="utf-8")
+    run = gark("check", str(tmp_path), "--format", "json", "-j", "2")
+    assert run.code == 0, run.err
+    files = json.loads(run.out)["files"]
+    assert {Path(x["file"]).name.removesuffix(".gark.yaml"): x["order"] for x in files} == {
+        name: entry["verified_order"] for name, entry in ENTRIES.items()
+    }
+    assert [x["exact"] for x in files] == [entry["exact"] for entry in ENTRIES.values()]
+
+
+def _floats(rows: Iterable[Iterable[Any]]) -> Any:
+    """The longest floats of the machine: coefficients reach 458, and seven of them are multiplied."""
+    return np.array([[np.longdouble(x.str(25, radius=False)) for x in row] for row in rows])
+
+
+@pytest.mark.parametrize("name", ENTRIES)
+def test_brute_force_over_the_table_in_floats(name: str) -> None:
+    """Every tree of the table, in floats: residuals vanish up to the verified order, and not one above.
+
+    Zero is what is within the rounding of the entry, or within 1e-11 where that is smaller.
+    """
+    entry = ENTRIES[name]
+    tableau, order = loads(method_file(entry)).tableau, entry["verified_order"]
+    edges, linear = coupling_graph(tableau)
+    table = TreeTable.upto(tableau.size, order + 1, edges, linear)
+    printed = numeric_entries(tableau, 25)
+    rows = [colour.rows for colour in tableau.colours]
+    blocks = {(rows[l], m): _floats(printed.A[l][m] or ()) for l, m in tableau.edges()}
+    weights = [_floats([row])[0] for row in printed.b]
+    residuals = np.abs(elementary_weights(table, rows, blocks, weights) - 1 / table.gamma.astype(np.longdouble))
+    near = max(entry["rounding"], 1e-11)
+    assert residuals[table.order <= order].max() <= near
+    assert residuals[table.order == order + 1].max() > near
