@@ -77,7 +77,7 @@ def command(
     from garkcli.report import conditions as report
     from garkcli.report.progress import tracked
 
-    asked = kind_asked(symplectic, kind, members)
+    asked = kind_asked(symplectic, kind, members, output.format)
     orders = range(order, order + 1) if only else range(1, order + 1)
     if file is None and (which or failing or sort != "tree"):
         raise UsageProblem("values are those of a method", "give a FILE")
@@ -129,14 +129,21 @@ def _of_file(tableau: Tableau, kind: str | None, orders: range) -> Subject:
 
 def _independent(subject: Subject, members: bool) -> Iterator[ConditionRow]:
     """A row for each class, with its value where the subject is a method."""
+    from itertools import repeat, tee
+
     from garkcli.order.conditions import conditions
     from garkcli.report.conditions import ConditionRow
 
-    for found in subject.classes():
-        tree = found.representative
-        valued = None if subject.tableau is None else next(conditions(subject.tableau, [tree]))
-        trees = found.members
-        yield ConditionRow(tree, False, valued, stands_for=len(trees), members=trees if members else ())
+    classes, again = tee(subject.classes())
+    trees = (found.representative for found in again)
+    values = (
+        zip(trees, repeat(None))
+        if subject.tableau is None
+        else ((x.tree, x) for x in conditions(subject.tableau, trees))
+    )
+    for found, (tree, valued) in zip(classes, values, strict=True):
+        shown = found.members if members else ()
+        yield ConditionRow(tree, False, valued, stands_for=len(found.members), members=shown)
 
 
 def _table(colours: int, orders: range, coloured: bool) -> Iterator[ConditionRow]:

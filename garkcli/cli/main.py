@@ -89,8 +89,11 @@ def main(arguments: Sequence[str] | None = None) -> NoReturn:
     except (KeyboardInterrupt, click.Abort):
         code = 130
     except BrokenPipeError:
-        # the reader has gone, which is its right; keep the interpreter from flushing into the void
-        os.dup2(os.open(os.devnull, os.O_WRONLY), sys.stdout.fileno())
+        _drop_stdout()  # the reader has gone, which is its right
+    except OSError as error:
+        click.echo(f"gark: the report cannot be written: {error.strerror or error}", err=True)
+        _drop_stdout()
+        code = 2
     except Exception as error:
         if "--debug" in arguments:
             raise
@@ -99,6 +102,11 @@ def main(arguments: Sequence[str] | None = None) -> NoReturn:
         click.echo(f"please report it, with the command and the file, to {REPORT_TO}", err=True)
         code = 3
     sys.exit(code)
+
+
+def _drop_stdout() -> None:
+    """Keep the interpreter from flushing, at its end, what cannot be written."""
+    os.dup2(os.open(os.devnull, os.O_WRONLY), sys.stdout.fileno())
 
 
 def _complain(error: GarkError) -> None:

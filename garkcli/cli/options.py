@@ -110,6 +110,13 @@ def write_whole(path: str, pieces: Iterable[str]) -> None:
     import tempfile
 
     target = Path(path)
+    if target.exists() and not target.is_file():  # a device or a pipe has no name to be replaced
+        try:
+            with target.open("w", encoding="utf-8") as stream:
+                stream.writelines(pieces)
+        except OSError as error:
+            raise UsageProblem(f"cannot write {path}: {error.strerror}", "choose another place") from None
+        return
     temporary = ""
     try:
         handle, temporary = tempfile.mkstemp(prefix=f".{target.name}.", dir=target.parent)

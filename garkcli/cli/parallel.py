@@ -9,6 +9,16 @@ from garkcli.methodfile.check import check_file
 from garkcli.order.outcome import Outcome
 
 
+def _prepare() -> None:
+    """Ready a worker: an interrupt is for the process that has the terminal, which ends the workers."""
+    import signal
+
+    from garkcli.exact.pickling import register
+
+    signal.signal(signal.SIGINT, signal.SIG_IGN)
+    register()
+
+
 def check_files(paths: Sequence[str], limit: int, want_constants: bool, jobs: int) -> Iterator[Outcome]:
     """Check ``paths`` in their order, ``jobs`` of them at a time."""
     work: Callable[[str], Outcome] = partial(check_file, limit=limit, want_constants=want_constants)
@@ -24,5 +34,5 @@ def check_files(paths: Sequence[str], limit: int, want_constants: bool, jobs: in
     # fork keeps the modules that are loaded already, where the system has it
     method = "fork" if "fork" in multiprocessing.get_all_start_methods() else None
     context = multiprocessing.get_context(method)
-    with context.Pool(jobs, initializer=register) as pool:
+    with context.Pool(jobs, initializer=_prepare) as pool:
         yield from pool.imap(work, paths, chunksize=max(1, min(8, len(paths) // (4 * jobs))))

@@ -38,12 +38,14 @@ def symplectic_options(function: F) -> F:
     return function
 
 
-def kind_asked(symplectic: bool, kind: str | None, members: bool) -> Kind | None:
+def kind_asked(symplectic: bool, kind: str | None, members: bool, format: str) -> Kind | None:  # noqa: A002
     """The kind of symplectic methods; None where all trees are meant.
 
     Raises:
-        UsageProblem: options of ``--symplectic`` without it.
+        UsageProblem: options of ``--symplectic`` without it, or members in a LaTeX table.
     """
+    if members and format == "latex":
+        raise UsageProblem("--members do not fit into a LaTeX table", "choose another --format")
     if symplectic:
         return cast("Kind", kind or "pair")
     if kind is not None or members:
@@ -92,7 +94,7 @@ def command(
     """
     from garkcli.report import trees as report
 
-    asked = kind_asked(symplectic, kind, members)
+    asked = kind_asked(symplectic, kind, members, output.format)
     if asked is not None:
         if root is not None or colours_used is not None or one is not None:
             raise UsageProblem("free trees have no root", "leave out --root, --colours-used and --tree")

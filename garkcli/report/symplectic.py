@@ -255,12 +255,17 @@ def render_class_counts(subject: Subject, format: str, paint: Paint) -> Iterator
 
 def summary_lines(subject: Subject, ending: str = "", width: int = WIDTH) -> Iterator[str]:
     """The summary, in lines of at most ``width``."""
-    yield from (line + "\n" for line in wrap(subject.summary + ending, width))
+    yield from (line + "\n" for line in _wrapped(subject.summary + ending, width))
 
 
 def legend_lines(subject: Subject, width: int = WIDTH) -> Iterator[str]:
     """The meaning of the colours, in lines of at most ``width``."""
-    yield from (line + "\n" for line in wrap(subject.legend, width, subsequent_indent=" " * 9))
+    yield from (line + "\n" for line in _wrapped(subject.legend, width, " " * 9))
+
+
+def _wrapped(text: str, width: int, indent: str = "") -> list[str]:
+    """Lines of whole words; numbers of hundreds of digits stay whole too."""
+    return wrap(text, width, subsequent_indent=indent, break_long_words=False, break_on_hyphens=False)
 
 
 def member_lines(members: Iterable[str], width: int = WIDTH) -> list[str]:

@@ -67,7 +67,7 @@ def simple_nodes(space: PolynomialSpace) -> tuple[Expression, ...] | None:
     >>> from garkcli.families.registry import diagonal_method
     >>> from garkcli.exact.expression import format_expression
     >>> [format_expression(c) for c in simple_nodes(diagonal_method("gauss", 2).space)]
-    ['1/2-((1/6)*sqrt(3))', '1/2+((1/6)*sqrt(3))']
+    ['1/2-((1/6)*sqrt(3))', '1/2+(1/6)*sqrt(3)']
     """
     nodes: list[Expression] = []
     for factor, _ in space.modulus.factor()[1]:
