@@ -8,8 +8,8 @@ from collections.abc import Iterator
 from flint import arb, ctx, fmpq
 
 from garkcli.exact.domain import enclose
-from garkcli.exact.expression import format_expression
 from garkcli.exact.field import Algebraic, Number
+from garkcli.exact.rewriting import format_expression
 
 
 def to_text(number: Number) -> str:

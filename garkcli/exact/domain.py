@@ -13,8 +13,9 @@ from functools import partial
 from flint import arb, ctx, fmpq, fmpq_poly
 
 from garkcli.errors import LimitExceeded, UndefinedValue
-from garkcli.exact.expression import Chain, Expression, Literal, Name, Power, Root, roots_in
+from garkcli.exact.expression import Chain, Expression, Literal, Name, Power, Root
 from garkcli.exact.field import ONE, ZERO, Algebraic, Number, NumberField
+from garkcli.exact.rewriting import roots_in
 from garkcli.exact.tower import RATIONALS, Tower
 
 MAX_BITS = 60_000

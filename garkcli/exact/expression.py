@@ -15,13 +15,13 @@ Numbers are read as written: ``0.1`` is one tenth.
 from __future__ import annotations
 
 import re
-from collections.abc import Callable, Iterator, Mapping
-from dataclasses import dataclass, field, replace
+from collections.abc import Callable, Iterator
+from dataclasses import dataclass, field
 from typing import NoReturn
 
 from flint import fmpq
 
-from garkcli.errors import ExpressionError, LimitExceeded, UndefinedValue, did_you_mean
+from garkcli.errors import ExpressionError, LimitExceeded
 
 MAX_LENGTH = 20_000
 """Longest text of one coefficient, in characters."""
@@ -88,7 +88,8 @@ _TOKEN = re.compile(
     r"[ \t\r\n]*(?:(?P<number>(?:[0-9]+(?:\.[0-9]*)?|\.[0-9]+)(?:[eE][+-]?[0-9]+)?)"
     r"|(?P<name>[A-Za-z_][A-Za-z_0-9]*)|(?P<op>\*\*|[-+*/^(),])|(?P<end>$))"
 )
-_INDEX = {"sqrt": 2, "cbrt": 3}
+INDEX_OF_ROOT = {"sqrt": 2, "cbrt": 3}
+"""The roots that have a name of their own."""
 _SIGN_CURES = dict.fromkeys("−–—", "use the sign - (hyphen)") | {
     "√": "write sqrt(x)",
     "½": "write 1/2",
@@ -96,7 +97,7 @@ _SIGN_CURES = dict.fromkeys("−–—", "use the sign - (hyphen)") | {
     "·": "use the sign *",
     "×": "use the sign *",
 }
-FUNCTIONS = frozenset({*_INDEX, "root"})
+FUNCTIONS = frozenset({*INDEX_OF_ROOT, "root"})
 """Names with a meaning of their own: no parameter may be called so."""
 
 
@@ -251,7 +252,7 @@ class _Parser:
         opened = self.start
         self._advance()
         radicand = self.sum()
-        index = _INDEX.get(name, 0)
+        index = INDEX_OF_ROOT.get(name, 0)
         if not index:
             self._expect(",", opened)
             index = self._integer("the index of a root", MAX_ROOT)
@@ -276,91 +277,3 @@ def read_decimal(text: str, start: int = 0) -> fmpq:
         )
     scale = shift - len(fraction)
     return fmpq(int(whole + fraction) * 10 ** max(scale, 0), 10 ** max(-scale, 0))
-
-
-def size_of(expression: Expression, sizes: Mapping[str, int]) -> int:
-    """How many nodes ``expression`` has, each name counting for what it stands for (1 if it is not known)."""
-    match expression:
-        case Name(name=name):
-            return sizes.get(name, 1)
-        case Chain(operands=operands):
-            return 1 + sum(size_of(x, sizes) for x in operands)
-        case Power(base=base):
-            return 1 + size_of(base, sizes)
-        case Root(radicand=radicand):
-            return 1 + size_of(radicand, sizes)
-    return 1
-
-
-def substitute(expression: Expression, values: Mapping[str, Expression]) -> Expression:
-    """``expression`` with each name replaced by its value; offsets stay those of ``expression``.
-
-    Raises:
-        UndefinedValue: a name has no value.
-    """
-    match expression:
-        case Name(name=name):
-            if name not in values:
-                near = did_you_mean(name, values) if values else ""
-                cure = near if near.startswith("did") else f"define it, before its use: parameters: {{{name}: 1/2}}"
-                raise UndefinedValue(
-                    f"{name!r} is not a parameter",
-                    cure,
-                    expression.start,
-                    expression.end,
-                )
-            return values[name]
-        case Chain(operands=operands):
-            return replace(expression, operands=tuple(substitute(x, values) for x in operands))
-        case Power(base=base):
-            return replace(expression, base=substitute(base, values))
-        case Root(radicand=radicand):
-            return replace(expression, radicand=substitute(radicand, values))
-    return expression
-
-
-def roots_in(expression: Expression) -> Iterator[Root]:
-    """Every root in ``expression``, the inner ones first."""
-    match expression:
-        case Chain(operands=operands):
-            for operand in operands:
-                yield from roots_in(operand)
-        case Power(base=base):
-            yield from roots_in(base)
-        case Root(radicand=radicand):
-            yield from roots_in(radicand)
-            yield expression
-
-
-def format_expression(expression: Expression, latex: bool = False) -> str:
-    """The expression as text that ``parse`` reads again, or as LaTeX."""
-    match expression:
-        case Literal(value=value):
-            if latex and value.q != 1:
-                return f"{'-' if value < 0 else ''}\\frac{{{abs(value.p)}}}{{{value.q}}}"
-            return str(value)
-        case Name(name=name):
-            return name
-        case Chain(signs=signs, operands=operands):
-            parts = [
-                sign + _bracketed(x, signs[0] in "*/" or sign == "-", latex)
-                for sign, x in zip(signs, operands, strict=True)
-            ]
-            return "".join(parts).removeprefix("+").removeprefix("*")
-        case Power(base=base, exponent=exponent):
-            text = _bracketed(base, True, latex)
-            return f"{text}^{{{exponent}}}" if latex else f"{text}**{exponent}"
-        case Root(radicand=radicand, index=index):
-            inner = format_expression(radicand, latex)
-            if latex:
-                return f"\\sqrt{{{inner}}}" if index == 2 else f"\\sqrt[{index}]{{{inner}}}"
-            names = {n: name for name, n in _INDEX.items()}
-            return f"{names[index]}({inner})" if index in names else f"root({inner}, {index})"
-    raise TypeError(f"no expression: {expression!r}")
-
-
-def _bracketed(expression: Expression, tight: bool, latex: bool) -> str:
-    text = format_expression(expression, latex)
-    simple = isinstance(expression, (Name, Root)) or (isinstance(expression, Literal) and text.isdigit())
-    loose = isinstance(expression, Chain) or not simple
-    return f"({text})" if loose and tight else text

@@ -10,9 +10,10 @@ from yaml.nodes import Node, ScalarNode
 
 from garkcli.errors import ExpressionError, LimitExceeded, UndefinedValue
 from garkcli.exact.domain import Domain
-from garkcli.exact.expression import FUNCTIONS, Expression, Literal, parse, size_of, substitute
+from garkcli.exact.expression import FUNCTIONS, Expression, Literal, parse
 from garkcli.exact.field import ZERO, Number
 from garkcli.exact.matrix import Matrix, Vector
+from garkcli.exact.rewriting import size_of, substitute
 from garkcli.methodfile.source import Source
 
 _READ_DIFFERENTLY = re.compile(

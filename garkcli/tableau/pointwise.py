@@ -65,7 +65,7 @@ def simple_nodes(space: PolynomialSpace) -> tuple[Expression, ...] | None:
     """The nodes in ascending order, as expressions with at most a square root each; None if they need more.
 
     >>> from garkcli.families.registry import diagonal_method
-    >>> from garkcli.exact.expression import format_expression
+    >>> from garkcli.exact.rewriting import format_expression
     >>> [format_expression(c) for c in simple_nodes(diagonal_method("gauss", 2).space)]
     ['1/2-((1/6)*sqrt(3))', '1/2+(1/6)*sqrt(3)']
     """

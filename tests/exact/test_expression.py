@@ -13,20 +13,9 @@ from hypothesis import strategies as st
 from garkcli.errors import ExpressionError, LimitExceeded, UndefinedValue
 from garkcli.exact.display import to_ball, to_decimal, to_float, to_latex, to_text
 from garkcli.exact.domain import Domain
-from garkcli.exact.expression import (
-    Chain,
-    Expression,
-    Literal,
-    Name,
-    Power,
-    Root,
-    format_expression,
-    parse,
-    read_decimal,
-    roots_in,
-    substitute,
-)
+from garkcli.exact.expression import Chain, Expression, Literal, Name, Power, Root, parse, read_decimal
 from garkcli.exact.field import Number
+from garkcli.exact.rewriting import format_expression, roots_in, substitute
 
 literals = st.fractions(0, 50, max_denominator=30).map(lambda x: f"{x.numerator}/{x.denominator}")
 decimals = st.from_regex(r"[0-9]{1,6}(\.[0-9]{0,6})?([eE][+-]?[0-9])?", fullmatch=True)

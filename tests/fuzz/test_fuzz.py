@@ -9,7 +9,8 @@ import pytest
 
 from garkcli.errors import ExpressionError, Fault, MethodFileError
 from garkcli.exact.domain import Domain
-from garkcli.exact.expression import parse, substitute
+from garkcli.exact.expression import parse
+from garkcli.exact.rewriting import substitute
 from garkcli.methodfile.load import loads
 from tests.fuzz.inputs import SIGNS, method_file, seeds, soup
 
