@@ -87,7 +87,9 @@ def diagonal_method(name: str, stages: int | None = None) -> Method:
         raise UnknownFamily(f"no family {name!r}", did_you_mean(name, FAMILIES))
     s = family.smallest if stages is None and family.smallest == family.largest else stages
     if s is None:
-        raise UnknownFamily(f"the family {name} needs its number of stages", f"write stages: {family.smallest}")
+        raise UnknownFamily(
+            f"the family {name} needs its number of stages", f"write for instance stages: {max(2, family.smallest)}"
+        )
     if not family.smallest <= s <= family.largest:
         have = str(family.smallest) if family.smallest == family.largest else f"{family.smallest} or more"
         if s > family.largest:

@@ -91,7 +91,7 @@ class SpelledOutReader:
             return (None,) * len(b)
         items = self.source.items(node, "c")
         if len(items) != len(b):
-            self.source.fault(node, f"c has {len(items)} rows for {len(b)} colours", "give one a colour")
+            self.source.fault(node, f"c has {len(items)} rows and b {len(b)}", "give one of each a colour")
             return (None,) * len(b)
         rows: list[Row | None] = []
         for l, item in enumerate(items):

@@ -163,7 +163,7 @@ def _order(label: str, order: AnyOrder, tableau: Tableau, paint: Paint, shown: l
     picture = draw_text(witness.tree, colours, width=30)
     if max(len(line) for line in text) + max(len(line) for line in picture) < 74:
         text = beside(text, picture)
-    return [head, *(f"      {line}" for line in text)]
+    return [head, *(paint.dots(f"      {line}") for line in text)]
 
 
 def _suggested(found: Suggestion, paint: Paint) -> list[str]:

@@ -7,6 +7,8 @@ from dataclasses import dataclass
 
 _CODES = {"good": "32", "bad": "31;1", "strong": "1", "faint": "2", "note": "36"}
 
+_DOTS = (34, 33, 32, 35, 36, 31)
+
 
 @dataclass(frozen=True)
 class Paint:
@@ -17,6 +19,16 @@ class Paint:
     def __call__(self, style: str, text: str) -> str:
         """``text`` in one of the styles good, bad, strong, faint, note."""
         return f"\x1b[{_CODES[style]}m{text}\x1b[0m" if self.color and text else text
+
+    def dots(self, line: str) -> str:
+        """A line of a drawn tree, its dots in the colours of their numbers."""
+        if not self.color:
+            return line
+        import re
+
+        return re.sub(
+            "●([0-9]+)", lambda dot: f"\x1b[{_DOTS[(int(dot[1]) - 1) % len(_DOTS)]}m{dot[0]}\x1b[0m", line
+        )
 
     def verdict(self, holds: bool, yes: str = "yes", no: str = "no") -> str:
         """A word that is good or bad news."""

@@ -306,7 +306,7 @@ def _text(subject: Subject, classes: Iterable[ConditionClass], paint: Paint, wit
     for order, group in groupby(classes, key=lambda tree: tree.order):
         yield paint("strong", f"order {order}") + "\n"
         for tree in group:
-            yield from _entry(subject, tree, with_members)
+            yield from map(paint.dots, _entry(subject, tree, with_members))
     yield from summary_lines(subject)
 
 

@@ -149,7 +149,7 @@ def _text(query: Query, rows: Iterable[TreeRow], counts: Counts | None, paint: P
         heading = f"order {n}" + (f", root colour {root + 1}" if many else "")
         yield paint("strong", heading) + "\n"
         for row in group:
-            yield from _entry(row, many)
+            yield from map(paint.dots, _entry(row, many))
     if counts is not None:
         total = sum(sum(kept(query, by_root)) for _, by_root in counts)
         yield f"{total} tree{'s' * (total != 1)}\n"
