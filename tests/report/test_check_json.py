@@ -1,48 +1,167 @@
-"""The JSON of ``gark check`` keeps to its schema on every file there is."""
+"""The JSON of ``gark check`` keeps to its published schema on every file there is, with every option."""
+
+from __future__ import annotations
 
 import json
+from functools import cache
 from pathlib import Path
+from typing import Any
 
 import pytest
-from jsonschema import Draft202012Validator
+from jsonschema import Draft7Validator
 
 from garkcli.methodfile.check import check_file
 from garkcli.report.check_json import render
+from garkcli.report.check_schema import check_report_schema
 
 ROOT = Path(__file__).parents[2]
-VALIDATOR = Draft202012Validator(
-    json.loads((Path(__file__).parent / "check.schema.json").read_text(encoding="utf-8"))
-)
+SCHEMA = check_report_schema()
+VALIDATOR = Draft7Validator(SCHEMA)
 READABLE = sorted([*ROOT.glob("methods/*.gark.yaml"), *ROOT.glob("tests/examples/valid/*.gark.yaml")])
-REFUSED = [ROOT / f"tests/examples/invalid/{name}.gark.yaml" for name in ("many-faults", "empty", "not-utf8")]
+FAILING = sorted(ROOT.glob("tests/examples/failing/*.gark.yaml"))
+REFUSED = sorted(ROOT.glob("tests/examples/invalid/*.gark.yaml"))
+MISPRINTED = ROOT / "tests/examples/failing/collocation-misprinted.gark.yaml"
 
 
-def report(*paths: Path, limit: int = 60) -> dict[str, object]:
+def report(*paths: Path, limit: int = 60, constants: bool = False) -> dict[str, Any]:
     """The report on some files, as JSON read back."""
-    found = json.loads(render([check_file(str(path), limit) for path in paths]))
+    found = json.loads(render([check_file(str(path), limit, constants) for path in paths]))
     assert isinstance(found, dict)
     return found
 
 
+@cache
+def every_file() -> dict[str, Any]:
+    """The report on every file there is: readable, failing, refused, missing, and a directory without files."""
+    return report(*READABLE, *FAILING, *REFUSED, Path("nowhere.gark.yaml"), Path("tests/report"))
+
+
+def one(tmp_path: Path, text: str, **options: Any) -> dict[str, Any]:
+    """The report on one text, allowed by the schema."""
+    file = tmp_path / "m.gark.yaml"
+    file.write_text(text, encoding="utf-8")
+    found = report(file, **options)
+    assert complaints(found) == []
+    return dict(found["files"][0])
+
+
+def complaints(found: object) -> list[str]:
+    """What the schema has against a report."""
+    return [
+        f"{list(error.absolute_path)}: {error.message[:200]} {[x.message[:200] for x in error.context or ()]}"
+        for error in VALIDATOR.iter_errors(found)
+    ]
+
+
 def test_the_schema_is_one() -> None:
-    """The schema itself is valid, and it refuses a report without its fields."""
-    Draft202012Validator.check_schema(VALIDATOR.schema)
+    """The schema itself is valid draft-07, and it refuses a report without its fields."""
+    Draft7Validator.check_schema(SCHEMA)
     assert not VALIDATOR.is_valid({"schema": "gark/check/1", "files": [{"file": "m"}], "summary": {}})
 
 
-@pytest.mark.parametrize("limit", [1, 60])
-def test_reports_keep_to_the_schema(limit: int) -> None:
-    """Every readable file, refused file and missing file gives a report that the schema allows."""
-    found = report(*READABLE, *REFUSED, Path("nowhere.gark.yaml"), limit=limit)
-    errors = [f"{list(error.absolute_path)}: {error.message}" for error in VALIDATOR.iter_errors(found)]
-    assert errors == []
-    assert found["summary"] == {"files": len(READABLE) + 4, "failed": 4}
+def test_reports_keep_to_the_schema() -> None:
+    """Every readable, failing, refused and missing file gives a report that the schema allows."""
+    found = every_file()
+    assert complaints(found) == []
+    refused = len(REFUSED) + 2
+    total = len(READABLE) + len(FAILING) + refused
+    assert found["summary"] == {"files": total, "failed": len(FAILING) + refused}
+
+
+@pytest.mark.parametrize("key", ["order", "witness", "simplifying", "claims", "tolerance", "symplectic", "colours"])
+def test_the_schema_needs_every_field(key: str) -> None:
+    """A report that lacks a field, or has it with another type, is refused."""
+    found = report(READABLE[0])
+    (file,) = found["files"]
+    kept = file.pop(key)
+    assert not VALIDATOR.is_valid(found)
+    file[key] = 1.5
+    assert not VALIDATOR.is_valid(found)
+    file[key] = kept
+    assert VALIDATOR.is_valid(found)
+
+
+def test_a_field_that_nobody_described_is_noticed() -> None:
+    """The schema is closed: a new field of a report has to be described before it is written."""
+    found = report(READABLE[0])
+    found["files"][0]["mood"] = "good"
+    assert not VALIDATOR.is_valid(found)
 
 
 def test_each_table_has_a_row_a_colour() -> None:
     """B, C and D are as large as the method has colours."""
-    for found in report(*READABLE)["files"]:  # type: ignore[attr-defined]
+    checked = [found for found in every_file()["files"] if "errors" not in found]
+    assert len(checked) == len(READABLE) + len(FAILING)
+    for found in checked:
         N = len(found["colours"])
         assert len(found["simplifying"]["B"]) == N
         for table in "CD":
             assert [len(row) for row in found["simplifying"][table]] == [N] * N
+
+
+def test_lower_bounds_and_error_constants() -> None:
+    """With a low limit and error constants every file keeps to the schema, and says that orders are bounds."""
+    found = report(*READABLE, *FAILING, limit=2, constants=True)
+    assert complaints(found) == []
+    bounded = [x for x in found["files"] if x.get("order_is_lower_bound")]
+    assert bounded
+    assert all(x["witness"] is None and "error_constants" not in x for x in bounded)
+    assert any("error_constants" in x for x in found["files"])
+
+
+def test_error_constants_are_of_the_first_failing_order() -> None:
+    """The constants belong to the order after the last that holds, exact where the method is."""
+    found = report(ROOT / "methods/stoermer-verlet.gark.yaml", constants=True)
+    assert complaints(found) == []
+    (file,) = found["files"]
+    assert file["error_constants"]["order"] == file["order"] + 1
+    assert file["error_constants"]["exact"] is True
+    assert file["error_constants"]["all"]["two_norm"] > 0
+
+
+def test_a_rounded_method_says_so(tmp_path: Path) -> None:
+    """A tolerance is repeated as text, ``exact`` is false, and the largest residual is within the tolerance."""
+    found = one(tmp_path, "methods: [{A: [[0.5000000000000001]], b: [1]}]\ntolerance: 1e-14\n")
+    assert (found["exact"], found["tolerance"], found["order"]) == (False, "1e-14", 2)
+    assert 0 < found["order_largest_residual"] <= 1e-14
+    assert "suggestion" not in found
+
+
+def test_a_method_that_looks_rounded_gets_a_suggestion(tmp_path: Path) -> None:
+    """Residuals of the size of rounding are told apart from genuine ones, with the line to add."""
+    found = one(tmp_path, "methods: [{A: [[0.5000000000000001]], b: [1]}]\n")
+    assert (found["exact"], found["order"]) == (True, 1)
+    assert found["suggestion"]["line"].startswith("tolerance: ")
+    assert found["suggestion"]["order"] == 2
+    assert found["suggestion"]["rounding"] < 1e-14 < found["suggestion"]["genuine"]
+
+
+def test_a_failing_method_is_blamed() -> None:
+    """A claim on the order that fails comes with the failing conditions, and the schema knows them."""
+    found = report(MISPRINTED)
+    assert complaints(found) == []
+    (file,) = found["files"]
+    assert file["ok"] is False
+    assert file["blame"]["order"] == file["order"] + 1
+    assert 0 < file["blame"]["failing"] <= file["blame"]["conditions"]
+
+
+@pytest.mark.parametrize(("place", "key"), [("A: [[1/3]], b: [1]", "A"), ("A: [[1/2]], b: [2]", "b")])
+def test_a_repair_names_its_place(tmp_path: Path, place: str, key: str) -> None:
+    """A single wrong entry is found again, in A or in b, with what it was and what it should be."""
+    found = one(tmp_path, f"methods: [{{{place}}}]\nexpect: {{order: {2 if key == 'A' else 1}}}\n")
+    (repair,) = found["blame"]["repairs"]
+    assert (repair["old"], repair["new"]) == {"A": ("1/3", "1/2"), "b": ("2", "1")}[key]
+    assert key in repair
+    assert repair["entry"] == 1
+
+
+def test_a_file_that_cannot_be_read_has_its_errors() -> None:
+    """Faults are in file order with places from 1, null for a file that is not there."""
+    found = report(ROOT / "tests/examples/invalid/many-faults.gark.yaml", Path("nowhere.gark.yaml"))
+    assert complaints(found) == []
+    many, missing = (file["errors"] for file in found["files"])
+    places = [(x["line"], x["column"]) for x in many]
+    assert len(places) > 3
+    assert places == sorted(places)
+    assert [(x["line"], x["column"]) for x in missing] == [(None, None)]
