@@ -47,7 +47,8 @@ def command(
 ) -> int:
     r"""Everything known about each method, and its claims.
 
-    FILE is a method file, a directory (all *.gark.yaml below it), or - for standard input.
+    FILE is a method file, a directory (all *.gark.yaml below it), a pattern (in quotes, ** for any
+    directories), or - for standard input.
 
     The exact order of the tableau, of its symplectic conjugate and of their pair, each with a tree whose
     condition fails next; B, C and D of every block and the bound they give; consistency and symplecticity;

@@ -18,11 +18,19 @@ STDIN = "-"
 
 
 def find_files(paths: Iterable[str]) -> Iterator[str]:
-    """The files meant by ``paths``: a directory stands for all method files below it, in order."""
+    """The files meant by ``paths``, in order.
+
+    A directory stands for all method files below it, a pattern such as ``**/*.yaml`` for the files it matches; what
+    stands for nothing stays, to be reported as missing.
+    """
     for path in paths:
         if path != STDIN and Path(path).is_dir():
             found = sorted(str(file) for file in Path(path).rglob(f"*{SUFFIX}"))
             yield from found or [path]
+        elif any(sign in path for sign in "*?[") and not Path(path).exists():
+            from glob import glob
+
+            yield from sorted(glob(path, recursive=True)) or [path]
         else:
             yield path
 

@@ -1,11 +1,13 @@
 """Every form of a file gives the tableau that the direct construction gives."""
 
+from pathlib import Path
+
 import pytest
 from flint import fmpq
 
 from garkcli.exact.field import Number
 from garkcli.families.registry import FAMILIES, diagonal_method
-from garkcli.methodfile.load import loads
+from garkcli.methodfile.load import find_files, loads
 from garkcli.order.conditions import coupling_graph
 from garkcli.tableau.conjugate import conjugate
 from garkcli.tableau.forms import (
@@ -191,3 +193,19 @@ def test_the_parts_of_a_file_are_kept() -> None:
     assert (method.source, method.form, method.structure) == ("s", "methods", "general")
     assert method.tolerance == fmpq(1, 1000)
     assert loads(TWO + "transfer: collocation", "s").name == "s"
+
+
+def test_patterns_and_directories_stand_for_their_files(tmp_path: Path) -> None:
+    """A pattern means what it matches, a directory its method files, and what means nothing is kept."""
+    (tmp_path / "deep").mkdir()
+    for name in ("b.gark.yaml", "a.gark.yaml", "deep/c.gark.yaml", "other.yaml"):
+        (tmp_path / name).write_text("methods: [{family: rk4}]\n")
+
+    def found(*paths: str) -> list[str]:
+        return [Path(x).relative_to(tmp_path).as_posix() for x in find_files(str(tmp_path / p) for p in paths)]
+
+    assert found("") == ["a.gark.yaml", "b.gark.yaml", "deep/c.gark.yaml"]
+    assert found("*.yaml") == ["a.gark.yaml", "b.gark.yaml", "other.yaml"]
+    assert found("**/c*", "b.gark.yaml") == ["deep/c.gark.yaml", "b.gark.yaml"]
+    assert found("none*") == ["none*"]
+    assert list(find_files(["-"])) == ["-"]
