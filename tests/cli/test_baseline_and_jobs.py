@@ -1,0 +1,214 @@
+"""``gark check --baseline`` and ``-j``: what is worse than before, and many files at a time."""
+
+from __future__ import annotations
+
+import json
+import os
+import subprocess
+import sys
+from pathlib import Path
+
+import pytest
+
+from tests.cli.harness import ROOT, Run, gark
+
+SLOW = "radicals-of-large-degree"
+"""An unreadable example that takes seconds to be refused."""
+QUICK = tuple(
+    str(path.relative_to(ROOT))
+    for path in sorted((ROOT / "tests/examples/invalid").glob("*.gark.yaml"))
+    if SLOW not in path.name
+)
+GAUSS = "methods: [{family: gauss, stages: 2}]\n"
+HOLDS = f"{GAUSS}expect: {{order: 4, symplectic: true}}\n"
+FAILS = f"{GAUSS}expect: {{order: 5}}\n"
+LOWER = "methods: [{A: [[1/3]], b: [1]}]\n"
+BROKEN = "methods: [{family: gaus}]\n"
+NO_BASELINES = {
+    "missing": None,
+    "not JSON": "order: 4",
+    "empty": "",
+    "no object": "[1, 2]",
+    "another report": '{"schema": "gark/trees/1", "files": []}',
+    "no files": '{"schema": "gark/check/1"}',
+    "files of another type": '{"schema": "gark/check/1", "files": {"m": 1}}',
+    "too deep": "[" * 100_000,
+}
+
+
+class Project:
+    """A directory of method files with the report of an earlier day."""
+
+    def __init__(self, folder: Path, **files: str) -> None:
+        self.folder = folder
+        self.write(**files)
+        assert gark("check", ".", "--format", "json", "-o", "base.json", cwd=folder).code in {0, 1, 2}
+
+    def write(self, **files: str) -> None:
+        """Write files; ``m`` is ``m.gark.yaml``."""
+        for name, text in files.items():
+            (self.folder / f"{name}.gark.yaml").write_text(text, encoding="utf-8")
+
+    def compare(self, **files: str) -> Run:
+        """What ``--baseline`` says once these files are written."""
+        self.write(**files)
+        return gark("check", ".", "--baseline", "base.json", cwd=self.folder)
+
+
+def test_the_same_files_are_not_worse(tmp_path: Path) -> None:
+    """Files that hold, fail and cannot be read are no worse than themselves: exit code 0."""
+    run = Project(tmp_path, a=HOLDS, b=FAILS, c=BROKEN).compare()
+    assert (run.code, run.out, run.err) == (0, "3 files: nothing got worse\n", "")
+
+
+def test_a_claim_that_held_fails(tmp_path: Path) -> None:
+    """A claim that held and holds no more is worse, and is named with its file: exit code 1."""
+    run = Project(tmp_path, m=HOLDS).compare(m=HOLDS.replace("true", "false"))
+    assert run.code == 1
+    assert "m.gark.yaml: symplectic got worse: held -> found true\n" in run.out
+    assert "1 file: 1 got worse\n" in run.out
+
+
+def test_a_claim_that_is_new_has_to_hold(tmp_path: Path) -> None:
+    """A claim that nobody made before is worse where it fails, and no matter where it holds."""
+    project = Project(tmp_path, m=GAUSS)
+    assert project.compare(m=HOLDS).code == 0
+    run = project.compare(m=FAILS)
+    assert (run.code, run.out.count("got worse:")) == (1, 1)
+    assert "order got worse: not claimed -> found 4" in run.out
+
+
+def test_an_order_that_is_lower(tmp_path: Path) -> None:
+    """Without any claims a lower order is worse, each of the three on a line; a higher one is not."""
+    run = Project(tmp_path, m=GAUSS).compare(m=LOWER)
+    assert run.code == 1
+    assert [line.partition(": ")[2] for line in run.out.splitlines()[:3]] == [
+        "order got worse: 4 -> 1",
+        "conjugate order got worse: 4 -> 1",
+        "pair order got worse: 4 -> 1",
+    ]
+    (tmp_path / "up").mkdir()
+    assert Project(tmp_path / "up", m=LOWER).compare(m=GAUSS).code == 0
+
+
+def test_an_order_that_is_gone(tmp_path: Path) -> None:
+    """A conjugate that exists no more, for a weight that is zero, is worse than any order of it."""
+    run = Project(tmp_path, m="methods: [{A: [[1/2]], b: [1]}]\n").compare(
+        m="methods: [{family: explicit-midpoint}]\n"
+    )
+    assert run.code == 1
+    assert "conjugate order got worse: 2 -> None" in run.out
+    assert " order got worse: 2 -> 2" not in run.out
+
+
+def test_a_new_file_has_to_be_right(tmp_path: Path) -> None:
+    """A file that the baseline does not know fails where a claim fails or it cannot be read, not where it holds."""
+    project = Project(tmp_path, m=HOLDS)
+    assert project.compare(n=HOLDS).code == 0
+    failing = project.compare(n=FAILS)
+    assert (failing.code, failing.out.splitlines()[0]) == (
+        1,
+        "n.gark.yaml: order got worse: new, expected 5 -> 4",
+    )
+    assert project.compare(n=BROKEN).code == 1
+
+
+def test_what_failed_may_go_on_failing(tmp_path: Path) -> None:
+    """A claim that failed before may fail again, with another number and after a move down the file."""
+    project = Project(tmp_path, m=FAILS)
+    assert project.compare(m=FAILS).code == 0
+    assert project.compare(m="# later\n\n" + FAILS.replace("5", "6")).code == 0
+
+
+def test_what_was_unreadable_may_stay_so(tmp_path: Path) -> None:
+    """An unreadable file stays unreadable without complaint; one that becomes readable is no worse."""
+    project = Project(tmp_path, m=BROKEN)
+    assert project.compare(m="methods: 1").code == 0
+    assert project.compare(m=HOLDS).code == 0
+
+
+def test_a_file_that_cannot_be_read_any_more(tmp_path: Path) -> None:
+    """A method that becomes unreadable is worse: exit code 1, one line for the file."""
+    run = Project(tmp_path, m=HOLDS, n=FAILS).compare(m=BROKEN, n=BROKEN)
+    assert run.code == 1
+    assert run.out.count("file got worse: a method -> unreadable\n") == 2
+
+
+@pytest.mark.parametrize("what", NO_BASELINES)
+def test_a_baseline_that_is_none(what: str, tmp_path: Path) -> None:
+    """What is no report of ``gark check`` is a usage error with a cure: exit code 2, nothing on stdout."""
+    Project(tmp_path, m=HOLDS)
+    text = NO_BASELINES[what]
+    if text is not None:
+        (tmp_path / "wrong.json").write_text(text)
+    run = gark("check", ".", "--baseline", "wrong.json", cwd=tmp_path)
+    assert (run.code, run.out) == (2, "")
+    assert run.err.startswith("gark: --baseline wrong.json: ")
+    assert "help: make one with gark check --format json -o FILE" in run.err
+
+
+def test_a_baseline_that_is_a_method_file(tmp_path: Path) -> None:
+    """A method file given by mistake is refused, and so is a file of bytes."""
+    Project(tmp_path, m=HOLDS)
+    (tmp_path / "bytes.json").write_bytes(b"\xff\xfe\0")
+    for name in ("m.gark.yaml", "bytes.json"):
+        assert gark("check", ".", "--baseline", name, cwd=tmp_path).code == 2
+
+
+# -- many at a time -----------------------------------------------------------------------------------------------
+
+
+def process(*arguments: str, stdin: str = "") -> subprocess.CompletedProcess[str]:
+    """``gark check`` as a process, as workers are forked from it."""
+    command = [sys.executable, "-m", "garkcli", "check", *arguments]
+    environment = {**os.environ, "PYTHONPATH": str(ROOT), "COLUMNS": "80"}
+    environment.pop("GITHUB_ACTIONS", None)
+    return subprocess.run(
+        command, cwd=ROOT, env=environment, input=stdin, capture_output=True, text=True, timeout=60
+    )
+
+
+@pytest.mark.parametrize(
+    ("options", "paths"),
+    [
+        (("--format", "json"), ("methods", "tests/examples/valid", "tests/examples/failing", *QUICK, "nowhere")),
+        (("--format", "text"), ("methods", "tests/examples/failing", "tests/examples/invalid/octal.gark.yaml")),
+        (("--format", "text", "-v", "--error-constants"), ("methods", "tests/examples/valid")),
+        (("--format", "sarif"), ("methods", "tests/examples/failing", "tests/report")),
+    ],
+)
+def test_two_at_a_time_say_the_same(options: tuple[str, ...], paths: tuple[str, ...]) -> None:
+    """Methods, failing and unreadable files give the same report, in the same order, one by one and by twos."""
+    one, two = process(*options, *paths), process(*options, "-j", "2", *paths)
+    assert one.stdout == two.stdout != ""
+    assert one.stderr == two.stderr == ""
+    expected = 0 if paths == ("methods", "tests/examples/valid") else 2
+    expected = max(expected, int("tests/examples/failing" in paths))
+    assert one.returncode == two.returncode == expected
+
+
+def test_standard_input_among_many() -> None:
+    """``-`` is read once, in its place among the files, with ``-j`` as without."""
+    paths = ("methods/collocation.gark.yaml", "-", "tests/examples/failing")
+    one, two = (process(*paths, *jobs, "--format", "json", stdin=HOLDS) for jobs in ((), ("-j", "2")))
+    assert one.stdout == two.stdout
+    files = [(x["file"], x["ok"]) for x in json.loads(two.stdout)["files"]]
+    assert files[0] == (paths[0], True)
+    assert files[1] == ("<stdin>", True)
+    assert two.returncode == 1
+
+
+def test_as_many_as_there_are_processors() -> None:
+    """``-j 0`` gives the report of ``-j 1``; fewer than none are a usage error."""
+    alone, many = process("methods", "-j", "1"), process("methods", "-j", "0")
+    assert (alone.returncode, alone.stdout) == (many.returncode, many.stdout)
+    assert alone.returncode == 0
+    assert process("methods", "-j", "-1").returncode == 2
+
+
+def test_a_baseline_of_many_at_a_time(tmp_path: Path) -> None:
+    """A report written by twos is a baseline for a check one by one, with nothing worse."""
+    base = tmp_path / "base.json"
+    assert process("methods", "-j", "2", "--format", "json", "-o", str(base)).returncode == 0
+    run = process("methods", "--baseline", str(base))
+    assert (run.returncode, run.stdout.splitlines()[-1].partition(": ")[2]) == (0, "nothing got worse")

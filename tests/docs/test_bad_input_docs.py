@@ -1,0 +1,103 @@
+"""docs/bad-input.md says what the invalid examples are met with, because it is made by running them."""
+
+from __future__ import annotations
+
+import os
+from pathlib import Path
+
+import pytest
+
+from garkcli.errors import MethodFileError
+from garkcli.methodfile.load import load
+
+ROOT = Path(__file__).resolve().parents[2]
+PAGE = ROOT / "docs" / "bad-input.md"
+SUFFIX = ".gark.yaml"
+WIDTH = 70
+"""Characters of a line that are shown."""
+LONGEST = 120
+"""Characters of a message that are shown."""
+HEAD = """# Bad input
+
+Each kind of bad input with the message it gets, made by running every file of `tests/examples/invalid`. A file
+with several faults gets them all in one run; the table shows the first. `gark check` shows the line with a caret
+under the text, and ends with exit code 2. Nothing in a file is ever executed, and no file is met with a traceback.
+
+| kind | the line | message | help |
+|---|---|---|---|
+"""
+
+
+def cell(text: str) -> str:
+    """A text as one cell of a Markdown table; ``…`` stands for what does not fit."""
+    text = " ".join("".join(x if x.isprintable() else " " for x in text).split())
+    text = text if len(text) <= LONGEST else f"{text[: LONGEST - 1].rstrip()}…"
+    for sign in "\\`*_|":
+        text = text.replace(sign, f"\\{sign}")
+    return text.replace("<", "&lt;")
+
+
+def code(text: str) -> str:
+    """A line of a file as code in a cell; nothing where there is no line."""
+    text = "".join(x if x.isprintable() else "\N{REPLACEMENT CHARACTER}" for x in text.replace("\t", "    "))
+    text = " ".join(text.split())
+    text = text if len(text) <= WIDTH else f"{text[: WIDTH - 1].rstrip()}…"
+    fence = "``" if "`" in text else "`"
+    return f"{fence}{text}{fence}".replace("|", "\\|") if text else ""
+
+
+def around(line: str, column: int) -> str:
+    """The part of a long line where the fault is."""
+    start = max(0, min(column - 1 - WIDTH // 2, len(line) - WIDTH))
+    return ("…" if start else "") + line[start:]
+
+
+def row(path: Path) -> str:
+    """One kind of bad input."""
+    with pytest.raises(MethodFileError) as caught:
+        load(str(path))
+    fault, lines = caught.value.faults[0], caught.value.text.splitlines()
+    line = around(lines[fault.line - 1], fault.column) if fault.line <= len(lines) else ""
+    kind = path.name.removesuffix(SUFFIX).replace("-", " ")
+    return f"| {kind} | {code(line)} | {cell(fault.message)} | {cell(fault.help)} |\n"
+
+
+def page() -> str:
+    """The whole page."""
+    return HEAD + "".join(map(row, sorted((ROOT / "tests/examples/invalid").glob(f"*{SUFFIX}"))))
+
+
+def test_the_page_is_what_happens() -> None:
+    """Every invalid example has its row, with the message that it gets now."""
+    wanted = page()
+    if os.environ.get("GARK_UPDATE_SNAPSHOTS") == "1":
+        PAGE.write_text(wanted, encoding="utf-8")
+    assert PAGE.read_text(encoding="utf-8") == wanted
+
+
+def test_every_row_has_four_cells() -> None:
+    """Nothing in a message or a line breaks the table: each row has four cells, and a message."""
+    rows = [line for line in PAGE.read_text(encoding="utf-8").splitlines() if line.startswith("|")][2:]
+    assert len(rows) == len(list((ROOT / "tests/examples/invalid").glob(f"*{SUFFIX}")))
+    for line in rows:
+        cells = line.replace("\\|", "").split("|")[1:-1]
+        assert len(cells) == 4
+        assert cells[0].strip()
+        assert cells[2].strip()
+        assert all(len(x) < 2 * LONGEST for x in cells)
+
+
+@pytest.mark.parametrize(
+    ("text", "shown"),
+    [("a|b", "a\\|b"), ("a\nb", "a b"), ("<b>", "&lt;b>"), ("*a_b*", "\\*a\\_b\\*"), ("x" * 190, f"{'x' * 119}…")],
+)
+def test_a_cell_is_one(text: str, shown: str) -> None:
+    """Signs of Markdown are escaped, lines are joined, and what is too long is cut."""
+    assert cell(text) == shown
+
+
+def test_code_is_one_cell() -> None:
+    """Code keeps its signs; a pipe is escaped as tables ask for, and a backtick does not end it."""
+    assert code("a|b *c*") == "`a\\|b *c*`"
+    assert code("a`b") == "``a`b``"
+    assert code("") == ""

@@ -1,0 +1,386 @@
+"""The formats for machines: what each standard asks for, whatever stands in file names and messages."""
+
+from __future__ import annotations
+
+import json
+import re
+import xml.etree.ElementTree as ET
+from collections.abc import Sequence
+from typing import Any
+from unittest.mock import patch
+from urllib.parse import unquote
+
+import pytest
+from click.testing import CliRunner
+from jsonschema import Draft7Validator
+
+from garkcli.cli.main import gark as commands
+from garkcli.errors import Fault, MethodFileError
+from garkcli.methodfile.expectations import verify
+from garkcli.methodfile.load import loads
+from garkcli.order.check import analyse
+from garkcli.order.outcome import Outcome
+from garkcli.report import check_github, check_junit, check_markdown, check_sarif, check_text
+from garkcli.report.findings import RULES, findings
+from garkcli.report.paint import Paint
+from tests.cli.harness import ROOT, gark
+
+FAILING = "tests/examples/failing/collocation-misprinted.gark.yaml"
+INVALID = "tests/examples/invalid/many-faults.gark.yaml"
+GOOD = "methods/stoermer-verlet.gark.yaml"
+FILES = (GOOD, FAILING, INVALID)
+MIDPOINT = "methods: [{A: [[1/2]], b: [1]}]\n"
+WRONG = f"{MIDPOINT}expect: {{order: 3, symplectic: false, bound: 2, B: [5]}}\n"
+AWKWARD = "a%,b:c`d|e\nf.gark.yaml"
+
+_TEXT = {"type": "object", "required": ["text"], "properties": {"text": {"type": "string", "minLength": 1}}}
+_POSITIVE = {"type": "integer", "minimum": 1}
+_REGION = {
+    "type": "object",
+    "required": ["startLine"],
+    "properties": {"startLine": _POSITIVE, "startColumn": _POSITIVE},
+    "additionalProperties": False,
+}
+_PLACE = {
+    "type": "object",
+    "required": ["artifactLocation"],
+    "properties": {
+        "artifactLocation": {
+            "type": "object",
+            "required": ["uri"],
+            "properties": {"uri": {"type": "string", "pattern": "^[A-Za-z0-9._~/%-]+$"}},
+            "additionalProperties": False,
+        },
+        "region": _REGION,
+    },
+    "additionalProperties": False,
+}
+_LOCATION = {
+    "type": "object",
+    "required": ["physicalLocation"],
+    "properties": {"physicalLocation": _PLACE},
+    "additionalProperties": False,
+}
+_RESULT = {
+    "type": "object",
+    "required": ["message", "ruleId", "ruleIndex", "locations", "partialFingerprints"],
+    "properties": {
+        "ruleId": {"enum": list(RULES)},
+        "ruleIndex": {"type": "integer", "minimum": 0},
+        "level": {"enum": ["none", "note", "warning", "error"]},
+        "message": _TEXT,
+        "locations": {"type": "array", "minItems": 1, "items": _LOCATION},
+        "partialFingerprints": {"type": "object", "additionalProperties": {"type": "string"}, "minProperties": 1},
+    },
+    "additionalProperties": False,
+}
+_RULE = {
+    "type": "object",
+    "required": ["id"],
+    "properties": {"id": {"type": "string"}, "shortDescription": _TEXT},
+    "additionalProperties": False,
+}
+_DRIVER = {
+    "type": "object",
+    "required": ["name"],
+    "properties": {
+        "name": {"type": "string"},
+        "version": {"type": "string"},
+        "rules": {"type": "array", "items": _RULE},
+    },
+    "additionalProperties": False,
+}
+_RUN = {
+    "type": "object",
+    "required": ["tool", "results"],
+    "properties": {
+        "tool": {"type": "object", "required": ["driver"], "properties": {"driver": _DRIVER}},
+        "columnKind": {"enum": ["utf16CodeUnits", "unicodeCodePoints"]},
+        "results": {"type": "array", "items": _RESULT},
+    },
+    "additionalProperties": False,
+}
+SARIF = {
+    "type": "object",
+    "required": ["version", "runs", "$schema"],
+    "properties": {
+        "version": {"const": "2.1.0"},
+        "$schema": {"type": "string", "pattern": "sarif.*2\\.1\\.0"},
+        "runs": {"type": "array", "minItems": 1, "items": _RUN},
+    },
+    "additionalProperties": False,
+}
+"""The part of SARIF 2.1.0 that a report of ours may use: its required properties, types and enumerations."""
+
+
+def outcome(text: str, file: str = "m.gark.yaml", limit: int = 60) -> Outcome:
+    """What ``gark check`` finds about a text."""
+    try:
+        method = loads(text, file)
+    except MethodFileError as error:
+        return Outcome(file, file, faults=error.faults, text=text)
+    analysis = analyse(method.tableau, limit)
+    return Outcome(file, method.name, method.structure, analysis, verify(method.claims, analysis), text=text)
+
+
+def sarif(*outcomes: Outcome) -> dict[str, Any]:
+    """The one run of a SARIF report that has the structure of the standard."""
+    log = json.loads(check_sarif.render(outcomes))
+    Draft7Validator.check_schema(SARIF)
+    assert [error.message for error in Draft7Validator(SARIF).iter_errors(log)] == []
+    (run,) = log["runs"]
+    assert isinstance(run, dict)
+    return run
+
+
+def fingerprints(text: str, file: str = "m.gark.yaml") -> list[str]:
+    """The fingerprints of all findings about a text."""
+    return [x["partialFingerprints"]["gark/v1"] for x in sarif(outcome(text, file))["results"]]
+
+
+# -- SARIF --------------------------------------------------------------------------------------------------------
+
+
+def test_sarif_of_real_files_has_the_structure_of_the_standard() -> None:
+    """A good, a failing and an unreadable file give a log with every required property, one result a finding."""
+    log = json.loads(gark("check", *FILES, "--format", "sarif").out)
+    assert [error.message for error in Draft7Validator(SARIF).iter_errors(log)] == []
+    (run,) = log["runs"]
+    files = [x["locations"][0]["physicalLocation"]["artifactLocation"]["uri"] for x in run["results"]]
+    assert files.count(FAILING) == 1
+    assert files.count(INVALID) > 3
+    assert GOOD not in files
+
+
+def test_sarif_names_its_rules() -> None:
+    """Each result's rule index points at the rule with the result's rule id."""
+    run = sarif(outcome(WRONG), outcome("methods: 1\n"))
+    rules = run["tool"]["driver"]["rules"]
+    assert {x["ruleId"] for x in run["results"]} == set(RULES) == {x["id"] for x in rules}
+    assert all(rules[x["ruleIndex"]]["id"] == x["ruleId"] for x in run["results"])
+
+
+def test_sarif_points_at_the_claim() -> None:
+    """The region of a failed claim is where its value stands, in characters and not in bytes."""
+    text = f"{MIDPOINT}expect: {{'C': [[9]], order: 3}} # é\n".replace("methods", "name: αβγ\nmethods")
+    text = text.replace("expect: {", "expect: { ? 'bound'\n : '>= 7', ")
+    found = sarif(outcome(text))["results"]
+    regions = [x["locations"][0]["physicalLocation"]["region"] for x in found]
+    lines = text.splitlines()
+    values = [lines[region["startLine"] - 1][region["startColumn"] - 1 :] for region in regions]
+    assert [value[:4] for value in values] == ["'>= ", "[[9]", "3} #"]
+
+
+def test_a_region_starts_at_one_where_no_place_is_known() -> None:
+    """A file that is not there has no line; the region is still one of the standard."""
+    fault = Outcome("nowhere.gark.yaml", "nowhere", faults=(Fault("no such file"),))
+    (result,) = sarif(fault)["results"]
+    assert result["locations"][0]["physicalLocation"]["region"] == {"startLine": 1, "startColumn": 1}
+
+
+def test_fingerprints_do_not_move() -> None:
+    """Lines inserted above and other blanks leave every fingerprint as it was."""
+    moved = "# a comment\n\nname: later named\n" + WRONG.replace("{order", "{   order")
+    assert len(fingerprints(WRONG)) == 3
+    assert fingerprints(moved) == fingerprints(WRONG)
+    bad = "methods: [{family: gaus, stages: 2}]\ncolour: red\n"
+    assert len(fingerprints(bad)) == len(set(fingerprints(bad))) >= 1
+    assert fingerprints(f"# a comment\n\n{bad}") == fingerprints(bad)
+
+
+def test_fingerprints_tell_findings_apart() -> None:
+    """Two claims, two files, and two faults with the same words have different fingerprints."""
+    assert len(set(fingerprints(WRONG))) == 3
+    assert not set(fingerprints(WRONG)) & set(fingerprints(WRONG, "n.gark.yaml"))
+    same = Outcome("m", "m", faults=(Fault("no", "", 1, 1), Fault("no", "", 2, 1)))
+    assert len({x.fingerprint for x in findings(same)}) == 2
+
+
+def test_a_claim_that_still_fails_keeps_its_fingerprint() -> None:
+    """The same claim with another number is the same finding."""
+    assert fingerprints(f"{MIDPOINT}expect: {{order: 3}}") == fingerprints(f"{MIDPOINT}expect: {{order: 4}}")
+
+
+@pytest.mark.parametrize("file", [AWKWARD, "späße/m.gark.yaml", "C:m.gark.yaml", "a b.gark.yaml", "#1?.gark.yaml"])
+def test_a_file_name_is_a_uri(file: str) -> None:
+    """Any file name becomes a URI reference that gives the name back."""
+    run = sarif(outcome(WRONG, file))
+    uris = {x["locations"][0]["physicalLocation"]["artifactLocation"]["uri"] for x in run["results"]}
+    assert {unquote(uri) for uri in uris} == {file}
+
+
+# -- JUnit --------------------------------------------------------------------------------------------------------
+
+
+def junit(*outcomes: Outcome) -> ET.Element:
+    """A JUnit report whose counts are those of its cases."""
+    root = ET.fromstring(check_junit.render(outcomes))
+    assert (root.tag, {suite.tag for suite in root}) == ("testsuites", {"testsuite"})
+    for part in (root, *root):
+        for count, path in (("tests", ".//testcase"), ("failures", ".//failure"), ("errors", ".//error")):
+            assert part.get(count) == str(len(part.findall(path)))
+    assert all(case.get("name") and case.get("classname") for case in root.iter("testcase"))
+    return root
+
+
+def test_junit_has_a_case_a_claim() -> None:
+    """Each claim of a file is a case beside the one that says the file is a method; the failed ones fail."""
+    suite, other = junit(outcome(WRONG), outcome(MIDPOINT, "n.gark.yaml"))
+    names = [case.get("name") for case in suite]
+    assert names == ["is a method", "order: 3", "symplectic: false", "bound: 2", "B: [5]"]
+    failed = [case.get("name") for case in suite if case.find("failure") is not None]
+    assert failed == ["order: 3", "symplectic: false", "B: [5]"]
+    assert [case.get("name") for case in other] == ["is a method"]
+    assert {case.get("line") for case in suite[1:]} == {"2"}
+
+
+def test_junit_of_an_unreadable_file_is_one_error() -> None:
+    """A file that is no method is one case in error with every fault in its text."""
+    (suite,) = junit(outcome("methods: [{family: gauss, stages: x}]\ncolour: red\n"))
+    (case,) = suite
+    (error,) = case
+    assert (case.get("name"), error.tag) == ("is a method", "error")
+    assert error.get("message")
+    assert len((error.text or "").splitlines()) == 2
+    assert re.match(r"1:\d+: ", error.text or "")
+
+
+def test_junit_of_real_files() -> None:
+    """The counts of a whole run are those of its files: one claim fails, one file is in error."""
+    root = ET.fromstring(gark("check", *FILES, "--format", "junit").out)
+    assert (root.get("failures"), root.get("errors")) == ("1", "1")
+    assert [suite.get("name") for suite in root] == list(FILES)
+
+
+@pytest.mark.parametrize("sign", ["\0", "\x07", "\x1b", "\ud800", "\uffff", "\x7f", "<", "&", '"', "\n", "]]>"])
+def test_junit_parses_whatever_a_file_is_called(sign: str) -> None:
+    """Control characters and halves of surrogates are replaced, everything else comes back as it was."""
+    file = f"a{sign}b.gark.yaml"
+    faulty = Outcome(file, file, faults=(Fault(f"unknown {sign}", f"no {sign}", 1, 1),))
+    (suite, broken) = junit(outcome(WRONG, file), faulty)
+    allowed = sign not in {"\0", "\x07", "\x1b", "\ud800", "\uffff"}
+    assert suite.get("name") == broken.get("name") == (file if allowed else "a\N{REPLACEMENT CHARACTER}b.gark.yaml")
+
+
+# -- GitHub -------------------------------------------------------------------------------------------------------
+
+_COMMAND = re.compile(r"::error ((?:[a-z]+=[^,:\n]*)(?:,[a-z]+=[^,:\n]*)*)::(.*)")
+
+
+def annotations(*outcomes: Outcome) -> list[tuple[dict[str, str], str]]:
+    """The annotations as the runner of GitHub reads them: properties and text, unescaped."""
+    found = []
+    for line in check_github.render(outcomes).split("\n"):
+        if line.startswith("::error"):
+            match = _COMMAND.fullmatch(line)
+            assert match, line
+            properties = dict(part.split("=", 1) for part in match[1].split(","))
+            found.append(({key: _unescaped(value) for key, value in properties.items()}, _unescaped(match[2])))
+    return found
+
+
+def _unescaped(text: str) -> str:
+    for code, sign in (("%0D", "\r"), ("%0A", "\n"), ("%3A", ":"), ("%2C", ","), ("%25", "%")):
+        text = text.replace(code, sign)
+    return text
+
+
+def test_each_finding_is_an_annotation_in_its_place() -> None:
+    """A failed claim is annotated on its own line and column, with rule and message."""
+    found = annotations(outcome(WRONG), outcome(MIDPOINT))
+    places = [(x["file"], x["line"], x["col"], x["title"]) for x, _ in found]
+    assert places[0] == ("m.gark.yaml", "2", "17", "gark: claim")
+    assert [text for _, text in found] == [
+        "order: expected 3, found 2",
+        "symplectic: expected false, found true",
+        "B: expected [5], found [2]",
+    ]
+
+
+@pytest.mark.parametrize("file", [AWKWARD, "%0A.gark.yaml", "::error ::.gark.yaml", "a\r\nb", "x,line=9.gark.yaml"])
+def test_annotations_escape_file_names(file: str) -> None:
+    """Percent, newline, comma and colon in a file name come back as they were and add no property."""
+    found = annotations(outcome(WRONG, file))
+    assert [x["file"] for x, _ in found] == [file] * 3
+    assert {frozenset(x) for x, _ in found} == {frozenset({"file", "line", "col", "title"})}
+
+
+def test_annotations_escape_messages() -> None:
+    """Percent signs and line ends in messages and cures come back as they were."""
+    fault = Fault("100%\nof %0A, a: b\r", "cure %25", 3, 4)
+    ((place, text),) = annotations(Outcome("m", "m", faults=(fault,)))
+    assert text == "100%\nof %0A, a: b\r; cure %25"
+    assert (place["line"], place["col"]) == ("3", "4")
+
+
+def test_the_format_auto_knows_where_it_runs() -> None:
+    """``auto`` annotates under GITHUB_ACTIONS=true alone, and is text anywhere else."""
+    outcomes = {}
+    for value in ("true", "false", ""):
+        with patch.dict("os.environ", {"GITHUB_ACTIONS": value}):
+            outcomes[value] = CliRunner().invoke(commands, ["check", str(ROOT / FAILING)]).output
+    assert outcomes["true"].startswith("::error file=")
+    assert outcomes["false"] == outcomes[""]
+    assert "::error" not in outcomes[""]
+    asked = CliRunner().invoke(
+        commands, ["check", str(ROOT / FAILING), "--format", "text"], env={"GITHUB_ACTIONS": "true"}
+    )
+    assert asked.output == outcomes[""]
+
+
+# -- Markdown -----------------------------------------------------------------------------------------------------
+
+
+def rows(outcomes: Sequence[Outcome]) -> list[list[str]]:
+    """The cells of the table, where a pipe after a backslash belongs to a cell."""
+    lines = check_markdown.render(outcomes).split("\n")
+    table = [line for line in lines if line.startswith("|")]
+    return [[cell.strip() for cell in re.split(r"(?<!\\)\|", line)[1:-1]] for line in table]
+
+
+def test_markdown_has_a_row_a_file() -> None:
+    """Orders, bound and claims stand under their heads; what fails is set off."""
+    head, rule, wrong, right, bad = rows([outcome(WRONG), outcome(MIDPOINT), outcome("methods: 1")])
+    assert head == ["file", "order", "conjugate", "pair", "bound", "symplectic", "claims"]
+    assert set(rule) == {"---"}
+    assert wrong == ["`m.gark.yaml`", "2", "2", "2", "2", "yes", "**3 of 4 fail**"]
+    assert right[-1] == "0 hold"
+    assert bad == ["`m.gark.yaml`", "unreadable", "", "", "", "", ""]
+
+
+def test_markdown_says_what_is_a_lower_bound() -> None:
+    """An order at which the search stopped is not shown as the order."""
+    _, _, row = rows([outcome("methods: [{family: gauss, stages: 3}]", limit=2)])
+    assert row[1:4] == ["at least 2"] * 3
+
+
+@pytest.mark.parametrize("file", [AWKWARD, "|", "a`b", "a\nb|c"])
+def test_markdown_cells_hold_any_file_name(file: str) -> None:
+    """Pipes, backticks and line ends of a file name stay inside their cell and their code."""
+    text = check_markdown.render([outcome(WRONG, file)])
+    _, _, row = rows([outcome(WRONG, file)])
+    assert len(row) == 7
+    assert row[0].count("`") == 2
+    assert len([line for line in text.split("\n") if line.startswith("- `")]) == 3
+
+
+def test_markdown_escapes_messages() -> None:
+    """A message cannot start a tag or a column, and is one line."""
+    text = check_markdown.render([Outcome("m", "m", faults=(Fault("a <b> | c\nd \\", "", 1, 1),))])
+    assert text.endswith("- `m:1:1`: a &lt;b> \\| c d \\\\\n")
+
+
+def test_no_format_forgets_a_finding() -> None:
+    """Text, annotations, SARIF, JUnit and Markdown of one run have the same findings."""
+    outcomes = [outcome(WRONG), outcome("methods: [{family: gaus, stages: 2}]\ncolour: red\n", "n.gark.yaml")]
+    messages = [x.message for each in outcomes for x in findings(each)]
+    assert len(messages) >= 4
+    cases = [x for x in junit(*outcomes).iter() if x.tag in {"failure", "error"}]
+    in_junit = " ".join(f"{case.get('message')} {case.text}" for case in cases)
+    assert all(message.partition(": ")[2] in in_junit for message in messages)
+    assert [x["message"]["text"].partition("; ")[0] for x in sarif(*outcomes)["results"]] == messages
+    assert [text.partition("; ")[0] for _, text in annotations(*outcomes)] == messages
+    markdown = check_markdown.render(outcomes)
+    assert all(message in markdown for message in messages)
+    text = check_text.render(outcomes, Paint(False))
+    assert all(message in text for message in messages)
