@@ -96,7 +96,9 @@ def main(arguments: Sequence[str] | None = None) -> NoReturn:
         code = 2
     except Exception as error:
         if "--debug" in arguments:
-            raise
+            import traceback
+
+            traceback.print_exc()
         what = f"{type(error).__name__}: {error}".splitlines()[0]
         click.echo(f"gark: internal fault: {what[:200]}", err=True)
         click.echo(f"please report it, with the command and the file, to {REPORT_TO}", err=True)

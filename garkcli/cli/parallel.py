@@ -3,10 +3,26 @@
 from __future__ import annotations
 
 from collections.abc import Callable, Iterator, Sequence
+from contextlib import contextmanager
 from functools import partial
 
 from garkcli.methodfile.check import check_file
 from garkcli.order.outcome import Outcome
+
+
+@contextmanager
+def _without_interrupts() -> Iterator[None]:
+    """Hold interrupts back, where the system can; they arrive at the end."""
+    import signal
+
+    if not hasattr(signal, "pthread_sigmask"):
+        yield
+        return
+    signal.pthread_sigmask(signal.SIG_BLOCK, {signal.SIGINT})
+    try:
+        yield
+    finally:
+        signal.pthread_sigmask(signal.SIG_UNBLOCK, {signal.SIGINT})
 
 
 def _prepare() -> None:
@@ -34,5 +50,7 @@ def check_files(paths: Sequence[str], limit: int, want_constants: bool, jobs: in
     # fork keeps the modules that are loaded already, where the system has it
     method = "fork" if "fork" in multiprocessing.get_all_start_methods() else None
     context = multiprocessing.get_context(method)
-    with context.Pool(jobs, initializer=_prepare) as pool:
+    with _without_interrupts():  # a worker that is interrupted before it is ready leaves a lock behind
+        pool = context.Pool(jobs, initializer=_prepare)
+    with pool:
         yield from pool.imap(work, paths, chunksize=max(1, min(8, len(paths) // (4 * jobs))))

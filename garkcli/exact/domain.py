@@ -22,7 +22,7 @@ MAX_BITS = 60_000
 """Largest numerator or denominator a coefficient may grow to, in bits."""
 MAX_RADICALS = 32
 """Most different radicals of one file."""
-MAX_DEGREE = 96
+MAX_DEGREE = 48
 """Largest degree of the number field of one file."""
 MAX_PRECISION = 8192
 """Bits to which a nested radicand is evaluated before its sign is decided exactly."""

@@ -9,7 +9,7 @@ from typing import TypeAlias
 from yaml.nodes import Node, ScalarNode, SequenceNode
 
 from garkcli.methodfile.description import ClaimText
-from garkcli.methodfile.source import Source, is_null
+from garkcli.methodfile.source import Source, is_null, shortened
 from garkcli.order.check import Analysis
 from garkcli.order.outcome import Claim
 from garkcli.order.simplifying import Simplifying
@@ -60,7 +60,7 @@ def _number(source: Source, node: Node, where: str) -> Wanted:
     if text.isascii() and text.isdigit() and len(text) < 5:
         return int(text)
     if isinstance(node, ScalarNode):
-        source.fault(node, f'{where}: a number or ">= n" is expected, not {text!r}')
+        source.fault(node, f'{where}: a number or ">= n" is expected, not {shortened(text)}')
     return None
 
 

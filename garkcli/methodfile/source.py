@@ -17,6 +17,8 @@ MAX_BYTES = 4_000_000
 """Largest file that is read."""
 MAX_NODES = 400_000
 """Most YAML values in one file, with aliases counted each time they are used."""
+MAX_FAULTS = 200
+"""Most faults of one file that are reported one by one."""
 MAX_NESTING = 12
 """Deepest nesting of lists and mappings; method files need six."""
 
@@ -57,7 +59,13 @@ class Source:
         """What has been found, as one error; faults in file order, each once, and at least one."""
         if not self.faults:
             self.fault(None, "this is not a method file", "see docs/method-file.md")
-        return MethodFileError(self.name, sorted(dict.fromkeys(self.faults), key=_place), self.text)
+        faults = sorted(dict.fromkeys(self.faults), key=_place)
+        if len(faults) > MAX_FAULTS:
+            rest = Fault(
+                f"and {len(faults) - MAX_FAULTS} more faults", "mend these first", *_place(faults[MAX_FAULTS])
+            )
+            faults = [*faults[:MAX_FAULTS], rest]
+        return MethodFileError(self.name, faults, self.text)
 
     def compose(self) -> MappingNode | None:
         """The root of the file; None, with faults noted, where there is no mapping."""
@@ -104,9 +112,9 @@ class Source:
                 continue
             key = key_node.value
             if key in entries:
-                self.fault(key_node, f"{where}: the key {key!r} stands here twice", "keep one of them")
+                self.fault(key_node, f"{where}: the key {shortened(key)} stands here twice", "keep one of them")
             elif known and key not in known:
-                self.fault(key_node, f"{where}: unknown key {key!r}", did_you_mean(key, known))
+                self.fault(key_node, f"{where}: unknown key {shortened(key)}", did_you_mean(key, known))
             else:
                 entries[key] = value
         return entries
@@ -123,6 +131,9 @@ class Source:
         if not isinstance(node, ScalarNode):
             self.fault(node, f"{where}: a single value is expected here")
             return None
+        if not str(node.tag).startswith("tag:yaml.org,2002:") or str(node.tag).startswith(_PYTHON):
+            self.fault(node, f"{where}: the tag {shortened(str(node.tag))} has no place here", "leave it out")
+            return None
         return str(node.value)
 
     def whole(self, node: Node, where: str, smallest: int = 0) -> int | None:
@@ -132,7 +143,7 @@ class Source:
             return None
         plain = text.isascii() and text.isdigit() and (text == "0" or not text.startswith("0"))
         if not plain or len(text) > 6 or int(text) < smallest:
-            self.fault(node, f"{where}: a whole number of at least {smallest} is expected, not {text!r}")
+            self.fault(node, f"{where}: a whole number of at least {smallest} is expected, not {shortened(text)}")
             return None
         return int(text)
 
@@ -141,7 +152,7 @@ class Source:
         text = self.scalar(node, where)
         if text is None or text in (known := list(known)):
             return text
-        self.fault(node, f"{where}: {text!r} is not known", did_you_mean(text, known))
+        self.fault(node, f"{where}: {shortened(text)} is not known", did_you_mean(text, known))
         return None
 
 
@@ -153,6 +164,7 @@ class _TooLargeError(Exception):
         self.message, self.cure = message, cure
 
 
+_PYTHON = "tag:yaml.org,2002:python"
 _TOO_DEEP = f"nested more than {MAX_NESTING} deep"
 _SHALLOW = 5_000
 """Texts up to this length cannot be nested deeply enough to hurt the parser."""
@@ -180,7 +192,7 @@ def _walk(root: Node) -> None:
         if count > MAX_NODES:
             raise _TooLargeError(root, f"more than {MAX_NODES} values in one file", "aliases count each time")
         if depth > MAX_NESTING:
-            raise _TooLargeError(node, _TOO_DEEP, "an anchor may contain itself")
+            raise _TooLargeError(node, _TOO_DEEP, "no method needs that; or an anchor contains itself")
         pending += ((child, depth + 1) for child in _children(node))
 
 
@@ -202,6 +214,11 @@ def keys_of(node: Node) -> set[str]:
     if not isinstance(node, MappingNode):
         return set()
     return {key.value for key, _ in node.value if isinstance(key, ScalarNode)}
+
+
+def shortened(text: str, length: int = 60) -> str:
+    """``text`` in quotes, cut where it is long."""
+    return repr(text if len(text) <= length else text[:length] + "…")
 
 
 def is_null(node: Node) -> bool:

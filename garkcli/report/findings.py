@@ -2,6 +2,7 @@
 
 from __future__ import annotations
 
+from collections import Counter
 from collections.abc import Iterator
 from dataclasses import dataclass
 from hashlib import sha256
@@ -42,9 +43,10 @@ class Finding:
 def findings(outcome: Outcome) -> Iterator[Finding]:
     """All findings of one file, in file order."""
     file = PurePath(outcome.file).as_posix()
-    for k, fault in enumerate(outcome.faults):
-        same_before = sum(x.message == fault.message for x in outcome.faults[:k])
-        key = f"{file}\0unreadable\0{fault.message}\0{same_before}"
+    seen: Counter[str] = Counter()
+    for fault in outcome.faults:
+        key = f"{file}\0unreadable\0{fault.message}\0{seen[fault.message]}"
+        seen[fault.message] += 1
         yield Finding(
             "unreadable", file, fault.line or 1, fault.column or 1, fault.message, fault.help, _digest(key)
         )

@@ -446,7 +446,7 @@ def test_a_fault_of_our_own(jobs: tuple[str, ...]) -> None:
 def test_a_fault_of_our_own_in_full() -> None:
     """``--debug`` shows the traceback of the fault."""
     run = broken("--debug", "check", "methods/rectangular.gark.yaml")
-    assert run.returncode != 0
+    assert run.returncode == 3
     assert run.stderr.startswith("Traceback")
     assert "in find_order" in run.stderr
     assert "RuntimeError: broken" in run.stderr
