@@ -13,7 +13,7 @@ from garkcli.exact.domain import Domain
 from garkcli.exact.expression import FUNCTIONS, Expression, Literal, parse
 from garkcli.exact.field import ZERO, Number
 from garkcli.exact.matrix import Matrix, Vector
-from garkcli.exact.rewriting import size_of, substitute
+from garkcli.exact.rewriting import roots_in, size_of, substitute
 from garkcli.methodfile.source import Source
 
 _READ_DIFFERENTLY = re.compile(
@@ -134,8 +134,8 @@ class Values:
         self._values: dict[int, Number] = {}
         try:
             domain = Domain(entry.expression for entry in numbers.entries)
-        except (UndefinedValue, LimitExceeded):
-            self._find_culprits(numbers)
+        except (UndefinedValue, LimitExceeded) as error:
+            self._find_culprits(numbers, error)
             return
         for entry in numbers.entries:
             try:
@@ -143,19 +143,22 @@ class Values:
             except ExpressionError as error:
                 source.expression_fault(entry.node, entry.where, error)
 
-    def _find_culprits(self, numbers: Numbers) -> None:
-        """Which coefficients have no value of their own; failing that, the file as a whole."""
+    def _find_culprits(self, numbers: Numbers, error: ExpressionError) -> None:
+        """Note each coefficient that has no real value; failing that, what is wrong with all of them together.
+
+        No field is made for any of them: there may be many, and each may be large.
+        """
         before = len(numbers.source.faults)
         for entry in numbers.entries:
             try:
-                Domain([entry.expression]).evaluate(entry.expression)
-            except ExpressionError as error:
-                numbers.source.expression_fault(entry.node, entry.where, error)
+                domain = Domain([entry.expression], only_check=True)
+                if not any(roots_in(entry.expression)):
+                    domain.evaluate(entry.expression)
+            except ExpressionError as own:
+                numbers.source.expression_fault(entry.node, entry.where, own)
         if len(numbers.source.faults) == before:
-            try:
-                Domain(entry.expression for entry in numbers.entries)
-            except ExpressionError as error:
-                numbers.source.fault(numbers.entries[0].node, error.message, error.help)
+            radical = next(x for x in numbers.entries if any(roots_in(x.expression)))
+            numbers.source.fault(radical.node, error.message, error.help)
 
     def number(self, entry: Entry) -> Number:
         """The value of a coefficient."""

@@ -1,0 +1,169 @@
+"""The built-in Hamiltonian problems, split for the number of terms of a method.
+
+Separable problems give T(p) to the first term and the potential to the others: one part each where there are as
+many parts as terms, equal shares of all of it otherwise. ``generic`` has no separable term.
+"""
+
+from __future__ import annotations
+
+from collections.abc import Callable, Mapping
+from dataclasses import dataclass
+from random import Random
+from typing import Any
+
+from flint import fmpq
+
+from garkcli.dynamics.hamiltonian import Hamiltonian, symbols
+from garkcli.errors import UsageProblem, did_you_mean
+
+DEGREE = 8
+"""The degree of ``generic``: its fields have nonzero derivatives up to the seventh, for all trees of order 8."""
+_FORMS = 3  # powers of linear forms in each term of generic
+
+
+@dataclass(frozen=True)
+class Separable:
+    """H = T(p) + Σ potentials(q).
+
+    Attributes:
+        variables: names of the positions.
+        kinetic: T of the momenta.
+        potentials: the parts of the potential, of the positions.
+        initial: q(0), then p(0).
+        t_end: the default final time.
+        invariants: names, and expressions in positions and momenta.
+    """
+
+    variables: tuple[str, ...]
+    kinetic: Callable[..., Any]
+    potentials: Callable[..., tuple[Any, ...]]
+    initial: tuple[fmpq, ...]
+    t_end: fmpq
+    invariants: Callable[..., tuple[tuple[str, Any], ...]] = lambda *_: ()
+
+
+def hamiltonian(name: str, terms: int, seed: int = 1) -> Hamiltonian:
+    """The problem called ``name``, split into ``terms`` terms; ``seed`` is for ``generic``.
+
+    Raises:
+        UsageProblem: there is no such problem.
+
+    >>> [str(x) for x in hamiltonian("pendulum", 2).terms]
+    ['px**2/2', '1 - cos(x)']
+    """
+    if name == "generic":
+        return _generic(terms, seed)
+    if name not in SEPARABLE:
+        raise UsageProblem(f"no problem {name!r}", did_you_mean(name, NONLINEAR))
+    return _split(name, SEPARABLE[name], terms)
+
+
+def _split(name: str, made: Separable, terms: int) -> Hamiltonian:
+    import sympy
+
+    q, p = symbols(made.variables, "q"), symbols(made.variables, "p")
+    T, parts = made.kinetic(*p), made.potentials(*q)
+    V = sum(parts)
+    if terms == 1:
+        split = (T + V,)
+    elif terms - 1 == len(parts):
+        split = (T, *parts)
+    else:
+        split = (T, *(sympy.expand(V / (terms - 1)),) * (terms - 1))
+    return Hamiltonian(
+        name,
+        made.variables,
+        split,
+        made.initial,
+        made.t_end,
+        made.invariants(*q, *p),
+        has_equal_parts=len(set(split)) < len(split),
+    )
+
+
+def _generic(terms: int, seed: int) -> Hamiltonian:
+    """H^{l} = Σ_k c_k (1 + a_k·(q, p))^8, with random rational c_k and a_k: every term has every derivative.
+
+    Powers of linear forms span all polynomials; three of them a term are enough for no derivative to vanish, and
+    are cheap to evaluate. The terms stay small, so that all solutions from the origin exist to the final time.
+    """
+    import sympy
+
+    draw = Random(seed)
+    variables = ("x", "y")
+    y = (*symbols(variables, "q"), *symbols(variables, "p"))
+    split = []
+    for _ in range(terms):
+        H = sympy.Integer(0)
+        for _ in range(_FORMS):
+            u = sum(sympy.Rational(draw.choice((-1, 1)) * draw.randint(3, 12), 20) * x for x in y)
+            H += sympy.Rational(draw.choice((-1, 1)) * draw.randint(5, 20), 50 * terms) * (1 + u) ** DEGREE
+        split.append(H)
+    start = tuple(fmpq(draw.randint(-10, 10), 50) for _ in y)
+    return Hamiltonian("generic", variables, tuple(split), start, fmpq(1, 2))
+
+
+def _quadratic(*p: Any) -> Any:
+    return sum(x**2 for x in p) / 2
+
+
+def _cos(x: Any) -> Any:
+    import sympy
+
+    return sympy.cos(x)
+
+
+def _kepler(x: Any, y: Any) -> tuple[Any, ...]:
+    import sympy
+
+    return (-1 / sympy.sqrt(x**2 + y**2),)
+
+
+def _chain(*q: Any) -> tuple[Any, ...]:
+    """Springs between walls with quadratic and cubic forces, α = 1/4, β = 1/2: V = Σ r²/2 + αr³/3 + βr⁴/4."""
+    stretched = [b - a for a, b in zip((0, *q), (*q, 0), strict=True)]
+    return (sum(r**2 / 2 + r**3 / 12 + r**4 / 8 for r in stretched),)
+
+
+SEPARABLE: Mapping[str, Separable] = {
+    "split-oscillator": Separable(
+        ("x", "y"),
+        _quadratic,
+        lambda x, y: (x**2 / 2, 25 * (y - x) ** 2 / 8),
+        (fmpq(1), fmpq(1, 2), fmpq(0), fmpq(1)),
+        fmpq(2),
+    ),
+    "pendulum": Separable(("x",), _quadratic, lambda x: (1 - _cos(x),), (fmpq(1), fmpq(1, 2)), fmpq(4)),
+    "kepler": Separable(
+        ("x", "y"),
+        _quadratic,
+        _kepler,
+        (fmpq(2, 5), fmpq(0), fmpq(0), fmpq(2)),  # eccentricity 3/5, period 2π
+        fmpq(2),
+        lambda x, y, px, py: (("angular momentum", x * py - y * px),),
+    ),
+    "henon-heiles": Separable(
+        ("x", "y"),
+        _quadratic,
+        lambda x, y: ((x**2 + y**2) / 2 + x**2 * y - y**3 / 3,),
+        (fmpq(0), fmpq(3, 10), fmpq(2, 5), fmpq(1, 10)),
+        fmpq(4),
+    ),
+    "fput": Separable(
+        ("x", "y", "z"),
+        _quadratic,
+        _chain,
+        (fmpq(1), fmpq(1, 2), fmpq(-1, 4), fmpq(0), fmpq(1, 2), fmpq(0)),
+        fmpq(2),
+    ),
+}
+"""The problems H = T(p) + V(q)."""
+NONLINEAR: Mapping[str, str] = {
+    "split-oscillator": "two masses on springs of frequencies 1 and 5/2, ½|p|² and both potentials; linear",
+    "pendulum": "½p² + 1 − cos q",
+    "kepler": "½|p|² − 1/|q|, eccentricity 3/5; with angular momentum",
+    "henon-heiles": "½|p|² + ½|q|² + x²y − y³/3",
+    "fput": "three masses on springs with quadratic and cubic forces between walls",
+    "generic": "a random polynomial in N terms, none separable, from --seed; sees every tree",
+}
+"""One line a problem, for people."""
