@@ -5,7 +5,7 @@ BIN    := $(VENV)/bin
 READY  := $(VENV)/.ready
 
 .DEFAULT_GOAL := help
-.PHONY: help run test lint types layers pytest bench format clean
+.PHONY: help run test lint types layers pytest bench fuzz format clean
 
 help: ## this list
 	@grep -E '^[a-z]+:.*## ' $(MAKEFILE_LIST) | sed 's/:.*## /\t/' | expand -t 12
@@ -37,6 +37,13 @@ pytest: $(READY)
 bench: $(READY) ## benchmarks, as ratios within one run
 	$(BIN)/python -m pip install --quiet --disable-pip-version-check --editable ".[bench]"
 	$(BIN)/python -m pytest tests/benchmarks -s --override-ini addopts="-q --import-mode=importlib" --override-ini norecursedirs=".*"
+
+fuzz: $(READY) ## some minutes of fuzzing, see docs/fuzzing.md
+	$(BIN)/python -m pip install --quiet --disable-pip-version-check --editable ".[fuzz]"
+	$(BIN)/python tests/fuzz/long_run.py --hostile
+	$(BIN)/python tests/fuzz/long_run.py --cases 100000
+	$(BIN)/python tests/fuzz/atheris_fuzz.py --target files -max_total_time=60
+	$(BIN)/python tests/fuzz/atheris_fuzz.py --target numbers -max_total_time=60
 
 format: $(READY) ## put the code into its one format
 	$(BIN)/ruff check --fix .

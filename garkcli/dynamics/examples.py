@@ -54,7 +54,7 @@ def hamiltonian(name: str, terms: int, seed: int = 1) -> Hamiltonian:
     if name == "generic":
         return _generic(terms, seed)
     if name not in SEPARABLE:
-        raise UsageProblem(f"no problem {name!r}", did_you_mean(name, NONLINEAR))
+        raise UsageProblem(f"no problem {name!r}", did_you_mean(name, (*SEPARABLE, "generic")))
     return _split(name, SEPARABLE[name], terms)
 
 
@@ -97,10 +97,10 @@ def _generic(terms: int, seed: int) -> Hamiltonian:
         H = sympy.Integer(0)
         for _ in range(_FORMS):
             u = sum(sympy.Rational(draw.choice((-1, 1)) * draw.randint(3, 12), 20) * x for x in y)
-            H += sympy.Rational(draw.choice((-1, 1)) * draw.randint(5, 20), 50 * terms) * (1 + u) ** DEGREE
+            H += sympy.Rational(draw.choice((-1, 1)) * draw.randint(5, 20), 400 * terms) * (1 + u) ** DEGREE
         split.append(H)
     start = tuple(fmpq(draw.randint(-10, 10), 50) for _ in y)
-    return Hamiltonian("generic", variables, tuple(split), start, fmpq(1, 2))
+    return Hamiltonian("generic", variables, tuple(split), start, fmpq(1))
 
 
 def _quadratic(*p: Any) -> Any:
@@ -158,12 +158,3 @@ SEPARABLE: Mapping[str, Separable] = {
     ),
 }
 """The problems H = T(p) + V(q)."""
-NONLINEAR: Mapping[str, str] = {
-    "split-oscillator": "two masses on springs of frequencies 1 and 5/2, ½|p|² and both potentials; linear",
-    "pendulum": "½p² + 1 − cos q",
-    "kepler": "½|p|² − 1/|q|, eccentricity 3/5; with angular momentum",
-    "henon-heiles": "½|p|² + ½|q|² + x²y − y³/3",
-    "fput": "three masses on springs with quadratic and cubic forces between walls",
-    "generic": "a random polynomial in N terms, none separable, from --seed; sees every tree",
-}
-"""One line a problem, for people."""

@@ -93,6 +93,16 @@ class VectorField:
         """Whether all second derivatives vanish."""
         return all(not x.free_symbols for g in self.depends for row in self.derivative(g) for x in row)
 
+    @property
+    def degree(self) -> int | None:
+        """The largest degree of a component; None when they are not polynomials."""
+        import sympy
+
+        arguments = self._arguments
+        if not all(f.is_polynomial(*arguments) for f in self.components):
+            return None
+        return max(int(sympy.Poly(f, *arguments).total_degree()) for f in self.components)
+
     def derivative(self, group: Group) -> tuple[tuple[Any, ...], ...]:
         """The Jacobian by positions or by momenta, sympy expressions, shape (d, d)."""
         by = symbols(self.variables, group)

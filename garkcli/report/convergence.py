@@ -3,17 +3,23 @@
 from __future__ import annotations
 
 import json
-from typing import Any
+from typing import Any, TypeAlias
 
 from garkcli.dynamics.convergence import LINEAR_ONLY, Convergence, Row
 from garkcli.dynamics.energy import Drift
+from garkcli.dynamics.hamiltonian import FLOAT_DIGITS, Hamiltonian
+from garkcli.dynamics.nonlinear import Observation, PathRow
 from garkcli.dynamics.problems import Oscillator
 from garkcli.exact.display import to_float
 from garkcli.report.asciiplot import terminal_plot
 from garkcli.report.paint import Paint, aligned
 
+Result: TypeAlias = Convergence | Observation
+"""A convergence test, on the oscillator or on a nonlinear problem."""
+_LONGEST = 80  # characters of a Hamiltonian that are still shown
 
-def render(result: Convergence, name: str, format: str, paint: Paint) -> str:  # noqa: A002
+
+def render(result: Result, name: str, format: str, paint: Paint) -> str:  # noqa: A002
     """The convergence test as text, JSON or CSV."""
     if format == "json":
         return json.dumps(_data(result, name), indent=2, ensure_ascii=False) + "\n"
@@ -31,13 +37,12 @@ def _slope(row: Row) -> str:
     return "" if row.slope is None else f"{row.slope:.3f}"
 
 
-def _data(result: Convergence, name: str) -> dict[str, Any]:
+def _data(result: Result, name: str) -> dict[str, Any]:
     return {
         "schema": "gark/converge/1",
-        "problem": "oscillator",
+        "problem": problem_name(result),
         "name": name,
-        "omega": str(result.problem.omega),
-        "split": [[str(k), str(v)] for k, v in result.problem.shares],
+        **_split(result),
         "t_end": str(result.t_end),
         "predicted_order": result.predicted_order,
         "visible_order": result.visible_order,
@@ -50,11 +55,35 @@ def _data(result: Convergence, name: str) -> dict[str, Any]:
                 "error": float(row.error),
                 "slope": row.slope,
                 "energy_error": float(row.energy_error),
+                **_path(result, row),
             }
             for row in result.rows
         ],
-        "note": LINEAR_ONLY,
+        "note": _note(result),
     }
+
+
+def problem_name(result: Result) -> str:
+    """What --problem calls it."""
+    return result.problem.name if isinstance(result, Observation) else "oscillator"
+
+
+def _split(result: Result) -> dict[str, Any]:
+    if isinstance(result, Observation):
+        return {"hamiltonian": [str(term) for term in result.problem.terms], "plateau": result.plateau}
+    return {"omega": str(result.problem.omega), "split": [[str(k), str(v)] for k, v in result.problem.shares]}
+
+
+def _path(result: Result, row: Row) -> dict[str, Any]:
+    if not (isinstance(result, Observation) and isinstance(row, PathRow)):
+        return {}
+    names = (name for name, _ in result.problem.invariants)
+    errors = {name: float(error) for name, error in zip(names, row.invariant_errors, strict=True)}
+    return {"digits": row.digits, "invariant_errors": errors}
+
+
+def _note(result: Result) -> str:
+    return result.sees if isinstance(result, Observation) else LINEAR_ONLY
 
 
 def describe(problem: Oscillator) -> str:
@@ -70,19 +99,46 @@ def _energy(k: object, v: object) -> str:
     return " + ".join(terms) or "0"
 
 
-def _text(result: Convergence, name: str, paint: Paint) -> list[str]:
-    lines = [paint("strong", name), f"  {describe(result.problem)}; to t = {result.t_end}", ""]
+def _described(problem: Hamiltonian) -> str:
+    """A nonlinear problem and its split in one line."""
+    texts = [str(term).replace("**", "^") for term in problem.terms]
+    if sum(map(len, texts)) > _LONGEST:
+        terms = f"{len(texts)} terms" if len(texts) > 1 else "one term"
+        return f"{problem.name}, H in {terms} of {', '.join(problem.variables)} and their momenta"
+    return f"{problem.name}; " + ", ".join(f"H{{{l}}}: {text}" for l, text in enumerate(texts, start=1))
+
+
+def _table(result: Result) -> list[list[str]]:
     rows = [["h", "error", "slope", "energy error"]]
     rows += [[str(row.h), _short(row.error), _slope(row), _short(row.energy_error)] for row in result.rows]
-    lines += [f"  {line}" for line in aligned(rows, gap="   ")]
+    if isinstance(result, Observation):
+        names = [name for name, _ in result.problem.invariants]
+        rows[0] += [*(f"{name} error" for name in names), "digits"]
+        for cells, row in zip(rows[1:], result.rows, strict=True):
+            digits = "float" if row.digits <= FLOAT_DIGITS else str(row.digits)
+            cells += [*map(_short, row.invariant_errors), digits]
+    return rows
+
+
+def _exactly(result: Result) -> str:
+    cancels = isinstance(result, Observation) and result.problem.has_equal_parts
+    return f"{result.visible_order} {'or more' if cancels else 'exactly'}"
+
+
+def _text(result: Result, name: str, paint: Paint) -> list[str]:
+    about = _described(result.problem) if isinstance(result, Observation) else describe(result.problem)
+    lines = [paint("strong", name), f"  {about}; to t = {result.t_end}", ""]
+    lines += [f"  {line}" for line in aligned(_table(result), gap="   ")]
     observed = "none" if result.observed_order is None else f"{result.observed_order:.2f}"
     verdict = paint.verdict(result.agrees, "they agree", "THEY DISAGREE")
     lines += [
         "",
-        f"  order   observed {observed}, on this problem {result.visible_order} exactly, "
+        f"  order   observed {observed}, on this problem {_exactly(result)}, "
         f"of the method {result.predicted_order}: {verdict}",
-        *(f"  {line}" for line in _wrapped(LINEAR_ONLY)),
+        *(f"  {line}" for line in _wrapped(_note(result))),
     ]
+    if isinstance(result, Observation) and result.plateau:
+        lines.append(f"  the last {result.plateau} rows show the rounding of the coefficients and are not fitted")
     positive = [row for row in result.rows if not row.error.contains(0)]
     if len(positive) > 1:
         hs, errors = [row.h for row in positive], [row.error for row in positive]

@@ -13,10 +13,10 @@ from typing import Any
 from matplotlib.figure import Figure
 from matplotlib.ticker import FuncFormatter, MaxNLocator
 
-from garkcli.dynamics.convergence import Convergence
 from garkcli.dynamics.energy import Drift
 from garkcli.errors import UsageProblem
 from garkcli.report.asciiplot import log10
+from garkcli.report.convergence import Result, problem_name
 
 SUFFIXES = (".png", ".svg", ".pdf")
 """The kinds of file that figures can be saved as."""
@@ -24,7 +24,7 @@ _BLUE, _RED = "#1f4e9e", "#c0392b"  # of clearly different lightness in grey
 _FLOATS = 290  # decades: beyond, logarithms are drawn on a linear axis
 
 
-def convergence_figure(result: Convergence) -> Figure:
+def convergence_figure(result: Result) -> Figure:
     """Error and energy error against h, log–log, with a line whose slope is the visible order."""
     figure = Figure(figsize=(6.4, 4.8), layout="constrained")
     axes = figure.add_subplot()
@@ -52,7 +52,8 @@ def convergence_figure(result: Convergence) -> Figure:
             axis.set_major_formatter(FuncFormatter(lambda x, _: f"$10^{{{x:g}}}$"))
             axis.set_major_locator(MaxNLocator(8))
     observed = "none" if result.observed_order is None else f"{result.observed_order:.2f}"
-    axes.set_title(f"Oscillator to t = {result.t_end}: observed order {observed}", fontsize=11)
+    title = problem_name(result).capitalize()
+    axes.set_title(f"{title} to t = {result.t_end}: observed order {observed}", fontsize=11)
     axes.set_xlabel("step size h")
     axes.set_ylabel("error")
     axes.grid(True, which="major", color="0.85", linewidth=0.6)

@@ -325,13 +325,14 @@ def test_json_of_converge() -> None:
 
 def test_json_of_list() -> None:
     """Families, transfer rules and problems are those that files and options accept."""
+    from garkcli.dynamics.problems import PROBLEMS
     from garkcli.families.registry import FAMILIES
     from garkcli.methodfile.reader import ALL_RULES
 
     report = data("list")
     assert [x["name"] for x in report["families"]] == list(FAMILIES)
     assert [x["name"] for x in report["transfer"]] == list(ALL_RULES)
-    assert [x["name"] for x in report["problems"]] == ["oscillator"]
+    assert [x["name"] for x in report["problems"]] == list(PROBLEMS)
 
 
 def test_the_conjugate_twice_is_the_file() -> None:

@@ -4,18 +4,98 @@ from __future__ import annotations
 
 from random import Random
 from time import perf_counter
+from typing import Any
 
 import pytest
+import yaml
+from hypothesis import HealthCheck, given, settings
+from hypothesis import strategies as st
 
 from garkcli.errors import ExpressionError, Fault, MethodFileError
 from garkcli.exact.domain import Domain
 from garkcli.exact.expression import parse
 from garkcli.exact.rewriting import substitute
+from garkcli.families.registry import FAMILIES
+from garkcli.methodfile.description import FORMS, STRUCTURES
+from garkcli.methodfile.expectations import CLAIMS
 from garkcli.methodfile.load import loads
-from tests.fuzz.inputs import SIGNS, method_file, seeds, soup
+from garkcli.methodfile.reader import ALL_RULES, KEYS
+from tests.fuzz.inputs import RADICALS, SIGNS, WORDS, method_file, seeds, soup
 
 SLOWEST = 5.0
 """Seconds that no file may take before its verdict."""
+FUZZ = settings(
+    max_examples=400,
+    deadline=SLOWEST * 1000,
+    derandomize=True,
+    database=None,
+    suppress_health_check=list(HealthCheck),
+)
+"""As many cases, always the same ones."""
+
+NUMBERS = st.one_of(
+    st.integers(-3, 12),
+    st.fractions(-3, 3, max_denominator=12).map(str),
+    st.sampled_from([word.strip('"') for word in RADICALS]),
+    st.floats(),
+    st.sampled_from(["tau", "1 - tau", "free", ">= 2"]),
+)
+SCALARS = st.one_of(NUMBERS, st.none(), st.booleans(), st.dates(), st.text(max_size=20), st.sampled_from(WORDS))
+TREES = st.recursive(
+    SCALARS, lambda below: st.lists(below, max_size=4) | st.dictionaries(SCALARS, below, max_size=4), max_leaves=12
+)
+"""Any value that YAML can write."""
+
+
+def _or_anything(good: st.SearchStrategy[Any]) -> st.SearchStrategy[Any]:
+    """Mostly what belongs there."""
+    return st.integers(0, 11).flatmap(lambda chance: TREES if chance == 0 else good)
+
+
+def _rows(strategy: st.SearchStrategy[Any], longest: int = 3) -> st.SearchStrategy[list[Any]]:
+    return st.integers(1, longest).flatmap(lambda size: st.lists(strategy, min_size=size, max_size=size))
+
+
+ROW = _or_anything(_rows(_or_anything(NUMBERS)))
+MATRIX = _or_anything(_rows(ROW))
+BUTCHER = st.fixed_dictionaries({"A": MATRIX, "b": ROW}, optional={"c": ROW, "name": SCALARS})
+FAMILY = st.fixed_dictionaries(
+    {"family": _or_anything(st.sampled_from(sorted(FAMILIES)))},
+    optional={"stages": _or_anything(st.integers(0, 5))},
+)
+RULE = st.one_of(
+    st.sampled_from(ALL_RULES), st.dictionaries(st.sampled_from(ALL_RULES), NUMBERS, min_size=1, max_size=3)
+)
+TRANSFER = RULE | st.fixed_dictionaries(
+    {},
+    optional={"default": RULE, "blocks": st.dictionaries(st.sampled_from(["1,2", "2,1", "3, 1"]), RULE | MATRIX)},
+)
+VALUES: dict[str, st.SearchStrategy[Any]] = {
+    "gark": st.just(1),
+    "methods": _rows(FAMILY | BUTCHER),
+    "transfer": TRANSFER,
+    "tableau": st.fixed_dictionaries(
+        {"A": _rows(_rows(MATRIX | st.none())), "b": _rows(ROW)}, optional={"c": MATRIX}
+    ),
+    "ark": st.fixed_dictionaries({"A": _rows(MATRIX), "b": ROW | MATRIX}, optional={"c": ROW}),
+    "prk": st.fixed_dictionaries({"q": BUTCHER, "p": BUTCHER}),
+    "structure": st.sampled_from(STRUCTURES),
+    "conjugate": st.booleans(),
+    "linear": st.lists(st.integers(0, 4), max_size=3),
+    "parameters": st.dictionaries(st.sampled_from(["tau", "x", "sqrt"]), NUMBERS),
+    "tolerance": st.floats(1e-20, 1),
+    "expect": st.dictionaries(st.sampled_from(CLAIMS), TREES, max_size=3),
+}
+
+
+def _files() -> st.SearchStrategy[dict[Any, Any]]:
+    """One form, and a few of the other keys, each with a value that may belong there."""
+    assert set(VALUES) < set(KEYS)
+    others = {key: _or_anything(value) for key, value in VALUES.items() if key not in FORMS}
+    others |= {key: SCALARS for key in KEYS if key not in VALUES}
+    return st.sampled_from(FORMS).flatmap(
+        lambda form: st.fixed_dictionaries({form: _or_anything(VALUES[form])}, optional=others)
+    )
 
 
 def faults_of(text: str) -> tuple[Fault, ...]:
@@ -25,6 +105,11 @@ def faults_of(text: str) -> tuple[Fault, ...]:
     except MethodFileError as error:
         return error.faults or (Fault("an error without faults"),)
     return ()
+
+
+def check_places(text: str) -> None:
+    """Every fault of a file says something, and where."""
+    assert all(fault.line >= 1 and fault.column >= 1 and fault.message for fault in faults_of(text))
 
 
 def offset_of_fault(text: str) -> int:
@@ -59,3 +144,31 @@ def test_numbers(seed: int) -> None:
     for _ in range(500):
         text = soup(random, SIGNS, 30)
         assert 0 <= offset_of_fault(text) <= len(text), text
+
+
+@FUZZ
+@given(_files())
+def test_files_of_any_values(content: dict[Any, Any]) -> None:
+    """Mappings of the right keys to values that may belong there, as YAML writes them."""
+    check_places(yaml.safe_dump(content))
+
+
+@FUZZ
+@given(TREES)
+def test_any_yaml(content: object) -> None:
+    """Whatever YAML can write."""
+    check_places(yaml.safe_dump(content))
+
+
+@FUZZ
+@given(st.text(max_size=200) | st.lists(st.sampled_from(WORDS) | st.text(max_size=3), max_size=40).map("".join))
+def test_any_text(text: str) -> None:
+    """Text that need not be YAML."""
+    check_places(text)
+
+
+@FUZZ
+@given(st.text(max_size=60) | st.text(alphabet="0123456789.+-*/^()eE, sqrtcboau", max_size=60))
+def test_any_number(text: str) -> None:
+    """Text that need not be a number: a value, or an error with offsets inside the text."""
+    assert 0 <= offset_of_fault(text) <= len(text)

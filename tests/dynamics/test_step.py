@@ -1,0 +1,226 @@
+"""One step, its structure and its failures."""
+
+from __future__ import annotations
+
+import math
+from typing import Any
+
+import numpy as np
+import pytest
+from flint import arb, ctx, fmpq
+
+from garkcli.dynamics.examples import hamiltonian
+from garkcli.dynamics.hamiltonian import Hamiltonian, symbols, vector_field
+from garkcli.dynamics.problems import terms_of
+from garkcli.dynamics.scheme import scheme
+from garkcli.dynamics.step import StepFailed, final, trajectory
+from garkcli.dynamics.structure import Stage, components, fields_of, fitted, sight
+from garkcli.errors import UsageProblem
+from garkcli.families.registry import diagonal_method
+from garkcli.tableau.forms import gark, pair, separable_prk, symplectic_pair, with_linear
+from garkcli.tableau.pointwise import numeric_entries
+from garkcli.tableau.tableau import Tableau
+from garkcli.transfer import collocation, interpolation
+
+H = fmpq(1, 10)
+
+
+def coupled(s: int, t: int, rule: Any = collocation) -> Tableau:
+    """Gauss s × Lobatto IIIA t."""
+    one, other = diagonal_method("gauss", s), diagonal_method("lobatto-iiia", t)
+    return gark([one, other], {(0, 1): rule(one, other), (1, 0): rule(other, one)})
+
+
+RECTANGULAR = symplectic_pair(coupled(2, 3), [0], [1])
+SEMI = symplectic_pair(coupled(2, 3), [0], [0, 1])
+RK4 = gark([diagonal_method("rk4")], {})
+HEUN = gark([diagonal_method("heun"), diagonal_method("heun")], {(0, 1): diagonal_method("heun").A})
+
+
+def plain_step(tableau: Tableau, problem: Hamiltonian, h: float) -> list[float]:
+    """Every stage of every colour by fixed-point iteration, with no thought for structure."""
+    entries, d = numeric_entries(tableau), problem.dimension
+    A = {
+        (l, m): np.array([[float(x) for x in row] for row in block])
+        for l, blocks in enumerate(entries.A)
+        for m, block in enumerate(blocks)
+        if block is not None
+    }
+    b = [np.array([float(x) for x in row]) for row in entries.b]
+    y0 = np.array([float(x.p) / float(x.q) for x in problem.initial])
+
+    def field(m: int, y: Any) -> Any:
+        colour, out = tableau.colours[m], np.zeros(2 * d)
+        for group, part, offset in (("q", "yq", 0), ("p", "yp", d)):
+            f = vector_field(problem, colour.term, group)  # type: ignore[arg-type]
+            if colour.part in part and not f.is_zero:
+                out[offset : offset + d] = f.function(15)(
+                    *(x for g in f.depends for x in y[slice(d) if g == "q" else slice(d, None)])
+                )
+        return out
+
+    F = [np.array([field(m, y0)] * len(b[m])) for m in range(tableau.size)]
+    for _ in range(80):
+        Y = [y0 + h * sum(A[l, m] @ F[m] for m in range(tableau.size) if (l, m) in A) for l in range(tableau.size)]
+        F = [np.array([field(m, y) for y in Y[m] + np.zeros((len(b[m]), 2 * d))]) for m in range(tableau.size)]
+    return (y0 + h * sum(b[m] @ F[m] for m in range(tableau.size))).tolist()
+
+
+@pytest.mark.parametrize(
+    ("tableau", "name"),
+    [
+        (pair(coupled(2, 3)), "generic"),
+        (pair(coupled(2, 3, interpolation)), "kepler"),
+        (coupled(2, 3), "generic"),
+        (gark([diagonal_method("radau-iia", 2)], {}), "generic"),
+        (RECTANGULAR, "kepler"),
+        (RECTANGULAR, "pendulum"),
+        (SEMI, "fput"),
+        (RK4, "henon-heiles"),
+        (with_linear(RECTANGULAR, ["V1"]), "henon-heiles"),
+    ],
+)
+def test_step_is_that_of_a_plain_iteration(tableau: Tableau, name: str) -> None:
+    """General, GARK, separable, rectangular, semi-separable, explicit and Nyström: the same step to round-off."""
+    problem = hamiltonian(name, terms_of(tableau))
+    expected = plain_step(tableau, problem, 0.1)
+    assert final(scheme(tableau, problem), H, 1) == pytest.approx(expected, abs=3e-15)
+    many = [float(x) for x in final(scheme(tableau, problem, 40), H, 1)]
+    assert many == pytest.approx(expected, abs=3e-15)
+
+
+def test_digits_are_correct() -> None:
+    """30, 60 and 120 digits agree to the digits of the shorter."""
+    problem = hamiltonian("kepler", 2)
+    ends = {digits: final(scheme(RECTANGULAR, problem, digits), H, 5) for digits in (30, 60, 120)}
+    with ctx.workprec(420):
+        for short, long in ((30, 60), (60, 120)):
+            assert max(abs(a - b) for a, b in zip(ends[short], ends[long], strict=True)) < arb(10) ** (1 - short)
+
+
+def unknowns(tableau: Tableau, name: str) -> list[tuple[Stage, ...]]:
+    """The unknowns of each implicit block."""
+    made = scheme(fitted(tableau), hamiltonian(name, terms_of(fitted(tableau))))
+    return [block.unknowns for block in made.blocks if block.unknowns]
+
+
+def test_rectangular_method_has_one_implicit_stage() -> None:
+    """The positions of the middle Lobatto stage: nothing else is solved for."""
+    assert unknowns(RECTANGULAR, "pendulum") == [(Stage(1, 1, "q"),)]
+
+
+def test_explicit_and_diagonally_implicit_are_found() -> None:
+    """Nothing to solve in rk4 and Störmer–Verlet; one stage after the other in a diagonally implicit method."""
+    verlet = separable_prk(
+        (((fmpq(0),), (fmpq(1),)), (fmpq(1),), None), (((fmpq(1, 2), fmpq(0)),), (fmpq(1, 2),) * 2, None)
+    )
+    assert unknowns(RK4, "kepler") == unknowns(verlet, "kepler") == []
+    third = fmpq(1, 3)
+    A = ((third, fmpq(0)), (third, third))
+    dirk = gark([diagonal_method("heun")], {})
+    dirk = Tableau(dirk.spaces, dirk.colours, {(0, 0): A})
+    assert [len(block) for block in unknowns(dirk, "generic")] == [2, 2]  # q and p of a stage
+
+
+def test_components_come_in_order() -> None:
+    """Two cycles and a vertex: each after what it needs, and a long path without recursion."""
+    graph = {1: [2], 2: [1, 3], 3: [4], 4: [5], 5: [4]}
+    assert [sorted(x) for x in components(graph)] == [[1, 2], [3], [4, 5]]
+    assert len(components({k: [k + 1] for k in range(5000)} | {5000: []})) == 5001
+
+
+@pytest.mark.parametrize("tableau", [pair(coupled(2, 3)), pair(coupled(3, 4, interpolation))])
+def test_pair_is_symplectic(tableau: Tableau) -> None:
+    """Central differences with 60 digits: ‖MᵀJM − J‖ is their error, where the GARK method's is not small."""
+    problem = hamiltonian("generic", 2)
+    assert symplecticity(tableau, problem) < 1e-30
+    assert symplecticity(coupled(2, 3), problem) > 1e-9
+
+
+def symplecticity(tableau: Tableau, problem: Hamiltonian) -> float:
+    """‖MᵀJM − J‖ in the largest entry, for one step of size ``H``."""
+    made, d = scheme(tableau, problem, 60), problem.dimension
+    tiny, columns = fmpq(1, 10**20), []
+    for j in range(2 * d):
+        ends = []
+        for sign in (1, -1):
+            start = [x + (sign * tiny if i == j else 0) for i, x in enumerate(problem.initial)]
+            ends.append(final(made, H, 1, start))
+        with ctx.workprec(260):
+            columns.append([(a - b) / arb(2 * tiny) for a, b in zip(*ends, strict=True)])
+    worst = 0.0
+    with ctx.workprec(260):
+        for i, u in enumerate(columns):
+            for j, v in enumerate(columns):
+                form = sum((u[k] * v[k + d] - u[k + d] * v[k] for k in range(d)), arb(0))
+                worst = max(worst, abs(float(form - (int(j == i + d) - int(i == j + d)))))
+    return worst
+
+
+def test_energy_stays_near_its_start() -> None:
+    """The rectangular pendulum over 500 periods' worth of steps: no growth, where rk4 with the same step loses."""
+    swing = hamiltonian("pendulum", 2)
+
+    def errors(tableau: Tableau, problem: Hamiltonian) -> list[float]:
+        path = trajectory(scheme(tableau, problem), fmpq(1, 2), 4000)
+        energy = [p * p / 2 + 1 - math.cos(q) for q, p in path]
+        return [abs(x - energy[0]) for x in energy]
+
+    ours, theirs = errors(RECTANGULAR, swing), errors(RK4, hamiltonian("pendulum", 1))
+    assert max(ours[2000:]) < 1.01 * max(ours[:2000]) < 1e-3
+    assert theirs[-1] > 50 * max(ours)
+
+
+def test_compensated_sums_keep_the_last_digits() -> None:
+    """A hundred thousand explicit steps of free flight: the end is right to the last digit."""
+    (x,) = symbols(("x",), "q")
+    (px,) = symbols(("x",), "p")
+    free = Hamiltonian("free", ("x",), (px**2 / 2 + 0 * x,), (fmpq(0), fmpq(1, 3)), fmpq(1))
+    q, _ = final(scheme(RK4, free), fmpq(1, 10), 30_000)
+    assert q == pytest.approx(1000, abs=2e-13)
+
+
+def test_failing_step_says_where() -> None:
+    """Kepler with huge steps: the number of the step, its size and the residual."""
+    with pytest.raises(StepFailed, match=r"step 1 of size 1000000: .*residual") as caught:
+        final(scheme(pair(coupled(2, 3)), hamiltonian("generic", 2)), fmpq(10**6), 3)
+    assert (caught.value.number, caught.value.h) == (1, 10**6)
+    assert caught.value.help
+    falling = Hamiltonian("fall", ("x",), (1 / symbols(("x",), "q")[0],), (fmpq(0), fmpq(0)), fmpq(1))
+    with pytest.raises(StepFailed, match="step 1"):
+        final(scheme(RK4, falling), H, 1)
+
+
+@pytest.mark.parametrize(
+    ("tableau", "name", "said"),
+    [
+        (RECTANGULAR, "generic", r"H\{1\} of generic depends on q"),
+        (SEMI, "generic", r"H\{2\} of generic depends on p"),
+        (with_linear(pair(coupled(2, 3)), ["V1"]), "generic", "colour V1 to be linear"),
+        (HEUN, "generic", "colour 2 depends on what colour 1 drives"),
+    ],
+)
+def test_problem_has_to_fit_the_structure(tableau: Tableau, name: str, said: str) -> None:
+    """A separable method has no colour for a Hamiltonian that is not."""
+    with pytest.raises(UsageProblem, match=said):
+        fields_of(tableau, hamiltonian(name, 2))
+
+
+def test_unknown_problem() -> None:
+    """A misspelt problem is named with the nearest one."""
+    with pytest.raises(UsageProblem, match="pendulum"):
+        hamiltonian("pendulm", 2)
+
+
+@pytest.mark.parametrize(
+    ("tableau", "name", "said"),
+    [
+        (RECTANGULAR, "split-oscillator", "unbranched"),
+        (RECTANGULAR, "kepler", "velocities do not branch"),
+        (pair(coupled(2, 3)), "generic", "at most 7 branches"),
+        (RK4, "pendulum", "velocities do not branch"),
+    ],
+)
+def test_what_a_problem_sees(tableau: Tableau, name: str, said: str) -> None:
+    """Linear, quadratic kinetic energy, all."""
+    assert said in sight(fields_of(tableau, hamiltonian(name, terms_of(tableau))))
