@@ -169,12 +169,26 @@ def _on_balls(
     import sympy
 
     found = {x for f in expressions for x in f.atoms(sympy.Rational) if not x.is_Integer}
+    product = sympy.Function("power")
     constants = tuple(sorted(found, key=lambda x: (int(x.p), int(x.q))))
     names = {x: sympy.Dummy(f"k{i}") for i, x in enumerate(constants)}
     made: Callable[..., list[Any]] = sympy.lambdify(
         (*arguments, *names.values()),
-        [f.xreplace(names) for f in expressions],
-        modules=[dict(_FUNCTIONS)],
+        [
+            f.xreplace(names).replace(lambda x: x.is_Pow and x.exp.is_Integer, lambda x: product(*x.args))
+            for f in expressions
+        ],
+        modules=[{**_FUNCTIONS, "power": _power}],
         cse=True,
     )
     return made, constants
+
+
+def _power(x: arb, n: int) -> arb:
+    """An integer power by products: that of a ball around zero is a ball around zero."""
+    if n < 0:
+        return 1 / _power(x, -n)
+    if n == 1:
+        return x
+    half = _power(x, n // 2)
+    return half * half * x if n % 2 else half * half

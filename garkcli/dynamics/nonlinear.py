@@ -9,6 +9,7 @@ from __future__ import annotations
 
 from collections.abc import Iterator, Sequence
 from dataclasses import dataclass, field
+from functools import cache
 from itertools import count
 from math import ceil, log2
 from typing import Any
@@ -35,6 +36,8 @@ MAX_DIGITS = 250
 MAX_STEPS = 1_000_000
 """Most steps of one row."""
 _SPARE = 6  # correct digits of an error
+_FLAT = 0.25  # how far a slope on the plateau is below the order
+_ABOVE = 300  # how many times the error of the plateau an error has to be to count
 _SETTLED = 0.01  # change between two slopes at which the ladder may end
 
 
@@ -167,15 +170,20 @@ def _has_settled(rows: Sequence[Row], observed: Sequence[float]) -> bool:
 
 
 def _plateau(rows: Sequence[Row], order: int) -> int:
-    """How many rows at the end have a slope clearly below ``order``, after one that had it."""
-    had = [i for i, row in enumerate(rows) if row.slope is not None and row.slope > order - 0.25]
-    if not had:
+    """How many rows at the end are no longer of ``order``: from the first flat one after one that had it.
+
+    Rows before it whose error is not far above that of the flat ones are spoilt by the rounding too.
+    """
+    had = [i for i, row in enumerate(rows) if row.slope is not None and row.slope > order - _FLAT]
+    flat = [i for i in range(had[0] if had else len(rows), len(rows)) if _is_flat(rows[i], order)]
+    if not flat:
         return 0
-    return len(rows) - next((i for i in range(had[0], len(rows)) if _is_flat(rows[i], order)), len(rows))
+    level = min((row.error for row in rows[flat[0] :]), key=float) * _ABOVE
+    return len(rows) - next(i for i, row in enumerate(rows) if i == flat[0] or row.error < level)
 
 
 def _is_flat(row: Row, order: int) -> bool:
-    return row.slope is not None and row.slope < order - 0.25
+    return row.slope is not None and row.slope < order - _FLAT
 
 
 @dataclass
@@ -187,7 +195,7 @@ class _Test:
     t_end: fmpq
     order: int
     schemes: dict[int, Scheme] = field(default_factory=dict)
-    reference: list[arb] = field(default_factory=list)
+    reference: tuple[arb, ...] = ()
     correct: int = 0  # digits of the reference
 
     def row(self, h: fmpq, before: PathRow | None) -> PathRow:
@@ -242,7 +250,8 @@ class _Test:
             return [abs(a - b).mid() for a, b in zip(now, then, strict=True)]
 
 
-def solution(problem: Hamiltonian, t_end: fmpq, digits: int) -> list[arb]:
+@cache
+def solution(problem: Hamiltonian, t_end: fmpq, digits: int) -> tuple[arb, ...]:
     """(q, p) at ``t_end``, shape (2d,), with an error below 10^(−digits) by the change when steps are halved.
 
     Raises:
@@ -265,6 +274,6 @@ def solution(problem: Hamiltonian, t_end: fmpq, digits: int) -> list[arb]:
         with ctx.workprec(method.bits):
             change = max(float(abs(a - b)) for a, b in zip(coarse, fine, strict=True))
         if change < 10.0**-digits:
-            return fine
+            return tuple(fine)
         factor = (change * 10.0**digits) ** (1 / (2 * stages))
         steps = max(steps + 1, ceil(steps * min(factor * 1.1, 8)))

@@ -127,7 +127,7 @@ def _exactly(result: Result) -> str:
 
 def _text(result: Result, name: str, paint: Paint) -> list[str]:
     about = _described(result.problem) if isinstance(result, Observation) else describe(result.problem)
-    lines = [paint("strong", name), f"  {about}; to t = {result.t_end}", ""]
+    lines = [paint("strong", name), *(f"  {line}" for line in _wrapped(f"{about}; to t = {result.t_end}")), ""]
     lines += [f"  {line}" for line in aligned(_table(result), gap="   ")]
     observed = "none" if result.observed_order is None else f"{result.observed_order:.2f}"
     verdict = paint.verdict(result.agrees, "they agree", "THEY DISAGREE")

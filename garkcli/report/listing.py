@@ -40,5 +40,11 @@ def render(
     return "\n".join(lines) + "\n"
 
 
+def _wrapped(text: str) -> list[str]:
+    from textwrap import wrap
+
+    return wrap(text, 78, initial_indent=" " * 6, subsequent_indent=" " * 6)
+
+
 def _stages(family: Family) -> str:
     return str(family.smallest) if family.largest == family.smallest else f">= {family.smallest}"

@@ -2,12 +2,166 @@
 
 from __future__ import annotations
 
+import json
+
+import pytest
+from flint import arb, ctx, fmpq
+
+from garkcli.cli.converge_command import PROBLEMS as CHOICES
+from garkcli.dynamics.convergence import Row
 from garkcli.dynamics.examples import hamiltonian
-from garkcli.dynamics.nonlinear import Observation, observe
-from garkcli.dynamics.problems import terms_of
+from garkcli.dynamics.nonlinear import Observation, _plateau, observe, solution
+from garkcli.dynamics.problems import PROBLEMS, terms_of
+from garkcli.families.registry import diagonal_method
+from garkcli.tableau.forms import gark as gark_tableau
+from garkcli.tableau.forms import pair, spelled_out
 from garkcli.tableau.tableau import Tableau
+from garkcli.transfer import interpolation
+from tests.cli.harness import ROOT, gark
+from tests.dynamics.test_step import RECTANGULAR, RK4, coupled
+
+VERLET = str(ROOT / "methods" / "stoermer-verlet.gark.yaml")
+COLLOCATION = str(ROOT / "methods" / "collocation.gark.yaml")
 
 
 def observed(tableau: Tableau, name: str, seed: int = 1) -> Observation:
     """The convergence test with its defaults."""
     return observe(tableau, hamiltonian(name, terms_of(tableau), seed))
+
+
+@pytest.mark.parametrize(
+    ("tableau", "name", "order"),
+    [
+        (pair(coupled(2, 3)), "generic", 4),
+        (pair(coupled(2, 3, interpolation)), "generic", 4),
+        (pair(coupled(3, 4)), "generic", 6),
+        (pair(coupled(2, 4)), "generic", 2),
+        (coupled(2, 3), "generic", 4),
+        (RECTANGULAR, "pendulum", 4),
+        (RECTANGULAR, "kepler", 4),
+        (RK4, "fput", 4),
+    ],
+)
+def test_observed_order_is_the_exact_one(tableau: Tableau, name: str, order: int) -> None:
+    """Within 0.01 of the certificate's order, and the last slope within 0.05."""
+    result = observed(tableau, name)
+    assert (result.predicted_order, result.visible_order) == (order, order)
+    assert result.observed_order == pytest.approx(order, abs=0.01)
+    assert result.rows[-1].slope == pytest.approx(order, abs=0.05)
+    assert result.agrees
+
+
+def test_order_twelve_is_seen() -> None:
+    """Gauss 6 × Lobatto IIIA 7 on generic, from h = 1/8: errors of 1e-25 have slope 12."""
+    tableau = pair(coupled(6, 7))
+    steps = [fmpq(1, 8 * 2**k) for k in range(4)]
+    result = observe(tableau, hamiltonian("generic", 2), steps=steps)
+    assert (result.predicted_order, result.visible_order) == (12, 12)
+    assert result.observed_order == pytest.approx(12, abs=0.05)
+    assert result.rows[-1].digits > 30
+    assert result.agrees
+
+
+def test_separable_problem_hides_the_loss() -> None:
+    """The pair of order 2 shows 4 on the pendulum, as predicted from the trees a pendulum sees."""
+    result = observed(pair(coupled(2, 4)), "pendulum")
+    assert (result.predicted_order, result.visible_order) == (2, 4)
+    assert result.observed_order == pytest.approx(4, abs=0.01)
+
+
+def test_seed_makes_another_problem() -> None:
+    """Other coefficients, the same order."""
+    tableau = gark_tableau([diagonal_method("kutta")], {})
+    result = observed(tableau, "generic", 2)
+    assert result.problem.terms != hamiltonian("generic", 1, 1).terms
+    assert result.observed_order == pytest.approx(3, abs=0.05)
+
+
+def test_disagreement_is_told() -> None:
+    """Two large steps show no order: slopes far from 4 do not agree."""
+    result = observe(RECTANGULAR, hamiltonian("kepler", 2), steps=[fmpq(1, 2), fmpq(1, 4)])
+    assert not result.agrees
+    assert not observe(RECTANGULAR, hamiltonian("kepler", 2), steps=[fmpq(1, 8)]).agrees
+
+
+def test_equal_parts_may_only_gain() -> None:
+    """Three colours, equal halves of the potential: an order above the visible one is not a disagreement."""
+    methods = [diagonal_method("gauss", 2)] * 3
+    blocks = {(l, m): methods[0].A for l in range(3) for m in range(3) if l != m}
+    result = observed(gark_tableau(methods, blocks), "pendulum")
+    assert result.problem.has_equal_parts
+    assert result.agrees
+
+
+def test_rounded_coefficients_end_on_a_plateau() -> None:
+    """rk4 with a weight that is off by 1e-9: the rows without slope are recognised and not fitted."""
+    rk4 = diagonal_method("rk4")
+    b = (*rk4.b[:3], rk4.b[3] + fmpq(1, 10**9))
+    tableau, problem = spelled_out([[rk4.A]], [b], [None]), hamiltonian("pendulum", 1)
+    steps = [fmpq(4, 4 * 2**k) for k in range(9)]
+    result = observe(tableau, problem, steps=steps, tolerance=fmpq(1, 10**8))
+    assert result.plateau > 0
+    assert result.observed_order == pytest.approx(4, abs=0.05)
+    assert result.agrees
+
+
+def test_plateau_needs_an_order_before_it() -> None:
+    """Slopes that never had the order are not a plateau, and a dip before it is not one either."""
+
+    def rows(*slopes: float) -> list[Row]:
+        return [Row(fmpq(1, 2**k), arb(1) / 100 ** min(k, 4), s, arb(0)) for k, s in enumerate(slopes)]
+
+    assert _plateau(rows(1, 1, 1), 4) == 0
+    assert _plateau(rows(3, 3.9, 4, 4, 2, 0), 4) == 3
+    assert _plateau(rows(2, 3.9, 4), 4) == 0
+
+
+def test_reference_solution() -> None:
+    """Kepler after its period is where it began, to 16 digits."""
+    problem = hamiltonian("kepler", 2)
+    with ctx.workprec(200):
+        period = 2 * arb.pi()
+        near = fmpq(int((period * 10**50).floor().unique_fmpz() or 0), 10**50)
+    end = solution(problem, near, 16)
+    with ctx.workprec(200):
+        assert max(abs(a - arb(b)) for a, b in zip(end, problem.initial, strict=True)) < arb(10) ** -16
+
+
+def test_invariants_are_reported() -> None:
+    """Angular momentum is kept to round-off by the pair, in the table, JSON and CSV."""
+    run = gark("converge", VERLET, "--problem", "kepler", "--steps", "1/16,1/32,1/64,1/128")
+    assert run.code == 0
+    assert "angular momentum error" in run.out
+    data = json.loads(gark("converge", VERLET, "--problem", "kepler", "--format", "json").out)
+    assert data["problem"] == "kepler"
+    assert all(row["invariant_errors"]["angular momentum"] < 1e-14 for row in data["steps"])
+
+
+def test_choices_are_the_problems() -> None:
+    """What --problem takes is what gark list shows."""
+    assert tuple(PROBLEMS) == CHOICES
+
+
+@pytest.mark.parametrize(
+    ("code", "said", "arguments"),
+    [
+        (2, "H{1} of generic depends on q", ("--problem", "generic")),
+        (2, "--omega is for the oscillator", ("--problem", "kepler", "--omega", "2")),
+        (2, "--drift is for the oscillator", ("--problem", "kepler", "--drift")),
+        (2, "--seed is for the problem generic", ("--seed", "2")),
+        (2, "not a whole number of steps", ("--problem", "pendulum", "--steps", "3/7")),
+        (1, "THEY DISAGREE", ("--problem", "kepler", "--steps", "1/2,1/4")),
+    ],
+)
+def test_command_says_what_is_wrong(code: int, said: str, arguments: tuple[str, ...]) -> None:
+    """Options of another problem, misfits and disagreement."""
+    run = gark("converge", VERLET, *arguments)
+    assert run.code == code
+    assert said in run.out + run.err
+
+
+def test_failing_step_ends_with_1() -> None:
+    """The step, its size and the residual, on stderr."""
+    run = gark("converge", COLLOCATION, "--problem", "generic", "--t-end", "1000000", "--steps", "1000000")
+    assert run.code == 1
+    assert "step 1 of size 1000000" in run.err

@@ -23,7 +23,7 @@ SECONDS = 5
 MEGABYTES = 500
 """Most memory of the process beyond that of its start."""
 NODES = 5_000
-"""Most YAML values here: instrumented code is some forty times slower, so that the limit itself would be a timeout."""
+"""Most YAML values here: instrumented code is some forty times slower, and the usual limit would be a timeout."""
 KEPT = Path(".hypothesis")
 """Where faulty inputs are saved, and the inputs with which the next run begins."""
 NUMBERS = (
