@@ -1,4 +1,5 @@
-"""Methods at work: a linear test problem, one exact step, convergence and energy.
+"""Methods at work: test problems, steps, convergence and energy.
 
-Only ``energy.drift`` needs numpy, and imports it when it is called.
+The oscillator's step map is linear and exact; its modules import neither numpy nor sympy, ``energy.drift`` apart.
+Nonlinear problems are differentiated by sympy and stepped with numpy's help, both imported when they are used.
 """

@@ -46,9 +46,11 @@ class StepFailed(GarkError):
     """The stage equations of a step were not solved."""
 
     def __init__(self, number: int, h: fmpq, residual: float) -> None:
+        what = (
+            "the stage equations were not solved" if isfinite(residual) else "the numbers leave the vector fields"
+        )
         super().__init__(
-            f"step {number} of size {h}: the stage equations were not solved (residual {residual:.1e})",
-            "choose a smaller step size",
+            f"step {number} of size {h}: {what} (residual {residual:.1e})", "choose a smaller step size"
         )
         self.number = number
         self.h = h
