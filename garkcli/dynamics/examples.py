@@ -126,6 +126,7 @@ def _chain(*q: Any) -> tuple[Any, ...]:
 
 
 SEPARABLE: Mapping[str, Separable] = {
+    "oscillator": Separable(("q",), _quadratic, lambda q: (q**2 / 2,), (fmpq(1), fmpq(1, 2)), fmpq(4)),
     "split-oscillator": Separable(
         ("x", "y"),
         _quadratic,
