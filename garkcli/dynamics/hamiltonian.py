@@ -6,19 +6,20 @@ The vector fields are V^{l} = ∂H^{l}/∂p and F^{l} = −∂H^{l}/∂q. The ex
 
 from __future__ import annotations
 
-from collections.abc import Callable, Mapping
+from collections.abc import Callable
 from dataclasses import dataclass
 from functools import cache
 from typing import Any, Literal, TypeAlias
 
-from flint import arb, fmpq
+from flint import fmpq
+
+from garkcli.dynamics.formula import function
 
 Group: TypeAlias = Literal["q", "p"]
 """Positions or momenta."""
 GROUPS: tuple[Group, Group] = ("q", "p")
 FLOAT_DIGITS = 15
 """Up to so many digits numbers are floats; beyond, they are the midpoints of balls."""
-_FUNCTIONS: Mapping[str, Callable[[arb], arb]] = {"sin": arb.sin, "cos": arb.cos, "exp": arb.exp, "log": arb.log}
 
 
 @dataclass(frozen=True)
@@ -91,34 +92,22 @@ class VectorField:
     @property
     def is_linear(self) -> bool:
         """Whether all second derivatives vanish."""
-        return all(not x.free_symbols for g in self.depends for row in self.derivative(g) for x in row)
+        return all(_is_constant(x) for g in self.depends for row in self.derivative(g) for x in row)
 
     @property
     def degree(self) -> int | None:
-        """The largest degree of a component; None when they are not polynomials."""
-        import sympy
-
-        arguments = self._arguments
-        if not all(f.is_polynomial(*arguments) for f in self.components):
-            return None
-        return max(int(sympy.Poly(f, *arguments).total_degree()) for f in self.components)
+        """A bound of the degree of all components, before terms cancel; None when they are not polynomials."""
+        found = [_degree(f) for f in self.components]
+        return None if None in found else max(x for x in found if x is not None)
 
     def derivative(self, group: Group) -> tuple[tuple[Any, ...], ...]:
         """The Jacobian by positions or by momenta, sympy expressions, shape (d, d)."""
         by = symbols(self.variables, group)
         return tuple(tuple(f.diff(x) for x in by) for f in self.components)
 
-    def function(self, digits: int) -> Callable[..., list[Any]]:
-        """The field as a function of the numbers it depends on, in the order q, p; returns d numbers."""
-        return function(self.components, self._arguments, digits)
-
-    def jacobian(self, group: Group) -> Callable[..., list[float]]:
-        """The Jacobian by ``group`` as a function of floats; returns d² floats, row by row."""
-        flat = tuple(x for row in self.derivative(group) for x in row)
-        return function(flat, self._arguments, FLOAT_DIGITS)
-
     @property
-    def _arguments(self) -> tuple[Any, ...]:
+    def arguments(self) -> tuple[Any, ...]:
+        """The symbols of what it depends on, in the order q, p."""
         return tuple(x for g in self.depends for x in symbols(self.variables, g))
 
 
@@ -136,59 +125,38 @@ def vector_field(problem: Hamiltonian, term: int, drives: Group) -> VectorField:
 
 
 def energy_function(problem: Hamiltonian, digits: int) -> Callable[..., list[Any]]:
-    """H and then the invariants as a function of q and p, all 2d numbers."""
-    arguments = tuple(x for g in GROUPS for x in symbols(problem.variables, g))
-    return function((problem.energy, *(x for _, x in problem.invariants)), arguments, digits)
-
-
-def function(expressions: tuple[Any, ...], arguments: tuple[Any, ...], digits: int) -> Callable[..., list[Any]]:
-    """Our own sympy expressions as one function of numbers: floats, or balls when ``digits`` are more than theirs.
+    """H and then the invariants as a function of q and p, all 2d numbers: floats, or balls for more ``digits``.
 
     For balls the rational constants are enclosed once, at the precision in force now.
     """
-    if digits <= FLOAT_DIGITS:
-        return _on_floats(expressions, arguments)
-    made, constants = _on_balls(expressions, arguments)
-    enclosed = tuple(arb(fmpq(int(x.p), int(x.q))) for x in constants)
-    return lambda *values: made(*values, *enclosed)
+    arguments = tuple(x for g in GROUPS for x in symbols(problem.variables, g))
+    return function((problem.energy, *(x for _, x in problem.invariants)), arguments, digits > FLOAT_DIGITS)
 
 
-@cache
-def _on_floats(expressions: tuple[Any, ...], arguments: tuple[Any, ...]) -> Callable[..., list[Any]]:
+def _is_constant(x: Any) -> bool:
+    """Whether an expression depends on nothing, be it written with symbols that cancel."""
     import sympy
 
-    made: Callable[..., list[Any]] = sympy.lambdify(arguments, list(expressions), modules="math", cse=True)
-    return made
+    if not x.free_symbols:
+        return True
+    if _degree(x) is None:
+        return not sympy.simplify(x).free_symbols
+    # two different values of a polynomial prove what expanding it would
+    first, second = ({s: sympy.Rational(k, 7) for k, s in enumerate(x.free_symbols, start)} for start in (1, 5))
+    return bool(x.xreplace(first) == x.xreplace(second)) and not sympy.expand(x).free_symbols
 
 
-@cache
-def _on_balls(
-    expressions: tuple[Any, ...], arguments: tuple[Any, ...]
-) -> tuple[Callable[..., list[Any]], tuple[Any, ...]]:
-    """The function, and the rational constants it takes after its arguments."""
-    import sympy
-
-    found = {x for f in expressions for x in f.atoms(sympy.Rational) if not x.is_Integer}
-    product = sympy.Function("power")
-    constants = tuple(sorted(found, key=lambda x: (int(x.p), int(x.q))))
-    names = {x: sympy.Dummy(f"k{i}") for i, x in enumerate(constants)}
-    made: Callable[..., list[Any]] = sympy.lambdify(
-        (*arguments, *names.values()),
-        [
-            f.xreplace(names).replace(lambda x: x.is_Pow and x.exp.is_Integer, lambda x: product(*x.args))
-            for f in expressions
-        ],
-        modules=[{**_FUNCTIONS, "power": _power}],
-        cse=True,
-    )
-    return made, constants
-
-
-def _power(x: arb, n: int) -> arb:
-    """An integer power by products: that of a ball around zero is a ball around zero."""
-    if n < 0:
-        return 1 / _power(x, -n)
-    if n == 1:
-        return x
-    half = _power(x, n // 2)
-    return half * half * x if n % 2 else half * half
+def _degree(x: Any) -> int | None:
+    """The degree of a polynomial as it is written; None for another expression."""
+    if not x.free_symbols:
+        return 0
+    if x.is_Symbol:
+        return 1
+    if x.is_Pow and x.exp.is_Integer and x.exp.is_positive:
+        base = _degree(x.base)
+        return None if base is None else base * int(x.exp)
+    if not (x.is_Add or x.is_Mul):
+        return None
+    parts = [_degree(y) for y in x.args]
+    known = [y for y in parts if y is not None]
+    return None if len(known) < len(parts) else max(known) if x.is_Add else sum(known)

@@ -1,21 +1,40 @@
-"""A method on a problem, ready to step: numbers, functions and the order in which to use them."""
+"""A method on a problem, ready to step: its coefficients in the numbers asked for, and its program."""
 
 from __future__ import annotations
 
-from collections.abc import Callable
+import math
+from collections.abc import Callable, Sequence
 from dataclasses import dataclass
 from math import ceil
-from typing import Any, TypeAlias
+from typing import TYPE_CHECKING, Any, TypeAlias
 
-from flint import arb, ctx
+from flint import arb, ctx, fmpq
 
-from garkcli.dynamics.hamiltonian import FLOAT_DIGITS, Group, Hamiltonian
-from garkcli.dynamics.structure import Block, Stage, Value, coupling, fields_of
+from garkcli.dynamics.formula import define, enclosed
+from garkcli.dynamics.hamiltonian import FLOAT_DIGITS, Hamiltonian
+from garkcli.dynamics.program import Program, write
+from garkcli.dynamics.structure import coupling, fields_of
 from garkcli.tableau.pointwise import numeric_entries
 from garkcli.tableau.tableau import Tableau
 
+if TYPE_CHECKING:
+    import numpy as np
+    from numpy.typing import NDArray
+
+    Floats: TypeAlias = NDArray[np.float64]
+
 Real: TypeAlias = Any
-"""A float, or an exact ball with the digits of the scheme."""
+"""A float, or the midpoint of a ball with the digits of the scheme."""
+Run: TypeAlias = Callable[[list[Real], list[Real], int, int], tuple[list[Real], list[int], int]]
+"""See ``Program.source``."""
+
+
+class NotSolved(Exception):
+    """The step of this number has not been solved: the last correction of Newton's method, or no number."""
+
+    def __init__(self, number: int, residual: float) -> None:
+        super().__init__(number, residual)
+        self.number, self.residual = number, residual
 
 
 @dataclass(frozen=True)
@@ -25,31 +44,35 @@ class Scheme:
     Attributes:
         problem: the split problem; d degrees of freedom.
         digits: of all numbers; up to ``FLOAT_DIGITS`` they are floats.
-        blocks: explicit and implicit parts, in order.
-        arguments: the stages each evaluation looks at.
-        sums: each stage as coefficients of evaluations.
-        weights: b of each evaluation.
-        functions: by colour and group driven.
-        jacobians: by colour, group driven and group looked at; of floats, to d² floats.
+        program: what a step does.
+        coefficients: enclosures of the coefficients that the program asks for, in its order.
+        run: the program, made.
     """
 
     problem: Hamiltonian
     digits: int
-    blocks: tuple[Block, ...]
-    arguments: dict[Value, tuple[Stage, ...]]
-    sums: dict[Stage, tuple[tuple[Value, Real], ...]]
-    weights: dict[Value, Real]
-    functions: dict[tuple[int, Group], Callable[..., list[Real]]]
-    jacobians: dict[tuple[int, Group, Group], Callable[..., list[float]]]
+    program: Program
+    coefficients: tuple[arb, ...]
+    run: Run
 
     @property
     def bits(self) -> int:
         """The precision that balls are computed with."""
-        return ceil(self.digits * 3.3219281) + 16
+        return _bits(self.digits)
+
+    @property
+    def is_for_balls(self) -> bool:
+        """Whether numbers are balls."""
+        return self.digits > FLOAT_DIGITS
 
     def number(self, x: Any) -> Real:
         """A rational number or ball as the scheme computes with it."""
-        return float(arb(x)) if self.digits <= FLOAT_DIGITS else arb(x).mid()
+        return arb(x).mid() if self.is_for_balls else float(arb(x))
+
+    def weights(self, h: fmpq) -> list[Real]:
+        """The products of h and the coefficients."""
+        with _precision(self.digits):
+            return [self.number(arb(h) * a) for a in self.coefficients]
 
 
 def scheme(tableau: Tableau, problem: Hamiltonian, digits: int = FLOAT_DIGITS) -> Scheme:
@@ -58,33 +81,71 @@ def scheme(tableau: Tableau, problem: Hamiltonian, digits: int = FLOAT_DIGITS) -
     Raises:
         UsageProblem: the problem is not of the form that the structure is for.
     """
-    fields = fields_of(tableau, problem)
     digits = max(digits, FLOAT_DIGITS)
+    program = _program(tableau, problem, digits > FLOAT_DIGITS)
     entries = numeric_entries(tableau, digits + 5)
-    blocks = {
+    with _precision(digits):
+        coefficients: Any = tuple(
+            entries.b[value.colour][value.index]
+            if stage is None
+            else _entry(tableau, entries.A, stage.space, value.colour)[stage.index][value.index]
+            for stage, value in program.coefficients
+        )
+        constants: dict[str, Any] = {
+            **enclosed(program.formulas),
+            "NotSolved": NotSolved,
+            "nan": math.nan,
+            "precision": arb(10) ** -digits if digits > FLOAT_DIGITS else 2.0**-52,
+            "inverted": _inverted,
+            "corrections": _corrections_of_balls if digits > FLOAT_DIGITS else _corrections,
+        }
+        return Scheme(problem, digits, program, coefficients, define(program.source, "run", constants))
+
+
+def _program(tableau: Tableau, problem: Hamiltonian, is_for_balls: bool) -> Program:
+    """The program; the zeros of the tableau are found with few digits, the same for floats and balls."""
+    fields = fields_of(tableau, problem)
+    entries = numeric_entries(tableau, _ZERO_DIGITS)
+    blocks: Any = {
         (colour.rows, m): A
         for l, colour in enumerate(tableau.colours)
         for m, A in enumerate(entries.A[l])
         if A is not None
     }
-    balls: Any = blocks  # enclosures, because they are numeric
-    graph = coupling(tableau, fields, balls)
-    bits = ceil(digits * 3.3219281) + 16
-    with ctx.workprec(bits):
+    return write(coupling(tableau, fields, blocks), fields, problem.dimension, is_for_balls)
 
-        def number(x: Any) -> Real:
-            return float(x) if digits <= FLOAT_DIGITS else arb(x).mid()
 
-        return Scheme(
-            problem,
-            digits,
-            graph.blocks(),
-            dict(graph.arguments),
-            {
-                s: tuple((v, number(blocks[s.space, v.colour][s.index][v.index])) for v in values)
-                for s, values in graph.sums.items()
-            },
-            {v: number(entries.b[v.colour][v.index]) for v in graph.values},
-            {key: f.function(digits) for key, f in fields.items()},
-            {(*key, g): f.jacobian(g) for key, f in fields.items() for g in f.depends},
-        )
+_ZERO_DIGITS = 60
+
+
+def _entry(tableau: Tableau, A: Sequence[Sequence[Any]], space: int, colour: int) -> Any:
+    row = next(l for l, x in enumerate(tableau.colours) if x.rows == space and A[l][colour] is not None)
+    return A[row][colour]
+
+
+def _bits(digits: int) -> int:
+    return ceil(digits * 3.3219281) + 16
+
+
+def _precision(digits: int) -> Any:
+    return ctx.workprec(_bits(digits))
+
+
+def _inverted(entries: list[float], n: int) -> Floats:
+    import numpy as np
+
+    return np.asarray(np.linalg.inv(np.array(entries).reshape(n, n)), dtype=np.float64)
+
+
+def _corrections(inverse: Floats, residuals: list[float]) -> list[float]:
+    corrections: list[float] = (inverse @ residuals).tolist()
+    return corrections
+
+
+def _corrections_of_balls(inverse: Floats, residuals: list[arb]) -> list[arb]:
+    """The same for balls of any size: they are scaled into the range of floats, and back."""
+    middles = [arb(r).mid() for r in residuals]
+    scale = max(map(abs, middles))
+    if scale == 0 or not scale.is_finite():
+        return middles
+    return [(c * scale).mid() for c in (inverse @ [float(r / scale) for r in middles]).tolist()]
