@@ -9,7 +9,7 @@ The grammar, with ``^`` meaning ``**``::
     atom     = number | name | function "(" sum [ "," integer ] ")" | "(" sum ")"
     function = "sqrt" | "cbrt" | "root"
 
-Numbers are read as written: ``0.1`` is one tenth.
+Numbers are read as written: ``0.1`` is one tenth. ``garkcli.exact.formula`` extends the grammar for problems.
 """
 
 from __future__ import annotations
@@ -17,7 +17,7 @@ from __future__ import annotations
 import re
 from collections.abc import Callable, Iterator
 from dataclasses import dataclass, field
-from typing import NoReturn
+from typing import ClassVar, NoReturn
 
 from flint import fmpq
 
@@ -111,17 +111,31 @@ def parse(text: str) -> Expression:
     >>> parse("1/2 - sqrt(3)/6").signs
     '+-'
     """
-    if len(text) > MAX_LENGTH:
-        raise LimitExceeded(
-            f"a coefficient of {len(text)} characters (limit {MAX_LENGTH})", "write it shorter", 0, MAX_LENGTH
-        )
-    return _Parser(text).whole()
+    return Parser(text).whole()
 
 
-class _Parser:
-    """Recursive descent over the tokens of one text."""
+class Parser:
+    """Recursive descent over the tokens of one text; its subclasses read more than coefficients.
+
+    Attributes:
+        noun: what a text is.
+        value_noun: what stands between two signs.
+        example: the cure for an empty text.
+        cure: what may be written.
+        functions: the cure for a function that is not known.
+    """
+
+    noun: ClassVar[str] = "coefficient"
+    value_noun: ClassVar[str] = "number"
+    example: ClassVar[str] = "write a number, such as 1/2"
+    cure: ClassVar[str] = "write digits 0-9, + - * / ** ( ), sqrt(x), cbrt(x), root(x, n)"
+    functions: ClassVar[str] = "there are sqrt(x), cbrt(x) and root(x, n)"
 
     def __init__(self, text: str) -> None:
+        if len(text) > MAX_LENGTH:
+            raise LimitExceeded(
+                f"a {self.noun} of {len(text)} characters (limit {MAX_LENGTH})", "write it shorter", 0, MAX_LENGTH
+            )
         self.text = text
         self.depth = 0
         self.tokens = self._tokens()
@@ -136,8 +150,9 @@ class _Parser:
                 rest = self.text[position:]
                 offset = position + len(rest) - len(rest.lstrip(" \t\r\n"))
                 sign = self.text[offset]
-                cure = _SIGN_CURES.get(sign, "write digits 0-9, + - * / ** ( ), sqrt(x), cbrt(x), root(x, n)")
-                raise ExpressionError(f"the sign {sign!r} has no place in a number", cure, offset, offset + 1)
+                cure = _SIGN_CURES.get(sign, self.cure)
+                message = f"the sign {sign!r} has no place in a {self.value_noun}"
+                raise ExpressionError(message, cure, offset, offset + 1)
             kind = match.lastgroup or "end"
             start, end = match.span(kind)
             yield kind, match.group(kind), start, end
@@ -159,19 +174,24 @@ class _Parser:
         self._advance()
 
     def whole(self) -> Expression:
+        """The expression that the text is.
+
+        Raises:
+            ExpressionError: it is none.
+        """
         if self.kind == "end":
-            self._fail("no number here", "write a number, such as 1/2")
-        result = self.sum()
+            self._fail(f"no {self.value_noun} here", self.example)
+        result = self._sum()
         if self.kind != "end":
             cure = "write products with *" if self.kind in {"name", "number"} or self.value == "(" else ""
             self._fail(f"{self.value!r} is not expected here", cure)
         return result
 
-    def sum(self) -> Expression:
-        return self._chain("+-", self.term)
+    def _sum(self) -> Expression:
+        return self._chain("+-", self._term)
 
-    def term(self) -> Expression:
-        return self._chain("*/", self.factor)
+    def _term(self) -> Expression:
+        return self._chain("*/", self._factor)
 
     def _chain(self, signs: str, operand: Callable[[], Expression]) -> Expression:
         start = self.start
@@ -181,7 +201,7 @@ class _Parser:
             operands.append(operand())
         return operands[0] if len(operands) == 1 else Chain(joined, tuple(operands), start=start, end=self.last_end)
 
-    def factor(self) -> Expression:
+    def _factor(self) -> Expression:
         self.depth += 1
         if self.depth > MAX_DEPTH:
             raise LimitExceeded(
@@ -191,29 +211,34 @@ class _Parser:
             start = self.start
             if self.kind == "op" and self.value in {"+", "-"}:
                 sign = self._advance()
-                inner = self.factor()
+                inner = self._factor()
                 if sign == "+":
                     return inner
                 if isinstance(inner, Literal):
                     return Literal(-inner.value, start=start, end=self.last_end)
                 return Chain("-", (inner,), start=start, end=self.last_end)
-            return self.power()
+            return self._power()
         finally:
             self.depth -= 1
 
-    def power(self) -> Expression:
+    def _power(self) -> Expression:
         start = self.start
-        base = self.atom()
+        base = self._atom()
         if self.kind != "op" or self.value not in {"**", "^"}:
             return base
         self._advance()
         negative = False
         if self.kind == "op" and self.value in {"+", "-"}:
             negative = self._advance() == "-"
-        exponent = self._integer("an exponent", MAX_EXPONENT)
+        power = self._raised(base, negative, start)
         if self.kind == "op" and self.value in {"**", "^"}:
             self._fail("a power of a power", "use parentheses and small exponents")
-        return Power(base, -exponent if negative else exponent, start=start, end=self.last_end)
+        return power
+
+    def _raised(self, base: Expression, is_negative: bool, start: int) -> Expression:
+        """``base`` to the exponent that comes next, without its sign."""
+        exponent = self._integer("an exponent", MAX_EXPONENT)
+        return Power(base, -exponent if is_negative else exponent, start=start, end=self.last_end)
 
     def _integer(self, what: str, limit: int) -> int:
         if self.kind != "number" or not self.value.isdigit():
@@ -222,7 +247,7 @@ class _Parser:
             raise LimitExceeded(f"{what} is larger than {limit}", "use a smaller one", self.start, self.end)
         return int(self._advance())
 
-    def atom(self) -> Expression:
+    def _atom(self) -> Expression:
         start = self.start
         if self.kind == "number":
             value = read_decimal(self.value, start)
@@ -235,23 +260,25 @@ class _Parser:
             return Name(name, start=start, end=self.last_end)
         if self.value == "(":
             self._advance()
-            inner = self.sum()
+            inner = self._sum()
             self._expect(")", start)
             return inner
         at_end = self.kind == "end"
-        return self._fail("the text ends where a number is due" if at_end else "a number is expected here")
+        return self._fail(
+            f"the text ends where a {self.value_noun} is due" if at_end else f"a {self.value_noun} is expected here"
+        )
 
     def _function(self, name: str, start: int) -> Expression:
         if name not in FUNCTIONS:
             raise ExpressionError(
-                f"{name!r} is not a function of coefficients",
-                "there are sqrt(x), cbrt(x) and root(x, n)",
+                f"{name!r} is not a function of {self.noun}s",
+                self.functions,
                 start,
                 self.last_end,
             )
         opened = self.start
         self._advance()
-        radicand = self.sum()
+        radicand = self._sum()
         index = INDEX_OF_ROOT.get(name, 0)
         if not index:
             self._expect(",", opened)

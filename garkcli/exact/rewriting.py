@@ -7,20 +7,38 @@ from dataclasses import replace
 
 from garkcli.errors import UndefinedValue, did_you_mean
 from garkcli.exact.expression import INDEX_OF_ROOT, Chain, Expression, Literal, Name, Power, Root
+from garkcli.exact.formula import Call, RealPower
 
 
 def size_of(expression: Expression, sizes: Mapping[str, int]) -> int:
     """How many nodes ``expression`` has, each name counting for what it stands for (1 if it is not known)."""
+    if isinstance(expression, Name):
+        return sizes.get(expression.name, 1)
+    return 1 + sum(size_of(x, sizes) for x in parts(expression))
+
+
+def parts(expression: Expression) -> tuple[Expression, ...]:
+    """The expressions that ``expression`` is made of."""
     match expression:
-        case Name(name=name):
-            return sizes.get(name, 1)
         case Chain(operands=operands):
-            return 1 + sum(size_of(x, sizes) for x in operands)
+            return operands
         case Power(base=base):
-            return 1 + size_of(base, sizes)
+            return (base,)
+        case RealPower(base=base, exponent=exponent):
+            return (base, exponent)
         case Root(radicand=radicand):
-            return 1 + size_of(radicand, sizes)
-    return 1
+            return (radicand,)
+        case Call(argument=argument):
+            return (argument,)
+    return ()
+
+
+def names_in(expression: Expression) -> Iterator[Name]:
+    """Every name in ``expression``, in the order of the text."""
+    if isinstance(expression, Name):
+        yield expression
+    for part in parts(expression):
+        yield from names_in(part)
 
 
 def substitute(expression: Expression, values: Mapping[str, Expression]) -> Expression:
@@ -45,26 +63,25 @@ def substitute(expression: Expression, values: Mapping[str, Expression]) -> Expr
             return replace(expression, operands=tuple(substitute(x, values) for x in operands))
         case Power(base=base):
             return replace(expression, base=substitute(base, values))
+        case RealPower(base=base, exponent=exponent):
+            return replace(expression, base=substitute(base, values), exponent=substitute(exponent, values))
         case Root(radicand=radicand):
             return replace(expression, radicand=substitute(radicand, values))
+        case Call(argument=argument):
+            return replace(expression, argument=substitute(argument, values))
     return expression
 
 
 def roots_in(expression: Expression) -> Iterator[Root]:
     """Every root in ``expression``, the inner ones first."""
-    match expression:
-        case Chain(operands=operands):
-            for operand in operands:
-                yield from roots_in(operand)
-        case Power(base=base):
-            yield from roots_in(base)
-        case Root(radicand=radicand):
-            yield from roots_in(radicand)
-            yield expression
+    for part in parts(expression):
+        yield from roots_in(part)
+    if isinstance(expression, Root):
+        yield expression
 
 
 def format_expression(expression: Expression, latex: bool = False) -> str:
-    """The expression as text that ``parse`` reads again, or as LaTeX."""
+    """The expression as text that ``parse`` (with functions: ``parse_formula``) reads again, or as LaTeX."""
     match expression:
         case Literal(value=value):
             if latex and value.q != 1:
@@ -81,6 +98,12 @@ def format_expression(expression: Expression, latex: bool = False) -> str:
         case Power(base=base, exponent=exponent):
             text = _bracketed(base, True, latex)
             return f"{text}^{{{exponent}}}" if latex else f"{text}**{exponent}"
+        case RealPower(base=base, exponent=exponent):
+            text, power = _bracketed(base, True, latex), format_expression(exponent, latex)
+            return f"{text}^{{{power}}}" if latex else f"{text}**({power})"
+        case Call(function=function, argument=argument):
+            inner = format_expression(argument, latex)
+            return f"\\{function}\\left({inner}\\right)" if latex else f"{function}({inner})"
         case Root(radicand=radicand, index=index):
             inner = format_expression(radicand, latex)
             if latex:
@@ -92,6 +115,6 @@ def format_expression(expression: Expression, latex: bool = False) -> str:
 
 def _bracketed(expression: Expression, tight: bool, latex: bool) -> str:
     text = format_expression(expression, latex)
-    simple = isinstance(expression, (Name, Root)) or (isinstance(expression, Literal) and text.isdigit())
+    simple = isinstance(expression, (Name, Root, Call)) or (isinstance(expression, Literal) and text.isdigit())
     loose = isinstance(expression, Chain) or not simple
     return f"({text})" if loose and tight else text
