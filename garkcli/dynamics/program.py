@@ -14,7 +14,7 @@ from dataclasses import dataclass, replace
 from typing import TypeAlias
 
 from garkcli.dynamics.formula import Formula, formula
-from garkcli.dynamics.hamiltonian import Group
+from garkcli.dynamics.hamiltonian import GROUPS, Group
 from garkcli.dynamics.structure import Block, Coupling, Fields, Stage, Value
 
 MAX_ITERATIONS = 50
@@ -58,6 +58,14 @@ def write(graph: Coupling, fields: Fields, dimension: int, is_for_balls: bool) -
     return _Writer(graph, fields, dimension, is_for_balls).program()
 
 
+@dataclass(frozen=True)
+class _Sum:
+    """A sum of w f that a stage has: the w of each evaluation, and a text a component, empty where it is zero."""
+
+    terms: dict[Value, str]
+    texts: list[str]
+
+
 class _Writer:
     """Writes lines and remembers the names of what they compute."""
 
@@ -65,7 +73,9 @@ class _Writer:
         self.graph, self.fields, self.d, self.is_for_balls = graph, fields, dimension, is_for_balls
         self.lines: list[str] = []
         self.indent = ""
-        self.weights: dict[tuple[Stage | None, Value], str] = {}
+        self.weights: dict[str, str] = {}  # names of the numbers w
+        self.first: list[tuple[Stage | None, Value]] = []  # where each of them occurs first
+        self.sums: list[_Sum] = []
         self.formulas: list[Formula] = []
         self.values: dict[Value, list[str]] = {}
         self.stages: dict[Stage, list[str]] = {}
@@ -102,7 +112,7 @@ class _Writer:
         self._write(f"return [{state}], [{', '.join(counts)}], jacobians")
         made = Program(
             "\n".join(self.lines) + "\n",
-            tuple(self.weights),
+            tuple(self.first),
             tuple(self.formulas),
             4 * self.d + 2 * self.d * len(self.unknowns),
             len(self.graph.values) + len(self.frozen),
@@ -118,10 +128,10 @@ class _Writer:
                 self._newton(block, implicit.index(block))
             else:
                 self._explicit(block)
-        for i in range(2 * self.d):
-            group: Group = "q" if i < self.d else "p"
-            values = [v for v in self.graph.values if v.group == group]
-            self._write(f"d{i} = {self._combined(None, values, i % self.d) or '0.0'}")
+        for k, group in enumerate(GROUPS):
+            total = self._total(None, [v for v in self.graph.values if v.group == group])
+            for i, text in enumerate(total.texts, k * self.d):
+                self._write(f"d{i} = {text or '0.0'}")
         for stage in self.unknowns:
             for i in range(self.d):
                 c = self._component(stage, i)
@@ -158,27 +168,47 @@ class _Writer:
 
     def _place(self, stage: Stage) -> None:
         """The stage value itself, y_0 and the sum."""
+        total = self._total(stage, self.graph.sums[stage])
         names = []
-        for i in range(self.d):
-            total = self._combined(stage, self.graph.sums[stage], i)
+        for i, text in enumerate(total.texts):
             y = self._y(stage.group, i)
-            if total:
-                name = f"x{self._component(stage, i)}"
-                self._write(f"{name} = {y} + ({total})")
-                y = name
+            if text:
+                c = self._component(stage, i)
+                self._write(f"z{c} = {text}")
+                self._write(f"x{c} = {y} + z{c}")
+                y, total.texts[i] = f"x{c}", f"z{c}"
             names.append(y)
         self.stages[stage] = names
+        self.sums.append(total)
 
     def _arguments(self, value: Value) -> list[str]:
         return [x for stage in self.graph.arguments[value] for x in self.stages[stage]]
 
-    def _combined(self, stage: Stage | None, values: Sequence[Value], i: int) -> str:
-        """The sum of w f over ``values``, component i; empty when it is zero."""
-        terms = [(self._weight(stage, v), self.values[v][i]) for v in values]
-        return " + ".join(f"{w}*{f}" for w, f in terms if f != "0")
+    def _total(self, stage: Stage | None, values: Sequence[Value]) -> _Sum:
+        """The sums of w f over ``values``; from a sum that is known, where that has at least two of the terms.
+
+        In a composition of short steps each stage goes on from the one before, and so costs no more than that.
+        """
+        terms = {value: self._weight(stage, value) for value in values if any(self._nonzero(value))}
+        known = [x for x in self.sums if len(x.terms) > 1 and x.terms.items() <= terms.items()]
+        base = max(known, key=lambda x: len(x.terms), default=_Sum({}, [""] * self.d))
+        texts = []
+        for i in range(self.d):
+            rest = [
+                f"{w}*{self.values[v][i]}" for v, w in terms.items() if v not in base.terms and self._nonzero(v)[i]
+            ]
+            texts.append(" + ".join([base.texts[i]] * bool(base.texts[i]) + rest))
+        return _Sum(terms, texts)
+
+    def _nonzero(self, value: Value) -> list[bool]:
+        return [f != "0" for f in self.values[value]]
 
     def _weight(self, stage: Stage | None, value: Value) -> str:
-        return self.weights.setdefault((stage, value), f"w{len(self.weights)}")
+        text = self.graph.coefficients[stage, value]
+        if text not in self.weights:
+            self.weights[text] = f"w{len(self.first)}"
+            self.first.append((stage, value))
+        return self.weights[text]
 
     def _formula(self, expressions: Sequence[object], value: Value, is_for_balls: bool | None = None) -> Formula:
         arguments = self.fields[value.colour, value.group].arguments
@@ -273,9 +303,9 @@ class _Writer:
     def _residuals(self, block: Block) -> None:
         k = 0
         for stage in block.unknowns:
-            for i in range(self.d):
-                total = self._combined(stage, self.graph.sums[stage], i)
-                self._write(f"r{k} = z{self._component(stage, i)} - ({total or '0.0'})")
+            total = self._total(stage, self.graph.sums[stage])
+            for i, text in enumerate(total.texts):
+                self._write(f"r{k} = z{self._component(stage, i)} - ({text or '0.0'})")
                 k += 1
 
     def _directly(self, J: Sequence[Slope]) -> None:

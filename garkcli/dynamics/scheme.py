@@ -3,7 +3,7 @@
 from __future__ import annotations
 
 import math
-from collections.abc import Callable, Sequence
+from collections.abc import Callable
 from dataclasses import dataclass
 from math import ceil
 from typing import TYPE_CHECKING, Any, TypeAlias
@@ -13,7 +13,7 @@ from flint import arb, ctx, fmpq
 from garkcli.dynamics.formula import define, enclosed
 from garkcli.dynamics.hamiltonian import FLOAT_DIGITS, Hamiltonian
 from garkcli.dynamics.program import Program, write
-from garkcli.dynamics.structure import coupling, fields_of
+from garkcli.dynamics.structure import coupling, entry, fields_of
 from garkcli.tableau.pointwise import numeric_entries
 from garkcli.tableau.tableau import Tableau
 
@@ -82,15 +82,11 @@ def scheme(tableau: Tableau, problem: Hamiltonian, digits: int = FLOAT_DIGITS) -
         UsageProblem: the problem is not of the form that the structure is for.
     """
     digits = max(digits, FLOAT_DIGITS)
-    program = _program(tableau, problem, digits > FLOAT_DIGITS)
+    fields = fields_of(tableau, problem)
+    program = write(coupling(tableau, fields), fields, problem.dimension, digits > FLOAT_DIGITS)
     entries = numeric_entries(tableau, digits + 5)
     with _precision(digits):
-        coefficients: Any = tuple(
-            entries.b[value.colour][value.index]
-            if stage is None
-            else _entry(tableau, entries.A, stage.space, value.colour)[stage.index][value.index]
-            for stage, value in program.coefficients
-        )
+        coefficients = tuple(entry(tableau, entries, stage, value) for stage, value in program.coefficients)
         constants: dict[str, Any] = {
             **enclosed(program.formulas),
             "NotSolved": NotSolved,
@@ -100,27 +96,6 @@ def scheme(tableau: Tableau, problem: Hamiltonian, digits: int = FLOAT_DIGITS) -
             "corrections": _corrections_of_balls if digits > FLOAT_DIGITS else _corrections,
         }
         return Scheme(problem, digits, program, coefficients, define(program.source, "run", constants))
-
-
-def _program(tableau: Tableau, problem: Hamiltonian, is_for_balls: bool) -> Program:
-    """The program; the zeros of the tableau are found with few digits, the same for floats and balls."""
-    fields = fields_of(tableau, problem)
-    entries = numeric_entries(tableau, _ZERO_DIGITS)
-    blocks: Any = {
-        (colour.rows, m): A
-        for l, colour in enumerate(tableau.colours)
-        for m, A in enumerate(entries.A[l])
-        if A is not None
-    }
-    return write(coupling(tableau, fields, blocks), fields, problem.dimension, is_for_balls)
-
-
-_ZERO_DIGITS = 60
-
-
-def _entry(tableau: Tableau, A: Sequence[Sequence[Any]], space: int, colour: int) -> Any:
-    row = next(l for l, x in enumerate(tableau.colours) if x.rows == space and A[l][colour] is not None)
-    return A[row][colour]
 
 
 def _bits(digits: int) -> int:

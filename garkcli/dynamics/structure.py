@@ -10,19 +10,18 @@ from __future__ import annotations
 
 from collections.abc import Callable, Hashable, Iterable, Mapping, Sequence
 from dataclasses import dataclass, replace
-from typing import TypeAlias, TypeVar
-
-from flint import arb
+from typing import Any, TypeAlias, TypeVar
 
 from garkcli.dynamics.hamiltonian import GROUPS, Group, Hamiltonian, VectorField, vector_field
 from garkcli.errors import UsageProblem
+from garkcli.tableau.pointwise import Entries, numeric_entries
 from garkcli.tableau.tableau import Colour, Tableau
 
+DIGITS = 60
+"""Numbers of a tableau that agree to so many digits are equal."""
 T = TypeVar("T", bound=Hashable)
 Fields: TypeAlias = Mapping[tuple[int, Group], VectorField]
 """The vector fields that are not zero, by colour and by what they drive."""
-Coefficients: TypeAlias = Mapping[tuple[int, int], Sequence[Sequence[arb]]]
-"""The blocks of a tableau entry by entry, by stage space and colour."""
 
 
 @dataclass(frozen=True)
@@ -64,11 +63,13 @@ class Coupling:
         values: every evaluation of a vector field.
         arguments: the stage values that each evaluation looks at, positions before momenta.
         sums: the evaluations that each stage value is a combination of.
+        coefficients: their coefficients, and for no stage the weights; equal numbers have the same text.
     """
 
     values: tuple[Value, ...]
     arguments: Mapping[Value, tuple[Stage, ...]]
     sums: Mapping[Stage, tuple[Value, ...]]
+    coefficients: Mapping[tuple[Stage | None, Value], str]
 
     def blocks(self) -> tuple[Block, ...]:
         """The components in the order in which they can be computed."""
@@ -152,23 +153,42 @@ def _visit(root: T, after: Mapping[T, Iterable[T]], seen: set[T], finish: Callab
             finish(vertex)
 
 
-def coupling(tableau: Tableau, fields: Fields, coefficients: Coefficients) -> Coupling:
-    """What has to be computed; enclosures that contain zero count as zero."""
+def coupling(tableau: Tableau, fields: Fields) -> Coupling:
+    """What has to be computed; coefficients are zero or equal when they are to ``DIGITS`` digits."""
+    entries = numeric_entries(tableau, DIGITS + 5)
     arguments: dict[Value, tuple[Stage, ...]] = {}
     for (m, group), field in fields.items():
         space = tableau.colours[m].rows
         for j in range(tableau.space(m).stages):
             arguments[Value(m, j, group)] = tuple(Stage(space, j, g) for g in field.depends)
-    sums = {}
+    sums: dict[Stage, tuple[Value, ...]] = {}
+    coefficients: dict[tuple[Stage | None, Value], str] = {}
     for stage in dict.fromkeys(s for stages in arguments.values() for s in stages):
-        sums[stage] = tuple(
-            value
-            for value in arguments
-            if value.group == stage.group
-            and (stage.space, value.colour) in coefficients
-            and not coefficients[stage.space, value.colour][stage.index][value.index].contains(0)
-        )
-    return Coupling(tuple(arguments), arguments, sums)
+        found = []
+        for value in arguments:
+            a: Any = entry(tableau, entries, stage, value) if value.group == stage.group else 0
+            if a != 0 and not a.contains(0):
+                found.append(value)
+                coefficients[stage, value] = _text(a)
+        sums[stage] = tuple(found)
+    for value in arguments:
+        coefficients[None, value] = _text(entry(tableau, entries, None, value))
+    return Coupling(tuple(arguments), arguments, sums, coefficients)
+
+
+def entry(tableau: Tableau, entries: Entries, stage: Stage | None, value: Value) -> Any:
+    """The coefficient of ``value`` in a stage, an enclosure, or 0 where it is not seen; for no stage its weight."""
+    if stage is None:
+        return entries.b[value.colour][value.index]
+    for l, colour in enumerate(tableau.colours):
+        block = entries.A[l][value.colour]
+        if colour.rows == stage.space and block is not None:
+            return block[stage.index][value.index]
+    return 0
+
+
+def _text(x: Any) -> str:
+    return str(x.str(DIGITS, radius=False))
 
 
 def driven(colour: Colour) -> tuple[Group, ...]:
