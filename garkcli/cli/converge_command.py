@@ -185,13 +185,14 @@ def _drift(
     output: Output,
 ) -> int:
     from garkcli.dynamics.energy import drift
-    from garkcli.report import convergence as report
+    from garkcli.report import energy as report
 
     assert t_end is not None
     result = drift(tableau, problem, t_end, step)
     output.write(report.render_drift(result, name, output.format, output.paint))
     if plot is not None:
-        from garkcli.report.plot import drift_figure, save
+        from garkcli.report.energy_plot import drift_figure
+        from garkcli.report.plot import save
 
         save(drift_figure(result), Path(plot))
         output.note(f"wrote {plot}")

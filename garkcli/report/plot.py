@@ -1,4 +1,4 @@
-"""Figures of the convergence test and of the energy error, for files.
+"""The figure of the convergence test, and how figures become files.
 
 Everything is told apart by marks and dashes as well as by colour, so that the figures can be printed in grey.
 """
@@ -13,7 +13,6 @@ from typing import Any
 from matplotlib.figure import Figure
 from matplotlib.ticker import FuncFormatter, MaxNLocator
 
-from garkcli.dynamics.energy import Drift
 from garkcli.errors import UsageProblem
 from garkcli.report.asciiplot import log10
 from garkcli.report.convergence import Result, problem_name
@@ -58,25 +57,6 @@ def convergence_figure(result: Result) -> Figure:
     axes.set_ylabel("error")
     axes.grid(True, which="major", color="0.85", linewidth=0.6)
     axes.legend(frameon=False)
-    return figure
-
-
-def drift_figure(result: Drift) -> Figure:
-    """The energy error against time."""
-    figure = Figure(figsize=(7.2, 3.6), layout="constrained")
-    axes = figure.add_subplot()
-    axes.plot(result.times, result.energy_errors, color=_BLUE, linewidth=0.4)
-    axes.axhline(0.0, color="0.3", linewidth=0.8)
-    axes.set_title(
-        f"Energy of the oscillator, h = {result.step}: largest error {result.max_energy_error:.2e}, "
-        f"drift {result.drift:.1e} per unit of time",
-        fontsize=10,
-    )
-    axes.set_xlabel("time t")
-    axes.set_ylabel("H(t) − H(0)")
-    axes.ticklabel_format(axis="y", style="sci", scilimits=(-2, 3), useMathText=True)
-    axes.grid(True, color="0.9", linewidth=0.6)
-    axes.margins(x=0)
     return figure
 
 

@@ -14,7 +14,8 @@ from garkcli.dynamics.problems import Oscillator
 from garkcli.errors import UsageProblem
 from garkcli.families.registry import diagonal_method
 from garkcli.report.asciiplot import terminal_plot
-from garkcli.report.plot import convergence_figure, drift_figure, save
+from garkcli.report.energy_plot import drift_figure
+from garkcli.report.plot import convergence_figure, save
 from garkcli.tableau.forms import gark
 
 OSCILLATOR = Oscillator.default(1, fmpq(1))
