@@ -14,6 +14,7 @@ from typing import Any
 
 from flint import arb, fmpq
 
+_LONG = 300  # characters from which a part of an expression is given a name
 _NAMES = ("sin", "cos", "tan", "asin", "acos", "atan", "sinh", "cosh", "tanh", "exp", "log", "sqrt")
 FUNCTIONS = frozenset(_NAMES)
 """The functions an expression may have, besides powers."""
@@ -26,8 +27,8 @@ FLOATS: Mapping[str, Any] = {
 """What the text for floats calls."""
 BALLS: Mapping[str, Any] = {
     **{f"ball_{name}": getattr(arb, name) for name in _NAMES},
-    "ball_power": lambda x, r: arb(x) ** r,
-    "ball_integer_power": lambda x, n: _integer_power(arb(x), n),
+    "ball_power": pow,
+    "ball_integer_power": lambda x, n: _integer_power(x, n),
     "ball_pi": arb.pi,
 }
 """What the text for balls calls; the text for floats has names of its own."""
@@ -74,7 +75,7 @@ class Formula:
             return repr(math.pi if x is None else int(x.p) / int(x.q))
         if x is None:
             return "ball_pi()"
-        return f"({x.p})" if x.q == 1 else constant_name(x)
+        return constant_name(x)
 
 
 def constant_name(x: fmpq) -> str:
@@ -116,7 +117,11 @@ class _Writer:
         return f"{{t{len(self.temporaries) - 1}}}"
 
     def text(self, x: Any) -> str:
-        """The text of ``x``, closed in parentheses where it is not a single name or call."""
+        """The text of ``x``, closed in parentheses where it is not a single name or call; never a long one."""
+        text = self._text(x)
+        return text if len(text) < _LONG else self.named(text)  # Python nests no more than 200 deep
+
+    def _text(self, x: Any) -> str:
         import sympy
 
         if x.is_Symbol:
@@ -218,7 +223,7 @@ def function(
 
 def enclosed(formulas: Sequence[Formula]) -> dict[str, arb]:
     """The rational constants of the texts for balls, at the precision in force."""
-    found = {x for made in formulas if made.is_for_balls for x in made.constants if x is not None and x.q != 1}
+    found = {x for made in formulas if made.is_for_balls for x in made.constants if x is not None}
     return {constant_name(x): arb(x) for x in found}
 
 
