@@ -101,8 +101,8 @@ def test_powers_are_real() -> None:
 
 
 def test_deep_expressions_are_cut() -> None:
-    """Two hundred functions inside each other, with sums between: more than Python would nest."""
+    """Seventy functions inside each other, with sums between: more parentheses than Python would nest."""
     f, value = X[0], 0.5
-    for _ in range(200):
+    for _ in range(70):
         f, value = sympy.sin(1 + f / 2), math.sin(1 + value / 2)
     assert function((f,), X[:1], False)(0.5) == pytest.approx([value], rel=1e-14)
