@@ -28,7 +28,6 @@ FLOATS: Mapping[str, Any] = {
 BALLS: Mapping[str, Any] = {
     **{f"ball_{name}": getattr(arb, name) for name in _NAMES},
     "ball_power": pow,
-    "ball_integer_power": lambda x, n: _integer_power(x, n),
     "ball_pi": arb.pi,
 }
 """What the text for balls calls; the text for floats has names of its own."""
@@ -96,7 +95,7 @@ def formula(expressions: tuple[Any, ...], arguments: tuple[Any, ...], is_for_bal
     writer = _Writer({x: f"{{a{i}}}" for i, x in enumerate(arguments)}, is_for_balls)
     for symbol, expression in found:
         writer.symbols[symbol] = writer.named(writer.text(expression))
-    results = tuple("0" if x.is_zero else writer.text(x) for x in reduced)
+    results = tuple("0" if x == 0 else writer.text(x) for x in reduced)
     return Formula(len(arguments), tuple(writer.temporaries), results, tuple(writer.constants), is_for_balls)
 
 
@@ -182,7 +181,7 @@ class _Writer:
         if not exponent.is_Rational or exponent.q > 2:
             return f"{self._name('power')}({text}, {self.text(exponent)})"
         whole, half = divmod(int(exponent.p), 2) if exponent.q == 2 else (int(exponent.p), 0)
-        if whole and (half or whole <= 3):
+        if whole:
             text = self.named(text)
         factors = [self._integer_power(text, whole)] if whole else []
         if half:
@@ -190,19 +189,15 @@ class _Writer:
         return factors[0] if len(factors) == 1 else "(" + "*".join(factors) + ")"
 
     def _integer_power(self, text: str, n: int) -> str:
+        """For balls by products: the power of a ball around zero is a ball around zero."""
         if n == 1:
             return text
-        if n <= 3 and text.startswith("{"):
+        if n <= 3:
             return "(" + "*".join([text] * n) + ")"
-        return f"ball_integer_power({text}, {n})" if self.is_for_balls else f"({text}**{n})"
-
-
-def _integer_power(x: arb, n: int) -> arb:
-    """A positive power by products: that of a ball around zero is a ball around zero."""
-    if n == 1:
-        return x
-    half = _integer_power(x, n // 2)
-    return half * half * x if n % 2 else half * half
+        if not self.is_for_balls:
+            return f"({text}**{n})"
+        half = self.named(self._integer_power(text, n // 2))
+        return f"({half}*{half}*{text})" if n % 2 else f"({half}*{half})"
 
 
 def function(
