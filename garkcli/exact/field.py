@@ -164,3 +164,20 @@ def coordinates(number: Number, degree: int) -> list[fmpq]:
     if isinstance(number, Algebraic):
         return [number.poly[k] for k in range(degree)]
     return [number] + [ZERO] * (degree - 1)
+
+
+def sum_of_products(pairs: Sequence[tuple[Number, Number]]) -> Number:
+    """Σ x y over pairs with an irrational number each; reduced once instead of once a pair."""
+    field = next(x.field for x in pairs[0] if isinstance(x, Algebraic))
+    total = fmpq_poly()
+    for x, y in pairs:
+        total += _in_theta(x, field) * _in_theta(y, field)
+    return field.element(total)
+
+
+def _in_theta(number: Number, field: NumberField) -> fmpq_poly | fmpq:
+    if not isinstance(number, Algebraic):
+        return number
+    if number.field is not field:
+        raise TypeError("numbers of two different fields")
+    return number.poly

@@ -1,7 +1,7 @@
 """Matrices of exact numbers, as tuples of rows.
 
-Rational matrices go through python-flint; matrices over a number field through plain elimination, which is
-fast enough for the few stages that spelled-out radicals ever have.
+Rational matrices go through python-flint; matrices over a number field entry by entry. ``LinearMap`` is the way
+for one matrix and many vectors.
 """
 
 from __future__ import annotations
@@ -11,7 +11,7 @@ from typing import TypeAlias, cast
 
 from flint import fmpq, fmpq_mat
 
-from garkcli.exact.field import ONE, ZERO, Algebraic, Number
+from garkcli.exact.field import ONE, ZERO, Algebraic, Number, sum_of_products
 
 Vector: TypeAlias = tuple[Number, ...]
 Matrix: TypeAlias = tuple[Vector, ...]
@@ -68,11 +68,14 @@ def outer(u: Vector, v: Vector) -> Matrix:
 
 def dot(u: Sequence[Number], v: Sequence[Number]) -> Number:
     """Σ u_i v_i."""
-    total: Number = ZERO
+    total, irrational = ZERO, []
     for x, y in zip(u, v, strict=True):
         if x and y:
-            total = total + x * y
-    return total
+            if isinstance(x, Algebraic) or isinstance(y, Algebraic):
+                irrational.append((x, y))
+            else:
+                total = total + x * y
+    return total + sum_of_products(irrational) if irrational else total
 
 
 def apply(a: Matrix, v: Sequence[Number]) -> Vector:

@@ -15,10 +15,11 @@ from collections.abc import Iterator, Sequence
 from dataclasses import dataclass
 from typing import cast
 
-from flint import fmpq, fmpq_mat
+from flint import fmpq
 
 from garkcli.exact.field import Number, coordinates
-from garkcli.exact.matrix import Matrix, Vector, dot, to_flint
+from garkcli.exact.linear_map import LinearMap
+from garkcli.exact.matrix import Vector, dot
 from garkcli.exact.span import AffineSpan
 from garkcli.tableau.tableau import Tableau
 from garkcli.trees.tree import Tree
@@ -99,7 +100,7 @@ class _Spans:
     def __init__(self, tableau: Tableau) -> None:
         self.tableau = tableau
         self.degree = tableau.degree
-        self.maps = {key: self._flatten(block) for key, block in tableau.blocks.items()}
+        self.maps = {key: LinearMap(block, tableau.field) for key, block in tableau.blocks.items()}
         self.forests: list[list[list[_Forest]]] = [[[_Forest(space.one, ())]] for space in tableau.spaces]
         self.branches: list[list[list[_Forest]]] = [[[]] for _ in tableau.spaces]
 
@@ -122,7 +123,7 @@ class _Spans:
         for m in range(self.tableau.size):
             if (rows, m) in self.maps:
                 members = self.stage_vectors(m, order)
-                images = self._apply(self.maps[rows, m] * order, [x.vector for x in members])
+                images = self.maps[rows, m].images([tuple(order * y for y in x.vector) for x in members])
                 yield [_Forest(image, (Tree(m, x.branches),)) for image, x in zip(images, members, strict=True)]
 
     def _new_forests(self, rows: int, order: int) -> Iterator[list[_Forest]]:
@@ -150,25 +151,3 @@ class _Spans:
         if self.degree == 1:
             return cast("list[fmpq]", list(vector))
         return [x for number in vector for x in coordinates(number, self.degree)]
-
-    def _flatten(self, block: Matrix) -> fmpq_mat:
-        """The block as a map over ℚ, transposed to act on rows: each number by its multiplication matrix."""
-        field, d = self.tableau.field, self.degree
-        if field is None:
-            return to_flint(block, len(block[0])).transpose()
-        theta = [field.from_coordinates([fmpq(int(i == k)) for i in range(d)]) for k in range(d)]
-        columns = [
-            [x for row in block for x in coordinates(row[j] * power, d)]
-            for j in range(len(block[0]))
-            for power in theta
-        ]
-        return fmpq_mat(columns)
-
-    def _apply(self, block: fmpq_mat, vectors: Sequence[Vector]) -> list[Vector]:
-        if not vectors:
-            return []
-        rows = (fmpq_mat([self._flat(v) for v in vectors]) * block).tolist()
-        field, d = self.tableau.field, self.degree
-        if field is None:
-            return [tuple(row) for row in rows]
-        return [tuple(field.from_coordinates(row[i : i + d]) for i in range(0, len(row), d)) for row in rows]

@@ -100,6 +100,4 @@ def simplifying(tableau: Tableau, limit: int = DEFAULT_LIMIT, tolerance: fmpq = 
 def consistent_blocks(tableau: Tableau, tolerance: fmpq = ZERO) -> dict[tuple[int, int], bool]:
     """For each block that exists whether A^{l,m} 𝟙 = c^{l}, eq. (Aone), within ``tolerance`` at every stage."""
     defects = Defects(tableau)
-    return {
-        (l, m): vector_within(tableau.space(l), defects.consistency(l, m), tolerance) for l, m in tableau.edges()
-    }
+    return {(l, m): vector_within(tableau.space(l), defects.C(l, m, 1), tolerance) for l, m in tableau.edges()}

@@ -8,7 +8,7 @@ from __future__ import annotations
 from dataclasses import replace
 
 from garkcli.errors import ZeroWeight
-from garkcli.exact.matrix import Matrix, SingularMatrixError, Vector, apply, outer, subtract, transpose
+from garkcli.exact.matrix import Matrix, SingularMatrixError, Vector, add, outer, subtract, transpose
 from garkcli.tableau.stages import PointSpace, StageSpace
 from garkcli.tableau.tableau import Colour, Tableau
 
@@ -99,11 +99,16 @@ def is_symplectic(tableau: Tableau) -> bool:
 
 
 def _is_symplectic_between(tableau: Tableau, l: int, m: int) -> bool:
+    if tableau.block(l, m) is None or tableau.block(m, l) is None:
+        return tableau.block(l, m) is tableau.block(m, l)
+    return not any(any(row) for row in symplectic_defect(tableau, l, m))
+
+
+def symplectic_defect(tableau: Tableau, l: int, m: int) -> Matrix:
+    """B^l A^{l,m} + (A^{m,l})ᵀ B^m − b_l b_mᵀ as a bilinear form on the spaces of l and m; both blocks exist."""
     forth, back = tableau.block(l, m), tableau.block(m, l)
     if forth is None or back is None:
-        return forth is back
+        raise KeyError((l, m))
     b_l, b_m = tableau.colours[l].b, tableau.colours[m].b
-    gram_l, gram_m = tableau.space(l).gram(b_l), tableau.space(m).gram(b_m)
-    left = tuple(apply(gram_l, column) for column in transpose(forth))  # (G_l A^{l,m})ᵀ
-    right = tuple(apply(gram_m, column) for column in transpose(back))  # (A^{m,l})ᵀ G_m
-    return all(left[j][i] + right[i][j] == b_l[i] * b_m[j] for i in range(len(b_l)) for j in range(len(b_m)))
+    both = add(tableau.space(l).form(b_l, forth), transpose(tableau.space(m).form(b_m, back)))
+    return subtract(both, outer(b_l, b_m))

@@ -28,6 +28,7 @@ from garkcli.exact.matrix import (
     dot,
     identity,
     is_rational,
+    multiply,
     solve,
     transpose,
 )
@@ -82,6 +83,13 @@ class StageSpace(ABC):
         """G with entries weights(e_i ⊙ e_j): the bilinear form that B^{l} is in the paper."""
         return tuple(self.times(weights, e) for e in identity(self.stages))
 
+    def form(self, weights: Vector, block: Matrix) -> Matrix:
+        """The bilinear form (f, g) ↦ weights(f ⊙ A g), with a row for each f, of a block A that leads to here.
+
+        At points this is B A.
+        """
+        return multiply(self.gram(weights), block)
+
     def adjoint(self, block: Matrix, weights: Vector, source: StageSpace, source_weights: Vector) -> Matrix:
         """The map A* from here to ``source`` with ⟨A f, g⟩ = ⟨f, A* g⟩, for a block A from ``source`` to here.
 
@@ -90,9 +98,7 @@ class StageSpace(ABC):
         Raises:
             SingularMatrixError: a weight of ``source`` is zero.
         """
-        gram = self.gram(weights)
-        right = tuple(apply(gram, column) for column in transpose(block))
-        return solve(source.gram(source_weights), right)
+        return solve(source.gram(source_weights), transpose(self.form(weights, block)))
 
 
 @dataclass(frozen=True)
@@ -131,6 +137,9 @@ class PointSpace(StageSpace):
                 f"nodes c_{i + 1} and c_{j + 1} are both {self.points[i]}: no interpolation through them",
                 "spell the blocks out, or choose a method with distinct nodes",
             ) from None
+
+    def form(self, weights: Vector, block: Matrix) -> Matrix:
+        return tuple(tuple(w * a for a in row) for w, row in zip(weights, block, strict=True))
 
     def adjoint(self, block: Matrix, weights: Vector, source: StageSpace, source_weights: Vector) -> Matrix:
         if not isinstance(source, PointSpace):

@@ -12,6 +12,7 @@ from hypothesis import given
 from hypothesis import strategies as st
 
 from garkcli.errors import MethodError, ZeroWeight
+from garkcli.exact.matrix import dot, identity, transpose
 from garkcli.order.certificate import find_order
 from garkcli.order.simplifying import simplifying
 from garkcli.tableau.conjugate import conjugate, conjugate_block, is_symplectic
@@ -253,3 +254,16 @@ def test_edges_turn_round(make: Callable[[], Tableau]) -> None:
     tableau = make()
     assert set(conjugate(tableau).edges()) == {(m, l) for l, m in tableau.edges()}
     assert conjugate(conjugate(tableau)) == tableau
+
+
+@given(FAMILIES, FAMILIES, seeds)
+def test_the_form_of_a_block_is_the_weights_of_products(here: str, there: str, seed: int) -> None:
+    """In every stage space the entries of ``form`` are b(e_i ⊙ A e_j)."""
+    tableau = mixed((here, there), seed)
+    for l, m in tableau.edges():
+        space, b, block = tableau.space(l), tableau.colours[l].b, tableau.block(l, m)
+        assert block is not None
+        images = transpose(block)
+        assert space.form(b, block) == tuple(
+            tuple(dot(b, space.product(e, image)) for image in images) for e in identity(space.stages)
+        )

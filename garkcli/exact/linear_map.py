@@ -1,0 +1,78 @@
+"""A matrix made ready to act on many vectors at once.
+
+Over ℚ that is one product of two matrices in python-flint. Over K = ℚ(θ) of degree d the matrix is Σ θᵏ A_k with
+rational A_k, vectors are Σ θʲ v_j, and
+
+    A v = Σ_{j,k} θ^(j+k) A_k v_j:
+
+at most d² products over ℚ, and one reduction for each entry of the result.
+"""
+
+from __future__ import annotations
+
+from collections.abc import Sequence
+from typing import TypeAlias, cast
+
+from flint import fmpq, fmpq_mat, fmpq_poly
+
+from garkcli.exact.field import ZERO, Algebraic, NumberField
+from garkcli.exact.matrix import Matrix, Vector
+
+_Parts: TypeAlias = list[tuple[int, fmpq_mat]]
+"""Pairs (k, A_k)."""
+
+
+class LinearMap:
+    """The map v ↦ A v, and that of functionals, w ↦ wᵀ A.
+
+    Args:
+        rows: the matrix A; it has a row and a column at least.
+        field: the field of its entries and of the vectors; None where all of them are rational.
+
+    >>> LinearMap(((fmpq(1), fmpq(2)), (fmpq(0), fmpq(1, 3))), None).images([(fmpq(1), fmpq(6))])
+    [(13, 2)]
+    """
+
+    def __init__(self, rows: Matrix, field: NumberField | None) -> None:
+        self.field = field
+        self._parts = _parts(rows, field)
+        self._transposed = [(k, part.transpose()) for k, part in self._parts]
+
+    def images(self, vectors: Sequence[Vector]) -> list[Vector]:
+        """A v for each of the vectors."""
+        return _products(vectors, self._transposed, self.field)
+
+    def pullbacks(self, functionals: Sequence[Vector]) -> list[Vector]:
+        """wᵀ A for each of the functionals."""
+        return _products(functionals, self._parts, self.field)
+
+
+def _products(rows: Sequence[Vector], parts: _Parts, field: NumberField | None) -> list[Vector]:
+    if not rows:
+        return []
+    powers: dict[int, fmpq_mat] = {}
+    for j, left in _parts(rows, field):
+        for k, right in parts:
+            powers[j + k] = powers[j + k] + left * right if j + k in powers else left * right
+    if field is None or len(powers) == 1:  # θ⁰ is always among them
+        return [tuple(row) for row in powers[0].tolist()]
+    zeros = fmpq_mat(len(rows), powers[0].ncols())
+    polynomials = [powers.get(n, zeros).tolist() for n in range(max(powers) + 1)]
+    return [
+        tuple(field.element(fmpq_poly(list(entry))) for entry in zip(*coefficients, strict=True))
+        for coefficients in zip(*polynomials, strict=True)
+    ]
+
+
+def _parts(rows: Sequence[Vector], field: NumberField | None) -> _Parts:
+    """The rational matrices of Σ θᵏ A_k, those that are zero left out, but for A_0."""
+    height, width = len(rows), len(rows[0])
+    if field is None:
+        return [(0, fmpq_mat(height, width, cast("list[fmpq]", [x for row in rows for x in row])))]
+    entries = [x.poly if isinstance(x, Algebraic) else x for row in rows for x in row]
+    parts = [(0, fmpq_mat(height, width, [x[0] if isinstance(x, fmpq_poly) else x for x in entries]))]
+    for k in range(1, field.degree):
+        coordinates = [x[k] if isinstance(x, fmpq_poly) else ZERO for x in entries]
+        if any(coordinates):
+            parts.append((k, fmpq_mat(height, width, coordinates)))
+    return parts
