@@ -46,9 +46,11 @@ class Numbers:
     parameters: dict[str, Expression] = field(default_factory=dict)
     entries: list[Entry] = field(default_factory=list)
     _sizes: dict[str, int] = field(default_factory=dict)
+    _read: dict[str, Expression] = field(default_factory=dict)
 
     def define(self, name: str, value: Expression) -> None:
         """Let ``name`` stand for ``value`` in all coefficients read from now on."""
+        self._read.clear()
         self.parameters[name] = value
         self._sizes[name] = size_of(value, {})
 
@@ -58,16 +60,22 @@ class Numbers:
         text = self.source.scalar(node, where)
         if text is not None and not self._is_misread(node, text, where):
             try:
-                parsed = parse(text)
-                if size_of(parsed, self._sizes) > MAX_SIZE:
-                    message = f"more than {MAX_SIZE} operations, with the parameters written out"
-                    raise LimitExceeded(message, "write it shorter", 0, len(text))
-                expression = substitute(parsed, self.parameters)
+                expression = self._expression(text)
             except ExpressionError as error:
                 self.source.expression_fault(node, where, _explained(error, text, node))
         entry = Entry(expression, node, where)
         self.entries.append(entry)
         return entry
+
+    def _expression(self, text: str) -> Expression:
+        """What a text means; the same object for the same text, which large matrices repeat a lot."""
+        if text not in self._read:
+            parsed = parse(text)
+            if size_of(parsed, self._sizes) > MAX_SIZE:
+                message = f"more than {MAX_SIZE} operations, with the parameters written out"
+                raise LimitExceeded(message, "write it shorter", 0, len(text))
+            self._read[text] = substitute(parsed, self.parameters)
+        return self._read[text]
 
     def _is_misread(self, node: Node, text: str, where: str) -> bool:
         if not isinstance(node, ScalarNode) or node.style in {"'", '"'}:
@@ -132,14 +140,19 @@ class Values:
     def __init__(self, numbers: Numbers) -> None:
         source = numbers.source
         self._values: dict[int, Number] = {}
+        expressions = {id(entry.expression): entry.expression for entry in numbers.entries}
         try:
-            domain = Domain(entry.expression for entry in numbers.entries)
+            domain = Domain(expressions.values())
         except (UndefinedValue, LimitExceeded) as error:
             self._find_culprits(numbers, error)
             return
+        known: dict[int, Number] = {}
         for entry in numbers.entries:
+            key = id(entry.expression)
             try:
-                self._values[id(entry)] = domain.evaluate(entry.expression)
+                if key not in known:
+                    known[key] = domain.evaluate(entry.expression)
+                self._values[id(entry)] = known[key]
             except ExpressionError as error:
                 source.expression_fault(entry.node, entry.where, error)
 

@@ -100,3 +100,12 @@ def test_nothing_in_a_file_is_executed(tmp_path: object) -> None:
     from pathlib import Path
 
     assert not Path(mark).exists()
+
+
+def test_a_text_means_what_its_parameters_mean() -> None:
+    """A name that is used before it is defined is a fault there, and there alone."""
+    with pytest.raises(MethodFileError) as caught:
+        loads("parameters: {a: x, x: 1/2}\nmethods: [{A: [[x]], b: [2*x]}]\n")
+    (fault,) = caught.value.faults
+    assert (fault.line, fault.column) == (1, 17)
+    assert loads("parameters: {x: 1/2}\nmethods: [{A: [[x]], b: [2*x]}]\n").tableau.blocks[0, 0] == ((fmpq(1, 2),),)
