@@ -19,7 +19,9 @@ import pytest
 from tests.cli.harness import ROOT
 
 SECONDS = 5.0
-"""What no answer may take; the test gives up a little later."""
+"""Processor time that no answer may take, so that a busy machine does not matter."""
+PATIENCE = 60.0
+"""After so many seconds of anything a test gives up."""
 MEGABYTES = 1500
 FAILING = "tests/examples/failing/collocation-misprinted.gark.yaml"
 
@@ -42,7 +44,7 @@ def gark(*arguments: str, cwd: Path = ROOT, stdin: bytes = b"") -> subprocess.Co
         env=environment(),
         input=stdin,
         capture_output=True,
-        timeout=4 * SECONDS,
+        timeout=PATIENCE,
         preexec_fn=_limited,  # no threads here
     )
     return subprocess.CompletedProcess(
@@ -141,13 +143,12 @@ HOSTILE: dict[str, str | bytes] = {
 
 
 ONE_BY_ONE = """
-import json, os, resource, sys, time
+import json, os, resource, sys
 from garkcli.cli import main
 from garkcli.methodfile import check
 
 megabytes, *files = sys.argv[1:]
 for file in files:
-    start = time.perf_counter()
     child = os.fork()
     if child == 0:
         limit = int(megabytes) << 20
@@ -159,7 +160,8 @@ for file in files:
         os.dup2(report, 2)
         main(["check", file])
     _, status, usage = os.wait4(child, 0)
-    answer = [os.waitstatus_to_exitcode(status), time.perf_counter() - start, usage.ru_maxrss / 1024]
+    seconds = usage.ru_utime + usage.ru_stime
+    answer = [os.waitstatus_to_exitcode(status), seconds, usage.ru_maxrss / 1024]
     print(json.dumps(answer), flush=True)
 """
 """Checks files one after the other, each in a process of its own that has the program loaded already."""
@@ -167,7 +169,7 @@ for file in files:
 
 @dataclass(frozen=True)
 class Answer:
-    """What became of one file."""
+    """What became of one file; ``seconds`` of processor time."""
 
     code: int
     seconds: float
@@ -219,9 +221,9 @@ def big_explicit(stages: int, entry: str) -> str:
     return f"methods:\n- A: [{', '.join(rows)}]\n  b: [{weights}]\n"
 
 
-@pytest.mark.parametrize(("stages", "entry"), [(300, "1/300"), (150, "'sqrt(2)/300'")])
+@pytest.mark.parametrize(("stages", "entry"), [(300, "1/300"), (300, "'sqrt(2)/300'"), (150, "'cbrt(2)/300'")])
 def test_a_big_method_is_answered_or_refused(stages: int, entry: str, tmp_path: Path) -> None:
-    """Hundreds of explicit stages, rational or not: an order or a refusal, in 5 seconds and 500 MB."""
+    """Hundreds of explicit stages, rational or not: an order or a refusal, in 5 seconds of work and 500 MB."""
     file = tmp_path / "m.gark.yaml"
     file.write_text(big_explicit(stages, entry))
     script = (
@@ -230,23 +232,23 @@ def test_a_big_method_is_answered_or_refused(stages: int, entry: str, tmp_path: 
         "try:\n"
         "    main(['check', 'm.gark.yaml', '--format', 'json'])\n"
         "finally:\n"
-        "    print(resource.getrusage(resource.RUSAGE_SELF).ru_maxrss // 1024, file=sys.stderr)\n"
+        "    usage = resource.getrusage(resource.RUSAGE_SELF)\n"
+        "    print(usage.ru_utime + usage.ru_stime, usage.ru_maxrss / 1024, file=sys.stderr)\n"
     )
-    start = time.perf_counter()
     done = subprocess.run(
         [sys.executable, "-c", script],
         cwd=tmp_path,
         env=environment(),
         capture_output=True,
         text=True,
-        timeout=60,
+        timeout=PATIENCE,
         preexec_fn=_limited,
     )
-    seconds = time.perf_counter() - start
     assert done.returncode in {0, 2}, done.stderr[-500:]
     assert ('"order": 1,' if done.returncode == 0 else '"errors"') in done.stdout
+    seconds, megabytes = map(float, done.stderr.split()[-2:])
     assert seconds < SECONDS
-    assert int(done.stderr.split()[-1]) < 500
+    assert megabytes < 500
 
 
 # -- things that are no files -------------------------------------------------------------------------------------
@@ -260,9 +262,7 @@ def test_what_is_no_file_is_refused(tmp_path: Path) -> None:
     (tmp_path / "dangling.gark.yaml").symlink_to("nowhere")
     names = ("fifo.gark.yaml", "folder", "nowhere.gark.yaml", "loop.gark.yaml", "dangling.gark.yaml", "/dev/zero")
     for name in names:
-        start = time.perf_counter()
         assert name in refused(gark("check", name, cwd=tmp_path))
-        assert time.perf_counter() - start < SECONDS
     assert "fifo.gark.yaml" in refused(gark("check", ".", "-j", "2", cwd=tmp_path))
 
 
@@ -285,7 +285,7 @@ def test_an_endless_standard_input_is_refused() -> None:
             env=environment(),
             capture_output=True,
             text=True,
-            timeout=4 * SECONDS,
+            timeout=PATIENCE,
             preexec_fn=_limited,
         )
     assert "more than" in refused(done)
