@@ -9,7 +9,8 @@ GarkError                     what is wrong, and the cure
 │   ├── CoincidingNodes       a rule interpolates at nodes that are not distinct
 │   ├── ZeroWeight            a conjugate divides by a weight that is zero
 │   └── UnknownFamily         no such family, or not with that many stages
-├── MethodFileError           one or more faults of a method file, each with its position
+├── NoLegendreTransform       a Lagrangian whose Hamiltonian is not found
+├── MethodFileError           one or more faults of a method or problem file, each with its position
 └── UsageProblem              options that do not go together with the method at hand
 """
 
@@ -68,13 +69,17 @@ class UnknownFamily(MethodError):
     """No family of that name, or not with that many stages."""
 
 
+class NoLegendreTransform(GarkError):
+    """The momenta of a Lagrangian could not be solved for its velocities."""
+
+
 class UsageProblem(GarkError):
     """The options of a command do not fit the method or each other."""
 
 
 @dataclass(frozen=True)
 class Fault:
-    """One fault of a method file; ``line`` and ``column`` count from 1 and are 0 where unknown."""
+    """One fault of a method or problem file; ``line`` and ``column`` count from 1 and are 0 where unknown."""
 
     message: str
     help: str = ""
@@ -96,7 +101,7 @@ def did_you_mean(word: str, known: Iterable[str]) -> str:
 
 
 class MethodFileError(GarkError):
-    """A file that cannot be read as a method: every fault found in it, in file order."""
+    """A file that cannot be read as a method or a problem: every fault found in it, in file order."""
 
     def __init__(self, source: str, faults: Sequence[Fault], text: str = "") -> None:
         super().__init__("; ".join(fault.message for fault in faults))

@@ -19,7 +19,7 @@ if TYPE_CHECKING:
     from garkcli.methodfile.build import MethodFile
     from garkcli.tableau.tableau import Tableau
 
-PROBLEMS = ("oscillator", "split-oscillator", "pendulum", "kepler", "henon-heiles", "fput", "generic")
+PROBLEMS = ("oscillator", "split-oscillator", "pendulum", "kepler", "henon-heiles", "fput", "double-pendulum", "generic")
 """What --problem takes."""
 
 

@@ -1,7 +1,7 @@
 """The built-in Hamiltonian problems, split for the number of terms of a method.
 
-Separable problems give T(p) to the first term and the potential to the others: one part each where there are as
-many parts as terms, equal shares of all of it otherwise. ``generic`` has no separable term.
+The kinetic energy goes to the first term and the potential to the others: one part each where there are as many
+parts as terms, equal shares of all of it otherwise. ``generic`` has no separable term.
 """
 
 from __future__ import annotations
@@ -11,7 +11,7 @@ from dataclasses import dataclass
 from random import Random
 from typing import Any
 
-from flint import fmpq
+from flint import arb, fmpq
 
 from garkcli.dynamics.hamiltonian import Hamiltonian, symbols
 from garkcli.errors import UsageProblem, did_you_mean
@@ -22,12 +22,12 @@ _FORMS = 3  # powers of linear forms in each term of generic
 
 
 @dataclass(frozen=True)
-class Separable:
-    """H = T(p) + Σ potentials(q).
+class Mechanical:
+    """H = T + Σ potentials(q).
 
     Attributes:
         variables: names of the positions.
-        kinetic: T of the momenta.
+        kinetic: T of the positions and momenta.
         potentials: the parts of the potential, of the positions.
         initial: q(0), then p(0).
         t_end: the default final time.
@@ -35,7 +35,7 @@ class Separable:
     """
 
     variables: tuple[str, ...]
-    kinetic: Callable[..., Any]
+    kinetic: Callable[[tuple[Any, ...], tuple[Any, ...]], Any]
     potentials: Callable[..., tuple[Any, ...]]
     initial: tuple[fmpq, ...]
     t_end: fmpq
@@ -53,16 +53,16 @@ def hamiltonian(name: str, terms: int, seed: int = 1) -> Hamiltonian:
     """
     if name == "generic":
         return _generic(terms, seed)
-    if name not in SEPARABLE:
-        raise UsageProblem(f"no problem {name!r}", did_you_mean(name, (*SEPARABLE, "generic")))
-    return _split(name, SEPARABLE[name], terms)
+    if name not in MECHANICAL:
+        raise UsageProblem(f"no problem {name!r}", did_you_mean(name, (*MECHANICAL, "generic")))
+    return _split(name, MECHANICAL[name], terms)
 
 
-def _split(name: str, made: Separable, terms: int) -> Hamiltonian:
+def _split(name: str, made: Mechanical, terms: int) -> Hamiltonian:
     import sympy
 
     q, p = symbols(made.variables, "q"), symbols(made.variables, "p")
-    T, parts = made.kinetic(*p), made.potentials(*q)
+    T, parts = made.kinetic(q, p), made.potentials(*q)
     V = sum(parts)
     if terms == 1:
         split = (T + V,)
@@ -103,8 +103,19 @@ def _generic(terms: int, seed: int) -> Hamiltonian:
     return Hamiltonian("generic", variables, tuple(split), start, fmpq(1))
 
 
-def _quadratic(*p: Any) -> Any:
+def _quadratic(_: tuple[Any, ...], p: tuple[Any, ...]) -> Any:
     return sum(x**2 for x in p) / 2
+
+
+def _double_pendulum(q: tuple[Any, ...], _: tuple[Any, ...]) -> Any:
+    """T of two rods of length 1 with masses 1, in absolute angles: its mass matrix depends on their difference."""
+    import sympy
+
+    from garkcli.dynamics.legendre import legendre
+    from garkcli.dynamics.mass import velocities
+
+    (a, b), (u, w) = q, velocities(("a", "b"))
+    return legendre(u**2 + w**2 / 2 + u * w * sympy.cos(a - b), ("a", "b"), dict.fromkeys(q, arb(0)))
 
 
 def _cos(x: Any) -> Any:
@@ -125,17 +136,17 @@ def _chain(*q: Any) -> tuple[Any, ...]:
     return (sum(r**2 / 2 + r**3 / 12 + r**4 / 8 for r in stretched),)
 
 
-SEPARABLE: Mapping[str, Separable] = {
-    "oscillator": Separable(("q",), _quadratic, lambda q: (q**2 / 2,), (fmpq(1), fmpq(1, 2)), fmpq(4)),
-    "split-oscillator": Separable(
+MECHANICAL: Mapping[str, Mechanical] = {
+    "oscillator": Mechanical(("q",), _quadratic, lambda q: (q**2 / 2,), (fmpq(1), fmpq(1, 2)), fmpq(4)),
+    "split-oscillator": Mechanical(
         ("x", "y"),
         _quadratic,
         lambda x, y: (x**2 / 2, 25 * (y - x) ** 2 / 8),
         (fmpq(1), fmpq(1, 2), fmpq(0), fmpq(1)),
         fmpq(2),
     ),
-    "pendulum": Separable(("x",), _quadratic, lambda x: (1 - _cos(x),), (fmpq(1), fmpq(1, 2)), fmpq(4)),
-    "kepler": Separable(
+    "pendulum": Mechanical(("x",), _quadratic, lambda x: (1 - _cos(x),), (fmpq(1), fmpq(1, 2)), fmpq(4)),
+    "kepler": Mechanical(
         ("x", "y"),
         _quadratic,
         _kepler,
@@ -143,19 +154,26 @@ SEPARABLE: Mapping[str, Separable] = {
         fmpq(2),
         lambda x, y, px, py: (("angular momentum", x * py - y * px),),
     ),
-    "henon-heiles": Separable(
+    "henon-heiles": Mechanical(
         ("x", "y"),
         _quadratic,
         lambda x, y: ((x**2 + y**2) / 2 + x**2 * y - y**3 / 3,),
         (fmpq(0), fmpq(3, 10), fmpq(2, 5), fmpq(1, 10)),
         fmpq(4),
     ),
-    "fput": Separable(
+    "fput": Mechanical(
         ("x", "y", "z"),
         _quadratic,
         _chain,
         (fmpq(1), fmpq(1, 2), fmpq(-1, 4), fmpq(0), fmpq(1, 2), fmpq(0)),
         fmpq(2),
     ),
+    "double-pendulum": Mechanical(
+        ("a", "b"),
+        _double_pendulum,
+        lambda a, b: (1 - _cos(a), 2 - _cos(a) - _cos(b)),  # of the upper and of the lower mass
+        (fmpq(1), fmpq(-1, 2), fmpq(1), fmpq(1, 2)),
+        fmpq(2),
+    ),
 }
-"""The problems H = T(p) + V(q)."""
+"""The problems H = T + V(q); T depends on the momenta alone but for the double pendulum."""
