@@ -45,7 +45,7 @@ FORMATS = ["auto", "text", "json", "sarif", "junit", "github", "markdown"]
 def command(
     files: tuple[str, ...], max_order: int, error_constants: bool, baseline: str | None, jobs: int, output: Output
 ) -> int:
-    r"""Everything known about each method, and its claims.
+    """Everything known about each method, and its claims.
 
     FILE is a method file, a directory (all *.gark.yaml below it), a pattern (in quotes, ** for any
     directories), or - for standard input.
@@ -54,7 +54,6 @@ def command(
     condition fails next; B, C and D of every block and the bound they give; consistency and symplecticity;
     the claims under `expect`. The format auto is github in GitHub Actions and text elsewhere.
 
-    \b
     Exit code: 0 every claim holds, 1 a claim fails, 2 a file cannot be read as a method.
     """
     from garkcli.cli.parallel import check_files

@@ -60,7 +60,7 @@ class _LazyGroup(click.Group):
 @click.version_option(__version__, "--version", prog_name="gark", message="%(prog)s %(version)s")
 @click.option("--debug", is_flag=True, help="Show the traceback of a fault of the program.")
 def gark(debug: bool) -> None:
-    r"""Order conditions and design of generalized additive Runge-Kutta methods, decided exactly.
+    """Order conditions and design of generalized additive Runge-Kutta methods, decided exactly.
 
     A method file (YAML) describes the diagonal methods and how the blocks between them are made:
 
@@ -69,7 +69,7 @@ def gark(debug: bool) -> None:
           - {family: gauss, stages: 2}
           - {family: lobatto-iiia, stages: 3}
         transfer: collocation
-    """
+    """  # noqa: D301 -- click's sign for lines that stay as they are
 
 
 def main(arguments: Sequence[str] | None = None) -> NoReturn:

@@ -34,3 +34,13 @@ def test_reference_is_the_help() -> None:
         PAGE.write_text(head + mark + wanted, encoding="utf-8")
         return
     assert found == wanted
+
+
+def test_no_help_shows_a_mark_of_its_layout() -> None:
+    """The sign that keeps lines as they are does its work and is not seen; the example keeps its lines."""
+    runner = CliRunner()
+    texts = [
+        runner.invoke(gark, [*name, "--help"], terminal_width=80).output for name in ([], *([x] for x in COMMANDS))
+    ]
+    assert not any("\\" in text or "\b" in text for text in texts)
+    assert "      methods:\n        - {family: gauss, stages: 2}\n" in texts[0]
