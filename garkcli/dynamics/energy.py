@@ -18,6 +18,7 @@ from flint import arb, arb_mat, ctx, fmpq
 
 from garkcli.dynamics.linear import conserves_energy, enclosure, linear_step, whole_steps
 from garkcli.dynamics.problems import Oscillator
+from garkcli.dynamics.stability import Stability, stability
 from garkcli.errors import UsageProblem
 from garkcli.exact.matrix import Matrix
 from garkcli.tableau.tableau import Tableau
@@ -35,6 +36,7 @@ SERIES = 2000
 BLOW_UP = 1e30
 """How many times the energy the energy error may become before a run ends as unstable."""
 _GOAL = 60  # bits of the largest energy error that balls have to get right
+_ROUNDING = 2.0**-46  # of a slope in all, of the largest error: floats are summed
 _FLOOR = 1000  # energy errors below 2^-1000 count as zero: floats end there
 
 
@@ -52,6 +54,10 @@ class Drift:
         drift: d in the least-squares fit H(t) − H(0) ≈ e + d t + a cos 2θn + b sin 2θn, with e^{±iθ} the
             directions of the eigenvalues of R(h); without a, b where these are real or turn too slowly to be
             told from a line. Energy per unit of time.
+        uncertainty: of ``drift``: how far it is in the halves of the run from that in all of it.
+        amplitude: half the range of H(t) − H(0) − d t.
+        stability: what becomes of the energy for ever, decided exactly.
+        is_exact: whether H is conserved exactly.
         blew_up: whether the energy error passed ``BLOW_UP`` times the energy.
         times: times for a plot, at most ``SERIES``, ascending.
         energy_errors: H(t) − H(0), with its sign, at these times: extremes of equal spans.
@@ -64,13 +70,17 @@ class Drift:
     initial_energy: float
     max_energy_error: float
     drift: float
+    uncertainty: float
+    amplitude: float
+    stability: Stability
+    is_exact: bool
     blew_up: bool
     times: tuple[float, ...]
     energy_errors: tuple[float, ...]
 
 
-def drift(tableau: Tableau, problem: Oscillator, t_end: fmpq, step: fmpq) -> Drift:
-    """Follow the energy of ``problem`` under ``tableau`` to the time ``t_end``.
+def drift(tableau: Tableau, problem: Oscillator, t_end: fmpq, step: fmpq, points: int = SERIES) -> Drift:
+    """Follow the energy of ``problem`` under ``tableau`` to the time ``t_end``; keep a series of ``points``.
 
     Raises:
         UsageProblem: the split does not fit the structure, the step does not divide the time, there are more than
@@ -83,11 +93,14 @@ def drift(tableau: Tableau, problem: Oscillator, t_end: fmpq, step: fmpq) -> Dri
         raise UsageProblem(f"{count} steps (limit {MAX_STEPS})", "choose a shorter time or a larger step")
     R = linear_step(tableau, problem).at(step)
     energy = float(5 * problem.omega**2 / 8)
-    errors = np.zeros(count + 1) if conserves_energy(R, problem.omega) else _energy_errors(R, problem.omega, count)
+    is_exact = conserves_energy(R, problem.omega)
+    errors = np.zeros(count + 1) if is_exact else _energy_errors(R, problem.omega, count)
     too_large = np.flatnonzero(~(np.abs(errors) <= BLOW_UP * energy))
     if too_large.size:
         errors = errors[: int(too_large[0])]
-    kept = _extremes(errors)
+    kept = extremes(errors, points)
+    slope, uncertainty = _drift(errors, _angle(R, problem.omega))
+    left = errors - slope * np.arange(len(errors))
     return Drift(
         problem,
         step,
@@ -95,7 +108,11 @@ def drift(tableau: Tableau, problem: Oscillator, t_end: fmpq, step: fmpq) -> Dri
         len(errors) - 1,
         energy,
         float(np.abs(errors).max()),
-        _slope(errors, _angle(R, problem.omega)) / float(step),
+        slope / float(step),
+        uncertainty / float(step),
+        float(left.max() - left.min()) / 2,
+        stability(R),
+        is_exact,
         bool(too_large.size) or len(errors) <= count,
         tuple((kept * float(step)).tolist()),
         tuple(errors[kept].tolist()),
@@ -179,6 +196,16 @@ def _angle(R: Matrix, omega: fmpq) -> float | None:
     return float(2 * np.arctan2(np.sqrt(-discriminant), (a + d) / 2) % (2 * np.pi))
 
 
+def _drift(errors: Floats, angle: float | None) -> tuple[float, float]:
+    """D of the fit in ``Drift`` and its uncertainty, per step."""
+    import numpy as np
+
+    slope, half = _slope(errors, angle), len(errors) // 2
+    rounding = _ROUNDING * float(np.abs(errors).max()) / len(errors)
+    halves = (_slope(part, angle) for part in (errors[: half + 1], errors[half:]))
+    return slope, max(abs(x - slope) for x in halves) + rounding
+
+
 def _slope(errors: Floats, angle: float | None) -> float:
     """D of the fit in ``Drift``, per step."""
     import numpy as np
@@ -196,12 +223,12 @@ def _slope(errors: Floats, angle: float | None) -> float:
     return float(solution[1]) * largest / float(n[-1])
 
 
-def _extremes(errors: Floats) -> NDArray[np.int64]:
+def extremes(errors: Floats, points: int) -> NDArray[np.int64]:
     """Indices of the least and the greatest value of equal spans, so that a wave keeps its height in a plot."""
     import numpy as np
 
-    if len(errors) <= SERIES:
+    if len(errors) <= points:
         return np.arange(len(errors))
-    spans = np.array_split(np.arange(len(errors)), SERIES // 2)
+    spans = np.array_split(np.arange(len(errors)), points // 2)
     chosen = {int(span[pick(errors[span])]) for span in spans for pick in (np.argmin, np.argmax)}
     return np.array(sorted(chosen))
