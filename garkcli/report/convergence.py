@@ -85,8 +85,10 @@ def _note(result: Result) -> str:
     return result.sees if isinstance(result, Observation) else LINEAR_ONLY
 
 
-def describe(problem: Oscillator) -> str:
-    """The oscillator and its split in one line."""
+def describe(problem: Oscillator | Hamiltonian) -> str:
+    """A problem and its split in one line."""
+    if isinstance(problem, Hamiltonian):
+        return _described(problem)
     shares = ", ".join(f"H{{{l}}}: {_energy(k, v)}" for l, (k, v) in enumerate(problem.shares, start=1))
     return f"q̈ = −ω²q, ω = {problem.omega}; {shares}"
 
@@ -99,7 +101,6 @@ def _energy(k: object, v: object) -> str:
 
 
 def _described(problem: Hamiltonian) -> str:
-    """A nonlinear problem and its split in one line."""
     texts = [str(term).replace("**", "^") for term in problem.terms]
     if sum(map(len, texts)) > _LONGEST:
         terms = f"{len(texts)} terms" if len(texts) > 1 else "one term"
@@ -125,8 +126,8 @@ def _exactly(result: Result) -> str:
 
 
 def _text(result: Result, name: str, paint: Paint) -> list[str]:
-    about = _described(result.problem) if isinstance(result, Observation) else describe(result.problem)
-    lines = [paint("strong", name), *(f"  {line}" for line in _wrapped(f"{about}; to t = {result.t_end}")), ""]
+    about = f"{describe(result.problem)}; to t = {result.t_end}"
+    lines = [paint("strong", name), *(f"  {line}" for line in _wrapped(about)), ""]
     lines += [f"  {line}" for line in aligned(_table(result), gap="   ")]
     observed = "none" if result.observed_order is None else f"{result.observed_order:.2f}"
     verdict = paint.verdict(result.agrees, "they agree", "THEY DISAGREE")
