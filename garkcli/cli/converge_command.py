@@ -8,6 +8,7 @@ from typing import TYPE_CHECKING
 import click
 
 from garkcli.cli.options import CONTEXT, Output, common
+from garkcli.cli.problems import ProblemType, find_problem
 from garkcli.errors import UsageProblem
 
 if TYPE_CHECKING:
@@ -19,14 +20,15 @@ if TYPE_CHECKING:
     from garkcli.methodfile.build import MethodFile
     from garkcli.tableau.tableau import Tableau
 
-PROBLEMS = ("oscillator", "split-oscillator", "pendulum", "kepler", "henon-heiles", "fput", "double-pendulum", "generic")
-"""What --problem takes."""
-
 
 @click.command("converge", context_settings=CONTEXT)
 @click.argument("file", metavar="FILE")
 @click.option(
-    "--problem", type=click.Choice(PROBLEMS), default="oscillator", show_default=True, help="What to solve."
+    "--problem",
+    type=ProblemType(),
+    default="oscillator",
+    show_default=True,
+    help="What to solve: a name that gark list shows, or a problem file.",
 )
 @click.option("--omega", metavar="W", help="The frequency of the oscillator; 1 by default.")
 @click.option("--split", metavar="K:V,...", help="The oscillator's shares of kinetic and potential energy.")
@@ -75,7 +77,7 @@ def command(
     tableau = _applied(method, output)
     time = None if t_end is None else _positive("--t-end", t_end)
     if problem != "oscillator":
-        return _observe(tableau, problem, 1 if seed is None else seed, method, time, _sizes(steps), plot, output)
+        return _observe(tableau, problem, seed, method, time, _sizes(steps), plot, output)
     terms = terms_of(tableau)
     frequency = _rational("--omega", omega or "1")
     oscillator = (
@@ -140,7 +142,7 @@ def _converge(
 def _observe(
     tableau: Tableau,
     name: str,
-    seed: int,
+    seed: int | None,
     method: MethodFile,
     t_end: fmpq | None,
     steps: list[fmpq] | None,
@@ -148,15 +150,13 @@ def _observe(
     output: Output,
 ) -> int:
     """The convergence test on a nonlinear problem."""
-    from garkcli.dynamics.examples import hamiltonian
     from garkcli.dynamics.nonlinear import observe
-    from garkcli.dynamics.problems import terms_of
     from garkcli.dynamics.step import StepFailed
     from garkcli.dynamics.structure import fitted
     from garkcli.report import convergence as report
 
     tableau = fitted(tableau)
-    problem = hamiltonian(name, terms_of(tableau), seed)
+    problem = find_problem(name, tableau, seed)
     try:
         result = observe(tableau, problem, t_end, steps, method.tolerance)
     except StepFailed as error:

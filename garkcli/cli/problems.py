@@ -1,26 +1,86 @@
-"""What ``--problem`` names: a built-in problem, split for the method at hand."""
+"""What ``--problem`` takes: a built-in problem or a problem file, split for the method at hand."""
 
 from __future__ import annotations
 
 from typing import TYPE_CHECKING
 
-from garkcli.errors import UsageProblem
+import click
+from click.shell_completion import CompletionItem
+
+from garkcli.errors import UsageProblem, did_you_mean
 
 if TYPE_CHECKING:
     from garkcli.dynamics.hamiltonian import Hamiltonian
     from garkcli.tableau.tableau import Tableau
 
+PROBLEMS = (
+    "oscillator",
+    "split-oscillator",
+    "pendulum",
+    "kepler",
+    "henon-heiles",
+    "fput",
+    "double-pendulum",
+    "generic",
+)
+"""The names that --problem takes; the tests hold them against ``garkcli.dynamics.problems``."""
+
+
+def is_path(text: str) -> bool:
+    """Whether this is the path of a problem file rather than the name of a built-in problem."""
+    return text == "-" or text.endswith((".yaml", ".yml")) or "/" in text or "\\" in text
+
+
+class ProblemType(click.ParamType):  # type: ignore[type-arg]
+    """A name of ``PROBLEMS`` or the path of a problem file."""
+
+    name = "problem"
+
+    def get_metavar(self, param: click.Parameter, ctx: click.Context | None = None) -> str:  # noqa: ARG002
+        """What help shows."""
+        return "NAME|FILE"
+
+    def convert(self, value: str, param: click.Parameter | None, ctx: click.Context | None) -> str:
+        """Refuse what is neither, before anything is read."""
+        if value not in PROBLEMS and not is_path(value):
+            cure = did_you_mean(value, PROBLEMS)
+            self.fail(f"no problem {value!r}; {cure}; a problem file ends in .yaml", param, ctx)
+        return value
+
+    def shell_complete(
+        self,
+        ctx: click.Context,  # noqa: ARG002
+        param: click.Parameter,  # noqa: ARG002
+        incomplete: str,
+    ) -> list[CompletionItem]:
+        """The names, and files."""
+        names = [CompletionItem(x) for x in PROBLEMS if x.startswith(incomplete)]
+        return names or [CompletionItem(incomplete, type="file")]
+
 
 def find_problem(name_or_path: str, tableau: Tableau, seed: int | None = None) -> Hamiltonian:
-    """The problem called so, split into the terms that ``tableau`` has; ``seed`` is for ``generic``.
+    """The problem called so or described in that file, split into the terms that ``tableau`` is for.
+
+    Args:
+        name_or_path: a name of ``PROBLEMS``, or the path of a problem file.
+        tableau: of the method.
+        seed: for ``generic``; 1 by default.
 
     Raises:
-        UsageProblem: there is no such problem, or it takes no seed.
+        UsageProblem: there is no such problem, it takes no seed, or it has another number of terms.
+        MethodFileError: the file has faults.
     """
-    from garkcli.dynamics.examples import hamiltonian
     from garkcli.dynamics.problems import terms_of
     from garkcli.dynamics.structure import fitted
 
     if seed is not None and name_or_path != "generic":
         raise UsageProblem(f"--seed is for the problem generic, not for {name_or_path}", "leave it out")
-    return hamiltonian(name_or_path, terms_of(fitted(tableau)), 1 if seed is None else seed)
+    terms = terms_of(fitted(tableau))
+    if is_path(name_or_path):
+        from garkcli.dynamics.splitting import fit
+        from garkcli.methodfile.problem import load_problem
+
+        return fit(load_problem(name_or_path), terms)
+    from garkcli.dynamics.examples import hamiltonian
+
+    return hamiltonian(name_or_path, terms, 1 if seed is None else seed)

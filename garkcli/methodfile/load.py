@@ -10,7 +10,7 @@ from garkcli.errors import Fault, MethodFileError
 from garkcli.methodfile.build import Builder, MethodFile, nodes_to_spell_out, refuse_unknown_families
 from garkcli.methodfile.numbers import Values
 from garkcli.methodfile.reader import Reader
-from garkcli.methodfile.source import MAX_BYTES, Source
+from garkcli.methodfile.source import MAX_BYTES, METHOD_FILE, FileKind, Source
 
 SUFFIX = ".gark.yaml"
 """How method files end."""
@@ -41,22 +41,31 @@ def load(path: str) -> MethodFile:
     Raises:
         MethodFileError: every fault of the file, with positions.
     """
-    if path == STDIN:
-        return loads(_decoded(path, sys.stdin.buffer.read(MAX_BYTES + 1)), "<stdin>")
-    file = Path(path)
-    if file.is_dir():
+    if path != STDIN and Path(path).is_dir():
         fault = Fault(f"no {SUFFIX} files in this directory", "name the files, or rename them")
         raise MethodFileError(path, [fault])
+    return loads(*read_text(path, METHOD_FILE))
+
+
+def read_text(path: str, kind: FileKind) -> tuple[str, str]:
+    """The text of a file, or of standard input for ``-``, and what to call it.
+
+    Raises:
+        MethodFileError: there is no such file, or no such text in it.
+    """
+    if path == STDIN:
+        return _decoded("<stdin>", sys.stdin.buffer.read(MAX_BYTES + 1)), "<stdin>"
+    file = Path(path)
     if not file.exists():
         raise MethodFileError(path, [Fault("no such file")])
     if not file.is_file():
-        raise MethodFileError(path, [Fault("not a regular file", "give a method file or a directory of them")])
+        raise MethodFileError(path, [Fault("not a regular file", f"give a {kind.name}")])
     try:
         with file.open("rb") as stream:
             data = stream.read(MAX_BYTES + 1)
     except OSError as error:
         raise MethodFileError(path, [Fault(f"cannot be read: {error.strerror}")]) from None
-    return loads(_decoded(path, data), path)
+    return _decoded(path, data), path
 
 
 def _decoded(name: str, data: bytes) -> str:

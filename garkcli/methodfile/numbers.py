@@ -58,11 +58,11 @@ class Numbers:
         """One coefficient; a faulty one is noted and read as zero, so that reading goes on."""
         expression: Expression = Literal(ZERO)
         text = self.source.scalar(node, where)
-        if text is not None and not self._is_misread(node, text, where):
+        if text is not None and not is_misread(self.source, node, text, where):
             try:
                 expression = self._expression(text)
             except ExpressionError as error:
-                self.source.expression_fault(node, where, _explained(error, text, node))
+                self.source.expression_fault(node, where, explained(error, text, node))
         entry = Entry(expression, node, where)
         self.entries.append(entry)
         return entry
@@ -76,23 +76,6 @@ class Numbers:
                 raise LimitExceeded(message, "write it shorter", 0, len(text))
             self._read[text] = substitute(parsed, self.parameters)
         return self._read[text]
-
-    def _is_misread(self, node: Node, text: str, where: str) -> bool:
-        if not isinstance(node, ScalarNode) or node.style in {"'", '"'}:
-            return False
-        kind = str(node.tag).rpartition(":")[2]
-        if kind in _WORDS:
-            message = f"{where}: {text or 'nothing'!r} is no number: YAML reads it as {kind}"
-            self.source.fault(node, message, "write a number, such as 1/2")
-            return True
-        if _READ_DIFFERENTLY.fullmatch(text):
-            cure = "leave out the _" if "_" in text else "write the number in plain decimal digits"
-            self.source.fault(node, f"{where}: {text} means different numbers to different readers of YAML", cure)
-            return True
-        if text.lower().lstrip("+-") in {".inf", ".nan", "nan", "inf", "infinity"}:
-            self.source.fault(node, f"{where}: {text} is not a number", "coefficients are finite")
-            return True
-        return False
 
     def row(self, node: Node, where: str) -> Row:
         """A row of coefficients; a single value is a row of one."""
@@ -125,7 +108,26 @@ class Numbers:
             self.source.fault(node, message, why)
 
 
-def _explained(error: ExpressionError, text: str, node: Node) -> ExpressionError:
+def is_misread(source: Source, node: Node, text: str, where: str) -> bool:
+    """Note a plain scalar that YAML itself takes for something else than the number it looks like."""
+    if not isinstance(node, ScalarNode) or node.style in {"'", '"'}:
+        return False
+    kind = str(node.tag).rpartition(":")[2]
+    if kind in _WORDS:
+        message = f"{where}: {text or 'nothing'!r} is no number: YAML reads it as {kind}"
+        source.fault(node, message, "write a number, such as 1/2")
+        return True
+    if _READ_DIFFERENTLY.fullmatch(text):
+        cure = "leave out the _" if "_" in text else "write the number in plain decimal digits"
+        source.fault(node, f"{where}: {text} means different numbers to different readers of YAML", cure)
+        return True
+    if text.lower().lstrip("+-") in {".inf", ".nan", "nan", "inf", "infinity"}:
+        source.fault(node, f"{where}: {text} is not a number", "coefficients are finite")
+        return True
+    return False
+
+
+def explained(error: ExpressionError, text: str, node: Node) -> ExpressionError:
     """The cure for what YAML cut in two: root(x, n) without quotes inside brackets."""
     plain = isinstance(node, ScalarNode) and node.style not in {"'", '"'}
     if plain and "root(" in text and text.count("(") > text.count(")"):

@@ -7,6 +7,7 @@ a number as it was written.
 from __future__ import annotations
 
 from collections.abc import Iterable, Iterator
+from dataclasses import dataclass
 
 import yaml
 from yaml.nodes import MappingNode, Node, ScalarNode, SequenceNode
@@ -20,17 +21,49 @@ MAX_NODES = 400_000
 MAX_FAULTS = 200
 """Most faults of one file that are reported one by one."""
 MAX_NESTING = 12
-"""Deepest nesting of lists and mappings; method files need six."""
+"""Deepest nesting of lists and mappings; files need six."""
 
 _LOADER = getattr(yaml, "CSafeLoader", yaml.SafeLoader)
 
 
-class Source:
-    """One file being read: its name, its text, and the faults found so far."""
+@dataclass(frozen=True)
+class FileKind:
+    """What a file is for.
 
-    def __init__(self, name: str, text: str) -> None:
+    Attributes:
+        name: what people call it.
+        smallest: what the smallest one has.
+        start: how one begins.
+        page: where it is described.
+    """
+
+    name: str
+    smallest: str
+    start: str
+    page: str
+
+
+METHOD_FILE = FileKind(
+    "method file",
+    "the smallest file has methods and transfer",
+    "start with methods: or tableau:",
+    "docs/method-file.md",
+)
+PROBLEM_FILE = FileKind(
+    "problem file",
+    "the smallest file has variables, hamiltonian and initial",
+    "start with variables:",
+    "docs/problem-file.md",
+)
+
+
+class Source:
+    """One file being read: its name, its text, its kind, and the faults found so far."""
+
+    def __init__(self, name: str, text: str, kind: FileKind = METHOD_FILE) -> None:
         self.name = name
         self.text = text
+        self.kind = kind
         self.faults: list[Fault] = []
 
     def fault(self, node: Node | None, message: str, cure: str = "", offset: int = 0) -> None:
@@ -38,9 +71,16 @@ class Source:
         if node is None:
             self.faults.append(Fault(message, cure, 1, 1))
             return
+        self.faults.append(Fault(message, cure, *self._place(node, offset)))
+
+    def _place(self, node: Node, offset: int) -> tuple[int, int]:
+        """Line and column of the text of a value, ``offset`` characters into it."""
         mark = node.start_mark
-        quoted = isinstance(node, ScalarNode) and node.style in {"'", '"'}
-        self.faults.append(Fault(message, cure, mark.line + 1, mark.column + 1 + quoted + offset))
+        if not isinstance(node, ScalarNode):
+            return mark.line + 1, mark.column + 1 + offset
+        if node.style in {"|", ">"} or node.end_mark.line > mark.line:
+            return _folded_place(self.text, node, offset)
+        return mark.line + 1, mark.column + 1 + (node.style in {"'", '"'}) + offset
 
     def expression_fault(self, node: Node, where: str, error: ExpressionError) -> None:
         """Note what is wrong with the text of a number."""
@@ -58,7 +98,7 @@ class Source:
     def error(self) -> MethodFileError:
         """What has been found, as one error; faults in file order, each once, and at least one."""
         if not self.faults:
-            self.fault(None, "this is not a method file", "see docs/method-file.md")
+            self.fault(None, f"this is not a {self.kind.name}", f"see {self.kind.page}")
         faults = sorted(dict.fromkeys(self.faults), key=_place)
         if len(faults) > MAX_FAULTS:
             rest = Fault(
@@ -77,7 +117,7 @@ class Source:
                 _refuse_deep(self.text)
             root = yaml.compose(self.text, Loader=_LOADER)
             if root is None:
-                self.fault(None, "the file is empty", "the smallest file has methods and transfer")
+                self.fault(None, "the file is empty", self.kind.smallest)
                 return None
             _walk(root)
         except RecursionError:
@@ -95,7 +135,7 @@ class Source:
             self.faults.append(Fault(error.message, error.cure, error.line, error.column))
             return None
         if not isinstance(root, MappingNode):
-            self.fault(root, "a method file is a mapping of keys to values", "start with methods: or tableau:")
+            self.fault(root, f"a {self.kind.name} is a mapping of keys to values", self.kind.start)
             return None
         return root
 
@@ -177,7 +217,7 @@ def _refuse_deep(text: str) -> None:
         if isinstance(event, (yaml.SequenceStartEvent, yaml.MappingStartEvent)):
             depth += 1
             if depth > MAX_NESTING:
-                raise _TooLargeError(event, _TOO_DEEP, "no method needs that")
+                raise _TooLargeError(event, _TOO_DEEP, "no file needs that")
         elif isinstance(event, (yaml.SequenceEndEvent, yaml.MappingEndEvent)):
             depth -= 1
 
@@ -192,7 +232,7 @@ def _walk(root: Node) -> None:
         if count > MAX_NODES:
             raise _TooLargeError(root, f"more than {MAX_NODES} values in one file", "aliases count each time")
         if depth > MAX_NESTING:
-            raise _TooLargeError(node, _TOO_DEEP, "no method needs that; or an anchor contains itself")
+            raise _TooLargeError(node, _TOO_DEEP, "no file needs that; or an anchor contains itself")
         pending += ((child, depth + 1) for child in _children(node))
 
 
@@ -207,6 +247,24 @@ def _children(node: Node) -> Iterator[Node]:
 
 def _place(fault: Fault) -> tuple[int, int]:
     return fault.line, fault.column
+
+
+def _folded_place(text: str, node: ScalarNode, offset: int) -> tuple[int, int]:
+    """Where a value over several lines has its character ``offset``: YAML changes nothing but the space between."""
+    position = node.start_mark.index
+    if node.style in {"|", ">"}:
+        position = text.find("\n", position)
+    elif node.style:
+        position += 1
+    for sign in node.value[:offset]:
+        found = position if sign.isspace() else text.find(sign, position) + 1
+        if not found:  # written as an escape
+            break
+        position = found
+    while position < len(text) and text[position].isspace():
+        position += 1
+    line = text.count("\n", 0, position)
+    return line + 1, position - text.rfind("\n", 0, position)
 
 
 def keys_of(node: Node) -> set[str]:

@@ -7,7 +7,7 @@ import json
 import pytest
 from flint import arb, ctx, fmpq
 
-from garkcli.cli.converge_command import PROBLEMS as CHOICES
+from garkcli.cli.problems import PROBLEMS as CHOICES
 from garkcli.dynamics.convergence import Row
 from garkcli.dynamics.examples import hamiltonian
 from garkcli.dynamics.nonlinear import Observation, _plateau, observe, solution

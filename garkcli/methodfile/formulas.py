@@ -1,0 +1,165 @@
+"""Formulas in a problem file: text to expressions with known names, and their values."""
+
+from __future__ import annotations
+
+from collections.abc import Mapping
+from dataclasses import dataclass, field
+from typing import Any
+
+from flint import arb, ctx, fmpq
+from yaml.nodes import Node
+
+from garkcli.dynamics.translate import Translator
+from garkcli.errors import ExpressionError, LimitExceeded, did_you_mean
+from garkcli.exact.expression import Expression
+from garkcli.exact.formula import CONSTANTS, RESERVED, parse_formula
+from garkcli.exact.rewriting import names_in, size_of
+from garkcli.exact.values import Value, value_of
+from garkcli.methodfile.numbers import MAX_SIZE, explained, is_misread
+from garkcli.methodfile.source import Source, is_null, shortened
+
+BITS = 320
+"""Precision of the values of formulas."""
+PLACES = 60
+"""Decimals to which an irrational initial value is taken."""
+
+
+@dataclass
+class Formulas:
+    """Reads the formulas of one file.
+
+    Attributes:
+        source: where faults are noted.
+        values: the parameters read so far.
+        made: their sympy expressions.
+    """
+
+    source: Source
+    values: dict[str, Value] = field(default_factory=dict)
+    made: dict[str, Any] = field(default_factory=dict)
+    _sizes: dict[str, int] = field(default_factory=dict)
+
+    def parsed(
+        self, node: Node, where: str, names: Mapping[str, str] | None = None, noun: str = "parameter"
+    ) -> Expression | None:
+        """The expression of a text; None where there are faults, which are noted.
+
+        Args:
+            node: the text.
+            where: what it is, for messages.
+            names: for names that may not stand here, the cure; "" for those that may. Parameters always may.
+            noun: what a name can be here.
+        """
+        text = self.source.scalar(node, where)
+        if text is None:
+            return None
+        if is_null(node):
+            self.source.fault(node, f"{where}: nothing is here", "write a formula")
+            return None
+        if is_misread(self.source, node, text, where):
+            return None
+        try:
+            expression = parse_formula(text)
+            if size_of(expression, self._sizes) > MAX_SIZE:
+                message = f"more than {MAX_SIZE} operations, with the parameters written out"
+                raise LimitExceeded(message, "write it shorter", 0, len(text))
+        except ExpressionError as error:
+            self.source.expression_fault(node, where, explained(error, text, node))
+            return None
+        return expression if self._are_known(expression, node, where, names or {}, noun) else None
+
+    def _are_known(
+        self, expression: Expression, node: Node, where: str, names: Mapping[str, str], noun: str
+    ) -> bool:
+        allowed = {*self.values, *CONSTANTS, *(x for x, cure in names.items() if not cure)}
+        strangers = {x.name: x for x in reversed([*names_in(expression)]) if x.name not in allowed}
+        for name, place in strangers.items():
+            cure = names.get(name) or did_you_mean(name, sorted(allowed))
+            self.source.fault(node, f"{where}: {shortened(name)} is no {noun}", cure, place.start)
+        return not strangers
+
+    def constant(self, node: Node, where: str) -> tuple[Expression, Value] | None:
+        """A formula of parameters alone, and its value."""
+        expression = self.parsed(node, where)
+        value = None if expression is None else self.value(expression, node, where, {})
+        return None if expression is None or value is None else (expression, value)
+
+    def value(self, expression: Expression, node: Node, where: str, names: Mapping[str, Value]) -> Value | None:
+        """The value for given values of names; None where there is none, which is noted."""
+        try:
+            with ctx.workprec(BITS):
+                return value_of(expression, {**self.values, **names})
+        except ExpressionError as error:
+            self.source.expression_fault(node, where, error)
+            return None
+
+    def rational(self, node: Node, where: str) -> fmpq | None:
+        """A number: a rational one exactly, an irrational one to ``PLACES`` decimals."""
+        found = self.constant(node, where)
+        return None if found is None else nearby(found[1])
+
+    def translator(self, symbols: Mapping[str, Any]) -> Translator:
+        """What makes sympy expressions in ``symbols`` and the parameters."""
+        return Translator({**self.made, **symbols}, self.values)
+
+    def read_parameters(self, node: Node | None) -> None:
+        """Read ``parameters``; each may use those before it."""
+        import sympy
+
+        if node is None:
+            return
+        for name, value_node in self.source.mapping(node, "parameters", ()).items():
+            where = f"parameters: {shortened(name)[1:-1]}"
+            message = bad_name(name)
+            if message:
+                self.source.fault(value_node, f"{where} {message}", "choose another name")
+            found = self.constant(value_node, where)
+            # a faulty parameter is 1, so that formulas with it are still read
+            expression, value = found or (None, fmpq(1))
+            if isinstance(value, fmpq):
+                self.made[name] = sympy.Rational(int(value.p), int(value.q))
+            else:
+                assert expression is not None
+                self.made[name] = self.translator({}).translate(expression)
+            self.values[name] = value
+            self._sizes[name] = 1 if expression is None else size_of(expression, self._sizes)
+
+
+def bad_name(name: str) -> str:
+    """Why this cannot be the name of a variable or parameter; nothing where it can."""
+    if name in RESERVED:
+        return "has a meaning already"
+    if not (name.isidentifier() and name.isascii()):
+        return "is no name: letters, digits and _ make one"
+    return "is longer than 30 characters" if len(name) > 30 else ""
+
+
+def nearby(value: Value) -> fmpq:
+    """The simplest fraction within 10^(−``PLACES``) of a number: the number itself where it is a short fraction.
+
+    >>> with ctx.workprec(BITS):
+    ...     nearby(arb(1) / 3)
+    1/3
+    """
+    if isinstance(value, fmpq):
+        return value
+    middle = _rational(value)
+    reach = fmpq(1, 10**PLACES)
+    return _simplest(middle - reach, middle + reach)
+
+
+def _rational(value: arb) -> fmpq:
+    mantissa, exponent = (int(x) for x in value.mid().man_exp())
+    return fmpq(mantissa * 2 ** max(exponent, 0), 2 ** max(-exponent, 0))
+
+
+def _simplest(low: fmpq, high: fmpq) -> fmpq:
+    """The fraction of the smallest denominator in an interval, by continued fractions."""
+    if low <= 0 <= high:
+        return fmpq(0)
+    if high < 0:
+        return -_simplest(-high, -low)
+    floor = low.floor()
+    if fmpq(floor) == low or floor + 1 <= high:
+        return fmpq(floor if fmpq(floor) == low else floor + 1)
+    return floor + 1 / _simplest(1 / (high - floor), 1 / (low - floor))

@@ -1,0 +1,198 @@
+"""Problem files: a Hamiltonian or a Lagrangian with its initial values, every fault of the text at once."""
+
+from __future__ import annotations
+
+from pathlib import Path
+from typing import TYPE_CHECKING
+
+from flint import fmpq
+from yaml.nodes import Node, ScalarNode, SequenceNode
+
+from garkcli.methodfile.description import FORMS as METHOD_FORMS
+from garkcli.methodfile.formulas import Formulas, bad_name
+from garkcli.methodfile.load import read_text
+from garkcli.methodfile.source import PROBLEM_FILE, Source, keys_of, shortened
+from garkcli.methodfile.terms import Maker, ProblemText
+
+if TYPE_CHECKING:
+    from garkcli.dynamics.hamiltonian import Hamiltonian
+
+KEYS = (
+    "gark",
+    "name",
+    "description",
+    "reference",
+    "variables",
+    "parameters",
+    "hamiltonian",
+    "lagrangian",
+    "initial",
+    "t_end",
+    "invariants",
+)
+"""The keys of a problem file."""
+DEFAULT_T_END = fmpq(2)
+"""The final time of a convergence test where the file gives none."""
+MAX_VARIABLES = 64
+"""Most degrees of freedom."""
+MAX_TERMS = 64
+"""Most terms."""
+MAX_INVARIANTS = 10
+"""Most invariants."""
+
+
+def load_problem(path: str) -> Hamiltonian:
+    """Read one problem file, or standard input for ``-``.
+
+    Raises:
+        MethodFileError: every fault of the file, with positions.
+    """
+    return loads_problem(*read_text(path, PROBLEM_FILE))
+
+
+def loads_problem(text: str, source: str = "<text>") -> Hamiltonian:
+    """Read a problem file from its text.
+
+    Raises:
+        MethodFileError: every fault of the text, with positions.
+
+    >>> text = "{variables: [x], hamiltonian: px**2/2 - cos(x), initial: {x: 1, px: 0}}"
+    >>> loads_problem(text).energy
+    px**2/2 - cos(x)
+    """
+    reading = Source(source, text, PROBLEM_FILE)
+    reader = _Reader(reading)
+    read = reader.read()
+    if read is None:
+        raise reading.error()
+    return Maker(reading, reader.formulas, read).problem()
+
+
+class _Reader:
+    """Reads what a file says, as far as no names but its own are needed."""
+
+    def __init__(self, source: Source) -> None:
+        self.source = source
+        self.formulas = Formulas(source)
+
+    def read(self) -> ProblemText | None:
+        """The text; None where it makes no sense to go on."""
+        source = self.source
+        root = source.compose()
+        if root is None:
+            return None
+        if keys_of(root) & set(METHOD_FORMS) and not keys_of(root) & {"hamiltonian", "lagrangian"}:
+            source.fault(root, "this is a method file", "the problem is another file, see docs/problem-file.md")
+            return None
+        entries = source.mapping(root, "the file", KEYS)
+        version = entries.get("gark")
+        if version is not None and source.scalar(version, "gark") != "1":
+            source.fault(version, "gark: this program reads version 1 of the format", "write gark: 1")
+        for key in ("description", "reference"):
+            if key in entries:
+                source.scalar(entries[key], key)
+        variables = self._variables(root, entries.get("variables"))
+        self.formulas.read_parameters(entries.get("parameters"))
+        form = self._form(root, entries)
+        self._refuse_clashes(variables, form or "hamiltonian", entries.get("parameters"))
+        if "initial" not in entries:
+            cure = "write initial: {" + ", ".join(f"{x}: 0, p{x}: 0" for x, _ in variables[:2]) + "}"
+            source.fault(root, "initial missing", cure)
+        if form is None:
+            return None
+        return ProblemText(
+            name=self._name(entries.get("name")),
+            variables=tuple(name for name, _ in variables),
+            form=form,
+            terms=tuple(self._items(entries[form], form)),
+            initial=entries.get("initial"),
+            t_end=self._t_end(entries.get("t_end")),
+            invariants=tuple(self._invariants(entries.get("invariants"))),
+        )
+
+    def _name(self, node: Node | None) -> str:
+        text = None if node is None else self.source.scalar(node, "name")
+        return shown_name(text or Path(self.source.name).stem)
+
+    def _variables(self, root: Node, node: Node | None) -> list[tuple[str, Node]]:
+        """The names of the positions that can be names, and where they stand."""
+        if node is None:
+            self.source.fault(root, "variables missing", "name the positions, for instance variables: [x, y]")
+            return []
+        items = [node] if isinstance(node, ScalarNode) else self.source.items(node, "variables")
+        if not items and isinstance(node, SequenceNode):
+            self.source.fault(node, "variables is empty", "name at least one position")
+        if len(items) > MAX_VARIABLES:
+            self.source.fault(node, f"{len(items)} variables (limit {MAX_VARIABLES})", "use fewer")
+            return []
+        found: dict[str, Node] = {}
+        for item in items:
+            name = self.source.scalar(item, "variables")
+            if name is None:
+                continue
+            why = "is named twice" if name in found else bad_name(name)
+            if why:
+                self.source.fault(item, f"variables: {shortened(name)} {why}", "choose another name")
+            else:
+                found[name] = item
+        return list(found.items())
+
+    def _refuse_clashes(self, variables: list[tuple[str, Node]], form: str, parameters: Node | None) -> None:
+        """Refuse names for two things: a variable that is the momentum of another, a parameter that is either."""
+        derived = {f"p{name}": f"the momentum of {name}" for name, _ in variables}
+        if form == "lagrangian":
+            derived |= {f"v{name}": f"the velocity of {name}" for name, _ in variables}
+        for name, node in variables:
+            if name in derived:
+                self.source.fault(node, f"variables: {name} is {derived[name]}", "choose another name")
+        taken = {**derived, **{name: "a variable" for name, _ in variables}}
+        for key in parameters.value if parameters is not None and keys_of(parameters) else ():
+            name = key[0].value
+            if isinstance(name, str) and name in taken:
+                self.source.fault(key[0], f"parameters: {name} is {taken[name]} already", "choose another name")
+
+    def _form(self, root: Node, entries: dict[str, Node]) -> str | None:
+        present = [key for key in ("hamiltonian", "lagrangian") if key in entries]
+        if not present:
+            cure = "write hamiltonian: or lagrangian:, a formula or a list with one for each colour"
+            self.source.fault(root, "no hamiltonian and no lagrangian", cure)
+            return None
+        if len(present) > 1:
+            self.source.fault(entries["lagrangian"], "a hamiltonian and a lagrangian", "keep one of them")
+        return present[0]
+
+    def _items(self, node: Node, form: str) -> list[tuple[Node, str]]:
+        if isinstance(node, ScalarNode):
+            return [(node, form)]
+        items = self.source.items(node, form)
+        if not items and isinstance(node, SequenceNode):
+            self.source.fault(node, f"{form} is empty", "give a formula for each term")
+        if len(items) > MAX_TERMS:
+            self.source.fault(node, f"{form}: {len(items)} terms (limit {MAX_TERMS})", "use fewer")
+            return []
+        letter = form[0].upper()
+        return [(item, f"{letter}{{{l}}}") for l, item in enumerate(items, start=1)]
+
+    def _t_end(self, node: Node | None) -> fmpq:
+        if node is None:
+            return DEFAULT_T_END
+        found = self.formulas.constant(node, "t_end")
+        if found is None:
+            return DEFAULT_T_END
+        if not isinstance(found[1], fmpq) or found[1] <= 0:
+            self.source.fault(node, "t_end: a positive rational number is expected", "such as 2 or 5/2")
+            return DEFAULT_T_END
+        return found[1]
+
+    def _invariants(self, node: Node | None) -> list[tuple[str, Node]]:
+        entries = {} if node is None else self.source.mapping(node, "invariants", ())
+        if len(entries) > MAX_INVARIANTS:
+            self.source.fault(node, f"{len(entries)} invariants (limit {MAX_INVARIANTS})", "use fewer")
+            return []
+        return [(shown_name(name), value) for name, value in entries.items()]
+
+
+def shown_name(text: str) -> str:
+    """A name as it is shown: one line of printable signs, not too long."""
+    plain = " ".join("".join(x if x.isprintable() else " " for x in text).split())
+    return plain if len(plain) <= 60 else f"{plain[:59]}…"

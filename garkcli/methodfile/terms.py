@@ -1,0 +1,207 @@
+"""From the text of a problem file to a Hamiltonian: known names, values at the start, derivatives."""
+
+from __future__ import annotations
+
+from collections.abc import Sequence
+from dataclasses import dataclass, replace
+from typing import TYPE_CHECKING, Any
+
+from flint import arb, ctx, fmpq
+from yaml.nodes import Node
+
+from garkcli.errors import ExpressionError, NoLegendreTransform
+from garkcli.exact.expression import Expression
+from garkcli.methodfile.formulas import BITS, PLACES, Formulas, nearby
+from garkcli.methodfile.source import Source
+
+if TYPE_CHECKING:
+    from garkcli.dynamics.hamiltonian import Hamiltonian
+
+
+@dataclass(frozen=True)
+class ProblemText:
+    """What a problem file says; formulas are still nodes, each with what it is called in messages."""
+
+    name: str
+    variables: tuple[str, ...]
+    form: str
+    terms: tuple[tuple[Node, str], ...]
+    initial: Node | None
+    t_end: fmpq
+    invariants: tuple[tuple[str, Node], ...]
+
+
+@dataclass(frozen=True)
+class _Term:
+    """A formula of the file, and its sympy expression."""
+
+    node: Node
+    where: str
+    expression: Expression
+    made: Any
+
+
+class Maker:
+    """Makes the problem of one file; faults are noted in its source."""
+
+    def __init__(self, source: Source, formulas: Formulas, text: ProblemText) -> None:
+        from garkcli.dynamics.hamiltonian import symbols
+        from garkcli.dynamics.mass import velocities
+
+        self.source, self.formulas, self.text = source, formulas, text
+        self.q, self.p = symbols(text.variables, "q"), symbols(text.variables, "p")
+        self.v = velocities(text.variables)
+        self.is_lagrangian = text.form == "lagrangian"
+
+    def problem(self) -> Hamiltonian:
+        """The problem.
+
+        Raises:
+            MethodFileError: there are faults; all that could be found.
+        """
+        from garkcli.dynamics.hamiltonian import Hamiltonian
+
+        start = self._initial()
+        terms = self._terms()
+        invariants = self._invariants()
+        if start is not None:
+            self._check_values(terms, start)
+        self._check_size(terms)
+        self.source.close()
+        assert start is not None
+        if self.is_lagrangian:
+            terms, start = self._transformed(terms, start)
+        at = {str(x): start[str(x)] for x in (*self.q, *self.p)}
+        self._check_fields(terms, at)
+        self._check_values(invariants, at)
+        self.source.close()
+        split = tuple(x.made for x in terms)
+        return Hamiltonian(
+            self.text.name,
+            self.text.variables,
+            split,
+            tuple(at.values()),
+            self.text.t_end,
+            tuple((x.where.removeprefix("invariants: "), x.made) for x in invariants),
+            has_equal_parts=len(set(split)) < len(split),
+        )
+
+    def _initial(self) -> dict[str, fmpq] | None:
+        """The initial values by name; None where they are not complete."""
+        node = self.text.initial
+        if node is None:
+            return None
+        before = len(self.source.faults)
+        groups = [self.p, self.v] if self.is_lagrangian else [self.p]
+        names = [str(x) for group in (self.q, *groups) for x in group]
+        entries = self.source.mapping(node, "initial", names)
+        values = {name: self.formulas.rational(x, f"initial: {name}") for name, x in entries.items()}
+        given = [group for group in groups if any(str(x) in entries for x in group)] or groups[-1:]
+        if len(given) > 1:
+            self.source.fault(node, "initial: velocities and momenta", "give all velocities or all momenta")
+        elif len(self.source.faults) == before:
+            missing = [str(x) for x in (*self.q, *given[0]) if str(x) not in entries]
+            if missing:
+                message = f"initial: no value for {', '.join(missing[:8])}{', …' if len(missing) > 8 else ''}"
+                self.source.fault(node, message, f"give each a number, such as {missing[0]}: 1/2")
+        found = {name: x for name, x in values.items() if x is not None}
+        return found if len(self.source.faults) == before else None
+
+    def _names(self, motion: Sequence[Any], other: Sequence[Any], cure: str) -> dict[str, str]:
+        """For names that may stand in a formula nothing, for others the cure."""
+        names = {str(y): cure.format(x) for x, y in zip(motion, other, strict=True)}
+        return names | {str(x): "" for x in (*self.q, *motion)}
+
+    def _terms(self) -> list[_Term]:
+        if self.is_lagrangian:
+            names = self._names(self.v, self.p, "a Lagrangian has velocities: {}")
+            noun = "variable, velocity or parameter"
+        else:
+            names = self._names(self.p, self.v, "a Hamiltonian has momenta: {}")
+            noun = "variable, momentum or parameter"
+        return self._formulas(self.text.terms, names, noun)
+
+    def _invariants(self) -> list[_Term]:
+        names = self._names(self.p, self.v, "invariants have momenta: {}")
+        items = [(node, f"invariants: {name}") for name, node in self.text.invariants]
+        return self._formulas(items, names, "variable, momentum or parameter")
+
+    def _formulas(self, items: Sequence[tuple[Node, str]], names: dict[str, str], noun: str) -> list[_Term]:
+        symbols = {str(x): x for x in (*self.q, *self.p, *self.v)}
+        translator = self.formulas.translator({x: symbols[x] for x, cure in names.items() if not cure})
+        found = []
+        for node, where in items:
+            expression = self.formulas.parsed(node, where, names, noun)
+            if expression is None:
+                continue
+            try:
+                found.append(_Term(node, where, expression, translator.translate(expression)))
+            except ExpressionError as error:
+                self.source.expression_fault(node, where, error)
+        return found
+
+    def _check_values(self, terms: Sequence[_Term], start: dict[str, fmpq]) -> None:
+        """Note formulas that have no value at the start, as far as that is known."""
+        with ctx.workprec(BITS):
+            values = {name: arb(x) for name, x in start.items()}
+        for term in terms:
+            if all(str(x) in start for x in term.made.free_symbols):
+                self.formulas.value(term.expression, term.node, f"{term.where} at the initial values", values)
+
+    def _check_size(self, terms: Sequence[_Term]) -> None:
+        """Note terms whose derivatives are too long."""
+        from garkcli.dynamics.translate import MAX_SIZE, size_of_derivatives
+
+        sizes = [size_of_derivatives(x.made) for x in terms]
+        if sum(sizes) > MAX_SIZE:
+            largest = terms[sizes.index(max(sizes))]
+            message = f"{largest.where}: second derivatives of {sum(sizes)} operations (limit {MAX_SIZE})"
+            self.source.fault(largest.node, message, "write it shorter, or with fewer variables")
+
+    def _transformed(self, lagrangians: list[_Term], start: dict[str, fmpq]) -> tuple[list[_Term], dict[str, fmpq]]:
+        """The Hamiltonian terms, and the start with momenta."""
+        from garkcli.dynamics.legendre import legendre
+        from garkcli.dynamics.start import initial_momenta
+
+        moving = [x for x in lagrangians if x.made.free_symbols & set(self.v)]
+        if not moving:
+            cure = f"the kinetic energy has {', '.join(map(str, self.v[:3]))}"
+            self.source.fault(lagrangians[0].node, "the Lagrangian has no velocities", cure)
+        has_velocities = str(self.v[0]) in start
+        with ctx.workprec(BITS):
+            at = {x: arb(start[str(x)]) for x in (*self.q, *self.p, *self.v) if str(x) in start}
+        known = at if len(moving) == 1 or not has_velocities else {x: y for x, y in at.items() if x in self.q}
+        found = []
+        for term in lagrangians:
+            try:
+                found.append(replace(term, made=legendre(term.made, self.text.variables, known)))
+            except NoLegendreTransform as error:
+                self.source.fault(term.node, f"{term.where}: {error.message}", error.help)
+        self.source.close()
+        self._check_size(found)
+        self.source.close()
+        if not has_velocities:
+            return found, start
+        try:
+            made = [[x.made for x in terms] for terms in (lagrangians, found)]
+            momenta = initial_momenta(made[0], made[1], self.text.variables, at)
+        except NoLegendreTransform as error:
+            self.source.fault(self.text.initial, f"initial: {error.message}", error.help)
+            self.source.close()
+        if not all(x.is_finite() and x.rad() < 10.0**-PLACES for x in momenta):
+            message = f"{moving[0].where}: the momenta do not exist at the initial values"
+            self.source.fault(moving[0].node, message, "start elsewhere")
+            self.source.close()
+        return found, start | {str(x): nearby(y) for x, y in zip(self.p, momenta, strict=True)}
+
+    def _check_fields(self, terms: Sequence[_Term], start: dict[str, fmpq]) -> None:
+        """Note terms that have no derivative at the start."""
+        from garkcli.dynamics.start import undefined_derivative
+
+        with ctx.workprec(BITS):
+            at = {x: arb(start[str(x)]) for x in (*self.q, *self.p)}
+        for term in terms:
+            by = undefined_derivative(term.made, self.text.variables, at)
+            if by is not None:
+                message = f"{term.where} at the initial values: no derivative by {by}"
+                self.source.fault(term.node, message, "start elsewhere")
