@@ -83,10 +83,9 @@ def save(figure: Figure, path: Path) -> None:
     kind = path.suffix.lower().removeprefix(".")
     handle, name = tempfile.mkstemp(dir=path.parent, prefix=f".{path.stem}-", suffix=path.suffix)
     try:
-        with os.fdopen(handle, "wb") as file:
-            # no date, and no names drawn by lot: the same result gives the same file
-            with rc_context({"svg.hashsalt": "gark"}):
-                figure.savefig(file, format=kind, dpi=150, metadata=_undated(kind))
+        # no date, and no names drawn by lot: the same result gives the same file
+        with os.fdopen(handle, "wb") as file, rc_context({"svg.hashsalt": "gark"}):
+            figure.savefig(file, format=kind, dpi=150, metadata=_undated(kind))
         umask = os.umask(0)
         os.umask(umask)
         os.chmod(name, 0o666 & ~umask)  # mkstemp makes it private; a figure is an ordinary file
