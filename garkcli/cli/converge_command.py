@@ -9,6 +9,7 @@ import click
 
 from garkcli.cli.options import CONTEXT, Output, common
 from garkcli.cli.problems import ProblemType, find_problem
+from garkcli.cli.stepping import applied, positive, rational
 from garkcli.errors import UsageProblem
 
 if TYPE_CHECKING:
@@ -74,17 +75,17 @@ def command(
 
         check_suffix(Path(plot))
     method = load(file)
-    tableau = _applied(method, output)
-    time = None if t_end is None else _positive("--t-end", t_end)
+    tableau = applied(method, output)
+    time = None if t_end is None else positive("--t-end", t_end)
     if problem != "oscillator":
         return _observe(tableau, problem, seed, method, time, _sizes(steps), plot, output)
     terms = terms_of(tableau)
-    frequency = _rational("--omega", omega or "1")
+    frequency = rational("--omega", omega or "1")
     oscillator = (
         Oscillator(frequency, parse_shares(split, terms)) if split else Oscillator.default(terms, frequency)
     )
     if drift:
-        return _drift(tableau, oscillator, method.name, time, _positive("--step", step), plot, output)
+        return _drift(tableau, oscillator, method.name, time, positive("--step", step), plot, output)
     return _converge(tableau, oscillator, method, time, _sizes(steps), plot, output)
 
 
@@ -98,21 +99,7 @@ def _check_options(problem: str, omega: str | None, split: str | None, seed: int
 
 
 def _sizes(steps: str | None) -> list[fmpq] | None:
-    return None if steps is None else [_positive("--steps", h) for h in steps.split(",")]
-
-
-def _applied(method: MethodFile, output: Output) -> Tableau:
-    """The tableau that steps: the symplectic pair of ``methods``, else what the file gives."""
-    from garkcli.errors import ZeroWeight
-    from garkcli.tableau.forms import pair
-
-    if method.form != "methods" or method.tableau.is_partitioned:
-        return method.tableau
-    try:
-        return pair(method.tableau)
-    except ZeroWeight as error:
-        output.note(f"no symplectic pair ({error.message}): tested as a GARK method")
-        return method.tableau
+    return None if steps is None else [positive("--steps", h) for h in steps.split(",")]
 
 
 def _converge(
@@ -197,26 +184,3 @@ def _drift(
         save(drift_figure(result), Path(plot))
         output.note(f"wrote {plot}")
     return 0
-
-
-def _positive(option: str, text: str | None) -> fmpq:
-    number = _rational(option, text or "")
-    if number <= 0:
-        raise UsageProblem(f"{option} {text}: a positive number is expected")
-    return number
-
-
-def _rational(option: str, text: str) -> fmpq:
-    from garkcli.errors import ExpressionError
-    from garkcli.exact.domain import Domain
-    from garkcli.exact.expression import parse
-    from garkcli.exact.field import Algebraic
-
-    try:
-        expression = parse(text)
-        number = Domain([expression]).evaluate(expression)
-    except ExpressionError as error:
-        raise UsageProblem(f"{option} {text}: {error.message}", error.help) from None
-    if isinstance(number, Algebraic):
-        raise UsageProblem(f"{option} {text}: a rational number is expected", "such as 1/2")
-    return number

@@ -1,0 +1,61 @@
+"""What the commands share that put a method to work: which tableau steps, and the numbers of their options."""
+
+from __future__ import annotations
+
+from typing import TYPE_CHECKING
+
+from garkcli.cli.options import Output
+from garkcli.errors import UsageProblem
+
+if TYPE_CHECKING:
+    from flint import fmpq
+
+    from garkcli.methodfile.build import MethodFile
+    from garkcli.tableau.tableau import Tableau
+
+
+def applied(method: MethodFile, output: Output) -> Tableau:
+    """The tableau that steps: the symplectic pair of ``methods``, else what the file gives."""
+    from garkcli.errors import ZeroWeight
+    from garkcli.tableau.forms import pair
+
+    if method.form != "methods" or method.tableau.is_partitioned:
+        return method.tableau
+    try:
+        return pair(method.tableau)
+    except ZeroWeight as error:
+        output.note(f"no symplectic pair ({error.message}): tested as a GARK method")
+        return method.tableau
+
+
+def positive(option: str, text: str | None) -> fmpq:
+    """The positive rational number that was given for ``option``.
+
+    Raises:
+        UsageProblem: it is none.
+    """
+    number = rational(option, text or "")
+    if number <= 0:
+        raise UsageProblem(f"{option} {text}: a positive number is expected")
+    return number
+
+
+def rational(option: str, text: str) -> fmpq:
+    """The rational number that was given for ``option``.
+
+    Raises:
+        UsageProblem: it is none.
+    """
+    from garkcli.errors import ExpressionError
+    from garkcli.exact.domain import Domain
+    from garkcli.exact.expression import parse
+    from garkcli.exact.field import Algebraic
+
+    try:
+        expression = parse(text)
+        number = Domain([expression]).evaluate(expression)
+    except ExpressionError as error:
+        raise UsageProblem(f"{option} {text}: {error.message}", error.help) from None
+    if isinstance(number, Algebraic):
+        raise UsageProblem(f"{option} {text}: a rational number is expected", "such as 1/2")
+    return number
