@@ -3,6 +3,7 @@
 from __future__ import annotations
 
 from collections.abc import Iterator
+from dataclasses import replace
 from typing import TYPE_CHECKING
 
 import click
@@ -12,7 +13,7 @@ from garkcli.cli.trees_command import kind_asked, symplectic_options
 from garkcli.errors import UsageProblem
 
 if TYPE_CHECKING:
-    from garkcli.report.conditions import ConditionRow
+    from garkcli.report.conditions import ConditionRow, Valued
     from garkcli.report.symplectic import Subject
     from garkcli.tableau.tableau import Tableau
     from garkcli.trees.symplectic import Kind
@@ -83,34 +84,38 @@ def command(
         raise UsageProblem("values are those of a method", "give a FILE")
     if file is not None and (colours is not None or coloured is not None):
         raise UsageProblem("the colours are those of FILE", "leave out --colours, --coloured, --shapes")
+    valued = None if file is None else _chosen(file, which, failing)
     subject = None
     if asked is not None:
         if coloured is not None:
             raise UsageProblem("free trees have colours", "leave out --coloured and --shapes")
-        subject = _subject(asked, colours, orders) if file is None else _of_file(_chosen(file, which), kind, orders)
-        rows = _independent(subject, members)
-    elif file is None:
+        subject = _subject(asked, colours, orders) if valued is None else _of_file(valued.tableau, kind, orders)
+        if valued is not None and subject.tableau is not None:
+            valued = replace(valued, tableau=subject.tableau)
+        rows = _independent(subject, members, valued)
+    elif valued is None:
         if coloured is None:
             coloured = output.format in {"json", "csv"} and colours is not None
         rows = _table(colours or 1, orders, coloured)
     else:
-        rows = _valued(_chosen(file, which), orders)
-    if failing:
-        rows = (row for row in rows if row.condition is not None and not row.condition.holds)
+        rows = _with_values(valued, orders)
     if sort == "worst":
         rows = iter(sorted(rows, key=_badness, reverse=True))
     rows = tracked(rows, None, "conditions", output.may_show_progress)
-    output.write(report.render(rows, output.format, output.paint, output.width, document, subject))
+    output.write(report.render(rows, output.format, output.paint, output.width, document, subject, valued))
     return 0
 
 
-def _chosen(file: str, which: str | None) -> Tableau:
+def _chosen(file: str, which: str | None, only_failing: bool) -> Valued:
     from garkcli.methodfile.load import load
+    from garkcli.report.conditions import Valued
     from garkcli.tableau.conjugate import conjugate
     from garkcli.tableau.forms import pair
 
-    tableau = load(file).tableau
-    return conjugate(tableau) if which == "conjugate" else pair(tableau) if which == "pair" else tableau
+    method = load(file)
+    tableau = method.tableau
+    tableau = conjugate(tableau) if which == "conjugate" else pair(tableau) if which == "pair" else tableau
+    return Valued(tableau, method.tolerance, only_failing)
 
 
 def _subject(kind: Kind, terms: int | None, orders: range) -> Subject:
@@ -127,10 +132,11 @@ def _of_file(tableau: Tableau, kind: str | None, orders: range) -> Subject:
     return subject_of_method(tableau, orders)
 
 
-def _independent(subject: Subject, members: bool) -> Iterator[ConditionRow]:
-    """A row for each class, with its value where the subject is a method."""
+def _independent(subject: Subject, members: bool, valued: Valued | None) -> Iterator[ConditionRow]:
+    """A row for each class, with its value where there is a method."""
     from itertools import repeat, tee
 
+    from garkcli.exact.field import ZERO
     from garkcli.order.conditions import conditions
     from garkcli.report.conditions import ConditionRow
 
@@ -138,12 +144,12 @@ def _independent(subject: Subject, members: bool) -> Iterator[ConditionRow]:
     trees = (found.representative for found in again)
     values = (
         zip(trees, repeat(None))
-        if subject.tableau is None
-        else ((x.tree, x) for x in conditions(subject.tableau, trees))
+        if valued is None
+        else ((x.tree, x) for x in conditions(valued.tableau, trees, valued.tolerance or ZERO))
     )
-    for found, (tree, valued) in zip(classes, values, strict=True):
+    for found, (tree, condition) in zip(classes, values, strict=True):
         shown = found.members if members else ()
-        yield ConditionRow(tree, False, valued, stands_for=len(found.members), members=shown)
+        yield ConditionRow(tree, False, condition, stands_for=len(found.members), members=shown)
 
 
 def _table(colours: int, orders: range, coloured: bool) -> Iterator[ConditionRow]:
@@ -156,12 +162,13 @@ def _table(colours: int, orders: range, coloured: bool) -> Iterator[ConditionRow
                 yield ConditionRow(tree, is_shape=not coloured)
 
 
-def _valued(tableau: Tableau, orders: range) -> Iterator[ConditionRow]:
+def _with_values(valued: Valued, orders: range) -> Iterator[ConditionRow]:
+    from garkcli.exact.field import ZERO
     from garkcli.order.listing import all_conditions
     from garkcli.report.conditions import ConditionRow
 
     for n in orders:
-        for condition, multiplicity in all_conditions(tableau, n):
+        for condition, multiplicity in all_conditions(valued.tableau, n, valued.tolerance or ZERO):
             yield ConditionRow(condition.tree, False, condition, multiplicity)
 
 

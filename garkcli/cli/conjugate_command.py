@@ -43,7 +43,7 @@ def command(file: str, is_pair: bool, digits: int, output: Output) -> int:
 
     exact = in_points(made)
     if exact is not None and (is_pair or can_spell_out(exact)):
-        output.write(write_tableau_file(exact, name))
+        output.write(write_tableau_file(exact, name, method.tolerance))
     elif is_pair:
         raise UsageProblem(
             "the nodes have no simple radicals, so the pair cannot be spelled out exactly",

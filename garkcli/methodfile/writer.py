@@ -5,9 +5,10 @@ from __future__ import annotations
 from collections.abc import Sequence
 
 import yaml
+from flint import fmpq
 from yaml.nodes import MappingNode, Node, ScalarNode
 
-from garkcli.exact.display import to_text
+from garkcli.exact.display import decimal, to_text
 from garkcli.exact.field import Number
 from garkcli.methodfile.build import MethodFile
 from garkcli.methodfile.source import Source
@@ -16,17 +17,20 @@ from garkcli.tableau.tableau import Tableau
 _DROPPED = ("expect", "conjugate", "name", "description")
 
 
-def write_tableau_file(tableau: Tableau, name: str, note: str = "") -> str:
+def write_tableau_file(tableau: Tableau, name: str, tolerance: fmpq | None = None, note: str = "") -> str:
     """A method file with every block of ``tableau`` spelled out.
 
     Args:
         tableau: over point spaces, every entry exact.
         name: what the file calls the method.
+        tolerance: the rounding of its coefficients, or None.
         note: a comment above it.
     """
     lines = [f"# {line}" for line in note.splitlines()]
     lines += ["gark: 1", f"name: {_quoted(name)}"]
     lines += _prk(tableau) if _is_prk(tableau) else _blocks(tableau)
+    if tolerance is not None:
+        lines.append(f"tolerance: {decimal(tolerance)}")
     return "\n".join(lines) + "\n"
 
 

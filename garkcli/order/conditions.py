@@ -8,8 +8,9 @@ from dataclasses import dataclass
 from flint import fmpq
 
 from garkcli.errors import MethodError
-from garkcli.exact.field import Number
+from garkcli.exact.field import ZERO, Number
 from garkcli.exact.matrix import Vector, apply, dot
+from garkcli.order.closeness import within
 from garkcli.tableau.tableau import Tableau
 from garkcli.trees.tree import Tree
 
@@ -21,10 +22,12 @@ class Condition:
     Attributes:
         tree: u, with colours counted from 0.
         value: the elementary weight b_lᵀ 𝒜^[u], exact.
+        tolerance: the rounding that the coefficients admit; zero where they are meant exactly.
     """
 
     tree: Tree
     value: Number
+    tolerance: fmpq = ZERO
 
     @property
     def required(self) -> fmpq:
@@ -38,6 +41,11 @@ class Condition:
 
     @property
     def holds(self) -> bool:
+        """Whether |residual| ≤ tolerance; without one, whether the residual is exactly zero."""
+        return self.is_exact or bool(self.tolerance and within(self.residual, self.tolerance))
+
+    @property
+    def is_exact(self) -> bool:
         """Whether the residual is exactly zero."""
         return not self.residual
 
@@ -47,7 +55,7 @@ class Condition:
         return len(self.tree.colours) > 1
 
 
-def conditions(tableau: Tableau, trees: Iterable[Tree]) -> Iterator[Condition]:
+def conditions(tableau: Tableau, trees: Iterable[Tree], tolerance: fmpq = ZERO) -> Iterator[Condition]:
     """The conditions of ``trees`` for ``tableau``; stage vectors of shared branches are computed once.
 
     Raises:
@@ -55,7 +63,8 @@ def conditions(tableau: Tableau, trees: Iterable[Tree]) -> Iterator[Condition]:
     """
     memo: dict[Tree, Vector] = {}
     for tree in trees:
-        yield Condition(tree, dot(tableau.colours[tree.root].b, _stage_vector(tableau, tree, memo)))
+        value = dot(tableau.colours[tree.root].b, _stage_vector(tableau, tree, memo))
+        yield Condition(tree, value, tolerance)
 
 
 def elementary_weight(tableau: Tableau, tree: Tree) -> Number:

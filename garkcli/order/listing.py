@@ -4,6 +4,9 @@ from __future__ import annotations
 
 from collections.abc import Iterator
 
+from flint import fmpq
+
+from garkcli.exact.field import ZERO
 from garkcli.order.conditions import Condition, conditions, coupling_graph, twin_roots
 from garkcli.tableau.tableau import Tableau
 from garkcli.trees.count import count_by_root
@@ -17,10 +20,10 @@ def count_conditions(tableau: Tableau, order: int) -> int:
     return sum(by_root[root] for root in twin_roots(tableau))
 
 
-def all_conditions(tableau: Tableau, order: int) -> Iterator[tuple[Condition, int]]:
-    """Every condition of ``order``, exactly, with the number of identical ones it stands for."""
+def all_conditions(tableau: Tableau, order: int, tolerance: fmpq = ZERO) -> Iterator[tuple[Condition, int]]:
+    """Every condition of ``order``, its value exact, with the number of identical ones it stands for."""
     twins = twin_roots(tableau)
-    for condition in conditions(tableau, admissible_trees(tableau, order)):
+    for condition in conditions(tableau, admissible_trees(tableau, order), tolerance):
         yield condition, len(twins[condition.tree.root])
 
 

@@ -190,8 +190,9 @@ def _legend(witness: Witness, tableau: Tableau) -> list[str]:
 def _residual(witness: Witness) -> list[str]:
     value, residual = to_text(witness.value), to_text(witness.residual)
     if len(value) > 60 or len(residual) > 60:
-        value, residual = to_decimal(witness.value, 8), to_decimal(witness.residual, 4)
-        return [f"about {value} instead of {witness.required}, off by {residual}"]
+        value, residual, required = to_decimal(witness.value, 8), to_decimal(witness.residual, 4), witness.required
+        shown = required if len(str(required)) <= 60 else f"about {to_decimal(required, 8)}"
+        return [f"about {value} instead of {shown}, off by {residual}"]
     if len(value) + len(residual) < 50:
         return [f"{value} instead of {witness.required}, off by {residual}"]
     return [f"value    {value}", f"required {witness.required}", f"residual {residual}"]

@@ -5,17 +5,22 @@ from __future__ import annotations
 import json
 from collections.abc import Iterable, Iterator
 from dataclasses import dataclass
-from itertools import groupby
 from typing import Any
 
-from garkcli.exact.display import to_text
+from flint import fmpq
+
+from garkcli.exact.display import decimal, to_decimal, to_text
 from garkcli.order.conditions import Condition
 from garkcli.report.latex import fragment
 from garkcli.report.paint import Paint
 from garkcli.report.symplectic import Subject, legend_lines, member_lines, summary_lines
 from garkcli.report.trees import picture
+from garkcli.tableau.tableau import Tableau
 from garkcli.trees.notation import condition_latex, condition_text, format_latex, format_tree, vertex_letters
 from garkcli.trees.tree import Tree
+
+MOST_DIGITS = 60
+"""Longer values are shown in decimals."""
 
 
 @dataclass(frozen=True)
@@ -49,6 +54,30 @@ class ConditionRow:
         return condition_latex(self.tree, vertex_letters(self.tree) if self.is_shape else None)
 
 
+@dataclass(frozen=True)
+class Valued:
+    """What a table with values is about.
+
+    Attributes:
+        tableau: the method.
+        tolerance: the rounding of its coefficients, or None.
+        only_failing: whether conditions that hold are counted but not shown.
+    """
+
+    tableau: Tableau
+    tolerance: fmpq | None = None
+    only_failing: bool = False
+
+    def data(self) -> dict[str, Any]:
+        """The fields of the JSON report."""
+        tolerance = None if self.tolerance is None else decimal(self.tolerance)
+        return {"colours": [colour.name for colour in self.tableau.colours], "tolerance": tolerance}
+
+    def shows(self, row: ConditionRow) -> bool:
+        """Whether a row is in the table."""
+        return not self.only_failing or row.condition is None or not row.condition.holds
+
+
 def render(
     rows: Iterable[ConditionRow],
     format: str,  # noqa: A002
@@ -56,10 +85,26 @@ def render(
     width: int = 80,
     is_document: bool = False,
     subject: Subject | None = None,
+    valued: Valued | None = None,
 ) -> Iterator[str]:
-    """The table as pieces of text; ``subject`` where the rows are the independent conditions alone."""
+    """The table as pieces of text.
+
+    Args:
+        rows: its rows, also those that ``valued`` does not show.
+        format: json, csv, latex or text.
+        paint: colour or none.
+        width: of the terminal.
+        is_document: whether LaTeX gets a preamble.
+        subject: where the rows are the independent conditions alone, what they are independent for.
+        valued: where the rows have values, of what.
+    """
+    if valued is not None and format != "text":
+        rows = filter(valued.shows, rows)
     if format == "json":
-        about = "" if subject is None else f'"symplectic": {json.dumps(subject.data())}, '
+        fields = {} if valued is None else valued.data()
+        if subject is not None:
+            fields["symplectic"] = subject.data()
+        about = "".join(f'"{key}": {json.dumps(value)}, ' for key, value in fields.items())
         yield f'{{"schema": "gark/conditions/1", {about}"conditions": ['
         separator = "\n"
         for row in rows:
@@ -71,7 +116,7 @@ def render(
     elif format == "latex":
         yield from fragment(_latex(rows, subject), is_document)
     else:
-        yield from _text(rows, paint, width, subject)
+        yield from _text(rows, paint, width, subject, valued)
 
 
 def _data(row: ConditionRow) -> dict[str, Any]:
@@ -119,26 +164,41 @@ def _quoted(value: object) -> str:
     return f'"{text}"' if any(sign in text for sign in ", ") else text
 
 
-def _text(rows: Iterable[ConditionRow], paint: Paint, width: int, subject: Subject | None = None) -> Iterator[str]:
-    count = failed = 0
-    valued = False
+def _text(
+    rows: Iterable[ConditionRow], paint: Paint, width: int, subject: Subject | None, valued: Valued | None
+) -> Iterator[str]:
+    count = failed = order = 0
     if subject is not None:
         yield from legend_lines(subject, width)
-    for order, group in groupby(rows, key=lambda row: row.tree.order):
-        yield paint("strong", f"order {order}") + "\n"
-        for row in group:
-            yield from _lines(row, paint, width)
-            count += 1
-            valued = valued or row.condition is not None
-            failed += row.condition is not None and not row.condition.holds
-    noun = "condition" if count == 1 else "conditions"
-    verdict = f", {failed} fail{'s' * (failed == 1)}" if failed else ", all hold" if valued and count else ""
+    elif valued is not None:
+        yield from _names(valued)
+    for row in rows:
+        count += 1
+        failed += row.condition is not None and not row.condition.holds
+        if valued is not None and not valued.shows(row):
+            continue
+        if row.tree.order != order:
+            order = row.tree.order
+            yield paint("strong", f"order {order}") + "\n"
+        yield from _lines(row, paint, width)
+    verdict = "" if valued is None or not count else _verdict(failed, valued)
     if subject is not None:
-        valued = subject.tableau is not None
-        verdict = f"; {failed} fail{'s' * (failed == 1)}" if failed else "; all hold" if valued else ""
-        yield from summary_lines(subject, verdict, width)
-        return
-    yield f"{count} {noun}{verdict}\n"
+        yield from summary_lines(subject, verdict and f"; {verdict}", width)
+    else:
+        yield f"{count} condition{'s' * (count != 1)}{verdict and f', {verdict}'}\n"
+
+
+def _names(valued: Valued) -> Iterator[str]:
+    """The names of the colours, where their numbers are not their names."""
+    names = [colour.name for colour in valued.tableau.colours]
+    if names != [str(l) for l in range(1, len(names) + 1)]:
+        yield f"colours: {', '.join(f'{l} {name}' for l, name in enumerate(names, start=1))}\n"
+
+
+def _verdict(failed: int, valued: Valued) -> str:
+    if failed:
+        return f"{failed} fail{'s' * (failed == 1)}"
+    return "all hold" if valued.tolerance is None else f"all hold within {decimal(valued.tolerance)}"
 
 
 def _lines(row: ConditionRow, paint: Paint, width: int) -> Iterator[str]:
@@ -146,7 +206,7 @@ def _lines(row: ConditionRow, paint: Paint, width: int) -> Iterator[str]:
     mark = ""
     after = f"∀ {','.join(vertex_letters(row.tree))}" if row.is_shape else ""
     if row.condition is not None:
-        mark = paint.verdict(row.condition.holds, "holds  ", "FAILS  ")
+        mark = paint.verdict(row.condition.holds, "holds  " if row.condition.is_exact else "within ", "FAILS  ")
         after = "" if row.multiplicity == 1 else f"({row.multiplicity} times)"
     if row.stands_for:
         after = f"stands for {row.stands_for}"
@@ -157,11 +217,18 @@ def _lines(row: ConditionRow, paint: Paint, width: int) -> Iterator[str]:
     else:
         yield f"  {mark}{tree:<22} {sizes}".rstrip() + "\n"
         yield f"      {row.formula}   {after}".rstrip() + "\n"
-    if row.condition is not None and not row.condition.holds:
-        kind = "coupling" if row.condition.is_coupling else "diagonal"
-        value, residual = to_text(row.condition.value), to_text(row.condition.residual)
-        yield f"      is {value}, off by {residual}  ({kind} condition)\n"
+    if row.condition is not None and not row.condition.is_exact:
+        yield f"      {_miss(row.condition)}\n"
     yield from (line + "\n" for line in member_lines(map(format_tree, row.members), width))
+
+
+def _miss(condition: Condition) -> str:
+    """The value and the residual, in decimals where they are long."""
+    kind = "coupling" if condition.is_coupling else "diagonal"
+    value, residual = to_text(condition.value), to_text(condition.residual)
+    if max(len(value), len(residual)) > MOST_DIGITS:
+        value, residual = f"about {to_decimal(condition.value, 8)}", to_decimal(condition.residual, 4)
+    return f"is {value}, off by {residual}  ({kind} condition)"
 
 
 def _latex(rows: Iterable[ConditionRow], subject: Subject | None = None) -> Iterator[str]:

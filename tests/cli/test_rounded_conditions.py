@@ -1,0 +1,71 @@
+"""``gark conditions`` and ``gark conjugate`` on rounded coefficients; what failing conditions are counted among."""
+
+from __future__ import annotations
+
+import json
+from pathlib import Path
+
+import pytest
+
+from garkcli.exact.display import to_float
+from garkcli.methodfile.load import loads
+from garkcli.order.rounded import find_order_within
+from tests.cli.harness import ROOT, gark
+
+DECIMALS = ROOT / "tests" / "examples" / "hints" / "gauss2-decimals.gark.yaml"
+PAIR = "methods/gauss2-lobatto4.gark.yaml"
+
+
+@pytest.fixture
+def rounded(tmp_path: Path) -> str:
+    """Gauss 2 in fifteen decimals with a tolerance."""
+    file = tmp_path / "rounded.gark.yaml"
+    file.write_text(DECIMALS.read_text() + "\ntolerance: 1e-15\n")
+    return str(file)
+
+
+def test_conditions_within_the_tolerance_do_not_fail(rounded: str) -> None:
+    """Up to the order within the tolerance all conditions are met; none is said to hold that only nearly does."""
+    report = json.loads(gark("conditions", rounded, "-n", "5", "--format", "json").out)
+    assert report["tolerance"] == "1e-15"
+    rows = report["conditions"]
+    assert {row["order"] for row in rows if not row["holds"]} == {5}
+    text = gark("conditions", rounded, "-n", "4").out
+    assert "FAILS" not in text
+    assert text.count("  holds  ") == sum(row["residual"] == "0" for row in rows if row["order"] <= 4)
+    assert text.endswith("8 conditions, all hold within 1e-15\n")
+    assert max(map(len, text.splitlines())) < 100
+    exact = gark("conditions", str(DECIMALS), "-n", "4").out
+    assert exact.endswith("8 conditions, 7 fail\n")
+
+
+def test_independent_conditions_within_the_tolerance(rounded: str) -> None:
+    """The independent conditions of the pair are judged within the tolerance of the file too."""
+    rows = json.loads(gark("conditions", rounded, "-n", "4", "--symplectic", "--format", "json").out)["conditions"]
+    assert all(row["holds"] for row in rows)
+    assert any(row["residual"] != "0" for row in rows)
+
+
+def test_the_conjugate_of_a_rounded_method_is_rounded(rounded: str) -> None:
+    """Its file has the tolerance, so that it is checked within it, also the pair's."""
+    for options in ((), ("--pair",)):
+        again = loads(gark("conjugate", rounded, "--format", "yaml", *options).out)
+        assert again.tolerance is not None
+        assert to_float(again.tolerance) == 1e-15
+        assert find_order_within(again.tableau, again.tolerance, 6).order == 4
+
+
+def test_failing_conditions_are_counted_among_all() -> None:
+    """With --failing the summary still counts every condition, and order headings without failures are left out."""
+    every, failing = (
+        gark("conditions", PAIR, "--pair", "-n", "3", *more).out.splitlines() for more in ([], ["--failing"])
+    )
+    assert every[-1] == failing[-1] == "62 conditions, 2 fail"
+    assert [line for line in every if "FAILS" in line] == [line for line in failing if "FAILS" in line]
+    assert [line for line in failing if line.startswith("order")] == ["order 3"]
+
+
+def test_colours_with_names_are_named() -> None:
+    """Where trees say 3 and the colour is called F1, a line says so; where numbers are names, none does."""
+    assert gark("conditions", PAIR, "--pair", "-n", "1").out.startswith("colours: 1 V1, 2 V2, 3 F1, 4 F2\n")
+    assert gark("conditions", PAIR, "-n", "1").out.startswith("order 1\n")
