@@ -21,8 +21,9 @@ COMMANDS = {
     "tableau": "the assembled tableau, all blocks",
     "conjugate": "the symplectic conjugate tableau, or the pair",
     "converge": "the convergence test on a problem",
+    "energy": "energy and other invariants over a long time: do they drift?",
     "list": "families, transfer rules, problems",
-    "schema": "the JSON Schema of method files, for editors",
+    "schema": "the JSON Schemas of method and problem files, for editors",
 }
 """Every command with its line in the help; the module of the same name in this room has it."""
 

@@ -25,7 +25,7 @@ PROBLEMS: Mapping[str, str] = {
     "kepler": "½|p|² − 1/|q|, eccentricity 3/5; with angular momentum",
     "henon-heiles": "½|p|² + ½|q|² + x²y − y³/3",
     "fput": "three masses between walls, on springs with quadratic and cubic forces",
-    "double-pendulum": "two rods under gravity: the mass matrix depends on the angles; semi-separable",
+    "double-pendulum": "two rods; the kinetic energy depends on the angles",
     "generic": "a random polynomial in N terms, none separable; sees every tree",
 }
 """One line a problem, for people."""

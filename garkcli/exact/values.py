@@ -102,8 +102,8 @@ def shown(x: Value) -> str:
 
 
 def _applied(sign: str, left: Value, right: Value, at: Expression) -> Value:
-    if sign == "/" and (arb(right).contains(0) if isinstance(right, arb) else not right):
-        raise UndefinedValue("division by zero", f"{format_expression(at)[:40]} is 0 here", at.start, at.end)
+    if sign == "/":
+        _check_divisor(right, at)
     if isinstance(left, arb) or isinstance(right, arb):
         left, right = arb(left), arb(right)
     if sign == "+":
@@ -113,10 +113,20 @@ def _applied(sign: str, left: Value, right: Value, at: Expression) -> Value:
     return left * right if sign == "*" else left / right
 
 
+def _check_divisor(number: Value, at: Expression) -> None:
+    if number.contains(0) if isinstance(number, arb) else not number:
+        what = "" if isinstance(at, Literal) else f"{_cut(format_expression(at))} is 0 here"
+        raise UndefinedValue("division by zero", what, at.start, at.end)
+
+
+def _cut(text: str) -> str:
+    return text if len(text) <= 40 else f"{text[:39]}…"
+
+
 def _power(base: Value, exponent: fmpq, at: Expression, of: Expression) -> Value:
     """A power; the base is positive where the exponent is no whole number."""
-    if exponent < 0 and (base.contains(0) if isinstance(base, arb) else not base):
-        raise UndefinedValue("division by zero", f"{format_expression(of)[:40]} is 0 here", of.start, of.end)
+    if exponent < 0:
+        _check_divisor(base, of)
     if exponent.q == 1:
         if isinstance(base, fmpq):
             _bounded(fmpq(1) if base.height_bits() * abs(exponent) <= MAX_BITS else None, at)
@@ -145,8 +155,7 @@ def _root(radicand: Value, index: int, at: Expression, of: Expression) -> Value:
 
 def _finite(result: arb, at: Expression, function: str, of: Expression, x: Value) -> Value:
     if not result.is_finite():
-        inner = format_expression(of)
-        inner = inner if len(inner) <= 40 else f"{inner[:39]}…"
+        inner = _cut(format_expression(of))
         what = f"{inner} = {shown(x)}" if inner != str(x) else inner
         raise UndefinedValue(f"{function} of {what} is no real number", "", at.start, at.end)
     return _bounded(result, at)

@@ -82,7 +82,7 @@ class _Reader:
         if root is None:
             return None
         if keys_of(root) & set(METHOD_FORMS) and not keys_of(root) & {"hamiltonian", "lagrangian"}:
-            source.fault(root, "this is a method file", "the problem is another file, see docs/problem-file.md")
+            source.fault(root, "this is a method file, not a problem file", "see docs/problem-file.md")
             return None
         entries = source.mapping(root, "the file", KEYS)
         version = entries.get("gark")
@@ -189,6 +189,9 @@ class _Reader:
         if len(entries) > MAX_INVARIANTS:
             self.source.fault(node, f"{len(entries)} invariants (limit {MAX_INVARIANTS})", "use fewer")
             return []
+        for name, value in entries.items():
+            if name.lower() in {"energy", "h"}:
+                self.source.fault(value, f"invariants: {name} is reported always", "leave it out")
         return [(shown_name(name), value) for name, value in entries.items()]
 
 

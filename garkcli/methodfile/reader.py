@@ -67,6 +67,10 @@ class Reader:
         root = source.compose()
         if root is None:
             return None
+        if keys_of(root) & {"hamiltonian", "lagrangian"} and not keys_of(root) & set(FORMS):
+            cure = "give it beside a method file: gark converge METHOD --problem FILE"
+            source.fault(root, "this is a problem file, not a method file", cure)
+            return None
         entries = source.mapping(root, "the file", KEYS)
         version = entries.get("gark")
         if version is not None and source.scalar(version, "gark") != "1":

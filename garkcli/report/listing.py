@@ -37,13 +37,8 @@ def render(
             lines.append(
                 f"  {name:<{width}}{summary}" if len(summary) + width < 78 else f"  {name}\n      {summary}"
             )
+    lines += ["", "A problem of your own is a file: --problem FILE.yaml, see docs/problem-file.md."]
     return "\n".join(lines) + "\n"
-
-
-def _wrapped(text: str) -> list[str]:
-    from textwrap import wrap
-
-    return wrap(text, 78, initial_indent=" " * 6, subsequent_indent=" " * 6)
 
 
 def _stages(family: Family) -> str:

@@ -1,0 +1,61 @@
+"""The JSON Schema (draft-07) of problem files, for editors; made from the same lists that the loader checks by.
+
+It says what can be said about one value at a time: which names formulas may have is for the loader.
+"""
+
+from __future__ import annotations
+
+from garkcli.exact.formula import RESERVED
+from garkcli.methodfile.problem import KEYS, MAX_INVARIANTS, MAX_TERMS, MAX_VARIABLES
+from garkcli.methodfile.schema import Schema
+
+_NAME = f"^(?!({'|'.join(sorted(RESERVED))})$)[A-Za-z_][A-Za-z_0-9]{{0,29}}$"
+_TEXT: Schema = {"type": ["string", "number", "boolean", "null"]}
+_CONSTANT: Schema = {
+    "description": "A number: 2, 0.1, 2/5, sqrt(2), pi/3, with parameters.",
+    "type": ["number", "string"],
+    "pattern": r"^[-+*/^().,\sA-Za-z0-9_]+$",
+}
+_FORMULA: Schema = {
+    "description": "A formula such as px**2/2 - cos(x).",
+    "type": ["number", "string"],
+    "pattern": r"^[-+*/^().,\sA-Za-z0-9_]+$",
+}
+
+
+def problem_file_schema() -> Schema:
+    """The schema as plain data."""
+    formula: Schema = {"$ref": "#/definitions/formula"}
+    terms = {"anyOf": [formula, {"type": "array", "items": formula, "minItems": 1, "maxItems": MAX_TERMS}]}
+    name: Schema = {"type": "string", "pattern": _NAME}
+    variables = {"type": "array", "items": name, "minItems": 1, "maxItems": MAX_VARIABLES, "uniqueItems": True}
+    constants: Schema = {"type": "object", "additionalProperties": {"$ref": "#/definitions/constant"}}
+    properties: Schema = {
+        "gark": {"description": "Version of the format.", "enum": [1, "1"]},
+        "name": {**_TEXT, "description": "What people call the problem."},
+        "description": {**_TEXT, "description": "What it is."},
+        "reference": {**_TEXT, "description": "Where it was published."},
+        "variables": {"description": "Names of the positions.", "anyOf": [name, variables]},
+        "parameters": {**constants, "propertyNames": {"pattern": _NAME}, "description": "Named constants."},
+        "hamiltonian": {**terms, "description": "H in positions x and momenta px; a list: one term a colour."},
+        "lagrangian": {**terms, "description": "L in positions x and velocities vx; a list: one term a colour."},
+        "initial": {**constants, "description": "Initial positions, and momenta (or velocities of a Lagrangian)."},
+        "t_end": {"$ref": "#/definitions/constant"},
+        "invariants": {
+            "description": "First integrals besides H, in positions and momenta.",
+            "type": "object",
+            "additionalProperties": formula,
+            "maxProperties": MAX_INVARIANTS,
+        },
+    }
+    return {
+        "$schema": "http://json-schema.org/draft-07/schema#",
+        "title": "gark problem file",
+        "description": "A Hamiltonian or Lagrangian problem with its initial values.",
+        "type": "object",
+        "additionalProperties": False,
+        "required": ["variables", "initial"],
+        "oneOf": [{"required": ["hamiltonian"]}, {"required": ["lagrangian"]}],
+        "properties": {key: properties[key] for key in KEYS},
+        "definitions": {"formula": _FORMULA, "constant": _CONSTANT},
+    }
