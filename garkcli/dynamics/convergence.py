@@ -7,8 +7,9 @@ error needs, so a slope is never a slope of rounding errors.
 from __future__ import annotations
 
 from collections.abc import Iterator, Sequence
-from dataclasses import dataclass
+from dataclasses import dataclass, field
 from itertools import count, islice
+from typing import TYPE_CHECKING
 
 from flint import arb, arb_mat, ctx, fmpq
 
@@ -26,6 +27,9 @@ from garkcli.errors import UsageProblem
 from garkcli.exact.matrix import Matrix
 from garkcli.order.certificate import find_order
 from garkcli.tableau.tableau import Tableau
+
+if TYPE_CHECKING:
+    from garkcli.dynamics.work import Cost
 
 LINEAR_ONLY = "a linear problem sees only the unbranched trees: it can show an order too high, never one too low"
 """What every report of this test has to say."""
@@ -53,12 +57,14 @@ class Row:
         slope: of log error over log h, between the row before and this one; None in the first row.
         energy_error: |H(t_end) − H(0)|. Zero only where that is proved, as for a step that conserves H; an upper
             bound, far smaller than the error, where the two energies could not be told apart.
+        cost: of the steps; None where they were not taken one by one.
     """
 
     h: fmpq
     error: arb
     slope: float | None
     energy_error: arb
+    cost: Cost | None = field(default=None, kw_only=True)
 
 
 @dataclass(frozen=True)

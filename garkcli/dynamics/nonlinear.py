@@ -1,44 +1,38 @@
 """The convergence test on nonlinear problems: errors over a ladder of step sizes, against the order they can show.
 
 Each row of the table is computed with as many digits as its error needs: floats where they do, more where the
-error would fall below round-off. The reference solution is a Gauss method on the unsplit problem, with steps so
-small that halving them changes nothing in the digits used.
+error would fall below round-off. The reference solution has more.
 """
 
 from __future__ import annotations
 
-from collections.abc import Iterator, Sequence
-from dataclasses import dataclass, field
-from functools import cache
-from itertools import count
-from math import ceil, log2
+from collections.abc import Sequence
+from dataclasses import dataclass, field, replace
+from math import ceil, log10
 from typing import Any
 
 from flint import arb, ctx, fmpq
 
+from garkcli.dynamics import ladder
 from garkcli.dynamics.convergence import CLOSE, Row, observed_order
 from garkcli.dynamics.hamiltonian import FLOAT_DIGITS, Hamiltonian, energy_function
 from garkcli.dynamics.linear import whole_steps
+from garkcli.dynamics.reference import Reference, Watch, magnitude, reference, run
 from garkcli.dynamics.scheme import Scheme, scheme
-from garkcli.dynamics.step import StepFailed, final
+from garkcli.dynamics.step import StepFailed
 from garkcli.dynamics.structure import fields_of, sight, visible
+from garkcli.dynamics.work import cost_of, work_of
 from garkcli.errors import UsageProblem
 from garkcli.exact.display import to_float
 from garkcli.order.certificate import find_order
 from garkcli.tableau.tableau import Tableau
 
-ROWS = 5
-"""Step sizes of the default ladder; more only while the slopes still move."""
-MAX_ROWS = 9
-"""Most step sizes of the default ladder."""
 MAX_DIGITS = 250
 """Most digits: corrections of Newton's method are floats, which end soon after."""
 MAX_STEPS = 1_000_000
 """Most steps of one row."""
 _SPARE = 6  # correct digits of an error
-_FLAT = 0.25  # how far a slope on the plateau is below the order
-_ABOVE = 300  # how many times the error of the plateau an error has to be to count
-_SETTLED = 0.01  # change between two slopes at which the ladder may end
+_REACHED = 0.1  # part of an error that the round-off of floats may be to have reached it
 
 
 @dataclass(frozen=True)
@@ -94,6 +88,8 @@ def observe(
     t_end: fmpq | None = None,
     steps: Sequence[fmpq] | None = None,
     tolerance: fmpq | None = None,
+    is_timed: bool = False,
+    watch: Watch | None = None,
 ) -> Observation:
     """Test the convergence of ``tableau`` on ``problem``.
 
@@ -101,8 +97,10 @@ def observe(
         tableau: any tableau whose structure the problem is of, made for it by ``fitted``.
         problem: split into as many terms as the tableau has.
         t_end: the problem's own by default.
-        steps: step sizes that divide ``t_end``; by default an eighth, halved until the slopes have settled.
+        steps: step sizes that divide ``t_end``; by default the ladder of ``garkcli.dynamics.ladder``.
         tolerance: of rounded coefficients; slopes may then end on a plateau.
+        is_timed: whether to measure the time of the steps in floats as well.
+        watch: is told how far each run is.
 
     Raises:
         UsageProblem: the problem is not of the form of the structure, a step does not divide ``t_end``, or no
@@ -113,10 +111,12 @@ def observe(
     fields = fields_of(tableau, problem)
     seen = visible(tableau, fields)
     predicted, order = (_order(x, tolerance) for x in (tableau, seen))
-    test = _Test(tableau, problem, t_end, order)
+    test = _Test(tableau, problem, t_end, order, watch)
     rows = _default_rows(test, tolerance is not None) if steps is None else _given_rows(test, steps)
-    plateau = _plateau(rows, order) if tolerance is not None else 0
+    plateau = ladder.plateau(rows, order) if tolerance is not None else 0
     observed = observed_order(rows[: len(rows) - plateau])
+    if is_timed:
+        rows = [test.timed(row) for row in rows]
     return Observation(problem, t_end, tuple(rows), plateau, observed, predicted, order, sight(fields))
 
 
@@ -136,54 +136,23 @@ def _given_rows(test: _Test, steps: Sequence[fmpq]) -> list[PathRow]:
 
 
 def _default_rows(test: _Test, is_rounded: bool) -> list[PathRow]:
-    """The ladder from h ≈ 1/8 down; step sizes too large for Newton's method are left out."""
+    """The ladder of ``garkcli.dynamics.ladder``; step sizes too large for Newton's method are left out."""
     rows: list[PathRow] = []
-    observed: list[float] = []
-    for h in _halvings(test.t_end):
+    is_small: list[bool] = []
+    for h in ladder.halvings(test.t_end):
+        is_coarse = h * ladder.MAX_COARSE > test.t_end
         try:
             rows.append(test.row(h, rows[-1] if rows else None))
         except StepFailed:
-            if rows or h * 4000 < test.t_end:
+            if any(is_small) or not is_coarse:
                 raise
+            rows, is_small = [], []
             continue
-        if is_rounded and _plateau(rows, test.order) > 1:
-            break
-        observed.append(observed_order(rows) or 0.0)
-        if len(rows) == MAX_ROWS or (len(rows) >= ROWS and _has_settled(rows, observed)):
-            break
-    return rows
-
-
-def _halvings(t_end: fmpq) -> Iterator[fmpq]:
-    whole_steps(t_end, t_end)  # refuses a time that is not positive
-    n = max(int((8 * t_end).ceil()), 4)
-    for k in count():
-        yield t_end / (n * 2**k)
-
-
-def _has_settled(rows: Sequence[Row], observed: Sequence[float]) -> bool:
-    """Whether the last two slopes, or the last two extrapolated orders, are the same."""
-    before, last = rows[-2].slope, rows[-1].slope
-    if before is None or last is None:
-        return False
-    return abs(last - before) < _SETTLED or abs(observed[-1] - observed[-2]) < _SETTLED / 2
-
-
-def _plateau(rows: Sequence[Row], order: int) -> int:
-    """How many rows at the end are no longer of ``order``: from the first flat one after one that had it.
-
-    Rows before it whose error is not far above that of the flat ones are spoilt by the rounding too.
-    """
-    had = [i for i, row in enumerate(rows) if row.slope is not None and row.slope > order - _FLAT]
-    flat = [i for i in range(had[0] if had else len(rows), len(rows)) if _is_flat(rows[i], order)]
-    if not flat:
-        return 0
-    level = min((row.error for row in rows[flat[0] :]), key=float) * _ABOVE
-    return len(rows) - next(i for i, row in enumerate(rows) if i == flat[0] or row.error < level)
-
-
-def _is_flat(row: Row, order: int) -> bool:
-    return row.slope is not None and row.slope < order - _FLAT
+        is_small.append(test.is_small(rows[-1]) or not is_coarse)
+        plateau = ladder.plateau(rows, test.order) if is_rounded else 0
+        if plateau > 1 or ladder.is_complete(rows, is_small):
+            return ladder.trimmed(rows, is_small, plateau)
+    raise AssertionError("halvings end only with the loop")
 
 
 @dataclass
@@ -194,9 +163,12 @@ class _Test:
     problem: Hamiltonian
     t_end: fmpq
     order: int
+    watch: Watch | None
     schemes: dict[int, Scheme] = field(default_factory=dict)
-    reference: tuple[arb, ...] = ()
-    correct: int = 0  # digits of the reference
+    reference: Reference = field(init=False)
+
+    def __post_init__(self) -> None:
+        self.reference = reference(self.problem, self.t_end)
 
     def row(self, h: fmpq, before: PathRow | None) -> PathRow:
         """Errors at ``t_end``, with digits enough for them."""
@@ -205,27 +177,50 @@ class _Test:
             raise UsageProblem(f"{steps} steps (limit {MAX_STEPS})", "choose a shorter time or larger steps")
         digits = self._digits(h, before)
         while True:
-            y = final(self._scheme(digits), h, steps)
-            self._refer(digits)
-            with ctx.workprec(self.schemes[digits].bits + 32):
-                error = (
-                    sum(((arb(a) - b) ** 2 for a, b in zip(y, self.reference, strict=True)), arb(0)).sqrt().mid()
-                )
-                size = sum((abs(b) for b in self.reference), arb(1))
-                if error > size * arb(10) ** (_SPARE - 1 - digits):
-                    break
+            state = run(self._scheme(digits), h, steps, self.watch, f"h = {h}")
+            error = self._error(state.y, digits)
+            if error > self._size * arb(10) ** (_SPARE - 1 - digits):
+                break
             if digits == MAX_DIGITS:
                 raise UsageProblem(f"the error for h = {h} is below 10^-{MAX_DIGITS}", "choose larger steps")
             digits = min(MAX_DIGITS, 2 * digits)
         slope = None if before is None else float((before.error / error).log() / (arb(before.h) / arb(h)).log())
-        energy, *others = self._invariant_errors(y, digits)
-        return PathRow(h, error, slope, energy, digits, tuple(others))
+        energy, *others = self._invariant_errors(state.y, digits)
+        return PathRow(h, error, slope, energy, digits, tuple(others), cost=cost_of(state))
+
+    def is_small(self, row: PathRow) -> bool:
+        """Whether the error is a small part of the solution."""
+        return bool(row.error < self._size * ladder.LARGEST / 2)  # the size counts start and end
+
+    def timed(self, row: PathRow) -> PathRow:
+        """The row with the cost of its steps in floats, where these reach its error to a tenth."""
+        y, cost = work_of(self._scheme(FLOAT_DIGITS), row.h, whole_steps(self.t_end, row.h))
+        difference = abs(self._error(y, FLOAT_DIGITS) - row.error)
+        return replace(row, cost=cost) if difference < _REACHED * row.error else row
+
+    @property
+    def _size(self) -> arb:
+        return magnitude(self.reference.y, self.problem)
+
+    def _error(self, y: Sequence[Any], digits: int) -> arb:
+        """The distance of ``y`` from the reference solution."""
+        exact = self.reference.to(self._digits_of_reference(digits), self.watch)
+        with ctx.workprec(self._scheme(digits).bits + 32):
+            return sum(((arb(a) - b) ** 2 for a, b in zip(y, exact, strict=True)), arb(0)).sqrt().mid()
+
+    def _digits_of_reference(self, digits: int) -> int:
+        """Enough for the row, and beyond floats for the next two as well."""
+        if digits <= FLOAT_DIGITS or self.reference.digits >= digits + _SPARE:
+            return digits + _SPARE
+        return digits + _SPARE + ceil(2 * self.order * log10(2))
 
     def _digits(self, h: fmpq, before: PathRow | None) -> int:
         """Digits for the error that the row before and the order let expect."""
         if before is None:
-            return FLOAT_DIGITS if self.order <= 6 else 30
-        decades = float(before.error.log() / arb(10).log()) - self.order * log2(to_float(before.h / h)) / log2(10)
+            return FLOAT_DIGITS
+        decades = float((before.error / self._size).log() / arb(10).log()) - self.order * log10(
+            to_float(before.h / h)
+        )
         needed = ceil(-decades) + _SPARE
         # in whole tens, so that the same scheme serves several rows
         return (
@@ -237,43 +232,9 @@ class _Test:
             self.schemes[digits] = scheme(self.tableau, self.problem, digits)
         return self.schemes[digits]
 
-    def _refer(self, digits: int) -> None:
-        if self.correct < digits + _SPARE:
-            self.correct = digits + _SPARE
-            self.reference = solution(self.problem, self.t_end, self.correct)
-
     def _invariant_errors(self, y: Sequence[Any], digits: int) -> list[arb]:
         bits = self.schemes[digits].bits + 32
         with ctx.workprec(bits):
             measure = energy_function(self.problem, digits + 10)
             now, then = measure(*map(arb, y)), measure(*map(arb, self.problem.initial))
             return [abs(a - b).mid() for a, b in zip(now, then, strict=True)]
-
-
-@cache
-def solution(problem: Hamiltonian, t_end: fmpq, digits: int) -> tuple[arb, ...]:
-    """(q, p) at ``t_end``, shape (2d,), with an error below 10^(−digits) by the change when steps are halved.
-
-    Raises:
-        StepFailed: the problem has no solution up to there, or one too close to a singularity.
-    """
-    from garkcli.families.registry import diagonal_method
-    from garkcli.tableau.forms import gark
-
-    stages = min(14, max(5, digits // 4))
-    method = scheme(gark([diagonal_method("gauss", stages)], {}), problem.unsplit(), digits + 5)
-    steps = max(8, ceil(8 * to_float(t_end)))
-    while True:
-        try:
-            coarse, fine = (final(method, t_end / n, n) for n in (steps, 2 * steps))
-        except StepFailed:
-            if steps > 10_000:
-                raise
-            steps *= 4
-            continue
-        with ctx.workprec(method.bits):
-            change = max(float(abs(a - b)) for a, b in zip(coarse, fine, strict=True))
-        if change < 10.0**-digits:
-            return tuple(fine)
-        factor = (change * 10.0**digits) ** (1 / (2 * stages))
-        steps = max(steps + 1, ceil(steps * min(factor * 1.1, 8)))

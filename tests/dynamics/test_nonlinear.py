@@ -5,12 +5,11 @@ from __future__ import annotations
 import json
 
 import pytest
-from flint import arb, ctx, fmpq
+from flint import fmpq
 
 from garkcli.cli.problems import PROBLEMS as CHOICES
-from garkcli.dynamics.convergence import Row
 from garkcli.dynamics.examples import hamiltonian
-from garkcli.dynamics.nonlinear import Observation, _plateau, observe, solution
+from garkcli.dynamics.nonlinear import Observation, observe
 from garkcli.dynamics.problems import PROBLEMS, terms_of
 from garkcli.families.registry import diagonal_method
 from garkcli.tableau.forms import gark as gark_tableau
@@ -103,28 +102,6 @@ def test_rounded_coefficients_end_on_a_plateau() -> None:
     assert result.plateau > 0
     assert result.observed_order == pytest.approx(4, abs=0.05)
     assert result.agrees
-
-
-def test_plateau_needs_an_order_before_it() -> None:
-    """Slopes that never had the order are not a plateau, and a dip before it is not one either."""
-
-    def rows(*slopes: float) -> list[Row]:
-        return [Row(fmpq(1, 2**k), arb(1) / 100 ** min(k, 4), s, arb(0)) for k, s in enumerate(slopes)]
-
-    assert _plateau(rows(1, 1, 1), 4) == 0
-    assert _plateau(rows(3, 3.9, 4, 4, 2, 0), 4) == 3
-    assert _plateau(rows(2, 3.9, 4), 4) == 0
-
-
-def test_reference_solution() -> None:
-    """Kepler after its period is where it began, to 16 digits."""
-    problem = hamiltonian("kepler", 2)
-    with ctx.workprec(200):
-        period = 2 * arb.pi()
-        near = fmpq(int((period * 10**50).floor().unique_fmpz() or 0), 10**50)
-    end = solution(problem, near, 16)
-    with ctx.workprec(200):
-        assert max(abs(a - arb(b)) for a, b in zip(end, problem.initial, strict=True)) < arb(10) ** -16
 
 
 def test_invariants_are_reported() -> None:

@@ -1,0 +1,131 @@
+"""Solutions that errors are measured against: Gauss methods with as many digits and steps as are asked for."""
+
+from __future__ import annotations
+
+from collections.abc import Callable, Sequence
+from dataclasses import dataclass, replace
+from functools import cache
+from math import ceil
+from typing import Any, TypeAlias
+
+from flint import arb, ctx, fmpq
+
+from garkcli.dynamics.hamiltonian import Hamiltonian
+from garkcli.dynamics.scheme import Scheme, scheme
+from garkcli.dynamics.step import State, StepFailed
+from garkcli.errors import UsageProblem
+from garkcli.exact.display import to_float
+
+Watch: TypeAlias = Callable[[str, int, int], None]
+"""Is told what is being computed, how many steps of it are done, and of how many."""
+MAX_TRIED = 10_000
+"""Steps from which on a step that fails is the fault of the problem."""
+MAX_STEPS = 1_000_000
+"""Most steps of a reference solution."""
+_CALLS = 200  # of a watch in one run
+_STAGES = 20  # beyond, a step costs more than fewer of them save
+_SPARE = 10  # digits that round-off may grow by
+_CREDIT = 1e-6
+
+
+def run(made: Scheme, h: fmpq, count: int, watch: Watch | None = None, what: str = "") -> State:
+    """The state after ``count`` steps of size ``h``; ``watch`` is told about ``what``.
+
+    Raises:
+        StepFailed: the stage equations of a step were not solved.
+    """
+    state = State(made, h)
+    each = count if watch is None else max(1, count // _CALLS)
+    while state.done < count:
+        state.advance(min(each, count - state.done))
+        if watch is not None:
+            watch(what, state.done, count)
+    return state
+
+
+@dataclass
+class Reference:
+    """The solution of a problem at one time, in the most digits that were asked for so far.
+
+    Attributes:
+        problem: in one term.
+        t_end: the time.
+        digits: the error is below 10^(−digits) times the ``magnitude`` of the solution; 0 before anything was
+            asked for.
+        y: (q, p) at ``t_end``, shape (2d,).
+    """
+
+    problem: Hamiltonian
+    t_end: fmpq
+    digits: int = 0
+    y: tuple[arb, ...] = ()
+
+    def to(self, digits: int, watch: Watch | None = None) -> tuple[arb, ...]:
+        """(q, p) at ``t_end`` with an error below 10^(−digits) times the ``magnitude`` of the solution.
+
+        Raises:
+            StepFailed: the problem has no solution up to there, or one too close to a singularity.
+            UsageProblem: it depends on its start so much that round-off drowns it.
+        """
+        if digits > self.digits:
+            self.y = _solved(self.problem, self.t_end, digits, watch)
+            self.digits = digits
+        return self.y
+
+
+def reference(problem: Hamiltonian, t_end: fmpq) -> Reference:
+    """The solution of ``problem`` at ``t_end``: the same one for all ways to split the problem."""
+    return _kept(replace(problem.unsplit(), name="", invariants=()), t_end)
+
+
+@cache
+def _kept(problem: Hamiltonian, t_end: fmpq) -> Reference:
+    return Reference(problem, t_end)
+
+
+def _solved(problem: Hamiltonian, t_end: fmpq, digits: int, watch: Watch | None) -> tuple[arb, ...]:
+    """More and more steps of one Gauss method, until the last change says that the error is small enough.
+
+    From n to m > n steps an error falls by (n/m)^2s when h is small enough, and by more than (n/m)^s long before.
+    The change bounds the larger of the two errors, so the smaller one is taken to be (n/m)^s of it; but no less
+    than ``_CREDIT``, because round-off does not fall, whatever the problem makes of it.
+    """
+    from garkcli.families.registry import diagonal_method
+    from garkcli.tableau.forms import gark
+
+    stages = min(_STAGES, max(6, 2 * digits // 5))
+    method = scheme(gark([diagonal_method("gauss", stages)], {}), problem, digits + _SPARE)
+    steps = max(4, ceil(4 * to_float(t_end)))
+    before: list[Any] = []
+    fewer = 0
+    while True:
+        if steps > MAX_STEPS:
+            raise UsageProblem(
+                f"the solution at t = {t_end} is not found to {digits} digits in {MAX_STEPS} steps",
+                "choose an earlier final time",
+            )
+        try:
+            y = run(method, t_end / steps, steps, watch, f"reference solution, {digits} digits").y
+        except StepFailed:
+            if steps > MAX_TRIED:
+                raise
+            steps, before = 4 * steps, []
+            continue
+        if not before:
+            before, fewer, steps = y, steps, 2 * steps
+            continue
+        with ctx.workprec(method.bits):
+            change = max((abs(a - b) for a, b in zip(y, before, strict=True)), key=float)
+            goal = arb(10) ** -digits * magnitude(y, problem)
+            ratio = arb(fewer) / steps
+            if change * max(ratio**stages, arb(_CREDIT)) < goal:
+                return tuple(y)
+            excess = float((change * ratio ** (2 * stages) / goal).mid())
+        before, fewer = y, steps
+        factor = 1.1 * excess ** (1 / stages) if excess > 0 else 1.3
+        steps = ceil(steps * min(max(factor, 1.3), 8))
+
+
+def magnitude(y: Sequence[Any], problem: Hamiltonian) -> arb:
+    """How large the numbers of a solution are that starts as ``problem`` does and ends at ``y``."""
+    return sum((abs(arb(x)) for x in (*y, *problem.initial)), arb(0))
