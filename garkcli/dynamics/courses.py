@@ -77,6 +77,11 @@ class LongRun:
     stability: Stability | None = None
 
     @property
+    def end(self) -> float:
+        """The time that was reached."""
+        return to_float(self.steps * self.step)
+
+    @property
     def blew_up(self) -> bool:
         """Whether the run has ended before its time."""
         return self.courses[0].verdict == "unstable"
@@ -110,7 +115,7 @@ def of_oscillator(result: Drift, tolerance: fmpq | None = None) -> LongRun:
         result.amplitude,
         rounding,
         verdict,
-        "line" if verdict == "drifts" else "none",
+        ("line" if abs(result.drift) > result.uncertainty else "curve") if verdict == "drifts" else "none",
         result.energy_errors,
     )
     return LongRun(
@@ -123,3 +128,19 @@ def of_oscillator(result: Drift, tolerance: fmpq | None = None) -> LongRun:
         result.times,
         stability=result.stability,
     )
+
+
+def whole_run(step: fmpq | None, t_end: fmpq | None, usual_step: fmpq, usual_end: fmpq) -> tuple[fmpq, fmpq]:
+    """A step size, and a time that is a whole number of them; what is not given comes near the usual.
+
+    >>> whole_run(None, fmpq(1), fmpq(3, 10), fmpq(100))
+    (1/4, 1)
+    >>> whole_run(fmpq(3, 10), None, fmpq(1, 2), fmpq(100))
+    (3/10, 999/10)
+    """
+    if t_end is None:
+        step = usual_step if step is None else step
+        return step, step * max(int((usual_end / step).floor()), 1)
+    if step is None:
+        step = t_end / max(int((t_end / usual_step).ceil()), 1)
+    return step, t_end

@@ -98,7 +98,7 @@ def drift(tableau: Tableau, problem: Oscillator, t_end: fmpq, step: fmpq, points
     too_large = np.flatnonzero(~(np.abs(errors) <= BLOW_UP * energy))
     if too_large.size:
         errors = errors[: int(too_large[0])]
-    kept = extremes(errors, points)
+    kept = np.union1d(extremes(errors, points - 2), [0, len(errors) - 1])
     slope, uncertainty = _drift(errors, _angle(R, problem.omega))
     left = errors - slope * np.arange(len(errors))
     return Drift(

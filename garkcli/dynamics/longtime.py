@@ -33,10 +33,23 @@ if TYPE_CHECKING:
 
 Watch: TypeAlias = Callable[[Iterator[Any], int], Iterator[Any]]
 """Passes on a number of things, one a step, and may count them."""
+_USUAL = {
+    "split-oscillator": (fmpq(1, 10), fmpq(1000)),
+    "pendulum": (fmpq(1, 10), fmpq(1000)),
+    "kepler": (fmpq(1, 50), fmpq(1000)),
+    "henon-heiles": (fmpq(1, 10), fmpq(1000)),
+    "fput": (fmpq(1, 10), fmpq(1000)),
+    "generic": (fmpq(1, 100), fmpq(1)),  # its solutions need not exist for long
+}
 _CHUNK = 8192  # steps measured at a time
 _COMPARED = 128  # steps that are done with more digits too
 _SPARE = 15  # how many more
 _PARTS = 4  # equal parts of a run at whose ends the state is kept
+
+
+def usual(problem: Hamiltonian) -> tuple[fmpq, fmpq]:
+    """A step size and a time that show the long run of ``problem``; 10 000 steps where nothing more is known."""
+    return _USUAL.get(problem.name, (problem.t_end / 40, 250 * problem.t_end))
 
 
 def follow(
@@ -90,7 +103,7 @@ class _Record:
         signals = len(measure.names)
         self.measure, self.count = measure, count
         self.trends = Trends(count, signals)
-        self.span = 1 if count < points else ceil((count + 1) / max(points // (2 * signals), 1))
+        self.span = 1 if count < points else ceil((count + 1) / max((points - 2) // (2 * signals), 1))
         self.largest: Floats = np.zeros(signals)
         self.states: dict[int, tuple[Any, ...]] = {}
         self.wanted = {count * part // _PARTS for part in range(_PARTS + 1)}

@@ -50,6 +50,19 @@ class Defect:
         return self.size > self.error
 
 
+@dataclass(frozen=True)
+class Symplecticity:
+    """Whether the steps of a method on a problem are symplectic.
+
+    Attributes:
+        is_proved: whether they are by the coefficients, see the function of this name.
+        defects: those measured; none where it was not asked for.
+    """
+
+    is_proved: bool
+    defects: tuple[Defect, ...] = ()
+
+
 def defects(tableau: Tableau, problem: Hamiltonian, step: fmpq, states: Sequence[State]) -> tuple[Defect, ...]:
     """Measure the steps from some states.
 
@@ -99,19 +112,21 @@ def _deviation(M: Jacobian) -> arb:
     return largest.mid()
 
 
+def holds(tableau: Tableau, tolerance: fmpq | None = None) -> bool:
+    """Whether b_i b_j = b_i a_ij + b_j a_ji throughout, exactly or within a tolerance: all steps are symplectic."""
+    return is_symplectic(tableau) if tolerance is None else is_symplectic_within(tableau, tolerance)
+
+
 def is_proved(tableau: Tableau, problem: Hamiltonian, tolerance: fmpq | None = None) -> bool:
-    """Whether the tableau makes every step symplectic, by b_i b_j = b_i a_ij + b_j a_ji, or within a tolerance.
+    """Whether the steps of ``tableau`` on ``problem`` are symplectic by its coefficients.
 
     Of a problem whose terms depend on positions or on momenta alone, only the blocks that it can see count.
     """
-
-    def holds(x: Tableau) -> bool:
-        return is_symplectic(x) if tolerance is None else is_symplectic_within(x, tolerance)
-
-    if holds(tableau):
+    if holds(tableau, tolerance):
         return True
     fields = fields_of(tableau, problem)
     drives: dict[int, set[str]] = {}
     for l, group in fields:
         drives.setdefault(tableau.colours[l].term, set()).add(group)
-    return all(len(groups) == 1 for groups in drives.values()) and holds(visible(tableau, fields))
+    is_separable = all(len(groups) == 1 for groups in drives.values())
+    return is_separable and holds(visible(tableau, fields), tolerance)

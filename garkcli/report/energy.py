@@ -1,13 +1,89 @@
-"""The energy over a long time, as text, JSON or CSV."""
+"""``gark energy``: conserved quantities over a long time, as text, JSON or CSV."""
 
 from __future__ import annotations
 
+import csv
+import io
 import json
+from typing import Any
 
+from garkcli.dynamics.courses import Course, LongRun
 from garkcli.dynamics.energy import Drift
-from garkcli.exact.display import to_float
+from garkcli.dynamics.hamiltonian import Hamiltonian
+from garkcli.exact.display import to_decimal, to_float
 from garkcli.report.convergence import describe
+from garkcli.report.energy_text import Report, text_of
 from garkcli.report.paint import Paint
+
+
+def render(report: Report, format: str, paint: Paint) -> str:  # noqa: A002
+    """The report as text, JSON or CSV."""
+    if format == "json":
+        return json.dumps(_data(report), indent=2, ensure_ascii=False, allow_nan=False) + "\n"
+    if format == "csv":
+        return _csv(report.run)
+    return "\n".join(text_of(report, paint)) + "\n"
+
+
+def _csv(run: LongRun) -> str:
+    stream = io.StringIO()
+    writer = csv.writer(stream, lineterminator="\n")
+    writer.writerow(["t", *(f"{course.name.replace(' ', '_')}_error" for course in run.courses)])
+    for t, *errors in zip(run.times, *(course.errors for course in run.courses), strict=True):
+        writer.writerow([repr(t), *map(repr, errors)])
+    return stream.getvalue()
+
+
+def _data(report: Report) -> dict[str, Any]:
+    run = report.run
+    return {
+        "schema": "gark/energy/1",
+        **_problem(run),
+        "name": report.name,
+        "step": to_float(run.step),
+        "step_exact": str(run.step),
+        "t_end": to_float(run.t_end),
+        "t_end_exact": str(run.t_end),
+        "steps": run.steps,
+        "digits": run.digits,
+        "blew_up": run.blew_up,
+        "drifts": run.drifts,
+        "quantities": [_quantity(course, run) for course in run.courses],
+        "symplectic": _symplectic_data(report),
+        "claims": [{"claim": x.claim, "found": x.found, "holds": x.holds} for x in report.claims],
+    }
+
+
+def _problem(run: LongRun) -> dict[str, Any]:
+    if isinstance(run.problem, Hamiltonian):
+        return {"problem": run.problem.name, "hamiltonian": [str(term) for term in run.problem.terms]}
+    shares = [[str(k), str(v)] for k, v in run.problem.shares]
+    return {"problem": "oscillator", "omega": str(run.problem.omega), "split": shares}
+
+
+def _quantity(course: Course, run: LongRun) -> dict[str, Any]:
+    return {
+        "name": course.name,
+        "initial": course.initial,
+        "max_error": course.max_error,
+        "drift": course.drift,
+        "drift_uncertainty": course.uncertainty,
+        "drift_in_all": None if course.drift is None else course.drift * run.end,
+        "oscillation": course.amplitude,
+        "round_off": course.round_off,
+        "verdict": course.verdict,
+        "trend": course.shape,
+    }
+
+
+def _symplectic_data(report: Report) -> dict[str, Any]:
+    found: dict[str, Any] = {"proved": report.symplecticity.is_proved}
+    if report.run.stability is not None:
+        found["determinant_minus_1"] = to_decimal(report.run.stability.determinant - 1, 4)
+    found["defects"] = [
+        {"t": to_float(x.time), "size": x.size, "good_to": x.error} for x in report.symplecticity.defects
+    ]
+    return found
 
 
 def render_drift(result: Drift, name: str, format: str, paint: Paint) -> str:  # noqa: A002

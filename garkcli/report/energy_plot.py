@@ -1,12 +1,68 @@
-"""Figures of the energy error over a long time."""
+"""Figures of conserved quantities over a long time.
+
+Lines differ in dashes as well as in colour, so that the figures can be printed in grey.
+"""
 
 from __future__ import annotations
 
+from matplotlib.axes import Axes
 from matplotlib.figure import Figure
 
+from garkcli.dynamics.courses import Course, LongRun
 from garkcli.dynamics.energy import Drift
+from garkcli.dynamics.hamiltonian import Hamiltonian
 
-_BLUE = "#1f4e9e"
+_BLUE, _PALE, _RED = "#1f4e9e", "#7fa1d6", "#a02417"  # of clearly different lightness in grey
+
+
+def energy_figure(run: LongRun) -> Figure:
+    """The energy error against time, and below it a panel for the error of each other invariant."""
+    courses = run.courses
+    heights = [3.0, *(2.0 for _ in courses[1:])]
+    figure = Figure(figsize=(7.2, 0.9 + sum(heights)), layout="constrained")
+    panels = figure.subplots(len(courses), 1, sharex=True, squeeze=False, height_ratios=heights)[:, 0]
+    name = run.problem.name if isinstance(run.problem, Hamiltonian) else "oscillator"
+    figure.suptitle(f"{name.capitalize()}, h = {run.step}, {run.steps} steps", fontsize=11)
+    for axes, course in zip(panels, courses, strict=True):
+        draw_course(axes, run, course)
+    panels[-1].set_xlabel("time t")
+    return figure
+
+
+def draw_course(axes: Axes, run: LongRun, course: Course) -> None:
+    """One quantity against time on ``axes``, with the line of its drift where it has one."""
+    axes.plot(run.times, course.errors, color=_PALE, linewidth=1.1, solid_joinstyle="round")
+    axes.axhline(0.0, color="0.1", linewidth=0.9)
+    if course.verdict == "drifts" and course.shape == "line" and course.drift is not None:
+        left = [e - course.drift * t for t, e in zip(run.times, course.errors, strict=True)]
+        middle = (max(left) + min(left)) / 2
+        ends = [run.times[0], run.times[-1]]
+        axes.plot(
+            ends,
+            [middle + course.drift * t for t in ends],
+            color=_RED,
+            linestyle=(0, (5, 4)),  # the errors show between the dashes
+            linewidth=1.4,
+            label=f"drift {course.drift:.2e} per unit of time",
+        )
+        axes.legend(frameon=False, fontsize=9)
+    axes.set_title(
+        f"{course.name}: largest error {course.max_error:.2e}, {_words(course)}", fontsize=10, loc="left"
+    )
+    axes.set_ylabel("H(t) − H(0)" if course.name == "energy" else "error")
+    axes.ticklabel_format(axis="y", style="sci", scilimits=(-2, 3), useMathText=True)
+    axes.grid(True, color="0.9", linewidth=0.6)
+    axes.margins(x=0)
+
+
+def _words(course: Course) -> str:
+    words = {
+        "exact": "conserved exactly",
+        "round-off": "not above round-off",
+        "unstable": "blown up",
+        "short": "too few steps to judge",
+    }
+    return words.get(course.verdict, course.verdict)
 
 
 def drift_figure(result: Drift) -> Figure:

@@ -1,0 +1,200 @@
+"""``gark energy``."""
+
+from __future__ import annotations
+
+from pathlib import Path
+from typing import TYPE_CHECKING
+
+import click
+
+from garkcli.cli.options import CONTEXT, Output, common
+from garkcli.cli.problems import ProblemType, find_problem
+from garkcli.cli.stepping import applied, positive
+from garkcli.errors import UsageProblem
+
+if TYPE_CHECKING:
+    from flint import fmpq
+
+    from garkcli.dynamics.courses import LongRun
+    from garkcli.dynamics.symplecticity import Symplecticity
+    from garkcli.methodfile.build import MethodFile
+    from garkcli.report.energy_text import Claim
+    from garkcli.tableau.tableau import Tableau
+
+
+@click.command("energy", context_settings=CONTEXT)
+@click.argument("file", metavar="FILE")
+@click.option(
+    "--problem",
+    type=ProblemType(),
+    default="oscillator",
+    show_default=True,
+    help="What to follow: a name that gark list shows, or a problem file.",
+)
+@click.option("--omega", metavar="W", help="The frequency of the oscillator; 1 by default.")
+@click.option("--split", metavar="K:V,...", help="The oscillator's shares of kinetic and potential energy.")
+@click.option("--seed", type=click.IntRange(0), metavar="N", help="The coefficients of generic; 1 by default.")
+@click.option("--t-end", metavar="T", help="The final time; each problem has its own.")
+@click.option("--step", metavar="H", help="The step size; each problem has its own.")
+@click.option("--digits", type=click.IntRange(1, 250), metavar="N", help="Step with N digits instead of floats.")
+@click.option(
+    "--points",
+    type=click.IntRange(10, 1_000_000),
+    default=2000,
+    show_default=True,
+    metavar="N",
+    help="How many times the plot and --format csv keep, extremes among them.",
+)
+@click.option("--symplecticity", is_flag=True, help="Measure MᵀJM − J of single steps, M = ∂y₁/∂y₀.")
+@click.option("--bounded", is_flag=True, help="Claim that nothing drifts.")
+@click.option("--max-error", metavar="E", help="Claim that no energy error is larger than E.")
+@click.option("--plot", metavar="FILE", help="Draw into FILE: .png, .svg or .pdf.")
+@common(["text", "json", "csv"])
+def command(
+    file: str,
+    problem: str,
+    omega: str | None,
+    split: str | None,
+    seed: int | None,
+    t_end: str | None,
+    step: str | None,
+    digits: int | None,
+    points: int,
+    symplecticity: bool,
+    bounded: bool,
+    max_error: str | None,
+    plot: str | None,
+    output: Output,
+) -> int:
+    """The energy error over a long time, and that of every other invariant: does it drift?
+
+    A drift is told from the oscillation around it by a fit, and has an uncertainty. The step map of the oscillator
+    is linear: there the energy error has no rounding, and whether it is bounded for all time is decided exactly.
+    The other problems are stepped in floats with compensated summation, or with --digits. A file with `methods`
+    is taken as its symplectic pair, every other file as it stands.
+
+    Exit code 1 when the claim of --bounded or --max-error fails, a step fails, or the energy blows up.
+    """
+    from garkcli.dynamics.step import StepFailed
+    from garkcli.methodfile.load import load
+    from garkcli.report import energy as report
+    from garkcli.report.energy_text import Report
+
+    _check_options(problem, omega, split, seed, digits)
+    if plot is not None:
+        from garkcli.report.plot import check_suffix
+
+        check_suffix(Path(plot))
+    limit = None if max_error is None else positive("--max-error", max_error)
+    time = None if t_end is None else positive("--t-end", t_end)
+    size = None if step is None else positive("--step", step)
+    method = load(file)
+    tableau = applied(method, output)
+    try:
+        if problem == "oscillator":
+            run, steps = _oscillator(tableau, method, omega, split, time, size, points)
+        else:
+            run, steps = _follow(tableau, method, problem, seed, time, size, digits, points, symplecticity, output)
+    except StepFailed as error:
+        click.echo(f"gark: {error.message}\nhelp: {error.help}", err=True)
+        return 1
+    claims = _claims(run, bounded, limit)
+    output.write(report.render(Report(method.name, run, steps, claims), output.format, output.paint))
+    if plot is not None:
+        from garkcli.report.energy_plot import energy_figure
+        from garkcli.report.plot import save
+
+        save(energy_figure(run), Path(plot))
+        output.note(f"wrote {plot}")
+    return 0 if all(claim.holds for claim in claims) and not run.blew_up else 1
+
+
+def _check_options(
+    problem: str, omega: str | None, split: str | None, seed: int | None, digits: int | None
+) -> None:
+    """Refuse options of another problem: they would change nothing."""
+    if problem == "oscillator" and digits is not None:
+        raise UsageProblem("--digits is not for the oscillator: its steps are exact", "leave it out")
+    if problem != "oscillator" and (omega or split):
+        raise UsageProblem(
+            f"{'--omega' if omega else '--split'} is for the oscillator, not for {problem}", "leave it out"
+        )
+    if problem != "generic" and seed is not None:
+        raise UsageProblem(f"--seed is for the problem generic, not for {problem}", "leave it out")
+
+
+def _oscillator(
+    tableau: Tableau,
+    method: MethodFile,
+    omega: str | None,
+    split: str | None,
+    t_end: fmpq | None,
+    step: fmpq | None,
+    points: int,
+) -> tuple[LongRun, Symplecticity]:
+    """The exact run."""
+    from flint import fmpq
+
+    from garkcli.dynamics.courses import of_oscillator, whole_run
+    from garkcli.dynamics.energy import drift
+    from garkcli.dynamics.problems import Oscillator, parse_shares, terms_of
+    from garkcli.dynamics.symplecticity import Symplecticity, holds
+
+    terms, frequency = terms_of(tableau), positive("--omega", omega or "1")
+    problem = Oscillator(frequency, parse_shares(split, terms)) if split else Oscillator.default(terms, frequency)
+    h, time = whole_run(step, t_end, fmpq(1, 2) / frequency, fmpq(10_000) / frequency)
+    run = of_oscillator(drift(tableau, problem, time, h, points), method.tolerance)
+    return run, Symplecticity(holds(tableau, method.tolerance))
+
+
+def _follow(
+    tableau: Tableau,
+    method: MethodFile,
+    name: str,
+    seed: int | None,
+    t_end: fmpq | None,
+    step: fmpq | None,
+    digits: int | None,
+    points: int,
+    is_measured: bool,
+    output: Output,
+) -> tuple[LongRun, Symplecticity]:
+    """The run in numbers of finite precision, with a bar."""
+    from garkcli.dynamics.courses import whole_run
+    from garkcli.dynamics.hamiltonian import FLOAT_DIGITS
+    from garkcli.dynamics.longtime import follow, usual
+    from garkcli.dynamics.structure import fitted
+    from garkcli.dynamics.symplecticity import Symplecticity, defects, is_proved
+    from garkcli.report.progress import tracked
+
+    tableau = fitted(tableau)
+    problem = find_problem(name, tableau, seed)
+    h, time = whole_run(step, t_end, *usual(problem))
+    run = follow(
+        tableau,
+        problem,
+        time,
+        h,
+        digits or FLOAT_DIGITS,
+        points,
+        method.tolerance,
+        lambda path, total: tracked(path, total, "steps", output.verbosity >= 0),
+    )
+    measured = defects(tableau, problem, h, run.states) if is_measured else ()
+    return run, Symplecticity(is_proved(tableau, problem, method.tolerance), measured)
+
+
+def _claims(run: LongRun, bounded: bool, limit: fmpq | None) -> tuple[Claim, ...]:
+    from garkcli.exact.display import decimal, to_float
+    from garkcli.report.energy_text import Claim
+
+    claims = []
+    if bounded:
+        found = [f"{x.name} {x.verdict}" for x in run.courses if x.verdict in ("drifts", "unstable", "short")]
+        claims.append(Claim("bounded", ", ".join(found) or "bounded", not found))
+    if limit is not None:
+        largest = run.courses[0].max_error
+        claims.append(
+            Claim(f"max-error: {decimal(limit)}", f"{largest:.4e}", not run.blew_up and largest <= to_float(limit))
+        )
+    return tuple(claims)

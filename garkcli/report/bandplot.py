@@ -1,0 +1,84 @@
+"""A signal against time in plain text, for terminals: what lies between its least and greatest value."""
+
+from __future__ import annotations
+
+from collections.abc import Mapping, Sequence
+from itertools import pairwise
+
+INSIDE = "│"
+"""From the least to the greatest value of a column."""
+SINGLE = "•"
+"""A column whose values share a line."""
+ZERO = "·"
+"""The line of zero, where there is nothing else."""
+
+
+def terminal_band(
+    times: Sequence[float], values: Sequence[float], label: str, width: int = 60, height: int = 11
+) -> str:
+    """Values against time, linear on both axes, as lines of text without a final newline.
+
+    A column shows all values of its span of time, straight lines between them included. Zero is always shown.
+
+    Args:
+        times: ascending, at least one.
+        values: finite, one for each time.
+        label: of the vertical axis.
+        width: columns inside the frame; the lines are about 12 longer.
+        height: lines inside the frame.
+
+    >>> print(terminal_band([0, 3, 5, 6], [0, 3, 3, -1], "f", width=7, height=5))
+       f
+     3 ┤  │••│
+       │  │  │
+       ││•│  ││
+     0 ┤│·····│
+    -1 ┤      │
+       └┬─────┬
+        0     6  t
+    """
+    bands = _bands(times, values, width)
+    low, high = min(0.0, *values), max(0.0, *values)
+    if high == low:
+        high = 1.0
+
+    def line(value: float) -> int:
+        return round((high - value) / (high - low) * (height - 1))
+
+    field = [[" "] * width for _ in range(height)]
+    field[line(0.0)] = [ZERO] * width
+    for j, (least, greatest) in enumerate(bands):
+        top, bottom = line(greatest), line(least)
+        for i in range(top, bottom + 1):
+            field[i][j] = SINGLE if top == bottom else INSIDE
+    marks = {0: high, height - 1: low, line(0.0): 0.0}
+    return "\n".join(_framed(field, {i: f"{x:.3g}" for i, x in marks.items()}, label, times[0], times[-1]))
+
+
+def _bands(times: Sequence[float], values: Sequence[float], width: int) -> list[tuple[float, float]]:
+    """The least and the greatest value of each column, of the line through all points."""
+    scale = (width - 1) / ((times[-1] - times[0]) or 1.0)
+    columns: list[list[float]] = [[] for _ in range(width)]
+    columns[0].append(values[0])
+    points = [((t - times[0]) * scale, value) for t, value in zip(times, values, strict=True)]
+    for (x, v), (y, w) in pairwise(points):
+        columns[round(y)].append(w)
+        for j in range(round(x), round(y)):  # where the line goes from column j to the next
+            value = v + (w - v) * min(max((j + 0.5 - x) / (y - x), 0.0), 1.0)
+            columns[j].append(value)
+            columns[j + 1].append(value)
+    filled = [column or [values[-1]] for column in columns]  # a single point has one column
+    return [(min(column), max(column)) for column in filled]
+
+
+def _framed(
+    field: Sequence[Sequence[str]], marks: Mapping[int, str], label: str, start: float, end: float
+) -> list[str]:
+    margin, width = max(map(len, marks.values())), len(field[0])
+    lines = [f"{'':{margin}} {label}"]
+    for i, row in enumerate(field):
+        lines.append(f"{marks.get(i, ''):>{margin}} {'┤' if i in marks else '│'}{''.join(row)}".rstrip())
+    lines.append(f"{'':{margin}} └┬{'─' * (width - 2)}┬")
+    last = f"{end:g}"
+    lines.append(f"{'':{margin}}  {f'{start:g}':<{width - 1}}{last}  t")
+    return lines
