@@ -104,7 +104,7 @@ class State:
         start = scheme.problem.initial if self.initial is None else self.initial
         with ctx.workprec(scheme.bits):
             self._numbers = [scheme.number(x) for x in start]
-        self._numbers += [0.0] * (scheme.program.size - len(self._numbers))
+            self._numbers += [scheme.number(0)] * (scheme.program.size - len(self._numbers))
         self._weights = scheme.weights(self.h)
         self._iterations = [0] * len(scheme.program.repeated)
 

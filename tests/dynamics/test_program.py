@@ -5,11 +5,13 @@ from __future__ import annotations
 import ast
 
 import pytest
+import sympy
 from flint import fmpq
 from hypothesis import given, settings
 from hypothesis import strategies as st
 
 from garkcli.dynamics.examples import hamiltonian
+from garkcli.dynamics.hamiltonian import GROUPS, Hamiltonian, symbols
 from garkcli.dynamics.problems import terms_of
 from garkcli.dynamics.scheme import scheme
 from garkcli.dynamics.step import State, final, trajectory
@@ -63,6 +65,16 @@ def test_balls_take_the_same_path(tableau: Tableau, name: str) -> None:
     assert few.program.implicit == many.program.implicit
     ends = [[float(x) for x in final(made, fmpq(1, 20), 10)] for made in (few, many)]
     assert ends[0] == pytest.approx(ends[1], abs=1e-14)
+
+
+def test_cyclic_variable_has_balls_too() -> None:
+    """An unknown whose field is zero starts as a ball: H = p²/(2 + cos x) + P²/2·(2 + sin x), P constant."""
+    (x, _), (px, py) = (symbols(("x", "y"), group) for group in GROUPS)
+    terms = (px**2 / (2 + sympy.cos(x)), py**2 * (2 + sympy.sin(x)) / 2)
+    problem = Hamiltonian("cyclic", ("x", "y"), terms, (fmpq(1), fmpq(0), fmpq(1, 2), fmpq(1)), fmpq(1))
+    ends = [final(scheme(pair(COUPLED), problem, digits), fmpq(1, 10), 5) for digits in (15, 40)]
+    assert [float(a) for a in ends[1]] == pytest.approx(ends[0], abs=1e-14)
+    assert ends[1][3] == 1
 
 
 @settings(max_examples=20, deadline=None)
