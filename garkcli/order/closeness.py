@@ -6,14 +6,12 @@ coefficients there: the entries that a printed tableau has.
 
 from __future__ import annotations
 
-from collections.abc import Sequence
-from typing import Any
-
-from flint import arb, arb_mat, ctx, fmpq
+from flint import arb_mat, ctx, fmpq
 
 from garkcli.exact.display import to_ball
 from garkcli.exact.field import Algebraic, Number
 from garkcli.exact.matrix import Matrix, Vector
+from garkcli.tableau.pointwise import powers_of_nodes
 from garkcli.tableau.stages import PolynomialSpace, StageSpace
 
 FIRST_BITS = 128
@@ -82,22 +80,7 @@ def form_within(
 def _at_nodes(space: StageSpace, other: StageSpace | None, matrix: Matrix, dual: bool) -> arb_mat:
     digits = int(ctx.prec * 0.302)
     balls = arb_mat([[to_ball(x, digits) for x in row] for row in matrix])
-    V = _powers_of_nodes(space)
-    if V is not None:
+    if isinstance(space, PolynomialSpace):
+        V = powers_of_nodes(space)
         balls = V.inv().transpose() * balls if dual else V * balls
-    W = _powers_of_nodes(other)
-    return balls if W is None else balls * W.inv()
-
-
-def _powers_of_nodes(space: StageSpace | None) -> arb_mat | None:
-    """The Vandermonde matrix of the nodes; None where coordinates are values at the nodes already."""
-    if not isinstance(space, PolynomialSpace):
-        return None
-    nodes = real_roots(space)
-    return arb_mat([[node**k for k in range(space.stages)] for node in nodes])
-
-
-def real_roots(space: PolynomialSpace) -> Sequence[arb]:
-    """The nodes in ascending order, at the current precision."""
-    roots: list[tuple[Any, int]] = space.modulus.numer().complex_roots()  # type: ignore[assignment]
-    return sorted((root.real for root, _ in roots), key=float)
+    return balls * powers_of_nodes(other).inv() if isinstance(other, PolynomialSpace) else balls

@@ -214,10 +214,15 @@ def _numeric_frame(space: StageSpace) -> tuple[arb_mat, arb_mat]:
     if not isinstance(space, PolynomialSpace):
         unit = arb_mat([[int(i == j) for j in range(s)] for i in range(s)])
         return unit, unit
+    V = powers_of_nodes(space)
+    return V, V.inv()
+
+
+def powers_of_nodes(space: PolynomialSpace) -> arb_mat:
+    """The Vandermonde matrix of the nodes, a row for each in ascending order, at the current precision."""
     roots: list[tuple[Any, int]] = space.modulus.numer().complex_roots()  # type: ignore[assignment]
     nodes = sorted((root.real for root, _ in roots), key=float)
-    V = arb_mat([[node**k for k in range(s)] for node in nodes])
-    return V, V.inv()
+    return arb_mat([[node**k for k in range(space.stages)] for node in nodes])
 
 
 def _to_arb(rows: Sequence[Sequence[Number]]) -> arb_mat:
