@@ -9,7 +9,7 @@ from dataclasses import replace
 
 from garkcli.errors import ZeroWeight
 from garkcli.exact.matrix import Matrix, SingularMatrixError, Vector, add, outer, subtract, transpose
-from garkcli.tableau.stages import PointSpace, StageSpace
+from garkcli.tableau.stages import StageSpace
 from garkcli.tableau.tableau import Colour, Tableau
 
 
@@ -32,9 +32,8 @@ def conjugate_block(block: Matrix, here: StageSpace, b: Vector, other: StageSpac
     try:
         adjoint = other.adjoint(block, b_other, here, b)
     except SingularMatrixError:
-        zero = f", b_{b.index(0) + 1} = 0" if isinstance(here, PointSpace) else ""
         raise ZeroWeight(
-            f"the symplectic conjugate divides by the weights b{zero}",
+            f"the symplectic conjugate divides by the weights b, {here.zero_weights(b)}",
             "a conjugate exists for nonzero weights only",
         ) from None
     return subtract(outer(here.one, b_other), adjoint)

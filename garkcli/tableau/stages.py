@@ -16,7 +16,7 @@ from dataclasses import dataclass
 from functools import cached_property
 from typing import cast
 
-from flint import fmpq, fmpq_poly
+from flint import fmpq, fmpq_mat, fmpq_poly
 
 from garkcli.errors import CoincidingNodes
 from garkcli.exact.field import ONE, ZERO, Number
@@ -30,6 +30,7 @@ from garkcli.exact.matrix import (
     is_rational,
     multiply,
     solve,
+    to_flint,
     transpose,
 )
 
@@ -82,6 +83,10 @@ class StageSpace(ABC):
     def gram(self, weights: Vector) -> Matrix:
         """G with entries weights(e_i ⊙ e_j): the bilinear form that B^{l} is in the paper."""
         return tuple(self.times(weights, e) for e in identity(self.stages))
+
+    @abstractmethod
+    def zero_weights(self, weights: Vector) -> str:
+        """Which of the weights are zero, in words; one of them is."""
 
     def form(self, weights: Vector, block: Matrix) -> Matrix:
         """The bilinear form (f, g) ↦ weights(f ⊙ A g), with a row for each f, of a block A that leads to here.
@@ -137,6 +142,10 @@ class PointSpace(StageSpace):
                 f"nodes c_{i + 1} and c_{j + 1} are both {self.points[i]}: no interpolation through them",
                 "spell the blocks out, or choose a method with distinct nodes",
             ) from None
+
+    def zero_weights(self, weights: Vector) -> str:
+        names = [f"b_{i}" for i, weight in enumerate(weights, start=1) if not weight]
+        return f"{' = '.join([*names[:3], '…'] if len(names) > 4 else names)} = 0"
 
     def form(self, weights: Vector, block: Matrix) -> Matrix:
         return tuple(tuple(w * a for a in row) for w, row in zip(weights, block, strict=True))
@@ -200,6 +209,22 @@ class PolynomialSpace(StageSpace):
 
     def lifts(self) -> Matrix:
         return identity(self.stages)
+
+    def zero_weights(self, weights: Vector) -> str:
+        if not is_rational((weights,)):
+            return "one of which is 0"
+        nodes = self.modulus // self._nodes_with_weight(weights)
+        if nodes.degree() == 1:
+            return f"which is 0 at the node {-nodes[0]}"
+        return f"which are 0 at the nodes where {nodes} = 0"
+
+    def _nodes_with_weight(self, weights: Vector) -> fmpq_poly:
+        """The monic polynomial g with the nodes of nonzero weight as its roots: b(x^i g) = 0 for all i."""
+        gram = to_flint(self.gram(weights), self.stages)
+        degree = gram.rank()
+        square = fmpq_mat(degree, degree, [gram[i, j] for i in range(degree) for j in range(degree)])
+        column = fmpq_mat(degree, 1, [-gram[i, degree] for i in range(degree)])
+        return fmpq_poly([*square.solve(column).entries(), fmpq(1)])
 
 
 def _powers(x: Number, count: int) -> Vector:

@@ -7,7 +7,7 @@ from dataclasses import replace
 from random import Random
 
 import pytest
-from flint import fmpq
+from flint import fmpq, fmpq_poly
 from hypothesis import given
 from hypothesis import strategies as st
 
@@ -17,10 +17,11 @@ from garkcli.order.certificate import find_order
 from garkcli.order.simplifying import simplifying
 from garkcli.tableau.conjugate import conjugate, conjugate_block, is_symplectic
 from garkcli.tableau.forms import additive, gark, pair, separable_prk, spelled_out, symplectic_pair
-from garkcli.tableau.stages import PointSpace
+from garkcli.tableau.stages import PointSpace, PolynomialSpace
 from garkcli.tableau.tableau import Tableau
 from garkcli.transfer import RULES, collocation
 from tests.oracles import samples
+from tests.oracles.points import numbers
 
 FAMILIES = st.sampled_from(
     ["gauss 1", "gauss 2", "gauss 3", "radau-ia 2", "radau-iia 3", "lobatto-iiia 3", "lobatto-iiic 3", "kutta"]
@@ -267,3 +268,31 @@ def test_the_form_of_a_block_is_the_weights_of_products(here: str, there: str, s
         assert space.form(b, block) == tuple(
             tuple(dot(b, space.product(e, image)) for image in images) for e in identity(space.stages)
         )
+
+
+@pytest.mark.parametrize(
+    ("weights", "words"),
+    [
+        (("1/2", "0", "1/2"), "which is 0 at the node 1/2"),
+        (("1", "0", "-1"), "which is 0 at the node 1/2"),
+        (("0", "1", "0"), "which are 0 at the nodes where x^2 + (-1)*x = 0"),
+        (("0", "0", "0"), "which are 0 at the nodes where x^3 + (-3/2)*x^2 + 1/2*x = 0"),
+        (("0", "sqrt(2)", "1"), "one of which is 0"),
+    ],
+)
+def test_zero_weights_in_a_polynomial_space(weights: tuple[str, ...], words: str) -> None:
+    """The nodes 0, 1/2, 1 without weight are named, though no coordinate of the functional is theirs."""
+    (values,) = numbers(", ".join(weights))
+    space = PolynomialSpace(fmpq_poly([0, fmpq(1, 2), fmpq(-3, 2), 1]))
+    nodes = (fmpq(0), fmpq(1, 2), fmpq(1))
+    b = tuple(dot(values, tuple(c**k for c in nodes)) for k in range(3))
+    with pytest.raises(ZeroWeight) as caught:
+        conjugate_block(identity(3), space, b, space, b)
+    assert caught.value.message == f"the symplectic conjugate divides by the weights b, {words}"
+
+
+def test_zero_weights_at_points() -> None:
+    """They are named one by one, as long as they are few."""
+    space = PointSpace((fmpq(0),) * 6)
+    assert space.zero_weights((fmpq(1), fmpq(0), fmpq(1), fmpq(0), fmpq(1), fmpq(1))) == "b_2 = b_4 = 0"
+    assert space.zero_weights((fmpq(0),) * 6) == "b_1 = b_2 = b_3 = … = 0"
