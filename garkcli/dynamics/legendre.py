@@ -41,6 +41,8 @@ def legendre(L: Any, variables: tuple[str, ...], start: Mapping[Any, arb]) -> An
     >>> legendre(v**2 / 2 - cos(x), ("x",), {x: arb(0)})
     px**2/2 + cos(x)
     """
+    import sympy
+
     v = velocities(variables)
     present = [x for x in v if x in L.free_symbols]
     if not present:
@@ -57,9 +59,10 @@ def legendre(L: Any, variables: tuple[str, ...], start: Mapping[Any, arb]) -> An
         return by_solving(L, gradient, M, variables, start)
     rest = dict.fromkeys(v, 0)
     shifted = [p - g.xreplace(rest) for p, g in zip(symbols(variables, "p"), gradient, strict=True)]
-    H = -L.xreplace(rest)
+    H = [-L.xreplace(rest)]
     for block in coupled(M):
         inverse, divisor = inverse_of([[M[i][j] for j in block] for i in block], [v[i] for i in block], start)
         pairs = product(enumerate(block), repeat=2)
-        H += sum(inverse[a][b] * shifted[i] * shifted[j] for (a, i), (b, j) in pairs) / (2 * divisor)
-    return H
+        form = sympy.Add(*(inverse[a][b] * shifted[i] * shifted[j] for (a, i), (b, j) in pairs))
+        H.append(form / (2 * divisor))
+    return sympy.Add(*H)
