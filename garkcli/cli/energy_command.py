@@ -36,7 +36,7 @@ if TYPE_CHECKING:
 @click.option("--seed", type=click.IntRange(0), metavar="N", help="The coefficients of generic; 1 by default.")
 @click.option("--t-end", metavar="T", help="The final time; each problem has its own.")
 @click.option("--step", metavar="H", help="The step size; each problem has its own.")
-@click.option("--digits", type=click.IntRange(1, 250), metavar="N", help="Step with N digits instead of floats.")
+@click.option("--digits", type=click.IntRange(1, 200), metavar="N", help="Step with N digits instead of floats.")
 @click.option(
     "--points",
     type=click.IntRange(10, 1_000_000),
@@ -99,7 +99,8 @@ def command(
         click.echo(f"gark: {error.message}\nhelp: {error.help}", err=True)
         return 1
     claims = _claims(run, bounded, limit)
-    output.write(report.render(Report(method.name, run, steps, claims), output.format, output.paint))
+    made = Report(method.name, run, steps, claims)
+    output.write(report.render(made, output.format, output.paint, output.verbosity >= 0))
     if plot is not None:
         from garkcli.report.energy_plot import energy_figure
         from garkcli.report.plot import save

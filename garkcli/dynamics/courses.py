@@ -15,7 +15,7 @@ from garkcli.dynamics.trend import Shape
 from garkcli.exact.display import to_float
 
 Verdict: TypeAlias = Literal["exact", "round-off", "bounded", "drifts", "unstable", "short"]
-"""Conserved exactly; no error above round-off; no drift to be told; a drift; blown up; too few steps to judge."""
+"""Conserved exactly; no error above round-off; no drift to be told; a drift; blown up; too short to judge."""
 State: TypeAlias = tuple[fmpq, tuple[Any, ...]]
 """A time, and (q, p) then, shape (2d,)."""
 
@@ -63,6 +63,7 @@ class LongRun:
         courses: of the energy, then of the other invariants.
         times: at which the errors are kept, ascending: those where one is extreme in equal spans.
         states: at the start and after each quarter of the run; none for the oscillator.
+        turns: how often the coordinate that oscillates fastest has turned back; 0 for the oscillator.
         stability: of the step map of the oscillator, else None.
     """
 
@@ -74,6 +75,7 @@ class LongRun:
     courses: tuple[Course, ...]
     times: tuple[float, ...]
     states: tuple[State, ...] = ()
+    turns: int = 0
     stability: Stability | None = None
 
     @property

@@ -6,21 +6,20 @@ good the errors are is measured too, on the first steps, against the same steps 
 
 from __future__ import annotations
 
-from collections.abc import Callable, Iterator, Sequence
-from itertools import islice
-from math import ceil
+from collections.abc import Callable, Iterator
 from typing import TYPE_CHECKING, Any, TypeAlias
 
 from flint import fmpq
 
 from garkcli.dynamics.courses import Course, LongRun, Verdict
-from garkcli.dynamics.energy import BLOW_UP, MAX_STEPS, SERIES, extremes
+from garkcli.dynamics.energy import MAX_STEPS, SERIES
 from garkcli.dynamics.hamiltonian import FLOAT_DIGITS, Hamiltonian
 from garkcli.dynamics.linear import whole_steps
 from garkcli.dynamics.measure import Measure
+from garkcli.dynamics.record import Record
 from garkcli.dynamics.scheme import scheme
-from garkcli.dynamics.step import StepFailed, trajectory
-from garkcli.dynamics.trend import LEAST, Shape, Trends
+from garkcli.dynamics.step import trajectory
+from garkcli.dynamics.trend import LEAST, Shape
 from garkcli.errors import UsageProblem
 from garkcli.exact.display import to_float
 from garkcli.tableau.tableau import Tableau
@@ -41,10 +40,9 @@ _USUAL = {
     "fput": (fmpq(1, 10), fmpq(1000)),
     "generic": (fmpq(1, 100), fmpq(1)),  # its solutions need not exist for long
 }
-_CHUNK = 8192  # steps measured at a time
-_COMPARED = 128  # steps that are done with more digits too
-_SPARE = 15  # how many more
-_PARTS = 4  # equal parts of a run at whose ends the state is kept
+_SPARE = 15  # more digits with which the first steps are done too
+_TURNS = 8  # times that some coordinate has to turn back: four oscillations
+_LARGE = 0.1  # part of the energy that is a drift however short the run
 
 
 def usual(problem: Hamiltonian) -> tuple[fmpq, fmpq]:
@@ -71,7 +69,7 @@ def follow(
         step: h.
         digits: of the steps; floats up to ``FLOAT_DIGITS``.
         points: about how many times are kept.
-        tolerance: of rounded coefficients; what they can add in each step counts as round-off.
+        tolerance: of rounded coefficients; a drift that they can cause is none of the method's.
         watch: is given the states and their number.
 
     Raises:
@@ -83,101 +81,27 @@ def follow(
     if count > MAX_STEPS:
         raise UsageProblem(f"{count} steps (limit {MAX_STEPS})", "choose a shorter time or a larger step")
     method = scheme(tableau, problem, digits)
-    record = _Record(Measure(problem, method.digits), count, points)
+    record = Record(Measure(problem, method.digits), count, points)
     record.take(watch(trajectory(method, step, count), count + 1))
     noise = _noise(record, tableau, problem, step, method.digits)
-    if tolerance is not None:
-        noise += to_float(tolerance) * record.done * record.measure.scale
+    rounding = 0.0 if tolerance is None else to_float(tolerance) * record.done * record.measure.scale
     times = (record.kept_numbers * to_float(step)).tolist()
-    courses = (_course(record, k, to_float(step), float(noise[k])) for k in range(len(noise)))
+    courses = (_course(record, k, to_float(step), float(noise[k]), rounding) for k in range(len(noise)))
     states = ((number * step, y) for number, y in sorted(record.states.items()))
-    return LongRun(problem, step, t_end, record.done, method.digits, tuple(courses), tuple(times), tuple(states))
+    return LongRun(
+        problem,
+        step,
+        t_end,
+        record.done,
+        method.digits,
+        tuple(courses),
+        tuple(times),
+        tuple(states),
+        record.turns,
+    )
 
 
-class _Record:
-    """What is kept of a trajectory while it goes by: of all errors their extremes and sums, of a few themselves."""
-
-    def __init__(self, measure: Measure, count: int, points: int) -> None:
-        import numpy as np
-
-        signals = len(measure.names)
-        self.measure, self.count = measure, count
-        self.trends = Trends(count, signals)
-        self.span = 1 if count < points else ceil((count + 1) / max((points - 2) // (2 * signals), 1))
-        self.largest: Floats = np.zeros(signals)
-        self.states: dict[int, tuple[Any, ...]] = {}
-        self.wanted = {count * part // _PARTS for part in range(_PARTS + 1)}
-        self.done = -1
-        self.blew_up = False
-        self._numbers: list[int] = []
-        self._errors: list[Floats] = []
-        self.first: Floats = np.zeros((0, signals))
-
-    @property
-    def kept_numbers(self) -> NDArray[np.int64]:
-        """The steps whose errors are kept."""
-        import numpy as np
-
-        return np.array(self._numbers)
-
-    @property
-    def kept_errors(self) -> Floats:
-        """Their errors, shape (steps, signals)."""
-        import numpy as np
-
-        return np.concatenate(self._errors)
-
-    def take(self, path: Iterator[list[Any]]) -> None:
-        """Measure all states, or those before the blow-up; raises ``StepFailed`` where there is none."""
-        chunk = self.span * max(1, _CHUNK // self.span)
-        while self.done < self.count and not self.blew_up:
-            states: list[list[Any]] = []
-            failure: StepFailed | None = None
-            try:
-                for y in islice(path, chunk):
-                    states.append(y)  # noqa: PERF402 -- what comes before a failure is wanted
-            except StepFailed as error:
-                failure = error
-            if states:
-                self._add(states)
-            if failure is not None and not self.blew_up:
-                self.blew_up = bool(self.largest[0] > self.measure.scale)
-                if not self.blew_up:
-                    raise failure
-
-    def _add(self, states: Sequence[list[Any]]) -> None:
-        import numpy as np
-
-        errors, start = self.measure.errors(states), self.done + 1
-        outside = np.flatnonzero(~(np.abs(errors) <= BLOW_UP * self.measure.scale).all(axis=1))
-        if outside.size:
-            self.blew_up = True
-            errors = errors[: outside[0]]
-        if not len(errors):
-            return
-        if start == 0:
-            self.first = errors[: _COMPARED + 1].copy()
-        self.trends.add(start, errors)
-        np.maximum(self.largest, np.abs(errors).max(axis=0), out=self.largest)
-        self.done += len(errors)
-        chosen = self._chosen(errors, start)
-        self._numbers += [start + i for i in chosen]
-        self._errors.append(errors[chosen])
-        for number in self.wanted:
-            if start <= number <= self.done:
-                self.states[number] = tuple(states[number - start])
-
-    def _chosen(self, errors: Floats, start: int) -> list[int]:
-        """Where an error is extreme in its span, and both ends of the run."""
-        ends = {number - start for number in (0, self.count) if start <= number <= self.done}
-        if self.span == 1:
-            return list(range(len(errors)))
-        spans = -(-len(errors) // self.span)
-        found = (extremes(errors[:, k], 2 * spans).tolist() for k in range(errors.shape[1]))
-        return sorted(ends.union(*found))
-
-
-def _noise(record: _Record, tableau: Tableau, problem: Hamiltonian, step: fmpq, digits: int) -> Floats:
+def _noise(record: Record, tableau: Tableau, problem: Hamiltonian, step: fmpq, digits: int) -> Floats:
     """What the errors are good to at the end: what is found on the first steps, taken to grow with their number."""
     import numpy as np
 
@@ -192,16 +116,18 @@ def _noise(record: _Record, tableau: Tableau, problem: Hamiltonian, step: fmpq, 
     return noise
 
 
-def _course(record: _Record, k: int, h: float, noise: float) -> Course:
+def _course(record: Record, k: int, h: float, noise: float, rounding: float) -> Course:
     errors = record.kept_errors[:, k]
     drift: float | None = None
     uncertainty: float | None = None
     shape: Shape = "none"
     verdict: Verdict = "unstable" if record.blew_up else "short"
     if not record.blew_up and record.count >= LEAST:
-        trend = record.trends.of(k, noise)
+        trend = record.trends.of(k, noise + rounding)
         drift, uncertainty, shape = trend.slope / h, trend.uncertainty / h, trend.shape
         verdict = "bounded" if shape == "none" else "drifts"
+        if record.turns < _TURNS and record.largest[0] < _LARGE * record.measure.scale:
+            verdict = "short"
     if not record.blew_up and record.largest[k] <= noise:
         verdict, shape = "round-off", "none"
     left = errors - (drift or 0.0) * h * record.kept_numbers

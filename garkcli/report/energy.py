@@ -16,13 +16,13 @@ from garkcli.report.energy_text import Report, text_of
 from garkcli.report.paint import Paint
 
 
-def render(report: Report, format: str, paint: Paint) -> str:  # noqa: A002
-    """The report as text, JSON or CSV."""
+def render(report: Report, format: str, paint: Paint, is_long: bool = True) -> str:  # noqa: A002
+    """The report as text, JSON or CSV; see ``text_of``."""
     if format == "json":
         return json.dumps(_data(report), indent=2, ensure_ascii=False, allow_nan=False) + "\n"
     if format == "csv":
         return _csv(report.run)
-    return "\n".join(text_of(report, paint)) + "\n"
+    return "\n".join(text_of(report, paint, is_long)) + "\n"
 
 
 def _csv(run: LongRun) -> str:
@@ -46,6 +46,7 @@ def _data(report: Report) -> dict[str, Any]:
         "t_end_exact": str(run.t_end),
         "steps": run.steps,
         "digits": run.digits,
+        "turns": None if run.digits is None else run.turns,
         "blew_up": run.blew_up,
         "drifts": run.drifts,
         "quantities": [_quantity(course, run) for course in run.courses],

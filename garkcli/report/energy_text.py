@@ -49,8 +49,8 @@ class Report:
     claims: tuple[Claim, ...] = ()
 
 
-def text_of(report: Report, paint: Paint) -> list[str]:
-    """The lines of the report."""
+def text_of(report: Report, paint: Paint, is_long: bool = True) -> list[str]:
+    """The lines of the report; a long one ends with a plot of the energy error."""
     run = report.run
     lines = [paint("strong", report.name), *(f"  {line}" for line in _wrapped(describe(run.problem)))]
     lines += [f"  step {run.step} to t = {run.t_end}: {_steps(run)}", ""]
@@ -63,7 +63,7 @@ def text_of(report: Report, paint: Paint) -> list[str]:
         verdict = paint("good", "claim holds") if x.holds else paint("bad", "CLAIM FAILS")
         lines.append(f"  {verdict}      {x.claim}" + ("" if x.holds else f", found: {x.found}"))
     energy = run.courses[0]
-    if energy.max_error > 0:
+    if is_long and energy.max_error > 0:
         lines += ["", *(f"  {x}" for x in terminal_band(run.times, energy.errors, "H(t) − H(0)").splitlines())]
     return lines
 
@@ -103,7 +103,10 @@ def _verdict(course: Course, run: LongRun) -> tuple[str, str]:
             end = run.end
             return "UNSTABLE", f": blown up after {run.steps} steps, at t = {end:g}"
         case "short":
-            return "undecided", f": fewer than {LEAST} steps"
+            if run.steps < LEAST:
+                return "undecided", f": fewer than {LEAST} steps"
+            times = f"{run.turns} time{'s' * (run.turns != 1)}"
+            return "undecided", f": the motion turns back {times} only; a longer --t-end can tell"
         case "bounded" if run.stability is None:
             return "bounded", ": no drift beyond its uncertainty"
         case "bounded" if run.stability.fate != "turns":  # type: ignore[union-attr]
