@@ -94,5 +94,5 @@ def diagonal_method(name: str, stages: int | None = None) -> Method:
         have = str(family.smallest) if family.smallest == family.largest else f"{family.smallest} or more"
         if s > family.largest:
             have += f", at most {family.largest}"
-        raise UnknownFamily(f"{name} with {s} stages does not exist", f"it has {have}")
+        raise UnknownFamily(f"{name} with {s} stage{'s' * (s != 1)} does not exist", f"it has {have}")
     return family.make(s)

@@ -56,7 +56,7 @@ def _outcome(outcome: Outcome, paint: Paint, full: bool, quiet: bool) -> str:
 def _summary(outcomes: Sequence[Outcome], paint: Paint) -> str:
     failed = sum(not outcome.ok for outcome in outcomes)
     claims = sum(len(outcome.claims) for outcome in outcomes)
-    text = f"{len(outcomes)} files, {claims} claims: "
+    text = f"{len(outcomes)} files, {claims} claim{'s' * (claims != 1)}: "
     return text + paint.verdict(not failed, "all hold", f"{failed} file{'s' * (failed > 1)} failed")
 
 
@@ -109,7 +109,7 @@ def _full(outcome: Outcome, analysis: Analysis, paint: Paint) -> list[str]:
     if outcome.constants is not None:
         from garkcli.report.hints import constants_lines
 
-        lines += ["", *constants_lines(outcome.constants)]
+        lines += ["", *constants_lines(outcome.constants, tableau.size > 1)]
     if outcome.claims:
         lines += ["", *(_claim(outcome, claim, paint) for claim in outcome.claims)]
     if outcome.blame is not None:

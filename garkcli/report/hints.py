@@ -17,10 +17,11 @@ from garkcli.trees.notation import format_tree
 def blame_lines(blame: Blame, tableau: Tableau, paint: Paint) -> list[str]:
     """The hints for people."""
     names = [colour.name for colour in tableau.colours]
-    lines = [
-        f"  {paint('note', 'hint')}: {blame.failing} of the {blame.total} conditions of order {blame.order} fail"
-        + (", all of them coupling conditions" if blame.only_coupling and tableau.size > 1 else "")
-    ]
+    failing = f"{blame.failing} of the {blame.total} conditions of order {blame.order} fail"
+    if blame.total == 1:
+        failing = f"the one condition of order {blame.order} fails"
+    coupling = ", all of them coupling conditions" if blame.only_coupling and tableau.size > 1 else ""
+    lines = [f"  {paint('note', 'hint')}: {failing}{coupling}"]
     if blame.culprit is not None and tableau.size > 1:
         lines.append(f"        {_block(blame.culprit, names)} takes part in every one of them: look there first")
     elif len(blame.in_every) > 1:
@@ -49,12 +50,13 @@ def _place(repair: Repair, names: Sequence[str]) -> str:
     return f"{_block((repair.l, repair.m), names)}, row {repair.i + 1}, entry {repair.j + 1},"
 
 
-def constants_lines(constants: ErrorConstants) -> list[str]:
-    """The error constants for people."""
+def constants_lines(constants: ErrorConstants, colours: bool) -> list[str]:
+    """The error constants for people; ``colours`` where there are several, so that trees show theirs."""
     how = "exact" if constants.is_exact else "in floats"
     lines = [f"  error coefficients of order {constants.order} ({how})"]
-    for label, norms in (("all trees", constants.all), ("coupling trees", constants.coupling)):
-        worst = "" if norms.worst is None else f" at {format_tree(norms.worst)}"
+    kinds = [("all trees", constants.all), ("coupling trees", constants.coupling)]
+    for label, norms in kinds if colours else kinds[:1]:
+        worst = "" if norms.worst is None else f" at {format_tree(norms.worst, colours)}"
         lines.append(
             f"    {label:<15}{norms.trees:>8} trees   2-norm {norms.two:.6g}   largest {norms.largest:.6g}{worst}"
         )

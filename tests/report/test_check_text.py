@@ -6,9 +6,12 @@ import pytest
 
 from garkcli.methodfile.expectations import verify
 from garkcli.methodfile.load import loads
+from garkcli.order.blame import find_blame
 from garkcli.order.check import analyse
+from garkcli.order.constants import error_constants
 from garkcli.order.outcome import Outcome
 from garkcli.report.check_text import render
+from garkcli.report.hints import blame_lines
 from garkcli.report.paint import Paint, aligned, beside
 
 ESCAPE = re.compile(r"\x1b\[[0-9;]*m")
@@ -90,7 +93,7 @@ def test_claims_are_listed_with_their_place() -> None:
 def test_the_summary_counts_files_and_claims() -> None:
     """Several files get a line each and a summary."""
     good, bad = "methods: [{family: gauss, stages: 2}]\nexpect: {order: 4}", tableau("0") + "\nexpect: {order: 2}"
-    assert "2 files, 1 claims: all hold" in render([outcome(good), outcome(tableau("0"))], Paint())
+    assert "2 files, 1 claim: all hold" in render([outcome(good), outcome(tableau("0"))], Paint())
     found = render([outcome(good), outcome(bad)], Paint())
     assert "2 files, 2 claims: 1 file failed" in found
     assert found.startswith("ok   m.gark.yaml: order 4")
@@ -120,3 +123,23 @@ def test_columns_line_up() -> None:
     assert aligned([["1/2", "-1"], ["0", "1/36"]], right=False) == ["1/2  -1", "0    1/36"]
     assert aligned([]) == []
     assert beside(["a", "bcd"], ["x"]) == ["a     x", "bcd"]
+
+
+def test_long_requirements_are_shortened() -> None:
+    """Where the value is shown in decimals, a required value of many digits is too."""
+    found = report("methods: [{family: gauss, stages: 29}]")
+    assert re.search(r"about [0-9.]+e-81 instead of about [0-9.]+e-81, off by -?[0-9.]+e-[0-9]+\n", found)
+
+
+def test_hints_and_constants_of_one_colour() -> None:
+    """One failing condition is one condition; the trees of one colour show none and no coupling."""
+    text = "methods: [{A: [[0, 0], [1/3, 0]], b: [0, 1]}]\nexpect: {order: 2}\n"
+    method = loads(text)
+    analysis = analyse(method.tableau)
+    lines = blame_lines(find_blame(method.tableau, 2, 2), method.tableau, Paint())
+    assert lines[0] == "  hint: the one condition of order 2 fails"
+    assert any(line.endswith("A{1,1}, row 2, entry 1, = 1/2 instead of 1/3") for line in lines)
+    found = Outcome("m", "m", analysis=analysis, constants=error_constants(method.tableau, 2))
+    shown = render([found], Paint())
+    assert "largest 0.166667 at [[]]\n" in shown
+    assert "coupling" not in shown
