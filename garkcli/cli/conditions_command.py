@@ -168,8 +168,8 @@ def _with_values(valued: Valued, orders: range) -> Iterator[ConditionRow]:
     from garkcli.report.conditions import ConditionRow
 
     for n in orders:
-        for condition, multiplicity in all_conditions(valued.tableau, n, valued.tolerance or ZERO):
-            yield ConditionRow(condition.tree, False, condition, multiplicity)
+        for condition in all_conditions(valued.tableau, n, valued.tolerance or ZERO):
+            yield ConditionRow(condition.tree, False, condition)
 
 
 def _badness(row: ConditionRow) -> float:

@@ -79,7 +79,7 @@ def find_blame(tableau: Tableau, order: int, claimed: int) -> Blame | None:
     """
     if count_conditions(tableau, order) > MAX_CONDITIONS:
         return None
-    found = [condition for condition, _ in all_conditions(tableau, order)]
+    found = list(all_conditions(tableau, order))
     failing = [condition for condition in found if not condition.holds]
     used = [_blocks_in(tableau, condition.tree) for condition in failing]
     blocks = sorted({_canonical(tableau, edge) for edge in tableau.edges()})

@@ -23,11 +23,13 @@ class Condition:
         tree: u, with colours counted from 0.
         value: the elementary weight b_lᵀ 𝒜^[u], exact.
         tolerance: the rounding that the coefficients admit; zero where they are meant exactly.
+        twins: further root colours with which the tree has the same condition, as they share stages and weights.
     """
 
     tree: Tree
     value: Number
     tolerance: fmpq = ZERO
+    twins: tuple[int, ...] = ()
 
     @property
     def required(self) -> fmpq:
@@ -50,9 +52,14 @@ class Condition:
         return not self.residual
 
     @property
+    def trees(self) -> tuple[Tree, ...]:
+        """The tree with its own root colour and with those of its twins."""
+        return (self.tree, *(Tree(l, self.tree.branches) for l in self.twins))
+
+    @property
     def is_coupling(self) -> bool:
-        """Whether more than one colour takes part; otherwise it is a condition of a diagonal method."""
-        return len(self.tree.colours) > 1
+        """Whether more than one colour takes part in each tree; otherwise a diagonal method has the condition."""
+        return all(len(tree.colours) > 1 for tree in self.trees)
 
 
 def conditions(tableau: Tableau, trees: Iterable[Tree], tolerance: fmpq = ZERO) -> Iterator[Condition]:

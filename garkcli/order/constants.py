@@ -80,21 +80,24 @@ def error_constants(tableau: Tableau, order: int) -> ErrorConstants | None:
 
 
 def _exact(tableau: Tableau, order: int) -> ErrorConstants:
-    coefficients = [
-        (condition.residual / condition.tree.symmetry, condition.tree, times, condition.is_coupling)
-        for condition, times in all_conditions(tableau, order)
-    ]
+    coefficients = [(x.residual / x.tree.symmetry, x.trees) for x in all_conditions(tableau, order)]
 
     def norms(only_coupling: bool) -> Norms:
-        chosen = [(e, u, times) for e, u, times, coupling in coefficients if coupling or not only_coupling]
+        chosen = [
+            (e, kept)
+            for e, trees in coefficients
+            if (kept := [u for u in trees if len(u.colours) > 1 or not only_coupling])
+        ]
         total: Number = ZERO
-        for e, _, times in chosen:
-            total = total + times * (e * e)
-        sizes = [abs(to_float(e)) for e, _, _ in chosen]
+        for e, trees in chosen:
+            total = total + len(trees) * (e * e)
+        sizes = [abs(to_float(e)) for e, _ in chosen]
         largest = max(sizes, default=0.0)
-        e, u, _ = chosen[sizes.index(largest)] if largest else (ZERO, None, 0)
+        e, u = ZERO, None
+        if largest:
+            e, (u, *_) = chosen[sizes.index(largest)]
         return Norms(
-            trees=sum(times for _, _, times in chosen),
+            trees=sum(len(trees) for _, trees in chosen),
             two_squared=total,
             two=to_float(total) ** 0.5,
             largest=largest,

@@ -3,6 +3,7 @@
 from __future__ import annotations
 
 from collections.abc import Iterator
+from dataclasses import replace
 
 from flint import fmpq
 
@@ -20,11 +21,11 @@ def count_conditions(tableau: Tableau, order: int) -> int:
     return sum(by_root[root] for root in twin_roots(tableau))
 
 
-def all_conditions(tableau: Tableau, order: int, tolerance: fmpq = ZERO) -> Iterator[tuple[Condition, int]]:
-    """Every condition of ``order``, its value exact, with the number of identical ones it stands for."""
+def all_conditions(tableau: Tableau, order: int, tolerance: fmpq = ZERO) -> Iterator[Condition]:
+    """Every condition of ``order``, its value exact, with the twins of its root: identical ones come once."""
     twins = twin_roots(tableau)
     for condition in conditions(tableau, admissible_trees(tableau, order), tolerance):
-        yield condition, len(twins[condition.tree.root])
+        yield replace(condition, twins=twins[condition.tree.root][1:])
 
 
 def admissible_trees(tableau: Tableau, order: int) -> Iterator[Tree]:

@@ -31,7 +31,6 @@ class ConditionRow:
         tree: the tree; its colours mean nothing where ``is_shape``.
         is_shape: whether the row stands for all colourings of the tree.
         condition: its value for a method, where there is one.
-        multiplicity: how many identical conditions the row stands for, as those of V^l and F^l.
         stands_for: how many conditions are equivalent to it in a symplectic method; 0 where nobody asked.
         members: the trees of these conditions, where asked for.
     """
@@ -39,7 +38,6 @@ class ConditionRow:
     tree: Tree
     is_shape: bool
     condition: Condition | None = None
-    multiplicity: int = 1
     stands_for: int = 0
     members: tuple[Tree, ...] = ()
 
@@ -140,7 +138,7 @@ def _data(row: ConditionRow) -> dict[str, Any]:
             "kind": "coupling" if row.condition.is_coupling else "diagonal",
         }
         if not row.stands_for:
-            data["multiplicity"] = row.multiplicity
+            data["multiplicity"] = len(row.condition.trees)
     if row.stands_for:
         data["stands_for"] = row.stands_for
     if row.members:
@@ -207,7 +205,7 @@ def _lines(row: ConditionRow, paint: Paint, width: int) -> Iterator[str]:
     after = f"∀ {','.join(vertex_letters(row.tree))}" if row.is_shape else ""
     if row.condition is not None:
         mark = paint.verdict(row.condition.holds, "holds  " if row.condition.is_exact else "within ", "FAILS  ")
-        after = "" if row.multiplicity == 1 else f"({row.multiplicity} times)"
+        after = f"({len(row.condition.trees)} times)" if row.condition.twins else ""
     if row.stands_for:
         after = f"stands for {row.stands_for}"
     sizes = f"σ = {row.tree.symmetry}  γ = {row.tree.density}"

@@ -7,11 +7,18 @@ from pathlib import Path
 import pytest
 from flint import fmpq
 
-from garkcli import Tableau, diagonal_method, find_order, gark, load, pair
+from garkcli import Tableau, Tree, conditions, diagonal_method, find_order, gark, load, pair
 from garkcli.order import constants
 from garkcli.order.constants import error_constants
+from garkcli.order.listing import all_conditions
+from tests.oracles.brute import Plain, Trees
 
 ROOT = Path(__file__).resolve().parents[2]
+
+
+def engine_tree(u: Plain) -> Tree:
+    """A tree of the oracle as one of the engine."""
+    return Tree(u[0], map(engine_tree, u[1]))
 
 
 def example(name: str) -> Tableau:
@@ -48,6 +55,26 @@ def test_twin_roots_count_twice(monkeypatch: pytest.MonkeyPatch) -> None:
     assert exact.all.two == pytest.approx(floats.all.two, rel=1e-9)
 
 
+def test_twin_roots_mix_colours_each_for_itself(monkeypatch: pytest.MonkeyPatch) -> None:
+    """[τ^F]^V mixes colours and its twin [τ^F]^F does not: the coupling trees are those that do, in both paths."""
+    both = pair(gark([diagonal_method("lobatto-iiia", 2)], {}))
+    exact = error_constants(both, 3)
+    monkeypatch.setattr(constants, "EXACT_CONDITIONS", 0)
+    floats = error_constants(both, 3)
+    assert exact is not None
+    assert floats is not None
+    assert exact.coupling.trees == floats.coupling.trees
+    assert exact.coupling.two == pytest.approx(floats.coupling.two, rel=1e-12)
+    assert exact.coupling.worst is not None
+    assert len(exact.coupling.worst.colours) > 1
+    by_hand = [
+        (x.residual / x.tree.symmetry) ** 2
+        for x in conditions(both, map(engine_tree, Trees(both).of_order(3)))
+        if len(x.tree.colours) > 1
+    ]
+    assert exact.coupling.two_squared == sum(by_hand, start=fmpq(0))
+
+
 def test_classical_method() -> None:
     """The classical method of order 4: by hand, Σ e² over the nine trees of order 5."""
     found = error_constants(gark([diagonal_method("rk4")], {}), 5)
@@ -80,3 +107,16 @@ def test_gauss_is_better_than_rk4() -> None:
 def test_too_many_trees() -> None:
     """Beyond the limit there are no error constants, and none are made up."""
     assert error_constants(pair(example("gauss6-lobatto7")), 13) is None
+
+
+def test_a_condition_with_a_diagonal_twin_is_one_of_a_diagonal_method() -> None:
+    """Of the pair of one method every condition of order 2 is one of A or of Â, whichever root stands for it."""
+    both = pair(gark([diagonal_method("lobatto-iiia", 2)], {}))
+    found = list(all_conditions(both, 2))
+    assert [len(x.trees) for x in found] == [2, 2]
+    assert [x.tree.colours for x in found] == [{0}, {0, 1}]
+    assert not any(x.is_coupling for x in found)
+    assert all(
+        x.is_coupling == (len(x.tree.branches[0].colours | x.tree.branches[-1].colours) > 1)
+        for x in all_conditions(both, 3)
+    )
