@@ -3,7 +3,7 @@
 from __future__ import annotations
 
 import json
-from collections.abc import Iterable, Iterator
+from collections.abc import Iterable, Iterator, Sequence
 from dataclasses import dataclass
 from typing import Any
 
@@ -21,6 +21,7 @@ from garkcli.trees.tree import Tree
 
 MOST_DIGITS = 60
 """Longer values are shown in decimals."""
+_VALUED = ["tree", "root", "order", "sigma", "gamma", "condition", "value", "required", "residual", "holds", "kind"]
 
 
 @dataclass(frozen=True)
@@ -110,7 +111,7 @@ def render(
             separator = ",\n"
         yield "\n]}\n"
     elif format == "csv":
-        yield from _csv(rows)
+        yield from _csv(rows, [*_VALUED, "multiplicity" if subject is None else "stands_for"])
     elif format == "latex":
         yield from fragment(_latex(rows, subject), is_document)
     else:
@@ -146,7 +147,8 @@ def _data(row: ConditionRow) -> dict[str, Any]:
     return data
 
 
-def _csv(rows: Iterable[ConditionRow]) -> Iterator[str]:
+def _csv(rows: Iterable[ConditionRow], heading: Sequence[str]) -> Iterator[str]:
+    """The rows under their keys; under ``heading`` where there are none, since no condition fails."""
     keys: list[str] = []
     for row in rows:
         data = {k: x for k, x in _data(row).items() if k != "for_all"}
@@ -154,6 +156,8 @@ def _csv(rows: Iterable[ConditionRow]) -> Iterator[str]:
             keys = list(data)
             yield ",".join(keys) + "\n"
         yield ",".join(_quoted(data[key]) for key in keys) + "\n"
+    if not keys:
+        yield ",".join(heading) + "\n"
 
 
 def _quoted(value: object) -> str:

@@ -65,6 +65,14 @@ def test_failing_conditions_are_counted_among_all() -> None:
     assert [line for line in failing if line.startswith("order")] == ["order 3"]
 
 
+@pytest.mark.parametrize("more", [[], ["--symplectic"]])
+def test_a_csv_without_failing_conditions_has_its_heading(more: list[str]) -> None:
+    """Programs that read the table find its columns, whether there are rows or not."""
+    asked = ["conditions", "methods/collocation.gark.yaml", "-n", "3", "--format", "csv", *more]
+    every, failing = gark(*asked).out, gark(*asked, "--failing").out
+    assert failing == every.splitlines(keepends=True)[0]
+
+
 def test_colours_with_names_are_named() -> None:
     """Where trees say 3 and the colour is called F1, a line says so; where numbers are names, none does."""
     assert gark("conditions", PAIR, "--pair", "-n", "1").out.startswith("colours: 1 V1, 2 V2, 3 F1, 4 F2\n")
