@@ -40,14 +40,15 @@ class Formulas:
     _sizes: dict[str, int] = field(default_factory=dict)
 
     def parsed(
-        self, node: Node, where: str, names: Mapping[str, str] | None = None, noun: str = "parameter"
+        self, node: Node, where: str, names: Mapping[str, str] | None, noun: str = "parameter"
     ) -> Expression | None:
         """The expression of a text; None where there are faults, which are noted.
 
         Args:
             node: the text.
             where: what it is, for messages.
-            names: for names that may not stand here, the cure; "" for those that may. Parameters always may.
+            names: for names that may not stand here, the cure; "" for those that may. Parameters always may;
+                None is for all.
             noun: what a name can be here.
         """
         text = self.source.scalar(node, where)
@@ -66,7 +67,7 @@ class Formulas:
         except ExpressionError as error:
             self.source.expression_fault(node, where, explained(error, text, node))
             return None
-        return expression if self._are_known(expression, node, where, names or {}, noun) else None
+        return expression if names is None or self._are_known(expression, node, where, names, noun) else None
 
     def _are_known(
         self, expression: Expression, node: Node, where: str, names: Mapping[str, str], noun: str
@@ -80,7 +81,7 @@ class Formulas:
 
     def constant(self, node: Node, where: str) -> tuple[Expression, Value] | None:
         """A formula of parameters alone, and its value."""
-        expression = self.parsed(node, where)
+        expression = self.parsed(node, where, {})
         value = None if expression is None else self.value(expression, node, where, {})
         return None if expression is None or value is None else (expression, value)
 

@@ -6,7 +6,7 @@ from pathlib import Path
 from typing import TYPE_CHECKING
 
 from flint import fmpq
-from yaml.nodes import Node, ScalarNode, SequenceNode
+from yaml.nodes import MappingNode, Node, ScalarNode, SequenceNode
 
 from garkcli.methodfile.description import FORMS as METHOD_FORMS
 from garkcli.methodfile.formulas import Formulas, bad_name
@@ -91,10 +91,13 @@ class _Reader:
         for key in ("description", "reference"):
             if key in entries:
                 source.scalar(entries[key], key)
+        before = len(source.faults)
         variables = self._variables(root, entries.get("variables"))
-        self.formulas.read_parameters(entries.get("parameters"))
         form = self._form(root, entries)
-        self._refuse_clashes(variables, form or "hamiltonian", entries.get("parameters"))
+        self._refuse_clashes(variables, form or "hamiltonian")
+        are_named = len(source.faults) == before
+        self.formulas.read_parameters(entries.get("parameters"))
+        self._refuse_taken(variables, form, entries.get("parameters"))
         if "initial" not in entries:
             cure = "write initial: {" + ", ".join(f"{x}: 0, p{x}: 0" for x, _ in variables[:2]) + "}"
             source.fault(root, "initial missing", cure)
@@ -103,6 +106,7 @@ class _Reader:
         return ProblemText(
             name=self._name(entries.get("name")),
             variables=tuple(name for name, _ in variables),
+            are_named=are_named,
             form=form,
             terms=tuple(self._items(entries[form], form)),
             initial=entries.get("initial"),
@@ -137,19 +141,20 @@ class _Reader:
                 found[name] = item
         return list(found.items())
 
-    def _refuse_clashes(self, variables: list[tuple[str, Node]], form: str, parameters: Node | None) -> None:
-        """Refuse names for two things: a variable that is the momentum of another, a parameter that is either."""
-        derived = {f"p{name}": f"the momentum of {name}" for name, _ in variables}
-        if form == "lagrangian":
-            derived |= {f"v{name}": f"the velocity of {name}" for name, _ in variables}
+    def _refuse_clashes(self, variables: list[tuple[str, Node]], form: str) -> None:
+        """Refuse a variable that is the momentum or velocity of another."""
+        derived = _derived(variables, form)
         for name, node in variables:
             if name in derived:
                 self.source.fault(node, f"variables: {name} is {derived[name]}", "choose another name")
-        taken = {**derived, **{name: "a variable" for name, _ in variables}}
-        for key in parameters.value if parameters is not None and keys_of(parameters) else ():
-            name = key[0].value
-            if isinstance(name, str) and name in taken:
-                self.source.fault(key[0], f"parameters: {name} is {taken[name]} already", "choose another name")
+
+    def _refuse_taken(self, variables: list[tuple[str, Node]], form: str | None, node: Node | None) -> None:
+        """Refuse a parameter that is called like a variable, or like what belongs to one."""
+        taken = {**_derived(variables, form or "hamiltonian"), **{name: "a variable" for name, _ in variables}}
+        for key, _ in node.value if isinstance(node, MappingNode) else ():
+            if isinstance(key, ScalarNode) and key.value in taken:
+                message = f"parameters: {key.value} is {taken[key.value]} already"
+                self.source.fault(key, message, "choose another name")
 
     def _form(self, root: Node, entries: dict[str, Node]) -> str | None:
         present = [key for key in ("hamiltonian", "lagrangian") if key in entries]
@@ -193,6 +198,14 @@ class _Reader:
             if name.lower() in {"energy", "h"}:
                 self.source.fault(value, f"invariants: {name} is reported always", "leave it out")
         return [(shown_name(name), value) for name, value in entries.items()]
+
+
+def _derived(variables: list[tuple[str, Node]], form: str) -> dict[str, str]:
+    """The names that variables bring with them, and what they are."""
+    names = {f"p{name}": f"the momentum of {name}" for name, _ in variables}
+    if form == "lagrangian":
+        names |= {f"v{name}": f"the velocity of {name}" for name, _ in variables}
+    return names
 
 
 def shown_name(text: str) -> str:

@@ -12,7 +12,7 @@ from yaml.nodes import Node
 from garkcli.errors import ExpressionError, NoLegendreTransform
 from garkcli.exact.expression import Expression
 from garkcli.methodfile.formulas import BITS, PLACES, Formulas, nearby
-from garkcli.methodfile.source import Source
+from garkcli.methodfile.source import Source, shortened
 
 if TYPE_CHECKING:
     from garkcli.dynamics.hamiltonian import Hamiltonian
@@ -20,10 +20,22 @@ if TYPE_CHECKING:
 
 @dataclass(frozen=True)
 class ProblemText:
-    """What a problem file says; formulas are still nodes, each with what it is called in messages."""
+    """What a problem file says; formulas are still nodes, each with what it is called in messages.
+
+    Attributes:
+        name: what people call it.
+        variables: names of the positions.
+        are_named: whether these are all; if not, other names are not judged.
+        form: hamiltonian or lagrangian.
+        terms: one formula a term.
+        initial: the mapping of initial values, where the file has one.
+        t_end: the final time.
+        invariants: names, and formulas.
+    """
 
     name: str
     variables: tuple[str, ...]
+    are_named: bool
     form: str
     terms: tuple[tuple[Node, str], ...]
     initial: Node | None
@@ -91,6 +103,10 @@ class Maker:
         node = self.text.initial
         if node is None:
             return None
+        if not self.text.are_named:
+            for name, x in self.source.mapping(node, "initial", ()).items():
+                self.formulas.rational(x, f"initial: {shortened(name)[1:-1]}")
+            return None
         before = len(self.source.faults)
         groups = [self.p, self.v] if self.is_lagrangian else [self.p]
         names = [str(x) for group in (self.q, *groups) for x in group]
@@ -131,8 +147,8 @@ class Maker:
         translator = self.formulas.translator({x: symbols[x] for x, cure in names.items() if not cure})
         found = []
         for node, where in items:
-            expression = self.formulas.parsed(node, where, names, noun)
-            if expression is None:
+            expression = self.formulas.parsed(node, where, names if self.text.are_named else None, noun)
+            if expression is None or not self.text.are_named:
                 continue
             try:
                 found.append(_Term(node, where, expression, translator.translate(expression)))
