@@ -2,6 +2,7 @@
 
 from __future__ import annotations
 
+from functools import cache
 from typing import TYPE_CHECKING
 
 import click
@@ -78,9 +79,16 @@ def find_problem(name_or_path: str, tableau: Tableau, seed: int | None = None) -
     terms = terms_of(fitted(tableau))
     if is_path(name_or_path):
         from garkcli.dynamics.splitting import fit
-        from garkcli.methodfile.problem import load_problem
 
-        return fit(load_problem(name_or_path), terms)
+        return fit(_loaded(name_or_path), terms)
     from garkcli.dynamics.examples import hamiltonian
 
     return hamiltonian(name_or_path, terms, 1 if seed is None else seed)
+
+
+@cache
+def _loaded(path: str) -> Hamiltonian:
+    """A problem file, read once for all methods."""
+    from garkcli.methodfile.problem import load_problem
+
+    return load_problem(path)
