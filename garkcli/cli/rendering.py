@@ -3,6 +3,7 @@
 from __future__ import annotations
 
 from garkcli.cli.options import Output
+from garkcli.report.paint import printable
 from garkcli.tableau.pointwise import entries
 from garkcli.tableau.tableau import Tableau
 
@@ -17,8 +18,8 @@ def write_tableau(tableau: Tableau, name: str, digits: int, output: Output) -> N
     elif output.format == "latex":
         from garkcli.report import tableau_latex
 
-        output.write(tableau_latex.render(tableau, found, name))
+        output.write(tableau_latex.render(tableau, found, printable(name)))
     else:
         from garkcli.report import tableau_text
 
-        output.write(tableau_text.render(tableau, found, name, output.paint, output.width))
+        output.write(tableau_text.render(tableau, found, printable(name), output.paint, output.width))

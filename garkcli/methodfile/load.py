@@ -10,7 +10,7 @@ from garkcli.errors import Fault, MethodFileError
 from garkcli.methodfile.build import Builder, MethodFile, nodes_to_spell_out, refuse_unknown_families
 from garkcli.methodfile.numbers import Values
 from garkcli.methodfile.reader import Reader
-from garkcli.methodfile.source import MAX_BYTES, METHOD_FILE, FileKind, Source
+from garkcli.methodfile.source import MAX_BYTES, METHOD_FILE, FileKind, Source, one_line
 
 SUFFIX = ".gark.yaml"
 """How method files end."""
@@ -101,7 +101,7 @@ def loads(text: str, source: str = "<text>") -> MethodFile:
     return MethodFile(
         source=source,
         text=text,
-        name=description.name or source,
+        name=one_line(description.name) or source,
         tableau=tableau,
         form=description.form,
         structure=description.structure,

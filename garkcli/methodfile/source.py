@@ -274,6 +274,15 @@ def keys_of(node: Node) -> set[str]:
     return {key.value for key, _ in node.value if isinstance(key, ScalarNode)}
 
 
+def one_line(text: str) -> str:
+    r"""A name as it can stand in a heading: blanks for line ends and for what a terminal would act on.
+
+    >>> one_line("Gauss 2\n  and \x1b more")
+    'Gauss 2 and more'
+    """
+    return " ".join("".join(x if x.isprintable() else " " for x in text).split())
+
+
 def shortened(text: str, length: int = 60) -> str:
     """``text`` in quotes, cut where it is long."""
     return repr(text if len(text) <= length else text[:length] + "…")

@@ -82,7 +82,8 @@ def _row(numbers: Sequence[Number]) -> str:
 
 
 def _quoted(text: str) -> str:
-    return '"' + text.replace("\\", "\\\\").replace('"', '\\"') + '"'
+    escaped = text.replace("\\", "\\\\").replace('"', '\\"')
+    return '"' + "".join(x if x.isprintable() else f"\\U{ord(x):08x}" for x in escaped) + '"'
 
 
 def write_conjugate_of(method: MethodFile, name: str) -> str:

@@ -12,7 +12,7 @@ from garkcli.order.certificate import Order, Witness
 from garkcli.order.check import Analysis, AnyOrder
 from garkcli.order.outcome import Claim, Outcome
 from garkcli.order.simplifying import Simplifying
-from garkcli.report.paint import Paint, aligned, beside
+from garkcli.report.paint import Paint, aligned, beside, printable
 from garkcli.tableau.tableau import Tableau
 from garkcli.trees.drawing import draw_text
 from garkcli.trees.notation import format_tree
@@ -65,7 +65,8 @@ def faults_text(outcome: Outcome, paint: Paint) -> str:
     source = outcome.text.splitlines()
     lines: list[str] = []
     for fault in outcome.faults:
-        place = f"{outcome.file}:{fault.line}:{fault.column}" if fault.line else outcome.file
+        file = printable(outcome.file)
+        place = f"{file}:{fault.line}:{fault.column}" if fault.line else file
         lines.append(f"{place}: {paint('bad', 'error')}: {fault.message}")
         if 0 < fault.line <= len(source):
             lines += _excerpt(source[fault.line - 1], fault.line, fault.column, paint)
@@ -90,7 +91,7 @@ def _line(outcome: Outcome, analysis: Analysis, paint: Paint) -> str:
     if analysis.pair_order is not None and not analysis.tableau.is_partitioned:
         found.append(f"pair {_number(analysis.pair_order)}")
     claims = f"{len(outcome.claims)} claim{'s' * (len(outcome.claims) != 1)}"
-    return f"{mark} {outcome.file}: {', '.join(found)}  ({claims})"
+    return f"{mark} {printable(outcome.file)}: {', '.join(found)}  ({claims})"
 
 
 def _number(order: AnyOrder) -> str:
@@ -99,7 +100,8 @@ def _number(order: AnyOrder) -> str:
 
 def _full(outcome: Outcome, analysis: Analysis, paint: Paint) -> list[str]:
     tableau = analysis.tableau
-    title = outcome.file if outcome.name == outcome.file else f"{outcome.file}: {outcome.name}"
+    file = printable(outcome.file)
+    title = file if outcome.name == outcome.file else f"{file}: {outcome.name}"
     lines = [paint("strong", title), f"  {_kind(tableau, outcome.structure, analysis.tolerance)}", ""]
     lines += _orders(analysis, paint)
     if analysis.suggestion is not None:
@@ -245,7 +247,7 @@ def _consistent(
 def _claim(outcome: Outcome, claim: Claim, paint: Paint) -> str:
     if claim.holds:
         return f"  {paint('good', 'claim holds')}      {claim.claim}: {claim.expected}"
-    place = f"{outcome.file}:{claim.line}:{claim.column}"
+    place = f"{printable(outcome.file)}:{claim.line}:{claim.column}"
     return (
         f"  {paint('bad', 'CLAIM FAILS')}      {claim.claim}: expected {claim.expected}, found {claim.found}"
         f"  ({place})"
