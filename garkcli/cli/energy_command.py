@@ -191,7 +191,7 @@ def _claims(run: LongRun, bounded: bool, limit: fmpq | None) -> tuple[Claim, ...
 
     claims = []
     if bounded:
-        found = [f"{x.name} {x.verdict}" for x in run.courses if x.verdict in ("drifts", "unstable", "short")]
+        found = [f"{x.name} {x.verdict}" for x in run.courses if x.verdict in ("drifts", "unstable", "undecided")]
         claims.append(Claim("bounded", ", ".join(found) or "bounded", not found))
     if limit is not None:
         largest = run.courses[0].max_error

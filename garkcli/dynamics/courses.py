@@ -14,7 +14,7 @@ from garkcli.dynamics.stability import Stability
 from garkcli.dynamics.trend import Shape
 from garkcli.exact.display import to_float
 
-Verdict: TypeAlias = Literal["exact", "round-off", "bounded", "drifts", "unstable", "short"]
+Verdict: TypeAlias = Literal["exact", "round-off", "bounded", "drifts", "unstable", "undecided"]
 """Conserved exactly; no error above round-off; no drift to be told; a drift; blown up; too short to judge."""
 State: TypeAlias = tuple[fmpq, tuple[Any, ...]]
 """A time, and (q, p) then, shape (2d,)."""

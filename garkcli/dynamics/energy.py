@@ -36,7 +36,7 @@ SERIES = 2000
 BLOW_UP = 1e30
 """How many times the energy the energy error may become before a run ends as unstable."""
 _GOAL = 60  # bits of the largest energy error that balls have to get right
-_ROUNDING = 2.0**-46  # of a slope in all, of the largest error: floats are summed
+_ROUNDING = 2.0**-42  # of a slope in all, of the largest error: floats are summed
 _FLOOR = 1000  # energy errors below 2^-1000 count as zero: floats end there
 
 

@@ -121,13 +121,13 @@ def _course(record: Record, k: int, h: float, noise: float, rounding: float) -> 
     drift: float | None = None
     uncertainty: float | None = None
     shape: Shape = "none"
-    verdict: Verdict = "unstable" if record.blew_up else "short"
+    verdict: Verdict = "unstable" if record.blew_up else "undecided"
     if not record.blew_up and record.count >= LEAST:
         trend = record.trends.of(k, noise + rounding)
         drift, uncertainty, shape = trend.slope / h, trend.uncertainty / h, trend.shape
         verdict = "bounded" if shape == "none" else "drifts"
         if record.turns < _TURNS and record.largest[0] < _LARGE * record.measure.scale:
-            verdict = "short"
+            verdict = "undecided"
     if not record.blew_up and record.largest[k] <= noise:
         verdict, shape = "round-off", "none"
     left = errors - (drift or 0.0) * h * record.kept_numbers

@@ -20,6 +20,7 @@ if TYPE_CHECKING:
 
 COMPARED = 128
 """How many steps the first errors are kept of, all of them."""
+_BLOWN = 1000  # how many times the energy the energy error is when the failure of a step is called a blow-up
 _CHUNK = 8192  # steps measured at a time
 _MOVES = 2.0**-40  # least part of its size that a coordinate moves in a step to have a direction
 _PARTS = 4  # equal parts of a run at whose ends the state is kept
@@ -83,7 +84,7 @@ class Record:
         """Measure all states of ``path``, or those before a blow-up.
 
         Raises:
-            StepFailed: a step has failed, and the energy error was not larger than the energy by then.
+            StepFailed: a step has failed, and that was not the end of a blow-up.
         """
         chunk = self._span * max(1, _CHUNK // self._span)
         while self.done < self.count and not self.blew_up:
@@ -93,7 +94,7 @@ class Record:
                     states.append(y)  # noqa: PERF402 -- what comes before a failure is wanted
             except StepFailed:
                 self._add(states)
-                self.blew_up = self.blew_up or bool(self.largest[0] > self.measure.scale)
+                self.blew_up = self.blew_up or bool(self.largest[0] > _BLOWN * self.measure.scale)
                 if not self.blew_up:
                     raise
                 return

@@ -60,7 +60,7 @@ def _words(course: Course) -> str:
         "exact": "conserved exactly",
         "round-off": "not above round-off",
         "unstable": "blown up",
-        "short": "too short to judge",
+        "undecided": "too short to judge",
     }
     return words.get(course.verdict, course.verdict)
 

@@ -81,14 +81,21 @@ def _course(course: Course, run: LongRun, paint: Paint) -> list[str]:
     if course.verdict not in ("exact", "round-off", "unstable"):
         rows.append(("  oscillation", f"± {course.amplitude:.2e}"))
         if course.drift is not None:
-            drift = f"{course.drift:.2e} ± {course.uncertainty:.0e} per unit of time"
-            rows.append(("  drift", f"{drift}, {course.drift * run.end:.2e} in all"))
+            rows.append(("  drift", _drift(course, run.end)))
     style = {"bounded": "good", "exact": "good", "round-off": "good", "drifts": "bad", "unstable": "bad"}
     word, reason = _verdict(course, run)
     lines = [f"  {left:<{width}}{right}" for left, right in rows]
     first, *rest = _wrapped(f"{word}{reason}", 76 - width)
     first = first.replace(word, paint(style.get(course.verdict, "strong"), word), 1)
     return [*lines, f"  {'  verdict':<{width}}{first}", *(f"  {'':<{width}}{line}" for line in rest)]
+
+
+def _drift(course: Course, time: float) -> str:
+    """Per unit of time and in all; digits below the uncertainty say nothing."""
+    drift, uncertainty = course.drift or 0.0, course.uncertainty or 0.0
+    if abs(drift) <= uncertainty and course.verdict != "drifts":
+        return f"none within {uncertainty:.0e} per unit of time, {uncertainty * time:.0e} in all"
+    return f"{drift:.2e} ± {uncertainty:.0e} per unit of time, {drift * time:.2e} in all"
 
 
 def _verdict(course: Course, run: LongRun) -> tuple[str, str]:
@@ -102,7 +109,7 @@ def _verdict(course: Course, run: LongRun) -> tuple[str, str]:
         case "unstable":
             end = run.end
             return "UNSTABLE", f": blown up after {run.steps} steps, at t = {end:g}"
-        case "short":
+        case "undecided":
             if run.steps < LEAST:
                 return "undecided", f": fewer than {LEAST} steps"
             times = f"{run.turns} time{'s' * (run.turns != 1)}"
@@ -120,7 +127,7 @@ def _reason(course: Course, run: LongRun) -> str:
     if run.stability is not None:
         return f"det R(h) − 1 = {_determinant(run.stability)}, {FATES[run.stability.fate]}"
     if course.shape == "line":
-        return f"the slope is {abs(course.drift or 0) / (course.uncertainty or 1):.3g} times its uncertainty"
+        return f"the slope is {abs(course.drift or 0) / (course.uncertainty or 1):.2g} times its uncertainty"
     if course.shape == "curve":
         return f"it {'rises' if course.drift and course.drift > 0 else 'falls'} all along, not at one rate"
     return "it moves to another level and stays there"
@@ -147,12 +154,12 @@ def _symplectic(report: Report, paint: Paint) -> list[str]:
 def _measured(found: Symplecticity) -> list[str]:
     if not found.defects:
         return []
-    times = "at t = " + ", ".join(str(x.time) for x in found.defects)
     largest = max(found.defects, key=lambda x: x.size)
-    if not any(x.is_seen for x in found.defects):
-        bound = max(x.error for x in found.defects)
-        return _wrapped(f"MᵀJM − J is below {bound:.0e}, what it is measured to, {times}", 59)
-    return _wrapped(f"MᵀJM − J has entries up to {largest.size:.3e}, good to {largest.error:.0e}, {times}", 59)
+    if any(x.is_seen for x in found.defects):
+        size = f"MᵀJM − J has entries up to {largest.size:.3e}, good to {largest.error:.0e},"
+    else:
+        size = f"MᵀJM − J is below {max(x.error for x in found.defects):.0e}, what it is measured to,"
+    return [size, *_wrapped("at t = " + ", ".join(str(x.time) for x in found.defects), 59)]
 
 
 def _wrapped(text: str, width: int = 76) -> list[str]:

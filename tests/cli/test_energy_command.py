@@ -1,0 +1,138 @@
+"""``gark energy``: options, exit codes, formats."""
+
+from __future__ import annotations
+
+import json
+from pathlib import Path
+
+import pytest
+
+from tests.cli.harness import gark
+
+RECTANGULAR, RK4 = "methods/rectangular.gark.yaml", "methods/rk4.gark.yaml"
+SHORT = ("--t-end", "60", "--step", "1/20")
+
+
+def test_the_figure_of_the_paper_is_the_default() -> None:
+    """The oscillator with h = 1/2 to t = 10⁴, bounded, with nothing but the file given."""
+    run = gark("energy", RECTANGULAR)
+    assert run.code == 0
+    assert "step 1/2 to t = 10000: 20000 steps" in run.out
+    assert "bounded for all time" in run.out
+    assert run.err == ""
+
+
+def test_claims_decide_the_exit_code() -> None:
+    """A drift is a finding; with --bounded it is a failed claim."""
+    drifting = ("energy", RK4, "--problem", "kepler", *SHORT)
+    assert gark(*drifting).code == 0
+    failed = gark(*drifting, "--bounded")
+    assert failed.code == 1
+    assert "CLAIM FAILS      bounded, found: energy drifts, angular momentum drifts" in failed.out
+    held = gark("energy", RECTANGULAR, "--problem", "kepler", *SHORT, "--bounded", "--max-error", "1e-4")
+    assert held.code == 0
+    assert held.out.count("claim holds") == 2
+
+
+@pytest.mark.parametrize(("limit", "code"), [("1.13e-4", 0), ("1.12e-4", 1), ("1/9000", 1)])
+def test_max_error(limit: str, code: int) -> None:
+    """The largest error is 1.1201e-4."""
+    assert gark("energy", RECTANGULAR, "--max-error", limit).code == code
+
+
+def test_what_is_undecided_is_not_bounded() -> None:
+    """A claim needs a run that is long enough."""
+    run = gark("energy", RECTANGULAR, "--problem", "kepler", "--t-end", "5", "--bounded")
+    assert run.code == 1
+    assert "found: energy undecided" in run.out
+
+
+def test_blow_ups_and_failed_steps_are_failures(tmp_path: Path) -> None:
+    """Exit code 1, with what has happened."""
+    euler = tmp_path / "euler.gark.yaml"
+    euler.write_text("ark: {A: [[[0]]], b: [[1]]}")
+    run = gark("energy", str(euler), "--problem", "fput", "--format", "json")
+    assert run.code == 1
+    assert json.loads(run.out)["blew_up"]
+    assert gark("energy", str(euler)).code == 1  # the oscillator
+    euler.write_text("ark: {A: [[[1]]], b: [[1]]}")
+    run = gark("energy", str(euler), "--problem", "kepler", "--step", "1/2")
+    assert run.code == 1
+    assert run.out == ""
+    assert "step 1 of size 1/2: the stage equations were not solved" in run.err
+
+
+def test_symplecticity_is_measured() -> None:
+    """Far below the round-off of floats where the method is symplectic, and far above where it is not."""
+    for path, proved, seen in ((RECTANGULAR, True, False), (RK4, False, True)):
+        run = gark("energy", path, "--problem", "henon-heiles", *SHORT, "--symplecticity", "--format", "json", "-q")
+        found = json.loads(run.out)["symplectic"]
+        assert found["proved"] is proved
+        assert len(found["defects"]) == 5
+        assert all(x["good_to"] < 1e-45 and (x["size"] > x["good_to"]) is seen for x in found["defects"])
+
+
+def test_problem_files() -> None:
+    """A problem of the user's own, with its invariants and ten thousand steps."""
+    run = gark("energy", RECTANGULAR, "--problem", "problems/kepler.yaml", "--format", "json")
+    data = json.loads(run.out)
+    assert (data["steps"], data["drifts"]) == (10_000, False)
+    assert [x["name"] for x in data["quantities"]] == ["energy", "angular momentum"]
+
+
+@pytest.mark.parametrize(
+    ("options", "said"),
+    [
+        (("--digits", "30"), "--digits is not for the oscillator"),
+        (("--problem", "kepler", "--omega", "2"), "--omega is for the oscillator"),
+        (("--problem", "kepler", "--split", "1:0,0:1"), "--split is for the oscillator"),
+        (("--problem", "kepler", "--seed", "2"), "--seed is for the problem generic"),
+        (("--problem", "keppler"), "did you mean 'kepler'"),
+        (("--t-end", "1", "--step", "0.3"), "not a whole number of steps"),
+        (("--t-end", "0"), "a positive number is expected"),
+        (("--step", "sqrt(2)"), "a rational number is expected"),
+        (("--max-error", "-1"), "a positive number is expected"),
+        (("--omega", "-1"), "a positive number is expected"),
+        (("--plot", "figure.bmp"), "no figure can be saved"),
+        (("--points", "3"), "not in the range"),
+        (("--digits", "1000"), "not in the range"),
+        (("--problem", "generic"), "the method has no colour for that"),
+        (("--t-end", "1e9"), "limit"),
+    ],
+)
+def test_usage(options: tuple[str, ...], said: str) -> None:
+    """Wrong use has exit code 2, a reason, and no report."""
+    run = gark("energy", RECTANGULAR, *options)
+    assert run.code == 2
+    assert said in run.err
+    assert run.out == ""
+
+
+def test_figures_are_written(tmp_path: Path) -> None:
+    """In each format; nothing else is left behind."""
+    for suffix in ("png", "svg", "pdf"):
+        run = gark("energy", RECTANGULAR, "--problem", "kepler", *SHORT, "--plot", str(tmp_path / f"a.{suffix}"))
+        assert run.code == 0
+        assert f"wrote {tmp_path}" in run.err
+    assert sorted(x.name for x in tmp_path.iterdir()) == ["a.pdf", "a.png", "a.svg"]
+
+
+def test_csv_keeps_the_extremes() -> None:
+    """As many rows as points, about, and the largest error among them."""
+    run = gark("energy", RECTANGULAR, "--format", "csv", "--points", "100")
+    head, *rows = run.out.splitlines()
+    assert head == "t,energy_error"
+    assert 90 <= len(rows) <= 100
+    errors = [float(row.split(",")[1]) for row in rows]
+    assert f"{max(map(abs, errors)):.4e}" == "1.1201e-04"
+    assert (rows[0], rows[-1].split(",")[0]) == ("0.0,0.0", "10000.0")
+
+
+def test_more_digits() -> None:
+    """What floats hide is shown."""
+    run = gark(
+        "energy", "methods/gauss6-lobatto7.gark.yaml", "--problem", "pendulum", "--t-end", "40", "--digits", "40"
+    )
+    assert run.code == 0
+    assert "400 steps, 40 digits" in run.out
+    assert "bounded: no drift" in run.out

@@ -1,0 +1,223 @@
+"""Reports and figures of conserved quantities over a long time."""
+
+from __future__ import annotations
+
+import csv
+import io
+import json
+from collections.abc import Callable
+from dataclasses import replace
+from functools import cache
+from pathlib import Path
+
+import pytest
+from flint import fmpq
+
+from garkcli.dynamics.courses import LongRun, of_oscillator
+from garkcli.dynamics.energy import drift
+from garkcli.dynamics.examples import hamiltonian
+from garkcli.dynamics.longtime import follow
+from garkcli.dynamics.problems import Oscillator, terms_of
+from garkcli.dynamics.structure import fitted
+from garkcli.dynamics.symplecticity import Defect, Symplecticity
+from garkcli.methodfile.load import load
+from garkcli.report.bandplot import INSIDE, SINGLE, terminal_band
+from garkcli.report.energy import render
+from garkcli.report.energy_plot import energy_figure
+from garkcli.report.energy_text import Claim, Report
+from garkcli.report.paint import Paint
+from garkcli.report.plot import save
+
+ROOT = Path(__file__).parents[2]
+RECTANGULAR, RK4 = (str(ROOT / "methods" / f"{name}.gark.yaml") for name in ("rectangular", "rk4"))
+GAUSS = str(ROOT / "tests" / "examples" / "valid" / "smallest.gark.yaml")
+
+
+def oscillator(path: str, t_end: int = 100) -> LongRun:
+    """The energy of the oscillator."""
+    tableau = load(path).tableau
+    return of_oscillator(drift(tableau, Oscillator.default(terms_of(tableau), fmpq(1)), fmpq(t_end), fmpq(1, 2)))
+
+
+def nonlinear(path: str, name: str, t_end: int) -> LongRun:
+    """Another problem."""
+    tableau = fitted(load(path).tableau)
+    return follow(tableau, hamiltonian(name, terms_of(tableau)), fmpq(t_end), fmpq(1, 20))
+
+
+@cache
+def kepler() -> LongRun:
+    """A run that stays."""
+    return nonlinear(RECTANGULAR, "kepler", 100)
+
+
+@cache
+def falling() -> LongRun:
+    """The same, drifting."""
+    return nonlinear(RK4, "kepler", 100)
+
+
+def text(run: LongRun, symplecticity: Symplecticity | None = None, claims: tuple[Claim, ...] = ()) -> str:
+    """The report for people."""
+    return render(Report("m", run, symplecticity or Symplecticity(True), claims), "text", Paint())
+
+
+@pytest.mark.parametrize(
+    ("run", "said"),
+    [
+        (lambda: oscillator(RECTANGULAR), "bounded for all time: det R(h) = 1 and |tr R(h)| < 2,"),
+        (lambda: oscillator(RK4), "DRIFTS: det R(h) − 1 = -0.0002102, the energy decays for"),
+        (lambda: oscillator(GAUSS), "conserved by every step, exactly"),
+        (kepler, "bounded: no drift beyond its uncertainty"),
+        (kepler, "no error above round-off, at most"),
+        (falling, "DRIFTS: the slope is"),
+        (lambda: nonlinear(RECTANGULAR, "kepler", 2), "undecided: fewer than 64 steps"),
+        (lambda: nonlinear(RECTANGULAR, "kepler", 10), "undecided: the motion turns back 3 times only;"),
+        (lambda: nonlinear(RK4, "fput", 100), "DRIFTS: "),
+    ],
+)
+def test_verdicts(run: Callable[[], LongRun], said: str) -> None:
+    """Each verdict is said in its words, within 80 columns."""
+    found = text(run())
+    assert said in found
+    assert max(map(len, found.splitlines())) <= 80
+
+
+def test_what_is_said_of_blow_ups() -> None:
+    """When it happened; no drift, no oscillation."""
+    course = replace(kepler().courses[0], verdict="unstable", drift=None, uncertainty=None, max_error=1e30)
+    found = text(replace(kepler(), courses=(course,), steps=7))
+    assert "UNSTABLE: blown up after 7 steps, at t = 0.35" in found
+    assert "oscillation" not in found
+    assert "drift " not in found
+
+
+@pytest.mark.parametrize(
+    ("symplecticity", "said"),
+    [
+        (Symplecticity(True), "yes, by its coefficients"),
+        (Symplecticity(False), "not proved by its coefficients"),
+        (Symplecticity(False, (Defect(fmpq(0), 0.25, 1e-55),)), "no\n"),
+        (Symplecticity(False, (Defect(fmpq(0), 0.25, 1e-55),)), "has entries up to 2.500e-01, good to 1e-55"),
+        (Symplecticity(False, (Defect(fmpq(0), 1e-60, 2e-55), Defect(fmpq(5), 0, 3e-55))), "is below 3e-55"),
+        (Symplecticity(False, (Defect(fmpq(0), 1e-60, 2e-55), Defect(fmpq(5), 1, 3e-55))), "t = 0, 5"),
+    ],
+)
+def test_symplecticity(symplecticity: Symplecticity, said: str) -> None:
+    """What is proved, what is measured; what is small is below something, not zero."""
+    assert said in text(kepler(), symplecticity)
+
+
+def test_claims() -> None:
+    """Each with its verdict, and what was found where it fails."""
+    found = text(falling(), claims=(Claim("bounded", "energy drifts", False), Claim("max-error: 1", "", True)))
+    assert "CLAIM FAILS      bounded, found: energy drifts" in found
+    assert "claim holds      max-error: 1\n" in found
+
+
+def test_quiet_reports_have_no_plot() -> None:
+    """The short report ends before it."""
+    report = Report("m", kepler(), Symplecticity(True))
+    assert "┤" in render(report, "text", Paint())
+    assert "┤" not in render(report, "text", Paint(), is_long=False)
+
+
+@pytest.mark.parametrize("make", [kepler, falling, lambda: oscillator(RECTANGULAR), lambda: oscillator(GAUSS)])
+def test_json(make: Callable[[], LongRun]) -> None:
+    """The same numbers, under names that stay."""
+    run = make()
+    claims = (Claim("bounded", "bounded", True),)
+    measured = Symplecticity(False, (Defect(fmpq(1, 2), 0.25, 1e-55),))
+    data = json.loads(render(Report("m", run, measured, claims), "json", Paint()))
+    assert data["schema"] == "gark/energy/1"
+    assert (data["step_exact"], data["steps"], data["drifts"]) == (str(run.step), run.steps, run.drifts)
+    assert ("hamiltonian" in data) == (data["problem"] == "kepler") == (data["digits"] is not None)
+    assert ("omega" in data) == ("determinant_minus_1" in data["symplectic"]) == (data["problem"] == "oscillator")
+    assert [x["name"] for x in data["quantities"]] == [x.name for x in run.courses]
+    for found, course in zip(data["quantities"], run.courses, strict=True):
+        assert (found["max_error"], found["drift"], found["verdict"]) == (
+            course.max_error,
+            course.drift,
+            course.verdict,
+        )
+        assert found["drift_in_all"] == pytest.approx(course.drift * run.end)
+    assert data["symplectic"]["defects"] == [{"t": 0.5, "size": 0.25, "good_to": 1e-55}]
+    assert data["claims"] == [{"claim": "bounded", "found": "bounded", "holds": True}]
+
+
+def test_json_of_blow_ups_has_no_infinities() -> None:
+    """What is not known is null."""
+    course = replace(kepler().courses[0], verdict="unstable", drift=None, uncertainty=None)
+    data = json.loads(
+        render(Report("m", replace(kepler(), courses=(course,)), Symplecticity(True)), "json", Paint())
+    )
+    found = data["quantities"][0]
+    assert (found["drift"], found["drift_uncertainty"], found["drift_in_all"]) == (None, None, None)
+    assert data["blew_up"]
+
+
+def test_csv() -> None:
+    """Every time kept, with the errors of all quantities, to the last digit."""
+    rows = list(csv.reader(io.StringIO(render(Report("m", kepler(), Symplecticity(True)), "csv", Paint()))))
+    assert rows[0] == ["t", "energy_error", "angular_momentum_error"]
+    assert [float(row[0]) for row in rows[1:]] == list(kepler().times)
+    for k, course in enumerate(kepler().courses, start=1):
+        assert [float(row[k]) for row in rows[1:]] == list(course.errors)
+
+
+def test_csv_of_awkward_names() -> None:
+    """A name with a comma or a quotation mark is one column."""
+    course = replace(kepler().courses[0], name='L, "z"')
+    rows = list(
+        csv.reader(
+            io.StringIO(
+                render(Report("m", replace(kepler(), courses=(course,)), Symplecticity(True)), "csv", Paint())
+            )
+        )
+    )
+    assert rows[0] == ["t", 'L,_"z"_error']
+    assert {len(row) for row in rows} == {2}
+
+
+@pytest.mark.parametrize("suffix", [".png", ".svg", ".pdf"])
+def test_figures_are_the_same_each_time(tmp_path: Path, suffix: str) -> None:
+    """Byte by byte, so that a repository of figures does not change without a reason."""
+    for name in ("one", "two"):
+        save(energy_figure(falling()), tmp_path / f"{name}{suffix}")
+    one, two = ((tmp_path / f"{name}{suffix}").read_bytes() for name in ("one", "two"))
+    assert one == two
+    assert len(one) > 5000
+
+
+def test_figures_show_all_quantities() -> None:
+    """A panel each, with its errors; a dashed line where there is a drift, told apart without colour."""
+    bounded, drifting = energy_figure(kepler()), energy_figure(falling())
+    assert [len(axes.get_lines()) for axes in bounded.axes] == [2, 2]
+    assert [len(axes.get_lines()) for axes in drifting.axes] == [3, 3]
+    for axes, course in zip(drifting.axes, falling().courses, strict=True):
+        errors, _, line = axes.get_lines()
+        assert list(errors.get_ydata()) == list(course.errors)
+        assert errors.get_linestyle() == "-"
+        assert line.is_dashed()
+        assert course.name in axes.get_title(loc="left")
+        (t0, t1), (e0, e1) = line.get_xdata(), line.get_ydata()
+        assert (e1 - e0) / (t1 - t0) == pytest.approx(course.drift)
+
+
+def test_band_joins_its_points() -> None:
+    """Every column is drawn on, every value is within its column's band."""
+    lines = terminal_band([0, 1, 10], [0.0, 5.0, -5.0], "f", width=30, height=9).splitlines()[1:10]
+    for column in range(30):
+        drawn = [line.ljust(40)[line.index("┤" if "┤" in line else "│") + 1 + column] for line in lines]
+        assert any(x in (INSIDE, SINGLE) for x in drawn)
+
+
+@pytest.mark.parametrize(
+    "values", [[0.0], [1.0], [-1.0], [0.0, 0.0], [1e-300, 2e-300], [-1e300, 1e300], [5.0, 5.0]]
+)
+def test_band_of_little(values: list[float]) -> None:
+    """One point, no height, and the ends of the floats."""
+    found = terminal_band([float(k) for k in range(len(values))], values, "f", width=20, height=5)
+    assert len(found.splitlines()) == 8
+    assert "nan" not in found
+    assert "inf" not in found
