@@ -13,6 +13,7 @@ from typing import Any, TypeAlias
 
 from flint import arb, arb_mat, ctx, fmpq_poly
 
+from garkcli.errors import LimitExceeded
 from garkcli.exact.display import to_ball
 from garkcli.exact.domain import Domain, enclose, square_free
 from garkcli.exact.expression import Chain, Expression, Literal, Root
@@ -100,7 +101,10 @@ def method_in_points(method: Method, nodes: Vector) -> Method:
 
 
 def in_points(tableau: Tableau) -> Tableau | None:
-    """The same tableau with one coordinate a stage; None where some nodes have no simple radicals."""
+    """The same tableau with one coordinate a stage; None where the nodes have no simple radicals.
+
+    Nor have they, where together with the coefficients they generate too large a field.
+    """
     polynomial = {
         k: simple_nodes(space) for k, space in enumerate(tableau.spaces) if isinstance(space, PolynomialSpace)
     }
@@ -109,7 +113,10 @@ def in_points(tableau: Tableau) -> Tableau | None:
     if not polynomial:
         return tableau
     known = [radical for radical, _ in tableau.field.radicals] if tableau.field else []
-    domain = Domain([*known, *(node for nodes in polynomial.values() for node in nodes or ())])
+    try:
+        domain = Domain([*known, *(node for nodes in polynomial.values() for node in nodes or ())])
+    except LimitExceeded:
+        return None
     embed = _embedding(tableau, domain)
 
     @cache

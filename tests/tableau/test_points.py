@@ -14,10 +14,12 @@ from hypothesis import strategies as st
 from garkcli.errors import CoincidingNodes, ShapeMismatch
 from garkcli.exact.display import to_ball, to_float
 from garkcli.exact.matrix import Vector, apply
+from garkcli.families.registry import diagonal_method
 from garkcli.order.certificate import find_order
 from garkcli.order.simplifying import simplifying
 from garkcli.tableau.conjugate import conjugate
 from garkcli.tableau.forms import gark, pair, spelled_out
+from garkcli.tableau.method import butcher
 from garkcli.tableau.pointwise import Cell, entries, in_points, numeric_entries
 from garkcli.tableau.stages import PointSpace, PolynomialSpace
 from garkcli.tableau.tableau import Colour, Tableau
@@ -137,6 +139,20 @@ def test_adjoint(nodes: list[fmpq], data: st.DataObject) -> None:
     assert sum((x * y for x, y in zip(b, left, strict=True)), fmpq(0)) == sum(
         (x * y for x, y in zip(b_source, right, strict=True)), fmpq(0)
     )
+
+
+def test_nodes_beyond_the_largest_field_are_decimals() -> None:
+    """Where nodes and coefficients together are too much for a field, entries are enclosures, as of Gauss 6."""
+    (row,) = numbers("sqrt(2) + sqrt(7) + sqrt(11) + sqrt(13), 1")
+    methods = [butcher(((row[0],),), (row[1],)), diagonal_method("gauss", 2), diagonal_method("lobatto-iiia", 4)]
+    blocks = {(l, m): collocation(methods[l], methods[m]) for l in range(3) for m in range(3) if l != m}
+    tableau = gark(methods, blocks)
+    assert in_points(tableau) is None
+    found = entries(tableau, 20)
+    assert not found.is_exact
+    assert found.A[0][0] is not None
+    assert abs(float(found.A[0][0][0][0]) - (2**0.5 + 7**0.5 + 11**0.5 + 13**0.5)) < 1e-12
+    assert abs(float(found.c[2][1]) - (0.5 - 5**0.5 / 10)) < 1e-12
 
 
 def test_entries_in_radicals_are_the_definition() -> None:
