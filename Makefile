@@ -5,7 +5,7 @@ BIN    := $(VENV)/bin
 READY  := $(VENV)/.ready
 
 .DEFAULT_GOAL := help
-.PHONY: help run test lint types layers pytest bench fuzz format clean
+.PHONY: help run test lint types layers pytest bench fuzz figures format clean
 
 help: ## this list
 	@grep -E '^[a-z]+:.*## ' $(MAKEFILE_LIST) | sed 's/:.*## /\t/' | expand -t 12
@@ -44,6 +44,9 @@ fuzz: $(READY) ## some minutes of fuzzing, see docs/fuzzing.md
 	$(BIN)/python tests/fuzz/long_run.py --cases 100000
 	$(BIN)/python tests/fuzz/atheris_fuzz.py --target files -max_total_time=60
 	$(BIN)/python tests/fuzz/atheris_fuzz.py --target numbers -max_total_time=60
+
+figures: $(READY) ## draw the figures of the documentation anew
+	$(BIN)/python docs/figures/rectangular.py
 
 format: $(READY) ## put the code into its one format
 	$(BIN)/ruff check --fix .

@@ -70,7 +70,7 @@ def test_the_page_has_its_commands() -> None:
     assert len(found) >= 10
     shown = {x.partition(" >>")[0].strip() for x in PRINTED.findall(PAGE)}
     assert shown <= set(found)
-    assert {"check", "schema"} == {shlex.split(x)[1] for x in found}
+    assert {"check", "energy", "schema"} == {shlex.split(x)[1] for x in found}
 
 
 @pytest.mark.parametrize("command", commands())
