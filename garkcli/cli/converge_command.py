@@ -2,28 +2,28 @@
 
 from __future__ import annotations
 
+from dataclasses import dataclass
 from pathlib import Path
 from typing import TYPE_CHECKING
 
 import click
 
+from garkcli.cli.converging import Problems, Wanted, compared, oscillator, tested
 from garkcli.cli.options import CONTEXT, Output, common
-from garkcli.cli.problems import ProblemType, find_problem
-from garkcli.cli.stepping import applied, positive, rational
+from garkcli.cli.problems import ProblemType
+from garkcli.cli.stepping import applied, positive
 from garkcli.errors import UsageProblem
 
 if TYPE_CHECKING:
     from flint import fmpq
+    from matplotlib.figure import Figure
 
-    from garkcli.dynamics.convergence import Convergence
-    from garkcli.dynamics.nonlinear import Observation
-    from garkcli.dynamics.problems import Oscillator
-    from garkcli.methodfile.build import MethodFile
-    from garkcli.tableau.tableau import Tableau
+AXES = ("h", "evaluations", "seconds")
+"""What plots of errors can have below."""
 
 
 @click.command("converge", context_settings=CONTEXT)
-@click.argument("file", metavar="FILE")
+@click.argument("files", nargs=-1, required=True, metavar="FILE...")
 @click.option(
     "--problem",
     type=ProblemType(),
@@ -35,19 +35,27 @@ if TYPE_CHECKING:
 @click.option("--split", metavar="K:V,...", help="The oscillator's shares of kinetic and potential energy.")
 @click.option("--seed", type=click.IntRange(0), metavar="N", help="The coefficients of generic; 1 by default.")
 @click.option("--t-end", metavar="T", help="The final time; without --drift each problem has its own.")
-@click.option("--steps", metavar="H,...", help="Step sizes, instead of a ladder of halvings.")
+@click.option("--steps", metavar="H,...", help="Step sizes, instead of a ladder of halvings that fits the errors.")
+@click.option("--work", is_flag=True, help="Count evaluations, measure time, and plot the errors against them.")
+@click.option(
+    "--against",
+    type=click.Choice(AXES),
+    help="What plots have below: h, or evaluations with --work; seconds depend on the machine.",
+)
 @click.option("--drift", is_flag=True, help="The energy error over a long time; with --t-end and --step.")
 @click.option("--step", metavar="H", help="The step size for --drift.")
 @click.option("--plot", metavar="FILE", help="Draw into FILE: .png, .svg or .pdf.")
 @common(["text", "json", "csv"])
 def command(
-    file: str,
+    files: tuple[str, ...],
     problem: str,
     omega: str | None,
     split: str | None,
     seed: int | None,
     t_end: str | None,
     steps: str | None,
+    work: bool,
+    against: str | None,
     drift: bool,
     step: str | None,
     plot: str | None,
@@ -60,33 +68,56 @@ def command(
     not rounding. generic sees every tree. A file with `methods` is tested as its symplectic pair, every other
     file as it stands.
 
-    Exit code 1 when the observed order is not the one the method has on this problem, or a step fails.
-    """
-    from garkcli.dynamics.problems import Oscillator, parse_shares, terms_of
-    from garkcli.methodfile.load import load
+    Several FILEs, directories (all *.gark.yaml below them) or patterns are compared, in one table and one plot.
+    With --work they are compared by what their errors cost.
 
+    Exit code: 0 every observed order is the one the method has on this problem, 1 one is not, or a step fails, 2 a
+    file cannot be read, or its method is not for this problem.
+    """
+    from garkcli.methodfile.load import find_files
+
+    paths = list(find_files(files))
     _check_options(problem, omega, split, seed, drift)
-    if drift and (steps or not (t_end and step)):
-        raise UsageProblem("--drift follows one step size over one time", "give --t-end T and --step H")
+    if drift and (steps or work or not (t_end and step)):
+        raise UsageProblem("--drift follows one step size over one time", "give --t-end T and --step H only")
+    if drift and len(paths) > 1:
+        raise UsageProblem("--drift follows one method", "give one file")
     if step and not drift:
         raise UsageProblem("--step is the step size of --drift", "give --steps H,H,... for the convergence test")
+    if against not in (None, "h") and not work:
+        raise UsageProblem(f"--against {against} is not known without measuring it", "add --work")
     if plot is not None:
         from garkcli.report.plot import check_suffix
 
         check_suffix(Path(plot))
-    method = load(file)
-    tableau = applied(method, output)
-    time = None if t_end is None else positive("--t-end", t_end)
-    if problem != "oscillator":
-        return _observe(tableau, problem, seed, method, time, _sizes(steps), plot, output)
-    terms = terms_of(tableau)
-    frequency = rational("--omega", omega or "1")
-    oscillator = (
-        Oscillator(frequency, parse_shares(split, terms)) if split else Oscillator.default(terms, frequency)
+    wanted = Wanted(
+        problem,
+        omega,
+        split,
+        seed,
+        None if t_end is None else positive("--t-end", t_end),
+        None if steps is None else tuple(positive("--steps", h) for h in steps.split(",")),
+        work,
     )
     if drift:
-        return _drift(tableau, oscillator, method.name, time, positive("--step", step), plot, output)
-    return _converge(tableau, oscillator, method, time, _sizes(steps), plot, output)
+        return _drift(paths[0], wanted, positive("--step", step), plot, output)
+    shown = Shown(work, against or ("evaluations" if work else "h"), plot)
+    return _one(paths[0], wanted, shown, output) if len(paths) == 1 else _several(paths, wanted, shown, output)
+
+
+@dataclass(frozen=True)
+class Shown:
+    """What of the results is shown.
+
+    Attributes:
+        work: whether costs are.
+        against: the horizontal axis of plots.
+        plot: the file to draw into, if any.
+    """
+
+    work: bool
+    against: str
+    plot: str | None
 
 
 def _check_options(problem: str, omega: str | None, split: str | None, seed: int | None, drift: bool) -> None:
@@ -96,87 +127,69 @@ def _check_options(problem: str, omega: str | None, split: str | None, seed: int
         raise UsageProblem(f"{given} is for the oscillator, not for {problem}", "leave it out")
     if problem != "generic" and seed is not None:
         raise UsageProblem(f"--seed is for the problem generic, not for {problem}", "leave it out")
+    if omega:
+        positive("--omega", omega)
 
 
-def _sizes(steps: str | None) -> list[fmpq] | None:
-    return None if steps is None else [positive("--steps", h) for h in steps.split(",")]
-
-
-def _converge(
-    tableau: Tableau,
-    problem: Oscillator,
-    method: MethodFile,
-    t_end: fmpq | None,
-    steps: list[fmpq] | None,
-    plot: str | None,
-    output: Output,
-) -> int:
-    from garkcli.dynamics.convergence import converge
-    from garkcli.report import convergence as report
-
-    predicted, tolerance = None, 0.0
-    if method.tolerance is not None:
-        from garkcli.exact.display import to_float
-        from garkcli.order.rounded import find_order_within
-
-        predicted, tolerance = find_order_within(tableau, method.tolerance).order, to_float(method.tolerance)
-    result = converge(tableau, problem, t_end, steps, predicted, tolerance)
-    output.write(report.render(result, method.name, output.format, output.paint))
-    _draw(result, plot, output)
-    return 0 if result.agrees else 1
-
-
-def _observe(
-    tableau: Tableau,
-    name: str,
-    seed: int | None,
-    method: MethodFile,
-    t_end: fmpq | None,
-    steps: list[fmpq] | None,
-    plot: str | None,
-    output: Output,
-) -> int:
-    """The convergence test on a nonlinear problem."""
-    from garkcli.dynamics.nonlinear import observe
+def _one(path: str, wanted: Wanted, shown: Shown, output: Output) -> int:
+    """The test of one method."""
     from garkcli.dynamics.step import StepFailed
-    from garkcli.dynamics.structure import fitted
+    from garkcli.methodfile.load import load
     from garkcli.report import convergence as report
+    from garkcli.report.progress import watching
 
-    tableau = fitted(tableau)
-    problem = find_problem(name, tableau, seed)
+    method = load(path)
+    tableau = applied(method, output)
     try:
-        result = observe(tableau, problem, t_end, steps, method.tolerance)
+        with watching(output.verbosity >= 0) as watch:
+            result = tested(method, tableau, wanted, Problems(wanted, [tableau]), watch)
     except StepFailed as error:
         click.echo(f"gark: {error.message}\nhelp: {error.help}", err=True)
         return 1
-    output.write(report.render(result, method.name, output.format, output.paint))
-    _draw(result, plot, output)
+    output.write(report.render(result, method.name, output.format, output.paint, shown.work))
+    if shown.plot is not None:
+        from garkcli.report.plot import comparison_figure, convergence_figure
+
+        is_plain = shown.against == "h" and not shown.work
+        named = [(method.name, result)]
+        _save(convergence_figure(result) if is_plain else comparison_figure(named, shown.against), shown, output)
     return 0 if result.agrees else 1
 
 
-def _draw(result: Convergence | Observation, plot: str | None, output: Output) -> None:
-    if plot is not None:
-        from garkcli.report.plot import convergence_figure, save
+def _several(paths: list[str], wanted: Wanted, shown: Shown, output: Output) -> int:
+    """The comparison; what fails is told, and stops nothing."""
+    from garkcli.report import comparison as report
 
-        save(convergence_figure(result), Path(plot))
-        output.note(f"wrote {plot}")
+    entries = compared(paths, wanted, output)
+    output.write(report.render(entries, output.format, output.paint, shown.work, shown.against))
+    results = [(entry.name, entry.result) for entry in entries if entry.result is not None]
+    if shown.plot is not None:
+        if results:
+            from garkcli.report.plot import comparison_figure
+
+            _save(comparison_figure(results, shown.against), shown, output)
+        else:
+            output.note(f"nothing to draw into {shown.plot}")
+    return max(entry.exit_code for entry in entries)
 
 
-def _drift(
-    tableau: Tableau,
-    problem: Oscillator,
-    name: str,
-    t_end: fmpq | None,
-    step: fmpq,
-    plot: str | None,
-    output: Output,
-) -> int:
+def _save(figure: Figure, shown: Shown, output: Output) -> None:
+    from garkcli.report.plot import save
+
+    save(figure, Path(shown.plot or ""))
+    output.note(f"wrote {shown.plot}")
+
+
+def _drift(path: str, wanted: Wanted, step: fmpq, plot: str | None, output: Output) -> int:
     from garkcli.dynamics.energy import drift
+    from garkcli.methodfile.load import load
     from garkcli.report import energy as report
 
-    assert t_end is not None
-    result = drift(tableau, problem, t_end, step)
-    output.write(report.render_drift(result, name, output.format, output.paint))
+    method = load(path)
+    tableau = applied(method, output)
+    assert wanted.t_end is not None
+    result = drift(tableau, oscillator(wanted, tableau), wanted.t_end, step)
+    output.write(report.render_drift(result, method.name, output.format, output.paint))
     if plot is not None:
         from garkcli.report.energy_plot import drift_figure
         from garkcli.report.plot import save

@@ -14,8 +14,11 @@ if TYPE_CHECKING:
     from garkcli.tableau.tableau import Tableau
 
 
-def applied(method: MethodFile, output: Output) -> Tableau:
-    """The tableau that steps: the symplectic pair of ``methods``, else what the file gives."""
+def applied(method: MethodFile, output: Output, path: str = "") -> Tableau:
+    """The tableau that steps: the symplectic pair of ``methods``, else what the file gives.
+
+    A note on the latter names ``path``, where several files are at work.
+    """
     from garkcli.errors import ZeroWeight
     from garkcli.tableau.forms import pair
 
@@ -24,7 +27,8 @@ def applied(method: MethodFile, output: Output) -> Tableau:
     try:
         return pair(method.tableau)
     except ZeroWeight as error:
-        output.note(f"no symplectic pair ({error.message}): tested as a GARK method")
+        where = f"{path}: " if path else ""
+        output.note(f"{where}no symplectic pair ({error.message}): tested as a GARK method")
         return method.tableau
 
 

@@ -95,13 +95,15 @@ def _has_settled(rows: Sequence[Row]) -> bool:
     return change < _SURE or (is_steady and abs(last - observed) < CLOSE)
 
 
-def trimmed(rows: Sequence[R], is_small: Sequence[bool], plateau: int = 0) -> list[R]:
+def trimmed(rows: Sequence[R], is_small: Sequence[bool], plateau: int = 0, may_be_off: bool = False) -> list[R]:
     """The rows without those at the start that are too coarse to belong; ``ROWS`` of them stay at least.
 
-    The last ``plateau`` rows stay, and have no say.
+    The last ``plateau`` rows stay, and have no say. With ``may_be_off`` rows with small errors belong, whatever
+    their slopes.
     """
     end = len(rows) - plateau
-    kept = rows[max(0, min(_start(rows[:end], is_small[:end]), len(rows) - ROWS)) :]
+    start = _first_small(is_small[:end]) if may_be_off else _start(rows[:end], is_small[:end])
+    kept = rows[max(0, min(start, len(rows) - ROWS)) :]
     return [replace(row, slope=None) if i == 0 else row for i, row in enumerate(kept)]
 
 

@@ -21,18 +21,16 @@ from garkcli.dynamics.reference import Reference, Watch, magnitude, reference, r
 from garkcli.dynamics.scheme import Scheme, scheme
 from garkcli.dynamics.step import StepFailed
 from garkcli.dynamics.structure import fields_of, sight, visible
-from garkcli.dynamics.work import cost_of, work_of
+from garkcli.dynamics.work import MAX_DIGITS, REACHED, cost_of, work_of
 from garkcli.errors import UsageProblem
 from garkcli.exact.display import to_float
 from garkcli.order.certificate import find_order
 from garkcli.tableau.tableau import Tableau
 
-MAX_DIGITS = 250
-"""Most digits: corrections of Newton's method are floats, which end soon after."""
 MAX_STEPS = 1_000_000
 """Most steps of one row."""
 _SPARE = 6  # correct digits of an error
-_REACHED = 0.1  # part of an error that the round-off of floats may be to have reached it
+_AHEAD = 2  # halvings of the step for which a reference solution will do
 
 
 @dataclass(frozen=True)
@@ -112,7 +110,7 @@ def observe(
     seen = visible(tableau, fields)
     predicted, order = (_order(x, tolerance) for x in (tableau, seen))
     test = _Test(tableau, problem, t_end, order, watch)
-    rows = _default_rows(test, tolerance is not None) if steps is None else _given_rows(test, steps)
+    rows = _default_rows(test, tolerance is not None, is_timed) if steps is None else _given_rows(test, steps)
     plateau = ladder.plateau(rows, order) if tolerance is not None else 0
     observed = observed_order(rows[: len(rows) - plateau])
     if is_timed:
@@ -135,8 +133,11 @@ def _given_rows(test: _Test, steps: Sequence[fmpq]) -> list[PathRow]:
     return rows
 
 
-def _default_rows(test: _Test, is_rounded: bool) -> list[PathRow]:
-    """The ladder of ``garkcli.dynamics.ladder``; step sizes too large for Newton's method are left out."""
+def _default_rows(test: _Test, is_rounded: bool, is_timed: bool) -> list[PathRow]:
+    """The ladder of ``garkcli.dynamics.ladder``; step sizes too large for Newton's method are left out.
+
+    Where costs are compared it keeps its coarse steps: large errors are asked for as well.
+    """
     rows: list[PathRow] = []
     is_small: list[bool] = []
     for h in ladder.halvings(test.t_end):
@@ -151,7 +152,7 @@ def _default_rows(test: _Test, is_rounded: bool) -> list[PathRow]:
         is_small.append(test.is_small(rows[-1]) or not is_coarse)
         plateau = ladder.plateau(rows, test.order) if is_rounded else 0
         if plateau > 1 or ladder.is_complete(rows, is_small):
-            return ladder.trimmed(rows, is_small, plateau)
+            return ladder.trimmed(rows, is_small, plateau, may_be_off=is_timed)
     raise AssertionError("halvings end only with the loop")
 
 
@@ -196,7 +197,7 @@ class _Test:
         """The row with the cost of its steps in floats, where these reach its error to a tenth."""
         y, cost = work_of(self._scheme(FLOAT_DIGITS), row.h, whole_steps(self.t_end, row.h))
         difference = abs(self._error(y, FLOAT_DIGITS) - row.error)
-        return replace(row, cost=cost) if difference < _REACHED * row.error else row
+        return replace(row, cost=cost) if difference < REACHED * row.error else row
 
     @property
     def _size(self) -> arb:
@@ -209,10 +210,10 @@ class _Test:
             return sum(((arb(a) - b) ** 2 for a, b in zip(y, exact, strict=True)), arb(0)).sqrt().mid()
 
     def _digits_of_reference(self, digits: int) -> int:
-        """Enough for the row, and beyond floats for the next two as well."""
+        """Enough for the row, and beyond floats for the next ones as well."""
         if digits <= FLOAT_DIGITS or self.reference.digits >= digits + _SPARE:
             return digits + _SPARE
-        return digits + _SPARE + ceil(2 * self.order * log10(2))
+        return digits + _SPARE + ceil(_AHEAD * self.order * log10(2))
 
     def _digits(self, h: fmpq, before: PathRow | None) -> int:
         """Digits for the error that the row before and the order let expect."""

@@ -53,12 +53,14 @@ class Reference:
         digits: the error is below 10^(−digits) times the ``magnitude`` of the solution; 0 before anything was
             asked for.
         y: (q, p) at ``t_end``, shape (2d,).
+        steps: that were enough for it.
     """
 
     problem: Hamiltonian
     t_end: fmpq
     digits: int = 0
     y: tuple[arb, ...] = ()
+    steps: int = 0
 
     def to(self, digits: int, watch: Watch | None = None) -> tuple[arb, ...]:
         """(q, p) at ``t_end`` with an error below 10^(−digits) times the ``magnitude`` of the solution.
@@ -68,7 +70,9 @@ class Reference:
             UsageProblem: it depends on its start so much that round-off drowns it.
         """
         if digits > self.digits:
-            self.y = _solved(self.problem, self.t_end, digits, watch)
+            # more digits have more stages: about as many steps are enough again
+            first = 2 * self.steps // 3 or ceil(4 * to_float(self.t_end))
+            self.y, self.steps = _solved(self.problem, self.t_end, digits, max(4, first), watch)
             self.digits = digits
         return self.y
 
@@ -83,8 +87,10 @@ def _kept(problem: Hamiltonian, t_end: fmpq) -> Reference:
     return Reference(problem, t_end)
 
 
-def _solved(problem: Hamiltonian, t_end: fmpq, digits: int, watch: Watch | None) -> tuple[arb, ...]:
-    """More and more steps of one Gauss method, until the last change says that the error is small enough.
+def _solved(
+    problem: Hamiltonian, t_end: fmpq, digits: int, steps: int, watch: Watch | None
+) -> tuple[tuple[arb, ...], int]:
+    """From ``steps`` on more and more of one Gauss method, until the last change says that the error is small.
 
     From n to m > n steps an error falls by (n/m)^2s when h is small enough, and by more than (n/m)^s long before.
     The change bounds the larger of the two errors, so the smaller one is taken to be (n/m)^s of it; but no less
@@ -95,7 +101,6 @@ def _solved(problem: Hamiltonian, t_end: fmpq, digits: int, watch: Watch | None)
 
     stages = min(_STAGES, max(6, 2 * digits // 5))
     method = scheme(gark([diagonal_method("gauss", stages)], {}), problem, digits + _SPARE)
-    steps = max(4, ceil(4 * to_float(t_end)))
     before: list[Any] = []
     fewer = 0
     while True:
@@ -112,14 +117,14 @@ def _solved(problem: Hamiltonian, t_end: fmpq, digits: int, watch: Watch | None)
             steps, before = 4 * steps, []
             continue
         if not before:
-            before, fewer, steps = y, steps, 2 * steps
+            before, fewer, steps = y, steps, ceil(1.5 * steps)
             continue
         with ctx.workprec(method.bits):
             change = max((abs(a - b) for a, b in zip(y, before, strict=True)), key=float)
             goal = arb(10) ** -digits * magnitude(y, problem)
             ratio = arb(fewer) / steps
             if change * max(ratio**stages, arb(_CREDIT)) < goal:
-                return tuple(y)
+                return tuple(y), steps
             excess = float((change * ratio ** (2 * stages) / goal).mid())
         before, fewer = y, steps
         factor = 1.1 * excess ** (1 / stages) if excess > 0 else 1.3

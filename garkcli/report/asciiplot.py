@@ -2,7 +2,7 @@
 
 from __future__ import annotations
 
-from collections.abc import Mapping, Sequence
+from collections.abc import Iterable, Mapping, Sequence
 from math import ceil, floor
 from typing import TypeAlias
 
@@ -11,7 +11,7 @@ from flint import arb, fmpq
 Positive: TypeAlias = float | fmpq | arb
 """What can be plotted; balls and fractions reach beyond the range of floats."""
 
-POINT, LINE = "•", "·"
+POINT, LINE, SEVERAL = "•", "·", "*"
 
 
 def log10(x: Positive) -> float:
@@ -50,29 +50,66 @@ def terminal_plot(
         0.01       0.1        1  h
     """
     points = sorted((log10(h), log10(e)) for h, e in zip(hs, errors, strict=True) if e > 0)
+    line = None if order is None or not points else (*points[0], order)
+    return _plot([(x, y, POINT) for x, y in points], "h", width, height, line)
+
+
+def terminal_curves(
+    curves: Mapping[str, Iterable[tuple[Positive, Positive]]], label: str, width: int = 60, height: int = 16
+) -> str:
+    """Errors of several methods, as ``terminal_plot`` draws those of one.
+
+    Args:
+        curves: pairs (x, error) by the letter that marks them; two on top of each other make a *.
+        label: of the horizontal axis.
+        width: columns inside the frame; the lines are longer by 10 and the label at most.
+        height: lines inside the frame.
+
+    >>> print(terminal_curves({"A": [(10, 1), (100, 0.1)], "B": [(100, 1)]}, "steps", width=13, height=3))
+         error
+    1e+0 ┤A           B
+         │
+    1e-1 ┤            A
+         └┬───────────┬
+         10          100  steps
+    """
+    points = [(log10(x), log10(y), mark) for mark, pairs in curves.items() for x, y in pairs if x > 0 and y > 0]
+    return _plot(points, label, width, height, None)
+
+
+def _plot(
+    points: Sequence[tuple[float, float, str]],
+    label: str,
+    width: int,
+    height: int,
+    line: tuple[float, float, float] | None,
+) -> str:
+    """Marks at decimal logarithms, over a dotted line through the point (x, y) with a slope."""
     if not points:
         return "no positive errors to plot"
-    left, right = points[0][0], max(points[-1][0], points[0][0] + 0.1)
-    bottom, top = floor(min(y for _, y in points)), ceil(max(y for _, y in points))
+    xs, ys = [x for x, _, _ in points], [y for _, y, _ in points]
+    left, right = min(xs), max(max(xs), min(xs) + 0.1)
+    bottom, top = floor(min(ys)), ceil(max(ys))
     top = max(top, bottom + 1)
     field = [[" "] * width for _ in range(height)]
 
     def put(x: float, y: float, mark: str) -> None:
-        line = _cell(top - y, top - bottom, height)
-        if 0 <= line < height:
-            field[line][_cell(x - left, right - left, width)] = mark
+        row = _cell(top - y, top - bottom, height)
+        if 0 <= row < height:
+            column = _cell(x - left, right - left, width)
+            field[row][column] = mark if field[row][column] in (" ", LINE, mark) else SEVERAL
 
-    if order is not None:
+    if line is not None:
         for column in range(width):
             x = left + (right - left) * column / (width - 1)
-            put(x, points[0][1] + order * (x - points[0][0]), LINE)
-    for x, y in points:
-        put(x, y, POINT)
+            put(x, line[1] + line[2] * (x - line[0]), LINE)
+    for x, y, mark in points:
+        put(x, y, mark)
     rows = {_cell(top - k, top - bottom, height): f"1e{k:+d}" for k in _decades(bottom, top, (height + 1) // 2)}
     columns = {
         _cell(x - left, right - left, width): _short(x) for x in (*range(ceil(left), floor(right) + 1), left, right)
     }
-    return "\n".join(_framed(field, rows, columns))
+    return "\n".join(_framed(field, rows, columns, label))
 
 
 def _cell(distance: float, extent: float, cells: int) -> int:
@@ -86,10 +123,16 @@ def _decades(bottom: int, top: int, most: int) -> range:
 
 
 def _short(exponent: float) -> str:
+    if 2 <= exponent < 15:
+        whole = f"{10**exponent:.1e}"
+        mantissa, power = float(whole[:3]), int(whole[4:])
+        return f"{mantissa:g}e{power}" if power >= 5 else f"{round(mantissa * 10**power)}"
     return f"{10**exponent:.2g}" if abs(exponent) < 300 else f"1e{exponent:+.1f}"
 
 
-def _framed(field: Sequence[Sequence[str]], rows: Mapping[int, str], columns: Mapping[int, str]) -> list[str]:
+def _framed(
+    field: Sequence[Sequence[str]], rows: Mapping[int, str], columns: Mapping[int, str], label: str
+) -> list[str]:
     """The field with its axes; ``rows`` and ``columns`` say where they have a mark, and its label."""
     margin = max(len(text) for text in rows.values())
     lines = [" " * margin + " error"]
@@ -103,4 +146,4 @@ def _framed(field: Sequence[Sequence[str]], rows: Mapping[int, str], columns: Ma
         start = margin + 2 + j - len(text) // 2
         if all(x == " " for x in labels[start - 1 : start + len(text) + 1]):
             labels[start : start + len(text)] = text
-    return [*lines, "".join(labels).rstrip() + "  h"]
+    return [*lines, "".join(labels).rstrip() + f"  {label}"]

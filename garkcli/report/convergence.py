@@ -2,87 +2,33 @@
 
 from __future__ import annotations
 
-import json
-from typing import Any, TypeAlias
+from flint import arb
 
-from garkcli.dynamics.convergence import LINEAR_ONLY, Convergence, Row
+from garkcli.dynamics.convergence import Row
 from garkcli.dynamics.hamiltonian import FLOAT_DIGITS, Hamiltonian
-from garkcli.dynamics.nonlinear import Observation, PathRow
+from garkcli.dynamics.nonlinear import Observation
 from garkcli.dynamics.problems import Oscillator
-from garkcli.exact.display import to_float
-from garkcli.report.asciiplot import terminal_plot
+from garkcli.dynamics.work import Cost
+from garkcli.report.asciiplot import terminal_curves, terminal_plot
+from garkcli.report.convergence_data import Result, csv_of, json_of, note
+from garkcli.report.figures import rounded, scientific
 from garkcli.report.paint import Paint, aligned
 
-Result: TypeAlias = Convergence | Observation
-"""A convergence test, on the oscillator or on a nonlinear problem."""
 _LONGEST = 80  # characters of a Hamiltonian that are still shown
+NO_TIME = "no seconds where floats do not reach the error: more digits were used, and counted"
 
 
-def render(result: Result, name: str, format: str, paint: Paint) -> str:  # noqa: A002
-    """The convergence test as text, JSON or CSV."""
+def render(result: Result, name: str, format: str, paint: Paint, with_work: bool = False) -> str:  # noqa: A002
+    """The convergence test as text, JSON or CSV; ``with_work`` what its steps have cost."""
     if format == "json":
-        return json.dumps(_data(result, name), indent=2, ensure_ascii=False) + "\n"
+        return json_of(result, name, with_work)
     if format == "csv":
-        rows = ((row.h, _short(row.error), _slope(row), _short(row.energy_error)) for row in result.rows)
-        return "h,error,slope,energy_error\n" + "".join(f"{h},{e},{s},{d}\n" for h, e, s, d in rows)
-    return "\n".join(_text(result, name, paint)) + "\n"
-
-
-def _short(ball: Any) -> str:
-    return "0" if ball.is_zero() else str(ball.str(4, radius=False))
+        return csv_of(result, with_work)
+    return "\n".join(_text(result, name, paint, with_work)) + "\n"
 
 
 def _slope(row: Row) -> str:
     return "" if row.slope is None else f"{row.slope:.3f}"
-
-
-def _data(result: Result, name: str) -> dict[str, Any]:
-    return {
-        "schema": "gark/converge/1",
-        "problem": problem_name(result),
-        "name": name,
-        **_split(result),
-        "t_end": str(result.t_end),
-        "predicted_order": result.predicted_order,
-        "visible_order": result.visible_order,
-        "observed_order": result.observed_order,
-        "agrees": result.agrees,
-        "steps": [
-            {
-                "h": to_float(row.h),
-                "h_exact": str(row.h),
-                "error": float(row.error),
-                "slope": row.slope,
-                "energy_error": float(row.energy_error),
-                **_path(result, row),
-            }
-            for row in result.rows
-        ],
-        "note": _note(result),
-    }
-
-
-def problem_name(result: Result) -> str:
-    """What --problem calls it."""
-    return result.problem.name if isinstance(result, Observation) else "oscillator"
-
-
-def _split(result: Result) -> dict[str, Any]:
-    if isinstance(result, Observation):
-        return {"hamiltonian": [str(term) for term in result.problem.terms], "plateau": result.plateau}
-    return {"omega": str(result.problem.omega), "split": [[str(k), str(v)] for k, v in result.problem.shares]}
-
-
-def _path(result: Result, row: Row) -> dict[str, Any]:
-    if not (isinstance(result, Observation) and isinstance(row, PathRow)):
-        return {}
-    names = (name for name, _ in result.problem.invariants)
-    errors = {name: float(error) for name, error in zip(names, row.invariant_errors, strict=True)}
-    return {"digits": row.digits, "invariant_errors": errors}
-
-
-def _note(result: Result) -> str:
-    return result.sees if isinstance(result, Observation) else LINEAR_ONLY
 
 
 def describe(problem: Oscillator | Hamiltonian) -> str:
@@ -110,35 +56,38 @@ def _described(problem: Hamiltonian) -> str:
 
 def _table(result: Result) -> list[list[str]]:
     rows = [["h", "error", "slope", "energy error"]]
-    rows += [[str(row.h), _short(row.error), _slope(row), _short(row.energy_error)] for row in result.rows]
+    rows += [[str(row.h), rounded(row.error), _slope(row), rounded(row.energy_error)] for row in result.rows]
     if isinstance(result, Observation):
         names = [name for name, _ in result.problem.invariants]
         rows[0] += [*(f"{name} error" for name in names), "digits"]
         for cells, row in zip(rows[1:], result.rows, strict=True):
             digits = "float" if row.digits <= FLOAT_DIGITS else str(row.digits)
-            cells += [*map(_short, row.invariant_errors), digits]
+            cells += [*map(rounded, row.invariant_errors), digits]
     return rows
 
 
-def _exactly(result: Result) -> str:
+def exactly(result: Result) -> str:
+    """The order to be observed, and whether a larger one would do."""
     cancels = isinstance(result, Observation) and result.problem.has_equal_parts
     return f"{result.visible_order} {'or more' if cancels else 'exactly'}"
 
 
-def _text(result: Result, name: str, paint: Paint) -> list[str]:
+def _text(result: Result, name: str, paint: Paint, with_work: bool) -> list[str]:
     about = f"{describe(result.problem)}; to t = {result.t_end}"
-    lines = [paint("strong", name), *(f"  {line}" for line in _wrapped(about)), ""]
+    lines = [paint("strong", name), *(f"  {line}" for line in wrapped(about)), ""]
     lines += [f"  {line}" for line in aligned(_table(result), gap="   ")]
     observed = "none" if result.observed_order is None else f"{result.observed_order:.2f}"
     verdict = paint.verdict(result.agrees, "they agree", "THEY DISAGREE")
     lines += [
         "",
-        f"  order   observed {observed}, on this problem {_exactly(result)}, "
+        f"  order   observed {observed}, on this problem {exactly(result)}, "
         f"of the method {result.predicted_order}: {verdict}",
-        *(f"  {line}" for line in _wrapped(_note(result))),
+        *(f"  {line}" for line in wrapped(note(result))),
     ]
     if isinstance(result, Observation) and result.plateau:
         lines.append(f"  the last {result.plateau} rows show the rounding of the coefficients and are not fitted")
+    if with_work:
+        return [*lines, *_work(result)]
     positive = [row for row in result.rows if not row.error.contains(0)]
     if len(positive) > 1:
         hs, errors = [row.h for row in positive], [row.error for row in positive]
@@ -146,7 +95,32 @@ def _text(result: Result, name: str, paint: Paint) -> list[str]:
     return lines
 
 
-def _wrapped(text: str, width: int = 76) -> list[str]:
+def work_cells(cost: Cost | None) -> list[str]:
+    """The cells below ``WORK``."""
+    if cost is None:
+        return [""] * len(WORK)
+    counts = (cost.steps, cost.evaluations, cost.iterations, cost.jacobians)
+    return [*map(str, counts), "" if cost.seconds is None else scientific(arb(cost.seconds))]
+
+
+WORK = ("steps", "evaluations", "iterations", "Jacobians", "seconds")
+"""What is counted, as column heads."""
+
+
+def _work(result: Result) -> list[str]:
+    """What the steps have cost, and a plot of it."""
+    rows = [["h", "error", *WORK]]
+    rows += [[str(row.h), rounded(row.error), *work_cells(row.cost)] for row in result.rows]
+    lines = ["", "  work", *(f"  {line}" for line in aligned(rows, gap="   "))]
+    costs = [(row.cost, row.error) for row in result.rows if row.cost is not None]
+    if len(costs) < len(result.rows) or any(cost.seconds is None for cost, _ in costs):
+        lines.append(f"  {NO_TIME}")
+    points = [(float(cost.evaluations), error) for cost, error in costs]
+    return [*lines, "", *(f"  {line}" for line in terminal_curves({"•": points}, "evaluations").splitlines())]
+
+
+def wrapped(text: str, width: int = 76) -> list[str]:
+    """The lines of a paragraph."""
     from textwrap import wrap
 
     return wrap(text, width)

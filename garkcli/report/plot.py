@@ -1,4 +1,4 @@
-"""The figure of the convergence test, and how figures become files.
+"""The figures of the convergence test, and how figures become files.
 
 Everything is told apart by marks and dashes as well as by colour, so that the figures can be printed in grey.
 """
@@ -7,6 +7,8 @@ from __future__ import annotations
 
 import os
 import tempfile
+from collections.abc import Mapping, Sequence
+from dataclasses import dataclass
 from pathlib import Path
 from typing import Any
 
@@ -16,49 +18,141 @@ from matplotlib.ticker import FuncFormatter, MaxNLocator
 
 from garkcli.errors import UsageProblem
 from garkcli.report.asciiplot import log10
-from garkcli.report.convergence import Result, problem_name
+from garkcli.report.comparison import curve
+from garkcli.report.convergence_data import Result, problem_name
 
 SUFFIXES = (".png", ".svg", ".pdf")
 """The kinds of file that figures can be saved as."""
 _BLUE, _RED = "#1f4e9e", "#c0392b"  # of clearly different lightness in grey
+_STYLES: Sequence[Mapping[str, Any]] = (
+    {"marker": "o", "linestyle": "-", "color": "black"},
+    {"marker": "s", "linestyle": "--", "color": "#c0392b", "markerfacecolor": "white"},
+    {"marker": "^", "linestyle": "-.", "color": "#1f4e9e"},
+    {"marker": "D", "linestyle": ":", "color": "#e08214", "markerfacecolor": "white"},
+    {"marker": "v", "linestyle": (0, (5, 1, 1, 1, 1, 1)), "color": "#4d8f4d"},
+    {"marker": "X", "linestyle": (0, (8, 2)), "color": "0.55"},
+    {"marker": "P", "linestyle": "-", "color": "#7b3f9e", "markerfacecolor": "white"},
+    {"marker": "*", "linestyle": "--", "color": "#2aa0a8"},
+)
+_AXES = {"h": "step size h", "evaluations": "evaluations of vector fields", "seconds": "seconds of processor time"}
+_LONGEST = 72  # characters of a name in a legend
 _FLOATS = 290  # decades: beyond, logarithms are drawn on a linear axis
 
 
 def convergence_figure(result: Result) -> Figure:
     """Error and energy error against h, log–log, with a line whose slope is the visible order."""
-    figure = Figure(figsize=(6.4, 4.8), layout="constrained")
-    axes = figure.add_subplot()
     h = [log10(row.h) for row in result.rows]
     error = [log10(row.error) for row in result.rows]
     kept = [(x, log10(row.energy_error)) for x, row in zip(h, result.rows, strict=True) if row.energy_error > 0]
     above = max(0.35, 0.03 * (max(error) - min(error)))  # beside the errors, not on them
     reference = [error[-1] + result.visible_order * (x - h[-1]) + above for x in h]
-    has_floats = max(map(abs, [*error, *reference, *(y for _, y in kept)])) < _FLOATS
-
-    def draw(xs: list[float], ys: list[float], label: str, **style: Any) -> None:
-        if has_floats:
-            axes.loglog([10**x for x in xs], [10**y for y in ys], label=label, **style)
-        else:
-            axes.plot(xs, ys, label=label, **style)
-
-    draw(h, error, "error", marker="o", color=_BLUE, linewidth=1.6)
+    curves = [Curve(h, error, "error", {"marker": "o", "color": _BLUE, "linewidth": 1.6})]
     if kept:
-        xs, ys = [x for x, _ in kept], [y for _, y in kept]
-        draw(xs, ys, "energy error", marker="s", color="0.45", linewidth=1.0, markerfacecolor="white")
+        style = {"marker": "s", "color": "0.45", "linewidth": 1.0, "markerfacecolor": "white"}
+        curves.append(Curve([x for x, _ in kept], [y for _, y in kept], "energy error", style))
     label = f"reference, slope {result.visible_order}"
-    draw(h, reference, label, color=_RED, linestyle="--", linewidth=1.4)
+    curves.append(Curve(h, reference, label, {"color": _RED, "linestyle": "--", "linewidth": 1.4}))
+    observed = "none" if result.observed_order is None else f"{result.observed_order:.2f}"
+    title = f"{problem_name(result).capitalize()} to t = {result.t_end}: observed order {observed}"
+    figure = _log_log(curves, [], title, "step size h", 4.8)
+    figure.axes[0].legend(frameon=False)
+    return figure
+
+
+def comparison_figure(named: Sequence[tuple[str, Result]], against: str = "h") -> Figure:
+    """Errors of several methods, log–log, with a line for each visible order.
+
+    Args:
+        named: names and results of methods, at least one.
+        against: h, evaluations or seconds; the latter two need rows with costs.
+    """
+    curves: list[Curve] = []
+    lines: dict[int, Curve] = {}
+    for k, (name, result) in enumerate(named):
+        points = [(log10(x), log10(error)) for x, error in curve(result, against)]
+        if not points:
+            continue
+        xs, ys = [x for x, _ in points], [y for _, y in points]
+        style = {**_STYLES[k % len(_STYLES)], "linewidth": 1.4, "markersize": 5.5}
+        curves.append(Curve(xs, ys, _shortened(name), style))
+        order = result.visible_order
+        if order > 0 and order not in lines:
+            lines[order] = _slope_line(xs, ys, order if against == "h" else -order)
+    title = f"{problem_name(named[0][1]).capitalize()} to t = {named[0][1].t_end}"
+    figure = _log_log(curves, list(lines.values()), title, _AXES[against], 4.6 + 0.23 * len(curves))
+    drawn = figure.axes[0].get_lines()[: len(curves)]
+    # below the axes, where no curve can be
+    figure.legend(drawn, [x.label for x in curves], loc="outside lower left", frameon=False, handlelength=3.5)
+    return figure
+
+
+@dataclass(frozen=True)
+class Curve:
+    """Points in decimal logarithms, and how to draw them."""
+
+    xs: Sequence[float]
+    ys: Sequence[float]
+    label: str
+    style: Mapping[str, Any]
+
+
+def _slope_line(xs: Sequence[float], ys: Sequence[float], slope: int) -> Curve:
+    """A line of this slope below the small errors of a curve."""
+    below = max(0.4, 0.05 * (max(ys) - min(ys)))
+    count = min(3, len(xs))
+    ends = [xs[-count], xs[-1]] if count > 1 else [xs[-1] - 0.2, xs[-1] + 0.2]
+    line = [ys[-1] + slope * (x - xs[-1]) - below for x in ends]
+    return Curve(ends, line, f"slope {slope}".replace("-", "−"), {"color": "0.3", "linewidth": 0.8})
+
+
+def _log_log(curves: Sequence[Curve], lines: Sequence[Curve], title: str, label: str, size: float) -> Figure:
+    """A figure of the curves; where they leave the range of floats, of their logarithms.
+
+    Args:
+        curves: with an entry in the legend each.
+        lines: with their label beside their middle.
+        title: of the figure.
+        label: of the horizontal axis.
+        size: inches from top to bottom.
+    """
+    figure = Figure(figsize=(6.4, size), layout="constrained")
+    axes = figure.add_subplot()
+    has_floats = max(abs(z) for curve in (*curves, *lines) for z in (*curve.xs, *curve.ys)) < _FLOATS
+
+    def place(z: float) -> float:
+        return 10**z if has_floats else z
+
+    for x in (*curves, *lines):
+        draw = axes.loglog if has_floats else axes.plot
+        style = x.style if x in curves else {**x.style, "zorder": 1.5}
+        draw([place(z) for z in x.xs], [place(z) for z in x.ys], label=x.label, **style)
+    for x in lines:
+        middle = place(sum(x.xs) / 2), place(sum(x.ys) / 2)
+        falls = (x.ys[-1] - x.ys[0]) * (x.xs[-1] - x.xs[0]) < 0
+        axes.annotate(
+            x.label,
+            middle,
+            (-3 if falls else 3, -3),
+            textcoords="offset points",
+            ha="right" if falls else "left",
+            va="top",
+            fontsize=9,
+            color="0.3",
+            bbox={"facecolor": "white", "edgecolor": "none", "pad": 0.6, "alpha": 0.8},
+        )
     if not has_floats:
         for axis in (axes.xaxis, axes.yaxis):
             axis.set_major_formatter(FuncFormatter(lambda x, _: f"$10^{{{x:g}}}$"))
             axis.set_major_locator(MaxNLocator(8))
-    observed = "none" if result.observed_order is None else f"{result.observed_order:.2f}"
-    title = problem_name(result).capitalize()
-    axes.set_title(f"{title} to t = {result.t_end}: observed order {observed}", fontsize=11)
-    axes.set_xlabel("step size h")
+    axes.set_title(title, fontsize=11)
+    axes.set_xlabel(label)
     axes.set_ylabel("error")
     axes.grid(True, which="major", color="0.85", linewidth=0.6)
-    axes.legend(frameon=False)
     return figure
+
+
+def _shortened(name: str) -> str:
+    return name if len(name) <= _LONGEST else f"{name[: _LONGEST - 1]}…"
 
 
 def check_suffix(path: Path) -> None:

@@ -3,9 +3,13 @@
 from __future__ import annotations
 
 import sys
-from collections.abc import Iterable, Iterator
+from collections.abc import Callable, Iterable, Iterator
+from contextlib import contextmanager
 from time import monotonic
-from typing import TypeVar
+from typing import TYPE_CHECKING, TypeVar
+
+if TYPE_CHECKING:
+    from rich.progress import Progress, TaskID
 
 T = TypeVar("T")
 PATIENCE = 0.5
@@ -47,3 +51,51 @@ def _with_bar(items: Iterator[T], total: int | None, done: int, what: str) -> It
             if pending == _EVERY or total is None or total < 1000:
                 progress.advance(task, pending)
                 pending = 0
+
+
+@contextmanager
+def watching(wanted: bool = True) -> Iterator[Callable[[str, int, int], None]]:
+    """A function to be told what is being done, how much of it is, and of how much: it shows that as one bar.
+
+    The bar appears once all of it has taken longer than ``PATIENCE``, and goes away at the end.
+
+    Args:
+        wanted: False for ``--quiet``.
+    """
+    if not wanted or not sys.stderr.isatty():
+        yield lambda *_: None
+        return
+    bar = _Bar()
+    try:
+        yield bar.show
+    finally:
+        bar.close()
+
+
+class _Bar:
+    """One bar for a sequence of things that are done step by step."""
+
+    def __init__(self) -> None:
+        self.start = monotonic()
+        self.progress: Progress | None = None
+        self.task: TaskID | None = None
+
+    def show(self, what: str, done: int, total: int) -> None:
+        """How far ``what`` is now."""
+        if self.progress is None:
+            if monotonic() - self.start < PATIENCE:
+                return
+            from rich.console import Console
+            from rich.progress import BarColumn, MofNCompleteColumn, Progress, TextColumn
+
+            columns = (TextColumn("{task.description}"), BarColumn(), MofNCompleteColumn(), TextColumn("steps"))
+            self.progress = Progress(*columns, console=Console(stderr=True), transient=True)
+            self.task = self.progress.add_task(what, total=total)
+            self.progress.start()
+        assert self.task is not None
+        self.progress.update(self.task, description=what, completed=done, total=total)
+
+    def close(self) -> None:
+        """Take the bar away."""
+        if self.progress is not None:
+            self.progress.stop()

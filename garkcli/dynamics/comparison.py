@@ -1,0 +1,19 @@
+"""One problem for several methods, split into different numbers of terms."""
+
+from __future__ import annotations
+
+from dataclasses import replace
+
+from garkcli.dynamics.hamiltonian import Hamiltonian
+
+
+def gathered(problem: Hamiltonian, terms: int) -> Hamiltonian:
+    """The same H in fewer terms, the last of which is the sum of all that remain.
+
+    >>> from garkcli.dynamics.examples import hamiltonian
+    >>> [str(x) for x in gathered(hamiltonian("pendulum", 2), 1).terms]
+    ['px**2/2 - cos(x) + 1']
+    """
+    first, rest = problem.terms[: terms - 1], problem.terms[terms - 1 :]
+    split = (*first, sum(rest))
+    return replace(problem, terms=split, has_equal_parts=len(set(split)) < len(split))
