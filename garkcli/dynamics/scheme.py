@@ -113,7 +113,10 @@ def _inverted(entries: list[float], n: int) -> Floats:
 
 
 def _corrections(inverse: Floats, residuals: list[float]) -> list[float]:
-    corrections: list[float] = (inverse @ residuals).tolist()
+    import numpy as np
+
+    with np.errstate(all="ignore"):  # what is not finite ends the step
+        corrections: list[float] = (inverse @ residuals).tolist()
     return corrections
 
 

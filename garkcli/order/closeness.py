@@ -6,6 +6,8 @@ coefficients there: the entries that a printed tableau has.
 
 from __future__ import annotations
 
+from contextlib import suppress
+
 from flint import arb_mat, ctx, fmpq
 
 from garkcli.exact.display import to_ball
@@ -67,7 +69,8 @@ def form_within(
         return all(within(x, tolerance) for x in entries)
     bits = FIRST_BITS
     while bits <= MOST_BITS:
-        with ctx.workprec(bits):
+        # a Vandermonde matrix may be too ill-conditioned for the precision
+        with ctx.workprec(bits), suppress(ZeroDivisionError):
             sizes = [abs(x) for x in _at_nodes(space, other, matrix, dual).entries()]
             if any(size > tolerance for size in sizes):
                 return False

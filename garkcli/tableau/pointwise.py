@@ -181,9 +181,12 @@ def numeric_entries(tableau: Tableau, digits: int = 17) -> Entries:
     try:
         ctx.prec = goal + 64
         while True:
-            found = _numeric(tableau, digits)
-            if all(x.rad() < arb(10) ** -digits for x in _balls(found)):
-                return found
+            try:
+                found = _numeric(tableau, digits)
+                if all(x.rad() < arb(10) ** -digits for x in _balls(found)):
+                    return found
+            except ZeroDivisionError:  # a Vandermonde matrix too ill-conditioned for the precision
+                pass
             ctx.prec *= 2
     finally:
         ctx.prec = precision

@@ -245,3 +245,13 @@ def test_nodes_default_to_row_sums(x: Fraction) -> None:
     a = fmpq(x.numerator, x.denominator)
     tableau = spelled_out([[((a, 1 - a), (a, a))]], [(a, 1 - a)], [None])
     assert tableau.colours[0].c == (fmpq(1), 2 * a)
+
+
+def test_many_stages_need_more_precision() -> None:
+    """The nodes of Gauss 60 are too close for the first precision: it is doubled; rows of A sum to c."""
+    found = numeric_entries(gark([diagonal_method("gauss", 60)], {}))
+    A = found.A[0][0]
+    assert A is not None
+    for row, c in zip(A, found.c[0], strict=True):
+        total = sum((x for x in row if isinstance(x, arb)), arb(0))
+        assert total.overlaps(arb(c))
