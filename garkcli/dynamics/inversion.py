@@ -10,7 +10,7 @@ from typing import Any
 from flint import arb, ctx, fmpq
 
 from garkcli.dynamics.hamiltonian import symbols
-from garkcli.dynamics.mass import BITS, WRITE_HAMILTONIAN, coupled, enclosed, inverse_of, velocities
+from garkcli.dynamics.mass import BITS, WRITE_HAMILTONIAN, coupled, enclosed, inverse_of, is_smooth, velocities
 from garkcli.dynamics.solving import solutions
 from garkcli.errors import NoLegendreTransform
 
@@ -33,8 +33,6 @@ def by_solving(
     start: Mapping[Any, arb],
 ) -> Any:
     """The transform of a Lagrangian that is not quadratic; see ``legendre``."""
-    import sympy
-
     v, p = velocities(variables), symbols(variables, "p")
     solved: dict[Any, Any] = {}
     forms: dict[Any, Any] = {}
@@ -61,7 +59,7 @@ def by_solving(
         solved |= right[0].velocities
         forms |= right[0].forms
     H = sum(a * solved[x] for a, x in zip(p, v, strict=True)) - L.xreplace({**solved, **forms})
-    if H.has(sympy.Abs, sympy.I):
+    if not is_smooth(H) or not all(is_smooth(H.diff(x)) for x in (*symbols(variables, "q"), *p)):
         raise NoLegendreTransform("the Hamiltonian was not found without kinks", WRITE_HAMILTONIAN)
     return H
 

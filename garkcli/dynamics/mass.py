@@ -82,12 +82,21 @@ def inverse_of(M: list[list[Any]], names: Sequence[Any], start: Mapping[Any, arb
 
 
 def enclosed(expressions: Sequence[Any], at: Mapping[Any, arb]) -> list[arb]:
-    """The expressions, enclosed; not finite where they have no value."""
+    """The expressions, enclosed; not finite where they have no value, or kinks."""
     import sympy
 
+    made = tuple(sympy.sympify(x) for x in expressions)
+    if not all(map(is_smooth, made)):
+        return [arb("nan")] * len(made)
     with ctx.workprec(BITS):
-        made = function(tuple(map(sympy.sympify, expressions)), tuple(at), True)
         try:
-            return [arb(x) for x in made(*at.values())]
+            return [arb(x) for x in function(made, tuple(at), True)(*at.values())]
         except (ArithmeticError, ValueError):
-            return [arb("nan")] * len(expressions)
+            return [arb("nan")] * len(made)
+
+
+def is_smooth(expression: Any) -> bool:
+    """Whether a sympy expression is real and has no |x|, which sympy makes of roots of squares."""
+    import sympy
+
+    return not expression.has(sympy.Abs, sympy.sign, sympy.I, sympy.zoo, sympy.nan, sympy.oo)

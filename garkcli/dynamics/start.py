@@ -8,7 +8,7 @@ from typing import Any
 from flint import arb, arb_mat, ctx
 
 from garkcli.dynamics.hamiltonian import symbols
-from garkcli.dynamics.mass import BITS, enclosed, velocities
+from garkcli.dynamics.mass import BITS, enclosed, is_smooth, velocities
 from garkcli.errors import NoLegendreTransform
 
 
@@ -57,12 +57,18 @@ def initial_momenta(
             ) from None
 
 
-def undefined_derivative(H: Any, variables: tuple[str, ...], start: Mapping[Any, arb]) -> str | None:
-    """The variable or momentum by which H has no derivative at the start; None where it has all of them."""
+def missing_derivative(H: Any, variables: tuple[str, ...], start: Mapping[Any, arb]) -> tuple[str, str] | None:
+    """What is wrong with a derivative of H at the start, and the cure; None where all derivatives exist.
+
+    A derivative with |x| counts as none: it has no derivatives of its own.
+    """
     by = (*symbols(variables, "q"), *symbols(variables, "p"))
-    values = enclosed([H.diff(x) for x in by], start)
-    for x, value in zip(by, values, strict=True):
-        # one operation that fails can spoil them all: the guilty one is undefined on its own
-        if not value.is_finite() and not enclosed([H.diff(x)], start)[0].is_finite():
-            return str(x)
-    return None
+    gradient = [H.diff(x) for x in by]
+    for x, g in zip(by, gradient, strict=True):
+        if not is_smooth(g):
+            return f"the derivative by {x} has kinks, such as those of |x|", "write it without inverse functions"
+    if all(x.is_finite() for x in enclosed(gradient, start)):
+        return None
+    # one operation that fails spoils them all: the guilty one is undefined on its own
+    failing = (str(x) for x, g in zip(by, gradient, strict=True) if not enclosed([g], start)[0].is_finite())
+    return f"no derivative by {next(failing, by[0])}", "start elsewhere"

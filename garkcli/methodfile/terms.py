@@ -212,12 +212,11 @@ class Maker:
 
     def _check_fields(self, terms: Sequence[_Term], start: dict[str, fmpq]) -> None:
         """Note terms that have no derivative at the start."""
-        from garkcli.dynamics.start import undefined_derivative
+        from garkcli.dynamics.start import missing_derivative
 
         with ctx.workprec(BITS):
             at = {x: arb(start[str(x)]) for x in (*self.q, *self.p)}
         for term in terms:
-            by = undefined_derivative(term.made, self.text.variables, at)
-            if by is not None:
-                message = f"{term.where} at the initial values: no derivative by {by}"
-                self.source.fault(term.node, message, "start elsewhere")
+            missing = missing_derivative(term.made, self.text.variables, at)
+            if missing is not None:
+                self.source.fault(term.node, f"{term.where} at the initial values: {missing[0]}", missing[1])

@@ -15,7 +15,7 @@ from garkcli.dynamics.hamiltonian import symbols
 from garkcli.dynamics.legendre import legendre
 from garkcli.dynamics.mass import enclosed, velocities
 from garkcli.dynamics.solving import solutions
-from garkcli.dynamics.start import initial_momenta, undefined_derivative
+from garkcli.dynamics.start import initial_momenta, missing_derivative
 from garkcli.errors import NoLegendreTransform
 
 LETTERS = ("x", "y", "z")
@@ -198,9 +198,15 @@ def test_derivatives_at_the_start() -> None:
     """The variable by which there is none."""
     variables, (x, y), _, (px, py) = names(2)
     at = balls({x: Rational(0), y: Rational(1), px: Rational(1), py: Rational(1)})
-    assert undefined_derivative(y**2 + px**2, variables, at) is None
-    assert undefined_derivative(y**2 + x ** Rational(1, 2), variables, at) == "x"
-    assert undefined_derivative(sqrt(py - 1) + sin(x), variables, at) == "py"
+    assert missing_derivative(y**2 + px**2, variables, at) is None
+    assert missing_derivative(y**2 + x ** Rational(1, 2), variables, at) == (
+        "no derivative by x",
+        "start elsewhere",
+    )
+    assert missing_derivative(sqrt(py - 1) + sin(x), variables, at) == ("no derivative by py", "start elsewhere")
+    kinks = missing_derivative(sympy.asin(sqrt(1 - 1 / py**2)), variables, at)
+    assert kinks is not None
+    assert "the derivative by py has kinks" in kinks[0]
 
 
 @pytest.mark.parametrize(
