@@ -2,7 +2,10 @@
 
 from __future__ import annotations
 
+import sys
+from contextlib import suppress
 from functools import cache
+from pathlib import Path
 from typing import TYPE_CHECKING
 
 import click
@@ -80,14 +83,24 @@ def find_problem(name_or_path: str, tableau: Tableau, seed: int | None = None) -
     if is_path(name_or_path):
         from garkcli.dynamics.splitting import fit
 
-        return fit(_loaded(name_or_path), terms)
+        return fit(_loaded(name_or_path, _stamp(name_or_path)), terms)
     from garkcli.dynamics.examples import hamiltonian
 
     return hamiltonian(name_or_path, terms, 1 if seed is None else seed)
 
 
+def _stamp(path: str) -> object:
+    """What changes when another file, or another standard input, has the same name."""
+    if path == "-":
+        return sys.stdin
+    with suppress(OSError):
+        found = Path(path).stat()
+        return found.st_mtime_ns, found.st_size
+    return None
+
+
 @cache
-def _loaded(path: str) -> Hamiltonian:
+def _loaded(path: str, stamp: object) -> Hamiltonian:  # noqa: ARG001 -- the stamp is part of the key
     """A problem file, read once for all methods."""
     from garkcli.methodfile.problem import load_problem
 
