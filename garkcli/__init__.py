@@ -10,6 +10,8 @@ from typing import TYPE_CHECKING, Any
 
 if TYPE_CHECKING:
     from garkcli.dynamics.convergence import converge
+    from garkcli.dynamics.energy import drift
+    from garkcli.dynamics.longtime import follow
     from garkcli.families.registry import diagonal_method
     from garkcli.methodfile.check import check_file
     from garkcli.methodfile.load import load, loads
@@ -32,8 +34,10 @@ _HOMES = {
     "conjugate": "tableau.conjugate",
     "converge": "dynamics.convergence",
     "diagonal_method": "families.registry",
+    "drift": "dynamics.energy",
     "elementary_weight": "order.conditions",
     "find_order": "order.certificate",
+    "follow": "dynamics.longtime",
     "format_tree": "trees.notation",
     "gark": "tableau.forms",
     "is_symplectic": "tableau.conjugate",
@@ -56,8 +60,10 @@ __all__ = [
     "conjugate",
     "converge",
     "diagonal_method",
+    "drift",
     "elementary_weight",
     "find_order",
+    "follow",
     "format_tree",
     "gark",
     "is_symplectic",

@@ -135,3 +135,43 @@ def test_too_many_steps_are_refused() -> None:
     """Before memory is."""
     with pytest.raises(UsageProblem, match="steps"):
         drift(alone("rk4"), default(alone("rk4")), fmpq(MAX_STEPS + 1), fmpq(1))
+
+
+@pytest.mark.parametrize("t_end", [100, 10_000, 100_000])
+def test_uncertainty_of_no_drift(t_end: int) -> None:
+    """A bounded error has no drift beyond its uncertainty, which the wave does not enter; also piece by piece."""
+    tableau = separable(2, 3)
+    result = drift(tableau, default(tableau), fmpq(t_end), HALF)
+    assert abs(result.drift) <= result.uncertainty < 1e-11 * result.max_energy_error / t_end
+    assert result.stability.fate == "turns"
+
+
+def test_uncertainty_of_a_drift() -> None:
+    """A slow exponential is nearly a line: its slope is known as well as it is one."""
+    result = drift(alone("rk4"), default(alone("rk4")), fmpq(100), fmpq(1, 10))
+    assert 0 < result.uncertainty < 0.01 * abs(result.drift)
+    assert result.stability.fate == "decays"
+
+
+def test_amplitude_is_what_the_line_leaves() -> None:
+    """Half the range of the error where nothing drifts; hardly anything of a monotone loss."""
+    tableau = separable(2, 3)
+    errors = (result := drift(tableau, default(tableau), fmpq(10_000), HALF)).energy_errors
+    assert result.amplitude == pytest.approx((max(errors) - min(errors)) / 2, rel=1e-9)
+    lost = drift(alone("rk4"), default(alone("rk4")), fmpq(100), fmpq(1, 10))
+    assert lost.amplitude < 0.01 * lost.max_energy_error
+
+
+def test_series_has_both_ends() -> None:
+    """From the start to the end, whatever the number of points."""
+    tableau = separable(2, 3)
+    for points in (10, 100, 2000):
+        result = drift(tableau, default(tableau), fmpq(10_000), HALF, points)
+        assert (result.times[0], result.times[-1]) == (0, 10_000)
+        assert len(result.times) <= points
+
+
+def test_exact_conservation_is_known() -> None:
+    """It is decided, not seen from errors of zero."""
+    assert drift(alone("gauss", 3), default(alone("gauss", 3)), fmpq(10), HALF).is_exact
+    assert not drift(alone("rk4"), default(alone("rk4")), fmpq(10), HALF).is_exact
