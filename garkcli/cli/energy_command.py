@@ -85,6 +85,8 @@ def command(
         from garkcli.report.plot import check_suffix
 
         check_suffix(Path(plot))
+        if not Path(plot).parent.is_dir():
+            raise UsageProblem(f"cannot write {plot}: there is no such folder", "choose another place")
     limit = None if max_error is None else positive("--max-error", max_error)
     time = None if t_end is None else positive("--t-end", t_end)
     size = None if step is None else positive("--step", step)

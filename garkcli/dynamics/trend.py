@@ -48,13 +48,11 @@ class Trend:
 
     Attributes:
         slope: of the fitted line, per step.
-        level: of the line in the middle of the run.
         uncertainty: of ``slope``.
         shape: "none" where there is no trend to be told from oscillation and noise.
     """
 
     slope: float
-    level: float
     uncertainty: float
     shape: Shape
 
@@ -122,7 +120,7 @@ class Trends:
             shape = "curve"
         elif self._moves(signal, eighths, floor_):
             shape = "step"
-        return Trend(slope / self.count, float(levels[0]), uncertainty / self.count, shape)
+        return Trend(float(slope) / self.count, float(uncertainty) / self.count, shape)
 
     def _lines(self, signal: int) -> tuple[Floats, Floats]:
         """Slopes per run and levels in the middle, of all windows."""

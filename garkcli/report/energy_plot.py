@@ -22,7 +22,8 @@ def energy_figure(run: LongRun) -> Figure:
     figure = Figure(figsize=(7.2, 0.9 + sum(heights)), layout="constrained")
     panels = figure.subplots(len(courses), 1, sharex=True, squeeze=False, height_ratios=heights)[:, 0]
     name = run.problem.name if isinstance(run.problem, Hamiltonian) else "oscillator"
-    figure.suptitle(f"{name.capitalize()}, h = {run.step}, {run.steps} steps", fontsize=11)
+    title = f"{name[:1].upper() + name[1:]}, h = {run.step}, {run.steps} steps"
+    figure.suptitle(title, fontsize=11, parse_math=False)  # names of files are no formulas
     for axes, course in zip(panels, courses, strict=True):
         draw_course(axes, run, course)
     panels[-1].set_xlabel("time t")
@@ -46,9 +47,8 @@ def draw_course(axes: Axes, run: LongRun, course: Course) -> None:
             label=f"drift {course.drift:.2e} per unit of time",
         )
         axes.legend(frameon=False, fontsize=9)
-    axes.set_title(
-        f"{course.name}: largest error {course.max_error:.2e}, {_words(course)}", fontsize=10, loc="left"
-    )
+    title = f"{course.name}: largest error {course.max_error:.2e}, {_words(course)}"
+    axes.set_title(title, fontsize=10, loc="left", parse_math=False)
     axes.set_ylabel("H(t) − H(0)" if course.name == "energy" else "error")
     axes.ticklabel_format(axis="y", style="sci", scilimits=(-2, 3), useMathText=True)
     axes.grid(True, color="0.9", linewidth=0.6)

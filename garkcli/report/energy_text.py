@@ -104,7 +104,7 @@ def _verdict(course: Course, run: LongRun) -> tuple[str, str]:
         case "exact":
             return "conserved", " by every step, exactly"
         case "round-off":
-            more = f"; --digits {2 * (run.digits or FLOAT_DIGITS)} shows more"
+            more = f"; --digits {2 * run.digits} shows more" if run.digits and run.digits <= 100 else ""
             return "no error", f" above round-off, at most {course.round_off:.0e} here{more}"
         case "unstable":
             end = run.end

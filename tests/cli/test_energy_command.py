@@ -94,6 +94,7 @@ def test_problem_files() -> None:
         (("--max-error", "-1"), "a positive number is expected"),
         (("--omega", "-1"), "a positive number is expected"),
         (("--plot", "figure.bmp"), "no figure can be saved"),
+        (("--plot", "nowhere/figure.png"), "there is no such folder"),
         (("--points", "3"), "not in the range"),
         (("--digits", "1000"), "not in the range"),
         (("--problem", "generic"), "the method has no colour for that"),

@@ -204,6 +204,16 @@ def test_figures_show_all_quantities() -> None:
         assert (e1 - e0) / (t1 - t0) == pytest.approx(course.drift)
 
 
+def test_names_are_no_formulas(tmp_path: Path) -> None:
+    """A name with dollars is drawn as it stands."""
+    run = kepler()
+    assert not isinstance(run.problem, Oscillator)
+    course = replace(run.courses[0], name=r"$\frac{ _^ $")
+    named = replace(run, problem=replace(run.problem, name="$x^{ $"), courses=(course,))
+    save(energy_figure(named), tmp_path / "a.svg")
+    assert (tmp_path / "a.svg").stat().st_size > 5000
+
+
 def test_band_joins_its_points() -> None:
     """Every column is drawn on, every value is within its column's band."""
     lines = terminal_band([0, 1, 10], [0.0, 5.0, -5.0], "f", width=30, height=9).splitlines()[1:10]
