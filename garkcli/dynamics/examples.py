@@ -97,7 +97,7 @@ def _generic(terms: int, seed: int) -> Hamiltonian:
         H = sympy.Integer(0)
         for _ in range(_FORMS):
             u = sum(sympy.Rational(draw.choice((-1, 1)) * draw.randint(3, 12), 20) * x for x in y)
-            H += sympy.Rational(draw.choice((-1, 1)) * draw.randint(5, 20), 400 * terms) * (1 + u) ** DEGREE
+            H += sympy.Rational(draw.choice((-1, 1)) * draw.randint(5, 20), 1600 * terms) * (1 + u) ** DEGREE
         split.append(H)
     start = tuple(fmpq(draw.randint(-10, 10), 50) for _ in y)
     return Hamiltonian("generic", variables, tuple(split), start, fmpq(1))
