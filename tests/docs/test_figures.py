@@ -1,4 +1,4 @@
-"""The figure in the README, and the sessions beside it."""
+"""The figures that the documentation shows."""
 
 from __future__ import annotations
 
@@ -8,14 +8,8 @@ import subprocess
 import sys
 from pathlib import Path
 
-import pytest
-
-from tests.cli.harness import gark
-
 ROOT = Path(__file__).resolve().parents[2]
 README = (ROOT / "README.md").read_text(encoding="utf-8")
-SESSIONS = re.findall(r"^\$ gark (energy .*)\n((?:.*\n)*?)(?=```|\$ gark )", README, re.MULTILINE)
-"""Arguments and what is printed."""
 
 
 def size(path: Path) -> tuple[int, int]:
@@ -42,15 +36,3 @@ def test_figures_of_the_readme_exist() -> None:
     pictures = re.findall(r"!\[[^\]]*\]\(([^)]+)\)", README)
     assert "docs/figures/rectangular.png" in pictures
     assert all((ROOT / x).is_file() for x in pictures)
-
-
-@pytest.mark.parametrize(("arguments", "printed"), SESSIONS)
-def test_energy_sessions(arguments: str, printed: str, tmp_path: Path) -> None:
-    """What the README shows is what is printed."""
-    run = gark(*arguments.replace("energy.png", str(tmp_path / "energy.png")).split())
-    assert run.out.strip() == printed.strip()
-
-
-def test_there_are_energy_sessions() -> None:
-    """The pattern finds them."""
-    assert len(SESSIONS) == 2
