@@ -11,7 +11,7 @@ from yaml.nodes import MappingNode, Node, ScalarNode, SequenceNode
 from garkcli.methodfile.description import FORMS as METHOD_FORMS
 from garkcli.methodfile.formulas import Formulas, bad_name
 from garkcli.methodfile.load import read_text
-from garkcli.methodfile.source import PROBLEM_FILE, Source, keys_of, shortened
+from garkcli.methodfile.source import PROBLEM_FILE, Source, keys_of, one_line, shortened
 from garkcli.methodfile.terms import Maker, ProblemText
 
 if TYPE_CHECKING:
@@ -210,5 +210,5 @@ def _derived(variables: list[tuple[str, Node]], form: str) -> dict[str, str]:
 
 def shown_name(text: str) -> str:
     """A name as it is shown: one line of printable signs, not too long."""
-    plain = " ".join("".join(x if x.isprintable() else " " for x in text).split())
+    plain = one_line(text)
     return plain if len(plain) <= 60 else f"{plain[:59]}…"
