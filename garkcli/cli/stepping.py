@@ -13,6 +13,9 @@ if TYPE_CHECKING:
     from garkcli.methodfile.build import MethodFile
     from garkcli.tableau.tableau import Tableau
 
+DECADES = 50
+"""Times, frequencies and errors are numbers from 10^-50 to 10^50."""
+
 
 def applied(method: MethodFile, output: Output, path: str = "") -> Tableau:
     """The tableau that steps: the symplectic pair of ``methods``, else what the file gives.
@@ -33,14 +36,18 @@ def applied(method: MethodFile, output: Output, path: str = "") -> Tableau:
 
 
 def positive(option: str, text: str | None) -> fmpq:
-    """The positive rational number that was given for ``option``.
+    """The positive rational number that was given for ``option``, a time, a frequency or an error.
 
     Raises:
-        UsageProblem: it is none.
+        UsageProblem: it is none, or beyond what such things are.
     """
+    from flint import fmpq
+
     number = rational(option, text or "")
     if number <= 0:
         raise UsageProblem(f"{option} {text}: a positive number is expected")
+    if not fmpq(1, 10**DECADES) <= number <= 10**DECADES:
+        raise UsageProblem(f"{option} {text}: a number from 1e-{DECADES} to 1e{DECADES} is expected")
     return number
 
 

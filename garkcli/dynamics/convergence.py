@@ -14,6 +14,7 @@ from typing import TYPE_CHECKING
 from flint import arb, arb_mat, ctx, fmpq
 
 from garkcli.dynamics.linear import (
+    MAX_STEPS,
     LinearStep,
     conserves_energy,
     deviations,
@@ -152,10 +153,13 @@ def _default_rows(step: LinearStep, t_end: fmpq, rounding: Sequence[arb]) -> lis
 
 
 def _halvings(omega: fmpq, t_end: fmpq) -> Iterator[fmpq]:
-    """t_end/n with the smallest n for which ωh ≤ 1/2, then n doubled without end."""
+    """t_end/n with the smallest n for which ωh ≤ 1/2, then n doubled up to ``MAX_STEPS``."""
     whole_steps(t_end, t_end)  # refuses a time that is not positive
     n = (2 * omega * t_end).ceil()
+    whole_steps(t_end, t_end / n)  # refuses too many
     for k in count():
+        if n * 2**k > MAX_STEPS:
+            return
         yield t_end / (n * 2**k)
 
 

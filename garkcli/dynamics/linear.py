@@ -26,6 +26,9 @@ from garkcli.exact.field import ONE, ZERO, Number, NumberField, coordinates
 from garkcli.exact.matrix import Matrix, identity, multiply, scale, subtract, transpose
 from garkcli.tableau.tableau import Tableau
 
+MAX_STEPS = 10**15
+"""Most steps of a power of the step map."""
+
 
 @dataclass(frozen=True)
 class LinearStep:
@@ -202,7 +205,7 @@ def whole_steps(t_end: fmpq, h: fmpq) -> int:
     """The number of steps n = t_end / h.
 
     Raises:
-        UsageProblem: it is not a positive whole number.
+        UsageProblem: it is not a positive whole number, or more than ``MAX_STEPS``.
     """
     if h <= 0 or t_end <= 0:
         raise UsageProblem(f"step {h} and end time {t_end} are not both positive", "give positive numbers")
@@ -210,4 +213,6 @@ def whole_steps(t_end: fmpq, h: fmpq) -> int:
     if n.q != 1:
         near = h * max(int(n.floor()), 1)
         raise UsageProblem(f"the end time {t_end} is not a whole number of steps {h}", f"{near} is")
+    if n.p > MAX_STEPS:
+        raise UsageProblem(f"{n} steps (limit {MAX_STEPS})", "choose a shorter time or larger steps")
     return int(n.p)

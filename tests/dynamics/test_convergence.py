@@ -192,3 +192,11 @@ def test_heavy_libraries_are_not_imported() -> None:
     )
     run = subprocess.run([sys.executable, "-c", code], capture_output=True, text=True, check=True)
     assert run.stdout == "[]\n"
+
+
+def test_too_many_steps_are_refused() -> None:
+    """More steps than a power of a matrix is taken to: refused at once, or where the ladder of halvings ends."""
+    with pytest.raises(UsageProblem, match="limit 1000000000000000"):
+        converge(alone("rk4"), Oscillator.default(1, fmpq(1)), fmpq(10**18))
+    rows = converge(alone("rk4"), Oscillator.default(1, fmpq(1)), fmpq(10**14)).rows
+    assert 1 <= len(rows) < 8
