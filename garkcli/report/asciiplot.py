@@ -55,14 +55,14 @@ def terminal_plot(
 
 
 def terminal_curves(
-    curves: Mapping[str, Iterable[tuple[Positive, Positive]]], label: str, width: int = 60, height: int = 16
+    curves: Mapping[str, Iterable[tuple[Positive, Positive]]], label: str, width: int = 0, height: int = 16
 ) -> str:
     """Errors of several methods, as ``terminal_plot`` draws those of one.
 
     Args:
         curves: pairs (x, error) by the letter that marks them; two on top of each other make a *.
         label: of the horizontal axis.
-        width: columns inside the frame; the lines are longer by 10 and the label at most.
+        width: columns inside the frame, so many that the lines have at most 76 by default.
         height: lines inside the frame.
 
     >>> print(terminal_curves({"A": [(10, 1), (100, 0.1)], "B": [(100, 1)]}, "steps", width=13, height=3))
@@ -73,6 +73,7 @@ def terminal_curves(
          └┬───────────┬
          10          100  steps
     """
+    width = width or 61 - len(label)
     points = [(log10(x), log10(y), mark) for mark, pairs in curves.items() for x, y in pairs if x > 0 and y > 0]
     return _plot(points, label, width, height, None)
 

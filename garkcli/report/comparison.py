@@ -140,11 +140,11 @@ def _verdicts(named: Sequence[tuple[str, Entry]], paint: Paint) -> list[str]:
     return lines
 
 
-def _padded(rows: Sequence[Sequence[str]]) -> list[str]:
+def _padded(rows: Sequence[Sequence[str]], gap: str = "   ") -> list[str]:
     """The first column to the left, the others to the right."""
     widths = [max(len(row[j]) for row in rows) for j in range(len(rows[0]))]
     return [
-        "   ".join(
+        gap.join(
             x.ljust(w) if j == 0 else x.rjust(w) for j, (x, w) in enumerate(zip(row, widths, strict=True))
         ).rstrip()
         for row in rows
@@ -173,7 +173,7 @@ def _work(tested: Sequence[tuple[str, Result]]) -> list[str]:
     for letter, result in tested:
         for i, row in enumerate(result.rows):
             rows.append([letter if i == 0 else "", str(row.h), scientific(row.error), *work_cells(row.cost)])
-    lines = [f"  {line}" for line in _padded(rows)]
+    lines = [f"  {line}" for line in _padded(rows, "  ")]
     costs = [row.cost for _, result in tested for row in result.rows]
     if any(cost is None or cost.seconds is None for cost in costs):
         lines.append(f"  {NO_TIME}")
@@ -206,7 +206,7 @@ def _at_equal_errors(tested: Sequence[tuple[str, Result]], what: str) -> list[st
     for letter, points in curves.items():
         found = [_between(points, k) for k in goals]
         rows.append([letter, *("" if x is None else _amount(10**x, what) for x in found)])
-    return _padded(rows) if goals else []
+    return _padded(rows, "  ") if goals else []
 
 
 def _amount(x: float, what: str) -> str:
@@ -215,7 +215,8 @@ def _amount(x: float, what: str) -> str:
 
 def _goals(errors: Sequence[Sequence[float]]) -> list[int]:
     """Whole decades, thinned out evenly, that at least two methods reach, or one where no two do."""
-    reached = Counter(k for ys in errors for k in range(ceil(min(ys)), floor(max(ys)) + 1))
+    spans = [(ceil(min(ys)), floor(max(ys))) for ys in errors if len(ys) > 1]
+    reached = Counter(k for least, most in spans for k in range(least, most + 1))
     shared = [k for k, count in reached.items() if count > 1] or list(reached)
     decades = sorted(shared, reverse=True)
     return decades[:: max(1, -(-len(decades) // _GOALS))]

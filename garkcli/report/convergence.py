@@ -15,7 +15,7 @@ from garkcli.report.figures import rounded, scientific
 from garkcli.report.paint import Paint, aligned
 
 _LONGEST = 80  # characters of a Hamiltonian that are still shown
-NO_TIME = "no seconds where floats do not reach the error: more digits were used, and counted"
+NO_TIME = "no seconds where floats do not reach the error: the counts are for more digits"
 
 
 def render(result: Result, name: str, format: str, paint: Paint, with_work: bool = False) -> str:  # noqa: A002
@@ -77,11 +77,16 @@ def _text(result: Result, name: str, paint: Paint, with_work: bool) -> list[str]
     lines = [paint("strong", name), *(f"  {line}" for line in wrapped(about)), ""]
     lines += [f"  {line}" for line in aligned(_table(result), gap="   ")]
     observed = "none" if result.observed_order is None else f"{result.observed_order:.2f}"
-    verdict = paint.verdict(result.agrees, "they agree", "THEY DISAGREE")
+    verdict = "they agree" if result.agrees else "THEY DISAGREE"
+    order = (
+        f"order   observed {observed}, on this problem {exactly(result)}, of the method {result.predicted_order}: "
+    )
+    unbroken = verdict.replace(" ", "\u00a0")
+    *before, last = wrapped(order + unbroken, 78)
     lines += [
         "",
-        f"  order   observed {observed}, on this problem {exactly(result)}, "
-        f"of the method {result.predicted_order}: {verdict}",
+        *(f"  {line}" for line in before),
+        f"  {last.removesuffix(unbroken)}{paint.verdict(result.agrees, verdict, verdict)}",
         *(f"  {line}" for line in wrapped(note(result))),
     ]
     if isinstance(result, Observation) and result.plateau:
@@ -111,7 +116,7 @@ def _work(result: Result) -> list[str]:
     """What the steps have cost, and a plot of it."""
     rows = [["h", "error", *WORK]]
     rows += [[str(row.h), rounded(row.error), *work_cells(row.cost)] for row in result.rows]
-    lines = ["", "  work", *(f"  {line}" for line in aligned(rows, gap="   "))]
+    lines = ["", "  work", *(f"  {line}" for line in aligned(rows))]
     costs = [(row.cost, row.error) for row in result.rows if row.cost is not None]
     if len(costs) < len(result.rows) or any(cost.seconds is None for cost, _ in costs):
         lines.append(f"  {NO_TIME}")

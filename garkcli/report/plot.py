@@ -31,8 +31,8 @@ _STYLES: Sequence[Mapping[str, Any]] = (
     {"marker": "D", "linestyle": ":", "color": "#e08214", "markerfacecolor": "white"},
     {"marker": "v", "linestyle": (0, (5, 1, 1, 1, 1, 1)), "color": "#4d8f4d"},
     {"marker": "X", "linestyle": (0, (8, 2)), "color": "0.55"},
-    {"marker": "P", "linestyle": "-", "color": "#7b3f9e", "markerfacecolor": "white"},
-    {"marker": "*", "linestyle": "--", "color": "#2aa0a8"},
+    {"marker": "P", "linestyle": (0, (1, 3)), "color": "#7b3f9e", "markerfacecolor": "white"},
+    {"marker": "*", "linestyle": (0, (3, 1, 3, 3)), "color": "#2aa0a8"},
 )
 _AXES = {"h": "step size h", "evaluations": "evaluations of vector fields", "seconds": "seconds of processor time"}
 _LONGEST = 72  # characters of a name in a legend
@@ -73,8 +73,7 @@ def comparison_figure(named: Sequence[tuple[str, Result]], against: str = "h") -
         if not points:
             continue
         xs, ys = [x for x, _ in points], [y for _, y in points]
-        style = {**_STYLES[k % len(_STYLES)], "linewidth": 1.4, "markersize": 5.5}
-        curves.append(Curve(xs, ys, _shortened(name), style))
+        curves.append(Curve(xs, ys, _shortened(name), _style(k)))
         order = result.visible_order
         if order > 0 and order not in lines:
             lines[order] = _slope_line(xs, ys, order if against == "h" else -order)
@@ -94,6 +93,13 @@ class Curve:
     ys: Sequence[float]
     label: str
     style: Mapping[str, Any]
+
+
+def _style(k: int) -> dict[str, Any]:
+    """Of the k-th curve: marks and dashes are combined anew once all have been used."""
+    count = len(_STYLES)
+    dashes = _STYLES[(k + k // count) % count]["linestyle"]
+    return {**_STYLES[k % count], "linestyle": dashes, "linewidth": 1.4, "markersize": 5.5}
 
 
 def _slope_line(xs: Sequence[float], ys: Sequence[float], slope: int) -> Curve:

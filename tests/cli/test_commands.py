@@ -34,6 +34,8 @@ RUNS = [
     (("conjugate", VERLET), ("text", "yaml", "json", "latex")),
     (("conjugate", COLLOCATION, "--pair"), ("text", "yaml", "json", "latex")),
     (("converge", VERLET, "--steps", "1/2,1/4,1/8"), ("text", "json", "csv")),
+    (("converge", VERLET, ARK, "--steps", "1/2,1/4,1/8"), ("text", "json", "csv")),
+    (("converge", VERLET, COLLOCATION, "--problem", "pendulum"), ("text", "json", "csv")),
     (("converge", VERLET, *LONG_RUN), ("text", "json", "csv")),
     (("list",), ("text", "json")),
     (("schema",), ("json",)),

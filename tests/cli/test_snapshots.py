@@ -33,6 +33,15 @@ RUNS = {
     "conjugate-pair": ("conjugate", "methods/collocation.gark.yaml", "--pair"),
     "conjugate-yaml": ("conjugate", "methods/gauss6-lobatto7.gark.yaml", "--format", "yaml"),
     "converge": ("converge", VERLET),
+    "converge-several": (
+        "converge",
+        "methods/rectangular.gark.yaml",
+        VERLET,
+        f"{EXAMPLES}/invalid/empty.gark.yaml",
+        "methods/gauss6-lobatto7.gark.yaml",
+        "methods/ark-ars222.gark.yaml",
+        "methods/three-colours.gark.yaml",
+    ),
     "converge-drift": (
         "converge",
         "methods/stoermer-verlet.gark.yaml",

@@ -2,20 +2,24 @@
 
 from __future__ import annotations
 
+from itertools import pairwise
 from pathlib import Path
 
+import numpy as np
 import pytest
 from flint import arb, fmpq
+from matplotlib.colors import to_rgb
 from matplotlib.figure import Figure
 
 from garkcli.dynamics.convergence import Convergence, converge
 from garkcli.dynamics.energy import drift
 from garkcli.dynamics.problems import Oscillator
+from garkcli.dynamics.work import timed
 from garkcli.errors import UsageProblem
 from garkcli.families.registry import diagonal_method
-from garkcli.report.asciiplot import terminal_plot
+from garkcli.report.asciiplot import SEVERAL, terminal_curves, terminal_plot
 from garkcli.report.energy_plot import drift_figure
-from garkcli.report.plot import convergence_figure, save
+from garkcli.report.plot import comparison_figure, convergence_figure, save
 from garkcli.tableau.forms import gark
 
 OSCILLATOR = Oscillator.default(1, fmpq(1))
@@ -61,6 +65,25 @@ def test_terminal_plot_of_little() -> None:
     assert terminal_plot([0.5], [0.0]) == "no positive errors to plot"
 
 
+def test_terminal_curves_have_marks_of_their_own() -> None:
+    """Points of two methods in one frame; where they fall together there is a sign for that."""
+    one, two = [(k, 10.0**-k) for k in (1, 2, 3)], [(k, 10.0 ** (k - 4)) for k in (1, 2, 3)]
+    text = terminal_curves({"A": one, "B": two}, "steps")
+    assert (text.count("A"), text.count("B"), text.count(SEVERAL)) == (2, 2, 1)
+    assert text.endswith("  steps")
+    assert terminal_curves({"A": []}, "steps") == "no positive errors to plot"
+
+
+@pytest.mark.parametrize(
+    ("top", "label"), [(999.0, "1000"), (1234.0, "1200"), (56789.0, "57000"), (1.26e6, "1.3e6")]
+)
+def test_terminal_axis_of_counts(top: float, label: str) -> None:
+    """Counts are whole numbers with two digits that are right, large ones with an exponent, within 80 columns."""
+    text = terminal_curves({"A": [(1.0, 1.0), (top, 0.1)]}, "evaluations")
+    assert text.splitlines()[-1].split()[-2:] == [label, "evaluations"]
+    assert max(map(len, text.splitlines())) <= 78
+
+
 @pytest.mark.parametrize(("suffix", "start"), [(".png", b"\x89PNG"), (".svg", b"<?xml"), (".pdf", b"%PDF")])
 def test_figures_are_saved(tmp_path: Path, suffix: str, start: bytes) -> None:
     """Each format is what its name says, nothing else is left behind, and an old file is replaced."""
@@ -83,6 +106,57 @@ def test_convergence_figure_shows_the_result() -> None:
     assert y[0] / y[1] == pytest.approx((x[0] / x[1]) ** 4)
     assert reference.get_label() == "reference, slope 4"
     assert (axes.get_xscale(), axes.get_yscale()) == ("log", "log")
+
+
+def test_comparison_figure_shows_every_method() -> None:
+    """Errors with a mark and a dash each, a line a visible order with its slope, and all names in the legend."""
+    named = [(f"the method {name}", result_of(name)) for name in ("explicit-euler", "rk4", "heun", "kutta")]
+    named.append(("again rk4", result_of("rk4")))
+    figure = comparison_figure(named)
+    (axes,) = figure.axes
+    curves, slopes = axes.get_lines()[:5], axes.get_lines()[5:]
+    for drawn, (_, result) in zip(curves, named, strict=True):
+        assert list(drawn.get_ydata()) == pytest.approx([float(row.error) for row in result.rows])
+    assert len({(x.get_marker(), x.get_linestyle()) for x in curves}) == 5
+    found = []
+    for line in slopes:
+        x, y = line.get_xdata(), line.get_ydata()
+        found.append(round(float(np.log(y[0] / y[1]) / np.log(x[0] / x[1])), 9))
+        assert line.get_label() == f"slope {found[-1]:.0f}"
+    assert sorted(found) == [1, 2, 3, 4]
+    assert [text.get_text() for text in figure.legends[0].get_texts()] == [name for name, _ in named]
+
+
+def test_comparison_figure_in_grey() -> None:
+    """Without colours curves differ by marks, or by dashes where marks repeat; all stand out from white."""
+    curves = comparison_figure([(str(k), result_of("rk4")) for k in range(20)]).axes[0].get_lines()[:20]
+    assert len({(x.get_marker(), str(x._dash_pattern)) for x in curves}) == 20
+    for one, other in pairwise(curves):
+        assert one.get_marker() != other.get_marker()
+        assert one._dash_pattern != other._dash_pattern
+    colours = [to_rgb(x.get_color()) for x in curves]
+    assert max(0.299 * r + 0.587 * g + 0.114 * b for r, g, b in colours) < 0.6
+
+
+@pytest.mark.parametrize(("against", "sign"), [("evaluations", -1), ("seconds", -1), ("h", 1)])
+def test_work_figure(against: str, sign: int) -> None:
+    """Errors against what they cost; the line beside them falls as fast as the order says."""
+    tableau = gark([diagonal_method("rk4")], {})
+    result = timed(tableau, result_of("rk4"))
+    (axes,) = comparison_figure([("rk4", result)], against).axes
+    curve, slope = axes.get_lines()
+    if against == "evaluations":
+        assert list(curve.get_xdata()) == pytest.approx([row.cost.evaluations for row in result.rows if row.cost])
+    x, y = slope.get_xdata(), slope.get_ydata()
+    assert np.log(y[0] / y[1]) / np.log(x[0] / x[1]) == pytest.approx(4 * sign)
+    assert slope.get_label() == ("slope 4" if sign > 0 else "slope −4")
+
+
+def test_comparison_beyond_the_floats(tmp_path: Path) -> None:
+    """Errors below 1e-308 beside large ones: logarithms are drawn instead."""
+    path = tmp_path / "figure.svg"
+    save(comparison_figure([("gauss 40", result_of("gauss", 40)), ("rk4", result_of("rk4"))]), path)
+    assert path.stat().st_size > 5000
 
 
 @pytest.mark.parametrize(("name", "s"), [("gauss", 2), ("gauss", 40), ("explicit-euler", None)])

@@ -1,0 +1,165 @@
+"""``gark converge`` with several files and with the cost of the steps."""
+
+from __future__ import annotations
+
+import csv
+import io
+import json
+from pathlib import Path
+
+import pytest
+
+from garkcli.report.plot import SUFFIXES
+from tests.cli.harness import ROOT, gark
+
+COLLOCATION = "methods/collocation.gark.yaml"
+INTERPOLATION = "methods/interpolation.gark.yaml"
+RECTANGULAR = "methods/rectangular.gark.yaml"
+VERLET = "methods/stoermer-verlet.gark.yaml"
+ARS = "methods/ark-ars222.gark.yaml"
+INVALID = "tests/examples/invalid/many-faults.gark.yaml"
+
+
+def test_several_methods_side_by_side() -> None:
+    """All slopes are the orders, on a problem that sees every tree."""
+    run = gark("converge", COLLOCATION, INTERPOLATION, ARS, "--problem", "generic", "--format", "json")
+    assert run.code == 0, run.err
+    results = json.loads(run.out)["results"]
+    assert [x["visible_order"] for x in results] == [4, 4, 2]
+    assert all(abs(x["steps"][-1]["slope"] - x["visible_order"]) < 0.05 for x in results)
+    assert all(x["agrees"] for x in results)
+
+
+def test_different_terms_have_the_same_sum() -> None:
+    """The random H is that of the method with most terms, whatever the order of the files; others add terms up."""
+    three = "methods/three-colours.gark.yaml"
+    steps = ("--steps", "1/8,1/16", "--problem", "generic", "--format", "json")
+    results = {}
+    for files in ((COLLOCATION, three), (three, COLLOCATION)):
+        run = gark("converge", *files, *steps)
+        for result in json.loads(run.out)["results"]:
+            results.setdefault(result["file"], []).append(
+                (result["hamiltonian"], [x["error"] for x in result["steps"]])
+            )
+    assert all(x == y for x, y in results.values())
+    assert len(results[three][0][0]) == 3
+    assert len(results[COLLOCATION][0][0]) == 2
+    assert results[three][0][0][0] == results[COLLOCATION][0][0][0]
+
+
+def test_a_faulty_file_stops_none() -> None:
+    """Its faults are on stderr with their lines, the others are compared, exit code 2."""
+    run = gark("converge", VERLET, INVALID, "nowhere.gark.yaml", RECTANGULAR, "--problem", "pendulum")
+    assert run.code == 2
+    assert f"{INVALID}:" in run.err
+    assert "nowhere.gark.yaml: error: no such file" in run.err
+    assert run.out.count("they agree") == 2
+    assert run.out.count("FAILED") == 2
+
+
+def test_a_failing_step_stops_none() -> None:
+    """Exit code 1, or 2 where another file has faults."""
+    long = ("--problem", "generic", "--t-end", "1000000", "--steps", "1000000")
+    run = gark("converge", COLLOCATION, INTERPOLATION, *long)
+    assert run.code == 1
+    assert run.err.count("step 1 of size 1000000") == 2
+    assert gark("converge", COLLOCATION, INVALID, *long).code == 2
+
+
+def test_a_method_for_other_problems_stops_none() -> None:
+    """The rectangular method is not for generic: said with its name, exit code 2."""
+    run = gark("converge", RECTANGULAR, COLLOCATION, "--problem", "generic", "--steps", "1/8,1/16,1/32,1/64")
+    assert run.code == 2
+    assert f"{RECTANGULAR}: error: H{{1}} of generic depends on q" in run.err
+    assert "they agree" in run.out
+
+
+def test_disagreement_of_one_is_exit_code_1() -> None:
+    """Steps far too large for one of them."""
+    run = gark("converge", VERLET, RECTANGULAR, "--problem", "kepler", "--steps", "1/2,1/4")
+    assert run.code == 1
+    assert "THEY DISAGREE" in run.out
+
+
+def test_directories_and_patterns(tmp_path: Path) -> None:
+    """As for check: a directory stands for its method files, a pattern for what it matches."""
+    for name in ("a", "b"):
+        (tmp_path / f"{name}.gark.yaml").write_bytes((ROOT / VERLET).read_bytes())
+    for argument in (str(tmp_path), str(tmp_path / "*.yaml")):
+        run = gark("converge", argument, "--format", "json")
+        assert [Path(x["file"]).name for x in json.loads(run.out)["results"]] == ["a.gark.yaml", "b.gark.yaml"]
+
+
+def test_problem_file_for_several() -> None:
+    """It is read once, also from standard input; its faults are those of the whole run."""
+    text = "{variables: [x], hamiltonian: [px**2/2, 1 - cos(x)], initial: {x: 1, px: 1/2}, t_end: 4}"
+    run = gark("converge", VERLET, RECTANGULAR, "--problem", "-", stdin=text)
+    assert (run.code, run.out.count("they agree")) == (0, 2), run.err
+    broken = gark("converge", VERLET, RECTANGULAR, "--problem", "-", stdin="{variables: [x]}")
+    assert (broken.code, broken.out) == (2, "")
+
+
+@pytest.mark.parametrize("problem", ["oscillator", "kepler"])
+@pytest.mark.parametrize("files", [(RECTANGULAR,), (RECTANGULAR, VERLET)])
+def test_work_in_every_format(problem: str, files: tuple[str, ...]) -> None:
+    """Evaluations and time are in the table, in JSON and in CSV."""
+    arguments = ("converge", *files, "--problem", problem, "--work")
+    text = gark(*arguments)
+    assert text.code == 0, text.err
+    assert "evaluations" in text.out
+    assert max(map(len, text.out.splitlines())) <= 80
+    data = json.loads(gark(*arguments, "--format", "json").out)
+    for result in data.get("results", [data]):
+        counts = [row["work"]["evaluations"] for row in result["steps"]]
+        assert counts == sorted(counts)
+        assert all(row["work"]["seconds"] is None or row["work"]["seconds"] > 0 for row in result["steps"])
+        assert result["steps"][0]["work"]["seconds"] is not None
+    rows = list(csv.DictReader(io.StringIO(gark(*arguments, "--format", "csv").out)))
+    assert all(int(row["evaluations"]) >= int(row["steps"]) > 0 for row in rows)
+
+
+def test_work_keeps_coarse_steps() -> None:
+    """Large errors are asked for as well when costs are compared: the ladder begins with longer steps."""
+    arguments = ("converge", "methods/gauss6-lobatto7.gark.yaml", "--problem", "henon-heiles", "--format", "json")
+    plain, with_work = (json.loads(gark(*arguments, *x).out) for x in ((), ("--work",)))
+    assert with_work["steps"][0]["h"] > plain["steps"][0]["h"]
+    assert [x["error"] for x in with_work["steps"][-3:]] == [x["error"] for x in plain["steps"][-3:]]
+
+
+@pytest.mark.parametrize("suffix", SUFFIXES)
+def test_figures_are_the_same_each_time(tmp_path: Path, suffix: str) -> None:
+    """Two runs of a comparison draw the same file, to the byte; so do two of one method's work."""
+    steps = ("--steps", "1/4,1/8,1/16", "--problem", "pendulum", "-q")
+    for k, arguments in enumerate(
+        ((VERLET, RECTANGULAR), (VERLET, RECTANGULAR, "--work"), (RECTANGULAR, "--work"))
+    ):
+        paths = [tmp_path / f"{k}-{n}{suffix}" for n in (1, 2)]
+        for path in paths:
+            run = gark("converge", *arguments, *steps, "--plot", str(path))
+            assert run.code == 0, run.err
+        assert paths[0].read_bytes() == paths[1].read_bytes()
+
+
+def test_nothing_to_draw(tmp_path: Path) -> None:
+    """Without a single result there is no figure, and that is said."""
+    run = gark("converge", INVALID, "nowhere.gark.yaml", "--plot", str(tmp_path / "a.png"))
+    assert run.code == 2
+    assert "nothing to draw" in run.err
+    assert list(tmp_path.iterdir()) == []
+
+
+@pytest.mark.parametrize(
+    ("said", "arguments"),
+    [
+        ("--drift follows one method", (VERLET, RECTANGULAR, "--drift", "--t-end", "10", "--step", "1/2")),
+        ("--against seconds is not known without measuring it", (VERLET, "--against", "seconds")),
+        ("--drift follows one step size", (VERLET, "--drift", "--work", "--t-end", "10", "--step", "1/2")),
+        ("--omega 0: a positive number is expected", (VERLET, RECTANGULAR, "--omega", "0")),
+        ("no figure can be saved", (VERLET, RECTANGULAR, "--plot", "figure.jpg")),
+    ],
+)
+def test_options_that_do_not_go_together(said: str, arguments: tuple[str, ...]) -> None:
+    """Said once, before anything is computed."""
+    run = gark("converge", *arguments)
+    assert (run.code, run.out) == (2, "")
+    assert run.err.count(said) == 1
