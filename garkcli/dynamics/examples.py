@@ -100,7 +100,7 @@ def _generic(terms: int, seed: int) -> Hamiltonian:
             H += sympy.Rational(draw.choice((-1, 1)) * draw.randint(5, 20), 1600 * terms) * (1 + u) ** DEGREE
         split.append(H)
     start = tuple(fmpq(draw.randint(-10, 10), 50) for _ in y)
-    return Hamiltonian("generic", variables, tuple(split), start, fmpq(1))
+    return Hamiltonian("generic", variables, tuple(split), start, fmpq(1), is_generic=True)
 
 
 def _quadratic(_: tuple[Any, ...], p: tuple[Any, ...]) -> Any:

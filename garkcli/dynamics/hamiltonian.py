@@ -9,9 +9,10 @@ from __future__ import annotations
 from collections.abc import Callable
 from dataclasses import dataclass
 from functools import cache
+from random import Random
 from typing import Any, Literal, TypeAlias
 
-from flint import fmpq
+from flint import arb, ctx, fmpq
 
 from garkcli.dynamics.formula import function
 
@@ -35,6 +36,7 @@ class Hamiltonian:
         invariants: first integrals besides H: a name and an expression each.
         has_equal_parts: whether several terms are the same function, so that trees of different colours have
             the same elementary differential and their errors may cancel.
+        is_generic: whether it is made to see every tree, so that no order above that of the method is to be seen.
     """
 
     name: str
@@ -44,6 +46,7 @@ class Hamiltonian:
     t_end: fmpq
     invariants: tuple[tuple[str, Any], ...] = ()
     has_equal_parts: bool = False
+    is_generic: bool = False
 
     @property
     def dimension(self) -> int:
@@ -137,13 +140,34 @@ def _is_constant(x: Any) -> bool:
     """Whether an expression depends on nothing, be it written with symbols that cancel."""
     import sympy
 
-    if not x.free_symbols:
+    names = tuple(sorted(x.free_symbols, key=str))
+    if not names:
         return True
-    if _degree(x) is None:
-        return not sympy.simplify(x).free_symbols
-    # two different values of a polynomial prove what expanding it would
-    first, second = ({s: sympy.Rational(k, 7) for k, s in enumerate(x.free_symbols, start)} for start in (1, 5))
-    return bool(x.xreplace(first) == x.xreplace(second)) and not sympy.expand(x).free_symbols
+    if _differs(x, names):
+        return False
+    if _degree(x) is not None:
+        return not sympy.expand(x).free_symbols
+    # what has one value wherever it was tried is left to sympy, unless that would take long
+    return bool(x.count_ops() < _SIMPLE) and not sympy.simplify(x).free_symbols
+
+
+_SIMPLE = 200  # operations
+
+
+def _differs(x: Any, names: tuple[Any, ...]) -> bool:
+    """Whether two values of an expression lie in balls that do not overlap, which proves that it is no constant."""
+    draw = Random(1)
+    found: list[arb] = []
+    with ctx.workprec(200):
+        value = function((x,), names, True)
+        for _ in range(8):
+            try:
+                (ball,) = value(*(arb(fmpq(draw.randint(1, 999), 1000)) for _ in names))
+            except (ArithmeticError, ValueError):
+                continue
+            found.append(arb(ball))
+    finite = [x for x in found if x.is_finite()]
+    return any(not x.overlaps(finite[0]) for x in finite[1:])
 
 
 def _degree(x: Any) -> int | None:

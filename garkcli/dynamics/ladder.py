@@ -12,7 +12,7 @@ from dataclasses import replace
 from itertools import count
 from typing import TypeVar
 
-from flint import fmpq
+from flint import arb, fmpq
 
 from garkcli.dynamics.convergence import CLOSE, Row, observed_order
 from garkcli.dynamics.linear import whole_steps
@@ -107,13 +107,19 @@ def trimmed(rows: Sequence[R], is_small: Sequence[bool], plateau: int = 0, may_b
     return [replace(row, slope=None) if i == 0 else row for i, row in enumerate(kept)]
 
 
-def plateau(rows: Sequence[Row], order: int) -> int:
-    """How many rows at the end are no longer of ``order``: from the first flat one after one that had it.
+def plateau(rows: Sequence[Row], order: int, rounding: arb) -> int:
+    """How many rows at the end are no longer of ``order`` because of rounded coefficients.
 
-    Rows before it whose error is not far above that of the flat ones are spoilt by the rounding too.
+    They begin with the first flat one whose error may be that of the rounding; rows before it whose error is not
+    far above that of the flat ones are spoilt too.
+
+    Args:
+        rows: from the largest step down.
+        order: that slopes have before.
+        rounding: about the error that the rounding of the coefficients makes; 0 for exact ones.
     """
-    had = [i for i, row in enumerate(rows) if row.slope is not None and row.slope > order - _FLAT]
-    flat = [i for i in range(had[0] if had else len(rows), len(rows)) if _is_flat(rows[i], order)]
+    limit = rounding * _ABOVE
+    flat = [i for i, row in enumerate(rows) if _is_flat(row, order) and row.error < limit]
     if not flat:
         return 0
     level = min((row.error for row in rows[flat[0] :]), key=float) * _ABOVE

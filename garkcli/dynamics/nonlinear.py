@@ -1,50 +1,34 @@
 """The convergence test on nonlinear problems: errors over a ladder of step sizes, against the order they can show.
 
-Each row of the table is computed with as many digits as its error needs: floats where they do, more where the
-error would fall below round-off. The reference solution has more.
+Slopes at steps of usual size may still be those of larger ones, where the error constant is small or coefficients
+are large. Then the order is observed over a short time as well, with steps so small that nothing is left of that.
 """
 
 from __future__ import annotations
 
 from collections.abc import Sequence
-from dataclasses import dataclass, field, replace
-from math import ceil, log10
-from typing import Any
+from dataclasses import dataclass
+from typing import Literal, TypeAlias
 
-from flint import arb, ctx, fmpq
+from flint import fmpq
 
 from garkcli.dynamics import ladder
-from garkcli.dynamics.convergence import CLOSE, Row, observed_order
-from garkcli.dynamics.hamiltonian import FLOAT_DIGITS, Hamiltonian, energy_function
-from garkcli.dynamics.linear import whole_steps
-from garkcli.dynamics.reference import Reference, Watch, magnitude, reference, run
-from garkcli.dynamics.scheme import Scheme, scheme
+from garkcli.dynamics.convergence import CLOSE, observed_order
+from garkcli.dynamics.hamiltonian import Hamiltonian
+from garkcli.dynamics.reference import Watch
 from garkcli.dynamics.step import StepFailed
 from garkcli.dynamics.structure import fields_of, sight, visible
-from garkcli.dynamics.work import MAX_DIGITS, REACHED, cost_of, work_of
-from garkcli.errors import UsageProblem
-from garkcli.exact.display import to_float
+from garkcli.dynamics.trial import MAX_STEPS, PathRow, Trial
 from garkcli.order.certificate import find_order
 from garkcli.tableau.tableau import Tableau
 
-MAX_STEPS = 1_000_000
-"""Most steps of one row."""
-_SPARE = 6  # correct digits of an error
-_AHEAD = 2  # halvings of the step for which a reference solution will do
-
-
-@dataclass(frozen=True)
-class PathRow(Row):
-    """One step size on a nonlinear problem.
-
-    Attributes:
-        digits: that the row was computed with; ``FLOAT_DIGITS`` are floats with compensated summation.
-        invariant_errors: |I(t_end) − I(0)| for each invariant of the problem besides H. These and the energy
-            error are good to ``digits`` digits of the invariant itself, not of the error.
-    """
-
-    digits: int
-    invariant_errors: tuple[arb, ...] = ()
+Verdict: TypeAlias = Literal["agree", "disagree", "undecided"]
+"""Of observed and visible order."""
+MAX_ORDER = 120
+"""Where the certificate stops to look for a higher order."""
+SHORT = 10**6
+"""The part of the usual time that a short one is."""
+_SHORT_STEPS = (4, 8, 16, 32)
 
 
 @dataclass(frozen=True)
@@ -54,12 +38,20 @@ class Observation:
     Attributes:
         problem: the problem and its split.
         t_end: the time at which errors ‖(Δq, Δp)‖₂ are taken.
-        rows: from the largest step to the smallest.
+        rows: from the largest step to the smallest. A single one with the error 0 where the method makes no error
+            that ``trial.MAX_DIGITS`` digits show.
         plateau: how many of the last rows show the rounding of the coefficients; they are not fitted.
         observed_order: extrapolated from the last rows before the plateau to h = 0; None for a single row.
         predicted_order: of the tableau, by the certificate.
-        visible_order: the order by the trees that the problem can see, ≥ ``predicted_order``.
+        visible_order: the order by the trees that the problem can see, ≥ ``predicted_order``. A problem may hide
+            more of them than its form tells, or let their errors cancel, so the observed order may be larger;
+            only for ``generic`` it is this one.
         sees: which trees these are, in one line.
+        short_time: the time of the observation with tiny steps; None where there was no need for it, and for
+            rounded coefficients, whose errors are then all rounding.
+        short_order: the order observed then.
+        has_settled: whether the slopes before the plateau have.
+        are_given: whether the step sizes were asked for: then it is these that have to show the order.
     """
 
     problem: Hamiltonian
@@ -70,14 +62,40 @@ class Observation:
     predicted_order: int
     visible_order: int
     sees: str
+    short_time: fmpq | None = None
+    short_order: float | None = None
+    has_settled: bool = True
+    are_given: bool = False
+
+    @property
+    def is_exact(self) -> bool:
+        """Whether the method makes no error on the problem."""
+        return all(row.error.is_zero() for row in self.rows)
+
+    @property
+    def verdict(self) -> Verdict:
+        """Whether the order is the visible one, or at least that where the problem may hide some trees.
+
+        Undecided where there is no order to be seen, or where the rounding of the coefficients comes before the
+        slopes have settled.
+        """
+        if self.observed_order is None:
+            return "agree" if self.is_exact else "undecided"
+        if self._is_visible(self.observed_order) and self.short_order is None:
+            return "agree"
+        if self.short_order is None:
+            return "disagree" if self.has_settled else "undecided"
+        is_shown = not self.are_given or abs(self.observed_order - self.short_order) <= CLOSE
+        return "agree" if is_shown and self._is_visible(self.short_order) else "disagree"
+
+    def _is_visible(self, order: float) -> bool:
+        excess = order - self.visible_order
+        return abs(excess) <= CLOSE or (excess > 0 and not self.problem.is_generic)
 
     @property
     def agrees(self) -> bool:
-        """Whether the observed order is the visible one; it may be larger where equal parts can cancel errors."""
-        if self.observed_order is None or self.visible_order < self.predicted_order:
-            return False
-        excess = self.observed_order - self.visible_order
-        return excess >= -CLOSE if self.problem.has_equal_parts else abs(excess) <= CLOSE
+        """Whether the verdict is that they agree."""
+        return self.verdict == "agree"
 
 
 def observe(
@@ -101,141 +119,91 @@ def observe(
         watch: is told how far each run is.
 
     Raises:
-        UsageProblem: the problem is not of the form of the structure, a step does not divide ``t_end``, or no
-            step size has an error.
+        UsageProblem: the problem is not of the form of the structure, or a step does not divide ``t_end``.
         StepFailed: Newton's method fails for a given step size, or for all of the default ladder.
     """
     t_end = problem.t_end if t_end is None else t_end
     fields = fields_of(tableau, problem)
     seen = visible(tableau, fields)
     predicted, order = (_order(x, tolerance) for x in (tableau, seen))
-    test = _Test(tableau, problem, t_end, order, watch)
-    rows = _default_rows(test, tolerance is not None, is_timed) if steps is None else _given_rows(test, steps)
-    plateau = ladder.plateau(rows, order) if tolerance is not None else 0
-    observed = observed_order(rows[: len(rows) - plateau])
+    trial = Trial(tableau, problem, t_end, order, watch)
+    rows = _default_rows(trial, tolerance, is_timed) if steps is None else _given_rows(trial, steps)
+    plateau = ladder.plateau(rows, order, trial.rounding(tolerance))
+    fitted = rows[: len(rows) - plateau]
+    observed = observed_order(fitted)
     if is_timed:
-        rows = [test.timed(row) for row in rows]
-    return Observation(problem, t_end, tuple(rows), plateau, observed, predicted, order, sight(fields))
+        rows = [trial.timed(row) for row in rows]
+    short_time, short_order = None, None
+    is_off = observed is not None and abs(observed - order) > CLOSE
+    if is_off and tolerance is None:
+        short_time = min(t_end, problem.t_end) / SHORT
+        short_order = _short_order(Trial(tableau, problem, short_time, order, watch))
+    return Observation(
+        problem,
+        t_end,
+        tuple(rows),
+        plateau,
+        observed,
+        predicted,
+        order,
+        sight(fields),
+        short_time,
+        short_order,
+        tolerance is None or len(fitted) >= ladder.ROWS,
+        steps is not None,
+    )
 
 
 def _order(tableau: Tableau, tolerance: fmpq | None) -> int:
     if tolerance is None:
-        return find_order(tableau).order
+        return find_order(tableau, MAX_ORDER).order
     from garkcli.order.rounded import find_order_within
 
     return find_order_within(tableau, tolerance).order
 
 
-def _given_rows(test: _Test, steps: Sequence[fmpq]) -> list[PathRow]:
+def _given_rows(trial: Trial, steps: Sequence[fmpq]) -> list[PathRow]:
     rows: list[PathRow] = []
     for h in sorted(set(steps), reverse=True):
-        rows.append(test.row(h, rows[-1] if rows else None))
+        rows.append(trial.row(h, rows[-1] if rows else None))
+        if rows[-1].error.is_zero():
+            return rows[-1:]
     return rows
 
 
-def _default_rows(test: _Test, is_rounded: bool, is_timed: bool) -> list[PathRow]:
+def _default_rows(trial: Trial, tolerance: fmpq | None, is_timed: bool) -> list[PathRow]:
     """The ladder of ``garkcli.dynamics.ladder``; step sizes too large for Newton's method are left out.
 
     Where costs are compared it keeps its coarse steps: large errors are asked for as well.
     """
     rows: list[PathRow] = []
     is_small: list[bool] = []
-    for h in ladder.halvings(test.t_end):
-        is_coarse = h * ladder.MAX_COARSE > test.t_end
+    plateau = 0
+    for h in ladder.halvings(trial.t_end):
+        is_coarse = h * ladder.MAX_COARSE > trial.t_end
+        if rows and trial.t_end / h > MAX_STEPS:
+            break
         try:
-            rows.append(test.row(h, rows[-1] if rows else None))
+            rows.append(trial.row(h, rows[-1] if rows else None))
         except StepFailed:
             if any(is_small) or not is_coarse:
                 raise
             rows, is_small = [], []
             continue
-        is_small.append(test.is_small(rows[-1]) or not is_coarse)
-        plateau = ladder.plateau(rows, test.order) if is_rounded else 0
+        if rows[-1].error.is_zero():
+            return rows[-1:]
+        is_small.append(trial.is_small(rows[-1]) or not is_coarse)
+        plateau = ladder.plateau(rows, trial.order, trial.rounding(tolerance))
         if plateau > 1 or ladder.is_complete(rows, is_small):
-            return ladder.trimmed(rows, is_small, plateau, may_be_off=is_timed)
-    raise AssertionError("halvings end only with the loop")
+            break
+    return ladder.trimmed(rows, is_small, plateau, may_be_off=is_timed)
 
 
-@dataclass
-class _Test:
-    """One method on one problem, and what is kept between step sizes."""
-
-    tableau: Tableau
-    problem: Hamiltonian
-    t_end: fmpq
-    order: int
-    watch: Watch | None
-    schemes: dict[int, Scheme] = field(default_factory=dict)
-    reference: Reference = field(init=False)
-
-    def __post_init__(self) -> None:
-        self.reference = reference(self.problem, self.t_end)
-
-    def row(self, h: fmpq, before: PathRow | None) -> PathRow:
-        """Errors at ``t_end``, with digits enough for them."""
-        steps = whole_steps(self.t_end, h)
-        if steps > MAX_STEPS:
-            raise UsageProblem(f"{steps} steps (limit {MAX_STEPS})", "choose a shorter time or larger steps")
-        digits = self._digits(h, before)
-        while True:
-            state = run(self._scheme(digits), h, steps, self.watch, f"h = {h}")
-            error = self._error(state.y, digits)
-            if error > self._size * arb(10) ** (_SPARE - 1 - digits):
-                break
-            if digits == MAX_DIGITS:
-                raise UsageProblem(f"the error for h = {h} is below 10^-{MAX_DIGITS}", "choose larger steps")
-            digits = min(MAX_DIGITS, 2 * digits)
-        slope = None if before is None else float((before.error / error).log() / (arb(before.h) / arb(h)).log())
-        energy, *others = self._invariant_errors(state.y, digits)
-        return PathRow(h, error, slope, energy, digits, tuple(others), cost=cost_of(state))
-
-    def is_small(self, row: PathRow) -> bool:
-        """Whether the error is a small part of the solution."""
-        return bool(row.error < self._size * ladder.LARGEST / 2)  # the size counts start and end
-
-    def timed(self, row: PathRow) -> PathRow:
-        """The row with the cost of its steps in floats, where these reach its error to a tenth."""
-        y, cost = work_of(self._scheme(FLOAT_DIGITS), row.h, whole_steps(self.t_end, row.h))
-        difference = abs(self._error(y, FLOAT_DIGITS) - row.error)
-        return replace(row, cost=cost) if difference < REACHED * row.error else row
-
-    @property
-    def _size(self) -> arb:
-        return magnitude(self.reference.y, self.problem)
-
-    def _error(self, y: Sequence[Any], digits: int) -> arb:
-        """The distance of ``y`` from the reference solution."""
-        exact = self.reference.to(self._digits_of_reference(digits), self.watch)
-        with ctx.workprec(self._scheme(digits).bits + 32):
-            return sum(((arb(a) - b) ** 2 for a, b in zip(y, exact, strict=True)), arb(0)).sqrt().mid()
-
-    def _digits_of_reference(self, digits: int) -> int:
-        """Enough for the row, and beyond floats for the next ones as well."""
-        if digits <= FLOAT_DIGITS or self.reference.digits >= digits + _SPARE:
-            return digits + _SPARE
-        return digits + _SPARE + ceil(_AHEAD * self.order * log10(2))
-
-    def _digits(self, h: fmpq, before: PathRow | None) -> int:
-        """Digits for the error that the row before and the order let expect."""
-        if before is None:
-            return FLOAT_DIGITS
-        decades = float((before.error / self._size).log() / arb(10).log()) - self.order * log10(
-            to_float(before.h / h)
-        )
-        needed = ceil(-decades) + _SPARE
-        # in whole tens, so that the same scheme serves several rows
-        return (
-            FLOAT_DIGITS if needed <= FLOAT_DIGITS else min(MAX_DIGITS, max(before.digits, -(-needed // 10) * 10))
-        )
-
-    def _scheme(self, digits: int) -> Scheme:
-        if digits not in self.schemes:
-            self.schemes[digits] = scheme(self.tableau, self.problem, digits)
-        return self.schemes[digits]
-
-    def _invariant_errors(self, y: Sequence[Any], digits: int) -> list[arb]:
-        bits = self.schemes[digits].bits + 32
-        with ctx.workprec(bits):
-            measure = energy_function(self.problem, digits + 10)
-            now, then = measure(*map(arb, y)), measure(*map(arb, self.problem.initial))
-            return [abs(a - b).mid() for a, b in zip(now, then, strict=True)]
+def _short_order(trial: Trial) -> float | None:
+    """The order over the time of ``trial``; None where the problem or the method has no error there."""
+    rows: list[PathRow] = []
+    for n in _SHORT_STEPS:
+        rows.append(trial.row(trial.t_end / n, rows[-1] if rows else None))
+        if rows[-1].error.is_zero():
+            return None
+    return observed_order(rows)

@@ -123,7 +123,7 @@ def _solved(
             change = max((abs(a - b) for a, b in zip(y, before, strict=True)), key=float)
             goal = arb(10) ** -digits * magnitude(y, problem)
             ratio = arb(fewer) / steps
-            if change * max(ratio**stages, arb(_CREDIT)) < goal:
+            if change * max(ratio**stages, arb(_CREDIT)) <= goal:  # both are 0 where the solution rests at 0
                 return tuple(y), steps
             excess = float((change * ratio ** (2 * stages) / goal).mid())
         before, fewer = y, steps

@@ -23,8 +23,8 @@ ENOUGH = 0.1
 """Seconds of processor time after which a run is not repeated."""
 MAX_RUNS = 20
 """Most runs of which the fastest counts."""
-MAX_DIGITS = 250
-"""Most digits: corrections of Newton's method are floats, which end soon after."""
+MAX_DIGITS = 1000
+"""Most digits of a step; a smaller error counts as none."""
 REACHED = 0.1
 """The part of an error that the round-off of floats may be for them to have reached it."""
 

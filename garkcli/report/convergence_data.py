@@ -10,7 +10,8 @@ from dataclasses import dataclass
 from typing import Any, TypeAlias
 
 from garkcli.dynamics.convergence import LINEAR_ONLY, Convergence, Row
-from garkcli.dynamics.nonlinear import Observation, PathRow
+from garkcli.dynamics.nonlinear import Observation
+from garkcli.dynamics.trial import PathRow
 from garkcli.dynamics.work import Cost
 from garkcli.errors import Fault
 from garkcli.exact.display import to_float

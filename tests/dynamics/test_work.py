@@ -52,7 +52,7 @@ def test_digits_cost_evaluations() -> None:
 def test_time_is_measured_where_floats_reach() -> None:
     """Gauss 3 × Lobatto IIIA 4 leaves the range of floats: its last rows have counts and no time."""
     tableau = pair(coupled(3, 4))
-    steps = [fmpq(1, 2**k) for k in (3, 4, 5, 6, 7, 10)]
+    steps = [fmpq(1, 2**k) for k in (0, 1, 2, 3, 7, 10)]
     rows = observe(tableau, hamiltonian("generic", 2), steps=steps, is_timed=True).rows
     timed = [row.cost is not None and row.cost.seconds is not None for row in rows]
     assert timed[:4] == [True] * 4
