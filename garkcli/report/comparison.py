@@ -13,13 +13,11 @@ from garkcli.dynamics.convergence import Row
 from garkcli.dynamics.hamiltonian import Hamiltonian
 from garkcli.dynamics.work import Cost
 from garkcli.report.asciiplot import SEVERAL, log10, terminal_curves
-from garkcli.report.convergence import NO_TIME, WORK, exactly, work_cells, wrapped
+from garkcli.report.convergence import NO_TIME, WIDTH, WORK, exactly, work_cells, wrapped
 from garkcli.report.convergence_data import Entry, Result, csv_of_several, json_of_several, note
 from garkcli.report.figures import scientific
 from garkcli.report.paint import Paint, aligned
 
-WIDTH = 78
-"""Columns that a table may fill, beside its margin of two."""
 _LONGEST = 60  # characters of a Hamiltonian that are still shown
 _GOALS = 6  # errors at which costs are compared
 
@@ -96,7 +94,7 @@ def _blocks(tested: Sequence[tuple[str, Result]]) -> list[list[str]]:
     for count in range(1, len(tested) + 1):
         bounds = [round(k * len(tested) / count) for k in range(count + 1)]
         blocks = [_side_by_side(tested[a:b]) for a, b in pairwise(bounds)]
-        if count == len(tested) or max(len(line) for block in blocks for line in block) <= WIDTH:
+        if count == len(tested) or max(len(line) for block in blocks for line in block) <= WIDTH - 2:
             return blocks
     return []
 

@@ -14,6 +14,8 @@ from garkcli.report.convergence_data import Result, csv_of, json_of, note
 from garkcli.report.figures import rounded, scientific
 from garkcli.report.paint import Paint, aligned
 
+WIDTH = 80
+"""Columns of a terminal."""
 _LONGEST = 80  # characters of a Hamiltonian that are still shown
 NO_TIME = "no seconds where floats do not reach the error: the counts are for more digits"
 
@@ -78,15 +80,13 @@ def _text(result: Result, name: str, paint: Paint, with_work: bool) -> list[str]
     lines += [f"  {line}" for line in aligned(_table(result), gap="   ")]
     observed = "none" if result.observed_order is None else f"{result.observed_order:.2f}"
     verdict = "they agree" if result.agrees else "THEY DISAGREE"
-    order = (
-        f"order   observed {observed}, on this problem {exactly(result)}, of the method {result.predicted_order}: "
-    )
-    unbroken = verdict.replace(" ", "\u00a0")
-    *before, last = wrapped(order + unbroken, 78)
+    head = f"  order   observed {observed}, on this problem {exactly(result)}, "
+    tail = f"of the method {result.predicted_order}: "
+    if len(head + tail + verdict) > WIDTH:
+        tail = f"\n          {tail}"
     lines += [
         "",
-        *(f"  {line}" for line in before),
-        f"  {last.removesuffix(unbroken)}{paint.verdict(result.agrees, verdict, verdict)}",
+        f"{head}{tail}{paint.verdict(result.agrees, verdict, verdict)}".replace(" \n", "\n"),
         *(f"  {line}" for line in wrapped(note(result))),
     ]
     if isinstance(result, Observation) and result.plateau:
