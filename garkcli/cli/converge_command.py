@@ -153,7 +153,7 @@ def _one(path: str, wanted: Wanted, shown: Shown, output: Output) -> int:
         is_plain = shown.against == "h" and not shown.work
         named = [(method.name, result)]
         _save(convergence_figure(result) if is_plain else comparison_figure(named, shown.against), shown, output)
-    return 0 if result.agrees else 1
+    return int(result.verdict == "disagree")
 
 
 def _several(paths: list[str], wanted: Wanted, shown: Shown, output: Output) -> int:

@@ -173,7 +173,7 @@ def _entry(
         result = tested(method, tableau, wanted, problems, watch)
     except GarkError as error:
         return _failed(path, method.name, error)
-    return Entry(path, method.name, result, (), 0 if result.agrees else 1)
+    return Entry(path, method.name, result, (), int(result.verdict == "disagree"))
 
 
 def _failed(path: str, name: str, error: GarkError) -> Entry:

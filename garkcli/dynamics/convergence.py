@@ -9,7 +9,7 @@ from __future__ import annotations
 from collections.abc import Iterator, Sequence
 from dataclasses import dataclass, field
 from itertools import count, islice
-from typing import TYPE_CHECKING
+from typing import TYPE_CHECKING, Literal, TypeAlias
 
 from flint import arb, arb_mat, ctx, fmpq
 
@@ -32,6 +32,8 @@ from garkcli.tableau.tableau import Tableau
 if TYPE_CHECKING:
     from garkcli.dynamics.work import Cost
 
+Verdict: TypeAlias = Literal["agree", "disagree", "undecided"]
+"""Of observed and visible order; undecided where there is no order to be seen."""
 LINEAR_ONLY = "a linear problem sees only the unbranched trees: it can show an order too high, never one too low"
 """What every report of this test has to say."""
 ROWS = 8
@@ -89,11 +91,17 @@ class Convergence:
     visible_order: int
 
     @property
-    def agrees(self) -> bool:
+    def verdict(self) -> Verdict:
         """Whether the observed order is the visible one, and that no smaller than predicted."""
         if self.observed_order is None:
-            return False
-        return abs(self.observed_order - self.visible_order) <= CLOSE and self.visible_order >= self.predicted_order
+            return "undecided"
+        is_visible = abs(self.observed_order - self.visible_order) <= CLOSE
+        return "agree" if is_visible and self.visible_order >= self.predicted_order else "disagree"
+
+    @property
+    def agrees(self) -> bool:
+        """Whether the verdict is that they agree."""
+        return self.verdict == "agree"
 
 
 def converge(

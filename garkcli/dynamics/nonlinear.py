@@ -8,12 +8,11 @@ from __future__ import annotations
 
 from collections.abc import Sequence
 from dataclasses import dataclass
-from typing import Literal, TypeAlias
 
 from flint import fmpq
 
 from garkcli.dynamics import ladder
-from garkcli.dynamics.convergence import CLOSE, observed_order
+from garkcli.dynamics.convergence import CLOSE, Verdict, observed_order
 from garkcli.dynamics.hamiltonian import Hamiltonian
 from garkcli.dynamics.reference import Watch
 from garkcli.dynamics.step import StepFailed
@@ -22,8 +21,6 @@ from garkcli.dynamics.trial import MAX_STEPS, PathRow, Trial
 from garkcli.order.certificate import find_order
 from garkcli.tableau.tableau import Tableau
 
-Verdict: TypeAlias = Literal["agree", "disagree", "undecided"]
-"""Of observed and visible order."""
 MAX_ORDER = 120
 """Where the certificate stops to look for a higher order."""
 SHORT = 10**6

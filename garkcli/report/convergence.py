@@ -70,8 +70,36 @@ def _table(result: Result) -> list[list[str]]:
 
 def exactly(result: Result) -> str:
     """The order to be observed, and whether a larger one would do."""
-    cancels = isinstance(result, Observation) and result.problem.has_equal_parts
-    return f"{result.visible_order} {'or more' if cancels else 'exactly'}"
+    is_bound = isinstance(result, Observation) and not result.problem.is_generic
+    return f"{result.visible_order} {'or more' if is_bound else 'exactly'}"
+
+
+def verdict(result: Result, paint: Paint) -> str:
+    """The last word: "they agree", or not."""
+    if result.verdict == "undecided":
+        return paint("note", "undecided")
+    return paint.verdict(result.verdict == "agree", "they agree", "THEY DISAGREE")
+
+
+def remarks(result: Result) -> list[str]:
+    """What there is to say about the verdict."""
+    said = []
+    if isinstance(result, Observation):
+        if result.plateau:
+            said.append(f"the last {result.plateau} rows show the rounding of the coefficients and are not fitted")
+        if result.is_exact:
+            said.append("the method makes no error on this problem")
+        elif result.short_time is not None:
+            order = "none" if result.short_order is None else f"{result.short_order:.2f}"
+            said.append(
+                f"at these step sizes the order has not settled; with tiny steps, to t = {result.short_time}, "
+                f"it is {order}"
+            )
+        elif not result.has_settled:
+            said.append("the rounding of the coefficients comes before the slopes have settled")
+    if len(result.rows) == 1 and result.verdict == "undecided":
+        said.append("one step size shows no order")
+    return said
 
 
 def _text(result: Result, name: str, paint: Paint, with_work: bool) -> list[str]:
@@ -79,18 +107,15 @@ def _text(result: Result, name: str, paint: Paint, with_work: bool) -> list[str]
     lines = [paint("strong", name), *(f"  {line}" for line in wrapped(about)), ""]
     lines += [f"  {line}" for line in aligned(_table(result), gap="   ")]
     observed = "none" if result.observed_order is None else f"{result.observed_order:.2f}"
-    verdict = "they agree" if result.agrees else "THEY DISAGREE"
     head = f"  order   observed {observed}, on this problem {exactly(result)}, "
     tail = f"of the method {result.predicted_order}: "
-    if len(head + tail + verdict) > WIDTH:
+    if len(head + tail + verdict(result, Paint())) > WIDTH:
         tail = f"\n          {tail}"
     lines += [
         "",
-        f"{head}{tail}{paint.verdict(result.agrees, verdict, verdict)}".replace(" \n", "\n"),
-        *(f"  {line}" for line in wrapped(note(result))),
+        f"{head}{tail}{verdict(result, paint)}".replace(" \n", "\n"),
+        *(f"  {line}" for text in (*remarks(result), note(result)) for line in wrapped(text)),
     ]
-    if isinstance(result, Observation) and result.plateau:
-        lines.append(f"  the last {result.plateau} rows show the rounding of the coefficients and are not fitted")
     if with_work:
         return [*lines, *_work(result)]
     positive = [row for row in result.rows if not row.error.contains(0)]

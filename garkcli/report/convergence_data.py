@@ -31,7 +31,7 @@ class Entry:
         name: of the method, or the path again.
         result: None where there is none.
         faults: why there is none.
-        exit_code: 0 it agrees, 1 it disagrees or a step fails, 2 it cannot be tested.
+        exit_code: 0 no disagreement, 1 it disagrees or a step fails, 2 it cannot be tested.
     """
 
     file: str
@@ -83,6 +83,8 @@ def _data(result: Result, name: str, with_work: bool) -> dict[str, Any]:
         "visible_order": result.visible_order,
         "observed_order": result.observed_order,
         "agrees": result.agrees,
+        "verdict": result.verdict,
+        **_short(result),
         "steps": [
             {
                 "h": to_float(row.h),
@@ -113,6 +115,12 @@ def _split(result: Result) -> dict[str, Any]:
     if isinstance(result, Observation):
         return {"hamiltonian": [str(term) for term in result.problem.terms], "plateau": result.plateau}
     return {"omega": str(result.problem.omega), "split": [[str(k), str(v)] for k, v in result.problem.shares]}
+
+
+def _short(result: Result) -> dict[str, Any]:
+    if not isinstance(result, Observation) or result.short_time is None:
+        return {}
+    return {"short": {"t_end": str(result.short_time), "observed_order": result.short_order}}
 
 
 def _path(result: Result, row: Row) -> dict[str, Any]:
