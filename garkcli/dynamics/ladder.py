@@ -61,7 +61,7 @@ def is_complete(rows: Sequence[Row], is_small: Sequence[bool]) -> bool:
     """
     if len(rows) - _first_small(is_small) >= MAX_ROWS:
         return True
-    return len(rows) - _start(rows, is_small) >= ROWS and _has_settled(rows)
+    return len(rows) - _start(rows, is_small) >= ROWS and has_settled(rows)
 
 
 def _first_small(is_small: Sequence[bool]) -> int:
@@ -79,7 +79,7 @@ def _start(rows: Sequence[Row], is_small: Sequence[bool]) -> int:
     return max(start, *off, 0)
 
 
-def _has_settled(rows: Sequence[Row]) -> bool:
+def has_settled(rows: Sequence[Row]) -> bool:
     """Whether slope and extrapolated order agree and one of them is steady, or the latter is very steady.
 
     The order of a method is a whole number, so something else has not settled yet.

@@ -146,7 +146,7 @@ def observe(
         sight(fields),
         short_time,
         short_order,
-        tolerance is None or len(fitted) >= ladder.ROWS,
+        tolerance is None or (len(fitted) >= ladder.ROWS and ladder.has_settled(fitted)),
         steps is not None,
     )
 

@@ -216,7 +216,8 @@ def fields_of(tableau: Tableau, problem: Hamiltonian) -> Fields:
                 raise UsageProblem(
                     f"H{{{term + 1}}} of {problem.name} depends on {'pq'[group == 'p']}, "
                     f"but the method has no colour for that",
-                    "separable methods need H = T(p) + V(q): choose another problem or structure",
+                    f"choose a problem whose H{{{term + 1}}} depends on {'pq'[group == 'q']} alone, "
+                    f"or another structure",
                 )
     fields = {
         (m, group): field
@@ -280,4 +281,9 @@ def sight(fields: Fields) -> str:
     degrees = [field.degree for field in fields.values()]
     branches = max(degree for degree in degrees if degree is not None) if None not in degrees else None
     limit = "" if branches is None else f", with at most {branches} branches at a vertex"
-    return f"it sees the trees of all colours of the method{limit}"
+    alone = [
+        f"what depends on {x} alone has only {branch} as branches"
+        for x, g, branch in (("positions", "q", "velocities"), ("momenta", "p", "forces"))
+        if any(field.depends == (g,) for field in fields.values())
+    ]
+    return "; ".join([f"it sees the trees of all colours of the method{limit}", *alone])

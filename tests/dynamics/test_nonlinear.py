@@ -3,14 +3,18 @@
 from __future__ import annotations
 
 import json
+from dataclasses import replace
+from typing import Any
 
 import pytest
-from flint import fmpq
+from flint import arb, fmpq
 
 from garkcli.cli.problems import PROBLEMS as CHOICES
 from garkcli.dynamics.examples import hamiltonian
+from garkcli.dynamics.hamiltonian import Hamiltonian, symbols
 from garkcli.dynamics.nonlinear import Observation, observe
 from garkcli.dynamics.problems import PROBLEMS, terms_of
+from garkcli.dynamics.trial import PathRow
 from garkcli.families.registry import diagonal_method
 from garkcli.tableau.forms import gark as gark_tableau
 from garkcli.tableau.forms import pair, spelled_out
@@ -142,3 +146,65 @@ def test_failing_step_ends_with_1() -> None:
     run = gark("converge", COLLOCATION, "--problem", "generic", "--t-end", "1000000", "--steps", "1000000")
     assert run.code == 1
     assert "step 1 of size 1000000" in run.err
+
+
+def made(observed: float | None, **changes: Any) -> Observation:
+    """What would be observed with this order, where 4 is to be seen."""
+    row = PathRow(fmpq(1), arb(1), None, arb(0), 15)
+    problem = changes.pop("problem", hamiltonian("pendulum", 2))
+    result = Observation(problem, fmpq(1), (row, row), 0, observed, 4, 4, "")
+    return replace(result, **changes)
+
+
+@pytest.mark.parametrize(
+    ("result", "verdict"),
+    [
+        (made(4.01), "agree"),
+        (made(3.0), "disagree"),
+        (made(5.0), "agree"),  # the pendulum may hide trees, and errors may cancel
+        (made(5.0, problem=hamiltonian("generic", 2)), "disagree"),
+        (made(3.5, short_order=4.0), "agree"),
+        (made(3.5, short_order=3.0), "disagree"),
+        (made(3.5, short_order=4.0, are_given=True), "disagree"),
+        (made(5.0, short_order=5.0, are_given=True), "agree"),
+        (made(9.0, short_order=4.0, are_given=True), "disagree"),
+        (made(3.5, has_settled=False), "undecided"),
+        (made(None), "undecided"),
+        (made(None, rows=(PathRow(fmpq(1), arb(0), None, arb(0), 15),)), "agree"),
+    ],
+)
+def test_verdict(result: Observation, verdict: str) -> None:
+    """What is observed, over a short time too, against what is to be seen."""
+    assert result.verdict == verdict
+    assert result.agrees == (verdict == "agree")
+
+
+def test_small_error_constant_needs_tiny_steps() -> None:
+    """An error of h⁴ + h³/10⁵: slopes of 4 at usual steps, and the order is 3; over a short time that shows."""
+    rk4 = diagonal_method("rk4")
+    A = (*rk4.A[:3], (rk4.A[3][0], rk4.A[3][1] + fmpq(1, 10**4), rk4.A[3][2] - fmpq(1, 10**4), rk4.A[3][3]))
+    result = observe(spelled_out([[A]], [rk4.b], [None]), hamiltonian("pendulum", 1))
+    assert (result.predicted_order, result.visible_order) == (3, 3)
+    assert result.observed_order is not None
+    assert result.observed_order > 3.5
+    assert result.short_order == pytest.approx(3, abs=0.02)
+    assert result.verdict == "agree"
+
+
+def test_exact_solution_has_no_error() -> None:
+    """A stone that falls: rk4 makes no error, and there is no order to be seen; a start at rest stays there."""
+    (x,), (p,) = symbols(("x",), "q"), symbols(("x",), "p")
+    fall = Hamiltonian("fall", ("x",), (p**2 / 2 + x,), (fmpq(0), fmpq(1)), fmpq(2))
+    rest = replace(hamiltonian("pendulum", 1), initial=(fmpq(0), fmpq(0)))
+    for problem in (fall, rest):
+        result = observe(RK4, problem)
+        assert result.is_exact
+        assert (len(result.rows), result.observed_order, result.verdict) == (1, None, "agree")
+
+
+def test_ladder_ends_before_too_many_steps(monkeypatch: pytest.MonkeyPatch) -> None:
+    """Where there is room for few step sizes only, those are kept."""
+    monkeypatch.setattr("garkcli.dynamics.nonlinear.MAX_STEPS", 8)
+    result = observe(RECTANGULAR, hamiltonian("pendulum", 2))
+    assert result.rows[-1].h == hamiltonian("pendulum", 2).t_end / 8
+    assert result.observed_order is not None
