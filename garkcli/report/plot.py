@@ -7,6 +7,7 @@ from __future__ import annotations
 
 import os
 import tempfile
+import warnings
 from collections.abc import Mapping, Sequence
 from dataclasses import dataclass
 from pathlib import Path
@@ -41,21 +42,25 @@ _FLOATS = 290  # decades: beyond, logarithms are drawn on a linear axis
 
 def convergence_figure(result: Result) -> Figure:
     """Error and energy error against h, log–log, with a line whose slope is the visible order."""
-    h = [log10(row.h) for row in result.rows]
-    error = [log10(row.error) for row in result.rows]
-    kept = [(x, log10(row.energy_error)) for x, row in zip(h, result.rows, strict=True) if row.energy_error > 0]
-    above = max(0.35, 0.03 * (max(error) - min(error)))  # beside the errors, not on them
-    reference = [error[-1] + result.visible_order * (x - h[-1]) + above for x in h]
-    curves = [Curve(h, error, "error", {"marker": "o", "color": _BLUE, "linewidth": 1.6})]
+    points = [(log10(x), log10(error)) for x, error in curve(result, "h")]
+    kept = [(log10(row.h), log10(row.energy_error)) for row in result.rows if row.energy_error > 0]
+    curves = []
+    if points:
+        h, error = [x for x, _ in points], [y for _, y in points]
+        curves.append(Curve(h, error, "error", {"marker": "o", "color": _BLUE, "linewidth": 1.6}))
     if kept:
         style = {"marker": "s", "color": "0.45", "linewidth": 1.0, "markerfacecolor": "white"}
         curves.append(Curve([x for x, _ in kept], [y for _, y in kept], "energy error", style))
-    label = f"reference, slope {result.visible_order}"
-    curves.append(Curve(h, reference, label, {"color": _RED, "linestyle": "--", "linewidth": 1.4}))
+    if points:
+        above = max(0.35, 0.03 * (max(error) - min(error)))  # beside the errors, not on them
+        reference = [error[-1] + result.visible_order * (x - h[-1]) + above for x in h]
+        label = f"reference, slope {result.visible_order}"
+        curves.append(Curve(h, reference, label, {"color": _RED, "linestyle": "--", "linewidth": 1.4}))
     observed = "none" if result.observed_order is None else f"{result.observed_order:.2f}"
-    title = f"{problem_name(result).capitalize()} to t = {result.t_end}: observed order {observed}"
+    title = f"{_title(result)}: observed order {observed}"
     figure = _log_log(curves, [], title, "step size h", 4.8)
-    figure.axes[0].legend(frameon=False)
+    if curves:
+        figure.axes[0].legend(frameon=False)
     return figure
 
 
@@ -77,12 +82,22 @@ def comparison_figure(named: Sequence[tuple[str, Result]], against: str = "h") -
         order = result.visible_order
         if order > 0 and order not in lines:
             lines[order] = _slope_line(xs, ys, order if against == "h" else -order)
-    title = f"{problem_name(named[0][1]).capitalize()} to t = {named[0][1].t_end}"
-    figure = _log_log(curves, list(lines.values()), title, _AXES[against], 4.6 + 0.23 * len(curves))
+    size = 4.6 + 0.23 * len(curves)
+    figure = _log_log(curves, list(lines.values()), _title(named[0][1]), _AXES[against], size)
     drawn = figure.axes[0].get_lines()[: len(curves)]
     # below the axes, where no curve can be
-    figure.legend(drawn, [x.label for x in curves], loc="outside lower left", frameon=False, handlelength=3.5)
+    legend = figure.legend(
+        drawn, ["method"] * len(drawn), loc="outside lower left", frameon=False, handlelength=3.5
+    )
+    for text, x in zip(legend.get_texts(), curves, strict=True):  # names are no formulas, and may begin with _
+        text.set_parse_math(False)
+        text.set_text(x.label)
     return figure
+
+
+def _title(result: Result) -> str:
+    name = problem_name(result)
+    return f"{name[:1].upper()}{name[1:]} to t = {result.t_end}"
 
 
 @dataclass(frozen=True)
@@ -123,7 +138,8 @@ def _log_log(curves: Sequence[Curve], lines: Sequence[Curve], title: str, label:
     """
     figure = Figure(figsize=(6.4, size), layout="constrained")
     axes = figure.add_subplot()
-    has_floats = max(abs(z) for curve in (*curves, *lines) for z in (*curve.xs, *curve.ys)) < _FLOATS
+    decades = [abs(z) for curve in (*curves, *lines) for z in (*curve.xs, *curve.ys)]
+    has_floats = max(decades, default=0) < _FLOATS
 
     def place(z: float) -> float:
         return 10**z if has_floats else z
@@ -150,7 +166,7 @@ def _log_log(curves: Sequence[Curve], lines: Sequence[Curve], title: str, label:
         for axis in (axes.xaxis, axes.yaxis):
             axis.set_major_formatter(FuncFormatter(lambda x, _: f"$10^{{{x:g}}}$"))
             axis.set_major_locator(MaxNLocator(8))
-    axes.set_title(title, fontsize=11)
+    axes.set_title(title, fontsize=11, parse_math=False)
     axes.set_xlabel(label)
     axes.set_ylabel("error")
     axes.grid(True, which="major", color="0.85", linewidth=0.6)
@@ -162,14 +178,16 @@ def _shortened(name: str) -> str:
 
 
 def check_suffix(path: Path) -> None:
-    """Refuse a file name that ``save`` has no format for.
+    """Refuse a file name that ``save`` has no format or no folder for, before the work is done.
 
     Raises:
-        UsageProblem: the suffix is none of ``SUFFIXES``.
+        UsageProblem: the suffix is none of ``SUFFIXES``, or there is no such folder.
     """
     if path.suffix.lower() not in SUFFIXES:
         kind = f"of kind {path.suffix!r}" if path.suffix else "without a suffix"
         raise UsageProblem(f"no figure can be saved to {path.name!r}, {kind}", f"end it in {', '.join(SUFFIXES)}")
+    if not path.parent.is_dir():
+        raise UsageProblem(f"cannot write {path}: there is no such folder", "choose another place")
 
 
 def save(figure: Figure, path: Path) -> None:
@@ -184,7 +202,8 @@ def save(figure: Figure, path: Path) -> None:
     handle, name = tempfile.mkstemp(dir=path.parent, prefix=f".{path.stem}-", suffix=path.suffix)
     try:
         # no date, and no names drawn by lot: the same result gives the same file
-        with os.fdopen(handle, "wb") as file, rc_context({"svg.hashsalt": "gark"}):
+        with os.fdopen(handle, "wb") as file, rc_context({"svg.hashsalt": "gark"}), warnings.catch_warnings():
+            warnings.filterwarnings("ignore", "Glyph .* missing")  # of a name in letters that the font has not
             figure.savefig(file, format=kind, dpi=150, metadata=_undated(kind))
         umask = os.umask(0)
         os.umask(umask)

@@ -156,6 +156,7 @@ def test_nothing_to_draw(tmp_path: Path) -> None:
         ("--drift follows one step size", (VERLET, "--drift", "--work", "--t-end", "10", "--step", "1/2")),
         ("--omega 0: a positive number is expected", (VERLET, RECTANGULAR, "--omega", "0")),
         ("no figure can be saved", (VERLET, RECTANGULAR, "--plot", "figure.jpg")),
+        ("there is no such folder", (VERLET, RECTANGULAR, "--plot", "nowhere/figure.png")),
     ],
 )
 def test_options_that_do_not_go_together(said: str, arguments: tuple[str, ...]) -> None:

@@ -2,6 +2,7 @@
 
 from __future__ import annotations
 
+from dataclasses import replace
 from itertools import pairwise
 from pathlib import Path
 
@@ -150,6 +151,28 @@ def test_work_figure(against: str, sign: int) -> None:
     x, y = slope.get_xdata(), slope.get_ydata()
     assert np.log(y[0] / y[1]) / np.log(x[0] / x[1]) == pytest.approx(4 * sign)
     assert slope.get_label() == ("slope 4" if sign > 0 else "slope −4")
+
+
+def test_names_are_no_formulas(tmp_path: Path) -> None:
+    """Dollars, braces, a first underscore, letters that the font has not, and a very long name are all drawn."""
+    names = ["$x^{", "_hidden", "方法", "long " * 40]
+    figure = comparison_figure([(name, result_of("rk4")) for name in names])
+    shown = [text.get_text() for text in figure.legends[0].get_texts()]
+    assert shown[:3] == names[:3]
+    assert len(shown[3]) < 80
+    save(figure, tmp_path / "figure.svg")
+    save(figure, tmp_path / "figure.pdf")
+
+
+def test_figures_without_errors(tmp_path: Path) -> None:
+    """Where a method makes no error there is nothing to draw but the axes, and that is no fault."""
+    result = result_of("rk4")
+    exact = replace(result, rows=(replace(result.rows[0], error=arb(0), energy_error=arb(0)),), observed_order=None)
+    for k, figure in enumerate((convergence_figure(exact), comparison_figure([("rk4", exact)]))):
+        assert figure.axes[0].get_lines() == []
+        save(figure, tmp_path / f"{k}.png")
+    mixed = comparison_figure([("exact", exact), ("rk4", result)])
+    assert [text.get_text() for text in mixed.legends[0].get_texts()] == ["rk4"]
 
 
 def test_comparison_beyond_the_floats(tmp_path: Path) -> None:
