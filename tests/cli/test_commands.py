@@ -37,6 +37,7 @@ RUNS = [
     (("converge", VERLET, ARK, "--steps", "1/2,1/4,1/8"), ("text", "json", "csv")),
     (("converge", VERLET, COLLOCATION, "--problem", "pendulum"), ("text", "json", "csv")),
     (("converge", VERLET, *LONG_RUN), ("text", "json", "csv")),
+    (("energy", VERLET, "--t-end", "20", "--step", "1/10"), ("text", "json", "csv")),
     (("list",), ("text", "json")),
     (("schema",), ("json",)),
     (("schema", "--report"), ("json",)),
