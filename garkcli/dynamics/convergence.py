@@ -44,6 +44,8 @@ ERROR_BITS = 40
 """Correct bits of every error."""
 ENERGY_BITS = 20
 """Correct bits of every energy error that is not zero."""
+MAX_ORDER = 120
+"""Where the certificate stops to look for a higher order."""
 CLOSE = 0.05
 """How near the observed order is to the order it agrees with."""
 _SETTLED = 0.01  # change between two slopes at which the ladder may end
@@ -137,7 +139,7 @@ def converge(
         for h in sorted(set(steps), reverse=True):
             rows.append(_row(step, h, t_end, rows[-1] if rows else None))
     if predicted is None:
-        predicted = find_order(tableau).order
+        predicted = find_order(tableau, MAX_ORDER).order
     return Convergence(problem, t_end, tuple(rows), observed_order(rows), predicted, visible)
 
 

@@ -232,6 +232,7 @@ def define(source: str, name: str, constants: Mapping[str, Any]) -> Any:
 _BUILTINS = {
     "abs": abs,
     "float": float,
+    "list": list,
     "map": map,
     "range": range,
     "ArithmeticError": ArithmeticError,

@@ -105,13 +105,18 @@ class VectorField:
 
     def derivative(self, group: Group) -> tuple[tuple[Any, ...], ...]:
         """The Jacobian by positions or by momenta, sympy expressions, shape (d, d)."""
-        by = symbols(self.variables, group)
-        return tuple(tuple(f.diff(x) for x in by) for f in self.components)
+        return _derivative(self, group)
 
     @property
     def arguments(self) -> tuple[Any, ...]:
         """The symbols of what it depends on, in the order q, p."""
         return tuple(x for g in self.depends for x in symbols(self.variables, g))
+
+
+@cache
+def _derivative(field: VectorField, group: Group) -> tuple[tuple[Any, ...], ...]:
+    by = symbols(field.variables, group)
+    return tuple(tuple(f.diff(x) for x in by) for f in field.components)
 
 
 @cache

@@ -12,7 +12,7 @@ from dataclasses import dataclass
 from flint import fmpq
 
 from garkcli.dynamics import ladder
-from garkcli.dynamics.convergence import CLOSE, Verdict, observed_order
+from garkcli.dynamics.convergence import CLOSE, MAX_ORDER, Verdict, observed_order
 from garkcli.dynamics.hamiltonian import Hamiltonian
 from garkcli.dynamics.reference import Watch
 from garkcli.dynamics.step import StepFailed
@@ -21,8 +21,6 @@ from garkcli.dynamics.trial import MAX_STEPS, PathRow, Trial
 from garkcli.order.certificate import find_order
 from garkcli.tableau.tableau import Tableau
 
-MAX_ORDER = 120
-"""Where the certificate stops to look for a higher order."""
 SHORT = 10**6
 """The part of the usual time that a short one is."""
 _SHORT_STEPS = (4, 8, 16, 32)

@@ -13,12 +13,15 @@ from contextlib import contextmanager
 from dataclasses import dataclass, replace
 from typing import TypeAlias
 
+from garkcli.dynamics.chainrule import ChainRule
 from garkcli.dynamics.formula import Formula, formula
 from garkcli.dynamics.hamiltonian import GROUPS, Group
 from garkcli.dynamics.structure import Block, Coupling, Fields, Stage, Value
 
 MAX_ITERATIONS = 50
 """Newton iterations before a step is given up."""
+_WRITTEN = 40
+"""Up to so many unknowns the Jacobian is written out."""
 _DIRECT = 2
 """Up to so many unknowns floats solve by formulas, with a new Jacobian in every iteration."""
 Slope: TypeAlias = dict[int, str]
@@ -38,6 +41,7 @@ class Program:
         size: of a state.
         evaluations: of vector fields outside of Newton's method in one step.
         implicit: the blocks that are solved by Newton's method, in order.
+        chains: the Jacobians of those with too many unknowns to be written out, by their places.
     """
 
     source: str
@@ -46,6 +50,7 @@ class Program:
     size: int
     evaluations: int
     implicit: tuple[Block, ...]
+    chains: Mapping[int, ChainRule]
 
     @property
     def repeated(self) -> tuple[int, ...]:
@@ -83,6 +88,7 @@ class _Writer:
         self.blocks = graph.blocks()
         self.unknowns = [stage for block in self.blocks for stage in block.unknowns]
         self.frozen: dict[tuple[int, Group], list[str]] = {}
+        self.chains: dict[int, ChainRule] = {}
 
     def program(self) -> Program:
         """Write everything."""
@@ -99,7 +105,8 @@ class _Writer:
         if w:
             self._write(f"{', '.join(w)}, = w")
             if self.is_for_balls:
-                self._write(f"{', '.join('v' + x for x in w)}, = map(float, w)")
+                self._write("v = list(map(float, w))")
+                self._write(f"{', '.join('v' + x for x in w)}, = v")
         self._write(" = ".join((*counts, "jacobians", "0")))
         self._write("number = first")
         self._write("try:")
@@ -117,6 +124,7 @@ class _Writer:
             4 * self.d + 2 * self.d * len(self.unknowns),
             len(self.graph.values) + len(self.frozen),
             tuple(implicit),
+            self.chains,
         )
         return replace(made, evaluations=made.evaluations - sum(made.repeated))
 
@@ -265,7 +273,7 @@ class _Writer:
             if is_direct:
                 self._directly(self._jacobian(block))
             else:
-                self._by_inverse(block, len(zs))
+                self._by_inverse(block, len(zs), index)
             for k, z in enumerate(zs):
                 self._write(f"{z} = ({z} - c{k}).mid()" if self.is_for_balls else f"{z} -= c{k}")
             self._write("size = " + " + ".join(f"abs(c{k})" for k in range(len(zs))))
@@ -320,12 +328,15 @@ class _Writer:
         self._write("t = a*d - b*c")
         self._write("c0, c1 = (d*r0 - b*r1)/t, (a*r1 - c*r0)/t")
 
-    def _by_inverse(self, block: Block, n: int) -> None:
+    def _by_inverse(self, block: Block, n: int, index: int) -> None:
         """Corrections by the inverse of I − J, a matrix of floats, which is kept as long as it serves."""
         self._write("if stale:")
         with self._nested():
-            entries = [x for row in _identity_minus(self._jacobian(block)) for x in row]
-            self._write(f"inverse = inverted([{', '.join(entries)}], {n})")
+            if n > _WRITTEN:
+                self._chain(block, index)
+            else:
+                entries = [x for row in _identity_minus(self._jacobian(block)) for x in row]
+                self._write(f"inverse = inverted([{', '.join(entries)}], {n})")
             self._write("jacobians += 1")
         residuals = ", ".join(f"r{k}" for k in range(n))
         self._write(f"{', '.join(_names('c', n))}, = corrections(inverse, [{residuals}])")
@@ -346,6 +357,21 @@ class _Writer:
         self._write("before = size")
 
     # the chain rule
+
+    def _chain(self, block: Block, index: int) -> None:
+        """The Jacobian by ``ChainRule`` from the derivatives of the fields."""
+        # all weights first: their places are what the chain rule knows them by
+        pairs = [(stage, value) for stage in self.graph.sums for value in self.graph.sums[stage]]
+        places = {pair: int(self._weight(*pair).removeprefix("w")) for pair in pairs}
+        chain = self.chains[index] = ChainRule(block, self.graph, self.d, places)
+        entries = []
+        for value in chain.values:
+            by = [(s, k) for v, s in chain.arguments if v == value for k in range(self.d)]
+            rows = self._derivatives(value, by)
+            for first in range(0, len(by), self.d):
+                entries += [x for row in rows for x in row[first : first + self.d]]
+        numbers = ", ".join("0.0" if x == "0" else x for x in entries)
+        self._write(f"inverse = chain{index}([{numbers}], {'v' if self.is_for_balls else 'w'})")
 
     def _jacobian(self, block: Block) -> list[Slope]:
         """The derivative of the image of the unknowns, row by row, from lines that are written here."""
@@ -371,6 +397,12 @@ class _Writer:
         )
 
     def _slopes_of_value(self, value: Value, slopes: Mapping[tuple[Stage | Value, int], Slope]) -> list[Slope]:
+        by = [(stage, k) for stage in self.graph.arguments[value] for k in range(self.d) if (stage, k) in slopes]
+        rows = [list(zip(row, (slopes[x] for x in by), strict=True)) for row in self._derivatives(value, by)]
+        return [_sums((entry, slope) for entry, slope in row if entry != "0" and slope) for row in rows]
+
+    def _derivatives(self, value: Value, by: Sequence[tuple[Stage, int]]) -> list[list[str]]:
+        """The derivatives of an evaluation by some components of its arguments, d rows."""
         field = self.fields[value.colour, value.group]
         arguments = self._arguments(value)
         if self.is_for_balls:
@@ -378,13 +410,11 @@ class _Writer:
             for k, x in enumerate(arguments):
                 self._write(f"{prefix}{k} = float({x})")
             arguments = [f"{prefix}{k}" for k in range(len(arguments))]
-        by = [(stage, k) for stage in self.graph.arguments[value] for k in range(self.d) if (stage, k) in slopes]
         columns = {g: field.derivative(g) for g in field.depends}
         flat = [columns[stage.group][i][k] for i in range(self.d) for stage, k in by]
         made = self._formula(flat, value, False)
         entries = iter(self._emit(made, arguments, f"j{self.number[value]}_"))
-        rows = [[(next(entries), slopes[x]) for x in by] for _ in range(self.d)]
-        return [_sums((entry, slope) for entry, slope in row if entry != "0" and slope) for row in rows]
+        return [[next(entries) for _ in by] for _ in range(self.d)]
 
     def _named(self, row: Slope, prefix: str) -> Slope:
         """The same with composite texts given names."""

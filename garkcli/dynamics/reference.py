@@ -23,7 +23,7 @@ MAX_TRIED = 10_000
 MAX_STEPS = 1_000_000
 """Most steps of a reference solution."""
 _CALLS = 200  # of a watch in one run
-_STAGES = 20  # beyond, a step costs more than fewer of them save
+_STAGES = 60  # beyond, a step costs more than fewer of them save
 _SPARE = 10  # digits that round-off may grow by
 _CREDIT = 1e-6
 

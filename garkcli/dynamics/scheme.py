@@ -93,6 +93,7 @@ def scheme(tableau: Tableau, problem: Hamiltonian, digits: int = FLOAT_DIGITS) -
             "nan": math.nan,
             "precision": arb(10) ** -digits if digits > FLOAT_DIGITS else 2.0**-52,
             "inverted": _inverted,
+            **{f"chain{i}": chain.inverse for i, chain in program.chains.items()},
             "corrections": _corrections_of_balls if digits > FLOAT_DIGITS else _corrections,
         }
         return Scheme(problem, digits, program, coefficients, define(program.source, "run", constants))

@@ -45,7 +45,7 @@ class Work:
     """What a run of steps has cost.
 
     Attributes:
-        evaluations: of vector fields, each of one colour at one stage, those of Newton's method included.
+        evaluations: of vector fields, each one V^{l} or F^{l} at one stage, those of Newton's method included.
         iterations: of Newton's method, over all implicit blocks.
         jacobians: of an implicit block, each with its factorisation.
     """

@@ -13,7 +13,17 @@ from garkcli.dynamics.convergence import Row
 from garkcli.dynamics.hamiltonian import Hamiltonian
 from garkcli.dynamics.work import Cost
 from garkcli.report.asciiplot import SEVERAL, log10, terminal_curves
-from garkcli.report.convergence import NO_TIME, WIDTH, WORK, exactly, remarks, verdict, work_cells, wrapped
+from garkcli.report.convergence import (
+    NO_TIME,
+    WIDTH,
+    WORK,
+    exactly,
+    predicted,
+    remarks,
+    verdict,
+    work_cells,
+    wrapped,
+)
 from garkcli.report.convergence_data import Entry, Result, csv_of_several, json_of_several, note
 from garkcli.report.figures import scientific
 from garkcli.report.paint import Paint, aligned
@@ -128,7 +138,7 @@ def _verdicts(named: Sequence[tuple[str, Entry]], paint: Paint) -> list[str]:
             endings.append(paint("bad", "FAILED"))
             continue
         observed = "none" if result.observed_order is None else f"{result.observed_order:.2f}"
-        rows.append([letter, observed, exactly(result), str(result.predicted_order)])
+        rows.append([letter, observed, exactly(result), predicted(result)])
         endings.append(verdict(result, paint))
     width = max(map(len, _padded(rows)))
     lines = [f"{line:{width}}   {end}".rstrip() for line, end in zip(_padded(rows), endings, strict=True)]

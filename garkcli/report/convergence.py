@@ -4,7 +4,7 @@ from __future__ import annotations
 
 from flint import arb
 
-from garkcli.dynamics.convergence import Row
+from garkcli.dynamics.convergence import CLOSE, MAX_ORDER, Row
 from garkcli.dynamics.hamiltonian import FLOAT_DIGITS, Hamiltonian
 from garkcli.dynamics.nonlinear import Observation
 from garkcli.dynamics.problems import Oscillator
@@ -74,11 +74,25 @@ def exactly(result: Result) -> str:
     return f"{result.visible_order} {'or more' if is_bound else 'exactly'}"
 
 
+def predicted(result: Result) -> str:
+    """The order of the method."""
+    return f"{result.predicted_order}{' or more' if result.predicted_order >= MAX_ORDER else ''}"
+
+
 def verdict(result: Result, paint: Paint) -> str:
     """The last word: "they agree", or not."""
     if result.verdict == "undecided":
         return paint("note", "undecided")
     return paint.verdict(result.verdict == "agree", "they agree", "THEY DISAGREE")
+
+
+def _of_short_time(result: Observation) -> str:
+    order = "none" if result.short_order is None else f"{result.short_order:.2f}"
+    tiny = f"with tiny steps, to t = {result.short_time}, it is {order}"
+    observed, short = result.observed_order, result.short_order
+    if observed is not None and short is not None and abs(observed - short) <= CLOSE:
+        return f"the problem hides the trees that fail, or their errors cancel: {tiny}"
+    return f"at these step sizes the order has not settled; {tiny}"
 
 
 def remarks(result: Result) -> list[str]:
@@ -90,11 +104,7 @@ def remarks(result: Result) -> list[str]:
         if result.is_exact:
             said.append("the method makes no error on this problem")
         elif result.short_time is not None:
-            order = "none" if result.short_order is None else f"{result.short_order:.2f}"
-            said.append(
-                f"at these step sizes the order has not settled; with tiny steps, to t = {result.short_time}, "
-                f"it is {order}"
-            )
+            said.append(_of_short_time(result))
         elif not result.has_settled:
             said.append("the rounding of the coefficients comes before the slopes have settled")
     if len(result.rows) == 1 and result.verdict == "undecided":
@@ -108,7 +118,7 @@ def _text(result: Result, name: str, paint: Paint, with_work: bool) -> list[str]
     lines += [f"  {line}" for line in aligned(_table(result), gap="   ")]
     observed = "none" if result.observed_order is None else f"{result.observed_order:.2f}"
     head = f"  order   observed {observed}, on this problem {exactly(result)}, "
-    tail = f"of the method {result.predicted_order}: "
+    tail = f"of the method {predicted(result)}: "
     if len(head + tail + verdict(result, Paint())) > WIDTH:
         tail = f"\n          {tail}"
     lines += [

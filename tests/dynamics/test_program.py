@@ -67,6 +67,25 @@ def test_balls_take_the_same_path(tableau: Tableau, name: str) -> None:
     assert ends[0] == pytest.approx(ends[1], abs=1e-14)
 
 
+@pytest.mark.parametrize("digits", [15, 40])
+@pytest.mark.parametrize(("tableau", "name"), METHODS)
+def test_jacobian_in_matrices_is_that_written_out(
+    monkeypatch: pytest.MonkeyPatch, tableau: Tableau, name: str, digits: int
+) -> None:
+    """The same steps, in as many iterations, whichever way the chain rule is done."""
+    problem = hamiltonian(name, terms_of(fitted(tableau)))
+    monkeypatch.setattr("garkcli.dynamics.program._DIRECT", 0)
+    states = []
+    for written in (0, 1000):
+        monkeypatch.setattr("garkcli.dynamics.program._WRITTEN", written)
+        made = scheme(fitted(tableau), problem, digits)
+        assert bool(made.program.chains) == (written == 0 and bool(made.program.implicit))
+        states.append(State(made, fmpq(1, 20)))
+        states[-1].advance(10)
+    assert [float(x) for x in states[0].y] == pytest.approx([float(x) for x in states[1].y], abs=1e-15)
+    assert states[0].work == states[1].work
+
+
 def test_cyclic_variable_has_balls_too() -> None:
     """An unknown whose field is zero starts as a ball: H = p²/(2 + cos x) + P²/2·(2 + sin x), P constant."""
     (x, _), (px, py) = (symbols(("x", "y"), group) for group in GROUPS)
@@ -129,7 +148,19 @@ def test_text_has_names_of_ours_only(tableau: Tableau, name: str) -> None:
     tree = ast.parse(scheme(fitted(tableau), problem).program.source)
     stored = {x.id for x in ast.walk(tree) if isinstance(x, ast.Name) and isinstance(x.ctx, ast.Store)}
     loaded = {x.id for x in ast.walk(tree) if isinstance(x, ast.Name) and isinstance(x.ctx, ast.Load)}
-    known = {"abs", "range", "float", "inf", "nan", "isfinite", "precision", "NotSolved", "inverted", "corrections"}
-    known |= {"sin", "cos", "sqrt", "ArithmeticError", "ValueError", "state", "w", "first", "count"}
+    known = {
+        "abs",
+        "range",
+        "float",
+        "inf",
+        "nan",
+        "isfinite",
+        "precision",
+        "NotSolved",
+        "inverted",
+        "corrections",
+        "chain0",
+    }
+    known |= {"list", "sin", "cos", "sqrt", "ArithmeticError", "ValueError", "state", "w", "first", "count"}
     assert loaded - stored <= known
     assert not [x for x in ast.walk(tree) if isinstance(x, ast.Attribute | ast.Import)]
