@@ -41,7 +41,7 @@ class Measure:
         self._bits = 0 if digits <= FLOAT_DIGITS else ceil(3.33 * digits) + 48
         self._function: Callable[..., list[Any]] = self._precisely(lambda: energy_function(problem, digits))
         number = arb if self._bits else to_float
-        start: list[Any] = [number(x) for x in problem.initial]
+        start: list[Any] = self._precisely(lambda: [number(x) for x in problem.initial])
         arguments = tuple(x for g in GROUPS for x in symbols(problem.variables, g))
         try:
             self._first = self._precisely(lambda: self._function(*start))

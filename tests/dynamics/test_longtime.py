@@ -127,6 +127,13 @@ def test_more_digits_show_what_floats_hide() -> None:
     assert digits.courses[0].round_off < 1e-36
 
 
+def test_more_digits_are_those_of_the_initial_values_too() -> None:
+    """2/5 is no float: with 30 digits the angular momentum is conserved to 30 of them, from the first state on."""
+    _, momentum = run(RECTANGULAR, "kepler", 20, fmpq(1, 50), digits=30).courses
+    assert momentum.max_error < 1e-29
+    assert momentum.verdict == "round-off"
+
+
 def test_round_off_is_what_floats_do() -> None:
     """The bound is above the errors of an invariant that only rounding changes, and not by much."""
     momentum = run(RECTANGULAR, "kepler", 400, fmpq(1, 50)).courses[1]
