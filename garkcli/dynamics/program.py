@@ -350,7 +350,10 @@ class _Writer:
             ends = "size < 1e-9*scale or size**3 <= 1e-17*scale*before**2"
         else:
             ends = "size <= precision*scale or size*size <= precision*scale*before"
-        self._write(f"done = {ends} or 0.5*before <= size <= 1e4*precision*(scale + floor)")
+            if not self.is_for_balls:
+                ends += " or (stale and size < 1e-9*scale)"
+        # or round-off: only a second correction no smaller than the first tells that it is reached
+        self._write(f"done = {ends} or 0 < 0.5*before <= size <= 1e4*precision*(scale + floor)")
         if not is_direct:
             near = "1e-10" if self.is_for_balls else "1e-2"
             self._write(f"stale = size > {near}*scale or (iteration > 0 and size > 0.1*before)")

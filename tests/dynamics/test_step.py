@@ -12,7 +12,7 @@ from flint import arb, ctx, fmpq
 
 from garkcli.dynamics.examples import hamiltonian
 from garkcli.dynamics.formula import function
-from garkcli.dynamics.hamiltonian import Hamiltonian, symbols, vector_field
+from garkcli.dynamics.hamiltonian import GROUPS, Hamiltonian, symbols, vector_field
 from garkcli.dynamics.problems import terms_of
 from garkcli.dynamics.scheme import scheme
 from garkcli.dynamics.step import StepFailed, final, trajectory
@@ -184,6 +184,18 @@ def test_compensated_sums_keep_the_last_digits() -> None:
     for _ in range(30_000):
         plain += 0.1 * (1 / 3)
     assert abs(plain - 1000) > 1e-10
+
+
+@pytest.mark.parametrize("mass", [fmpq(1, 10**20), fmpq(10**10), fmpq(10**20)])
+@pytest.mark.parametrize("tableau", [RECTANGULAR, pair(coupled(2, 3)), pair(coupled(3, 4))])
+def test_units_do_not_matter(tableau: Tableau, mass: fmpq) -> None:
+    """A pendulum of any mass in floats: Newton's method ends by the size of the unknowns, not by that of momenta."""
+    (x,), (px,) = (symbols(("x",), group) for group in GROUPS)
+    m = sympy.Rational(int(mass.p), int(mass.q))
+    terms = (px**2 / (2 * m), -m * sympy.cos(x))
+    heavy = Hamiltonian("heavy", ("x",), terms, (fmpq(1), mass / 2), fmpq(1))
+    floats, exact = (final(scheme(tableau, heavy, digits), H / 2, 40) for digits in (15, 40))
+    assert floats == pytest.approx([float(y) for y in exact], rel=2e-15)
 
 
 def test_balls_around_zero_have_powers() -> None:
