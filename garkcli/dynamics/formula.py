@@ -71,10 +71,17 @@ class Formula:
 
     def _constant(self, x: fmpq | None) -> str:
         if not self.is_for_balls:
-            return repr(math.pi if x is None else int(x.p) / int(x.q))
+            return repr(math.pi) if x is None else _float(x)
         if x is None:
             return "ball_pi()"
         return constant_name(x)
+
+
+def _float(x: fmpq) -> str:
+    try:
+        return repr(int(x.p) / int(x.q))
+    except OverflowError:
+        return "inf" if x > 0 else "-inf"
 
 
 def constant_name(x: fmpq) -> str:

@@ -14,7 +14,7 @@ from garkcli.exact.domain import MAX_BITS
 from garkcli.exact.expression import MAX_EXPONENT, Chain, Expression, Literal, Name, Power, Root
 from garkcli.exact.formula import CONSTANTS, Call, RealPower
 from garkcli.exact.rewriting import format_expression, names_in, parts
-from garkcli.exact.values import Value, exponent_of, value_of
+from garkcli.exact.values import FLOAT_BITS, Value, exponent_of, value_of
 
 MAX_SIZE = 100_000
 """Most operations of all second derivatives of a problem together, as they are written out."""
@@ -63,6 +63,9 @@ class Translator:
         made = self._node(expression)
         if made.has(sympy.I, sympy.zoo, sympy.nan, sympy.oo, -sympy.oo):
             raise UndefinedValue("this is no real number", "", expression.start, expression.end)
+        if any(abs(x) > 1 << FLOAT_BITS for x in made.atoms(sympy.Rational)):
+            message = f"the constants together make a number above 2^{FLOAT_BITS}"
+            raise LimitExceeded(message, "choose other units", expression.start, expression.end)
         return made
 
     def _node(self, expression: Expression) -> Any:

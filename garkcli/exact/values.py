@@ -17,6 +17,8 @@ Value: TypeAlias = fmpq | arb
 """A number in a formula."""
 MAX_DENOMINATOR = 10_000
 """Largest denominator of an exponent."""
+FLOAT_BITS = 1000
+"""Largest numbers are 2^``FLOAT_BITS``: floats can still be multiplied by them."""
 _FUNCTIONS: Mapping[str, Callable[[arb], arb]] = {
     "sin": arb.sin,
     "cos": arb.cos,
@@ -166,11 +168,10 @@ def _bounded(number: Value | None, at: Expression) -> Value:
         raise LimitExceeded(f"a number of more than {MAX_BITS} bits", "write it smaller", at.start, at.end)
     size = abs(arb(number))
     if not (size < _MOST and (size > _LEAST or size.contains(0))):
-        message = f"a number {'below 2^-' if size < 1 else 'above 2^'}{MAX_BITS if size < 1 else _FLOAT}"
+        message = f"a number {'below 2^-' if size < 1 else 'above 2^'}{MAX_BITS if size < 1 else FLOAT_BITS}"
         raise LimitExceeded(message, "choose other units", at.start, at.end)
     return number
 
 
-_FLOAT = 1000
-_MOST = arb(2) ** _FLOAT  # what floats can still be multiplied by
+_MOST = arb(2) ** FLOAT_BITS
 _LEAST = arb(2) ** -MAX_BITS

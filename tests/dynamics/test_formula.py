@@ -106,3 +106,10 @@ def test_deep_expressions_are_cut() -> None:
     for _ in range(70):
         f, value = sympy.sin(1 + f / 2), math.sin(1 + value / 2)
     assert function((f,), X[:1], False)(0.5) == pytest.approx([value], rel=1e-14)
+
+
+def test_constants_beyond_the_floats_are_infinite() -> None:
+    """No failure when the code is made: what is computed with them is no number, and balls have it."""
+    huge = sympy.Integer(10) ** 400
+    assert function((huge * X[0], -huge * X[0]), X[:1], False)(2.0) == [math.inf, -math.inf]
+    assert function((huge * X[0],), X[:1], True)(arb(0.5))[0].overlaps(arb(10) ** 400 / 2)

@@ -85,7 +85,14 @@ def test_what_is_not_smooth_or_real_is_refused(text: str, message: str, start: i
 
 
 @pytest.mark.parametrize(
-    "text", ["(x**8)**9", "((10**900*x)**64)*((10**900*y)**64)", "(1/3**64*x)**64*(1/3**64*y)**64*x/7**40/2**9999"]
+    "text",
+    [
+        "(x**8)**9",
+        "((10**900*x)**64)*((10**900*y)**64)",
+        "(1/3**64*x)**64*(1/3**64*y)**64*x/7**40/2**9999",
+        "1e200*x*1e200/y",
+        "y + (-1e200)**3*x",
+    ],
 )
 def test_large_numbers_are_refused(text: str) -> None:
     """Exponents and coefficients are bounded together, too."""
