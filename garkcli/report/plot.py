@@ -9,11 +9,12 @@ import os
 import tempfile
 import warnings
 from collections.abc import Mapping, Sequence
-from dataclasses import dataclass
+from math import floor
 from pathlib import Path
 from typing import Any
 
 from matplotlib import rc_context
+from matplotlib.axes import Axes
 from matplotlib.figure import Figure
 from matplotlib.ticker import FuncFormatter, MaxNLocator
 
@@ -21,6 +22,7 @@ from garkcli.errors import UsageProblem
 from garkcli.report.asciiplot import log10
 from garkcli.report.comparison import curve
 from garkcli.report.convergence_data import Result, problem_name
+from garkcli.report.slopes import Curve, Line, place_line
 
 SUFFIXES = (".png", ".svg", ".pdf")
 """The kinds of file that figures can be saved as."""
@@ -35,6 +37,7 @@ _STYLES: Sequence[Mapping[str, Any]] = (
     {"marker": "P", "linestyle": (0, (1, 3)), "color": "#7b3f9e", "markerfacecolor": "white"},
     {"marker": "*", "linestyle": (0, (3, 1, 3, 3)), "color": "#2aa0a8"},
 )
+_THIN: Mapping[str, Any] = {"color": "0.3", "linewidth": 0.8, "zorder": 1.5}  # below all curves
 _AXES = {"h": "step size h", "evaluations": "evaluations of vector fields", "seconds": "seconds of processor time"}
 _LONGEST = 72  # characters of a name in a legend
 _FLOATS = 290  # decades: beyond, logarithms are drawn on a linear axis
@@ -52,10 +55,9 @@ def convergence_figure(result: Result) -> Figure:
         style = {"marker": "s", "color": "0.45", "linewidth": 1.0, "markerfacecolor": "white"}
         curves.append(Curve([x for x, _ in kept], [y for _, y in kept], "energy error", style))
     if points:
-        above = max(0.35, 0.03 * (max(error) - min(error)))  # beside the errors, not on them
-        reference = [error[-1] + result.visible_order * (x - h[-1]) + above for x in h]
+        line = place_line(curves[:1], result.visible_order, curves, is_whole=True)
         label = f"reference, slope {result.visible_order}"
-        curves.append(Curve(h, reference, label, {"color": _RED, "linestyle": "--", "linewidth": 1.4}))
+        curves.append(Curve(line.xs, line.ys, label, {"color": _RED, "linestyle": "--", "linewidth": 1.4}))
     observed = "none" if result.observed_order is None else f"{result.observed_order:.2f}"
     title = f"{_title(result)}: observed order {observed}"
     figure = _log_log(curves, [], title, "step size h", 4.8)
@@ -72,18 +74,18 @@ def comparison_figure(named: Sequence[tuple[str, Result]], against: str = "h") -
         against: h, evaluations or seconds; the latter two need rows with costs.
     """
     curves: list[Curve] = []
-    lines: dict[int, Curve] = {}
+    of_order: dict[int, list[Curve]] = {}
     for k, (name, result) in enumerate(named):
         points = [(log10(x), log10(error)) for x, error in curve(result, against)]
         if not points:
             continue
         xs, ys = [x for x, _ in points], [y for _, y in points]
         curves.append(Curve(xs, ys, _shortened(name), _style(k)))
-        order = result.visible_order
-        if order > 0 and order not in lines:
-            lines[order] = _slope_line(xs, ys, order if against == "h" else -order)
+        if result.visible_order > 0:
+            of_order.setdefault(result.visible_order, []).append(curves[-1])
+    lines = [place_line(x, order if against == "h" else -order, curves) for order, x in of_order.items()]
     size = 4.6 + 0.23 * len(curves)
-    figure = _log_log(curves, list(lines.values()), _title(named[0][1]), _AXES[against], size)
+    figure = _log_log(curves, lines, _title(named[0][1]), _AXES[against], size)
     drawn = figure.axes[0].get_lines()[: len(curves)]
     # below the axes, where no curve can be
     legend = figure.legend(
@@ -100,16 +102,6 @@ def _title(result: Result) -> str:
     return f"{name[:1].upper()}{name[1:]} to t = {result.t_end}"
 
 
-@dataclass(frozen=True)
-class Curve:
-    """Points in decimal logarithms, and how to draw them."""
-
-    xs: Sequence[float]
-    ys: Sequence[float]
-    label: str
-    style: Mapping[str, Any]
-
-
 def _style(k: int) -> dict[str, Any]:
     """Of the k-th curve: marks and dashes are combined anew once all have been used."""
     count = len(_STYLES)
@@ -117,47 +109,39 @@ def _style(k: int) -> dict[str, Any]:
     return {**_STYLES[k % count], "linestyle": dashes, "linewidth": 1.4, "markersize": 5.5}
 
 
-def _slope_line(xs: Sequence[float], ys: Sequence[float], slope: int) -> Curve:
-    """A line of this slope below the small errors of a curve."""
-    below = max(0.4, 0.05 * (max(ys) - min(ys)))
-    count = min(3, len(xs))
-    ends = [xs[-count], xs[-1]] if count > 1 else [xs[-1] - 0.2, xs[-1] + 0.2]
-    line = [ys[-1] + slope * (x - xs[-1]) - below for x in ends]
-    return Curve(ends, line, f"slope {slope}".replace("-", "−"), {"color": "0.3", "linewidth": 0.8})
-
-
-def _log_log(curves: Sequence[Curve], lines: Sequence[Curve], title: str, label: str, size: float) -> Figure:
+def _log_log(curves: Sequence[Curve], lines: Sequence[Line], title: str, label: str, size: float) -> Figure:
     """A figure of the curves; where they leave the range of floats, of their logarithms.
 
     Args:
         curves: with an entry in the legend each.
-        lines: with their label beside their middle.
+        lines: thin, below the curves, with their label beside their middle.
         title: of the figure.
         label: of the horizontal axis.
         size: inches from top to bottom.
     """
     figure = Figure(figsize=(6.4, size), layout="constrained")
     axes = figure.add_subplot()
-    decades = [abs(z) for curve in (*curves, *lines) for z in (*curve.xs, *curve.ys)]
+    drawn: list[Curve | Line] = [*curves, *lines]
+    decades = [abs(z) for x in drawn for z in (*x.xs, *x.ys)]
     has_floats = max(decades, default=0) < _FLOATS
 
     def place(z: float) -> float:
         return 10**z if has_floats else z
 
-    for x in (*curves, *lines):
+    for x in drawn:
         draw = axes.loglog if has_floats else axes.plot
-        style = x.style if x in curves else {**x.style, "zorder": 1.5}
+        style = _THIN if isinstance(x, Line) else x.style
         draw([place(z) for z in x.xs], [place(z) for z in x.ys], label=x.label, **style)
-    for x in lines:
-        middle = place(sum(x.xs) / 2), place(sum(x.ys) / 2)
-        falls = (x.ys[-1] - x.ys[0]) * (x.xs[-1] - x.xs[0]) < 0
+    for line in lines:
+        middle = place(sum(line.xs) / 2), place(sum(line.ys) / 2)
         axes.annotate(
-            x.label,
+            line.label,
             middle,
-            (-3 if falls else 3, -3),
+            (3 if line.is_right else -3, -3 if line.is_below else 3),
             textcoords="offset points",
-            ha="right" if falls else "left",
-            va="top",
+            ha="left" if line.is_right else "right",
+            va="top" if line.is_below else "bottom",
+            zorder=1.6,
             fontsize=9,
             color="0.3",
             bbox={"facecolor": "white", "edgecolor": "none", "pad": 0.6, "alpha": 0.8},
@@ -166,11 +150,32 @@ def _log_log(curves: Sequence[Curve], lines: Sequence[Curve], title: str, label:
         for axis in (axes.xaxis, axes.yaxis):
             axis.set_major_formatter(FuncFormatter(lambda x, _: f"$10^{{{x:g}}}$"))
             axis.set_major_locator(MaxNLocator(8))
+    elif curves:
+        _label_decades(axes, [z for curve in curves for z in curve.xs])
     axes.set_title(title, fontsize=11, parse_math=False)
     axes.set_xlabel(label)
     axes.set_ylabel("error")
     axes.grid(True, which="major", color="0.85", linewidth=0.6)
     return figure
+
+
+def _label_decades(axes: Axes, decades: Sequence[float]) -> None:
+    """Numbers below a logarithmic axis, between the powers of ten too: as many as there is space for."""
+    span = max(decades) - min(decades)
+    digits = (2, 3, 5, 7) if span < 1 else (2, 5) if span < 2 else ()  # () leaves the powers alone
+
+    def text(x: float, _: object) -> str:
+        power = floor(log10(x) + 1e-9)
+        digit = round(x / 10.0**power)
+        if not digits or digit not in (1, *digits):
+            return ""
+        if -3 <= power <= 3:
+            return f"{x:g}"
+        return f"$10^{{{power}}}$" if digit == 1 else f"${digit}\\times10^{{{power}}}$"
+
+    if digits:
+        axes.xaxis.set_major_formatter(FuncFormatter(text))
+    axes.xaxis.set_minor_formatter(FuncFormatter(text))
 
 
 def _shortened(name: str) -> str:

@@ -2,6 +2,7 @@
 
 from __future__ import annotations
 
+from collections.abc import Sequence
 from dataclasses import replace
 from itertools import pairwise
 from pathlib import Path
@@ -9,8 +10,10 @@ from pathlib import Path
 import numpy as np
 import pytest
 from flint import arb, fmpq
+from matplotlib.backends.backend_agg import FigureCanvasAgg
 from matplotlib.colors import to_rgb
 from matplotlib.figure import Figure
+from matplotlib.lines import Line2D
 
 from garkcli.dynamics.convergence import Convergence, converge
 from garkcli.dynamics.energy import drift
@@ -221,3 +224,62 @@ def test_failed_save_leaves_the_old_file(tmp_path: Path, monkeypatch: pytest.Mon
     with pytest.raises(OSError, match="disk full"):
         save(Figure(), path)
     assert [x.read_text() for x in tmp_path.iterdir()] == ["old"]
+
+
+def _clearance(line: Line2D, curves: Sequence[Line2D]) -> float:
+    """The least distance of a line from curves, in decades of the error."""
+    (a, b), (c, d) = np.log10(line.get_xdata()), np.log10(line.get_ydata())
+    least = float("inf")
+    for x in np.linspace(a, b, 50):
+        y = c + (d - c) * (x - a) / (b - a)
+        for curve in curves:
+            xs, ys = np.log10(curve.get_xdata())[::-1], np.log10(curve.get_ydata())[::-1]
+            if xs[0] <= x <= xs[-1]:
+                least = min(least, abs(y - np.interp(x, xs, ys)))
+    return least
+
+
+def test_lines_of_slopes_are_on_no_curve() -> None:
+    """A second method whose errors are where the line of the first would be: the line is somewhere else."""
+    result = result_of("rk4")
+    for factor in (1e-3, 0.03, 0.3, 0.5, 2, 30):
+        shifted = replace(result, rows=tuple(replace(row, error=row.error * factor) for row in result.rows))
+        (axes,) = comparison_figure([("one", result), ("other", shifted)]).axes
+        *curves, line = axes.get_lines()
+        errors = np.log10([y for x in curves for y in x.get_ydata()])
+        assert _clearance(line, curves) > 0.03 * np.ptp(errors)
+
+
+def test_the_reference_is_not_on_the_energy_error() -> None:
+    """Energy errors may be a little above the errors, where the reference usually is."""
+    result = result_of("rk4")
+    rows = tuple(replace(row, energy_error=row.error * 3) for row in result.rows)
+    (axes,) = convergence_figure(replace(result, rows=rows)).axes
+    *curves, line = axes.get_lines()
+    assert _clearance(line, curves) > 0.3
+
+
+@pytest.mark.parametrize(
+    ("steps", "shown"),
+    [
+        ((fmpq(1, 3), fmpq(1, 5), fmpq(1, 7)), ["0.2", "0.3"]),
+        ((fmpq(1, 2), fmpq(1, 10), fmpq(1, 20)), ["0.05", "0.1", "0.2", "0.5"]),
+        ((fmpq(1, 2), fmpq(1, 100), fmpq(1, 1000)), ["$\\mathdefault{10^{-3}}$", "$\\mathdefault{10^{-2}}$"]),
+    ],
+)
+def test_numbers_below_do_not_collide(steps: tuple[fmpq, ...], shown: list[str]) -> None:
+    """Over few decades some multiples of powers of ten are labelled too, and never one on another."""
+    result = converge(gark([diagonal_method("rk4")], {}), OSCILLATOR, fmpq(1), steps)
+    figure = comparison_figure([("rk4", result)])
+    canvas = FigureCanvasAgg(figure)
+    canvas.draw()
+    (axes,) = figure.axes
+    low, high = axes.get_xlim()
+    labels = [
+        text
+        for tick in (*axes.xaxis.get_major_ticks(), *axes.xaxis.get_minor_ticks())
+        if (text := tick.label1).get_text() and low <= tick.get_loc() <= high
+    ]
+    assert set(shown) <= {text.get_text() for text in labels}
+    boxes = sorted((text.get_window_extent() for text in labels), key=lambda box: box.x0)
+    assert all(one.x1 < other.x0 for one, other in pairwise(boxes))
