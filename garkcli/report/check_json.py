@@ -1,4 +1,4 @@
-"""``gark check --format json``: exact numbers as strings, colours and stages from 1. Shape: docs/json.md."""
+"""``gark check --format json``: exact numbers as strings, colours and stages from 1; see docs/command-line.md."""
 
 from __future__ import annotations
 

@@ -1,0 +1,35 @@
+"""docs/architecture.md names every file of the package in its room, and no other."""
+
+from __future__ import annotations
+
+import re
+from pathlib import Path
+
+import pytest
+
+ROOT = Path(__file__).resolve().parents[2]
+TEXT = (ROOT / "docs" / "architecture.md").read_text(encoding="utf-8")
+ROOMS = sorted(path.parent.name for path in (ROOT / "garkcli").glob("*/__init__.py"))
+
+
+def part(room: str) -> str:
+    """The lines on a room: to the next line that is no deeper."""
+    found = re.search(rf"^  {room}/.*\n(?:   .*\n|\n)*", TEXT, re.MULTILINE)
+    assert found, room
+    return found.group()
+
+
+@pytest.mark.parametrize("room", ROOMS)
+def test_every_file_has_its_place(room: str) -> None:
+    """The files named are those that exist."""
+    named = set(re.findall(r"\b(\w+\.py)\b", part(room)))
+    exist = {path.name for path in (ROOT / "garkcli" / room).glob("*.py")} - {"__init__.py"}
+    assert named == exist
+
+
+def test_there_are_no_other_rooms() -> None:
+    """Folders of the page are folders of the repository."""
+    folders = re.findall(r"^ {2}(\w+)/ ", TEXT, re.MULTILINE)
+    assert sorted(folders) == ROOMS
+    for name in re.findall(r"^(\w+)/ ", TEXT, re.MULTILINE):
+        assert (ROOT / name).is_dir(), name
