@@ -66,8 +66,8 @@ class Reference:
         """(q, p) at ``t_end`` with an error below 10^(−digits) times the ``magnitude`` of the solution.
 
         Raises:
-            StepFailed: the problem has no solution up to there, or one too close to a singularity.
-            UsageProblem: it depends on its start so much that round-off drowns it.
+            UsageProblem: the problem has no solution up to there, or one too close to a singularity, or one that
+                depends on its start so much that round-off drowns it.
         """
         if digits > self.digits:
             # more digits have more stages: about as many steps are enough again
@@ -111,9 +111,13 @@ def _solved(
             )
         try:
             y = run(method, t_end / steps, steps, watch, f"reference solution, {digits} digits").y
-        except StepFailed:
+        except StepFailed as error:
             if steps > MAX_TRIED:
-                raise
+                raise UsageProblem(
+                    f"no solution is found at t = {t_end}: steps of {error.h} fail at t = "
+                    f"{to_float((error.number - 1) * error.h):.4g}, and so do longer ones",
+                    f"choose a final time before {to_float(error.number * error.h):.4g}",
+                ) from None
             steps, before = 4 * steps, []
             continue
         if not before:

@@ -76,6 +76,19 @@ def test_collision_has_no_solution() -> None:
         Reference(problem, fmpq(2)).to(16)
 
 
+def test_a_solution_that_ends_is_told_when() -> None:
+    """q̈ = 4q³ leaves every bound at ∫ dq/√(2q⁴ − 1) from 1 to ∞, 0.7531…: that, not a step size, is what is told."""
+    from dataclasses import replace
+
+    from garkcli.dynamics.hamiltonian import symbols
+
+    ((x,), (p,)) = (symbols(("x",), group) for group in ("q", "p"))
+    problem = replace(hamiltonian("pendulum", 2), terms=(p**2 / 2, -(x**4)), initial=(fmpq(1), fmpq(1)))
+    with pytest.raises(UsageProblem, match=r"no solution is found at t = 2: .* fail at t = 0\.75") as told:
+        Reference(problem.unsplit(), fmpq(2)).to(16)
+    assert "final time before 0.75" in (told.value.help or "")
+
+
 def test_search_has_an_end(monkeypatch: pytest.MonkeyPatch) -> None:
     """With too few steps allowed it is said, with the time and the digits."""
     monkeypatch.setattr(module, "MAX_STEPS", 10)
