@@ -10,7 +10,7 @@ import click
 
 from garkcli.cli.converging import Problems, Wanted, compared, oscillator, tested
 from garkcli.cli.options import CONTEXT, Output, common
-from garkcli.cli.problems import ProblemType
+from garkcli.cli.problems import ProblemType, note_changing
 from garkcli.cli.stepping import applied, positive
 from garkcli.errors import UsageProblem
 
@@ -140,9 +140,12 @@ def _one(path: str, wanted: Wanted, shown: Shown, output: Output) -> int:
 
     method = load(path)
     tableau = applied(method, output)
+    problems = Problems(wanted, [tableau])
+    if problems.read is not None:
+        note_changing(problems.read, output)
     try:
         with watching(output.verbosity >= 0) as watch:
-            result = tested(method, tableau, wanted, Problems(wanted, [tableau]), watch)
+            result = tested(method, tableau, wanted, problems, watch)
     except StepFailed as error:
         click.echo(f"gark: {error.message}\nhelp: {error.help}", err=True)
         return 1

@@ -9,7 +9,7 @@ from typing import TYPE_CHECKING
 import click
 
 from garkcli.cli.options import Output
-from garkcli.cli.problems import find_problem, is_path
+from garkcli.cli.problems import find_problem, is_path, note_changing
 from garkcli.cli.stepping import applied, rational
 from garkcli.errors import Fault, GarkError, MethodFileError
 
@@ -55,6 +55,9 @@ class Problems:
         wanted: names the problem.
         tableaux: of all methods.
 
+    Attributes:
+        read: the problem of a file, as it was read.
+
     Errors:
         MethodFileError: the problem file has faults.
     """
@@ -64,12 +67,12 @@ class Problems:
         from garkcli.dynamics.structure import fitted
 
         self._wanted = wanted
-        self._read: Hamiltonian | None = None
+        self.read: Hamiltonian | None = None
         self._widest = max(map(fitted, tableaux), key=terms_of, default=None)
         if is_path(wanted.problem):
             from garkcli.methodfile.problem import load_problem
 
-            self._read = load_problem(wanted.problem)
+            self.read = load_problem(wanted.problem)
 
     def of(self, tableau: Tableau) -> Hamiltonian:
         """The problem for one method.
@@ -82,8 +85,8 @@ class Problems:
         from garkcli.dynamics.splitting import fit
 
         terms = terms_of(tableau)
-        if self._read is not None:
-            return fit(self._read, terms)
+        if self.read is not None:
+            return fit(self.read, terms)
         if self._wanted.problem != "generic" or self._widest is None:
             return find_problem(self._wanted.problem, tableau, self._wanted.seed)
         return gathered(find_problem("generic", self._widest, self._wanted.seed), terms)
@@ -152,6 +155,8 @@ def compared(paths: Sequence[str], wanted: Wanted, output: Output) -> list[Entry
         except GarkError as error:
             methods.append(_failed(path, path, error))
     problems = Problems(wanted, [found[1] for found in methods if isinstance(found, tuple)])
+    if problems.read is not None:
+        note_changing(problems.read, output)
     entries = []
     with watching(output.verbosity >= 0) as watch:
         for k, (path, found) in enumerate(zip(paths, methods, strict=True), start=1):

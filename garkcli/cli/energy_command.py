@@ -8,7 +8,7 @@ from typing import TYPE_CHECKING
 import click
 
 from garkcli.cli.options import CONTEXT, Output, common
-from garkcli.cli.problems import ProblemType, find_problem
+from garkcli.cli.problems import ProblemType, find_problem, is_path, note_changing
 from garkcli.cli.stepping import applied, positive
 from garkcli.errors import UsageProblem
 
@@ -172,6 +172,8 @@ def _follow(
 
     tableau = fitted(tableau)
     problem = find_problem(name, tableau, seed)
+    if is_path(name):
+        note_changing(problem, output)
     h, time = whole_run(step, t_end, *usual(problem))
     run = follow(
         tableau,

@@ -14,6 +14,7 @@ from click.shell_completion import CompletionItem
 from garkcli.errors import UsageProblem, did_you_mean
 
 if TYPE_CHECKING:
+    from garkcli.cli.options import Output
     from garkcli.dynamics.hamiltonian import Hamiltonian
     from garkcli.tableau.tableau import Tableau
 
@@ -87,6 +88,16 @@ def find_problem(name_or_path: str, tableau: Tableau, seed: int | None = None) -
     from garkcli.dynamics.examples import hamiltonian
 
     return hamiltonian(name_or_path, terms, 1 if seed is None else seed)
+
+
+def note_changing(problem: Hamiltonian, output: Output) -> None:
+    """Say which invariants of a problem file are none: their errors are not the method's."""
+    from garkcli.dynamics.conserved import changing
+
+    for name, change, time in changing(problem):
+        output.note(
+            f"{problem.name}: {name} is no invariant: the exact solution changes it by {change:.2g} to t = {time}"
+        )
 
 
 def _stamp(path: str) -> object:

@@ -150,3 +150,18 @@ def test_names_are_completed() -> None:
         "file"
     ]
     assert isinstance(ProblemType(), click.ParamType)
+
+
+@pytest.mark.parametrize("command", [("converge", *STEPS), ("energy", "--t-end", "10", "--step", "1/10")])
+def test_an_invariant_that_is_none_is_told(command: tuple[str, ...]) -> None:
+    """A sign that is wrong: x py + y px changes on the exact solution, so its errors are not the method's."""
+    text = Path(ROOT / "problems/kepler.yaml").read_text(encoding="utf-8")
+    assert "x*py - y*px" in text
+    name, *rest = command
+    right, wrong = (
+        gark(name, RECTANGULAR, "--problem", "-", *rest, stdin=x)
+        for x in (text, text.replace("x*py - y*px", "x*py + y*px"))
+    )
+    assert (right.code, wrong.code) == (0, 0)
+    assert right.err == ""
+    assert "angular momentum is no invariant: the exact solution changes it by -0.024 to t = 1/32" in wrong.err

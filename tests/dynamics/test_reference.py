@@ -77,7 +77,7 @@ def test_collision_has_no_solution() -> None:
 
 
 def test_a_solution_that_ends_is_told_when() -> None:
-    """q̈ = 4q³ leaves every bound at ∫ dq/√(2q⁴ − 1) from 1 to ∞, 0.7531…: that, not a step size, is what is told."""
+    """q̈ = 4q³ leaves every bound at ∫ dq/√(2q⁴ − 1) from 1 to ∞, 0.7531…: that is told, no step size."""
     from dataclasses import replace
 
     from garkcli.dynamics.hamiltonian import symbols
