@@ -32,8 +32,9 @@ class StepFailed(GarkError):
         what = (
             "the stage equations were not solved" if isfinite(residual) else "the numbers leave the vector fields"
         )
+        ends = "" if isfinite(residual) else ", or an earlier final time: the solution may end there"
         super().__init__(
-            f"step {number} of size {h}: {what} (residual {residual:.1e})", "choose a smaller step size"
+            f"step {number} of size {h}: {what} (residual {residual:.1e})", f"choose a smaller step size{ends}"
         )
         self.number = number
         self.h = h

@@ -144,7 +144,8 @@ def _symplectic(report: Report, paint: Paint) -> list[str]:
     elif any(x.is_seen for x in found.defects) or (stability is not None and not stability.is_symplectic):
         word = paint("strong", "no")
     else:
-        word = "not proved by its coefficients"
+        is_hinted = stability is None and not found.defects
+        word = "not proved by its coefficients" + "; --symplecticity measures" * is_hinted
     lines = [f"  symplectic       {word}"]
     if stability is not None:
         lines.append(f"  {'':<17}det R(h) − 1 = {_determinant(stability)}" + ", exactly" * stability.is_symplectic)

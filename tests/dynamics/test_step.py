@@ -213,8 +213,9 @@ def test_failing_step_says_where() -> None:
     assert (caught.value.number, caught.value.h) == (1, 10**6)
     assert caught.value.help
     falling = Hamiltonian("fall", ("x",), (1 / symbols(("x",), "q")[0],), (fmpq(0), fmpq(0)), fmpq(1))
-    with pytest.raises(StepFailed, match="step 1"):
+    with pytest.raises(StepFailed, match="step 1") as left:
         final(scheme(RK4, falling), H, 1)
+    assert "an earlier final time" in (left.value.help or "")
 
 
 @pytest.mark.parametrize(

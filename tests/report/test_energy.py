@@ -96,7 +96,8 @@ def test_what_is_said_of_blow_ups() -> None:
     ("symplecticity", "said"),
     [
         (Symplecticity(True), "yes, by its coefficients"),
-        (Symplecticity(False), "not proved by its coefficients"),
+        (Symplecticity(False), "not proved by its coefficients; --symplecticity measures\n"),
+        (Symplecticity(False, (Defect(fmpq(0), 1e-60, 2e-55),)), "not proved by its coefficients\n"),
         (Symplecticity(False, (Defect(fmpq(0), 0.25, 1e-55),)), "no\n"),
         (Symplecticity(False, (Defect(fmpq(0), 0.25, 1e-55),)), "has entries up to 2.500e-01, good to 1e-55"),
         (Symplecticity(False, (Defect(fmpq(0), 1e-60, 2e-55), Defect(fmpq(5), 0, 3e-55))), "is below 3e-55"),
