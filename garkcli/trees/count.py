@@ -5,17 +5,27 @@ counted from trees by the Euler transform: for a forest whose trees have the cou
 
     n f(n) = Σ_{k=1..n} c(k) f(n - k),      c(k) = Σ_{d | k} d t(d),      f(0) = 1.
 
-Source: Harary and Palmer, *Graphical Enumeration* (1973), chapter 3; Butcher, *B-Series* (2021), chapter 2.
+The t(n) that c(n) needs is a sum of f(n - 1), so the convolution is one of sequences that are still growing. It is
+taken in blocks, of half the orders, a quarter, and so on, each a product of polynomials: O(M(n) log n) with M(n)
+the time of a product.
+
+Source: Harary and Palmer, *Graphical Enumeration* (1973), chapter 3; Butcher, *B-Series* (2021), chapter 2; van der
+Hoeven, "Relax, but don't be too lazy", J. Symb. Comput. 34 (2002) 479.
 """
 
 from __future__ import annotations
 
+from collections import Counter
 from dataclasses import dataclass
 from typing import TYPE_CHECKING, TypeAlias
+
+from flint import fmpz, fmpz_poly
 
 if TYPE_CHECKING:
     from collections.abc import Collection, Sequence
 
+SHORT = 48
+"""Orders in a block that is done one by one: products of polynomials this short gain nothing."""
 Edges: TypeAlias = "Sequence[Sequence[bool]]"
 """``edges[l][m]``: a vertex of colour l may carry a branch whose root has colour m; colours from 0."""
 
@@ -56,10 +66,13 @@ class Admissible:
         """Whether a vertex of this colour carries one branch at most."""
         return colour in self.linear
 
-    def twin(self, colour: int) -> int:
-        """The first colour on which the same branches may stand: the trees differ in their roots only."""
-        natures = [(row, other in self.linear) for other, row in enumerate(self.branches)]
-        return natures.index(natures[colour])
+    @property
+    def leaders(self) -> tuple[int, ...]:
+        """For each colour the first on which the same branches may stand: the trees differ in their roots only."""
+        first: dict[tuple[tuple[int, ...], bool], int] = {}
+        return tuple(
+            first.setdefault((row, colour in self.linear), colour) for colour, row in enumerate(self.branches)
+        )
 
 
 def counts_upto(admissible: Admissible, order: int) -> list[tuple[int, ...]]:
@@ -68,22 +81,9 @@ def counts_upto(admissible: Admissible, order: int) -> list[tuple[int, ...]]:
     >>> counts_upto(Admissible.of(2, [[False, True], [True, True]]), 3)
     [(1, 1), (1, 2), (3, 6)]
     """
-    if order < 1:
-        raise ValueError(f"the order of a tree is at least 1, not {order}")
-    twins = [admissible.twin(colour) for colour in range(admissible.colours)]
-    forests: dict[int, list[int]] = {leader: [1] for leader in twins}  # f(n) of what stands on a colour
-    divisor_sums: dict[int, list[int]] = {leader: [0] * order for leader in twins}  # c(n)
-    counts = [tuple(1 for _ in twins)]
-    for n in range(1, order):
-        for leader, f in forests.items():
-            c = divisor_sums[leader]
-            t = sum(counts[n - 1][colour] for colour in admissible.branches[leader])
-            for multiple in range(n, order, n):
-                c[multiple] += n * t
-            alone = admissible.is_linear(leader)
-            f.append(t if alone else sum(c[k] * f[n - k] for k in range(1, n + 1)) // n)
-        counts.append(tuple(forests[leader][n] for leader in twins))
-    return counts
+    leaders = admissible.leaders
+    forests = {leader: [*map(int, f)] for leader, f in _forests(admissible, leaders, order).items()}
+    return [*zip(*(forests[leader] for leader in leaders), strict=True)]
 
 
 def count_by_root(
@@ -96,7 +96,87 @@ def count_by_root(
     >>> count_by_root(2, 4)
     (26, 26)
     """
-    return counts_upto(Admissible.of(colours, edges, linear), order)[-1]
+    admissible = Admissible.of(colours, edges, linear)
+    leaders = admissible.leaders
+    last = {leader: int(f[-1]) for leader, f in _forests(admissible, leaders, order).items()}
+    return tuple(last[leader] for leader in leaders)
+
+
+def _forests(admissible: Admissible, leaders: Sequence[int], order: int) -> dict[int, list[fmpz]]:
+    """For each leader the numbers of forests f(0), …, f(order - 1) that may stand on it."""
+    if order < 1:
+        raise ValueError(f"the order of a tree is at least 1, not {order}")
+    growing = {
+        leader: _Growing(
+            order, Counter(leaders[m] for m in admissible.branches[leader]), leader in admissible.linear
+        )
+        for leader in dict.fromkeys(leaders)
+    }
+    block = order
+    while block > SHORT:
+        block = (block + 1) // 2
+    for start in range(0, order, block):
+        end = min(start + block, order)
+        for n in range(max(start, 1), end):
+            for one in growing.values():
+                one.see(n, growing)
+            for one in growing.values():
+                one.grow(n, start)
+        for one in growing.values():
+            one.spread(end, block)
+    return {leader: one.f for leader, one in growing.items()}
+
+
+class _Growing:
+    """The forests on a colour, f(0), f(1), …, as far as they are counted."""
+
+    def __init__(self, order: int, branches: Counter[int], is_linear: bool) -> None:
+        self.branches, self.is_linear = branches, is_linear
+        self.f = [fmpz(1)]
+        self.t = [fmpz(0)]  # the trees of each order that may be branches
+        self.c = [fmpz(0)] * order  # the sums c(n), complete up to the last t
+        self.sums = [fmpz(0)] * order  # the part of Σ c(k) f(n - k), 0 < k < n, of blocks that are done
+
+    def see(self, n: int, growing: dict[int, _Growing]) -> None:
+        """Note the trees of order n, each a root on a forest of n - 1 vertices."""
+        t = sum((many * growing[leader].f[n - 1] for leader, many in self.branches.items()), start=fmpz(0))
+        self.t.append(t)
+        if not self.is_linear:
+            for multiple in range(n, len(self.c), n):
+                self.c[multiple] += n * t
+
+    def grow(self, n: int, start: int) -> None:
+        """Count the forests of n vertices; what blocks before ``start`` give is known."""
+        if self.is_linear:
+            self.f.append(self.t[n])
+            return
+        f, c = self.f, self.c
+        total = self.sums[n] + c[n]
+        if start:
+            total += sum((c[k] * f[n - k] + f[k] * c[n - k] for k in range(start, n)), start=fmpz(0))
+        else:
+            total += sum((c[k] * f[n - k] for k in range(1, n)), start=fmpz(0))
+        f.append(total // n)
+
+    def spread(self, end: int, block: int) -> None:
+        """Add to the sums of later orders what the blocks before ``end`` give to them.
+
+        ``end`` is the middle of one interval [start, stop) among those that halve [0, 2^k block). Every pair of
+        orders i and j = n - i has one interval where max(i, j) lies in the first half and n in the second; so it
+        is counted once. Unless the interval begins at 0, j is below its length, hence below ``start``.
+        """
+        half = (end // block & -(end // block)) * block
+        start, stop = end - half, min(end + half, len(self.c))
+        if self.is_linear or stop <= end:
+            return
+        f, c = self.f, self.c
+        if start:
+            near = stop - start
+            product = fmpz_poly(f[start:end]) * fmpz_poly(c[:near]) + fmpz_poly(c[start:end]) * fmpz_poly(f[:near])
+        else:
+            product = fmpz_poly(f) * fmpz_poly(c[:end])
+        for n, coefficient in zip(range(end, stop), product.coeffs()[half:], strict=False):
+            self.sums[n] += coefficient
 
 
 def count_trees(colours: int, order: int, edges: Edges | None = None, linear: Collection[int] = ()) -> int:
