@@ -42,7 +42,11 @@ def load(path: str) -> MethodFile:
         MethodFileError: every fault of the file, with positions.
     """
     if path != STDIN and Path(path).is_dir():
-        fault = Fault(f"no {SUFFIX} files in this directory", "name the files, or rename them")
+        first = next(find_files([path]))
+        if first == path:
+            fault = Fault(f"no {SUFFIX} files in this directory", "name the files, or rename them")
+        else:
+            fault = Fault("a directory, where one method file is expected", f"name one, such as {first}")
         raise MethodFileError(path, [fault])
     return loads(*read_text(path, METHOD_FILE))
 

@@ -137,3 +137,12 @@ def test_more_digits() -> None:
     assert run.code == 0
     assert "400 steps, 40 digits" in run.out
     assert "bounded: no drift" in run.out
+
+
+def test_a_directory_is_no_method(tmp_path: Path) -> None:
+    """One file is followed: a directory is refused, with one of its files as a proposal where it has any."""
+    run = gark("energy", "methods")
+    assert run.code == 2
+    assert "methods: error: a directory, where one method file is expected" in run.err
+    assert "such as methods/ark-ars222.gark.yaml" in run.err
+    assert "no .gark.yaml files in this directory" in gark("energy", str(tmp_path)).err
