@@ -8,7 +8,7 @@ from typing import TYPE_CHECKING
 
 import click
 
-from garkcli.cli.converging import Problems, Wanted, compared, oscillator, tested
+from garkcli.cli.converging import Problems, Wanted, compared, hint_rounding, oscillator, tested
 from garkcli.cli.options import CONTEXT, Output, common
 from garkcli.cli.problems import ProblemType, note_changing
 from garkcli.cli.stepping import applied, positive
@@ -150,6 +150,7 @@ def _one(path: str, wanted: Wanted, shown: Shown, output: Output) -> int:
         click.echo(f"gark: {error.message}\nhelp: {error.help}", err=True)
         return 1
     output.write(report.render(result, method.name, output.format, output.paint, shown.work))
+    hint_rounding(method, tableau, result, output)
     if shown.plot is not None:
         from garkcli.report.plot import comparison_figure, convergence_figure
 

@@ -107,6 +107,21 @@ def tested(method: MethodFile, tableau: Tableau, wanted: Wanted, problems: Probl
     return observe(tableau, problems.of(tableau), wanted.t_end, wanted.steps, method.tolerance, wanted.work, watch)
 
 
+def hint_rounding(method: MethodFile, tableau: Tableau, result: Result, output: Output, path: str = "") -> None:
+    """Where observed and exact order disagree because coefficients look rounded: the line that is missing."""
+    if result.verdict != "disagree" or method.tolerance is not None:
+        return
+    from garkcli.order.certificate import find_order
+    from garkcli.order.suggestion import suggest_tolerance
+
+    found = suggest_tolerance(tableau, find_order(tableau))
+    if found is not None:
+        where = f"{path}: " if path else ""
+        output.note(
+            f"{where}hint: the coefficients look rounded; with the line  {found.line}  the order is {found.order}"
+        )
+
+
 def _on_oscillator(method: MethodFile, tableau: Tableau, wanted: Wanted) -> Result:
     from garkcli.dynamics.convergence import converge
 
@@ -162,6 +177,9 @@ def compared(paths: Sequence[str], wanted: Wanted, output: Output) -> list[Entry
         for k, (path, found) in enumerate(zip(paths, methods, strict=True), start=1):
             prefixed = _prefixed(watch, f"{k}/{len(paths)}")
             entries.append(_entry(path, *found, wanted, problems, prefixed) if isinstance(found, tuple) else found)
+    for path, found, entry in zip(paths, methods, entries, strict=True):
+        if isinstance(found, tuple) and entry.result is not None:
+            hint_rounding(*found, entry.result, output, path)
     return entries
 
 

@@ -164,3 +164,21 @@ def test_options_that_do_not_go_together(said: str, arguments: tuple[str, ...]) 
     run = gark("converge", *arguments)
     assert (run.code, run.out) == (2, "")
     assert run.err.count(said) == 1
+
+
+def test_rounded_coefficients_are_hinted_at(tmp_path: Path) -> None:
+    """Gauss 2 in 13 digits has order 2 and shows 4: the line that is missing is said, and with it they agree."""
+    text = """
+ark:
+  A: [[[0.25, -0.0386751345948], [0.5386751345948, 0.25]]]
+  b: [[0.5, 0.5]]
+"""
+    rounded, toleranced = tmp_path / "rounded.gark.yaml", tmp_path / "toleranced.gark.yaml"
+    rounded.write_text(text, encoding="utf-8")
+    toleranced.write_text(f"{text}tolerance: 1e-13\n", encoding="utf-8")
+    hint = "hint: the coefficients look rounded; with the line  tolerance: 1e-13  the order is 4"
+    alone = gark("converge", str(rounded))
+    assert (alone.code, hint in alone.err) == (1, True)
+    both = gark("converge", str(rounded), str(toleranced))
+    assert (both.code, both.err.count(hint)) == (1, 1)
+    assert gark("converge", str(toleranced)).code == 0
