@@ -33,9 +33,10 @@ class Program:
     """A step as text.
 
     Attributes:
-        source: of ``run(state, w, first, count)``. A state is the list of (q, p), what they have lost in their last
-            digits, and what the starts of Newton's method missed in the last step and how that changed; the
-            result is the new state, the number of iterations of each implicit block, and the number of Jacobians.
+        source: of ``run(state, w, first, count, record)``. A state is the list of (q, p), what they have lost in
+            their last digits, and what the starts of Newton's method missed in the last step and how that changed;
+            the result is the new state, the number of iterations of each implicit block, and the number of
+            Jacobians. ``record``, unless it is None, is called with (q, p) after each step.
         coefficients: of which stage and value the coefficient a is that each w is h times; of no stage for b.
         formulas: all that the text was made of.
         size: of a state.
@@ -99,7 +100,7 @@ class _Writer:
         state = ", ".join((*y, *lost, *starts))
         counts = _names("n", len(implicit))
         w = list(self.weights.values())
-        self.lines = ["def run(state, w, first, count):"]
+        self.lines = ["def run(state, w, first, count, record):"]
         self.indent = " "
         self._write(f"{state}, = state")
         if w:
@@ -148,6 +149,8 @@ class _Writer:
             self._add(i)
         self._write(f"if not {self._finite(_names('y', 2 * self.d))}:")
         self._write(" raise NotSolved(number, inf)")
+        self._write("if record:")
+        self._write(f" record([{', '.join(_names('y', 2 * self.d))}])")
         return self.lines
 
     def _add(self, i: int) -> None:

@@ -123,7 +123,7 @@ class Record:
         for number in self._wanted:
             if start <= number <= self.done:
                 self.states[number] = tuple(states[number - start])
-        self._count_turns(np.array([[float(x) for x in y] for y in states[: len(errors)]]))
+        self._count_turns(np.array(states[: len(errors)], dtype=np.float64))
 
     def _chosen(self, errors: Floats, start: int) -> list[int]:
         if self._span == 1:

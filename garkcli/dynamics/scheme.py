@@ -25,7 +25,9 @@ if TYPE_CHECKING:
 
 Real: TypeAlias = Any
 """A float, or the midpoint of a ball with the digits of the scheme."""
-Run: TypeAlias = Callable[[list[Real], list[Real], int, int], tuple[list[Real], list[int], int]]
+Record: TypeAlias = Callable[[list[Real]], None]
+"""Is given (q, p) after a step, shape (2d,)."""
+Run: TypeAlias = Callable[[list[Real], list[Real], int, int, Record | None], tuple[list[Real], list[int], int]]
 """See ``Program.source``."""
 
 

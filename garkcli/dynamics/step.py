@@ -21,8 +21,10 @@ from typing import Any
 
 from flint import ctx, fmpq
 
-from garkcli.dynamics.scheme import NotSolved, Real, Scheme
+from garkcli.dynamics.scheme import NotSolved, Real, Record, Scheme
 from garkcli.errors import GarkError
+
+_AHEAD = 64  # most steps in floats by which a trajectory is ahead of who looks at it
 
 
 class StepFailed(GarkError):
@@ -68,9 +70,19 @@ def trajectory(
     """
     state = State(scheme, h, initial)
     yield state.y
+    if every > 1 or scheme.is_for_balls:
+        while state.done < count:
+            state.advance(min(every, count - state.done))
+            yield state.y
+        return
     while state.done < count:
-        state.advance(min(every, count - state.done))
-        yield state.y
+        states: list[list[Real]] = []
+        try:
+            state.advance(min(_AHEAD, count - state.done), states.append)
+        except StepFailed:
+            yield from states
+            raise
+        yield from states
 
 
 def final(scheme: Scheme, h: fmpq, count: int, initial: Sequence[Any] | None = None) -> list[Real]:
@@ -121,8 +133,8 @@ class State:
         repeated = sum(n * k for n, k in zip(self._iterations, program.repeated, strict=True))
         return Work(self.done * program.evaluations + repeated, sum(self._iterations), self._jacobians)
 
-    def advance(self, count: int) -> None:
-        """``count`` steps.
+    def advance(self, count: int, record: Record | None = None) -> None:
+        """``count`` steps; ``record`` is told of each.
 
         Raises:
             StepFailed: the stage equations of a step were not solved.
@@ -130,9 +142,9 @@ class State:
         try:
             if self.scheme.is_for_balls:
                 with ctx.workprec(self.scheme.bits):
-                    made = self.scheme.run(self._numbers, self._weights, self.done + 1, count)
+                    made = self.scheme.run(self._numbers, self._weights, self.done + 1, count, record)
             else:
-                made = self.scheme.run(self._numbers, self._weights, self.done + 1, count)
+                made = self.scheme.run(self._numbers, self._weights, self.done + 1, count, record)
         except NotSolved as failure:
             raise StepFailed(failure.number, self.h, failure.residual) from None
         self._numbers, iterations, jacobians = made

@@ -54,6 +54,10 @@ def test_many_steps_are_single_steps(tableau: Tableau, name: str) -> None:
     assert len(singly) == 11
     assert final(made, fmpq(1, 20), 10) == singly[-1]
     assert list(trajectory(made, fmpq(1, 20), 10, every=3)) == [singly[k] for k in (0, 3, 6, 9, 10)]
+    state = State(made, fmpq(1, 20))
+    for k in range(11):
+        assert state.y == singly[k]
+        state.advance(1)
 
 
 @pytest.mark.parametrize(("tableau", "name"), METHODS)
@@ -161,6 +165,18 @@ def test_text_has_names_of_ours_only(tableau: Tableau, name: str) -> None:
         "corrections",
         "chain0",
     }
-    known |= {"list", "sin", "cos", "sqrt", "ArithmeticError", "ValueError", "state", "w", "first", "count"}
+    known |= {
+        "list",
+        "sin",
+        "cos",
+        "sqrt",
+        "ArithmeticError",
+        "ValueError",
+        "state",
+        "w",
+        "first",
+        "count",
+        "record",
+    }
     assert loaded - stored <= known
     assert not [x for x in ast.walk(tree) if isinstance(x, ast.Attribute | ast.Import)]
