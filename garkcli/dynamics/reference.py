@@ -26,6 +26,8 @@ _CALLS = 200  # of a watch in one run
 _STAGES = 60  # beyond, a step costs more than fewer of them save
 _SPARE = 10  # digits that round-off may grow by
 _CREDIT = 1e-6
+_FAR = 0.01  # part of the solution by which runs differ that have found none
+_REFINED = 64  # times the first number of steps with which they should have
 
 
 def run(made: Scheme, h: fmpq, count: int, watch: Watch | None = None, what: str = "") -> State:
@@ -102,7 +104,7 @@ def _solved(
     stages = min(_STAGES, max(6, 2 * digits // 5))
     method = scheme(gark([diagonal_method("gauss", stages)], {}), problem, digits + _SPARE)
     before: list[Any] = []
-    fewer = 0
+    fewer, enough = 0, max(MAX_TRIED // 2, _REFINED * steps)
     while True:
         if steps > MAX_STEPS:
             raise UsageProblem(
@@ -129,6 +131,11 @@ def _solved(
             ratio = arb(fewer) / steps
             if change * max(ratio**stages, arb(_CREDIT)) <= goal:  # both are 0 where the solution rests at 0
                 return tuple(y), steps
+            if fewer > enough and change > _FAR * magnitude(y, problem):
+                raise UsageProblem(
+                    f"no solution is found at t = {t_end}: {fewer} and {steps} steps end far from each other",
+                    "choose an earlier final time: it comes near a singularity, or depends on its start too much",
+                )
             excess = float((change * ratio ** (2 * stages) / goal).mid())
         before, fewer = y, steps
         factor = 1.1 * excess ** (1 / stages) if excess > 0 else 1.3

@@ -67,13 +67,14 @@ def test_watch_is_told() -> None:
     assert all(0 < done <= total for _, done, total in said)
 
 
-def test_collision_has_no_solution() -> None:
+@pytest.mark.parametrize("digits", [16, 21])
+def test_collision_has_no_solution(digits: int) -> None:
     """A planet without angular momentum falls into the sun at t = π/√8: nothing is made up beyond."""
     from dataclasses import replace
 
     problem = replace(hamiltonian("kepler", 1), initial=(fmpq(1), fmpq(0), fmpq(0), fmpq(0)))
     with pytest.raises((StepFailed, UsageProblem)):
-        Reference(problem, fmpq(2)).to(16)
+        Reference(problem, fmpq(2)).to(digits)
 
 
 def test_a_solution_that_ends_is_told_when() -> None:
