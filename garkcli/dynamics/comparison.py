@@ -15,5 +15,4 @@ def gathered(problem: Hamiltonian, terms: int) -> Hamiltonian:
     ['px**2/2 - cos(x) + 1']
     """
     first, rest = problem.terms[: terms - 1], problem.terms[terms - 1 :]
-    split = (*first, sum(rest))
-    return replace(problem, terms=split, has_equal_parts=len(set(split)) < len(split))
+    return replace(problem, terms=(*first, sum(rest)))

@@ -70,15 +70,7 @@ def _split(name: str, made: Mechanical, terms: int) -> Hamiltonian:
         split = (T, *parts)
     else:
         split = (T, *(sympy.expand(V / (terms - 1)),) * (terms - 1))
-    return Hamiltonian(
-        name,
-        made.variables,
-        split,
-        made.initial,
-        made.t_end,
-        made.invariants(*q, *p),
-        has_equal_parts=len(set(split)) < len(split),
-    )
+    return Hamiltonian(name, made.variables, split, made.initial, made.t_end, made.invariants(*q, *p))
 
 
 def _generic(terms: int, seed: int) -> Hamiltonian:

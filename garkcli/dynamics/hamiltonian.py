@@ -34,8 +34,6 @@ class Hamiltonian:
         initial: q(0), then p(0), shape (2d,).
         t_end: the default final time of a convergence test, in units of time.
         invariants: first integrals besides H: a name and an expression each.
-        has_equal_parts: whether several terms are the same function, so that trees of different colours have
-            the same elementary differential and their errors may cancel.
         is_generic: whether it is made to see every tree, so that no order above that of the method is to be seen.
     """
 
@@ -45,7 +43,6 @@ class Hamiltonian:
     initial: tuple[fmpq, ...]
     t_end: fmpq
     invariants: tuple[tuple[str, Any], ...] = ()
-    has_equal_parts: bool = False
     is_generic: bool = False
 
     @property
@@ -60,9 +57,7 @@ class Hamiltonian:
 
     def unsplit(self) -> Hamiltonian:
         """The same problem in one term."""
-        return Hamiltonian(
-            self.name, self.variables, (self.energy,), self.initial, self.t_end, self.invariants, False
-        )
+        return Hamiltonian(self.name, self.variables, (self.energy,), self.initial, self.t_end, self.invariants)
 
 
 @cache

@@ -31,7 +31,7 @@ def fit(problem: Hamiltonian, terms: int) -> Hamiltonian:
             if found > 1
             else f"give a list of {terms} in its file: no sum of parts with and without momenta",
         )
-    return replace(problem, terms=split, has_equal_parts=terms > 2)
+    return replace(problem, terms=split)
 
 
 def _natural(problem: Hamiltonian, terms: int) -> tuple[Any, ...] | None:

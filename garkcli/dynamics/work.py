@@ -78,7 +78,7 @@ def hamiltonian_of(oscillator: Oscillator, t_end: fmpq) -> Hamiltonian:
     half, omega = sympy.Rational(1, 2), _rational(oscillator.omega)
     terms = tuple(half * _rational(k) * p**2 + half * omega**2 * _rational(v) * q**2 for k, v in oscillator.shares)
     start = (fmpq(1), oscillator.omega / 2)
-    return Hamiltonian("oscillator", ("q",), terms, start, t_end, has_equal_parts=len(set(terms)) < len(terms))
+    return Hamiltonian("oscillator", ("q",), terms, start, t_end)
 
 
 def _rational(x: fmpq) -> Any:

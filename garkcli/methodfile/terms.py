@@ -87,15 +87,13 @@ class Maker:
         self._check_fields(terms, at)
         self._check_values(invariants, at)
         self.source.close()
-        split = tuple(x.made for x in terms)
         return Hamiltonian(
             self.text.name,
             self.text.variables,
-            split,
+            tuple(x.made for x in terms),
             tuple(at.values()),
             self.text.t_end,
             tuple((x.where.removeprefix("invariants: "), x.made) for x in invariants),
-            has_equal_parts=len(set(split)) < len(split),
         )
 
     def _initial(self) -> dict[str, fmpq] | None:

@@ -43,7 +43,6 @@ def test_smallest_file() -> None:
     assert problem.initial == (fmpq(1), fmpq(0))
     assert problem.t_end == 2
     assert problem.invariants == ()
-    assert not problem.has_equal_parts
 
 
 def test_every_key() -> None:
@@ -79,7 +78,6 @@ def test_every_key() -> None:
     assert problem.initial == (fmpq(1, 5), fmpq(1, 3), fmpq(-1, 10), fmpq(1, 4))
     assert problem.t_end == fmpq(5, 2)
     assert problem.invariants == (("J", x * py - y * px),)
-    assert problem.has_equal_parts
 
 
 @pytest.mark.parametrize("name", ["kepler", "double-pendulum"])
