@@ -13,7 +13,7 @@ from flint import arb_mat, ctx, fmpq
 from garkcli.exact.display import to_ball
 from garkcli.exact.field import Algebraic, Number
 from garkcli.exact.matrix import Matrix, Vector
-from garkcli.tableau.pointwise import powers_of_nodes
+from garkcli.tableau.pointwise import coordinates_at_nodes, powers_of_nodes
 from garkcli.tableau.stages import PolynomialSpace, StageSpace
 
 FIRST_BITS = 128
@@ -84,6 +84,6 @@ def _at_nodes(space: StageSpace, other: StageSpace | None, matrix: Matrix, dual:
     digits = int(ctx.prec * 0.302)
     balls = arb_mat([[to_ball(x, digits) for x in row] for row in matrix])
     if isinstance(space, PolynomialSpace):
-        V = powers_of_nodes(space)
-        balls = V.inv().transpose() * balls if dual else V * balls
-    return balls * powers_of_nodes(other).inv() if isinstance(other, PolynomialSpace) else balls
+        to_nodes = coordinates_at_nodes(space).transpose() if dual else powers_of_nodes(space)
+        balls = to_nodes * balls
+    return balls * coordinates_at_nodes(other) if isinstance(other, PolynomialSpace) else balls

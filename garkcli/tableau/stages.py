@@ -25,6 +25,7 @@ from garkcli.exact.matrix import (
     SingularMatrixError,
     Vector,
     apply,
+    apply_left,
     dot,
     identity,
     is_rational,
@@ -195,10 +196,27 @@ class PolynomialSpace(StageSpace):
     def _higher(self) -> Matrix:
         return self.reductions(2 * self.stages - 1)
 
+    @cached_property
+    def _higher_in_flint(self) -> fmpq_mat:
+        return to_flint(self._higher, 2 * self.stages - 1)
+
     def times(self, functional: Vector, v: Vector) -> Vector:
-        moments = tuple(dot(functional, column) for column in transpose(self._higher))
-        s = self.stages
+        s, moments = self.stages, self._moments(functional)
+        if is_rational((moments, v)):
+            turned, f = (fmpq_poly(cast("list[fmpq]", list(w))) for w in (v[::-1], moments))
+            product = turned * f
+            return tuple(product[s - 1 + j] for j in range(s))
         return tuple(dot(v, moments[j : j + s]) for j in range(s))
+
+    def gram(self, weights: Vector) -> Matrix:
+        s, moments = self.stages, self._moments(weights)
+        return tuple(moments[i : i + s] for i in range(s))
+
+    def _moments(self, functional: Vector) -> Vector:
+        """The functional on 1, x, …, x^(2s−2)."""
+        if is_rational((functional,)):
+            return tuple((to_flint((functional,), self.stages) * self._higher_in_flint).entries())
+        return apply_left(functional, self._higher)
 
     def reductions(self, count: int) -> Matrix:
         power, columns = fmpq_poly([1]) % self.modulus, []

@@ -5,22 +5,30 @@ from __future__ import annotations
 from collections.abc import Sequence
 from fractions import Fraction
 from random import Random
+from time import process_time
 
 import pytest
-from flint import arb, fmpq, fmpq_poly
+from flint import arb, ctx, fmpq, fmpq_poly
 from hypothesis import given
 from hypothesis import strategies as st
 
 from garkcli.errors import CoincidingNodes, ShapeMismatch
 from garkcli.exact.display import to_ball, to_float
-from garkcli.exact.matrix import Vector, apply
+from garkcli.exact.matrix import Vector, apply, dot
 from garkcli.families.registry import diagonal_method
 from garkcli.order.certificate import find_order
 from garkcli.order.simplifying import simplifying
 from garkcli.tableau.conjugate import conjugate
 from garkcli.tableau.forms import gark, pair, spelled_out
 from garkcli.tableau.method import butcher
-from garkcli.tableau.pointwise import Cell, entries, in_points, numeric_entries
+from garkcli.tableau.pointwise import (
+    Cell,
+    coordinates_at_nodes,
+    entries,
+    in_points,
+    numeric_entries,
+    powers_of_nodes,
+)
 from garkcli.tableau.stages import PointSpace, PolynomialSpace
 from garkcli.tableau.tableau import Colour, Tableau
 from garkcli.transfer import collocation
@@ -117,6 +125,40 @@ def test_evaluation_is_a_homomorphism(nodes: list[fmpq], data: st.DataObject) ->
     columns = list(zip(*space.reductions(2 * len(nodes)), strict=True))
     assert [at_nodes(column) for column in columns] == powers
     assert list(zip(*points.reductions(2 * len(nodes)), strict=True)) == powers
+
+
+def test_functionals_with_radicals() -> None:
+    """With irrational functionals and vectors, products and Gram matrices are what they are by definition."""
+    space = diagonal_method("gauss", 3).space
+    unit = [tuple(fmpq(int(i == j)) for j in range(3)) for i in range(3)]
+    (b, v) = numbers("1/2 - sqrt(3)/6, sqrt(3), 0", "sqrt(3)/7, 2, 1 - sqrt(3)")
+    for functional in (b, unit[1]):
+        for f in (v, unit[2]):
+            assert space.times(functional, f) == tuple(dot(functional, space.product(f, e)) for e in unit)
+        rows = tuple(tuple(dot(functional, space.product(e, f)) for f in unit) for e in unit)
+        assert space.gram(functional) == rows
+
+
+def test_nodes_are_as_precise_as_asked() -> None:
+    """What is kept of the nodes belongs to one precision: 60 bits after 300, and 300 after 60."""
+    space = diagonal_method("gauss", 7).space
+    assert isinstance(space, PolynomialSpace)
+    for bits in (300, 60, 300):
+        with ctx.workprec(bits):
+            V, W = powers_of_nodes(space), coordinates_at_nodes(space)
+            assert all((V * W)[i, j].contains(int(i == j)) for i in range(7) for j in range(7))
+            assert bits - 4 < V[3, 1].rel_accuracy_bits() < bits + 4
+    with ctx.workprec(16), pytest.raises(ZeroDivisionError):
+        coordinates_at_nodes(diagonal_method("gauss", 40).space)
+
+
+@pytest.mark.parametrize("tolerance", [fmpq(0), fmpq(1, 10**12)])
+def test_many_stages_are_soon_checked(tolerance: fmpq) -> None:
+    """Gauss with 60 stages: B, C and D to order 60 in seconds of the processor, with and without tolerance."""
+    before = process_time()
+    found = simplifying(gark([diagonal_method("gauss", 60)], {}), 60, tolerance)
+    assert (found.r, found.eta, found.zeta) == (60, 60, 60)
+    assert process_time() - before < 5
 
 
 @given(st.lists(rationals, min_size=1, max_size=3, unique=True), st.data())
