@@ -1,6 +1,6 @@
 """The Jacobian of an implicit block with many unknowns, by the chain rule in matrices.
 
-For few unknowns ``garkcli.dynamics.program`` writes every product out. Here the vertices of the explicit part are
+For few unknowns ``garkcli.dynamics.jacobian`` writes every product out. Here the vertices of the explicit part are
 gone through in layers, stage values and field evaluations in turn, each with its derivative by all n unknowns.
 """
 

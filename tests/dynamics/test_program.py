@@ -78,10 +78,10 @@ def test_jacobian_in_matrices_is_that_written_out(
 ) -> None:
     """The same steps, in as many iterations, whichever way the chain rule is done."""
     problem = hamiltonian(name, terms_of(fitted(tableau)))
-    monkeypatch.setattr("garkcli.dynamics.program._DIRECT", 0)
+    monkeypatch.setattr("garkcli.dynamics.newton._DIRECT", 0)
     states = []
     for written in (0, 1000):
-        monkeypatch.setattr("garkcli.dynamics.program._WRITTEN", written)
+        monkeypatch.setattr("garkcli.dynamics.newton._WRITTEN", written)
         made = scheme(fitted(tableau), problem, digits)
         assert bool(made.program.chains) == (written == 0 and bool(made.program.implicit))
         states.append(State(made, fmpq(1, 20)))
