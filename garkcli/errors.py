@@ -100,6 +100,15 @@ def did_you_mean(word: str, known: Iterable[str]) -> str:
     return f"did you mean {close[0]!r}?" if close else f"one of: {', '.join(known)}"
 
 
+def counted(count: int, noun: str, plural: str = "") -> str:
+    """A number of things.
+
+    >>> counted(1, "entry", "entries"), counted(2, "stage")
+    ('1 entry', '2 stages')
+    """
+    return f"{count} {noun if count == 1 else plural or noun + 's'}"
+
+
 class MethodFileError(GarkError):
     """A file that cannot be read as a method or a problem: every fault found in it, in file order."""
 

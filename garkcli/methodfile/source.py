@@ -129,7 +129,8 @@ class Source:
             self.faults.append(Fault(f"this is not YAML: {error.problem or error.context}", "", *place))
             return None
         except yaml.YAMLError as error:
-            self.faults.append(Fault(f"this is not YAML: {str(error).splitlines()[0]}", "", 1, 1))
+            place = _place_of_sign(self.text, getattr(error, "character", None))
+            self.faults.append(Fault(f"this is not YAML: {str(error).splitlines()[0]}", "", *place))
             return None
         except _TooLargeError as error:
             self.faults.append(Fault(error.message, error.cure, error.line, error.column))
@@ -253,7 +254,8 @@ def _folded_place(text: str, node: ScalarNode, offset: int) -> tuple[int, int]:
     """Where a value over several lines has its character ``offset``: YAML changes nothing but the space between."""
     position = node.start_mark.index
     if node.style in {"|", ">"}:
-        position = text.find("\n", position)
+        line_end = text.find("\n", position)
+        position = len(text) if line_end < 0 else line_end
     elif node.style:
         position += 1
     for sign in node.value[:offset]:
@@ -265,6 +267,13 @@ def _folded_place(text: str, node: ScalarNode, offset: int) -> tuple[int, int]:
         position += 1
     line = text.count("\n", 0, position)
     return line + 1, position - text.rfind("\n", 0, position)
+
+
+def _place_of_sign(text: str, code: object) -> tuple[int, int]:
+    """Where a sign that YAML refuses stands first; its parser in C counts bytes, not signs."""
+    position = text.find(chr(code), 1 if text.startswith("\ufeff") else 0) if isinstance(code, int) else 0
+    position = max(position, 0)
+    return text.count("\n", 0, position) + 1, position - text.rfind("\n", 0, position)
 
 
 def keys_of(node: Node) -> set[str]:

@@ -4,13 +4,14 @@ from __future__ import annotations
 
 from yaml.nodes import MappingNode, Node, SequenceNode
 
+from garkcli.errors import counted
 from garkcli.methodfile.description import ArkText, ButcherText, PrkText, Structure, TableauText
 from garkcli.methodfile.numbers import Numbers, Row, Rows
 from garkcli.methodfile.source import Source, is_null
 
 
 def _entries(count: int) -> str:
-    return "1 entry" if count == 1 else f"{count} entries"
+    return counted(count, "entry", "entries")
 
 
 class SpelledOutReader:
@@ -37,7 +38,7 @@ class SpelledOutReader:
             s = len(b)
             self.numbers.expect_shape(A, entries["A"], names[0], (s, s), f"{names[1]} has {_entries(s)}")
             if c is not None and len(c) != s:
-                self.source.fault(entries["c"], f"{names[2]} has {_entries(len(c))} for {s} stages")
+                self.source.fault(entries["c"], f"{names[2]} has {_entries(len(c))} for {counted(s, 'stage')}")
         name = self.source.scalar(entries["name"], f"{where}, name") if "name" in entries else ""
         return ButcherText(node, name or "", A, b, c) if A and b else None
 
@@ -142,9 +143,9 @@ class SpelledOutReader:
         for m, row in enumerate(b[:1] if shared else b, start=1):
             if len(row) != s:
                 which = "b" if shared else f"b^{{{m}}}"
-                self.source.fault(entries["b"], f"{which} has {_entries(len(row))} for {s} stages")
+                self.source.fault(entries["b"], f"{which} has {_entries(len(row))} for {counted(s, 'stage')}")
         if c is not None and len(c) != s:
-            self.source.fault(entries["c"], f"c has {_entries(len(c))} for {s} stages")
+            self.source.fault(entries["c"], f"c has {_entries(len(c))} for {counted(s, 'stage')}")
         return ArkText(A, b, c)
 
     def prk(self, node: Node, structure: Structure) -> PrkText | None:
@@ -165,5 +166,7 @@ class SpelledOutReader:
             why = f"q.b has {_entries(s_v)} and p.b has {s_f}"
             self.numbers.expect_shape(text.A, text.node, f"{part}.A", shape, why)
             if text.c is not None and len(text.c) != shape[0]:
-                self.source.fault(text.node, f"{part}.c has {_entries(len(text.c))} for {shape[0]} nodes")
+                self.source.fault(
+                    text.node, f"{part}.c has {_entries(len(text.c))} for {counted(shape[0], 'node')}"
+                )
         return PrkText(q, p)

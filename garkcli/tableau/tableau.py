@@ -7,7 +7,7 @@ from dataclasses import dataclass
 from functools import cached_property
 from typing import Literal, TypeAlias
 
-from garkcli.errors import ShapeMismatch
+from garkcli.errors import ShapeMismatch, counted
 from garkcli.exact.field import Algebraic, NumberField
 from garkcli.exact.matrix import Matrix, Vector
 from garkcli.tableau.stages import StageSpace
@@ -62,16 +62,17 @@ class Tableau:
             s = self.spaces[colour.rows].stages
             for what, row in (("b", colour.b), ("c", colour.c)):
                 if len(row) != s:
+                    found = counted(len(row), "entry", "entries")
                     raise ShapeMismatch(
-                        f"{what}^{{{number}}} has {len(row)} entries for {s} stages",
-                        f"give {s} entries",
+                        f"{what}^{{{number}}} has {found} for {counted(s, 'stage')}",
+                        f"give {counted(s, 'entry', 'entries')}",
                     )
         for (k, m), block in self.blocks.items():
             rows, columns = self.spaces[k].stages, self.space(m).stages
             if len(block) != rows or any(len(row) != columns for row in block):
                 raise ShapeMismatch(
                     f"the block {k + 1},{m + 1} is not {rows} by {columns}",
-                    f"it maps the {columns} stages of colour {m + 1} to {rows} stages",
+                    f"it maps {counted(columns, 'stage')} of colour {m + 1} to {counted(rows, 'stage')}",
                 )
 
     @property

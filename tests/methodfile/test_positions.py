@@ -49,6 +49,36 @@ def test_all_faults_of_a_file_come_at_once_and_in_file_order() -> None:
 
 
 @pytest.mark.parametrize(
+    ("text", "place"),
+    [
+        ("name: x\n# more\nmethods: [\1]\n", (3, 11)),
+        ("name: 🌲 é\nreference: \x1b[0m\n", (2, 12)),
+        ("\ufeffname: ü\x7f\n", (1, 9)),
+        ("\0", (1, 1)),
+    ],
+)
+def test_signs_that_yaml_refuses(text: str, place: tuple[int, int]) -> None:
+    """A control character is reported where it stands, whatever stands before it."""
+    (fault,) = faults(text)
+    assert "unacceptable character" in fault.message
+    assert (fault.line, fault.column) == place
+
+
+@pytest.mark.parametrize("text", ["|", ">", "name: a\ntransfer: |", "a: >-", "methods: |-\n"])
+def test_blocks_of_text_without_text(text: str) -> None:
+    """An empty block at the end of the file is a place too."""
+    assert all(fault.line >= 1 and fault.column >= 1 for fault in faults(text))
+
+
+def test_one_stage_is_no_plural() -> None:
+    """Sizes are counted in English."""
+    (fault,) = faults("methods: [{A: [[1]], b: [1], c: [1, 2]}]")
+    assert fault.message.endswith("has 2 entries for 1 stage")
+    (fault,) = faults("methods: [{A: [[1, 0], [0, 1]], b: [1, 1], c: [1]}]")
+    assert fault.message.endswith("has 1 entry for 2 stages")
+
+
+@pytest.mark.parametrize(
     ("scalar", "culprit"),
     [
         ("1/2 + gama", "gama"),
