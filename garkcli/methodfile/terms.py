@@ -11,6 +11,7 @@ from yaml.nodes import Node
 
 from garkcli.errors import ExpressionError, NoLegendreTransform
 from garkcli.exact.expression import Expression
+from garkcli.methodfile.expansion import too_long
 from garkcli.methodfile.formulas import BITS, PLACES, Formulas, nearby
 from garkcli.methodfile.source import Source, shortened
 
@@ -175,6 +176,7 @@ class Maker:
     def _transformed(self, lagrangians: list[_Term], start: dict[str, fmpq]) -> tuple[list[_Term], dict[str, fmpq]]:
         """The Hamiltonian terms, and the start with momenta."""
         from garkcli.dynamics.legendre import legendre
+        from garkcli.dynamics.mass import WRITE_HAMILTONIAN
         from garkcli.dynamics.start import initial_momenta
 
         moving = [x for x in lagrangians if x.made.free_symbols & set(self.v)]
@@ -187,6 +189,11 @@ class Maker:
         known = at if len(moving) == 1 or not has_velocities else {x: y for x, y in at.items() if x in self.q}
         found = []
         for term in lagrangians:
+            unsolved = too_long(term.made, self.v)
+            if unsolved is not None:
+                message = f"{term.where}: p = ∂L/∂v was not solved for {unsolved}, it is too long"
+                self.source.fault(term.node, message, WRITE_HAMILTONIAN)
+                continue
             try:
                 found.append(replace(term, made=legendre(term.made, self.text.variables, known)))
             except NoLegendreTransform as error:

@@ -22,6 +22,13 @@ def hostile_files() -> Mapping[str, str]:
     return {**_numbers(), **_repetitions(), **_sizes(), **_texts(), **_nestings()}
 
 
+def hostile_problems() -> Mapping[str, str]:
+    """Every hostile problem file by name."""
+    from tests.methodfile.test_hostile_problems import READ, REFUSED
+
+    return {**{name: text for name, (text, _) in REFUSED.items()}, **READ}
+
+
 def _numbers() -> Mapping[str, str]:
     """One coefficient that costs much."""
     primes, sevens, threes = (2, 3, 5, 7, 11), "7" * 900, "3" * 900

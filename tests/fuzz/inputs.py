@@ -34,24 +34,24 @@ def soup(random: Random, signs: Sequence[str] = WORDS, longest: int = 60) -> str
     return "".join(random.choice(signs) for _ in range(random.randrange(longest)))
 
 
-def damaged(random: Random, text: str) -> str:
+def damaged(random: Random, text: str, words: Sequence[str] = WORDS) -> str:
     """``text`` with a few pieces cut, doubled, swapped or replaced."""
     for _ in range(random.randrange(1, 6)):
         i, j = sorted((random.randrange(len(text) + 1), random.randrange(len(text) + 1)))
         j = min(j, i + random.choice((1, 3, 10, 100)))
-        piece = random.choice(("", text[i:j] * 2, random.choice(WORDS), chr(random.randrange(0x3000)), text[j:i]))
+        piece = random.choice(("", text[i:j] * 2, random.choice(words), chr(random.randrange(0x3000)), text[j:i]))
         text = text[:i] + piece + text[j:]
     return text
 
 
-def replaced(random: Random, text: str) -> str:
+def replaced(random: Random, text: str, words: Sequence[str] = WORDS) -> str:
     """``text`` with some of its words replaced by others: mostly good YAML that means something else."""
     lines = text.split("\n")
     for _ in range(random.randrange(1, 4)):
         k = random.randrange(len(lines))
-        words = lines[k].split(" ")
-        words[random.randrange(len(words))] = random.choice(WORDS)
-        lines[k] = " ".join(words)
+        pieces = lines[k].split(" ")
+        pieces[random.randrange(len(pieces))] = random.choice(words)
+        lines[k] = " ".join(pieces)
     return "\n".join(lines)
 
 

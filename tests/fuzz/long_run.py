@@ -1,10 +1,11 @@
 """Files at scale, in worker processes with limits.
 
-Run as ``python tests/fuzz/long_run.py --cases 200000 --seed 1 --jobs 2``.
+Run as ``python tests/fuzz/long_run.py --cases 200000 --seed 1 --jobs 2``; with ``--problems`` for problem files.
 
-A case is a fault when anything but an error of ``garkcli.errors`` comes out of the loader, when the loader takes
-longer than five seconds or needs more than 500 MB, or when the worker dies. Files that load and are small are
-analysed too, for as long as two seconds; there only an exception is a fault.
+A case is a fault when anything but ``MethodFileError`` comes out of the loader, when the loader takes longer than
+five seconds or needs more than 500 MB, or when the worker dies. Methods that load and are small are analysed too,
+for as long as two seconds; there only an exception is a fault. Seconds are those of the processor: how busy the
+machine is makes no difference.
 
 The alarm kills the worker rather than raising in it, so that no call into C escapes it; the next worker goes on
 after the case that did it. Prints one line of JSON; each faulty input is saved, and the exit code is 1 when there
@@ -18,45 +19,50 @@ import json
 import resource
 import signal
 import sys
-from collections.abc import Callable, Iterable
+import warnings
+from collections.abc import Callable, Iterable, Mapping
 from concurrent.futures import ThreadPoolExecutor
 from dataclasses import dataclass
 from multiprocessing import get_context
 from multiprocessing.connection import Connection
 from pathlib import Path
 from random import Random
-from time import perf_counter
+from time import perf_counter, process_time
 from typing import Literal
 
 sys.path.insert(0, str(Path(__file__).resolve().parents[2]))
 
 from garkcli.errors import GarkError, MethodFileError
 from garkcli.methodfile.load import loads
+from garkcli.methodfile.problem import loads_problem
 from garkcli.order.check import analyse
 from garkcli.tableau.tableau import Tableau
-from tests.fuzz.hostile import hostile_files
+from tests.fuzz.hostile import hostile_files, hostile_problems
 from tests.fuzz.inputs import method_file, radical_file, seeds
+from tests.fuzz.problem_inputs import SMALL, problem_file, problem_seeds
 
 SECONDS = 5.0
-"""Longest time of the loader."""
+"""Longest time of the loader, of the processor."""
 MEGABYTES = 500
 """Most memory of a worker beyond that of its start."""
 ANALYSIS_SECONDS = 2.0
-"""How long an analysis may take before it is left."""
+"""How long an analysis may take before it is left, of the processor."""
 BATCH = 2_000
 """Cases for one worker."""
 RARE = 400
 """Every so many cases, one with many radicals."""
+GOOD = "methods: [{family: gauss, stages: 2}]"
+"""A method to begin with."""
 FAULTS = Path(".hypothesis") / "faults"
 """Where faulty inputs are saved."""
 
 
 @dataclass(frozen=True)
 class Case:
-    """What came of one case; ``seconds`` are those of the loader."""
+    """What came of one case; ``seconds`` are those of the loader, of the processor."""
 
     number: int
-    kind: Literal["method", "refused", "fault"]
+    kind: Literal["loaded", "refused", "fault"]
     seconds: float = 0.0
     analysis: Literal["none", "done", "left"] = "none"
     error: str = ""
@@ -64,19 +70,37 @@ class Case:
 
 @dataclass(frozen=True)
 class Cases:
-    """Where inputs come from: the random generators with a seed, or the hostile files when there is none."""
+    """Where inputs come from: the random generators with a seed, or the hostile files when there is none.
+
+    ``seconds`` is the longest time of the loader, of the processor.
+    """
 
     seed: int | None
+    are_problems: bool = False
+    seconds: float = SECONDS
+
+    def load(self, text: str) -> Tableau | None:
+        """What is tried: a method to analyse further, or a problem."""
+        if self.are_problems:
+            loads_problem(text)
+            return None
+        return loads(text).tableau
+
+    def hostile(self) -> Mapping[str, str]:
+        """The hostile files by name."""
+        return hostile_problems() if self.are_problems else hostile_files()
 
     def reader(self) -> Callable[[int], str]:
         """The input of each number."""
         if self.seed is None:
-            hostile = list(hostile_files().values())
+            hostile = list(self.hostile().values())
             return hostile.__getitem__
-        files = seeds()
+        files = problem_seeds() if self.are_problems else seeds()
 
         def text_of(number: int) -> str:
             random = Random(f"{self.seed}/{number}")
+            if self.are_problems:
+                return problem_file(random, files)
             return method_file(random, files) if number % RARE else radical_file(random)
 
         return text_of
@@ -88,35 +112,37 @@ class _LateError(Exception):
 
 def work(cases: Cases, numbers: range, results: Connection) -> None:
     """In a worker: run ``numbers`` and send what came of each."""
+    warnings.simplefilter("error")  # a warning is a fault too
     text_of = cases.reader()
+    cases.load(SMALL[0] if cases.are_problems else GOOD)  # what is imported late is no part of the first case
     pages = int(Path("/proc/self/statm").read_text().split()[0])
     roof = pages * resource.getpagesize() + MEGABYTES * 2**20
     resource.setrlimit(resource.RLIMIT_AS, (roof, roof))
     for number in numbers:
-        results.send(_run(number, text_of(number)))
+        results.send(_run(cases, number, text_of(number)))
     results.close()
 
 
-def _run(number: int, text: str) -> Case:
-    start = perf_counter()
+def _run(cases: Cases, number: int, text: str) -> Case:
+    start = process_time()
     try:
-        signal.signal(signal.SIGALRM, signal.SIG_DFL)  # ends the worker
-        signal.setitimer(signal.ITIMER_REAL, SECONDS)
-        tableau = loads(text).tableau
+        signal.signal(signal.SIGPROF, signal.SIG_DFL)  # ends the worker
+        signal.setitimer(signal.ITIMER_PROF, cases.seconds)
+        tableau = cases.load(text)
     except MethodFileError as error:
-        seconds = perf_counter() - start
+        seconds = process_time() - start
         if not error.faults or any(fault.line < 1 or fault.column < 1 for fault in error.faults):
             return Case(number, "fault", seconds, error="a fault without a place")
         return Case(number, "refused", seconds)
     except Exception as error:
-        return Case(number, "fault", perf_counter() - start, error=repr(error)[:200])
+        return Case(number, "fault", process_time() - start, error=repr(error)[:200])
     finally:
-        signal.setitimer(signal.ITIMER_REAL, 0)
-    seconds = perf_counter() - start
-    if tableau.size > 3 or any(space.stages > 6 for space in tableau.spaces):
-        return Case(number, "method", seconds)
+        signal.setitimer(signal.ITIMER_PROF, 0)
+    seconds = process_time() - start
+    if tableau is None or tableau.size > 3 or any(space.stages > 6 for space in tableau.spaces):
+        return Case(number, "loaded", seconds)
     try:
-        return Case(number, "method", seconds, "done" if _is_analysed(tableau) else "left")
+        return Case(number, "loaded", seconds, "done" if _is_analysed(tableau) else "left")
     except Exception as error:
         return Case(number, "fault", seconds, error=f"analyse: {error!r}"[:200])
 
@@ -125,16 +151,16 @@ def _is_analysed(tableau: Tableau) -> bool:
     def late(*_: object) -> None:
         raise _LateError
 
-    signal.signal(signal.SIGALRM, late)
+    signal.signal(signal.SIGPROF, late)
     try:
-        signal.setitimer(signal.ITIMER_REAL, ANALYSIS_SECONDS)
+        signal.setitimer(signal.ITIMER_PROF, ANALYSIS_SECONDS)
         analyse(tableau, limit=12)
     except _LateError:
         return False
     except GarkError as error:
         raise RuntimeError(f"{type(error).__name__} from a method that loads") from error
     finally:
-        signal.setitimer(signal.ITIMER_REAL, 0)
+        signal.setitimer(signal.ITIMER_PROF, 0)
     return True
 
 
@@ -149,9 +175,9 @@ def run(cases: Cases, numbers: range) -> list[Case]:
         done += _received(receiver)
         worker.join()
         if len(done) < len(numbers):
-            late = worker.exitcode == -signal.SIGALRM
-            error = f"longer than {SECONDS:g} s" if late else f"the worker ended with {worker.exitcode}"
-            done.append(Case(numbers[len(done)], "fault", SECONDS if late else 0.0, error=error))
+            late = worker.exitcode == -signal.SIGPROF
+            error = f"longer than {cases.seconds:g} s" if late else f"the worker ended with {worker.exitcode}"
+            done.append(Case(numbers[len(done)], "fault", cases.seconds if late else 0.0, error=error))
     return done
 
 
@@ -164,16 +190,17 @@ def _received(receiver: Connection) -> Iterable[Case]:
 
 
 def summary(results: list[Case], elapsed: float) -> dict[str, float]:
-    """The figures of a run."""
-    count = {kind: sum(case.kind == kind for case in results) for kind in ("method", "refused", "fault")}
+    """The figures of a run: ``slowest`` and ``loading`` are processor seconds, ``seconds`` those of a clock."""
+    count = {kind: sum(case.kind == kind for case in results) for kind in ("loaded", "refused", "fault")}
     return {
         "cases": len(results),
-        "methods": count["method"],
+        "loaded": count["loaded"],
         "analysed": sum(case.analysis == "done" for case in results),
         "analyses left": sum(case.analysis == "left" for case in results),
         "refused": count["refused"],
         "faults": count["fault"],
         "slowest": round(max((case.seconds for case in results), default=0.0), 3),
+        "loading": round(sum(case.seconds for case in results), 1),
         "seconds": round(elapsed, 1),
     }
 
@@ -184,13 +211,12 @@ def main() -> int:
     parser.add_argument("--cases", type=int, default=200_000)
     parser.add_argument("--seed", type=int, default=1)
     parser.add_argument("--jobs", type=int, default=2)
-    parser.add_argument(
-        "--hostile", action="store_true", help="the files of tests/fuzz/hostile.py, not random ones"
-    )
+    parser.add_argument("--hostile", action="store_true", help="files made to be slow or large, not random ones")
+    parser.add_argument("--problems", action="store_true", help="problem files, not method files")
     parser.add_argument("--faults", type=Path, default=FAULTS, help="where to save faulty inputs")
     options = parser.parse_args()
-    cases = Cases(None if options.hostile else options.seed)
-    names = list(hostile_files()) if options.hostile else []
+    cases = Cases(None if options.hostile else options.seed, options.problems)
+    names = list(cases.hostile()) if options.hostile else []
     total, batch = (len(names), 8) if options.hostile else (options.cases, BATCH)
     start = perf_counter()
     with ThreadPoolExecutor(options.jobs) as threads:
@@ -200,7 +226,7 @@ def main() -> int:
     for case in faults:
         options.faults.mkdir(parents=True, exist_ok=True)
         name = names[case.number].replace(" ", "-") if names else f"{options.seed}-{case.number}"
-        file = options.faults / f"{name}.gark.yaml"
+        file = options.faults / f"{name}{'.problem' if options.problems else '.gark'}.yaml"
         file.write_text(text_of(case.number), encoding="utf-8", errors="surrogatepass")
         print(f"{file}: {case.error}", file=sys.stderr)
     print(json.dumps(summary(results, perf_counter() - start)))

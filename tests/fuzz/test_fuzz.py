@@ -2,8 +2,11 @@
 
 from __future__ import annotations
 
+import warnings
+from collections.abc import Callable
+from dataclasses import dataclass
 from random import Random
-from time import perf_counter
+from time import process_time, sleep
 from typing import Any
 
 import pytest
@@ -19,14 +22,18 @@ from garkcli.families.registry import FAMILIES
 from garkcli.methodfile.description import FORMS, STRUCTURES
 from garkcli.methodfile.expectations import CLAIMS
 from garkcli.methodfile.load import loads
+from garkcli.methodfile.problem import loads_problem
 from garkcli.methodfile.reader import ALL_RULES, KEYS
+from garkcli.tableau.tableau import Tableau
 from tests.fuzz.inputs import RADICALS, SIGNS, WORDS, method_file, seeds, soup
+from tests.fuzz.long_run import Cases, run
+from tests.fuzz.problem_inputs import problem_file, problem_seeds, written_problem
 
 SLOWEST = 5.0
-"""Seconds that no file may take before its verdict."""
+"""Seconds of the processor that no file may take before its verdict."""
 FUZZ = settings(
     max_examples=400,
-    deadline=SLOWEST * 1000,
+    deadline=None,  # that is of a clock; ``faults_of`` has the other
     derandomize=True,
     database=None,
     suppress_health_check=list(HealthCheck),
@@ -98,12 +105,15 @@ def _files() -> st.SearchStrategy[dict[Any, Any]]:
     )
 
 
-def faults_of(text: str) -> tuple[Fault, ...]:
-    """The faults of a file; none where it is a method. Any other exception is what fuzzing looks for."""
+def faults_of(text: str, load: Callable[[str], object] = loads) -> tuple[Fault, ...]:
+    """The faults of a file; none where it is good. Any other exception is what fuzzing looks for, or much time."""
+    start = process_time()
     try:
-        loads(text)
+        load(text)
     except MethodFileError as error:
         return error.faults or (Fault("an error without faults"),)
+    finally:
+        assert process_time() - start < SLOWEST, text
     return ()
 
 
@@ -129,12 +139,83 @@ def test_method_files(seed: int) -> None:
     refused = 0
     for _ in range(300):
         text = method_file(random, files)
-        start = perf_counter()
         faults = faults_of(text)
         refused += bool(faults)
         assert all(fault.line >= 1 and fault.column >= 1 and fault.message for fault in faults), text
-        assert perf_counter() - start < SLOWEST, text
     assert 0 < refused < 300
+
+
+@pytest.mark.parametrize("seed", range(5))
+def test_problem_files(seed: int) -> None:
+    """Two hundred damaged problem files a seed: a problem or its faults, each with a place, and soon."""
+    random, files = Random(seed), problem_seeds()
+    refused = 0
+    for _ in range(200):
+        text = problem_file(random, files)
+        faults = faults_of(text, loads_problem)
+        refused += bool(faults)
+        assert all(fault.line >= 1 and fault.column >= 1 and fault.message for fault in faults), text
+    assert 0 < refused < 200
+
+
+def test_what_is_damaged_was_good() -> None:
+    """The problem files that damage begins with have no faults; of the written ones many have none."""
+    assert not any(faults_of(text, loads_problem) for text in problem_seeds())
+    good = sum(not faults_of(written_problem(Random(seed)), loads_problem) for seed in range(200))
+    assert 40 < good < 160
+
+
+@dataclass(frozen=True)
+class Faulty(Cases):
+    """A loader that does what none may do with the third input, and sleeps over the first."""
+
+    misdeed: str = ""
+
+    def load(self, text: str) -> Tableau | None:
+        """Nothing is loaded."""
+        if text.startswith("0"):
+            sleep(3 * self.seconds)
+        elif text.startswith("2"):
+            while self.misdeed == "works on":
+                pass
+            if self.misdeed == "fills the memory":
+                bytearray(2**30)
+            if self.misdeed == "warns":
+                warnings.warn("soon gone", DeprecationWarning, stacklevel=1)
+            raise ValueError if self.misdeed == "raises" else MethodFileError("m", ())
+        return None
+
+    def reader(self) -> Callable[[int], str]:
+        """Numbers as texts."""
+        return str
+
+
+@pytest.mark.parametrize(
+    ("misdeed", "error"),
+    [
+        ("works on", "longer than 0.2 s"),
+        ("raises", "ValueError"),
+        ("warns", "DeprecationWarning"),
+        ("fills the memory", "MemoryError"),
+        ("has no faults", "without a place"),
+    ],
+)
+def test_faults_of_the_loader_are_found(misdeed: str, error: str) -> None:
+    """In workers every misdeed is a fault, at its number, and the next number follows; sleep takes no processor."""
+    found = run(Faulty(1, seconds=0.2, misdeed=misdeed), range(4))
+    assert [case.number for case in found] == [0, 1, 2, 3]
+    assert [case.kind for case in found] == ["loaded", "loaded", "fault", "loaded"]
+    assert error in found[2].error
+
+
+@pytest.mark.parametrize("are_problems", [False, True])
+def test_the_long_run_in_short(are_problems: bool) -> None:
+    """Its first cases: each has a verdict, and the same text whenever it is asked for."""
+    cases = Cases(1, are_problems)
+    found = run(cases, range(40))
+    assert [case.number for case in found] == [*range(40)]
+    assert {case.kind for case in found} == {"loaded", "refused"}
+    assert cases.reader()(7) == cases.reader()(7) != cases.reader()(8)
 
 
 @pytest.mark.parametrize("seed", range(4))
