@@ -15,6 +15,7 @@ from garkcli.dynamics import ladder
 from garkcli.dynamics.convergence import CLOSE, MAX_ORDER, Verdict, observed_order
 from garkcli.dynamics.hamiltonian import Hamiltonian
 from garkcli.dynamics.reference import Watch
+from garkcli.dynamics.splitting import matched
 from garkcli.dynamics.step import StepFailed
 from garkcli.dynamics.structure import fields_of, sight, visible
 from garkcli.dynamics.trial import MAX_STEPS, PathRow, Trial
@@ -24,6 +25,7 @@ from garkcli.tableau.tableau import Tableau
 SHORT = 10**6
 """The part of the usual time that a short one is."""
 _SHORT_STEPS = (4, 8, 16, 32)
+_SHORTER = 3  # short times that are tried, each that part of the one before, until the order is a whole number
 
 
 @dataclass(frozen=True)
@@ -105,8 +107,8 @@ def observe(
     """Test the convergence of ``tableau`` on ``problem``.
 
     Args:
-        tableau: any tableau whose structure the problem is of, made for it by ``fitted``.
-        problem: split into as many terms as the tableau has.
+        tableau: of any structure.
+        problem: in as many terms as the tableau is for, or in one that has a natural split.
         t_end: the problem's own by default.
         steps: step sizes that divide ``t_end``; by default the ladder of ``garkcli.dynamics.ladder``.
         tolerance: of rounded coefficients; slopes may then end on a plateau.
@@ -116,7 +118,14 @@ def observe(
     Raises:
         UsageProblem: the problem is not of the form of the structure, or a step does not divide ``t_end``.
         StepFailed: Newton's method fails for a given step size, or for all of the default ladder.
+
+    >>> from garkcli import hamiltonian, loads
+    >>> rk4 = loads("methods: [{family: rk4}]").tableau
+    >>> result = observe(rk4, hamiltonian("pendulum", 1))
+    >>> round(result.observed_order, 1), result.verdict
+    (4.0, 'agree')
     """
+    tableau, problem = matched(tableau, problem)
     t_end = problem.t_end if t_end is None else t_end
     fields = fields_of(tableau, problem)
     seen = visible(tableau, fields)
@@ -128,11 +137,15 @@ def observe(
     observed = observed_order(fitted)
     if is_timed:
         rows = [trial.timed(row) for row in rows]
-    short_time, short_order = None, None
+    short_time: fmpq | None = None
+    short_order: float | None = None
     is_off = observed is not None and abs(observed - order) > CLOSE
     if is_off and tolerance is None:
-        short_time = min(t_end, problem.t_end) / SHORT
-        short_order = _short_order(Trial(tableau, problem, short_time, order, watch))
+        for k in range(1, _SHORTER + 1):
+            short_time = min(t_end, problem.t_end) / SHORT**k
+            short_order = _short_order(Trial(tableau, problem, short_time, order, watch))
+            if short_order is None or abs(short_order - round(short_order)) <= CLOSE:
+                break
     return Observation(
         problem,
         t_end,

@@ -4,6 +4,7 @@ from __future__ import annotations
 
 import json
 from dataclasses import replace
+from fractions import Fraction
 from typing import Any
 
 import pytest
@@ -208,3 +209,21 @@ def test_ladder_ends_before_too_many_steps(monkeypatch: pytest.MonkeyPatch) -> N
     result = observe(RECTANGULAR, hamiltonian("pendulum", 2))
     assert result.rows[-1].h == hamiltonian("pendulum", 2).t_end / 8
     assert result.observed_order is not None
+
+
+def test_mixed_orders_need_a_shorter_time() -> None:
+    """Gauss 2 in 13 digits: residuals of 1e-14 at order 2, seen only where h⁴ is far smaller than that."""
+    A = [["1/4", "-0.0386751345948"], ["0.5386751345948", "1/4"]]
+    tableau = spelled_out([[[[read(x) for x in row] for row in A]]], [[fmpq(1, 2)] * 2], [None])
+    result = observe(tableau, hamiltonian("kepler", 1))
+    assert result.observed_order == pytest.approx(4, abs=0.1)
+    assert result.short_time is not None
+    assert result.short_time < fmpq(1, 10**10)
+    assert result.short_order == pytest.approx(result.visible_order, abs=0.01)
+    assert result.verdict == "agree"
+
+
+def read(text: str) -> fmpq:
+    """A fraction or a decimal."""
+    exact = Fraction(text)
+    return fmpq(exact.numerator, exact.denominator)
