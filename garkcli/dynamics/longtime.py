@@ -18,6 +18,7 @@ from garkcli.dynamics.linear import whole_steps
 from garkcli.dynamics.measure import Measure
 from garkcli.dynamics.record import Record
 from garkcli.dynamics.scheme import scheme
+from garkcli.dynamics.splitting import matched
 from garkcli.dynamics.step import trajectory
 from garkcli.dynamics.trend import LEAST, Shape
 from garkcli.errors import UsageProblem
@@ -63,8 +64,8 @@ def follow(
     """Follow the energy and the other invariants of ``problem`` under ``tableau`` to the time ``t_end``.
 
     Args:
-        tableau: any tableau whose structure the problem is of, made for it by ``fitted``.
-        problem: split into as many terms as the tableau has.
+        tableau: of any structure.
+        problem: in as many terms as the tableau is for, or in one that has a natural split.
         t_end: a whole number of steps.
         step: h.
         digits: of the steps; floats up to ``FLOAT_DIGITS``.
@@ -76,7 +77,14 @@ def follow(
         UsageProblem: the problem is not of the form of the structure, the step does not divide the time, or there
             are more than ``MAX_STEPS`` of them.
         StepFailed: the stage equations of a step were not solved, and the energy had not blown up before.
+
+    >>> from garkcli import hamiltonian, loads, pair
+    >>> midpoint = pair(loads("methods: [{family: gauss, stages: 1}]").tableau)
+    >>> run = follow(midpoint, hamiltonian("pendulum", 1), fmpq(100), fmpq(1, 10))
+    >>> [(course.name, course.verdict) for course in run.courses]
+    [('energy', 'bounded')]
     """
+    tableau, problem = matched(tableau, problem)
     count = whole_steps(t_end, step)
     if count > MAX_STEPS:
         raise UsageProblem(f"{count} steps (limit {MAX_STEPS})", "choose a shorter time or a larger step")

@@ -13,6 +13,7 @@ from flint import arb, ctx, fmpq
 from garkcli.dynamics.formula import define, enclosed
 from garkcli.dynamics.hamiltonian import FLOAT_DIGITS, Hamiltonian
 from garkcli.dynamics.program import Program, write
+from garkcli.dynamics.splitting import matched
 from garkcli.dynamics.structure import coupling, entry, fields_of
 from garkcli.tableau.pointwise import numeric_entries
 from garkcli.tableau.tableau import Tableau
@@ -80,9 +81,21 @@ class Scheme:
 def scheme(tableau: Tableau, problem: Hamiltonian, digits: int = FLOAT_DIGITS) -> Scheme:
     """Prepare the steps of ``tableau`` on ``problem`` with ``digits`` digits.
 
+    Args:
+        tableau: of any structure.
+        problem: in as many terms as the tableau is for, or in one that has a natural split.
+        digits: of all numbers; floats up to ``FLOAT_DIGITS``.
+
     Raises:
         UsageProblem: the problem is not of the form that the structure is for.
+
+    >>> from garkcli import final, hamiltonian, loads
+    >>> rk4 = loads("methods: [{family: rk4}]").tableau
+    >>> made = scheme(rk4, hamiltonian("pendulum", 1))
+    >>> [round(x, 6) for x in final(made, fmpq(1, 10), 10)]
+    [1.056272, -0.391965]
     """
+    tableau, problem = matched(tableau, problem)
     digits = max(digits, FLOAT_DIGITS)
     fields = fields_of(tableau, problem)
     program = write(coupling(tableau, fields), fields, problem.dimension, digits > FLOAT_DIGITS)

@@ -1,4 +1,4 @@
-"""A problem in the number of terms that a method is for."""
+"""A method and a problem made for each other: the problem in the number of terms that the method is for."""
 
 from __future__ import annotations
 
@@ -6,7 +6,20 @@ from dataclasses import replace
 from typing import Any
 
 from garkcli.dynamics.hamiltonian import Hamiltonian, symbols
+from garkcli.dynamics.problems import terms_of
+from garkcli.dynamics.structure import fitted
 from garkcli.errors import UsageProblem
+from garkcli.tableau.tableau import Tableau
+
+
+def matched(tableau: Tableau, problem: Hamiltonian) -> tuple[Tableau, Hamiltonian]:
+    """``tableau`` as ``fitted`` makes it, and ``problem`` as ``fit`` does: what every step is made of.
+
+    Raises:
+        UsageProblem: the problem has no natural split into the terms that the method is for.
+    """
+    tableau = fitted(tableau)
+    return tableau, fit(problem, terms_of(tableau))
 
 
 def fit(problem: Hamiltonian, terms: int) -> Hamiltonian:

@@ -16,6 +16,7 @@ from flint import arb, ctx, fmpq
 from garkcli.dynamics.courses import State
 from garkcli.dynamics.hamiltonian import FLOAT_DIGITS, Hamiltonian
 from garkcli.dynamics.scheme import Scheme, scheme
+from garkcli.dynamics.splitting import matched
 from garkcli.dynamics.step import final
 from garkcli.dynamics.structure import fields_of, visible
 from garkcli.order.defects import is_symplectic_within
@@ -65,6 +66,12 @@ class Symplecticity:
 
 def defects(tableau: Tableau, problem: Hamiltonian, step: fmpq, states: Sequence[State]) -> tuple[Defect, ...]:
     """Measure the steps from some states.
+
+    Args:
+        tableau: of any structure.
+        problem: in as many terms as the tableau is for, or in one that has a natural split.
+        step: h.
+        states: times, and (q, p) then, as ``LongRun.states`` has them.
 
     Raises:
         StepFailed: the stage equations of one were not solved.
@@ -118,12 +125,13 @@ def holds(tableau: Tableau, tolerance: fmpq | None = None) -> bool:
 
 
 def is_proved(tableau: Tableau, problem: Hamiltonian, tolerance: fmpq | None = None) -> bool:
-    """Whether the steps of ``tableau`` on ``problem`` are symplectic by its coefficients.
+    """Whether the steps of ``tableau`` on ``problem``, as ``defects`` takes them, are symplectic by coefficients.
 
     Of a problem whose terms depend on positions or on momenta alone, only the blocks that it can see count.
     """
     if holds(tableau, tolerance):
         return True
+    tableau, problem = matched(tableau, problem)
     fields = fields_of(tableau, problem)
     drives: dict[int, set[str]] = {}
     for l, group in fields:

@@ -13,6 +13,8 @@ from flint import arb, ctx, fmpq
 from garkcli.dynamics.examples import hamiltonian
 from garkcli.dynamics.formula import function
 from garkcli.dynamics.hamiltonian import GROUPS, Hamiltonian, symbols, vector_field
+from garkcli.dynamics.longtime import follow
+from garkcli.dynamics.nonlinear import observe
 from garkcli.dynamics.problems import terms_of
 from garkcli.dynamics.scheme import scheme
 from garkcli.dynamics.step import StepFailed, final, trajectory
@@ -243,6 +245,19 @@ def test_problem_has_to_fit_the_structure(tableau: Tableau, name: str, said: str
     """A separable method has no colour for a Hamiltonian that is not."""
     with pytest.raises(UsageProblem, match=said):
         fields_of(tableau, hamiltonian(name, 2))
+
+
+def test_problem_is_split_for_the_method() -> None:
+    """A problem in one term has as many as the method is for, naturally; two terms are not three."""
+    whole, split = (hamiltonian("pendulum", terms) for terms in (1, 2))
+    assert final(scheme(RECTANGULAR, whole), H, 5) == final(scheme(RECTANGULAR, split), H, 5)
+    triple = gark([diagonal_method("gauss", 1)] * 3, {})
+    with pytest.raises(UsageProblem, match="2 terms, the method is for 3"):
+        scheme(triple, split)
+    with pytest.raises(UsageProblem, match="2 terms, the method is for 3"):
+        observe(triple, split)
+    with pytest.raises(UsageProblem, match="2 terms, the method is for 3"):
+        follow(triple, split, fmpq(1), H)
 
 
 def test_unknown_problem() -> None:
