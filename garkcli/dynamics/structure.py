@@ -88,9 +88,8 @@ class Coupling:
                 found.append(Block((), tuple(component)))
                 continue
             unknowns = self._cut([x for x in component if isinstance(x, Stage)])
-            rest = {
-                x: [y for y in after[x] if y in set(component) - unknowns] for x in component if x not in unknowns
-            }
+            left = set(component) - unknowns
+            rest = {x: [y for y in after[x] if y in left] for x in component if x in left}
             order = tuple(x for single in components(rest) for x in single)
             found.append(Block(tuple(x for x in self.sums if x in unknowns), order))
         return tuple(found)
