@@ -135,6 +135,10 @@ class PointSpace(StageSpace):
         return tuple(_powers(c, count) for c in self.points)
 
     def lifts(self) -> Matrix:
+        return self._lifts
+
+    @cached_property
+    def _lifts(self) -> Matrix:
         try:
             return solve(self.reductions(self.stages), identity(self.stages))
         except SingularMatrixError:
@@ -156,9 +160,10 @@ class PointSpace(StageSpace):
             return super().adjoint(block, weights, source, source_weights)
         if not all(source_weights):
             raise SingularMatrixError
+        inverses = [ONE / b for b in source_weights]  # of irrational weights they take the time
         return tuple(
-            tuple(w * a / b for w, a in zip(weights, column, strict=True))
-            for b, column in zip(source_weights, transpose(block), strict=True)
+            tuple(w * a * inverse for w, a in zip(weights, column, strict=True))
+            for inverse, column in zip(inverses, transpose(block), strict=True)
         )
 
 

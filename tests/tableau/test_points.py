@@ -14,6 +14,7 @@ from hypothesis import strategies as st
 
 from garkcli.errors import CoincidingNodes, ShapeMismatch
 from garkcli.exact.display import to_ball, to_float
+from garkcli.exact.field import Algebraic, Number
 from garkcli.exact.matrix import Vector, apply, dot
 from garkcli.families.registry import diagonal_method
 from garkcli.order.certificate import find_order
@@ -137,6 +138,31 @@ def test_functionals_with_radicals() -> None:
             assert space.times(functional, f) == tuple(dot(functional, space.product(f, e)) for e in unit)
         rows = tuple(tuple(dot(functional, space.product(e, f)) for f in unit) for e in unit)
         assert space.gram(functional) == rows
+
+
+def test_radicals_are_inverted_once(monkeypatch: pytest.MonkeyPatch) -> None:
+    """Inverses in number fields take the time: one for each irrational weight, and a space is inverted once."""
+    (weights, nodes, row) = numbers("sqrt(2), cbrt(3), 1/2", "0, sqrt(2), 1", "cbrt(3), 1, sqrt(2)/5")
+    space, count = PointSpace(nodes), 0
+    inverse = Algebraic.inverse
+
+    def counted(x: Algebraic) -> Number:
+        nonlocal count
+        count += 1
+        return inverse(x)
+
+    monkeypatch.setattr(Algebraic, "inverse", counted)
+    block = (row,) * 3
+    adjoint = space.adjoint(block, row, space, weights)
+    assert count == 2
+    for i in range(3):
+        for j in range(3):
+            assert adjoint[i][j] * weights[i] == row[j] * block[j][i]
+    lifts = space.lifts()
+    before = count
+    assert space.lifts() is lifts
+    assert count == before
+    assert apply(lifts, nodes) == (fmpq(0), fmpq(1), fmpq(0))
 
 
 def test_nodes_are_as_precise_as_asked() -> None:
