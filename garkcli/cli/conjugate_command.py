@@ -35,7 +35,7 @@ def command(file: str, is_pair: bool, digits: int, output: Output) -> int:
     if output.format != "yaml":
         from garkcli.cli.rendering import write_tableau
 
-        write_tableau(made, name, digits, output)
+        write_tableau(made, name, digits, output, method.tolerance is not None)
         return 0
     from garkcli.errors import UsageProblem
     from garkcli.methodfile.writer import can_spell_out, write_conjugate_of, write_tableau_file

@@ -27,5 +27,5 @@ def command(file: str, digits: int, output: Output) -> int:
     from garkcli.methodfile.load import load
 
     method = load(file)
-    write_tableau(method.tableau, method.name, digits, output)
+    write_tableau(method.tableau, method.name, digits, output, method.tolerance is not None)
     return 0

@@ -9,9 +9,9 @@ from typing import Any
 
 from flint import fmpq
 
-from garkcli.exact.display import decimal, to_decimal, to_text
+from garkcli.exact.display import decimal, to_decimal, to_latex, to_text
 from garkcli.order.conditions import Condition
-from garkcli.report.latex import fragment
+from garkcli.report.latex import fragment, number
 from garkcli.report.paint import Paint
 from garkcli.report.symplectic import Subject, legend_lines, member_lines, summary_lines
 from garkcli.report.trees import picture
@@ -233,6 +233,14 @@ def _miss(condition: Condition) -> str:
     return f"is {value}, off by {residual}  ({kind} condition)"
 
 
+def _latex_values(condition: Condition) -> tuple[str, str]:
+    """The value and the residual, in decimals where they are long."""
+    value, residual = condition.value, condition.residual
+    if max(len(to_text(value)), len(to_text(residual))) > MOST_DIGITS:
+        return rf"\approx {number(to_decimal(value, 8))}", number(to_decimal(residual, 4))
+    return to_latex(value), to_latex(residual)
+
+
 def _latex(rows: Iterable[ConditionRow], subject: Subject | None = None) -> Iterator[str]:
     first = True
     if subject is not None:
@@ -253,9 +261,7 @@ def _latex(rows: Iterable[ConditionRow], subject: Subject | None = None) -> Iter
         ]
         cells.append(f"${row.latex}$")
         if row.condition is not None:
-            from garkcli.exact.display import to_latex
-
-            cells += [f"${to_latex(row.condition.value)}$", f"${to_latex(row.condition.residual)}$"]
+            cells += [f"${cell}$" for cell in _latex_values(row.condition)]
         if row.stands_for:
             cells.append(str(row.stands_for))
         elif not valued:

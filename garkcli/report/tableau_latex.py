@@ -5,7 +5,8 @@ from __future__ import annotations
 from flint import arb
 
 from garkcli.exact.display import to_latex
-from garkcli.report.tableau_text import cell_text
+from garkcli.report.latex import number
+from garkcli.report.tableau_text import cell_text, remark
 from garkcli.tableau.pointwise import Cell, Entries
 from garkcli.tableau.tableau import Tableau
 
@@ -14,7 +15,8 @@ def render(tableau: Tableau, entries: Entries, name: str) -> str:
     """The array, with a comment that names it."""
     N = tableau.size
     groups = "|".join("c" * len(entries.b[m]) for m in range(N))
-    lines = [f"% {name}", "\\[", "\\renewcommand{\\arraystretch}{1.2}", f"\\begin{{array}}{{c|{groups}}}"]
+    lines = [f"% {line}" for line in (name, remark(entries)) if line]
+    lines += ["\\[", "\\renewcommand{\\arraystretch}{1.2}", f"\\begin{{array}}{{c|{groups}}}"]
     rows: dict[int, int] = {}
     for l, colour in enumerate(tableau.colours):
         rows.setdefault(colour.rows, l)
@@ -33,4 +35,4 @@ def render(tableau: Tableau, entries: Entries, name: str) -> str:
 
 
 def _cell(cell: Cell, entries: Entries) -> str:
-    return cell_text(cell, entries.digits) if isinstance(cell, arb) else to_latex(cell)
+    return number(cell_text(cell, entries.digits)) if isinstance(cell, arb) else to_latex(cell)

@@ -2,7 +2,11 @@
 
 from __future__ import annotations
 
-from garkcli.exact.display import to_text
+from dataclasses import replace
+
+from flint import arb
+
+from garkcli.exact.display import to_ball, to_text
 from garkcli.report.paint import Paint, aligned
 from garkcli.tableau.pointwise import Cell, Entries
 from garkcli.tableau.tableau import Tableau
@@ -10,11 +14,37 @@ from garkcli.tableau.tableau import Tableau
 
 def cell_text(cell: Cell, digits: int) -> str:
     """An entry as text: exact, or rounded to ``digits`` significant digits."""
-    from flint import arb
-
     if not isinstance(cell, arb):
         return to_text(cell)
     return "0" if cell.contains(0) else cell.str(digits, radius=False)
+
+
+def readable(entries: Entries) -> Entries:
+    """The entries of a method with rounded coefficients for people: fractions longer than decimals as decimals."""
+
+    def short(cell: Cell) -> Cell:
+        if isinstance(cell, arb) or len(to_text(cell)) <= entries.digits + 3:  # a sign, a zero and a point
+            return cell
+        return to_ball(cell, entries.digits)
+
+    return replace(
+        entries,
+        c=tuple(tuple(map(short, row)) for row in entries.c),
+        A=tuple(
+            tuple(block and tuple(tuple(map(short, row)) for row in block) for block in row) for row in entries.A
+        ),
+        b=tuple(tuple(map(short, row)) for row in entries.b),
+    )
+
+
+def remark(entries: Entries) -> str:
+    """That entries are decimals, and why; empty where none is."""
+    if not entries.is_exact:
+        return f"the nodes have no simple radicals: decimals, {entries.digits} digits"
+    blocks = [row for blocks in entries.A for block in blocks if block is not None for row in block]
+    if any(isinstance(x, arb) for row in (*entries.c, *blocks, *entries.b) for x in row):
+        return f"rounded coefficients: long fractions as decimals, {entries.digits} digits"
+    return ""
 
 
 def render(tableau: Tableau, entries: Entries, title: str, paint: Paint, width: int = 80) -> str:
@@ -28,8 +58,8 @@ def render(tableau: Tableau, entries: Entries, title: str, paint: Paint, width: 
         width: columns of the terminal.
     """
     lines = [paint("strong", title)]
-    if not entries.is_exact:
-        lines.append(f"the nodes have no simple radicals: decimals, {entries.digits} digits")
+    if about := remark(entries):
+        lines.append(about)
     grid = _grid(tableau, entries)
     fits = max(len(line) for line in grid) <= width
     lines += ["", *(grid if fits else _listing(tableau, entries))]

@@ -3,11 +3,13 @@
 from __future__ import annotations
 
 import json
+import re
 from pathlib import Path
 
 import pytest
+from flint import fmpq
 
-from garkcli.exact.display import to_float
+from garkcli.exact.display import to_decimal, to_float
 from garkcli.methodfile.load import loads
 from garkcli.order.rounded import find_order_within
 from tests.cli.harness import ROOT, gark
@@ -53,6 +55,45 @@ def test_the_conjugate_of_a_rounded_method_is_rounded(rounded: str) -> None:
         assert again.tolerance is not None
         assert to_float(again.tolerance) == 1e-15
         assert find_order_within(again.tableau, again.tolerance, 6).order == 4
+
+
+@pytest.mark.parametrize("command", ["tableau", "conditions", "conjugate"])
+@pytest.mark.parametrize("layout", ["latex", "text"])
+def test_rounded_methods_are_printed_in_decimals(command: str, layout: str, tmp_path: Path) -> None:
+    """No fraction of twenty digits where people read; the decimals are those of the exact numbers in the JSON."""
+    file = tmp_path / "rounded.gark.yaml"
+    methods = DECIMALS.read_text().partition("methods:")[2].partition("\n\n")[0]
+    file.write_text(
+        f"methods:{methods}\n  - {{family: lobatto-iiia, stages: 3}}\ntransfer: collocation\ntolerance: 1e-13\n"
+    )
+    order = ["-n", "4"] if command == "conditions" else []
+    shown = gark(command, str(file), *order, "--format", layout).out
+    assert not re.search(r"\d{20}", shown)
+    exact = gark(command, str(file), *order, "--format", "json").out
+    assert re.search(r"\d{20}", exact)
+    if command == "conditions":
+        rows = [row for row in json.loads(exact)["conditions"] if len(row["value"]) > 60]
+        assert rows
+        assert shown.count(r"\approx" if layout == "latex" else "is about") == len(rows)
+        return
+    entries = json.loads(exact)
+    assert entries["exact"]
+    long = [x for row in entries["A"][0][1] for x in row if len(x) > 20]
+    assert long
+    for x in long:
+        p, q = x.split("/")
+        assert to_decimal(fmpq(int(p), int(q)), 17) in shown
+    assert "long fractions as decimals, 17 digits" in shown
+
+
+def test_exact_methods_are_printed_exactly(tmp_path: Path) -> None:
+    """Without a tolerance a long fraction is a coefficient as meant, and stays one."""
+    file = tmp_path / "long.gark.yaml"
+    file.write_text("methods: [{A: [[12345678901234567890123/98765432109876543210988]], b: [1]}]")
+    for layout in ("text", "latex"):
+        shown = gark("tableau", str(file), "--format", layout).out
+        assert "12345678901234567890123" in shown
+        assert "decimals" not in shown
 
 
 def test_failing_conditions_are_counted_among_all() -> None:
