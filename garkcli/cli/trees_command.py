@@ -2,7 +2,9 @@
 
 from __future__ import annotations
 
+import sys
 from collections.abc import Callable, Iterable, Iterator
+from contextlib import contextmanager
 from typing import TYPE_CHECKING, Any, TypeVar, cast
 
 import click
@@ -110,7 +112,8 @@ def command(
     if count:
         if used:
             raise UsageProblem("--count knows no --colours-used", "leave one of them out")
-        output.write(report.render_counts(query, _counts(query), output.format, output.paint))
+        with _any_digits():
+            output.write(report.render_counts(query, _counts(query), output.format, output.paint))
         return 0
     if svg is not None:
         from garkcli.trees.notation import parse_tree
@@ -155,7 +158,8 @@ def _free_trees(
 
     subject = report.subject_of_kind(kind, terms, orders)
     if count:
-        output.write(report.render_class_counts(subject, output.format, output.paint))
+        with _any_digits():
+            output.write(report.render_class_counts(subject, output.format, output.paint))
     elif svg is not None:
         trees = (found.representative for found in subject.classes())
         _draw(svg, trees, subject.has_colours)
@@ -191,6 +195,17 @@ def _single(text: str, svg: str | None, document: bool, output: Output) -> int:
     return 0
 
 
+@contextmanager
+def _any_digits() -> Iterator[None]:
+    """Whole numbers are written with any number of digits: Python's limit is for texts from strangers."""
+    limit = sys.get_int_max_str_digits()
+    sys.set_int_max_str_digits(0)
+    try:
+        yield
+    finally:
+        sys.set_int_max_str_digits(limit)
+
+
 def _colours(text: str | None, colours: int) -> tuple[int, ...]:
     if text is None:
         return ()
@@ -202,10 +217,11 @@ def _colours(text: str | None, colours: int) -> tuple[int, ...]:
 
 def _counts(query: Query) -> list[tuple[int, tuple[int, ...]]]:
     """For each order the number of trees by root colour."""
-    from garkcli.trees.count import count_by_root
+    from garkcli.trees.count import Admissible, count_by_root, counts_upto
 
-    first = 1 if query.upto else query.order
-    return [(n, count_by_root(query.colours, n)) for n in range(first, query.order + 1)]
+    if not query.upto:
+        return [(query.order, count_by_root(query.colours, query.order))]
+    return [*enumerate(counts_upto(Admissible.of(query.colours), query.order), start=1)]
 
 
 def _totals(query: Query) -> list[tuple[int, tuple[int, ...]]] | None:

@@ -15,6 +15,7 @@ from typing import TYPE_CHECKING
 
 import numpy as np
 
+from garkcli.errors import UsageProblem, counted
 from garkcli.trees.columns import Columns, Growth, Segment, exact_dtype
 from garkcli.trees.count import Admissible, Edges, counts_upto
 from garkcli.trees.texts import Texts
@@ -29,7 +30,7 @@ MAX_TREES = 40_000_000
 """The largest table that is made, in trees: some 35 bytes each."""
 
 
-class TableTooLarge(ValueError):
+class TableTooLarge(UsageProblem):
     """More trees were asked for than are ever held in memory at once."""
 
 
@@ -63,9 +64,11 @@ class TreeTable:
         starts = first_ids(admissible, order)
         size = starts[-1][-1]
         if size > MAX_TREES:
+            about = str(size) if size < 10**15 else f"more than 10^{int((size.bit_length() - 1) * 0.30102)}"
             raise TableTooLarge(
-                f"{size} trees of order up to {order} with {admissible.colours} colours are more than the"
-                f" {MAX_TREES} a table holds; ask for a lower order, or count without generating"
+                f"{about} trees of order up to {order} with {counted(admissible.colours, 'colour')}"
+                f" (limit {MAX_TREES})",
+                "ask for a lower order, or count them without generating",
             )
         columns = Columns.empty(size, exact_dtype(order))
         columns.write(0, Columns.vertices(range(admissible.colours)))

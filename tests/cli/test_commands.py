@@ -4,6 +4,7 @@ import csv
 import io
 import json
 import re
+import sys
 import xml.etree.ElementTree as ET
 from importlib import import_module
 from pathlib import Path
@@ -278,6 +279,28 @@ def test_json_of_trees() -> None:
     counted = data("trees", "-N", "2", "-n", "4", "--count")
     assert "trees" not in counted
     assert {key: report[key] for key in counted} == counted
+
+
+@pytest.mark.parametrize("options", [[], ["--symplectic"]])
+def test_counts_of_thousands_of_digits(options: list[str]) -> None:
+    """They are written out, in every format, and Python's limit for the digits of numbers is left as it was."""
+    limit = sys.get_int_max_str_digits()
+    runs = [
+        gark("trees", "--count", "-N", "9", "-n", "3500", "--format", x, *options) for x in ("text", "json", "csv")
+    ]
+    assert [run.code for run in runs] == [0, 0, 0]
+    assert [run.err for run in runs] == ["", "", ""]
+    found = [re.findall(r"\d{4301,}", run.out)[0] for run in runs]
+    assert found[0] == found[1]
+    assert sys.get_int_max_str_digits() == limit
+
+
+def test_more_trees_than_fit_are_refused() -> None:
+    """The number and the cure, with no word of a fault of the program."""
+    run = gark("trees", "-n", "30")
+    assert run.code == 2
+    assert run.err.startswith("gark: 196268698287 trees of order up to 29 with 1 colour (limit")
+    assert "count them" in run.err
 
 
 def test_json_of_conditions() -> None:

@@ -7,7 +7,7 @@ from math import factorial
 import numpy as np
 import pytest
 
-from garkcli.trees.count import counts_upto
+from garkcli.trees.count import Admissible, counts_upto
 from garkcli.trees.notation import format_tree
 from garkcli.trees.table import MAX_TREES, TableTooLarge, TreeTable
 from garkcli.trees.tree import Tree
@@ -134,8 +134,12 @@ def test_columns_are_read_only() -> None:
 
 def test_too_large_a_table_is_refused_at_once() -> None:
     """More than MAX_TREES trees are counted, not made."""
-    with pytest.raises(TableTooLarge, match=str(MAX_TREES)):
+    with pytest.raises(TableTooLarge, match=rf"more than 10\^28 trees of order up to 30 .*limit {MAX_TREES}"):
         TreeTable.upto(4, 30)
+    total = sum(map(sum, counts_upto(Admissible.of(4), 30)))
+    assert 10**28 < total < 10**29
+    with pytest.raises(TableTooLarge, match="196268698287 trees of order up to 29 with 1 colour "):
+        TreeTable.upto(1, 29)
 
 
 def test_no_such_id() -> None:
