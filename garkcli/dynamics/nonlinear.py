@@ -25,6 +25,7 @@ from garkcli.tableau.tableau import Tableau
 SHORT = 10**6
 """The part of the usual time that a short one is."""
 _SHORT_STEPS = (4, 8, 16, 32)
+_SHORTER = 3  # short times that are tried, each that part of the one before, until the order is a whole number
 
 
 @dataclass(frozen=True)
@@ -136,11 +137,15 @@ def observe(
     observed = observed_order(fitted)
     if is_timed:
         rows = [trial.timed(row) for row in rows]
-    short_time, short_order = None, None
+    short_time: fmpq | None = None
+    short_order: float | None = None
     is_off = observed is not None and abs(observed - order) > CLOSE
     if is_off and tolerance is None:
-        short_time = min(t_end, problem.t_end) / SHORT
-        short_order = _short_order(Trial(tableau, problem, short_time, order, watch))
+        for k in range(1, _SHORTER + 1):
+            short_time = min(t_end, problem.t_end) / SHORT**k
+            short_order = _short_order(Trial(tableau, problem, short_time, order, watch))
+            if short_order is None or abs(short_order - round(short_order)) <= CLOSE:
+                break
     return Observation(
         problem,
         t_end,
