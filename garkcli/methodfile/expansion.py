@@ -22,7 +22,7 @@ def too_long(lagrangian: Any, velocities: Sequence[Any]) -> Any:
 
     >>> from sympy.abc import u, x
     >>> too_long((1 + x + u**2) ** 4, [u])
-    >>> too_long((1 + x + u**2) ** 64 + u**2, [u])
+    >>> too_long((1 + x + u + u**2) ** 64, [u])
     u
     """
     moving = set(velocities)
