@@ -17,7 +17,7 @@ from garkcli.exact.rewriting import roots_in, size_of, substitute
 from garkcli.methodfile.source import Source
 
 _READ_DIFFERENTLY = re.compile(
-    r"[-+]?(0[0-9_]+|0[xob][0-9a-f_]+|[0-9][0-9_]*(:[0-5]?[0-9])+(\.[0-9_]*)?|[0-9_]*_[0-9_.]*)", re.IGNORECASE
+    r"[-+]?(0[0-9_]+|0[xob][0-9a-f_]+|[0-9][0-9_]*(:[0-5]?[0-9])+(\.[0-9_]*)?|[0-9]*_[0-9_.]*)", re.IGNORECASE
 )
 """Plain scalars that YAML 1.1 reads as another number than they look: octal, hexadecimal, base 60, with _."""
 MAX_SIZE = 2_000

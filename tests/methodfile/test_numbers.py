@@ -1,6 +1,7 @@
 """Coefficients: the text is taken at its word."""
 
 from collections.abc import Mapping
+from time import process_time
 
 import pytest
 from flint import fmpq
@@ -109,3 +110,13 @@ def test_a_text_means_what_its_parameters_mean() -> None:
     (fault,) = caught.value.faults
     assert (fault.line, fault.column) == (1, 17)
     assert loads("parameters: {x: 1/2}\nmethods: [{A: [[x]], b: [2*x]}]\n").tableau.blocks[0, 0] == ((fmpq(1, 2),),)
+
+
+def test_underscores_are_soon_read() -> None:
+    """What YAML takes for a number is told in one pass: a text of underscores takes no quadratic time."""
+    before = process_time()
+    with pytest.raises(MethodFileError, match="100001 characters"):
+        loads(f"methods: [{{A: [[{'_' * 100_000}x]], b: [1]}}]")
+    with pytest.raises(MethodFileError, match="different numbers to different readers"):
+        loads("methods: [{A: [[1_0_0]], b: [1]}]")
+    assert process_time() - before < 2
