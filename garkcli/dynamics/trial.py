@@ -26,6 +26,7 @@ from garkcli.tableau.tableau import Tableau
 
 MAX_STEPS = 1_000_000
 """Most steps of one row."""
+_MANY = 120  # digits that do not agree by chance
 _SPARE = 6  # correct digits of an error
 _AHEAD = 2  # halvings of the step for which a reference solution will do
 
@@ -78,7 +79,8 @@ class Trial:
             error = self._error(state.y, digits)
             if error > self._size * arb(10) ** (_SPARE - 1 - digits):
                 break
-            if digits == MAX_DIGITS:
+            # all digits of many are the same only where nothing moves
+            if digits == MAX_DIGITS or (digits >= _MANY and error.is_zero()):
                 error = arb(0)
                 break
             digits = min(MAX_DIGITS, 2 * digits)

@@ -103,6 +103,8 @@ def _verdict(course: Course, run: LongRun) -> tuple[str, str]:
     match course.verdict:
         case "exact":
             return "conserved", " by every step, exactly"
+        case "round-off" if not course.round_off:
+            return "no error", " at all"
         case "round-off":
             more = f"; --digits {2 * run.digits} shows more" if run.digits and run.digits <= 100 else ""
             return "no error", f" above round-off, at most {course.round_off:.0e} here{more}"

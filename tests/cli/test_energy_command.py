@@ -146,3 +146,13 @@ def test_a_directory_is_no_method(tmp_path: Path) -> None:
     assert "methods: error: a directory, where one method file is expected" in run.err
     assert "such as methods/ark-ars222.gark.yaml" in run.err
     assert "no .gark.yaml files in this directory" in gark("energy", str(tmp_path)).err
+
+
+def test_problem_at_rest(tmp_path: Path) -> None:
+    """Where nothing moves there is no error at all, and more digits are not offered."""
+    path = tmp_path / "rest.yaml"
+    path.write_text('variables: [x]\nhamiltonian: ["px**2/2", "1 - cos(x)"]\ninitial: {x: 0, px: 0}\n')
+    run = gark("energy", RECTANGULAR, "--problem", str(path), "--t-end", "100", "--step", "1/10")
+    assert run.code == 0
+    assert "no error at all" in run.out
+    assert "--digits" not in run.out
