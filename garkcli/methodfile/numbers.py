@@ -13,7 +13,7 @@ from garkcli.exact.domain import Domain
 from garkcli.exact.expression import FUNCTIONS, Expression, Literal, parse
 from garkcli.exact.field import ZERO, Number
 from garkcli.exact.matrix import Matrix, Vector
-from garkcli.exact.rewriting import roots_in, size_of, substitute
+from garkcli.exact.rewriting import depth_of, roots_in, size_of, substitute
 from garkcli.methodfile.source import Source
 
 _READ_DIFFERENTLY = re.compile(
@@ -22,6 +22,8 @@ _READ_DIFFERENTLY = re.compile(
 """Plain scalars that YAML 1.1 reads as another number than they look: octal, hexadecimal, base 60, with _."""
 MAX_SIZE = 2_000
 """Most operations of one coefficient, those of the parameters in it written out."""
+MAX_DEPTH = 200
+"""How deep one coefficient may be nested, the parameters in it written out."""
 _WORDS = {"bool", "null", "timestamp", "merge"}
 
 
@@ -46,6 +48,7 @@ class Numbers:
     parameters: dict[str, Expression] = field(default_factory=dict)
     entries: list[Entry] = field(default_factory=list)
     _sizes: dict[str, int] = field(default_factory=dict)
+    _depths: dict[str, int] = field(default_factory=dict)
     _read: dict[str, Expression] = field(default_factory=dict)
 
     def define(self, name: str, value: Expression) -> None:
@@ -53,6 +56,7 @@ class Numbers:
         self._read.clear()
         self.parameters[name] = value
         self._sizes[name] = size_of(value, {})
+        self._depths[name] = depth_of(value, {})
 
     def entry(self, node: Node, where: str) -> Entry:
         """One coefficient; a faulty one is noted and read as zero, so that reading goes on."""
@@ -74,6 +78,9 @@ class Numbers:
             if size_of(parsed, self._sizes) > MAX_SIZE:
                 message = f"more than {MAX_SIZE} operations, with the parameters written out"
                 raise LimitExceeded(message, "write it shorter", 0, len(text))
+            if depth_of(parsed, self._depths) > MAX_DEPTH:
+                message = f"nested more than {MAX_DEPTH} deep, with the parameters written out"
+                raise LimitExceeded(message, "give the parameter its value", 0, len(text))
             self._read[text] = substitute(parsed, self.parameters)
         return self._read[text]
 

@@ -123,6 +123,10 @@ class Source:
         except RecursionError:
             self.fault(None, f"nested more than {MAX_NESTING} deep", "write it flatter")
             return None
+        except UnicodeEncodeError as error:  # half of a surrogate pair, which no file has
+            place = _place_of_sign(self.text, ord(self.text[error.start]))
+            self.faults.append(Fault("half a sign, which no text has", "write the text as Unicode", *place))
+            return None
         except yaml.MarkedYAMLError as error:
             mark = error.problem_mark or error.context_mark
             place = (mark.line + 1, mark.column + 1) if mark else (1, 1)

@@ -120,3 +120,14 @@ def test_underscores_are_soon_read() -> None:
     with pytest.raises(MethodFileError, match="different numbers to different readers"):
         loads("methods: [{A: [[1_0_0]], b: [1]}]")
     assert process_time() - before < 2
+
+
+def test_long_chains_of_parameters_are_refused() -> None:
+    """Parameters that each use the one before: read to a depth of two hundred, then told."""
+
+    def chain(length: int) -> dict[str, str]:
+        return {"p0": "sqrt(2)"} | {f"p{i}": f"p{i - 1} + 1" for i in range(1, length)}
+
+    assert value("p190 - p189", chain(191)) == 1
+    with pytest.raises(MethodFileError, match="p199: nested more than 200 deep, with the parameters written out"):
+        value("p1499", chain(1500))

@@ -169,3 +169,11 @@ def test_yaml_nested_without_end_is_refused(tmp_path: Path) -> None:
     run = subprocess.run([sys.executable, "-m", "garkcli", "check", str(path)], capture_output=True, text=True)
     assert run.returncode == 2
     assert "12 deep" in run.stdout
+
+
+def test_half_a_surrogate_pair_is_reported_where_it_stands() -> None:
+    """A text from Python can have one; it is no fault of the program."""
+    with pytest.raises(MethodFileError) as caught:
+        loads("name: x\nreference: a\ud800b\n")
+    (fault,) = caught.value.faults
+    assert (fault.line, fault.column) == (2, 13)
