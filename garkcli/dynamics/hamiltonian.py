@@ -121,7 +121,7 @@ def vector_field(problem: Hamiltonian, term: int, drives: Group) -> VectorField:
 
     H, sign = problem.terms[term], 1 if drives == "q" else -1
     by = symbols(problem.variables, "p" if drives == "q" else "q")
-    components = tuple(sympy.sympify(sign * sympy.diff(H, x)) for x in by)
+    components = tuple(sign * sympy.diff(H, x) for x in by)
     free = set().union(*(f.free_symbols for f in components))
     depends = tuple(g for g in GROUPS if free & set(symbols(problem.variables, g)))
     return VectorField(components, problem.variables, depends)

@@ -85,7 +85,7 @@ def enclosed(expressions: Sequence[Any], at: Mapping[Any, arb]) -> list[arb]:
     """The expressions, enclosed; not finite where they have no value, or kinks."""
     import sympy
 
-    made = tuple(sympy.sympify(x) for x in expressions)
+    made = tuple(sympy.Add(x) for x in expressions)
     if not all(map(is_smooth, made)):
         return [arb("nan")] * len(made)
     with ctx.workprec(BITS):

@@ -111,8 +111,8 @@ def _parts(f: Any, r: Any, square: Any) -> tuple[Any, Any]:
         terms = sympy.Poly(sympy.expand(f), r).terms()
     except sympy.PolynomialError:
         return None, None
-    halves = [sum(c * square ** (n // 2) for (n,), c in terms if n % 2 == k) for k in (0, 1)]
-    return sympy.sympify(halves[0]), sympy.sympify(halves[1])
+    even, odd = (sympy.Add(*(c * square ** (n // 2) for (n,), c in terms if n % 2 == k)) for k in (0, 1))
+    return even, odd
 
 
 def _quadratic(a: Any, b: Any, c: Any) -> list[Any]:
