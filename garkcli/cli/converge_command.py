@@ -11,7 +11,7 @@ import click
 from garkcli.cli.converging import Problems, Wanted, compared, hint_rounding, oscillator, tested
 from garkcli.cli.options import CONTEXT, Output, common
 from garkcli.cli.problems import ProblemType, note_changing
-from garkcli.cli.stepping import applied, positive
+from garkcli.cli.stepping import applied, positive, refuse_misplaced
 from garkcli.errors import UsageProblem
 
 if TYPE_CHECKING:
@@ -77,7 +77,9 @@ def command(
     from garkcli.methodfile.load import find_files
 
     paths = list(find_files(files))
-    _check_options(problem, omega, split, seed, drift)
+    refuse_misplaced(problem, seed, {"--omega": omega, "--split": split, "--drift": drift})
+    if omega:
+        positive("--omega", omega)
     if drift and (steps or work or not (t_end and step)):
         raise UsageProblem("--drift follows one step size over one time", "give --t-end T and --step H only")
     if drift and len(paths) > 1:
@@ -118,17 +120,6 @@ class Shown:
     work: bool
     against: str
     plot: str | None
-
-
-def _check_options(problem: str, omega: str | None, split: str | None, seed: int | None, drift: bool) -> None:
-    """Refuse options of another problem: they would change nothing."""
-    if problem != "oscillator" and (omega or split or drift):
-        given = "--omega" if omega else "--split" if split else "--drift"
-        raise UsageProblem(f"{given} is for the oscillator, not for {problem}", "leave it out")
-    if problem != "generic" and seed is not None:
-        raise UsageProblem(f"--seed is for the problem generic, not for {problem}", "leave it out")
-    if omega:
-        positive("--omega", omega)
 
 
 def _one(path: str, wanted: Wanted, shown: Shown, output: Output) -> int:

@@ -9,7 +9,7 @@ import click
 
 from garkcli.cli.options import CONTEXT, Output, common
 from garkcli.cli.problems import ProblemType, find_problem, is_path, note_changing
-from garkcli.cli.stepping import applied, positive
+from garkcli.cli.stepping import applied, positive, refuse_misplaced
 from garkcli.errors import UsageProblem
 
 if TYPE_CHECKING:
@@ -80,7 +80,9 @@ def command(
     from garkcli.report import energy as report
     from garkcli.report.energy_text import Report
 
-    _check_options(problem, omega, split, seed, digits)
+    refuse_misplaced(problem, seed, {"--omega": omega, "--split": split})
+    if problem == "oscillator" and digits is not None:
+        raise UsageProblem("--digits is not for the oscillator: its steps are exact", "leave it out")
     if plot is not None:
         from garkcli.report.plot import check_suffix
 
@@ -110,20 +112,6 @@ def command(
         save(energy_figure(run), Path(plot))
         output.note(f"wrote {plot}")
     return 0 if all(claim.holds for claim in claims) and not run.blew_up else 1
-
-
-def _check_options(
-    problem: str, omega: str | None, split: str | None, seed: int | None, digits: int | None
-) -> None:
-    """Refuse options of another problem: they would change nothing."""
-    if problem == "oscillator" and digits is not None:
-        raise UsageProblem("--digits is not for the oscillator: its steps are exact", "leave it out")
-    if problem != "oscillator" and (omega or split):
-        raise UsageProblem(
-            f"{'--omega' if omega else '--split'} is for the oscillator, not for {problem}", "leave it out"
-        )
-    if problem != "generic" and seed is not None:
-        raise UsageProblem(f"--seed is for the problem generic, not for {problem}", "leave it out")
 
 
 def _oscillator(

@@ -2,6 +2,7 @@
 
 from __future__ import annotations
 
+from collections.abc import Mapping
 from typing import TYPE_CHECKING
 
 from garkcli.cli.options import Output
@@ -33,6 +34,24 @@ def applied(method: MethodFile, output: Output, path: str = "") -> Tableau:
         where = f"{path}: " if path else ""
         output.note(f"{where}no symplectic pair ({error.message}): tested as a GARK method")
         return method.tableau
+
+
+def refuse_misplaced(problem: str, seed: int | None, of_oscillator: Mapping[str, object]) -> None:
+    """Refuse options of another problem: they would change nothing.
+
+    Args:
+        problem: the one that was named.
+        seed: the value of --seed, which is for generic.
+        of_oscillator: the options that are for the oscillator alone, with their values.
+
+    Raises:
+        UsageProblem: one of them was given.
+    """
+    given = next((option for option, value in of_oscillator.items() if value), None)
+    if problem != "oscillator" and given:
+        raise UsageProblem(f"{given} is for the oscillator, not for {problem}", "leave it out")
+    if problem != "generic" and seed is not None:
+        raise UsageProblem(f"--seed is for the problem generic, not for {problem}", "leave it out")
 
 
 def positive(option: str, text: str | None) -> fmpq:

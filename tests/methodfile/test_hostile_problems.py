@@ -108,19 +108,19 @@ READ = {
 def test_refused_soon(name: str) -> None:
     """The limit or fault is named, before much work is done."""
     text, message = REFUSED[name]
-    before = time.perf_counter()
+    before = time.process_time()
     with pytest.raises(MethodFileError) as caught:
         loads_problem(text)
-    assert time.perf_counter() - before < LONGEST
+    assert time.process_time() - before < LONGEST
     assert any(message in fault.message for fault in caught.value.faults)
 
 
 @pytest.mark.parametrize("name", READ)
 def test_read_soon(name: str) -> None:
     """Large, but within the limits."""
-    before = time.perf_counter()
+    before = time.process_time()
     assert loads_problem(READ[name]).terms
-    assert time.perf_counter() - before < LONGEST
+    assert time.process_time() - before < LONGEST
 
 
 @pytest.mark.parametrize("seed", range(4))
