@@ -3,6 +3,7 @@
 from __future__ import annotations
 
 from collections.abc import Sequence
+from textwrap import wrap
 from typing import TYPE_CHECKING
 
 from flint import arb, fmpq
@@ -102,7 +103,8 @@ def _full(outcome: Outcome, analysis: Analysis, paint: Paint) -> list[str]:
     tableau = analysis.tableau
     file = printable(outcome.file)
     title = file if outcome.name == outcome.file else f"{file}: {outcome.name}"
-    lines = [paint("strong", title), f"  {_kind(tableau, outcome.structure, analysis.tolerance)}", ""]
+    kind = wrap(_kind(tableau, outcome.structure, analysis.tolerance), 78)
+    lines = [paint("strong", title), *(f"  {line}" for line in kind), ""]
     lines += _orders(analysis, paint)
     if analysis.suggestion is not None:
         lines += _suggested(analysis.suggestion, paint)
