@@ -9,23 +9,23 @@ from importlib import import_module
 from typing import TYPE_CHECKING, Any
 
 if TYPE_CHECKING:
-    from garkcli.dynamics.convergence import converge
-    from garkcli.dynamics.energy import drift
-    from garkcli.dynamics.examples import hamiltonian
-    from garkcli.dynamics.longtime import follow
-    from garkcli.dynamics.nonlinear import observe
-    from garkcli.dynamics.problems import Oscillator
-    from garkcli.dynamics.scheme import scheme
-    from garkcli.dynamics.step import final, trajectory
-    from garkcli.dynamics.symplecticity import defects
+    from garkcli.check.analysis import analyse
+    from garkcli.check.check_file import check_file
+    from garkcli.convergence.convergence import converge
+    from garkcli.convergence.nonlinear import observe
     from garkcli.families.registry import diagonal_method
-    from garkcli.methodfile.check import check_file
+    from garkcli.longtime.energy import drift
+    from garkcli.longtime.longtime import follow
+    from garkcli.longtime.symplecticity import defects
     from garkcli.methodfile.load import load, loads
     from garkcli.methodfile.problem import load_problem, loads_problem
     from garkcli.order.certificate import find_order
-    from garkcli.order.check import analyse
     from garkcli.order.conditions import conditions, elementary_weight
     from garkcli.order.simplifying import simplifying
+    from garkcli.problems.builtin import hamiltonian
+    from garkcli.problems.oscillator import Oscillator
+    from garkcli.stepping.integrator import scheme
+    from garkcli.stepping.step import final, trajectory
     from garkcli.tableau.conjugate import conjugate, is_symplectic
     from garkcli.tableau.forms import gark, pair, symplectic_pair
     from garkcli.tableau.tableau import Tableau
@@ -35,35 +35,35 @@ if TYPE_CHECKING:
 __version__ = "0.1.0"
 
 _HOMES = {
-    "analyse": "order.check",
-    "check_file": "methodfile.check",
+    "analyse": "check.analysis",
+    "check_file": "check.check_file",
     "conditions": "order.conditions",
     "conjugate": "tableau.conjugate",
-    "converge": "dynamics.convergence",
-    "defects": "dynamics.symplecticity",
+    "converge": "convergence.convergence",
+    "defects": "longtime.symplecticity",
     "diagonal_method": "families.registry",
-    "drift": "dynamics.energy",
+    "drift": "longtime.energy",
     "elementary_weight": "order.conditions",
-    "final": "dynamics.step",
+    "final": "stepping.step",
     "find_order": "order.certificate",
-    "follow": "dynamics.longtime",
+    "follow": "longtime.longtime",
     "format_tree": "trees.notation",
     "gark": "tableau.forms",
-    "hamiltonian": "dynamics.examples",
+    "hamiltonian": "problems.builtin",
     "is_symplectic": "tableau.conjugate",
     "load": "methodfile.load",
     "load_problem": "methodfile.problem",
     "loads": "methodfile.load",
     "loads_problem": "methodfile.problem",
-    "observe": "dynamics.nonlinear",
-    "Oscillator": "dynamics.problems",
+    "observe": "convergence.nonlinear",
+    "Oscillator": "problems.oscillator",
     "pair": "tableau.forms",
     "parse_tree": "trees.notation",
-    "scheme": "dynamics.scheme",
+    "scheme": "stepping.integrator",
     "simplifying": "order.simplifying",
     "symplectic_pair": "tableau.forms",
     "Tableau": "tableau.tableau",
-    "trajectory": "dynamics.step",
+    "trajectory": "stepping.step",
     "Tree": "trees.tree",
 }
 

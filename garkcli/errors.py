@@ -21,7 +21,9 @@ from dataclasses import dataclass
 
 
 class GarkError(Exception):
-    """Base of all errors of the program: ``message`` says what and where, ``help`` says the cure."""
+    """Base of all errors of the program: ``message`` says what and where, ``help`` says the
+    cure.
+    """
 
     def __init__(self, message: str, help: str = "") -> None:  # noqa: A002 -- the word users see
         super().__init__(message)
@@ -79,7 +81,9 @@ class UsageProblem(GarkError):
 
 @dataclass(frozen=True)
 class Fault:
-    """One fault of a method or problem file; ``line`` and ``column`` count from 1 and are 0 where unknown."""
+    """One fault of a method or problem file; ``line`` and ``column`` count from 1 and are 0 where
+    unknown.
+    """
 
     message: str
     help: str = ""
@@ -110,7 +114,9 @@ def counted(count: int, noun: str, plural: str = "") -> str:
 
 
 class MethodFileError(GarkError):
-    """A file that cannot be read as a method or a problem: every fault found in it, in file order."""
+    """A file that cannot be read as a method or a problem: every fault found in it, in file
+    order.
+    """
 
     def __init__(self, source: str, faults: Sequence[Fault], text: str = "") -> None:
         super().__init__("; ".join(fault.message for fault in faults))

@@ -1,7 +1,9 @@
-"""Off-diagonal blocks made from the diagonal methods, section "Some techniques to construct the transfer matrices".
+"""Off-diagonal blocks made from the diagonal methods, section "Some techniques to construct the
+transfer matrices".
 
-All of it happens in stage spaces: a stage vector of m is lifted to the polynomial of degree < s_m it stands
-for, and reduced to the stages of l. Every function returns a block A^{l,m} of shape (s_l, s_m).
+All of it happens in stage spaces: a stage vector of m is lifted to the polynomial of degree < s_m
+it stands for, and reduced to the stages of l. Every function returns a block A^{l,m} of shape (s_l,
+s_m).
 """
 
 from __future__ import annotations
@@ -61,7 +63,9 @@ PAIR_RULES: Mapping[str, Rule] = {
     "symplectic-collocation": collocation,
     "symplectic-interpolation": interpolation,
 }
-"""The rules that make both blocks of a pair of colours, each with the rule for the first of them."""
+"""The rules that make both blocks of a pair of colours, each with the rule for the first of
+them.
+"""
 
 SUMMARIES: Mapping[str, str] = {
     "collocation": "a_ij = ∫_0^{c_i} L_j, with the Lagrange polynomials of the nodes of m",
@@ -84,7 +88,9 @@ def combination(terms: Sequence[tuple[Number, Rule]], l: Method, m: Method) -> M
 
 
 def build_on(methods: Sequence[Method], orders: Sequence[int], l: int, m: int) -> int:
-    """Which of two colours a ``symplectic-`` rule builds on: smaller order, fewer stages, lower number."""
+    """Which of two colours a ``symplectic-`` rule builds on: smaller order, fewer stages, lower
+    number.
+    """
     return min((l, m), key=lambda k: (orders[k], methods[k].stages, k))
 
 

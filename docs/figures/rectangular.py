@@ -1,6 +1,7 @@
 """The figure of the paper: the rectangular method on the harmonic oscillator.
 
-Left the energy error in [0, 10⁴] with h = 1/2, right the error against the step size with a line of slope four.
+Left the energy error in [0, 10⁴] with h = 1/2, right the error against the step size with a line of
+slope four.
 
     python docs/figures/rectangular.py [FILE.png|svg|pdf]
 
@@ -17,11 +18,11 @@ from matplotlib.axes import Axes
 from matplotlib.figure import Figure
 
 from garkcli import converge, load
-from garkcli.dynamics.courses import LongRun, of_oscillator
-from garkcli.dynamics.energy import drift
-from garkcli.dynamics.problems import Oscillator
-from garkcli.report.energy_plot import draw_course
-from garkcli.report.plot import save
+from garkcli.longtime.courses import LongRun, of_oscillator
+from garkcli.longtime.energy import drift
+from garkcli.plots.convergence_plot import save
+from garkcli.plots.energy_plot import draw_course
+from garkcli.problems.oscillator import Oscillator
 
 HERE = Path(__file__).resolve().parent
 METHOD = HERE.parents[1] / "methods" / "rectangular.gark.yaml"
@@ -38,7 +39,9 @@ def figure() -> Figure:
 
 
 def draw_energy(axes: Axes) -> None:
-    """The energy error against time; above it the first oscillations, which are too many to be seen in all."""
+    """The energy error against time; above it the first oscillations, which are too many to be seen
+    in all.
+    """
     run = energy(10_000)
     draw_course(axes, run, run.courses[0])
     low, high = min(run.courses[0].errors), max(run.courses[0].errors)
@@ -50,7 +53,14 @@ def draw_energy(axes: Axes) -> None:
     axes.set_yticks([0.0, 5e-5, 1e-4])
     first = axes.inset_axes((0.03, 0.65, 0.94, 0.27))
     short = energy(60)
-    first.plot(short.times, short.courses[0].errors, color="#1f4e9e", linewidth=0.8, marker=".", markersize=4)
+    first.plot(
+        short.times,
+        short.courses[0].errors,
+        color="#1f4e9e",
+        linewidth=0.8,
+        marker=".",
+        markersize=4,
+    )
     first.axhline(0.0, color="0.1", linewidth=0.7)
     first.set_yticks([])
     first.set_title("the first steps", fontsize=9, pad=2)

@@ -11,7 +11,7 @@ import click
 from garkcli.cli.options import CONTEXT, Output, common
 
 if TYPE_CHECKING:
-    from garkcli.order.outcome import Outcome
+    from garkcli.check.outcome import Outcome
 
 FORMATS = ["auto", "text", "json", "sarif", "junit", "github", "markdown"]
 
@@ -31,7 +31,11 @@ FORMATS = ["auto", "text", "json", "sarif", "junit", "github", "markdown"]
     is_flag=True,
     help="The norms of the principal error coefficients, over all trees of the first failing order.",
 )
-@click.option("--baseline", metavar="REPORT", help="Fail only on what is worse than in an earlier JSON report.")
+@click.option(
+    "--baseline",
+    metavar="REPORT",
+    help="Fail only on what is worse than in an earlier JSON report.",
+)
 @click.option(
     "-j",
     "--jobs",
@@ -43,16 +47,22 @@ FORMATS = ["auto", "text", "json", "sarif", "junit", "github", "markdown"]
 )
 @common(FORMATS)
 def command(
-    files: tuple[str, ...], max_order: int, error_constants: bool, baseline: str | None, jobs: int, output: Output
+    files: tuple[str, ...],
+    max_order: int,
+    error_constants: bool,
+    baseline: str | None,
+    jobs: int,
+    output: Output,
 ) -> int:
     """Everything known about each method, and its claims.
 
     FILE is a method file, a directory (all *.gark.yaml below it), a pattern (in quotes, ** for any
     directories), or - for standard input.
 
-    The exact order of the tableau, of its symplectic conjugate and of their pair, each with a tree whose
-    condition fails next; B, C and D of every block and the bound they give; consistency and symplecticity;
-    the claims under `expect`. The format auto is github in GitHub Actions and text elsewhere.
+    The exact order of the tableau, of its symplectic conjugate and of their pair, each with a tree
+    whose condition fails next; B, C and D of every block and the bound they give; consistency and
+    symplecticity; the claims under `expect`. The format auto is github in GitHub Actions and text
+    elsewhere.
 
     Exit code: 0 every claim holds, 1 a claim fails, 2 a file cannot be read as a method.
     """
@@ -62,16 +72,17 @@ def command(
 
     earlier = None
     if baseline is not None:
-        from garkcli.report.baseline import read_baseline
+        from garkcli.check.baseline import read_baseline
 
         earlier = read_baseline(baseline)
     paths = list(find_files(files))
     running = check_files(paths, max_order, error_constants, jobs or os.cpu_count() or 1)
     outcomes = list(tracked(running, len(paths), "checking", output.verbosity >= 0))
     if earlier is not None:
-        from garkcli.report import baseline as comparison
+        from garkcli.check import baseline as comparison
+        from garkcli.report.check_json import as_data
 
-        worse = comparison.regressions(outcomes, earlier)
+        worse = comparison.regressions(as_data(outcomes), earlier)
         output.write(comparison.render(worse, len(outcomes)))
         return int(bool(worse))
     output.write(_rendered(outcomes, output))

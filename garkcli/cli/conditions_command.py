@@ -21,7 +21,13 @@ if TYPE_CHECKING:
 
 @click.command("conditions", context_settings=CONTEXT)
 @click.argument("file", required=False, metavar="[FILE]")
-@click.option("--colours", "-N", type=click.IntRange(1, 1000), metavar="N", help="How many colours, without FILE.")
+@click.option(
+    "--colours",
+    "-N",
+    type=click.IntRange(1, 1000),
+    metavar="N",
+    help="How many colours, without FILE.",
+)
 @click.option(
     "--order",
     "-n",
@@ -38,7 +44,9 @@ if TYPE_CHECKING:
     default=None,
     help="A row for each colouring, or a row for all of them (without FILE).",
 )
-@click.option("--conjugate", "which", flag_value="conjugate", help="Of the symplectic conjugate of FILE.")
+@click.option(
+    "--conjugate", "which", flag_value="conjugate", help="Of the symplectic conjugate of FILE."
+)
 @click.option("--pair", "which", flag_value="pair", help="Of the symplectic pair of FILE.")
 @click.option("--failing", is_flag=True, help="Only conditions of FILE that do not hold.")
 @click.option(
@@ -48,7 +56,9 @@ if TYPE_CHECKING:
     show_default=True,
     help="Order of the rows; worst: the largest residual first.",
 )
-@click.option("--document", is_flag=True, help="With --format latex: a document that compiles as it stands.")
+@click.option(
+    "--document", is_flag=True, help="With --format latex: a document that compiles as it stands."
+)
 @symplectic_options
 @common(["text", "json", "csv", "latex"])
 def command(
@@ -68,12 +78,13 @@ def command(
 ) -> int:
     """The order-condition table.
 
-    Without FILE the paper's Table 1 for any order: a row for each tree shape, to hold for all colours (text and
-    latex), or a row for each coloured tree (json and csv). With FILE every condition of that method with its
-    exact value, the required value and the residual; identical conditions are listed once.
+    Without FILE the paper's Table 1 for any order: a row for each tree shape, to hold for all
+    colours (text and latex), or a row for each coloured tree (json and csv). With FILE every
+    condition of that method with its exact value, the required value and the residual; identical
+    conditions are listed once.
 
-    With --symplectic one condition of each class of those that are equivalent for symplectic methods; with FILE
-    for its symplectic pair, unless it is symplectic itself.
+    With --symplectic one condition of each class of those that are equivalent for symplectic
+    methods; with FILE for its symplectic pair, unless it is symplectic itself.
     """
     from garkcli.report import conditions as report
     from garkcli.report.progress import tracked
@@ -83,13 +94,19 @@ def command(
     if file is None and (which or failing or sort != "tree"):
         raise UsageProblem("values are those of a method", "give a FILE")
     if file is not None and (colours is not None or coloured is not None):
-        raise UsageProblem("the colours are those of FILE", "leave out --colours, --coloured, --shapes")
+        raise UsageProblem(
+            "the colours are those of FILE", "leave out --colours, --coloured, --shapes"
+        )
     valued = None if file is None else _chosen(file, which, failing)
     subject = None
     if asked is not None:
         if coloured is not None:
             raise UsageProblem("free trees have colours", "leave out --coloured and --shapes")
-        subject = _subject(asked, colours, orders) if valued is None else _of_file(valued.tableau, kind, orders)
+        subject = (
+            _subject(asked, colours, orders)
+            if valued is None
+            else _of_file(valued.tableau, kind, orders)
+        )
         if valued is not None and subject.tableau is not None:
             valued = replace(valued, tableau=subject.tableau)
         rows = _independent(subject, members, valued)
@@ -102,7 +119,9 @@ def command(
     if sort == "worst":
         rows = iter(sorted(rows, key=_badness, reverse=True))
     rows = tracked(rows, None, "conditions", output.may_show_progress)
-    output.write(report.render(rows, output.format, output.paint, output.width, document, subject, valued))
+    output.write(
+        report.render(rows, output.format, output.paint, output.width, document, subject, valued)
+    )
     return 0
 
 
@@ -114,7 +133,13 @@ def _chosen(file: str, which: str | None, only_failing: bool) -> Valued:
 
     method = load(file)
     tableau = method.tableau
-    tableau = conjugate(tableau) if which == "conjugate" else pair(tableau) if which == "pair" else tableau
+    tableau = (
+        conjugate(tableau)
+        if which == "conjugate"
+        else pair(tableau)
+        if which == "pair"
+        else tableau
+    )
     return Valued(tableau, method.tolerance, only_failing)
 
 

@@ -22,8 +22,9 @@ from garkcli.cli.options import CONTEXT, Output, common
 def command(file: str, is_pair: bool, digits: int, output: Output) -> int:
     """The symplectic conjugate tableau of a method.
 
-    With --format yaml it is a method file that loads again; conjugated again it gives the original blocks
-    exactly. Where the nodes have no simple radicals that file says `conjugate: true` instead of entries.
+    With --format yaml it is a method file that loads again; conjugated again it gives the original
+    blocks exactly. Where the nodes have no simple radicals that file says `conjugate: true` instead
+    of entries.
     """
     from garkcli.methodfile.load import load
     from garkcli.tableau.conjugate import conjugate
@@ -50,6 +51,8 @@ def command(file: str, is_pair: bool, digits: int, output: Output) -> int:
             "gark check reports on the pair; --format json gives decimals",
         )
     else:
-        output.note("the conjugate is described by the key conjugate: true, exactly, not spelled out")
+        output.note(
+            "the conjugate is described by the key conjugate: true, exactly, not spelled out"
+        )
         output.write(write_conjugate_of(method, name))
     return 0

@@ -32,17 +32,33 @@ AXES = ("h", "evaluations", "seconds")
     help="What to solve: a name that gark list shows, or a problem file.",
 )
 @click.option("--omega", metavar="W", help="The frequency of the oscillator; 1 by default.")
-@click.option("--split", metavar="K:V,...", help="The oscillator's shares of kinetic and potential energy.")
-@click.option("--seed", type=click.IntRange(0), metavar="N", help="The coefficients of generic; 1 by default.")
-@click.option("--t-end", metavar="T", help="The final time; without --drift each problem has its own.")
-@click.option("--steps", metavar="H,...", help="Step sizes, instead of a ladder of halvings that fits the errors.")
-@click.option("--work", is_flag=True, help="Count evaluations, measure time, and plot the errors against them.")
+@click.option(
+    "--split", metavar="K:V,...", help="The oscillator's shares of kinetic and potential energy."
+)
+@click.option(
+    "--seed", type=click.IntRange(0), metavar="N", help="The coefficients of generic; 1 by default."
+)
+@click.option(
+    "--t-end", metavar="T", help="The final time; without --drift each problem has its own."
+)
+@click.option(
+    "--steps",
+    metavar="H,...",
+    help="Step sizes, instead of a ladder of halvings that fits the errors.",
+)
+@click.option(
+    "--work",
+    is_flag=True,
+    help="Count evaluations, measure time, and plot the errors against them.",
+)
 @click.option(
     "--against",
     type=click.Choice(AXES),
     help="What plots have below: h, or evaluations with --work; seconds depend on the machine.",
 )
-@click.option("--drift", is_flag=True, help="The energy error over a long time; with --t-end and --step.")
+@click.option(
+    "--drift", is_flag=True, help="The energy error over a long time; with --t-end and --step."
+)
 @click.option("--step", metavar="H", help="The step size for --drift.")
 @click.option("--plot", metavar="FILE", help="Draw into FILE: .png, .svg or .pdf.")
 @common(["text", "json", "csv"])
@@ -63,16 +79,16 @@ def command(
 ) -> int:
     """The convergence test: errors over step sizes, observed against predicted order, energy error.
 
-    The step map of the oscillator is linear and taken exactly. The other problems are nonlinear (split-oscillator
-    apart) and stepped with as many digits as their errors need, so that a method of order 12 shows slope 12 and
-    not rounding. generic sees every tree. A file with `methods` is tested as its symplectic pair, every other
-    file as it stands.
+    The step map of the oscillator is linear and taken exactly. The other problems are nonlinear
+    (split-oscillator apart) and stepped with as many digits as their errors need, so that a method
+    of order 12 shows slope 12 and not rounding. generic sees every tree. A file with `methods` is
+    tested as its symplectic pair, every other file as it stands.
 
-    Several FILEs, directories (all *.gark.yaml below them) or patterns are compared, in one table and one plot.
-    With --work they are compared by what their errors cost.
+    Several FILEs, directories (all *.gark.yaml below them) or patterns are compared, in one table
+    and one plot. With --work they are compared by what their errors cost.
 
-    Exit code: 0 every observed order is the one the method has on this problem, 1 one is not, or a step fails, 2 a
-    file cannot be read, or its method is not for this problem.
+    Exit code: 0 every observed order is the one the method has on this problem, 1 one is not, or a
+    step fails, 2 a file cannot be read, or its method is not for this problem.
     """
     from garkcli.methodfile.load import find_files
 
@@ -81,15 +97,19 @@ def command(
     if omega:
         positive("--omega", omega)
     if drift and (steps or work or not (t_end and step)):
-        raise UsageProblem("--drift follows one step size over one time", "give --t-end T and --step H only")
+        raise UsageProblem(
+            "--drift follows one step size over one time", "give --t-end T and --step H only"
+        )
     if drift and len(paths) > 1:
         raise UsageProblem("--drift follows one method", "give one file")
     if step and not drift:
-        raise UsageProblem("--step is the step size of --drift", "give --steps H,H,... for the convergence test")
+        raise UsageProblem(
+            "--step is the step size of --drift", "give --steps H,H,... for the convergence test"
+        )
     if against not in (None, "h") and not work:
         raise UsageProblem(f"--against {against} is not known without measuring it", "add --work")
     if plot is not None:
-        from garkcli.report.plot import check_suffix
+        from garkcli.plots.convergence_plot import check_suffix
 
         check_suffix(Path(plot))
     wanted = Wanted(
@@ -104,7 +124,11 @@ def command(
     if drift:
         return _drift(paths[0], wanted, positive("--step", step), plot, output)
     shown = Shown(work, against or ("evaluations" if work else "h"), plot)
-    return _one(paths[0], wanted, shown, output) if len(paths) == 1 else _several(paths, wanted, shown, output)
+    return (
+        _one(paths[0], wanted, shown, output)
+        if len(paths) == 1
+        else _several(paths, wanted, shown, output)
+    )
 
 
 @dataclass(frozen=True)
@@ -124,10 +148,10 @@ class Shown:
 
 def _one(path: str, wanted: Wanted, shown: Shown, output: Output) -> int:
     """The test of one method."""
-    from garkcli.dynamics.step import StepFailed
     from garkcli.methodfile.load import load
     from garkcli.report import convergence as report
     from garkcli.report.progress import watching
+    from garkcli.stepping.step import StepFailed
 
     method = load(path)
     tableau = applied(method, output)
@@ -143,11 +167,15 @@ def _one(path: str, wanted: Wanted, shown: Shown, output: Output) -> int:
     output.write(report.render(result, method.name, output.format, output.paint, shown.work))
     hint_rounding(method, tableau, result, output)
     if shown.plot is not None:
-        from garkcli.report.plot import comparison_figure, convergence_figure
+        from garkcli.plots.convergence_plot import comparison_figure, convergence_figure
 
         is_plain = shown.against == "h" and not shown.work
         named = [(method.name, result)]
-        _save(convergence_figure(result) if is_plain else comparison_figure(named, shown.against), shown, output)
+        _save(
+            convergence_figure(result) if is_plain else comparison_figure(named, shown.against),
+            shown,
+            output,
+        )
     return int(result.verdict == "disagree")
 
 
@@ -160,7 +188,7 @@ def _several(paths: list[str], wanted: Wanted, shown: Shown, output: Output) -> 
     results = [(entry.name, entry.result) for entry in entries if entry.result is not None]
     if shown.plot is not None:
         if results:
-            from garkcli.report.plot import comparison_figure
+            from garkcli.plots.convergence_plot import comparison_figure
 
             _save(comparison_figure(results, shown.against), shown, output)
         else:
@@ -169,14 +197,14 @@ def _several(paths: list[str], wanted: Wanted, shown: Shown, output: Output) -> 
 
 
 def _save(figure: Figure, shown: Shown, output: Output) -> None:
-    from garkcli.report.plot import save
+    from garkcli.plots.convergence_plot import save
 
     save(figure, Path(shown.plot or ""))
     output.note(f"wrote {shown.plot}")
 
 
 def _drift(path: str, wanted: Wanted, step: fmpq, plot: str | None, output: Output) -> int:
-    from garkcli.dynamics.energy import drift
+    from garkcli.longtime.energy import drift
     from garkcli.methodfile.load import load
     from garkcli.report import energy as report
 
@@ -186,8 +214,8 @@ def _drift(path: str, wanted: Wanted, step: fmpq, plot: str | None, output: Outp
     result = drift(tableau, oscillator(wanted, tableau), wanted.t_end, step)
     output.write(report.render_drift(result, method.name, output.format, output.paint))
     if plot is not None:
-        from garkcli.report.energy_plot import drift_figure
-        from garkcli.report.plot import save
+        from garkcli.plots.convergence_plot import save
+        from garkcli.plots.energy_plot import drift_figure
 
         save(drift_figure(result), Path(plot))
         output.note(f"wrote {plot}")

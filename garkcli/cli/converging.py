@@ -16,10 +16,10 @@ from garkcli.errors import Fault, GarkError, MethodFileError
 if TYPE_CHECKING:
     from flint import fmpq
 
-    from garkcli.dynamics.hamiltonian import Hamiltonian
-    from garkcli.dynamics.problems import Oscillator
-    from garkcli.dynamics.reference import Watch
+    from garkcli.convergence.reference import Watch
     from garkcli.methodfile.build import MethodFile
+    from garkcli.problems.hamiltonian import Hamiltonian
+    from garkcli.problems.oscillator import Oscillator
     from garkcli.report.convergence_data import Entry, Result
     from garkcli.tableau.tableau import Tableau
 
@@ -48,8 +48,8 @@ class Wanted:
 class Problems:
     """The problem, split for each of the methods that are tested on it.
 
-    A file is read once. The random H of ``generic`` depends on its number of terms: all methods get that of the
-    method with the most, with terms added up where they have fewer.
+    A file is read once. The random H of ``generic`` depends on its number of terms: all methods get
+    that of the method with the most, with terms added up where they have fewer.
 
     Args:
         wanted: names the problem.
@@ -63,8 +63,8 @@ class Problems:
     """
 
     def __init__(self, wanted: Wanted, tableaux: Sequence[Tableau]) -> None:
-        from garkcli.dynamics.problems import terms_of
-        from garkcli.dynamics.structure import fitted
+        from garkcli.problems.oscillator import terms_of
+        from garkcli.stepping.dependency import fitted
 
         self._wanted = wanted
         self.read: Hamiltonian | None = None
@@ -80,9 +80,9 @@ class Problems:
         Raises:
             UsageProblem: it cannot be split for it.
         """
-        from garkcli.dynamics.comparison import gathered
-        from garkcli.dynamics.problems import terms_of
-        from garkcli.dynamics.splitting import fit
+        from garkcli.problems.comparison import gathered
+        from garkcli.problems.oscillator import terms_of
+        from garkcli.stepping.matching import fit
 
         terms = terms_of(tableau)
         if self.read is not None:
@@ -92,7 +92,9 @@ class Problems:
         return gathered(find_problem("generic", self._widest, self._wanted.seed), terms)
 
 
-def tested(method: MethodFile, tableau: Tableau, wanted: Wanted, problems: Problems, watch: Watch) -> Result:
+def tested(
+    method: MethodFile, tableau: Tableau, wanted: Wanted, problems: Problems, watch: Watch
+) -> Result:
     """The convergence test of one method.
 
     Raises:
@@ -100,15 +102,27 @@ def tested(method: MethodFile, tableau: Tableau, wanted: Wanted, problems: Probl
     """
     if wanted.problem == "oscillator":
         return _on_oscillator(method, tableau, wanted)
-    from garkcli.dynamics.nonlinear import observe
-    from garkcli.dynamics.structure import fitted
+    from garkcli.convergence.nonlinear import observe
+    from garkcli.stepping.dependency import fitted
 
     tableau = fitted(tableau)
-    return observe(tableau, problems.of(tableau), wanted.t_end, wanted.steps, method.tolerance, wanted.work, watch)
+    return observe(
+        tableau,
+        problems.of(tableau),
+        wanted.t_end,
+        wanted.steps,
+        method.tolerance,
+        wanted.work,
+        watch,
+    )
 
 
-def hint_rounding(method: MethodFile, tableau: Tableau, result: Result, output: Output, path: str = "") -> None:
-    """Where observed and exact order disagree because coefficients look rounded: the line that is missing."""
+def hint_rounding(
+    method: MethodFile, tableau: Tableau, result: Result, output: Output, path: str = ""
+) -> None:
+    """Where observed and exact order disagree because coefficients look rounded: the line that is
+    missing.
+    """
     if result.verdict != "disagree" or method.tolerance is not None:
         return
     from garkcli.order.certificate import find_order
@@ -123,17 +137,22 @@ def hint_rounding(method: MethodFile, tableau: Tableau, result: Result, output: 
 
 
 def _on_oscillator(method: MethodFile, tableau: Tableau, wanted: Wanted) -> Result:
-    from garkcli.dynamics.convergence import converge
+    from garkcli.convergence.convergence import converge
 
     predicted, tolerance = None, 0.0
     if method.tolerance is not None:
         from garkcli.exact.display import to_float
         from garkcli.order.rounded import find_order_within
 
-        predicted, tolerance = find_order_within(tableau, method.tolerance).order, to_float(method.tolerance)
-    result = converge(tableau, oscillator(wanted, tableau), wanted.t_end, wanted.steps, predicted, tolerance)
+        predicted, tolerance = (
+            find_order_within(tableau, method.tolerance).order,
+            to_float(method.tolerance),
+        )
+    result = converge(
+        tableau, oscillator(wanted, tableau), wanted.t_end, wanted.steps, predicted, tolerance
+    )
     if wanted.work:
-        from garkcli.dynamics.work import timed
+        from garkcli.convergence.work import timed
 
         result = timed(tableau, result)
     return result
@@ -145,7 +164,7 @@ def oscillator(wanted: Wanted, tableau: Tableau) -> Oscillator:
     Raises:
         UsageProblem: the options do not make one.
     """
-    from garkcli.dynamics.problems import Oscillator, parse_shares, terms_of
+    from garkcli.problems.oscillator import Oscillator, parse_shares, terms_of
 
     terms, frequency = terms_of(tableau), rational("--omega", wanted.omega or "1")
     if wanted.split:
@@ -154,7 +173,8 @@ def oscillator(wanted: Wanted, tableau: Tableau) -> Oscillator:
 
 
 def compared(paths: Sequence[str], wanted: Wanted, output: Output) -> list[Entry]:
-    """The tests of all files, in order. What fails is told on stderr at once, and stops none of the others.
+    """The tests of all files, in order. What fails is told on stderr at once, and stops none of the
+    others.
 
     Raises:
         MethodFileError: the problem file has faults.
@@ -176,7 +196,11 @@ def compared(paths: Sequence[str], wanted: Wanted, output: Output) -> list[Entry
     with watching(output.verbosity >= 0) as watch:
         for k, (path, found) in enumerate(zip(paths, methods, strict=True), start=1):
             prefixed = _prefixed(watch, f"{k}/{len(paths)}")
-            entries.append(_entry(path, *found, wanted, problems, prefixed) if isinstance(found, tuple) else found)
+            entries.append(
+                _entry(path, *found, wanted, problems, prefixed)
+                if isinstance(found, tuple)
+                else found
+            )
     for path, found, entry in zip(paths, methods, entries, strict=True):
         if isinstance(found, tuple) and entry.result is not None:
             hint_rounding(*found, entry.result, output, path)
@@ -188,7 +212,12 @@ def _prefixed(watch: Watch, prefix: str) -> Watch:
 
 
 def _entry(
-    path: str, method: MethodFile, tableau: Tableau, wanted: Wanted, problems: Problems, watch: Watch
+    path: str,
+    method: MethodFile,
+    tableau: Tableau,
+    wanted: Wanted,
+    problems: Problems,
+    watch: Watch,
 ) -> Entry:
     from garkcli.report.convergence_data import Entry
 
@@ -203,15 +232,18 @@ def _failed(path: str, name: str, error: GarkError) -> Entry:
     """Tell an error; a step that fails has exit code 1, everything else 2."""
     import sys
 
-    from garkcli.dynamics.step import StepFailed
-    from garkcli.order.outcome import Outcome
+    from garkcli.check.outcome import Outcome
     from garkcli.report.check_text import faults_text
     from garkcli.report.convergence_data import Entry
     from garkcli.report.paint import Paint
+    from garkcli.stepping.step import StepFailed
 
     if isinstance(error, MethodFileError):
         faults, text = error.faults, error.text
     else:
         faults, text = (Fault(error.message, error.help),), ""
-    click.echo(faults_text(Outcome(path, name, faults=faults, text=text), Paint(sys.stderr.isatty())), err=True)
+    click.echo(
+        faults_text(Outcome(path, name, faults=faults, text=text), Paint(sys.stderr.isatty())),
+        err=True,
+    )
     return Entry(path, name, None, faults, 1 if isinstance(error, StepFailed) else 2)

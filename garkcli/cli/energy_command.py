@@ -15,8 +15,8 @@ from garkcli.errors import UsageProblem
 if TYPE_CHECKING:
     from flint import fmpq
 
-    from garkcli.dynamics.courses import LongRun
-    from garkcli.dynamics.symplecticity import Symplecticity
+    from garkcli.longtime.courses import LongRun
+    from garkcli.longtime.symplecticity import Symplecticity
     from garkcli.methodfile.build import MethodFile
     from garkcli.report.energy_text import Claim
     from garkcli.tableau.tableau import Tableau
@@ -32,11 +32,20 @@ if TYPE_CHECKING:
     help="What to follow: a name that gark list shows, or a problem file.",
 )
 @click.option("--omega", metavar="W", help="The frequency of the oscillator; 1 by default.")
-@click.option("--split", metavar="K:V,...", help="The oscillator's shares of kinetic and potential energy.")
-@click.option("--seed", type=click.IntRange(0), metavar="N", help="The coefficients of generic; 1 by default.")
+@click.option(
+    "--split", metavar="K:V,...", help="The oscillator's shares of kinetic and potential energy."
+)
+@click.option(
+    "--seed", type=click.IntRange(0), metavar="N", help="The coefficients of generic; 1 by default."
+)
 @click.option("--t-end", metavar="T", help="The final time; each problem has its own.")
 @click.option("--step", metavar="H", help="The step size; each problem has its own.")
-@click.option("--digits", type=click.IntRange(1, 200), metavar="N", help="Step with N digits instead of floats.")
+@click.option(
+    "--digits",
+    type=click.IntRange(1, 200),
+    metavar="N",
+    help="Step with N digits instead of floats.",
+)
 @click.option(
     "--points",
     type=click.IntRange(10, 1_000_000),
@@ -45,7 +54,9 @@ if TYPE_CHECKING:
     metavar="N",
     help="How many times the plot and --format csv keep, extremes among them.",
 )
-@click.option("--symplecticity", is_flag=True, help="Measure MᵀJM − J of single steps, M = ∂y₁/∂y₀.")
+@click.option(
+    "--symplecticity", is_flag=True, help="Measure MᵀJM − J of single steps, M = ∂y₁/∂y₀."
+)
 @click.option("--bounded", is_flag=True, help="Claim that nothing drifts.")
 @click.option("--max-error", metavar="E", help="Claim that no energy error is larger than E.")
 @click.option("--plot", metavar="FILE", help="Draw into FILE: .png, .svg or .pdf.")
@@ -68,27 +79,33 @@ def command(
 ) -> int:
     """The energy error over a long time, and that of every other invariant: does it drift?
 
-    A drift is told from the oscillation around it by a fit, and has an uncertainty. The step map of the oscillator
-    is linear: there the energy error has no rounding, and whether it is bounded for all time is decided exactly.
-    The other problems are stepped in floats with compensated summation, or with --digits. A file with `methods`
-    is taken as its symplectic pair, every other file as it stands.
+    A drift is told from the oscillation around it by a fit, and has an uncertainty. The step map of
+    the oscillator is linear: there the energy error has no rounding, and whether it is bounded for
+    all time is decided exactly. The other problems are stepped in floats with compensated
+    summation, or with --digits. A file with `methods` is taken as its symplectic pair, every other
+    file as it stands.
 
-    Exit code 1 when the claim of --bounded or --max-error fails, a step fails, or the energy blows up.
+    Exit code 1 when the claim of --bounded or --max-error fails, a step fails, or the energy blows
+    up.
     """
-    from garkcli.dynamics.step import StepFailed
     from garkcli.methodfile.load import load
     from garkcli.report import energy as report
     from garkcli.report.energy_text import Report
+    from garkcli.stepping.step import StepFailed
 
     refuse_misplaced(problem, seed, {"--omega": omega, "--split": split})
     if problem == "oscillator" and digits is not None:
-        raise UsageProblem("--digits is not for the oscillator: its steps are exact", "leave it out")
+        raise UsageProblem(
+            "--digits is not for the oscillator: its steps are exact", "leave it out"
+        )
     if plot is not None:
-        from garkcli.report.plot import check_suffix
+        from garkcli.plots.convergence_plot import check_suffix
 
         check_suffix(Path(plot))
         if not Path(plot).parent.is_dir():
-            raise UsageProblem(f"cannot write {plot}: there is no such folder", "choose another place")
+            raise UsageProblem(
+                f"cannot write {plot}: there is no such folder", "choose another place"
+            )
     limit = None if max_error is None else positive("--max-error", max_error)
     time = None if t_end is None else positive("--t-end", t_end)
     size = None if step is None else positive("--step", step)
@@ -98,7 +115,9 @@ def command(
         if problem == "oscillator":
             run, steps = _oscillator(tableau, method, omega, split, time, size, points)
         else:
-            run, steps = _follow(tableau, method, problem, seed, time, size, digits, points, symplecticity, output)
+            run, steps = _follow(
+                tableau, method, problem, seed, time, size, digits, points, symplecticity, output
+            )
     except StepFailed as error:
         click.echo(f"gark: {error.message}\nhelp: {error.help}", err=True)
         return 1
@@ -106,8 +125,8 @@ def command(
     made = Report(method.name, run, steps, claims)
     output.write(report.render(made, output.format, output.paint, output.verbosity >= 0))
     if plot is not None:
-        from garkcli.report.energy_plot import energy_figure
-        from garkcli.report.plot import save
+        from garkcli.plots.convergence_plot import save
+        from garkcli.plots.energy_plot import energy_figure
 
         save(energy_figure(run), Path(plot))
         output.note(f"wrote {plot}")
@@ -126,13 +145,17 @@ def _oscillator(
     """The exact run."""
     from flint import fmpq
 
-    from garkcli.dynamics.courses import of_oscillator, whole_run
-    from garkcli.dynamics.energy import drift
-    from garkcli.dynamics.problems import Oscillator, parse_shares, terms_of
-    from garkcli.dynamics.symplecticity import Symplecticity, holds
+    from garkcli.longtime.courses import of_oscillator, whole_run
+    from garkcli.longtime.energy import drift
+    from garkcli.longtime.symplecticity import Symplecticity, holds
+    from garkcli.problems.oscillator import Oscillator, parse_shares, terms_of
 
     terms, frequency = terms_of(tableau), positive("--omega", omega or "1")
-    problem = Oscillator(frequency, parse_shares(split, terms)) if split else Oscillator.default(terms, frequency)
+    problem = (
+        Oscillator(frequency, parse_shares(split, terms))
+        if split
+        else Oscillator.default(terms, frequency)
+    )
     h, time = whole_run(step, t_end, fmpq(1, 2) / frequency, fmpq(10_000) / frequency)
     run = of_oscillator(drift(tableau, problem, time, h, points), method.tolerance)
     return run, Symplecticity(holds(tableau, method.tolerance))
@@ -151,12 +174,12 @@ def _follow(
     output: Output,
 ) -> tuple[LongRun, Symplecticity]:
     """The run in numbers of finite precision, with a bar."""
-    from garkcli.dynamics.courses import whole_run
-    from garkcli.dynamics.hamiltonian import FLOAT_DIGITS
-    from garkcli.dynamics.longtime import follow, usual
-    from garkcli.dynamics.structure import fitted
-    from garkcli.dynamics.symplecticity import Symplecticity, defects, is_proved
+    from garkcli.longtime.courses import whole_run
+    from garkcli.longtime.longtime import follow, usual
+    from garkcli.longtime.symplecticity import Symplecticity, defects, is_proved
+    from garkcli.problems.hamiltonian import FLOAT_DIGITS
     from garkcli.report.progress import tracked
+    from garkcli.stepping.dependency import fitted
 
     tableau = fitted(tableau)
     problem = find_problem(name, tableau, seed)
@@ -183,11 +206,19 @@ def _claims(run: LongRun, bounded: bool, limit: fmpq | None) -> tuple[Claim, ...
 
     claims = []
     if bounded:
-        found = [f"{x.name} {x.verdict}" for x in run.courses if x.verdict in ("drifts", "unstable", "undecided")]
+        found = [
+            f"{x.name} {x.verdict}"
+            for x in run.courses
+            if x.verdict in ("drifts", "unstable", "undecided")
+        ]
         claims.append(Claim("bounded", ", ".join(found) or "bounded", not found))
     if limit is not None:
         largest = run.courses[0].max_error
         claims.append(
-            Claim(f"max-error: {decimal(limit)}", f"{largest:.4e}", not run.blew_up and largest <= to_float(limit))
+            Claim(
+                f"max-error: {decimal(limit)}",
+                f"{largest:.4e}",
+                not run.blew_up and largest <= to_float(limit),
+            )
         )
     return tuple(claims)

@@ -11,8 +11,8 @@ from garkcli.cli.options import CONTEXT, Output, common
 @common(["text", "json"])
 def command(output: Output) -> int:
     """Families of diagonal methods, transfer rules, problems."""
-    from garkcli.dynamics.problems import PROBLEMS
     from garkcli.families.registry import FAMILIES
+    from garkcli.problems.oscillator import PROBLEMS
     from garkcli.report import listing
     from garkcli.transfer import SUMMARIES
 

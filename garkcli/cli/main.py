@@ -74,7 +74,9 @@ def gark(debug: bool) -> None:
 
 
 def main(arguments: Sequence[str] | None = None) -> NoReturn:
-    """Run the command line and exit: 0, 1 a claim fails, 2 usage or input, 3 our fault, 130 interrupted."""
+    """Run the command line and exit: 0, 1 a claim fails, 2 usage or input, 3 our fault, 130
+    interrupted.
+    """
     arguments = sys.argv[1:] if arguments is None else list(arguments)
     code = 0
     try:
@@ -116,7 +118,7 @@ def _complain(error: GarkError) -> None:
     from garkcli.errors import MethodFileError
 
     if isinstance(error, MethodFileError):
-        from garkcli.order.outcome import Outcome
+        from garkcli.check.outcome import Outcome
         from garkcli.report.check_text import faults_text
         from garkcli.report.paint import Paint
 

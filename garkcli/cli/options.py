@@ -36,12 +36,17 @@ def common(formats: Sequence[str]) -> Callable[[F], F]:
         run.__name__ = function.__name__
         run.__click_params__ = getattr(function, "__click_params__", [])  # type: ignore[attr-defined]
         options = [
-            click.option("--format", type=click.Choice(formats), default=formats[0], show_default=True),
+            click.option(
+                "--format", type=click.Choice(formats), default=formats[0], show_default=True
+            ),
             click.option("-o", "--output", metavar="FILE", help="Write the report to FILE."),
             click.option("-q", "--quiet", is_flag=True, help="Say less."),
             click.option("-v", "--verbose", is_flag=True, help="Say more."),
             click.option(
-                "--color", type=click.Choice(["auto", "always", "never"]), default="auto", show_default=True
+                "--color",
+                type=click.Choice(["auto", "always", "never"]),
+                default="auto",
+                show_default=True,
             ),
         ]
         decorated: Any = run
@@ -92,7 +97,9 @@ class Output:
 
     @property
     def may_show_progress(self) -> bool:
-        """Whether a bar on stderr disturbs nobody: not when the report itself scrolls by on the terminal."""
+        """Whether a bar on stderr disturbs nobody: not when the report itself scrolls by on the
+        terminal.
+        """
         return self.verbosity >= 0 and (self.path is not None or not sys.stdout.isatty())
 
     def note(self, text: str) -> None:
@@ -115,7 +122,9 @@ def write_whole(path: str, pieces: Iterable[str]) -> None:
             with target.open("w", encoding="utf-8") as stream:
                 stream.writelines(pieces)
         except OSError as error:
-            raise UsageProblem(f"cannot write {path}: {error.strerror}", "choose another place") from None
+            raise UsageProblem(
+                f"cannot write {path}: {error.strerror}", "choose another place"
+            ) from None
         return
     temporary = ""
     try:
@@ -127,7 +136,9 @@ def write_whole(path: str, pieces: Iterable[str]) -> None:
         Path(temporary).chmod(0o666 & ~umask)
         Path(temporary).replace(target)
     except OSError as error:
-        raise UsageProblem(f"cannot write {path}: {error.strerror}", "choose another place") from None
+        raise UsageProblem(
+            f"cannot write {path}: {error.strerror}", "choose another place"
+        ) from None
     finally:
         if temporary:
             with suppress(OSError):

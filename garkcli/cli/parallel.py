@@ -6,8 +6,8 @@ from collections.abc import Callable, Iterator, Sequence
 from contextlib import contextmanager
 from functools import partial
 
-from garkcli.methodfile.check import check_file
-from garkcli.order.outcome import Outcome
+from garkcli.check.check_file import check_file
+from garkcli.check.outcome import Outcome
 
 
 @contextmanager
@@ -26,7 +26,9 @@ def _without_interrupts() -> Iterator[None]:
 
 
 def _prepare() -> None:
-    """Ready a worker: an interrupt is for the process that has the terminal, which ends the workers."""
+    """Ready a worker: an interrupt is for the process that has the terminal, which ends the
+    workers.
+    """
     import signal
 
     from garkcli.exact.pickling import register
@@ -35,7 +37,9 @@ def _prepare() -> None:
     register()
 
 
-def check_files(paths: Sequence[str], limit: int, want_constants: bool, jobs: int) -> Iterator[Outcome]:
+def check_files(
+    paths: Sequence[str], limit: int, want_constants: bool, jobs: int
+) -> Iterator[Outcome]:
     """Check ``paths`` in their order, ``jobs`` of them at a time."""
     work: Callable[[str], Outcome] = partial(check_file, limit=limit, want_constants=want_constants)
     jobs = min(jobs, len(paths))
@@ -50,7 +54,9 @@ def check_files(paths: Sequence[str], limit: int, want_constants: bool, jobs: in
     # fork keeps the modules that are loaded already, where the system has it
     method = "fork" if "fork" in multiprocessing.get_all_start_methods() else None
     context = multiprocessing.get_context(method)
-    with _without_interrupts():  # a worker that is interrupted before it is ready leaves a lock behind
+    with (
+        _without_interrupts()
+    ):  # a worker that is interrupted before it is ready leaves a lock behind
         pool = context.Pool(jobs, initializer=_prepare)
     with pool:
         yield from pool.imap(work, paths, chunksize=max(1, min(8, len(paths) // (4 * jobs))))

@@ -15,7 +15,7 @@ from garkcli.errors import UsageProblem, did_you_mean
 
 if TYPE_CHECKING:
     from garkcli.cli.options import Output
-    from garkcli.dynamics.hamiltonian import Hamiltonian
+    from garkcli.problems.hamiltonian import Hamiltonian
     from garkcli.tableau.tableau import Tableau
 
 PROBLEMS = (
@@ -28,7 +28,7 @@ PROBLEMS = (
     "double-pendulum",
     "generic",
 )
-"""The names that --problem takes; the tests hold them against ``garkcli.dynamics.problems``."""
+"""The names that --problem takes; the tests hold them against ``garkcli.problems.oscillator``."""
 
 
 def is_path(text: str) -> bool:
@@ -64,7 +64,8 @@ class ProblemType(click.ParamType):  # type: ignore[type-arg]
 
 
 def find_problem(name_or_path: str, tableau: Tableau, seed: int | None = None) -> Hamiltonian:
-    """The problem called so or described in that file, split into the terms that ``tableau`` is for.
+    """The problem called so or described in that file, split into the terms that ``tableau`` is
+    for.
 
     Args:
         name_or_path: a name of ``PROBLEMS``, or the path of a problem file.
@@ -75,24 +76,26 @@ def find_problem(name_or_path: str, tableau: Tableau, seed: int | None = None) -
         UsageProblem: there is no such problem, it takes no seed, or it has another number of terms.
         MethodFileError: the file has faults.
     """
-    from garkcli.dynamics.problems import terms_of
-    from garkcli.dynamics.structure import fitted
+    from garkcli.problems.oscillator import terms_of
+    from garkcli.stepping.dependency import fitted
 
     if seed is not None and name_or_path != "generic":
-        raise UsageProblem(f"--seed is for the problem generic, not for {name_or_path}", "leave it out")
+        raise UsageProblem(
+            f"--seed is for the problem generic, not for {name_or_path}", "leave it out"
+        )
     terms = terms_of(fitted(tableau))
     if is_path(name_or_path):
-        from garkcli.dynamics.splitting import fit
+        from garkcli.stepping.matching import fit
 
         return fit(_loaded(name_or_path, _stamp(name_or_path)), terms)
-    from garkcli.dynamics.examples import hamiltonian
+    from garkcli.problems.builtin import hamiltonian
 
     return hamiltonian(name_or_path, terms, 1 if seed is None else seed)
 
 
 def note_changing(problem: Hamiltonian, output: Output) -> None:
     """Say which invariants of a problem file are none: their errors are not the method's."""
-    from garkcli.dynamics.conserved import changing
+    from garkcli.convergence.conserved import changing
 
     for name, change, time in changing(problem):
         output.note(

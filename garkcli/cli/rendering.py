@@ -8,8 +8,12 @@ from garkcli.tableau.pointwise import entries
 from garkcli.tableau.tableau import Tableau
 
 
-def write_tableau(tableau: Tableau, name: str, digits: int, output: Output, is_rounded: bool) -> None:
-    """Write a tableau as text, JSON or LaTeX; rounded coefficients as decimals where people read them."""
+def write_tableau(
+    tableau: Tableau, name: str, digits: int, output: Output, is_rounded: bool
+) -> None:
+    """Write a tableau as text, JSON or LaTeX; rounded coefficients as decimals where people read
+    them.
+    """
     found = entries(tableau, digits)
     if output.format == "json":
         from garkcli.report import tableau_json
@@ -27,4 +31,6 @@ def write_tableau(tableau: Tableau, name: str, digits: int, output: Output, is_r
     else:
         from garkcli.report import tableau_text
 
-        output.write(tableau_text.render(tableau, found, printable(name), output.paint, output.width))
+        output.write(
+            tableau_text.render(tableau, found, printable(name), output.paint, output.width)
+        )

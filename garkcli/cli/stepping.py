@@ -1,4 +1,6 @@
-"""What the commands share that put a method to work: which tableau steps, and the numbers of their options."""
+"""What the commands share that put a method to work: which tableau steps, and the numbers of their
+options.
+"""
 
 from __future__ import annotations
 
@@ -66,7 +68,9 @@ def positive(option: str, text: str | None) -> fmpq:
     if number <= 0:
         raise UsageProblem(f"{option} {text}: a positive number is expected")
     if not fmpq(1, 10**DECADES) <= number <= 10**DECADES:
-        raise UsageProblem(f"{option} {text}: a number from 1e-{DECADES} to 1e{DECADES} is expected")
+        raise UsageProblem(
+            f"{option} {text}: a number from 1e-{DECADES} to 1e{DECADES} is expected"
+        )
     return number
 
 

@@ -26,14 +26,18 @@ def symplectic_options(function: F) -> F:
     """``--symplectic``, ``--kind`` and ``--members``."""
     options = [
         click.option(
-            "--symplectic", is_flag=True, help="Independent conditions of symplectic methods: free trees."
+            "--symplectic",
+            is_flag=True,
+            help="Independent conditions of symplectic methods: free trees.",
         ),
         click.option(
             "--kind",
             type=click.Choice(KINDS),
             help="With --symplectic: which methods, the pair (A, Â) unless given.",
         ),
-        click.option("--members", is_flag=True, help="With --symplectic: all rooted trees of each free tree."),
+        click.option(
+            "--members", is_flag=True, help="With --symplectic: all rooted trees of each free tree."
+        ),
     ]
     for option in reversed(options):
         function = option(function)
@@ -51,7 +55,9 @@ def kind_asked(symplectic: bool, kind: str | None, members: bool, format: str) -
     if symplectic:
         return cast("Kind", kind or "pair")
     if kind is not None or members:
-        raise UsageProblem(f"{'--members' if kind is None else '--kind'} is about free trees", "add --symplectic")
+        raise UsageProblem(
+            f"{'--members' if kind is None else '--kind'} is about free trees", "add --symplectic"
+        )
     return None
 
 
@@ -63,14 +69,24 @@ def kind_asked(symplectic: bool, kind: str | None, members: bool, format: str) -
     metavar="N",
     help="How many colours, 1 unless given; with --symplectic, terms of the split.",
 )
-@click.option("--order", "-n", type=click.IntRange(1, 10000), metavar="n", help="The number of vertices.")
+@click.option(
+    "--order", "-n", type=click.IntRange(1, 10000), metavar="n", help="The number of vertices."
+)
 @click.option("--upto", is_flag=True, help="Every order from 1 to n.")
-@click.option("--root", type=click.IntRange(1), metavar="L", help="Only trees whose root has colour L.")
-@click.option("--colours-used", metavar="L,M,...", help="Only trees in which each of these colours occurs.")
+@click.option(
+    "--root", type=click.IntRange(1), metavar="L", help="Only trees whose root has colour L."
+)
+@click.option(
+    "--colours-used", metavar="L,M,...", help="Only trees in which each of these colours occurs."
+)
 @click.option("--count", is_flag=True, help="Count without generating, for any order.")
-@click.option("--tree", "one", metavar="TEXT", help="One tree, such as [[]_2,[]_1]_1, instead of an order.")
+@click.option(
+    "--tree", "one", metavar="TEXT", help="One tree, such as [[]_2,[]_1]_1, instead of an order."
+)
 @click.option("--svg", metavar="FILE", help="Draw a sheet of all the trees into FILE.")
-@click.option("--document", is_flag=True, help="With --format latex: a document that compiles as it stands.")
+@click.option(
+    "--document", is_flag=True, help="With --format latex: a document that compiles as it stands."
+)
 @symplectic_options
 @common(["text", "json", "ndjson", "csv", "latex"])
 def command(
@@ -90,17 +106,22 @@ def command(
 ) -> int:
     """Enumerate the N-trees of an order, by root colour, with order, symmetry and density.
 
-    A tree is its root's colour after its bracketed branches: []_1 is a single vertex of colour 1. With
-    --symplectic the rooted trees that differ in the place of their root are one row: their conditions are
-    equivalent for symplectic methods.
+    A tree is its root's colour after its bracketed branches: []_1 is a single vertex of colour 1.
+    With
+    --symplectic the rooted trees that differ in the place of their root are one row: their
+    conditions are equivalent for symplectic methods.
     """
     from garkcli.report import trees as report
 
     asked = kind_asked(symplectic, kind, members, output.format)
     if asked is not None:
         if root is not None or colours_used is not None or one is not None:
-            raise UsageProblem("free trees have no root", "leave out --root, --colours-used and --tree")
-        return _free_trees(asked, colours, _orders(order, upto), count, members, svg, document, output)
+            raise UsageProblem(
+                "free trees have no root", "leave out --root, --colours-used and --tree"
+            )
+        return _free_trees(
+            asked, colours, _orders(order, upto), count, members, svg, document, output
+        )
     colours = colours or 1
     used = _colours(colours_used, colours)
     if root is not None and root > colours:
@@ -137,7 +158,11 @@ def _list(query: Query, orders: range, document: bool, output: Output) -> None:
     from garkcli.report.progress import tracked
 
     totals = _totals(query)
-    count_all = None if totals is None else sum(map(sum, (report.kept(query, by_root) for _, by_root in totals)))
+    count_all = (
+        None
+        if totals is None
+        else sum(map(sum, (report.kept(query, by_root) for _, by_root in totals)))
+    )
     rows = tracked(_rows(query, orders), count_all, "trees", output.may_show_progress)
     output.write(report.render(query, rows, totals, output.format, output.paint, document))
 
@@ -166,7 +191,9 @@ def _free_trees(
         output.note(f"wrote {svg}")
     else:
         classes = tracked(subject.classes(), subject.independent, "trees", output.may_show_progress)
-        pieces = report.render_classes(subject, classes, output.format, output.paint, members, document)
+        pieces = report.render_classes(
+            subject, classes, output.format, output.paint, members, document
+        )
         output.write(pieces)
     return 0
 
@@ -181,7 +208,9 @@ def _single(text: str, svg: str | None, document: bool, output: Output) -> int:
     try:
         tree = parse_tree(text)
     except NotationError as error:
-        raise UsageProblem(f"--tree, column {error.offset + 1}: {error.message}", error.help) from None
+        raise UsageProblem(
+            f"--tree, column {error.offset + 1}: {error.message}", error.help
+        ) from None
     colours = 1 + max(tree.colours)
     written = format_tree(tree, colours > 1)
     if svg is not None:
@@ -197,7 +226,9 @@ def _single(text: str, svg: str | None, document: bool, output: Output) -> int:
 
 @contextmanager
 def _any_digits() -> Iterator[None]:
-    """Whole numbers are written with any number of digits: Python's limit is for texts from strangers."""
+    """Whole numbers are written with any number of digits: Python's limit is for texts from
+    strangers.
+    """
     limit = sys.get_int_max_str_digits()
     sys.set_int_max_str_digits(0)
     try:
@@ -210,8 +241,12 @@ def _colours(text: str | None, colours: int) -> tuple[int, ...]:
     if text is None:
         return ()
     words = [word.strip() for word in text.split(",")]
-    if not all(word.isascii() and word.isdigit() and 1 <= int(word[:6]) <= colours for word in words):
-        raise UsageProblem(f"--colours-used {text}: colours are numbers from 1 to {colours}", "write 1,2")
+    if not all(
+        word.isascii() and word.isdigit() and 1 <= int(word[:6]) <= colours for word in words
+    ):
+        raise UsageProblem(
+            f"--colours-used {text}: colours are numbers from 1 to {colours}", "write 1,2"
+        )
     return tuple(sorted({int(word) - 1 for word in words}))
 
 
@@ -255,5 +290,7 @@ def _draw(path: str, listed: Iterable[Tree], coloured: bool) -> None:
 
     trees = list(islice(listed, MAX_PICTURES + 1))
     if len(trees) > MAX_PICTURES:
-        raise UsageProblem(f"more than {MAX_PICTURES} trees do not fit on a sheet", "draw one order or one root")
+        raise UsageProblem(
+            f"more than {MAX_PICTURES} trees do not fit on a sheet", "draw one order or one root"
+        )
     write_whole(path, [draw_svg_sheet(trees, [format_tree(tree, coloured) for tree in trees])])

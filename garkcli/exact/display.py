@@ -18,7 +18,9 @@ def to_text(number: Number) -> str:
         return str(number)
     text = ""
     for coefficient, word in _terms(number):
-        factors = "*".join(f"{w}**{k}" if k > 1 else w for w, k in _powers(number, word, latex=False))
+        factors = "*".join(
+            f"{w}**{k}" if k > 1 else w for w, k in _powers(number, word, latex=False)
+        )
         p, q = abs(coefficient.p), coefficient.q
         term = (f"{p}*{factors}" if p != 1 else factors) if factors else str(p)
         term += f"/{q}" if q != 1 else ""
@@ -33,7 +35,9 @@ def to_latex(number: Number) -> str:
     for coefficient, word in terms:
         factors = ""
         if isinstance(number, Algebraic):
-            factors = "".join(f"{w}^{{{k}}}" if k > 1 else w for w, k in _powers(number, word, latex=True))
+            factors = "".join(
+                f"{w}^{{{k}}}" if k > 1 else w for w, k in _powers(number, word, latex=True)
+            )
         p, q = abs(coefficient.p), coefficient.q
         top = (f"{p}{factors}" if p != 1 else factors) if factors else str(p)
         text += ("-" if coefficient < 0 else "+") + (rf"\frac{{{top}}}{{{q}}}" if q != 1 else top)
@@ -41,7 +45,9 @@ def to_latex(number: Number) -> str:
 
 
 def _terms(number: Algebraic) -> Iterator[tuple[fmpq, tuple[int, ...]]]:
-    for coefficient, word in zip(number.field.in_radicals(number), number.field.monomials, strict=True):
+    for coefficient, word in zip(
+        number.field.in_radicals(number), number.field.monomials, strict=True
+    ):
         if coefficient:
             yield coefficient, word
 
@@ -84,7 +90,8 @@ def to_decimal(number: Number, digits: int = 17) -> str:
 
 
 def decimal(number: fmpq) -> str:
-    """A positive rational as people write tolerances: ``1e-13``, or a fraction where it is no such decimal.
+    """A positive rational as people write tolerances: ``1e-13``, or a fraction where it is no such
+    decimal.
 
     >>> decimal(fmpq(1, 10**13)), decimal(fmpq(5, 10**8)), decimal(fmpq(1, 3))
     ('1e-13', '5e-8', '1/3')
@@ -92,7 +99,11 @@ def decimal(number: fmpq) -> str:
     exponent = 0
     while number.q != 1 and exponent < 400:
         number, exponent = number * 10, exponent + 1
-    return f"{number}e-{exponent}" if number.q == 1 and exponent else str(number / fmpq(10) ** exponent)
+    return (
+        f"{number}e-{exponent}"
+        if number.q == 1 and exponent
+        else str(number / fmpq(10) ** exponent)
+    )
 
 
 def to_float(number: Number) -> float:

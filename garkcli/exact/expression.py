@@ -9,7 +9,8 @@ The grammar, with ``^`` meaning ``**``::
     atom     = number | name | function "(" sum [ "," integer ] ")" | "(" sum ")"
     function = "sqrt" | "cbrt" | "root"
 
-Numbers are read as written: ``0.1`` is one tenth. ``garkcli.exact.formula`` extends the grammar for problems.
+Numbers are read as written: ``0.1`` is one tenth. ``garkcli.exact.formula`` extends the grammar for
+problems.
 """
 
 from __future__ import annotations
@@ -37,7 +38,9 @@ MAX_ROOT = 12
 
 @dataclass(frozen=True)
 class Expression:
-    """A node; ``start`` and ``end`` are its offsets in the text and do not take part in comparisons."""
+    """A node; ``start`` and ``end`` are its offsets in the text and do not take part in
+    comparisons.
+    """
 
     start: int = field(default=0, compare=False, kw_only=True)
     end: int = field(default=0, compare=False, kw_only=True)
@@ -59,7 +62,8 @@ class Name(Expression):
 
 @dataclass(frozen=True)
 class Chain(Expression):
-    """Operands joined from left to right by ``+ -`` or by ``* /``; ``signs`` stand before each operand.
+    """Operands joined from left to right by ``+ -`` or by ``* /``; ``signs`` stand before each
+    operand.
 
     Kept flat, so that the depth of an expression is that of its parentheses.
     """
@@ -134,7 +138,10 @@ class Parser:
     def __init__(self, text: str) -> None:
         if len(text) > MAX_LENGTH:
             raise LimitExceeded(
-                f"a {self.noun} of {len(text)} characters (limit {MAX_LENGTH})", "write it shorter", 0, MAX_LENGTH
+                f"a {self.noun} of {len(text)} characters (limit {MAX_LENGTH})",
+                "write it shorter",
+                0,
+                MAX_LENGTH,
             )
         self.text = text
         self.depth = 0
@@ -170,7 +177,10 @@ class Parser:
     def _expect(self, sign: str, opened: int) -> None:
         if self.value != sign:
             found = repr(self.value) if self.kind != "end" else "the end"
-            self._fail(f"{sign!r} expected, {found} found", f"the parenthesis at column {opened + 1} is open")
+            self._fail(
+                f"{sign!r} expected, {found} found",
+                f"the parenthesis at column {opened + 1} is open",
+            )
         self._advance()
 
     def whole(self) -> Expression:
@@ -183,7 +193,11 @@ class Parser:
             self._fail(f"no {self.value_noun} here", self.example)
         result = self._sum()
         if self.kind != "end":
-            cure = "write products with *" if self.kind in {"name", "number"} or self.value == "(" else ""
+            cure = (
+                "write products with *"
+                if self.kind in {"name", "number"} or self.value == "("
+                else ""
+            )
             self._fail(f"{self.value!r} is not expected here", cure)
         return result
 
@@ -199,7 +213,11 @@ class Parser:
         while self.kind == "op" and self.value in {signs[0], signs[1]}:
             joined += self._advance()
             operands.append(operand())
-        return operands[0] if len(operands) == 1 else Chain(joined, tuple(operands), start=start, end=self.last_end)
+        return (
+            operands[0]
+            if len(operands) == 1
+            else Chain(joined, tuple(operands), start=start, end=self.last_end)
+        )
 
     def _factor(self) -> Expression:
         self.depth += 1
@@ -242,9 +260,13 @@ class Parser:
 
     def _integer(self, what: str, limit: int) -> int:
         if self.kind != "number" or not self.value.isdigit():
-            self._fail(f"{what} is a small whole number", "for roots write sqrt(…), cbrt(…) or root(…, n)")
+            self._fail(
+                f"{what} is a small whole number", "for roots write sqrt(…), cbrt(…) or root(…, n)"
+            )
         if len(self.value) > 4 or int(self.value) > limit:
-            raise LimitExceeded(f"{what} is larger than {limit}", "use a smaller one", self.start, self.end)
+            raise LimitExceeded(
+                f"{what} is larger than {limit}", "use a smaller one", self.start, self.end
+            )
         return int(self._advance())
 
     def _atom(self) -> Expression:
@@ -265,7 +287,9 @@ class Parser:
             return inner
         at_end = self.kind == "end"
         return self._fail(
-            f"the text ends where a {self.value_noun} is due" if at_end else f"a {self.value_noun} is expected here"
+            f"the text ends where a {self.value_noun} is due"
+            if at_end
+            else f"a {self.value_noun} is expected here"
         )
 
     def _function(self, name: str, start: int) -> Expression:
@@ -300,7 +324,10 @@ def read_decimal(text: str, start: int = 0) -> fmpq:
     shift = int(exponent) if exponent and len(exponent) < 8 else (MAX_DIGITS + 1 if exponent else 0)
     if len(whole) + len(fraction) + abs(shift) > MAX_DIGITS:
         raise LimitExceeded(
-            f"a number of more than {MAX_DIGITS} digits", "write fewer digits", start, start + len(text)
+            f"a number of more than {MAX_DIGITS} digits",
+            "write fewer digits",
+            start,
+            start + len(text),
         )
     scale = shift - len(fraction)
     return fmpq(int(whole + fraction) * 10 ** max(scale, 0), 10 ** max(-scale, 0))

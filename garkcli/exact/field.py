@@ -1,7 +1,7 @@
 """Number fields ℚ(θ): arithmetic with radicals that is never rounded.
 
-An element is a polynomial in θ modulo the minimal polynomial of θ, in python-flint. Rational elements are
-plain ``fmpq``, so a number here is ``fmpq | Algebraic`` and zero is falsy in both.
+An element is a polynomial in θ modulo the minimal polynomial of θ, in python-flint. Rational
+elements are plain ``fmpq``, so a number here is ``fmpq | Algebraic`` and zero is falsy in both.
 """
 
 from __future__ import annotations
@@ -26,7 +26,9 @@ class NumberField:
         radicals: each radical of the source as ``(expression, element)``; they generate K.
     """
 
-    def __init__(self, modulus: fmpq_poly, radicals: Sequence[tuple[Expression, fmpq_poly]]) -> None:
+    def __init__(
+        self, modulus: fmpq_poly, radicals: Sequence[tuple[Expression, fmpq_poly]]
+    ) -> None:
         self.modulus = modulus
         self.degree: int = modulus.degree()
         self.radicals = tuple(radicals)
@@ -42,12 +44,16 @@ class NumberField:
 
     @cached_property
     def monomials(self) -> tuple[tuple[int, ...], ...]:
-        """Products of radicals that form a basis of K over ℚ, as tuples of indices into ``radicals``."""
+        """Products of radicals that form a basis of K over ℚ, as tuples of indices into
+        ``radicals``.
+        """
         return self._basis[0]
 
     @cached_property
     def _basis(self) -> tuple[tuple[tuple[int, ...], ...], fmpq_mat]:
-        """A multiple of a product that depends on smaller ones does so too: only chosen products are extended."""
+        """A multiple of a product that depends on smaller ones does so too: only chosen products
+        are extended.
+        """
         chosen: list[tuple[int, ...]] = []
         columns: list[list[fmpq]] = []
         level: dict[tuple[int, ...], fmpq_poly] = {(): fmpq_poly([1])}

@@ -85,9 +85,13 @@ class _FormulaParser(Parser):
             return super()._function(name, start)
         if name not in FUNCTIONS:
             near = did_you_mean(name, (*FUNCTIONS, "sqrt"))
-            product = f"write products with *, as in {name}*(x); functions: {', '.join(FUNCTIONS)}, sqrt"
+            product = (
+                f"write products with *, as in {name}*(x); functions: {', '.join(FUNCTIONS)}, sqrt"
+            )
             cure = _CURES.get(name) or (near if near.startswith("did") else product)
-            raise ExpressionError(f"{name!r} is not a function of formulas", cure, start, self.last_end)
+            raise ExpressionError(
+                f"{name!r} is not a function of formulas", cure, start, self.last_end
+            )
         opened = self.start
         self._advance()
         argument = self._sum()

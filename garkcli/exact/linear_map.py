@@ -1,7 +1,7 @@
 """A matrix made ready to act on many vectors at once.
 
-Over ℚ that is one product of two matrices in python-flint. Over K = ℚ(θ) of degree d the matrix is Σ θᵏ A_k with
-rational A_k, vectors are Σ θʲ v_j, and
+Over ℚ that is one product of two matrices in python-flint. Over K = ℚ(θ) of degree d the matrix is
+Σ θᵏ A_k with rational A_k, vectors are Σ θʲ v_j, and
 
     A v = Σ_{j,k} θ^(j+k) A_k v_j:
 
@@ -70,7 +70,9 @@ def _parts(rows: Sequence[Vector], field: NumberField | None) -> _Parts:
     if field is None:
         return [(0, fmpq_mat(height, width, cast("list[fmpq]", [x for row in rows for x in row])))]
     entries = [x.poly if isinstance(x, Algebraic) else x for row in rows for x in row]
-    parts = [(0, fmpq_mat(height, width, [x[0] if isinstance(x, fmpq_poly) else x for x in entries]))]
+    parts = [
+        (0, fmpq_mat(height, width, [x[0] if isinstance(x, fmpq_poly) else x for x in entries]))
+    ]
     for k in range(1, field.degree):
         coordinates = [x[k] if isinstance(x, fmpq_poly) else ZERO for x in entries]
         if any(coordinates):

@@ -1,7 +1,7 @@
 """Matrices of exact numbers, as tuples of rows.
 
-Rational matrices go through python-flint; matrices over a number field entry by entry. ``LinearMap`` is the way
-for one matrix and many vectors.
+Rational matrices go through python-flint; matrices over a number field entry by entry.
+``LinearMap`` is the way for one matrix and many vectors.
 """
 
 from __future__ import annotations
@@ -122,5 +122,7 @@ def solve(a: Matrix, b: Matrix) -> Matrix:
         for i in range(n):
             factor = rows[i][k]
             if i != k and factor:
-                rows[i] = [x - factor * y if y else x for x, y in zip(rows[i], rows[k], strict=True)]
+                rows[i] = [
+                    x - factor * y if y else x for x, y in zip(rows[i], rows[k], strict=True)
+                ]
     return tuple(tuple(row[n:]) for row in rows)

@@ -11,14 +11,18 @@ from garkcli.exact.formula import Call, RealPower
 
 
 def size_of(expression: Expression, sizes: Mapping[str, int]) -> int:
-    """How many nodes ``expression`` has, each name counting for what it stands for (1 if it is not known)."""
+    """How many nodes ``expression`` has, each name counting for what it stands for (1 if it is not
+    known).
+    """
     if isinstance(expression, Name):
         return sizes.get(expression.name, 1)
     return 1 + sum(size_of(x, sizes) for x in parts(expression))
 
 
 def depth_of(expression: Expression, depths: Mapping[str, int]) -> int:
-    """How deep ``expression`` is nested, each name as deep as what it stands for (1 if it is not known)."""
+    """How deep ``expression`` is nested, each name as deep as what it stands for (1 if it is not
+    known).
+    """
     if isinstance(expression, Name):
         return depths.get(expression.name, 1)
     return 1 + max((depth_of(x, depths) for x in parts(expression)), default=0)
@@ -58,7 +62,11 @@ def substitute(expression: Expression, values: Mapping[str, Expression]) -> Expr
         case Name(name=name):
             if name not in values:
                 near = did_you_mean(name, values) if values else ""
-                cure = near if near.startswith("did") else f"define it, before its use: parameters: {{{name}: 1/2}}"
+                cure = (
+                    near
+                    if near.startswith("did")
+                    else f"define it, before its use: parameters: {{{name}: 1/2}}"
+                )
                 raise UndefinedValue(
                     f"{name!r} is not a parameter",
                     cure,
@@ -71,7 +79,9 @@ def substitute(expression: Expression, values: Mapping[str, Expression]) -> Expr
         case Power(base=base):
             return replace(expression, base=substitute(base, values))
         case RealPower(base=base, exponent=exponent):
-            return replace(expression, base=substitute(base, values), exponent=substitute(exponent, values))
+            return replace(
+                expression, base=substitute(base, values), exponent=substitute(exponent, values)
+            )
         case Root(radicand=radicand):
             return replace(expression, radicand=substitute(radicand, values))
         case Call(argument=argument):
@@ -88,7 +98,9 @@ def roots_in(expression: Expression) -> Iterator[Root]:
 
 
 def format_expression(expression: Expression, latex: bool = False) -> str:
-    """The expression as text that ``parse`` (with functions: ``parse_formula``) reads again, or as LaTeX."""
+    """The expression as text that ``parse`` (with functions: ``parse_formula``) reads again, or as
+    LaTeX.
+    """
     match expression:
         case Literal(value=value):
             if latex and value.q != 1:
@@ -122,6 +134,8 @@ def format_expression(expression: Expression, latex: bool = False) -> str:
 
 def _bracketed(expression: Expression, tight: bool, latex: bool) -> str:
     text = format_expression(expression, latex)
-    simple = isinstance(expression, (Name, Root, Call)) or (isinstance(expression, Literal) and text.isdigit())
+    simple = isinstance(expression, (Name, Root, Call)) or (
+        isinstance(expression, Literal) and text.isdigit()
+    )
     loose = isinstance(expression, Chain) or not simple
     return f"({text})" if loose and tight else text

@@ -1,7 +1,8 @@
 """Affine spans over ℚ, grown by exact elimination.
 
-A point joins the span when it is not an affine combination of the members: when the vector (1, point) is
-linearly independent of those before. Elimination is done for many candidates at once in python-flint.
+A point joins the span when it is not an affine combination of the members: when the vector (1,
+point) is linearly independent of those before. Elimination is done for many candidates at once in
+python-flint.
 """
 
 from __future__ import annotations
@@ -55,7 +56,9 @@ class AffineSpan:
         return chosen
 
     def _reduce(self, candidates: fmpq_mat) -> fmpq_mat:
-        """Candidates minus their part along the echelon rows: zero exactly for points of the span."""
+        """Candidates minus their part along the echelon rows: zero exactly for points of the
+        span.
+        """
         if not self._pivots:
             return candidates
         rows = candidates.tolist()

@@ -1,10 +1,11 @@
 """Number fields one root at a time: ℚ ⊂ ℚ(θ₁) ⊂ ℚ(θ₂) ⊂ …, each with a primitive element.
 
-To adjoin a root y of yⁿ = a to K = ℚ(θ), look at the algebra K[y]/(yⁿ − a), of dimension n·deg K over ℚ. Its
-element η = y + kθ generates it as soon as its characteristic polynomial c is squarefree, and then θ and y are
-polynomials in η. If c is irreducible the algebra is the new field ℚ(η); if not, it is a product of fields, one for
-each factor of c, and the right one is that whose factor vanishes at the real number y + kθ. (Cohen, *A Course in
-Computational Algebraic Number Theory*, sections 2.1 and 3.6.)
+To adjoin a root y of yⁿ = a to K = ℚ(θ), look at the algebra K[y]/(yⁿ − a), of dimension n·deg K
+over ℚ. Its element η = y + kθ generates it as soon as its characteristic polynomial c is
+squarefree, and then θ and y are polynomials in η. If c is irreducible the algebra is the new field
+ℚ(η); if not, it is a product of fields, one for each factor of c, and the right one is that whose
+factor vanishes at the real number y + kθ. (Cohen, *A Course in Computational Algebraic Number
+Theory*, sections 2.1 and 3.6.)
 """
 
 from __future__ import annotations
@@ -80,7 +81,9 @@ RATIONALS = Tower(_X, (), ())
 
 
 def _as_polynomials(generator: fmpq_mat, wanted: list[fmpq_mat]) -> list[fmpq_poly]:
-    """Elements of an algebra as polynomials in its generator, all given by their multiplication matrices."""
+    """Elements of an algebra as polynomials in its generator, all given by their multiplication
+    matrices.
+    """
     size = generator.nrows()
     power = fmpq_mat([[fmpq(int(i == 0))] for i in range(size)])
     columns = []

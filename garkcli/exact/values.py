@@ -1,4 +1,6 @@
-"""What a formula is worth for given values of its names: an exact rational number where it is one, else a ball."""
+"""What a formula is worth for given values of its names: an exact rational number where it is one,
+else a ball.
+"""
 
 from __future__ import annotations
 
@@ -35,16 +37,18 @@ _FUNCTIONS: Mapping[str, Callable[[arb], arb]] = {
 
 
 def value_of(expression: Expression, names: Mapping[str, Value]) -> Value:
-    """The value, at the current ``flint.ctx`` precision; rational operations on rational numbers are exact.
+    """The value, at the current ``flint.ctx`` precision; rational operations on rational numbers
+    are exact.
 
     Args:
         expression: any, with whatever roots, powers and functions.
         names: a value for each name in it but ``pi``.
 
     Raises:
-        UndefinedValue: an operation has no real value, or none that can be told: log(-1), 1/0, sqrt(-2). The
-            error knows the offsets of the operation.
-        LimitExceeded: a number of more than ``MAX_BITS`` bits or beyond the floats, or an exponent that is none.
+        UndefinedValue: an operation has no real value, or none that can be told: log(-1), 1/0,
+            sqrt(-2). The error knows the offsets of the operation.
+        LimitExceeded: a number of more than ``MAX_BITS`` bits or beyond the floats, or an exponent
+            that is none.
         KeyError: a name without a value.
 
     >>> from garkcli.exact.formula import parse_formula
@@ -59,7 +63,9 @@ def value_of(expression: Expression, names: Mapping[str, Value]) -> Value:
         case Chain(signs=signs, operands=operands):
             total: Value = fmpq(0 if signs[0] in "+-" else 1)
             for sign, operand in zip(signs, operands, strict=True):
-                total = _bounded(_applied(sign, total, value_of(operand, names), operand), expression)
+                total = _bounded(
+                    _applied(sign, total, value_of(operand, names), operand), expression
+                )
             return total
         case Power(base=base, exponent=exponent):
             return _power(value_of(base, names), fmpq(exponent), expression, base)
@@ -87,8 +93,12 @@ def exponent_of(expression: Expression, names: Mapping[str, Value]) -> fmpq:
             message, "write a fraction or a decimal, such as 3/2", expression.start, expression.end
         )
     if abs(value) > MAX_EXPONENT or value.q > MAX_DENOMINATOR:
-        message = f"the exponent {shown(value)} is beyond {MAX_EXPONENT} or has more than four decimals"
-        raise LimitExceeded(message, "use a smaller or simpler one", expression.start, expression.end)
+        message = (
+            f"the exponent {shown(value)} is beyond {MAX_EXPONENT} or has more than four decimals"
+        )
+        raise LimitExceeded(
+            message, "use a smaller or simpler one", expression.start, expression.end
+        )
     return value
 
 
@@ -165,7 +175,9 @@ def _finite(result: arb, at: Expression, function: str, of: Expression, x: Value
 
 def _bounded(number: Value | None, at: Expression) -> Value:
     if number is None or (isinstance(number, fmpq) and number.height_bits() > MAX_BITS):
-        raise LimitExceeded(f"a number of more than {MAX_BITS} bits", "write it smaller", at.start, at.end)
+        raise LimitExceeded(
+            f"a number of more than {MAX_BITS} bits", "write it smaller", at.start, at.end
+        )
     size = abs(arb(number))
     if not (size < _MOST and (size > _LEAST or size.contains(0))):
         message = f"a number {'below 2^-' if size < 1 else 'above 2^'}{MAX_BITS if size < 1 else FLOAT_BITS}"

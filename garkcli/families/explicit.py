@@ -1,7 +1,7 @@
 """Explicit methods known by name, and the optimal strong-stability-preserving methods of order 2.
 
-Hairer, Nørsett & Wanner, *Solving Ordinary Differential Equations I*, II.1; Gottlieb, Ketcheson & Shu, *Strong
-Stability Preserving Runge–Kutta and Multistep Time Discretizations*, section 6.1.
+Hairer, Nørsett & Wanner, *Solving Ordinary Differential Equations I*, II.1; Gottlieb, Ketcheson &
+Shu, *Strong Stability Preserving Runge–Kutta and Multistep Time Discretizations*, section 6.1.
 """
 
 from __future__ import annotations
@@ -30,7 +30,9 @@ def _rational(text: str) -> fmpq:
 def named(name: str) -> Method:
     """One of the methods of ``STAGES``."""
     rows, b = _ROWS[name]
-    return butcher(_lower([[_rational(x) for x in row] for row in rows]), tuple(map(_rational, b)), name=name)
+    return butcher(
+        _lower([[_rational(x) for x in row] for row in rows]), tuple(map(_rational, b)), name=name
+    )
 
 
 def ssp2(s: int) -> Method:

@@ -5,5 +5,7 @@ from garkcli.tableau.method import Method
 
 
 def gauss(s: int) -> Method:
-    """The s-stage Gauss method; Hairer, Lubich & Wanner, *Geometric Numerical Integration*, II.1.3."""
+    """The s-stage Gauss method; Hairer, Lubich & Wanner, *Geometric Numerical Integration*,
+    II.1.3.
+    """
     return collocation_method(f"Gauss {s}", legendre(s))

@@ -1,6 +1,7 @@
 """Lobatto methods: order 2s − 2, nodes 0 and 1 among them.
 
-Jay, "Lobatto methods", *Encyclopedia of Applied and Computational Mathematics* (2015). They need s ≥ 2.
+Jay, "Lobatto methods", *Encyclopedia of Applied and Computational Mathematics* (2015). They need s
+≥ 2.
 """
 
 from garkcli.families.polynomials import (

@@ -55,7 +55,8 @@ def lagrange_at(space: PolynomialSpace, node: int) -> Vector:
 
 
 def with_first_column(name: str, base: Method) -> Method:
-    """The method with a_{i1} = b_1 and C(s − 1), the first node being 0; ``base`` satisfies C(s − 1).
+    """The method with a_{i1} = b_1 and C(s − 1), the first node being 0; ``base`` satisfies C(s −
+    1).
 
     It differs from ``base`` by a multiple of the functional that takes the coefficient of x^(s−1).
     """

@@ -1,4 +1,6 @@
-"""Radau methods: order 2s − 1. Hairer & Wanner, *Solving Ordinary Differential Equations II*, IV.5."""
+"""Radau methods: order 2s − 1. Hairer & Wanner, *Solving Ordinary Differential Equations II*,
+IV.5.
+"""
 
 from garkcli.families.polynomials import collocation_method, conjugate_method, legendre
 from garkcli.tableau.method import Method

@@ -44,13 +44,43 @@ _any = partial(Family, largest=MAX_STAGES)
 FAMILIES: Mapping[str, Family] = {
     family.name: family
     for family in (
-        _any("gauss", gauss.gauss, 1, order="2s", summary="collocation at the Gauss nodes; symplectic"),
+        _any(
+            "gauss",
+            gauss.gauss,
+            1,
+            order="2s",
+            summary="collocation at the Gauss nodes; symplectic",
+        ),
         _any("radau-ia", radau.radau_ia, 1, order="2s - 1", summary="first node 0, D(s)"),
         _any("radau-iia", radau.radau_iia, 1, order="2s - 1", summary="collocation, last node 1"),
-        _any("lobatto-iiia", lobatto.lobatto_iiia, 2, order="2s - 2", summary="collocation, nodes 0 and 1"),
-        _any("lobatto-iiib", lobatto.lobatto_iiib, 2, order="2s - 2", summary="symplectic conjugate of IIIA"),
-        _any("lobatto-iiic", lobatto.lobatto_iiic, 2, order="2s - 2", summary="a_i1 = b_1, stiffly accurate"),
-        _any("lobatto-iiic*", lobatto.lobatto_iiic_star, 2, order="2s - 2", summary="conjugate of IIIC"),
+        _any(
+            "lobatto-iiia",
+            lobatto.lobatto_iiia,
+            2,
+            order="2s - 2",
+            summary="collocation, nodes 0 and 1",
+        ),
+        _any(
+            "lobatto-iiib",
+            lobatto.lobatto_iiib,
+            2,
+            order="2s - 2",
+            summary="symplectic conjugate of IIIA",
+        ),
+        _any(
+            "lobatto-iiic",
+            lobatto.lobatto_iiic,
+            2,
+            order="2s - 2",
+            summary="a_i1 = b_1, stiffly accurate",
+        ),
+        _any(
+            "lobatto-iiic*",
+            lobatto.lobatto_iiic_star,
+            2,
+            order="2s - 2",
+            summary="conjugate of IIIC",
+        ),
         _any(
             "lobatto-iiid",
             lobatto.lobatto_iiid,
@@ -88,11 +118,18 @@ def diagonal_method(name: str, stages: int | None = None) -> Method:
     s = family.smallest if stages is None and family.smallest == family.largest else stages
     if s is None:
         raise UnknownFamily(
-            f"the family {name} needs its number of stages", f"write for instance stages: {max(2, family.smallest)}"
+            f"the family {name} needs its number of stages",
+            f"write for instance stages: {max(2, family.smallest)}",
         )
     if not family.smallest <= s <= family.largest:
-        have = str(family.smallest) if family.smallest == family.largest else f"{family.smallest} or more"
+        have = (
+            str(family.smallest)
+            if family.smallest == family.largest
+            else f"{family.smallest} or more"
+        )
         if s > family.largest:
             have += f", at most {family.largest}"
-        raise UnknownFamily(f"{name} with {s} stage{'s' * (s != 1)} does not exist", f"it has {have}")
+        raise UnknownFamily(
+            f"{name} with {s} stage{'s' * (s != 1)} does not exist", f"it has {have}"
+        )
     return family.make(s)

@@ -79,7 +79,9 @@ class MethodFile:
 
 
 class Builder:
-    """Builds the tableau of one description; what the mathematics refuses becomes a fault at its place."""
+    """Builds the tableau of one description; what the mathematics refuses becomes a fault at its
+    place.
+    """
 
     def __init__(self, source: Source, values: Values, nodes: Mapping[int, Row]) -> None:
         self.source = source
@@ -138,7 +140,8 @@ class Builder:
         tableau = separable_prk(q, p)
         return with_linear(tableau, ["q"]) if structure == "nystrom" else tableau
 
-    # -- methods and transfer -------------------------------------------------------------------------------
+    # -- methods and transfer
+    # -------------------------------------------------------------------------------
 
     def _methods(self, text: MethodsText, structure: Structure) -> Tableau:
         methods = [self._diagonal(l, method) for l, method in enumerate(text.methods)]
@@ -168,7 +171,9 @@ class Builder:
         orders = _Orders(methods)
         blocks: Blocks = {}
         for l, m in needed:
-            block = text.transfer.blocks.get((l, m)) or _pair_rule(text, m, l) or text.transfer.default
+            block = (
+                text.transfer.blocks.get((l, m)) or _pair_rule(text, m, l) or text.transfer.default
+            )
             try:
                 if block is None:
                     raise MethodError("it has no rule", "give it one, or a default, under transfer")
@@ -191,7 +196,9 @@ class Builder:
             )
         return self.values.matrix(block.rows)
 
-    def _by_rule(self, text: RuleText, methods: list[Method], orders: _Orders, l: int, m: int) -> Matrix:
+    def _by_rule(
+        self, text: RuleText, methods: list[Method], orders: _Orders, l: int, m: int
+    ) -> Matrix:
         rule, weight = text.terms[0]
         if weight is None and rule in PAIR_RULES:
             base = build_on(methods, [orders[k] for k in range(len(methods))], l, m)
@@ -274,6 +281,10 @@ def _family_nodes(text: FamilyText, numbers: Numbers) -> Row | None:
     nodes = simple_nodes(space)
     if nodes is None:
         message = f"a block next to {text.name} is spelled out, whose nodes have no simple radicals"
-        numbers.source.fault(text.node, message, "make the block by a rule, or spell the method out")
+        numbers.source.fault(
+            text.node, message, "make the block by a rule, or spell the method out"
+        )
         return None
-    return tuple(Entry(node, text.node, f"node {i} of {text.name}") for i, node in enumerate(nodes, start=1))
+    return tuple(
+        Entry(node, text.node, f"node {i} of {text.name}") for i, node in enumerate(nodes, start=1)
+    )

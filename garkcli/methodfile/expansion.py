@@ -1,4 +1,6 @@
-"""How long an expression gets when it is multiplied out: asked before a Lagrangian is transformed."""
+"""How long an expression gets when it is multiplied out: asked before a Lagrangian is
+transformed.
+"""
 
 from __future__ import annotations
 
@@ -12,9 +14,11 @@ MAX_TERMS = 3_000
 
 
 def too_long(lagrangian: Any, velocities: Sequence[Any]) -> Any:
-    """The first velocity whose equation p = ∂L/∂v would be too long to be solved; None where there is none.
+    """The first velocity whose equation p = ∂L/∂v would be too long to be solved; None where there
+    is none.
 
-    Equations that are linear in the velocities are solved by elimination, so they are never too long.
+    Equations that are linear in the velocities are solved by elimination, so they are never too
+    long.
 
     Args:
         lagrangian: a sympy expression.
@@ -34,7 +38,9 @@ def too_long(lagrangian: Any, velocities: Sequence[Any]) -> Any:
 
 
 def _undone(f: Any, v: Any) -> Any:
-    """What is left of f(v) = c to be multiplied out, once the functions that hold v alone are undone."""
+    """What is left of f(v) = c to be multiplied out, once the functions that hold v alone are
+    undone.
+    """
     while f != v:
         if f.is_Add or f.is_Mul:
             free, rest = f.as_independent(v, as_Add=f.is_Add)
@@ -49,11 +55,15 @@ def _undone(f: Any, v: Any) -> Any:
 
 
 def _terms(f: Any, v: Any) -> int:
-    """The terms of the numerator of f multiplied out; squared where a square root has to be squared away."""
+    """The terms of the numerator of f multiplied out; squared where a square root has to be squared
+    away.
+    """
     import sympy
 
     found = _fraction(f)
-    has_root = any(v in x.free_symbols and x.exp.is_Rational and x.exp.q == 2 for x in f.atoms(sympy.Pow))
+    has_root = any(
+        v in x.free_symbols and x.exp.is_Rational and x.exp.q == 2 for x in f.atoms(sympy.Pow)
+    )
     return max(found.terms ** (2 if has_root else 1), found.inside)
 
 
@@ -94,16 +104,23 @@ def _fraction(f: Any) -> _Fraction:
             factors = {x: (size, power * n) for x, (size, n) in base.factors.items()}
             return _Fraction(_power(base.terms, power), factors, inside)
         numerator = _missing({x: (size, -power * n) for x, (size, n) in base.factors.items()}, {})
-        return _Fraction(numerator, {f.base: (base.terms, -power)} if f.base.free_symbols else {}, inside)
+        return _Fraction(
+            numerator, {f.base: (base.terms, -power)} if f.base.free_symbols else {}, inside
+        )
     below = max((x.terms for x in parts), default=1)
     if f.is_Pow and f.exp.is_Rational and f.exp.p < 0:
         return _Fraction(1, {f.base ** abs(f.exp): (1, 1)}, max(inside, below))
     return _Fraction(1, {}, max(inside, below))
 
 
-def _missing(all_factors: Mapping[Any, tuple[int, int]], factors: Mapping[Any, tuple[int, int]]) -> int:
+def _missing(
+    all_factors: Mapping[Any, tuple[int, int]], factors: Mapping[Any, tuple[int, int]]
+) -> int:
     """The terms of a denominator divided by some of its factors."""
-    return prod(_power(size, power - factors.get(x, (size, 0))[1]) for x, (size, power) in all_factors.items())
+    return prod(
+        _power(size, power - factors.get(x, (size, 0))[1])
+        for x, (size, power) in all_factors.items()
+    )
 
 
 def _power(terms: int, exponent: int) -> int:

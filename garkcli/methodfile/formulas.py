@@ -9,7 +9,6 @@ from typing import Any
 from flint import arb, ctx, fmpq
 from yaml.nodes import Node
 
-from garkcli.dynamics.translate import Translator
 from garkcli.errors import ExpressionError, LimitExceeded, did_you_mean
 from garkcli.exact.expression import Expression
 from garkcli.exact.formula import CONSTANTS, RESERVED, parse_formula
@@ -17,6 +16,7 @@ from garkcli.exact.rewriting import names_in, size_of
 from garkcli.exact.values import Value, value_of
 from garkcli.methodfile.numbers import MAX_SIZE, explained, is_misread
 from garkcli.methodfile.source import Source, is_null, shortened
+from garkcli.problems.translate import Translator
 
 BITS = 320
 """Precision of the values of formulas."""
@@ -47,8 +47,8 @@ class Formulas:
         Args:
             node: the text.
             where: what it is, for messages.
-            names: for names that may not stand here, the cure; "" for those that may. Parameters always may;
-                None is for all.
+            names: for names that may not stand here, the cure; "" for those that may. Parameters
+                always may; None is for all.
             noun: what a name can be here.
         """
         text = self.source.scalar(node, where)
@@ -67,7 +67,11 @@ class Formulas:
         except ExpressionError as error:
             self.source.expression_fault(node, where, explained(error, text, node))
             return None
-        return expression if names is None or self._are_known(expression, node, where, names, noun) else None
+        return (
+            expression
+            if names is None or self._are_known(expression, node, where, names, noun)
+            else None
+        )
 
     def _are_known(
         self, expression: Expression, node: Node, where: str, names: Mapping[str, str], noun: str
@@ -85,7 +89,9 @@ class Formulas:
         value = None if expression is None else self.value(expression, node, where, {})
         return None if expression is None or value is None else (expression, value)
 
-    def value(self, expression: Expression, node: Node, where: str, names: Mapping[str, Value]) -> Value | None:
+    def value(
+        self, expression: Expression, node: Node, where: str, names: Mapping[str, Value]
+    ) -> Value | None:
         """The value for given values of names; None where there is none, which is noted."""
         try:
             with ctx.workprec(BITS):
@@ -136,7 +142,8 @@ def bad_name(name: str) -> str:
 
 
 def nearby(value: Value) -> fmpq:
-    """The simplest fraction within 10^(−``PLACES``) of a number: the number itself where it is a short fraction.
+    """The simplest fraction within 10^(−``PLACES``) of a number: the number itself where it is a
+    short fraction.
 
     >>> with ctx.workprec(BITS):
     ...     nearby(arb(1) / 3)

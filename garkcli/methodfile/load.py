@@ -7,7 +7,12 @@ from collections.abc import Iterable, Iterator
 from pathlib import Path
 
 from garkcli.errors import Fault, MethodFileError
-from garkcli.methodfile.build import Builder, MethodFile, nodes_to_spell_out, refuse_unknown_families
+from garkcli.methodfile.build import (
+    Builder,
+    MethodFile,
+    nodes_to_spell_out,
+    refuse_unknown_families,
+)
 from garkcli.methodfile.numbers import Values
 from garkcli.methodfile.reader import Reader
 from garkcli.methodfile.source import MAX_BYTES, METHOD_FILE, FileKind, Source, one_line
@@ -20,8 +25,8 @@ STDIN = "-"
 def find_files(paths: Iterable[str]) -> Iterator[str]:
     """The files meant by ``paths``, in order.
 
-    A directory stands for all method files below it, a pattern such as ``**/*.yaml`` for the files it matches; what
-    stands for nothing stays, to be reported as missing.
+    A directory stands for all method files below it, a pattern such as ``**/*.yaml`` for the files
+    it matches; what stands for nothing stays, to be reported as missing.
     """
     for path in paths:
         if path != STDIN and Path(path).is_dir():
@@ -46,7 +51,9 @@ def load(path: str) -> MethodFile:
         if first == path:
             fault = Fault(f"no {SUFFIX} files in this directory", "name the files, or rename them")
         else:
-            fault = Fault("a directory, where one method file is expected", f"name one, such as {first}")
+            fault = Fault(
+                "a directory, where one method file is expected", f"name one, such as {first}"
+            )
         raise MethodFileError(path, [fault])
     return loads(*read_text(path, METHOD_FILE))
 
@@ -74,12 +81,16 @@ def read_text(path: str, kind: FileKind) -> tuple[str, str]:
 
 def _decoded(name: str, data: bytes) -> str:
     if len(data) > MAX_BYTES:
-        raise MethodFileError(name, [Fault(f"a file of more than {MAX_BYTES} bytes", "split it", 1, 1)])
+        raise MethodFileError(
+            name, [Fault(f"a file of more than {MAX_BYTES} bytes", "split it", 1, 1)]
+        )
     try:
         return data.decode("utf-8-sig")
     except UnicodeDecodeError as error:
         line = data[: error.start].count(b"\n") + 1
-        raise MethodFileError(name, [Fault("not UTF-8 text", "save the file as UTF-8", line, 1)]) from None
+        raise MethodFileError(
+            name, [Fault("not UTF-8 text", "save the file as UTF-8", line, 1)]
+        ) from None
 
 
 def loads(text: str, source: str = "<text>") -> MethodFile:

@@ -17,9 +17,12 @@ from garkcli.exact.rewriting import depth_of, roots_in, size_of, substitute
 from garkcli.methodfile.source import Source
 
 _READ_DIFFERENTLY = re.compile(
-    r"[-+]?(0[0-9_]+|0[xob][0-9a-f_]+|[0-9][0-9_]*(:[0-5]?[0-9])+(\.[0-9_]*)?|[0-9]*_[0-9_.]*)", re.IGNORECASE
+    r"[-+]?(0[0-9_]+|0[xob][0-9a-f_]+|[0-9][0-9_]*(:[0-5]?[0-9])+(\.[0-9_]*)?|[0-9]*_[0-9_.]*)",
+    re.IGNORECASE,
 )
-"""Plain scalars that YAML 1.1 reads as another number than they look: octal, hexadecimal, base 60, with _."""
+"""Plain scalars that YAML 1.1 reads as another number than they look: octal, hexadecimal, base 60,
+with _.
+"""
 MAX_SIZE = 2_000
 """Most operations of one coefficient, those of the parameters in it written out."""
 MAX_DEPTH = 200
@@ -72,7 +75,9 @@ class Numbers:
         return entry
 
     def _expression(self, text: str) -> Expression:
-        """What a text means; the same object for the same text, which large matrices repeat a lot."""
+        """What a text means; the same object for the same text, which large matrices repeat a
+        lot.
+        """
         if text not in self._read:
             parsed = parse(text)
             if size_of(parsed, self._sizes) > MAX_SIZE:
@@ -91,12 +96,15 @@ class Numbers:
         items = self.source.items(node, where)
         if not items and not self.source.faults:
             self.source.fault(node, f"{where} is empty", "every method has a stage")
-        return tuple(self.entry(item, f"{where}, entry {j}") for j, item in enumerate(items, start=1))
+        return tuple(
+            self.entry(item, f"{where}, entry {j}") for j, item in enumerate(items, start=1)
+        )
 
     def matrix(self, node: Node, where: str) -> Rows:
         """A matrix, row by row, with every row equally long."""
         rows = tuple(
-            self.row(item, f"{where}, row {i}") for i, item in enumerate(self.source.items(node, where), 1)
+            self.row(item, f"{where}, row {i}")
+            for i, item in enumerate(self.source.items(node, where), 1)
         )
         for i, row in enumerate(rows[1:], start=2):
             if len(row) != len(rows[0]):
@@ -107,7 +115,9 @@ class Numbers:
             self.source.fault(node, f"{where} is empty", "every method has a stage")
         return rows
 
-    def expect_shape(self, rows: Rows, node: Node, where: str, shape: tuple[int, int], why: str) -> None:
+    def expect_shape(
+        self, rows: Rows, node: Node, where: str, shape: tuple[int, int], why: str
+    ) -> None:
         """Note a matrix that does not have the given shape."""
         found = (len(rows), len(rows[0]) if rows else 0)
         if found != shape and all(len(row) == found[1] for row in rows):
@@ -116,7 +126,9 @@ class Numbers:
 
 
 def is_misread(source: Source, node: Node, text: str, where: str) -> bool:
-    """Note a plain scalar that YAML itself takes for something else than the number it looks like."""
+    """Note a plain scalar that YAML itself takes for something else than the number it looks
+    like.
+    """
     if not isinstance(node, ScalarNode) or node.style in {"'", '"'}:
         return False
     kind = str(node.tag).rpartition(":")[2]
@@ -126,7 +138,9 @@ def is_misread(source: Source, node: Node, text: str, where: str) -> bool:
         return True
     if _READ_DIFFERENTLY.fullmatch(text):
         cure = "leave out the _" if "_" in text else "write the number in plain decimal digits"
-        source.fault(node, f"{where}: {text} means different numbers to different readers of YAML", cure)
+        source.fault(
+            node, f"{where}: {text} means different numbers to different readers of YAML", cure
+        )
         return True
     if text.lower().lstrip("+-") in {".inf", ".nan", "nan", "inf", "infinity"}:
         source.fault(node, f"{where}: {text} is not a number", "coefficients are finite")
@@ -166,7 +180,8 @@ class Values:
                 source.expression_fault(entry.node, entry.where, error)
 
     def _find_culprits(self, numbers: Numbers, error: ExpressionError) -> None:
-        """Note each coefficient that has no real value; failing that, what is wrong with all of them together.
+        """Note each coefficient that has no real value; failing that, what is wrong with all of
+        them together.
 
         No field is made for any of them: there may be many, and each may be large.
         """
@@ -209,7 +224,11 @@ def read_parameters(numbers: Numbers, node: Node | None) -> None:
         if name in FUNCTIONS:
             source.fault(value_node, f"{where} is a function already", "choose another name")
         elif not name.isidentifier() or not name.isascii():
-            source.fault(value_node, f"{where} cannot be the name of a parameter", "use letters, digits and _")
+            source.fault(
+                value_node,
+                f"{where} cannot be the name of a parameter",
+                "use letters, digits and _",
+            )
         elif isinstance(value_node, ScalarNode) and value_node.value == "free":
             cure = "give it a value, for instance 1/2"
             source.fault(value_node, f"{where} is free; orders are decided for given values", cure)

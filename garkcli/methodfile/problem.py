@@ -1,4 +1,6 @@
-"""Problem files: a Hamiltonian or a Lagrangian with its initial values, every fault of the text at once."""
+"""Problem files: a Hamiltonian or a Lagrangian with its initial values, every fault of the text at
+once.
+"""
 
 from __future__ import annotations
 
@@ -15,7 +17,7 @@ from garkcli.methodfile.source import PROBLEM_FILE, Source, keys_of, one_line, s
 from garkcli.methodfile.terms import Maker, ProblemText
 
 if TYPE_CHECKING:
-    from garkcli.dynamics.hamiltonian import Hamiltonian
+    from garkcli.problems.hamiltonian import Hamiltonian
 
 KEYS = (
     "gark",
@@ -82,12 +84,16 @@ class _Reader:
         if root is None:
             return None
         if keys_of(root) & set(METHOD_FORMS) and not keys_of(root) & {"hamiltonian", "lagrangian"}:
-            source.fault(root, "this is a method file, not a problem file", "see docs/problem-file.md")
+            source.fault(
+                root, "this is a method file, not a problem file", "see docs/problem-file.md"
+            )
             return None
         entries = source.mapping(root, "the file", KEYS)
         version = entries.get("gark")
         if version is not None and source.scalar(version, "gark") != "1":
-            source.fault(version, "gark: this program reads version 1 of the format", "write gark: 1")
+            source.fault(
+                version, "gark: this program reads version 1 of the format", "write gark: 1"
+            )
         for key in ("description", "reference"):
             if key in entries:
                 source.scalar(entries[key], key)
@@ -99,7 +105,9 @@ class _Reader:
         self.formulas.read_parameters(entries.get("parameters"))
         self._refuse_taken(variables, form, entries.get("parameters"))
         if "initial" not in entries:
-            cure = "write initial: {" + ", ".join(f"{x}: 0, p{x}: 0" for x, _ in variables[:2]) + "}"
+            cure = (
+                "write initial: {" + ", ".join(f"{x}: 0, p{x}: 0" for x, _ in variables[:2]) + "}"
+            )
             source.fault(root, "initial missing", cure)
         if form is None:
             return None
@@ -121,7 +129,9 @@ class _Reader:
     def _variables(self, root: Node, node: Node | None) -> list[tuple[str, Node]]:
         """The names of the positions that can be names, and where they stand."""
         if node is None:
-            self.source.fault(root, "variables missing", "name the positions, for instance variables: [x, y]")
+            self.source.fault(
+                root, "variables missing", "name the positions, for instance variables: [x, y]"
+            )
             return []
         items = [node] if isinstance(node, ScalarNode) else self.source.items(node, "variables")
         if not items and isinstance(node, SequenceNode):
@@ -136,7 +146,9 @@ class _Reader:
                 continue
             why = "is named twice" if name in found else bad_name(name)
             if why:
-                self.source.fault(item, f"variables: {shortened(name)} {why}", "choose another name")
+                self.source.fault(
+                    item, f"variables: {shortened(name)} {why}", "choose another name"
+                )
             else:
                 found[name] = item
         return list(found.items())
@@ -146,11 +158,18 @@ class _Reader:
         derived = _derived(variables, form)
         for name, node in variables:
             if name in derived:
-                self.source.fault(node, f"variables: {name} is {derived[name]}", "choose another name")
+                self.source.fault(
+                    node, f"variables: {name} is {derived[name]}", "choose another name"
+                )
 
-    def _refuse_taken(self, variables: list[tuple[str, Node]], form: str | None, node: Node | None) -> None:
+    def _refuse_taken(
+        self, variables: list[tuple[str, Node]], form: str | None, node: Node | None
+    ) -> None:
         """Refuse a parameter that is called like a variable, or like what belongs to one."""
-        taken = {**_derived(variables, form or "hamiltonian"), **{name: "a variable" for name, _ in variables}}
+        taken = {
+            **_derived(variables, form or "hamiltonian"),
+            **{name: "a variable" for name, _ in variables},
+        }
         for key, _ in node.value if isinstance(node, MappingNode) else ():
             if isinstance(key, ScalarNode) and key.value in taken:
                 message = f"parameters: {key.value} is {taken[key.value]} already"
@@ -163,7 +182,9 @@ class _Reader:
             self.source.fault(root, "no hamiltonian and no lagrangian", cure)
             return None
         if len(present) > 1:
-            self.source.fault(entries["lagrangian"], "a hamiltonian and a lagrangian", "keep one of them")
+            self.source.fault(
+                entries["lagrangian"], "a hamiltonian and a lagrangian", "keep one of them"
+            )
         return present[0]
 
     def _items(self, node: Node, form: str) -> list[tuple[Node, str]]:
@@ -185,14 +206,18 @@ class _Reader:
         if found is None:
             return DEFAULT_T_END
         if not isinstance(found[1], fmpq) or found[1] <= 0:
-            self.source.fault(node, "t_end: a positive rational number is expected", "such as 2 or 5/2")
+            self.source.fault(
+                node, "t_end: a positive rational number is expected", "such as 2 or 5/2"
+            )
             return DEFAULT_T_END
         return found[1]
 
     def _invariants(self, node: Node | None) -> list[tuple[str, Node]]:
         entries = {} if node is None else self.source.mapping(node, "invariants", ())
         if len(entries) > MAX_INVARIANTS:
-            self.source.fault(node, f"{len(entries)} invariants (limit {MAX_INVARIANTS})", "use fewer")
+            self.source.fault(
+                node, f"{len(entries)} invariants (limit {MAX_INVARIANTS})", "use fewer"
+            )
             return []
         for name, value in entries.items():
             if name.lower() in {"energy", "h"}:

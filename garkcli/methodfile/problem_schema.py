@@ -1,4 +1,5 @@
-"""The JSON Schema (draft-07) of problem files, for editors; made from the same lists that the loader checks by.
+"""The JSON Schema (draft-07) of problem files, for editors; made from the same lists that the
+loader checks by.
 
 It says what can be said about one value at a time: which names formulas may have is for the loader.
 """
@@ -26,20 +27,47 @@ _FORMULA: Schema = {
 def problem_file_schema() -> Schema:
     """The schema as plain data."""
     formula: Schema = {"$ref": "#/definitions/formula"}
-    terms = {"anyOf": [formula, {"type": "array", "items": formula, "minItems": 1, "maxItems": MAX_TERMS}]}
+    terms = {
+        "anyOf": [
+            formula,
+            {"type": "array", "items": formula, "minItems": 1, "maxItems": MAX_TERMS},
+        ]
+    }
     name: Schema = {"type": "string", "pattern": _NAME}
-    variables = {"type": "array", "items": name, "minItems": 1, "maxItems": MAX_VARIABLES, "uniqueItems": True}
-    constants: Schema = {"type": "object", "additionalProperties": {"$ref": "#/definitions/constant"}}
+    variables = {
+        "type": "array",
+        "items": name,
+        "minItems": 1,
+        "maxItems": MAX_VARIABLES,
+        "uniqueItems": True,
+    }
+    constants: Schema = {
+        "type": "object",
+        "additionalProperties": {"$ref": "#/definitions/constant"},
+    }
     properties: Schema = {
         "gark": {"description": "Version of the format.", "enum": [1, "1"]},
         "name": {**_TEXT, "description": "What people call the problem."},
         "description": {**_TEXT, "description": "What it is."},
         "reference": {**_TEXT, "description": "Where it was published."},
         "variables": {"description": "Names of the positions.", "anyOf": [name, variables]},
-        "parameters": {**constants, "propertyNames": {"pattern": _NAME}, "description": "Named constants."},
-        "hamiltonian": {**terms, "description": "H in positions x and momenta px; a list: one term a colour."},
-        "lagrangian": {**terms, "description": "L in positions x and velocities vx; a list: one term a colour."},
-        "initial": {**constants, "description": "Initial positions, and momenta (or velocities of a Lagrangian)."},
+        "parameters": {
+            **constants,
+            "propertyNames": {"pattern": _NAME},
+            "description": "Named constants.",
+        },
+        "hamiltonian": {
+            **terms,
+            "description": "H in positions x and momenta px; a list: one term a colour.",
+        },
+        "lagrangian": {
+            **terms,
+            "description": "L in positions x and velocities vx; a list: one term a colour.",
+        },
+        "initial": {
+            **constants,
+            "description": "Initial positions, and momenta (or velocities of a Lagrangian).",
+        },
         "t_end": {"$ref": "#/definitions/constant"},
         "invariants": {
             "description": "First integrals besides H, in positions and momenta.",

@@ -1,4 +1,6 @@
-"""YAML nodes to a ``Description``: every key, shape and word checked, faults collected as they are met."""
+"""YAML nodes to a ``Description``: every key, shape and word checked, faults collected as they are
+met.
+"""
 
 from __future__ import annotations
 
@@ -74,7 +76,9 @@ class Reader:
         entries = source.mapping(root, "the file", KEYS)
         version = entries.get("gark")
         if version is not None and source.scalar(version, "gark") != "1":
-            source.fault(version, "gark: this program reads version 1 of the format", "write gark: 1")
+            source.fault(
+                version, "gark: this program reads version 1 of the format", "write gark: 1"
+            )
         text = {
             key: source.scalar(entries[key], key) or ""
             for key in ("name", "description", "reference")
@@ -135,19 +139,29 @@ class Reader:
         node = entries.get("structure")
         word = self.source.choice(node, "structure", STRUCTURES) if node is not None else None
         if node is not None and form in {"tableau", "ark"} and word != "general":
-            cure = "write absent blocks as null" if form == "tableau" else "use methods, tableau or prk"
+            cure = (
+                "write absent blocks as null"
+                if form == "tableau"
+                else "use methods, tableau or prk"
+            )
             self.source.fault(node, f"structure does not go with {form}", cure)
         if node is not None and form == "prk" and word == "semi-separable":
-            self.source.fault(node, "a prk cannot be semi-separable: that takes two Hamiltonians", "use methods")
+            self.source.fault(
+                node, "a prk cannot be semi-separable: that takes two Hamiltonians", "use methods"
+            )
         return cast("Structure", word or "general")
 
     def _is_conjugate(self, node: Node | None) -> bool:
-        return node is not None and self.source.choice(node, "conjugate", ("true", "false")) == "true"
+        return (
+            node is not None and self.source.choice(node, "conjugate", ("true", "false")) == "true"
+        )
 
     def _refuse_misplaced(self, form: Form, entries: dict[str, Node]) -> None:
         for key, home in (("transfer", "methods"), ("linear", "tableau")):
             if key in entries and form != home:
-                self.source.fault(entries[key], f"{key} goes with {home}, not with {form}", "leave it out")
+                self.source.fault(
+                    entries[key], f"{key} goes with {home}, not with {form}", "leave it out"
+                )
 
     def _content(
         self, form: Form, structure: Structure, entries: dict[str, Node]
@@ -161,7 +175,9 @@ class Reader:
             return self.spelled_out.ark(node)
         return self.spelled_out.prk(node, structure)
 
-    def _methods(self, node: Node, structure: Structure, transfer: Node | None) -> MethodsText | None:
+    def _methods(
+        self, node: Node, structure: Structure, transfer: Node | None
+    ) -> MethodsText | None:
         items = self.source.items(node, "methods")
         methods = [self._method(item, l) for l, item in enumerate(items, start=1)]
         if not items and isinstance(node, SequenceNode):
@@ -171,7 +187,9 @@ class Reader:
         if len(items) > 1 and transfer is None:
             cure = "write transfer: collocation (or interpolation)"
             self.source.fault(node, "two colours or more need a transfer rule", cure)
-        rules = self._transfer(transfer, len(items)) if transfer is not None else TransferText(None, {})
+        rules = (
+            self._transfer(transfer, len(items)) if transfer is not None else TransferText(None, {})
+        )
         found = tuple(method for method in methods if method is not None)
         return MethodsText(found, rules) if found and len(found) == len(methods) else None
 
@@ -181,7 +199,9 @@ class Reader:
             self.source.fault(node, f"{where}: family missing", "write for instance family: gauss")
             return None
         if "family" not in keys and isinstance(node, MappingNode):
-            return self.spelled_out.butcher(node, where, (f"A^{{{l},{l}}}", f"b^{{{l}}}", f"c^{{{l}}}"))
+            return self.spelled_out.butcher(
+                node, where, (f"A^{{{l},{l}}}", f"b^{{{l}}}", f"c^{{{l}}}")
+            )
         before = len(self.source.faults)
         entries = self.source.mapping(node, where, ("family", "stages", "name"))
         if "family" not in entries or len(self.source.faults) > before:
@@ -199,19 +219,27 @@ class Reader:
         if not keys & {"default", "blocks"}:
             return TransferText(self._rule(node, "transfer"), {})
         entries = self.source.mapping(node, "transfer", ("default", "blocks"))
-        default = self._rule(entries["default"], "transfer, default") if "default" in entries else None
+        default = (
+            self._rule(entries["default"], "transfer, default") if "default" in entries else None
+        )
         blocks: dict[tuple[int, int], BlockText] = {}
         if "blocks" in entries:
-            for key, value in self.source.mapping(entries["blocks"], "transfer, blocks", ()).items():
+            for key, value in self.source.mapping(
+                entries["blocks"], "transfer, blocks", ()
+            ).items():
                 place = _BLOCK.fullmatch(key)
                 l, m = (int(place[1]) - 1, int(place[2]) - 1) if place else (0, 0)
                 if l == m or max(l, m) >= colours:
                     message = f"transfer, blocks: {key!r} names no off-diagonal block of {colours} colours"
-                    self.source.fault(value, message, 'write for instance "1,2" for the block A^{1,2}')
+                    self.source.fault(
+                        value, message, 'write for instance "1,2" for the block A^{1,2}'
+                    )
                     continue
                 where = f"A^{{{l + 1},{m + 1}}}"
                 if (l, m) in blocks:
-                    self.source.fault(value, f"transfer, blocks: {where} is given twice", "keep one of them")
+                    self.source.fault(
+                        value, f"transfer, blocks: {where} is given twice", "keep one of them"
+                    )
                 block = (
                     MatrixText(value, self.numbers.matrix(value, where))
                     if isinstance(value, SequenceNode)
@@ -227,7 +255,9 @@ class Reader:
             return RuleText(node, ((rule, None),)) if rule else None
         mixed = sorted(keys_of(node) & set(PAIR_RULES))
         if mixed:
-            message = f"{where}: {mixed[0]} makes both blocks of a pair of colours and cannot be combined"
+            message = (
+                f"{where}: {mixed[0]} makes both blocks of a pair of colours and cannot be combined"
+            )
             self.source.fault(node, message, f"write {mixed[0]} on its own")
             return None
         entries = self.source.mapping(node, where, RULES)
@@ -235,5 +265,8 @@ class Reader:
             if isinstance(node, MappingNode) and not node.value:
                 self.source.fault(node, f"{where}: no rule", f"one of: {', '.join(ALL_RULES)}")
             return None
-        terms = ((rule, self.numbers.entry(x, f"{where}, weight of {rule}")) for rule, x in entries.items())
+        terms = (
+            (rule, self.numbers.entry(x, f"{where}, weight of {rule}"))
+            for rule, x in entries.items()
+        )
         return RuleText(node, tuple(terms))

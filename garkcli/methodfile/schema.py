@@ -1,7 +1,8 @@
-"""The JSON Schema (draft-07) of method files, for editors; made from the same lists that the loader checks by.
+"""The JSON Schema (draft-07) of method files, for editors; made from the same lists that the loader
+checks by.
 
-It says what can be said about one value at a time. Sizes that have to fit each other, names of parameters and
-everything mathematical are for ``gark check``.
+It says what can be said about one value at a time. Sizes that have to fit each other, names of
+parameters and everything mathematical are for ``gark check``.
 """
 
 from __future__ import annotations
@@ -43,7 +44,10 @@ def method_file_schema() -> Schema:
                 "then": {"required": ["transfer"]},
             },
             {
-                "if": {"required": ["structure"], "properties": {"structure": {"not": {"const": "general"}}}},
+                "if": {
+                    "required": ["structure"],
+                    "properties": {"structure": {"not": {"const": "general"}}},
+                },
                 "then": {"anyOf": [{"required": ["methods"]}, {"required": ["prk"]}]},
             },
             {
@@ -82,16 +86,29 @@ def _properties() -> Schema:
         "transfer": _transfer(),
         "tableau": _tableau(),
         "ark": _ark(),
-        "prk": _closed({"q": {"$ref": "#/definitions/butcher"}, "p": {"$ref": "#/definitions/butcher"}}, "q", "p"),
-        "structure": {"description": "Which vector fields the problem has.", "enum": list(STRUCTURES)},
-        "conjugate": {"description": "The method is the symplectic conjugate of all this.", "type": "boolean"},
+        "prk": _closed(
+            {"q": {"$ref": "#/definitions/butcher"}, "p": {"$ref": "#/definitions/butcher"}},
+            "q",
+            "p",
+        ),
+        "structure": {
+            "description": "Which vector fields the problem has.",
+            "enum": list(STRUCTURES),
+        },
+        "conjugate": {
+            "description": "The method is the symplectic conjugate of all this.",
+            "type": "boolean",
+        },
         "linear": {
             "description": "Colours whose vector field is linear.",
             "type": "array",
             "items": {"type": "integer", "minimum": 1},
         },
         "parameters": {"type": "object", "additionalProperties": {"$ref": "#/definitions/number"}},
-        "tolerance": {**_NUMBER, "description": "The rounding of the coefficients, for instance 1e-13."},
+        "tolerance": {
+            **_NUMBER,
+            "description": "The rounding of the coefficients, for instance 1e-13.",
+        },
         "expect": _expect(),
     }
 
@@ -110,7 +127,11 @@ def _family() -> Schema:
     stages = {"type": "integer", "minimum": 1, "maximum": MAX_STAGES}
     family = _closed({"family": names, "stages": stages, "name": _TEXT}, "family")
     single = [name for name, x in FAMILIES.items() if x.smallest == x.largest]
-    return {**family, "if": {"properties": {"family": {"enum": single}}}, "else": {"required": ["stages"]}}
+    return {
+        **family,
+        "if": {"properties": {"family": {"enum": single}}},
+        "else": {"required": ["stages"]},
+    }
 
 
 def _butcher() -> Schema:
@@ -126,7 +147,12 @@ def _butcher() -> Schema:
 def _rule() -> Schema:
     words = [{"const": rule, "description": SUMMARIES[rule]} for rule in ALL_RULES]
     weights = {rule: {"$ref": "#/definitions/number"} for rule in RULES}
-    combination = {"type": "object", "properties": weights, "additionalProperties": False, "minProperties": 1}
+    combination = {
+        "type": "object",
+        "properties": weights,
+        "additionalProperties": False,
+        "minProperties": 1,
+    }
     return {"oneOf": [*words, combination]}
 
 
@@ -150,7 +176,11 @@ def _transfer() -> Schema:
 def _tableau() -> Schema:
     block = {"anyOf": [{"$ref": "#/definitions/matrix"}, {"type": "null"}]}
     properties = {
-        "A": {"type": "array", "minItems": 1, "items": {"type": "array", "minItems": 1, "items": block}},
+        "A": {
+            "type": "array",
+            "minItems": 1,
+            "items": {"type": "array", "minItems": 1, "items": block},
+        },
         "b": {"type": "array", "minItems": 1, "items": {"$ref": "#/definitions/row"}},
         "c": {
             "type": "array",
@@ -158,21 +188,37 @@ def _tableau() -> Schema:
             "items": {"anyOf": [{"$ref": "#/definitions/row"}, {"type": "null"}]},
         },
     }
-    return {**_closed(properties, "A", "b"), "description": "Every block A^{l,m}; null where there is none."}
+    return {
+        **_closed(properties, "A", "b"),
+        "description": "Every block A^{l,m}; null where there is none.",
+    }
 
 
 def _ark() -> Schema:
-    rows = {"anyOf": [{"$ref": "#/definitions/row"}, {"type": "array", "items": {"$ref": "#/definitions/row"}}]}
+    rows = {
+        "anyOf": [
+            {"$ref": "#/definitions/row"},
+            {"type": "array", "items": {"$ref": "#/definitions/row"}},
+        ]
+    }
     properties = {
         "A": {"type": "array", "minItems": 1, "items": {"$ref": "#/definitions/matrix"}},
         "b": rows,
         "c": {"$ref": "#/definitions/row"},
     }
-    return {**_closed(properties, "A", "b"), "description": "An additive method with shared stages."}
+    return {
+        **_closed(properties, "A", "b"),
+        "description": "An additive method with shared stages.",
+    }
 
 
 def _expect() -> Schema:
-    number = {"anyOf": [{"type": "integer", "minimum": 0}, {"type": "string", "pattern": "^(>=\\s*)?[0-9]{1,4}$"}]}
+    number = {
+        "anyOf": [
+            {"type": "integer", "minimum": 0},
+            {"type": "string", "pattern": "^(>=\\s*)?[0-9]{1,4}$"},
+        ]
+    }
     entry = {"anyOf": [*number["anyOf"], {"type": "null"}]}
     row = {"type": "array", "items": entry}
     properties: Schema = dict.fromkeys(NUMBERS, number)

@@ -1,7 +1,7 @@
 """YAML text to nodes with positions, within limits, and the list in which faults are collected.
 
-``yaml.compose`` keeps what ``safe_load`` loses: where each value stands, keys that occur twice, and the text of
-a number as it was written.
+``yaml.compose`` keeps what ``safe_load`` loses: where each value stands, keys that occur twice, and
+the text of a number as it was written.
 """
 
 from __future__ import annotations
@@ -102,7 +102,9 @@ class Source:
         faults = sorted(dict.fromkeys(self.faults), key=_place)
         if len(faults) > MAX_FAULTS:
             rest = Fault(
-                f"and {len(faults) - MAX_FAULTS} more faults", "mend these first", *_place(faults[MAX_FAULTS])
+                f"and {len(faults) - MAX_FAULTS} more faults",
+                "mend these first",
+                *_place(faults[MAX_FAULTS]),
             )
             faults = [*faults[:MAX_FAULTS], rest]
         return MethodFileError(self.name, faults, self.text)
@@ -125,12 +127,16 @@ class Source:
             return None
         except UnicodeEncodeError as error:  # half of a surrogate pair, which no file has
             place = _place_of_sign(self.text, ord(self.text[error.start]))
-            self.faults.append(Fault("half a sign, which no text has", "write the text as Unicode", *place))
+            self.faults.append(
+                Fault("half a sign, which no text has", "write the text as Unicode", *place)
+            )
             return None
         except yaml.MarkedYAMLError as error:
             mark = error.problem_mark or error.context_mark
             place = (mark.line + 1, mark.column + 1) if mark else (1, 1)
-            self.faults.append(Fault(f"this is not YAML: {error.problem or error.context}", "", *place))
+            self.faults.append(
+                Fault(f"this is not YAML: {error.problem or error.context}", "", *place)
+            )
             return None
         except yaml.YAMLError as error:
             place = _place_of_sign(self.text, getattr(error, "character", None))
@@ -157,9 +163,15 @@ class Source:
                 continue
             key = key_node.value
             if key in entries:
-                self.fault(key_node, f"{where}: the key {shortened(key)} stands here twice", "keep one of them")
+                self.fault(
+                    key_node,
+                    f"{where}: the key {shortened(key)} stands here twice",
+                    "keep one of them",
+                )
             elif known and key not in known:
-                self.fault(key_node, f"{where}: unknown key {shortened(key)}", did_you_mean(key, known))
+                self.fault(
+                    key_node, f"{where}: unknown key {shortened(key)}", did_you_mean(key, known)
+                )
             else:
                 entries[key] = value
         return entries
@@ -177,7 +189,11 @@ class Source:
             self.fault(node, f"{where}: a single value is expected here")
             return None
         if not str(node.tag).startswith("tag:yaml.org,2002:") or str(node.tag).startswith(_PYTHON):
-            self.fault(node, f"{where}: the tag {shortened(str(node.tag))} has no place here", "leave it out")
+            self.fault(
+                node,
+                f"{where}: the tag {shortened(str(node.tag))} has no place here",
+                "leave it out",
+            )
             return None
         return str(node.value)
 
@@ -188,7 +204,10 @@ class Source:
             return None
         plain = text.isascii() and text.isdigit() and (text == "0" or not text.startswith("0"))
         if not plain or len(text) > 6 or int(text) < smallest:
-            self.fault(node, f"{where}: a whole number of at least {smallest} is expected, not {shortened(text)}")
+            self.fault(
+                node,
+                f"{where}: a whole number of at least {smallest} is expected, not {shortened(text)}",
+            )
             return None
         return int(text)
 
@@ -235,9 +254,13 @@ def _walk(root: Node) -> None:
         node, depth = pending.pop()
         count += 1
         if count > MAX_NODES:
-            raise _TooLargeError(root, f"more than {MAX_NODES} values in one file", "aliases count each time")
+            raise _TooLargeError(
+                root, f"more than {MAX_NODES} values in one file", "aliases count each time"
+            )
         if depth > MAX_NESTING:
-            raise _TooLargeError(node, _TOO_DEEP, "no file needs that; or an anchor contains itself")
+            raise _TooLargeError(
+                node, _TOO_DEEP, "no file needs that; or an anchor contains itself"
+            )
         pending += ((child, depth + 1) for child in _children(node))
 
 
@@ -255,7 +278,9 @@ def _place(fault: Fault) -> tuple[int, int]:
 
 
 def _folded_place(text: str, node: ScalarNode, offset: int) -> tuple[int, int]:
-    """Where a value over several lines has its character ``offset``: YAML changes nothing but the space between."""
+    """Where a value over several lines has its character ``offset``: YAML changes nothing but the
+    space between.
+    """
     position = node.start_mark.index
     if node.style in {"|", ">"}:
         line_end = text.find("\n", position)
@@ -275,7 +300,9 @@ def _folded_place(text: str, node: ScalarNode, offset: int) -> tuple[int, int]:
 
 def _place_of_sign(text: str, code: object) -> tuple[int, int]:
     """Where a sign that YAML refuses stands first; its parser in C counts bytes, not signs."""
-    position = text.find(chr(code), 1 if text.startswith("\ufeff") else 0) if isinstance(code, int) else 0
+    position = (
+        text.find(chr(code), 1 if text.startswith("\ufeff") else 0) if isinstance(code, int) else 0
+    )
     position = max(position, 0)
     return text.count("\n", 0, position) + 1, position - text.rfind("\n", 0, position)
 
@@ -288,7 +315,8 @@ def keys_of(node: Node) -> set[str]:
 
 
 def one_line(text: str) -> str:
-    r"""A name as it can stand in a heading: blanks for line ends and for what a terminal would act on.
+    r"""A name as it can stand in a heading: blanks for line ends and for what a terminal would act
+    on.
 
     >>> one_line("Gauss 2\n  and \x1b more")
     'Gauss 2 and more'

@@ -36,9 +36,13 @@ class SpelledOutReader:
         c = self.numbers.row(entries["c"], names[2]) if "c" in entries else None
         if square:
             s = len(b)
-            self.numbers.expect_shape(A, entries["A"], names[0], (s, s), f"{names[1]} has {_entries(s)}")
+            self.numbers.expect_shape(
+                A, entries["A"], names[0], (s, s), f"{names[1]} has {_entries(s)}"
+            )
             if c is not None and len(c) != s:
-                self.source.fault(entries["c"], f"{names[2]} has {_entries(len(c))} for {counted(s, 'stage')}")
+                self.source.fault(
+                    entries["c"], f"{names[2]} has {_entries(len(c))} for {counted(s, 'stage')}"
+                )
         name = self.source.scalar(entries["name"], f"{where}, name") if "name" in entries else ""
         return ButcherText(node, name or "", A, b, c) if A and b else None
 
@@ -92,7 +96,9 @@ class SpelledOutReader:
             return (None,) * len(b)
         items = self.source.items(node, "c")
         if len(items) != len(b):
-            self.source.fault(node, f"c has {len(items)} rows and b {len(b)}", "give one of each a colour")
+            self.source.fault(
+                node, f"c has {len(items)} rows and b {len(b)}", "give one of each a colour"
+            )
             return (None,) * len(b)
         rows: list[Row | None] = []
         for l, item in enumerate(items):
@@ -110,7 +116,9 @@ class SpelledOutReader:
         for item in self.source.items(node, "linear"):
             colour = self.source.whole(item, "linear", smallest=1)
             if colour is not None and colour > colours:
-                self.source.fault(item, f"linear: there is no colour {colour}", f"there are {colours}")
+                self.source.fault(
+                    item, f"linear: there is no colour {colour}", f"there are {colours}"
+                )
             elif colour is not None:
                 found.append(colour - 1)
         return tuple(found)
@@ -126,7 +134,9 @@ class SpelledOutReader:
         A = tuple(self.numbers.matrix(item, f"A^{{{m}}}") for m, item in enumerate(items, start=1))
         b_items = self.source.items(entries["b"], "b")
         if any(isinstance(item, SequenceNode) for item in b_items):
-            b = tuple(self.numbers.row(item, f"b^{{{m}}}") for m, item in enumerate(b_items, start=1))
+            b = tuple(
+                self.numbers.row(item, f"b^{{{m}}}") for m, item in enumerate(b_items, start=1)
+            )
         else:
             b = (self.numbers.row(entries["b"], "b"),) * len(A)
         c = self.numbers.row(entries["c"], "c") if "c" in entries else None
@@ -138,12 +148,16 @@ class SpelledOutReader:
             return None
         s = len(A[0])
         for m, (rows, item) in enumerate(zip(A, items, strict=True), start=1):
-            self.numbers.expect_shape(rows, item, f"A^{{{m}}}", (s, s), "the colours of an ark share stages")
+            self.numbers.expect_shape(
+                rows, item, f"A^{{{m}}}", (s, s), "the colours of an ark share stages"
+            )
         shared = all(row is b[0] for row in b)
         for m, row in enumerate(b[:1] if shared else b, start=1):
             if len(row) != s:
                 which = "b" if shared else f"b^{{{m}}}"
-                self.source.fault(entries["b"], f"{which} has {_entries(len(row))} for {counted(s, 'stage')}")
+                self.source.fault(
+                    entries["b"], f"{which} has {_entries(len(row))} for {counted(s, 'stage')}"
+                )
         if c is not None and len(c) != s:
             self.source.fault(entries["c"], f"c has {_entries(len(c))} for {counted(s, 'stage')}")
         return ArkText(A, b, c)
@@ -153,20 +167,28 @@ class SpelledOutReader:
         entries = self.source.mapping(node, "prk", ("q", "p"))
         if set(entries) != {"q", "p"}:
             if isinstance(node, MappingNode):
-                self.source.fault(node, "prk: both parts q and p are needed", "give q: {A, b} and p: {A, b}")
+                self.source.fault(
+                    node, "prk: both parts q and p are needed", "give q: {A, b} and p: {A, b}"
+                )
             return None
-        q, p = (self.butcher(entries[x], f"prk, {x}", (f"{x}.A", f"{x}.b", f"{x}.c"), square=False) for x in "qp")
+        q, p = (
+            self.butcher(entries[x], f"prk, {x}", (f"{x}.A", f"{x}.b", f"{x}.c"), square=False)
+            for x in "qp"
+        )
         if q is None or p is None:
             return None
         s_v, s_f = len(q.b), len(p.b)
         if structure == "general" and s_v != s_f:
             message = f"prk: q has {s_v} weights and p has {s_f}"
-            self.source.fault(node, message, "a general problem needs one set of stages; or structure: separable")
+            self.source.fault(
+                node, message, "a general problem needs one set of stages; or structure: separable"
+            )
         for part, text, shape in (("q", q, (s_f, s_v)), ("p", p, (s_v, s_f))):
             why = f"q.b has {_entries(s_v)} and p.b has {s_f}"
             self.numbers.expect_shape(text.A, text.node, f"{part}.A", shape, why)
             if text.c is not None and len(text.c) != shape[0]:
                 self.source.fault(
-                    text.node, f"{part}.c has {_entries(len(text.c))} for {counted(shape[0], 'node')}"
+                    text.node,
+                    f"{part}.c has {_entries(len(text.c))} for {counted(shape[0], 'node')}",
                 )
         return PrkText(q, p)

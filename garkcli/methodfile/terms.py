@@ -1,4 +1,6 @@
-"""From the text of a problem file to a Hamiltonian: known names, values at the start, derivatives."""
+"""From the text of a problem file to a Hamiltonian: known names, values at the start,
+derivatives.
+"""
 
 from __future__ import annotations
 
@@ -16,7 +18,7 @@ from garkcli.methodfile.formulas import BITS, PLACES, Formulas, nearby
 from garkcli.methodfile.source import Source, shortened
 
 if TYPE_CHECKING:
-    from garkcli.dynamics.hamiltonian import Hamiltonian
+    from garkcli.problems.hamiltonian import Hamiltonian
 
 
 @dataclass(frozen=True)
@@ -58,8 +60,8 @@ class Maker:
     """Makes the problem of one file; faults are noted in its source."""
 
     def __init__(self, source: Source, formulas: Formulas, text: ProblemText) -> None:
-        from garkcli.dynamics.hamiltonian import symbols
-        from garkcli.dynamics.mass import velocities
+        from garkcli.problems.hamiltonian import symbols
+        from garkcli.problems.mass import velocities
 
         self.source, self.formulas, self.text = source, formulas, text
         self.q, self.p = symbols(text.variables, "q"), symbols(text.variables, "p")
@@ -72,7 +74,7 @@ class Maker:
         Raises:
             MethodFileError: there are faults; all that could be found.
         """
-        from garkcli.dynamics.hamiltonian import Hamiltonian
+        from garkcli.problems.hamiltonian import Hamiltonian
 
         start = self._initial()
         terms = self._terms()
@@ -110,10 +112,14 @@ class Maker:
         groups = [self.p, self.v] if self.is_lagrangian else [self.p]
         names = [str(x) for group in (self.q, *groups) for x in group]
         entries = self.source.mapping(node, "initial", names)
-        values = {name: self.formulas.rational(x, f"initial: {name}") for name, x in entries.items()}
+        values = {
+            name: self.formulas.rational(x, f"initial: {name}") for name, x in entries.items()
+        }
         given = [group for group in groups if any(str(x) in entries for x in group)] or groups[-1:]
         if len(given) > 1:
-            self.source.fault(node, "initial: velocities and momenta", "give all velocities or all momenta")
+            self.source.fault(
+                node, "initial: velocities and momenta", "give all velocities or all momenta"
+            )
         elif len(self.source.faults) == before:
             missing = [str(x) for x in (*self.q, *given[0]) if str(x) not in entries]
             if missing:
@@ -141,12 +147,18 @@ class Maker:
         items = [(node, f"invariants: {name}") for name, node in self.text.invariants]
         return self._formulas(items, names, "variable, momentum or parameter")
 
-    def _formulas(self, items: Sequence[tuple[Node, str]], names: dict[str, str], noun: str) -> list[_Term]:
+    def _formulas(
+        self, items: Sequence[tuple[Node, str]], names: dict[str, str], noun: str
+    ) -> list[_Term]:
         symbols = {str(x): x for x in (*self.q, *self.p, *self.v)}
-        translator = self.formulas.translator({x: symbols[x] for x, cure in names.items() if not cure})
+        translator = self.formulas.translator(
+            {x: symbols[x] for x, cure in names.items() if not cure}
+        )
         found = []
         for node, where in items:
-            expression = self.formulas.parsed(node, where, names if self.text.are_named else None, noun)
+            expression = self.formulas.parsed(
+                node, where, names if self.text.are_named else None, noun
+            )
             if expression is None or not self.text.are_named:
                 continue
             try:
@@ -161,23 +173,29 @@ class Maker:
             values = {name: arb(x) for name, x in start.items()}
         for term in terms:
             if all(str(x) in start for x in term.made.free_symbols):
-                self.formulas.value(term.expression, term.node, f"{term.where} at the initial values", values)
+                self.formulas.value(
+                    term.expression, term.node, f"{term.where} at the initial values", values
+                )
 
     def _check_size(self, terms: Sequence[_Term]) -> None:
         """Note terms whose derivatives are too long."""
-        from garkcli.dynamics.translate import MAX_SIZE, size_of_derivatives
+        from garkcli.problems.translate import MAX_SIZE, size_of_derivatives
 
         sizes = [size_of_derivatives(x.made) for x in terms]
         if sum(sizes) > MAX_SIZE:
             largest = terms[sizes.index(max(sizes))]
-            message = f"{largest.where}: second derivatives of {sum(sizes)} operations (limit {MAX_SIZE})"
+            message = (
+                f"{largest.where}: second derivatives of {sum(sizes)} operations (limit {MAX_SIZE})"
+            )
             self.source.fault(largest.node, message, "write it shorter, or with fewer variables")
 
-    def _transformed(self, lagrangians: list[_Term], start: dict[str, fmpq]) -> tuple[list[_Term], dict[str, fmpq]]:
+    def _transformed(
+        self, lagrangians: list[_Term], start: dict[str, fmpq]
+    ) -> tuple[list[_Term], dict[str, fmpq]]:
         """The Hamiltonian terms, and the start with momenta."""
-        from garkcli.dynamics.legendre import legendre
-        from garkcli.dynamics.mass import WRITE_HAMILTONIAN
-        from garkcli.dynamics.start import initial_momenta
+        from garkcli.problems.legendre import legendre
+        from garkcli.problems.mass import WRITE_HAMILTONIAN
+        from garkcli.problems.start import initial_momenta
 
         moving = [x for x in lagrangians if x.made.free_symbols & set(self.v)]
         if not moving:
@@ -186,7 +204,11 @@ class Maker:
         has_velocities = str(self.v[0]) in start
         with ctx.workprec(BITS):
             at = {x: arb(start[str(x)]) for x in (*self.q, *self.p, *self.v) if str(x) in start}
-        known = at if len(moving) == 1 or not has_velocities else {x: y for x, y in at.items() if x in self.q}
+        known = (
+            at
+            if len(moving) == 1 or not has_velocities
+            else {x: y for x, y in at.items() if x in self.q}
+        )
         found = []
         for term in lagrangians:
             unsolved = too_long(term.made, self.v)
@@ -217,11 +239,13 @@ class Maker:
 
     def _check_fields(self, terms: Sequence[_Term], start: dict[str, fmpq]) -> None:
         """Note terms that have no derivative at the start."""
-        from garkcli.dynamics.start import missing_derivative
+        from garkcli.problems.start import missing_derivative
 
         with ctx.workprec(BITS):
             at = {x: arb(start[str(x)]) for x in (*self.q, *self.p)}
         for term in terms:
             missing = missing_derivative(term.made, self.text.variables, at)
             if missing is not None:
-                self.source.fault(term.node, f"{term.where} at the initial values: {missing[0]}", missing[1])
+                self.source.fault(
+                    term.node, f"{term.where} at the initial values: {missing[0]}", missing[1]
+                )

@@ -17,7 +17,9 @@ from garkcli.tableau.tableau import Tableau
 _DROPPED = ("expect", "conjugate", "name", "description")
 
 
-def write_tableau_file(tableau: Tableau, name: str, tolerance: fmpq | None = None, note: str = "") -> str:
+def write_tableau_file(
+    tableau: Tableau, name: str, tolerance: fmpq | None = None, note: str = ""
+) -> str:
     """A method file with every block of ``tableau`` spelled out.
 
     Args:
@@ -35,7 +37,9 @@ def write_tableau_file(tableau: Tableau, name: str, tolerance: fmpq | None = Non
 
 
 def can_spell_out(tableau: Tableau) -> bool:
-    """Whether a spelled-out file says everything about ``tableau``: a GARK tableau, or a partitioned pair."""
+    """Whether a spelled-out file says everything about ``tableau``: a GARK tableau, or a
+    partitioned pair.
+    """
     return not tableau.is_partitioned or _is_prk(tableau)
 
 
@@ -64,13 +68,18 @@ def _blocks(tableau: Tableau) -> list[str]:
 
 
 def _prk(tableau: Tableau) -> list[str]:
-    """The form ``prk``: the rows of q.A are the positions at which the colour p evaluates its forces."""
+    """The form ``prk``: the rows of q.A are the positions at which the colour p evaluates its
+    forces.
+    """
     lines = ["prk:"]
     for part, drives, seen_at in (("q", 0, 1), ("p", 1, 0)):
         block = tableau.block(seen_at, drives) or ()
         lines += [f"  {part}:", "    A:"]
         lines += [f"      - {_row(row)}" for row in block]
-        lines += [f"    b: {_row(tableau.colours[drives].b)}", f"    c: {_row(tableau.colours[seen_at].c)}"]
+        lines += [
+            f"    b: {_row(tableau.colours[drives].b)}",
+            f"    c: {_row(tableau.colours[seen_at].c)}",
+        ]
     if len(tableau.spaces) == 1:
         return [*lines, "structure: general"]
     return [*lines, f"structure: {'nystrom' if tableau.colours[0].is_linear else 'separable'}"]
@@ -89,8 +98,8 @@ def _quoted(text: str) -> str:
 def write_conjugate_of(method: MethodFile, name: str) -> str:
     """The file of ``method`` with ``conjugate: true`` added, or taken away where it stands.
 
-    Exact for every method: nothing is spelled out. Claims and description are left behind, as they are about
-    the other method.
+    Exact for every method: nothing is spelled out. Claims and description are left behind, as they
+    are about the other method.
     """
     root = Source(method.source, method.text).compose()
     if root is None:
@@ -99,7 +108,9 @@ def write_conjugate_of(method: MethodFile, name: str) -> str:
     kept.insert(0, (_scalar("name"), _scalar(name)))
     if not method.is_conjugate:
         kept.append((_scalar("conjugate"), ScalarNode("tag:yaml.org,2002:bool", "true")))
-    text = yaml.serialize(MappingNode(root.tag, kept, flow_style=False), allow_unicode=True, width=110)
+    text = yaml.serialize(
+        MappingNode(root.tag, kept, flow_style=False), allow_unicode=True, width=110
+    )
     return str(text)
 
 

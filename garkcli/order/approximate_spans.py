@@ -1,18 +1,20 @@
 """Bounds on the residuals of all trees of an order without listing the trees.
 
-The affine spans of ``certificate`` for rounded coefficients, where nothing is exactly dependent. Some trees are
-members, with their normalised stage vectors ψ_i; every other tree u of the same order and root colour is
+The affine spans of ``certificate`` for rounded coefficients, where nothing is exactly dependent.
+Some trees are members, with their normalised stage vectors ψ_i; every other tree u of the same
+order and root colour is
 
     ψ(u) = Σ λ_i ψ_i + e,      Σ λ_i = 1,      w Σ|λ_i| ≤ Λ,      w |e| ≤ ε,      w |ψ(u)| ≤ π,
 
-with one Λ for all trees, vectors ε and π that hold entry by entry, and w = ρ(u)/γ(u), the factor between ψ(u)
-and 𝒜^[u]. The order condition of u is w (b_lᵀ ψ(u) − 1/ρ) = 0, so its residual is at most
+with one Λ for all trees, vectors ε and π that hold entry by entry, and w = ρ(u)/γ(u), the factor
+between ψ(u) and 𝒜^[u]. The order condition of u is w (b_lᵀ ψ(u) − 1/ρ) = 0, so its residual is at
+most
 
     Λ max_i |b_lᵀ ψ_i − 1/ρ| + |b_l|ᵀ ε.
 
-Λ, ε and π follow branches and products: a branch ρ A ψ has the factor 1/γ = w/ρ, hence Λ/ρ, |A| ε and |A| π; a
-product of independent parts has Λ Λ', π ε' + ε π' + ε ε' and π π'. All numbers are balls, so the bounds
-are proved; the choice of members only makes them good or bad.
+Λ, ε and π follow branches and products: a branch ρ A ψ has the factor 1/γ = w/ρ, hence Λ/ρ, |A| ε
+and |A| π; a product of independent parts has Λ Λ', π ε' + ε π' + ε ε' and π π'. All numbers are
+balls, so the bounds are proved; the choice of members only makes them good or bad.
 """
 
 from __future__ import annotations
@@ -24,8 +26,8 @@ from operator import add
 
 from flint import arb, arb_mat, ctx
 
-from garkcli.order.enclosure import Enclosure
 from garkcli.order.residuals import Sizes
+from garkcli.tableau.enclosing import Enclosure
 from garkcli.tableau.tableau import Tableau
 from garkcli.trees.tree import Tree
 
@@ -64,7 +66,8 @@ class ApproximateSpans:
         self.enclosure = enclosure
         self.grain = grain
         self._absolute = {
-            key: arb_mat([[abs(x) for x in row] for row in A.tolist()]) for key, A in enclosure.A.items()
+            key: arb_mat([[abs(x) for x in row] for row in A.tolist()])
+            for key, A in enclosure.A.items()
         }
         self._branches: list[list[_Hull | None]] = [[None] for _ in enclosure.stages]
         self._forests: list[list[_Hull | None]] = [[_unit(s)] for s in enclosure.stages]
@@ -112,13 +115,21 @@ class ApproximateSpans:
             hull = self._stage_vectors(m, order)
             if hull is not None:
                 A, absolute = self.enclosure.A[k, m] * order, self._absolute[k, m]
-                members = [_Member(_image(A, x.vector), (Tree(m, x.branches),)) for x in hull.members]
-                yield _Hull(members, hull.weight / order, _image(absolute, hull.error), _image(absolute, hull.size))
+                members = [
+                    _Member(_image(A, x.vector), (Tree(m, x.branches),)) for x in hull.members
+                ]
+                yield _Hull(
+                    members,
+                    hull.weight / order,
+                    _image(absolute, hull.error),
+                    _image(absolute, hull.size),
+                )
 
     def _new_forests(self, k: int, order: int) -> Iterator[_Hull]:
         """The smallest branch times the forest of the others, or one branch.
 
-        The bush comes first: its density is the least, so that where an order fails it often shows it.
+        The bush comes first: its density is the least, so that where an order fails it often shows
+        it.
         """
         for j in range(1, order // 2 + 1):
             branch, rest = self._branches[k][j], self._forests[k][order - j]
@@ -136,7 +147,9 @@ def _unit(stages: int) -> _Hull:
 
 def _product(x: _Hull, y: _Hull) -> _Hull:
     members = [
-        _Member([a * b for a, b in zip(v.vector, w.vector, strict=True)], (*v.branches, *w.branches))
+        _Member(
+            [a * b for a, b in zip(v.vector, w.vector, strict=True)], (*v.branches, *w.branches)
+        )
         for v in x.members
         for w in y.members
     ]
@@ -169,8 +182,8 @@ def _reduced(hulls: Sequence[_Hull], grain: arb) -> _Hull | None:
 def _affine_weights(points: Sequence[Entries], grain: arb) -> tuple[list[int], arb_mat]:
     """Which of the points (1, ψ) become members, and λ of each point in them: a row that sums to 1.
 
-    The true λ solve the equations of as many coordinates as there are members, that of the ones among them, so
-    balls around the solution hold weights whose sum is exactly 1.
+    The true λ solve the equations of as many coordinates as there are members, that of the ones
+    among them, so balls around the solution hold weights whose sum is exactly 1.
     """
     chosen, columns = _pivots(arb_mat(points), grain)
     while True:
@@ -182,7 +195,8 @@ def _affine_weights(points: Sequence[Entries], grain: arb) -> tuple[list[int], a
 
 
 def _pivots(points: arb_mat, grain: arb) -> tuple[list[int], list[int]]:
-    """Rows far from each other's affine hull, and as many columns, by elimination with the largest pivots.
+    """Rows far from each other's affine hull, and as many columns, by elimination with the largest
+    pivots.
 
     The first column, of ones, comes first: combinations of rows that agree in it are affine.
     """

@@ -28,8 +28,8 @@ MAX_ENTRIES = 2_000
 class Repair:
     """An entry that restores the claimed order when it is changed alone.
 
-    ``l, m`` are the block's colours, or ``m`` is None for the weights b^{l}; ``i, j`` the entry (``j`` of the
-    weights; then ``i`` is None). All count from 0.
+    ``l, m`` are the block's colours, or ``m`` is None for the weights b^{l}; ``i, j`` the entry
+    (``j`` of the weights; then ``i`` is None). All count from 0.
     """
 
     l: int
@@ -50,9 +50,10 @@ class Blame:
         total: how many there are.
         in_every: the blocks (l, m) that take part in every failing condition.
         in_none: the blocks that take part in none.
-        culprit: among ``in_every``, the block whose conditions fail most often; None where there is none, or
-            where several are equally likely.
-        only_coupling: whether every failing condition mixes colours, so that the diagonal methods are right.
+        culprit: among ``in_every``, the block whose conditions fail most often; None where there is
+            none, or where several are equally likely.
+        only_coupling: whether every failing condition mixes colours, so that the diagonal methods
+            are right.
         repairs: single entries that restore the claimed order.
     """
 
@@ -106,7 +107,9 @@ def _canonical(tableau: Tableau, edge: tuple[int, int]) -> tuple[int, int]:
 def _blocks_in(tableau: Tableau, tree: Tree) -> Counter[tuple[int, int]]:
     """The blocks that the elementary weight of ``tree`` multiplies by, with how often."""
     return Counter(
-        _canonical(tableau, (vertex.root, branch.root)) for vertex in tree.vertices() for branch in vertex.branches
+        _canonical(tableau, (vertex.root, branch.root))
+        for vertex in tree.vertices()
+        for branch in vertex.branches
     )
 
 
@@ -122,7 +125,9 @@ def _culprit(
 
 
 def _repairs(tableau: Tableau, failing: list[Condition], claimed: int) -> Iterator[Repair]:
-    """Entries whose change restores ``claimed``: each must solve a failing condition it occurs in once."""
+    """Entries whose change restores ``claimed``: each must solve a failing condition it occurs in
+    once.
+    """
     tried = 0
     for condition in sorted(failing, key=lambda x: x.tree.order)[:1]:
         for repair, changed in _solved(tableau, condition):
@@ -138,7 +143,9 @@ def _solved(tableau: Tableau, condition: Condition) -> Iterator[tuple[Repair, Ta
     counts = _blocks_in(tableau, condition.tree)
     for (l, m), count in counts.items():
         k = tableau.colours[l].rows
-        pointwise = isinstance(tableau.spaces[k], PointSpace) and isinstance(tableau.space(m), PointSpace)
+        pointwise = isinstance(tableau.spaces[k], PointSpace) and isinstance(
+            tableau.space(m), PointSpace
+        )
         block = tableau.blocks[k, m]
         for i, row in enumerate(block if pointwise and count == 1 else ()):
             for j, old in enumerate(row):
@@ -156,7 +163,9 @@ def _solved(tableau: Tableau, condition: Condition) -> Iterator[tuple[Repair, Ta
 
 
 def _root(condition: Condition, old: Number, shifted: Number) -> Number | None:
-    """Where the condition, linear in the entry, vanishes: from its values at the entry and one beyond."""
+    """Where the condition, linear in the entry, vanishes: from its values at the entry and one
+    beyond.
+    """
     slope = shifted - condition.value
     return old - condition.residual / slope if slope else None
 
@@ -169,8 +178,12 @@ def _with_entry(tableau: Tableau, key: tuple[int, int], i: int, j: int, value: N
 
 
 def _with_weight(tableau: Tableau, l: int, j: int, value: Number) -> Tableau:
-    """b^{l} changed, together with the weights that are the same row: those of colours with these stages."""
+    """b^{l} changed, together with the weights that are the same row: those of colours with these
+    stages.
+    """
     old = tableau.colours[l]
     b = (*old.b[:j], value, *old.b[j + 1 :])
-    colours = (replace(x, b=b) if (x.rows, x.b) == (old.rows, old.b) else x for x in tableau.colours)
+    colours = (
+        replace(x, b=b) if (x.rows, x.b) == (old.rows, old.b) else x for x in tableau.colours
+    )
     return replace(tableau, colours=tuple(colours))

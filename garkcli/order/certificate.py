@@ -4,9 +4,10 @@ Instead of evaluating every tree, carry along the affine spans of the normalised
 
     ψ(u) = γ(u)/ρ(u) · 𝒜^[u],      ψ(τ) = 𝟙,      ψ(u) = ⊙_i A^{l,ν_i} (ρ(u_i) ψ(u_i)),
 
-in which the order condition of u reads b_lᵀ ψ(u) = 1/ρ(u). The right-hand side depends on the order alone and
-ψ is affine in each branch, so all conditions of one order hold if and only if they hold for a set of trees whose
-ψ span, and there are at most s + 1 of those a colour. ``docs/exact-order.md`` has the proof.
+in which the order condition of u reads b_lᵀ ψ(u) = 1/ρ(u). The right-hand side depends on the order
+alone and ψ is affine in each branch, so all conditions of one order hold if and only if they hold
+for a set of trees whose ψ span, and there are at most s + 1 of those a colour.
+``docs/exact-order.md`` has the proof.
 """
 
 from __future__ import annotations
@@ -52,8 +53,8 @@ class Witness:
 class Order:
     """The outcome: every condition up to ``order`` holds.
 
-    ``witness`` fails at ``order + 1``; it is None when the search stopped at its limit, and ``order`` is then a
-    lower bound.
+    ``witness`` fails at ``order + 1``; it is None when the search stopped at its limit, and
+    ``order`` is then a lower bound.
     """
 
     order: int
@@ -90,7 +91,10 @@ def find_order(tableau: Tableau, limit: int = DEFAULT_LIMIT) -> Order:
                 value = dot(colour.b, forest.vector)
                 if value != fmpq(1, order):
                     tree = Tree(l, forest.branches)
-                    return Order(order - 1, Witness(tree, value * fmpq(order, tree.density), fmpq(1, tree.density)))
+                    return Order(
+                        order - 1,
+                        Witness(tree, value * fmpq(order, tree.density), fmpq(1, tree.density)),
+                    )
     return Order(limit, None)
 
 
@@ -101,7 +105,9 @@ class _Spans:
         self.tableau = tableau
         self.degree = tableau.degree
         self.maps = {key: LinearMap(block, tableau.field) for key, block in tableau.blocks.items()}
-        self.forests: list[list[list[_Forest]]] = [[[_Forest(space.one, ())]] for space in tableau.spaces]
+        self.forests: list[list[list[_Forest]]] = [
+            [[_Forest(space.one, ())]] for space in tableau.spaces
+        ]
         self.branches: list[list[list[_Forest]]] = [[[]] for _ in tableau.spaces]
 
     def stage_vectors(self, colour: int, order: int) -> Sequence[_Forest]:
@@ -123,12 +129,21 @@ class _Spans:
         for m in range(self.tableau.size):
             if (rows, m) in self.maps:
                 members = self.stage_vectors(m, order)
-                images = self.maps[rows, m].images([tuple(order * y for y in x.vector) for x in members])
-                yield [_Forest(image, (Tree(m, x.branches),)) for image, x in zip(images, members, strict=True)]
+                images = self.maps[rows, m].images(
+                    [tuple(order * y for y in x.vector) for x in members]
+                )
+                yield [
+                    _Forest(image, (Tree(m, x.branches),))
+                    for image, x in zip(images, members, strict=True)
+                ]
 
     def _new_forests(self, rows: int, order: int) -> Iterator[list[_Forest]]:
         """Φ_order: one branch, or the smallest branch times the forest of the others."""
-        space, branches, forests = self.tableau.spaces[rows], self.branches[rows], self.forests[rows]
+        space, branches, forests = (
+            self.tableau.spaces[rows],
+            self.branches[rows],
+            self.forests[rows],
+        )
         yield branches[order]
         for j in range(1, order // 2 + 1):
             for branch in branches[j]:

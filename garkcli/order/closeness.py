@@ -1,7 +1,8 @@
-"""Whether exact numbers, vectors and functionals are within a tolerance of zero; never decided by floats.
+"""Whether exact numbers, vectors and functionals are within a tolerance of zero; never decided by
+floats.
 
-Elements of a stage space are measured by their values at the nodes, functionals and bilinear forms by their
-coefficients there: the entries that a printed tableau has.
+Elements of a stage space are measured by their values at the nodes, functionals and bilinear forms
+by their coefficients there: the entries that a printed tableau has.
 """
 
 from __future__ import annotations
@@ -19,7 +20,9 @@ from garkcli.tableau.stages import PolynomialSpace, StageSpace
 FIRST_BITS = 128
 """Precision at which values at irrational nodes are compared first; doubled until they tell."""
 MOST_BITS = 8192
-"""Precision at which a value at an irrational node that still cannot be told from the tolerance counts as equal."""
+"""Precision at which a value at an irrational node that still cannot be told from the tolerance
+counts as equal.
+"""
 
 
 def within(number: Number, tolerance: fmpq) -> bool:

@@ -23,7 +23,8 @@ class Condition:
         tree: u, with colours counted from 0.
         value: the elementary weight b_lᵀ 𝒜^[u], exact.
         tolerance: the rounding that the coefficients admit; zero where they are meant exactly.
-        twins: further root colours with which the tree has the same condition, as they share stages and weights.
+        twins: further root colours with which the tree has the same condition, as they share stages
+            and weights.
     """
 
     tree: Tree
@@ -58,12 +59,17 @@ class Condition:
 
     @property
     def is_coupling(self) -> bool:
-        """Whether more than one colour takes part in each tree; otherwise a diagonal method has the condition."""
+        """Whether more than one colour takes part in each tree; otherwise a diagonal method has the
+        condition.
+        """
         return all(len(tree.colours) > 1 for tree in self.trees)
 
 
-def conditions(tableau: Tableau, trees: Iterable[Tree], tolerance: fmpq = ZERO) -> Iterator[Condition]:
-    """The conditions of ``trees`` for ``tableau``; stage vectors of shared branches are computed once.
+def conditions(
+    tableau: Tableau, trees: Iterable[Tree], tolerance: fmpq = ZERO
+) -> Iterator[Condition]:
+    """The conditions of ``trees`` for ``tableau``; stage vectors of shared branches are computed
+    once.
 
     Raises:
         MethodError: a tree that the coupling graph does not admit.
@@ -106,7 +112,9 @@ def _stage_vector(tableau: Tableau, tree: Tree, memo: dict[Tree, Vector]) -> Vec
         block = tableau.block(tree.root, branch.root)
         if block is None:
             seer, seen = tableau.colours[tree.root].name, tableau.colours[branch.root].name
-            raise MethodError(f"colour {seer} does not see colour {seen}: the tree is not admissible")
+            raise MethodError(
+                f"colour {seer} does not see colour {seen}: the tree is not admissible"
+            )
         if branch not in memo:
             memo[branch] = _stage_vector(tableau, branch, memo)
         vector = space.product(vector, apply(block, memo[branch]))
@@ -114,17 +122,20 @@ def _stage_vector(tableau: Tableau, tree: Tree, memo: dict[Tree, Vector]) -> Vec
 
 
 def coupling_graph(tableau: Tableau) -> tuple[tuple[tuple[bool, ...], ...], frozenset[int]]:
-    """Which trees are admissible: ``edges[l][m]`` whether colour l sees colour m, and the linear colours."""
+    """Which trees are admissible: ``edges[l][m]`` whether colour l sees colour m, and the linear
+    colours.
+    """
     colours = range(tableau.size)
     edges = tuple(tuple(tableau.block(l, m) is not None for m in colours) for l in colours)
     return edges, frozenset(l for l in colours if tableau.colours[l].is_linear)
 
 
 def twin_roots(tableau: Tableau) -> dict[int, tuple[int, ...]]:
-    """The first of each group of colours whose conditions are identical as roots, with the whole group.
+    """The first of each group of colours whose conditions are identical as roots, with the whole
+    group.
 
-    Colours that share stages and weights, as V^l and F^l of the symplectic pair, give every tree the same
-    elementary weight when they are its root.
+    Colours that share stages and weights, as V^l and F^l of the symplectic pair, give every tree
+    the same elementary weight when they are its root.
     """
     groups: dict[int, tuple[int, ...]] = {}
     for l, colour in enumerate(tableau.colours):

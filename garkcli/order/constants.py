@@ -1,7 +1,8 @@
 """The principal error: how far the first failing conditions are off, over all their trees.
 
-The local error of a method of order r is h^(r+1) Σ e(u) F(u) + …, with e(u) = (b_lᵀ 𝒜^[u] − 1/γ(u)) / σ(u) over the
-trees of order r + 1. Hairer, Nørsett & Wanner, *Solving Ordinary Differential Equations I*, II.3.
+The local error of a method of order r is h^(r+1) Σ e(u) F(u) + …, with e(u) = (b_lᵀ 𝒜^[u] − 1/γ(u))
+/ σ(u) over the trees of order r + 1. Hairer, Nørsett & Wanner, *Solving Ordinary Differential
+Equations I*, II.3.
 """
 
 from __future__ import annotations

@@ -1,7 +1,7 @@
 """By how much B, C and D are missed, and which symplectic tableaus are so within a tolerance.
 
-A defect is an exact element, functional or bilinear form of stage spaces: zero where the condition holds, and
-within t where all its values at the nodes are, ``closeness`` says how.
+A defect is an exact element, functional or bilinear form of stage spaces: zero where the condition
+holds, and within t where all its values at the nodes are, ``closeness`` says how.
 """
 
 from __future__ import annotations
@@ -17,7 +17,9 @@ from garkcli.tableau.tableau import Tableau
 
 
 class Defects:
-    """Left side minus right side of the conditions on one tableau, with the powers of its nodes kept."""
+    """Left side minus right side of the conditions on one tableau, with the powers of its nodes
+    kept.
+    """
 
     def __init__(self, tableau: Tableau) -> None:
         self.tableau = tableau
@@ -36,14 +38,20 @@ class Defects:
         return dot(self.tableau.colours[l].b, self.power(l, k - 1)) - fmpq(1, k)
 
     def C(self, l: int, m: int, k: int) -> Vector:  # noqa: N802
-        """A^{l,m} c_m^(k−1) − c_l^k / k, eq. (C): an element of the space of l; with k = 1 eq. (Aone)."""
+        """A^{l,m} c_m^(k−1) − c_l^k / k, eq. (C): an element of the space of l; with k = 1 eq.
+        (Aone).
+        """
         (image,) = self._map(l, m).images([self.power(m, k - 1)])
         return tuple(x - y / k for x, y in zip(image, self.power(l, k), strict=True))
 
     def D(self, l: int, m: int, k: int) -> Vector:  # noqa: N802
-        """b_l(c_l^(k−1) A^{l,m} g) − b_m((1 − c_m^k) g) / k, eq. (D): a functional of g in the space of m."""
+        """b_l(c_l^(k−1) A^{l,m} g) − b_m((1 − c_m^k) g) / k, eq. (D): a functional of g in the
+        space of m.
+        """
         here, there = self.tableau.space(l), self.tableau.space(m)
-        (left,) = self._map(l, m).pullbacks([here.times(self.tableau.colours[l].b, self.power(l, k - 1))])
+        (left,) = self._map(l, m).pullbacks(
+            [here.times(self.tableau.colours[l].b, self.power(l, k - 1))]
+        )
         rest = tuple(x - y for x, y in zip(there.one, self.power(m, k), strict=True))
         right = there.times(self.tableau.colours[m].b, rest)
         return tuple(x - y / k for x, y in zip(left, right, strict=True))
@@ -56,9 +64,11 @@ class Defects:
 
 
 def is_symplectic_within(tableau: Tableau, tolerance: fmpq) -> bool:
-    """Whether |b_i a_ij + b_j a_ji − b_i b_j| ≤ ``tolerance`` between all colours that the symplectic form pairs.
+    """Whether |b_i a_ij + b_j a_ji − b_i b_j| ≤ ``tolerance`` between all colours that the
+    symplectic form pairs.
 
-    Where positions and momenta share stages their weights are within ``tolerance`` of each other, too.
+    Where positions and momenta share stages their weights are within ``tolerance`` of each other,
+    too.
     """
     for l, one in enumerate(tableau.colours):
         for m, other in enumerate(tableau.colours):

@@ -22,18 +22,24 @@ def count_conditions(tableau: Tableau, order: int) -> int:
 
 
 def all_conditions(tableau: Tableau, order: int, tolerance: fmpq = ZERO) -> Iterator[Condition]:
-    """Every condition of ``order``, its value exact, with the twins of its root: identical ones come once."""
+    """Every condition of ``order``, its value exact, with the twins of its root: identical ones
+    come once.
+    """
     twins = twin_roots(tableau)
     for condition in conditions(tableau, admissible_trees(tableau, order), tolerance):
         yield replace(condition, twins=twins[condition.tree.root][1:])
 
 
 def admissible_trees(tableau: Tableau, order: int) -> Iterator[Tree]:
-    """The trees of ``order`` that the coupling graph admits, one root colour of each group of twins."""
+    """The trees of ``order`` that the coupling graph admits, one root colour of each group of
+    twins.
+    """
     from garkcli.trees.blocks import iter_blocks  # numpy is paid for here
 
     edges, linear = coupling_graph(tableau)
     twins = twin_roots(tableau)
-    blocks = iter_blocks(tableau.size, order, edges=edges, linear=linear, roots=twins, block_size=1 << 14)
+    blocks = iter_blocks(
+        tableau.size, order, edges=edges, linear=linear, roots=twins, block_size=1 << 14
+    )
     for block in blocks:
         yield from block.trees()

@@ -1,11 +1,13 @@
 """The residuals b_lᵀ 𝒜^[u] − 1/γ(u) of all trees of an order, each in a ball that holds it.
 
-Trees share their branches, as in the tree table: u = stem ∘ branch gives 𝒜^[u] = 𝒜^[stem] ⊙ A 𝒜^[branch], so
+Trees share their branches, as in the tree table: u = stem ∘ branch gives 𝒜^[u] = 𝒜^[stem] ⊙ A
+𝒜^[branch], so
 
     b_lᵀ 𝒜^[u] = (b_l ⊙ 𝒜^[stem])ᵀ (A 𝒜^[branch]),
 
-and the weights of all trees of a segment are entries of one matrix product. The vectors of the order itself are
-not needed. All arithmetic is ball arithmetic: nothing here depends on the rounding of floats.
+and the weights of all trees of a segment are entries of one matrix product. The vectors of the
+order itself are not needed. All arithmetic is ball arithmetic: nothing here depends on the rounding
+of floats.
 """
 
 from __future__ import annotations
@@ -16,7 +18,7 @@ from dataclasses import dataclass
 from flint import arb, arb_mat, ctx
 
 from garkcli.order.conditions import coupling_graph, twin_roots
-from garkcli.order.enclosure import Enclosure
+from garkcli.tableau.enclosing import Enclosure
 from garkcli.tableau.tableau import Tableau
 from garkcli.trees.columns import Segment
 from garkcli.trees.count import Admissible
@@ -31,8 +33,9 @@ class Sizes:
     Attributes:
         bound: no |residual| of the order is larger.
         reached: the |residual| of ``largest``.
-        largest: a tree whose |residual| is the largest, or nearly so; one that surely exceeds the tolerance where
-            there is one. None where no residual differs from zero by more than the enclosures do.
+        largest: a tree whose |residual| is the largest, or nearly so; one that surely exceeds the
+            tolerance where there is one. None where no residual differs from zero by more than the
+            enclosures do.
         doubtful: trees whose ball leaves open whether they are within the tolerance.
     """
 
@@ -45,9 +48,9 @@ class Sizes:
 class TreeResiduals:
     """The residuals of every admissible tree, order after order; what orders share is kept.
 
-    ``_vectors[n, nature]``: 𝒜^[u], one row a tree, of the trees of order n in the order of the table; colours of
-    one nature share their stages and their trees. ``_applied[space, n, m]``: A 𝒜^[u] as columns, for the trees
-    with root colour m.
+    ``_vectors[n, nature]``: 𝒜^[u], one row a tree, of the trees of order n in the order of the
+    table; colours of one nature share their stages and their trees. ``_applied[space, n, m]``: A
+    𝒜^[u] as columns, for the trees with root colour m.
     """
 
     def __init__(self, tableau: Tableau, enclosure: Enclosure) -> None:
@@ -79,7 +82,9 @@ class TreeResiduals:
                 if tolerance is not None and not fails and not size <= tolerance:
                     doubtful.append(tree_id)
             trees = tuple(table.tree(u) for u in doubtful)
-            return Sizes(bound.abs_upper(), reached, None if largest is None else table.tree(largest), trees)
+            return Sizes(
+                bound.abs_upper(), reached, None if largest is None else table.tree(largest), trees
+            )
 
     def _residuals(self, table: TreeTable, order: int) -> Iterator[tuple[arb, int]]:
         """|b_lᵀ 𝒜^[u] − 1/γ(u)| and the id, for the roots that differ in more than their colour."""
@@ -95,7 +100,9 @@ class TreeResiduals:
             ids = slice(segment.ids.start, segment.ids.stop)
             where = (table.stem[ids] - segment.stems.start) * len(segment.branches)
             where += table.branch[ids] - segment.branches.start
-            for i, u, gamma in zip(where.tolist(), segment.ids, table.gamma[ids].tolist(), strict=True):
+            for i, u, gamma in zip(
+                where.tolist(), segment.ids, table.gamma[ids].tolist(), strict=True
+            ):
                 if gamma not in required:
                     required[gamma] = 1 / arb(gamma)
                 yield abs(values[i] - required[gamma]), u
@@ -105,7 +112,9 @@ class TreeResiduals:
         l = segment.root
         b = self.enclosure.b[l].entries()
         stems = self._stage_vectors(table, segment.order - segment.branch_order, l)
-        weighted = arb_mat(len(stems), len(b), [x * w for row in stems for x, w in zip(row, b, strict=True)])
+        weighted = arb_mat(
+            len(stems), len(b), [x * w for row in stems for x, w in zip(row, b, strict=True)]
+        )
         return (weighted * self._branches(table, segment)).entries()
 
     def _branches(self, table: TreeTable, segment: Segment) -> arb_mat:
@@ -118,7 +127,9 @@ class TreeResiduals:
         return self._applied[space, order, m]
 
     def _stage_vectors(self, table: TreeTable, order: int, l: int) -> list[list[arb]]:
-        """𝒜^[u] of the trees with root colour l, in the order of the table; there is one at least."""
+        """𝒜^[u] of the trees with root colour l, in the order of the table; there is one at
+        least.
+        """
         key = order, self._natures[l]
         if key not in self._vectors:
             self._vectors[key] = [

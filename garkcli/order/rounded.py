@@ -1,8 +1,9 @@
 """The order within a tolerance, of tableaus whose coefficients are rounded.
 
-A condition is met when |b_lᵀ 𝒜^[u] − 1/γ(u)| ≤ t. That is decided by proof, never by floats: exactly as far as the
-conditions hold exactly, then by all trees of an order in ball arithmetic, or by bounds from approximate spans where
-the trees are too many. A residual whose ball holds t is evaluated exactly; one that equals t counts as met.
+A condition is met when |b_lᵀ 𝒜^[u] − 1/γ(u)| ≤ t. That is decided by proof, never by floats:
+exactly as far as the conditions hold exactly, then by all trees of an order in ball arithmetic, or
+by bounds from approximate spans where the trees are too many. A residual whose ball holds t is
+evaluated exactly; one that equals t counts as met.
 """
 
 from __future__ import annotations
@@ -18,8 +19,8 @@ from garkcli.order.approximate_spans import ApproximateSpans
 from garkcli.order.certificate import DEFAULT_LIMIT, Witness, find_order
 from garkcli.order.closeness import within
 from garkcli.order.conditions import coupling_graph, elementary_weight
-from garkcli.order.enclosure import enclose_tableau
 from garkcli.order.residuals import TreeResiduals
+from garkcli.tableau.enclosing import enclose_tableau
 from garkcli.tableau.tableau import Tableau
 from garkcli.trees.count import Admissible, counts_upto
 from garkcli.trees.tree import Tree
@@ -29,7 +30,9 @@ FEW_TREES = 20_000
 MOST_TREES = 500_000
 """Beyond so many trees of an order they are not listed at all."""
 FEW_DOUBTS = 64
-"""So many residuals near the tolerance are evaluated exactly; more of them, in finer balls first."""
+"""So many residuals near the tolerance are evaluated exactly; more of them, in finer balls
+first.
+"""
 MOST_BITS = 8192
 """The finest balls; what they leave in doubt is evaluated exactly however much there is."""
 GUARD = 96
@@ -38,7 +41,9 @@ GRAIN = 64
 """Spans count what is shorter than this part of the tolerance as an error."""
 
 Means: TypeAlias = Literal["exact", "trees", "spans"]
-"""How an order was decided: conditions hold exactly; every tree was evaluated; by bounds on all trees."""
+"""How an order was decided: conditions hold exactly; every tree was evaluated; by bounds on all
+trees.
+"""
 
 
 @dataclass(frozen=True)
@@ -49,9 +54,10 @@ class RoundedOrder:
         order: the largest such order, a lower bound where there is no witness.
         tolerance: t ≥ 0.
         witness: a tree of the next order with |residual| > t; its value is exact.
-        undecided: whether the next order was too much to decide; otherwise a search without witness stopped at
-            its limit.
-        sizes: for each order 1, 2, … that was decided a bound on all |residuals|; for the order that fails, the
+        undecided: whether the next order was too much to decide; otherwise a search without witness
+            stopped at its limit.
+        sizes: for each order 1, 2, … that was decided a bound on all |residuals|; for the order
+            that fails, the
             |residual| of the witness.
         means: what decided each of these orders.
     """
@@ -77,7 +83,9 @@ class RoundedOrder:
         return bound
 
 
-def find_order_within(tableau: Tableau, tolerance: fmpq, limit: int = DEFAULT_LIMIT) -> RoundedOrder:
+def find_order_within(
+    tableau: Tableau, tolerance: fmpq, limit: int = DEFAULT_LIMIT
+) -> RoundedOrder:
     """The largest r ≤ ``limit`` for which all conditions of order ≤ r are met within ``tolerance``.
 
     Args:
@@ -107,7 +115,9 @@ def find_order_within(tableau: Tableau, tolerance: fmpq, limit: int = DEFAULT_LI
 
 @dataclass(frozen=True, eq=False)
 class _Verdict:
-    """What became of one order: met with ``size`` a bound, failed with a witness, or undecided: neither."""
+    """What became of one order: met with ``size`` a bound, failed with a witness, or undecided:
+    neither.
+    """
 
     means: Means
     size: arb | None = None
@@ -135,7 +145,9 @@ class _Decision:
     @cached_property
     def spans(self) -> ApproximateSpans:
         bits = GUARD + 6 * max(self.magnitude, 8)  # each member as short as the grain costs bits
-        return ApproximateSpans(self.tableau, enclose_tableau(self.tableau, bits), arb(self.tolerance) / GRAIN)
+        return ApproximateSpans(
+            self.tableau, enclose_tableau(self.tableau, bits), arb(self.tolerance) / GRAIN
+        )
 
     def of(self, order: int) -> _Verdict:
         count = sum(counts_upto(self.admissible, order)[-1])

@@ -1,6 +1,7 @@
 """The simplifying conditions B, C, D of the paper, and the order they guarantee.
 
-Each is a statement about elements of stage spaces, so it is decided exactly without the nodes themselves.
+Each is a statement about elements of stage spaces, so it is decided exactly without the nodes
+themselves.
 """
 
 from __future__ import annotations
@@ -66,7 +67,9 @@ class Simplifying:
         return min(self.r, 2 * self.eta + 2, self.xi + 1, self.eta + self.zeta + 1)
 
 
-def simplifying(tableau: Tableau, limit: int = DEFAULT_LIMIT, tolerance: fmpq = ZERO) -> Simplifying:
+def simplifying(
+    tableau: Tableau, limit: int = DEFAULT_LIMIT, tolerance: fmpq = ZERO
+) -> Simplifying:
     """B, C and D of a tableau; each search stops at ``limit``.
 
     With a ``tolerance`` every entry of every condition is met within it, otherwise exactly.
@@ -98,6 +101,11 @@ def simplifying(tableau: Tableau, limit: int = DEFAULT_LIMIT, tolerance: fmpq = 
 
 
 def consistent_blocks(tableau: Tableau, tolerance: fmpq = ZERO) -> dict[tuple[int, int], bool]:
-    """For each block that exists whether A^{l,m} 𝟙 = c^{l}, eq. (Aone), within ``tolerance`` at every stage."""
+    """For each block that exists whether A^{l,m} 𝟙 = c^{l}, eq. (Aone), within ``tolerance`` at
+    every stage.
+    """
     defects = Defects(tableau)
-    return {(l, m): vector_within(tableau.space(l), defects.C(l, m, 1), tolerance) for l, m in tableau.edges()}
+    return {
+        (l, m): vector_within(tableau.space(l), defects.C(l, m, 1), tolerance)
+        for l, m in tableau.edges()
+    }

@@ -12,9 +12,9 @@ from garkcli.exact.display import to_ball
 from garkcli.order.approximate_spans import ApproximateSpans
 from garkcli.order.certificate import DEFAULT_LIMIT, Order
 from garkcli.order.conditions import coupling_graph
-from garkcli.order.enclosure import enclose_tableau
 from garkcli.order.residuals import Sizes, TreeResiduals
 from garkcli.order.rounded import FEW_TREES
+from garkcli.tableau.enclosing import enclose_tableau
 from garkcli.tableau.stages import PointSpace
 from garkcli.tableau.tableau import Tableau
 from garkcli.trees.count import Admissible, counts_upto
@@ -54,21 +54,27 @@ class Suggestion:
         return f"tolerance: 1e{self.exponent}"
 
 
-def suggest_tolerance(tableau: Tableau, exact: Order, limit: int = DEFAULT_LIMIT) -> Suggestion | None:
-    """A tolerance with which a tableau has a higher order than ``exact``, where its coefficients look rounded.
+def suggest_tolerance(
+    tableau: Tableau, exact: Order, limit: int = DEFAULT_LIMIT
+) -> Suggestion | None:
+    """A tolerance with which a tableau has a higher order than ``exact``, where its coefficients
+    look rounded.
 
-    An exact method has small residuals too when its order is high: 10⁻⁷ at order 9 of a good explicit method, 10⁻¹²
-    at order 21 of Gauss 10. So residuals are taken for rounding only if, from the first order that fails
-    exactly,
+    An exact method has small residuals too when its order is high: 10⁻⁷ at order 9 of a good
+    explicit method, 10⁻¹² at order 21 of Gauss 10. So residuals are taken for rounding only if,
+    from the first order that fails exactly,
 
     - coefficients are spelled out: the blocks of a family have none that could be rounded;
-    - the largest residual of each order n is below 10⁻⁶ and unnaturally small: a thousand times smaller than the
-      error of x^(n−1) in the best quadrature of about n/2 nodes, (s!)⁴/((2s+1)((2s)!)²) with s = ⌊n/2⌋;
+    - the largest residual of each order n is below 10⁻⁶ and unnaturally small: a thousand times
+    smaller than the
+      error of x^(n−1) in the best quadrature of about n/2 nodes, (s!)⁴/((2s+1)((2s)!)²) with s =
+      ⌊n/2⌋;
     - the largest residual of the first order that is not so small exceeds them a thousand times.
 
-    Rounding is alike at all orders up to that of the method and then jumps; genuine residuals of successive orders
-    are of similar size, and no published method known comes near either threshold: the passing residuals of
-    the 94 of the catalogue reach 2·10⁻¹⁰ at order 3, and the first failing ones start from 2.7·10⁻⁷ at order 13.
+    Rounding is alike at all orders up to that of the method and then jumps; genuine residuals of
+    successive orders are of similar size, and no published method known comes near either
+    threshold: the passing residuals of the 94 of the catalogue reach 2·10⁻¹⁰ at order 3, and the
+    first failing ones start from 2.7·10⁻⁷ at order 13.
 
     Args:
         tableau: as given in a file without ``tolerance``.
@@ -114,7 +120,9 @@ def _sizes(tableau: Tableau, first: arb, orders: range) -> Iterator[tuple[int, S
 
 
 def _exponent(rounding: arb) -> int:
-    """Of the smallest power of ten that is twice as large as what is taken for rounding, at least."""
+    """Of the smallest power of ten that is twice as large as what is taken for rounding, at
+    least.
+    """
     exponent = 0
     while fmpq(10) ** (exponent - 1) >= 2 * rounding:
         exponent -= 1

@@ -30,7 +30,8 @@ def terminal_plot(
     height: int = 16,
     order: int | None = None,
 ) -> str:
-    """Errors against step sizes, both on logarithmic axes, as lines of text without a final newline.
+    """Errors against step sizes, both on logarithmic axes, as lines of text without a final
+    newline.
 
     Args:
         hs: step sizes, positive.
@@ -55,7 +56,10 @@ def terminal_plot(
 
 
 def terminal_curves(
-    curves: Mapping[str, Iterable[tuple[Positive, Positive]]], label: str, width: int = 0, height: int = 16
+    curves: Mapping[str, Iterable[tuple[Positive, Positive]]],
+    label: str,
+    width: int = 0,
+    height: int = 16,
 ) -> str:
     """Errors of several methods, as ``terminal_plot`` draws those of one.
 
@@ -74,7 +78,12 @@ def terminal_curves(
          10          100  steps
     """
     width = width or 61 - len(label)
-    points = [(log10(x), log10(y), mark) for mark, pairs in curves.items() for x, y in pairs if x > 0 and y > 0]
+    points = [
+        (log10(x), log10(y), mark)
+        for mark, pairs in curves.items()
+        for x, y in pairs
+        if x > 0 and y > 0
+    ]
     return _plot(points, label, width, height, None)
 
 
@@ -106,9 +115,13 @@ def _plot(
             put(x, line[1] + line[2] * (x - line[0]), LINE)
     for x, y, mark in points:
         put(x, y, mark)
-    rows = {_cell(top - k, top - bottom, height): f"1e{k:+d}" for k in _decades(bottom, top, (height + 1) // 2)}
+    rows = {
+        _cell(top - k, top - bottom, height): f"1e{k:+d}"
+        for k in _decades(bottom, top, (height + 1) // 2)
+    }
     columns = {
-        _cell(x - left, right - left, width): _short(x) for x in (*range(ceil(left), floor(right) + 1), left, right)
+        _cell(x - left, right - left, width): _short(x)
+        for x in (*range(ceil(left), floor(right) + 1), left, right)
     }
     return "\n".join(_framed(field, rows, columns, label))
 
@@ -134,15 +147,21 @@ def _short(exponent: float) -> str:
 def _framed(
     field: Sequence[Sequence[str]], rows: Mapping[int, str], columns: Mapping[int, str], label: str
 ) -> list[str]:
-    """The field with its axes; ``rows`` and ``columns`` say where they have a mark, and its label."""
+    """The field with its axes; ``rows`` and ``columns`` say where they have a mark, and its
+    label.
+    """
     margin = max(len(text) for text in rows.values())
     lines = [" " * margin + " error"]
     for i, row in enumerate(field):
-        lines.append(f"{rows.get(i, ''):>{margin}} {'┤' if i in rows else '│'}{''.join(row)}".rstrip())
+        lines.append(
+            f"{rows.get(i, ''):>{margin}} {'┤' if i in rows else '│'}{''.join(row)}".rstrip()
+        )
     width = len(field[0])
     lines.append(" " * margin + " └" + "".join("┬" if j in columns else "─" for j in range(width)))
     labels = [" "] * (margin + width + 8)
-    for j in sorted(columns, key=lambda j: (0 < j < width - 1, j)):  # the ends first, then what still fits
+    for j in sorted(
+        columns, key=lambda j: (0 < j < width - 1, j)
+    ):  # the ends first, then what still fits
         text = columns[j]
         start = margin + 2 + j - len(text) // 2
         if all(x == " " for x in labels[start - 1 : start + len(text) + 1]):

@@ -1,4 +1,6 @@
-"""A signal against time in plain text, for terminals: what lies between its least and greatest value."""
+"""A signal against time in plain text, for terminals: what lies between its least and greatest
+value.
+"""
 
 from __future__ import annotations
 
@@ -18,7 +20,8 @@ def terminal_band(
 ) -> str:
     """Values against time, linear on both axes, as lines of text without a final newline.
 
-    A column shows all values of its span of time, straight lines between them included. Zero is always shown.
+    A column shows all values of its span of time, straight lines between them included. Zero is
+    always shown.
 
     Args:
         times: ascending, at least one.
@@ -52,10 +55,14 @@ def terminal_band(
         for i in range(top, bottom + 1):
             field[i][j] = SINGLE if top == bottom else INSIDE
     marks = {0: high, height - 1: low, line(0.0): 0.0}
-    return "\n".join(_framed(field, {i: f"{x:.3g}" for i, x in marks.items()}, label, times[0], times[-1]))
+    return "\n".join(
+        _framed(field, {i: f"{x:.3g}" for i, x in marks.items()}, label, times[0], times[-1])
+    )
 
 
-def _bands(times: Sequence[float], values: Sequence[float], width: int) -> list[tuple[float, float]]:
+def _bands(
+    times: Sequence[float], values: Sequence[float], width: int
+) -> list[tuple[float, float]]:
     """The least and the greatest value of each column, of the line through all points."""
     scale = (width - 1) / ((times[-1] - times[0]) or 1.0)
     columns: list[list[float]] = [[] for _ in range(width)]
@@ -77,7 +84,9 @@ def _framed(
     margin, width = max(map(len, marks.values())), len(field[0])
     lines = [f"{'':{margin}} {label}"]
     for i, row in enumerate(field):
-        lines.append(f"{marks.get(i, ''):>{margin}} {'┤' if i in marks else '│'}{''.join(row)}".rstrip())
+        lines.append(
+            f"{marks.get(i, ''):>{margin}} {'┤' if i in marks else '│'}{''.join(row)}".rstrip()
+        )
     lines.append(f"{'':{margin}} └┬{'─' * (width - 2)}┬")
     last = f"{end:g}"
     lines.append(f"{'':{margin}}  {f'{start:g}':<{width - 1}}{last}  t")

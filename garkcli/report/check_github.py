@@ -5,9 +5,9 @@ from __future__ import annotations
 from collections.abc import Sequence
 from hashlib import sha256
 
-from garkcli.order.outcome import Outcome
+from garkcli.check.findings import Finding, findings
+from garkcli.check.outcome import Outcome
 from garkcli.report import check_text
-from garkcli.report.findings import Finding, findings
 from garkcli.report.paint import Paint
 
 

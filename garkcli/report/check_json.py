@@ -1,4 +1,6 @@
-"""``gark check --format json``: exact numbers as strings, colours and stages from 1; see docs/command-line.md."""
+"""``gark check --format json``: exact numbers as strings, colours and stages from 1; see
+docs/command-line.md.
+"""
 
 from __future__ import annotations
 
@@ -6,10 +8,10 @@ import json
 from collections.abc import Sequence
 from typing import TYPE_CHECKING, Any
 
+from garkcli.check.analysis import Analysis, AnyOrder
+from garkcli.check.outcome import Outcome
 from garkcli.exact.display import decimal, to_text
 from garkcli.order.certificate import Order
-from garkcli.order.check import Analysis, AnyOrder
-from garkcli.order.outcome import Outcome
 from garkcli.order.simplifying import Simplifying
 from garkcli.report.hints import hints_data
 from garkcli.tableau.tableau import Tableau
@@ -45,15 +47,31 @@ def _outcome(outcome: Outcome) -> dict[str, Any]:
     head: dict[str, Any] = {"file": outcome.file, "name": outcome.name, "ok": outcome.ok}
     if outcome.analysis is None:
         errors = [
-            {"line": x.line or None, "column": x.column or None, "message": x.message, "help": x.help}
+            {
+                "line": x.line or None,
+                "column": x.column or None,
+                "message": x.message,
+                "help": x.help,
+            }
             for x in outcome.faults
         ]
         return {**head, "errors": errors}
     claims = [
-        {"claim": x.claim, "expected": x.expected, "found": x.found, "holds": x.holds, "line": x.line}
+        {
+            "claim": x.claim,
+            "expected": x.expected,
+            "found": x.found,
+            "holds": x.holds,
+            "line": x.line,
+        }
         for x in outcome.claims
     ]
-    return {**head, "structure": outcome.structure, **_analysis(outcome, outcome.analysis), "claims": claims}
+    return {
+        **head,
+        "structure": outcome.structure,
+        **_analysis(outcome, outcome.analysis),
+        "claims": claims,
+    }
 
 
 def _analysis(outcome: Outcome, analysis: Analysis) -> dict[str, Any]:
@@ -64,7 +82,9 @@ def _analysis(outcome: Outcome, analysis: Analysis) -> dict[str, Any]:
         "colours": colours_data(analysis.tableau),
         "consistent": not analysis.inconsistent,
         "inconsistent_blocks": [[l + 1, m + 1] for l, m in analysis.inconsistent],
-        "conjugate_consistent": None if analysis.conjugate is None else not analysis.conjugate_inconsistent,
+        "conjugate_consistent": None
+        if analysis.conjugate is None
+        else not analysis.conjugate_inconsistent,
         "symplectic": analysis.symplectic,
         **_order("", analysis.order),
         **_order("conjugate_", analysis.conjugate_order),

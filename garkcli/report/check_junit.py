@@ -6,7 +6,7 @@ import re
 import xml.etree.ElementTree as ET
 from collections.abc import Sequence
 
-from garkcli.order.outcome import Outcome
+from garkcli.check.outcome import Outcome
 
 _NOT_XML = re.compile("[^\t\n\r -\ud7ff\ue000-\ufffd\U00010000-\U0010ffff]")
 
@@ -27,7 +27,9 @@ def _suite(outcome: Outcome) -> ET.Element:
     suite = ET.Element("testsuite", name=name)
     readable = ET.SubElement(suite, "testcase", classname=name, name="is a method")
     if outcome.faults:
-        text = "\n".join(f"{x.line}:{x.column}: {x.message}; {x.help}".rstrip("; ") for x in outcome.faults)
+        text = "\n".join(
+            f"{x.line}:{x.column}: {x.message}; {x.help}".rstrip("; ") for x in outcome.faults
+        )
         error = ET.SubElement(readable, "error", message=_clean(outcome.faults[0].message))
         error.text = _clean(text)
     for claim in outcome.claims:

@@ -4,9 +4,9 @@ from __future__ import annotations
 
 from collections.abc import Sequence
 
-from garkcli.order.check import AnyOrder
-from garkcli.order.outcome import Outcome
-from garkcli.report.findings import findings
+from garkcli.check.analysis import AnyOrder
+from garkcli.check.findings import findings
+from garkcli.check.outcome import Outcome
 
 
 def render(outcomes: Sequence[Outcome]) -> str:
@@ -18,7 +18,10 @@ def render(outcomes: Sequence[Outcome]) -> str:
     ]
     found = [x for outcome in outcomes for x in findings(outcome)]
     if found:
-        lines += ["", *(f"- `{_code(x.file)}:{x.line}:{x.column}`: {_cell(x.message)}" for x in found)]
+        lines += [
+            "",
+            *(f"- `{_code(x.file)}:{x.line}:{x.column}`: {_cell(x.message)}" for x in found),
+        ]
     return "\n".join(lines) + "\n"
 
 
@@ -40,7 +43,13 @@ def _row(outcome: Outcome) -> str:
 
 
 def _order(order: AnyOrder | None) -> str:
-    return "" if order is None else f"at least {order.order}" if order.is_lower_bound else str(order.order)
+    return (
+        ""
+        if order is None
+        else f"at least {order.order}"
+        if order.is_lower_bound
+        else str(order.order)
+    )
 
 
 def _cell(text: str) -> str:

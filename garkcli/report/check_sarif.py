@@ -7,8 +7,8 @@ from collections.abc import Sequence
 from typing import Any
 
 from garkcli import __version__
-from garkcli.order.outcome import Outcome
-from garkcli.report.findings import RULES, Finding, findings
+from garkcli.check.findings import RULES, Finding, findings
+from garkcli.check.outcome import Outcome
 
 
 def render(outcomes: Sequence[Outcome]) -> str:
@@ -36,7 +36,14 @@ def _result(finding: Finding) -> dict[str, Any]:
         "ruleIndex": list(RULES).index(finding.rule),
         "level": "error",
         "message": {"text": text},
-        "locations": [{"physicalLocation": {"artifactLocation": {"uri": _uri(finding.file)}, "region": region}}],
+        "locations": [
+            {
+                "physicalLocation": {
+                    "artifactLocation": {"uri": _uri(finding.file)},
+                    "region": region,
+                }
+            }
+        ],
         "partialFingerprints": {"gark/v1": finding.fingerprint},
     }
 

@@ -10,12 +10,22 @@ Schema: TypeAlias = dict[str, Any]
 
 _EXACT: Schema = {"type": "string", "description": "An exact number, such as 1/2 - sqrt(3)/6."}
 _COUNT: Schema = {"type": "integer", "minimum": 0}
-_BLOCK: Schema = {"type": "array", "items": {"type": "integer", "minimum": 1}, "minItems": 1, "maxItems": 2}
-_TABLE: Schema = {"type": "array", "items": {"type": "array", "items": {"type": ["integer", "null"]}}}
+_BLOCK: Schema = {
+    "type": "array",
+    "items": {"type": "integer", "minimum": 1},
+    "minItems": 1,
+    "maxItems": 2,
+}
+_TABLE: Schema = {
+    "type": "array",
+    "items": {"type": "array", "items": {"type": ["integer", "null"]}},
+}
 
 
 def check_report_schema() -> Schema:
-    """The schema as plain data. Fields may be added to reports; those here never change their meaning."""
+    """The schema as plain data. Fields may be added to reports; those here never change their
+    meaning.
+    """
     return {
         "$schema": "http://json-schema.org/draft-07/schema#",
         "title": "report of gark check",
@@ -59,7 +69,10 @@ def _checked() -> Schema:
     orders: Schema = {}
     bounds: Schema = {}
     for prefix in ("", "conjugate_", "pair_"):
-        orders[f"{prefix}order"] = {"type": ["integer", "null"] if prefix else "integer", "minimum": 0}
+        orders[f"{prefix}order"] = {
+            "type": ["integer", "null"] if prefix else "integer",
+            "minimum": 0,
+        }
         orders[f"{prefix}witness"] = {"oneOf": [{"type": "null"}, _witness()]}
         bounds[f"{prefix}order_is_lower_bound"] = {"const": True}
         bounds[f"{prefix}order_largest_residual"] = {"type": "number", "minimum": 0}
@@ -73,7 +86,9 @@ def _checked() -> Schema:
         "tolerance": {"type": ["string", "null"]},
         "colours": {
             "type": "array",
-            "items": _object({"name": {"type": "string"}, "stages": {"type": "integer", "minimum": 1}}),
+            "items": _object(
+                {"name": {"type": "string"}, "stages": {"type": "integer", "minimum": 1}}
+            ),
         },
         "consistent": {"type": "boolean"},
         "inconsistent_blocks": {"type": "array", "items": _BLOCK},
@@ -85,14 +100,18 @@ def _checked() -> Schema:
         "claims": {"type": "array", "items": _claim()},
     }
     size = {"type": "number", "minimum": 0}
-    suggestion = _object({"line": {"type": "string"}, "order": _COUNT, "rounding": size, "genuine": size})
+    suggestion = _object(
+        {"line": {"type": "string"}, "order": _COUNT, "rounding": size, "genuine": size}
+    )
     optional = {"blame": _blame(), "error_constants": _constants(), "suggestion": suggestion}
     return _object(required, {**bounds, **optional})
 
 
 def _witness() -> Schema:
     numbers = {"value": _EXACT, "required": _EXACT, "residual": _EXACT}
-    return _object({"order": {"type": "integer", "minimum": 1}, "tree": {"type": "string"}, **numbers})
+    return _object(
+        {"order": {"type": "integer", "minimum": 1}, "tree": {"type": "string"}, **numbers}
+    )
 
 
 def _simplifying() -> Schema:
@@ -102,7 +121,9 @@ def _simplifying() -> Schema:
 
 def _claim() -> Schema:
     texts = {key: {"type": "string"} for key in ("claim", "expected", "found")}
-    return _object({**texts, "holds": {"type": "boolean"}, "line": {"type": "integer", "minimum": 1}})
+    return _object(
+        {**texts, "holds": {"type": "boolean"}, "line": {"type": "integer", "minimum": 1}}
+    )
 
 
 def _blame() -> Schema:

@@ -8,10 +8,10 @@ from typing import TYPE_CHECKING
 
 from flint import arb, fmpq
 
+from garkcli.check.analysis import Analysis, AnyOrder
+from garkcli.check.outcome import Claim, Outcome
 from garkcli.exact.display import decimal, to_decimal, to_text
 from garkcli.order.certificate import Order, Witness
-from garkcli.order.check import Analysis, AnyOrder
-from garkcli.order.outcome import Claim, Outcome
 from garkcli.order.simplifying import Simplifying
 from garkcli.report.paint import Paint, aligned, beside, printable
 from garkcli.tableau.tableau import Tableau
@@ -30,7 +30,8 @@ def render(outcomes: Sequence[Outcome], paint: Paint, verbosity: int = 0) -> str
     Args:
         outcomes: what was found.
         paint: colour or none.
-        verbosity: −1 shows faults and failed claims only; 0 one file in full, several a line each; 1 all in full.
+        verbosity: −1 shows faults and failed claims only; 0 one file in full, several a line each;
+            1 all in full.
     """
     full = verbosity > 0 or (len(outcomes) == 1 and verbosity == 0)
     blocks = [_outcome(outcome, paint, full, verbosity < 0) for outcome in outcomes]
@@ -125,9 +126,15 @@ def _full(outcome: Outcome, analysis: Analysis, paint: Paint) -> list[str]:
 
 def _kind(tableau: Tableau, structure: str, tolerance: fmpq | None) -> str:
     plain = all(x.name == str(l) for l, x in enumerate(tableau.colours, start=1))
-    stages = ", ".join(f"{'' if plain else x.name + ': '}{tableau.spaces[x.rows].stages}" for x in tableau.colours)
+    stages = ", ".join(
+        f"{'' if plain else x.name + ': '}{tableau.spaces[x.rows].stages}" for x in tableau.colours
+    )
     colours = "1 colour" if tableau.size == 1 else f"{tableau.size} colours"
-    domain = "rational arithmetic" if tableau.degree == 1 else f"a number field of degree {tableau.degree}"
+    domain = (
+        "rational arithmetic"
+        if tableau.degree == 1
+        else f"a number field of degree {tableau.degree}"
+    )
     special = "" if structure == "general" else f"for {structure} problems; "
     how = f"decided in {domain}" if tolerance is None else f"within {decimal(tolerance)}"
     return f"{special}{colours}, stages {stages}; {how}"
@@ -148,11 +155,15 @@ def _orders(analysis: Analysis, paint: Paint) -> list[str]:
     return lines
 
 
-def _order(label: str, order: AnyOrder, tableau: Tableau, paint: Paint, shown: list[Witness]) -> list[str]:
+def _order(
+    label: str, order: AnyOrder, tableau: Tableau, paint: Paint, shown: list[Witness]
+) -> list[str]:
     """An order with its witness, drawn unless the same failure was shown before."""
     head = f"  {label:{_LABEL}}{paint('strong', _number(order))}"
     if not isinstance(order, Order):
-        head += f"   within {decimal(order.tolerance)}, residuals up to {_size(order.largest_residual)}"
+        head += (
+            f"   within {decimal(order.tolerance)}, residuals up to {_size(order.largest_residual)}"
+        )
     witness = order.witness
     if witness is None and not isinstance(order, Order) and order.undecided:
         return [f"{head}; order {order.order + 1} is too much to decide"]
@@ -163,7 +174,11 @@ def _order(label: str, order: AnyOrder, tableau: Tableau, paint: Paint, shown: l
     shown.append(witness)
     colours = tableau.size > 1
     tree = format_tree(witness.tree, colours)
-    text = [f"fails at order {witness.tree.order}: {tree}", *_residual(witness), *_legend(witness, tableau)]
+    text = [
+        f"fails at order {witness.tree.order}: {tree}",
+        *_residual(witness),
+        *_legend(witness, tableau),
+    ]
     picture = draw_text(witness.tree, colours, width=30)
     if max(len(line) for line in text) + max(len(line) for line in picture) < 74:
         text = beside(text, picture)
@@ -194,7 +209,11 @@ def _legend(witness: Witness, tableau: Tableau) -> list[str]:
 def _residual(witness: Witness) -> list[str]:
     value, residual = to_text(witness.value), to_text(witness.residual)
     if len(value) > 60 or len(residual) > 60:
-        value, residual, required = to_decimal(witness.value, 8), to_decimal(witness.residual, 4), witness.required
+        value, residual, required = (
+            to_decimal(witness.value, 8),
+            to_decimal(witness.residual, 4),
+            witness.required,
+        )
         shown = required if len(str(required)) <= 60 else f"about {to_decimal(required, 8)}"
         return [f"about {value} instead of {shown}, off by {residual}"]
     if len(value) + len(residual) < 50:
@@ -208,7 +227,9 @@ def _conditions(analysis: Analysis) -> list[str]:
     rows = [f"  {'B(r)':{_LABEL}}{'  '.join(_capped(x, limit) for x in found.B)}"]
     for label, table in (("C(eta)", found.C), ("D(zeta)", found.D)):
         cells = [["-" if x is None else _capped(x, limit) for x in row] for row in table]
-        rows += [f"  {label if i == 0 else '':{_LABEL}}{line}" for i, line in enumerate(aligned(cells))]
+        rows += [
+            f"  {label if i == 0 else '':{_LABEL}}{line}" for i, line in enumerate(aligned(cells))
+        ]
     rows.append(f"  {'bound':{_LABEL}}{_bound(found)}")
     if analysis.pair_simplifying is not None and analysis.pair_simplifying is not found:
         rows.append(f"  {'pair bound':{_LABEL}}{_bound(analysis.pair_simplifying)}")
@@ -227,11 +248,17 @@ def _bound(found: Simplifying) -> str:
 def _properties(analysis: Analysis, paint: Paint) -> list[str]:
     names = [colour.name for colour in analysis.tableau.colours]
     near = "" if analysis.tolerance is None else f" within {decimal(analysis.tolerance)}"
-    lines = [f"  {'consistent':{_LABEL}}{_consistent(analysis.inconsistent, names, 'A', near, paint)}"]
+    lines = [
+        f"  {'consistent':{_LABEL}}{_consistent(analysis.inconsistent, names, 'A', near, paint)}"
+    ]
     if analysis.conjugate is not None:
         text = _consistent(analysis.conjugate_inconsistent, names, "Â", near, paint)
         lines.append(f"  {'conjugate nodes':{_LABEL}}{text}")
-    own = "its own conjugate" if not analysis.tableau.is_partitioned else "each part the conjugate of the other"
+    own = (
+        "its own conjugate"
+        if not analysis.tableau.is_partitioned
+        else "each part the conjugate of the other"
+    )
     lines.append(f"  {'symplectic':{_LABEL}}{f'yes{near}, {own}' if analysis.symplectic else 'no'}")
     return lines
 

@@ -9,9 +9,9 @@ from math import ceil, floor
 
 from flint import arb, fmpq
 
-from garkcli.dynamics.convergence import Row
-from garkcli.dynamics.hamiltonian import Hamiltonian
-from garkcli.dynamics.work import Cost
+from garkcli.convergence.convergence import Row
+from garkcli.convergence.work import Cost
+from garkcli.problems.hamiltonian import Hamiltonian
 from garkcli.report.asciiplot import SEVERAL, log10, terminal_curves
 from garkcli.report.convergence import (
     NO_TIME,
@@ -84,7 +84,9 @@ def _text(entries: Sequence[Entry], paint: Paint, with_work: bool, against: str)
         lines += [f"  {line}" for line in wrapped(title([result for _, result in tested]))]
     lines.append("")
     for letter, entry in named:
-        where = f" ({entry.file})" if names.count(entry.name) > 1 and entry.name != entry.file else ""
+        where = (
+            f" ({entry.file})" if names.count(entry.name) > 1 and entry.name != entry.file else ""
+        )
         lines.append(f"  {paint('strong', letter)}  {entry.name}{where}")
     for block in _blocks(tested):
         lines += ["", *(f"  {line}" for line in block)]
@@ -104,7 +106,10 @@ def _blocks(tested: Sequence[tuple[str, Result]]) -> list[list[str]]:
     for count in range(1, len(tested) + 1):
         bounds = [round(k * len(tested) / count) for k in range(count + 1)]
         blocks = [_side_by_side(tested[a:b]) for a, b in pairwise(bounds)]
-        if count == len(tested) or max(len(line) for block in blocks for line in block) <= WIDTH - 2:
+        if (
+            count == len(tested)
+            or max(len(line) for block in blocks for line in block) <= WIDTH - 2
+        ):
             return blocks
     return []
 
@@ -141,10 +146,14 @@ def _verdicts(named: Sequence[tuple[str, Entry]], paint: Paint) -> list[str]:
         rows.append([letter, observed, exactly(result), predicted(result)])
         endings.append(verdict(result, paint))
     width = max(map(len, _padded(rows)))
-    lines = [f"{line:{width}}   {end}".rstrip() for line, end in zip(_padded(rows), endings, strict=True)]
+    lines = [
+        f"{line:{width}}   {end}".rstrip() for line, end in zip(_padded(rows), endings, strict=True)
+    ]
     for letter, entry in named:
         if entry.result is not None:
-            lines += [line for text in remarks(entry.result) for line in wrapped(f"{letter}: {text}")]
+            lines += [
+                line for text in remarks(entry.result) for line in wrapped(f"{letter}: {text}")
+            ]
         for fault in entry.faults:
             lines += wrapped(f"{letter}: {fault.message}")
     return lines
@@ -155,7 +164,8 @@ def _padded(rows: Sequence[Sequence[str]], gap: str = "   ") -> list[str]:
     widths = [max(len(row[j]) for row in rows) for j in range(len(rows[0]))]
     return [
         gap.join(
-            x.ljust(w) if j == 0 else x.rjust(w) for j, (x, w) in enumerate(zip(row, widths, strict=True))
+            x.ljust(w) if j == 0 else x.rjust(w)
+            for j, (x, w) in enumerate(zip(row, widths, strict=True))
         ).rstrip()
         for row in rows
     ]
@@ -168,7 +178,9 @@ def _notes(tested: Sequence[tuple[str, Result]]) -> list[str]:
         said.setdefault(note(result), []).append(letter)
     lines = []
     for text, who in said.items():
-        lines += [f"  {line}" for line in wrapped(text if len(said) == 1 else f"{', '.join(who)}: {text}")]
+        lines += [
+            f"  {line}" for line in wrapped(text if len(said) == 1 else f"{', '.join(who)}: {text}")
+        ]
     for letter, result in tested:
         if count := getattr(result, "plateau", 0):
             lines.append(
@@ -182,7 +194,9 @@ def _work(tested: Sequence[tuple[str, Result]]) -> list[str]:
     rows = [["work", "h", "error", *WORK]]
     for letter, result in tested:
         for i, row in enumerate(result.rows):
-            rows.append([letter if i == 0 else "", str(row.h), scientific(row.error), *work_cells(row.cost)])
+            rows.append(
+                [letter if i == 0 else "", str(row.h), scientific(row.error), *work_cells(row.cost)]
+            )
     lines = [f"  {line}" for line in _padded(rows, "  ")]
     costs = [row.cost for _, result in tested for row in result.rows]
     if any(cost is None or cost.seconds is None for cost in costs):
@@ -201,7 +215,9 @@ def amount(cost: Cost | None, what: str) -> float | None:
 
 
 def curve(result: Result, against: str) -> Iterable[tuple[float | fmpq, arb]]:
-    """The points (x, error) of a plot against h, evaluations or seconds, where both are known and positive."""
+    """The points (x, error) of a plot against h, evaluations or seconds, where both are known and
+    positive.
+    """
     for row in result.rows:
         x = row.h if against == "h" else amount(row.cost, against)
         if x is not None and row.error > 0:
@@ -210,7 +226,10 @@ def curve(result: Result, against: str) -> Iterable[tuple[float | fmpq, arb]]:
 
 def _at_equal_errors(tested: Sequence[tuple[str, Result]], what: str) -> list[str]:
     """A line a method: what errors of 10^k cost, where it has larger and smaller ones."""
-    curves = {letter: [(log10(error), log10(x)) for x, error in curve(result, what)] for letter, result in tested}
+    curves = {
+        letter: [(log10(error), log10(x)) for x, error in curve(result, what)]
+        for letter, result in tested
+    }
     goals = _goals([[y for y, _ in points] for points in curves.values() if points])
     rows = [[f"{what} for an error of", *(f"1e{k}" for k in goals)]]
     for letter, points in curves.items():
@@ -224,7 +243,9 @@ def _amount(x: float, what: str) -> str:
 
 
 def _goals(errors: Sequence[Sequence[float]]) -> list[int]:
-    """Whole decades, thinned out evenly, that at least two methods reach, or one where no two do."""
+    """Whole decades, thinned out evenly, that at least two methods reach, or one where no two
+    do.
+    """
     spans = [(ceil(min(ys)), floor(max(ys))) for ys in errors if len(ys) > 1]
     reached = Counter(k for least, most in spans for k in range(least, most + 1))
     shared = [k for k, count in reached.items() if count > 1] or list(reached)

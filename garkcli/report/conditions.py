@@ -16,12 +16,30 @@ from garkcli.report.paint import Paint
 from garkcli.report.symplectic import Subject, legend_lines, member_lines, summary_lines
 from garkcli.report.trees import picture
 from garkcli.tableau.tableau import Tableau
-from garkcli.trees.notation import condition_latex, condition_text, format_latex, format_tree, vertex_letters
+from garkcli.trees.notation import (
+    condition_latex,
+    condition_text,
+    format_latex,
+    format_tree,
+    vertex_letters,
+)
 from garkcli.trees.tree import Tree
 
 MOST_DIGITS = 60
 """Longer values are shown in decimals."""
-_VALUED = ["tree", "root", "order", "sigma", "gamma", "condition", "value", "required", "residual", "holds", "kind"]
+_VALUED = [
+    "tree",
+    "root",
+    "order",
+    "sigma",
+    "gamma",
+    "condition",
+    "value",
+    "required",
+    "residual",
+    "holds",
+    "kind",
+]
 
 
 @dataclass(frozen=True)
@@ -32,7 +50,8 @@ class ConditionRow:
         tree: the tree; its colours mean nothing where ``is_shape``.
         is_shape: whether the row stands for all colourings of the tree.
         condition: its value for a method, where there is one.
-        stands_for: how many conditions are equivalent to it in a symplectic method; 0 where nobody asked.
+        stands_for: how many conditions are equivalent to it in a symplectic method; 0 where nobody
+            asked.
         members: the trees of these conditions, where asked for.
     """
 
@@ -148,7 +167,9 @@ def _data(row: ConditionRow) -> dict[str, Any]:
 
 
 def _csv(rows: Iterable[ConditionRow], heading: Sequence[str]) -> Iterator[str]:
-    """The rows under their keys; under ``heading`` where there are none, since no condition fails."""
+    """The rows under their keys; under ``heading`` where there are none, since no condition
+    fails.
+    """
     keys: list[str] = []
     for row in rows:
         data = {k: x for k, x in _data(row).items() if k != "for_all"}
@@ -167,7 +188,11 @@ def _quoted(value: object) -> str:
 
 
 def _text(
-    rows: Iterable[ConditionRow], paint: Paint, width: int, subject: Subject | None, valued: Valued | None
+    rows: Iterable[ConditionRow],
+    paint: Paint,
+    width: int,
+    subject: Subject | None,
+    valued: Valued | None,
 ) -> Iterator[str]:
     count = failed = order = 0
     if subject is not None:
@@ -200,7 +225,9 @@ def _names(valued: Valued) -> Iterator[str]:
 def _verdict(failed: int, valued: Valued) -> str:
     if failed:
         return f"{failed} fail{'s' * (failed == 1)}"
-    return "all hold" if valued.tolerance is None else f"all hold within {decimal(valued.tolerance)}"
+    return (
+        "all hold" if valued.tolerance is None else f"all hold within {decimal(valued.tolerance)}"
+    )
 
 
 def _lines(row: ConditionRow, paint: Paint, width: int) -> Iterator[str]:
@@ -208,7 +235,9 @@ def _lines(row: ConditionRow, paint: Paint, width: int) -> Iterator[str]:
     mark = ""
     after = f"∀ {','.join(vertex_letters(row.tree))}" if row.is_shape else ""
     if row.condition is not None:
-        mark = paint.verdict(row.condition.holds, "holds  " if row.condition.is_exact else "within ", "FAILS  ")
+        mark = paint.verdict(
+            row.condition.holds, "holds  " if row.condition.is_exact else "within ", "FAILS  "
+        )
         after = f"({len(row.condition.trees)} times)" if row.condition.twins else ""
     if row.stands_for:
         after = f"stands for {row.stands_for}"
@@ -229,7 +258,10 @@ def _miss(condition: Condition) -> str:
     kind = "coupling" if condition.is_coupling else "diagonal"
     value, residual = to_text(condition.value), to_text(condition.residual)
     if max(len(value), len(residual)) > MOST_DIGITS:
-        value, residual = f"about {to_decimal(condition.value, 8)}", to_decimal(condition.residual, 4)
+        value, residual = (
+            f"about {to_decimal(condition.value, 8)}",
+            to_decimal(condition.residual, 4),
+        )
     return f"is {value}, off by {residual}  ({kind} condition)"
 
 

@@ -4,11 +4,11 @@ from __future__ import annotations
 
 from flint import arb
 
-from garkcli.dynamics.convergence import CLOSE, MAX_ORDER, Row
-from garkcli.dynamics.hamiltonian import FLOAT_DIGITS, Hamiltonian
-from garkcli.dynamics.nonlinear import Observation
-from garkcli.dynamics.problems import Oscillator
-from garkcli.dynamics.work import Cost
+from garkcli.convergence.convergence import CLOSE, MAX_ORDER, Row
+from garkcli.convergence.nonlinear import Observation
+from garkcli.convergence.work import Cost
+from garkcli.problems.hamiltonian import FLOAT_DIGITS, Hamiltonian
+from garkcli.problems.oscillator import Oscillator
 from garkcli.report.asciiplot import terminal_curves, terminal_plot
 from garkcli.report.convergence_data import Result, csv_of, json_of, note
 from garkcli.report.figures import rounded, scientific
@@ -37,13 +37,17 @@ def describe(problem: Oscillator | Hamiltonian) -> str:
     """A problem and its split in one line."""
     if isinstance(problem, Hamiltonian):
         return _described(problem)
-    shares = ", ".join(f"H{{{l}}}: {_energy(k, v)}" for l, (k, v) in enumerate(problem.shares, start=1))
+    shares = ", ".join(
+        f"H{{{l}}}: {_energy(k, v)}" for l, (k, v) in enumerate(problem.shares, start=1)
+    )
     return f"q̈ = −ω²q, ω = {problem.omega}; {shares}"
 
 
 def _energy(k: object, v: object) -> str:
     terms = [
-        f"{'' if share == 1 else f'{share}·'}{energy}" for share, energy in ((k, "½p²"), (v, "½ω²q²")) if share != 0
+        f"{'' if share == 1 else f'{share}·'}{energy}"
+        for share, energy in ((k, "½p²"), (v, "½ω²q²"))
+        if share != 0
     ]
     return " + ".join(terms) or "0"
 
@@ -53,12 +57,17 @@ def _described(problem: Hamiltonian) -> str:
     if sum(map(len, texts)) > _LONGEST:
         terms = f"{len(texts)} terms" if len(texts) > 1 else "one term"
         return f"{problem.name}, H in {terms} of {', '.join(problem.variables)} and their momenta"
-    return f"{problem.name}; " + ", ".join(f"H{{{l}}}: {text}" for l, text in enumerate(texts, start=1))
+    return f"{problem.name}; " + ", ".join(
+        f"H{{{l}}}: {text}" for l, text in enumerate(texts, start=1)
+    )
 
 
 def _table(result: Result) -> list[list[str]]:
     rows = [["h", "error", "slope", "energy error"]]
-    rows += [[str(row.h), rounded(row.error), _slope(row), rounded(row.energy_error)] for row in result.rows]
+    rows += [
+        [str(row.h), rounded(row.error), _slope(row), rounded(row.energy_error)]
+        for row in result.rows
+    ]
     if isinstance(result, Observation):
         names = [name for name, _ in result.problem.invariants]
         rows[0] += [*(f"{name} error" for name in names), "digits"]
@@ -100,7 +109,9 @@ def remarks(result: Result) -> list[str]:
     said = []
     if isinstance(result, Observation):
         if result.plateau:
-            said.append(f"the last {result.plateau} rows show the rounding of the coefficients and are not fitted")
+            said.append(
+                f"the last {result.plateau} rows show the rounding of the coefficients and are not fitted"
+            )
         if result.is_exact:
             said.append("the method makes no error on this problem")
         elif result.short_time is not None:
@@ -156,7 +167,11 @@ def _work(result: Result) -> list[str]:
     if len(costs) < len(result.rows) or any(cost.seconds is None for cost, _ in costs):
         lines.append(f"  {NO_TIME}")
     points = [(float(cost.evaluations), error) for cost, error in costs]
-    return [*lines, "", *(f"  {line}" for line in terminal_curves({"•": points}, "evaluations").splitlines())]
+    return [
+        *lines,
+        "",
+        *(f"  {line}" for line in terminal_curves({"•": points}, "evaluations").splitlines()),
+    ]
 
 
 def wrapped(text: str, width: int = 76) -> list[str]:

@@ -9,10 +9,10 @@ from collections.abc import Sequence
 from dataclasses import dataclass
 from typing import Any, TypeAlias
 
-from garkcli.dynamics.convergence import LINEAR_ONLY, Convergence, Row
-from garkcli.dynamics.nonlinear import Observation
-from garkcli.dynamics.trial import PathRow
-from garkcli.dynamics.work import Cost
+from garkcli.convergence.convergence import LINEAR_ONLY, Convergence, Row
+from garkcli.convergence.nonlinear import Observation
+from garkcli.convergence.trial import PathRow
+from garkcli.convergence.work import Cost
 from garkcli.errors import Fault
 from garkcli.exact.display import to_float
 from garkcli.report.figures import scientific
@@ -53,7 +53,8 @@ def json_of_several(entries: Sequence[Entry], with_work: bool) -> str:
         head: dict[str, Any] = {"file": entry.file, "ok": entry.exit_code == 0}
         if entry.result is None:
             errors = [
-                {"line": x.line, "column": x.column, "message": x.message, "help": x.help} for x in entry.faults
+                {"line": x.line, "column": x.column, "message": x.message, "help": x.help}
+                for x in entry.faults
             ]
             results.append({**head, "name": entry.name, "errors": errors})
         else:
@@ -113,8 +114,14 @@ def note(result: Result) -> str:
 
 def _split(result: Result) -> dict[str, Any]:
     if isinstance(result, Observation):
-        return {"hamiltonian": [str(term) for term in result.problem.terms], "plateau": result.plateau}
-    return {"omega": str(result.problem.omega), "split": [[str(k), str(v)] for k, v in result.problem.shares]}
+        return {
+            "hamiltonian": [str(term) for term in result.problem.terms],
+            "plateau": result.plateau,
+        }
+    return {
+        "omega": str(result.problem.omega),
+        "split": [[str(k), str(v)] for k, v in result.problem.shares],
+    }
 
 
 def _short(result: Result) -> dict[str, Any]:
@@ -150,14 +157,18 @@ def csv_of(result: Result, with_work: bool) -> str:
 
 def csv_of_several(entries: Sequence[Entry], with_work: bool) -> str:
     """Several tests as CSV, a row a method and step size; methods without a result have none."""
-    tests = [([entry.file, entry.name], entry.result) for entry in entries if entry.result is not None]
+    tests = [
+        ([entry.file, entry.name], entry.result) for entry in entries if entry.result is not None
+    ]
     return _written(tests, ["file", "method"], with_work)
 
 
 def _written(tests: Sequence[tuple[list[str], Result]], first: list[str], with_work: bool) -> str:
     text = io.StringIO()
     writer = csv.writer(text, lineterminator="\n")
-    writer.writerow([*first, *_columns(tests[0][1] if tests else None), *(_WORK if with_work else ())])
+    writer.writerow(
+        [*first, *_columns(tests[0][1] if tests else None), *(_WORK if with_work else ())]
+    )
     for cells, result in tests:
         for row in result.rows:
             writer.writerow([*cells, *_cells(row), *(_work_cells(row.cost) if with_work else ())])
@@ -186,6 +197,6 @@ def _cells(row: Row) -> list[str]:
 
 def _work_cells(cost: Cost | None) -> list[str]:
     values = (_work(cost) or {}).values()
-    return ["" if x is None else f"{x:.4g}" if isinstance(x, float) else str(x) for x in values] or [""] * len(
-        _WORK
-    )
+    return [
+        "" if x is None else f"{x:.4g}" if isinstance(x, float) else str(x) for x in values
+    ] or [""] * len(_WORK)

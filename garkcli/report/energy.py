@@ -7,10 +7,10 @@ import io
 import json
 from typing import Any
 
-from garkcli.dynamics.courses import Course, LongRun
-from garkcli.dynamics.energy import Drift
-from garkcli.dynamics.hamiltonian import Hamiltonian
 from garkcli.exact.display import to_decimal, to_float
+from garkcli.longtime.courses import Course, LongRun
+from garkcli.longtime.energy import Drift
+from garkcli.problems.hamiltonian import Hamiltonian
 from garkcli.report.convergence import describe
 from garkcli.report.energy_text import Report, text_of
 from garkcli.report.paint import Paint
@@ -57,7 +57,10 @@ def _data(report: Report) -> dict[str, Any]:
 
 def _problem(run: LongRun) -> dict[str, Any]:
     if isinstance(run.problem, Hamiltonian):
-        return {"problem": run.problem.name, "hamiltonian": [str(term) for term in run.problem.terms]}
+        return {
+            "problem": run.problem.name,
+            "hamiltonian": [str(term) for term in run.problem.terms],
+        }
     shares = [[str(k), str(v)] for k, v in run.problem.shares]
     return {"problem": "oscillator", "omega": str(run.problem.omega), "split": shares}
 
@@ -82,7 +85,8 @@ def _symplectic_data(report: Report) -> dict[str, Any]:
     if report.run.stability is not None:
         found["determinant_minus_1"] = to_decimal(report.run.stability.determinant - 1, 4)
     found["defects"] = [
-        {"t": to_float(x.time), "size": x.size, "good_to": x.error} for x in report.symplecticity.defects
+        {"t": to_float(x.time), "size": x.size, "good_to": x.error}
+        for x in report.symplecticity.defects
     ]
     return found
 

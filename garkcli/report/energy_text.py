@@ -4,12 +4,12 @@ from __future__ import annotations
 
 from dataclasses import dataclass
 
-from garkcli.dynamics.courses import Course, LongRun
-from garkcli.dynamics.hamiltonian import FLOAT_DIGITS
-from garkcli.dynamics.stability import Stability
-from garkcli.dynamics.symplecticity import Symplecticity
-from garkcli.dynamics.trend import LEAST
 from garkcli.exact.display import to_decimal
+from garkcli.longtime.courses import Course, LongRun
+from garkcli.longtime.stability import Stability
+from garkcli.longtime.symplecticity import Symplecticity
+from garkcli.longtime.trend import LEAST
+from garkcli.problems.hamiltonian import FLOAT_DIGITS
 from garkcli.report.bandplot import terminal_band
 from garkcli.report.convergence import describe
 from garkcli.report.paint import Paint
@@ -52,7 +52,10 @@ class Report:
 def text_of(report: Report, paint: Paint, is_long: bool = True) -> list[str]:
     """The lines of the report; a long one ends with a plot of the energy error."""
     run = report.run
-    lines = [paint("strong", report.name), *(f"  {line}" for line in _wrapped(describe(run.problem)))]
+    lines = [
+        paint("strong", report.name),
+        *(f"  {line}" for line in _wrapped(describe(run.problem))),
+    ]
     lines += [f"  step {run.step} to t = {run.t_end}: {_steps(run)}", ""]
     for course in run.courses:
         lines += [*_course(course, run, paint), ""]
@@ -64,12 +67,24 @@ def text_of(report: Report, paint: Paint, is_long: bool = True) -> list[str]:
         lines.append(f"  {verdict}      {x.claim}" + ("" if x.holds else f", found: {x.found}"))
     energy = run.courses[0]
     if is_long and energy.max_error > 0:
-        lines += ["", *(f"  {x}" for x in terminal_band(run.times, energy.errors, "H(t) − H(0)").splitlines())]
+        lines += [
+            "",
+            *(
+                f"  {x}"
+                for x in terminal_band(run.times, energy.errors, "H(t) − H(0)").splitlines()
+            ),
+        ]
     return lines
 
 
 def _steps(run: LongRun) -> str:
-    how = "exact" if run.digits is None else "in floats" if run.digits <= FLOAT_DIGITS else f"{run.digits} digits"
+    how = (
+        "exact"
+        if run.digits is None
+        else "in floats"
+        if run.digits <= FLOAT_DIGITS
+        else f"{run.digits} digits"
+    )
     return f"{run.steps} steps, {how}"
 
 
@@ -82,12 +97,22 @@ def _course(course: Course, run: LongRun, paint: Paint) -> list[str]:
         rows.append(("  oscillation", f"± {course.amplitude:.2e}"))
         if course.drift is not None:
             rows.append(("  drift", _drift(course, run.end)))
-    style = {"bounded": "good", "exact": "good", "round-off": "good", "drifts": "bad", "unstable": "bad"}
+    style = {
+        "bounded": "good",
+        "exact": "good",
+        "round-off": "good",
+        "drifts": "bad",
+        "unstable": "bad",
+    }
     word, reason = _verdict(course, run)
     lines = [f"  {left:<{width}}{right}" for left, right in rows]
     first, *rest = _wrapped(f"{word}{reason}", 76 - width)
     first = first.replace(word, paint(style.get(course.verdict, "strong"), word), 1)
-    return [*lines, f"  {'  verdict':<{width}}{first}", *(f"  {'':<{width}}{line}" for line in rest)]
+    return [
+        *lines,
+        f"  {'  verdict':<{width}}{first}",
+        *(f"  {'':<{width}}{line}" for line in rest),
+    ]
 
 
 def _drift(course: Course, time: float) -> str:
@@ -106,7 +131,11 @@ def _verdict(course: Course, run: LongRun) -> tuple[str, str]:
         case "round-off" if not course.round_off:
             return "no error", " at all"
         case "round-off":
-            more = f"; --digits {2 * run.digits} shows more" if run.digits and run.digits <= 100 else ""
+            more = (
+                f"; --digits {2 * run.digits} shows more"
+                if run.digits and run.digits <= 100
+                else ""
+            )
             return "no error", f" above round-off, at most {course.round_off:.0e} here{more}"
         case "unstable":
             end = run.end
@@ -143,14 +172,19 @@ def _symplectic(report: Report, paint: Paint) -> list[str]:
     found, stability = report.symplecticity, report.run.stability
     if found.is_proved:
         word = f"{paint('good', 'yes')}, by its coefficients"
-    elif any(x.is_seen for x in found.defects) or (stability is not None and not stability.is_symplectic):
+    elif any(x.is_seen for x in found.defects) or (
+        stability is not None and not stability.is_symplectic
+    ):
         word = paint("strong", "no")
     else:
         is_hinted = stability is None and not found.defects
         word = "not proved by its coefficients" + "; --symplecticity measures" * is_hinted
     lines = [f"  symplectic       {word}"]
     if stability is not None:
-        lines.append(f"  {'':<17}det R(h) − 1 = {_determinant(stability)}" + ", exactly" * stability.is_symplectic)
+        lines.append(
+            f"  {'':<17}det R(h) − 1 = {_determinant(stability)}"
+            + ", exactly" * stability.is_symplectic
+        )
     return [*lines, *(f"  {'':<17}{line}" for line in _measured(found))]
 
 
@@ -161,7 +195,9 @@ def _measured(found: Symplecticity) -> list[str]:
     if any(x.is_seen for x in found.defects):
         size = f"MᵀJM − J has entries up to {largest.size:.3e}, good to {largest.error:.0e},"
     else:
-        size = f"MᵀJM − J is below {max(x.error for x in found.defects):.0e}, what it is measured to,"
+        size = (
+            f"MᵀJM − J is below {max(x.error for x in found.defects):.0e}, what it is measured to,"
+        )
     return [size, *_wrapped("at t = " + ", ".join(str(x.time) for x in found.defects), 59)]
 
 

@@ -5,10 +5,10 @@ from __future__ import annotations
 from collections.abc import Sequence
 from typing import Any
 
+from garkcli.check.outcome import Outcome
 from garkcli.exact.display import to_text
 from garkcli.order.blame import Blame, Repair
 from garkcli.order.constants import ErrorConstants, Norms
-from garkcli.order.outcome import Outcome
 from garkcli.report.paint import Paint
 from garkcli.tableau.tableau import Tableau
 from garkcli.trees.notation import format_tree
@@ -20,10 +20,14 @@ def blame_lines(blame: Blame, tableau: Tableau, paint: Paint) -> list[str]:
     failing = f"{blame.failing} of the {blame.total} conditions of order {blame.order} fail"
     if blame.total == 1:
         failing = f"the one condition of order {blame.order} fails"
-    coupling = ", all of them coupling conditions" if blame.only_coupling and tableau.size > 1 else ""
+    coupling = (
+        ", all of them coupling conditions" if blame.only_coupling and tableau.size > 1 else ""
+    )
     lines = [f"  {paint('note', 'hint')}: {failing}{coupling}"]
     if blame.culprit is not None and tableau.size > 1:
-        lines.append(f"        {_block(blame.culprit, names)} takes part in every one of them: look there first")
+        lines.append(
+            f"        {_block(blame.culprit, names)} takes part in every one of them: look there first"
+        )
     elif len(blame.in_every) > 1:
         lines.append(f"        in every one of them: {_blocks(blame.in_every, names)}")
     if blame.in_none:
@@ -51,7 +55,9 @@ def _place(repair: Repair, names: Sequence[str]) -> str:
 
 
 def constants_lines(constants: ErrorConstants, colours: bool) -> list[str]:
-    """The error constants for people; ``colours`` where there are several, so that trees show theirs."""
+    """The error constants for people; ``colours`` where there are several, so that trees show
+    theirs.
+    """
     how = "exact" if constants.is_exact else "in floats"
     lines = [f"  error coefficients of order {constants.order} ({how})"]
     kinds = [("all trees", constants.all), ("coupling trees", constants.coupling)]
@@ -91,7 +97,9 @@ def hints_data(outcome: Outcome) -> dict[str, Any]:
 def _repair(repair: Repair) -> dict[str, Any]:
     weights = repair.m is None or repair.i is None
     place = {
-        "b" if weights else "A": [repair.l + 1] if repair.m is None else [repair.l + 1, repair.m + 1],
+        "b" if weights else "A": [repair.l + 1]
+        if repair.m is None
+        else [repair.l + 1, repair.m + 1],
         "row": None if repair.i is None else repair.i + 1,
         "entry": repair.j + 1,
     }

@@ -1,4 +1,6 @@
-"""What the LaTeX reports share: the preamble they need, and a document that compiles as it stands."""
+"""What the LaTeX reports share: the preamble they need, and a document that compiles as it
+stands.
+"""
 
 from __future__ import annotations
 

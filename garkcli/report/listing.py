@@ -35,7 +35,9 @@ def render(
         lines += ["", paint("strong", title)]
         for name, summary in entries.items():
             lines.append(
-                f"  {name:<{width}}{summary}" if len(summary) + width < 78 else f"  {name}\n      {summary}"
+                f"  {name:<{width}}{summary}"
+                if len(summary) + width < 78
+                else f"  {name}\n      {summary}"
             )
     lines += ["", "A problem of your own is a file: --problem FILE.yaml, see docs/problem-file.md."]
     return "\n".join(lines) + "\n"

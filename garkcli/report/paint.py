@@ -36,7 +36,9 @@ class Paint:
         import re
 
         return re.sub(
-            "●([0-9]+)", lambda dot: f"\x1b[{_DOTS[(int(dot[1]) - 1) % len(_DOTS)]}m{dot[0]}\x1b[0m", line
+            "●([0-9]+)",
+            lambda dot: f"\x1b[{_DOTS[(int(dot[1]) - 1) % len(_DOTS)]}m{dot[0]}\x1b[0m",
+            line,
         )
 
     def verdict(self, holds: bool, yes: str = "yes", no: str = "no") -> str:
@@ -52,12 +54,16 @@ def aligned(rows: Sequence[Sequence[str]], gap: str = "  ", right: bool = True) 
     """
     widths = [max(len(row[j]) for row in rows) for j in range(len(rows[0]))] if rows else []
     place = str.rjust if right else str.ljust
-    return [gap.join(place(x, w) for x, w in zip(row, widths, strict=True)).rstrip() for row in rows]
+    return [
+        gap.join(place(x, w) for x, w in zip(row, widths, strict=True)).rstrip() for row in rows
+    ]
 
 
 def beside(left: Sequence[str], right: Sequence[str], gap: str = "   ") -> list[str]:
     """Two blocks of lines next to each other."""
     width = max((len(line) for line in left), default=0)
     height = max(len(left), len(right))
-    rows = zip([*left, *[""] * (height - len(left))], [*right, *[""] * (height - len(right))], strict=True)
+    rows = zip(
+        [*left, *[""] * (height - len(left))], [*right, *[""] * (height - len(right))], strict=True
+    )
     return [f"{a.ljust(width)}{gap}{b}".rstrip() for a, b in rows]

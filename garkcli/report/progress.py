@@ -39,7 +39,13 @@ def tracked(items: Iterable[T], total: int | None, what: str, wanted: bool = Tru
 
 def _with_bar(items: Iterator[T], total: int | None, done: int, what: str) -> Iterator[T]:
     from rich.console import Console
-    from rich.progress import BarColumn, MofNCompleteColumn, Progress, TextColumn, TimeRemainingColumn
+    from rich.progress import (
+        BarColumn,
+        MofNCompleteColumn,
+        Progress,
+        TextColumn,
+        TimeRemainingColumn,
+    )
 
     columns = (TextColumn(what), BarColumn(), MofNCompleteColumn(), TimeRemainingColumn())
     with Progress(*columns, console=Console(stderr=True), transient=True) as progress:
@@ -55,7 +61,8 @@ def _with_bar(items: Iterator[T], total: int | None, done: int, what: str) -> It
 
 @contextmanager
 def watching(wanted: bool = True) -> Iterator[Callable[[str, int, int], None]]:
-    """A function to be told what is being done, how much of it is, and of how much: it shows that as one bar.
+    """A function to be told what is being done, how much of it is, and of how much: it shows that
+    as one bar.
 
     The bar appears once all of it has taken longer than ``PATIENCE``, and goes away at the end.
 
@@ -88,7 +95,12 @@ class _Bar:
             from rich.console import Console
             from rich.progress import BarColumn, MofNCompleteColumn, Progress, TextColumn
 
-            columns = (TextColumn("{task.description}"), BarColumn(), MofNCompleteColumn(), TextColumn("steps"))
+            columns = (
+                TextColumn("{task.description}"),
+                BarColumn(),
+                MofNCompleteColumn(),
+                TextColumn("steps"),
+            )
             self.progress = Progress(*columns, console=Console(stderr=True), transient=True)
             self.task = self.progress.add_task(what, total=total)
             self.progress.start()

@@ -1,4 +1,6 @@
-"""The independent conditions of symplectic methods: which they are, how many, and the reports on their trees."""
+"""The independent conditions of symplectic methods: which they are, how many, and the reports on
+their trees.
+"""
 
 from __future__ import annotations
 
@@ -68,7 +70,9 @@ class Subject:
             independent = [count_classes(self.structure, n) for n in self.orders]
         else:  # a tableau that lacks blocks
             independent = [sum(1 for _ in self._of_order(n)) for n in self.orders]
-        return tuple((n, k, sum(every[n - 1])) for n, k in zip(self.orders, independent, strict=True))
+        return tuple(
+            (n, k, sum(every[n - 1])) for n, k in zip(self.orders, independent, strict=True)
+        )
 
     @property
     def _admissible(self) -> Admissible:
@@ -114,7 +118,11 @@ class Subject:
     @property
     def legend(self) -> str:
         """What the numbers of the colours mean; empty where there is one colour."""
-        return f"colours: {', '.join(f'{l} {x}' for l, x in enumerate(self.names, 1))}" if self.has_colours else ""
+        return (
+            f"colours: {', '.join(f'{l} {x}' for l, x in enumerate(self.names, 1))}"
+            if self.has_colours
+            else ""
+        )
 
     @property
     def summary(self) -> str:
@@ -157,16 +165,20 @@ def subject_of_kind(kind: Kind, terms: int | None, orders: range) -> Subject:
     try:
         structure = structure_of(kind, terms)
     except ValueError as error:
-        raise UsageProblem(f"--colours {terms}: {error}", "leave out --colours, or choose another --kind") from None
+        raise UsageProblem(
+            f"--colours {terms}: {error}", "leave out --colours, or choose another --kind"
+        ) from None
     names = tuple(f"{_LETTERS[part]}{term + 1}" for term, part in structure.colours)
     return Subject(kind, structure, names, orders)
 
 
 def subject_of_method(tableau: Tableau, orders: range) -> Subject:
-    """One method: a partitioned one or its own conjugate as it stands, of any other the symplectic pair.
+    """One method: a partitioned one or its own conjugate as it stands, of any other the symplectic
+    pair.
 
     Raises:
-        UsageProblem: a partitioned method that is not symplectic, or linear in positions or in momenta only.
+        UsageProblem: a partitioned method that is not symplectic, or linear in positions or in
+            momenta only.
         ZeroWeight: the pair would divide by zero.
     """
     from garkcli.tableau.conjugate import is_symplectic
@@ -183,7 +195,9 @@ def subject_of_method(tableau: Tableau, orders: range) -> Subject:
     for (term, _), x in natures:
         if term in quadratic and not x.is_linear:
             message = f"colour {x.name} is not linear, as the other colour of its stages is"
-            raise UsageProblem(message, "such a term of the Hamiltonian has no classes; make both linear or none")
+            raise UsageProblem(
+                message, "such a term of the Hamiltonian has no classes; make both linear or none"
+            )
     structure = Structure(colours, quadratic)
     names = tuple(x.name for x in tableau.colours)
     return Subject(_kind(structure), structure, names, orders, tableau)
@@ -192,7 +206,9 @@ def subject_of_method(tableau: Tableau, orders: range) -> Subject:
 def _kind(structure: Structure) -> Kind:
     if not structure.is_directed:
         return "self-conjugate"
-    return next((kind for kind in KINDS if kind in _PROBLEMS and structure_of(kind) == structure), "pair")
+    return next(
+        (kind for kind in KINDS if kind in _PROBLEMS and structure_of(kind) == structure), "pair"
+    )
 
 
 def _not_symplectic(tableau: Tableau) -> UsageProblem:
@@ -201,7 +217,9 @@ def _not_symplectic(tableau: Tableau) -> UsageProblem:
         reason = "positions and momenta have different weights at the same stages"
         return UsageProblem(f"the method is not symplectic: {reason}", "give both the same weights")
     reason = "its momentum blocks are not the conjugates of its position blocks"
-    return UsageProblem(f"the method is not symplectic: {reason}", "with --pair they become the conjugates")
+    return UsageProblem(
+        f"the method is not symplectic: {reason}", "with --pair they become the conjugates"
+    )
 
 
 def render_classes(
@@ -265,7 +283,9 @@ def legend_lines(subject: Subject, width: int = WIDTH) -> Iterator[str]:
 
 def _wrapped(text: str, width: int, indent: str = "") -> list[str]:
     """Lines of whole words; numbers of hundreds of digits stay whole too."""
-    return wrap(text, width, subsequent_indent=indent, break_long_words=False, break_on_hyphens=False)
+    return wrap(
+        text, width, subsequent_indent=indent, break_long_words=False, break_on_hyphens=False
+    )
 
 
 def member_lines(members: Iterable[str], width: int = WIDTH) -> list[str]:
@@ -301,7 +321,9 @@ def _data(subject: Subject, tree: ConditionClass, with_members: bool) -> dict[st
     return data
 
 
-def _text(subject: Subject, classes: Iterable[ConditionClass], paint: Paint, with_members: bool) -> Iterator[str]:
+def _text(
+    subject: Subject, classes: Iterable[ConditionClass], paint: Paint, with_members: bool
+) -> Iterator[str]:
     yield from legend_lines(subject)
     for order, group in groupby(classes, key=lambda tree: tree.order):
         yield paint("strong", f"order {order}") + "\n"

@@ -1,4 +1,6 @@
-"""``gark tableau`` and ``gark conjugate`` as JSON: exact strings, with floats of the same shape beside them."""
+"""``gark tableau`` and ``gark conjugate`` as JSON: exact strings, with floats of the same shape
+beside them.
+"""
 
 from __future__ import annotations
 
@@ -36,7 +38,10 @@ def _mapped(entries: Entries, change: Callable[[Cell], Any]) -> dict[str, Any]:
     return {
         "c": [[change(x) for x in row] for row in entries.c],
         "A": [
-            [None if block is None else [[change(x) for x in row] for row in block] for block in row]
+            [
+                None if block is None else [[change(x) for x in row] for row in block]
+                for block in row
+            ]
             for row in entries.A
         ],
         "b": [[change(x) for x in row] for row in entries.b],

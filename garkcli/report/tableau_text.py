@@ -20,10 +20,14 @@ def cell_text(cell: Cell, digits: int) -> str:
 
 
 def readable(entries: Entries) -> Entries:
-    """The entries of a method with rounded coefficients for people: fractions longer than decimals as decimals."""
+    """The entries of a method with rounded coefficients for people: fractions longer than decimals
+    as decimals.
+    """
 
     def short(cell: Cell) -> Cell:
-        if isinstance(cell, arb) or len(to_text(cell)) <= entries.digits + 3:  # a sign, a zero and a point
+        if (
+            isinstance(cell, arb) or len(to_text(cell)) <= entries.digits + 3
+        ):  # a sign, a zero and a point
             return cell
         return to_ball(cell, entries.digits)
 
@@ -31,7 +35,8 @@ def readable(entries: Entries) -> Entries:
         entries,
         c=tuple(tuple(map(short, row)) for row in entries.c),
         A=tuple(
-            tuple(block and tuple(tuple(map(short, row)) for row in block) for block in row) for row in entries.A
+            tuple(block and tuple(tuple(map(short, row)) for row in block) for block in row)
+            for row in entries.A
         ),
         b=tuple(tuple(map(short, row)) for row in entries.b),
     )
@@ -79,13 +84,18 @@ def _grid(tableau: Tableau, entries: Entries) -> list[str]:
             block = entries.A[l][m]
             height = len(entries.c[l])
             absent = [["."] * stages] * height
-            rows += absent if block is None else [[cell_text(x, digits) for x in row] for row in block]
+            rows += (
+                absent if block is None else [[cell_text(x, digits) for x in row] for row in block]
+            )
         rows.append([cell_text(x, digits) for x in entries.b[m]])
         lines = aligned(rows)
         lines[0] = tableau.colours[m].name
         texts.append(lines)
     widths = [max(map(len, text)) for text in texts]
-    body = [" | ".join(t[i].rjust(w) for t, w in zip(texts, widths, strict=True)) for i in range(len(texts[0]))]
+    body = [
+        " | ".join(t[i].rjust(w) for t, w in zip(texts, widths, strict=True))
+        for i in range(len(texts[0]))
+    ]
     rule = "-+-".join("-" * w for w in widths)
     out = [body[0], rule]
     start = 1

@@ -86,7 +86,9 @@ def render_counts(query: Query, counts: Counts, format: str, paint: Paint) -> It
             continue
         yield f"order {n}: {paint('strong', total)}\n"
         if query.colours > 1:
-            yield from (f"  root colour {root}: {count}\n" for root, count in _roots(query, by_root))
+            yield from (
+                f"  root colour {root}: {count}\n" for root, count in _roots(query, by_root)
+            )
 
 
 def _roots(query: Query, by_root: Sequence[int]) -> list[tuple[int, int]]:
@@ -143,7 +145,9 @@ def _counted(query: Query, rows: Sequence[TreeRow]) -> Counts:
     return [(n, tuple(by_root)) for n, by_root in found.items() if query.upto or n == query.order]
 
 
-def _text(query: Query, rows: Iterable[TreeRow], counts: Counts | None, paint: Paint) -> Iterator[str]:
+def _text(
+    query: Query, rows: Iterable[TreeRow], counts: Counts | None, paint: Paint
+) -> Iterator[str]:
     many = query.colours > 1
     for (n, root), group in groupby(rows, key=lambda row: (row.order, row.root)):
         heading = f"order {n}" + (f", root colour {root + 1}" if many else "")

@@ -8,12 +8,22 @@ from __future__ import annotations
 from dataclasses import replace
 
 from garkcli.errors import ZeroWeight
-from garkcli.exact.matrix import Matrix, SingularMatrixError, Vector, add, outer, subtract, transpose
+from garkcli.exact.matrix import (
+    Matrix,
+    SingularMatrixError,
+    Vector,
+    add,
+    outer,
+    subtract,
+    transpose,
+)
 from garkcli.tableau.stages import StageSpace
 from garkcli.tableau.tableau import Colour, Tableau
 
 
-def conjugate_block(block: Matrix, here: StageSpace, b: Vector, other: StageSpace, b_other: Vector) -> Matrix:
+def conjugate_block(
+    block: Matrix, here: StageSpace, b: Vector, other: StageSpace, b_other: Vector
+) -> Matrix:
     """Â^{l,m} from A^{m,l}, with l ``here`` and m the ``other`` colour.
 
     Args:
@@ -42,8 +52,8 @@ def conjugate_block(block: Matrix, here: StageSpace, b: Vector, other: StageSpac
 def conjugate(tableau: Tableau) -> Tableau:
     """The symplectic conjugate (Â^{l,m}, b, c); conjugated again it is ``tableau``.
 
-    For a partitioned tableau (A, Â) it is the partitioned tableau of the conjugates: the momentum blocks come
-    from the position blocks and the other way round.
+    For a partitioned tableau (A, Â) it is the partitioned tableau of the conjugates: the momentum
+    blocks come from the position blocks and the other way round.
 
     Raises:
         ZeroWeight: a conjugate would divide by zero.
@@ -84,9 +94,9 @@ def _are_opposite(one: Colour, other: Colour) -> bool:
 def is_symplectic(tableau: Tableau) -> bool:
     """Whether b_i b_j = b_i a_{ij} + b_j a_{ji} between all colours that the symplectic form pairs.
 
-    For a GARK tableau: it is its own conjugate. For a partitioned one: its momentum blocks are the conjugates
-    of its position blocks, with the same weights where positions and momenta share stages. No weight is
-    divided by.
+    For a GARK tableau: it is its own conjugate. For a partitioned one: its momentum blocks are the
+    conjugates of its position blocks, with the same weights where positions and momenta share
+    stages. No weight is divided by.
     """
     for l, one in enumerate(tableau.colours):
         for m, other in enumerate(tableau.colours):
@@ -104,7 +114,9 @@ def _is_symplectic_between(tableau: Tableau, l: int, m: int) -> bool:
 
 
 def symplectic_defect(tableau: Tableau, l: int, m: int) -> Matrix:
-    """B^l A^{l,m} + (A^{m,l})ᵀ B^m − b_l b_mᵀ as a bilinear form on the spaces of l and m; both blocks exist."""
+    """B^l A^{l,m} + (A^{m,l})ᵀ B^m − b_l b_mᵀ as a bilinear form on the spaces of l and m; both
+    blocks exist.
+    """
     forth, back = tableau.block(l, m), tableau.block(m, l)
     if forth is None or back is None:
         raise KeyError((l, m))

@@ -1,4 +1,6 @@
-"""Every kind of method as one tableau: RK, GARK, ARK, PRK, the symplectic pair and its special cases."""
+"""Every kind of method as one tableau: RK, GARK, ARK, PRK, the symplectic pair and its special
+cases.
+"""
 
 from __future__ import annotations
 
@@ -15,8 +17,12 @@ from garkcli.tableau.tableau import Colour, Part, Tableau
 
 
 def gark(methods: Sequence[Method], transfer: Mapping[tuple[int, int], Matrix]) -> Tableau:
-    """The tableau with the diagonal ``methods`` and the off-diagonal blocks ``transfer[l, m]``, eq. (GARK)."""
-    colours = tuple(Colour(str(l + 1), l, method.b, method.c, l) for l, method in enumerate(methods))
+    """The tableau with the diagonal ``methods`` and the off-diagonal blocks ``transfer[l, m]``, eq.
+    (GARK).
+    """
+    colours = tuple(
+        Colour(str(l + 1), l, method.b, method.c, l) for l, method in enumerate(methods)
+    )
     diagonal = {(l, l): method.A for l, method in enumerate(methods)}
     return Tableau(tuple(method.space for method in methods), colours, diagonal | dict(transfer))
 
@@ -27,12 +33,19 @@ def spelled_out(
     c: Sequence[Vector | None],
     linear: Iterable[int] = (),
 ) -> Tableau:
-    """A GARK tableau block by block; missing nodes are the row sums of A^{l,l}, or of the first block there."""
+    """A GARK tableau block by block; missing nodes are the row sums of A^{l,l}, or of the first
+    block there.
+    """
     linear = frozenset(linear)
-    nodes = [given if given is not None else _row_sums(l, A[l], len(b[l])) for l, given in enumerate(c)]
-    blocks = {(l, m): block for l, row in enumerate(A) for m, block in enumerate(row) if block is not None}
+    nodes = [
+        given if given is not None else _row_sums(l, A[l], len(b[l])) for l, given in enumerate(c)
+    ]
+    blocks = {
+        (l, m): block for l, row in enumerate(A) for m, block in enumerate(row) if block is not None
+    }
     colours = tuple(
-        Colour(str(l + 1), l, weights, nodes[l], l, is_linear=l in linear) for l, weights in enumerate(b)
+        Colour(str(l + 1), l, weights, nodes[l], l, is_linear=l in linear)
+        for l, weights in enumerate(b)
     )
     return Tableau(tuple(PointSpace(points) for points in nodes), colours, blocks)
 
@@ -60,11 +73,14 @@ def partitioned(q: Method, p: Method) -> Tableau:
     )
 
 
-def separable_prk(q: tuple[Matrix, Vector, Vector | None], p: tuple[Matrix, Vector, Vector | None]) -> Tableau:
-    """A partitioned method for q̇ = V(p), ṗ = F(q), each part given as (A, b, c); blocks may be rectangular.
+def separable_prk(
+    q: tuple[Matrix, Vector, Vector | None], p: tuple[Matrix, Vector, Vector | None]
+) -> Tableau:
+    """A partitioned method for q̇ = V(p), ṗ = F(q), each part given as (A, b, c); blocks may be
+    rectangular.
 
-    The rows of q.A are the positions at which forces are evaluated, so q.c are the nodes of the force colour,
-    and the rows of p.A, with nodes p.c, those of the velocity colour.
+    The rows of q.A are the positions at which forces are evaluated, so q.c are the nodes of the
+    force colour, and the rows of p.A, with nodes p.c, those of the velocity colour.
     """
     (A_q, b_q, c_q), (A_p, b_p, c_p) = q, p
     at_momenta = c_p if c_p is not None else _row_sums(0, [A_p], len(b_q))
@@ -84,10 +100,12 @@ def with_linear(tableau: Tableau, names: Iterable[str]) -> Tableau:
 
 
 def symplectic_pair(tableau: Tableau, velocities: Sequence[int], forces: Sequence[int]) -> Tableau:
-    """The pair (Q, P) of a GARK tableau Q and its conjugate P, for the vector fields that the problem has.
+    """The pair (Q, P) of a GARK tableau Q and its conjugate P, for the vector fields that the
+    problem has.
 
-    Colours V^l for l in ``velocities`` and F^l for l in ``forces``; V^l and F^l have the same stages. An l in one
-    of the two only is a Hamiltonian of p alone or of q alone, whose stages need the other part only:
+    Colours V^l for l in ``velocities`` and F^l for l in ``forces``; V^l and F^l have the same
+    stages. An l in one of the two only is a Hamiltonian of p alone or of q alone, whose stages need
+    the other part only:
 
     ========================  =====================  ======================================
     velocities, forces        structure              blocks
@@ -107,7 +125,9 @@ def symplectic_pair(tableau: Tableau, velocities: Sequence[int], forces: Sequenc
     row = {l: k for k, l in enumerate(used)}
 
     def colour(name: str, l: int, part: Part) -> Colour:
-        return replace(tableau.colours[l], name=f"{name}{tableau.colours[l].name}", rows=row[l], part=part)
+        return replace(
+            tableau.colours[l], name=f"{name}{tableau.colours[l].name}", rows=row[l], part=part
+        )
 
     V = [colour("V", l, "q") for l in velocities]
     F = [colour("F", l, "p") for l in forces]
@@ -126,8 +146,8 @@ def symplectic_pair(tableau: Tableau, velocities: Sequence[int], forces: Sequenc
 def pair(tableau: Tableau) -> Tableau:
     """The symplectic pair (Q, P), eq. (varGARK): 2N colours V¹…Vᴺ, F¹…Fᴺ.
 
-    A tableau that is partitioned already keeps its position blocks, and its momentum blocks become their
-    conjugates.
+    A tableau that is partitioned already keeps its position blocks, and its momentum blocks become
+    their conjugates.
 
     Raises:
         ZeroWeight: a conjugate would divide by zero.

@@ -1,7 +1,8 @@
-"""A tableau entry by entry, as it is printed: in radicals where the nodes have simple ones, else in decimals.
+"""A tableau entry by entry, as it is printed: in radicals where the nodes have simple ones, else in
+decimals.
 
-A block of a polynomial space has the entries A_{ij} = (A L_j)(c_i), L_j the Lagrange polynomials of the nodes;
-with the Vandermonde matrices V of the nodes that is V_l A V_m⁻¹.
+A block of a polynomial space has the entries A_{ij} = (A L_j)(c_i), L_j the Lagrange polynomials of
+the nodes; with the Vandermonde matrices V of the nodes that is V_l A V_m⁻¹.
 """
 
 from __future__ import annotations
@@ -46,7 +47,9 @@ class Entries:
 
 
 def entries(tableau: Tableau, digits: int = 17) -> Entries:
-    """All entries: exact where every colour's nodes are rational or quadratic, enclosures otherwise."""
+    """All entries: exact where every colour's nodes are rational or quadratic, enclosures
+    otherwise.
+    """
     exact = in_points(tableau)
     return numeric_entries(tableau, digits) if exact is None else _listed(exact, digits)
 
@@ -63,7 +66,8 @@ def _listed(tableau: Tableau, digits: int) -> Entries:
 
 
 def simple_nodes(space: PolynomialSpace) -> tuple[Expression, ...] | None:
-    """The nodes in ascending order, as expressions with at most a square root each; None if they need more.
+    """The nodes in ascending order, as expressions with at most a square root each; None if they
+    need more.
 
     >>> from garkcli.families.registry import diagonal_method
     >>> from garkcli.exact.rewriting import format_expression
@@ -93,7 +97,9 @@ def _position(node: Expression) -> float:
 
 
 def method_in_points(method: Method, nodes: Vector) -> Method:
-    """A family's method with one coordinate a stage, its nodes given as exact numbers in ascending order."""
+    """A family's method with one coordinate a stage, its nodes given as exact numbers in ascending
+    order.
+    """
     space = PointSpace(nodes)
     V, inverse = space.reductions(space.stages), space.lifts()
     A = multiply(V, multiply(method.A, inverse))
@@ -106,7 +112,9 @@ def in_points(tableau: Tableau) -> Tableau | None:
     Nor have they, where together with the coefficients they generate too large a field.
     """
     polynomial = {
-        k: simple_nodes(space) for k, space in enumerate(tableau.spaces) if isinstance(space, PolynomialSpace)
+        k: simple_nodes(space)
+        for k, space in enumerate(tableau.spaces)
+        if isinstance(space, PolynomialSpace)
     }
     if any(nodes is None for nodes in polynomial.values()):
         return None
@@ -210,7 +218,9 @@ def _numeric(tableau: Tableau, digits: int) -> Entries:
 
     colours = tableau.colours
     return Entries(
-        c=tuple(tuple((frames[x.rows][0] * _to_arb([[y] for y in x.c])).entries()) for x in colours),
+        c=tuple(
+            tuple((frames[x.rows][0] * _to_arb([[y] for y in x.c])).entries()) for x in colours
+        ),
         A=tuple(tuple(block(l, m) for m in range(tableau.size)) for l in range(tableau.size)),
         b=tuple(tuple((_to_arb([x.b]) * frames[x.rows][1]).entries()) for x in colours),
         is_exact=False,
@@ -228,12 +238,15 @@ def _numeric_frame(space: StageSpace) -> tuple[arb_mat, arb_mat]:
 
 
 def powers_of_nodes(space: PolynomialSpace) -> arb_mat:
-    """The Vandermonde matrix of the nodes, a row for each in ascending order, at the current precision."""
+    """The Vandermonde matrix of the nodes, a row for each in ascending order, at the current
+    precision.
+    """
     return _powers_of_nodes(space, ctx.prec)
 
 
 def coordinates_at_nodes(space: PolynomialSpace) -> arb_mat:
-    """The inverse of the Vandermonde matrix: values at the nodes to coordinates, at the current precision.
+    """The inverse of the Vandermonde matrix: values at the nodes to coordinates, at the current
+    precision.
 
     Raises:
         ZeroDivisionError: the precision is too small.

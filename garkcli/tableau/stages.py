@@ -1,11 +1,12 @@
 """Stage spaces: the algebra in which the stage values of one method live.
 
-Two models of the same thing. ``PointSpace`` is K^s with componentwise multiplication: one number a stage.
-``PolynomialSpace`` is ℚ[x]/(M), M the node polynomial: for the Gauss, Radau and Lobatto families M is rational
-although the nodes are not, so nothing in it ever needs a root. Evaluation at the nodes identifies the two.
+Two models of the same thing. ``PointSpace`` is K^s with componentwise multiplication: one number a
+stage. ``PolynomialSpace`` is ℚ[x]/(M), M the node polynomial: for the Gauss, Radau and Lobatto
+families M is rational although the nodes are not, so nothing in it ever needs a root. Evaluation at
+the nodes identifies the two.
 
-A *vector* is a tuple of s coordinates, a *functional* a tuple of s coordinates in the dual basis, a block a
-matrix that acts on coordinates.
+A *vector* is a tuple of s coordinates, a *functional* a tuple of s coordinates in the dual basis, a
+block a matrix that acts on coordinates.
 """
 
 from __future__ import annotations
@@ -68,7 +69,8 @@ class StageSpace(ABC):
 
     @abstractmethod
     def lifts(self) -> Matrix:
-        """Coordinates to the polynomial of degree < s they stand for, lowest coefficient first, (s, s).
+        """Coordinates to the polynomial of degree < s they stand for, lowest coefficient first, (s,
+        s).
 
         Raises:
             CoincidingNodes: two nodes are equal.
@@ -90,14 +92,18 @@ class StageSpace(ABC):
         """Which of the weights are zero, in words; one of them is."""
 
     def form(self, weights: Vector, block: Matrix) -> Matrix:
-        """The bilinear form (f, g) ↦ weights(f ⊙ A g), with a row for each f, of a block A that leads to here.
+        """The bilinear form (f, g) ↦ weights(f ⊙ A g), with a row for each f, of a block A that
+        leads to here.
 
         At points this is B A.
         """
         return multiply(self.gram(weights), block)
 
-    def adjoint(self, block: Matrix, weights: Vector, source: StageSpace, source_weights: Vector) -> Matrix:
-        """The map A* from here to ``source`` with ⟨A f, g⟩ = ⟨f, A* g⟩, for a block A from ``source`` to here.
+    def adjoint(
+        self, block: Matrix, weights: Vector, source: StageSpace, source_weights: Vector
+    ) -> Matrix:
+        """The map A* from here to ``source`` with ⟨A f, g⟩ = ⟨f, A* g⟩, for a block A from
+        ``source`` to here.
 
         At points this is B_source⁻¹ Aᵀ B_here.
 
@@ -142,7 +148,12 @@ class PointSpace(StageSpace):
         try:
             return solve(self.reductions(self.stages), identity(self.stages))
         except SingularMatrixError:
-            i, j = next((i, j) for j in range(self.stages) for i in range(j) if self.points[i] == self.points[j])
+            i, j = next(
+                (i, j)
+                for j in range(self.stages)
+                for i in range(j)
+                if self.points[i] == self.points[j]
+            )
             raise CoincidingNodes(
                 f"nodes c_{i + 1} and c_{j + 1} are both {self.points[i]}: no interpolation through them",
                 "spell the blocks out, or choose a method with distinct nodes",
@@ -155,7 +166,9 @@ class PointSpace(StageSpace):
     def form(self, weights: Vector, block: Matrix) -> Matrix:
         return tuple(tuple(w * a for a in row) for w, row in zip(weights, block, strict=True))
 
-    def adjoint(self, block: Matrix, weights: Vector, source: StageSpace, source_weights: Vector) -> Matrix:
+    def adjoint(
+        self, block: Matrix, weights: Vector, source: StageSpace, source_weights: Vector
+    ) -> Matrix:
         if not isinstance(source, PointSpace):
             return super().adjoint(block, weights, source, source_weights)
         if not all(source_weights):
@@ -169,7 +182,9 @@ class PointSpace(StageSpace):
 
 @dataclass(frozen=True)
 class PolynomialSpace(StageSpace):
-    """ℚ[x]/(M) with the basis 1, x, …, x^(s−1); M is monic with s distinct real roots, the nodes."""
+    """ℚ[x]/(M) with the basis 1, x, …, x^(s−1); M is monic with s distinct real roots, the
+    nodes.
+    """
 
     modulus: fmpq_poly
 
@@ -242,10 +257,14 @@ class PolynomialSpace(StageSpace):
         return f"which are 0 at the nodes where {nodes} = 0"
 
     def _nodes_with_weight(self, weights: Vector) -> fmpq_poly:
-        """The monic polynomial g with the nodes of nonzero weight as its roots: b(x^i g) = 0 for all i."""
+        """The monic polynomial g with the nodes of nonzero weight as its roots: b(x^i g) = 0 for
+        all i.
+        """
         gram = to_flint(self.gram(weights), self.stages)
         degree = gram.rank()
-        square = fmpq_mat(degree, degree, [gram[i, j] for i in range(degree) for j in range(degree)])
+        square = fmpq_mat(
+            degree, degree, [gram[i, j] for i in range(degree) for j in range(degree)]
+        )
         column = fmpq_mat(degree, 1, [-gram[i, degree] for i in range(degree)])
         return fmpq_poly([*square.solve(column).entries(), fmpq(1)])
 
@@ -273,4 +292,6 @@ def integral(moments: int) -> Vector:
 
 def integration(degree: int) -> Matrix:
     """The map f ↦ ∫_0^x f on polynomials of degree < ``degree``, shape (degree + 1, degree)."""
-    return tuple(tuple(fmpq(1, i) if i == j + 1 else ZERO for j in range(degree)) for i in range(degree + 1))
+    return tuple(
+        tuple(fmpq(1, i) if i == j + 1 else ZERO for j in range(degree)) for i in range(degree + 1)
+    )

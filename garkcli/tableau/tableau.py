@@ -13,7 +13,9 @@ from garkcli.exact.matrix import Matrix, Vector
 from garkcli.tableau.stages import StageSpace
 
 Part: TypeAlias = Literal["y", "q", "p"]
-"""The part of the unknowns that a colour's vector field drives: all of them, positions, or momenta."""
+"""The part of the unknowns that a colour's vector field drives: all of them, positions, or
+momenta.
+"""
 
 
 @dataclass(frozen=True)
@@ -47,7 +49,8 @@ class Tableau:
         spaces: the stage spaces.
         colours: the vector fields, in the order of the file.
         blocks: ``blocks[k, m]`` maps stage values of colour m to increments in space k, shape
-            (stages of space k, stages of colour m). No entry: the stages of space k do not see colour m.
+            (stages of space k, stages of colour m). No entry: the stages of space k do not see
+            colour m.
 
     Errors:
         ShapeMismatch: a block or a row of weights of the wrong size.

@@ -1,4 +1,6 @@
-"""The trees of one order in blocks of bounded size: for streaming, and for those with given colours only."""
+"""The trees of one order in blocks of bounded size: for streaming, and for those with given colours
+only.
+"""
 
 from __future__ import annotations
 
@@ -28,7 +30,8 @@ MAX_USING = 62
 class Block:
     """Some trees of one order, following each other in the table unless they were selected.
 
-    ``columns`` hold the trees, whose parents' ids are those of ``lower``, the table of the orders below.
+    ``columns`` hold the trees, whose parents' ids are those of ``lower``, the table of the orders
+    below.
     """
 
     columns: Columns
@@ -44,7 +47,10 @@ class Block:
     def trees(self) -> Iterator[Tree]:
         """The trees, one after the other."""
         rows = zip(
-            self.columns.stem.tolist(), self.columns.branch.tolist(), self.columns.root.tolist(), strict=True
+            self.columns.stem.tolist(),
+            self.columns.branch.tolist(),
+            self.columns.root.tolist(),
+            strict=True,
         )
         for stem, branch, root in rows:
             if branch < 0:
@@ -63,9 +69,9 @@ def iter_blocks(
 ) -> Iterator[Block]:
     """All trees of one order, in the order of the table, in blocks of at most ``block_size`` trees.
 
-    Only the lower orders are held in memory. ``roots``: the root colours wanted, from 0, all by default;
-    ``edges`` and ``linear`` as in :class:`Admissible`. Raises :class:`TableTooLarge` when the lower orders
-    are too many, ``ValueError`` for a block size below 1.
+    Only the lower orders are held in memory. ``roots``: the root colours wanted, from 0, all by
+    default; ``edges`` and ``linear`` as in :class:`Admissible`. Raises :class:`TableTooLarge` when
+    the lower orders are too many, ``ValueError`` for a block size below 1.
 
     >>> sum(len(block) for block in iter_blocks(2, 5))
     214
@@ -97,11 +103,12 @@ def select(
     edges: Edges | None = None,
     linear: Collection[int] = (),
 ) -> Iterator[Block]:
-    """The trees of one order with a given root colour, or made of given colours; colours count from 0.
+    """The trees of one order with a given root colour, or made of given colours; colours count from
+    0.
 
-    ``only``: no vertex has another colour than these (the others are not generated); ``using``: each of
-    these colours occurs. Blocks are never empty. Raises ``ValueError`` for a colour that does not exist,
-    and what :func:`iter_blocks` raises, both when the first block is asked for.
+    ``only``: no vertex has another colour than these (the others are not generated); ``using``:
+    each of these colours occurs. Blocks are never empty. Raises ``ValueError`` for a colour that
+    does not exist, and what :func:`iter_blocks` raises, both when the first block is asked for.
 
     >>> [u for block in select(2, 3, root=0, using=[1]) for u in block.notation()]
     ['[[]_1,[]_2]_1', '[[]_2,[]_2]_1', '[[[]_2]_1]_1', '[[[]_1]_2]_1', '[[[]_2]_2]_1']

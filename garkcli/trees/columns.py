@@ -1,8 +1,10 @@
-"""The columns of the tree table and how they grow: all N-trees of an order from two smaller ones each.
+"""The columns of the tree table and how they grow: all N-trees of an order from two smaller ones
+each.
 
-Every tree with two vertices or more is uniquely u = stem ∘ branch: the branch is the last one of the root,
-the one with the largest id. For a given stem the admissible branches of one order and root colour are a
-contiguous range of ids, so that a whole order is made with ``repeat`` and ``arange``.
+Every tree with two vertices or more is uniquely u = stem ∘ branch: the branch is the last one of
+the root, the one with the largest id. For a given stem the admissible branches of one order and
+root colour are a contiguous range of ids, so that a whole order is made with ``repeat`` and
+``arange``.
 """
 
 from __future__ import annotations
@@ -18,7 +20,9 @@ if TYPE_CHECKING:
 Column: TypeAlias = "np.ndarray[tuple[int], np.dtype[Any]]"
 
 LAST_INT64_ORDER = 20
-"""γ ≤ n! and σ ≤ (n - 1)!, and 20! < 2⁶³ < 21!; beyond, the columns σ and γ hold Python integers."""
+"""γ ≤ n! and σ ≤ (n - 1)!, and 20! < 2⁶³ < 21!; beyond, the columns σ and γ hold Python
+integers.
+"""
 
 
 def exact_dtype(order: int) -> DTypeLike:
@@ -30,10 +34,10 @@ def exact_dtype(order: int) -> DTypeLike:
 class Columns:
     """Trees as columns of equal length, one entry a tree.
 
-    ``stem``, ``branch``: the ids of the two parents, -1 for a single vertex; ``root``: the root colour,
-    from 0; ``order``: ρ(u); ``multiplicity``: how often the last branch occurs at the root (0 for a single
-    vertex); ``sigma``: the symmetry σ(u); ``gamma``: the density γ(u). σ and γ are exact: int64 up to
-    order 20, Python integers beyond.
+    ``stem``, ``branch``: the ids of the two parents, -1 for a single vertex; ``root``: the root
+    colour, from 0; ``order``: ρ(u); ``multiplicity``: how often the last branch occurs at the root
+    (0 for a single vertex); ``sigma``: the symmetry σ(u); ``gamma``: the density γ(u). σ and γ are
+    exact: int64 up to order 20, Python integers beyond.
     """
 
     stem: Column
@@ -96,8 +100,8 @@ class Columns:
 class Segment:
     """The trees of one order and root colour whose last branch has one order and root colour.
 
-    They follow each other in the table at ``ids``; ``stems`` and ``branches`` are the ranges of ids that
-    the parents come from.
+    They follow each other in the table at ``ids``; ``stems`` and ``branches`` are the ranges of ids
+    that the parents come from.
     """
 
     order: int
@@ -112,8 +116,8 @@ class Segment:
 class Growth:
     """The trees of one segment to be, counted at once and made in pieces as large as asked for.
 
-    ``lower``: the columns of all trees of lower order, at least; ``stems``, ``branches``: the ids of the
-    possible parents, of one order and root colour each.
+    ``lower``: the columns of all trees of lower order, at least; ``stems``, ``branches``: the ids
+    of the possible parents, of one order and root colour each.
     """
 
     def __init__(self, lower: Columns, order: int, stems: range, branches: range) -> None:
@@ -143,13 +147,17 @@ class Growth:
         stems = slice(self.stems.start + i, self.stems.start + j)
         branch = np.repeat(begin - heads, count)
         branch += np.arange(stop - start)
-        again = np.flatnonzero((begin == self._last[i:j]) & (count > 0))  # the stem's last branch once more
+        again = np.flatnonzero(
+            (begin == self._last[i:j]) & (count > 0)
+        )  # the stem's last branch once more
         exact = exact_dtype(order)
         multiplicity = np.ones(stop - start, np.int16)
         multiplicity[heads[again]] += lower.multiplicity[stems][again]
         sigma = np.repeat(lower.sigma[stems].astype(exact, copy=False), count) * lower.sigma[branch]
         sigma[heads[again]] *= multiplicity[heads[again]]
-        stem_gamma = lower.gamma[stems].astype(exact, copy=False) // int(lower.order[stems.start]) * order
+        stem_gamma = (
+            lower.gamma[stems].astype(exact, copy=False) // int(lower.order[stems.start]) * order
+        )
         return Columns(
             stem=np.repeat(np.arange(stems.start, stems.stop), count),
             branch=branch,

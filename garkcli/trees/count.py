@@ -5,12 +5,12 @@ counted from trees by the Euler transform: for a forest whose trees have the cou
 
     n f(n) = Σ_{k=1..n} c(k) f(n - k),      c(k) = Σ_{d | k} d t(d),      f(0) = 1.
 
-The t(n) that c(n) needs is a sum of f(n - 1), so the convolution is one of sequences that are still growing. It is
-taken in blocks, of half the orders, a quarter, and so on, each a product of polynomials: O(M(n) log n) with M(n)
-the time of a product.
+The t(n) that c(n) needs is a sum of f(n - 1), so the convolution is one of sequences that are still
+growing. It is taken in blocks, of half the orders, a quarter, and so on, each a product of
+polynomials: O(M(n) log n) with M(n) the time of a product.
 
-Source: Harary and Palmer, *Graphical Enumeration* (1973), chapter 3; Butcher, *B-Series* (2021), chapter 2; van der
-Hoeven, "Relax, but don't be too lazy", J. Symb. Comput. 34 (2002) 479.
+Source: Harary and Palmer, *Graphical Enumeration* (1973), chapter 3; Butcher, *B-Series* (2021),
+chapter 2; van der Hoeven, "Relax, but don't be too lazy", J. Symb. Comput. 34 (2002) 479.
 """
 
 from __future__ import annotations
@@ -27,15 +27,18 @@ if TYPE_CHECKING:
 SHORT = 48
 """Orders in a block that is done one by one: products of polynomials this short gain nothing."""
 Edges: TypeAlias = "Sequence[Sequence[bool]]"
-"""``edges[l][m]``: a vertex of colour l may carry a branch whose root has colour m; colours from 0."""
+"""``edges[l][m]``: a vertex of colour l may carry a branch whose root has colour m; colours from
+0.
+"""
 
 
 @dataclass(frozen=True)
 class Admissible:
     """Which N-trees are meant: the colours, the edges between them, and the linear colours.
 
-    ``branches[l]`` are the colours, in increasing order, that may stand on a vertex of colour l. A vertex
-    of a linear colour carries one branch at most: its vector field is linear in what it sees.
+    ``branches[l]`` are the colours, in increasing order, that may stand on a vertex of colour l. A
+    vertex of a linear colour carries one branch at most: its vector field is linear in what it
+    sees.
     """
 
     colours: int
@@ -43,10 +46,13 @@ class Admissible:
     linear: frozenset[int]
 
     @classmethod
-    def of(cls, colours: int, edges: Edges | None = None, linear: Collection[int] = ()) -> Admissible:
+    def of(
+        cls, colours: int, edges: Edges | None = None, linear: Collection[int] = ()
+    ) -> Admissible:
         """Check and freeze; no ``edges`` means every edge.
 
-        Raises ``ValueError`` when ``edges`` is not a colours × colours matrix or a colour does not exist.
+        Raises ``ValueError`` when ``edges`` is not a colours × colours matrix or a colour does not
+        exist.
         """
         if colours < 1:
             raise ValueError(f"an N-tree needs at least one colour, not {colours}")
@@ -55,11 +61,15 @@ class Admissible:
             rows = (everything,) * colours
         else:
             if len(edges) != colours or any(len(row) != colours for row in edges):
-                raise ValueError(f"edges must be a {colours} by {colours} matrix, one row for each colour")
+                raise ValueError(
+                    f"edges must be a {colours} by {colours} matrix, one row for each colour"
+                )
             rows = tuple(tuple(m for m in everything if row[m]) for row in edges)
         strangers = [colour for colour in linear if not 0 <= colour < colours]
         if strangers:
-            raise ValueError(f"linear colour {strangers[0]} is not one of the {colours} colours 0, 1, …")
+            raise ValueError(
+                f"linear colour {strangers[0]} is not one of the {colours} colours 0, 1, …"
+            )
         return cls(colours, rows, frozenset(linear))
 
     def is_linear(self, colour: int) -> bool:
@@ -68,15 +78,19 @@ class Admissible:
 
     @property
     def leaders(self) -> tuple[int, ...]:
-        """For each colour the first on which the same branches may stand: the trees differ in their roots only."""
+        """For each colour the first on which the same branches may stand: the trees differ in their
+        roots only.
+        """
         first: dict[tuple[tuple[int, ...], bool], int] = {}
         return tuple(
-            first.setdefault((row, colour in self.linear), colour) for colour, row in enumerate(self.branches)
+            first.setdefault((row, colour in self.linear), colour)
+            for colour, row in enumerate(self.branches)
         )
 
 
 def counts_upto(admissible: Admissible, order: int) -> list[tuple[int, ...]]:
-    """``counts[n - 1][l]``: the number of admissible trees of order n with root colour l, n = 1, …, order.
+    """``counts[n - 1][l]``: the number of admissible trees of order n with root colour l, n = 1, …,
+    order.
 
     >>> counts_upto(Admissible.of(2, [[False, True], [True, True]]), 3)
     [(1, 1), (1, 2), (3, 6)]
@@ -108,7 +122,9 @@ def _forests(admissible: Admissible, leaders: Sequence[int], order: int) -> dict
         raise ValueError(f"the order of a tree is at least 1, not {order}")
     growing = {
         leader: _Growing(
-            order, Counter(leaders[m] for m in admissible.branches[leader]), leader in admissible.linear
+            order,
+            Counter(leaders[m] for m in admissible.branches[leader]),
+            leader in admissible.linear,
         )
         for leader in dict.fromkeys(leaders)
     }
@@ -135,11 +151,16 @@ class _Growing:
         self.f = [fmpz(1)]
         self.t = [fmpz(0)]  # the trees of each order that may be branches
         self.c = [fmpz(0)] * order  # the sums c(n), complete up to the last t
-        self.sums = [fmpz(0)] * order  # the part of Σ c(k) f(n - k), 0 < k < n, of blocks that are done
+        self.sums = [
+            fmpz(0)
+        ] * order  # the part of Σ c(k) f(n - k), 0 < k < n, of blocks that are done
 
     def see(self, n: int, growing: dict[int, _Growing]) -> None:
         """Note the trees of order n, each a root on a forest of n - 1 vertices."""
-        t = sum((many * growing[leader].f[n - 1] for leader, many in self.branches.items()), start=fmpz(0))
+        t = sum(
+            (many * growing[leader].f[n - 1] for leader, many in self.branches.items()),
+            start=fmpz(0),
+        )
         self.t.append(t)
         if not self.is_linear:
             for multiple in range(n, len(self.c), n):
@@ -153,7 +174,9 @@ class _Growing:
         f, c = self.f, self.c
         total = self.sums[n] + c[n]
         if start:
-            total += sum((c[k] * f[n - k] + f[k] * c[n - k] for k in range(start, n)), start=fmpz(0))
+            total += sum(
+                (c[k] * f[n - k] + f[k] * c[n - k] for k in range(start, n)), start=fmpz(0)
+            )
         else:
             total += sum((c[k] * f[n - k] for k in range(1, n)), start=fmpz(0))
         f.append(total // n)
@@ -161,9 +184,10 @@ class _Growing:
     def spread(self, end: int, block: int) -> None:
         """Add to the sums of later orders what the blocks before ``end`` give to them.
 
-        ``end`` is the middle of one interval [start, stop) among those that halve [0, 2^k block). Every pair of
-        orders i and j = n - i has one interval where max(i, j) lies in the first half and n in the second; so it
-        is counted once. Unless the interval begins at 0, j is below its length, hence below ``start``.
+        ``end`` is the middle of one interval [start, stop) among those that halve [0, 2^k block).
+        Every pair of orders i and j = n - i has one interval where max(i, j) lies in the first half
+        and n in the second; so it is counted once. Unless the interval begins at 0, j is below its
+        length, hence below ``start``.
         """
         half = (end // block & -(end // block)) * block
         start, stop = end - half, min(end + half, len(self.c))
@@ -172,14 +196,18 @@ class _Growing:
         f, c = self.f, self.c
         if start:
             near = stop - start
-            product = fmpz_poly(f[start:end]) * fmpz_poly(c[:near]) + fmpz_poly(c[start:end]) * fmpz_poly(f[:near])
+            product = fmpz_poly(f[start:end]) * fmpz_poly(c[:near]) + fmpz_poly(
+                c[start:end]
+            ) * fmpz_poly(f[:near])
         else:
             product = fmpz_poly(f) * fmpz_poly(c[:end])
         for n, coefficient in zip(range(end, stop), product.coeffs()[half:], strict=False):
             self.sums[n] += coefficient
 
 
-def count_trees(colours: int, order: int, edges: Edges | None = None, linear: Collection[int] = ()) -> int:
+def count_trees(
+    colours: int, order: int, edges: Edges | None = None, linear: Collection[int] = ()
+) -> int:
     """The number of N-trees of one order.
 
     >>> [count_trees(1, n) for n in range(1, 9)]

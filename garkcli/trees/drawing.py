@@ -1,4 +1,6 @@
-"""Pictures of trees, the root at the bottom as Butcher draws them: terminal text, an SVG sheet, TikZ."""
+"""Pictures of trees, the root at the bottom as Butcher draws them: terminal text, an SVG sheet,
+TikZ.
+"""
 
 from __future__ import annotations
 
@@ -23,8 +25,8 @@ PALETTE = (
 )
 """A fill for each colour, told apart by every kind of colour vision, and the ink legible on it.
 
-Source: Okabe and Ito, *Color Universal Design* (2008). From the ninth colour on the fills repeat; the
-numbers do not.
+Source: Okabe and Ito, *Color Universal Design* (2008). From the ninth colour on the fills repeat;
+the numbers do not.
 """
 
 DOT = "●"
@@ -44,9 +46,11 @@ class Vertex(NamedTuple):
 
 
 def layout(tree: Tree) -> list[Vertex]:
-    """Place every vertex, the root first, parents before branches; ``parent`` is an index, -1 for the root.
+    """Place every vertex, the root first, parents before branches; ``parent`` is an index, -1 for
+    the root.
 
-    Leaves are one unit apart; a vertex with branches is in the middle of the first and the last of them.
+    Leaves are one unit apart; a vertex with branches is in the middle of the first and the last of
+    them.
 
     >>> from garkcli.trees.tree import Tree
     >>> layout(Tree(0, [Tree(1), Tree(1)]))[0]
@@ -70,7 +74,8 @@ def layout(tree: Tree) -> list[Vertex]:
 
 
 def draw_text(tree: Tree, colours: bool = True, width: int = 80) -> list[str]:
-    r"""Lines of text, from top to bottom: upright where it fits into ``width``, else lying on its side.
+    r"""Lines of text, from top to bottom: upright where it fits into ``width``, else lying on its
+    side.
 
     A vertex is a dot followed by its colour, from 1; ``colours=False`` leaves the number out.
 
@@ -132,11 +137,13 @@ def _lying(tree: Tree, colours: bool) -> list[str]:
     return lines
 
 
-def draw_svg_sheet(trees: Sequence[Tree], captions: Sequence[str] | None = None, columns: int = 6) -> str:
+def draw_svg_sheet(
+    trees: Sequence[Tree], captions: Sequence[str] | None = None, columns: int = 6
+) -> str:
     """An SVG document with the trees in rows of ``columns``, beneath each its caption, σ and γ.
 
-    The dots carry the colours' numbers, from 1, and fills of :data:`PALETTE`. ``captions``: a line of text
-    for each tree. Raises ``ValueError`` when there are not as many captions as trees.
+    The dots carry the colours' numbers, from 1, and fills of :data:`PALETTE`. ``captions``: a line
+    of text for each tree. Raises ``ValueError`` when there are not as many captions as trees.
     """
     if captions is not None and len(captions) != len(trees):
         raise ValueError(f"{len(captions)} captions for {len(trees)} trees; give each tree one")
@@ -150,7 +157,9 @@ def draw_svg_sheet(trees: Sequence[Tree], captions: Sequence[str] | None = None,
         wide = max(v.x for v in vertices) * STEP_X + 2 * RADIUS
         text = max(map(len, lines[k])) * CHARACTER
         widths[k % columns] = max(widths[k % columns], wide + 2 * MARGIN, text + 2 * MARGIN)
-        heights[k // columns] = max(heights[k // columns], max(v.y for v in vertices) * STEP_Y + 2 * RADIUS)
+        heights[k // columns] = max(
+            heights[k // columns], max(v.y for v in vertices) * STEP_Y + 2 * RADIUS
+        )
     foot = CAPTION_STEP * max((len(text) for text in lines), default=0) + 2 * MARGIN
     body = []
     for k, vertices in enumerate(placed):
@@ -183,8 +192,12 @@ def _svg_tree(vertices: Sequence[Vertex], middle: float, ground: float) -> list[
     lines.append("</g>")
     for v, (x, y) in zip(vertices, points, strict=True):
         fill, ink = PALETTE[v.colour % len(PALETTE)]
-        lines.append(f'<circle cx="{x:.1f}" cy="{y:.1f}" r="{RADIUS}" fill="{fill}" stroke="#333333"/>')
-        lines.append(f'<text x="{x:.1f}" y="{y + 4.3:.1f}" font-weight="bold" fill="{ink}">{v.colour + 1}</text>')
+        lines.append(
+            f'<circle cx="{x:.1f}" cy="{y:.1f}" r="{RADIUS}" fill="{fill}" stroke="#333333"/>'
+        )
+        lines.append(
+            f'<text x="{x:.1f}" y="{y + 4.3:.1f}" font-weight="bold" fill="{ink}">{v.colour + 1}</text>'
+        )
     return lines
 
 
@@ -198,7 +211,8 @@ def _svg_caption(lines: Sequence[str], middle: float, top: float) -> list[str]:
 
 
 def tikz(tree: Tree, scale: float = 0.6, colours: bool = True) -> str:
-    r"""A ``tikzpicture`` of plain nodes with coordinates in units of ``scale`` cm; needs ``tikz`` only.
+    r"""A ``tikzpicture`` of plain nodes with coordinates in units of ``scale`` cm; needs ``tikz``
+    only.
 
     Without ``colours`` the vertices are plain black dots, at half the scale.
 
@@ -211,7 +225,9 @@ def tikz(tree: Tree, scale: float = 0.6, colours: bool = True) -> str:
     lines = [rf"\begin{{tikzpicture}}[x={scale:g}cm,y={scale:g}cm,baseline=(v0.base)]"]
     for k, v in enumerate(vertices):
         fill, ink = (_tikz_colour(value) for value in PALETTE[v.colour % len(PALETTE)])
-        style = f"circle,draw,inner sep=0pt,minimum size=4mm,font=\\scriptsize,fill={fill},text={ink}"
+        style = (
+            f"circle,draw,inner sep=0pt,minimum size=4mm,font=\\scriptsize,fill={fill},text={ink}"
+        )
         label = str(v.colour + 1)
         if not colours:
             style, label = "circle,fill,inner sep=0pt,minimum size=1.2mm", ""

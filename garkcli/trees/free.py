@@ -25,14 +25,16 @@ _PARTNER: dict[Part, Part] = {"y": "y", "q": "p", "p": "q"}
 class Structure:
     """The colours of a symplectic tableau and how a tree's root moves among them.
 
-    A vertex of the free tree is a term H^{l} of the split; a colour is a term together with what it drives.
-    Below a vertex of term l hangs ``(m, "q")``, V^m, through A^{l,m} or ``(m, "p")``, F^m, through Â^{l,m}.
-    With the root moved across that edge the upper vertex hangs below as ``(l, "p")`` or ``(l, "q")``, so an
-    edge needs both vector fields: the stages of H^{l} see V^m only if there is a force F^l to use it.
+    A vertex of the free tree is a term H^{l} of the split; a colour is a term together with what it
+    drives. Below a vertex of term l hangs ``(m, "q")``, V^m, through A^{l,m} or ``(m, "p")``, F^m,
+    through Â^{l,m}. With the root moved across that edge the upper vertex hangs below as ``(l,
+    "p")`` or ``(l, "q")``, so an edge needs both vector fields: the stages of H^{l} see V^m only if
+    there is a force F^l to use it.
 
     Attributes:
         colours: for each colour of the tableau its term, any number, and its part.
-        quadratic: terms H^{l} of degree two, whose vector fields are linear: two edges at a vertex at most.
+        quadratic: terms H^{l} of degree two, whose vector fields are linear: two edges at a vertex
+            at most.
 
     >>> Structure(((0, "q"), (1, "p"))).admissible.branches
     ((1,), (0,))
@@ -53,7 +55,9 @@ class Structure:
     def pair(
         cls, velocities: Collection[int], forces: Collection[int], quadratic: Collection[int] = ()
     ) -> Structure:
-        """The pair (A, Â) with V^l for l in ``velocities`` and F^l for l in ``forces``, in this order."""
+        """The pair (A, Â) with V^l for l in ``velocities`` and F^l for l in ``forces``, in this
+        order.
+        """
         V: list[tuple[int, Part]] = [(l, "q") for l in velocities]
         F: list[tuple[int, Part]] = [(l, "p") for l in forces]
         return cls((*V, *F), frozenset(quadratic))
@@ -65,7 +69,9 @@ class Structure:
 
     @property
     def is_directed(self) -> bool:
-        """Whether the edges of the free trees have a direction: from l to m for A^{l,m}, back for Â^{l,m}."""
+        """Whether the edges of the free trees have a direction: from l to m for A^{l,m}, back for
+        Â^{l,m}.
+        """
         return any(part != "y" for _, part in self.colours)
 
     @cached_property
@@ -84,16 +90,22 @@ class Structure:
     def admissible(self) -> Admissible:
         """The rooted trees that have an order condition."""
         everything = range(len(self.colours))
-        edges = [[self._turned(above, below) is not None for below in everything] for above in everything]
+        edges = [
+            [self._turned(above, below) is not None for below in everything] for above in everything
+        ]
         linear = [colour for colour, (term, _) in enumerate(self.colours) if term in self.quadratic]
         return Admissible.of(len(self.colours), edges, linear)
 
     def _turned(self, above: int, below: int) -> int | None:
-        """The colour of the upper vertex once the root has moved below it; None where there is no edge."""
+        """The colour of the upper vertex once the root has moved below it; None where there is no
+        edge.
+        """
         return self._number.get((self.colours[above][0], _PARTNER[self.colours[below][1]]))
 
     def is_forward(self, colour: int) -> bool:
-        """Whether an edge down to this colour points down: through A, not through the conjugate Â."""
+        """Whether an edge down to this colour points down: through A, not through the conjugate
+        Â.
+        """
         return self.colours[colour][1] != "p"
 
     def lead(self, tree: Tree) -> Tree:
@@ -102,7 +114,9 @@ class Structure:
         return tree if leader == tree.root else Tree(leader, tree.branches)
 
     def twins(self, tree: Tree) -> Iterator[Tree]:
-        """The tree with every colour that its root may have: V^l and F^l share stages and weights."""
+        """The tree with every colour that its root may have: V^l and F^l share stages and
+        weights.
+        """
         term = self.colours[tree.root][0]
         for colour, (other, _) in enumerate(self.colours):
             if other == term:
@@ -126,7 +140,9 @@ class Structure:
         while waiting:
             here, onward = waiting.pop()
             yield here
-            waiting.extend((self.move_root(here, here.branches.index(u)), u.branches) for u in onward)
+            waiting.extend(
+                (self.move_root(here, here.branches.index(u)), u.branches) for u in onward
+            )
 
     def is_admissible(self, tree: Tree) -> bool:
         """Whether every edge exists and no linear vector field has two branches."""
@@ -155,10 +171,14 @@ class Structure:
 
 @dataclass(frozen=True)
 class Grower:
-    """Lists the free trees of a structure by their centroids, each once; keeps trees of half the order only."""
+    """Lists the free trees of a structure by their centroids, each once; keeps trees of half the
+    order only.
+    """
 
     structure: Structure
-    _planted: dict[tuple[int, int], tuple[Tree, ...]] = field(default_factory=dict, repr=False, compare=False)
+    _planted: dict[tuple[int, int], tuple[Tree, ...]] = field(
+        default_factory=dict, repr=False, compare=False
+    )
 
     def one_centroid(self, root: int, order: int) -> Iterator[Tree]:
         """The free trees with one centroid, rooted there, in the order of trees."""
@@ -167,9 +187,13 @@ class Grower:
             yield Tree(root, branches)
 
     def two_centroids(self, root: int, order: int) -> Iterator[Tree]:
-        """The free trees with two centroids, two halves that differ, rooted as ``Structure.centred`` does."""
+        """The free trees with two centroids, two halves that differ, rooted as
+        ``Structure.centred`` does.
+        """
         for colour in self.structure.admissible.branches[root] if order % 2 == 0 else ():
-            if not self.structure.is_forward(colour) or (colour < root and not self.structure.is_directed):
+            if not self.structure.is_forward(colour) or (
+                colour < root and not self.structure.is_directed
+            ):
                 continue
             halves = self.planted(colour, order // 2)
             for position, u in enumerate(self.planted(root, order // 2)):
@@ -178,7 +202,9 @@ class Grower:
                     yield Tree(root, (*u.branches, v))
 
     def planted(self, root: int, order: int) -> tuple[Tree, ...]:
-        """The rooted trees that may hang below a vertex, or be half of a tree, in the order of trees."""
+        """The rooted trees that may hang below a vertex, or be half of a tree, in the order of
+        trees.
+        """
         key = (order, root)
         if key not in self._planted:
             edges = 1 if self.structure.admissible.is_linear(root) else order
@@ -186,8 +212,12 @@ class Grower:
             self._planted[key] = tuple(Tree(root, branches) for branches in forests)
         return self._planted[key]
 
-    def _forests(self, root: int, total: int, largest: int, edges: int) -> Iterator[tuple[Tree, ...]]:
-        """The branches that a root may have: ``total`` vertices, ``largest`` and ``edges`` at most."""
+    def _forests(
+        self, root: int, total: int, largest: int, edges: int
+    ) -> Iterator[tuple[Tree, ...]]:
+        """The branches that a root may have: ``total`` vertices, ``largest`` and ``edges`` at
+        most.
+        """
         colours = self.structure.admissible.branches[root]
         for outline in _outlines(total, (largest, max(colours, default=0)), colours, edges):
             groups = [(kind, len(list(alike))) for kind, alike in groupby(reversed(outline))]
@@ -202,7 +232,9 @@ class Grower:
 def _outlines(
     total: int, bound: tuple[int, int], colours: Sequence[int], edges: int
 ) -> Iterator[tuple[tuple[int, int], ...]]:
-    """Orders and colours of the branches, the last branch first, each at most ``bound``, in lexicographic order."""
+    """Orders and colours of the branches, the last branch first, each at most ``bound``, in
+    lexicographic order.
+    """
     if total == 0:
         yield ()
     elif edges > 0:

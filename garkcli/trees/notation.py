@@ -1,7 +1,8 @@
 """Trees and their order conditions in text: bracket notation read and written, plain and LaTeX.
 
-A tree is its branches in brackets, then its root's colour: ``[[]_2,[]_2]_1``. Text counts colours from 1,
-code from 0; this module converts. Larger branches are written first, as the paper does in its Table 1.
+A tree is its branches in brackets, then its root's colour: ``[[]_2,[]_2]_1``. Text counts colours
+from 1, code from 0; this module converts. Larger branches are written first, as the paper does in
+its Table 1.
 """
 
 from __future__ import annotations
@@ -19,19 +20,25 @@ MAX_LENGTH = 20_000
 MAX_VERTICES = 1000
 """Vertices of a tree in text; σ and γ then stay below the 4300 digits that Python writes."""
 MAX_DEPTH = 150
-"""Vertices on a path from the root to a leaf; keeps every recursion over trees far from Python's limit."""
+"""Vertices on a path from the root to a leaf; keeps every recursion over trees far from Python's
+limit.
+"""
 MAX_COLOUR = 32_767
 """The largest colour number in text: what the columns of the tree table can hold."""
 
 LETTERS = "lmnuvwxyzpqrst"
-"""Names for the vertices of a shape, in the paper's order; beyond them the same again with primes."""
+"""Names for the vertices of a shape, in the paper's order; beyond them the same again with
+primes.
+"""
 
 _BLANK = re.compile(r"\s*")
 _DIGITS = re.compile(r"[0-9]*")
 
 
 class NotationError(ValueError):
-    """A text that is not a tree: ``message`` what is wrong, ``help`` the cure, ``offset`` where (from 0)."""
+    """A text that is not a tree: ``message`` what is wrong, ``help`` the cure, ``offset`` where
+    (from 0).
+    """
 
     def __init__(self, message: str, help: str, offset: int) -> None:  # noqa: A002 -- the word users see
         super().__init__(f"{message} at character {offset + 1}; {help}")
@@ -41,10 +48,12 @@ class NotationError(ValueError):
 
 
 def parse_tree(text: str) -> Tree:
-    """Read a tree in bracket notation; blanks are free, and colours may be left out everywhere (all 1).
+    """Read a tree in bracket notation; blanks are free, and colours may be left out everywhere (all
+    1).
 
-    Raises :class:`NotationError` with the offset of the fault, also for a text longer than ``MAX_LENGTH``,
-    with more vertices than ``MAX_VERTICES``, deeper than ``MAX_DEPTH`` or with a colour beyond ``MAX_COLOUR``.
+    Raises :class:`NotationError` with the offset of the fault, also for a text longer than
+    ``MAX_LENGTH``, with more vertices than ``MAX_VERTICES``, deeper than ``MAX_DEPTH`` or with a
+    colour beyond ``MAX_COLOUR``.
 
     >>> parse_tree("[[]_2, []_2]_1")
     Tree(0, [Tree(1), Tree(1)])
@@ -73,7 +82,9 @@ class _Reader:
             if self._next() == "[" and not stack[-1]:
                 self._open(stack)
                 continue
-            self._take("]", "',' or ']' is missing", "branches are separated by commas and closed by ']'")
+            self._take(
+                "]", "',' or ']' is missing", "branches are separated by commas and closed by ']'"
+            )
             branches = stack.pop()
             tree = Tree(self._colour(), branches)
             if not stack:
@@ -94,7 +105,9 @@ class _Reader:
             raise NotationError("the tree is too deep", cure, at)
         self.vertices += 1
         if self.vertices > MAX_VERTICES:
-            raise NotationError("the tree is too large", f"at most {MAX_VERTICES} vertices are read", at)
+            raise NotationError(
+                "the tree is too large", f"at most {MAX_VERTICES} vertices are read", at
+            )
         stack.append([])
 
     def _next(self) -> str:
@@ -126,21 +139,28 @@ class _Reader:
         digits = _DIGITS.match(self.text, self.position)
         number = digits.group() if digits else ""
         if not number:
-            raise NotationError("a colour is missing after '_'", "colours are numbers from 1", self.position)
+            raise NotationError(
+                "a colour is missing after '_'", "colours are numbers from 1", self.position
+            )
         if len(number) > len(str(MAX_COLOUR)) or not 1 <= int(number) <= MAX_COLOUR:
-            raise NotationError("no such colour", f"colours are numbers from 1 to {MAX_COLOUR}", self.position)
+            raise NotationError(
+                "no such colour", f"colours are numbers from 1 to {MAX_COLOUR}", self.position
+            )
         self.position += len(number)
         self._next()
         return int(number) - 1
 
 
 def written_order(tree: Tree) -> list[Tree]:
-    """The branches as they are written and drawn: larger ones first, else in the order of the tree."""
+    """The branches as they are written and drawn: larger ones first, else in the order of the
+    tree.
+    """
     return sorted(tree.branches, key=lambda u: -u.order)
 
 
 def format_tree(tree: Tree, colours: bool = True) -> str:
-    """Bracket notation, which :func:`parse_tree` reads again; ``colours=False`` leaves the colours out.
+    """Bracket notation, which :func:`parse_tree` reads again; ``colours=False`` leaves the colours
+    out.
 
     >>> format_tree(Tree(0, [Tree(1), Tree(0, [Tree(1)])]))
     '[[[]_2]_1,[]_2]_1'
@@ -152,7 +172,8 @@ def format_tree(tree: Tree, colours: bool = True) -> str:
 
 
 def format_latex(tree: Tree, colours: bool = True) -> str:
-    r"""The paper's notation: τ^{[l]} for a single vertex of colour l, [u_1, …, u_m]^{[l]} for the rest.
+    r"""The paper's notation: τ^{[l]} for a single vertex of colour l, [u_1, …, u_m]^{[l]} for the
+    rest.
 
     >>> print(format_latex(Tree(0, [Tree(0), Tree(1)])))
     [\tau^{[1]},\tau^{[2]}]^{[1]}
@@ -174,9 +195,9 @@ def vertex_letters(tree: Tree) -> tuple[str, ...]:
 def condition_text(tree: Tree, letters: Sequence[str] | None = None) -> str:
     """The order condition b^T 𝒜^[u] = 1/γ(u) of a tree (the paper's eq. bA) in plain text.
 
-    Without ``letters`` the colours are numbers, from 1. With them each vertex has a name of its own, in
-    the order of writing, the root first: the condition of a shape, for all colours l, m, n, …;
-    :func:`vertex_letters` gives the paper's.
+    Without ``letters`` the colours are numbers, from 1. With them each vertex has a name of its
+    own, in the order of writing, the root first: the condition of a shape, for all colours l, m, n,
+    …; :func:`vertex_letters` gives the paper's.
 
     >>> u = Tree(0, [Tree(1), Tree(0, [Tree(1)])])
     >>> condition_text(u)
@@ -190,9 +211,11 @@ def condition_text(tree: Tree, letters: Sequence[str] | None = None) -> str:
 
 
 def condition_latex(tree: Tree, letters: Sequence[str] | None = None) -> str:
-    r"""The order condition of a tree in LaTeX, as in the paper's Table 1; ``letters`` as in the plain text.
+    r"""The order condition of a tree in LaTeX, as in the paper's Table 1; ``letters`` as in the
+    plain text.
 
-    The vector of ones is the paper's ``\mathbbm{1}``, of package ``bbm``; ``\mathbb`` has no digits.
+    The vector of ones is the paper's ``\mathbbm{1}``, of package ``bbm``; ``\mathbb`` has no
+    digits.
 
     >>> print(condition_latex(Tree(0, [Tree(1)])))
     {b^{\{1\}}}^T A^{\{1,2\}} \mathbbm{1}^{\{2\}} = \frac12
@@ -200,12 +223,20 @@ def condition_latex(tree: Tree, letters: Sequence[str] | None = None) -> str:
     formula = _Formula(r"A^{\{%s,%s\}} ", r"\mathbbm{1}^{\{%s\}}", r" \odot ", letters)
     root, weight = formula.of(tree)
     density = str(tree.density)
-    required = "1" if density == "1" else rf"\frac1{density}" if len(density) == 1 else rf"\frac1{{{density}}}"
+    required = (
+        "1"
+        if density == "1"
+        else rf"\frac1{density}"
+        if len(density) == 1
+        else rf"\frac1{{{density}}}"
+    )
     return rf"{{b^{{\{{{root}\}}}}}}^T {weight} = {required}"
 
 
 class _Formula:
-    """Writes 𝒜^[u] (the paper's eqs. Ataul and Au) with the given signs, naming vertices as it meets them."""
+    """Writes 𝒜^[u] (the paper's eqs. Ataul and Au) with the given signs, naming vertices as it
+    meets them.
+    """
 
     def __init__(self, block: str, one: str, times: str, letters: Sequence[str] | None) -> None:
         self.block = block
@@ -217,7 +248,9 @@ class _Formula:
         """The name of the root, and 𝒜^[u]; raises ``ValueError`` when there are too few letters."""
         name = str(tree.root + 1) if self.names is None else next(self.names, "")
         if not name:
-            raise ValueError("each vertex needs a letter; vertex_letters gives as many as there are vertices")
+            raise ValueError(
+                "each vertex needs a letter; vertex_letters gives as many as there are vertices"
+            )
         if not tree.branches:
             return name, self.one % name if "%" in self.one else self.one
         factors: list[str] = []

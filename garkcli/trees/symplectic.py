@@ -1,38 +1,45 @@
-"""The independent order conditions of symplectic methods: one for each free tree that is not superfluous.
+"""The independent order conditions of symplectic methods: one for each free tree that is not
+superfluous.
 
-Write Φ(u) = b_lᵀ 𝒜^[u] for the elementary weight and u∘v for u with v as one more branch of its root. In a
-symplectic pair b^l_i â^{l,m}_{ij} = b^l_i b^m_j − b^m_j a^{m,l}_{ji}. Put on one edge of a tree this reads
+Write Φ(u) = b_lᵀ 𝒜^[u] for the elementary weight and u∘v for u with v as one more branch of its
+root. In a symplectic pair b^l_i â^{l,m}_{ij} = b^l_i b^m_j − b^m_j a^{m,l}_{ji}. Put on one edge of
+a tree this reads
 
     Φ(u∘v) + Φ(v∘u) = Φ(u) Φ(v),                                                              (1)
 
-where in v∘u the root has moved across the edge, which carries Â if it carried A, and A if it carried Â. The
-numbers 1/γ satisfy (1) as well, for the exact flow is symplectic. So once the conditions of lower order
-hold, those of u∘v and v∘u are equivalent, and all rootings of one free tree give *one* condition. The free
-tree has a term H^{l} at each vertex, and each edge a direction, from l to m for A^{l,m}. In a symplectic GARK
-method Â = A, edges have no direction, and u∘u is *superfluous*: (1) is 2 Φ(u∘u) = Φ(u)².
+where in v∘u the root has moved across the edge, which carries Â if it carried A, and A if it
+carried Â. The numbers 1/γ satisfy (1) as well, for the exact flow is symplectic. So once the
+conditions of lower order hold, those of u∘v and v∘u are equivalent, and all rootings of one free
+tree give *one* condition. The free tree has a term H^{l} at each vertex, and each edge a direction,
+from l to m for A^{l,m}. In a symplectic GARK method Â = A, edges have no direction, and u∘u is
+*superfluous*: (1) is 2 Φ(u∘u) = Φ(u)².
 
-Theorem. For every choice of one real number for each free tree of order up to n, the superfluous ones left
-out, some symplectic method with nonzero weights has these elementary weights. So no condition follows from
-the others, and the rank of the Jacobian of all conditions up to order n is the number of free trees.
+Theorem. For every choice of one real number for each free tree of order up to n, the superfluous
+ones left out, some symplectic method with nonzero weights has these elementary weights. So no
+condition follows from the others, and the rank of the Jacobian of all conditions up to order n is
+the number of free trees.
 
-Proof. Let w_{ij} = a^{l,m}_{ij} / b^m_j, free in a pair, and w_{ij} = 1/2 + z_{ij} with z_{ij} = −z_{ji} in a
-symplectic GARK method. Up to sign and products of lower weights, Φ(u) is the sum S_T, over the stages at the
-vertices of the free tree T of u, of Π b over the vertices times Π w (or z) over the edges.
+Proof. Let w_{ij} = a^{l,m}_{ij} / b^m_j, free in a pair, and w_{ij} = 1/2 + z_{ij} with z_{ij} =
+−z_{ji} in a symplectic GARK method. Up to sign and products of lower weights, Φ(u) is the sum S_T,
+over the stages at the vertices of the free tree T of u, of Π b over the vertices times Π w (or z)
+over the edges.
 
-(a) The S_T are linearly independent functions of b and w (or z). Take a method with one stage for each vertex
-of T: the monomial with each of its vertices and edges once has in S_T the coefficient |Aut T|, in the sum of
-any other tree 0. In z automorphisms count with the sign (−1)^(edges turned round), and S_T is zero exactly when
-one of them exchanges the ends of an edge, that is, when T is u∘u.
+(a) The S_T are linearly independent functions of b and w (or z). Take a method with one stage for
+each vertex of T: the monomial with each of its vertices and edges once has in S_T the coefficient
+|Aut T|, in the sum of any other tree 0. In z automorphisms count with the sign (−1)^(edges turned
+round), and S_T is zero exactly when one of them exchanges the ends of an edge, that is, when T is
+u∘u.
 
-(b) The attained vectors (S_T) are a subgroup of ℝ^K: two methods side by side, with w (or z) zero between them,
-add them, and −b with −w (or −z) negates them.
+(b) The attained vectors (S_T) are a subgroup of ℝ^K: two methods side by side, with w (or z) zero
+between them, add them, and −b with −w (or −z) negates them.
 
-(c) No linear functional vanishes on all dS, for by (a) it would vanish on S. So enough methods side by side have a
-Jacobian of rank K; the subgroup contains an open set, hence is everything. ∎
+(c) No linear functional vanishes on all dS, for by (a) it would vanish on S. So enough methods side
+by side have a Jacobian of rank K; the subgroup contains an open set, hence is everything. ∎
 
-``docs/symplectic-conditions.md`` says more. Sources: Sanz-Serna and Abia, SIAM J. Numer. Anal. 28 (1991) 1081; Abia
-and Sanz-Serna, Math. Comp. 60 (1993) 617; Araújo, Murua and Sanz-Serna, SIAM J. Numer. Anal. 34 (1997) 1926;
-Hairer, Lubich and Wanner, *Geometric Numerical Integration*, VI.7 and IX.10.
+``docs/symplectic-conditions.md`` says more. Sources: Sanz-Serna and Abia, SIAM J. Numer. Anal. 28
+(1991) 1081; Abia and Sanz-Serna, Math. Comp. 60 (1993) 617; Araújo, Murua and Sanz-Serna, SIAM J.
+Numer. Anal. 34 (1997) 1926; Hairer, Lubich and Wanner, *Geometric Numerical Integration*, VI.7 and
+IX.10.
 """
 
 from __future__ import annotations
@@ -110,7 +117,9 @@ class ConditionClass:
 
     @cached_property
     def members(self) -> tuple[Tree, ...]:
-        """All rooted trees of the class, sorted: at every vertex, with every colour of the same stages."""
+        """All rooted trees of the class, sorted: at every vertex, with every colour of the same
+        stages.
+        """
         rootings = set(filter(self.structure.is_admissible, self.structure.rootings(self.centred)))
         twins = (twin for rooting in rootings for twin in self.structure.twins(rooting))
         return tuple(sorted(twins, key=Tree.sort_key))
@@ -118,14 +127,19 @@ class ConditionClass:
     @property
     def is_superfluous(self) -> bool:
         """Whether the condition follows from those of lower order: the tree is u∘u with Â = A."""
-        if self.structure.is_directed or self.order % 2 or 2 * self.centred.branches[-1].order < self.order:
+        if (
+            self.structure.is_directed
+            or self.order % 2
+            or 2 * self.centred.branches[-1].order < self.order
+        ):
             return False
         *rest, half = self.centred.branches
         return Tree(self.centred.root, rest) == half
 
 
 def independent_classes(structure: Structure, order: int) -> Iterator[ConditionClass]:
-    """The independent conditions of one order, each once, sorted by the trees rooted at the centroid.
+    """The independent conditions of one order, each once, sorted by the trees rooted at the
+    centroid.
 
     Trees of at most half the order are kept in memory. Raises ``ValueError`` for an order below 1.
 
@@ -143,7 +157,8 @@ def independent_classes(structure: Structure, order: int) -> Iterator[ConditionC
 
 
 def superfluous_classes(structure: Structure, order: int) -> Iterator[ConditionClass]:
-    """The free trees u∘u of one order, whose conditions hold once those of lower order do; none for a pair.
+    """The free trees u∘u of one order, whose conditions hold once those of lower order do; none for
+    a pair.
 
     >>> [c.representative for c in superfluous_classes(Structure.self_conjugate(1), 2)]
     [Tree(0, [Tree(0)])]
@@ -171,9 +186,9 @@ def class_of(structure: Structure, tree: Tree) -> ConditionClass:
 def count_classes(structure: Structure, order: int) -> int:
     """The number of independent conditions of one order, without generating a tree.
 
-    A free tree with as many classes of alike vertices as v has v − 1 classes of alike edges, or v when an
-    edge may be turned round: when it is superfluous. So the number is that of the trees with a marked vertex
-    less that of the trees with a marked edge (Otter's dissymmetry).
+    A free tree with as many classes of alike vertices as v has v − 1 classes of alike edges, or v
+    when an edge may be turned round: when it is superfluous. So the number is that of the trees
+    with a marked vertex less that of the trees with a marked edge (Otter's dissymmetry).
 
     >>> [count_classes(Structure.pair([0], [0]), n) for n in range(1, 10)]
     [1, 1, 3, 8, 27, 91, 350, 1376, 5743]
@@ -198,7 +213,9 @@ def count_classes(structure: Structure, order: int) -> int:
 
 
 def _pairs(ones: list[int], others: list[int], total: int, same: bool) -> int:
-    """How many pairs of trees have ``total`` vertices together; ``same``: without regard to their order."""
+    """How many pairs of trees have ``total`` vertices together; ``same``: without regard to their
+    order.
+    """
     ordered = sum(ones[k - 1] * others[total - k - 1] for k in range(1, total))
     if not same:
         return ordered

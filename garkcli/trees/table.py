@@ -1,4 +1,5 @@
-"""The tree table: all N-trees up to an order as integer columns; an N-tree is the ids of two smaller ones.
+"""The tree table: all N-trees up to an order as integer columns; an N-tree is the ids of two
+smaller ones.
 
 >>> table = TreeTable.upto(1, 4)
 >>> table.notation(range(len(table)), colours=False)
@@ -36,21 +37,27 @@ class TableTooLarge(UsageProblem):
 
 @dataclass(frozen=True)
 class TreeTable:
-    """All admissible N-trees of order 1, …, ``max_order``, sorted by order, root colour and last branch.
+    """All admissible N-trees of order 1, …, ``max_order``, sorted by order, root colour and last
+    branch.
 
-    A tree's id is its position. The ids of one order and root colour are contiguous: :meth:`ids`. The
-    order of ids is the order of :class:`Tree`. The columns are read-only arrays; see :class:`Columns`.
+    A tree's id is its position. The ids of one order and root colour are contiguous: :meth:`ids`.
+    The order of ids is the order of :class:`Tree`. The columns are read-only arrays; see
+    :class:`Columns`.
     """
 
     admissible: Admissible
     max_order: int
     columns: Columns
-    starts: tuple[tuple[int, ...], ...]  # [order - 1][root]: the first id; one more entry for the end
+    starts: tuple[
+        tuple[int, ...], ...
+    ]  # [order - 1][root]: the first id; one more entry for the end
     segments: tuple[Segment, ...]
     _texts: dict[bool, Texts] = field(default_factory=dict, repr=False, compare=False)
 
     @classmethod
-    def upto(cls, colours: int, order: int, edges: Edges | None = None, linear: Collection[int] = ()) -> TreeTable:
+    def upto(
+        cls, colours: int, order: int, edges: Edges | None = None, linear: Collection[int] = ()
+    ) -> TreeTable:
         """Generate the table; ``edges`` and ``linear`` as in :class:`Admissible`.
 
         Raises :class:`TableTooLarge` beyond ``MAX_TREES`` trees: :func:`iter_blocks` goes one order
@@ -64,7 +71,11 @@ class TreeTable:
         starts = first_ids(admissible, order)
         size = starts[-1][-1]
         if size > MAX_TREES:
-            about = str(size) if size < 10**15 else f"more than 10^{int((size.bit_length() - 1) * 0.30102)}"
+            about = (
+                str(size)
+                if size < 10**15
+                else f"more than 10^{int((size.bit_length() - 1) * 0.30102)}"
+            )
             raise TableTooLarge(
                 f"{about} trees of order up to {order} with {counted(admissible.colours, 'colour')}"
                 f" (limit {MAX_TREES})",
@@ -123,7 +134,9 @@ class TreeTable:
     def ids(self, order: int, root: int | None = None) -> range:
         """The ids of the trees of one order, all of them or those with one root colour (from 0)."""
         starts = self.starts[order - 1]
-        return range(starts[0], starts[-1]) if root is None else range(starts[root], starts[root + 1])
+        return (
+            range(starts[0], starts[-1]) if root is None else range(starts[root], starts[root + 1])
+        )
 
     def tree(self, tree_id: int) -> Tree:
         """The tree with an id; raises ``IndexError`` when there is none."""
@@ -138,7 +151,9 @@ class TreeTable:
         return Tree(int(self.columns.root[u]), branches)
 
     def notation(self, ids: Iterable[int] | Column, colours: bool = True) -> list[str]:
-        """Bracket text of many trees, the same as ``format_tree``, built from the texts of their parents."""
+        """Bracket text of many trees, the same as ``format_tree``, built from the texts of their
+        parents.
+        """
         which = ids if isinstance(ids, np.ndarray) else np.fromiter(ids, np.int64)
         return self.texts(self.columns.part(which), colours)
 
@@ -173,12 +188,16 @@ def segments_of(
             growth = Growth(lower, order, stems, branches)
             if len(growth):
                 ids = range(start, start + len(growth))
-                made.append((Segment(order, root, branch_order, colour, ids, stems, branches), growth))
+                made.append(
+                    (Segment(order, root, branch_order, colour, ids, stems, branches), growth)
+                )
                 start = ids.stop
     return made
 
 
-def _fill(columns: Columns, admissible: Admissible, starts: Sequence[Sequence[int]], order: int) -> list[Segment]:
+def _fill(
+    columns: Columns, admissible: Admissible, starts: Sequence[Sequence[int]], order: int
+) -> list[Segment]:
     """Write the trees of one order into the table; the lower orders are there already."""
     segments = []
     for root in range(admissible.colours):

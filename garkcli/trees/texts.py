@@ -1,4 +1,6 @@
-"""Bracket text of many trees of a table at once: each is its last branch put into the text of its stem."""
+"""Bracket text of many trees of a table at once: each is its last branch put into the text of its
+stem.
+"""
 
 from __future__ import annotations
 
@@ -10,7 +12,9 @@ if TYPE_CHECKING:
     from garkcli.trees.columns import Column, Columns
 
 Inside = tuple[str, int, int]
-"""The text between a root's brackets, the offset where its largest branches end, and their order."""
+"""The text between a root's brackets, the offset where its largest branches end, and their
+order.
+"""
 
 
 class Texts:
@@ -29,7 +33,10 @@ class Texts:
         parents = np.concatenate([trees.stem, trees.branch])
         self._remember(parents[parents >= 0])
         insides = self._of_children(trees)
-        return [self._closed(inside[0], root) for inside, root in zip(insides, trees.root.tolist(), strict=True)]
+        return [
+            self._closed(inside[0], root)
+            for inside, root in zip(insides, trees.root.tolist(), strict=True)
+        ]
 
     def _remember(self, ids: Column) -> None:
         """Make the insides of these trees and of all their ancestors, the smaller first."""
@@ -42,7 +49,9 @@ class Texts:
         missing = np.array([u for u in wanted.tolist() if u not in self._insides], np.int64)
         for order in np.unique(columns.order[missing]):
             ids = missing[columns.order[missing] == order]
-            self._insides.update(zip(ids.tolist(), self._of_children(columns.part(ids)), strict=True))
+            self._insides.update(
+                zip(ids.tolist(), self._of_children(columns.part(ids)), strict=True)
+            )
 
     def _of_children(self, trees: Columns) -> list[Inside]:
         insides, root, order = self._insides, self.columns.root, self.columns.order

@@ -12,10 +12,11 @@ if TYPE_CHECKING:
 
 
 class Tree:
-    """The N-tree ``[u_1, …, u_m]^[l]``: a root of colour ``l`` and the branches left when it is removed.
+    """The N-tree ``[u_1, …, u_m]^[l]``: a root of colour ``l`` and the branches left when it is
+    removed.
 
-    ``root`` counts colours from 0. ``branches`` are kept in one canonical order, so that equal trees
-    compare equal whatever the order in which their branches were given.
+    ``root`` counts colours from 0. ``branches`` are kept in one canonical order, so that equal
+    trees compare equal whatever the order in which their branches were given.
 
     >>> cherry = Tree(0, [Tree(1), Tree(1)])
     >>> cherry.order, cherry.density, cherry.symmetry
@@ -23,7 +24,8 @@ class Tree:
     >>> Tree(0, [Tree(0), Tree(1)]).symmetry
     1
 
-    Source: Zanna, section "Order conditions for GARK methods"; Butcher, *B-Series* (2021), chapter 2.
+    Source: Zanna, section "Order conditions for GARK methods"; Butcher, *B-Series* (2021), chapter
+    2.
     """
 
     __slots__ = ("__dict__", "branches", "order", "root")
@@ -36,8 +38,8 @@ class Tree:
     def sort_key(self) -> tuple[object, ...]:
         """A total order on trees, the one of the tree table's ids.
 
-        By order, then root colour, then the orders and root colours of the branches, the last branch
-        first, then the branches themselves.
+        By order, then root colour, then the orders and root colours of the branches, the last
+        branch first, then the branches themselves.
         """
         return self._key
 
@@ -77,4 +79,6 @@ class Tree:
         return hash(self._key)
 
     def __repr__(self) -> str:
-        return f"Tree({self.root}, {list(self.branches)!r})" if self.branches else f"Tree({self.root})"
+        return (
+            f"Tree({self.root}, {list(self.branches)!r})" if self.branches else f"Tree({self.root})"
+        )

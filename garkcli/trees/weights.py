@@ -24,13 +24,14 @@ def elementary_weights(
     blocks: Mapping[tuple[int, int], Floats],
     weights: Sequence[Floats],
 ) -> Floats:
-    """b_l^T 𝒜^[u] for every tree u of the table, in the order of its ids (the paper's eqs. Au and bA).
+    """b_l^T 𝒜^[u] for every tree u of the table, in the order of its ids (the paper's eqs. Au and
+    bA).
 
-    ``rows[l]`` is the stage space of colour l (two colours may share one), ``weights[l]`` the vector b_l of
-    shape (s,) with s the dimension of that space, and ``blocks[space, m]`` the matrix A of shape
-    (s_space, s_rows[m]) that a vertex whose colour has that space applies to a branch of colour m. The stage
-    vectors of the highest order are never held together. Raises ``ValueError`` when a block that the
-    table's trees need is missing or has the wrong shape.
+    ``rows[l]`` is the stage space of colour l (two colours may share one), ``weights[l]`` the
+    vector b_l of shape (s,) with s the dimension of that space, and ``blocks[space, m]`` the matrix
+    A of shape (s_space, s_rows[m]) that a vertex whose colour has that space applies to a branch of
+    colour m. The stage vectors of the highest order are never held together. Raises ``ValueError``
+    when a block that the table's trees need is missing or has the wrong shape.
 
     >>> from garkcli.trees.table import TreeTable
     >>> midpoint = {(0, 0): np.array([[0.5]])}
@@ -48,7 +49,9 @@ def _check(
     weights: Sequence[Floats],
 ) -> None:
     if len(rows) != table.colours or len(weights) != table.colours:
-        raise ValueError(f"a table of {table.colours} colours needs as many stage spaces and weights")
+        raise ValueError(
+            f"a table of {table.colours} colours needs as many stage spaces and weights"
+        )
     for l, branches in enumerate(table.admissible.branches):
         if weights[l].shape != weights[rows.index(rows[l])].shape or weights[l].ndim != 1:
             raise ValueError(f"the weights of colour {l} do not fit its stage space {rows[l]}")
@@ -68,8 +71,9 @@ def _check(
 class _Evaluation:
     """𝒜^[u] = 𝒜^[stem] ⊙ (A 𝒜^[branch]), one gathered product for each segment of the table.
 
-    ``vectors[n, l]``: 𝒜^[u] of the trees of order n with root colour l, one row each, in the order of ids;
-    ``applied[space, n, m]``: A 𝒜^[u] for those with root colour m, as a branch in that stage space.
+    ``vectors[n, l]``: 𝒜^[u] of the trees of order n with root colour l, one row each, in the order
+    of ids; ``applied[space, n, m]``: A 𝒜^[u] for those with root colour m, as a branch in that
+    stage space.
     """
 
     def __init__(
@@ -97,7 +101,9 @@ class _Evaluation:
             last = order == self.table.max_order
             if not last:
                 for colour, b in enumerate(self.weights):
-                    self.vectors[order, colour] = np.empty((len(self.table.ids(order, colour)), len(b)), self.dtype)
+                    self.vectors[order, colour] = np.empty(
+                        (len(self.table.ids(order, colour)), len(b)), self.dtype
+                    )
             for segment in self.table.segments:
                 if segment.order == order:
                     self._evaluate(segment, keep=not last)

@@ -1,4 +1,6 @@
-"""Times and memory of whole processes and of calls; benchmarks compare two of them measured in one run."""
+"""Times and memory of whole processes and of calls; benchmarks compare two of them measured in one
+run.
+"""
 
 from __future__ import annotations
 
@@ -29,7 +31,9 @@ def process(command: Sequence[str]) -> Callable[[], object]:
     return lambda: subprocess.run(command, cwd=ROOT, check=True, stdout=subprocess.DEVNULL)
 
 
-def interleaved(one: Callable[[], object], other: Callable[[], object], repeat: int = 15) -> tuple[float, float]:
+def interleaved(
+    one: Callable[[], object], other: Callable[[], object], repeat: int = 15
+) -> tuple[float, float]:
     """The best times of two runs that take turns, so that a busy machine disturbs both alike."""
     pairs = [(seconds(one, 1), seconds(other, 1)) for _ in range(repeat)]
     return min(a for a, _ in pairs), min(b for _, b in pairs)
@@ -37,8 +41,12 @@ def interleaved(one: Callable[[], object], other: Callable[[], object], repeat: 
 
 def peak_megabytes(code: str) -> float:
     """The largest resident size of a Python process that runs ``code``."""
-    script = f"{code}\nimport resource; print(resource.getrusage(resource.RUSAGE_SELF).ru_maxrss / 1024)"
-    out = subprocess.run([*PYTHON, "-c", script], cwd=ROOT, check=True, capture_output=True, text=True).stdout
+    script = (
+        f"{code}\nimport resource; print(resource.getrusage(resource.RUSAGE_SELF).ru_maxrss / 1024)"
+    )
+    out = subprocess.run(
+        [*PYTHON, "-c", script], cwd=ROOT, check=True, capture_output=True, text=True
+    ).stdout
     return float(out.split()[-1])
 
 

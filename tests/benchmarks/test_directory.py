@@ -1,4 +1,6 @@
-"""``gark check`` on directories: what reading, starting and reporting cost beside the certificates themselves."""
+"""``gark check`` on directories: what reading, starting and reporting cost beside the certificates
+themselves.
+"""
 
 from __future__ import annotations
 
@@ -20,7 +22,11 @@ from tests.catalogue.catalogue import entries
 from tests.catalogue.method_files import method_file
 
 FILES = 200
-MEMBERS = [f"{{family: {f}, stages: {s}}}" for f in ("gauss", "radau-iia", "lobatto-iiia") for s in (2, 3, 4)]
+MEMBERS = [
+    f"{{family: {f}, stages: {s}}}"
+    for f in ("gauss", "radau-iia", "lobatto-iiia")
+    for s in (2, 3, 4)
+]
 
 
 def family_files() -> list[str]:
@@ -28,17 +34,22 @@ def family_files() -> list[str]:
     rules = (*RULES, *PAIR_RULES)
     pairs = [(one, other) for one, other in product(MEMBERS, MEMBERS) if one != other]
     return [
-        f"methods: [{one}, {other}]\ntransfer: {rules[k % len(rules)]}\n" for k, (one, other) in enumerate(pairs)
+        f"methods: [{one}, {other}]\ntransfer: {rules[k % len(rules)]}\n"
+        for k, (one, other) in enumerate(pairs)
     ]
 
 
 def rational_file(k: int) -> str:
-    """A Butcher tableau of 2 to 5 stages with small rational entries, explicit for every other ``k``."""
+    """A Butcher tableau of 2 to 5 stages with small rational entries, explicit for every other
+    ``k``.
+    """
     s = 2 + k % 4
     implicit = k % 2
 
     def entry(i: int, j: int) -> str:
-        return f"{(3 * i + 5 * j + k) % 7 + 1}/{(i + 2 * j + k) % 5 + 2}" if j < i + implicit else "0"
+        return (
+            f"{(3 * i + 5 * j + k) % 7 + 1}/{(i + 2 * j + k) % 5 + 2}" if j < i + implicit else "0"
+        )
 
     rows = ", ".join(f"[{', '.join(entry(i, j) for j in range(s))}]" for i in range(s))
     weights = ", ".join(f"{2 * (i + 1)}/{s * (s + 1)}" for i in range(s))
@@ -76,7 +87,12 @@ def test_a_directory_costs_its_certificates(directory: Path) -> None:
     start = seconds(process([*GARK, "check", str(paths[0])]), 5)
     whole = seconds(process([*GARK, "check", str(directory)]), 3)
     detail = f"{whole:.2f} s, certificates {orders:.2f} s, start-up {start:.2f} s"
-    report(f"gark check of {FILES} files / certificates and start-up", whole / (orders + start), 4.0, detail)
+    report(
+        f"gark check of {FILES} files / certificates and start-up",
+        whole / (orders + start),
+        4.0,
+        detail,
+    )
 
 
 def test_the_catalogue_in_one_call(tmp_path: Path) -> None:
@@ -86,7 +102,9 @@ def test_the_catalogue_in_one_call(tmp_path: Path) -> None:
     for name, entry in catalogue.items():
         (tmp_path / f"{name}.gark.yaml").write_text(method_file(entry), encoding="utf-8")
     start = perf_counter()
-    done = subprocess.run([*GARK, "check", "-j", "2", str(tmp_path)], capture_output=True, text=True)
+    done = subprocess.run(
+        [*GARK, "check", "-j", "2", str(tmp_path)], capture_output=True, text=True
+    )
     time = perf_counter() - start
     assert done.returncode == 0, done.stdout[-2000:]
     assert "94 files, 94 claims: all hold" in done.stdout

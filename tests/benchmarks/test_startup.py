@@ -1,4 +1,6 @@
-"""How soon the commands answer, against the time of ``python -c "import sympy"`` in the same run."""
+"""How soon the commands answer, against the time of ``python -c "import sympy"`` in the same
+run.
+"""
 
 from __future__ import annotations
 
@@ -16,4 +18,9 @@ SYMPY = process([*PYTHON, "-c", "import sympy"])
 def test_startup(arguments: list[str], target: float) -> None:
     """A check of the collocation example, and the help, cost a fraction of importing sympy."""
     ours, sympys = interleaved(process([*GARK, *arguments]), SYMPY)
-    report(f"gark {' '.join(arguments)} / import sympy", ours / sympys, target, f"{ours:.3f} s, {sympys:.3f} s")
+    report(
+        f"gark {' '.join(arguments)} / import sympy",
+        ours / sympys,
+        target,
+        f"{ours:.3f} s, {sympys:.3f} s",
+    )

@@ -1,4 +1,6 @@
-"""Steps against a plain loop of leapfrog, and against the solvers of scipy over a thousand Kepler periods."""
+"""Steps against a plain loop of leapfrog, and against the solvers of scipy over a thousand Kepler
+periods.
+"""
 
 from __future__ import annotations
 
@@ -10,9 +12,9 @@ import numpy as np
 from flint import arb, ctx, fmpq
 
 from garkcli import load, loads
-from garkcli.dynamics.examples import hamiltonian
-from garkcli.dynamics.scheme import scheme
-from garkcli.dynamics.step import State, trajectory
+from garkcli.problems.builtin import hamiltonian
+from garkcli.stepping.integrator import scheme
+from garkcli.stepping.step import State, trajectory
 from tests.benchmarks.measuring import ROOT, interleaved, report
 from tests.catalogue.method_files import method_file
 
@@ -24,8 +26,12 @@ START = (0.4, 0.0, 0.0, 2.0)
 
 
 def test_pendulum_against_leapfrog() -> None:
-    """A million steps of the rectangular method, of order 4 and implicit, in the time of 40 million of leapfrog."""
-    made = scheme(load(str(ROOT / "methods/rectangular.gark.yaml")).tableau, hamiltonian("pendulum", 2))
+    """A million steps of the rectangular method, of order 4 and implicit, in the time of 40 million
+    of leapfrog.
+    """
+    made = scheme(
+        load(str(ROOT / "methods/rectangular.gark.yaml")).tableau, hamiltonian("pendulum", 2)
+    )
 
     def leapfrog() -> None:
         q, p, h = 1.0, 0.5, 0.1
@@ -35,7 +41,9 @@ def test_pendulum_against_leapfrog() -> None:
             p -= h / 2 * sin(q)
 
     ours, theirs = interleaved(lambda: State(made, fmpq(1, 10)).advance(STEPS), leapfrog, 3)
-    report("rectangular pendulum / leapfrog loop", ours / theirs, 40, f"{ours:.2f} s, {theirs:.3f} s")
+    report(
+        "rectangular pendulum / leapfrog loop", ours / theirs, 40, f"{ours:.2f} s, {theirs:.3f} s"
+    )
 
 
 def energy(y: list[float]) -> float:
@@ -44,16 +52,20 @@ def energy(y: list[float]) -> float:
 
 
 def test_kepler_against_scipy() -> None:
-    """A thousand periods, eccentricity 0.6: less time for a correct digit than scipy's fastest solver needs.
+    """A thousand periods, eccentricity 0.6: less time for a correct digit than scipy's fastest
+    solver needs.
 
-    scipy's solvers do not get to 1e-8 at all, so the tightest tolerances that serve them are compared; at the error
-    of the fastest we are compared at equal error too. The energy of ours is bounded, theirs drifts.
+    scipy's solvers do not get to 1e-8 at all, so the tightest tolerances that serve them are
+    compared; at the error of the fastest we are compared at equal error too. The energy of ours is
+    bounded, theirs drifts.
     """
     ours = {n: _ours(n) for n in PER_PERIOD}
     theirs = [_scipy("DOP853", 2.3e-14, 1e-16), _scipy("LSODA", 1e-13, 1e-13)]
     (seconds, error), best = ours[110], min(theirs, key=_a_digit)
     detail = f"{seconds:.2f} s to {error:.1e}, {best[0]:.1f} s to {best[1]:.1e}"
-    report("Kepler to 1e-8, time a digit / scipy", _a_digit(ours[110]) / _a_digit(best), 1.0, detail)
+    report(
+        "Kepler to 1e-8, time a digit / scipy", _a_digit(ours[110]) / _a_digit(best), 1.0, detail
+    )
     (seconds, error), fastest = ours[60], min(theirs)
     assert error < fastest[1]
     detail = f"{seconds:.2f} s to {error:.1e}, {fastest[0]:.1f} s to {fastest[1]:.1e}"
@@ -67,8 +79,12 @@ def _a_digit(run: tuple[float, float]) -> float:
 
 
 def _ours(per_period: int) -> tuple[float, float]:
-    """Seconds and final error; the energy error of the last ten periods has to be that of the first ten."""
-    entry = json.loads((ROOT / "tests/catalogue/data/sprk_Sofroniou_10_36.json").read_text(encoding="utf-8"))
+    """Seconds and final error; the energy error of the last ten periods has to be that of the first
+    ten.
+    """
+    entry = json.loads(
+        (ROOT / "tests/catalogue/data/sprk_Sofroniou_10_36.json").read_text(encoding="utf-8")
+    )
     made = scheme(loads(method_file(entry)).tableau, hamiltonian("kepler", 2))
     with ctx.workprec(120):
         period = fmpq(int((2 * arb.pi() * 10**30).floor().unique_fmpz()), 10**30)
@@ -85,13 +101,17 @@ def _ours(per_period: int) -> tuple[float, float]:
         return max(abs(energy(y) - energy(list(START))) for y in path)
 
     first, last = largest(list(START)), largest(state.y)
-    print(f"\n  {seconds:.2f} s, error {error:.1e}; largest energy error {first:.1e} at first, {last:.1e} at last")
+    print(
+        f"\n  {seconds:.2f} s, error {error:.1e}; largest energy error {first:.1e} at first, {last:.1e} at last"
+    )
     assert last < 1.2 * first
     return seconds, error
 
 
 def _scipy(method: str, rtol: float, atol: float) -> tuple[float, float]:
-    """Seconds and final error of one of scipy's solvers; its energy error has to grow, as we say it does."""
+    """Seconds and final error of one of scipy's solvers; its energy error has to grow, as we say it
+    does.
+    """
     from scipy.integrate import solve_ivp
 
     def field(_: float, y: np.ndarray) -> tuple[float, ...]:
@@ -102,10 +122,14 @@ def _scipy(method: str, rtol: float, atol: float) -> tuple[float, float]:
 
     times = [2 * pi * k for k in (PERIODS // 100, PERIODS)]
     start = process_time()
-    solved = solve_ivp(field, (0, times[-1]), START, method=method, rtol=rtol, atol=atol, t_eval=times)
+    solved = solve_ivp(
+        field, (0, times[-1]), START, method=method, rtol=rtol, atol=atol, t_eval=times
+    )
     seconds = process_time() - start
     early, late = (abs(energy(y.tolist()) - energy(list(START))) for y in solved.y.T)
     error = float(np.linalg.norm(solved.y[:, -1] - START))
-    print(f"  scipy {method}: {seconds:.1f} s, error {error:.1e}; energy error {early:.1e}, then {late:.1e}")
+    print(
+        f"  scipy {method}: {seconds:.1f} s, error {error:.1e}; energy error {early:.1e}, then {late:.1e}"
+    )
     assert late > 10 * early
     return seconds, error

@@ -13,7 +13,9 @@ from tests.benchmarks.measuring import ROOT, peak_megabytes, report, seconds
 
 
 def test_against_kauri() -> None:
-    """501 640 trees of four colours to order 7, with σ and γ: at least 300 times faster than kauri lists them."""
+    """501 640 trees of four colours to order 7, with σ and γ: at least 300 times faster than kauri
+    lists them.
+    """
     import kauri
 
     def listed() -> int:
@@ -28,7 +30,12 @@ def test_against_kauri() -> None:
     assert counted == [501640]
     ours = seconds(lambda: TreeTable.upto(4, 7), 5)
     assert len(TreeTable.upto(4, 7)) == 501640
-    report("tree table / kauri, 4 colours to order 7", ours / peer, 1 / 300, f"{ours:.4f} s, {peer:.1f} s")
+    report(
+        "tree table / kauri, 4 colours to order 7",
+        ours / peer,
+        1 / 300,
+        f"{ours:.4f} s, {peer:.1f} s",
+    )
 
 
 def test_memory() -> None:
@@ -39,7 +46,9 @@ def test_memory() -> None:
 
 
 def test_weights() -> None:
-    """All elementary weights of the pair of the collocation example to order 7: within 5 times the table's time."""
+    """All elementary weights of the pair of the collocation example to order 7: within 5 times the
+    table's time.
+    """
     tableau = pair(load(str(ROOT / "methods/collocation.gark.yaml")).tableau)
     edges, linear = coupling_graph(tableau)
     entries = numeric_entries(tableau)
@@ -49,4 +58,9 @@ def test_weights() -> None:
     table = TreeTable.upto(4, 7, edges, linear)
     making = seconds(lambda: TreeTable.upto(4, 7, edges, linear), 7)
     weighing = seconds(lambda: elementary_weights(table, rows, blocks, weights), 7)
-    report("weights / table, 4 colours to order 7", weighing / making, 5.0, f"{weighing:.4f} s, {making:.4f} s")
+    report(
+        "weights / table, 4 colours to order 7",
+        weighing / making,
+        5.0,
+        f"{weighing:.4f} s, {making:.4f} s",
+    )

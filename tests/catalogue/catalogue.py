@@ -1,9 +1,10 @@
 """Published methods as their sources print them, one JSON file each in ``data/``.
 
-Keys: ``name``; ``kind`` (rk, ark, prk, gark); ``N`` colours; ``stages``; ``problem_class`` (general, separable,
-rkn); ``claimed_order`` by the source; ``verified_order``, computed from all trees of the class in 260-bit
-arithmetic; ``exact``, whether the coefficients are free of rounding; ``rounding``, the tolerance at which the
-verified order was decided; ``source``; ``notes``; ``blocks`` with ``A[l][m]``, ``b[l]``, ``c[l]``, numbers as text.
+Keys: ``name``; ``kind`` (rk, ark, prk, gark); ``N`` colours; ``stages``; ``problem_class``
+(general, separable, rkn); ``claimed_order`` by the source; ``verified_order``, computed from all
+trees of the class in 260-bit arithmetic; ``exact``, whether the coefficients are free of rounding;
+``rounding``, the tolerance at which the verified order was decided; ``source``; ``notes``;
+``blocks`` with ``A[l][m]``, ``b[l]``, ``c[l]``, numbers as text.
 """
 
 from __future__ import annotations
@@ -32,11 +33,15 @@ def tableau(entry: Entry) -> Tableau:
     """The exact tableau of an entry, for the class of problems that it is meant for."""
     expressions = {text: parse(text) for text in sorted(set(_texts(entry["blocks"])))}
     domain = Domain(expressions.values())
-    return _made(entry, {text: domain.evaluate(expression) for text, expression in expressions.items()})
+    return _made(
+        entry, {text: domain.evaluate(expression) for text, expression in expressions.items()}
+    )
 
 
 def in_balls(entry: Entry) -> Tableau:
-    """The same with enclosures at the current precision in place of numbers: for the oracles alone."""
+    """The same with enclosures at the current precision in place of numbers: for the oracles
+    alone.
+    """
     values = {text: enclose(parse(text)) for text in set(_texts(entry["blocks"]))}
     return _made(entry, cast("dict[str, Number]", values))
 
@@ -44,8 +49,8 @@ def in_balls(entry: Entry) -> Tableau:
 def _made(entry: Entry, values: dict[str, Number]) -> Tableau:
     """The tableau with a value for each text.
 
-    ``separable`` and ``rkn`` are q̇ = V(p), ṗ = F(q): of the four blocks printed, A^{1,2} and A^{2,1} take part. In
-    ``rkn`` the velocities are linear.
+    ``separable`` and ``rkn`` are q̇ = V(p), ṗ = F(q): of the four blocks printed, A^{1,2} and
+    A^{2,1} take part. In ``rkn`` the velocities are linear.
     """
 
     def vector(row: list[str]) -> Vector:

@@ -6,7 +6,8 @@ from tests.catalogue.catalogue import Entry
 
 
 def method_file(entry: Entry) -> str:
-    """The YAML text: ``ark`` where stages are shared, ``prk`` for separable problems, ``tableau`` otherwise.
+    """The YAML text: ``ark`` where stages are shared, ``prk`` for separable problems, ``tableau``
+    otherwise.
 
     An entry that is not exact states its rounding as the tolerance.
     """
@@ -29,7 +30,11 @@ def method_file(entry: Entry) -> str:
 
 
 def _list(value: object) -> str:
-    return f"[{', '.join(_list(x) for x in value)}]" if isinstance(value, list) else _quoted(str(value))
+    return (
+        f"[{', '.join(_list(x) for x in value)}]"
+        if isinstance(value, list)
+        else _quoted(str(value))
+    )
 
 
 def _quoted(text: str) -> str:

@@ -1,4 +1,6 @@
-"""The verified orders of the catalogue: by the certificate where coefficients are exact, in balls otherwise."""
+"""The verified orders of the catalogue: by the certificate where coefficients are exact, in balls
+otherwise.
+"""
 
 from __future__ import annotations
 
@@ -17,7 +19,16 @@ ROUNDED = [name for name, entry in ENTRIES.items() if not entry["exact"]]
 
 def test_the_catalogue_is_whole() -> None:
     """There are 94 methods, each with all its keys, under its own name; 46 of them are exact."""
-    keys = {"name", "kind", "N", "stages", "problem_class", "claimed_order", "verified_order", "exact"}
+    keys = {
+        "name",
+        "kind",
+        "N",
+        "stages",
+        "problem_class",
+        "claimed_order",
+        "verified_order",
+        "exact",
+    }
     keys |= {"rounding", "source", "notes", "blocks"}
     assert len(ENTRIES) == 94
     assert all(set(entry) == keys and entry["name"] == name for name, entry in ENTRIES.items())
@@ -38,7 +49,9 @@ def test_shapes(name: str) -> None:
 
 @pytest.mark.parametrize("name", EXACT)
 def test_exact_methods_have_their_verified_order(name: str) -> None:
-    """The certificate gives exactly the order that was verified independently, with a witness one higher."""
+    """The certificate gives exactly the order that was verified independently, with a witness one
+    higher.
+    """
     found = find_order(tableau(ENTRIES[name]))
     assert found.order == ENTRIES[name]["verified_order"]
     assert not found.is_lower_bound
@@ -46,7 +59,9 @@ def test_exact_methods_have_their_verified_order(name: str) -> None:
 
 @pytest.mark.parametrize("name", ROUNDED)
 def test_rounded_methods_have_their_verified_order_within_their_rounding(name: str) -> None:
-    """All residuals up to the verified order are within the rounding of the entry, and one above is not."""
+    """All residuals up to the verified order are within the rounding of the entry, and one above is
+    not.
+    """
     entry = ENTRIES[name]
     with flint.ctx.workprec(400):
         rounded = in_balls(entry)
@@ -62,6 +77,8 @@ def test_rounded_methods_have_their_verified_order_within_their_rounding(name: s
 
 @pytest.mark.parametrize("name", EXACT[::4])
 def test_methods_have_their_verified_order_by_all_trees(name: str) -> None:
-    """A part of the exact methods, by all trees in exact arithmetic where the certificate uses a few."""
+    """A part of the exact methods, by all trees in exact arithmetic where the certificate uses a
+    few.
+    """
     order = ENTRIES[name]["verified_order"]
     assert brute_order(tableau(ENTRIES[name]), order + 1) == order

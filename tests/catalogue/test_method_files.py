@@ -23,7 +23,9 @@ ENTRIES = entries()
 
 
 def test_one_call_over_the_directory(tmp_path: Path) -> None:
-    """All 94 methods have their verified order: exactly, or within the rounding that the file states."""
+    """All 94 methods have their verified order: exactly, or within the rounding that the file
+    states.
+    """
     for name, entry in ENTRIES.items():
         (tmp_path / f"{name}.gark.yaml").write_text(method_file(entry), encoding="utf-8")
     run = gark("check", str(tmp_path), "--format", "json", "-j", "2")
@@ -36,13 +38,16 @@ def test_one_call_over_the_directory(tmp_path: Path) -> None:
 
 
 def _floats(rows: Iterable[Iterable[Any]]) -> Any:
-    """The longest floats of the machine: coefficients reach 458, and seven of them are multiplied."""
+    """The longest floats of the machine: coefficients reach 458, and seven of them are
+    multiplied.
+    """
     return np.array([[np.longdouble(x.str(25, radius=False)) for x in row] for row in rows])
 
 
 @pytest.mark.parametrize("name", ENTRIES)
 def test_brute_force_over_the_table_in_floats(name: str) -> None:
-    """Every tree of the table, in floats: residuals vanish up to the verified order, and not one above.
+    """Every tree of the table, in floats: residuals vanish up to the verified order, and not one
+    above.
 
     Zero is what is within the rounding of the entry, or within 1e-11 where that is smaller.
     """
@@ -54,7 +59,9 @@ def test_brute_force_over_the_table_in_floats(name: str) -> None:
     rows = [colour.rows for colour in tableau.colours]
     blocks = {(rows[l], m): _floats(printed.A[l][m] or ()) for l, m in tableau.edges()}
     weights = [_floats([row])[0] for row in printed.b]
-    residuals = np.abs(elementary_weights(table, rows, blocks, weights) - 1 / table.gamma.astype(np.longdouble))
+    residuals = np.abs(
+        elementary_weights(table, rows, blocks, weights) - 1 / table.gamma.astype(np.longdouble)
+    )
     near = max(entry["rounding"], 1e-11)
     assert residuals[table.order <= order].max() <= near
     assert residuals[table.order == order + 1].max() > near

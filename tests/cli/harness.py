@@ -33,7 +33,10 @@ def gark(*arguments: str, stdin: str = "", cwd: Path = ROOT) -> Run:
     out, err = io.StringIO(), io.StringIO()
     code: object = None
     before = Path.cwd()
-    with patch.dict(os.environ, {"COLUMNS": "80", "LINES": "24"}), patch("sys.stdin", _Input(stdin)):
+    with (
+        patch.dict(os.environ, {"COLUMNS": "80", "LINES": "24"}),
+        patch("sys.stdin", _Input(stdin)),
+    ):
         for name in ("NO_COLOR", "GITHUB_ACTIONS"):
             os.environ.pop(name, None)
         os.chdir(cwd)

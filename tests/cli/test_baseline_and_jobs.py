@@ -42,7 +42,11 @@ class Project:
     def __init__(self, folder: Path, **files: str) -> None:
         self.folder = folder
         self.write(**files)
-        assert gark("check", ".", "--format", "json", "-o", "base.json", cwd=folder).code in {0, 1, 2}
+        assert gark("check", ".", "--format", "json", "-o", "base.json", cwd=folder).code in {
+            0,
+            1,
+            2,
+        }
 
     def write(self, **files: str) -> None:
         """Write files; ``m`` is ``m.gark.yaml``."""
@@ -79,7 +83,9 @@ def test_a_claim_that_is_new_has_to_hold(tmp_path: Path) -> None:
 
 
 def test_an_order_that_is_lower(tmp_path: Path) -> None:
-    """Without any claims a lower order is worse, each of the three on a line; a higher one is not."""
+    """Without any claims a lower order is worse, each of the three on a line; a higher one is
+    not.
+    """
     run = Project(tmp_path, m=GAUSS).compare(m=LOWER)
     assert run.code == 1
     assert [line.partition(": ")[2] for line in run.out.splitlines()[:3]] == [
@@ -102,7 +108,9 @@ def test_an_order_that_is_gone(tmp_path: Path) -> None:
 
 
 def test_a_new_file_has_to_be_right(tmp_path: Path) -> None:
-    """A file that the baseline does not know fails where a claim fails or it cannot be read, not where it holds."""
+    """A file that the baseline does not know fails where a claim fails or it cannot be read, not
+    where it holds.
+    """
     project = Project(tmp_path, m=HOLDS)
     assert project.compare(n=HOLDS).code == 0
     failing = project.compare(n=FAILS)
@@ -114,14 +122,18 @@ def test_a_new_file_has_to_be_right(tmp_path: Path) -> None:
 
 
 def test_what_failed_may_go_on_failing(tmp_path: Path) -> None:
-    """A claim that failed before may fail again, with another number and after a move down the file."""
+    """A claim that failed before may fail again, with another number and after a move down the
+    file.
+    """
     project = Project(tmp_path, m=FAILS)
     assert project.compare(m=FAILS).code == 0
     assert project.compare(m="# later\n\n" + FAILS.replace("5", "6")).code == 0
 
 
 def test_what_was_unreadable_may_stay_so(tmp_path: Path) -> None:
-    """An unreadable file stays unreadable without complaint; one that becomes readable is no worse."""
+    """An unreadable file stays unreadable without complaint; one that becomes readable is no
+    worse.
+    """
     project = Project(tmp_path, m=BROKEN)
     assert project.compare(m="methods: 1").code == 0
     assert project.compare(m=HOLDS).code == 0
@@ -136,7 +148,9 @@ def test_a_file_that_cannot_be_read_any_more(tmp_path: Path) -> None:
 
 @pytest.mark.parametrize("what", NO_BASELINES)
 def test_a_baseline_that_is_none(what: str, tmp_path: Path) -> None:
-    """What is no report of ``gark check`` is a usage error with a cure: exit code 2, nothing on stdout."""
+    """What is no report of ``gark check`` is a usage error with a cure: exit code 2, nothing on
+    stdout.
+    """
     Project(tmp_path, m=HOLDS)
     text = NO_BASELINES[what]
     if text is not None:
@@ -155,7 +169,8 @@ def test_a_baseline_that_is_a_method_file(tmp_path: Path) -> None:
         assert gark("check", ".", "--baseline", name, cwd=tmp_path).code == 2
 
 
-# -- many at a time -----------------------------------------------------------------------------------------------
+# -- many at a time
+# -----------------------------------------------------------------------------------------------
 
 
 def process(*arguments: str, stdin: str = "") -> subprocess.CompletedProcess[str]:
@@ -171,14 +186,22 @@ def process(*arguments: str, stdin: str = "") -> subprocess.CompletedProcess[str
 @pytest.mark.parametrize(
     ("options", "paths"),
     [
-        (("--format", "json"), ("methods", "tests/examples/valid", "tests/examples/failing", *QUICK, "nowhere")),
-        (("--format", "text"), ("methods", "tests/examples/failing", "tests/examples/invalid/octal.gark.yaml")),
+        (
+            ("--format", "json"),
+            ("methods", "tests/examples/valid", "tests/examples/failing", *QUICK, "nowhere"),
+        ),
+        (
+            ("--format", "text"),
+            ("methods", "tests/examples/failing", "tests/examples/invalid/octal.gark.yaml"),
+        ),
         (("--format", "text", "-v", "--error-constants"), ("methods", "tests/examples/valid")),
         (("--format", "sarif"), ("methods", "tests/examples/failing", "tests/report")),
     ],
 )
 def test_two_at_a_time_say_the_same(options: tuple[str, ...], paths: tuple[str, ...]) -> None:
-    """Methods, failing and unreadable files give the same report, in the same order, one by one and by twos."""
+    """Methods, failing and unreadable files give the same report, in the same order, one by one and
+    by twos.
+    """
     one, two = process(*options, *paths), process(*options, "-j", "2", *paths)
     assert one.stdout == two.stdout != ""
     assert one.stderr == two.stderr == ""
@@ -190,7 +213,9 @@ def test_two_at_a_time_say_the_same(options: tuple[str, ...], paths: tuple[str, 
 def test_standard_input_among_many() -> None:
     """``-`` is read once, in its place among the files, with ``-j`` as without."""
     paths = ("methods/collocation.gark.yaml", "-", "tests/examples/failing")
-    one, two = (process(*paths, *jobs, "--format", "json", stdin=HOLDS) for jobs in ((), ("-j", "2")))
+    one, two = (
+        process(*paths, *jobs, "--format", "json", stdin=HOLDS) for jobs in ((), ("-j", "2"))
+    )
     assert one.stdout == two.stdout
     files = [(x["file"], x["ok"]) for x in json.loads(two.stdout)["files"]]
     assert files[0] == (paths[0], True)
@@ -211,4 +236,7 @@ def test_a_baseline_of_many_at_a_time(tmp_path: Path) -> None:
     base = tmp_path / "base.json"
     assert process("methods", "-j", "2", "--format", "json", "-o", str(base)).returncode == 0
     run = process("methods", "--baseline", str(base))
-    assert (run.returncode, run.stdout.splitlines()[-1].partition(": ")[2]) == (0, "nothing got worse")
+    assert (run.returncode, run.stdout.splitlines()[-1].partition(": ")[2]) == (
+        0,
+        "nothing got worse",
+    )

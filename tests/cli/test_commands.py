@@ -27,7 +27,10 @@ LONG_RUN = ("--drift", "--t-end", "20", "--step", "1/10")
 RUNS = [
     (("check", COLLOCATION), ("auto", "text", "json", "github", "sarif", "junit", "markdown")),
     (("trees", "-N", "2", "-n", "3"), ("text", "json", "ndjson", "csv", "latex")),
-    (("trees", "-N", "2", "-n", "3", "--count", "--upto"), ("text", "json", "ndjson", "csv", "latex")),
+    (
+        ("trees", "-N", "2", "-n", "3", "--count", "--upto"),
+        ("text", "json", "ndjson", "csv", "latex"),
+    ),
     (("conditions", "-n", "3"), ("text", "json", "csv", "latex")),
     (("conditions", "-N", "2", "-n", "3", "--coloured"), ("text", "json", "csv", "latex")),
     (("conditions", COLLOCATION, "-n", "3", "--pair"), ("text", "json", "csv", "latex")),
@@ -58,7 +61,9 @@ def test_every_format_of_every_command_is_tried() -> None:
         command = import_module(f"garkcli.cli.{name}_command").command
         (choice,) = [x.type for x in command.params if x.name == "format"]
         known[name] = set(choice.choices)
-    tried = {name: {f for run, formats in RUNS if run[0] == name for f in formats} for name in COMMANDS}
+    tried = {
+        name: {f for run, formats in RUNS if run[0] == name for f in formats} for name in COMMANDS
+    }
     assert tried == known
 
 
@@ -73,7 +78,9 @@ def data(*arguments: str) -> dict[str, object]:
 
 @pytest.mark.parametrize("arguments", EACH)
 def test_every_command_runs_in_every_format(arguments: tuple[str, ...]) -> None:
-    """The report is on stdout, in the format asked for; nothing but notes is on stderr; the exit code is 0."""
+    """The report is on stdout, in the format asked for; nothing but notes is on stderr; the exit
+    code is 0.
+    """
     run = gark(*arguments)
     assert run.code == 0, run.err
     assert run.out.endswith("\n") or arguments[-1] == "github"  # which only knows of failures
@@ -92,8 +99,12 @@ def test_every_command_runs_in_every_format(arguments: tuple[str, ...]) -> None:
 
 
 @pytest.mark.parametrize("arguments", EACH)
-def test_a_report_in_a_file_is_the_report_on_stdout(arguments: tuple[str, ...], tmp_path: Path) -> None:
-    """``-o FILE`` writes what stdout would show, whole, and leaves nothing else in the directory."""
+def test_a_report_in_a_file_is_the_report_on_stdout(
+    arguments: tuple[str, ...], tmp_path: Path
+) -> None:
+    """``-o FILE`` writes what stdout would show, whole, and leaves nothing else in the
+    directory.
+    """
     target = tmp_path / "report"
     run = gark(*arguments, "-o", str(target))
     assert (run.code, run.out) == (0, "")
@@ -102,7 +113,9 @@ def test_a_report_in_a_file_is_the_report_on_stdout(arguments: tuple[str, ...], 
 
 
 def test_nothing_is_left_where_a_report_cannot_be_written(tmp_path: Path) -> None:
-    """Into a directory that does not exist nothing is written: exit code 2, a message, no partial file."""
+    """Into a directory that does not exist nothing is written: exit code 2, a message, no partial
+    file.
+    """
     run = gark("check", COLLOCATION, "-o", str(tmp_path / "nowhere" / "report"))
     assert (run.code, run.out) == (2, "")
     assert "cannot write" in run.err
@@ -112,7 +125,9 @@ def test_nothing_is_left_where_a_report_cannot_be_written(tmp_path: Path) -> Non
 
 
 def test_a_file_is_replaced_only_by_a_whole_report(tmp_path: Path) -> None:
-    """A run that fails before its report leaves the old file as it was; one that succeeds replaces it."""
+    """A run that fails before its report leaves the old file as it was; one that succeeds replaces
+    it.
+    """
     target = tmp_path / "report"
     target.write_text("old")
     assert gark("tableau", INVALID, "-o", str(target)).code == 2
@@ -123,7 +138,9 @@ def test_a_file_is_replaced_only_by_a_whole_report(tmp_path: Path) -> None:
 
 @pytest.mark.parametrize("command", COMMANDS)
 def test_help_of_every_command(command: str) -> None:
-    """``--help`` and ``-h`` show the same, with every option the command has; the group lists the command."""
+    """``--help`` and ``-h`` show the same, with every option the command has; the group lists the
+    command.
+    """
     run = gark(command, "--help")
     assert run.code == 0
     assert run.out == gark(command, "-h").out
@@ -181,7 +198,9 @@ def test_version() -> None:
     ],
 )
 def test_exit_codes(code: int, arguments: tuple[str, ...]) -> None:
-    """0 all holds, 1 a claim fails, 2 usage or a file that is no method; the largest of several files."""
+    """0 all holds, 1 a claim fails, 2 usage or a file that is no method; the largest of several
+    files.
+    """
     run = gark(*arguments)
     assert run.code == code, run.err
     assert "Traceback" not in run.out + run.err
@@ -226,12 +245,16 @@ def test_colour_is_asked_for() -> None:
     """Escape codes are there with ``--color always`` and not otherwise; the text is the same."""
     painted = gark("check", COLLOCATION, "--color", "always").out
     assert "\x1b[" in painted
-    assert re.sub(r"\x1b\[[0-9;]*m", "", painted) == gark("check", COLLOCATION, "--color", "never").out
+    assert (
+        re.sub(r"\x1b\[[0-9;]*m", "", painted) == gark("check", COLLOCATION, "--color", "never").out
+    )
     assert "\x1b[" not in gark("check", COLLOCATION).out
 
 
 def test_the_search_stops_at_the_highest_order() -> None:
-    """``--max-order`` makes the order a lower bound, in the text and in JSON; claims are decided."""
+    """``--max-order`` makes the order a lower bound, in the text and in JSON; claims are
+    decided.
+    """
     gauss = "methods: [{family: gauss, stages: 4}]"
     run = gark("check", "-", "--max-order", "3", "--format", "json", stdin=gauss)
     (found,) = json.loads(run.out)["files"]
@@ -242,7 +265,9 @@ def test_the_search_stops_at_the_highest_order() -> None:
 
 
 def test_json_of_check() -> None:
-    """The report on the collocation example has every field of the documentation, with the paper's values."""
+    """The report on the collocation example has every field of the documentation, with the paper's
+    values.
+    """
     report = data("check", COLLOCATION)
     assert report["schema"] == "gark/check/1"
     assert report["summary"] == {"files": 1, "failed": 0}
@@ -258,18 +283,24 @@ def test_json_of_check() -> None:
 
 
 def test_json_of_a_file_that_cannot_be_read() -> None:
-    """Each fault is an error with line, column, message and help; the other files are reported all the same."""
+    """Each fault is an error with line, column, message and help; the other files are reported all
+    the same.
+    """
     run = gark("check", INVALID, COLLOCATION, "--format", "json")
     assert run.code == 2
     bad, good = json.loads(run.out)["files"]
     assert bad["ok"] is False
     assert good["ok"] is True
     assert {"line", "column", "message", "help"} <= set(bad["errors"][0])
-    assert [error["line"] for error in bad["errors"]] == sorted(error["line"] for error in bad["errors"])
+    assert [error["line"] for error in bad["errors"]] == sorted(
+        error["line"] for error in bad["errors"]
+    )
 
 
 def test_json_of_trees() -> None:
-    """52 trees of order 4 in two colours, 26 for each root; with --count the same numbers and no trees."""
+    """52 trees of order 4 in two colours, 26 for each root; with --count the same numbers and no
+    trees.
+    """
     report = data("trees", "-N", "2", "-n", "4")
     assert (report["colours"], report["order"], report["count"]) == (2, 4, 52)
     assert report["by_root"] == {"1": 26, "2": 26}
@@ -283,10 +314,13 @@ def test_json_of_trees() -> None:
 
 @pytest.mark.parametrize("options", [[], ["--symplectic"]])
 def test_counts_of_thousands_of_digits(options: list[str]) -> None:
-    """They are written out, in every format, and Python's limit for the digits of numbers is left as it was."""
+    """They are written out, in every format, and Python's limit for the digits of numbers is left
+    as it was.
+    """
     limit = sys.get_int_max_str_digits()
     runs = [
-        gark("trees", "--count", "-N", "9", "-n", "3500", "--format", x, *options) for x in ("text", "json", "csv")
+        gark("trees", "--count", "-N", "9", "-n", "3500", "--format", x, *options)
+        for x in ("text", "json", "csv")
     ]
     assert [run.code for run in runs] == [0, 0, 0]
     assert [run.err for run in runs] == ["", "", ""]
@@ -304,7 +338,9 @@ def test_more_trees_than_fit_are_refused() -> None:
 
 
 def test_json_of_conditions() -> None:
-    """Without a file each row has its tree and condition; with a file also its values, as exact text."""
+    """Without a file each row has its tree and condition; with a file also its values, as exact
+    text.
+    """
     plain = data("conditions", "-n", "4")["conditions"]
     assert len(plain) == 8
     assert {"tree", "root", "order", "sigma", "gamma", "condition"} <= set(plain[0])
@@ -325,9 +361,14 @@ def test_json_of_a_tableau(command: str) -> None:
     for part in (report, report["float"]):
         assert [len(row) for row in part["c"]] == [2, 3]
         assert [len(row) for row in part["b"]] == [2, 3]
-        assert [[(len(x), len(x[0])) for x in row] for row in part["A"]] == [[(2, 2), (2, 3)], [(3, 2), (3, 3)]]
+        assert [[(len(x), len(x[0])) for x in row] for row in part["A"]] == [
+            [(2, 2), (2, 3)],
+            [(3, 2), (3, 3)],
+        ]
     assert report["c"][0] == ["1/2 - sqrt(3)/6", "1/2 + sqrt(3)/6"]
-    assert report["float"]["c"][0] == pytest.approx([0.21132486540518713, 0.7886751345948129], abs=1e-16)
+    assert report["float"]["c"][0] == pytest.approx(
+        [0.21132486540518713, 0.7886751345948129], abs=1e-16
+    )
 
 
 def test_absent_blocks_are_null() -> None:
@@ -337,12 +378,16 @@ def test_absent_blocks_are_null() -> None:
 
 
 def test_json_of_converge() -> None:
-    """The observed order is near the predicted one, and every step has h, error, slope, energy error."""
+    """The observed order is near the predicted one, and every step has h, error, slope, energy
+    error.
+    """
     report = data("converge", VERLET)
     assert (report["problem"], report["predicted_order"]) == ("oscillator", 2)
     assert report["observed_order"] == pytest.approx(2, abs=0.1)
     assert {"h", "error", "slope", "energy_error"} <= set(report["steps"][0])
-    assert [step["h"] for step in report["steps"]] == sorted((x["h"] for x in report["steps"]), reverse=True)
+    assert [step["h"] for step in report["steps"]] == sorted(
+        (x["h"] for x in report["steps"]), reverse=True
+    )
     drift = data("converge", VERLET, *LONG_RUN)
     assert {"problem", "step", "t_end", "max_energy_error", "drift"} <= set(drift)
     assert (drift["step"], drift["t_end"]) == (0.1, 20.0)
@@ -351,9 +396,9 @@ def test_json_of_converge() -> None:
 
 def test_json_of_list() -> None:
     """Families, transfer rules and problems are those that files and options accept."""
-    from garkcli.dynamics.problems import PROBLEMS
     from garkcli.families.registry import FAMILIES
     from garkcli.methodfile.reader import ALL_RULES
+    from garkcli.problems.oscillator import PROBLEMS
 
     report = data("list")
     assert [x["name"] for x in report["families"]] == list(FAMILIES)
@@ -370,7 +415,9 @@ def test_the_conjugate_twice_is_the_file() -> None:
 
 
 def test_conjugate_without_radicals_says_so() -> None:
-    """Where nodes have no simple radicals the file says ``conjugate: true``, with a note on stderr."""
+    """Where nodes have no simple radicals the file says ``conjugate: true``, with a note on
+    stderr.
+    """
     run = gark("conjugate", "methods/gauss6-lobatto7.gark.yaml", "--format", "yaml")
     assert loads(run.out).is_conjugate
     assert "conjugate: true" in run.err
@@ -378,7 +425,9 @@ def test_conjugate_without_radicals_says_so() -> None:
 
 
 def test_pictures_are_written(tmp_path: Path) -> None:
-    """``--svg`` draws every tree into one well-formed sheet, ``--plot`` a figure; stderr says which file."""
+    """``--svg`` draws every tree into one well-formed sheet, ``--plot`` a figure; stderr says which
+    file.
+    """
     sheet, figure = tmp_path / "trees.svg", tmp_path / "order.svg"
     run = gark("trees", "-N", "2", "-n", "3", "--svg", str(sheet))
     assert (run.code, run.out, run.err) == (0, "", f"wrote {sheet}\n")
@@ -388,20 +437,30 @@ def test_pictures_are_written(tmp_path: Path) -> None:
 
 
 def test_the_schema_allows_every_file_that_loads() -> None:
-    """``gark schema`` is a JSON Schema, and no valid example is underlined by an editor that uses it."""
+    """``gark schema`` is a JSON Schema, and no valid example is underlined by an editor that uses
+    it.
+    """
     schema = data("schema")
     validator = Draft7Validator(schema)
     validator.check_schema(schema)
-    assert not validator.is_valid({"methods": [{"family": "gauss", "stages": 2}], "descripton": "a slip"})
-    files = sorted([*ROOT.glob("methods/*.gark.yaml"), *ROOT.glob("tests/examples/valid/*.gark.yaml")])
+    assert not validator.is_valid(
+        {"methods": [{"family": "gauss", "stages": 2}], "descripton": "a slip"}
+    )
+    files = sorted(
+        [*ROOT.glob("methods/*.gark.yaml"), *ROOT.glob("tests/examples/valid/*.gark.yaml")]
+    )
     wrong = {
-        x.name: e.message for x in files for e in validator.iter_errors(yaml.safe_load(x.read_text("utf-8-sig")))
+        x.name: e.message
+        for x in files
+        for e in validator.iter_errors(yaml.safe_load(x.read_text("utf-8-sig")))
     }
     assert wrong == {}
 
 
 def test_the_schema_of_reports_allows_reports() -> None:
-    """``gark schema --report`` describes what ``gark check --format json`` writes, faults included."""
+    """``gark schema --report`` describes what ``gark check --format json`` writes, faults
+    included.
+    """
     schema = data("schema", "--report")
     found = json.loads(gark("check", "methods", FAILING, INVALID, ARK, "--format", "json").out)
     assert [error.message for error in Draft7Validator(schema).iter_errors(found)] == []

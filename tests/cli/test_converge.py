@@ -9,7 +9,7 @@ from pathlib import Path
 
 import pytest
 
-from garkcli.report.plot import SUFFIXES
+from garkcli.plots.convergence_plot import SUFFIXES
 from tests.cli.harness import ROOT, gark
 
 COLLOCATION = "methods/collocation.gark.yaml"
@@ -22,7 +22,9 @@ INVALID = "tests/examples/invalid/many-faults.gark.yaml"
 
 def test_several_methods_side_by_side() -> None:
     """All slopes are the orders, on a problem that sees every tree."""
-    run = gark("converge", COLLOCATION, INTERPOLATION, ARS, "--problem", "generic", "--format", "json")
+    run = gark(
+        "converge", COLLOCATION, INTERPOLATION, ARS, "--problem", "generic", "--format", "json"
+    )
     assert run.code == 0, run.err
     results = json.loads(run.out)["results"]
     assert [x["visible_order"] for x in results] == [4, 4, 2]
@@ -31,7 +33,9 @@ def test_several_methods_side_by_side() -> None:
 
 
 def test_different_terms_have_the_same_sum() -> None:
-    """The random H is that of the method with most terms, whatever the order of the files; others add terms up."""
+    """The random H is that of the method with most terms, whatever the order of the files; others
+    add terms up.
+    """
     three = "methods/three-colours.gark.yaml"
     steps = ("--steps", "1/8,1/16", "--problem", "generic", "--format", "json")
     results = {}
@@ -49,7 +53,9 @@ def test_different_terms_have_the_same_sum() -> None:
 
 def test_a_faulty_file_stops_none() -> None:
     """Its faults are on stderr with their lines, the others are compared, exit code 2."""
-    run = gark("converge", VERLET, INVALID, "nowhere.gark.yaml", RECTANGULAR, "--problem", "pendulum")
+    run = gark(
+        "converge", VERLET, INVALID, "nowhere.gark.yaml", RECTANGULAR, "--problem", "pendulum"
+    )
     assert run.code == 2
     assert f"{INVALID}:" in run.err
     assert "nowhere.gark.yaml: error: no such file" in run.err
@@ -68,7 +74,15 @@ def test_a_failing_step_stops_none() -> None:
 
 def test_a_method_for_other_problems_stops_none() -> None:
     """The rectangular method is not for generic: said with its name, exit code 2."""
-    run = gark("converge", RECTANGULAR, COLLOCATION, "--problem", "generic", "--steps", "1/8,1/16,1/32,1/64")
+    run = gark(
+        "converge",
+        RECTANGULAR,
+        COLLOCATION,
+        "--problem",
+        "generic",
+        "--steps",
+        "1/8,1/16,1/32,1/64",
+    )
     assert run.code == 2
     assert f"{RECTANGULAR}: error: H{{1}} of generic depends on q" in run.err
     assert "they agree" in run.out
@@ -87,12 +101,17 @@ def test_directories_and_patterns(tmp_path: Path) -> None:
         (tmp_path / f"{name}.gark.yaml").write_bytes((ROOT / VERLET).read_bytes())
     for argument in (str(tmp_path), str(tmp_path / "*.yaml")):
         run = gark("converge", argument, "--format", "json")
-        assert [Path(x["file"]).name for x in json.loads(run.out)["results"]] == ["a.gark.yaml", "b.gark.yaml"]
+        assert [Path(x["file"]).name for x in json.loads(run.out)["results"]] == [
+            "a.gark.yaml",
+            "b.gark.yaml",
+        ]
 
 
 def test_problem_file_for_several() -> None:
     """It is read once, also from standard input; its faults are those of the whole run."""
-    text = "{variables: [x], hamiltonian: [px**2/2, 1 - cos(x)], initial: {x: 1, px: 1/2}, t_end: 4}"
+    text = (
+        "{variables: [x], hamiltonian: [px**2/2, 1 - cos(x)], initial: {x: 1, px: 1/2}, t_end: 4}"
+    )
     run = gark("converge", VERLET, RECTANGULAR, "--problem", "-", stdin=text)
     assert (run.code, run.out.count("they agree")) == (0, 2), run.err
     broken = gark("converge", VERLET, RECTANGULAR, "--problem", "-", stdin="{variables: [x]}")
@@ -112,18 +131,31 @@ def test_work_in_every_format(problem: str, files: tuple[str, ...]) -> None:
     for result in data.get("results", [data]):
         counts = [row["work"]["evaluations"] for row in result["steps"]]
         assert counts == sorted(counts)
-        assert all(row["work"]["seconds"] is None or row["work"]["seconds"] > 0 for row in result["steps"])
+        assert all(
+            row["work"]["seconds"] is None or row["work"]["seconds"] > 0 for row in result["steps"]
+        )
         assert result["steps"][0]["work"]["seconds"] is not None
     rows = list(csv.DictReader(io.StringIO(gark(*arguments, "--format", "csv").out)))
     assert all(int(row["evaluations"]) >= int(row["steps"]) > 0 for row in rows)
 
 
 def test_work_keeps_coarse_steps() -> None:
-    """Large errors are asked for as well when costs are compared: the ladder begins with longer steps."""
-    arguments = ("converge", "methods/gauss6-lobatto7.gark.yaml", "--problem", "henon-heiles", "--format", "json")
+    """Large errors are asked for as well when costs are compared: the ladder begins with longer
+    steps.
+    """
+    arguments = (
+        "converge",
+        "methods/gauss6-lobatto7.gark.yaml",
+        "--problem",
+        "henon-heiles",
+        "--format",
+        "json",
+    )
     plain, with_work = (json.loads(gark(*arguments, *x).out) for x in ((), ("--work",)))
     assert with_work["steps"][0]["h"] > plain["steps"][0]["h"]
-    assert [x["error"] for x in with_work["steps"][-3:]] == [x["error"] for x in plain["steps"][-3:]]
+    assert [x["error"] for x in with_work["steps"][-3:]] == [
+        x["error"] for x in plain["steps"][-3:]
+    ]
 
 
 @pytest.mark.parametrize("suffix", SUFFIXES)
@@ -151,9 +183,15 @@ def test_nothing_to_draw(tmp_path: Path) -> None:
 @pytest.mark.parametrize(
     ("said", "arguments"),
     [
-        ("--drift follows one method", (VERLET, RECTANGULAR, "--drift", "--t-end", "10", "--step", "1/2")),
+        (
+            "--drift follows one method",
+            (VERLET, RECTANGULAR, "--drift", "--t-end", "10", "--step", "1/2"),
+        ),
         ("--against seconds is not known without measuring it", (VERLET, "--against", "seconds")),
-        ("--drift follows one step size", (VERLET, "--drift", "--work", "--t-end", "10", "--step", "1/2")),
+        (
+            "--drift follows one step size",
+            (VERLET, "--drift", "--work", "--t-end", "10", "--step", "1/2"),
+        ),
         ("--omega 0: a positive number is expected", (VERLET, RECTANGULAR, "--omega", "0")),
         ("no figure can be saved", (VERLET, RECTANGULAR, "--plot", "figure.jpg")),
         ("there is no such folder", (VERLET, RECTANGULAR, "--plot", "nowhere/figure.png")),
@@ -167,7 +205,9 @@ def test_options_that_do_not_go_together(said: str, arguments: tuple[str, ...]) 
 
 
 def test_rounded_coefficients_are_hinted_at(tmp_path: Path) -> None:
-    """Gauss 2 in 13 digits has order 2 and shows 4: the line that is missing is said, and with it they agree."""
+    """Gauss 2 in 13 digits has order 2 and shows 4: the line that is missing is said, and with it
+    they agree.
+    """
     text = """
 ark:
   A: [[[0.25, -0.0386751345948], [0.5386751345948, 0.25]]]

@@ -29,7 +29,9 @@ def test_claims_decide_the_exit_code() -> None:
     failed = gark(*drifting, "--bounded")
     assert failed.code == 1
     assert "CLAIM FAILS      bounded, found: energy drifts, angular momentum drifts" in failed.out
-    held = gark("energy", RECTANGULAR, "--problem", "kepler", *SHORT, "--bounded", "--max-error", "1e-4")
+    held = gark(
+        "energy", RECTANGULAR, "--problem", "kepler", *SHORT, "--bounded", "--max-error", "1e-4"
+    )
     assert held.code == 0
     assert held.out.count("claim holds") == 2
 
@@ -63,13 +65,27 @@ def test_blow_ups_and_failed_steps_are_failures(tmp_path: Path) -> None:
 
 
 def test_symplecticity_is_measured() -> None:
-    """Far below the round-off of floats where the method is symplectic, and far above where it is not."""
+    """Far below the round-off of floats where the method is symplectic, and far above where it is
+    not.
+    """
     for path, proved, seen in ((RECTANGULAR, True, False), (RK4, False, True)):
-        run = gark("energy", path, "--problem", "henon-heiles", *SHORT, "--symplecticity", "--format", "json", "-q")
+        run = gark(
+            "energy",
+            path,
+            "--problem",
+            "henon-heiles",
+            *SHORT,
+            "--symplecticity",
+            "--format",
+            "json",
+            "-q",
+        )
         found = json.loads(run.out)["symplectic"]
         assert found["proved"] is proved
         assert len(found["defects"]) == 5
-        assert all(x["good_to"] < 1e-45 and (x["size"] > x["good_to"]) is seen for x in found["defects"])
+        assert all(
+            x["good_to"] < 1e-45 and (x["size"] > x["good_to"]) is seen for x in found["defects"]
+        )
 
 
 def test_problem_files() -> None:
@@ -112,7 +128,15 @@ def test_usage(options: tuple[str, ...], said: str) -> None:
 def test_figures_are_written(tmp_path: Path) -> None:
     """In each format; nothing else is left behind."""
     for suffix in ("png", "svg", "pdf"):
-        run = gark("energy", RECTANGULAR, "--problem", "kepler", *SHORT, "--plot", str(tmp_path / f"a.{suffix}"))
+        run = gark(
+            "energy",
+            RECTANGULAR,
+            "--problem",
+            "kepler",
+            *SHORT,
+            "--plot",
+            str(tmp_path / f"a.{suffix}"),
+        )
         assert run.code == 0
         assert f"wrote {tmp_path}" in run.err
     assert sorted(x.name for x in tmp_path.iterdir()) == ["a.pdf", "a.png", "a.svg"]
@@ -132,7 +156,14 @@ def test_csv_keeps_the_extremes() -> None:
 def test_more_digits() -> None:
     """What floats hide is shown."""
     run = gark(
-        "energy", "methods/gauss6-lobatto7.gark.yaml", "--problem", "pendulum", "--t-end", "40", "--digits", "40"
+        "energy",
+        "methods/gauss6-lobatto7.gark.yaml",
+        "--problem",
+        "pendulum",
+        "--t-end",
+        "40",
+        "--digits",
+        "40",
     )
     assert run.code == 0
     assert "400 steps, 40 digits" in run.out
@@ -140,7 +171,9 @@ def test_more_digits() -> None:
 
 
 def test_a_directory_is_no_method(tmp_path: Path) -> None:
-    """One file is followed: a directory is refused, with one of its files as a proposal where it has any."""
+    """One file is followed: a directory is refused, with one of its files as a proposal where it
+    has any.
+    """
     run = gark("energy", "methods")
     assert run.code == 2
     assert "methods: error: a directory, where one method file is expected" in run.err
@@ -151,7 +184,9 @@ def test_a_directory_is_no_method(tmp_path: Path) -> None:
 def test_problem_at_rest(tmp_path: Path) -> None:
     """Where nothing moves there is no error at all, and more digits are not offered."""
     path = tmp_path / "rest.yaml"
-    path.write_text('variables: [x]\nhamiltonian: ["px**2/2", "1 - cos(x)"]\ninitial: {x: 0, px: 0}\n')
+    path.write_text(
+        'variables: [x]\nhamiltonian: ["px**2/2", "1 - cos(x)"]\ninitial: {x: 0, px: 0}\n'
+    )
     run = gark("energy", RECTANGULAR, "--problem", str(path), "--t-end", "100", "--step", "1/10")
     assert run.code == 0
     assert "no error at all" in run.out

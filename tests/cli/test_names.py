@@ -24,9 +24,13 @@ COMMANDS = [
 
 @pytest.mark.parametrize("command", COMMANDS, ids=" ".join)
 @pytest.mark.parametrize("file", ["m.gark.yaml", "a\x1b[2J\nb.gark.yaml"])
-def test_no_name_reaches_the_terminal_as_a_command(command: tuple[str, ...], file: str, tmp_path: Path) -> None:
+def test_no_name_reaches_the_terminal_as_a_command(
+    command: tuple[str, ...], file: str, tmp_path: Path
+) -> None:
     """Control characters of a name are blanks, those of a file name are written out."""
-    (tmp_path / file).write_text(METHOD if file == "m.gark.yaml" else METHOD.replace(f'name: "{NAME}"', ""))
+    (tmp_path / file).write_text(
+        METHOD if file == "m.gark.yaml" else METHOD.replace(f'name: "{NAME}"', "")
+    )
     run = gark(command[0], file, *command[1:], cwd=tmp_path)
     assert all(sign.isprintable() or sign == "\n" for sign in run.out + run.err)
     if file == "m.gark.yaml":

@@ -1,4 +1,6 @@
-"""--problem: names and files, in what they print, where they end, and what they say when they cannot."""
+"""--problem: names and files, in what they print, where they end, and what they say when they
+cannot.
+"""
 
 from __future__ import annotations
 
@@ -11,9 +13,9 @@ from click.shell_completion import ShellComplete
 
 from garkcli.cli.main import gark as group
 from garkcli.cli.problems import PROBLEMS, ProblemType, find_problem, is_path
-from garkcli.dynamics.problems import PROBLEMS as SUMMARIES
 from garkcli.errors import UsageProblem
 from garkcli.methodfile.load import load
+from garkcli.problems.oscillator import PROBLEMS as SUMMARIES
 from tests.cli.harness import ROOT, gark
 
 RECTANGULAR = "methods/rectangular.gark.yaml"
@@ -49,7 +51,9 @@ def test_a_file_is_the_built_in_problem() -> None:
         for x in ("problems/kepler.yaml", "kepler")
     )
     assert one["problem"] == "Kepler"
-    assert [x["error"] for x in one["steps"]] == pytest.approx([x["error"] for x in other["steps"]], rel=1e-6)
+    assert [x["error"] for x in one["steps"]] == pytest.approx(
+        [x["error"] for x in other["steps"]], rel=1e-6
+    )
     assert "angular momentum" in one["steps"][0]["invariant_errors"]
 
 
@@ -59,17 +63,23 @@ def test_standard_input_is_a_file() -> None:
     run = gark("converge", RECTANGULAR, "--problem", "-", *STEPS, stdin=text)
     assert run.code == 0, run.err
     assert "x^4" in run.out
-    again = gark("converge", RECTANGULAR, "--problem", "-", *STEPS, stdin=text.replace("x**4", "x**6"))
+    again = gark(
+        "converge", RECTANGULAR, "--problem", "-", *STEPS, stdin=text.replace("x**4", "x**6")
+    )
     assert "x^6" in again.out
 
 
 def test_numbers_of_terms(tmp_path: Path) -> None:
-    """One colour takes the sum, a natural split any number, and all else is refused with the numbers."""
+    """One colour takes the sum, a natural split any number, and all else is refused with the
+    numbers.
+    """
     two, one = tmp_path / "two.yaml", tmp_path / "one.yaml"
     start = "initial: {x: 1, px: 0}\n"
     two.write_text(f"variables: [x]\nhamiltonian: [px**2/2, x**2/2]\n{start}")
     one.write_text(f"variables: [x]\nhamiltonian: px**2/2 + x**4/4\n{start}")
-    single, double, triple = (load(str(ROOT / x)).tableau for x in ("methods/rk4.gark.yaml", COLLOCATION, THREE))
+    single, double, triple = (
+        load(str(ROOT / x)).tableau for x in ("methods/rk4.gark.yaml", COLLOCATION, THREE)
+    )
     assert len(find_problem(str(two), single).terms) == 1
     assert len(find_problem(str(two), double).terms) == 2
     assert [len(find_problem(str(one), x).terms) for x in (single, double, triple)] == [1, 2, 3]
@@ -90,7 +100,10 @@ def test_numbers_of_terms(tmp_path: Path) -> None:
         (("--problem", RECTANGULAR), "this is a method file, not a problem file"),
         (("--problem", "problems/kepler.yaml", "--seed", "2"), "--seed is for the problem generic"),
         (("--problem", "problems/kepler.yaml", "--omega", "2"), "is for the oscillator"),
-        (("--problem", "problems/spherical-pendulum.yaml"), "H{1} of spherical pendulum depends on q"),
+        (
+            ("--problem", "problems/spherical-pendulum.yaml"),
+            "H{1} of spherical pendulum depends on q",
+        ),
     ],
 )
 def test_what_is_wrong_is_said(arguments: tuple[str, ...], said: str) -> None:
@@ -146,15 +159,20 @@ def test_names_are_completed() -> None:
     complete = ShellComplete(group, {}, "gark", "_GARK_COMPLETE")
     found = complete.get_completions(["converge", COLLOCATION, "--problem"], "dou")
     assert [x.value for x in found] == ["double-pendulum"]
-    assert [x.type for x in complete.get_completions(["converge", COLLOCATION, "--problem"], "problems/")] == [
-        "file"
-    ]
+    assert [
+        x.type
+        for x in complete.get_completions(["converge", COLLOCATION, "--problem"], "problems/")
+    ] == ["file"]
     assert isinstance(ProblemType(), click.ParamType)
 
 
-@pytest.mark.parametrize("command", [("converge", *STEPS), ("energy", "--t-end", "10", "--step", "1/10")])
+@pytest.mark.parametrize(
+    "command", [("converge", *STEPS), ("energy", "--t-end", "10", "--step", "1/10")]
+)
 def test_an_invariant_that_is_none_is_told(command: tuple[str, ...]) -> None:
-    """A sign that is wrong: x py + y px changes on the exact solution, so its errors are not the method's."""
+    """A sign that is wrong: x py + y px changes on the exact solution, so its errors are not the
+    method's.
+    """
     text = Path(ROOT / "problems/kepler.yaml").read_text(encoding="utf-8")
     assert "x*py - y*px" in text
     name, *rest = command
@@ -164,4 +182,7 @@ def test_an_invariant_that_is_none_is_told(command: tuple[str, ...]) -> None:
     )
     assert (right.code, wrong.code) == (0, 0)
     assert right.err == ""
-    assert "angular momentum is no invariant: the exact solution changes it by -0.024 to t = 1/32" in wrong.err
+    assert (
+        "angular momentum is no invariant: the exact solution changes it by -0.024 to t = 1/32"
+        in wrong.err
+    )

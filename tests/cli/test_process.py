@@ -11,11 +11,15 @@ from tests.cli.harness import ROOT
 FAILING = "tests/examples/failing/collocation-misprinted.gark.yaml"
 
 
-def run(*arguments: str, python: tuple[str, ...] = ("-m", "garkcli")) -> subprocess.CompletedProcess[str]:
+def run(
+    *arguments: str, python: tuple[str, ...] = ("-m", "garkcli")
+) -> subprocess.CompletedProcess[str]:
     """Run the program with the interpreter of the tests."""
     command = [sys.executable, *python, *arguments]
     environment = {**os.environ, "COLUMNS": "80", "PYTHONPATH": str(ROOT)}
-    return subprocess.run(command, cwd=ROOT, env=environment, capture_output=True, text=True, timeout=60)
+    return subprocess.run(
+        command, cwd=ROOT, env=environment, capture_output=True, text=True, timeout=60
+    )
 
 
 @pytest.mark.parametrize(
@@ -73,7 +77,9 @@ def test_help_imports_no_mathematics() -> None:
 
 
 def test_a_fault_of_the_program_is_owned_up_to() -> None:
-    """An exception that no room expects ends in exit code 3 and a request to report it, not in a traceback."""
+    """An exception that no room expects ends in exit code 3 and a request to report it, not in a
+    traceback.
+    """
     script = (
         "import garkcli.cli.list_command, garkcli.report.listing as listing\n"
         "from garkcli.cli import main\n"

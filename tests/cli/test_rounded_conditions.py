@@ -1,4 +1,6 @@
-"""``gark conditions`` and ``gark conjugate`` on rounded coefficients; what failing conditions are counted among."""
+"""``gark conditions`` and ``gark conjugate`` on rounded coefficients; what failing conditions are
+counted among.
+"""
 
 from __future__ import annotations
 
@@ -27,14 +29,18 @@ def rounded(tmp_path: Path) -> str:
 
 
 def test_conditions_within_the_tolerance_do_not_fail(rounded: str) -> None:
-    """Up to the order within the tolerance all conditions are met; none is said to hold that only nearly does."""
+    """Up to the order within the tolerance all conditions are met; none is said to hold that only
+    nearly does.
+    """
     report = json.loads(gark("conditions", rounded, "-n", "5", "--format", "json").out)
     assert report["tolerance"] == "1e-15"
     rows = report["conditions"]
     assert {row["order"] for row in rows if not row["holds"]} == {5}
     text = gark("conditions", rounded, "-n", "4").out
     assert "FAILS" not in text
-    assert text.count("  holds  ") == sum(row["residual"] == "0" for row in rows if row["order"] <= 4)
+    assert text.count("  holds  ") == sum(
+        row["residual"] == "0" for row in rows if row["order"] <= 4
+    )
     assert text.endswith("8 conditions, all hold within 1e-15\n")
     assert max(map(len, text.splitlines())) < 100
     exact = gark("conditions", str(DECIMALS), "-n", "4").out
@@ -43,7 +49,9 @@ def test_conditions_within_the_tolerance_do_not_fail(rounded: str) -> None:
 
 def test_independent_conditions_within_the_tolerance(rounded: str) -> None:
     """The independent conditions of the pair are judged within the tolerance of the file too."""
-    rows = json.loads(gark("conditions", rounded, "-n", "4", "--symplectic", "--format", "json").out)["conditions"]
+    rows = json.loads(
+        gark("conditions", rounded, "-n", "4", "--symplectic", "--format", "json").out
+    )["conditions"]
     assert all(row["holds"] for row in rows)
     assert any(row["residual"] != "0" for row in rows)
 
@@ -60,7 +68,9 @@ def test_the_conjugate_of_a_rounded_method_is_rounded(rounded: str) -> None:
 @pytest.mark.parametrize("command", ["tableau", "conditions", "conjugate"])
 @pytest.mark.parametrize("layout", ["latex", "text"])
 def test_rounded_methods_are_printed_in_decimals(command: str, layout: str, tmp_path: Path) -> None:
-    """No fraction of twenty digits where people read; the decimals are those of the exact numbers in the JSON."""
+    """No fraction of twenty digits where people read; the decimals are those of the exact numbers
+    in the JSON.
+    """
     file = tmp_path / "rounded.gark.yaml"
     methods = DECIMALS.read_text().partition("methods:")[2].partition("\n\n")[0]
     file.write_text(
@@ -97,12 +107,17 @@ def test_exact_methods_are_printed_exactly(tmp_path: Path) -> None:
 
 
 def test_failing_conditions_are_counted_among_all() -> None:
-    """With --failing the summary still counts every condition, and order headings without failures are left out."""
+    """With --failing the summary still counts every condition, and order headings without failures
+    are left out.
+    """
     every, failing = (
-        gark("conditions", PAIR, "--pair", "-n", "3", *more).out.splitlines() for more in ([], ["--failing"])
+        gark("conditions", PAIR, "--pair", "-n", "3", *more).out.splitlines()
+        for more in ([], ["--failing"])
     )
     assert every[-1] == failing[-1] == "62 conditions, 2 fail"
-    assert [line for line in every if "FAILS" in line] == [line for line in failing if "FAILS" in line]
+    assert [line for line in every if "FAILS" in line] == [
+        line for line in failing if "FAILS" in line
+    ]
     assert [line for line in failing if line.startswith("order")] == ["order 3"]
 
 
@@ -115,6 +130,10 @@ def test_a_csv_without_failing_conditions_has_its_heading(more: list[str]) -> No
 
 
 def test_colours_with_names_are_named() -> None:
-    """Where trees say 3 and the colour is called F1, a line says so; where numbers are names, none does."""
-    assert gark("conditions", PAIR, "--pair", "-n", "1").out.startswith("colours: 1 V1, 2 V2, 3 F1, 4 F2\n")
+    """Where trees say 3 and the colour is called F1, a line says so; where numbers are names, none
+    does.
+    """
+    assert gark("conditions", PAIR, "--pair", "-n", "1").out.startswith(
+        "colours: 1 V1, 2 V2, 3 F1, 4 F2\n"
+    )
     assert gark("conditions", PAIR, "-n", "1").out.startswith("order 1\n")

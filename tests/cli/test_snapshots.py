@@ -61,7 +61,15 @@ RUNS = {
         "200",
         "--symplecticity",
     ),
-    "energy-drifting": ("energy", "methods/rk4.gark.yaml", "--problem", "kepler", "--t-end", "200", "--bounded"),
+    "energy-drifting": (
+        "energy",
+        "methods/rk4.gark.yaml",
+        "--problem",
+        "kepler",
+        "--t-end",
+        "200",
+        "--bounded",
+    ),
     "list": ("list",),
     "help": ("--help",),
     "help-check": ("check", "--help"),
@@ -76,12 +84,16 @@ SOURCES = {"conditions-latex"}
 def record(arguments: tuple[str, ...], run: Run) -> str:
     """A run as text."""
     head = f"$ gark {' '.join(arguments)}\nexit code {run.code}\n"
-    return "".join([head, f"\n-- stdout --\n{run.out}", f"\n-- stderr --\n{run.err}" if run.err else ""])
+    return "".join(
+        [head, f"\n-- stdout --\n{run.out}", f"\n-- stderr --\n{run.err}" if run.err else ""]
+    )
 
 
 @pytest.mark.parametrize("name", RUNS)
 def test_a_run_is_as_recorded(name: str) -> None:
-    """Exit code, stdout and stderr are what they were when someone last read them, with no colour."""
+    """Exit code, stdout and stderr are what they were when someone last read them, with no
+    colour.
+    """
     run = gark(*RUNS[name])
     assert "\x1b" not in run.out + run.err
     assert_recorded(SNAPSHOTS / f"{name}.txt", record(RUNS[name], run))

@@ -92,7 +92,9 @@ def data(*arguments: str, stdin: str = "") -> dict[str, Any]:
 
 
 def test_text_of_both_commands() -> None:
-    """Classes with drawings and members; conditions with what they stand for; the number that is left."""
+    """Classes with drawings and members; conditions with what they stand for; the number that is
+    left.
+    """
     assert gark(*TREES, "-n", "3", "--members").out == TEXT
     assert gark(*CONDITIONS, VERLET, "-n", "3", "--only", "--members").out == CONDITIONS_TEXT
 
@@ -111,7 +113,9 @@ def test_counts_are_those_of_the_table(kind: str, terms: int, wanted: list[int])
 def test_counts_in_every_format() -> None:
     """Text, CSV, ndjson and LaTeX have the numbers of JSON."""
     asked = (*TREES, "-N", "2", "-n", "3", "--count")
-    assert gark(*asked).out.startswith("order 3: 20 instead of 104\n20 independent conditions of order 3")
+    assert gark(*asked).out.startswith(
+        "order 3: 20 instead of 104\n20 independent conditions of order 3"
+    )
     assert gark(*asked, "--format", "csv").out == "kind,order,count,instead_of\npair,3,20,104\n"
     assert json.loads(gark(*asked, "--format", "ndjson").out) == data(*asked)
     assert gark(*asked, "--format", "latex").out == "3 & 20 & 104 \\\\\n"
@@ -122,7 +126,9 @@ def test_counts_in_every_format() -> None:
 
 @pytest.mark.parametrize("kind", KINDS)
 def test_members_add_up_to_all_trees(kind: Kind) -> None:
-    """With the superfluous ones the members are all rooted trees, each once, and each lies in its class."""
+    """With the superfluous ones the members are all rooted trees, each once, and each lies in its
+    class.
+    """
     found = data(*TREES, "--kind", kind, "-N", "2", "-n", "4", "--members")
     structure = structure_of(kind, 2)
     members = [tree for row in found["classes"] for tree in row["members"]]
@@ -136,7 +142,9 @@ def test_members_add_up_to_all_trees(kind: Kind) -> None:
         assert row["stands_for"] == len(row["members"])
         assert row["representative"] in row["members"]
         centred = class_of(structure, parse_tree(row["representative"])).centred
-        assert all(class_of(structure, parse_tree(tree)).centred == centred for tree in row["members"])
+        assert all(
+            class_of(structure, parse_tree(tree)).centred == centred for tree in row["members"]
+        )
 
 
 @pytest.mark.parametrize("kind", KINDS)
@@ -145,17 +153,27 @@ def test_formats_agree(kind: Kind) -> None:
     asked = (*TREES, "--kind", kind, "-N", "2", "-n", "4", "--upto", "--members")
     rows = data(*asked)["classes"]
     assert rows
-    assert [json.loads(line) for line in gark(*asked, "--format", "ndjson").out.splitlines()] == rows
+    assert [
+        json.loads(line) for line in gark(*asked, "--format", "ndjson").out.splitlines()
+    ] == rows
     in_csv = list(csv.DictReader(io.StringIO(gark(*asked, "--format", "csv").out)))
     assert [x["members"].split() for x in in_csv] == [x["members"] for x in rows]
     assert [(x["kind"], x["representative"], int(x["stands_for"])) for x in in_csv] == [
         (kind, x["representative"], x["stands_for"]) for x in rows
     ]
-    in_text = re.findall(r"^  (\S+) +σ = (\d+) +γ = (\d+) +(\d+) tree", gark(*asked).out, re.MULTILINE)
-    assert in_text == [(x["representative"], *(str(x[k]) for k in ("sigma", "gamma", "stands_for"))) for x in rows]
+    in_text = re.findall(
+        r"^  (\S+) +σ = (\d+) +γ = (\d+) +(\d+) tree", gark(*asked).out, re.MULTILINE
+    )
+    assert in_text == [
+        (x["representative"], *(str(x[k]) for k in ("sigma", "gamma", "stands_for"))) for x in rows
+    ]
     for row in rows:
         tree = parse_tree(row["representative"])
-        assert (tree.order, tree.symmetry, tree.density) == (row["order"], row["sigma"], row["gamma"])
+        assert (tree.order, tree.symmetry, tree.density) == (
+            row["order"],
+            row["sigma"],
+            row["gamma"],
+        )
 
 
 def test_text_names_the_colours_within_80_columns() -> None:
@@ -176,10 +194,14 @@ def test_sheet_has_a_drawing_for_each_class(tmp_path: Path) -> None:
 
 
 def test_conditions_of_a_kind_are_those_of_its_classes() -> None:
-    """Up to ``--order`` one row for each class, with its formula and how many conditions it stands for."""
+    """Up to ``--order`` one row for each class, with its formula and how many conditions it stands
+    for.
+    """
     found = data(*CONDITIONS, "--kind", "semi-separable", "-n", "4")
     classes = data(*TREES, "--kind", "semi-separable", "-n", "4", "--upto")
-    assert found["symplectic"] == {k: classes[k] for k in ("kind", "terms", "colours", "count", "instead_of")}
+    assert found["symplectic"] == {
+        k: classes[k] for k in ("kind", "terms", "colours", "count", "instead_of")
+    }
     assert [(x["tree"], x["stands_for"]) for x in found["conditions"]] == [
         (x["representative"], x["stands_for"]) for x in classes["classes"]
     ]
@@ -187,27 +209,36 @@ def test_conditions_of_a_kind_are_those_of_its_classes() -> None:
 
 
 def test_collocation_satisfies_all_classes_to_order_four() -> None:
-    """The pair of collocation holds in all 130 classes up to order 4 and fails in all 662 of order 5."""
+    """The pair of collocation holds in all 130 classes up to order 4 and fails in all 662 of order
+    5.
+    """
     found = data(*CONDITIONS, COLLOCATION, "-n", "4")
     assert found["symplectic"]["colours"] == ["V1", "V2", "F1", "F2"]
     assert [x["holds"] for x in found["conditions"]] == [True] * 130
     fifth = data(*CONDITIONS, COLLOCATION, "-n", "5", "--only")["conditions"]
     assert len(fifth) == 662
     assert not any(x["holds"] for x in fifth)
-    assert not any(x["holds"] for x in data("conditions", COLLOCATION, "--pair", "-n", "5", "--only")["conditions"])
+    assert not any(
+        x["holds"]
+        for x in data("conditions", COLLOCATION, "--pair", "-n", "5", "--only")["conditions"]
+    )
     failing = gark(*CONDITIONS, COLLOCATION, "-n", "5", "--only", "--failing").out
     assert " ".join(failing.split()).endswith("of 5996; 662 fail")
     assert gark(*CONDITIONS, COLLOCATION, "-n", "4", "--failing").out.endswith("; all hold\n")
 
 
 def test_classes_that_fail_are_those_of_conditions_that_fail() -> None:
-    """Where some conditions of order 5 hold and some fail, the failing classes have the failing conditions."""
+    """Where some conditions of order 5 hold and some fail, the failing classes have the failing
+    conditions.
+    """
     path = "methods/symplectic-gauss-lobatto4.gark.yaml"
     rows = data(*CONDITIONS, path, "-n", "5", "--only", "--members")["conditions"]
     every = data("conditions", path, "--pair", "-n", "5", "--only")["conditions"]
     failing = {tree for row in rows if not row["holds"] for tree in row["members"]}
     assert 0 < sum(row["holds"] for row in rows) < len(rows) == 662
-    assert {row["tree"] for row in every if not row["holds"]} == {t for t in failing if t[-1] in "12"}
+    assert {row["tree"] for row in every if not row["holds"]} == {
+        t for t in failing if t[-1] in "12"
+    }
 
 
 def test_conditions_of_a_class_fail_together() -> None:
@@ -236,26 +267,39 @@ def test_kind_of_a_file(path: str, kind: str, colours: list[str]) -> None:
     found = data(*CONDITIONS, path, "-n", "3")["symplectic"]
     assert (found["kind"], found["colours"]) == (kind, colours)
     terms = str(found["terms"])
-    assert found["count"] == data(*TREES, "--kind", kind, "-N", terms, "-n", "3", "--upto", "--count")["count"]
+    assert (
+        found["count"]
+        == data(*TREES, "--kind", kind, "-N", terms, "-n", "3", "--upto", "--count")["count"]
+    )
 
 
 def test_nystrom_file() -> None:
     """A file for quadratic kinetic energy has the fewer classes of such problems."""
-    text = (ROOT / VERLET).read_text(encoding="utf-8").replace("structure: separable", "structure: nystrom")
+    text = (
+        (ROOT / VERLET)
+        .read_text(encoding="utf-8")
+        .replace("structure: separable", "structure: nystrom")
+    )
     found = data(*CONDITIONS, "-", "-n", "4", stdin=text)["symplectic"]
     assert (found["kind"], found["count"]) == ("nystrom", 7)
 
 
 def test_method_that_is_its_own_conjugate() -> None:
-    """A symplectic GARK method has the undirected free trees; ``--pair`` asks for those of its pair."""
+    """A symplectic GARK method has the undirected free trees; ``--pair`` asks for those of its
+    pair.
+    """
     found = data(*CONDITIONS, "-", "-n", "4", stdin=MIDPOINTS)
     assert (found["symplectic"]["kind"], found["symplectic"]["count"]) == ("self-conjugate", 23)
     assert {x["holds"] for x in found["conditions"] if x["order"] < 3} == {True}
-    assert data(*CONDITIONS, "-", "-n", "2", "--pair", stdin=MIDPOINTS)["symplectic"]["kind"] == "pair"
+    assert (
+        data(*CONDITIONS, "-", "-n", "2", "--pair", stdin=MIDPOINTS)["symplectic"]["kind"] == "pair"
+    )
 
 
 def test_blocks_that_a_file_lacks() -> None:
-    """Where two colours do not see each other, classes with an edge between them have no condition."""
+    """Where two colours do not see each other, classes with an edge between them have no
+    condition.
+    """
     found = data(*CONDITIONS, "-", "-n", "3", stdin=ADDITIVE)
     assert found["symplectic"]["count"] == len(found["conditions"]) == 2 * 5
     assert found["symplectic"]["instead_of"] == 2 * 20
@@ -263,7 +307,9 @@ def test_blocks_that_a_file_lacks() -> None:
 
 
 def test_term_that_is_linear_in_part() -> None:
-    """A term with one linear vector field of two is refused: the structure knows no such Hamiltonian."""
+    """A term with one linear vector field of two is refused: the structure knows no such
+    Hamiltonian.
+    """
     tableau = with_linear(pair(load(str(ROOT / COLLOCATION)).tableau), ["V1"])
     with pytest.raises(UsageProblem, match="colour F1 is not linear"):
         subject_of_method(tableau, range(1, 3))
@@ -276,13 +322,18 @@ def test_file_that_is_not_symplectic(text: str) -> None:
     assert (run.code, run.out) == (2, "")
     assert "the method is not symplectic: " in run.err
     assert ("different weights" in run.err) == (text == WEIGHTS)
-    assert (gark(*CONDITIONS, "-", "--pair", "-n", "1", stdin=text).code == 0) == (text == UNSYMPLECTIC)
+    assert (gark(*CONDITIONS, "-", "--pair", "-n", "1", stdin=text).code == 0) == (
+        text == UNSYMPLECTIC
+    )
 
 
 @pytest.mark.parametrize(
     ("arguments", "message"),
     [
-        ((*TREES, "--kind", "separable", "-N", "3", "-n", "2"), "separable problems have 2 terms, not 3"),
+        (
+            (*TREES, "--kind", "separable", "-N", "3", "-n", "2"),
+            "separable problems have 2 terms, not 3",
+        ),
         ((*CONDITIONS, "--kind", "nystrom", "-N", "1"), "nystrom problems have 2 terms, not 1"),
         ((*TREES,), "which order?"),
         ((*TREES, "-n", "3", "--root", "1"), "free trees have no root"),
@@ -307,7 +358,9 @@ def test_options_that_do_not_go_together(arguments: tuple[str, ...], message: st
 
 @pytest.mark.parametrize("arguments", [("trees", "-N", "2"), ("conditions",), TREES, CONDITIONS])
 def test_pictures_in_latex_are_indented_evenly(arguments: tuple[str, ...]) -> None:
-    """No empty line follows a picture, and what is between its begin and its end is indented further."""
+    """No empty line follows a picture, and what is between its begin and its end is indented
+    further.
+    """
     lines = gark(*arguments, "-n", "3", "--format", "latex").out.splitlines()
     assert all(line.strip() for line in lines)
     starts = [k for k, line in enumerate(lines) if line.startswith("  \\begin{tikzpicture}")]

@@ -1,4 +1,6 @@
-"""docs/bad-input.md says what the invalid examples are met with, because it is made by running them."""
+"""docs/bad-input.md says what the invalid examples are met with, because it is made by running
+them.
+"""
 
 from __future__ import annotations
 
@@ -39,7 +41,9 @@ def cell(text: str) -> str:
 
 def code(text: str) -> str:
     """A line of a file as code in a cell; nothing where there is no line."""
-    text = "".join(x if x.isprintable() else "\N{REPLACEMENT CHARACTER}" for x in text.replace("\t", "    "))
+    text = "".join(
+        x if x.isprintable() else "\N{REPLACEMENT CHARACTER}" for x in text.replace("\t", "    ")
+    )
     text = " ".join(text.split())
     text = text if len(text) <= WIDTH else f"{text[: WIDTH - 1].rstrip()}…"
     fence = "``" if "`" in text else "`"
@@ -77,7 +81,9 @@ def test_the_page_is_what_happens() -> None:
 
 def test_every_row_has_four_cells() -> None:
     """Nothing in a message or a line breaks the table: each row has four cells, and a message."""
-    rows = [line for line in PAGE.read_text(encoding="utf-8").splitlines() if line.startswith("|")][2:]
+    rows = [line for line in PAGE.read_text(encoding="utf-8").splitlines() if line.startswith("|")][
+        2:
+    ]
     assert len(rows) == len(list((ROOT / "tests/examples/invalid").glob(f"*{SUFFIX}")))
     for line in rows:
         cells = line.replace("\\|", "").split("|")[1:-1]
@@ -89,7 +95,13 @@ def test_every_row_has_four_cells() -> None:
 
 @pytest.mark.parametrize(
     ("text", "shown"),
-    [("a|b", "a\\|b"), ("a\nb", "a b"), ("<b>", "&lt;b>"), ("*a_b*", "\\*a\\_b\\*"), ("x" * 190, f"{'x' * 119}…")],
+    [
+        ("a|b", "a\\|b"),
+        ("a\nb", "a b"),
+        ("<b>", "&lt;b>"),
+        ("*a_b*", "\\*a\\_b\\*"),
+        ("x" * 190, f"{'x' * 119}…"),
+    ],
 )
 def test_a_cell_is_one(text: str, shown: str) -> None:
     """Signs of Markdown are escaped, lines are joined, and what is too long is cut."""

@@ -21,18 +21,28 @@ ROOT = Path(__file__).resolve().parents[2]
 PAGE = (ROOT / "docs" / "ci.md").read_text(encoding="utf-8")
 BLOCKS = re.findall(r"^```(\w+)\n(.*?)^```$", PAGE, re.DOTALL | re.MULTILINE)
 METHOD_FILES = [
-    text for language, text in BLOCKS if language == "yaml" and re.search("^methods:", text, re.MULTILINE)
+    text
+    for language, text in BLOCKS
+    if language == "yaml" and re.search("^methods:", text, re.MULTILINE)
 ]
-WORKFLOWS = [yaml.safe_load(text) for language, text in BLOCKS if language == "yaml" and text not in METHOD_FILES]
+WORKFLOWS = [
+    yaml.safe_load(text)
+    for language, text in BLOCKS
+    if language == "yaml" and text not in METHOD_FILES
+]
 PRINTED = re.compile(r"^(?:\s*- |\s*run: |)(gark .*)$", re.MULTILINE)
 
 
 def commands() -> list[str]:
-    """Every ``gark`` command of the page, in its order: in shell blocks, in workflows, in running text."""
+    """Every ``gark`` command of the page, in its order: in shell blocks, in workflows, in running
+    text.
+    """
     shell = [line for language, text in BLOCKS if language == "sh" for line in text.splitlines()]
     steps = [step for workflow in WORKFLOWS for step in scripts(workflow)]
     spoken = [x for x in re.findall(r"`(gark [^`]+)`", PAGE) if x != "gark check"]
-    return [x.partition(" >>")[0].strip() for x in [*shell, *steps, *spoken] if x.startswith("gark ")]
+    return [
+        x.partition(" >>")[0].strip() for x in [*shell, *steps, *spoken] if x.startswith("gark ")
+    ]
 
 
 def scripts(part: Any) -> list[str]:
@@ -65,7 +75,9 @@ def project(tmp_path_factory: pytest.TempPathFactory) -> Path:
 
 
 def test_the_page_has_its_commands() -> None:
-    """Shell blocks, workflows and running text all show commands, and every line that looks like one is run."""
+    """Shell blocks, workflows and running text all show commands, and every line that looks like
+    one is run.
+    """
     found = commands()
     assert len(found) >= 10
     shown = {x.partition(" >>")[0].strip() for x in PRINTED.findall(PAGE)}
@@ -75,13 +87,19 @@ def test_the_page_has_its_commands() -> None:
 
 @pytest.mark.parametrize("command", commands())
 def test_a_command_runs(command: str, project: Path) -> None:
-    """Each command of the page, in the order of the page, ends with exit code 0 and writes what it says."""
+    """Each command of the page, in the order of the page, ends with exit code 0 and writes what it
+    says.
+    """
     arguments = shlex.split(command)[1:]
     run = gark(*arguments, cwd=project)
     assert (run.code, run.err) == (0, ""), command
     if "-o" in arguments:
         text = (project / arguments[arguments.index("-o") + 1]).read_text(encoding="utf-8")
-        assert ET.fromstring(text).tag == "testsuites" if text.startswith("<?xml") else json.loads(text)
+        assert (
+            ET.fromstring(text).tag == "testsuites"
+            if text.startswith("<?xml")
+            else json.loads(text)
+        )
     else:
         assert run.out or "--quiet" in arguments
 
@@ -119,7 +137,10 @@ def test_the_action_is_used_as_it_is() -> None:
 
 def test_the_hook_exists() -> None:
     """The hook that the page names is one that the repository offers."""
-    offered = {hook["id"] for hook in yaml.safe_load((ROOT / ".pre-commit-hooks.yaml").read_text(encoding="utf-8"))}
+    offered = {
+        hook["id"]
+        for hook in yaml.safe_load((ROOT / ".pre-commit-hooks.yaml").read_text(encoding="utf-8"))
+    }
     named = {hook["id"] for x in WORKFLOWS for repo in x.get("repos", []) for hook in repo["hooks"]}
     assert named
     assert named <= offered
@@ -128,7 +149,9 @@ def test_the_hook_exists() -> None:
 def test_the_distribution_has_the_name_that_is_installed() -> None:
     """What the page installs with pip is called so in pyproject.toml."""
     names = set(re.findall(r"pip install (\S+)", PAGE))
-    assert {f'name = "{name}"' for name in names} <= set((ROOT / "pyproject.toml").read_text().splitlines())
+    assert {f'name = "{name}"' for name in names} <= set(
+        (ROOT / "pyproject.toml").read_text().splitlines()
+    )
     assert names
 
 

@@ -18,7 +18,9 @@ def reference() -> str:
     runner = CliRunner()
     parts = []
     for name in COMMANDS:
-        result = runner.invoke(gark, [name, "--help"], prog_name="gark", terminal_width=80, max_content_width=80)
+        result = runner.invoke(
+            gark, [name, "--help"], prog_name="gark", terminal_width=80, max_content_width=80
+        )
         assert result.exit_code == 0, result.output
         parts.append(f"### gark {name}\n\n```text\n{result.output.rstrip()}\n```\n")
     return "\n".join(parts)
@@ -37,10 +39,13 @@ def test_reference_is_the_help() -> None:
 
 
 def test_no_help_shows_a_mark_of_its_layout() -> None:
-    """The sign that keeps lines as they are does its work and is not seen; the example keeps its lines."""
+    """The sign that keeps lines as they are does its work and is not seen; the example keeps its
+    lines.
+    """
     runner = CliRunner()
     texts = [
-        runner.invoke(gark, [*name, "--help"], terminal_width=80).output for name in ([], *([x] for x in COMMANDS))
+        runner.invoke(gark, [*name, "--help"], terminal_width=80).output
+        for name in ([], *([x] for x in COMMANDS))
     ]
     assert not any("\\" in text or "\b" in text for text in texts)
     assert "      methods:\n        - {family: gauss, stages: 2}\n" in texts[0]

@@ -25,7 +25,10 @@ def test_the_figure_is_drawn_anew(tmp_path: Path) -> None:
     folder = ROOT / "docs" / "figures"
     made = tmp_path / "rectangular.png"
     done = subprocess.run(
-        [sys.executable, str(folder / "rectangular.py"), str(made)], capture_output=True, text=True, check=False
+        [sys.executable, str(folder / "rectangular.py"), str(made)],
+        capture_output=True,
+        text=True,
+        check=False,
     )
     assert (done.returncode, done.stderr) == (0, "")
     assert size(made) == size(folder / "rectangular.png")

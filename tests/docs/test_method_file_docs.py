@@ -20,7 +20,9 @@ README = ROOT / "README.md"
 
 def blocks(path: Path, language: str) -> list[str]:
     """The fenced blocks of a language."""
-    return re.findall(rf"^```{language}\n(.*?)^```$", path.read_text(encoding="utf-8"), re.DOTALL | re.MULTILINE)
+    return re.findall(
+        rf"^```{language}\n(.*?)^```$", path.read_text(encoding="utf-8"), re.DOTALL | re.MULTILINE
+    )
 
 
 def keys(block: str) -> set[str]:
@@ -34,7 +36,9 @@ def is_problem(block: str) -> bool:
 
 
 def is_whole(block: str) -> bool:
-    """Whether a block is a whole file: a form without ``...``, and with its transfer where it has two methods."""
+    """Whether a block is a whole file: a form without ``...``, and with its transfer where it has
+    two methods.
+    """
     if "..." in block or "A11" in block or "AE" in block or not keys(block) & set(FORMS):
         return False
     methods = yaml.safe_load(block).get("methods")
@@ -77,7 +81,9 @@ def test_a_fragment_has_only_keys_of_the_format(block: str) -> None:
 
 def test_every_key_is_explained() -> None:
     """Every key of the format has its place in the table of keys."""
-    table = "\n".join(line for line in DOCS.read_text(encoding="utf-8").splitlines() if line.startswith("|"))
+    table = "\n".join(
+        line for line in DOCS.read_text(encoding="utf-8").splitlines() if line.startswith("|")
+    )
     missing = [key for key in KEYS if not re.search(rf"`{key}\b", table)]
     assert missing == []
 
@@ -97,7 +103,8 @@ def sessions() -> list[tuple[str, str]]:
 def agrees(shown: str, lines: list[str]) -> bool:
     """Whether ``lines`` are those shown, where a line ``...`` stands for any number of them."""
     pattern = "".join(
-        r"(?:.*\n)*" if line.strip() == "..." else re.escape(line.rstrip()) + r"\n" for line in shown.splitlines()
+        r"(?:.*\n)*" if line.strip() == "..." else re.escape(line.rstrip()) + r"\n"
+        for line in shown.splitlines()
     )
     return re.fullmatch(pattern, "".join(f"{line.rstrip()}\n" for line in lines)) is not None
 
@@ -115,7 +122,9 @@ def test_every_command_of_the_documentation_exists() -> None:
     """The command lines in running text name commands that exist."""
     from garkcli.cli.main import COMMANDS
 
-    texts = [path.read_text(encoding="utf-8") for path in (README, *sorted((ROOT / "docs").glob("*.md")))]
+    texts = [
+        path.read_text(encoding="utf-8") for path in (README, *sorted((ROOT / "docs").glob("*.md")))
+    ]
     named = {word for text in texts for word in re.findall(r"`gark ([a-z]+)", text)}
     assert named
     assert named <= set(COMMANDS)

@@ -1,4 +1,6 @@
-"""docs/problem-file.md is true: its files load, its words are those of the program, its commands run."""
+"""docs/problem-file.md is true: its files load, its words are those of the program, its commands
+run.
+"""
 
 from __future__ import annotations
 
@@ -27,7 +29,7 @@ def test_files_load(text: str) -> None:
 
 def test_the_example_is_the_built_in_problem() -> None:
     """Kepler by eccentricity starts where the built-in one does."""
-    from garkcli.dynamics.examples import hamiltonian
+    from garkcli.problems.builtin import hamiltonian
 
     own, built_in = loads_problem(FILES[1]), hamiltonian("kepler", 2)
     assert own.terms == built_in.terms
@@ -59,12 +61,25 @@ def test_words_are_those_of_the_program() -> None:
 def test_two_readings_of_a_sum(code: str) -> None:
     """What the page says of terms with velocities of their own."""
     assert code in TEXT.replace("\n", " ")
-    (p,) = loads_problem(f"{{variables: [x], lagrangian: {code}, initial: {{x: 0, px: 1}}}}").unsplit().terms
+    (p,) = (
+        loads_problem(f"{{variables: [x], lagrangian: {code}, initial: {{x: 0, px: 1}}}}")
+        .unsplit()
+        .terms
+    )
     assert str(p) == ("px**2" if code.startswith("[") else "px**2/4")
 
 
 def test_formulas_of_the_page_are_formulas() -> None:
     """The powers and roots that it gives as examples."""
-    for text in ("x**2", "x**-1", "x**(3/2)", "x**0.5", "x**n", "cbrt(2)", "root(2, 5)", "x**(1/3)"):
+    for text in (
+        "x**2",
+        "x**-1",
+        "x**(3/2)",
+        "x**0.5",
+        "x**n",
+        "cbrt(2)",
+        "root(2, 5)",
+        "x**(1/3)",
+    ):
         assert f"`{text}`" in TEXT
         parse_formula(text)

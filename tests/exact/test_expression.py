@@ -13,7 +13,16 @@ from hypothesis import strategies as st
 from garkcli.errors import ExpressionError, LimitExceeded, UndefinedValue
 from garkcli.exact.display import to_ball, to_decimal, to_float, to_latex, to_text
 from garkcli.exact.domain import Domain
-from garkcli.exact.expression import Chain, Expression, Literal, Name, Power, Root, parse, read_decimal
+from garkcli.exact.expression import (
+    Chain,
+    Expression,
+    Literal,
+    Name,
+    Power,
+    Root,
+    parse,
+    read_decimal,
+)
 from garkcli.exact.field import Number
 from garkcli.exact.rewriting import format_expression, roots_in, substitute
 
@@ -31,12 +40,16 @@ RATIONAL_TEXTS = st.recursive(
 )
 EXPRESSIONS: st.SearchStrategy[Expression] = st.recursive(
     st.one_of(
-        st.fractions(-9, 9, max_denominator=9).map(lambda x: Literal(fmpq(x.numerator, x.denominator))),
+        st.fractions(-9, 9, max_denominator=9).map(
+            lambda x: Literal(fmpq(x.numerator, x.denominator))
+        ),
         st.sampled_from(["tau", "x_1"]).map(Name),
     ),
     lambda inner: st.one_of(
         st.tuples(st.sampled_from(["+-", "++", "+"]), st.lists(inner, min_size=2, max_size=2)).map(
-            lambda x: Chain(x[0], tuple(x[1][: len(x[0])])) if len(x[0]) > 1 else Chain("-", (x[1][0],))
+            lambda x: (
+                Chain(x[0], tuple(x[1][: len(x[0])])) if len(x[0]) > 1 else Chain("-", (x[1][0],))
+            )
         ),
         st.tuples(st.sampled_from(["**", "*/"]), st.tuples(inner, inner)).map(lambda x: Chain(*x)),
         st.tuples(inner, st.integers(-5, 5)).map(lambda x: Power(*x)),
@@ -65,7 +78,9 @@ def by_python(text: str) -> Fraction:
 
 
 def _fraction(text: str) -> Fraction:
-    return Fraction(text.rstrip(".") if text.endswith(".") else text.replace(".e", "e").replace(".E", "e"))
+    return Fraction(
+        text.rstrip(".") if text.endswith(".") else text.replace(".e", "e").replace(".E", "e")
+    )
 
 
 @given(RATIONAL_TEXTS)
@@ -82,7 +97,9 @@ def test_rational_texts_are_worth_what_python_says(text: str) -> None:
 
 @given(EXPRESSIONS)
 def test_format_and_parse_are_inverse(expression: Expression) -> None:
-    """What is written for an expression is read again with the same value, and from then on has the same text."""
+    """What is written for an expression is read again with the same value, and from then on has the
+    same text.
+    """
     again = parse(format_expression(expression))
     text = format_expression(again)
     assert parse(text) == again
@@ -92,7 +109,9 @@ def test_format_and_parse_are_inverse(expression: Expression) -> None:
 
 
 def _have_one_value(*expressions: Expression) -> bool:
-    """Whether the values are equal, or undefined for one reason; fields of many radicals are not tried."""
+    """Whether the values are equal, or undefined for one reason; fields of many radicals are not
+    tried.
+    """
     if any(len(list(roots_in(expression))) > 1 for expression in expressions):
         return True
     try:
@@ -169,7 +188,9 @@ def test_values(text: str, value: fmpq) -> None:
     ],
 )
 def test_radicals_are_worth_what_sympy_says(text: str) -> None:
-    """Values of radicals agree with sympy's real roots to 40 digits, and so do their texts, read again."""
+    """Values of radicals agree with sympy's real roots to 40 digits, and so do their texts, read
+    again.
+    """
     number = evaluate(text)
     names = {"sqrt": sympy.sqrt, "cbrt": lambda x: sympy.real_root(x, 3), "root": sympy.real_root}
     wanted = sympy.N(sympy.sympify(text, locals=names, rational=True), 50)
@@ -202,7 +223,9 @@ def test_faults_have_their_place(text: str, start: int, end: int) -> None:
     assert (caught.value.start, caught.value.end) == (start, end)
 
 
-@pytest.mark.parametrize("text", ["sqrt(-1)", "root(-2, 4)", "sqrt(1 - sqrt(2))", "sqrt(2 - sqrt(3)*sqrt(3))"])
+@pytest.mark.parametrize(
+    "text", ["sqrt(-1)", "root(-2, 4)", "sqrt(1 - sqrt(2))", "sqrt(2 - sqrt(3)*sqrt(3))"]
+)
 def test_even_roots_of_negative_numbers_are_refused(text: str) -> None:
     """There are no complex coefficients, however the sign is hidden."""
     with pytest.raises(UndefinedValue, match="even root of a negative number"):
@@ -222,7 +245,9 @@ def test_even_roots_of_negative_numbers_are_refused(text: str) -> None:
         "1+" * 10_001 + "1",
         "((((2**64)**64)**64)**64)",
         "root(1 + root(2, 12), 12)",
-        "+".join(f"sqrt({p})" for p in (2, 3, 5, 7, 11, 13, 17, 19, 23, 29, 31, 37, 41, 43, 47, 53, 59)),
+        "+".join(
+            f"sqrt({p})" for p in (2, 3, 5, 7, 11, 13, 17, 19, 23, 29, 31, 37, 41, 43, 47, 53, 59)
+        ),
     ],
 )
 def test_texts_that_would_exhaust_the_machine_are_refused(text: str) -> None:

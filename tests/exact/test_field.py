@@ -13,7 +13,15 @@ from garkcli.exact.display import to_float
 from garkcli.exact.domain import Domain
 from garkcli.exact.expression import parse
 from garkcli.exact.field import Algebraic, Number, coordinates
-from garkcli.exact.matrix import SingularMatrixError, apply, apply_left, identity, multiply, solve, transpose
+from garkcli.exact.matrix import (
+    SingularMatrixError,
+    apply,
+    apply_left,
+    identity,
+    multiply,
+    solve,
+    transpose,
+)
 
 FIELDS = {
     "sqrt(3)": (Domain([parse("sqrt(3)")]), 2),
@@ -47,7 +55,12 @@ def test_degrees(name: str) -> None:
 
 def test_square_roots_of_one_class_share_a_field() -> None:
     """√3, √12, √(1/3) and √(4/3) all live in ℚ(√3); with √2 the degree is 4."""
-    assert Domain([parse(x) for x in ("sqrt(3)", "sqrt(12)", "sqrt(1/3)", "sqrt(4/3)", "sqrt(9)")]).degree == 2
+    assert (
+        Domain(
+            [parse(x) for x in ("sqrt(3)", "sqrt(12)", "sqrt(1/3)", "sqrt(4/3)", "sqrt(9)")]
+        ).degree
+        == 2
+    )
     assert Domain([parse(x) for x in ("sqrt(3)", "sqrt(12)", "sqrt(2)", "sqrt(6)")]).degree == 4
     assert Domain([parse(x) for x in ("sqrt(3 + 2*sqrt(2))", "sqrt(2)")]).degree == 2
     assert Domain([parse("sqrt(49/121)")]).degree == 1
@@ -101,7 +114,9 @@ def test_powers_and_values(numbers: tuple[Number, ...], exponent: int) -> None:
 
 @given(elements(2))
 def test_equality(numbers: tuple[Number, ...]) -> None:
-    """Numbers are equal when their difference is zero, then with equal hashes; irrational is never rational."""
+    """Numbers are equal when their difference is zero, then with equal hashes; irrational is never
+    rational.
+    """
     x, y = numbers
     assert (x == y) == (not (x - y))
     again = (x + y) - y
@@ -115,7 +130,9 @@ def test_equality(numbers: tuple[Number, ...]) -> None:
 
 @given(elements(1))
 def test_coordinates_and_radicals(numbers: tuple[Number, ...]) -> None:
-    """A number is rebuilt from its coordinates, and from its coordinates in products of radicals."""
+    """A number is rebuilt from its coordinates, and from its coordinates in products of
+    radicals.
+    """
     (x,) = numbers
     if not isinstance(x, Algebraic):
         assert coordinates(x, 3) == [x, fmpq(0), fmpq(0)]

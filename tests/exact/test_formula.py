@@ -17,14 +17,20 @@ from garkcli.exact.values import exponent_of, value_of
 
 FORMULAS: st.SearchStrategy[Expression] = st.recursive(
     st.one_of(
-        st.fractions(-9, 9, max_denominator=9).map(lambda x: Literal(fmpq(x.numerator, x.denominator))),
+        st.fractions(-9, 9, max_denominator=9).map(
+            lambda x: Literal(fmpq(x.numerator, x.denominator))
+        ),
         st.sampled_from(["x", "px", "pi"]).map(Name),
     ),
     lambda inner: st.one_of(
-        st.tuples(st.sampled_from(["+-", "++", "**", "*/"]), st.tuples(inner, inner)).map(lambda x: Chain(*x)),
+        st.tuples(st.sampled_from(["+-", "++", "**", "*/"]), st.tuples(inner, inner)).map(
+            lambda x: Chain(*x)
+        ),
         inner.map(lambda x: Chain("-", (x,))),
         st.tuples(inner, st.integers(-3, 3)).map(lambda x: Power(*x)),
-        st.tuples(inner, st.sampled_from(["3/2", "-1/2", "1/3"])).map(lambda x: RealPower(x[0], parse(x[1]))),
+        st.tuples(inner, st.sampled_from(["3/2", "-1/2", "1/3"])).map(
+            lambda x: RealPower(x[0], parse(x[1]))
+        ),
         inner.map(lambda x: Root(x, 2)),
         st.tuples(st.sampled_from(FUNCTIONS), inner).map(lambda x: Call(*x)),
     ),
@@ -40,7 +46,9 @@ def value(text: str) -> fmpq | arb:
 
 @given(FORMULAS)
 def test_format_and_parse_are_inverse(expression: Expression) -> None:
-    """What is written for a formula is read again with the same value, and from then on has the same text."""
+    """What is written for a formula is read again with the same value, and from then on has the
+    same text.
+    """
     again = parse_formula(format_expression(expression))
     text = format_expression(again)
     assert parse_formula(text) == again
@@ -83,7 +91,11 @@ def in_floats(expression: Expression) -> float:
         case Chain(signs=signs, operands=operands):
             total = 0.0 if signs[0] in "+-" else 1.0
             for sign, x in zip(signs, map(in_floats, operands), strict=True):
-                total = {"+": total + x, "-": total - x, "*": total * x}[sign] if sign != "/" else total / x
+                total = (
+                    {"+": total + x, "-": total - x, "*": total * x}[sign]
+                    if sign != "/"
+                    else total / x
+                )
             return total
         case Power(base=base, exponent=exponent):
             return float(in_floats(base) ** exponent)
@@ -101,7 +113,9 @@ def condition(expression: Expression) -> float:
     with ctx.workprec(300):
         spread = arb(1, arb(2) ** -40)
         try:
-            ball = arb(value_of(expression, {**NAMES, **{x: arb(y) * spread for x, y in NAMES.items()}}))
+            ball = arb(
+                value_of(expression, {**NAMES, **{x: arb(y) * spread for x, y in NAMES.items()}})
+            )
         except ExpressionError:
             return math.inf
         return float(ball.rad()) * 2.0**40 + abs(float(ball)) + 1e3
@@ -165,7 +179,9 @@ def test_irrational_values(text: str, wanted: float) -> None:
         ("0**(-1)", "division by zero", 0, 1),
     ],
 )
-def test_what_has_no_value_is_refused_with_its_place(text: str, message: str, start: int, end: int) -> None:
+def test_what_has_no_value_is_refused_with_its_place(
+    text: str, message: str, start: int, end: int
+) -> None:
     """The operation that fails, what it is of, and its offsets."""
     with pytest.raises(UndefinedValue) as caught:
         value(text)
@@ -263,4 +279,6 @@ def test_expressions_are_walked() -> None:
     assert size_of(expression, {"a": 100}) == 209
     values = {x: parse_formula(y) for x, y in (("a", "pi"), ("b", "4"), ("c", "1 + 1"))}
     assert format_expression(substitute(expression, values)) == "sin(pi*sqrt(4))**((1+1)/2)+pi"
-    assert format_expression(parse_formula("sin(x)**(1/2)"), latex=True) == r"\sin\left(x\right)^{1/2}"
+    assert (
+        format_expression(parse_formula("sin(x)**(1/2)"), latex=True) == r"\sin\left(x\right)^{1/2}"
+    )

@@ -24,19 +24,28 @@ rationals = st.fractions(-4, 4, max_denominator=6).map(lambda x: fmpq(x.numerato
 
 @st.composite
 def maps(draw: st.DrawFn) -> tuple[NumberField | None, Matrix, Matrix, Matrix]:
-    """A field, a matrix, some vectors and some functionals; zeros and rational numbers are frequent."""
+    """A field, a matrix, some vectors and some functionals; zeros and rational numbers are
+    frequent.
+    """
     field = FIELDS[draw(st.sampled_from(sorted(FIELDS)))]
     height, width = draw(st.integers(1, 4)), draw(st.integers(1, 4))
 
     def number() -> Number:
         if field is None or draw(st.booleans()):
             return draw(rationals)
-        return field.from_coordinates(draw(st.lists(rationals, min_size=field.degree, max_size=field.degree)))
+        return field.from_coordinates(
+            draw(st.lists(rationals, min_size=field.degree, max_size=field.degree))
+        )
 
     def rows(count: int, length: int) -> Matrix:
         return tuple(tuple(number() for _ in range(length)) for _ in range(count))
 
-    return field, rows(height, width), rows(draw(st.integers(0, 3)), width), rows(draw(st.integers(0, 3)), height)
+    return (
+        field,
+        rows(height, width),
+        rows(draw(st.integers(0, 3)), width),
+        rows(draw(st.integers(0, 3)), height),
+    )
 
 
 def naive(u: Vector, v: Vector) -> Number:
@@ -49,7 +58,9 @@ def naive(u: Vector, v: Vector) -> Number:
 
 @given(maps())
 def test_images_and_pullbacks(case: tuple[NumberField | None, Matrix, Matrix, Matrix]) -> None:
-    """Both are what multiplication entry by entry gives, and rational values are plain rationals."""
+    """Both are what multiplication entry by entry gives, and rational values are plain
+    rationals.
+    """
     field, A, vectors, functionals = case
     ready = LinearMap(A, field)
     columns = tuple(zip(*A, strict=True))
@@ -61,7 +72,9 @@ def test_images_and_pullbacks(case: tuple[NumberField | None, Matrix, Matrix, Ma
 
 
 @given(maps())
-def test_dot_is_the_sum_of_the_products(case: tuple[NumberField | None, Matrix, Matrix, Matrix]) -> None:
+def test_dot_is_the_sum_of_the_products(
+    case: tuple[NumberField | None, Matrix, Matrix, Matrix],
+) -> None:
     """The products of irrational numbers may be added up before they are reduced."""
     _, A, vectors, _ = case
     for row in A:
@@ -70,7 +83,9 @@ def test_dot_is_the_sum_of_the_products(case: tuple[NumberField | None, Matrix, 
 
 
 def test_numbers_of_two_fields_do_not_meet() -> None:
-    """A sum of products over two different fields is refused, also where each product is in one of them."""
+    """A sum of products over two different fields is refused, also where each product is in one of
+    them.
+    """
     a, b = (Domain([parse(text)]).evaluate(parse(text)) for text in ("sqrt(2)", "sqrt(3)"))
     with pytest.raises(TypeError, match="two different fields"):
         dot((a, fmpq(1)), (fmpq(1), b))

@@ -75,7 +75,9 @@ def test_dimension_zero() -> None:
 
 
 def test_affine_is_not_linear() -> None:
-    """The point 0 joins an empty span, and 2x joins the span of x, although both are linear combinations."""
+    """The point 0 joins an empty span, and 2x joins the span of x, although both are linear
+    combinations.
+    """
     span = AffineSpan(1)
     assert span.insert([[fmpq(0)]]) == [0]
     span = AffineSpan(2)

@@ -1,4 +1,6 @@
-"""The families: textbook coefficients at two and three stages, and what characterises them at any number."""
+"""The families: textbook coefficients at two and three stages, and what characterises them at any
+number.
+"""
 
 from __future__ import annotations
 
@@ -50,15 +52,39 @@ TEXTBOOK = {
         "(16 - sqrt(6))/36, (16 + sqrt(6))/36, 1/9",
     ),
     ("lobatto-iiia", 2): ("0, 1", "0, 0", "1/2, 1/2", "1/2, 1/2"),
-    ("lobatto-iiia", 3): ("0, 1/2, 1", "0, 0, 0", "5/24, 1/3, -1/24", "1/6, 2/3, 1/6", "1/6, 2/3, 1/6"),
+    ("lobatto-iiia", 3): (
+        "0, 1/2, 1",
+        "0, 0, 0",
+        "5/24, 1/3, -1/24",
+        "1/6, 2/3, 1/6",
+        "1/6, 2/3, 1/6",
+    ),
     ("lobatto-iiib", 2): ("0, 1", "1/2, 0", "1/2, 0", "1/2, 1/2"),
-    ("lobatto-iiib", 3): ("0, 1/2, 1", "1/6, -1/6, 0", "1/6, 1/3, 0", "1/6, 5/6, 0", "1/6, 2/3, 1/6"),
+    ("lobatto-iiib", 3): (
+        "0, 1/2, 1",
+        "1/6, -1/6, 0",
+        "1/6, 1/3, 0",
+        "1/6, 5/6, 0",
+        "1/6, 2/3, 1/6",
+    ),
     ("lobatto-iiic", 2): ("0, 1", "1/2, -1/2", "1/2, 1/2", "1/2, 1/2"),
-    ("lobatto-iiic", 3): ("0, 1/2, 1", "1/6, -1/3, 1/6", "1/6, 5/12, -1/12", "1/6, 2/3, 1/6", "1/6, 2/3, 1/6"),
+    ("lobatto-iiic", 3): (
+        "0, 1/2, 1",
+        "1/6, -1/3, 1/6",
+        "1/6, 5/12, -1/12",
+        "1/6, 2/3, 1/6",
+        "1/6, 2/3, 1/6",
+    ),
     ("lobatto-iiic*", 2): ("0, 1", "0, 0", "1, 0", "1/2, 1/2"),
     ("lobatto-iiic*", 3): ("0, 1/2, 1", "0, 0, 0", "1/4, 1/4, 0", "0, 1, 0", "1/6, 2/3, 1/6"),
     ("lobatto-iiid", 2): ("0, 1", "1/4, -1/4", "3/4, 1/4", "1/2, 1/2"),
-    ("lobatto-iiid", 3): ("0, 1/2, 1", "1/12, -1/6, 1/12", "5/24, 1/3, -1/24", "1/12, 5/6, 1/12", "1/6, 2/3, 1/6"),
+    ("lobatto-iiid", 3): (
+        "0, 1/2, 1",
+        "1/12, -1/6, 1/12",
+        "5/24, 1/3, -1/24",
+        "1/12, 5/6, 1/12",
+        "1/6, 2/3, 1/6",
+    ),
     ("explicit-euler", 1): ("0", "0", "1"),
     ("explicit-midpoint", 2): ("0, 1/2", "0, 0", "1/2, 0", "0, 1"),
     ("heun", 2): ("0, 1", "0, 0", "1, 0", "1/2, 1/2"),
@@ -75,7 +101,8 @@ TEXTBOOK = {
 }
 """Nodes, rows of A, weights.
 
-Hairer & Wanner, *Solving ODE II*, section IV.5; Hairer, Nørsett & Wanner, *Solving ODE I*, section II.1.
+Hairer & Wanner, *Solving ODE II*, section IV.5; Hairer, Nørsett & Wanner, *Solving ODE I*, section
+II.1.
 """
 
 ORDERS = {
@@ -141,7 +168,9 @@ def test_every_family_has_textbook_coefficients() -> None:
 @pytest.mark.parametrize("name", FAMILIES)
 @pytest.mark.parametrize("stages", range(1, 8))
 def test_orders(name: str, stages: int) -> None:
-    """Each family has the order of the books at every number of stages that it comes in, and refuses the others."""
+    """Each family has the order of the books at every number of stages that it comes in, and
+    refuses the others.
+    """
     family = FAMILIES[name]
     if not family.smallest <= stages <= family.largest:
         with pytest.raises(UnknownFamily, match="does not exist"):
@@ -164,7 +193,9 @@ def test_the_order_that_people_are_told(name: str) -> None:
 
 @pytest.mark.parametrize("s", range(1, 8))
 def test_gauss_is_characterised(s: int) -> None:
-    """Gauss has B(2s), C(s), D(s); its node polynomial is orthogonal to all of lower degree; it is symplectic."""
+    """Gauss has B(2s), C(s), D(s); its node polynomial is orthogonal to all of lower degree; it is
+    symplectic.
+    """
     assert conditions("gauss", s) == (2 * s, s, s)
     space = diagonal_method("gauss", s).space
     assert isinstance(space, PolynomialSpace)
@@ -176,7 +207,9 @@ def test_gauss_is_characterised(s: int) -> None:
 
 @pytest.mark.parametrize("s", range(1, 8))
 def test_radau_is_characterised(s: int) -> None:
-    """IA: B(2s − 1), C(s − 1), D(s), a node at 0; IIA: B(2s − 1), C(s), D(s − 1), a node at 1, stiffly accurate."""
+    """IA: B(2s − 1), C(s − 1), D(s), a node at 0; IIA: B(2s − 1), C(s), D(s − 1), a node at 1,
+    stiffly accurate.
+    """
     assert conditions("radau-ia", s) == (2 * s - 1, s - 1, s)
     assert conditions("radau-iia", s) == (2 * s - 1, s, s - 1)
     first, last = diagonal_method("radau-ia", s).space, diagonal_method("radau-iia", s).space
@@ -213,7 +246,9 @@ def test_conjugate_families(s: int) -> None:
     assert conjugate(alone("lobatto-iiia", s)) == alone("lobatto-iiib", s)
     assert conjugate(alone("lobatto-iiib", s)) == alone("lobatto-iiia", s)
     assert conjugate(alone("lobatto-iiic", s)) == alone("lobatto-iiic*", s)
-    C, C_star, D = (diagonal_method(name, s).A for name in ("lobatto-iiic", "lobatto-iiic*", "lobatto-iiid"))
+    C, C_star, D = (
+        diagonal_method(name, s).A for name in ("lobatto-iiic", "lobatto-iiic*", "lobatto-iiid")
+    )
     for i in range(s):
         for j in range(s):
             assert D[i][j] == (C[i][j] + C_star[i][j]) / 2
@@ -244,15 +279,23 @@ def _image(A: tuple[tuple[fmpq, ...], ...], f: fmpq_poly, s: int) -> fmpq_poly:
 
 @pytest.mark.parametrize("s", range(2, 9))
 def test_ssp2(s: int) -> None:
-    """SSPRK(s, 2) has equal weights 1/s, entries 1/(s − 1) below the diagonal, and order 2 for every s."""
+    """SSPRK(s, 2) has equal weights 1/s, entries 1/(s − 1) below the diagonal, and order 2 for
+    every s.
+    """
     method = diagonal_method("ssp2", s)
     assert method.b == (fmpq(1, s),) * s
-    assert all(x == (fmpq(1, s - 1) if j < i else 0) for i, row in enumerate(method.A) for j, x in enumerate(row))
+    assert all(
+        x == (fmpq(1, s - 1) if j < i else 0)
+        for i, row in enumerate(method.A)
+        for j, x in enumerate(row)
+    )
     assert find_order(gark([method], {})).order == brute_order(gark([method], {}), 3) == 2
 
 
 def test_many_stages() -> None:
-    """Thirty stages are as exact as two: Gauss has order 60, and the certificate says at least when it stops."""
+    """Thirty stages are as exact as two: Gauss has order 60, and the certificate says at least when
+    it stops.
+    """
     assert find_order(alone("gauss", 30), 100).order == 60
     assert find_order(alone("radau-iia", 20), 100).order == 39
     assert find_order(alone("gauss", 40)).is_lower_bound

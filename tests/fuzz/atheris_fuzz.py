@@ -1,8 +1,10 @@
-"""Coverage-guided fuzzing: ``python tests/fuzz/atheris_fuzz.py --target files|numbers -runs=100000 [corpus…]``.
+"""Coverage-guided fuzzing: ``python tests/fuzz/atheris_fuzz.py --target files|numbers -runs=100000
+[corpus…]``.
 
-Any exception that is not of ``garkcli.errors`` is a fault, as is an input that takes more than five seconds or
-makes the process grow by more than 500 MB. Further arguments go to libFuzzer. Without a corpus folder, one is made
-from the files of ``methods`` and ``tests/examples``, and grows with every run.
+Any exception that is not of ``garkcli.errors`` is a fault, as is an input that takes more than five
+seconds or makes the process grow by more than 500 MB. Further arguments go to libFuzzer. Without a
+corpus folder, one is made from the files of ``methods`` and ``tests/examples``, and grows with
+every run.
 """
 
 from __future__ import annotations
@@ -23,7 +25,9 @@ SECONDS = 5
 MEGABYTES = 500
 """Most memory of the process beyond that of its start."""
 NODES = 5_000
-"""Most YAML values here: instrumented code is some forty times slower, and the usual limit would be a timeout."""
+"""Most YAML values here: instrumented code is some forty times slower, and the usual limit would be
+a timeout.
+"""
 KEPT = Path(".hypothesis")
 """Where faulty inputs are saved, and the inputs with which the next run begins."""
 NUMBERS = (
@@ -78,7 +82,9 @@ def targets(atheris: Any) -> Mapping[str, Callable[[bytes], None]]:
         try:
             loads(text)
         except MethodFileError as error:
-            if not error.faults or any(fault.line < 1 or fault.column < 1 for fault in error.faults):
+            if not error.faults or any(
+                fault.line < 1 or fault.column < 1 for fault in error.faults
+            ):
                 raise RuntimeError("a fault without a place") from error
 
     def one_number(data: bytes) -> None:
@@ -111,7 +117,9 @@ def main() -> None:
     """Fuzz until libFuzzer stops; it ends the process, with a code that is not 0 after a fault."""
     import atheris  # of the extra ``fuzz``: nothing else needs it
 
-    parser = argparse.ArgumentParser(description=__doc__, formatter_class=argparse.RawDescriptionHelpFormatter)
+    parser = argparse.ArgumentParser(
+        description=__doc__, formatter_class=argparse.RawDescriptionHelpFormatter
+    )
     parser.add_argument("--target", choices=("files", "numbers"), required=True)
     options, rest = parser.parse_known_args()
     target = targets(atheris)[options.target]

@@ -1,4 +1,6 @@
-"""Files made to be slow or large rather than wrong, each by one amplifier, for ``long_run.py --hostile``."""
+"""Files made to be slow or large rather than wrong, each by one amplifier, for ``long_run.py
+--hostile``.
+"""
 
 from __future__ import annotations
 
@@ -44,10 +46,14 @@ def _numbers() -> Mapping[str, str]:
         "long radicands": _number(f"root({sevens},12)+root({threes},4)"),
         "long nested radicands": _number(f"root({sevens}+root({threes},4),12)"),
         "the inverse of a long nested radicand": _number(f"root(1/({sevens}+root({threes},4)),12)"),
-        "long radicands five deep": _number("".join(f"sqrt({str(k) * 900}+" for k in range(1, 6)) + "1" + ")" * 5),
+        "long radicands five deep": _number(
+            "".join(f"sqrt({str(k) * 900}+" for k in range(1, 6)) + "1" + ")" * 5
+        ),
         "a radicand close to zero": _number("sqrt(((((sqrt(2)-1)**64)**8)**4)**4)"),
         "a power of a power": _number(f"((((sqrt(2)+root(3,12)+{'7' * 30})**64)**8)**4)"),
-        "many inverses": _number("+".join(f"1/(root(5,4)+cbrt(3)+sqrt(5+sqrt(8))+{k})" for k in range(300))),
+        "many inverses": _number(
+            "+".join(f"1/(root(5,4)+cbrt(3)+sqrt(5+sqrt(8))+{k})" for k in range(300))
+        ),
         "a sum of fractions": _number("+".join(f"1/{10**6 + i}" for i in range(1900))),
         "many digits": _number("1" * 3_900_000),
         "an exponent": _number("1e999999999999999999999"),
@@ -58,8 +64,12 @@ def _repetitions() -> Mapping[str, str]:
     """One costly thing, used often."""
     sum_of_ones, roots = "+".join(["1"] * 1900), "+".join(["sqrt(3)"] * 900)
     radicals = "sqrt(2)+sqrt(3)+sqrt(5)+sqrt(7)+sqrt(11)"
-    coefficients = [f'"{"+".join(f"1/{10**20 + i + 77 * j}" for i in range(600))}"' for j in range(200)]
-    culprits = [f'"{"+".join(f"sqrt({p + k})" for k in (0, 1, 2, 4, 5))}"' for p in range(10**5, 10**5 + 60)]
+    coefficients = [
+        f'"{"+".join(f"1/{10**20 + i + 77 * j}" for i in range(600))}"' for j in range(200)
+    ]
+    culprits = [
+        f'"{"+".join(f"sqrt({p + k})" for k in (0, 1, 2, 4, 5))}"' for p in range(10**5, 10**5 + 60)
+    ]
     chain = "".join(f", p{i}: p{i - 1}+1" for i in range(1, 1500))
     six = f'"{radicals}+sqrt(13)"'
     return {

@@ -1,4 +1,6 @@
-"""Method files and numbers that nobody would write, from a random source: the input of every fuzz run."""
+"""Method files and numbers that nobody would write, from a random source: the input of every fuzz
+run.
+"""
 
 from __future__ import annotations
 
@@ -26,7 +28,9 @@ def seeds() -> tuple[str, ...]:
     """The files of the project: good ones to damage."""
     folders = (ROOT / "methods", ROOT / "tests" / "examples")
     files = sorted(file for folder in folders for file in folder.rglob("*.gark.yaml"))
-    return tuple(file.read_bytes().decode("utf-8", "replace") for file in files if file.stat().st_size < 4000)
+    return tuple(
+        file.read_bytes().decode("utf-8", "replace") for file in files if file.stat().st_size < 4000
+    )
 
 
 def soup(random: Random, signs: Sequence[str] = WORDS, longest: int = 60) -> str:
@@ -39,13 +43,17 @@ def damaged(random: Random, text: str, words: Sequence[str] = WORDS) -> str:
     for _ in range(random.randrange(1, 6)):
         i, j = sorted((random.randrange(len(text) + 1), random.randrange(len(text) + 1)))
         j = min(j, i + random.choice((1, 3, 10, 100)))
-        piece = random.choice(("", text[i:j] * 2, random.choice(words), chr(random.randrange(0x3000)), text[j:i]))
+        piece = random.choice(
+            ("", text[i:j] * 2, random.choice(words), chr(random.randrange(0x3000)), text[j:i])
+        )
         text = text[:i] + piece + text[j:]
     return text
 
 
 def replaced(random: Random, text: str, words: Sequence[str] = WORDS) -> str:
-    """``text`` with some of its words replaced by others: mostly good YAML that means something else."""
+    """``text`` with some of its words replaced by others: mostly good YAML that means something
+    else.
+    """
     lines = text.split("\n")
     for _ in range(random.randrange(1, 4)):
         k = random.randrange(len(lines))
@@ -79,7 +87,16 @@ class _Writer:
         """A good number, or nearly."""
         random = self.random
         p, q = random.randrange(-4, 13), random.randrange(1, 13)
-        plain = (str(p), f"{p}/{q}", f"{p}/{q}", f"{p / 8}", f"{p}e-{q}", "tau", "1 - tau", f"tau**{q}")
+        plain = (
+            str(p),
+            f"{p}/{q}",
+            f"{p}/{q}",
+            f"{p / 8}",
+            f"{p}e-{q}",
+            "tau",
+            "1 - tau",
+            f"tau**{q}",
+        )
         return random.choice((*plain, *self.radicals))
 
     def row(self, size: int) -> str:
@@ -101,7 +118,9 @@ class _Writer:
         sizes = [random.randrange(1, 5) for _ in range(random.randrange(1, 4))]
         families = ("gauss", "radau-iia", "lobatto-iiia", "lobatto-iiib", "ssp2")
         methods = [
-            self.butcher(s, s) if random.random() < 0.6 else f"{{family: {random.choice(families)}, stages: {s}}}"
+            self.butcher(s, s)
+            if random.random() < 0.6
+            else f"{{family: {random.choice(families)}, stages: {s}}}"
             for s in sizes
         ]
         text = f"methods: [{', '.join(methods)}]"
@@ -112,13 +131,17 @@ class _Writer:
         if random.random() < 0.4:
             rule = f'{{default: {rule}, blocks: {{"1,2": {self.matrix(sizes[0], sizes[1])}}}}}'
         structure = random.choice(("general", "semi-separable", "separable", "nystrom"))
-        return f"{text}\ntransfer: {rule}" + (f"\nstructure: {structure}" if len(sizes) == 2 else "")
+        return f"{text}\ntransfer: {rule}" + (
+            f"\nstructure: {structure}" if len(sizes) == 2 else ""
+        )
 
     def tableau(self) -> str:
         """Every block spelled out."""
         random = self.random
         sizes = [random.randrange(1, 4) for _ in range(random.randrange(1, 4))]
-        blocks = [[self.matrix(s, t) if random.random() < 0.9 else "null" for t in sizes] for s in sizes]
+        blocks = [
+            [self.matrix(s, t) if random.random() < 0.9 else "null" for t in sizes] for s in sizes
+        ]
         rows = ", ".join(f"[{', '.join(row)}]" for row in blocks)
         return f"tableau: {{A: [{rows}], b: [{', '.join(self.row(s) for s in sizes)}]}}"
 
@@ -146,7 +169,9 @@ def written_file(random: Random) -> str:
 
 
 def radical_file(random: Random) -> str:
-    """A file with many different radicals: fields of a degree near the limit, where time may be short."""
+    """A file with many different radicals: fields of a degree near the limit, where time may be
+    short.
+    """
     writer = _Writer(random)
     p, q, r = (random.randrange(1, 14) for _ in range(3))
     writer.radicals = (

@@ -1,15 +1,16 @@
 """Files at scale, in worker processes with limits.
 
-Run as ``python tests/fuzz/long_run.py --cases 200000 --seed 1 --jobs 2``; with ``--problems`` for problem files.
+Run as ``python tests/fuzz/long_run.py --cases 200000 --seed 1 --jobs 2``; with ``--problems`` for
+problem files.
 
-A case is a fault when anything but ``MethodFileError`` comes out of the loader, when the loader takes longer than
-five seconds or needs more than 500 MB, or when the worker dies. Methods that load and are small are analysed too,
-for as long as two seconds; there only an exception is a fault. Seconds are those of the processor: how busy the
-machine is makes no difference.
+A case is a fault when anything but ``MethodFileError`` comes out of the loader, when the loader
+takes longer than five seconds or needs more than 500 MB, or when the worker dies. Methods that load
+and are small are analysed too, for as long as two seconds; there only an exception is a fault.
+Seconds are those of the processor: how busy the machine is makes no difference.
 
-The alarm kills the worker rather than raising in it, so that no call into C escapes it; the next worker goes on
-after the case that did it. Prints one line of JSON; each faulty input is saved, and the exit code is 1 when there
-are any.
+The alarm kills the worker rather than raising in it, so that no call into C escapes it; the next
+worker goes on after the case that did it. Prints one line of JSON; each faulty input is saved, and
+the exit code is 1 when there are any.
 """
 
 from __future__ import annotations
@@ -32,10 +33,10 @@ from typing import Literal
 
 sys.path.insert(0, str(Path(__file__).resolve().parents[2]))
 
+from garkcli.check.analysis import analyse
 from garkcli.errors import GarkError, MethodFileError
 from garkcli.methodfile.load import loads
 from garkcli.methodfile.problem import loads_problem
-from garkcli.order.check import analyse
 from garkcli.tableau.tableau import Tableau
 from tests.fuzz.hostile import hostile_files, hostile_problems
 from tests.fuzz.inputs import method_file, radical_file, seeds
@@ -70,7 +71,8 @@ class Case:
 
 @dataclass(frozen=True)
 class Cases:
-    """Where inputs come from: the random generators with a seed, or the hostile files when there is none.
+    """Where inputs come from: the random generators with a seed, or the hostile files when there is
+    none.
 
     ``seconds`` is the longest time of the loader, of the processor.
     """
@@ -114,7 +116,9 @@ def work(cases: Cases, numbers: range, results: Connection) -> None:
     """In a worker: run ``numbers`` and send what came of each."""
     warnings.simplefilter("error")  # a warning is a fault too
     text_of = cases.reader()
-    cases.load(SMALL[0] if cases.are_problems else GOOD)  # what is imported late is no part of the first case
+    cases.load(
+        SMALL[0] if cases.are_problems else GOOD
+    )  # what is imported late is no part of the first case
     pages = int(Path("/proc/self/statm").read_text().split()[0])
     roof = pages * resource.getpagesize() + MEGABYTES * 2**20
     resource.setrlimit(resource.RLIMIT_AS, (roof, roof))
@@ -169,15 +173,23 @@ def run(cases: Cases, numbers: range) -> list[Case]:
     done: list[Case] = []
     while len(done) < len(numbers):
         receiver, sender = get_context("spawn").Pipe(duplex=False)
-        worker = get_context("spawn").Process(target=work, args=(cases, numbers[len(done) :], sender))
+        worker = get_context("spawn").Process(
+            target=work, args=(cases, numbers[len(done) :], sender)
+        )
         worker.start()
         sender.close()
         done += _received(receiver)
         worker.join()
         if len(done) < len(numbers):
             late = worker.exitcode == -signal.SIGPROF
-            error = f"longer than {cases.seconds:g} s" if late else f"the worker ended with {worker.exitcode}"
-            done.append(Case(numbers[len(done)], "fault", cases.seconds if late else 0.0, error=error))
+            error = (
+                f"longer than {cases.seconds:g} s"
+                if late
+                else f"the worker ended with {worker.exitcode}"
+            )
+            done.append(
+                Case(numbers[len(done)], "fault", cases.seconds if late else 0.0, error=error)
+            )
     return done
 
 
@@ -190,8 +202,12 @@ def _received(receiver: Connection) -> Iterable[Case]:
 
 
 def summary(results: list[Case], elapsed: float) -> dict[str, float]:
-    """The figures of a run: ``slowest`` and ``loading`` are processor seconds, ``seconds`` those of a clock."""
-    count = {kind: sum(case.kind == kind for case in results) for kind in ("loaded", "refused", "fault")}
+    """The figures of a run: ``slowest`` and ``loading`` are processor seconds, ``seconds`` those of
+    a clock.
+    """
+    count = {
+        kind: sum(case.kind == kind for case in results) for kind in ("loaded", "refused", "fault")
+    }
     return {
         "cases": len(results),
         "loaded": count["loaded"],
@@ -207,11 +223,15 @@ def summary(results: list[Case], elapsed: float) -> dict[str, float]:
 
 def main() -> int:
     """Run and report."""
-    parser = argparse.ArgumentParser(description=__doc__, formatter_class=argparse.RawDescriptionHelpFormatter)
+    parser = argparse.ArgumentParser(
+        description=__doc__, formatter_class=argparse.RawDescriptionHelpFormatter
+    )
     parser.add_argument("--cases", type=int, default=200_000)
     parser.add_argument("--seed", type=int, default=1)
     parser.add_argument("--jobs", type=int, default=2)
-    parser.add_argument("--hostile", action="store_true", help="files made to be slow or large, not random ones")
+    parser.add_argument(
+        "--hostile", action="store_true", help="files made to be slow or large, not random ones"
+    )
     parser.add_argument("--problems", action="store_true", help="problem files, not method files")
     parser.add_argument("--faults", type=Path, default=FAULTS, help="where to save faulty inputs")
     options = parser.parse_args()
@@ -221,7 +241,9 @@ def main() -> int:
     start = perf_counter()
     with ThreadPoolExecutor(options.jobs) as threads:
         shares = [range(k, min(k + batch, total)) for k in range(0, total, batch)]
-        results = [case for share in threads.map(lambda share: run(cases, share), shares) for case in share]
+        results = [
+            case for share in threads.map(lambda share: run(cases, share), shares) for case in share
+        ]
     faults, text_of = [case for case in results if case.kind == "fault"], cases.reader()
     for case in faults:
         options.faults.mkdir(parents=True, exist_ok=True)

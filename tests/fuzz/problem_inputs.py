@@ -31,7 +31,10 @@ SMALL = (
 
 def problem_seeds() -> tuple[str, ...]:
     """Good files to damage."""
-    return (*SMALL, *(file.read_text(encoding="utf-8") for file in sorted((ROOT / "problems").glob("*.yaml"))))
+    return (
+        *SMALL,
+        *(file.read_text(encoding="utf-8") for file in sorted((ROOT / "problems").glob("*.yaml"))),
+    )
 
 
 class _Writer:
@@ -39,7 +42,9 @@ class _Writer:
 
     def __init__(self, random: Random) -> None:
         self.random = random
-        self.names = random.sample(("x", "y", "z", "theta", "q1"), random.choice((1, 1, 1, 2, 2, 3)))
+        self.names = random.sample(
+            ("x", "y", "z", "theta", "q1"), random.choice((1, 1, 1, 2, 2, 3))
+        )
         self.is_lagrangian = random.random() < 0.6
         letter = "v" if self.is_lagrangian else "p"
         self.motion = [f"{letter}{name}" for name in self.names]
@@ -47,7 +52,17 @@ class _Writer:
     def number(self) -> str:
         """A constant."""
         p, q = self.random.randrange(-3, 6), self.random.randrange(1, 8)
-        numbers = (str(p), str(p), f"{p}/{q}", f"{p / 8}", "m", "sqrt(2)", "pi", f"cbrt({q})", f"{p}e-{q}")
+        numbers = (
+            str(p),
+            str(p),
+            f"{p}/{q}",
+            f"{p / 8}",
+            "m",
+            "sqrt(2)",
+            "pi",
+            f"cbrt({q})",
+            f"{p}e-{q}",
+        )
         return self.random.choice(numbers)
 
     def exponent(self) -> str:
@@ -69,14 +84,29 @@ class _Writer:
         if kind == 3:
             return f"({first})**{self.exponent()}"
         if kind == 4:
-            functions = ("sin", "cos", "tan", "asin", "acos", "atan", "sinh", "cosh", "tanh", "exp", "log", "sqrt")
+            functions = (
+                "sin",
+                "cos",
+                "tan",
+                "asin",
+                "acos",
+                "atan",
+                "sinh",
+                "cosh",
+                "tanh",
+                "exp",
+                "log",
+                "sqrt",
+            )
             return f"{random.choice(functions)}({first})"
         return f"(1 + {first}**2)"
 
     def kinetic(self) -> str:
         """A function of velocities or momenta that has a transform, or nearly."""
         random = self.random
-        squares = [f"{self.number()}*{x}**{random.choice(('2', '2', '2', '4'))}" for x in self.motion]
+        squares = [
+            f"{self.number()}*{x}**{random.choice(('2', '2', '2', '4'))}" for x in self.motion
+        ]
         if random.random() < 0.3:
             squares.append(
                 f"{random.choice(self.motion)}*{random.choice(self.motion)}*{self.formula(self.names, 1)}"
@@ -84,7 +114,9 @@ class _Writer:
         if random.random() < 0.3:
             squares.append(f"{random.choice(self.motion)}*{self.formula(self.names, 1)}")
         text = " + ".join(squares)
-        return random.choice((text, text, text, f"-m*sqrt(1 - ({text}))", f"exp({text})", f"log({text})"))
+        return random.choice(
+            (text, text, text, f"-m*sqrt(1 - ({text}))", f"exp({text})", f"log({text})")
+        )
 
     def term(self) -> str:
         """One formula."""
@@ -105,7 +137,9 @@ class _Writer:
         lines = [
             f"variables: [{', '.join(self.names)}]",
             f"parameters: {{m: {random.choice(('1', '2', '1/3', 'sqrt(5)', '0', '-1'))}}}",
-            f"{form}: {terms[0]}" if len(terms) == 1 else f"{form}:" + "".join(f"\n  - {x}" for x in terms),
+            f"{form}: {terms[0]}"
+            if len(terms) == 1
+            else f"{form}:" + "".join(f"\n  - {x}" for x in terms),
             f"initial: {{{initial}}}",
         ]
         if random.random() < 0.2:

@@ -1,4 +1,6 @@
-"""No input, however made, is met with anything but a verdict or the errors of ``garkcli.errors``."""
+"""No input, however made, is met with anything but a verdict or the errors of
+``garkcli.errors``.
+"""
 
 from __future__ import annotations
 
@@ -47,9 +49,13 @@ NUMBERS = st.one_of(
     st.floats(),
     st.sampled_from(["tau", "1 - tau", "free", ">= 2"]),
 )
-SCALARS = st.one_of(NUMBERS, st.none(), st.booleans(), st.dates(), st.text(max_size=20), st.sampled_from(WORDS))
+SCALARS = st.one_of(
+    NUMBERS, st.none(), st.booleans(), st.dates(), st.text(max_size=20), st.sampled_from(WORDS)
+)
 TREES = st.recursive(
-    SCALARS, lambda below: st.lists(below, max_size=4) | st.dictionaries(SCALARS, below, max_size=4), max_leaves=12
+    SCALARS,
+    lambda below: st.lists(below, max_size=4) | st.dictionaries(SCALARS, below, max_size=4),
+    max_leaves=12,
 )
 """Any value that YAML can write."""
 
@@ -60,7 +66,9 @@ def _or_anything(good: st.SearchStrategy[Any]) -> st.SearchStrategy[Any]:
 
 
 def _rows(strategy: st.SearchStrategy[Any], longest: int = 3) -> st.SearchStrategy[list[Any]]:
-    return st.integers(1, longest).flatmap(lambda size: st.lists(strategy, min_size=size, max_size=size))
+    return st.integers(1, longest).flatmap(
+        lambda size: st.lists(strategy, min_size=size, max_size=size)
+    )
 
 
 ROW = _or_anything(_rows(_or_anything(NUMBERS)))
@@ -71,11 +79,15 @@ FAMILY = st.fixed_dictionaries(
     optional={"stages": _or_anything(st.integers(0, 5))},
 )
 RULE = st.one_of(
-    st.sampled_from(ALL_RULES), st.dictionaries(st.sampled_from(ALL_RULES), NUMBERS, min_size=1, max_size=3)
+    st.sampled_from(ALL_RULES),
+    st.dictionaries(st.sampled_from(ALL_RULES), NUMBERS, min_size=1, max_size=3),
 )
 TRANSFER = RULE | st.fixed_dictionaries(
     {},
-    optional={"default": RULE, "blocks": st.dictionaries(st.sampled_from(["1,2", "2,1", "3, 1"]), RULE | MATRIX)},
+    optional={
+        "default": RULE,
+        "blocks": st.dictionaries(st.sampled_from(["1,2", "2,1", "3, 1"]), RULE | MATRIX),
+    },
 )
 VALUES: dict[str, st.SearchStrategy[Any]] = {
     "gark": st.just(1),
@@ -106,7 +118,9 @@ def _files() -> st.SearchStrategy[dict[Any, Any]]:
 
 
 def faults_of(text: str, load: Callable[[str], object] = loads) -> tuple[Fault, ...]:
-    """The faults of a file; none where it is good. Any other exception is what fuzzing looks for, or much time."""
+    """The faults of a file; none where it is good. Any other exception is what fuzzing looks for,
+    or much time.
+    """
     start = process_time()
     try:
         load(text)
@@ -134,32 +148,42 @@ def offset_of_fault(text: str) -> int:
 
 @pytest.mark.parametrize("seed", range(10))
 def test_method_files(seed: int) -> None:
-    """Three hundred damaged files a seed: a method or its faults, each with a place in the file, and soon."""
+    """Three hundred damaged files a seed: a method or its faults, each with a place in the file,
+    and soon.
+    """
     random, files = Random(seed), seeds()
     refused = 0
     for _ in range(300):
         text = method_file(random, files)
         faults = faults_of(text)
         refused += bool(faults)
-        assert all(fault.line >= 1 and fault.column >= 1 and fault.message for fault in faults), text
+        assert all(fault.line >= 1 and fault.column >= 1 and fault.message for fault in faults), (
+            text
+        )
     assert 0 < refused < 300
 
 
 @pytest.mark.parametrize("seed", range(5))
 def test_problem_files(seed: int) -> None:
-    """Two hundred damaged problem files a seed: a problem or its faults, each with a place, and soon."""
+    """Two hundred damaged problem files a seed: a problem or its faults, each with a place, and
+    soon.
+    """
     random, files = Random(seed), problem_seeds()
     refused = 0
     for _ in range(200):
         text = problem_file(random, files)
         faults = faults_of(text, loads_problem)
         refused += bool(faults)
-        assert all(fault.line >= 1 and fault.column >= 1 and fault.message for fault in faults), text
+        assert all(fault.line >= 1 and fault.column >= 1 and fault.message for fault in faults), (
+            text
+        )
     assert 0 < refused < 200
 
 
 def test_what_is_damaged_was_good() -> None:
-    """The problem files that damage begins with have no faults; of the written ones many have none."""
+    """The problem files that damage begins with have no faults; of the written ones many have
+    none.
+    """
     assert not any(faults_of(text, loads_problem) for text in problem_seeds())
     good = sum(not faults_of(written_problem(Random(seed)), loads_problem) for seed in range(200))
     assert 40 < good < 160
@@ -201,7 +225,9 @@ class Faulty(Cases):
     ],
 )
 def test_faults_of_the_loader_are_found(misdeed: str, error: str) -> None:
-    """In workers every misdeed is a fault, at its number, and the next number follows; sleep takes no processor."""
+    """In workers every misdeed is a fault, at its number, and the next number follows; sleep takes
+    no processor.
+    """
     found = run(Faulty(1, seconds=0.2, misdeed=misdeed), range(4))
     assert [case.number for case in found] == [0, 1, 2, 3]
     assert [case.kind for case in found] == ["loaded", "loaded", "fault", "loaded"]
@@ -220,7 +246,9 @@ def test_the_long_run_in_short(are_problems: bool) -> None:
 
 @pytest.mark.parametrize("seed", range(4))
 def test_numbers(seed: int) -> None:
-    """Five hundred texts of number signs a seed: a value, or an error with offsets inside the text."""
+    """Five hundred texts of number signs a seed: a value, or an error with offsets inside the
+    text.
+    """
     random = Random(seed)
     for _ in range(500):
         text = soup(random, SIGNS, 30)
@@ -242,7 +270,10 @@ def test_any_yaml(content: object) -> None:
 
 
 @FUZZ
-@given(st.text(max_size=200) | st.lists(st.sampled_from(WORDS) | st.text(max_size=3), max_size=40).map("".join))
+@given(
+    st.text(max_size=200)
+    | st.lists(st.sampled_from(WORDS) | st.text(max_size=3), max_size=40).map("".join)
+)
 def test_any_text(text: str) -> None:
     """Text that need not be YAML."""
     check_places(text)

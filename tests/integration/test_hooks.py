@@ -21,13 +21,19 @@ def run(command: str, **variables: str) -> subprocess.CompletedProcess[str]:
     path = f"{Path(sys.executable).parent}{os.pathsep}{os.environ['PATH']}"
     environment = {**os.environ, "PATH": path, **variables}
     return subprocess.run(
-        ["bash", "-euo", "pipefail", "-c", command], cwd=ROOT, env=environment, capture_output=True, text=True
+        ["bash", "-euo", "pipefail", "-c", command],
+        cwd=ROOT,
+        env=environment,
+        capture_output=True,
+        text=True,
     )
 
 
 @pytest.mark.parametrize(("file", "code"), [(GOOD, 0), (BAD, 1)])
 def test_pre_commit_hook(file: str, code: int) -> None:
-    """The hook's entry passes a right file and fails a wrong one, and its pattern picks method files alone."""
+    """The hook's entry passes a right file and fails a wrong one, and its pattern picks method
+    files alone.
+    """
     (hook,) = yaml.safe_load((ROOT / ".pre-commit-hooks.yaml").read_text())
     assert re.search(hook["files"], file)
     assert not re.search(hook["files"], "docker-compose.yaml")

@@ -1,18 +1,20 @@
-"""The example files: what is valid loads and keeps its claims, what is invalid is refused with its faults."""
+"""The example files: what is valid loads and keeps its claims, what is invalid is refused with its
+faults.
+"""
 
 import time
 from pathlib import Path
 
 import pytest
 
+from garkcli.check.check_file import check_file
+from garkcli.check.outcome import Outcome
 from garkcli.errors import MethodFileError
 from garkcli.families.registry import FAMILIES
-from garkcli.methodfile.check import check_file
 from garkcli.methodfile.description import FORMS, STRUCTURES
 from garkcli.methodfile.expectations import CLAIMS
 from garkcli.methodfile.load import load
 from garkcli.methodfile.reader import ALL_RULES, KEYS
-from garkcli.order.outcome import Outcome
 from garkcli.report.check_text import faults_text
 from garkcli.report.paint import Paint
 from tests.examples.snapshots import assert_recorded
@@ -39,8 +41,12 @@ def test_a_valid_file_keeps_its_claims(path: Path) -> None:
 
 
 @pytest.mark.parametrize("path", INVALID, ids=stem)
-def test_an_invalid_file_is_refused_with_its_faults(path: Path, monkeypatch: pytest.MonkeyPatch) -> None:
-    """The file raises MethodFileError, soon, with the recorded faults, each with a place inside the file."""
+def test_an_invalid_file_is_refused_with_its_faults(
+    path: Path, monkeypatch: pytest.MonkeyPatch
+) -> None:
+    """The file raises MethodFileError, soon, with the recorded faults, each with a place inside the
+    file.
+    """
     monkeypatch.chdir(path.parent)
     start = time.perf_counter()
     with pytest.raises(MethodFileError) as caught:
@@ -69,7 +75,15 @@ def words(paths: list[Path]) -> str:
 
 @pytest.mark.parametrize(
     "vocabulary",
-    [KEYS, FORMS, STRUCTURES, ALL_RULES, CLAIMS, tuple(FAMILIES), ("sqrt(", "cbrt(", "root(", "^", "**")],
+    [
+        KEYS,
+        FORMS,
+        STRUCTURES,
+        ALL_RULES,
+        CLAIMS,
+        tuple(FAMILIES),
+        ("sqrt(", "cbrt(", "root(", "^", "**"),
+    ],
 )
 def test_the_valid_files_say_every_word_of_the_format(vocabulary: tuple[str, ...]) -> None:
     """No key, form, structure, rule, claim, family or function is without an example that loads."""
@@ -78,7 +92,9 @@ def test_the_valid_files_say_every_word_of_the_format(vocabulary: tuple[str, ...
 
 
 def test_the_misprinted_table_fails_its_claim() -> None:
-    """The collocation example as the paper prints it is a method, of order 2 where order 4 is claimed."""
+    """The collocation example as the paper prints it is a method, of order 2 where order 4 is
+    claimed.
+    """
     outcome = check_file(str(EXAMPLES / "failing" / f"collocation-misprinted{SUFFIX}"))
     assert [(x.claim, x.expected, x.found) for x in outcome.failed_claims] == [("order", "4", "2")]
     assert outcome.exit_code == 1

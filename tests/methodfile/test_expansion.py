@@ -1,4 +1,6 @@
-"""How long equations for velocities get: never underestimated, and refused before they are multiplied out."""
+"""How long equations for velocities get: never underestimated, and refused before they are
+multiplied out.
+"""
 
 from __future__ import annotations
 
@@ -16,7 +18,9 @@ from garkcli.methodfile.problem import loads_problem
 
 v, x, y = sympy.symbols("v x y")
 FORMULAS = st.recursive(
-    st.sampled_from([v, x, y, sympy.Integer(1), sympy.Integer(2), sympy.Rational(1, 3), sympy.sin(x)]),
+    st.sampled_from(
+        [v, x, y, sympy.Integer(1), sympy.Integer(2), sympy.Rational(1, 3), sympy.sin(x)]
+    ),
     lambda below: st.one_of(
         st.builds(lambda a, b: a + b, below, below),
         st.builds(lambda a, b: a * b, below, below),
@@ -30,13 +34,17 @@ MANY = [f"y{i}" for i in range(20)]
 def problem(lagrangian: str, variables: list[str]) -> str:
     """A file of one term that moves with every variable."""
     initial = ", ".join(f"{q}: {k + 1}, v{q}: 1/2" for k, q in enumerate(variables))
-    return f"variables: [{', '.join(variables)}]\nlagrangian: {lagrangian}\ninitial: {{{initial}}}\n"
+    return (
+        f"variables: [{', '.join(variables)}]\nlagrangian: {lagrangian}\ninitial: {{{initial}}}\n"
+    )
 
 
 @given(FORMULAS, FORMULAS)
 @settings(max_examples=150, deadline=None)
 def test_terms_are_not_underestimated(numerator: Any, denominator: Any) -> None:
-    """A polynomial has at most so many terms; nor does it matter that it is divided by another one."""
+    """A polynomial has at most so many terms; nor does it matter that it is divided by another
+    one.
+    """
     assert len(sympy.Add.make_args(sympy.expand(numerator))) <= _fraction(numerator).terms
     if denominator != 0:
         quotient = numerator + 1 / denominator
@@ -45,7 +53,9 @@ def test_terms_are_not_underestimated(numerator: Any, denominator: Any) -> None:
 
 
 def test_what_is_undone_is_not_multiplied_out() -> None:
-    """Powers and functions of what has the velocity alone are undone, and linear equations eliminated."""
+    """Powers and functions of what has the velocity alone are undone, and linear equations
+    eliminated.
+    """
     w = sum(sympy.symbols("w1:30"))
     assert too_long((v - w) ** 64, [v]) is None
     assert too_long(v**2 * (1 + x + y) ** 64, [v]) is None

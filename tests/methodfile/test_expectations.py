@@ -4,11 +4,11 @@ from pathlib import Path
 
 import pytest
 
-from garkcli.methodfile.check import check_file
-from garkcli.methodfile.expectations import verify
+from garkcli.check.analysis import Analysis, analyse
+from garkcli.check.check_file import check_file
+from garkcli.check.claims import verify
+from garkcli.check.outcome import Claim
 from garkcli.methodfile.load import loads
-from garkcli.order.check import Analysis, analyse
-from garkcli.order.outcome import Claim
 
 METHOD = "methods: [{family: gauss, stages: 2}, {family: lobatto-iiia, stages: 3}]\ntransfer: collocation\n"
 
@@ -64,7 +64,11 @@ def test_a_claim_holds_where_it_is_true(text: str, holds: bool, analysis: Analys
 def test_a_claim_says_what_was_expected_and_found(analysis: Analysis) -> None:
     """The verdict carries both sides as a file would write them, and the place of the claim."""
     found = claim('C: [[">= 2", 3], [3, null]]', analysis)
-    assert (found.claim, found.expected, found.found) == ("C", "[[>= 2, 3], [3, null]]", "[[2, 3], [3, 3]]")
+    assert (found.claim, found.expected, found.found) == (
+        "C",
+        "[[>= 2, 3], [3, null]]",
+        "[[2, 3], [3, 3]]",
+    )
     assert (found.line, found.column) == (3, 13)
 
 
@@ -84,7 +88,9 @@ def test_null_stands_for_a_block_that_does_not_exist() -> None:
 
 def test_no_conjugate_is_no_order() -> None:
     """Where a weight is zero there is no conjugate order: every claim on it fails and says why."""
-    method = loads('methods: [{family: explicit-midpoint}]\nexpect: {conjugate-order: ">= 0", pair-order: 2}')
+    method = loads(
+        'methods: [{family: explicit-midpoint}]\nexpect: {conjugate-order: ">= 0", pair-order: 2}'
+    )
     for found in verify(method.claims, analyse(method.tableau)):
         assert not found.holds
         assert found.found == "none: a weight is zero"

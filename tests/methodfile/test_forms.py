@@ -54,8 +54,14 @@ def coupled(rule: str) -> Tableau:
 @pytest.mark.parametrize("family", FAMILIES)
 def test_a_family_is_the_method_of_the_registry(family: str) -> None:
     """A one-colour file of any family is that diagonal method."""
-    s = max(FAMILIES[family].smallest, 2) if FAMILIES[family].largest > 4 else FAMILIES[family].smallest
-    assert tableau(f"methods: [{{family: {family}, stages: {s}}}]") == gark([diagonal_method(family, s)], {})
+    s = (
+        max(FAMILIES[family].smallest, 2)
+        if FAMILIES[family].largest > 4
+        else FAMILIES[family].smallest
+    )
+    assert tableau(f"methods: [{{family: {family}, stages: {s}}}]") == gark(
+        [diagonal_method(family, s)], {}
+    )
 
 
 @pytest.mark.parametrize("rule", RULES)
@@ -72,21 +78,29 @@ def test_a_rule_for_pairs_builds_on_the_smaller_order(rule: str) -> None:
     swapped = "methods: [{family: lobatto-iiia, stages: 3}, {family: gauss, stages: 2}]\n"
     other = {(1 - l, 1 - m): block for (l, m), block in blocks.items()}
     assert tableau(f"{swapped}transfer: {rule}") == gark([LOBATTO, GAUSS], other)
-    assert tableau(f'{TWO}transfer: {{blocks: {{"2,1": {rule}}}}}') == gark([GAUSS, LOBATTO], blocks)
+    assert tableau(f'{TWO}transfer: {{blocks: {{"2,1": {rule}}}}}') == gark(
+        [GAUSS, LOBATTO], blocks
+    )
 
 
 def test_a_combination_is_linear_in_its_weights() -> None:
     """The weights of eq. (lincomb) may be parameters, and the block is Σ τ A."""
     text = f"{TWO}parameters: {{tau: 1/3}}\ntransfer: {{interpolation: tau, collocation: 1 - tau}}"
     terms = [(fmpq(1, 3), RULES["interpolation"]), (fmpq(2, 3), RULES["collocation"])]
-    blocks = {(0, 1): combination(terms, GAUSS, LOBATTO), (1, 0): combination(terms, LOBATTO, GAUSS)}
+    blocks = {
+        (0, 1): combination(terms, GAUSS, LOBATTO),
+        (1, 0): combination(terms, LOBATTO, GAUSS),
+    }
     assert tableau(text) == gark([GAUSS, LOBATTO], blocks)
 
 
 def test_an_exception_replaces_the_default_of_its_block_alone() -> None:
     """The key "2,1" is A^{2,1}: in the rows of colour 2 and the columns of colour 1."""
     text = f'{TWO}transfer: {{default: collocation, blocks: {{"2,1": interpolation}}}}'
-    blocks = {(0, 1): RULES["collocation"](GAUSS, LOBATTO), (1, 0): RULES["interpolation"](LOBATTO, GAUSS)}
+    blocks = {
+        (0, 1): RULES["collocation"](GAUSS, LOBATTO),
+        (1, 0): RULES["interpolation"](LOBATTO, GAUSS),
+    }
     assert tableau(text) == gark([GAUSS, LOBATTO], blocks)
 
 
@@ -96,13 +110,18 @@ def test_a_spelled_out_block_stands_as_it_is_written() -> None:
     methods: [{A: [[1/2]], b: [1]}, {A: [[0, 0], [1/2, 1/2]], b: [1/2, 1/2]}]
     transfer: {default: collocation, blocks: {"1,2": [[1/3, 1/6]]}}
     """
-    methods = [butcher(rows("1/2"), rows("1")[0]), butcher(rows("0 0", "1/2 1/2"), rows("1/2 1/2")[0])]
+    methods = [
+        butcher(rows("1/2"), rows("1")[0]),
+        butcher(rows("0 0", "1/2 1/2"), rows("1/2 1/2")[0]),
+    ]
     blocks = {(0, 1): rows("1/3 1/6"), (1, 0): RULES["collocation"](methods[1], methods[0])}
     assert tableau(text) == gark(methods, blocks)
 
 
 def test_a_block_beside_a_family_is_exact_in_its_nodes() -> None:
-    """The paper's A^{2,1}, in radicals beside two families, gives what collocation gives: order and bound."""
+    """The paper's A^{2,1}, in radicals beside two families, gives what collocation gives: order and
+    bound.
+    """
     text = f"""{TWO}transfer:
   default: collocation
   blocks: {{"2,1": [[0, 0], [1/4 + sqrt(3)/8, 1/4 - sqrt(3)/8], [1/2, 1/2]]}}
@@ -113,7 +132,9 @@ def test_a_block_beside_a_family_is_exact_in_its_nodes() -> None:
 
 
 def test_a_spelled_out_tableau_is_its_blocks() -> None:
-    """Every block, absent block, node and weight of ``tableau`` is taken over, and ``linear`` marks colours."""
+    """Every block, absent block, node and weight of ``tableau`` is taken over, and ``linear`` marks
+    colours.
+    """
     text = """
     tableau: {c: [[1/2], [0, 1]], A: [[null, [[1/2, 0]]], [[[0], [1]], ~]], b: [[1], [1/2, 1/2]]}
     linear: [1]
@@ -125,7 +146,9 @@ def test_a_spelled_out_tableau_is_its_blocks() -> None:
 
 
 def test_nodes_default_to_row_sums() -> None:
-    """Without ``c`` the nodes are the row sums of A^{l,l}, with ``c`` they are what the file says."""
+    """Without ``c`` the nodes are the row sums of A^{l,l}, with ``c`` they are what the file
+    says.
+    """
     blocks = "A: [[[[1/4, 1/4], [1/3, 1/3]]]], b: [[1/2, 1/2]]"
     assert tableau(f"tableau: {{{blocks}}}").colours[0].c == (fmpq(1, 2), fmpq(2, 3))
     assert tableau(f"tableau: {{{blocks}, c: [[0, 1]]}}").colours[0].c == (0, 1)
@@ -146,7 +169,9 @@ PRK = "prk: {q: {A: [[0, 0], [1/2, 1/2]], b: [1/2, 1/2]}, p: {A: [[1/2, 0], [1/2
 
 
 def test_a_partitioned_method_takes_its_parts() -> None:
-    """``prk`` is ``partitioned`` for a general problem; separable, and with linear velocities for nystrom."""
+    """``prk`` is ``partitioned`` for a general problem; separable, and with linear velocities for
+    nystrom.
+    """
     b = rows("1/2 1/2")[0]
     Q, P = rows("0 0", "1/2 1/2"), rows("1/2 0", "1/2 0")
     assert tableau(PRK) == partitioned(butcher(Q, b), butcher(P, b, rows("0 1")[0]))
@@ -159,23 +184,39 @@ def test_a_partitioned_method_takes_its_parts() -> None:
 @pytest.mark.parametrize(
     ("structure", "velocities", "forces", "linear", "graph"),
     [
-        ("semi-separable", [0], [0, 1], [], {(0, 0), (0, 1), (0, 2), (1, 0), (1, 1), (1, 2), (2, 0)}),
+        (
+            "semi-separable",
+            [0],
+            [0, 1],
+            [],
+            {(0, 0), (0, 1), (0, 2), (1, 0), (1, 1), (1, 2), (2, 0)},
+        ),
         ("separable", [0], [1], [], {(0, 1), (1, 0)}),
         ("nystrom", [0], [1], ["V1"], {(0, 1), (1, 0)}),
     ],
 )
 def test_a_structure_keeps_the_vector_fields_of_its_problem(
-    structure: str, velocities: list[int], forces: list[int], linear: list[str], graph: set[tuple[int, int]]
+    structure: str,
+    velocities: list[int],
+    forces: list[int],
+    linear: list[str],
+    graph: set[tuple[int, int]],
 ) -> None:
-    """With ``methods``, a structure is the symplectic pair with the colours the problem has, and no others."""
+    """With ``methods``, a structure is the symplectic pair with the colours the problem has, and no
+    others.
+    """
     found = tableau(f"{TWO}transfer: collocation\nstructure: {structure}")
     assert found == with_linear(symplectic_pair(coupled("collocation"), velocities, forces), linear)
     assert graph_of(found) == (graph, {0} if linear else set())
 
 
 def test_conjugate_true_is_the_conjugate() -> None:
-    """``conjugate: true`` is the symplectic conjugate of what the file says, ``false`` is the file."""
-    assert tableau(f"{TWO}transfer: collocation\nconjugate: true") == conjugate(coupled("collocation"))
+    """``conjugate: true`` is the symplectic conjugate of what the file says, ``false`` is the
+    file.
+    """
+    assert tableau(f"{TWO}transfer: collocation\nconjugate: true") == conjugate(
+        coupled("collocation")
+    )
     assert tableau(f"{TWO}transfer: collocation\nconjugate: false") == coupled("collocation")
     assert loads(f"{TWO}transfer: collocation\nconjugate: true").is_conjugate
 
@@ -188,7 +229,9 @@ def test_a_general_file_is_not_paired() -> None:
 
 def test_the_parts_of_a_file_are_kept() -> None:
     """Name, description, reference, tolerance, form and structure arrive as written."""
-    method = loads(f"{TWO}transfer: collocation\nname: N\ndescription: D\nreference: R\ntolerance: 1e-3", "s")
+    method = loads(
+        f"{TWO}transfer: collocation\nname: N\ndescription: D\nreference: R\ntolerance: 1e-3", "s"
+    )
     assert (method.name, method.description, method.reference) == ("N", "D", "R")
     assert (method.source, method.form, method.structure) == ("s", "methods", "general")
     assert method.tolerance == fmpq(1, 1000)
@@ -196,13 +239,18 @@ def test_the_parts_of_a_file_are_kept() -> None:
 
 
 def test_patterns_and_directories_stand_for_their_files(tmp_path: Path) -> None:
-    """A pattern means what it matches, a directory its method files, and what means nothing is kept."""
+    """A pattern means what it matches, a directory its method files, and what means nothing is
+    kept.
+    """
     (tmp_path / "deep").mkdir()
     for name in ("b.gark.yaml", "a.gark.yaml", "deep/c.gark.yaml", "other.yaml"):
         (tmp_path / name).write_text("methods: [{family: rk4}]\n")
 
     def found(*paths: str) -> list[str]:
-        return [Path(x).relative_to(tmp_path).as_posix() for x in find_files(str(tmp_path / p) for p in paths)]
+        return [
+            Path(x).relative_to(tmp_path).as_posix()
+            for x in find_files(str(tmp_path / p) for p in paths)
+        ]
 
     assert found("") == ["a.gark.yaml", "b.gark.yaml", "deep/c.gark.yaml"]
     assert found("*.yaml") == ["a.gark.yaml", "b.gark.yaml", "other.yaml"]

@@ -1,4 +1,6 @@
-"""Files made to exhaust, crash or mislead the program, each in a process of its own with little time and memory."""
+"""Files made to exhaust, crash or mislead the program, each in a process of its own with little
+time and memory.
+"""
 
 from __future__ import annotations
 
@@ -48,7 +50,10 @@ def gark(*arguments: str, cwd: Path = ROOT, stdin: bytes = b"") -> subprocess.Co
         preexec_fn=_limited,  # no threads here
     )
     return subprocess.CompletedProcess(
-        done.args, done.returncode, done.stdout.decode(errors="replace"), done.stderr.decode(errors="replace")
+        done.args,
+        done.returncode,
+        done.stdout.decode(errors="replace"),
+        done.stderr.decode(errors="replace"),
     )
 
 
@@ -82,7 +87,11 @@ def wide(stages: int) -> str:
 HOSTILE: dict[str, str | bytes] = {
     "aliases of aliases": bomb(12, 12),
     "a few aliases, used often": bomb(4, 90),
-    "aliases in a matrix": "x: &r [" + "1," * 600 + "1]\nmethods: [{A: [" + "*r," * 1200 + "*r], b: [1]}]\n",
+    "aliases in a matrix": "x: &r ["
+    + "1," * 600
+    + "1]\nmethods: [{A: ["
+    + "*r," * 1200
+    + "*r], b: [1]}]\n",
     "100 KB of brackets": "methods: " + "[" * 100_000,
     "100 KB of balanced brackets": "methods: " + "[" * 50_000 + "]" * 50_000,
     "100 KB of braces": "{a: " * 25_000 + "}" * 25_000,
@@ -91,7 +100,9 @@ HOSTILE: dict[str, str | bytes] = {
     "100 KB of parentheses": number("(" * 50_000 + "1" + ")" * 50_000),
     "minus signs": number("-" * 90_000 + "1"),
     "square roots of square roots": number("sqrt(" * 40 + "2" + ")" * 40),
-    "many square roots": number("+".join(f"sqrt({p})" for p in (2, 3, 5, 7, 11, 13, 17, 19, 23, 29))),
+    "many square roots": number(
+        "+".join(f"sqrt({p})" for p in (2, 3, 5, 7, 11, 13, 17, 19, 23, 29))
+    ),
     "a long sum": number("+".join(["1/3"] * 30_000)),
     "9**9**9": number("9**9**9"),
     "(9**999)**999": number("(9**999)**999"),
@@ -145,7 +156,7 @@ HOSTILE: dict[str, str | bytes] = {
 ONE_BY_ONE = """
 import json, os, resource, sys
 from garkcli.cli import main
-from garkcli.methodfile import check
+from garkcli.check import check_file as check
 
 megabytes, *files = sys.argv[1:]
 for file in files:
@@ -164,7 +175,9 @@ for file in files:
     answer = [os.waitstatus_to_exitcode(status), seconds, usage.ru_maxrss / 1024]
     print(json.dumps(answer), flush=True)
 """
-"""Checks files one after the other, each in a process of its own that has the program loaded already."""
+"""Checks files one after the other, each in a process of its own that has the program loaded
+already.
+"""
 
 
 @dataclass(frozen=True)
@@ -183,9 +196,13 @@ def answers(tmp_path_factory: pytest.TempPathFactory) -> dict[str, Answer]:
     folder = tmp_path_factory.mktemp("hostile")
     names = {what: f"m{k}.gark.yaml" for k, what in enumerate(HOSTILE)}
     for what, content in HOSTILE.items():
-        (folder / names[what]).write_bytes(content.encode() if isinstance(content, str) else content)
+        (folder / names[what]).write_bytes(
+            content.encode() if isinstance(content, str) else content
+        )
     command = [sys.executable, "-c", ONE_BY_ONE, str(MEGABYTES), *names.values()]
-    done = subprocess.run(command, cwd=folder, env=environment(), capture_output=True, text=True, timeout=120)
+    done = subprocess.run(
+        command, cwd=folder, env=environment(), capture_output=True, text=True, timeout=120
+    )
     assert done.returncode == 0, done.stderr
     found = [json.loads(line) for line in done.stdout.splitlines()]
     texts = [(folder / f"{name}.report").read_text(errors="replace") for name in names.values()]
@@ -221,9 +238,13 @@ def big_explicit(stages: int, entry: str) -> str:
     return f"methods:\n- A: [{', '.join(rows)}]\n  b: [{weights}]\n"
 
 
-@pytest.mark.parametrize(("stages", "entry"), [(300, "1/300"), (300, "'sqrt(2)/300'"), (150, "'cbrt(2)/300'")])
+@pytest.mark.parametrize(
+    ("stages", "entry"), [(300, "1/300"), (300, "'sqrt(2)/300'"), (150, "'cbrt(2)/300'")]
+)
 def test_a_big_method_is_answered_or_refused(stages: int, entry: str, tmp_path: Path) -> None:
-    """Hundreds of explicit stages, rational or not: an order or a refusal, in 5 seconds of work and 500 MB."""
+    """Hundreds of explicit stages, rational or not: an order or a refusal, in 5 seconds of work and
+    500 MB.
+    """
     file = tmp_path / "m.gark.yaml"
     file.write_text(big_explicit(stages, entry))
     script = (
@@ -251,16 +272,26 @@ def test_a_big_method_is_answered_or_refused(stages: int, entry: str, tmp_path: 
     assert megabytes < 500
 
 
-# -- things that are no files -------------------------------------------------------------------------------------
+# -- things that are no files
+# -------------------------------------------------------------------------------------
 
 
 def test_what_is_no_file_is_refused(tmp_path: Path) -> None:
-    """A directory without methods, a missing file, a FIFO nobody writes to, a socket's place and a device."""
+    """A directory without methods, a missing file, a FIFO nobody writes to, a socket's place and a
+    device.
+    """
     os.mkfifo(tmp_path / "fifo.gark.yaml")
     (tmp_path / "folder").mkdir()
     (tmp_path / "loop.gark.yaml").symlink_to("loop.gark.yaml")
     (tmp_path / "dangling.gark.yaml").symlink_to("nowhere")
-    names = ("fifo.gark.yaml", "folder", "nowhere.gark.yaml", "loop.gark.yaml", "dangling.gark.yaml", "/dev/zero")
+    names = (
+        "fifo.gark.yaml",
+        "folder",
+        "nowhere.gark.yaml",
+        "loop.gark.yaml",
+        "dangling.gark.yaml",
+        "/dev/zero",
+    )
     for name in names:
         assert name in refused(gark("check", name, cwd=tmp_path))
     assert "fifo.gark.yaml" in refused(gark("check", ".", "-j", "2", cwd=tmp_path))
@@ -302,7 +333,8 @@ def test_a_name_with_an_odd_byte_is_only_a_name(tmp_path: Path) -> None:
         assert run.stderr == ""
 
 
-# -- where a report goes ------------------------------------------------------------------------------------------
+# -- where a report goes
+# ------------------------------------------------------------------------------------------
 
 RUNS = [("check", FAILING), ("trees", "-N", "3", "-n", "7"), ("list",), ("schema",)]
 
@@ -312,15 +344,22 @@ def test_a_full_disk_is_said(arguments: tuple[str, ...]) -> None:
     """A full disk under stdout, or under -o, is exit code 2 and one line that says so."""
     command = [sys.executable, "-m", "garkcli", *arguments]
     with Path("/dev/full").open("w") as full:
-        done = subprocess.run(command, cwd=ROOT, env=environment(), stdout=full, stderr=subprocess.PIPE, text=True)
-    assert (done.returncode, done.stderr) == (2, "gark: the report cannot be written: No space left on device\n")
+        done = subprocess.run(
+            command, cwd=ROOT, env=environment(), stdout=full, stderr=subprocess.PIPE, text=True
+        )
+    assert (done.returncode, done.stderr) == (
+        2,
+        "gark: the report cannot be written: No space left on device\n",
+    )
     run = gark(*arguments, "-o", "/dev/full")
     assert (run.returncode, run.stdout) == (2, "")
     assert run.stderr.startswith("gark: cannot write /dev/full: No space left on device\n")
 
 
 def test_a_place_that_cannot_be_written_is_said(tmp_path: Path) -> None:
-    """A missing directory, a directory and a file where a directory should be: exit code 2, nothing left."""
+    """A missing directory, a directory and a file where a directory should be: exit code 2, nothing
+    left.
+    """
     (tmp_path / "file").write_text("kept")
     for place in ("nowhere/report", ".", "file/report"):
         run = gark("list", "-o", place, cwd=tmp_path)
@@ -330,7 +369,9 @@ def test_a_place_that_cannot_be_written_is_said(tmp_path: Path) -> None:
 
 
 def test_a_file_limit_leaves_nothing_half_written(tmp_path: Path) -> None:
-    """Where the disk ends in the middle of a report, the old report stays whole and nothing else is left."""
+    """Where the disk ends in the middle of a report, the old report stays whole and nothing else is
+    left.
+    """
 
     def small() -> None:
         signal.signal(signal.SIGXFSZ, signal.SIG_IGN)
@@ -338,7 +379,20 @@ def test_a_file_limit_leaves_nothing_half_written(tmp_path: Path) -> None:
 
     (tmp_path / "trees.csv").write_text("old\n")
     done = subprocess.run(
-        [sys.executable, "-m", "garkcli", "trees", "-N", "3", "-n", "7", "--format", "csv", "-o", "trees.csv"],
+        [
+            sys.executable,
+            "-m",
+            "garkcli",
+            "trees",
+            "-N",
+            "3",
+            "-n",
+            "7",
+            "--format",
+            "csv",
+            "-o",
+            "trees.csv",
+        ],
         cwd=tmp_path,
         env={**environment(), "PYTHONDONTWRITEBYTECODE": "1"},
         capture_output=True,
@@ -352,7 +406,9 @@ def test_a_file_limit_leaves_nothing_half_written(tmp_path: Path) -> None:
 
 
 def interrupted(arguments: Sequence[str], cwd: Path, ready: str) -> tuple[int, str]:
-    """Exit code and stderr of a run that gets ^C once ``ready`` is true, with its workers, as from a terminal."""
+    """Exit code and stderr of a run that gets ^C once ``ready`` is true, with its workers, as from
+    a terminal.
+    """
     running = subprocess.Popen(
         [sys.executable, "-m", "garkcli", *arguments],
         cwd=cwd,
@@ -365,7 +421,11 @@ def interrupted(arguments: Sequence[str], cwd: Path, ready: str) -> tuple[int, s
     with running:
         try:
             deadline = time.monotonic() + 10
-            while time.monotonic() < deadline and running.poll() is None and not _ready(running.pid, cwd, ready):
+            while (
+                time.monotonic() < deadline
+                and running.poll() is None
+                and not _ready(running.pid, cwd, ready)
+            ):
                 time.sleep(0.01)
             assert running.poll() is None, "the work was done before it could be interrupted"
             os.killpg(running.pid, signal.SIGINT)
@@ -385,7 +445,9 @@ def _ready(pid: int, cwd: Path, ready: str) -> bool:
 
 @pytest.mark.skipif(not Path("/proc/self/task").exists(), reason="needs /proc to see workers")
 def test_an_interrupt_ends_workers(tmp_path: Path) -> None:
-    """^C during a check of many files by two workers: exit code 130, no traceback, no worker and no file left."""
+    """^C during a check of many files by two workers: exit code 130, no traceback, no worker and no
+    file left.
+    """
     slow = "methods: [{family: gauss, stages: 20}, {family: lobatto-iiia, stages: 21}]\ntransfer: collocation\n"
     for k in range(40):
         (tmp_path / f"m{k}.gark.yaml").write_text(slow)
@@ -404,10 +466,18 @@ def test_an_interrupt_leaves_no_file(tmp_path: Path) -> None:
 
 @pytest.mark.parametrize(
     "arguments",
-    ["check methods -v", "check methods -v -j 2", "trees -N 3 -n 8 --format csv", "conditions -n 6", "schema"],
+    [
+        "check methods -v",
+        "check methods -v -j 2",
+        "trees -N 3 -n 8 --format csv",
+        "conditions -n 6",
+        "schema",
+    ],
 )
 def test_a_reader_that_goes_away(arguments: str) -> None:
-    """``| head -1`` of any long report ends quietly, with a line on stdout and nothing on stderr."""
+    """``| head -1`` of any long report ends quietly, with a line on stdout and nothing on
+    stderr.
+    """
     command = f'"{sys.executable}" -m garkcli {arguments} | head -1'
     done = subprocess.run(
         command, shell=True, cwd=ROOT, env=environment(), capture_output=True, text=True, timeout=30
@@ -416,26 +486,31 @@ def test_a_reader_that_goes_away(arguments: str) -> None:
     assert done.stderr == ""
 
 
-# -- faults of our own --------------------------------------------------------------------------------------------
+# -- faults of our own
+# --------------------------------------------------------------------------------------------
 
 
 def broken(*arguments: str) -> subprocess.CompletedProcess[str]:
     """A run of a program whose order finder is broken."""
     script = (
         "import sys\n"
-        "import garkcli.order.check as check\n"
+        "import garkcli.check.analysis as check\n"
         "def find_order(*_): raise RuntimeError('broken\\nin two lines')\n"
         "check.find_order = find_order\n"
         "from garkcli.cli import main\n"
         "main(sys.argv[1:])\n"
     )
     command = [sys.executable, "-c", script, *arguments]
-    return subprocess.run(command, cwd=ROOT, env=environment(), capture_output=True, text=True, timeout=30)
+    return subprocess.run(
+        command, cwd=ROOT, env=environment(), capture_output=True, text=True, timeout=30
+    )
 
 
 @pytest.mark.parametrize("jobs", [(), ("-j", "2")], ids=["alone", "by twos"])
 def test_a_fault_of_our_own(jobs: tuple[str, ...]) -> None:
-    """A fault of the program is two lines on stderr and exit code 3, in a worker as in the program itself."""
+    """A fault of the program is two lines on stderr and exit code 3, in a worker as in the program
+    itself.
+    """
     run = broken("check", "methods", *jobs)
     assert (run.returncode, run.stdout) == (3, "")
     first, second = run.stderr.splitlines()

@@ -1,4 +1,6 @@
-"""Problem files that nobody would write: read or refused, soon, with nothing executed and no other error."""
+"""Problem files that nobody would write: read or refused, soon, with nothing executed and no other
+error.
+"""
 
 from __future__ import annotations
 
@@ -37,23 +39,35 @@ def one(formula: str, rest: str = "") -> str:
 MANY = [f"x{i}" for i in range(20)]
 START = ", ".join(f"{x}: 1/2, p{x}: 0" for x in MANY)
 CHAIN = "+".join(
-    f"v{u}*v{w}*cos({u}-{w})*{6 - max(i, j)}/2" for i, u in enumerate("abcde") for j, w in enumerate("abcde")
+    f"v{u}*v{w}*cos({u}-{w})*{6 - max(i, j)}/2"
+    for i, u in enumerate("abcde")
+    for j, w in enumerate("abcde")
 )
 REFUSED = {
     "100 kB": (one("+".join(["x*px"] * 20_000)), "a formula of 99999 characters"),
-    "product": (one("px**2/2+" + "*".join(f"(x+{i})" for i in range(1, 600))), "second derivatives of"),
+    "product": (
+        one("px**2/2+" + "*".join(f"(x+{i})" for i in range(1, 600))),
+        "second derivatives of",
+    ),
     "parentheses": (one("(" * 500 + "x" + ")" * 500), "nested more than 60 deep"),
     "powers of powers": (one("(" * 29 + "x" + "+1)**1.5" * 29), "a number above 2^1000"),
     "large powers": (one("(" * 10 + "x" + "/9)**64" * 10), "a number of more than 60000 bits"),
     "power of a sum": (
-        problem(", ".join(MANY), "hamiltonian", f"({'+'.join(MANY)}+{'+'.join('p' + x for x in MANY)})**64", START),
+        problem(
+            ", ".join(MANY),
+            "hamiltonian",
+            f"({'+'.join(MANY)}+{'+'.join('p' + x for x in MANY)})**64",
+            START,
+        ),
         "second derivatives of",
     ),
     "tower": (one("px**2/2+exp(exp(exp(exp(9))))*x"), "a number above 2^1000"),
     "integer": (one("px**2/2+(10**64)**64*x"), "a number above 2^1000"),
     "parameters": (
         one(
-            "a20*x", "parameters:\n  a0: sqrt(2)\n" + "".join(f"  a{i}: a{i - 1}*a{i - 1}\n" for i in range(1, 21))
+            "a20*x",
+            "parameters:\n  a0: sqrt(2)\n"
+            + "".join(f"  a{i}: a{i - 1}*a{i - 1}\n" for i in range(1, 21)),
         ),
         "more than 2000 operations",
     ),
@@ -62,9 +76,13 @@ REFUSED = {
         "60000 variables",
     ),
     "terms": (one("[" + "0, " * 60_000 + "]"), "60000 terms"),
-    "invariants": (one("px**2", "invariants: {" + ", ".join(f"j{i}: x" for i in range(99)) + "}"), "99 invariants"),
+    "invariants": (
+        one("px**2", "invariants: {" + ", ".join(f"j{i}: x" for i in range(99)) + "}"),
+        "99 invariants",
+    ),
     "aliases": (
-        "a: &a [1, 1]\n" + "".join(f"b{i}: &b{i} [*{'ab'[i > 0]}{i - 1 if i else ''}]\n" for i in range(30)),
+        "a: &a [1, 1]\n"
+        + "".join(f"b{i}: &b{i} [*{'ab'[i > 0]}{i - 1 if i else ''}]\n" for i in range(30)),
         "nested more than 12 deep",
     ),
     "alias": (one("&a [x, *a]"), "nested more than 12 deep"),
@@ -74,12 +92,17 @@ REFUSED = {
     "attribute": (one("x.__class__"), "the sign '.' has no place"),
     "mass matrix": (
         problem(
-            "a,b,c,d,e", "lagrangian", CHAIN, "a: 1, b: 2, c: 3, d: 4, e: 5, va: 0, vb: 0, vc: 0, vd: 0, ve: 0"
+            "a,b,c,d,e",
+            "lagrangian",
+            CHAIN,
+            "a: 1, b: 2, c: 3, d: 4, e: 5, va: 0, vb: 0, vc: 0, vd: 0, ve: 0",
         ),
         "second derivatives of",
     ),
     "equation": (
-        problem("x", "lagrangian", "+".join(f"sqrt(1+{i}*vx**2)" for i in range(1, 40)), "x: 1, vx: 1"),
+        problem(
+            "x", "lagrangian", "+".join(f"sqrt(1+{i}*vx**2)" for i in range(1, 40)), "x: 1, vx: 1"
+        ),
         "was not solved for vx",
     ),
     "sum of powers": (
@@ -92,7 +115,10 @@ READ = {
     "nested": one("px**2/2+" + "sin(" * 59 + "x" + ")" * 59),
     "nested sums": one("px**2/2+" + "sin(x+cos(" * 25 + "x" + "))" * 25),
     "dense": problem(
-        ", ".join(MANY), "hamiltonian", f"({'+'.join(MANY)})**4+" + "+".join(f"p{x}**2/2" for x in MANY), START
+        ", ".join(MANY),
+        "hamiltonian",
+        f"({'+'.join(MANY)})**4+" + "+".join(f"p{x}**2/2" for x in MANY),
+        START,
     ),
     "chain of masses": problem(
         ",".join(MANY),
@@ -125,7 +151,9 @@ def test_read_soon(name: str) -> None:
 
 @pytest.mark.parametrize("seed", range(4))
 def test_any_text_is_read_or_refused(seed: int) -> None:
-    """Soups of words, and good files with pieces replaced: nothing but ``MethodFileError`` comes out."""
+    """Soups of words, and good files with pieces replaced: nothing but ``MethodFileError`` comes
+    out.
+    """
     random = Random(seed)
     seeds = [path.read_text(encoding="utf-8") for path in sorted(PROBLEMS.glob("*.yaml"))]
     for _ in range(100):

@@ -6,10 +6,10 @@ from pathlib import Path
 
 import pytest
 
+from garkcli.check.outcome import Outcome
 from garkcli.errors import Fault, MethodFileError
 from garkcli.methodfile.load import load, loads
 from garkcli.methodfile.source import Source
-from garkcli.order.outcome import Outcome
 from garkcli.report.check_text import faults_text
 from garkcli.report.paint import Paint
 
@@ -22,7 +22,9 @@ def faults(text: str) -> tuple[Fault, ...]:
 
 
 def under_caret(text: str) -> list[str]:
-    """For each fault the rest of the line that its caret stands under, read off the rendered report."""
+    """For each fault the rest of the line that its caret stands under, read off the rendered
+    report.
+    """
     found = faults(text)
     lines = faults_text(Outcome("m", "m", faults=found, text=text), Paint()).splitlines()
     carets = [i for i, line in enumerate(lines) if line.lstrip(" |") == "^"]
@@ -30,7 +32,9 @@ def under_caret(text: str) -> list[str]:
 
 
 def test_all_faults_of_a_file_come_at_once_and_in_file_order() -> None:
-    """Ten faults of ten kinds, read in an order that is not the file's, are reported line by line."""
+    """Ten faults of ten kinds, read in an order that is not the file's, are reported line by
+    line.
+    """
     text = (
         "nam: x\n"
         "structure: nystrm\n"
@@ -97,7 +101,9 @@ def test_one_stage_is_no_plural() -> None:
     ],
 )
 def test_the_caret_stands_under_the_culprit(scalar: str, culprit: str) -> None:
-    """Inside a plain or a quoted scalar the caret is at the very sign that is wrong: ``culprit`` is the rest."""
+    """Inside a plain or a quoted scalar the caret is at the very sign that is wrong: ``culprit`` is
+    the rest.
+    """
     text = f"methods:\n  - A: [[0, 0], [0, 0]]\n    b: [1/2, {scalar}]\n"
     assert scalar.endswith(culprit)
     assert under_caret(text) == [f"{culprit}]"]
@@ -118,7 +124,9 @@ def test_a_missing_file_has_no_line() -> None:
 
 
 def test_a_fault_is_told_once_where_one_node_is_used_twice() -> None:
-    """An anchor that is read for two colours is reported at its place, once for each colour it is read for."""
+    """An anchor that is read for two colours is reported at its place, once for each colour it is
+    read for.
+    """
     text = "tableau:\n  A: [[&a [[x]], *a], [null, *a]]\n  b: [[1], [1]]\n"
     found = faults(text)
     assert len(found) == len(set(found)) == 3
@@ -127,7 +135,10 @@ def test_a_fault_is_told_once_where_one_node_is_used_twice() -> None:
 
 def test_limits_are_part_of_the_fault() -> None:
     """A file that would exhaust the machine is refused with the limit it passes."""
-    assert "400000 values" in faults("a: &a [" + "1, " * 1000 + "1]\nb: [" + "*a, " * 500 + "*a]\n")[0].message
+    assert (
+        "400000 values"
+        in faults("a: &a [" + "1, " * 1000 + "1]\nb: [" + "*a, " * 500 + "*a]\n")[0].message
+    )
     assert "12 deep" in faults("methods: " + "[" * 40 + "]" * 40)[0].message
     assert "1000 digits" in faults("methods: [{A: [[1e2000]], b: [1]}]")[0].message
     assert "20000" in faults(f"methods: [{{A: [[{'1+' * 10001}1]], b: [1]}}]")[0].message
@@ -166,7 +177,9 @@ def test_yaml_nested_without_end_is_refused(tmp_path: Path) -> None:
     """A file of 100 000 opening brackets is refused with a fault; the process survives it."""
     path = tmp_path / "deep.gark.yaml"
     path.write_text("methods: " + "[" * 100_000 + "]" * 100_000)
-    run = subprocess.run([sys.executable, "-m", "garkcli", "check", str(path)], capture_output=True, text=True)
+    run = subprocess.run(
+        [sys.executable, "-m", "garkcli", "check", str(path)], capture_output=True, text=True
+    )
     assert run.returncode == 2
     assert "12 deep" in run.stdout
 

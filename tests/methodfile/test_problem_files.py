@@ -11,12 +11,12 @@ from flint import arb, ctx, fmpq
 from hypothesis import given
 from hypothesis import strategies as st
 
-from garkcli.dynamics.examples import hamiltonian
-from garkcli.dynamics.hamiltonian import Hamiltonian, energy_function
 from garkcli.errors import MethodFileError
 from garkcli.methodfile.formulas import BITS, nearby
 from garkcli.methodfile.load import loads
 from garkcli.methodfile.problem import load_problem, loads_problem
+from garkcli.problems.builtin import hamiltonian
+from garkcli.problems.hamiltonian import Hamiltonian, energy_function
 
 PROBLEMS = Path(__file__).resolve().parents[2] / "problems"
 ONE = "variables: [x]\nhamiltonian: px**2/2 - cos(x)\ninitial: {x: 1, px: 0}\n"
@@ -96,7 +96,9 @@ def test_files_of_built_in_problems(name: str) -> None:
 
 def test_irrational_initial_values() -> None:
     """To sixty decimals, by the simplest fraction that is so near."""
-    problem = read("{variables: [x], hamiltonian: px**2, initial: {x: pi/2, px: sqrt(2)/2 + 0*exp(1)}}")
+    problem = read(
+        "{variables: [x], hamiltonian: px**2, initial: {x: pi/2, px: sqrt(2)/2 + 0*exp(1)}}"
+    )
     with ctx.workprec(BITS):
         for found, wanted in zip(problem.initial, (arb.pi() / 2, arb(2).sqrt() / 2), strict=True):
             assert abs(found - wanted) < arb(10) ** -60
@@ -127,7 +129,9 @@ def test_velocities_become_momenta() -> None:
 
 
 def test_momenta_of_a_lagrangian() -> None:
-    """They may be given instead; and must be where several terms have velocities that are not quadratic."""
+    """They may be given instead; and must be where several terms have velocities that are not
+    quadratic.
+    """
     problem = read("{variables: [x], lagrangian: [vx**2*3/2, -cos(x)], initial: {x: 1, px: 2}}")
     assert [str(x) for x in problem.terms] == ["px**2/6", "cos(x)"]
     assert problem.initial == (fmpq(1), fmpq(2))
@@ -146,8 +150,18 @@ def test_momenta_of_a_lagrangian() -> None:
         ("", [(1, 1, "the file is empty")]),
         ("[1, 2]", [(1, 1, "a problem file is a mapping of keys to values")]),
         ("variables: [x", [(2, 1, "this is not YAML")]),
-        ("methods: [{family: gauss, stages: 2}]", [(1, 1, "this is a method file, not a problem file")]),
-        ("name: x", [(1, 1, "variables missing"), (1, 1, "no hamiltonian and no"), (1, 1, "initial missing")]),
+        (
+            "methods: [{family: gauss, stages: 2}]",
+            [(1, 1, "this is a method file, not a problem file")],
+        ),
+        (
+            "name: x",
+            [
+                (1, 1, "variables missing"),
+                (1, 1, "no hamiltonian and no"),
+                (1, 1, "initial missing"),
+            ],
+        ),
         (ONE + "inital: {}", [(4, 1, "the file: unknown key 'inital'")]),
         (ONE + "initial: {}", [(4, 1, "the file: the key 'initial' stands here twice")]),
         (ONE + "lagrangian: vx**2", [(4, 13, "a hamiltonian and a lagrangian")]),
@@ -159,8 +173,14 @@ def test_momenta_of_a_lagrangian() -> None:
         (ONE + "t_end: 010", [(4, 8, "t_end: 010 means different numbers")]),
         (ONE + "t_end: x", [(4, 8, "t_end: 'x' is no parameter")]),
         (ONE + "invariants: {energy: x}", [(4, 22, "invariants: energy is reported always")]),
-        (ONE + "invariants: {J: vx}", [(4, 17, "invariants: J: 'vx' is no variable, momentum or parameter")]),
-        (ONE + "invariants: {J: log(px)}", [(4, 17, "invariants: J at the initial values: log of px = 0")]),
+        (
+            ONE + "invariants: {J: vx}",
+            [(4, 17, "invariants: J: 'vx' is no variable, momentum or parameter")],
+        ),
+        (
+            ONE + "invariants: {J: log(px)}",
+            [(4, 17, "invariants: J at the initial values: log of px = 0")],
+        ),
         (ONE + "parameters: {x: 1}", [(4, 14, "parameters: x is a variable already")]),
         (ONE + "parameters: {px: 1}", [(4, 14, "parameters: px is the momentum of x already")]),
         (ONE + "parameters: {pi: 3}", [(4, 18, "parameters: pi has a meaning already")]),
@@ -169,7 +189,10 @@ def test_momenta_of_a_lagrangian() -> None:
         (ONE + "parameters: {a: log(-1)}", [(4, 17, "parameters: a: log of -1 is no real number")]),
         (ONE + "parameters: {a: x}", [(4, 17, "parameters: a: 'x' is no parameter")]),
         (ONE + "parameters: {'a b': 1}", [(4, 21, "parameters: a b is no name")]),
-        (ONE + "parameters: {a: yes}", [(4, 17, "parameters: a: 'yes' is no number: YAML reads it as bool")]),
+        (
+            ONE + "parameters: {a: yes}",
+            [(4, 17, "parameters: a: 'yes' is no number: YAML reads it as bool")],
+        ),
         (ONE.replace("[x]", "[pi]"), [(1, 13, "variables: 'pi' has a meaning already")]),
         (ONE.replace("[x]", "[x, px]"), [(1, 16, "variables: px is the momentum of x")]),
         (ONE.replace("[x]", "[x, x]"), [(1, 16, "variables: 'x' is named twice")]),
@@ -177,20 +200,47 @@ def test_momenta_of_a_lagrangian() -> None:
         (ONE.replace("[x]", "[[x]]"), [(1, 13, "variables: a single value is expected here")]),
         (ONE.replace("[x]", "'x, y'"), [(1, 13, "variables: 'x, y' is no name")]),
         (ONE.replace("[x]", f"[{'x' * 31}]"), [(1, 13, "is longer than 30 characters")]),
-        (ONE.replace("cos(x)", "cos(z)"), [(2, 28, "hamiltonian: 'z' is no variable, momentum or parameter")]),
+        (
+            ONE.replace("cos(x)", "cos(z)"),
+            [(2, 28, "hamiltonian: 'z' is no variable, momentum or parameter")],
+        ),
         (ONE.replace("px**2", "vx**2"), [(2, 14, "hamiltonian: 'vx' is no variable, momentum")]),
         (ONE.replace("cos(x)", "cos(x"), [(2, 29, "hamiltonian: ')' expected, the end found")]),
-        (ONE.replace("cos(x)", "log(x - 1)"), [(2, 24, "hamiltonian at the initial values: log of x-1 = 0")]),
-        (ONE.replace("cos(x)", "1/(x - 1)"), [(2, 27, "hamiltonian at the initial values: division by zero")]),
-        (ONE.replace("cos(x)", "sqrt(x - 2)"), [(2, 24, "hamiltonian at the initial values: an even root")]),
-        (ONE.replace("cos(x)", "(x - 2)**1.5"), [(2, 24, "hamiltonian at the initial values: a power with")]),
-        (ONE.replace("cos(x)", "sqrt(x - 1)"), [(2, 14, "hamiltonian at the initial values: no derivative by x")]),
+        (
+            ONE.replace("cos(x)", "log(x - 1)"),
+            [(2, 24, "hamiltonian at the initial values: log of x-1 = 0")],
+        ),
+        (
+            ONE.replace("cos(x)", "1/(x - 1)"),
+            [(2, 27, "hamiltonian at the initial values: division by zero")],
+        ),
+        (
+            ONE.replace("cos(x)", "sqrt(x - 2)"),
+            [(2, 24, "hamiltonian at the initial values: an even root")],
+        ),
+        (
+            ONE.replace("cos(x)", "(x - 2)**1.5"),
+            [(2, 24, "hamiltonian at the initial values: a power with")],
+        ),
+        (
+            ONE.replace("cos(x)", "sqrt(x - 1)"),
+            [(2, 14, "hamiltonian at the initial values: no derivative by x")],
+        ),
         (ONE.replace("cos(x)", "sqrt(x**2)"), [(2, 24, "hamiltonian: this has |x|")]),
-        (ONE.replace("cos(x)", "abs(x)"), [(2, 24, "hamiltonian: 'abs' is not a function of formulas")]),
+        (
+            ONE.replace("cos(x)", "abs(x)"),
+            [(2, 24, "hamiltonian: 'abs' is not a function of formulas")],
+        ),
         (ONE.replace("cos(x)", "2**x"), [(2, 27, "hamiltonian: the exponent depends on x")]),
         (ONE.replace("px**2/2 - cos(x)", "[]"), [(2, 14, "hamiltonian is empty")]),
-        (ONE.replace("px**2/2 - cos(x)", "{a: 1}"), [(2, 14, "hamiltonian: a list is expected here")]),
-        (ONE.replace("px**2/2 - cos(x)", "[px**2, [1]]"), [(2, 22, "H{2}: a single value is expected here")]),
+        (
+            ONE.replace("px**2/2 - cos(x)", "{a: 1}"),
+            [(2, 14, "hamiltonian: a list is expected here")],
+        ),
+        (
+            ONE.replace("px**2/2 - cos(x)", "[px**2, [1]]"),
+            [(2, 22, "H{2}: a single value is expected here")],
+        ),
         (ONE.replace("px**2/2 - cos(x)", "[px**2, ~]"), [(2, 22, "H{2}: nothing is here")]),
         (ONE.replace(", px: 0", ""), [(3, 10, "initial: no value for px")]),
         (ONE.replace("{x: 1, px: 0}", "{}"), [(3, 10, "initial: no value for x, px")]),
@@ -198,7 +248,10 @@ def test_momenta_of_a_lagrangian() -> None:
         (ONE.replace("px: 0", "vx: 0"), [(3, 17, "initial: unknown key 'vx'")]),
         (ONE.replace("px: 0", "px: nan"), [(3, 21, "initial: px: nan is not a number")]),
         (ONE.replace("px: 0", "px: !!str 0"), []),
-        (ONE.replace("px: 0", "px: !x 0"), [(3, 21, "initial: px: the tag '!x' has no place here")]),
+        (
+            ONE.replace("px: 0", "px: !x 0"),
+            [(3, 21, "initial: px: the tag '!x' has no place here")],
+        ),
     ],
 )
 def test_faults_of_hamiltonians(text: str, wanted: list[tuple[int, int, str]]) -> None:
@@ -215,8 +268,16 @@ def test_faults_of_hamiltonians(text: str, wanted: list[tuple[int, int, str]]) -
 @pytest.mark.parametrize(
     ("lagrangian", "initial", "message"),
     [
-        ("vx**2 - x*py", "{x: 1, y: 1, vx: 0, vy: 0}", "lagrangian: 'py' is no variable, velocity or parameter"),
-        ("vx**2 - x", "{x: 1, y: 1, vx: 0, vy: 0}", "the mass matrix is singular: vy does not occur beside vx"),
+        (
+            "vx**2 - x*py",
+            "{x: 1, y: 1, vx: 0, vy: 0}",
+            "lagrangian: 'py' is no variable, velocity or parameter",
+        ),
+        (
+            "vx**2 - x",
+            "{x: 1, y: 1, vx: 0, vy: 0}",
+            "the mass matrix is singular: vy does not occur beside vx",
+        ),
         ("(vx + vy)**2", "{x: 1, y: 1, vx: 0, vy: 0}", "the mass matrix of vx, vy is singular"),
         ("x + y", "{x: 1, y: 1, vx: 0, vy: 0}", "the Lagrangian has no velocities"),
         ("vx**2 + vy**2", "{x: 1, y: 1, vx: 0, py: 0}", "initial: velocities and momenta"),
@@ -229,14 +290,28 @@ def test_faults_of_hamiltonians(text: str, wanted: list[tuple[int, int, str]]) -
             "L{2} at the initial values: division by zero",
         ),
         ("vx**4 + vx**2 + vy**2", "{x: 1, y: 1, vx: 1, vy: 0}", "p = ∂L/∂v was not solved for vx"),
-        ("vx**2*log(x - 1) + vy**2", "{x: 1, y: 1, vx: 1, vy: 0}", "log of x-1 = 0 is no real number"),
-        ("vx**2*log(x - 1) + vy**2", "{x: 1, y: 1, px: 1, py: 0}", "the mass matrix of vx is singular"),
-        ("vx**2*(x - 1) + vy**2", "{x: 1, y: 1, vx: 1, vy: 0}", "the mass matrix of vx is singular"),
+        (
+            "vx**2*log(x - 1) + vy**2",
+            "{x: 1, y: 1, vx: 1, vy: 0}",
+            "log of x-1 = 0 is no real number",
+        ),
+        (
+            "vx**2*log(x - 1) + vy**2",
+            "{x: 1, y: 1, px: 1, py: 0}",
+            "the mass matrix of vx is singular",
+        ),
+        (
+            "vx**2*(x - 1) + vy**2",
+            "{x: 1, y: 1, vx: 1, vy: 0}",
+            "the mass matrix of vx is singular",
+        ),
     ],
 )
 def test_faults_of_lagrangians(lagrangian: str, initial: str, message: str) -> None:
     """Degenerate ones, wrong names, incomplete starts: one fault each, with a cure."""
-    ((line, _, found, _),) = faults(f"variables: [x, y]\nlagrangian: {lagrangian}\ninitial: {initial}\n")
+    ((line, _, found, _),) = faults(
+        f"variables: [x, y]\nlagrangian: {lagrangian}\ninitial: {initial}\n"
+    )
     assert message in found
     assert line == (3 if found.startswith("initial") else 2)
 
@@ -319,11 +394,15 @@ def test_method_files_and_problem_files_know_each_other() -> None:
 
 @pytest.mark.parametrize("path", sorted(PROBLEMS.glob("*.yaml")), ids=lambda x: x.stem)
 def test_files_of_the_folder(path: Path) -> None:
-    """Every file of the folder problems is read; its invariants are first integrals, by their Poisson brackets."""
+    """Every file of the folder problems is read; its invariants are first integrals, by their
+    Poisson brackets.
+    """
     problem = load_problem(str(path))
     H = problem.energy
     q = [sympy.Symbol(x, real=True) for x in problem.variables]
     p = [sympy.Symbol(f"p{x}", real=True) for x in problem.variables]
     for _, made in problem.invariants:
-        bracket = sum(made.diff(a) * H.diff(b) - made.diff(b) * H.diff(a) for a, b in zip(q, p, strict=True))
+        bracket = sum(
+            made.diff(a) * H.diff(b) - made.diff(b) * H.diff(a) for a, b in zip(q, p, strict=True)
+        )
         assert sympy.simplify(bracket) == 0

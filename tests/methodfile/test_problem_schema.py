@@ -20,7 +20,11 @@ SCHEMA = problem_file_schema()
 VALIDATOR = Draft7Validator(SCHEMA)
 PROBLEMS = Path(__file__).resolve().parents[2] / "problems"
 RIGHT = [*FILES, *(path.read_text(encoding="utf-8") for path in sorted(PROBLEMS.glob("*.yaml")))]
-GOOD: dict[str, Any] = {"variables": ["x"], "hamiltonian": "px**2", "initial": {"x": 1, "px": "1/2"}}
+GOOD: dict[str, Any] = {
+    "variables": ["x"],
+    "hamiltonian": "px**2",
+    "initial": {"x": 1, "px": "1/2"},
+}
 
 
 def test_the_schema_is_one() -> None:

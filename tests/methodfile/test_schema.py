@@ -1,4 +1,6 @@
-"""The JSON Schema of method files: it allows what loads, and refuses what can be told from one value at a time."""
+"""The JSON Schema of method files: it allows what loads, and refuses what can be told from one
+value at a time.
+"""
 
 from __future__ import annotations
 
@@ -26,7 +28,10 @@ RIGHT = sorted(
     for folder in ("methods", "tests/examples/valid", "tests/examples/failing")
     for path in (ROOT / folder).glob(f"*{SUFFIX}")
 )
-INVALID = {path.name.removesuffix(SUFFIX): path for path in (ROOT / "tests/examples/invalid").glob(f"*{SUFFIX}")}
+INVALID = {
+    path.name.removesuffix(SUFFIX): path
+    for path in (ROOT / "tests/examples/invalid").glob(f"*{SUFFIX}")
+}
 
 NO_PLAIN_YAML = {
     "control-character",
@@ -93,12 +98,16 @@ def _references(part: Any) -> list[str]:
 
 @pytest.mark.parametrize("path", RIGHT, ids=lambda path: path.name.removesuffix(SUFFIX))
 def test_what_loads_is_allowed(path: Path) -> None:
-    """Every method of the project and every valid or failing example is a method file for the schema too."""
+    """Every method of the project and every valid or failing example is a method file for the
+    schema too.
+    """
     load(str(path))
     assert [error.message[:200] for error in VALIDATOR.iter_errors(data(path))] == []
 
 
-@pytest.mark.parametrize("name", sorted(set(INVALID) - set(ONLY_THE_LOADER) - NO_PLAIN_YAML - BOMBS))
+@pytest.mark.parametrize(
+    "name", sorted(set(INVALID) - set(ONLY_THE_LOADER) - NO_PLAIN_YAML - BOMBS)
+)
 def test_what_is_invalid_is_refused(name: str) -> None:
     """An invalid example that is not excused by name is underlined by an editor with the schema."""
     assert not VALIDATOR.is_valid(data(INVALID[name]))
@@ -118,7 +127,9 @@ def test_what_is_no_plain_yaml_is_none(name: str) -> None:
 
 
 def test_a_bomb_is_one() -> None:
-    """The bomb is excused for its size alone: a few lines that stand for more values than any method has."""
+    """The bomb is excused for its size alone: a few lines that stand for more values than any
+    method has.
+    """
     for name in BOMBS:
         text = INVALID[name].read_text(encoding="utf-8")
         assert text.count("*") > 50
@@ -132,7 +143,9 @@ def test_the_excuses_do_not_overlap() -> None:
 
 
 def test_the_schema_knows_the_words_of_the_loader() -> None:
-    """Keys, structures, rules, claims, families and the largest number of stages are those the loader knows."""
+    """Keys, structures, rules, claims, families and the largest number of stages are those the
+    loader knows.
+    """
     properties = SCHEMA["properties"]
     assert set(properties) == set(KEYS)
     assert {x["required"][0] for x in SCHEMA["oneOf"]} == set(FORMS)
@@ -144,7 +157,11 @@ def test_the_schema_knows_the_words_of_the_loader() -> None:
     assert set(combination["properties"]) == set(RULES)
     family, _ = SCHEMA["definitions"]["method"]["oneOf"]
     assert family["properties"]["family"]["enum"] == list(FAMILIES)
-    assert family["properties"]["stages"] == {"type": "integer", "minimum": 1, "maximum": MAX_STAGES}
+    assert family["properties"]["stages"] == {
+        "type": "integer",
+        "minimum": 1,
+        "maximum": MAX_STAGES,
+    }
 
 
 @pytest.mark.parametrize("name", FAMILIES)
@@ -184,7 +201,9 @@ def test_stages_are_needed_where_the_loader_needs_them(name: str) -> None:
     ],
 )
 def test_a_slip_is_refused(text: str) -> None:
-    """Slips of every kind that a single value shows are refused by the schema, as they are by the loader."""
+    """Slips of every kind that a single value shows are refused by the schema, as they are by the
+    loader.
+    """
     from garkcli.errors import MethodFileError
     from garkcli.methodfile.load import loads
 

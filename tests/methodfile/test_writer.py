@@ -22,7 +22,9 @@ from garkcli.tableau.pointwise import in_points
 from garkcli.tableau.tableau import Tableau
 
 ROOT = Path(__file__).parents[2]
-FILES = sorted([*(ROOT / "methods").glob("*.gark.yaml"), *(ROOT / "tests/examples/valid").glob("*.gark.yaml")])
+FILES = sorted(
+    [*(ROOT / "methods").glob("*.gark.yaml"), *(ROOT / "tests/examples/valid").glob("*.gark.yaml")]
+)
 
 rationals = st.builds(fmpq, st.integers(-50, 50), st.integers(1, 50))
 
@@ -46,7 +48,9 @@ def tableaus(draw: st.DrawFn) -> Tableau:
 
 @given(tableaus(), st.text(st.characters(exclude_categories=["C", "Z"]), min_size=1))
 def test_a_spelled_out_file_loads_as_the_same_tableau(tableau: Tableau, name: str) -> None:
-    """Blocks, absent blocks, nodes, weights, linear colours and the name survive writing and reading."""
+    """Blocks, absent blocks, nodes, weights, linear colours and the name survive writing and
+    reading.
+    """
     method = loads(write_tableau_file(tableau, name, note="written\nby a test"))
     assert method.tableau == tableau
     assert method.name == name
@@ -64,7 +68,9 @@ def test_a_partitioned_file_loads_as_the_same_tableau(data: st.DataObject) -> No
 
 
 def same_entries(one: Tableau, other: Tableau) -> bool:
-    """Whether two tableaus have exactly the same entries, though each in a number field of its own."""
+    """Whether two tableaus have exactly the same entries, though each in a number field of its
+    own.
+    """
     texts = [to_text(x) for tableau in (one, other) for x in all_entries(tableau)]
     expressions = [parse(text) for text in texts]
     domain = Domain(expressions)
@@ -102,7 +108,9 @@ CONJUGABLE = [path for path in FILES if has_conjugate(path)]
 
 @pytest.mark.parametrize("path", CONJUGABLE, ids=lambda path: path.name.removesuffix(".gark.yaml"))
 def test_the_file_of_a_conjugate_is_the_conjugate_and_back(path: Path) -> None:
-    """A file with ``conjugate: true`` put in loads as the conjugate; put in twice it is the original exactly."""
+    """A file with ``conjugate: true`` put in loads as the conjugate; put in twice it is the
+    original exactly.
+    """
     method = load(str(path))
     once = loads(write_conjugate_of(method, "conjugate of it"))
     assert same_entries(once.tableau, conjugate(method.tableau))

@@ -1,6 +1,8 @@
-"""Every admissible tree, one after the other: the order by its definition, Theorem (Order of GARK methods).
+"""Every admissible tree, one after the other: the order by its definition, Theorem (Order of GARK
+methods).
 
-A tree is a pair ``(root, branches)`` with the branches in a fixed order, so that each tree occurs once.
+A tree is a pair ``(root, branches)`` with the branches in a fixed order, so that each tree occurs
+once.
 """
 
 from __future__ import annotations
@@ -20,7 +22,8 @@ Plain: TypeAlias = tuple[int, tuple["Plain", ...]]
 
 
 class Trees:
-    """The admissible trees of a tableau, order by order: parents see their branches, linear ones have one.
+    """The admissible trees of a tableau, order by order: parents see their branches, linear ones
+    have one.
 
     >>> from garkcli.families.registry import diagonal_method
     >>> from garkcli.tableau.forms import gark
@@ -51,7 +54,9 @@ class Trees:
 def _multisets(
     choices: list[tuple[int, Plain]], size: int, most: int, first: int = 0
 ) -> Iterator[tuple[Plain, ...]]:
-    """Multisets of at most ``most`` of the choices from ``first`` on, with ``size`` vertices in all."""
+    """Multisets of at most ``most`` of the choices from ``first`` on, with ``size`` vertices in
+    all.
+    """
     if size == 0:
         yield ()
         return
@@ -126,7 +131,9 @@ def failing(tableau: Tableau, order: int) -> list[Plain]:
 
 
 def brute_order(tableau: Tableau, limit: int) -> int:
-    """The largest r ≤ ``limit`` for which the conditions of all admissible trees of order ≤ r hold."""
+    """The largest r ≤ ``limit`` for which the conditions of all admissible trees of order ≤ r
+    hold.
+    """
     trees, weights = Trees(tableau), Weights(tableau)
     for order in range(1, limit + 1):
         if any(weights.weight(u) != fmpq(1, density(u)) for u in trees.of_order(order)):

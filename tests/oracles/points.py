@@ -1,4 +1,6 @@
-"""A tableau over ℚ[x]/(M) entry by entry, from the definition a_{ij} = (A L_j)(c_i) and given nodes."""
+"""A tableau over ℚ[x]/(M) entry by entry, from the definition a_{ij} = (A L_j)(c_i) and given
+nodes.
+"""
 
 from __future__ import annotations
 
@@ -60,7 +62,9 @@ def at_points(tableau: Tableau, nodes: Sequence[Vector]) -> Tableau:
     def nodes_of(m: int) -> Vector:
         return nodes[tableau.colours[m].rows]
 
-    blocks = {(k, m): block_at(block, nodes[k], nodes_of(m)) for (k, m), block in tableau.blocks.items()}
+    blocks = {
+        (k, m): block_at(block, nodes[k], nodes_of(m)) for (k, m), block in tableau.blocks.items()
+    }
     colours = tuple(
         replace(
             colour,

@@ -1,4 +1,6 @@
-"""Tableaus to try things on: named ones of every form, random ones, and random changes of known ones."""
+"""Tableaus to try things on: named ones of every form, random ones, and random changes of known
+ones.
+"""
 
 from __future__ import annotations
 
@@ -112,7 +114,9 @@ def one_way(first: str, second: str) -> Tableau:
 
 
 def without_cycles() -> Tableau:
-    """Colour 1 sees colour 2, which sees nothing: no admissible tree has more than one level of branches."""
+    """Colour 1 sees colour 2, which sees nothing: no admissible tree has more than one level of
+    branches.
+    """
     upper, lower = method("gauss 3"), method("gauss 2")
     full = gark([upper, lower], {(0, 1): collocation(upper, lower)})
     return replace(full, blocks={(0, 1): full.blocks[0, 1]})
@@ -121,24 +125,56 @@ def without_cycles() -> Tableau:
 def _named() -> Iterator[tuple[str, Callable[[], Tableau]]]:
     for name in ("rk4", "kutta", "heun", "explicit-euler", "ssp2 4"):
         yield name, lambda name=name: gark([method(name)], {})  # type: ignore[misc]
-    for name in ("gauss 3", "radau-ia 3", "radau-iia 3", "lobatto-iiia 4", "lobatto-iiib 4", "lobatto-iiic* 3"):
+    for name in (
+        "gauss 3",
+        "radau-ia 3",
+        "radau-iia 3",
+        "lobatto-iiia 4",
+        "lobatto-iiib 4",
+        "lobatto-iiic* 3",
+    ):
         yield name, lambda name=name: gark([method(name)], {})  # type: ignore[misc]
     for rule in RULES:
-        for names in (("gauss 2", "lobatto-iiia 3"), ("radau-iia 2", "gauss 2"), ("lobatto-iiic 3", "radau-ia 2")):
-            yield f"{rule} of {', '.join(names)}", lambda rule=rule, names=names: everywhere(RULES[rule], *names)  # type: ignore[misc]
-    yield "a mixture", lambda: everywhere(mixture("1/3", "1/2", "-1/5", "11/30"), "gauss 2", "lobatto-iiia 3")
+        for names in (
+            ("gauss 2", "lobatto-iiia 3"),
+            ("radau-iia 2", "gauss 2"),
+            ("lobatto-iiic 3", "radau-ia 2"),
+        ):
+            yield (
+                f"{rule} of {', '.join(names)}",
+                lambda rule=rule, names=names: everywhere(RULES[rule], *names),
+            )  # type: ignore[misc]
+    yield (
+        "a mixture",
+        lambda: everywhere(mixture("1/3", "1/2", "-1/5", "11/30"), "gauss 2", "lobatto-iiia 3"),
+    )
     yield (
         "a mixture over Q(sqrt(5))",
         lambda: everywhere(mixture("sqrt(5)", "1 - sqrt(5)", "0", "0"), "gauss 2", "radau-iia 2"),
     )
-    yield "an inconsistent mixture", lambda: everywhere(mixture("1", "1", "0", "0"), "gauss 2", "lobatto-iiia 3")
-    yield "three methods", lambda: everywhere(collocation, "gauss 2", "lobatto-iiia 2", "radau-iia 2")
+    yield (
+        "an inconsistent mixture",
+        lambda: everywhere(mixture("1", "1", "0", "0"), "gauss 2", "lobatto-iiia 3"),
+    )
+    yield (
+        "three methods",
+        lambda: everywhere(collocation, "gauss 2", "lobatto-iiia 2", "radau-iia 2"),
+    )
     yield "pair, collocation", lambda: pair(everywhere(collocation, "gauss 2", "lobatto-iiia 3"))
-    yield "pair, interpolation", lambda: pair(everywhere(interpolation, "gauss 2", "lobatto-iiia 3"))
+    yield (
+        "pair, interpolation",
+        lambda: pair(everywhere(interpolation, "gauss 2", "lobatto-iiia 3")),
+    )
     yield "pair of lower order", lambda: pair(everywhere(collocation, "gauss 2", "lobatto-iiia 4"))
-    yield "pair by conjugates", lambda: pair(by_conjugates(collocation, "gauss 2", "lobatto-iiia 4"))
+    yield (
+        "pair by conjugates",
+        lambda: pair(by_conjugates(collocation, "gauss 2", "lobatto-iiia 4")),
+    )
     yield "pair of Radau", lambda: pair(gark([method("radau-iia 2")], {}))
-    yield "pair of three", lambda: pair(everywhere(collocation, "gauss 1", "lobatto-iiia 2", "gauss 2"))
+    yield (
+        "pair of three",
+        lambda: pair(everywhere(collocation, "gauss 1", "lobatto-iiia 2", "gauss 2")),
+    )
     for name, velocities, forces in (
         ("semi-separable", [0], [0, 1]),
         ("separable", [0], [1]),
@@ -157,9 +193,15 @@ def _named() -> Iterator[tuple[str, Callable[[], Tableau]]]:
         ),
     )
     yield "linear", lambda: with_linear(gark([method("radau-iia 2")], {}), ["1"])
-    yield "one linear of two", lambda: with_linear(everywhere(interpolation, "gauss 2", "radau-iia 2"), ["2"])
+    yield (
+        "one linear of two",
+        lambda: with_linear(everywhere(interpolation, "gauss 2", "radau-iia 2"), ["2"]),
+    )
     yield "rectangular", rectangular
-    yield "partitioned Lobatto", lambda: partitioned(method("lobatto-iiia 3"), method("lobatto-iiib 3"))
+    yield (
+        "partitioned Lobatto",
+        lambda: partitioned(method("lobatto-iiia 3"), method("lobatto-iiib 3")),
+    )
     yield "IMEX over Q(sqrt(2))", implicit_explicit
     yield "one way", lambda: one_way("gauss 2", "radau-iia 2")
     yield "order 0", lambda: runge_kutta("0, 0", "1, 0", "1/2, 1/3")
@@ -189,7 +231,9 @@ def random_graph(dice: Random) -> Tableau:
     if is_good:
         for l, s in enumerate(stages):
             *_, last = nodes[l]
-            shortfall = fmpq(1, 2) - sum((x * y for x, y in zip(b[l], nodes[l], strict=True)), fmpq(0))
+            shortfall = fmpq(1, 2) - sum(
+                (x * y for x, y in zip(b[l], nodes[l], strict=True)), fmpq(0)
+            )
             nodes[l][-1] = last + shortfall / b[l][-1] if b[l][-1] else last
             assert len(nodes[l]) == s
 
@@ -212,14 +256,17 @@ def _normalised(row: Sequence[fmpq], total: fmpq) -> list[fmpq]:
 
 
 def random_additive(dice: Random) -> Tableau:
-    """Two matrices over one set of stages, the first explicit, with equal row sums and weights of order 2."""
+    """Two matrices over one set of stages, the first explicit, with equal row sums and weights of
+    order 2.
+    """
     s = 3
     c = [fmpq(0), fmpq(1, 2) + small(dice) / 7, fmpq(1)]
     b_1 = small(dice)
     b_2 = (fmpq(1, 2) - (1 - b_1)) / (c[1] - 1)
     b = (b_1, b_2, 1 - b_1 - b_2)
     E = tuple(
-        tuple(row) + (fmpq(0),) * (s - len(row)) for row in ([], [c[1]], _normalised([small(dice), fmpq(0)], c[2]))
+        tuple(row) + (fmpq(0),) * (s - len(row))
+        for row in ([], [c[1]], _normalised([small(dice), fmpq(0)], c[2]))
     )
     M = tuple(tuple(_normalised([small(dice) for _ in range(s)], c[i])) for i in range(s))
     return additive([E, M], [b, b], tuple(c))
@@ -234,7 +281,9 @@ def random_partitioned(dice: Random) -> Tableau:
     A_p = [[small(dice) for _ in range(s_f)] for _ in range(s_v)]
     for b, A in ((b_p, A_q), (b_q, A_p)):
         if b[-1]:  # the last row such that order 2 holds
-            others = sum((x * sum(row, fmpq(0)) for x, row in zip(b[:-1], A[:-1], strict=True)), fmpq(0))
+            others = sum(
+                (x * sum(row, fmpq(0)) for x, row in zip(b[:-1], A[:-1], strict=True)), fmpq(0)
+            )
             A[-1] = _normalised(A[-1], (fmpq(1, 2) - others) / b[-1])
     return separable_prk((tuple(map(tuple, A_q)), b_q, None), (tuple(map(tuple, A_p)), b_p, None))
 
@@ -243,7 +292,9 @@ def renumbered(tableau: Tableau, permutation: Sequence[int]) -> Tableau:
     """The colours in another order; colour k is what ``permutation[k]`` was."""
     colours = tuple(tableau.colours[k] for k in permutation)
     place = {old: new for new, old in enumerate(permutation)}
-    return Tableau(tableau.spaces, colours, {(k, place[m]): block for (k, m), block in tableau.blocks.items()})
+    return Tableau(
+        tableau.spaces, colours, {(k, place[m]): block for (k, m), block in tableau.blocks.items()}
+    )
 
 
 def with_permuted_stages(tableau: Tableau, dice: Random) -> Tableau:
@@ -255,7 +306,8 @@ def with_permuted_stages(tableau: Tableau, dice: Random) -> Tableau:
 
     rows = [colour.rows for colour in tableau.colours]
     blocks = {
-        (k, m): tuple(moved(block[i], rows[m]) for i in orders[k]) for (k, m), block in tableau.blocks.items()
+        (k, m): tuple(moved(block[i], rows[m]) for i in orders[k])
+        for (k, m), block in tableau.blocks.items()
     }
     colours = tuple(replace(x, b=moved(x.b, x.rows), c=moved(x.c, x.rows)) for x in tableau.colours)
     spaces = tuple(PointSpace(moved(space.nodes, k)) for k, space in enumerate(tableau.spaces))
@@ -281,7 +333,10 @@ def with_perturbed_block(tableau: Tableau, dice: Random) -> Tableau:
     edge = dice.choice(sorted(tableau.blocks))
     block = tableau.blocks[edge]
     i, j = dice.randrange(len(block)), dice.randrange(len(block[0]))
-    new = tuple(tuple(x + change * int((r, k) == (i, j)) for k, x in enumerate(row)) for r, row in enumerate(block))
+    new = tuple(
+        tuple(x + change * int((r, k) == (i, j)) for k, x in enumerate(row))
+        for r, row in enumerate(block)
+    )
     return replace(tableau, blocks={**tableau.blocks, edge: new})
 
 
@@ -292,7 +347,9 @@ def _small_change(dice: Random) -> fmpq:
 def with_an_edge_less(tableau: Tableau, dice: Random) -> Tableau:
     """One block taken away: fewer trees are admissible."""
     gone = dice.choice(sorted(tableau.blocks))
-    return replace(tableau, blocks={edge: block for edge, block in tableau.blocks.items() if edge != gone})
+    return replace(
+        tableau, blocks={edge: block for edge, block in tableau.blocks.items() if edge != gone}
+    )
 
 
 def with_linear_colour(tableau: Tableau, dice: Random) -> Tableau:
@@ -301,9 +358,16 @@ def with_linear_colour(tableau: Tableau, dice: Random) -> Tableau:
 
 
 def changed(dice: Random) -> Tableau:
-    """A named tableau of one or two methods with random weights of the rules, and a few random changes of it."""
+    """A named tableau of one or two methods with random weights of the rules, and a few random
+    changes of it.
+    """
     names = dice.choice(
-        [("gauss 2", "lobatto-iiia 3"), ("gauss 2", "radau-iia 2"), ("lobatto-iiia 2", "gauss 1"), ("gauss 2",)]
+        [
+            ("gauss 2", "lobatto-iiia 3"),
+            ("gauss 2", "radau-iia 2"),
+            ("lobatto-iiia 2", "gauss 1"),
+            ("gauss 2",),
+        ]
     )
     weights = [small(dice) for _ in range(3)]
     rule = mixture(*(str(x) for x in (*weights, 1 - sum(weights, fmpq(0)))))

@@ -1,9 +1,11 @@
-"""The order without trees: one step of the method as a power series in h, against the Taylor series of the flow.
+"""The order without trees: one step of the method as a power series in h, against the Taylor series
+of the flow.
 
-Each colour l drives components of its own, ẋ_l = f_l, and f_l is a polynomial in the components of the colours
-that l sees. That is the partitioned form of ẏ = Σ f_l(y), and it makes absent edges true. Each component of f_l is
-a product of random affine forms, as many as the order looked for (one for a linear colour), so that all its
-derivatives up to that degree are there. Coefficients are small rational numbers and x(0) = 0.
+Each colour l drives components of its own, ẋ_l = f_l, and f_l is a polynomial in the components of
+the colours that l sees. That is the partitioned form of ẏ = Σ f_l(y), and it makes absent edges
+true. Each component of f_l is a product of random affine forms, as many as the order looked for
+(one for a linear colour), so that all its derivatives up to that degree are there. Coefficients are
+small rational numbers and x(0) = 0.
 """
 
 from __future__ import annotations
@@ -47,7 +49,12 @@ def random_problem(tableau: Tableau, degree: int, dice: Random) -> Problem:
     dimension = 3 if tableau.size == 1 else 2
     fields: dict[Component, Sequence[Affine]] = {}
     for l, colour in enumerate(tableau.colours):
-        seen = [(m, i) for m in range(tableau.size) if tableau.block(l, m) is not None for i in range(dimension)]
+        seen = [
+            (m, i)
+            for m in range(tableau.size)
+            if tableau.block(l, m) is not None
+            for i in range(dimension)
+        ]
         factors = 1 if colour.is_linear else max(degree, 1)
         for i in range(dimension):
             fields[l, i] = [_random_form(seen, dice) for _ in range(factors)]
@@ -74,7 +81,9 @@ def flow(problem: Problem, powers: int) -> dict[Component, list[Number]]:
 
 
 def step(tableau: Tableau, problem: Problem, powers: int) -> dict[Component, list[Number]]:
-    """One step from x = 0 up to h^powers; each iteration of the stage equations gains one power of h."""
+    """One step from x = 0 up to h^powers; each iteration of the stage equations gains one power of
+    h.
+    """
     products = [product(space) for space in tableau.spaces]
     ones = [one(space) for space in tableau.spaces]
     zeros = [tuple(0 * x for x in v) for v in ones]
@@ -82,7 +91,9 @@ def step(tableau: Tableau, problem: Problem, powers: int) -> dict[Component, lis
     for known in range(powers):
         stages = [
             {
-                key: [zeros[k], *(image(tableau.blocks[k, key[0]], v) for v in f[key])] if f else [zeros[k]]
+                key: [zeros[k], *(image(tableau.blocks[k, key[0]], v) for v in f[key])]
+                if f
+                else [zeros[k]]
                 for key in problem.fields
                 if (k, key[0]) in tableau.blocks
             }
@@ -92,11 +103,18 @@ def step(tableau: Tableau, problem: Problem, powers: int) -> dict[Component, lis
         for (l, i), forms in problem.fields.items():
             rows = tableau.colours[l].rows
             f[l, i] = _field(forms, stages[rows], known, ones[rows], products[rows])
-    return {(l, i): [fmpq(0), *(pairing(tableau.colours[l].b, v) for v in f[l, i])] for l, i in problem.fields}
+    return {
+        (l, i): [fmpq(0), *(pairing(tableau.colours[l].b, v) for v in f[l, i])]
+        for l, i in problem.fields
+    }
 
 
 def _field(
-    forms: Sequence[Affine], x: Mapping[Component, Series], powers: int, unit: Vector, times: Product
+    forms: Sequence[Affine],
+    x: Mapping[Component, Series],
+    powers: int,
+    unit: Vector,
+    times: Product,
 ) -> Series:
     """The product of affine forms in the series x, up to h^powers."""
     result: Series | None = None
@@ -107,7 +125,9 @@ def _field(
     return result
 
 
-def _form(form: Affine, x: Mapping[Component, Series], powers: int, unit: Vector) -> Iterator[Vector]:
+def _form(
+    form: Affine, x: Mapping[Component, Series], powers: int, unit: Vector
+) -> Iterator[Vector]:
     for n in range(powers + 1):
         total: list[Number] = [form.constant * y if n == 0 else fmpq(0) for y in unit]
         for component, weight in form.weights.items():
@@ -131,5 +151,7 @@ def series_order(tableau: Tableau, limit: int, seed: int = 0) -> int:
     """The number of powers of h, at most ``limit``, in which the step agrees with the flow."""
     problem = random_problem(tableau, limit - 1, Random(seed))
     exact, found = flow(problem, limit), step(tableau, problem, limit)
-    agreeing = (n for n in range(1, limit + 1) if any(exact[key][n] != found[key][n] for key in exact))
+    agreeing = (
+        n for n in range(1, limit + 1) if any(exact[key][n] != found[key][n] for key in exact)
+    )
     return next(agreeing, limit + 1) - 1

@@ -1,4 +1,6 @@
-"""Arithmetic of stage values, written a second time: only the data of a tableau is taken from the engine."""
+"""Arithmetic of stage values, written a second time: only the data of a tableau is taken from the
+engine.
+"""
 
 from __future__ import annotations
 
@@ -20,7 +22,9 @@ def one(space: StageSpace) -> Vector:
 
 
 def product(space: StageSpace) -> Callable[[Vector, Vector], Vector]:
-    """The product ⊙ of a stage space: stage by stage, or of polynomials with the remainder taken by hand."""
+    """The product ⊙ of a stage space: stage by stage, or of polynomials with the remainder taken by
+    hand.
+    """
     if not isinstance(space, PolynomialSpace):
         return lambda u, v: tuple(x * y for x, y in zip(u, v, strict=True))
     s = space.stages

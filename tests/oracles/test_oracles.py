@@ -19,7 +19,9 @@ from tests.oracles.stages import one, product
 
 
 def test_trees_are_all_and_once() -> None:
-    """The numbers of trees with one and with four colours are the known ones, and no tree comes twice."""
+    """The numbers of trees with one and with four colours are the known ones, and no tree comes
+    twice.
+    """
     alone = Trees(samples.NAMED["gauss 3"]())
     assert [len(alone.of_order(n)) for n in range(1, 10)] == [1, 1, 2, 4, 9, 20, 48, 115, 286]
     pair = Trees(samples.NAMED["pair, collocation"]())
@@ -36,7 +38,14 @@ def test_linear_colours_have_chains_only() -> None:
 
 @pytest.mark.parametrize(
     ("name", "order"),
-    [("explicit-euler", 1), ("heun", 2), ("kutta", 3), ("rk4", 4), ("gauss 3", 6), ("radau-iia 3", 5)],
+    [
+        ("explicit-euler", 1),
+        ("heun", 2),
+        ("kutta", 3),
+        ("rk4", 4),
+        ("gauss 3", 6),
+        ("radau-iia 3", 5),
+    ],
 )
 @pytest.mark.parametrize("seed", range(3))
 def test_both_oracles_know_textbook_orders(name: str, order: int, seed: int) -> None:
@@ -47,22 +56,31 @@ def test_both_oracles_know_textbook_orders(name: str, order: int, seed: int) -> 
 
 
 def test_table_1_of_the_paper() -> None:
-    """The trees to order 4 have the densities of the paper's Table 1, and the classical method meets them all."""
+    """The trees to order 4 have the densities of the paper's Table 1, and the classical method
+    meets them all.
+    """
     tableau = samples.NAMED["rk4"]()
     trees, weights = Trees(tableau), Weights(tableau)
     found = [(n, density(u)) for n in range(1, 5) for u in trees.of_order(n)]
     assert sorted(found) == [(1, 1), (2, 2), (3, 3), (3, 6), (4, 4), (4, 8), (4, 12), (4, 24)]
-    assert all(weights.weight(u) == fmpq(1, density(u)) for n in range(1, 5) for u in trees.of_order(n))
+    assert all(
+        weights.weight(u) == fmpq(1, density(u)) for n in range(1, 5) for u in trees.of_order(n)
+    )
 
 
 def test_power_series_see_what_scalar_problems_hide() -> None:
-    """Residuals of [τ,[τ]] and [[τ,τ]] that cancel for every scalar equation do not cancel in the oracle.
+    """Residuals of [τ,[τ]] and [[τ,τ]] that cancel for every scalar equation do not cancel in the
+    oracle.
 
-    E adds −1/12 to the first and 1/6 to the second weight, with symmetries 1 and 2, and nothing to the others.
+    E adds −1/12 to the first and 1/6 to the second weight, with symmetries 1 and 2, and nothing to
+    the others.
     """
     gauss = diagonal_method("gauss", 3)
     E = ((0, fmpq(1, 3), fmpq(1, 6)), (0, 0, 0), (0, -1, 0))
-    A = tuple(tuple(x + y for x, y in zip(row, more, strict=True)) for row, more in zip(gauss.A, E, strict=True))
+    A = tuple(
+        tuple(x + y for x, y in zip(row, more, strict=True))
+        for row, more in zip(gauss.A, E, strict=True)
+    )
     tableau = gark([replace(gauss, A=A)], {})
     leaf: Plain = (0, ())
     twig: Plain = (0, (leaf,))
@@ -85,11 +103,15 @@ def test_polynomials_and_points_are_one_algebra() -> None:
         assert value(times(u, v), c) == value(u, c) * value(v, c)
         assert value(one(space), c) == 1
     for j in range(2):
-        assert [value(lagrange(nodes, j), c) for c in nodes] == [fmpq(int(i == j)) for i in range(2)]
+        assert [value(lagrange(nodes, j), c) for c in nodes] == [
+            fmpq(int(i == j)) for i in range(2)
+        ]
 
 
 def test_the_order_does_not_depend_on_the_model() -> None:
-    """Both oracles give the polynomial form and the entries in radicals of one method the same order."""
+    """Both oracles give the polynomial form and the entries in radicals of one method the same
+    order.
+    """
     tableau = samples.NAMED["pair, interpolation"]()
     nodes = numbers("1/2 - sqrt(3)/6, 1/2 + sqrt(3)/6", "0, 1/2, 1")
     spelled = at_points(tableau, nodes)

@@ -1,4 +1,6 @@
-"""Tableaus with rounded coefficients: the catalogue, and constructions of the paper spelled out in decimals."""
+"""Tableaus with rounded coefficients: the catalogue, and constructions of the paper spelled out in
+decimals.
+"""
 
 from __future__ import annotations
 
@@ -57,6 +59,8 @@ def in_decimals(exact: Tableau, digits: int) -> Tableau:
 
 
 def gauss_lobatto(stages: int, digits: int) -> Tableau:
-    """Gauss and Lobatto IIIA with one stage more, coupled by collocation, in decimals: order 2 · ``stages``."""
+    """Gauss and Lobatto IIIA with one stage more, coupled by collocation, in decimals: order 2 ·
+    ``stages``.
+    """
     names = f"gauss {stages}", f"lobatto-iiia {stages + 1}"
     return in_decimals(samples.everywhere(collocation, *names), digits)

@@ -32,9 +32,13 @@ def test_misprinted_collocation_example() -> None:
     assert blame.repairs == ()
 
 
-@pytest.mark.parametrize(("key", "i", "j"), [((0, 0), 1, 0), ((0, 1), 0, 1), ((1, 0), 2, 1), ((1, 1), 2, 1)])
+@pytest.mark.parametrize(
+    ("key", "i", "j"), [((0, 0), 1, 0), ((0, 1), 0, 1), ((1, 0), 2, 1), ((1, 1), 2, 1)]
+)
 def test_single_wrong_entry(key: tuple[int, int], i: int, j: int) -> None:
-    """One entry changed in any block is found again, with its true value, and its block is the culprit."""
+    """One entry changed in any block is found again, with its true value, and its block is the
+    culprit.
+    """
     tableau = example("collocation-conjugate")
     block = [list(row) for row in tableau.blocks[key]]
     true = block[i][j]
@@ -48,7 +52,9 @@ def test_single_wrong_entry(key: tuple[int, int], i: int, j: int) -> None:
 
 
 def test_single_wrong_weight() -> None:
-    """A wrong weight is found, though the sum of the weights alone would allow each of them to be the wrong one."""
+    """A wrong weight is found, though the sum of the weights alone would allow each of them to be
+    the wrong one.
+    """
     tableau = example("collocation-conjugate")
     b = tableau.colours[1].b
     colours = (tableau.colours[0], replace(tableau.colours[1], b=(b[0], fmpq(3, 5), b[2])))
@@ -58,7 +64,9 @@ def test_single_wrong_weight() -> None:
 
 
 def test_right_method_has_no_repair_for_more() -> None:
-    """Where the method is right as it is, no change of one entry is proposed for an order it cannot have."""
+    """Where the method is right as it is, no change of one entry is proposed for an order it cannot
+    have.
+    """
     tableau = example("rectangular")
     blame = find_blame(tableau, 5, 6)
     assert blame is not None

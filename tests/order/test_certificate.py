@@ -37,7 +37,9 @@ NAMED = [pytest.param(make, id=name) for name, make in samples.NAMED.items()]
 
 
 def assert_witness_fails(tableau: Tableau, found: Order) -> None:
-    """The witness is an admissible tree of the next order, with the value and requirement that it states."""
+    """The witness is an admissible tree of the next order, with the value and requirement that it
+    states.
+    """
     assert found.witness is not None
     tree = plain(found.witness.tree)
     trees_there = Trees(tableau).of_order(found.order + 1)
@@ -50,7 +52,9 @@ def assert_witness_fails(tableau: Tableau, found: Order) -> None:
 
 @pytest.mark.parametrize("make", NAMED)
 def test_named_tableaus_against_every_tree(make: Callable[[], Tableau]) -> None:
-    """All conditions hold up to the order that the certificate finds, and its witness fails one order higher."""
+    """All conditions hold up to the order that the certificate finds, and its witness fails one
+    order higher.
+    """
     tableau = make()
     found = find_order(tableau)
     assert brute_order(tableau, found.order + 1) == found.order
@@ -59,7 +63,9 @@ def test_named_tableaus_against_every_tree(make: Callable[[], Tableau]) -> None:
 
 @pytest.mark.parametrize("make", cases())
 def test_random_tableaus_against_every_tree(make: Callable[[], Tableau]) -> None:
-    """Random coefficients, coupling graphs and linear colours: the same order as by listing all trees."""
+    """Random coefficients, coupling graphs and linear colours: the same order as by listing all
+    trees.
+    """
     tableau = make()
     found = find_order(tableau, LIMIT)
     assert found.order == brute_order(tableau, LIMIT)
@@ -71,7 +77,9 @@ def test_random_tableaus_against_every_tree(make: Callable[[], Tableau]) -> None
 
 @pytest.mark.parametrize("make", NAMED)
 def test_named_tableaus_against_power_series(make: Callable[[], Tableau]) -> None:
-    """One step on a random polynomial problem agrees with the flow in exactly as many powers of h."""
+    """One step on a random polynomial problem agrees with the flow in exactly as many powers of
+    h.
+    """
     tableau = make()
     order = find_order(tableau).order
     assert series_order(tableau, order + 1) == order
@@ -79,13 +87,17 @@ def test_named_tableaus_against_power_series(make: Callable[[], Tableau]) -> Non
 
 @pytest.mark.parametrize("make", cases(count_divisor=2))
 def test_random_tableaus_against_power_series(make: Callable[[], Tableau]) -> None:
-    """The same on random tableaus, where absent edges and linear fields are those of the problem."""
+    """The same on random tableaus, where absent edges and linear fields are those of the
+    problem.
+    """
     tableau = make()
     assert series_order(tableau, LIMIT, seed=1) == find_order(tableau, LIMIT).order
 
 
 def test_random_tableaus_are_worth_trying() -> None:
-    """Among the random tableaus are all orders from 0 to the limit, with and without absent edges."""
+    """Among the random tableaus are all orders from 0 to the limit, with and without absent
+    edges.
+    """
     tableaus = [case.values[0]() for case in cases()]
     orders = {find_order(tableau, LIMIT).order for tableau in tableaus}
     sparse = sum(len(list(tableau.edges())) < tableau.size**2 for tableau in tableaus)
@@ -106,7 +118,9 @@ def test_a_perturbed_entry_is_noticed(seed: int) -> None:
 
 
 def test_without_cycles_there_is_only_a_lower_bound() -> None:
-    """Where trees end, so do their conditions: the order is the one of the quadratures, then void."""
+    """Where trees end, so do their conditions: the order is the one of the quadratures, then
+    void.
+    """
     tableau = samples.without_cycles()
     trees = Trees(tableau)
     assert [len(trees.of_order(n)) for n in (1, 2, 3, 4)] == [2, 1, 1, 1]
@@ -119,9 +133,13 @@ def test_without_cycles_there_is_only_a_lower_bound() -> None:
 
 
 def test_linear_fields_can_make_all_conditions_void() -> None:
-    """A linear colour that sees one that sees nothing has two conditions, and both hold for the midpoint rule."""
+    """A linear colour that sees one that sees nothing has two conditions, and both hold for the
+    midpoint rule.
+    """
     full = samples.everywhere(samples.RULES["collocation"], "gauss 1", "gauss 1")
-    chain = samples.with_linear(Tableau(full.spaces, full.colours, {(0, 1): full.blocks[0, 1]}), ["1"])
+    chain = samples.with_linear(
+        Tableau(full.spaces, full.colours, {(0, 1): full.blocks[0, 1]}), ["1"]
+    )
     assert [len(Trees(chain).of_order(n)) for n in (1, 2, 3)] == [2, 1, 0]
     assert find_order(chain) == Order(DEFAULT_LIMIT, None)
 
@@ -145,7 +163,9 @@ def test_weights_that_do_not_sum_to_one_have_order_0() -> None:
 
 
 def test_many_trees_fail_where_one_witness_is_named() -> None:
-    """The witness is one of the failing trees that the list of all trees finds, and not the only one."""
+    """The witness is one of the failing trees that the list of all trees finds, and not the only
+    one.
+    """
     tableau = samples.NAMED["pair of lower order"]()
     found = find_order(tableau)
     assert found.witness is not None

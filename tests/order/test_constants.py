@@ -26,7 +26,9 @@ def example(name: str) -> Tableau:
     return load(str(ROOT / "methods" / f"{name}.gark.yaml")).tableau
 
 
-@pytest.mark.parametrize("name", ["collocation", "rectangular", "semi-separable", "ark-ars222", "three-colours"])
+@pytest.mark.parametrize(
+    "name", ["collocation", "rectangular", "semi-separable", "ark-ars222", "three-colours"]
+)
 def test_exact_and_float_paths_agree(name: str, monkeypatch: pytest.MonkeyPatch) -> None:
     """The exact sum over trees and the float one over the tree table give the same norms."""
     tableau = example(name)
@@ -56,7 +58,9 @@ def test_twin_roots_count_twice(monkeypatch: pytest.MonkeyPatch) -> None:
 
 
 def test_twin_roots_mix_colours_each_for_itself(monkeypatch: pytest.MonkeyPatch) -> None:
-    """[τ^F]^V mixes colours and its twin [τ^F]^F does not: the coupling trees are those that do, in both paths."""
+    """[τ^F]^V mixes colours and its twin [τ^F]^F does not: the coupling trees are those that do, in
+    both paths.
+    """
     both = pair(gark([diagonal_method("lobatto-iiia", 2)], {}))
     exact = error_constants(both, 3)
     monkeypatch.setattr(constants, "EXACT_CONDITIONS", 0)
@@ -110,7 +114,9 @@ def test_too_many_trees() -> None:
 
 
 def test_a_condition_with_a_diagonal_twin_is_one_of_a_diagonal_method() -> None:
-    """Of the pair of one method every condition of order 2 is one of A or of Â, whichever root stands for it."""
+    """Of the pair of one method every condition of order 2 is one of A or of Â, whichever root
+    stands for it.
+    """
     both = pair(gark([diagonal_method("lobatto-iiia", 2)], {}))
     found = list(all_conditions(both, 2))
     assert [len(x.trees) for x in found] == [2, 2]

@@ -39,7 +39,9 @@ def moved(tableau: Tableau, size: fmpq) -> Tableau:
 @pytest.mark.parametrize("name", samples.NAMED)
 @pytest.mark.parametrize("tolerance", [fmpq(0), SMALL])
 def test_exact_methods_satisfy_what_they_satisfy_exactly(name: str, tolerance: fmpq) -> None:
-    """For methods without rounding a tolerance, also of zero, changes nothing, in every kind of stage space."""
+    """For methods without rounding a tolerance, also of zero, changes nothing, in every kind of
+    stage space.
+    """
     tableau = samples.NAMED[name]()
     assert simplifying(tableau, 9, tolerance) == simplifying(tableau, 9)
     assert consistent_blocks(tableau, tolerance) == consistent_blocks(tableau)
@@ -48,7 +50,9 @@ def test_exact_methods_satisfy_what_they_satisfy_exactly(name: str, tolerance: f
 
 @pytest.mark.parametrize(("stages", "digits"), [(2, 16), (4, 30), (10, 60)])
 def test_decimals_satisfy_what_the_family_does(stages: int, digits: int) -> None:
-    """B, C, D of Gauss × Lobatto IIIA in decimals are those of the families, and the pair is symplectic."""
+    """B, C, D of Gauss × Lobatto IIIA in decimals are those of the families, and the pair is
+    symplectic.
+    """
     decimal = gauss_lobatto(stages, digits)
     exact = samples.everywhere(collocation, f"gauss {stages}", f"lobatto-iiia {stages + 1}")
     tolerance = fmpq(1, 10 ** (digits - 3))
@@ -72,7 +76,9 @@ def test_symplectic_within_the_rounding() -> None:
     "make", [lambda: gark([diagonal_method("gauss", 5)], {}), lambda: published("DP8_Hairer_853")]
 )
 def test_a_change_is_met_by_larger_tolerances_only(make: Callable[[], Tableau]) -> None:
-    """A coefficient moved by 10⁻⁸: within 10⁻⁶ all is as before, within 10⁻¹⁰ consistency and C are gone."""
+    """A coefficient moved by 10⁻⁸: within 10⁻⁶ all is as before, within 10⁻¹⁰ consistency and C are
+    gone.
+    """
     tableau = make()
     changed = moved(tableau, fmpq(1, 10**8))
     loose, tight = fmpq(1, 10**6), fmpq(1, 10**10)
@@ -92,14 +98,18 @@ def test_within_is_exact(text: str) -> None:
         assert within(number, abs(number))
         assert not within(number, abs(number) - fmpq(1, 10**300))
         return
-    below = abs(Domain([]).evaluate(parse(to_decimal(number, 200).removeprefix("-")))) - fmpq(1, 10**199)
+    below = abs(Domain([]).evaluate(parse(to_decimal(number, 200).removeprefix("-")))) - fmpq(
+        1, 10**199
+    )
     assert not within(number, below)
     assert within(number, below + fmpq(1, 10**198))
 
 
 @given(st.fractions(0, 1), st.fractions(0, 1))
 def test_values_at_nodes_decide(x: Fraction, t: Fraction) -> None:
-    """In the space of Gauss 2 the element x has its nodes as values, (3 ± √3)/6: within t when both are."""
+    """In the space of Gauss 2 the element x has its nodes as values, (3 ± √3)/6: within t when both
+    are.
+    """
     space = diagonal_method("gauss", 2).space
     tolerance = fmpq(str(t))
     scale = fmpq(str(x))
@@ -110,7 +120,9 @@ def test_values_at_nodes_decide(x: Fraction, t: Fraction) -> None:
 
 
 def test_functionals_and_forms_at_nodes() -> None:
-    """The weights of Gauss 2 are both 1/2; as a form on two copies of its space they are the diagonal."""
+    """The weights of Gauss 2 are both 1/2; as a form on two copies of its space they are the
+    diagonal.
+    """
     method = diagonal_method("gauss", 2)
     assert functional_within(method.space, method.b, fmpq(1, 2) + SMALL)
     assert not functional_within(method.space, method.b, fmpq(1, 2) - SMALL)

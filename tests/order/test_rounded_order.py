@@ -1,4 +1,6 @@
-"""The order within a tolerance: the catalogue, exact enumeration, edges of the tolerance, spans against trees."""
+"""The order within a tolerance: the catalogue, exact enumeration, edges of the tolerance, spans
+against trees.
+"""
 
 from __future__ import annotations
 
@@ -18,10 +20,10 @@ from garkcli.order import rounded as module
 from garkcli.order.approximate_spans import ApproximateSpans
 from garkcli.order.certificate import find_order
 from garkcli.order.conditions import conditions, coupling_graph
-from garkcli.order.enclosure import enclose_tableau
 from garkcli.order.residuals import TreeResiduals
 from garkcli.order.rounded import RoundedOrder, find_order_within
 from garkcli.tableau.conjugate import conjugate
+from garkcli.tableau.enclosing import enclose_tableau
 from garkcli.tableau.forms import gark, pair
 from garkcli.tableau.method import butcher
 from garkcli.tableau.tableau import Tableau
@@ -64,7 +66,9 @@ def assert_witness(found: RoundedOrder) -> None:
 
 @pytest.mark.parametrize("name", ENTRIES)
 def test_the_catalogue_has_its_verified_orders(name: str) -> None:
-    """Each of the 94 methods has its verified order within its rounding, and a witness one order higher."""
+    """Each of the 94 methods has its verified order within its rounding, and a witness one order
+    higher.
+    """
     found = find_order_within(published(name), power_of_ten(ENTRIES[name]["rounding"]))
     assert found.order == ENTRIES[name]["verified_order"]
     assert not found.undecided
@@ -94,7 +98,9 @@ def test_conjugates_and_pairs_of_the_catalogue_are_decided() -> None:
 
 @given(SEEDS)
 def test_orders_are_those_of_exact_enumeration(seed: int) -> None:
-    """Random graphs and rounded named methods, every tree in exact rationals, tolerances of all sizes."""
+    """Random graphs and rounded named methods, every tree in exact rationals, tolerances of all
+    sizes.
+    """
     dice = Random(seed)
     tableau = samples.random_graph(dice)
     if dice.random() < 0.5:
@@ -107,12 +113,18 @@ def test_orders_are_those_of_exact_enumeration(seed: int) -> None:
     assert found.order == expected
     assert found.is_lower_bound == (expected == 5)
     with ctx.workprec(2000):
-        assert all(bound >= size for bound, size in zip(found.sizes[:expected], exact, strict=False))
+        assert all(
+            bound >= size for bound, size in zip(found.sizes[:expected], exact, strict=False)
+        )
 
 
 @pytest.mark.parametrize("doubts", [0, 64])
-def test_a_residual_equal_to_the_tolerance_is_met(doubts: int, monkeypatch: pytest.MonkeyPatch) -> None:
-    """Equality counts as met and the least excess does not, though no ball can tell the two apart."""
+def test_a_residual_equal_to_the_tolerance_is_met(
+    doubts: int, monkeypatch: pytest.MonkeyPatch
+) -> None:
+    """Equality counts as met and the least excess does not, though no ball can tell the two
+    apart.
+    """
     monkeypatch.setattr(module, "FEW_DOUBTS", doubts)
     monkeypatch.setattr(module, "MOST_BITS", 500)
     tableau = published("sciml_IMEXSSP3433")
@@ -138,7 +150,9 @@ def test_irrational_residuals_near_the_tolerance() -> None:
 
 
 def test_a_perturbed_coefficient_lowers_the_order() -> None:
-    """The weights decide order 1, a late coefficient a later order, a change below the tolerance nothing."""
+    """The weights decide order 1, a late coefficient a later order, a change below the tolerance
+    nothing.
+    """
     tableau = published("DP8_Hairer_853_float64")
     tolerance = fmpq(1, 10**12)
 
@@ -149,7 +163,9 @@ def test_a_perturbed_coefficient_lowers_the_order() -> None:
         else:
             last = (block[-1][0] + size, *block[-1][1:])
             block = (*block[:-1], last)
-        return find_order_within(replace(tableau, colours=(colour,), blocks={(0, 0): block}), tolerance).order
+        return find_order_within(
+            replace(tableau, colours=(colour,), blocks={(0, 0): block}), tolerance
+        ).order
 
     assert [changed(fmpq(1, 10**n), True) for n in (10, 14)] == [0, 8]
     assert [changed(fmpq(1, 10**n), False) for n in (4, 14)] == [1, 8]
@@ -157,7 +173,9 @@ def test_a_perturbed_coefficient_lowers_the_order() -> None:
 
 @given(SEEDS)
 def test_spans_bound_every_tree(seed: int) -> None:
-    """Whatever the grain, the bound is not below the largest residual, and members reach it or less."""
+    """Whatever the grain, the bound is not below the largest residual, and members reach it or
+    less.
+    """
     dice = Random(seed)
     tableau = rounded(samples.random_graph(dice), dice, fmpq(1, 10 ** dice.randint(2, 20)))
     grain = arb(fmpq(1, 10 ** dice.randint(0, 25)))
@@ -170,7 +188,9 @@ def test_spans_bound_every_tree(seed: int) -> None:
 
 
 def test_spans_are_sharp_where_all_is_known() -> None:
-    """With members for every direction, spans and trees see the same largest residual of Gauss 2 at order 5."""
+    """With members for every direction, spans and trees see the same largest residual of Gauss 2 at
+    order 5.
+    """
     tableau = gark([diagonal_method("gauss", 2)], {})
     enclosure = enclose_tableau(tableau, 300)
     spans, trees = ApproximateSpans(tableau, enclosure, arb(0)), TreeResiduals(tableau, enclosure)
@@ -182,7 +202,9 @@ def test_spans_are_sharp_where_all_is_known() -> None:
     ("stages", "digits", "tolerance", "order"),
     [(2, 16, 14, 4), (3, 30, 28, 6), (4, 30, 26, 8), (6, 30, 25, 12), (10, 60, 45, 20)],
 )
-def test_gauss_and_lobatto_in_decimals(stages: int, digits: int, tolerance: int, order: int) -> None:
+def test_gauss_and_lobatto_in_decimals(
+    stages: int, digits: int, tolerance: int, order: int
+) -> None:
     """The pair has four colours: 3.6·10¹¹ trees up to order 13 for Gauss 6 are no obstacle."""
     both = pair(gauss_lobatto(stages, digits))
     found = find_order_within(both, fmpq(1, 10**tolerance))
@@ -193,18 +215,24 @@ def test_gauss_and_lobatto_in_decimals(stages: int, digits: int, tolerance: int,
 
 
 def test_families_mixed_with_decimals() -> None:
-    """A family stays exact beside a method in decimals: its nodes are enclosed as finely as needed."""
+    """A family stays exact beside a method in decimals: its nodes are enclosed as finely as
+    needed.
+    """
     gauss, lobatto = diagonal_method("gauss", 3), diagonal_method("lobatto-iiia", 4)
     cut = in_decimals(gark([lobatto], {}), 30)
     decimal = butcher(cut.blocks[0, 0], cut.colours[0].b, cut.colours[0].c)
-    mixed = gark([gauss, decimal], {(0, 1): collocation(gauss, decimal), (1, 0): collocation(decimal, gauss)})
+    mixed = gark(
+        [gauss, decimal], {(0, 1): collocation(gauss, decimal), (1, 0): collocation(decimal, gauss)}
+    )
     assert find_order(mixed).order < 6
     assert find_order_within(mixed, fmpq(1, 10**28)).order == 6
     assert find_order_within(pair(mixed), fmpq(1, 10**28)).order == 6
 
 
 def test_exact_methods_need_no_trees() -> None:
-    """Gauss 10 × Lobatto IIIA 11 as families, any tolerance below its errors: decided by the certificate."""
+    """Gauss 10 × Lobatto IIIA 11 as families, any tolerance below its errors: decided by the
+    certificate.
+    """
     both = pair(samples.everywhere(collocation, "gauss 10", "lobatto-iiia 11"))
     found = find_order_within(both, fmpq(1, 10**30))
     assert (found.order, set(found.means)) == (20, {"exact"})
@@ -212,7 +240,9 @@ def test_exact_methods_need_no_trees() -> None:
 
 
 def test_what_is_too_much_is_left_undecided() -> None:
-    """A tolerance at the size of the rounding: the trees are too many, the bounds too wide, nothing is claimed."""
+    """A tolerance at the size of the rounding: the trees are too many, the bounds too wide, nothing
+    is claimed.
+    """
     found = find_order_within(pair(gauss_lobatto(6, 30)), fmpq(1, 10**28))
     assert found.undecided
     assert found.witness is None
@@ -231,7 +261,9 @@ def test_spans_come_first_then_trees(monkeypatch: pytest.MonkeyPatch) -> None:
 
 
 def test_limits() -> None:
-    """The search stops at its limit with a lower bound; a tolerance of zero asks for the exact order."""
+    """The search stops at its limit with a lower bound; a tolerance of zero asks for the exact
+    order.
+    """
     tableau = published("sprk_Yoshida_6_8")
     found = find_order_within(tableau, fmpq(1, 10**30), 3)
     assert (found.order, found.is_lower_bound, found.undecided) == (3, True, False)

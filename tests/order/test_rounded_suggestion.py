@@ -1,4 +1,6 @@
-"""Tolerances proposed for files without one: for the rounded methods of the catalogue, for no exact one."""
+"""Tolerances proposed for files without one: for the rounded methods of the catalogue, for no exact
+one.
+"""
 
 from __future__ import annotations
 
@@ -46,13 +48,17 @@ def test_samples_get_none(name: str) -> None:
 
 
 def test_float64_coefficients() -> None:
-    """The eighth-order method of Dormand and Prince in double precision: residuals below 10⁻¹⁵ up to order 8."""
+    """The eighth-order method of Dormand and Prince in double precision: residuals below 10⁻¹⁵ up
+    to order 8.
+    """
     found = suggestion(published("DP8_Hairer_853_float64"))
     assert found is not None
     assert (found.order, found.line) == (8, "tolerance: 1e-15")
 
 
-@pytest.mark.parametrize(("stages", "digits", "order"), [(2, 10, 4), (3, 30, 6), (6, 30, 12), (10, 60, 20)])
+@pytest.mark.parametrize(
+    ("stages", "digits", "order"), [(2, 10, 4), (3, 30, 6), (6, 30, 12), (10, 60, 20)]
+)
 def test_decimals_of_gauss_and_lobatto(stages: int, digits: int, order: int) -> None:
     """Also where the trees are too many to list."""
     decimal = gauss_lobatto(stages, digits)

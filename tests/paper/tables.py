@@ -1,7 +1,8 @@
 """The tableaus that the paper prints, entry by entry, and its misprints.
 
-A. Zanna, *Discrete Variational Methods and Symplectic Generalized Additive Runge–Kutta Methods*: Gauss 2 and
-Lobatto IIIA 3 by collocation and by interpolation, their symplectic conjugates, and eq. (rectangular).
+A. Zanna, *Discrete Variational Methods and Symplectic Generalized Additive Runge–Kutta Methods*:
+Gauss 2 and Lobatto IIIA 3 by collocation and by interpolation, their symplectic conjugates, and eq.
+(rectangular).
 """
 
 from __future__ import annotations
@@ -72,7 +73,9 @@ COLLOCATION_MISPRINTS: Mapping[tuple[int, int], str] = {
     (2, 4): "1/3 + 4*sqrt(3)/27",
     (2, 5): "sqrt(3)/108",
 }
-"""What stands at (row, column), counted from 1, in the collocation example when its misprints are put right."""
+"""What stands at (row, column), counted from 1, in the collocation example when its misprints are
+put right.
+"""
 CONJUGATE_MISPRINTS: Mapping[tuple[int, int], str] = {
     (5, 1): "1/2 + sqrt(3)/36",
     (5, 2): "1/2 - sqrt(3)/36",

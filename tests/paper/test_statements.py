@@ -93,7 +93,9 @@ def test_corollary_on_combinations(names: tuple[str, str], tau: Fraction) -> Non
 
 @pytest.mark.parametrize("name", samples.NAMED)
 def test_simplifying_assumption_theorem(name: str) -> None:
-    """The printed bound min{r, 2η+2, ξ+1, η+ζ+1} is never above the order, and ξ + 1 is never the smallest."""
+    """The printed bound min{r, 2η+2, ξ+1, η+ζ+1} is never above the order, and ξ + 1 is never the
+    smallest.
+    """
     tableau = samples.NAMED[name]()
     found = simplifying(tableau, 12)
     assert found.bound <= find_order(tableau, 12).order
@@ -108,7 +110,9 @@ def test_simplifying_assumption_theorem_on_random_mixtures(seed: int) -> None:
 
 
 def test_the_bound_is_not_sharp() -> None:
-    """The theorem promises order 4 for the collocation example, and order 3 for its pair, which has order 4."""
+    """The theorem promises order 4 for the collocation example, and order 3 for its pair, which has
+    order 4.
+    """
     tableau = samples.everywhere(collocation, "gauss 2", "lobatto-iiia 3")
     assert simplifying(tableau).bound == find_order(tableau).order == 4
     assert simplifying(pair(tableau)).bound == 3
@@ -116,7 +120,9 @@ def test_the_bound_is_not_sharp() -> None:
 
 
 def test_the_pair_of_superconvergent_methods_may_have_a_lower_order() -> None:
-    """Gauss 2 with Lobatto IIIA 4 by collocation: Q has order 4, its conjugate and their pair order 2."""
+    """Gauss 2 with Lobatto IIIA 4 by collocation: Q has order 4, its conjugate and their pair order
+    2.
+    """
     Q = samples.everywhere(collocation, "gauss 2", "lobatto-iiia 4")
     assert find_order(Q).order == brute_order(Q, 5) == 4
     assert find_order(pair(Q)).order == brute_order(pair(Q), 3) == 2
@@ -124,7 +130,9 @@ def test_the_pair_of_superconvergent_methods_may_have_a_lower_order() -> None:
 
 @pytest.mark.parametrize("rule", [collocation, interpolation])
 def test_blocks_conjugate_to_each_other_keep_the_order(rule: Callable[..., Matrix]) -> None:
-    """Built on the method of smaller order, with the opposite block its conjugate, the same pair has order 4."""
+    """Built on the method of smaller order, with the opposite block its conjugate, the same pair
+    has order 4.
+    """
     Q = samples.by_conjugates(rule, "gauss 2", "lobatto-iiia 4")
     assert find_order(Q).order == find_order(pair(Q)).order == brute_order(pair(Q), 5) == 4
     assert conjugate(Q).block(0, 1) == Q.block(0, 1)
@@ -142,7 +150,9 @@ def test_nodes_of_the_conjugate(rule: Callable[..., Matrix], l: str, m: str) -> 
 
 
 def test_the_bracket_of_the_semi_separable_conjugate() -> None:
-    """(𝟙 − (B¹)⁻¹ (A^{2,1})ᵀ) B² is Â^{1,2}, with the row sums c¹; as printed, with B² inside, it has others."""
+    """(𝟙 − (B¹)⁻¹ (A^{2,1})ᵀ) B² is Â^{1,2}, with the row sums c¹; as printed, with B² inside, it
+    has others.
+    """
     Q = samples.everywhere(collocation, "gauss 2", "lobatto-iiia 3")
     A = tables.matrix(tables.RECTANGULAR_Q)
     b, b_other = tables.b_1, tables.b_2
@@ -167,8 +177,12 @@ def test_the_bracket_of_the_semi_separable_conjugate() -> None:
 def test_special_cases(
     velocities: list[int], forces: list[int], colours: list[str], edges: set[tuple[int, int]]
 ) -> None:
-    """Each special case has the colours and blocks of its tableau in the paper, is symplectic, and has order 4."""
-    tableau = symplectic_pair(samples.everywhere(collocation, "gauss 2", "lobatto-iiia 3"), velocities, forces)
+    """Each special case has the colours and blocks of its tableau in the paper, is symplectic, and
+    has order 4.
+    """
+    tableau = symplectic_pair(
+        samples.everywhere(collocation, "gauss 2", "lobatto-iiia 3"), velocities, forces
+    )
     assert [colour.name for colour in tableau.colours] == colours
     assert set(tableau.edges()) == edges
     assert is_symplectic(tableau)
@@ -188,12 +202,17 @@ def test_the_pair_has_the_blocks_of_eq_vargark() -> None:
 
 
 def test_symplectic_diagonal_methods_are_their_own_conjugates() -> None:
-    """Gauss and Lobatto IIID are symplectic; IIIA and IIIB, IIIC and IIIC*, are conjugate to each other."""
+    """Gauss and Lobatto IIID are symplectic; IIIA and IIIB, IIIC and IIIC*, are conjugate to each
+    other.
+    """
     for name in ("gauss 3", "lobatto-iiid 3"):
         alone = gark([samples.method(name)], {})
         assert is_symplectic(alone)
         assert conjugate(alone) == alone
-    for name, other in (("lobatto-iiia 3", "lobatto-iiib 3"), ("lobatto-iiic 3", "lobatto-iiic* 3")):
+    for name, other in (
+        ("lobatto-iiia 3", "lobatto-iiib 3"),
+        ("lobatto-iiic 3", "lobatto-iiic* 3"),
+    ):
         alone = gark([samples.method(name)], {})
         assert not is_symplectic(alone)
         assert conjugate(alone) == gark([samples.method(other)], {})

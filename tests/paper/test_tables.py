@@ -23,7 +23,9 @@ from tests.oracles.series import series_order
 from tests.paper import tables
 
 CORRECTED = tables.matrix(tables.COLLOCATION_AS_PRINTED, tables.COLLOCATION_MISPRINTS)
-CORRECTED_CONJUGATE = tables.matrix(tables.COLLOCATION_CONJUGATE_AS_PRINTED, tables.CONJUGATE_MISPRINTS)
+CORRECTED_CONJUGATE = tables.matrix(
+    tables.COLLOCATION_CONJUGATE_AS_PRINTED, tables.CONJUGATE_MISPRINTS
+)
 
 
 def constructed(rule: Rule) -> Tableau:
@@ -50,12 +52,18 @@ def spelled(tableau: Tableau) -> Tableau:
     ("rule", "printed", "printed_conjugate"),
     [
         (collocation, CORRECTED, CORRECTED_CONJUGATE),
-        (interpolation, tables.matrix(tables.INTERPOLATION), tables.matrix(tables.INTERPOLATION_CONJUGATE)),
+        (
+            interpolation,
+            tables.matrix(tables.INTERPOLATION),
+            tables.matrix(tables.INTERPOLATION_CONJUGATE),
+        ),
     ],
     ids=["collocation", "interpolation"],
 )
 def test_examples_entry_by_entry(rule: Rule, printed: Matrix, printed_conjugate: Matrix) -> None:
-    """A, Â, b and c of both examples are, entry by entry, what the paper prints, its misprints put right."""
+    """A, Â, b and c of both examples are, entry by entry, what the paper prints, its misprints put
+    right.
+    """
     Q = constructed(rule)
     P = conjugate(Q)
     assert entries(spelled(Q)) == printed
@@ -78,22 +86,31 @@ def test_printing_agrees_with_the_definition(rule: Rule) -> None:
 
 @pytest.mark.parametrize("name", ["CORRECTED", "INTERPOLATION"])
 def test_conjugates_of_spelled_out_entries(name: str) -> None:
-    """Eq. (wAhat) applied to the printed numbers themselves gives the printed conjugates, and back."""
+    """Eq. (wAhat) applied to the printed numbers themselves gives the printed conjugates, and
+    back.
+    """
     Q, P = {
         "CORRECTED": (CORRECTED, CORRECTED_CONJUGATE),
-        "INTERPOLATION": (tables.matrix(tables.INTERPOLATION), tables.matrix(tables.INTERPOLATION_CONJUGATE)),
+        "INTERPOLATION": (
+            tables.matrix(tables.INTERPOLATION),
+            tables.matrix(tables.INTERPOLATION_CONJUGATE),
+        ),
     }[name]
     assert entries(conjugate(tables.tableau(Q))) == P
     assert entries(conjugate(tables.tableau(P))) == Q
 
 
 def test_the_misprints_are_all_the_differences() -> None:
-    """The printed collocation example differs from its construction in those four and two entries only."""
+    """The printed collocation example differs from its construction in those four and two entries
+    only.
+    """
     printed = tables.matrix(tables.COLLOCATION_AS_PRINTED)
     printed_conjugate = tables.matrix(tables.COLLOCATION_CONJUGATE_AS_PRINTED)
     Q = constructed(collocation)
     assert _differences(printed, entries(spelled(Q))) == set(tables.COLLOCATION_MISPRINTS)
-    assert _differences(printed_conjugate, entries(spelled(conjugate(Q)))) == set(tables.CONJUGATE_MISPRINTS)
+    assert _differences(printed_conjugate, entries(spelled(conjugate(Q)))) == set(
+        tables.CONJUGATE_MISPRINTS
+    )
 
 
 def _differences(one: Matrix, other: Matrix) -> set[tuple[int, int]]:
@@ -105,12 +122,16 @@ def _differences(one: Matrix, other: Matrix) -> set[tuple[int, int]]:
     "make",
     [
         pytest.param(lambda: tables.tableau(CORRECTED), id="collocation"),
-        pytest.param(lambda: tables.tableau(tables.matrix(tables.INTERPOLATION)), id="interpolation"),
+        pytest.param(
+            lambda: tables.tableau(tables.matrix(tables.INTERPOLATION)), id="interpolation"
+        ),
         pytest.param(samples.rectangular, id="rectangular"),
     ],
 )
 def test_printed_methods_have_order_4(make: Callable[[], Tableau]) -> None:
-    """The certificate, all trees and the power series say order 4 of the printed numbers, and no more."""
+    """The certificate, all trees and the power series say order 4 of the printed numbers, and no
+    more.
+    """
     tableau = make()
     assert find_order(tableau).order == 4
     assert brute_order(tableau, 5) == 4
@@ -119,7 +140,9 @@ def test_printed_methods_have_order_4(make: Callable[[], Tableau]) -> None:
 
 @pytest.mark.parametrize("rule", [collocation, interpolation])
 def test_conjugates_and_pairs_have_order_4(rule: Rule) -> None:
-    """The conjugates of both examples, and the symplectic pairs of eq. (varGARK), have order 4 as well."""
+    """The conjugates of both examples, and the symplectic pairs of eq. (varGARK), have order 4 as
+    well.
+    """
     Q = constructed(rule)
     for tableau in (Q, conjugate(Q), pair(Q), spelled(Q), spelled(pair(Q))):
         assert find_order(tableau).order == 4
@@ -127,7 +150,9 @@ def test_conjugates_and_pairs_have_order_4(rule: Rule) -> None:
 
 
 def test_the_misprinted_collocation_example_has_order_2() -> None:
-    """As printed, the rows of A^{1,2} do not sum to the nodes and two trees of three vertices fail."""
+    """As printed, the rows of A^{1,2} do not sum to the nodes and two trees of three vertices
+    fail.
+    """
     wrong = tables.tableau(tables.matrix(tables.COLLOCATION_AS_PRINTED))
     assert tuple(sum(line[2:], fmpq(0)) for line in entries(wrong)[:2]) != tables.c_1
     assert tuple(sum(line[2:], fmpq(0)) for line in CORRECTED[:2]) == tables.c_1
@@ -139,7 +164,9 @@ def test_the_misprinted_collocation_example_has_order_2() -> None:
 
 
 def test_the_misprinted_conjugate_has_order_2() -> None:
-    """As printed, the conjugate's last row of Â^{2,1} belongs to no conjugate and the order is 2."""
+    """As printed, the conjugate's last row of Â^{2,1} belongs to no conjugate and the order is
+    2.
+    """
     wrong = tables.tableau(tables.matrix(tables.COLLOCATION_CONJUGATE_AS_PRINTED))
     assert find_order(wrong).order == brute_order(wrong, 4) == series_order(wrong, 4) == 2
     assert entries(conjugate(tables.tableau(CORRECTED))) != entries(wrong)

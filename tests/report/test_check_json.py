@@ -1,4 +1,6 @@
-"""The JSON of ``gark check`` keeps to its published schema on every file there is, with every option."""
+"""The JSON of ``gark check`` keeps to its published schema on every file there is, with every
+option.
+"""
 
 from __future__ import annotations
 
@@ -10,14 +12,16 @@ from typing import Any
 import pytest
 from jsonschema import Draft7Validator
 
-from garkcli.methodfile.check import check_file
+from garkcli.check.check_file import check_file
 from garkcli.report.check_json import render
 from garkcli.report.check_schema import check_report_schema
 
 ROOT = Path(__file__).parents[2]
 SCHEMA = check_report_schema()
 VALIDATOR = Draft7Validator(SCHEMA)
-READABLE = sorted([*ROOT.glob("methods/*.gark.yaml"), *ROOT.glob("tests/examples/valid/*.gark.yaml")])
+READABLE = sorted(
+    [*ROOT.glob("methods/*.gark.yaml"), *ROOT.glob("tests/examples/valid/*.gark.yaml")]
+)
 FAILING = sorted(ROOT.glob("tests/examples/failing/*.gark.yaml"))
 REFUSED = sorted(ROOT.glob("tests/examples/invalid/*.gark.yaml"))
 MISPRINTED = ROOT / "tests/examples/failing/collocation-misprinted.gark.yaml"
@@ -32,7 +36,9 @@ def report(*paths: Path, limit: int = 60, constants: bool = False) -> dict[str, 
 
 @cache
 def every_file() -> dict[str, Any]:
-    """The report on every file there is: readable, failing, refused, missing, and a directory without files."""
+    """The report on every file there is: readable, failing, refused, missing, and a directory
+    without files.
+    """
     return report(*READABLE, *FAILING, *REFUSED, Path("nowhere.gark.yaml"), Path("tests/report"))
 
 
@@ -56,7 +62,9 @@ def complaints(found: object) -> list[str]:
 def test_the_schema_is_one() -> None:
     """The schema itself is valid draft-07, and it refuses a report without its fields."""
     Draft7Validator.check_schema(SCHEMA)
-    assert not VALIDATOR.is_valid({"schema": "gark/check/1", "files": [{"file": "m"}], "summary": {}})
+    assert not VALIDATOR.is_valid(
+        {"schema": "gark/check/1", "files": [{"file": "m"}], "summary": {}}
+    )
 
 
 def test_reports_keep_to_the_schema() -> None:
@@ -68,7 +76,9 @@ def test_reports_keep_to_the_schema() -> None:
     assert found["summary"] == {"files": total, "failed": len(FAILING) + refused}
 
 
-@pytest.mark.parametrize("key", ["order", "witness", "simplifying", "claims", "tolerance", "symplectic", "colours"])
+@pytest.mark.parametrize(
+    "key", ["order", "witness", "simplifying", "claims", "tolerance", "symplectic", "colours"]
+)
 def test_the_schema_needs_every_field(key: str) -> None:
     """A report that lacks a field, or has it with another type, is refused."""
     found = report(READABLE[0])
@@ -100,7 +110,9 @@ def test_each_table_has_a_row_a_colour() -> None:
 
 
 def test_lower_bounds_and_error_constants() -> None:
-    """With a low limit and error constants every file keeps to the schema, and says that orders are bounds."""
+    """With a low limit and error constants every file keeps to the schema, and says that orders are
+    bounds.
+    """
     found = report(*READABLE, *FAILING, limit=2, constants=True)
     assert complaints(found) == []
     bounded = [x for x in found["files"] if x.get("order_is_lower_bound")]
@@ -120,7 +132,9 @@ def test_error_constants_are_of_the_first_failing_order() -> None:
 
 
 def test_a_rounded_method_says_so(tmp_path: Path) -> None:
-    """A tolerance is repeated as text, ``exact`` is false, and the largest residual is within the tolerance."""
+    """A tolerance is repeated as text, ``exact`` is false, and the largest residual is within the
+    tolerance.
+    """
     found = one(tmp_path, "methods: [{A: [[0.5000000000000001]], b: [1]}]\ntolerance: 1e-14\n")
     assert (found["exact"], found["tolerance"], found["order"]) == (False, "1e-14", 2)
     assert 0 < found["order_largest_residual"] <= 1e-14
@@ -137,7 +151,9 @@ def test_a_method_that_looks_rounded_gets_a_suggestion(tmp_path: Path) -> None:
 
 
 def test_a_failing_method_is_blamed() -> None:
-    """A claim on the order that fails comes with the failing conditions, and the schema knows them."""
+    """A claim on the order that fails comes with the failing conditions, and the schema knows
+    them.
+    """
     found = report(MISPRINTED)
     assert complaints(found) == []
     (file,) = found["files"]
@@ -146,7 +162,9 @@ def test_a_failing_method_is_blamed() -> None:
     assert 0 < file["blame"]["failing"] <= file["blame"]["conditions"]
 
 
-@pytest.mark.parametrize(("place", "key"), [("A: [[1/3]], b: [1]", "A"), ("A: [[1/2]], b: [2]", "b")])
+@pytest.mark.parametrize(
+    ("place", "key"), [("A: [[1/3]], b: [1]", "A"), ("A: [[1/2]], b: [2]", "b")]
+)
 def test_a_repair_names_its_place(tmp_path: Path, place: str, key: str) -> None:
     """A single wrong entry is found again, in A or in b, with what it was and what it should be."""
     found = one(tmp_path, f"methods: [{{{place}}}]\nexpect: {{order: {2 if key == 'A' else 1}}}\n")

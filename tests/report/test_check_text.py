@@ -4,12 +4,12 @@ import re
 
 import pytest
 
-from garkcli.methodfile.expectations import verify
+from garkcli.check.analysis import analyse
+from garkcli.check.claims import verify
+from garkcli.check.outcome import Outcome
 from garkcli.methodfile.load import loads
 from garkcli.order.blame import find_blame
-from garkcli.order.check import analyse
 from garkcli.order.constants import error_constants
-from garkcli.order.outcome import Outcome
 from garkcli.report.check_text import render
 from garkcli.report.hints import blame_lines
 from garkcli.report.paint import Paint, aligned, beside
@@ -21,7 +21,9 @@ def outcome(text: str, file: str = "m.gark.yaml") -> Outcome:
     """What ``gark check`` finds about a text."""
     method = loads(text, file)
     analysis = analyse(method.tableau)
-    return Outcome(file, method.name, method.structure, analysis, verify(method.claims, analysis), text=text)
+    return Outcome(
+        file, method.name, method.structure, analysis, verify(method.claims, analysis), text=text
+    )
 
 
 def report(text: str) -> str:
@@ -46,12 +48,16 @@ def tableau(entry: str, weight: str = "1") -> str:
     ],
 )
 def test_a_residual_is_written_exactly(text: str, line: str) -> None:
-    """Negative, zero and irrational values stand in the report as exact numbers, with their difference."""
+    """Negative, zero and irrational values stand in the report as exact numbers, with their
+    difference.
+    """
     assert line in report(text)
 
 
 def test_long_values_get_lines_of_their_own() -> None:
-    """A value too long for a sentence is written as value, required, residual, one below the other."""
+    """A value too long for a sentence is written as value, required, residual, one below the
+    other.
+    """
     found = report(tableau("123456789012345678901234567890/11"))
     assert "value    123456789012345678901234567890/11" in found
     assert "required 1/2" in found
@@ -74,7 +80,9 @@ def test_a_zero_weight_is_named() -> None:
 
 def test_an_absent_block_is_a_dash() -> None:
     """C and D of a block that does not exist are shown as -."""
-    found = report("tableau: {c: [[1/2], [0, 1]], A: [[null, [[1/2, 0]]], [[[0], [1]], ~]], b: [[1], [1/2, 1/2]]}")
+    found = report(
+        "tableau: {c: [[1/2], [0, 1]], A: [[null, [[1/2, 0]]], [[[0], [1]], ~]], b: [[1], [1/2, 1/2]]}"
+    )
     assert re.search(r"^  C\(eta\) +-  1$", found, re.MULTILINE)
 
 
@@ -84,15 +92,22 @@ def test_inconsistent_blocks_are_named() -> None:
 
 
 def test_claims_are_listed_with_their_place() -> None:
-    """A claim that holds and one that fails are told apart by words, the failing one with its place."""
+    """A claim that holds and one that fails are told apart by words, the failing one with its
+    place.
+    """
     found = report("methods: [{family: gauss, stages: 2}]\nexpect: {order: 4, symplectic: false}\n")
     assert re.search(r"claim holds +order: 4", found)
-    assert re.search(r"CLAIM FAILS +symplectic: expected false, found true +\(m\.gark\.yaml:2:32\)", found)
+    assert re.search(
+        r"CLAIM FAILS +symplectic: expected false, found true +\(m\.gark\.yaml:2:32\)", found
+    )
 
 
 def test_the_summary_counts_files_and_claims() -> None:
     """Several files get a line each and a summary."""
-    good, bad = "methods: [{family: gauss, stages: 2}]\nexpect: {order: 4}", tableau("0") + "\nexpect: {order: 2}"
+    good, bad = (
+        "methods: [{family: gauss, stages: 2}]\nexpect: {order: 4}",
+        tableau("0") + "\nexpect: {order: 2}",
+    )
     assert "2 files, 1 claim: all hold" in render([outcome(good), outcome(tableau("0"))], Paint())
     found = render([outcome(good), outcome(bad)], Paint())
     assert "2 files, 2 claims: 1 file failed" in found
@@ -103,7 +118,10 @@ def test_the_summary_counts_files_and_claims() -> None:
 @pytest.mark.parametrize("verbosity", [-1, 0, 1])
 def test_colour_adds_nothing_but_colour(verbosity: int) -> None:
     """Without paint there is no escape code; with paint the words are the same."""
-    outcomes = [outcome("methods: [{family: gauss, stages: 2}]\nexpect: {order: 5}"), outcome(tableau("0"))]
+    outcomes = [
+        outcome("methods: [{family: gauss, stages: 2}]\nexpect: {order: 5}"),
+        outcome(tableau("0")),
+    ]
     plain, painted = (render(outcomes, Paint(color), verbosity) for color in (False, True))
     assert "\x1b" not in plain
     assert "\x1b[" in painted
@@ -119,7 +137,9 @@ def test_paint_off_is_the_text_itself() -> None:
 
 
 def test_columns_line_up() -> None:
-    """Cells of a column are equally wide; a shorter block beside a longer one is filled with nothing."""
+    """Cells of a column are equally wide; a shorter block beside a longer one is filled with
+    nothing.
+    """
     assert aligned([["1/2", "-1"], ["0", "1/36"]], right=False) == ["1/2  -1", "0    1/36"]
     assert aligned([]) == []
     assert beside(["a", "bcd"], ["x"]) == ["a     x", "bcd"]
@@ -128,7 +148,9 @@ def test_columns_line_up() -> None:
 def test_long_requirements_are_shortened() -> None:
     """Where the value is shown in decimals, a required value of many digits is too."""
     found = report("methods: [{family: gauss, stages: 29}]")
-    assert re.search(r"about [0-9.]+e-81 instead of about [0-9.]+e-81, off by -?[0-9.]+e-[0-9]+\n", found)
+    assert re.search(
+        r"about [0-9.]+e-81 instead of about [0-9.]+e-81, off by -?[0-9.]+e-[0-9]+\n", found
+    )
 
 
 def test_hints_and_constants_of_one_colour() -> None:

@@ -1,4 +1,6 @@
-"""Several convergence tests in one report: text within the terminal, JSON and CSV with everything."""
+"""Several convergence tests in one report: text within the terminal, JSON and CSV with
+everything.
+"""
 
 from __future__ import annotations
 
@@ -11,13 +13,13 @@ from functools import cache
 import pytest
 from flint import arb, fmpq
 
-from garkcli.dynamics.convergence import Convergence, Row, converge
-from garkcli.dynamics.examples import hamiltonian
-from garkcli.dynamics.nonlinear import Observation, observe
-from garkcli.dynamics.problems import Oscillator
-from garkcli.dynamics.work import Cost, timed
+from garkcli.convergence.convergence import Convergence, Row, converge
+from garkcli.convergence.nonlinear import Observation, observe
+from garkcli.convergence.work import Cost, timed
 from garkcli.errors import Fault
 from garkcli.families.registry import diagonal_method
+from garkcli.problems.builtin import hamiltonian
+from garkcli.problems.oscillator import Oscillator
 from garkcli.report.comparison import amount, curve, letters, render
 from garkcli.report.convergence import render as render_one
 from garkcli.report.convergence_data import Entry
@@ -38,29 +40,41 @@ def method(name: str) -> Tableau:
 @cache
 def on_kepler(name: str, with_work: bool = False) -> Observation:
     """Its test on a problem with an invariant, in two rows."""
-    return observe(method(name), hamiltonian("kepler", 1), steps=[fmpq(1, 64), fmpq(1, 128)], is_timed=with_work)
+    return observe(
+        method(name),
+        hamiltonian("kepler", 1),
+        steps=[fmpq(1, 64), fmpq(1, 128)],
+        is_timed=with_work,
+    )
 
 
 @cache
 def on_oscillator(name: str) -> Convergence:
     """Its test on the oscillator."""
-    return converge(method(name), Oscillator.default(1, fmpq(1)), fmpq(4), [fmpq(1, 4), fmpq(1, 8), fmpq(1, 16)])
+    return converge(
+        method(name), Oscillator.default(1, fmpq(1)), fmpq(4), [fmpq(1, 4), fmpq(1, 8), fmpq(1, 16)]
+    )
 
 
 def entries(count: int) -> list[Entry]:
     """As many methods on the oscillator."""
     made = [on_oscillator(NAMES[k % len(NAMES)]) for k in range(count)]
     return [
-        Entry(f"{k}.gark.yaml", f"method {k}", result, (), int(not result.agrees)) for k, result in enumerate(made)
+        Entry(f"{k}.gark.yaml", f"method {k}", result, (), int(not result.agrees))
+        for k, result in enumerate(made)
     ]
 
 
-FAILED = Entry("bad.gark.yaml", "bad.gark.yaml", None, (Fault("no such file", "look elsewhere", 3, 4),), 2)
+FAILED = Entry(
+    "bad.gark.yaml", "bad.gark.yaml", None, (Fault("no such file", "look elsewhere", 3, 4),), 2
+)
 
 
 @pytest.mark.parametrize("count", [1, 2, 3, 4, 5, 6, 9])
 def test_text_fits_the_terminal(count: int) -> None:
-    """Every method has its letter, its errors, its verdict, and no line is wider than 80 columns."""
+    """Every method has its letter, its errors, its verdict, and no line is wider than 80
+    columns.
+    """
     found = render(entries(count), "text", PLAIN)
     lines = found.splitlines()
     assert max(map(len, lines)) <= 80
@@ -73,7 +87,9 @@ def test_text_fits_the_terminal(count: int) -> None:
 
 
 def test_methods_keep_their_step_sizes() -> None:
-    """Each error is in the row of its step size; where a method has no such step the cell is empty."""
+    """Each error is in the row of its step size; where a method has no such step the cell is
+    empty.
+    """
     first, second = entries(2)
     assert isinstance(second.result, Convergence)
     second = replace(second, result=replace(second.result, rows=second.result.rows[1:]))
@@ -96,9 +112,10 @@ def test_failures_are_told_among_the_others() -> None:
     assert data["results"][1]["errors"] == [
         {"line": 3, "column": 4, "message": "no such file", "help": "look elsewhere"}
     ]
-    assert {row["file"] for row in csv.DictReader(io.StringIO(render([*entries(1), FAILED], "csv", PLAIN)))} == {
-        "0.gark.yaml"
-    }
+    assert {
+        row["file"]
+        for row in csv.DictReader(io.StringIO(render([*entries(1), FAILED], "csv", PLAIN)))
+    } == {"0.gark.yaml"}
     assert render([FAILED], "csv", PLAIN).count("\n") == 1
     assert "FAILED" in render([FAILED], "text", PLAIN)
 
@@ -120,12 +137,24 @@ def test_results_in_json_are_those_of_single_tests() -> None:
 
 
 def test_csv_has_every_column() -> None:
-    """Step, error, slope, energy error, each invariant, digits, with work the costs; quoted where it has to be."""
+    """Step, error, slope, energy error, each invariant, digits, with work the costs; quoted where
+    it has to be.
+    """
     name = 'say "rk4", the classical one'
     entry = Entry("a,b.gark.yaml", name, on_kepler("rk4", True), (), 0)
     rows = list(csv.DictReader(io.StringIO(render([entry], "csv", PLAIN, with_work=True))))
     assert list(rows[0]) == [
-        *("file", "method", "h", "h_exact", "error", "slope", "energy_error", "angular_momentum_error", "digits"),
+        *(
+            "file",
+            "method",
+            "h",
+            "h_exact",
+            "error",
+            "slope",
+            "energy_error",
+            "angular_momentum_error",
+            "digits",
+        ),
         *("steps", "evaluations", "newton_iterations", "jacobians", "seconds"),
     ]
     assert [row["method"] for row in rows] == [name] * 2
@@ -133,7 +162,9 @@ def test_csv_has_every_column() -> None:
     for row, known in zip(rows, on_kepler("rk4", True).rows, strict=True):
         assert float(row["h"]) == float(arb(fmpq(*map(int, row["h_exact"].split("/")))))
         assert float(row["error"]) == pytest.approx(float(known.error), rel=1e-5)
-        assert float(row["angular_momentum_error"]) == pytest.approx(float(known.invariant_errors[0]), rel=1e-5)
+        assert float(row["angular_momentum_error"]) == pytest.approx(
+            float(known.invariant_errors[0]), rel=1e-5
+        )
         assert known.cost is not None
         assert int(row["evaluations"]) == known.cost.evaluations == 8 * known.cost.steps
         assert float(row["seconds"]) > 0
@@ -144,13 +175,16 @@ def test_csv_has_every_column() -> None:
 def with_costs(name: str, costs: list[Cost | None], errors: list[float]) -> Entry:
     """A method with these errors and costs."""
     rows = tuple(
-        Row(fmpq(1, 2**k), arb(e), None, arb(0), cost=c) for k, (e, c) in enumerate(zip(errors, costs, strict=True))
+        Row(fmpq(1, 2**k), arb(e), None, arb(0), cost=c)
+        for k, (e, c) in enumerate(zip(errors, costs, strict=True))
     )
     return Entry(f"{name}.gark.yaml", name, replace(on_oscillator("rk4"), rows=rows), (), 0)
 
 
 def test_costs_of_equal_errors() -> None:
-    """10^2.5 times the evaluations for 5 decades make 10^0.5 for one; nothing is said beyond the rows."""
+    """10^2.5 times the evaluations for 5 decades make 10^0.5 for one; nothing is said beyond the
+    rows.
+    """
     costs: list[Cost | None] = [Cost(1, 100, 0, 0, 1e-3), Cost(2, round(10**4.5), 0, 0, 1e-1)]
     steep = with_costs("steep", costs, [10**-1.5, 10**-6.5])
     other = with_costs("other", [Cost(1, 50, 0, 0), None], [1e-1, 1e-3])
@@ -181,14 +215,18 @@ def test_points_of_a_plot() -> None:
 def test_work_of_one_method_in_text() -> None:
     """A table of costs below the errors, and the plot against evaluations."""
     text = render_one(on_kepler("rk4", True), "rk4", "text", PLAIN, with_work=True)
-    (line,) = [line for line in text.splitlines() if line.split()[:1] == ["1/64"] and " 128 " in line]
+    (line,) = [
+        line for line in text.splitlines() if line.split()[:1] == ["1/64"] and " 128 " in line
+    ]
     assert line.split()[2:6] == ["128", "1024", "0", "0"]
     assert text.splitlines()[-1].endswith("evaluations")
     assert max(map(len, text.splitlines())) <= 80
 
 
 def test_oscillator_has_costs_too() -> None:
-    """Its step map is not stepped, so that the costs are of the same method on the same problem, in steps."""
+    """Its step map is not stepped, so that the costs are of the same method on the same problem, in
+    steps.
+    """
     result = timed(method("rk4"), on_oscillator("rk4"))
     assert [row.cost.evaluations for row in result.rows if row.cost is not None] == [128, 256, 512]
     assert all(row.cost is not None and row.cost.seconds is not None for row in result.rows)
@@ -198,7 +236,9 @@ def test_oscillator_has_costs_too() -> None:
 def test_oscillator_beyond_floats_is_counted_without_time() -> None:
     """Gauss 8 with h = 1/4 has an error of 1e-26: more digits, more iterations, no time."""
     tableau = gark([diagonal_method("gauss", 8)], {})
-    result = timed(tableau, converge(tableau, Oscillator.default(1, fmpq(1)), fmpq(4), [fmpq(2), fmpq(1, 4)]))
+    result = timed(
+        tableau, converge(tableau, Oscillator.default(1, fmpq(1)), fmpq(4), [fmpq(2), fmpq(1, 4)])
+    )
     coarse, fine = (row.cost for row in result.rows)
     assert coarse is not None
     assert fine is not None
@@ -214,7 +254,13 @@ def test_letters_never_end() -> None:
 
 
 @pytest.mark.parametrize(
-    ("x", "text"), [(arb("9.996e-7"), "1.00e-6"), (arb(1), "1.00e0"), (arb("1e-5000"), "1.00e-5000"), (arb(0), "0")]
+    ("x", "text"),
+    [
+        (arb("9.996e-7"), "1.00e-6"),
+        (arb(1), "1.00e0"),
+        (arb("1e-5000"), "1.00e-5000"),
+        (arb(0), "0"),
+    ],
 )
 def test_scientific_numbers(x: arb, text: str) -> None:
     """Rounding may carry into the exponent; there is no smallest number."""

@@ -13,20 +13,20 @@ from pathlib import Path
 import pytest
 from flint import fmpq
 
-from garkcli.dynamics.courses import LongRun, of_oscillator
-from garkcli.dynamics.energy import drift
-from garkcli.dynamics.examples import hamiltonian
-from garkcli.dynamics.longtime import follow
-from garkcli.dynamics.problems import Oscillator, terms_of
-from garkcli.dynamics.structure import fitted
-from garkcli.dynamics.symplecticity import Defect, Symplecticity
+from garkcli.longtime.courses import LongRun, of_oscillator
+from garkcli.longtime.energy import drift
+from garkcli.longtime.longtime import follow
+from garkcli.longtime.symplecticity import Defect, Symplecticity
 from garkcli.methodfile.load import load
+from garkcli.plots.convergence_plot import save
+from garkcli.plots.energy_plot import energy_figure
+from garkcli.problems.builtin import hamiltonian
+from garkcli.problems.oscillator import Oscillator, terms_of
 from garkcli.report.bandplot import INSIDE, SINGLE, terminal_band
 from garkcli.report.energy import render
-from garkcli.report.energy_plot import energy_figure
 from garkcli.report.energy_text import Claim, Report
 from garkcli.report.paint import Paint
-from garkcli.report.plot import save
+from garkcli.stepping.dependency import fitted
 
 ROOT = Path(__file__).parents[2]
 RECTANGULAR, RK4 = (str(ROOT / "methods" / f"{name}.gark.yaml") for name in ("rectangular", "rk4"))
@@ -36,7 +36,9 @@ GAUSS = str(ROOT / "tests" / "examples" / "valid" / "smallest.gark.yaml")
 def oscillator(path: str, t_end: int = 100) -> LongRun:
     """The energy of the oscillator."""
     tableau = load(path).tableau
-    return of_oscillator(drift(tableau, Oscillator.default(terms_of(tableau), fmpq(1)), fmpq(t_end), fmpq(1, 2)))
+    return of_oscillator(
+        drift(tableau, Oscillator.default(terms_of(tableau), fmpq(1)), fmpq(t_end), fmpq(1, 2))
+    )
 
 
 def nonlinear(path: str, name: str, t_end: int) -> LongRun:
@@ -57,7 +59,9 @@ def falling() -> LongRun:
     return nonlinear(RK4, "kepler", 100)
 
 
-def text(run: LongRun, symplecticity: Symplecticity | None = None, claims: tuple[Claim, ...] = ()) -> str:
+def text(
+    run: LongRun, symplecticity: Symplecticity | None = None, claims: tuple[Claim, ...] = ()
+) -> str:
     """The report for people."""
     return render(Report("m", run, symplecticity or Symplecticity(True), claims), "text", Paint())
 
@@ -72,7 +76,10 @@ def text(run: LongRun, symplecticity: Symplecticity | None = None, claims: tuple
         (kepler, "no error above round-off, at most"),
         (falling, "DRIFTS: the slope is"),
         (lambda: nonlinear(RECTANGULAR, "kepler", 2), "undecided: fewer than 64 steps"),
-        (lambda: nonlinear(RECTANGULAR, "kepler", 10), "undecided: the motion turns back 3 times only;"),
+        (
+            lambda: nonlinear(RECTANGULAR, "kepler", 10),
+            "undecided: the motion turns back 3 times only;",
+        ),
         (lambda: nonlinear(RK4, "fput", 100), "DRIFTS: "),
     ],
 )
@@ -85,7 +92,9 @@ def test_verdicts(run: Callable[[], LongRun], said: str) -> None:
 
 def test_what_is_said_of_blow_ups() -> None:
     """When it happened; no drift, no oscillation."""
-    course = replace(kepler().courses[0], verdict="unstable", drift=None, uncertainty=None, max_error=1e30)
+    course = replace(
+        kepler().courses[0], verdict="unstable", drift=None, uncertainty=None, max_error=1e30
+    )
     found = text(replace(kepler(), courses=(course,), steps=7))
     assert "UNSTABLE: blown up after 7 steps, at t = 0.35" in found
     assert "oscillation" not in found
@@ -97,11 +106,23 @@ def test_what_is_said_of_blow_ups() -> None:
     [
         (Symplecticity(True), "yes, by its coefficients"),
         (Symplecticity(False), "not proved by its coefficients; --symplecticity measures\n"),
-        (Symplecticity(False, (Defect(fmpq(0), 1e-60, 2e-55),)), "not proved by its coefficients\n"),
+        (
+            Symplecticity(False, (Defect(fmpq(0), 1e-60, 2e-55),)),
+            "not proved by its coefficients\n",
+        ),
         (Symplecticity(False, (Defect(fmpq(0), 0.25, 1e-55),)), "no\n"),
-        (Symplecticity(False, (Defect(fmpq(0), 0.25, 1e-55),)), "has entries up to 2.500e-01, good to 1e-55"),
-        (Symplecticity(False, (Defect(fmpq(0), 1e-60, 2e-55), Defect(fmpq(5), 0, 3e-55))), "is below 3e-55"),
-        (Symplecticity(False, (Defect(fmpq(0), 1e-60, 2e-55), Defect(fmpq(5), 1, 3e-55))), "t = 0, 5"),
+        (
+            Symplecticity(False, (Defect(fmpq(0), 0.25, 1e-55),)),
+            "has entries up to 2.500e-01, good to 1e-55",
+        ),
+        (
+            Symplecticity(False, (Defect(fmpq(0), 1e-60, 2e-55), Defect(fmpq(5), 0, 3e-55))),
+            "is below 3e-55",
+        ),
+        (
+            Symplecticity(False, (Defect(fmpq(0), 1e-60, 2e-55), Defect(fmpq(5), 1, 3e-55))),
+            "t = 0, 5",
+        ),
     ],
 )
 def test_symplecticity(symplecticity: Symplecticity, said: str) -> None:
@@ -111,7 +132,10 @@ def test_symplecticity(symplecticity: Symplecticity, said: str) -> None:
 
 def test_claims() -> None:
     """Each with its verdict, and what was found where it fails."""
-    found = text(falling(), claims=(Claim("bounded", "energy drifts", False), Claim("max-error: 1", "", True)))
+    found = text(
+        falling(),
+        claims=(Claim("bounded", "energy drifts", False), Claim("max-error: 1", "", True)),
+    )
     assert "CLAIM FAILS      bounded, found: energy drifts" in found
     assert "claim holds      max-error: 1\n" in found
 
@@ -123,7 +147,9 @@ def test_quiet_reports_have_no_plot() -> None:
     assert "┤" not in render(report, "text", Paint(), is_long=False)
 
 
-@pytest.mark.parametrize("make", [kepler, falling, lambda: oscillator(RECTANGULAR), lambda: oscillator(GAUSS)])
+@pytest.mark.parametrize(
+    "make", [kepler, falling, lambda: oscillator(RECTANGULAR), lambda: oscillator(GAUSS)]
+)
 def test_json(make: Callable[[], LongRun]) -> None:
     """The same numbers, under names that stay."""
     run = make()
@@ -131,9 +157,17 @@ def test_json(make: Callable[[], LongRun]) -> None:
     measured = Symplecticity(False, (Defect(fmpq(1, 2), 0.25, 1e-55),))
     data = json.loads(render(Report("m", run, measured, claims), "json", Paint()))
     assert data["schema"] == "gark/energy/1"
-    assert (data["step_exact"], data["steps"], data["drifts"]) == (str(run.step), run.steps, run.drifts)
+    assert (data["step_exact"], data["steps"], data["drifts"]) == (
+        str(run.step),
+        run.steps,
+        run.drifts,
+    )
     assert ("hamiltonian" in data) == (data["problem"] == "kepler") == (data["digits"] is not None)
-    assert ("omega" in data) == ("determinant_minus_1" in data["symplectic"]) == (data["problem"] == "oscillator")
+    assert (
+        ("omega" in data)
+        == ("determinant_minus_1" in data["symplectic"])
+        == (data["problem"] == "oscillator")
+    )
     assert [x["name"] for x in data["quantities"]] == [x.name for x in run.courses]
     for found, course in zip(data["quantities"], run.courses, strict=True):
         assert (found["max_error"], found["drift"], found["verdict"]) == (
@@ -150,7 +184,9 @@ def test_json_of_blow_ups_has_no_infinities() -> None:
     """What is not known is null."""
     course = replace(kepler().courses[0], verdict="unstable", drift=None, uncertainty=None)
     data = json.loads(
-        render(Report("m", replace(kepler(), courses=(course,)), Symplecticity(True)), "json", Paint())
+        render(
+            Report("m", replace(kepler(), courses=(course,)), Symplecticity(True)), "json", Paint()
+        )
     )
     found = data["quantities"][0]
     assert (found["drift"], found["drift_uncertainty"], found["drift_in_all"]) == (None, None, None)
@@ -159,7 +195,9 @@ def test_json_of_blow_ups_has_no_infinities() -> None:
 
 def test_csv() -> None:
     """Every time kept, with the errors of all quantities, to the last digit."""
-    rows = list(csv.reader(io.StringIO(render(Report("m", kepler(), Symplecticity(True)), "csv", Paint()))))
+    rows = list(
+        csv.reader(io.StringIO(render(Report("m", kepler(), Symplecticity(True)), "csv", Paint())))
+    )
     assert rows[0] == ["t", "energy_error", "angular_momentum_error"]
     assert [float(row[0]) for row in rows[1:]] == list(kepler().times)
     for k, course in enumerate(kepler().courses, start=1):
@@ -172,7 +210,11 @@ def test_csv_of_awkward_names() -> None:
     rows = list(
         csv.reader(
             io.StringIO(
-                render(Report("m", replace(kepler(), courses=(course,)), Symplecticity(True)), "csv", Paint())
+                render(
+                    Report("m", replace(kepler(), courses=(course,)), Symplecticity(True)),
+                    "csv",
+                    Paint(),
+                )
             )
         )
     )
@@ -191,7 +233,9 @@ def test_figures_are_the_same_each_time(tmp_path: Path, suffix: str) -> None:
 
 
 def test_figures_show_all_quantities() -> None:
-    """A panel each, with its errors; a dashed line where there is a drift, told apart without colour."""
+    """A panel each, with its errors; a dashed line where there is a drift, told apart without
+    colour.
+    """
     bounded, drifting = energy_figure(kepler()), energy_figure(falling())
     assert [len(axes.get_lines()) for axes in bounded.axes] == [2, 2]
     assert [len(axes.get_lines()) for axes in drifting.axes] == [3, 3]
@@ -219,7 +263,9 @@ def test_band_joins_its_points() -> None:
     """Every column is drawn on, every value is within its column's band."""
     lines = terminal_band([0, 1, 10], [0.0, 5.0, -5.0], "f", width=30, height=9).splitlines()[1:10]
     for column in range(30):
-        drawn = [line.ljust(40)[line.index("┤" if "┤" in line else "│") + 1 + column] for line in lines]
+        drawn = [
+            line.ljust(40)[line.index("┤" if "┤" in line else "│") + 1 + column] for line in lines
+        ]
         assert any(x in (INSIDE, SINGLE) for x in drawn)
 
 

@@ -1,4 +1,6 @@
-"""The formats for machines: what each standard asks for, whatever stands in file names and messages."""
+"""The formats for machines: what each standard asks for, whatever stands in file names and
+messages.
+"""
 
 from __future__ import annotations
 
@@ -14,14 +16,14 @@ import pytest
 from click.testing import CliRunner
 from jsonschema import Draft7Validator
 
+from garkcli.check.analysis import analyse
+from garkcli.check.claims import verify
+from garkcli.check.findings import RULES, findings
+from garkcli.check.outcome import Outcome
 from garkcli.cli.main import gark as commands
 from garkcli.errors import Fault, MethodFileError
-from garkcli.methodfile.expectations import verify
 from garkcli.methodfile.load import loads
-from garkcli.order.check import analyse
-from garkcli.order.outcome import Outcome
 from garkcli.report import check_github, check_junit, check_markdown, check_sarif, check_text
-from garkcli.report.findings import RULES, findings
 from garkcli.report.paint import Paint
 from tests.cli.harness import ROOT, gark
 
@@ -33,7 +35,11 @@ MIDPOINT = "methods: [{A: [[1/2]], b: [1]}]\n"
 WRONG = f"{MIDPOINT}expect: {{order: 3, symplectic: false, bound: 2, B: [5]}}\n"
 AWKWARD = "a%,b:c`d|e\nf.gark.yaml"
 
-_TEXT = {"type": "object", "required": ["text"], "properties": {"text": {"type": "string", "minLength": 1}}}
+_TEXT = {
+    "type": "object",
+    "required": ["text"],
+    "properties": {"text": {"type": "string", "minLength": 1}},
+}
 _POSITIVE = {"type": "integer", "minimum": 1}
 _REGION = {
     "type": "object",
@@ -70,7 +76,11 @@ _RESULT = {
         "level": {"enum": ["none", "note", "warning", "error"]},
         "message": _TEXT,
         "locations": {"type": "array", "minItems": 1, "items": _LOCATION},
-        "partialFingerprints": {"type": "object", "additionalProperties": {"type": "string"}, "minProperties": 1},
+        "partialFingerprints": {
+            "type": "object",
+            "additionalProperties": {"type": "string"},
+            "minProperties": 1,
+        },
     },
     "additionalProperties": False,
 }
@@ -110,7 +120,9 @@ SARIF = {
     },
     "additionalProperties": False,
 }
-"""The part of SARIF 2.1.0 that a report of ours may use: its required properties, types and enumerations."""
+"""The part of SARIF 2.1.0 that a report of ours may use: its required properties, types and
+enumerations.
+"""
 
 
 def outcome(text: str, file: str = "m.gark.yaml", limit: int = 60) -> Outcome:
@@ -120,7 +132,9 @@ def outcome(text: str, file: str = "m.gark.yaml", limit: int = 60) -> Outcome:
     except MethodFileError as error:
         return Outcome(file, file, faults=error.faults, text=text)
     analysis = analyse(method.tableau, limit)
-    return Outcome(file, method.name, method.structure, analysis, verify(method.claims, analysis), text=text)
+    return Outcome(
+        file, method.name, method.structure, analysis, verify(method.claims, analysis), text=text
+    )
 
 
 def sarif(*outcomes: Outcome) -> dict[str, Any]:
@@ -138,7 +152,405 @@ def fingerprints(text: str, file: str = "m.gark.yaml") -> list[str]:
     return [x["partialFingerprints"]["gark/v1"] for x in sarif(outcome(text, file))["results"]]
 
 
-# -- SARIF --------------------------------------------------------------------------------------------------------
+# -- SARIF
+#
+#
+#
+#
+#
+#
+#
+#
+#
+#
+#
+#
+#
+#
+#
+#
+#
+#
+#
+#
+#
+#
+#
+#
+#
+#
+#
+#
+#
+#
+#
+#
+#
+#
+#
+#
+#
+#
+#
+#
+#
+#
+#
+#
+#
+#
+#
+#
+#
+#
+#
+#
+#
+#
+#
+#
+#
+#
+#
+#
+#
+#
+#
+#
+#
+#
+#
+#
+#
+#
+#
+#
+#
+#
+#
+#
+#
+#
+#
+#
+#
+#
+#
+#
+#
+#
+#
+#
+#
+#
+#
+#
+#
+#
+#
+#
+#
+#
+#
+#
+#
+#
+#
+#
+#
+#
+#
+#
+#
+#
+#
+#
+#
+#
+#
+#
+#
+#
+#
+#
+#
+#
+#
+#
+#
+#
+#
+#
+#
+#
+#
+#
+#
+#
+#
+#
+#
+#
+#
+#
+#
+#
+#
+#
+#
+#
+#
+#
+#
+#
+#
+#
+#
+#
+#
+#
+#
+#
+#
+#
+#
+#
+#
+#
+#
+#
+#
+#
+#
+#
+#
+#
+#
+#
+#
+#
+#
+#
+#
+#
+#
+#
+#
+#
+#
+#
+#
+#
+#
+#
+#
+#
+#
+#
+#
+#
+#
+#
+#
+#
+#
+#
+#
+#
+#
+#
+#
+#
+#
+#
+#
+#
+#
+#
+#
+#
+#
+#
+#
+#
+#
+#
+#
+#
+#
+#
+#
+#
+#
+#
+#
+#
+#
+#
+#
+#
+#
+#
+#
+#
+#
+#
+#
+#
+#
+#
+#
+#
+#
+#
+#
+#
+#
+#
+#
+#
+#
+#
+#
+#
+#
+#
+#
+#
+#
+#
+#
+#
+#
+#
+#
+#
+#
+#
+#
+#
+#
+#
+#
+#
+#
+#
+#
+#
+#
+#
+#
+#
+#
+#
+#
+#
+#
+#
+#
+#
+#
+#
+#
+#
+#
+#
+#
+#
+#
+#
+#
+#
+#
+#
+#
+#
+#
+#
+#
+#
+#
+#
+#
+#
+#
+#
+#
+#
+#
+#
+#
+#
+#
+#
+#
+#
+#
+#
+#
+#
+#
+#
+#
+#
+#
+#
+#
+#
+#
+#
+#
+#
+#
+#
+#
+#
+#
+#
+#
+#
+#
+#
+#
+#
+#
+#
+#
+#
+#
+#
+#
+#
+#
+#
+#
+#
+#
+#
+#
+#
+#
+#
+#
+#
+#
+#
+#
+#
+#
+#
+#
+#
+#
+#
+#
+#
+#
+#
+#
+#
+#
+# --------------------------------------------------------------------------------------------------------
 
 
 def test_sarif_of_real_files_has_the_structure_of_the_standard() -> None:
@@ -146,7 +558,9 @@ def test_sarif_of_real_files_has_the_structure_of_the_standard() -> None:
     log = json.loads(gark("check", *FILES, "--format", "sarif").out)
     assert [error.message for error in Draft7Validator(SARIF).iter_errors(log)] == []
     (run,) = log["runs"]
-    files = [x["locations"][0]["physicalLocation"]["artifactLocation"]["uri"] for x in run["results"]]
+    files = [
+        x["locations"][0]["physicalLocation"]["artifactLocation"]["uri"] for x in run["results"]
+    ]
     assert files.count(FAILING) == 1
     assert files.count(INVALID) > 3
     assert GOOD not in files
@@ -162,7 +576,9 @@ def test_sarif_names_its_rules() -> None:
 
 def test_sarif_points_at_the_claim() -> None:
     """The region of a failed claim is where its value stands, in characters and not in bytes."""
-    text = f"{MIDPOINT}expect: {{'C': [[9]], order: 3}} # é\n".replace("methods", "name: αβγ\nmethods")
+    text = f"{MIDPOINT}expect: {{'C': [[9]], order: 3}} # é\n".replace(
+        "methods", "name: αβγ\nmethods"
+    )
     text = text.replace("expect: {", "expect: { ? 'bound'\n : '>= 7', ")
     found = sarif(outcome(text))["results"]
     regions = [x["locations"][0]["physicalLocation"]["region"] for x in found]
@@ -175,7 +591,10 @@ def test_a_region_starts_at_one_where_no_place_is_known() -> None:
     """A file that is not there has no line; the region is still one of the standard."""
     fault = Outcome("nowhere.gark.yaml", "nowhere", faults=(Fault("no such file"),))
     (result,) = sarif(fault)["results"]
-    assert result["locations"][0]["physicalLocation"]["region"] == {"startLine": 1, "startColumn": 1}
+    assert result["locations"][0]["physicalLocation"]["region"] == {
+        "startLine": 1,
+        "startColumn": 1,
+    }
 
 
 def test_fingerprints_do_not_move() -> None:
@@ -198,14 +617,20 @@ def test_fingerprints_tell_findings_apart() -> None:
 
 def test_a_claim_that_still_fails_keeps_its_fingerprint() -> None:
     """The same claim with another number is the same finding."""
-    assert fingerprints(f"{MIDPOINT}expect: {{order: 3}}") == fingerprints(f"{MIDPOINT}expect: {{order: 4}}")
+    assert fingerprints(f"{MIDPOINT}expect: {{order: 3}}") == fingerprints(
+        f"{MIDPOINT}expect: {{order: 4}}"
+    )
 
 
-@pytest.mark.parametrize("file", [AWKWARD, "späße/m.gark.yaml", "C:m.gark.yaml", "a b.gark.yaml", "#1?.gark.yaml"])
+@pytest.mark.parametrize(
+    "file", [AWKWARD, "späße/m.gark.yaml", "C:m.gark.yaml", "a b.gark.yaml", "#1?.gark.yaml"]
+)
 def test_a_file_name_is_a_uri(file: str) -> None:
     """Any file name becomes a URI reference that gives the name back."""
     run = sarif(outcome(WRONG, file))
-    uris = {x["locations"][0]["physicalLocation"]["artifactLocation"]["uri"] for x in run["results"]}
+    uris = {
+        x["locations"][0]["physicalLocation"]["artifactLocation"]["uri"] for x in run["results"]
+    }
     assert {unquote(uri) for uri in uris} == {file}
 
 
@@ -217,7 +642,11 @@ def junit(*outcomes: Outcome) -> ET.Element:
     root = ET.fromstring(check_junit.render(outcomes))
     assert (root.tag, {suite.tag for suite in root}) == ("testsuites", {"testsuite"})
     for part in (root, *root):
-        for count, path in (("tests", ".//testcase"), ("failures", ".//failure"), ("errors", ".//error")):
+        for count, path in (
+            ("tests", ".//testcase"),
+            ("failures", ".//failure"),
+            ("errors", ".//error"),
+        ):
             assert part.get(count) == str(len(part.findall(path)))
     assert all(case.get("name") and case.get("classname") for case in root.iter("testcase"))
     return root
@@ -252,14 +681,20 @@ def test_junit_of_real_files() -> None:
     assert [suite.get("name") for suite in root] == list(FILES)
 
 
-@pytest.mark.parametrize("sign", ["\0", "\x07", "\x1b", "\ud800", "\uffff", "\x7f", "<", "&", '"', "\n", "]]>"])
+@pytest.mark.parametrize(
+    "sign", ["\0", "\x07", "\x1b", "\ud800", "\uffff", "\x7f", "<", "&", '"', "\n", "]]>"]
+)
 def test_junit_parses_whatever_a_file_is_called(sign: str) -> None:
     """Control characters and halves of surrogates are replaced, everything else comes back as it was."""
     file = f"a{sign}b.gark.yaml"
     faulty = Outcome(file, file, faults=(Fault(f"unknown {sign}", f"no {sign}", 1, 1),))
     (suite, broken) = junit(outcome(WRONG, file), faulty)
     allowed = sign not in {"\0", "\x07", "\x1b", "\ud800", "\uffff"}
-    assert suite.get("name") == broken.get("name") == (file if allowed else "a\N{REPLACEMENT CHARACTER}b.gark.yaml")
+    assert (
+        suite.get("name")
+        == broken.get("name")
+        == (file if allowed else "a\N{REPLACEMENT CHARACTER}b.gark.yaml")
+    )
 
 
 # -- GitHub -------------------------------------------------------------------------------------------------------
@@ -275,7 +710,12 @@ def annotations(*outcomes: Outcome) -> list[tuple[dict[str, str], str]]:
             match = _COMMAND.fullmatch(line)
             assert match, line
             properties = dict(part.split("=", 1) for part in match[1].split(","))
-            found.append(({key: _unescaped(value) for key, value in properties.items()}, _unescaped(match[2])))
+            found.append(
+                (
+                    {key: _unescaped(value) for key, value in properties.items()},
+                    _unescaped(match[2]),
+                )
+            )
     return found
 
 
@@ -297,7 +737,9 @@ def test_each_finding_is_an_annotation_in_its_place() -> None:
     ]
 
 
-@pytest.mark.parametrize("file", [AWKWARD, "%0A.gark.yaml", "::error ::.gark.yaml", "a\r\nb", "x,line=9.gark.yaml"])
+@pytest.mark.parametrize(
+    "file", [AWKWARD, "%0A.gark.yaml", "::error ::.gark.yaml", "a\r\nb", "x,line=9.gark.yaml"]
+)
 def test_annotations_escape_file_names(file: str) -> None:
     """Percent, newline, comma and colon in a file name come back as they were and add no property."""
     found = annotations(outcome(WRONG, file))
@@ -372,13 +814,18 @@ def test_markdown_escapes_messages() -> None:
 
 def test_no_format_forgets_a_finding() -> None:
     """Text, annotations, SARIF, JUnit and Markdown of one run have the same findings."""
-    outcomes = [outcome(WRONG), outcome("methods: [{family: gaus, stages: 2}]\ncolour: red\n", "n.gark.yaml")]
+    outcomes = [
+        outcome(WRONG),
+        outcome("methods: [{family: gaus, stages: 2}]\ncolour: red\n", "n.gark.yaml"),
+    ]
     messages = [x.message for each in outcomes for x in findings(each)]
     assert len(messages) >= 4
     cases = [x for x in junit(*outcomes).iter() if x.tag in {"failure", "error"}]
     in_junit = " ".join(f"{case.get('message')} {case.text}" for case in cases)
     assert all(message.partition(": ")[2] in in_junit for message in messages)
-    assert [x["message"]["text"].partition("; ")[0] for x in sarif(*outcomes)["results"]] == messages
+    assert [
+        x["message"]["text"].partition("; ")[0] for x in sarif(*outcomes)["results"]
+    ] == messages
     assert [text.partition("; ")[0] for _, text in annotations(*outcomes)] == messages
     markdown = check_markdown.render(outcomes)
     assert all(message in markdown for message in messages)

@@ -56,7 +56,9 @@ def unbalanced(text: str) -> Iterator[str]:
 
 @pytest.mark.parametrize("arguments", RUNS, ids=" ".join)
 def test_latex_is_balanced(arguments: tuple[str, ...]) -> None:
-    """Braces, environments, dollars and displays are closed, and no sign outside LaTeX's reach is left."""
+    """Braces, environments, dollars and displays are closed, and no sign outside LaTeX's reach is
+    left.
+    """
     text = latex(*arguments)
     assert text.strip()
     assert list(unbalanced(text)) == []
@@ -71,7 +73,9 @@ def test_the_check_for_balance_can_fail() -> None:
 
 
 def test_every_row_of_a_tableau_has_every_column() -> None:
-    """The array of the collocation example has a node and 2 + 3 entries in each of its 2 + 3 + 1 rows."""
+    """The array of the collocation example has a node and 2 + 3 entries in each of its 2 + 3 + 1
+    rows.
+    """
     text = latex("tableau", "methods/collocation.gark.yaml")
     rows = [line for line in text.splitlines() if "&" in line]
     assert [row.count("&") for row in rows] == [5] * 6
@@ -83,7 +87,14 @@ def test_every_row_of_a_tableau_has_every_column() -> None:
 def test_conditions_carry_the_signs_of_the_paper() -> None:
     """Table 1: A^{l,m}, b^{l}, the componentwise product and the quantifier stand in the table."""
     text = latex("conditions", "-n", "3")
-    for fragment in (r"A^{\{l,m\}}", r"b^{\{l\}}", r"\odot", r"\forall", r"\mathbbm{1}", r"[\tau,\tau]"):
+    for fragment in (
+        r"A^{\{l,m\}}",
+        r"b^{\{l\}}",
+        r"\odot",
+        r"\forall",
+        r"\mathbbm{1}",
+        r"[\tau,\tau]",
+    ):
         assert fragment in text
 
 

@@ -16,7 +16,9 @@ class _Terminal(io.StringIO):
 
 
 def terminal(monkeypatch: pytest.MonkeyPatch, patience: float = 0.0) -> _Terminal:
-    """Stderr as a terminal, and a bar that appears after so many seconds; no fixture, which would be undone."""
+    """Stderr as a terminal, and a bar that appears after so many seconds; no fixture, which would
+    be undone.
+    """
     made = _Terminal()
     monkeypatch.setattr("sys.stderr", made)
     monkeypatch.setenv("TERM", "xterm")
@@ -25,7 +27,9 @@ def terminal(monkeypatch: pytest.MonkeyPatch, patience: float = 0.0) -> _Termina
 
 
 def test_long_work_has_a_bar(monkeypatch: pytest.MonkeyPatch) -> None:
-    """What is done and how far it is, in one bar that goes on from thing to thing, and is wiped out at the end."""
+    """What is done and how far it is, in one bar that goes on from thing to thing, and is wiped out
+    at the end.
+    """
     stderr = terminal(monkeypatch)
     with watching() as watch:
         watch("h = 1/8", 1, 40)

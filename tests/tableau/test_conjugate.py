@@ -24,7 +24,16 @@ from tests.oracles import samples
 from tests.oracles.points import numbers
 
 FAMILIES = st.sampled_from(
-    ["gauss 1", "gauss 2", "gauss 3", "radau-ia 2", "radau-iia 3", "lobatto-iiia 3", "lobatto-iiic 3", "kutta"]
+    [
+        "gauss 1",
+        "gauss 2",
+        "gauss 3",
+        "radau-ia 2",
+        "radau-iia 3",
+        "lobatto-iiia 3",
+        "lobatto-iiic 3",
+        "kutta",
+    ]
 )
 SPELLED: dict[str, Callable[[int], Tableau]] = {
     "rk4": lambda _: samples.NAMED["rk4"](),
@@ -43,7 +52,10 @@ def full_graph(seed: int) -> Tableau:
     def nonzero() -> fmpq:
         return fmpq(dice.choice([-3, -2, -1, 1, 2, 3]), dice.randint(1, 4))
 
-    A = [[tuple(tuple(samples.small(dice) for _ in range(s)) for _ in range(r)) for s in stages] for r in stages]
+    A = [
+        [tuple(tuple(samples.small(dice) for _ in range(s)) for _ in range(r)) for s in stages]
+        for r in stages
+    ]
     b = [tuple(nonzero() for _ in range(s)) for s in stages]
     c = [tuple(samples.small(dice) for _ in range(s)) for s in stages]
     return spelled_out(A, b, c)
@@ -82,7 +94,9 @@ def test_twice_is_the_identity_for_partitioned_methods(seed: int) -> None:
     assert conjugate(tableau) == tableau
 
 
-def _random_like(block: tuple[tuple[object, ...], ...], dice: Random) -> tuple[tuple[fmpq, ...], ...]:
+def _random_like(
+    block: tuple[tuple[object, ...], ...], dice: Random
+) -> tuple[tuple[fmpq, ...], ...]:
     return tuple(tuple(samples.small(dice) for _ in row) for row in block)
 
 
@@ -110,7 +124,8 @@ def test_is_symplectic_is_being_ones_own_conjugate(seed: int) -> None:
     half = fmpq(1, 2)
     mean = {
         edge: tuple(
-            tuple(half * (x + y) for x, y in zip(r, s, strict=True)) for r, s in zip(A, P.blocks[edge], strict=True)
+            tuple(half * (x + y) for x, y in zip(r, s, strict=True))
+            for r, s in zip(A, P.blocks[edge], strict=True)
         )
         for edge, A in Q.blocks.items()
     }
@@ -141,7 +156,9 @@ def test_conjugation_exchanges_stage_order_and_d(names: tuple[str, str], rule: s
 
 
 @given(st.tuples(FAMILIES, FAMILIES), seeds)
-def test_conjugation_exchanges_stage_order_and_d_of_mixtures(names: tuple[str, str], seed: int) -> None:
+def test_conjugation_exchanges_stage_order_and_d_of_mixtures(
+    names: tuple[str, str], seed: int
+) -> None:
     """The same for random combinations of the rules."""
     dice = Random(seed)
     weights = [samples.small(dice) for _ in range(3)]
@@ -151,7 +168,9 @@ def test_conjugation_exchanges_stage_order_and_d_of_mixtures(names: tuple[str, s
 
 @given(seeds)
 def test_renumbering_commutes_with_everything(seed: int) -> None:
-    """Renumbering the colours before or after conjugating, pairing or finding the order makes no difference."""
+    """Renumbering the colours before or after conjugating, pairing or finding the order makes no
+    difference.
+    """
     dice = Random(seed)
     tableau = samples.everywhere(collocation, "gauss 2", "lobatto-iiia 3", "radau-iia 2")
     tableau = samples.with_perturbed_block(tableau, dice)
@@ -171,7 +190,9 @@ def test_renumbering_commutes_with_everything(seed: int) -> None:
 
 @given(seeds, st.sampled_from([full_graph, *SPELLED.values()]))
 def test_numbering_of_stages_does_not_matter(seed: int, make: Callable[[int], Tableau]) -> None:
-    """Stages in another order: the same order, B, C and D, and the same order of the pair where it exists."""
+    """Stages in another order: the same order, B, C and D, and the same order of the pair where it
+    exists.
+    """
     tableau = make(seed)
     other = samples.with_permuted_stages(tableau, Random(seed))
     assert find_order(other, 6).order == find_order(tableau, 6).order
@@ -215,7 +236,9 @@ def test_a_pair_of_a_pair_is_refused() -> None:
 
 
 def test_pair_of_a_partitioned_method_keeps_its_positions() -> None:
-    """The pair of a partitioned method has its position blocks, and their conjugates for the momenta."""
+    """The pair of a partitioned method has its position blocks, and their conjugates for the
+    momenta.
+    """
     stormer = separable_prk(
         (((fmpq(0),), (fmpq(1),)), (fmpq(1),), None),
         (((fmpq(1, 2), fmpq(0)),), (fmpq(1, 2), fmpq(1, 2)), (fmpq(1, 2),)),
@@ -229,7 +252,9 @@ def test_pair_of_a_partitioned_method_keeps_its_positions() -> None:
 
 
 def test_shared_stages_are_told_apart_by_their_conjugates() -> None:
-    """An additive method has one set of stages, its conjugate one for each colour; twice gives copies of it."""
+    """An additive method has one set of stages, its conjugate one for each colour; twice gives
+    copies of it.
+    """
     A_1 = ((fmpq(0), fmpq(0)), (fmpq(1), fmpq(0)))
     A_2 = ((fmpq(0), fmpq(0)), (fmpq(1, 2), fmpq(1, 2)))
     b = (fmpq(1, 2), fmpq(1, 2))
@@ -266,7 +291,8 @@ def test_the_form_of_a_block_is_the_weights_of_products(here: str, there: str, s
         assert block is not None
         images = transpose(block)
         assert space.form(b, block) == tuple(
-            tuple(dot(b, space.product(e, image)) for image in images) for e in identity(space.stages)
+            tuple(dot(b, space.product(e, image)) for image in images)
+            for e in identity(space.stages)
         )
 
 
@@ -281,7 +307,9 @@ def test_the_form_of_a_block_is_the_weights_of_products(here: str, there: str, s
     ],
 )
 def test_zero_weights_in_a_polynomial_space(weights: tuple[str, ...], words: str) -> None:
-    """The nodes 0, 1/2, 1 without weight are named, though no coordinate of the functional is theirs."""
+    """The nodes 0, 1/2, 1 without weight are named, though no coordinate of the functional is
+    theirs.
+    """
     (values,) = numbers(", ".join(weights))
     space = PolynomialSpace(fmpq_poly([0, fmpq(1, 2), fmpq(-3, 2), 1]))
     nodes = (fmpq(0), fmpq(1, 2), fmpq(1))
@@ -294,5 +322,8 @@ def test_zero_weights_in_a_polynomial_space(weights: tuple[str, ...], words: str
 def test_zero_weights_at_points() -> None:
     """They are named one by one, as long as they are few."""
     space = PointSpace((fmpq(0),) * 6)
-    assert space.zero_weights((fmpq(1), fmpq(0), fmpq(1), fmpq(0), fmpq(1), fmpq(1))) == "b_2 = b_4 = 0"
+    assert (
+        space.zero_weights((fmpq(1), fmpq(0), fmpq(1), fmpq(0), fmpq(1), fmpq(1)))
+        == "b_2 = b_4 = 0"
+    )
     assert space.zero_weights((fmpq(0),) * 6) == "b_1 = b_2 = b_3 = … = 0"

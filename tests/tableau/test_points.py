@@ -70,7 +70,9 @@ def both_models(one: str, other: str, seed: int) -> tuple[Tableau, Tableau]:
 
 @given(names, names, seeds)
 def test_order_and_simplifying_conditions_agree(one: str, other: str, seed: int) -> None:
-    """Orders, B, C and D in polynomials are those of the entries, computed componentwise over ℚ(√3)."""
+    """Orders, B, C and D in polynomials are those of the entries, computed componentwise over
+    ℚ(√3).
+    """
     polynomials, points = both_models(one, other, seed)
     assert find_order(points).order == find_order(polynomials).order
     assert simplifying(points, 10) == simplifying(polynomials, 10)
@@ -87,9 +89,14 @@ def test_conjugation_agrees(one: str, other: str, seed: int) -> None:
 
 @given(names, names)
 def test_rules_agree(l: str, m: str) -> None:
-    """Each transfer rule, applied to methods given entry by entry, makes the entries of the same block."""
+    """Each transfer rule, applied to methods given entry by entry, makes the entries of the same
+    block.
+    """
     for rule in samples.RULES.values():
-        here, there = method_at(samples.method(l), NODES_OF[l]), method_at(samples.method(m), NODES_OF[m])
+        here, there = (
+            method_at(samples.method(l), NODES_OF[l]),
+            method_at(samples.method(m), NODES_OF[m]),
+        )
         tableau = samples.everywhere(rule, l, m)
         spelled = at_points(tableau, [NODES_OF[l], NODES_OF[m]])
         assert spelled.block(0, 1) == rule(here, there)
@@ -120,7 +127,9 @@ def test_evaluation_is_a_homomorphism(nodes: list[fmpq], data: st.DataObject) ->
     unit = [tuple(fmpq(int(i == j)) for j in range(len(nodes))) for i in range(len(nodes))]
     b = tuple(functional(e) for e in unit)
     assert space.times(b, v) == tuple(functional(space.product(v, e)) for e in unit)
-    assert space.gram(b) == tuple(tuple(functional(space.product(e, f)) for f in unit) for e in unit)
+    assert space.gram(b) == tuple(
+        tuple(functional(space.product(e, f)) for f in unit) for e in unit
+    )
     assert apply(points.lifts(), at_nodes(u)) == u
     powers = [tuple(c**k for c in nodes) for k in range(2 * len(nodes))]
     columns = list(zip(*space.reductions(2 * len(nodes)), strict=True))
@@ -129,20 +138,28 @@ def test_evaluation_is_a_homomorphism(nodes: list[fmpq], data: st.DataObject) ->
 
 
 def test_functionals_with_radicals() -> None:
-    """With irrational functionals and vectors, products and Gram matrices are what they are by definition."""
+    """With irrational functionals and vectors, products and Gram matrices are what they are by
+    definition.
+    """
     space = diagonal_method("gauss", 3).space
     unit = [tuple(fmpq(int(i == j)) for j in range(3)) for i in range(3)]
     (b, v) = numbers("1/2 - sqrt(3)/6, sqrt(3), 0", "sqrt(3)/7, 2, 1 - sqrt(3)")
     for functional in (b, unit[1]):
         for f in (v, unit[2]):
-            assert space.times(functional, f) == tuple(dot(functional, space.product(f, e)) for e in unit)
+            assert space.times(functional, f) == tuple(
+                dot(functional, space.product(f, e)) for e in unit
+            )
         rows = tuple(tuple(dot(functional, space.product(e, f)) for f in unit) for e in unit)
         assert space.gram(functional) == rows
 
 
 def test_radicals_are_inverted_once(monkeypatch: pytest.MonkeyPatch) -> None:
-    """Inverses in number fields take the time: one for each irrational weight, and a space is inverted once."""
-    (weights, nodes, row) = numbers("sqrt(2), cbrt(3), 1/2", "0, sqrt(2), 1", "cbrt(3), 1, sqrt(2)/5")
+    """Inverses in number fields take the time: one for each irrational weight, and a space is
+    inverted once.
+    """
+    (weights, nodes, row) = numbers(
+        "sqrt(2), cbrt(3), 1/2", "0, sqrt(2), 1", "cbrt(3), 1, sqrt(2)/5"
+    )
     space, count = PointSpace(nodes), 0
     inverse = Algebraic.inverse
 
@@ -180,7 +197,9 @@ def test_nodes_are_as_precise_as_asked() -> None:
 
 @pytest.mark.parametrize("tolerance", [fmpq(0), fmpq(1, 10**12)])
 def test_many_stages_are_soon_checked(tolerance: fmpq) -> None:
-    """Gauss with 60 stages: B, C and D to order 60 in seconds of the processor, with and without tolerance."""
+    """Gauss with 60 stages: B, C and D to order 60 in seconds of the processor, with and without
+    tolerance.
+    """
     before = process_time()
     found = simplifying(gark([diagonal_method("gauss", 60)], {}), 60, tolerance)
     assert (found.r, found.eta, found.zeta) == (60, 60, 60)
@@ -210,10 +229,18 @@ def test_adjoint(nodes: list[fmpq], data: st.DataObject) -> None:
 
 
 def test_nodes_beyond_the_largest_field_are_decimals() -> None:
-    """Where nodes and coefficients together are too much for a field, entries are enclosures, as of Gauss 6."""
+    """Where nodes and coefficients together are too much for a field, entries are enclosures, as of
+    Gauss 6.
+    """
     (row,) = numbers("sqrt(2) + sqrt(7) + sqrt(11) + sqrt(13), 1")
-    methods = [butcher(((row[0],),), (row[1],)), diagonal_method("gauss", 2), diagonal_method("lobatto-iiia", 4)]
-    blocks = {(l, m): collocation(methods[l], methods[m]) for l in range(3) for m in range(3) if l != m}
+    methods = [
+        butcher(((row[0],),), (row[1],)),
+        diagonal_method("gauss", 2),
+        diagonal_method("lobatto-iiia", 4),
+    ]
+    blocks = {
+        (l, m): collocation(methods[l], methods[m]) for l in range(3) for m in range(3) if l != m
+    }
     tableau = gark(methods, blocks)
     assert in_points(tableau) is None
     found = entries(tableau, 20)
@@ -235,12 +262,16 @@ def test_entries_in_radicals_are_the_definition() -> None:
             block, exact = found.A[l][m], wanted.block(l, m)
             assert block is not None
             assert exact is not None
-            assert [[str(x) for x in row] for row in block] == [[str(x) for x in row] for row in exact]
+            assert [[str(x) for x in row] for row in block] == [
+                [str(x) for x in row] for row in exact
+            ]
 
 
 def test_printing_mixes_the_fields_of_nodes_and_coefficients() -> None:
     """A block with √5 between nodes with √3 is printed in ℚ(√3, √5), and has the same order."""
-    tableau = samples.everywhere(samples.mixture("sqrt(5)", "1 - sqrt(5)", "0", "0"), "gauss 2", "lobatto-iiia 3")
+    tableau = samples.everywhere(
+        samples.mixture("sqrt(5)", "1 - sqrt(5)", "0", "0"), "gauss 2", "lobatto-iiia 3"
+    )
     found = in_points(tableau)
     assert found is not None
     assert found.field is not None
@@ -257,9 +288,13 @@ def test_printing_mixes_the_fields_of_nodes_and_coefficients() -> None:
                     assert abs(to_float(x) - float(ball)) < 1e-14
 
 
-@pytest.mark.parametrize("names", [("gauss 3", "radau-iia 2"), ("lobatto-iiia 4", "gauss 2"), ("radau-ia 3",)])
+@pytest.mark.parametrize(
+    "names", [("gauss 3", "radau-iia 2"), ("lobatto-iiia 4", "gauss 2"), ("radau-ia 3",)]
+)
 def test_numeric_entries_enclose_the_exact_ones(names: tuple[str, ...]) -> None:
-    """Enclosures hold the exact entries, are as narrow as asked, and are in ascending order of the nodes."""
+    """Enclosures hold the exact entries, are as narrow as asked, and are in ascending order of the
+    nodes.
+    """
     tableau = samples.everywhere(collocation, *names)
     exact, numeric = entries(tableau, 30), numeric_entries(tableau, 30)
     assert exact.is_exact
@@ -316,7 +351,9 @@ def test_nodes_default_to_row_sums(x: Fraction) -> None:
 
 
 def test_many_stages_need_more_precision() -> None:
-    """The nodes of Gauss 60 are too close for the first precision: it is doubled; rows of A sum to c."""
+    """The nodes of Gauss 60 are too close for the first precision: it is doubled; rows of A sum to
+    c.
+    """
     found = numeric_entries(gark([diagonal_method("gauss", 60)], {}))
     A = found.A[0][0]
     assert A is not None

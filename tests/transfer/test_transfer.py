@@ -32,7 +32,16 @@ from tests.oracles import samples
 from tests.oracles.points import lagrange, value
 from tests.oracles.stages import image
 
-NAMES = ["gauss 1", "gauss 2", "gauss 3", "radau-ia 2", "radau-iia 3", "lobatto-iiia 3", "lobatto-iiic 4", "kutta"]
+NAMES = [
+    "gauss 1",
+    "gauss 2",
+    "gauss 3",
+    "radau-ia 2",
+    "radau-iia 3",
+    "lobatto-iiia 3",
+    "lobatto-iiic 4",
+    "kutta",
+]
 names = st.sampled_from(NAMES)
 rationals = st.fractions(-5, 5, max_denominator=9).map(lambda x: fmpq(x.numerator, x.denominator))
 
@@ -43,7 +52,9 @@ def point_methods(draw: st.DrawFn) -> Method:
     s = draw(st.integers(1, 4))
     c = draw(st.lists(rationals, min_size=s, max_size=s, unique=True))
     b = draw(st.lists(rationals.filter(bool), min_size=s, max_size=s))
-    A = draw(st.lists(st.lists(rationals, min_size=s, max_size=s).map(tuple), min_size=s, max_size=s))
+    A = draw(
+        st.lists(st.lists(rationals, min_size=s, max_size=s).map(tuple), min_size=s, max_size=s)
+    )
     return butcher(tuple(A), tuple(b), tuple(c))
 
 
@@ -64,7 +75,8 @@ def test_interpolation_is_its_definition(l: Method, m: Method) -> None:
     """Eq. (interp): L^{m}(c^{l}) A^{m,m}, entry by entry."""
     L = tuple(tuple(value(lagrange(m.c, j), c) for j in range(m.stages)) for c in l.c)
     wanted = tuple(
-        tuple(sum((x * m.A[k][j] for k, x in enumerate(row)), fmpq(0)) for j in range(m.stages)) for row in L
+        tuple(sum((x * m.A[k][j] for k, x in enumerate(row)), fmpq(0)) for j in range(m.stages))
+        for row in L
     )
     assert interpolation(l, m) == wanted
 
@@ -74,7 +86,10 @@ def test_conjugate_rules_are_their_definition(l: Method, m: Method) -> None:
     """Eq. (wAhat): â_ij = b_j − b_j a_ji / b_i, from the block A^{m,l} of the rule."""
     for rule in (collocation, interpolation):
         a = rule(m, l)
-        wanted = tuple(tuple(m.b[j] - m.b[j] * a[j][i] / l.b[i] for j in range(m.stages)) for i in range(l.stages))
+        wanted = tuple(
+            tuple(m.b[j] - m.b[j] * a[j][i] / l.b[i] for j in range(m.stages))
+            for i in range(l.stages)
+        )
         assert conjugate_rule(rule)(l, m) == wanted
 
 
@@ -89,13 +104,17 @@ def test_combinations_are_sums(l: str, m: str, weights: list[fmpq]) -> None:
     found = combination(terms, here, there)
     for i in range(here.stages):
         for j in range(there.stages):
-            assert found[i][j] == sum((w * A[i][j] for w, A in zip(weights, blocks, strict=True)), fmpq(0))
+            assert found[i][j] == sum(
+                (w * A[i][j] for w, A in zip(weights, blocks, strict=True)), fmpq(0)
+            )
     assert combination(terms[::-1], here, there) == found
 
 
 @given(names, names, rationals)
 def test_combinations_integrate_low_degrees(l: str, m: str, tau: fmpq) -> None:
-    """τ interpolation + (1 − τ) collocation integrates what m itself integrates, below degree s_m − 1."""
+    """τ interpolation + (1 − τ) collocation integrates what m itself integrates, below degree s_m −
+    1.
+    """
     here, there = samples.method(l), samples.method(m)
     block = combination([(tau, interpolation), (1 - tau, collocation)], here, there)
     if not isinstance(here.space, PolynomialSpace) or not isinstance(there.space, PolynomialSpace):
@@ -114,7 +133,9 @@ def _stage_order(method: Method) -> int:
 
 @given(st.sampled_from(NAMES[:-1]), st.sampled_from(NAMES[:-1]), rationals)
 def test_stage_order_does_not_depend_on_tau(l: str, m: str, tau: fmpq) -> None:
-    """The corollary: C^{l,m}(min(η^{m,m}, s_m − 1)) holds for every τ, and beyond it for τ alone where it does."""
+    """The corollary: C^{l,m}(min(η^{m,m}, s_m − 1)) holds for every τ, and beyond it for τ alone
+    where it does.
+    """
     tableau = samples.everywhere(samples.mixture(str(1 - tau), str(tau), "0", "0"), l, m)
     found = simplifying(tableau, 10).C
     for k, n in ((0, 1), (1, 0)):
@@ -132,7 +153,9 @@ def test_at_its_own_nodes_a_rule_gives_the_diagonal_back(rule: str) -> None:
 
 
 def test_rules_differ_where_the_method_is_no_collocation_method() -> None:
-    """At its own nodes interpolation gives A^{m,m}, collocation the collocation method with those nodes."""
+    """At its own nodes interpolation gives A^{m,m}, collocation the collocation method with those
+    nodes.
+    """
     ia = samples.method("radau-ia 2")
     assert interpolation(ia, ia) == ia.A
     assert collocation(ia, ia) != ia.A
@@ -140,9 +163,13 @@ def test_rules_differ_where_the_method_is_no_collocation_method() -> None:
     assert collocation(iiib, iiib) == iiia.A
 
 
-@given(st.sampled_from(NAMES[:-1]), st.sampled_from(NAMES[:-1]), st.sampled_from(sorted(PAIR_RULES)))
+@given(
+    st.sampled_from(NAMES[:-1]), st.sampled_from(NAMES[:-1]), st.sampled_from(sorted(PAIR_RULES))
+)
 def test_symplectic_blocks_are_conjugate_to_each_other(base: str, other: str, rule: str) -> None:
-    """A^{other,base} is by the rule, and conjugating the tableau leaves both off-diagonal blocks as they are."""
+    """A^{other,base} is by the rule, and conjugating the tableau leaves both off-diagonal blocks as
+    they are.
+    """
     methods = [samples.method(base), samples.method(other)]
     blocks = symplectic_blocks(PAIR_RULES[rule], methods, 0, 1)
     assert blocks[1, 0] == PAIR_RULES[rule](methods[1], methods[0])
@@ -174,7 +201,9 @@ def test_symplectic_rules_keep_the_smaller_order(rule: str, names: tuple[str, st
 
 
 def test_what_a_symplectic_rule_builds_on() -> None:
-    """Smaller order first, then fewer stages, then the lower number, whichever way round it is asked."""
+    """Smaller order first, then fewer stages, then the lower number, whichever way round it is
+    asked.
+    """
     methods = [samples.method(name) for name in ("lobatto-iiia 3", "gauss 2", "gauss 1", "gauss 2")]
     orders = [4, 4, 2, 4]
     assert build_on(methods, orders, 0, 2) == build_on(methods, orders, 2, 0) == 2

@@ -26,7 +26,9 @@ def columns_of(table: TreeTable, order: int) -> Columns:
 @pytest.mark.parametrize("size", [1, 2, 7, 100, 10**6])
 @pytest.mark.parametrize("linear", [(), (1,)])
 def test_blocks_are_the_table(size: int, linear: tuple[int, ...]) -> None:
-    """Blocks of any size follow each other to the whole order, column by column, and none is too large."""
+    """Blocks of any size follow each other to the whole order, column by column, and none is too
+    large.
+    """
     table = TreeTable.upto(2, 7, linear=linear)
     for order in (1, 2, 5, 7):
         blocks = list(iter_blocks(2, order, size, linear=linear))
@@ -51,7 +53,9 @@ def test_totals_without_the_whole_order() -> None:
 
 
 def test_blocks_beyond_64_bits() -> None:
-    """The first order whose γ needs more than 64 bits is exact although all lower ones are int64."""
+    """The first order whose γ needs more than 64 bits is exact although all lower ones are
+    int64.
+    """
     edges, linear = [[True, True], [False, False]], [0]
     (block, *_) = iter_blocks(2, 21, edges=edges, linear=linear)
     assert block.lower.gamma.dtype == np.int64
@@ -63,12 +67,20 @@ def test_blocks_beyond_64_bits() -> None:
 @pytest.mark.parametrize("root", [None, 1])
 @pytest.mark.parametrize("only", [None, (0, 1), (2,)])
 @pytest.mark.parametrize("using", [(), (1,), (0, 2)])
-def test_selection(order: int, root: int | None, only: tuple[int, ...] | None, using: tuple[int, ...]) -> None:
-    """Selecting is filtering: by root colour, by the colours allowed, by the colours that must occur."""
+def test_selection(
+    order: int, root: int | None, only: tuple[int, ...] | None, using: tuple[int, ...]
+) -> None:
+    """Selecting is filtering: by root colour, by the colours allowed, by the colours that must
+    occur.
+    """
     table = TreeTable.upto(3, order)
 
     def wanted(u: Tree) -> bool:
-        return root in (None, u.root) and (only is None or u.colours <= set(only)) and u.colours >= set(using)
+        return (
+            root in (None, u.root)
+            and (only is None or u.colours <= set(only))
+            and u.colours >= set(using)
+        )
 
     chosen = select(3, order, root=root, only=only, using=using, block_size=64)
     expected = [u for u in map(table.tree, table.ids(order)) if wanted(u)]

@@ -24,7 +24,8 @@ def test_known_counts(colours: int, counts: list[int]) -> None:
 
 
 def test_large_orders_are_exact() -> None:
-    """Counts far beyond 64 bits satisfy the functional equation: adding a root of any colour to a forest.
+    """Counts far beyond 64 bits satisfy the functional equation: adding a root of any colour to a
+    forest.
 
     Order 60 with three colours is compared with a second evaluation of the Euler transform, as the
     coefficient of a product over the trees' orders.
@@ -55,17 +56,29 @@ def test_a_linear_colour_grows_tall_trees_only() -> None:
 
 def test_no_edges_no_trees() -> None:
     """Colours that see nothing have single vertices only."""
-    assert counts_upto(Admissible.of(2, [[False, False], [False, False]]), 3) == [(1, 1), (0, 0), (0, 0)]
+    assert counts_upto(Admissible.of(2, [[False, False], [False, False]]), 3) == [
+        (1, 1),
+        (0, 0),
+        (0, 0),
+    ]
 
 
 @pytest.mark.parametrize(
     ("colours", "order", "edges", "linear"),
-    [(0, 1, None, ()), (1, 0, None, ()), (2, 1, [[True]], ()), (2, 1, [[True], [True]], ()), (2, 1, None, (2,))],
+    [
+        (0, 1, None, ()),
+        (1, 0, None, ()),
+        (2, 1, [[True]], ()),
+        (2, 1, [[True], [True]], ()),
+        (2, 1, None, (2,)),
+    ],
 )
 def test_senseless_questions_are_refused(
     colours: int, order: int, edges: list[list[bool]] | None, linear: tuple[int, ...]
 ) -> None:
-    """No colours, order 0, a matrix of the wrong shape, an unknown linear colour: each a ValueError."""
+    """No colours, order 0, a matrix of the wrong shape, an unknown linear colour: each a
+    ValueError.
+    """
     with pytest.raises(ValueError, match=r"colour|order|edges"):
         count_trees(colours, order, edges, linear)
 
@@ -89,8 +102,12 @@ def one_by_one(admissible: Admissible, order: int) -> list[tuple[int, ...]]:
 
 @given(data=st.data(), colours=st.integers(1, 3), order=st.integers(1, 30), short=st.integers(1, 7))
 @settings(max_examples=60, deadline=None)
-def test_blocks_make_no_difference(data: st.DataObject, colours: int, order: int, short: int) -> None:
-    """With any edges and linear colours, and blocks of any length, the counts are those of the formula."""
+def test_blocks_make_no_difference(
+    data: st.DataObject, colours: int, order: int, short: int
+) -> None:
+    """With any edges and linear colours, and blocks of any length, the counts are those of the
+    formula.
+    """
     row = st.lists(st.booleans(), min_size=colours, max_size=colours)
     edges = data.draw(st.lists(row, min_size=colours, max_size=colours))
     linear = data.draw(st.sets(st.integers(0, colours - 1)))
@@ -109,7 +126,8 @@ def test_counts_of_any_order_begin_alike() -> None:
 
 
 def test_thousands_of_vertices_are_soon_counted() -> None:
-    """Order 3000 has O(M(n) log n) operations, not n² on long integers; the last digits are those of the formula.
+    """Order 3000 has O(M(n) log n) operations, not n² on long integers; the last digits are those
+    of the formula.
 
     The sum over k of c(k) f(n - k) is n f(n): the defining equation, at the highest order.
     """

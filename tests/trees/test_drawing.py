@@ -43,7 +43,9 @@ def test_lying_where_there_is_no_room() -> None:
 
 @given(trees)
 def test_every_vertex_is_drawn(tree: Tree) -> None:
-    """Each form of the drawing has one dot a vertex with its colour, and stays within 80 columns."""
+    """Each form of the drawing has one dot a vertex with its colour, and stays within 80
+    columns.
+    """
     for width in (80, 1):
         lines = draw_text(tree, width=width)
         found = sorted(int(number) - 1 for number in re.findall(r"●(\d+)", "\n".join(lines)))
@@ -66,7 +68,10 @@ def test_layout_keeps_vertices_apart(tree: Tree) -> None:
 
 def test_large_trees_are_drawn() -> None:
     """The deepest and the widest tree that can be read can be drawn in every form."""
-    for u in (parse_tree("[" * MAX_DEPTH + "]" * MAX_DEPTH), Tree(0, [Tree(0)] * (MAX_VERTICES - 1))):
+    for u in (
+        parse_tree("[" * MAX_DEPTH + "]" * MAX_DEPTH),
+        Tree(0, [Tree(0)] * (MAX_VERTICES - 1)),
+    ):
         assert sum(line.count("●") for line in draw_text(u)) == u.order
         assert draw_svg_sheet([u]).count("<circle") == u.order
         assert tikz(u).count(r"\node") == u.order
@@ -116,4 +121,10 @@ def test_tikz() -> None:
     assert picture.count(r"\node") == 4
     assert picture.count(r"\draw") == 3
     assert picture.count("{") == picture.count("}")
-    assert set(re.findall(r"\\[a-z]+", picture)) == {r"\begin", r"\node", r"\draw", r"\scriptsize", r"\end"}
+    assert set(re.findall(r"\\[a-z]+", picture)) == {
+        r"\begin",
+        r"\node",
+        r"\draw",
+        r"\scriptsize",
+        r"\end",
+    }

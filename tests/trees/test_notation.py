@@ -107,7 +107,9 @@ def test_shapes_round_trip(tree: Tree) -> None:
     shape = parse_tree(format_tree(tree, colours=False))
     assert shape.colours == {0}
     assert (shape.order, shape.density) == (tree.order, tree.density)
-    assert format_tree(parse_tree(format_tree(shape)), colours=False) == format_tree(shape, colours=False)
+    assert format_tree(parse_tree(format_tree(shape)), colours=False) == format_tree(
+        shape, colours=False
+    )
 
 
 def test_latex_of_the_paper() -> None:

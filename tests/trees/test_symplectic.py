@@ -1,4 +1,6 @@
-"""Classes of equivalent order conditions of symplectic methods: counted, listed, and equivalent indeed."""
+"""Classes of equivalent order conditions of symplectic methods: counted, listed, and equivalent
+indeed.
+"""
 
 from __future__ import annotations
 
@@ -49,7 +51,9 @@ LISTED: list[tuple[Structure, int]] = [
     (Structure(((3, "p"), (3, "q"), (1, "p")), frozenset([3])), 6),
     (Structure(((0, "y"), (1, "y")), frozenset([1])), 6),
 ]
-"""Structures, named and not, with the order up to which all their classes are listed in a moment."""
+"""Structures, named and not, with the order up to which all their classes are listed in a
+moment.
+"""
 
 listed = pytest.mark.parametrize(("kind", "highest"), LISTED)
 
@@ -70,7 +74,9 @@ def random_method(kind: Kind, colours: int, seed: int) -> Tableau:
     def block(rows: int, columns: int) -> Matrix:
         return tuple(tuple(number() for _ in range(columns)) for _ in range(rows))
 
-    free = spelled_out([[block(r, k) for k in s] for r in s], [block(1, k)[0] for k in s], [None] * colours)
+    free = spelled_out(
+        [[block(r, k) for k in s] for r in s], [block(1, k)[0] for k in s], [None] * colours
+    )
     if kind == "pair":
         return pair(free)
     if kind == "self-conjugate":
@@ -87,7 +93,10 @@ def random_method(kind: Kind, colours: int, seed: int) -> Tableau:
     ("kind", "counts"),
     [
         (structure_of("pair", 1), [1, 1, 3, 8, 27, 91, 350, 1376, 5743, 24635]),
-        (structure_of("separable"), [2, 1, 2, 3, 6, 10, 22, 42, 94, 203, 470, 1082, 2602, 6270, 15482]),
+        (
+            structure_of("separable"),
+            [2, 1, 2, 3, 6, 10, 22, 42, 94, 203, 470, 1082, 2602, 6270, 15482],
+        ),
         (structure_of("self-conjugate", 1), [1, 0, 1, 1, 3, 4, 11, 19, 47]),
         (structure_of("pair", 2), [2, 4, 20, 104, 662, 4544]),
         (structure_of("self-conjugate", 2), [2, 1, 6, 14, 54, 175]),
@@ -97,14 +106,22 @@ def random_method(kind: Kind, colours: int, seed: int) -> Tableau:
     ],
 )
 def test_counts(kind: Structure, counts: list[int]) -> None:
-    """Oriented trees (OEIS A000238), bicoloured trees (A122086), and the numbers of symplectic RK, for a start."""
+    """Oriented trees (OEIS A000238), bicoloured trees (A122086), and the numbers of symplectic RK,
+    for a start.
+    """
     assert [count_classes(kind, n) for n in range(1, len(counts) + 1)] == counts
 
 
 def test_the_documented_counts() -> None:
     """The table of counts in the documentation is what is counted, with a row for each kind."""
-    text = (Path(__file__).parents[2] / "docs" / "symplectic-conditions.md").read_text(encoding="utf-8")
-    rows = [[cell.strip() for cell in line.strip("|").split("|")] for line in text.splitlines() if line[:1] == "|"]
+    text = (Path(__file__).parents[2] / "docs" / "symplectic-conditions.md").read_text(
+        encoding="utf-8"
+    )
+    rows = [
+        [cell.strip() for cell in line.strip("|").split("|")]
+        for line in text.splitlines()
+        if line[:1] == "|"
+    ]
     counts = [row for row in rows if row[0] in KINDS and len(row) == 10]
     assert {row[0] for row in counts} == set(KINDS)
     for kind in KINDS:
@@ -114,7 +131,9 @@ def test_the_documented_counts() -> None:
 
 @listed
 def test_counted_is_listed(kind: Structure, highest: int) -> None:
-    """Otter's formula and the listing by centroids agree, and the listing is sorted without repeats."""
+    """Otter's formula and the listing by centroids agree, and the listing is sorted without
+    repeats.
+    """
     for order in range(1, highest + 1):
         centred = [c.centred for c in independent_classes(kind, order)]
         assert len(centred) == count_classes(kind, order)
@@ -122,7 +141,9 @@ def test_counted_is_listed(kind: Structure, highest: int) -> None:
 
 
 def test_counts_of_high_order() -> None:
-    """Order 60, exactly: bicoloured free trees are those of one colour twice, less the symmetric ones."""
+    """Order 60, exactly: bicoloured free trees are those of one colour twice, less the symmetric
+    ones.
+    """
     separable, one = structure_of("separable"), structure_of("self-conjugate", 1)
     for n in range(2, 61):
         symmetric = 0 if n % 2 else count_trees(1, n // 2)
@@ -131,7 +152,9 @@ def test_counts_of_high_order() -> None:
 
 @listed
 def test_members_partition_the_trees(kind: Structure, highest: int) -> None:
-    """Every tree with a condition is in exactly one class, independent or superfluous, and no other tree is."""
+    """Every tree with a condition is in exactly one class, independent or superfluous, and no other
+    tree is.
+    """
     table = TreeTable.of(kind.admissible, highest)
     for order in range(1, highest + 1):
         members = [u for c in classes(kind, order) for u in c.members]
@@ -148,7 +171,9 @@ def test_class_of_a_tree(kind: Structure, highest: int) -> None:
 
 @listed
 def test_superfluous_is_said(kind: Structure, highest: int) -> None:
-    """The superfluous classes say so, the independent ones do not, and a pair has no superfluous ones."""
+    """The superfluous classes say so, the independent ones do not, and a pair has no superfluous
+    ones.
+    """
     for order in range(1, highest + 1):
         assert not any(c.is_superfluous for c in independent_classes(kind, order))
         superfluous = list(superfluous_classes(kind, order))
@@ -173,12 +198,16 @@ def test_a_class_by_hand() -> None:
 @pytest.mark.parametrize("kind", KINDS)
 @pytest.mark.parametrize("seed", range(3))
 def test_the_structure_is_that_of_the_tableau(kind: Kind, seed: int) -> None:
-    """The trees that a symplectic tableau admits are those of its structure, which its colours tell."""
+    """The trees that a symplectic tableau admits are those of its structure, which its colours
+    tell.
+    """
     tableau = random_method(kind, 2, seed)
     admissible = structure_of(kind).admissible
     edges, linear = coupling_graph(tableau)
     assert is_symplectic(tableau)
-    assert admissible.branches == tuple(tuple(m for m in range(tableau.size) if row[m]) for row in edges)
+    assert admissible.branches == tuple(
+        tuple(m for m in range(tableau.size) if row[m]) for row in edges
+    )
     assert admissible.linear == linear
     quadratic = frozenset(colour.rows for colour in tableau.colours if colour.is_linear)
     told = Structure(tuple((colour.rows, colour.part) for colour in tableau.colours), quadratic)
@@ -201,13 +230,16 @@ def test_the_structure_is_that_of_the_tableau(kind: Kind, seed: int) -> None:
 )
 @pytest.mark.parametrize("seed", range(2))
 def test_moving_the_root(kind: Kind, colours: int, order: int, seed: int) -> None:
-    """Φ(u∘v) + Φ(v∘u) = Φ(u) Φ(v), exactly, for every edge of every tree and random methods; 1/γ does the same.
+    """Φ(u∘v) + Φ(v∘u) = Φ(u) Φ(v), exactly, for every edge of every tree and random methods; 1/γ
+    does the same.
 
     A linear vector field is as good as any other here: the identity is one of the coefficients.
     """
     formal = replace(structure_of(kind, colours), quadratic=frozenset())
     method = random_method(kind, colours, seed)
-    method = replace(method, colours=tuple(replace(colour, is_linear=False) for colour in method.colours))
+    method = replace(
+        method, colours=tuple(replace(colour, is_linear=False) for colour in method.colours)
+    )
     for tree in (u for n in range(2, order + 1) for c in classes(formal, n) for u in c.members):
         for index, v in enumerate(tree.branches):
             u = Tree(tree.root, tree.branches[:index] + tree.branches[index + 1 :])
@@ -241,10 +273,14 @@ def mixed(velocities: list[int], forces: list[int]) -> Tableau:
         ("self-conjugate", 1, lambda: gark([diagonal_method("gauss", 1)], {}), 2),
     ],
 )
-def test_members_fail_together(kind: Kind, colours: int, make: Callable[[], Tableau], order: int) -> None:
-    """At the first order that fails, the residuals of a class are equal but for the sign, some are not zero.
+def test_members_fail_together(
+    kind: Kind, colours: int, make: Callable[[], Tableau], order: int
+) -> None:
+    """At the first order that fails, the residuals of a class are equal but for the sign, some are
+    not zero.
 
-    There the lower conditions hold, so nothing but the class decides; up to that order all residuals are zero.
+    There the lower conditions hold, so nothing but the class decides; up to that order all
+    residuals are zero.
     """
     method = make()
 
@@ -260,7 +296,9 @@ def test_members_fail_together(kind: Kind, colours: int, make: Callable[[], Tabl
 
 
 def test_superfluous_conditions_hold() -> None:
-    """For u∘u to hold the condition of u is enough: the midpoint rule, of order 2, has that of order 4."""
+    """For u∘u to hold the condition of u is enough: the midpoint rule, of order 2, has that of
+    order 4.
+    """
     midpoint = gark([diagonal_method("gauss", 1)], {})
     made = structure_of("self-conjugate", 1)
     (path,) = superfluous_classes(made, 4)

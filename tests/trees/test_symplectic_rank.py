@@ -1,9 +1,10 @@
-"""The count of independent conditions is proved by rank: of the Jacobian of all conditions, modulo a prime.
+"""The count of independent conditions is proved by rank: of the Jacobian of all conditions, modulo
+a prime.
 
-The Jacobian is taken with respect to the free coefficients of the method, by exact forward differentiation in
-the integers modulo p, at a random symplectic method. Its rank is at most the number of classes, by the theorem
-that members of a class are equivalent, and at most the rank over the rational functions; reaching the number of
-classes it proves that none is superfluous.
+The Jacobian is taken with respect to the free coefficients of the method, by exact forward
+differentiation in the integers modulo p, at a random symplectic method. Its rank is at most the
+number of classes, by the theorem that members of a class are equivalent, and at most the rank over
+the rational functions; reaching the number of classes it proves that none is superfluous.
 """
 
 from __future__ import annotations
@@ -94,34 +95,48 @@ def pair_method(made: Structure, stages: dict[int, int], coefficients: Coefficie
             other, part = made.colours[m]
             if part == "q":
                 A = forward[term, other] = coefficients.new(stages[term], stages[other])
-                ratio = A.transposed() * weights[other].inverse()[:, None]  # a_{ji} / b_i, for Â^{other, term}
+                ratio = (
+                    A.transposed() * weights[other].inverse()[:, None]
+                )  # a_{ji} / b_i, for Â^{other, term}
                 backward[other, term] = weights[term][None] * (1 - ratio)
     blocks = {
-        (l, m): (forward if made.colours[m][1] == "q" else backward)[made.colours[l][0], made.colours[m][0]]
+        (l, m): (forward if made.colours[m][1] == "q" else backward)[
+            made.colours[l][0], made.colours[m][0]
+        ]
         for l, below in enumerate(made.admissible.branches)
         for m in below
     }
     return Method([weights[term] for term, _ in made.colours], blocks)
 
 
-def self_conjugate_method(made: Structure, stages: dict[int, int], coefficients: Coefficients) -> Method:
-    """A random symplectic GARK method: a_{ij} = (1/2 + z_{ij}) b_j with z free but antisymmetric."""
+def self_conjugate_method(
+    made: Structure, stages: dict[int, int], coefficients: Coefficients
+) -> Method:
+    """A random symplectic GARK method: a_{ij} = (1/2 + z_{ij}) b_j with z free but
+    antisymmetric.
+    """
     ends = np.cumsum([0, *stages.values()])
     size = int(ends[-1])
     b = coefficients.new(size)
     upper = coefficients.new(size * (size - 1) // 2)
-    z = Dual(np.zeros((size, size), np.int64), np.zeros((size, size, upper.slope.shape[-1]), np.int64))
+    z = Dual(
+        np.zeros((size, size), np.int64), np.zeros((size, size, upper.slope.shape[-1]), np.int64)
+    )
     above = np.triu_indices(size, 1)
     z.value[above], z.slope[above] = upper.value, upper.slope
     half = (P + 1) // 2
     A = (1 - (half - z + z.transposed())) * b[None]
     parts = [slice(start, end) for start, end in pairwise(ends)]
-    blocks = {(l, m): A[here, there] for l, here in enumerate(parts) for m, there in enumerate(parts)}
+    blocks = {
+        (l, m): A[here, there] for l, here in enumerate(parts) for m, there in enumerate(parts)
+    }
     return Method([b[parts[term]] for term, _ in made.colours], blocks)
 
 
 def free_partitioned_method(s: int, coefficients: Coefficients) -> Method:
-    """A random partitioned method, not symplectic: q and p share stages and weights, A and Â are both free."""
+    """A random partitioned method, not symplectic: q and p share stages and weights, A and Â are
+    both free.
+    """
     b = coefficients.new(s)
     blocks = [coefficients.new(s, s), coefficients.new(s, s)]
     return Method([b, b], {(l, m): blocks[m] for l in range(2) for m in range(2)})
@@ -131,7 +146,9 @@ def jacobian(method: Method, table: TreeTable) -> NDArray[np.int64]:
     """The derivatives of all elementary weights, a row for each tree of the table."""
     vectors: list[Dual] = []
     rows = []
-    for stem, branch, root in zip(table.stem.tolist(), table.branch.tolist(), table.root.tolist(), strict=True):
+    for stem, branch, root in zip(
+        table.stem.tolist(), table.branch.tolist(), table.root.tolist(), strict=True
+    ):
         b = method.b[root]
         if branch < 0:
             vector = Dual(np.ones_like(b.value), np.zeros_like(b.slope))
@@ -174,7 +191,9 @@ CASES = [
     (Structure.pair([0], [0], quadratic=[0]), 6, (10,), 35),
     (Structure.pair([0, 1], [0, 2]), 4, (8, 8, 8), 87),  # H(q, p) + T(p) + U(q)
 ]
-"""Structures, highest orders, stages of each term (enough of them), and the number of classes up to that order."""
+"""Structures, highest orders, stages of each term (enough of them), and the number of classes up to
+that order.
+"""
 
 
 def sizes(made: Structure, stages: tuple[int, ...]) -> Iterator[int]:
@@ -191,8 +210,12 @@ def sizes(made: Structure, stages: tuple[int, ...]) -> Iterator[int]:
 
 
 @pytest.mark.parametrize(("made", "order", "stages", "classes"), CASES)
-def test_rank_is_the_number_of_classes(made: Structure, order: int, stages: tuple[int, ...], classes: int) -> None:
-    """All conditions up to an order, at a random symplectic method, have as many independent ones as classes."""
+def test_rank_is_the_number_of_classes(
+    made: Structure, order: int, stages: tuple[int, ...], classes: int
+) -> None:
+    """All conditions up to an order, at a random symplectic method, have as many independent ones
+    as classes.
+    """
     size = sum(sizes(made, stages))
     coefficients = Coefficients(order, size)
     of_terms = dict(zip(made.leaders, stages, strict=True))
@@ -204,7 +227,9 @@ def test_rank_is_the_number_of_classes(made: Structure, order: int, stages: tupl
 
 
 def test_without_symplecticity_the_rank_is_larger() -> None:
-    """Control: with A and Â both free the rank up to order 4 is that of all trees but for twin roots, not 13."""
+    """Control: with A and Â both free the rank up to order 4 is that of all trees but for twin
+    roots, not 13.
+    """
     coefficients = Coefficients(4, 7 + 2 * 49)
     jacobian_of_all = jacobian(free_partitioned_method(7, coefficients), TreeTable.upto(2, 4))
     assert rank(jacobian_of_all) == sum(count_trees(2, n) for n in range(1, 5)) // 2 == 36

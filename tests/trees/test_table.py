@@ -28,25 +28,32 @@ def brute_force(colours: int, order: int) -> frozenset[Tree]:
     found = set()
     for parts in partitions(order - 1, order - 1):
         choices = [
-            combinations_with_replacement(sorted(brute_force(colours, k), key=Tree.sort_key), parts.count(k))
+            combinations_with_replacement(
+                sorted(brute_force(colours, k), key=Tree.sort_key), parts.count(k)
+            )
             for k in sorted(set(parts))
         ]
         for groups in product(*choices):
-            found.update(Tree(root, [u for group in groups for u in group]) for root in range(colours))
+            found.update(
+                Tree(root, [u for group in groups for u in group]) for root in range(colours)
+            )
     return frozenset(found)
 
 
 def admissible(tree: Tree, edges: list[list[bool]], linear: tuple[int, ...]) -> bool:
     """Whether every parent sees its branches, and linear vertices have one branch at most."""
     return all(
-        all(edges[v.root][u.root] for u in v.branches) and not (v.root in linear and len(v.branches) > 1)
+        all(edges[v.root][u.root] for u in v.branches)
+        and not (v.root in linear and len(v.branches) > 1)
         for v in tree.vertices()
     )
 
 
 @pytest.mark.parametrize(("colours", "order"), [(1, 9), (2, 6), (3, 5), (4, 4)])
 def test_every_tree_once(colours: int, order: int) -> None:
-    """The table has exactly the trees of the brute force, in the order of Tree, with their σ, γ, ρ and root."""
+    """The table has exactly the trees of the brute force, in the order of Tree, with their σ, γ, ρ
+    and root.
+    """
     table = TreeTable.upto(colours, order)
     trees = [table.tree(i) for i in range(len(table))]
     assert trees == sorted(trees, key=Tree.sort_key)
@@ -62,16 +69,22 @@ def test_every_tree_once(colours: int, order: int) -> None:
 
 @pytest.mark.parametrize(("colours", "order"), [(1, 14), (2, 9), (3, 8), (4, 7), (5, 6)])
 def test_labelled_trees_add_up(colours: int, order: int) -> None:
-    """Σ n!/(σ γ) over the trees of order n is Nⁿ (n - 1)!, the number of increasing labelled N-trees."""
+    """Σ n!/(σ γ) over the trees of order n is Nⁿ (n - 1)!, the number of increasing labelled
+    N-trees.
+    """
     table = TreeTable.upto(colours, order)
     for n in range(1, order + 1):
         ids = table.ids(n)
-        labellings = factorial(n) // (table.sigma[ids.start : ids.stop] * table.gamma[ids.start : ids.stop])
+        labellings = factorial(n) // (
+            table.sigma[ids.start : ids.stop] * table.gamma[ids.start : ids.stop]
+        )
         assert labellings.sum() == colours**n * factorial(n - 1)
 
 
 def test_columns_say_how_a_tree_is_made() -> None:
-    """The tree of a row is its stem with the branch put on, the branch ids of a stem never decrease."""
+    """The tree of a row is its stem with the branch put on, the branch ids of a stem never
+    decrease.
+    """
     table = TreeTable.upto(2, 6)
     for i in range(2, len(table)):
         stem, branch = table.tree(int(table.stem[i])), table.tree(int(table.branch[i]))
@@ -91,14 +104,18 @@ def test_restrictions(linear: tuple[int, ...]) -> None:
 
 
 def test_nystrom_trees() -> None:
-    """Separable problems with velocities linear in the momenta: colours alternate and V carries one branch."""
+    """Separable problems with velocities linear in the momenta: colours alternate and V carries one
+    branch.
+    """
     table = TreeTable.upto(2, 9, [[False, True], [True, False]], linear=[0])
     assert [len(table.ids(n, root=1)) for n in range(1, 10)] == [1, 1, 2, 3, 6, 10, 20, 36, 72]
 
 
 @pytest.mark.parametrize("colours", [True, False])
 def test_notation_of_many_trees(colours: bool) -> None:
-    """Text made from the parents' texts is the text of the tree, in whatever order and portions it is asked."""
+    """Text made from the parents' texts is the text of the tree, in whatever order and portions it
+    is asked.
+    """
     table = TreeTable.upto(2, 7)
     some = np.arange(len(table))[::-7]
     assert table.notation(some, colours) == [format_tree(table.tree(int(i)), colours) for i in some]
@@ -108,7 +125,9 @@ def test_notation_of_many_trees(colours: bool) -> None:
 
 
 def test_exact_beyond_64_bits() -> None:
-    """A trunk of 13 linear vertices under each bush: orders up to 26, where γ does not fit into 64 bits."""
+    """A trunk of 13 linear vertices under each bush: orders up to 26, where γ does not fit into 64
+    bits.
+    """
     edges = [[True, True], [False, False]]  # colour 1 ends a branch
     table = TreeTable.upto(2, 26, edges, linear=[0])
     for i in range(len(table)):
@@ -134,7 +153,9 @@ def test_columns_are_read_only() -> None:
 
 def test_too_large_a_table_is_refused_at_once() -> None:
     """More than MAX_TREES trees are counted, not made."""
-    with pytest.raises(TableTooLarge, match=rf"more than 10\^28 trees of order up to 30 .*limit {MAX_TREES}"):
+    with pytest.raises(
+        TableTooLarge, match=rf"more than 10\^28 trees of order up to 30 .*limit {MAX_TREES}"
+    ):
         TreeTable.upto(4, 30)
     total = sum(map(sum, counts_upto(Admissible.of(4), 30)))
     assert 10**28 < total < 10**29

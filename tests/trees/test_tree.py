@@ -44,7 +44,9 @@ def test_labellings_are_counted_by_an_integer(tree: Tree) -> None:
 
 @given(trees)
 def test_vertices_carry_the_colours(tree: Tree) -> None:
-    """There are as many vertices as the order says, and γ is the product of the orders of their subtrees."""
+    """There are as many vertices as the order says, and γ is the product of the orders of their
+    subtrees.
+    """
     subtrees = list(tree.vertices())
     product = 1
     for u in subtrees:

@@ -26,19 +26,27 @@ def method(seed: int, rows: list[int], sizes: list[int]) -> tuple[Blocks, list[F
     rng = np.random.default_rng(seed)
     size_of = dict(zip(rows, sizes, strict=True))
     blocks = {
-        (space, m): rng.uniform(-1, 1, (size_of[space], sizes[m])) for space in set(rows) for m in range(len(rows))
+        (space, m): rng.uniform(-1, 1, (size_of[space], sizes[m]))
+        for space in set(rows)
+        for m in range(len(rows))
     }
     return blocks, [rng.uniform(-1, 1, size) for size in sizes]
 
 
 @given(st.integers(0, 2**32 - 1))
 def test_weights_are_the_definition(seed: int) -> None:
-    """Three colours, two of them with the same stages, rectangular blocks: every tree up to order 5."""
+    """Three colours, two of them with the same stages, rectangular blocks: every tree up to order
+    5.
+    """
     rows, sizes = [0, 1, 0], [2, 3, 2]
     blocks, b = method(seed, rows, sizes)
     table = TreeTable.upto(3, 4)
-    expected = [b[u.root] @ stages(u, rows, blocks, sizes) for u in map(table.tree, range(len(table)))]
-    np.testing.assert_allclose(elementary_weights(table, rows, blocks, b), expected, rtol=1e-12, atol=1e-13)
+    expected = [
+        b[u.root] @ stages(u, rows, blocks, sizes) for u in map(table.tree, range(len(table)))
+    ]
+    np.testing.assert_allclose(
+        elementary_weights(table, rows, blocks, b), expected, rtol=1e-12, atol=1e-13
+    )
 
 
 def test_weights_of_admissible_trees(monkeypatch: pytest.MonkeyPatch) -> None:
@@ -46,10 +54,14 @@ def test_weights_of_admissible_trees(monkeypatch: pytest.MonkeyPatch) -> None:
     edges = [[False, True], [True, True]]
     blocks, b = method(1, [0, 1], [2, 3])
     table = TreeTable.upto(2, 7, edges, linear=[0])
-    expected = [b[u.root] @ stages(u, [0, 1], blocks, [2, 3]) for u in map(table.tree, range(len(table)))]
+    expected = [
+        b[u.root] @ stages(u, [0, 1], blocks, [2, 3]) for u in map(table.tree, range(len(table)))
+    ]
     del blocks[0, 0]
     monkeypatch.setattr(module, "CHUNK", 5)
-    np.testing.assert_allclose(elementary_weights(table, [0, 1], blocks, b), expected, rtol=1e-12, atol=1e-14)
+    np.testing.assert_allclose(
+        elementary_weights(table, [0, 1], blocks, b), expected, rtol=1e-12, atol=1e-14
+    )
 
 
 def test_the_order_of_gauss_2() -> None:

@@ -1,0 +1,79 @@
+"""What became of one file: the analysis, its claims held against the truth, or its faults."""
+
+from __future__ import annotations
+
+from dataclasses import dataclass
+from typing import TYPE_CHECKING
+
+from garkcli.check.analysis import Analysis
+from garkcli.errors import Fault
+
+if TYPE_CHECKING:
+    from garkcli.order.blame import Blame
+    from garkcli.order.constants import ErrorConstants
+
+
+@dataclass(frozen=True)
+class Claim:
+    """A claim of ``expect`` held against the truth.
+
+    Attributes:
+        claim: its key in ``expect``.
+        expected: what the file says, as text.
+        found: what is true, as text.
+        holds: whether they agree.
+        line: the line of the claim in the file, from 1.
+        column: its column, from 1.
+    """
+
+    claim: str
+    expected: str
+    found: str
+    holds: bool
+    line: int
+    column: int
+
+
+@dataclass(frozen=True)
+class Outcome:
+    """One checked file.
+
+    Attributes:
+        file: its path as given, or ``<stdin>``.
+        name: the name it gives itself, or its path.
+        structure: which vector fields the problem has.
+        analysis: the truth; None where the file cannot be read as a method.
+        claims: every claim of the file.
+        faults: why it cannot be read; empty where it can.
+        text: the file as read, for showing lines of it.
+        blame: where the order falls short of a claim, what the failing conditions tell; None
+            otherwise.
+        constants: the error constants at the first failing order, where they were asked for.
+    """
+
+    file: str
+    name: str
+    structure: str = "general"
+    analysis: Analysis | None = None
+    claims: tuple[Claim, ...] = ()
+    faults: tuple[Fault, ...] = ()
+    text: str = ""
+    blame: Blame | None = None
+    constants: ErrorConstants | None = None
+
+    @property
+    def failed_claims(self) -> tuple[Claim, ...]:
+        """The claims that do not hold."""
+        return tuple(claim for claim in self.claims if not claim.holds)
+
+    @property
+    def ok(self) -> bool:
+        """Whether the file is a method and every claim holds."""
+        return self.analysis is not None and not self.failed_claims
+
+    @property
+    def exit_code(self) -> int:
+        """0 where all holds, 1 where a claim fails, 2 where the file cannot be read."""
+        if self.analysis is None:
+            return 2
+        return 1 if self.failed_claims else 0

@@ -1,0 +1,1 @@
+"""Errors over step sizes, and the order they show."""

@@ -1,0 +1,141 @@
+"""Which step sizes a convergence test takes: a ladder of halvings that begins and ends where the
+errors say.
+
+It begins where the error is a small part of the solution and slopes come near to what they will be,
+and ends when slopes and extrapolated orders have settled. Both are read from the errors alone,
+never from the predicted order: a ladder that ends where it finds what it expects would prove
+nothing.
+"""
+
+from __future__ import annotations
+
+from collections.abc import Iterator, Sequence
+from dataclasses import replace
+from itertools import count
+from typing import TypeVar
+
+from flint import arb, fmpq
+
+from garkcli.convergence.convergence import CLOSE, Row, observed_order
+from garkcli.stepping.linear import whole_steps
+
+R = TypeVar("R", bound=Row)
+ROWS = 5
+"""Step sizes of the default ladder; more only while the slopes still move."""
+MAX_ROWS = 10
+"""Most step sizes of the default ladder."""
+MAX_COARSE = 20_000
+"""Steps from which on the default ladder takes a large error for what there is to see."""
+LARGEST = 1 / 32
+"""The part of the solution that an error of the default ladder is at most."""
+_NEAR = 0.125  # how far, in parts of the order, the first slope of a ladder may be off
+_STEADY = 0.02  # change between two slopes at which they have settled
+_EXTRAPOLATED = 0.06  # change between two extrapolated orders at which they have
+_SURE = 0.005  # change between two extrapolated orders that is enough, wherever the slopes are
+_FLAT = 0.25  # how far a slope on the plateau is below the order
+_ABOVE = 300  # how many times the error of the plateau an error has to be to count
+
+
+def halvings(t_end: fmpq) -> Iterator[fmpq]:
+    """t_end/n with n doubled without end; the first step is no longer than 8, and all methods have
+    the same.
+
+    Raises:
+        UsageProblem: the time is not positive.
+
+    >>> from itertools import islice
+    >>> [str(h) for h in islice(halvings(fmpq(12)), 4)]
+    ['4', '2', '1', '1/2']
+    """
+    whole_steps(t_end, t_end)
+    n = int(t_end.ceil())
+    while n % 2 == 0 and t_end / (n // 2) <= 8:
+        n //= 2
+    for k in count():
+        yield t_end / (n * 2**k)
+
+
+def is_complete(rows: Sequence[Row], is_small: Sequence[bool]) -> bool:
+    """Whether the ladder may end with the last of ``rows``.
+
+    Args:
+        rows: all so far, from the largest step down.
+        is_small: for each whether its error is at most ``LARGEST`` of the solution.
+    """
+    if len(rows) - _first_small(is_small) >= MAX_ROWS:
+        return True
+    return len(rows) - _start(rows, is_small) >= ROWS and has_settled(rows)
+
+
+def _first_small(is_small: Sequence[bool]) -> int:
+    """Where the errors begin to stay small."""
+    return next((len(is_small) - k for k, small in enumerate(reversed(is_small)) if not small), 0)
+
+
+def _start(rows: Sequence[Row], is_small: Sequence[bool]) -> int:
+    """The first row of those with small errors and slopes near the last extrapolated order."""
+    observed, start = observed_order(rows), _first_small(is_small)
+    if observed is None:
+        return start
+    allowed = max(_NEAR * observed, _FLAT)
+    off = (
+        i
+        for i, row in enumerate(rows)
+        if row.slope is not None and abs(row.slope - observed) > allowed
+    )
+    return max(start, *off, 0)
+
+
+def has_settled(rows: Sequence[Row]) -> bool:
+    """Whether slope and extrapolated order agree and one of them is steady, or the latter is very
+    steady.
+
+    The order of a method is a whole number, so something else has not settled yet.
+    """
+    before, last = rows[-2].slope, rows[-1].slope
+    estimated, observed = observed_order(rows[:-1]), observed_order(rows)
+    if before is None or last is None or estimated is None or observed is None:
+        return False
+    if abs(observed - round(observed)) > CLOSE / 2:
+        return False
+    change = abs(observed - estimated)
+    is_steady = abs(last - before) < _STEADY or change < _EXTRAPOLATED
+    return change < _SURE or (is_steady and abs(last - observed) < CLOSE)
+
+
+def trimmed(
+    rows: Sequence[R], is_small: Sequence[bool], plateau: int = 0, may_be_off: bool = False
+) -> list[R]:
+    """The rows without those at the start that are too coarse to belong; ``ROWS`` of them stay at
+    least.
+
+    The last ``plateau`` rows stay, and have no say. With ``may_be_off`` rows with small errors
+    belong, whatever their slopes.
+    """
+    end = len(rows) - plateau
+    start = _first_small(is_small[:end]) if may_be_off else _start(rows[:end], is_small[:end])
+    kept = rows[max(0, min(start, len(rows) - ROWS)) :]
+    return [replace(row, slope=None) if i == 0 else row for i, row in enumerate(kept)]
+
+
+def plateau(rows: Sequence[Row], order: int, rounding: arb) -> int:
+    """How many rows at the end are no longer of ``order`` because of rounded coefficients.
+
+    They begin with the first flat one whose error may be that of the rounding; rows before it whose
+    error is not far above that of the flat ones are spoilt too.
+
+    Args:
+        rows: from the largest step down.
+        order: that slopes have before.
+        rounding: about the error that the rounding of the coefficients makes; 0 for exact ones.
+    """
+    limit = rounding * _ABOVE
+    flat = [i for i, row in enumerate(rows) if _is_flat(row, order) and row.error < limit]
+    if not flat:
+        return 0
+    level = min((row.error for row in rows[flat[0] :]), key=float) * _ABOVE
+    return len(rows) - next(i for i, row in enumerate(rows) if i == flat[0] or row.error < level)
+
+
+def _is_flat(row: Row, order: int) -> bool:
+    return row.slope is not None and row.slope < order - _FLAT

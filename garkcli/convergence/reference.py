@@ -1,0 +1,154 @@
+"""Solutions that errors are measured against: Gauss methods with as many digits and steps as are
+asked for.
+"""
+
+from __future__ import annotations
+
+from collections.abc import Callable, Sequence
+from dataclasses import dataclass, replace
+from functools import cache
+from math import ceil
+from typing import Any, TypeAlias
+
+from flint import arb, ctx, fmpq
+
+from garkcli.errors import UsageProblem
+from garkcli.exact.display import to_float
+from garkcli.problems.hamiltonian import Hamiltonian
+from garkcli.stepping.integrator import Scheme, scheme
+from garkcli.stepping.step import State, StepFailed
+
+Watch: TypeAlias = Callable[[str, int, int], None]
+"""Is told what is being computed, how many steps of it are done, and of how many."""
+MAX_TRIED = 10_000
+"""Steps from which on a step that fails is the fault of the problem."""
+MAX_STEPS = 1_000_000
+"""Most steps of a reference solution."""
+_CALLS = 200  # of a watch in one run
+_STAGES = 60  # beyond, a step costs more than fewer of them save
+_SPARE = 10  # digits that round-off may grow by
+_CREDIT = 1e-6
+_FAR = 0.01  # part of the solution by which runs differ that have found none
+_REFINED = 64  # times the first number of steps with which they should have
+
+
+def run(made: Scheme, h: fmpq, count: int, watch: Watch | None = None, what: str = "") -> State:
+    """The state after ``count`` steps of size ``h``; ``watch`` is told about ``what``.
+
+    Raises:
+        StepFailed: the stage equations of a step were not solved.
+    """
+    state = State(made, h)
+    each = count if watch is None else max(1, count // _CALLS)
+    while state.done < count:
+        state.advance(min(each, count - state.done))
+        if watch is not None:
+            watch(what, state.done, count)
+    return state
+
+
+@dataclass
+class Reference:
+    """The solution of a problem at one time, in the most digits that were asked for so far.
+
+    Attributes:
+        problem: in one term.
+        t_end: the time.
+        digits: the error is below 10^(−digits) times the ``magnitude`` of the solution; 0 before
+            anything was asked for.
+        y: (q, p) at ``t_end``, shape (2d,).
+        steps: that were enough for it.
+    """
+
+    problem: Hamiltonian
+    t_end: fmpq
+    digits: int = 0
+    y: tuple[arb, ...] = ()
+    steps: int = 0
+
+    def to(self, digits: int, watch: Watch | None = None) -> tuple[arb, ...]:
+        """(q, p) at ``t_end`` with an error below 10^(−digits) times the ``magnitude`` of the
+        solution.
+
+        Raises:
+            UsageProblem: the problem has no solution up to there, or one too close to a
+                singularity, or one that depends on its start so much that round-off drowns it.
+        """
+        if digits > self.digits:
+            # more digits have more stages: about as many steps are enough again
+            first = 2 * self.steps // 3 or ceil(4 * to_float(self.t_end))
+            self.y, self.steps = _solved(self.problem, self.t_end, digits, max(4, first), watch)
+            self.digits = digits
+        return self.y
+
+
+def reference(problem: Hamiltonian, t_end: fmpq) -> Reference:
+    """The solution of ``problem`` at ``t_end``: the same one for all ways to split the problem."""
+    return _kept(replace(problem.unsplit(), name="", invariants=()), t_end)
+
+
+@cache
+def _kept(problem: Hamiltonian, t_end: fmpq) -> Reference:
+    return Reference(problem, t_end)
+
+
+def _solved(
+    problem: Hamiltonian, t_end: fmpq, digits: int, steps: int, watch: Watch | None
+) -> tuple[tuple[arb, ...], int]:
+    """From ``steps`` on more and more of one Gauss method, until the last change says that the
+    error is small.
+
+    From n to m > n steps an error falls by (n/m)^2s when h is small enough, and by more than
+    (n/m)^s long before. The change bounds the larger of the two errors, so the smaller one is taken
+    to be (n/m)^s of it; but no less than ``_CREDIT``, because round-off does not fall, whatever the
+    problem makes of it.
+    """
+    from garkcli.families.registry import diagonal_method
+    from garkcli.tableau.forms import gark
+
+    stages = min(_STAGES, max(6, 2 * digits // 5))
+    method = scheme(gark([diagonal_method("gauss", stages)], {}), problem, digits + _SPARE)
+    before: list[Any] = []
+    fewer, enough = 0, max(MAX_TRIED // 2, _REFINED * steps)
+    while True:
+        if steps > MAX_STEPS:
+            raise UsageProblem(
+                f"the solution at t = {t_end} is not found to {digits} digits in {MAX_STEPS} steps",
+                "choose an earlier final time",
+            )
+        try:
+            y = run(method, t_end / steps, steps, watch, f"reference solution, {digits} digits").y
+        except StepFailed as error:
+            if steps > MAX_TRIED:
+                raise UsageProblem(
+                    f"no solution is found at t = {t_end}: steps of {error.h} fail at t = "
+                    f"{to_float((error.number - 1) * error.h):.4g}, and so do longer ones",
+                    f"choose a final time before {to_float(error.number * error.h):.4g}",
+                ) from None
+            steps, before = 4 * steps, []
+            continue
+        if not before:
+            before, fewer, steps = y, steps, ceil(1.5 * steps)
+            continue
+        with ctx.workprec(method.bits):
+            change = max((abs(a - b) for a, b in zip(y, before, strict=True)), key=float)
+            goal = arb(10) ** -digits * magnitude(y, problem)
+            ratio = arb(fewer) / steps
+            if (
+                change * max(ratio**stages, arb(_CREDIT)) <= goal
+            ):  # both are 0 where the solution rests at 0
+                return tuple(y), steps
+            if fewer > enough and change > _FAR * magnitude(y, problem):
+                raise UsageProblem(
+                    f"no solution is found at t = {t_end}: {fewer} and {steps} steps end far from each other",
+                    "choose an earlier final time: it comes near a singularity, or depends on its start too much",
+                )
+            excess = float((change * ratio ** (2 * stages) / goal).mid())
+        before, fewer = y, steps
+        factor = 1.1 * excess ** (1 / stages) if excess > 0 else 1.3
+        steps = ceil(steps * min(max(factor, 1.3), 8))
+
+
+def magnitude(y: Sequence[Any], problem: Hamiltonian) -> arb:
+    """How large the numbers of a solution are that starts as ``problem`` does and ends at ``y``."""
+    return sum((abs(arb(x)) for x in (*y, *problem.initial)), arb(0))

@@ -1,0 +1,1 @@
+"""Energy and other invariants over a long time."""

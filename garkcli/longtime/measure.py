@@ -1,0 +1,86 @@
+"""The errors of the conserved quantities along a trajectory."""
+
+from __future__ import annotations
+
+from collections.abc import Callable, Iterable, Sequence
+from math import ceil, inf
+from typing import TYPE_CHECKING, Any, TypeAlias
+
+from flint import arb, ctx
+
+from garkcli.errors import UsageProblem
+from garkcli.exact.display import to_float
+from garkcli.problems.hamiltonian import FLOAT_DIGITS, GROUPS, Hamiltonian, energy_function, symbols
+from garkcli.problems.straightline import function
+
+if TYPE_CHECKING:
+    import numpy as np
+    from numpy.typing import NDArray
+
+    Floats: TypeAlias = NDArray[np.float64]
+
+
+class Measure:
+    """The energy and the other invariants of states, against those of the start.
+
+    Args:
+        problem: with at least one invariant, its energy.
+        digits: that the states have.
+
+    Attributes:
+        names: "energy", then those of the problem.
+        initial: the values at the start.
+        scale: the sum of the sizes of the terms of H at the start; 1 where all are zero.
+
+    Errors:
+        UsageProblem: one of them has no value at the start.
+    """
+
+    def __init__(self, problem: Hamiltonian, digits: int) -> None:
+        self.names = ("energy", *(name for name, _ in problem.invariants))
+        self._bits = 0 if digits <= FLOAT_DIGITS else ceil(3.33 * digits) + 48
+        self._function: Callable[..., list[Any]] = self._precisely(
+            lambda: energy_function(problem, digits)
+        )
+        number = arb if self._bits else to_float
+        start: list[Any] = self._precisely(lambda: [number(x) for x in problem.initial])
+        arguments = tuple(x for g in GROUPS for x in symbols(problem.variables, g))
+        try:
+            self._first = self._precisely(lambda: self._function(*start))
+            terms = function(tuple(problem.terms), arguments, False)(
+                *map(to_float, problem.initial)
+            )
+        except (ArithmeticError, ValueError):
+            raise UsageProblem(
+                f"the energy or an invariant of {problem.name} has no value at the start",
+                "give other initial values",
+            ) from None
+        self.initial = tuple(float(x) for x in self._first)
+        self.scale = sum(map(abs, terms)) or 1.0
+
+    def errors(self, states: Iterable[Sequence[Any]]) -> Floats:
+        """I(y) − I(y_0) of each state y, shape (states, invariants); infinite where y is outside
+        the domain.
+        """
+        import numpy as np
+
+        if not self._bits:
+            first: Floats = np.array(self._first)
+            return np.array([self._values_of(y) for y in states], dtype=np.float64) - first
+        with ctx.workprec(self._bits):
+            return np.array([[float(x) for x in self._differences(y)] for y in states])
+
+    def _differences(self, y: Sequence[Any]) -> list[Any]:
+        return [x - first for x, first in zip(self._values_of(y), self._first, strict=True)]
+
+    def _values_of(self, y: Sequence[Any]) -> list[Any]:
+        try:
+            return self._function(*y)
+        except (ArithmeticError, ValueError):
+            return [inf] * len(self.names)
+
+    def _precisely(self, compute: Callable[[], Any]) -> Any:
+        if not self._bits:
+            return compute()
+        with ctx.workprec(self._bits):
+            return compute()

@@ -1,0 +1,150 @@
+"""What is kept of a long trajectory while it goes by."""
+
+from __future__ import annotations
+
+from collections.abc import Iterator, Sequence
+from itertools import islice
+from math import ceil
+from typing import TYPE_CHECKING, Any, TypeAlias
+
+from garkcli.longtime.energy import BLOW_UP, extremes
+from garkcli.longtime.measure import Measure
+from garkcli.longtime.trend import Trends
+from garkcli.stepping.step import StepFailed
+
+if TYPE_CHECKING:
+    import numpy as np
+    from numpy.typing import NDArray
+
+    Floats: TypeAlias = NDArray[np.float64]
+
+COMPARED = 128
+"""How many steps the first errors are kept of, all of them."""
+# how many times the energy the energy error is when the failure of a step is called a blow-up
+_BLOWN = 1000
+_CHUNK = 8192  # steps measured at a time
+_MOVES = 2.0**-40  # least part of its size that a coordinate moves in a step to have a direction
+_PARTS = 4  # equal parts of a run at whose ends the state is kept
+
+
+class Record:
+    """Sums and extremes of all errors, and a few of the errors and states themselves.
+
+    Args:
+        measure: of the invariants.
+        count: how many steps there will be.
+        points: about how many errors to keep.
+
+    Attributes:
+        trends: of the errors.
+        largest: the largest |error| of each invariant.
+        first: the errors of the start and of the first ``COMPARED`` steps, shape (steps,
+            invariants).
+        states: those at the start and after each quarter of the steps, by the number of the step.
+        done: the last step measured.
+        blew_up: whether the steps ended there because the energy error has passed all bounds.
+    """
+
+    def __init__(self, measure: Measure, count: int, points: int) -> None:
+        import numpy as np
+
+        signals = len(measure.names)
+        self.measure, self.count = measure, count
+        self.trends = Trends(count, signals)
+        self.largest: Floats = np.zeros(signals)
+        self.first: Floats = np.zeros((0, signals))
+        self.states: dict[int, tuple[Any, ...]] = {}
+        self.done = -1
+        self.blew_up = False
+        self._span = (
+            1 if count < points else ceil((count + 1) / max((points - 2) // (2 * signals), 1))
+        )
+        self._wanted = {count * part // _PARTS for part in range(_PARTS + 1)}
+        self._numbers: list[int] = []
+        self._errors: list[Floats] = []
+        self._last: Floats = np.zeros((0, 0))
+        self._turned: NDArray[np.int64] = np.zeros(1, dtype=np.int64)
+
+    @property
+    def kept_numbers(self) -> NDArray[np.int64]:
+        """The steps whose errors are kept: where one is extreme in a span of equal length, and both
+        ends.
+        """
+        import numpy as np
+
+        return np.array(self._numbers)
+
+    @property
+    def kept_errors(self) -> Floats:
+        """Their errors, shape (steps, invariants)."""
+        import numpy as np
+
+        return np.concatenate(self._errors)
+
+    @property
+    def turns(self) -> int:
+        """How often the coordinate that oscillates fastest has turned back."""
+        return int(self._turned.max())
+
+    def take(self, path: Iterator[list[Any]]) -> None:
+        """Measure all states of ``path``, or those before a blow-up.
+
+        Raises:
+            StepFailed: a step has failed, and that was not the end of a blow-up.
+        """
+        chunk = self._span * max(1, _CHUNK // self._span)
+        while self.done < self.count and not self.blew_up:
+            states: list[list[Any]] = []
+            try:
+                for y in islice(path, chunk):
+                    states.append(y)  # noqa: PERF402 -- what comes before a failure is wanted
+            except StepFailed:
+                self._add(states)
+                self.blew_up = self.blew_up or bool(self.largest[0] > _BLOWN * self.measure.scale)
+                if not self.blew_up:
+                    raise
+                return
+            self._add(states)
+
+    def _add(self, states: Sequence[list[Any]]) -> None:
+        import numpy as np
+
+        if not states:
+            return
+        errors, start = self.measure.errors(states), self.done + 1
+        outside = np.flatnonzero(~(np.abs(errors) <= BLOW_UP * self.measure.scale).all(axis=1))
+        if outside.size:
+            self.blew_up = True
+            errors = errors[: outside[0]]
+        if not len(errors):
+            return
+        if start == 0:
+            self.first = errors[: COMPARED + 1].copy()
+        self.trends.add(start, errors)
+        np.maximum(self.largest, np.abs(errors).max(axis=0), out=self.largest)
+        self.done += len(errors)
+        chosen = self._chosen(errors, start)
+        self._numbers += [start + i for i in chosen]
+        self._errors.append(errors[chosen])
+        for number in self._wanted:
+            if start <= number <= self.done:
+                self.states[number] = tuple(states[number - start])
+        self._count_turns(np.array(states[: len(errors)], dtype=np.float64))
+
+    def _chosen(self, errors: Floats, start: int) -> list[int]:
+        if self._span == 1:
+            return list(range(len(errors)))
+        ends = {number - start for number in (0, self.count) if start <= number <= self.done}
+        spans = -(-len(errors) // self._span)
+        found = (extremes(errors[:, k], 2 * spans).tolist() for k in range(errors.shape[1]))
+        return sorted(ends.union(*found))
+
+    def _count_turns(self, states: Floats) -> None:
+        import numpy as np
+
+        if self._last.size:
+            states = np.concatenate([self._last, states])
+        self._last = states[-2:]
+        moves = np.diff(states, axis=0)
+        directions = np.sign(moves) * (np.abs(moves) > _MOVES * np.abs(states[1:]))
+        self._turned = self._turned + (directions[1:] * directions[:-1] < 0).sum(axis=0)

@@ -1,0 +1,154 @@
+"""How symplectic a step is: MᵀJM − J for the Jacobian M of one step, J = (0 I; −I 0).
+
+M is found by central differences of steps with so many digits that neither truncation nor rounding
+comes near the round-off of floats; how good it is shows in the change when the perturbation is
+doubled. The step of the oscillator is linear, and there RᵀJR − J = (det R − 1) J exactly, see
+``garkcli.longtime.stability``.
+"""
+
+from __future__ import annotations
+
+from collections.abc import Sequence
+from dataclasses import dataclass
+from typing import Any, TypeAlias
+
+from flint import arb, ctx, fmpq
+
+from garkcli.longtime.courses import State
+from garkcli.order.defects import is_symplectic_within
+from garkcli.problems.hamiltonian import FLOAT_DIGITS, Hamiltonian
+from garkcli.stepping.dependency import fields_of, visible
+from garkcli.stepping.integrator import Scheme, scheme
+from garkcli.stepping.matching import matched
+from garkcli.stepping.step import final
+from garkcli.tableau.conjugate import is_symplectic
+from garkcli.tableau.tableau import Tableau
+
+Jacobian: TypeAlias = list[list[Any]]
+"""∂y₁/∂y₀ by rows, midpoints of balls, shape (2d, 2d)."""
+DIGITS = 90
+"""Digits of the steps that are differentiated."""
+_DECADES = 30  # the perturbation is 10^-30, so that errors are about 10^-60
+_SAFETY = 8  # the change when the perturbation is doubled is three errors; M occurs twice
+
+
+@dataclass(frozen=True)
+class Defect:
+    """How far a step from one state is from being symplectic.
+
+    Attributes:
+        time: of the state.
+        size: the largest entry of MᵀJM − J, in absolute value.
+        error: what ``size`` is good to; a symplectic step has ``size <= error``.
+    """
+
+    time: fmpq
+    size: float
+    error: float
+
+    @property
+    def is_seen(self) -> bool:
+        """Whether the step is certainly not symplectic there."""
+        return self.size > self.error
+
+
+@dataclass(frozen=True)
+class Symplecticity:
+    """Whether the steps of a method on a problem are symplectic.
+
+    Attributes:
+        is_proved: whether they are by the coefficients, see the function of this name.
+        defects: those measured; none where it was not asked for.
+    """
+
+    is_proved: bool
+    defects: tuple[Defect, ...] = ()
+
+
+def defects(
+    tableau: Tableau, problem: Hamiltonian, step: fmpq, states: Sequence[State]
+) -> tuple[Defect, ...]:
+    """Measure the steps from some states.
+
+    Args:
+        tableau: of any structure.
+        problem: in as many terms as the tableau is for, or in one that has a natural split.
+        step: h.
+        states: times, and (q, p) then, as ``LongRun.states`` has them.
+
+    Raises:
+        StepFailed: the stage equations of one were not solved.
+    """
+    method = scheme(tableau, problem, max(DIGITS, FLOAT_DIGITS + 1))
+    return tuple(_defect(method, step, time, [_exactly(x) for x in y]) for time, y in states)
+
+
+def _exactly(x: Any) -> fmpq | arb:
+    """A float as the rational number it is."""
+    return fmpq(*x.as_integer_ratio()) if isinstance(x, float) else x
+
+
+def _defect(method: Scheme, step: fmpq, time: fmpq, y: Sequence[Any]) -> Defect:
+    delta = fmpq(1, 10**_DECADES)
+    with ctx.workprec(method.bits):
+        M, coarse = _jacobian(method, step, y, delta), _jacobian(method, step, y, 2 * delta)
+        change = max(
+            abs(a - b) for r, s in zip(M, coarse, strict=True) for a, b in zip(r, s, strict=True)
+        )
+        largest = max(abs(a) for row in M for a in row)
+        size = sum((abs(arb(x)) for x in y), arb(1))
+        solved = arb(10) ** (_DECADES - method.digits) * size
+        error = _SAFETY * len(M) * largest * (change + solved)
+        return Defect(time, float(_deviation(M)), float(error))
+
+
+def _jacobian(method: Scheme, step: fmpq, y: Sequence[Any], delta: fmpq) -> Jacobian:
+    columns = []
+    for i in range(len(y)):
+        after, before = (
+            final(
+                method,
+                step,
+                1,
+                [arb(x) + sign * arb(delta) if k == i else x for k, x in enumerate(y)],
+            )
+            for sign in (1, -1)
+        )
+        columns.append([((a - b) / (2 * delta)).mid() for a, b in zip(after, before, strict=True)])
+    return [list(row) for row in zip(*columns, strict=True)]
+
+
+def _deviation(M: Jacobian) -> arb:
+    """The largest entry of MᵀJM − J."""
+    d = len(M) // 2
+    largest = arb(0)
+    for i in range(2 * d):
+        for j in range(i):
+            form = sum((M[k][i] * M[k + d][j] - M[k + d][i] * M[k][j] for k in range(d)), arb(0))
+            largest = largest.max(abs(form + (i == j + d)))
+    return largest.mid()
+
+
+def holds(tableau: Tableau, tolerance: fmpq | None = None) -> bool:
+    """Whether b_i b_j = b_i a_ij + b_j a_ji throughout, exactly or within a tolerance: all steps
+    are symplectic.
+    """
+    return is_symplectic(tableau) if tolerance is None else is_symplectic_within(tableau, tolerance)
+
+
+def is_proved(tableau: Tableau, problem: Hamiltonian, tolerance: fmpq | None = None) -> bool:
+    """Whether the steps of ``tableau`` on ``problem``, as ``defects`` takes them, are symplectic by
+    coefficients.
+
+    Of a problem whose terms depend on positions or on momenta alone, only the blocks that it can
+    see count.
+    """
+    if holds(tableau, tolerance):
+        return True
+    tableau, problem = matched(tableau, problem)
+    fields = fields_of(tableau, problem)
+    drives: dict[int, set[str]] = {}
+    for l, group in fields:
+        drives.setdefault(tableau.colours[l].term, set()).add(group)
+    is_separable = all(len(groups) == 1 for groups in drives.values())
+    return is_separable and holds(visible(tableau, fields), tolerance)

@@ -1,0 +1,246 @@
+"""The figures of the convergence test, and how figures become files.
+
+Everything is told apart by marks and dashes as well as by colour, so that the figures can be
+printed in grey.
+"""
+
+from __future__ import annotations
+
+import os
+import tempfile
+import warnings
+from collections.abc import Mapping, Sequence
+from math import floor
+from pathlib import Path
+from typing import Any
+
+from matplotlib import rc_context
+from matplotlib.axes import Axes
+from matplotlib.figure import Figure
+from matplotlib.ticker import FuncFormatter, MaxNLocator
+
+from garkcli.errors import UsageProblem
+from garkcli.plots.slopes import Curve, Line, place_line
+from garkcli.report.asciiplot import log10
+from garkcli.report.comparison import curve
+from garkcli.report.convergence_data import Result, problem_name
+
+SUFFIXES = (".png", ".svg", ".pdf")
+"""The kinds of file that figures can be saved as."""
+_BLUE, _RED = "#1f4e9e", "#c0392b"  # of clearly different lightness in grey
+_STYLES: Sequence[Mapping[str, Any]] = (
+    {"marker": "o", "linestyle": "-", "color": "black"},
+    {"marker": "s", "linestyle": "--", "color": "#c0392b", "markerfacecolor": "white"},
+    {"marker": "^", "linestyle": "-.", "color": "#1f4e9e"},
+    {"marker": "D", "linestyle": ":", "color": "#e08214", "markerfacecolor": "white"},
+    {"marker": "v", "linestyle": (0, (5, 1, 1, 1, 1, 1)), "color": "#4d8f4d"},
+    {"marker": "X", "linestyle": (0, (8, 2)), "color": "0.55"},
+    {"marker": "P", "linestyle": (0, (1, 3)), "color": "#7b3f9e", "markerfacecolor": "white"},
+    {"marker": "*", "linestyle": (0, (3, 1, 3, 3)), "color": "#2aa0a8"},
+)
+_THIN: Mapping[str, Any] = {"color": "0.3", "linewidth": 0.8, "zorder": 1.5}  # below all curves
+_AXES = {
+    "h": "step size h",
+    "evaluations": "evaluations of vector fields",
+    "seconds": "seconds of processor time",
+}
+_LONGEST = 72  # characters of a name in a legend
+_FLOATS = 290  # decades: beyond, logarithms are drawn on a linear axis
+
+
+def convergence_figure(result: Result) -> Figure:
+    """Error and energy error against h, log–log, with a line whose slope is the visible order."""
+    points = [(log10(x), log10(error)) for x, error in curve(result, "h")]
+    kept = [(log10(row.h), log10(row.energy_error)) for row in result.rows if row.energy_error > 0]
+    curves = []
+    if points:
+        h, error = [x for x, _ in points], [y for _, y in points]
+        curves.append(Curve(h, error, "error", {"marker": "o", "color": _BLUE, "linewidth": 1.6}))
+    if kept:
+        style = {"marker": "s", "color": "0.45", "linewidth": 1.0, "markerfacecolor": "white"}
+        curves.append(Curve([x for x, _ in kept], [y for _, y in kept], "energy error", style))
+    if points:
+        line = place_line(curves[:1], result.visible_order, curves, is_whole=True)
+        label = f"reference, slope {result.visible_order}"
+        curves.append(
+            Curve(line.xs, line.ys, label, {"color": _RED, "linestyle": "--", "linewidth": 1.4})
+        )
+    observed = "none" if result.observed_order is None else f"{result.observed_order:.2f}"
+    title = f"{_title(result)}: observed order {observed}"
+    figure = _log_log(curves, [], title, "step size h", 4.8)
+    if curves:
+        figure.axes[0].legend(frameon=False)
+    return figure
+
+
+def comparison_figure(named: Sequence[tuple[str, Result]], against: str = "h") -> Figure:
+    """Errors of several methods, log–log, with a line for each visible order.
+
+    Args:
+        named: names and results of methods, at least one.
+        against: h, evaluations or seconds; the latter two need rows with costs.
+    """
+    curves: list[Curve] = []
+    of_order: dict[int, list[Curve]] = {}
+    for k, (name, result) in enumerate(named):
+        points = [(log10(x), log10(error)) for x, error in curve(result, against)]
+        if not points:
+            continue
+        xs, ys = [x for x, _ in points], [y for _, y in points]
+        curves.append(Curve(xs, ys, _shortened(name), _style(k)))
+        if result.visible_order > 0:
+            of_order.setdefault(result.visible_order, []).append(curves[-1])
+    lines = [
+        place_line(x, order if against == "h" else -order, curves) for order, x in of_order.items()
+    ]
+    size = 4.6 + 0.23 * len(curves)
+    figure = _log_log(curves, lines, _title(named[0][1]), _AXES[against], size)
+    drawn = figure.axes[0].get_lines()[: len(curves)]
+    # below the axes, where no curve can be
+    legend = figure.legend(
+        drawn, ["method"] * len(drawn), loc="outside lower left", frameon=False, handlelength=3.5
+    )
+    for text, x in zip(
+        legend.get_texts(), curves, strict=True
+    ):  # names are no formulas, and may begin with _
+        text.set_parse_math(False)
+        text.set_text(x.label)
+    return figure
+
+
+def _title(result: Result) -> str:
+    name = problem_name(result)
+    return f"{name[:1].upper()}{name[1:]} to t = {result.t_end}"
+
+
+def _style(k: int) -> dict[str, Any]:
+    """Of the k-th curve: marks and dashes are combined anew once all have been used."""
+    count = len(_STYLES)
+    dashes = _STYLES[(k + k // count) % count]["linestyle"]
+    return {**_STYLES[k % count], "linestyle": dashes, "linewidth": 1.4, "markersize": 5.5}
+
+
+def _log_log(
+    curves: Sequence[Curve], lines: Sequence[Line], title: str, label: str, size: float
+) -> Figure:
+    """A figure of the curves; where they leave the range of floats, of their logarithms.
+
+    Args:
+        curves: with an entry in the legend each.
+        lines: thin, below the curves, with their label beside their middle.
+        title: of the figure.
+        label: of the horizontal axis.
+        size: inches from top to bottom.
+    """
+    figure = Figure(figsize=(6.4, size), layout="constrained")
+    axes = figure.add_subplot()
+    drawn: list[Curve | Line] = [*curves, *lines]
+    decades = [abs(z) for x in drawn for z in (*x.xs, *x.ys)]
+    has_floats = max(decades, default=0) < _FLOATS
+
+    def place(z: float) -> float:
+        return 10**z if has_floats else z
+
+    for x in drawn:
+        draw = axes.loglog if has_floats else axes.plot
+        style = _THIN if isinstance(x, Line) else x.style
+        draw([place(z) for z in x.xs], [place(z) for z in x.ys], label=x.label, **style)
+    for line in lines:
+        middle = place(sum(line.xs) / 2), place(sum(line.ys) / 2)
+        axes.annotate(
+            line.label,
+            middle,
+            (3 if line.is_right else -3, -3 if line.is_below else 3),
+            textcoords="offset points",
+            ha="left" if line.is_right else "right",
+            va="top" if line.is_below else "bottom",
+            zorder=1.6,
+            fontsize=9,
+            color="0.3",
+            bbox={"facecolor": "white", "edgecolor": "none", "pad": 0.6, "alpha": 0.8},
+        )
+    if not has_floats:
+        for axis in (axes.xaxis, axes.yaxis):
+            axis.set_major_formatter(FuncFormatter(lambda x, _: f"$10^{{{x:g}}}$"))
+            axis.set_major_locator(MaxNLocator(8))
+    elif curves:
+        _label_decades(axes, [z for curve in curves for z in curve.xs])
+    axes.set_title(title, fontsize=11, parse_math=False)
+    axes.set_xlabel(label)
+    axes.set_ylabel("error")
+    axes.grid(True, which="major", color="0.85", linewidth=0.6)
+    return figure
+
+
+def _label_decades(axes: Axes, decades: Sequence[float]) -> None:
+    """Numbers below a logarithmic axis, between the powers of ten too: as many as there is space
+    for.
+    """
+    span = max(decades) - min(decades)
+    digits = (2, 3, 5, 7) if span < 1 else (2, 5) if span < 2 else ()  # () leaves the powers alone
+
+    def text(x: float, _: object) -> str:
+        power = floor(log10(x) + 1e-9)
+        digit = round(x / 10.0**power)
+        if not digits or digit not in (1, *digits):
+            return ""
+        if -3 <= power <= 3:
+            return f"{x:g}"
+        return f"$10^{{{power}}}$" if digit == 1 else f"${digit}\\times10^{{{power}}}$"
+
+    if digits:
+        axes.xaxis.set_major_formatter(FuncFormatter(text))
+    axes.xaxis.set_minor_formatter(FuncFormatter(text))
+
+
+def _shortened(name: str) -> str:
+    return name if len(name) <= _LONGEST else f"{name[: _LONGEST - 1]}…"
+
+
+def check_suffix(path: Path) -> None:
+    """Refuse a file name that ``save`` has no format or no folder for, before the work is done.
+
+    Raises:
+        UsageProblem: the suffix is none of ``SUFFIXES``, or there is no such folder.
+    """
+    if path.suffix.lower() not in SUFFIXES:
+        kind = f"of kind {path.suffix!r}" if path.suffix else "without a suffix"
+        raise UsageProblem(
+            f"no figure can be saved to {path.name!r}, {kind}", f"end it in {', '.join(SUFFIXES)}"
+        )
+    if not path.parent.is_dir():
+        raise UsageProblem(f"cannot write {path}: there is no such folder", "choose another place")
+
+
+def save(figure: Figure, path: Path) -> None:
+    """Write ``figure`` in the format of the suffix of ``path``: whole or not at all.
+
+    Raises:
+        UsageProblem: the suffix is none of ``SUFFIXES``.
+        OSError: the file cannot be written.
+    """
+    check_suffix(path)
+    kind = path.suffix.lower().removeprefix(".")
+    handle, name = tempfile.mkstemp(dir=path.parent, prefix=f".{path.stem}-", suffix=path.suffix)
+    try:
+        # no date, and no names drawn by lot: the same result gives the same file
+        with (
+            os.fdopen(handle, "wb") as file,
+            rc_context({"svg.hashsalt": "gark"}),
+            warnings.catch_warnings(),
+        ):
+            warnings.filterwarnings(
+                "ignore", "Glyph .* missing"
+            )  # of a name in letters that the font has not
+            figure.savefig(file, format=kind, dpi=150, metadata=_undated(kind))
+        umask = os.umask(0)
+        os.umask(umask)
+        os.chmod(name, 0o666 & ~umask)  # mkstemp makes it private; a figure is an ordinary file
+        os.replace(name, path)
+    except BaseException:
+        Path(name).unlink(missing_ok=True)
+        raise
+
+
+def _undated(kind: str) -> dict[str, None]:
+    return {"svg": {"Date": None}, "pdf": {"CreationDate": None}}.get(kind, {})

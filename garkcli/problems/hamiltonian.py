@@ -1,0 +1,199 @@
+"""A split Hamiltonian H = Σ_l H^{l}(q, p), differentiated by sympy and made into functions of
+numbers.
+
+The vector fields are V^{l} = ∂H^{l}/∂p and F^{l} = −∂H^{l}/∂q. The expressions are sympy objects
+built by ``garkcli.problems.builtin``; no text is ever evaluated. sympy is imported when the first
+field is derived.
+"""
+
+from __future__ import annotations
+
+from collections.abc import Callable
+from dataclasses import dataclass
+from functools import cache
+from random import Random
+from typing import Any, Literal, TypeAlias
+
+from flint import arb, ctx, fmpq
+
+from garkcli.problems.straightline import function
+
+Group: TypeAlias = Literal["q", "p"]
+"""Positions or momenta."""
+GROUPS: tuple[Group, Group] = ("q", "p")
+FLOAT_DIGITS = 15
+"""Up to so many digits numbers are floats; beyond, they are the midpoints of balls."""
+
+
+@dataclass(frozen=True)
+class Hamiltonian:
+    """H = Σ_l H^{l}(q, p) with its initial values, in units of its own.
+
+    Attributes:
+        name: what the command line calls it.
+        variables: d names of positions; the momentum of ``x`` is ``px``.
+        terms: H^{l}, sympy expressions in ``symbols``.
+        initial: q(0), then p(0), shape (2d,).
+        t_end: the default final time of a convergence test, in units of time.
+        invariants: first integrals besides H: a name and an expression each.
+        is_generic: whether it is made to see every tree, so that no order above that of the method
+            is to be seen.
+    """
+
+    name: str
+    variables: tuple[str, ...]
+    terms: tuple[Any, ...]
+    initial: tuple[fmpq, ...]
+    t_end: fmpq
+    invariants: tuple[tuple[str, Any], ...] = ()
+    is_generic: bool = False
+
+    @property
+    def dimension(self) -> int:
+        """The number d of degrees of freedom."""
+        return len(self.variables)
+
+    @property
+    def energy(self) -> Any:
+        """H, a sympy expression."""
+        return sum(self.terms)
+
+    def unsplit(self) -> Hamiltonian:
+        """The same problem in one term."""
+        return Hamiltonian(
+            self.name, self.variables, (self.energy,), self.initial, self.t_end, self.invariants
+        )
+
+
+@cache
+def symbols(variables: tuple[str, ...], group: Group) -> tuple[Any, ...]:
+    """The sympy symbols of the positions or of their momenta, shape (d,)."""
+    import sympy
+
+    return tuple(sympy.Symbol(x if group == "q" else f"p{x}", real=True) for x in variables)
+
+
+@dataclass(frozen=True)
+class VectorField:
+    """V^{l} or F^{l}, with its Jacobians.
+
+    Attributes:
+        components: d sympy expressions.
+        variables: of the problem.
+        depends: the groups that occur in it, in the order q, p: its functions take the values of
+            these only.
+    """
+
+    components: tuple[Any, ...]
+    variables: tuple[str, ...]
+    depends: tuple[Group, ...]
+
+    @property
+    def is_zero(self) -> bool:
+        """Whether there is no such field."""
+        return not any(self.components)
+
+    @property
+    def is_linear(self) -> bool:
+        """Whether all second derivatives vanish."""
+        return all(_is_constant(x) for g in self.depends for row in self.derivative(g) for x in row)
+
+    @property
+    def degree(self) -> int | None:
+        """A bound of the degree of all components, before terms cancel; None when they are not
+        polynomials.
+        """
+        found = [_degree(f) for f in self.components]
+        return None if None in found else max(x for x in found if x is not None)
+
+    def derivative(self, group: Group) -> tuple[tuple[Any, ...], ...]:
+        """The Jacobian by positions or by momenta, sympy expressions, shape (d, d)."""
+        return _derivative(self, group)
+
+    @property
+    def arguments(self) -> tuple[Any, ...]:
+        """The symbols of what it depends on, in the order q, p."""
+        return tuple(x for g in self.depends for x in symbols(self.variables, g))
+
+
+@cache
+def _derivative(field: VectorField, group: Group) -> tuple[tuple[Any, ...], ...]:
+    by = symbols(field.variables, group)
+    return tuple(tuple(f.diff(x) for x in by) for f in field.components)
+
+
+@cache
+def vector_field(problem: Hamiltonian, term: int, drives: Group) -> VectorField:
+    """V^{l} for ``drives`` q, F^{l} for p."""
+    import sympy
+
+    H, sign = problem.terms[term], 1 if drives == "q" else -1
+    by = symbols(problem.variables, "p" if drives == "q" else "q")
+    components = tuple(sign * sympy.diff(H, x) for x in by)
+    free = set().union(*(f.free_symbols for f in components))
+    depends = tuple(g for g in GROUPS if free & set(symbols(problem.variables, g)))
+    return VectorField(components, problem.variables, depends)
+
+
+def energy_function(problem: Hamiltonian, digits: int) -> Callable[..., list[Any]]:
+    """H and then the invariants as a function of q and p, all 2d numbers: floats, or balls for more
+    ``digits``.
+
+    For balls the rational constants are enclosed once, at the precision in force now.
+    """
+    arguments = tuple(x for g in GROUPS for x in symbols(problem.variables, g))
+    return function(
+        (problem.energy, *(x for _, x in problem.invariants)), arguments, digits > FLOAT_DIGITS
+    )
+
+
+def _is_constant(x: Any) -> bool:
+    """Whether an expression depends on nothing, be it written with symbols that cancel."""
+    import sympy
+
+    names = tuple(sorted(x.free_symbols, key=str))
+    if not names:
+        return True
+    if _differs(x, names):
+        return False
+    if _degree(x) is not None:
+        return not sympy.expand(x).free_symbols
+    # what has one value wherever it was tried is left to sympy, unless that would take long
+    return bool(x.count_ops() < _SIMPLE) and not sympy.simplify(x).free_symbols
+
+
+_SIMPLE = 200  # operations
+
+
+def _differs(x: Any, names: tuple[Any, ...]) -> bool:
+    """Whether two values of an expression lie in balls that do not overlap, which proves that it is
+    no constant.
+    """
+    draw = Random(1)
+    found: list[arb] = []
+    with ctx.workprec(200):
+        value = function((x,), names, True)
+        for _ in range(8):
+            try:
+                (ball,) = value(*(arb(fmpq(draw.randint(1, 999), 1000)) for _ in names))
+            except (ArithmeticError, ValueError):
+                continue
+            found.append(arb(ball))
+    finite = [x for x in found if x.is_finite()]
+    return any(not x.overlaps(finite[0]) for x in finite[1:])
+
+
+def _degree(x: Any) -> int | None:
+    """The degree of a polynomial as it is written; None for another expression."""
+    if not x.free_symbols:
+        return 0
+    if x.is_Symbol:
+        return 1
+    if x.is_Pow and x.exp.is_Integer and x.exp.is_positive:
+        base = _degree(x.base)
+        return None if base is None else base * int(x.exp)
+    if not (x.is_Add or x.is_Mul):
+        return None
+    parts = [_degree(y) for y in x.args]
+    known = [y for y in parts if y is not None]
+    return None if len(known) < len(parts) else max(known) if x.is_Add else sum(known)

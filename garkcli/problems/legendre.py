@@ -1,0 +1,73 @@
+"""The Legendre transform of a Lagrangian L(q, q̇), in closed form: H(q, p) = p·v − L(q, v) with p =
+∂L/∂q̇(q, v).
+
+In the paper each term of a split Lagrangian has a velocity of its own: the stages Q̇^{l} belong to
+P^{l} = ∂L^{l}/∂q̇(Q^{l}, Q̇^{l}), and q̇ = Σ_l V^{l}. So the terms are transformed one by one,
+H^{l} being that of L^{l}; a term without velocities is −H^{l}, and has no momenta (the
+semi-separable and separable cases).
+"""
+
+from __future__ import annotations
+
+from collections.abc import Mapping
+from itertools import product
+from typing import Any
+
+from flint import arb
+
+from garkcli.errors import NoLegendreTransform
+from garkcli.problems.hamiltonian import symbols
+from garkcli.problems.inversion import by_solving
+from garkcli.problems.mass import coupled, inverse_of, velocities
+
+
+def legendre(L: Any, variables: tuple[str, ...], start: Mapping[Any, arb]) -> Any:
+    """The Hamiltonian of a Lagrangian, sympy expressions both.
+
+    Lagrangians that are quadratic in the velocities are transformed exactly: with L = ½ v·Mv + b·v
+    + c, H = ½ (p − b)·M⁻¹(p − b) − c, where M, b and c may depend on the positions. In others,
+    velocities are solved for one by one, or together where they occur in one quadratic form only,
+    as in √(1 − v·v); such solutions are tested at the start and at random places near it, with 90
+    digits.
+
+    Args:
+        L: in the symbols of the positions and of the ``velocities``.
+        variables: d names.
+        start: q(0), and velocities or momenta at the start where they are known: they tell which of
+            several solutions is meant.
+
+    Raises:
+        NoLegendreTransform: the mass matrix is singular, or no solution was found.
+
+    >>> from sympy import cos
+    >>> (x,), (v,) = symbols(("x",), "q"), velocities(("x",))
+    >>> legendre(v**2 / 2 - cos(x), ("x",), {x: arb(0)})
+    px**2/2 + cos(x)
+    """
+    import sympy
+
+    v = velocities(variables)
+    present = [x for x in v if x in L.free_symbols]
+    if not present:
+        return -L
+    if len(present) < len(v):
+        missing = ", ".join(str(x) for x in v if x not in present)
+        raise NoLegendreTransform(
+            f"the mass matrix is singular: {missing} does not occur beside {', '.join(map(str, present))}",
+            f"each term has all velocities or none; move {missing} into this term, or write the Hamiltonian",
+        )
+    gradient = [L.diff(x) for x in v]
+    M = [[g.diff(x) for x in v] for g in gradient]
+    if any(entry.free_symbols & set(v) for row in M for entry in row):
+        return by_solving(L, gradient, M, variables, start)
+    rest = dict.fromkeys(v, 0)
+    shifted = [p - g.xreplace(rest) for p, g in zip(symbols(variables, "p"), gradient, strict=True)]
+    H = [-L.xreplace(rest)]
+    for block in coupled(M):
+        inverse, divisor = inverse_of(
+            [[M[i][j] for j in block] for i in block], [v[i] for i in block], start
+        )
+        pairs = product(enumerate(block), repeat=2)
+        form = sympy.Add(*(inverse[a][b] * shifted[i] * shifted[j] for (a, i), (b, j) in pairs))
+        H.append(form / (2 * divisor))
+    return sympy.Add(*H)

@@ -1,0 +1,109 @@
+"""Velocities and the mass matrix M = ∂²L/∂q̇² of a Lagrangian."""
+
+from __future__ import annotations
+
+from collections.abc import Mapping, Sequence
+from functools import cache
+from typing import Any
+
+from flint import arb, ctx, fmpq, fmpq_mat
+
+from garkcli.errors import NoLegendreTransform
+from garkcli.graph import components
+from garkcli.problems.straightline import function
+
+MAX_COUPLED = 5
+"""Most velocities that a mass matrix depending on the positions may couple."""
+WRITE_HAMILTONIAN = "write the Hamiltonian itself: hamiltonian: instead of lagrangian:"
+BITS = 300
+"""Precision of enclosures that tell solutions apart."""
+
+
+@cache
+def velocities(variables: tuple[str, ...]) -> tuple[Any, ...]:
+    """The sympy symbols of the velocities, shape (d,): that of ``x`` is ``vx``."""
+    import sympy
+
+    return tuple(sympy.Symbol(f"v{x}", real=True) for x in variables)
+
+
+def coupled(M: Sequence[Sequence[Any]]) -> list[list[int]]:
+    """The sets of velocities that entries of M couple, each in order."""
+    after = {i: [j for j, x in enumerate(row) if x != 0 or M[j][i] != 0] for i, row in enumerate(M)}
+    return sorted(sorted(block) for block in components(after))
+
+
+def inverse_of(
+    M: list[list[Any]], names: Sequence[Any], start: Mapping[Any, arb]
+) -> tuple[list[list[Any]], Any]:
+    """The inverse of a symmetric matrix as a matrix and its divisor: the adjugate and the
+    determinant, or 1.
+
+    Raises:
+        NoLegendreTransform: the determinant is zero, or contains zero at the start.
+    """
+    import sympy
+
+    n, whose = len(M), ", ".join(map(str, names))
+    singular = NoLegendreTransform(
+        f"the mass matrix of {whose} is singular",
+        "each velocity needs a kinetic energy of its own in this term",
+    )
+    if all(x.is_Rational for row in M for x in row):
+        matrix = fmpq_mat([[fmpq(int(x.p), int(x.q)) for x in row] for row in M])
+        if not matrix.det():
+            raise singular
+        rows = matrix.inv().tolist()
+        return [[sympy.Rational(int(x.p), int(x.q)) for x in row] for row in rows], sympy.Integer(1)
+    if n > MAX_COUPLED:
+        raise NoLegendreTransform(
+            f"a mass matrix of {n} coupled velocities that is not constant (limit {MAX_COUPLED})",
+            WRITE_HAMILTONIAN,
+        )
+    minors: dict[tuple[tuple[int, ...], tuple[int, ...]], Any] = {}
+
+    def minor(rows: tuple[int, ...], columns: tuple[int, ...]) -> Any:
+        if not rows:
+            return sympy.Integer(1)
+        if (rows, columns) not in minors:
+            minors[rows, columns] = sum(
+                (-1) ** k * M[rows[0]][j] * minor(rows[1:], columns[:k] + columns[k + 1 :])
+                for k, j in enumerate(columns)
+            )
+        return minors[rows, columns]
+
+    every = tuple(range(n))
+    det = minor(every, every)
+    if det == 0 or enclosed([det], start)[0].contains(0):
+        raise singular
+
+    def without(i: int) -> tuple[int, ...]:
+        return every[:i] + every[i + 1 :]
+
+    # the adjugate is symmetric: one of each pair of entries, written once
+    adjugate = [
+        [(-1) ** (i + j) * minor(without(min(i, j)), without(max(i, j))) for j in every]
+        for i in every
+    ]
+    return adjugate, det
+
+
+def enclosed(expressions: Sequence[Any], at: Mapping[Any, arb]) -> list[arb]:
+    """The expressions, enclosed; not finite where they have no value, or kinks."""
+    import sympy
+
+    made = tuple(sympy.Add(x) for x in expressions)
+    if not all(map(is_smooth, made)):
+        return [arb("nan")] * len(made)
+    with ctx.workprec(BITS):
+        try:
+            return [arb(x) for x in function(made, tuple(at), True)(*at.values())]
+        except (ArithmeticError, ValueError):
+            return [arb("nan")] * len(made)
+
+
+def is_smooth(expression: Any) -> bool:
+    """Whether a sympy expression is real and has no |x|, which sympy makes of roots of squares."""
+    import sympy
+
+    return not expression.has(sympy.Abs, sympy.sign, sympy.I, sympy.zoo, sympy.nan, sympy.oo)

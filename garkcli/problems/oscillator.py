@@ -1,0 +1,171 @@
+"""The harmonic oscillator q̈ = −ω²q, split among the vector fields of a tableau.
+
+H = ½p² + ½ω²q² is divided into one Hamiltonian H^{l} = ½ k_l p² + ½ ω² v_l q² for each term of the
+split, with Σ k_l = Σ v_l = 1. A colour drives the whole field of its term, or its position or
+momentum part only.
+"""
+
+from __future__ import annotations
+
+from collections.abc import Mapping
+from dataclasses import dataclass
+
+from flint import fmpq
+
+from garkcli.errors import ExpressionError, UsageProblem
+from garkcli.exact.domain import Domain
+from garkcli.exact.expression import parse
+from garkcli.exact.field import ONE, ZERO
+from garkcli.exact.matrix import Matrix
+from garkcli.tableau.tableau import Colour, Tableau
+
+PROBLEMS: Mapping[str, str] = {
+    "oscillator": "q̈ = −ω²q as ½p² and parts of ½ω²q²; sees the unbranched trees only",
+    "split-oscillator": "two springs of frequencies 1 and 5/2; sees the unbranched trees only",
+    "pendulum": "½p² + 1 − cos q",
+    "kepler": "½|p|² − 1/|q|, eccentricity 3/5; with angular momentum",
+    "henon-heiles": "½|p|² + ½|q|² + x²y − y³/3",
+    "fput": "three masses between walls, on springs with quadratic and cubic forces",
+    "double-pendulum": "two rods; the kinetic energy depends on the angles",
+    "generic": "a random polynomial in N terms, none separable; sees every tree",
+}
+"""One line a problem, for people."""
+
+
+@dataclass(frozen=True)
+class Oscillator:
+    """q̇ = p, ṗ = −ω²q, divided among the terms of a split.
+
+    Attributes:
+        omega: ω > 0, in radians per unit of time.
+        shares: ``(k_l, v_l)`` for each term, its shares of the kinetic and of the potential energy;
+            both columns sum to 1.
+
+    Errors:
+        UsageProblem: ω is not positive, or a column does not sum to 1.
+
+    >>> Oscillator.default(3, fmpq(1)).shares
+    ((1, 0), (0, 1/2), (0, 1/2))
+    """
+
+    omega: fmpq
+    shares: tuple[tuple[fmpq, fmpq], ...]
+
+    def __post_init__(self) -> None:
+        if self.omega <= 0:
+            raise UsageProblem(
+                f"the frequency {self.omega} is not positive", "give a positive rational, such as 1"
+            )
+        for column, energy in enumerate(("kinetic", "potential")):
+            total = sum((share[column] for share in self.shares), ZERO)
+            if total != 1:
+                raise UsageProblem(
+                    f"the {energy} shares sum to {total}",
+                    f"they are parts of one {energy} energy: make it 1",
+                )
+
+    @classmethod
+    def default(cls, terms: int, omega: fmpq) -> Oscillator:
+        """One term: unsplit. More: ½p² to the first, ½ω²q² in equal parts to the others."""
+        if terms == 1:
+            return cls(omega, ((ONE, ONE),))
+        return cls(omega, ((ONE, ZERO), *((ZERO, fmpq(1, terms - 1)),) * (terms - 1)))
+
+    def drives(self, colour: Colour) -> tuple[fmpq, fmpq]:
+        """(k, v): how much of q̇ = p and of ṗ = −ω²q the vector field of ``colour`` is."""
+        k, v = self.shares[colour.term]
+        return (ZERO if colour.part == "p" else k, ZERO if colour.part == "q" else v)
+
+    def matrix(self, colour: Colour) -> Matrix:
+        """L with (q, p)˙ = L (q, p) for the vector field of ``colour``, shape (2, 2)."""
+        k, v = self.drives(colour)
+        return ((ZERO, k), (-self.omega * self.omega * v, ZERO))
+
+
+def terms_of(tableau: Tableau) -> int:
+    """The number of terms of the split that ``tableau`` is for."""
+    return 1 + max(colour.term for colour in tableau.colours)
+
+
+def parse_shares(text: str, terms: int) -> tuple[tuple[fmpq, fmpq], ...]:
+    """Read ``kinetic:potential`` for each term, separated by commas.
+
+    Raises:
+        UsageProblem: not that many pairs, no rational numbers, or a column that does not sum to 1.
+
+    >>> parse_shares("1:0, 0:1/2, 0:1/2", 3)
+    ((1, 0), (0, 1/2), (0, 1/2))
+    """
+    cure = f"write {terms} pairs kinetic:potential, such as {example_shares(terms)}"
+    parts = text.split(",")
+    if len(parts) != terms:
+        raise UsageProblem(f"the split {text!r} has {len(parts)} pairs for {terms} terms", cure)
+    shares = []
+    for part in parts:
+        numbers = part.split(":")
+        if len(numbers) != 2:
+            raise UsageProblem(f"{part.strip()!r} is no pair of shares", cure)
+        shares.append((_share(numbers[0]), _share(numbers[1])))
+    return Oscillator(ONE, tuple(shares)).shares  # checks the sums
+
+
+def example_shares(terms: int) -> str:
+    """The default split as ``parse_shares`` reads it.
+
+    >>> example_shares(2)
+    '1:0,0:1'
+    """
+    return ",".join(f"{k}:{v}" for k, v in Oscillator.default(terms, ONE).shares)
+
+
+def _share(text: str) -> fmpq:
+    try:
+        expression = parse(text)
+        number = Domain([expression]).evaluate(expression)
+    except ExpressionError as error:
+        raise UsageProblem(
+            f"the share {text.strip()!r}: {error.message}",
+            error.help or "write a rational number, such as 1/2",
+        ) from None
+    if not isinstance(number, fmpq):
+        raise UsageProblem(
+            f"the share {text.strip()!r} is irrational", "write a rational number, such as 1/2"
+        )
+    return number
+
+
+def check_structure(tableau: Tableau, problem: Oscillator) -> None:
+    """Whether the vector fields of the split are those that the colours and edges of ``tableau``
+    are for.
+
+    A share needs a colour that drives it, and where the product L^l L^m is not zero the stages of
+    colour l have to see colour m.
+
+    Raises:
+        UsageProblem: they are not.
+    """
+    terms = terms_of(tableau)
+    if len(problem.shares) != terms:
+        raise UsageProblem(
+            f"the split has {len(problem.shares)} terms, the method {terms}",
+            f"such as {example_shares(terms)}",
+        )
+    for term, shares in enumerate(problem.shares):
+        for share, parts, energy in zip(
+            shares, ("yq", "yp"), ("kinetic", "potential"), strict=True
+        ):
+            if share and not any(x.term == term and x.part in parts for x in tableau.colours):
+                raise UsageProblem(
+                    f"term {term + 1} has {energy} energy, but the method has no colour for it",
+                    f"move the {energy} share to another term with --split",
+                )
+    driven = [problem.drives(colour) for colour in tableau.colours]
+    for l, (k_l, v_l) in enumerate(driven):
+        for m, (k_m, v_m) in enumerate(driven):
+            if (k_l * v_m or v_l * k_m) and tableau.block(l, m) is None:
+                names = tableau.colours[l].name, tableau.colours[m].name
+                raise UsageProblem(
+                    f"with this split the field of colour {names[0]} depends on what colour {names[1]} drives, "
+                    f"which its stages do not see",
+                    f"give the shares that the structure is for with --split, such as {example_shares(terms)}",
+                )

@@ -1,0 +1,272 @@
+"""Our own sympy expressions as straight-line Python, for floats and for balls with any number of
+digits.
+
+An expression is written as text node by node, common subexpressions once. The names in the text are
+all ours (arguments, temporaries, constants), so nothing that was read from a file is ever part of a
+program.
+"""
+
+from __future__ import annotations
+
+import math
+from collections.abc import Callable, Mapping, Sequence
+from dataclasses import dataclass
+from functools import cache
+from typing import Any
+
+from flint import arb, fmpq
+
+_LONG = 300  # characters from which a part of an expression is given a name
+_NAMES = ("sin", "cos", "tan", "asin", "acos", "atan", "sinh", "cosh", "tanh", "exp", "log", "sqrt")
+FUNCTIONS = frozenset(_NAMES)
+"""The functions an expression may have, besides powers."""
+FLOATS: Mapping[str, Any] = {
+    **{name: getattr(math, name) for name in _NAMES},
+    "power": math.pow,  # refuses what ** would make complex
+    "inf": math.inf,
+    "isfinite": math.isfinite,
+}
+"""What the text for floats calls."""
+BALLS: Mapping[str, Any] = {
+    **{f"ball_{name}": getattr(arb, name) for name in _NAMES},
+    "ball_power": pow,
+    "ball_pi": arb.pi,
+}
+"""What the text for balls calls; the text for floats has names of its own."""
+
+
+@dataclass(frozen=True)
+class Formula:
+    """Straight-line code for several expressions of the same arguments.
+
+    The texts have ``{a0}``, ``{a1}``, … for the arguments, ``{t0}``, … for the temporaries, and
+    ``{k0}``, … for the constants.
+
+    Attributes:
+        arguments: how many numbers it takes.
+        temporaries: the texts of the temporaries, each in terms of those before.
+        results: the texts of the expressions; "0" for those that are zero.
+        constants: rational numbers, and None for π.
+        is_for_balls: whether its functions are those of ``BALLS``.
+    """
+
+    arguments: int
+    temporaries: tuple[str, ...]
+    results: tuple[str, ...]
+    constants: tuple[fmpq | None, ...]
+    is_for_balls: bool
+
+    def lines(self, arguments: Sequence[str], prefix: str) -> tuple[list[str], list[str]]:
+        """Assignments to names that start with ``prefix``, and the names or short texts of the
+        results.
+        """
+        names = {f"a{i}": name for i, name in enumerate(arguments)}
+        names |= {f"t{i}": f"{prefix}t{i}" for i in range(len(self.temporaries))}
+        names |= {f"k{i}": self._constant(x) for i, x in enumerate(self.constants)}
+        lines = [
+            f"{prefix}t{i} = {text.format_map(names)}" for i, text in enumerate(self.temporaries)
+        ]
+        results = []
+        for i, text in enumerate(self.results):
+            made = text.format_map(names)
+            if text != "0" and not (
+                text.startswith("{") and text.endswith("}") and text.count("{") == 1
+            ):
+                lines.append(f"{prefix}{i} = {made}")
+                made = f"{prefix}{i}"
+            results.append(made)
+        return lines, results
+
+    def _constant(self, x: fmpq | None) -> str:
+        if not self.is_for_balls:
+            return repr(math.pi) if x is None else _float(x)
+        if x is None:
+            return "ball_pi()"
+        return constant_name(x)
+
+
+def _float(x: fmpq) -> str:
+    try:
+        return repr(int(x.p) / int(x.q))
+    except OverflowError:
+        return "inf" if x > 0 else "-inf"
+
+
+def constant_name(x: fmpq) -> str:
+    """The name that the texts for balls have for a rational constant."""
+    return f"k{'m' if x < 0 else ''}{abs(int(x.p))}_{x.q}"
+
+
+@cache
+def formula(
+    expressions: tuple[Any, ...], arguments: tuple[Any, ...], is_for_balls: bool
+) -> Formula:
+    """The code of sympy expressions in the symbols ``arguments``.
+
+    Raises:
+        TypeError: an expression has a function that is none of ``FUNCTIONS``, or another symbol.
+    """
+    import sympy
+
+    found, reduced = sympy.cse(
+        list(expressions), symbols=(sympy.Dummy(f"t{i}") for i in range(1 << 30))
+    )
+    writer = _Writer({x: f"{{a{i}}}" for i, x in enumerate(arguments)}, is_for_balls)
+    for symbol, expression in found:
+        writer.symbols[symbol] = writer.named(writer.text(expression))
+    results = tuple("0" if x == 0 else writer.text(x) for x in reduced)
+    return Formula(
+        len(arguments), tuple(writer.temporaries), results, tuple(writer.constants), is_for_balls
+    )
+
+
+class _Writer:
+    """Writes expressions and collects their constants."""
+
+    def __init__(self, symbols: dict[Any, str], is_for_balls: bool) -> None:
+        self.symbols = symbols
+        self.constants: dict[fmpq | None, str] = {}
+        self.temporaries: list[str] = []
+        self.is_for_balls = is_for_balls
+
+    def named(self, text: str) -> str:
+        """A temporary of this text, or the text itself where it is one name."""
+        if text.startswith("{"):
+            return text
+        self.temporaries.append(text)
+        return f"{{t{len(self.temporaries) - 1}}}"
+
+    def text(self, x: Any) -> str:
+        """The text of ``x``, closed in parentheses where it is not a single name or call; never a
+        long one.
+        """
+        text = self._text(x)
+        return text if len(text) < _LONG else self.named(text)  # Python nests no more than 200 deep
+
+    def _text(self, x: Any) -> str:
+        import sympy
+
+        if x.is_Symbol:
+            if x not in self.symbols:
+                raise TypeError(f"{x} is no argument")
+            return self.symbols[x]
+        if x.is_Rational:
+            return self._constant(fmpq(int(x.p), int(x.q)))
+        if x is sympy.pi:
+            return self._constant(None)
+        if x is sympy.E:
+            return f"{self._name('exp')}({self._constant(fmpq(1))})"
+        if x.is_Add:
+            return "(" + self._sum(x.as_ordered_terms()) + ")"
+        if x.is_Mul:
+            return "(" + self._product(x) + ")"
+        if x.is_Pow:
+            return self._power(x.base, x.exp)
+        name = type(x).__name__
+        if name in FUNCTIONS and len(x.args) == 1:
+            return f"{self._name(name)}({self.text(x.args[0])})"
+        raise TypeError(f"no code for {name}")
+
+    def _name(self, function: str) -> str:
+        return f"ball_{function}" if self.is_for_balls else function
+
+    def _constant(self, x: fmpq | None) -> str:
+        return self.constants.setdefault(x, f"{{k{len(self.constants)}}}")
+
+    def _sum(self, terms: Sequence[Any]) -> str:
+        parts: list[str] = []
+        for term in sorted(terms, key=lambda x: x.could_extract_minus_sign()):
+            negative = bool(term.could_extract_minus_sign()) and bool(parts)
+            text = self.text(-term if negative else term)
+            parts.append(f" - {text}" if negative else f" + {text}" if parts else text)
+        return "".join(parts)
+
+    def _product(self, x: Any) -> str:
+        """Factors over factors, so that a negative power costs one division."""
+        above, below = [], []
+        for factor in x.as_ordered_factors():
+            if factor.is_Pow and factor.exp.is_Rational and factor.exp.is_negative:
+                below.append(self._power(factor.base, -factor.exp))
+            else:
+                above.append(factor)
+        number = above[0] if above and above[0].is_Rational else None
+        sign = ""
+        if number is not None and number == -1:
+            sign, above = "-", above[1:]
+        texts = [self.text(factor) for factor in above]
+        numerator = "*".join(texts) if texts else self._constant(fmpq(1))
+        return f"{sign}{numerator}" + "".join(f"/{text}" for text in below)
+
+    def _power(self, base: Any, exponent: Any) -> str:
+        if exponent.is_Rational and exponent.is_negative:
+            return f"({self._constant(fmpq(1))}/{self._power(base, -exponent)})"
+        text = self.text(base)
+        if not exponent.is_Rational or exponent.q > 2:
+            return f"{self._name('power')}({text}, {self.text(exponent)})"
+        whole, half = divmod(int(exponent.p), 2) if exponent.q == 2 else (int(exponent.p), 0)
+        if whole:
+            text = self.named(text)
+        factors = [self._integer_power(text, whole)] if whole else []
+        if half:
+            factors.append(f"{self._name('sqrt')}({text})")
+        return factors[0] if len(factors) == 1 else "(" + "*".join(factors) + ")"
+
+    def _integer_power(self, text: str, n: int) -> str:
+        """For balls by products: the power of a ball around zero is a ball around zero."""
+        if n == 1:
+            return text
+        if n <= 3:
+            return "(" + "*".join([text] * n) + ")"
+        if not self.is_for_balls:
+            return f"({text}**{n})"
+        half = self.named(self._integer_power(text, n // 2))
+        return f"({half}*{half}*{text})" if n % 2 else f"({half}*{half})"
+
+
+def function(
+    expressions: tuple[Any, ...], arguments: tuple[Any, ...], is_for_balls: bool
+) -> Callable[..., list[Any]]:
+    """The expressions as one function of numbers, one after the other, to a list of numbers.
+
+    For balls the rational constants are enclosed once, at the precision in force now.
+    """
+    made = formula(expressions, arguments, is_for_balls)
+    names = [f"a{i}" for i in range(len(arguments))]
+    lines, results = made.lines(names, "r")
+    source = f"def evaluate({', '.join(names)}):\n" + "".join(f" {line}\n" for line in lines)
+    source += f" return [{', '.join('0.0' if x == '0' else x for x in results)}]\n"
+    program: Callable[..., list[Any]] = define(
+        source, "evaluate", enclosed([made]) if is_for_balls else {}
+    )
+    return program
+
+
+def enclosed(formulas: Sequence[Formula]) -> dict[str, arb]:
+    """The rational constants of the texts for balls, at the precision in force."""
+    found = {x for made in formulas if made.is_for_balls for x in made.constants if x is not None}
+    return {constant_name(x): arb(x) for x in found}
+
+
+def define(source: str, name: str, constants: Mapping[str, Any]) -> Any:
+    """The function ``name`` that a text of ours defines; the text has only names made in this
+    package.
+    """
+    namespace: dict[str, Any] = {"__builtins__": {}, **_BUILTINS, **FLOATS, **BALLS, **constants}
+    exec(_compiled(source), namespace)
+    return namespace[name]
+
+
+_BUILTINS = {
+    "abs": abs,
+    "float": float,
+    "list": list,
+    "map": map,
+    "range": range,
+    "ArithmeticError": ArithmeticError,
+    "ValueError": ValueError,
+}
+
+
+@cache
+def _compiled(source: str) -> Any:
+    return compile(source, "<step of a method>", "exec")

@@ -1,0 +1,206 @@
+"""Formulas to sympy expressions, node by node: text from a file never reaches sympy.
+
+A translated expression is real and differentiable: it has no function but those of
+``garkcli.exact.formula``.
+"""
+
+from __future__ import annotations
+
+from collections.abc import Mapping
+from dataclasses import dataclass
+from typing import Any
+
+from garkcli.errors import LimitExceeded, UndefinedValue
+from garkcli.exact.domain import MAX_BITS
+from garkcli.exact.expression import MAX_EXPONENT, Chain, Expression, Literal, Name, Power, Root
+from garkcli.exact.formula import CONSTANTS, Call, RealPower
+from garkcli.exact.rewriting import format_expression, names_in, parts
+from garkcli.exact.values import FLOAT_BITS, Value, exponent_of, value_of
+
+MAX_SIZE = 100_000
+"""Most operations of all second derivatives of a problem together, as they are written out."""
+
+
+@dataclass(frozen=True)
+class Translator:
+    """Makes sympy expressions of formulas.
+
+    Attributes:
+        symbols: what each name stands for: the symbol of a variable, or the expression of a
+            parameter.
+        values: the values of the parameters, for exponents.
+    """
+
+    symbols: Mapping[str, Any]
+    values: Mapping[str, Value]
+
+    def check_constants(self, expression: Expression) -> None:
+        """Refuse what is beyond the limits of numbers, before sympy computes with it.
+
+        Raises:
+            UndefinedValue: a part without variables has no value.
+            LimitExceeded: it is too large or too small.
+        """
+        if all(x.name in self.values or x.name in CONSTANTS for x in names_in(expression)):
+            value_of(expression, self.values)
+            return
+        if isinstance(expression, RealPower):
+            for name in names_in(expression.exponent):
+                if name.name not in self.values and name.name not in CONSTANTS:
+                    message = f"the exponent depends on {name.name}"
+                    raise UndefinedValue(message, "exponents are constants", name.start, name.end)
+        for part in parts(expression):
+            self.check_constants(part)
+
+    def translate(self, expression: Expression) -> Any:
+        """The sympy expression of a formula whose names are all known.
+
+        Raises:
+            UndefinedValue: it has no real value, or |x| in it, which has no derivative.
+            LimitExceeded: a number or an exponent in it is too large.
+        """
+        import sympy
+
+        self.check_constants(expression)
+        made = self._node(expression)
+        if made.has(sympy.I, sympy.zoo, sympy.nan, sympy.oo, -sympy.oo):
+            raise UndefinedValue("this is no real number", "", expression.start, expression.end)
+        if any(abs(x) > 1 << FLOAT_BITS for x in made.atoms(sympy.Rational)):
+            message = f"the constants together make a number above 2^{FLOAT_BITS}"
+            raise LimitExceeded(message, "choose other units", expression.start, expression.end)
+        return made
+
+    def _node(self, expression: Expression) -> Any:
+        import sympy
+
+        match expression:
+            case Literal(value=value):
+                return sympy.Rational(int(value.p), int(value.q))
+            case Name(name=name):
+                if name == "pi":
+                    return sympy.pi
+                return self.symbols[name]
+            case Chain(signs=signs, operands=operands):
+                made = [self._node(x) for x in operands]
+                if signs[0] in "+-":
+                    return sympy.Add(
+                        *(-x if sign == "-" else x for sign, x in zip(signs, made, strict=True))
+                    )
+                return self._product(signs, made, expression)
+            case Power(base=base, exponent=exponent):
+                return self._power(self._node(base), sympy.Integer(exponent), expression)
+            case RealPower(base=base, exponent=exponent):
+                e = exponent_of(exponent, self.values)
+                return self._power(self._node(base), sympy.Rational(int(e.p), int(e.q)), expression)
+            case Root(radicand=radicand, index=index):
+                return self._root(self._node(radicand), index, expression)
+            case Call(function=function, argument=argument):
+                made = getattr(sympy, function)(self._node(argument))
+                # sympy writes tan(x + pi/2) so
+                return (
+                    made.replace(sympy.cot, lambda u: 1 / sympy.tan(u))
+                    if made.has(sympy.cot)
+                    else made
+                )
+        raise TypeError(f"no expression: {expression!r}")
+
+    def _product(self, signs: str, factors: list[Any], at: Expression) -> Any:
+        import sympy
+
+        if sum(_bits(x) for x in factors) > 2 * MAX_BITS:
+            raise LimitExceeded(
+                f"a number of more than {MAX_BITS} bits", "write it smaller", at.start, at.end
+            )
+        return sympy.Mul(
+            *(1 / x if sign == "/" else x for sign, x in zip(signs, factors, strict=True))
+        )
+
+    def _power(self, base: Any, exponent: Any, at: Expression) -> Any:
+        if _bits(base) * abs(exponent) > 2 * MAX_BITS:
+            raise LimitExceeded(
+                f"a number of more than {MAX_BITS} bits", "write it smaller", at.start, at.end
+            )
+        made = base**exponent
+        if made.is_Pow and made.exp.is_Rational and abs(made.exp) > MAX_EXPONENT:
+            message = f"the exponents are {made.exp} together (limit {MAX_EXPONENT})"
+            raise LimitExceeded(message, "use smaller ones", at.start, at.end)
+        return _without_kinks(made, at)
+
+    def _root(self, radicand: Any, index: int, at: Root) -> Any:
+        import sympy
+
+        if index == 2:
+            return _without_kinks(sympy.sqrt(radicand), at)
+        if radicand.free_symbols:
+            inner = format_expression(at.radicand)
+            cure = f"where it is positive, write ({inner if len(inner) < 30 else '…'})**(1/{index})"
+            raise UndefinedValue("only square roots are taken of variables", cure, at.start, at.end)
+        power = sympy.Rational(1, index)
+        return -((-radicand) ** power) if radicand.is_negative else radicand**power
+
+
+def _without_kinks(made: Any, at: Expression) -> Any:
+    """Refuse |x|, which sympy finds in sqrt(x**2)."""
+    import sympy
+
+    if made.has(sympy.Abs):
+        inner = str(next(iter(made.atoms(sympy.Abs))).args[0])
+        inner = inner if len(inner) < 30 else "…"
+        raise UndefinedValue(
+            f"this has |{inner}|, which has no derivative at 0",
+            "write it without the root where the sign is known, or add a number under the root",
+            at.start,
+            at.end,
+        )
+    return made
+
+
+def _bits(x: Any) -> int:
+    number = x.as_coeff_Mul()[0]
+    return int(number.p).bit_length() + int(number.q).bit_length() if number.is_Rational else 1
+
+
+def size_of_derivatives(expression: Any) -> int:
+    """About how many operations all second derivatives of a sympy expression have, as sympy writes
+    them out.
+
+    Nothing is differentiated. A product of n factors has n (n − 1) products in its second
+    derivative, so that the length can be the cube of that of the text.
+
+    >>> from sympy.abc import x, y
+    >>> size_of_derivatives(x + y), size_of_derivatives(x * y)
+    (0, 6)
+    """
+    return _sizes(expression, {})[3]
+
+
+def _sizes(x: Any, known: dict[Any, tuple[int, int, int, int]]) -> tuple[int, int, int, int]:
+    """Operations of x, number of its symbols, operations of its first and of its second derivatives
+    in all.
+    """
+    if x not in known:
+        known[x] = _sizes_of(x, known)
+    return known[x]
+
+
+def _sizes_of(x: Any, known: dict[Any, tuple[int, int, int, int]]) -> tuple[int, int, int, int]:
+    n = len(x.free_symbols)
+    if not x.args:
+        return 1, n, n, 0
+    if not n:
+        return 1, 0, 0, 0
+    parts = [_sizes(y, known) for y in x.args]
+    size = 1 + sum(s for s, *_ in parts)
+    if x.is_Add:
+        return size, n, sum(a for _, _, a, _ in parts), sum(b for *_, b in parts)
+    if x.is_Mul:
+        first = sum(a + k * (size - s) for s, k, a, _ in parts if k)
+        # a term for each pair of factors that are differentiated, or one factor twice
+        symbols, slopes = sum(k for _, k, *_ in parts), sum(a for _, _, a, _ in parts)
+        second = sum(b + (k * k * (size - s) if b else 0) for s, k, _, b in parts)
+        second += sum(2 * a * (symbols - k) for _, k, a, _ in parts)
+        second += sum(k * (symbols - k) * max(size - 2 * s, 0) for s, k, *_ in parts)
+        return size, n, first, second if slopes else 0
+    # f(u): f'' u_a u_b + f' u_ab
+    inner, k, a, b = (sum(part[i] for part in parts) for i in range(4))
+    return size, n, a + k * (inner + 3), b + 2 * k * k * (inner + 3) + 2 * k * a

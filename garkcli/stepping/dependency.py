@@ -1,0 +1,272 @@
+"""In which order the stages of a method can be computed, and which of them are implicit.
+
+A directed graph has one vertex for each stage value (positions or momenta of one stage) that some
+vector field looks at, and one for each evaluation of a field. Its strongly connected components are
+computed one after the other; in a component that is not a single vertex, stage values are declared
+unknown until what is left has no cycle. Newton's method solves for the unknowns only: the
+rectangular method has one.
+"""
+
+from __future__ import annotations
+
+from collections.abc import Hashable, Mapping, Sequence
+from dataclasses import dataclass, replace
+from typing import Any, TypeAlias, TypeVar
+
+from garkcli.errors import UsageProblem
+from garkcli.graph import components
+from garkcli.problems.hamiltonian import GROUPS, Group, Hamiltonian, VectorField, vector_field
+from garkcli.tableau.pointwise import Entries, numeric_entries
+from garkcli.tableau.tableau import Colour, Tableau
+
+DIGITS = 60
+"""Numbers of a tableau that agree to so many digits are equal."""
+T = TypeVar("T", bound=Hashable)
+Fields: TypeAlias = Mapping[tuple[int, Group], VectorField]
+"""The vector fields that are not zero, by colour and by what they drive."""
+
+
+@dataclass(frozen=True)
+class Stage:
+    """Positions or momenta of stage ``index`` of the stage space ``space``."""
+
+    space: int
+    index: int
+    group: Group
+
+
+@dataclass(frozen=True)
+class Value:
+    """The vector field of ``colour`` that drives ``group``, at its stage ``index``."""
+
+    colour: int
+    index: int
+    group: Group
+
+
+@dataclass(frozen=True)
+class Block:
+    """Vertices that are computed together.
+
+    Attributes:
+        unknowns: the stage values to solve for; empty when the block is explicit.
+        order: the other vertices, each after those it needs.
+    """
+
+    unknowns: tuple[Stage, ...]
+    order: tuple[Stage | Value, ...]
+
+
+@dataclass(frozen=True)
+class Coupling:
+    """What a method computes on a problem.
+
+    Attributes:
+        values: every evaluation of a vector field.
+        arguments: the stage values that each evaluation looks at, positions before momenta.
+        sums: the evaluations that each stage value is a combination of.
+        coefficients: their coefficients, and for no stage the weights; equal numbers have the same
+            text.
+    """
+
+    values: tuple[Value, ...]
+    arguments: Mapping[Value, tuple[Stage, ...]]
+    sums: Mapping[Stage, tuple[Value, ...]]
+    coefficients: Mapping[tuple[Stage | None, Value], str]
+
+    def blocks(self) -> tuple[Block, ...]:
+        """The components in the order in which they can be computed."""
+        after: dict[Stage | Value, list[Stage | Value]] = {}
+        after |= {stage: [] for stage in self.sums}
+        after |= {value: [] for value in self.values}
+        for value, stages in self.arguments.items():
+            for stage in stages:
+                after[stage].append(value)
+        for stage, values in self.sums.items():
+            for value in values:
+                after[value].append(stage)
+        found = []
+        for component in components(after):
+            if len(component) == 1:
+                found.append(Block((), tuple(component)))
+                continue
+            unknowns = self._cut([x for x in component if isinstance(x, Stage)])
+            left = set(component) - unknowns
+            rest = {x: [y for y in after[x] if y in left] for x in component if x in left}
+            order = tuple(x for single in components(rest) for x in single)
+            found.append(Block(tuple(x for x in self.sums if x in unknowns), order))
+        return tuple(found)
+
+    def _cut(self, stages: Sequence[Stage]) -> set[Stage]:
+        """Stage values without which no cycle is left: greedily those with the most neighbours
+        before and after.
+        """
+        inside = set(stages)
+        before = {
+            s: {t for value in self.sums[s] for t in self.arguments[value] if t in inside}
+            for s in stages
+        }
+        cut = {s for s in stages if s in before[s]}
+        while True:
+            rest = [s for s in stages if s not in cut]
+            after = {s: [t for t in rest if s in before[t]] for s in rest}
+            cycles = [component for component in components(after) if len(component) > 1]
+            if not cycles:
+                return cut
+            for component in cycles:
+                within = set(component)
+                cut.add(
+                    max(
+                        component,
+                        key=lambda s: len(before[s] & within) * len(within.intersection(after[s])),
+                    )
+                )
+
+
+def coupling(tableau: Tableau, fields: Fields) -> Coupling:
+    """What has to be computed; coefficients are zero or equal when they are to ``DIGITS``
+    digits.
+    """
+    entries = numeric_entries(tableau, DIGITS + 5)
+    arguments: dict[Value, tuple[Stage, ...]] = {}
+    for (m, group), field in fields.items():
+        space = tableau.colours[m].rows
+        for j in range(tableau.space(m).stages):
+            arguments[Value(m, j, group)] = tuple(Stage(space, j, g) for g in field.depends)
+    sums: dict[Stage, tuple[Value, ...]] = {}
+    coefficients: dict[tuple[Stage | None, Value], str] = {}
+    for stage in dict.fromkeys(s for stages in arguments.values() for s in stages):
+        found = []
+        for value in arguments:
+            a: Any = entry(tableau, entries, stage, value) if value.group == stage.group else 0
+            if a != 0 and not a.contains(0):
+                found.append(value)
+                coefficients[stage, value] = _text(a)
+        sums[stage] = tuple(found)
+    for value in arguments:
+        coefficients[None, value] = _text(entry(tableau, entries, None, value))
+    return Coupling(tuple(arguments), arguments, sums, coefficients)
+
+
+def entry(tableau: Tableau, entries: Entries, stage: Stage | None, value: Value) -> Any:
+    """The coefficient of ``value`` in a stage, an enclosure, or 0 where it is not seen; for no
+    stage its weight.
+    """
+    if stage is None:
+        return entries.b[value.colour][value.index]
+    for l, colour in enumerate(tableau.colours):
+        block = entries.A[l][value.colour]
+        if colour.rows == stage.space and block is not None:
+            return block[stage.index][value.index]
+    return 0
+
+
+def _text(x: Any) -> str:
+    return str(x.str(DIGITS, radius=False))
+
+
+def driven(colour: Colour) -> tuple[Group, ...]:
+    """What a colour drives."""
+    return GROUPS if colour.part == "y" else (colour.part,)
+
+
+def fitted(tableau: Tableau) -> Tableau:
+    """A partitioned method for an unsplit problem q̇ = V(q, p), ṗ = F(q, p) with both in one
+    term.
+    """
+    if (
+        tableau.size == 2
+        and len(tableau.spaces) == 1
+        and {x.part for x in tableau.colours} == set(GROUPS)
+    ):
+        return replace(tableau, colours=tuple(replace(x, term=0) for x in tableau.colours))
+    return tableau
+
+
+def fields_of(tableau: Tableau, problem: Hamiltonian) -> Fields:
+    """The vector fields of the colours.
+
+    Raises:
+        UsageProblem: the problem is not of the form that the structure of the method is for.
+    """
+    for term in range(len(problem.terms)):
+        for group in GROUPS:
+            has_colour = any(x.term == term and group in driven(x) for x in tableau.colours)
+            if not has_colour and not vector_field(problem, term, group).is_zero:
+                raise UsageProblem(
+                    f"H{{{term + 1}}} of {problem.name} depends on {'pq'[group == 'p']}, "
+                    f"but the method has no colour for that",
+                    f"choose a problem whose H{{{term + 1}}} depends on {'pq'[group == 'q']} alone, "
+                    f"or another structure",
+                )
+    fields = {
+        (m, group): field
+        for m, colour in enumerate(tableau.colours)
+        for group in driven(colour)
+        if not (field := vector_field(problem, colour.term, group)).is_zero
+    }
+    _check_sight(tableau, fields)
+    return fields
+
+
+def _check_sight(tableau: Tableau, fields: Fields) -> None:
+    for (l, _), field in fields.items():
+        name = tableau.colours[l].name
+        if tableau.colours[l].is_linear and not field.is_linear:
+            raise UsageProblem(
+                f"the method takes the field of colour {name} to be linear, and here it is not",
+                "choose a problem with quadratic kinetic energy",
+            )
+        for m, driver in fields:
+            if driver in field.depends and tableau.block(l, m) is None:
+                raise UsageProblem(
+                    f"the field of colour {name} depends on what colour {tableau.colours[m].name} drives, "
+                    f"which its stages do not see",
+                    "choose a problem of the form that the structure is for",
+                )
+
+
+def visible(tableau: Tableau, fields: Fields) -> Tableau:
+    """The tableau whose trees are those that the problem can see: its order is the one to be
+    observed.
+
+    Each field has a colour and stages of its own, zero fields have none, and no stage sees what its
+    field does not depend on.
+    """
+    names = list(fields)
+    colours = tuple(
+        replace(tableau.colours[m], rows=k, part=group, is_linear=fields[m, group].is_linear)
+        for k, (m, group) in enumerate(names)
+    )
+    blocks = {}
+    for k, (l, group) in enumerate(names):
+        for n, (m, driver) in enumerate(names):
+            block = tableau.block(l, m)
+            if driver in fields[l, group].depends and block is not None:
+                blocks[k, n] = block
+    return Tableau(tuple(tableau.space(m) for m, _ in names), colours, blocks)
+
+
+def sight(fields: Fields) -> str:
+    """In one line, which trees a problem with these fields can see."""
+    if all(field.is_linear for field in fields.values()):
+        return "a linear problem sees only the unbranched trees"
+    opposite = {"q": ("p",), "p": ("q",)}
+    if all(field.depends in ((), opposite[group]) for (_, group), field in fields.items()):
+        if all(field.is_linear for (_, group), field in fields.items() if group == "q"):
+            return (
+                "with quadratic kinetic energy it sees the trees in which velocities and forces alternate "
+                "and velocities do not branch"
+            )
+        return "a separable problem sees the trees in which velocities and forces alternate"
+    degrees = [field.degree for field in fields.values()]
+    branches = (
+        max(degree for degree in degrees if degree is not None) if None not in degrees else None
+    )
+    limit = "" if branches is None else f", with at most {branches} branches at a vertex"
+    alone = [
+        f"what depends on {x} alone has only {branch} as branches"
+        for x, g, branch in (("positions", "q", "velocities"), ("momenta", "p", "forces"))
+        if any(field.depends == (g,) for field in fields.values())
+    ]
+    return "; ".join([f"it sees the trees of all colours of the method{limit}", *alone])

@@ -1,0 +1,244 @@
+"""One step on a linear problem, exactly: y₁ = R(h) y₀ with R(h) ∈ K^{2×2}.
+
+The vector field of colour m is y ↦ L^m y, so the stage values obey, in the stage spaces,
+
+    Y^k = 𝟙 ⊗ y₀ + h Σ_m (A^{k,m} ⊗ L^m) Y^{rows(m)},     y₁ = y₀ + h Σ_m (b_m ⊗ L^m) Y^{rows(m)}.
+
+Keeping of each Y^k only the components that some vector field looks at, these are
+
+    X = E y₀ + h W X,     y₁ = y₀ + h B X,     hence     R(h) = I + h B (I − hW)⁻¹ E = I + Σ_k h^k B
+    W^{k−1} E.
+
+A number of K = ℚ(θ) is kept as its multiplication matrix over ℚ, so that all of it is rational
+arithmetic in python-flint.
+"""
+
+from __future__ import annotations
+
+from collections.abc import Iterator
+from dataclasses import dataclass
+
+from flint import arb, arb_mat, fmpq, fmpq_mat
+
+from garkcli.errors import UsageProblem
+from garkcli.exact.display import to_ball
+from garkcli.exact.field import ONE, ZERO, Number, NumberField, coordinates
+from garkcli.exact.matrix import Matrix, identity, multiply, scale, subtract, transpose
+from garkcli.problems.oscillator import Oscillator, check_structure
+from garkcli.tableau.tableau import Tableau
+
+MAX_STEPS = 10**15
+"""Most steps of a power of the step map."""
+
+
+@dataclass(frozen=True)
+class LinearStep:
+    """A tableau on an oscillator: the matrices W, E, B of this module's heading, over ℚ.
+
+    Attributes:
+        problem: the oscillator and its split.
+        field: K; None for ℚ. With d its degree and n the number of unknown stage values:
+        W: shape (dn, dn).
+        E: shape (dn, 2).
+        B: shape (2d, dn).
+    """
+
+    problem: Oscillator
+    field: NumberField | None
+    W: fmpq_mat
+    E: fmpq_mat
+    B: fmpq_mat
+
+    def at(self, h: fmpq) -> Matrix:
+        """R(h), exact, shape (2, 2).
+
+        Raises:
+            UsageProblem: the stage equations have no unique solution for this h.
+        """
+        n = self.W.nrows()
+        unit = fmpq_mat(n, n)
+        for i in range(n):
+            unit[i, i] = ONE
+        try:
+            X = (unit - self.W * h).solve(self.E)
+        except ZeroDivisionError:
+            raise UsageProblem(
+                f"the stage equations have no unique solution for h = {h}",
+                "choose another step size",
+            ) from None
+        increment = self._numbers(self.B * X * h)
+        return tuple(
+            tuple(x + y for x, y in zip(r, s, strict=True))
+            for r, s in zip(identity(2), increment, strict=True)
+        )
+
+    def series(self) -> Iterator[Matrix]:
+        """The coefficients R_1, R_2, … of R(h) = I + Σ R_k h^k, exact, each of shape (2, 2),
+        without end.
+        """
+        X = self.E
+        while True:
+            yield self._numbers(self.B * X)
+            X = self.W * X
+
+    def _numbers(self, flat: fmpq_mat) -> Matrix:
+        """Coordinates over ℚ, shape (2d, 2), back to numbers."""
+        if self.field is None:
+            return tuple(tuple(row) for row in flat.tolist())
+        d, columns = self.field.degree, flat.transpose().tolist()
+        rows = [
+            tuple(self.field.from_coordinates(column[i : i + d]) for column in columns)
+            for i in range(0, 2 * d, d)
+        ]
+        return tuple(rows)
+
+
+def linear_step(tableau: Tableau, problem: Oscillator) -> LinearStep:
+    """The step of ``tableau`` on ``problem``.
+
+    Raises:
+        UsageProblem: the split is not one that the structure of the tableau is for.
+    """
+    check_structure(tableau, problem)
+    fields = [problem.matrix(colour) for colour in tableau.colours]
+    terms = [
+        (m, i, j, L[i][j]) for m, L in enumerate(fields) for i in (0, 1) for j in (0, 1) if L[i][j]
+    ]
+    first: dict[tuple[int, int], int] = {}  # (stage space, component of y) → its first unknown
+    n = 0
+    for m, _, j, _ in terms:
+        if (tableau.colours[m].rows, j) not in first:
+            first[tableau.colours[m].rows, j] = n
+            n += tableau.space(m).stages
+    W: list[list[Number]] = [[ZERO] * n for _ in range(n)]
+    E: list[list[Number]] = [[ZERO] * 2 for _ in range(n)]
+    B: list[list[Number]] = [[ZERO] * n for _ in range(2)]
+    for m, i, j, factor in terms:
+        colour = tableau.colours[m]
+        column = first[colour.rows, j]
+        _add(B, i, column, factor, (colour.b,))
+        for (k, component), row in first.items():
+            block = tableau.blocks.get((k, m))
+            if component == i and block is not None:
+                _add(W, row, column, factor, block)
+    for (k, component), row in first.items():
+        _add(E, row, component, ONE, tuple((x,) for x in tableau.spaces[k].one))
+    field = tableau.field
+    return LinearStep(
+        problem, field, _over_rationals(W, field), _columns(E, field), _over_rationals(B, field)
+    )
+
+
+def _add(matrix: list[list[Number]], row: int, column: int, factor: Number, block: Matrix) -> None:
+    for i, entries in enumerate(block, start=row):
+        for j, x in enumerate(entries, start=column):
+            matrix[i][j] = matrix[i][j] + factor * x
+
+
+def _over_rationals(rows: list[list[Number]], field: NumberField | None) -> fmpq_mat:
+    """Each number replaced by its multiplication matrix over ℚ."""
+    if field is None:
+        return fmpq_mat([[x for x in row if isinstance(x, fmpq)] for row in rows])
+    d = field.degree
+    powers = [field.from_coordinates([fmpq(int(i == k)) for i in range(d)]) for k in range(d)]
+    columns = [
+        [x for row in rows for x in coordinates(row[j] * power, d)]
+        for j in range(len(rows[0]))
+        for power in powers
+    ]
+    return fmpq_mat(columns).transpose()
+
+
+def _columns(rows: list[list[Number]], field: NumberField | None) -> fmpq_mat:
+    """Each number replaced by its column of coordinates over ℚ."""
+    d = field.degree if field else 1
+    return fmpq_mat(
+        [
+            list(row)
+            for entries in rows
+            for row in zip(*(coordinates(x, d) for x in entries), strict=True)
+        ]
+    )
+
+
+def step_matrix(step: LinearStep, h: fmpq, bits: int) -> arb_mat:
+    """R(h) enclosed with about ``bits`` correct bits an entry, shape (2, 2); raises as
+    ``LinearStep.at``.
+    """
+    return enclosure(step.at(h), bits)
+
+
+def enclosure(matrix: Matrix, bits: int) -> arb_mat:
+    """An exact matrix as balls of about ``bits`` correct bits."""
+    return arb_mat([[_ball(x, bits) for x in row] for row in matrix])
+
+
+def _ball(x: Number, bits: int) -> arb:
+    return to_ball(x, bits * 3 // 10 + 1)
+
+
+def conserves_energy(R: Matrix, omega: fmpq) -> bool:
+    """Whether Rᵀ G R = G with G = diag(ω², 1): ½(p² + ω²q²) is the same after the step, decided
+    exactly.
+    """
+    G: Matrix = ((omega * omega, ZERO), (ZERO, ONE))
+    difference = subtract(multiply(transpose(R), multiply(G, R)), G)
+    return not any(x for row in difference for x in row)
+
+
+def deviations(step: LinearStep) -> Iterator[arb]:
+    """How far the coefficients of h, h², … in R(h) are from those of exp(hL), without end.
+
+    Each is the largest of its four entries, in units in which ω = 1; it is zero if and only if all
+    are.
+    """
+    omega = step.problem.omega
+    L: Matrix = ((ZERO, ONE), (-omega * omega, ZERO))
+    units: Matrix = ((ONE, omega), (ONE / omega, ONE))
+    exact = identity(2)
+    for k, R_k in enumerate(step.series(), start=1):
+        exact = scale(fmpq(1, k), multiply(L, exact))
+        scaled = [
+            unit * x / omega**k
+            for row, scales in zip(subtract(R_k, exact), units, strict=True)
+            for x, unit in zip(row, scales, strict=True)
+        ]
+        largest = arb(0)
+        for x in scaled:
+            largest = largest.max(abs(to_ball(x)))
+        yield largest
+
+
+def visible_order(step: LinearStep, tolerance: float = 0.0) -> int:
+    """The largest r with R(h) = exp(hL) + O(h^{r+1}), decided exactly: the order that this problem
+    can see.
+
+    A linear problem sees only the unbranched trees, and of these only those along which the split
+    is not zero. The search ends, because an entry of R is rational in h and cos ωh is not.
+
+    Args:
+        step: the method on the problem.
+        tolerance: the largest of the ``deviations`` that counts as rounding.
+    """
+    return next(r for r, deviation in enumerate(deviations(step)) if deviation > tolerance)
+
+
+def whole_steps(t_end: fmpq, h: fmpq) -> int:
+    """The number of steps n = t_end / h.
+
+    Raises:
+        UsageProblem: it is not a positive whole number, or more than ``MAX_STEPS``.
+    """
+    if h <= 0 or t_end <= 0:
+        raise UsageProblem(
+            f"step {h} and end time {t_end} are not both positive", "give positive numbers"
+        )
+    n = t_end / h
+    if n.q != 1:
+        near = h * max(int(n.floor()), 1)
+        raise UsageProblem(f"the end time {t_end} is not a whole number of steps {h}", f"{near} is")
+    if n.p > MAX_STEPS:
+        raise UsageProblem(
+            f"{n} steps (limit {MAX_STEPS})", "choose a shorter time or larger steps"
+        )
+    return int(n.p)

@@ -1,0 +1,64 @@
+"""A method and a problem made for each other: the problem in the number of terms that the method is
+for.
+"""
+
+from __future__ import annotations
+
+from dataclasses import replace
+from typing import Any
+
+from garkcli.errors import UsageProblem
+from garkcli.problems.hamiltonian import Hamiltonian, symbols
+from garkcli.problems.oscillator import terms_of
+from garkcli.stepping.dependency import fitted
+from garkcli.tableau.tableau import Tableau
+
+
+def matched(tableau: Tableau, problem: Hamiltonian) -> tuple[Tableau, Hamiltonian]:
+    """``tableau`` as ``fitted`` makes it, and ``problem`` as ``fit`` does: what every step is made
+    of.
+
+    Raises:
+        UsageProblem: the problem has no natural split into the terms that the method is for.
+    """
+    tableau = fitted(tableau)
+    return tableau, fit(problem, terms_of(tableau))
+
+
+def fit(problem: Hamiltonian, terms: int) -> Hamiltonian:
+    """``problem`` with as many terms.
+
+    One term is the sum. A problem of one term is split in the natural way: the summands with
+    momenta make the first term, those of the positions alone the others, in equal shares.
+
+    Raises:
+        UsageProblem: there is no natural split.
+    """
+    found = len(problem.terms)
+    if found == terms:
+        return problem
+    if terms == 1:
+        return problem.unsplit()
+    split = _natural(problem, terms) if found == 1 else None
+    if split is None:
+        raise UsageProblem(
+            f"{problem.name} has {found} term{'s' * (found > 1)}, the method is for {terms}",
+            f"give a list of {terms} in its file, or choose a method for {found}"
+            if found > 1
+            else f"give a list of {terms} in its file: no sum of parts with and without momenta",
+        )
+    return replace(problem, terms=split)
+
+
+def _natural(problem: Hamiltonian, terms: int) -> tuple[Any, ...] | None:
+    """T and shares of V, for H = T(q, p) + V(q); None where there is only one of them."""
+    import sympy
+
+    momenta = set(symbols(problem.variables, "p"))
+    summands = sympy.Add.make_args(problem.terms[0])
+    kinetic = [x for x in summands if x.free_symbols & momenta]
+    potential = [x for x in summands if not x.free_symbols & momenta]
+    if not kinetic or not any(x.free_symbols for x in potential):
+        return None
+    share = sympy.expand(sympy.Add(*potential) / (terms - 1))
+    return (sympy.Add(*kinetic), *(share,) * (terms - 1))

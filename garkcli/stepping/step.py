@@ -1,0 +1,165 @@
+"""Steps of a symplectic pair, eq. (spgqrk), or of a GARK method, on a split Hamiltonian problem.
+
+With y_0 the start of the step, and the colours m of the tableau,
+
+    Y^k_i = y_0 + h Σ_m Σ_j a^{k,m}_{ij} f^m(Y^{rows(m)}_j),
+    y_1 = y_0 + h Σ_m Σ_j b^m_j f^m(Y^{rows(m)}_j),
+
+where f^m drives positions (V), momenta (F) or both. Explicit parts are computed in order; the
+unknowns of each implicit block by Newton's method with exact Jacobians.
+``garkcli.stepping.program`` writes this out for the method and the problem at hand. The numbers are
+floats with compensated summation from step to step, or midpoints of balls with any number of
+digits; Jacobians are floats in both cases, so that each iteration near the solution is worth the
+digits of a float.
+"""
+
+from __future__ import annotations
+
+from collections.abc import Iterator, Sequence
+from dataclasses import dataclass, field
+from math import isfinite
+from typing import Any
+
+from flint import ctx, fmpq
+
+from garkcli.errors import GarkError
+from garkcli.stepping.integrator import NotSolved, Real, Record, Scheme
+
+_AHEAD = 64  # most steps in floats by which a trajectory is ahead of who looks at it
+
+
+class StepFailed(GarkError):
+    """The stage equations of a step were not solved."""
+
+    def __init__(self, number: int, h: fmpq, residual: float) -> None:
+        what = (
+            "the stage equations were not solved"
+            if isfinite(residual)
+            else "the numbers leave the vector fields"
+        )
+        ends = (
+            "" if isfinite(residual) else ", or an earlier final time: the solution may end there"
+        )
+        super().__init__(
+            f"step {number} of size {h}: {what} (residual {residual:.1e})",
+            f"choose a smaller step size{ends}",
+        )
+        self.number = number
+        self.h = h
+        self.residual = residual
+
+
+@dataclass(frozen=True)
+class Work:
+    """What a run of steps has cost.
+
+    Attributes:
+        evaluations: of vector fields, each one V^{l} or F^{l} at one stage, those of Newton's
+            method included.
+        iterations: of Newton's method, over all implicit blocks.
+        jacobians: of an implicit block, each with its factorisation.
+    """
+
+    evaluations: int
+    iterations: int
+    jacobians: int
+
+
+def trajectory(
+    scheme: Scheme, h: fmpq, count: int, initial: Sequence[Any] | None = None, every: int = 1
+) -> Iterator[list[Real]]:
+    """(q, p) at the start and after each ``every`` of ``count`` steps of size ``h``, shape (2d,).
+
+    The last one is after ``count`` steps, whatever remains. The start is ``initial``, or that of
+    the problem.
+
+    Raises:
+        StepFailed: the stage equations of a step were not solved.
+    """
+    state = State(scheme, h, initial)
+    yield state.y
+    if every > 1 or scheme.is_for_balls:
+        while state.done < count:
+            state.advance(min(every, count - state.done))
+            yield state.y
+        return
+    while state.done < count:
+        states: list[list[Real]] = []
+        try:
+            state.advance(min(_AHEAD, count - state.done), states.append)
+        except StepFailed:
+            yield from states
+            raise
+        yield from states
+
+
+def final(scheme: Scheme, h: fmpq, count: int, initial: Sequence[Any] | None = None) -> list[Real]:
+    """(q, p) after ``count`` steps; see ``trajectory``."""
+    state = State(scheme, h, initial)
+    state.advance(count)
+    return state.y
+
+
+@dataclass
+class State:
+    """A trajectory at one time, to be advanced.
+
+    Attributes:
+        scheme: what steps.
+        h: the step size.
+        initial: (q, p) at the start, shape (2d,), or None for the problem's.
+        done: how many steps have been done.
+    """
+
+    scheme: Scheme
+    h: fmpq
+    initial: Sequence[Any] | None = None
+    done: int = 0
+    _numbers: list[Real] = field(init=False)  # as ``Program`` describes them
+    _weights: list[Real] = field(init=False)
+    _iterations: list[int] = field(init=False)
+    _jacobians: int = 0
+
+    def __post_init__(self) -> None:
+        scheme = self.scheme
+        start = scheme.problem.initial if self.initial is None else self.initial
+        with ctx.workprec(scheme.bits):
+            self._numbers = [scheme.number(x) for x in start]
+            self._numbers += [scheme.number(0)] * (scheme.program.size - len(self._numbers))
+        self._weights = scheme.weights(self.h)
+        self._iterations = [0] * len(scheme.program.repeated)
+
+    @property
+    def y(self) -> list[Real]:
+        """(q, p), shape (2d,)."""
+        return self._numbers[: 2 * self.scheme.problem.dimension]
+
+    @property
+    def work(self) -> Work:
+        """What all steps so far have cost."""
+        program = self.scheme.program
+        repeated = sum(n * k for n, k in zip(self._iterations, program.repeated, strict=True))
+        return Work(
+            self.done * program.evaluations + repeated, sum(self._iterations), self._jacobians
+        )
+
+    def advance(self, count: int, record: Record | None = None) -> None:
+        """``count`` steps; ``record`` is told of each.
+
+        Raises:
+            StepFailed: the stage equations of a step were not solved.
+        """
+        try:
+            if self.scheme.is_for_balls:
+                with ctx.workprec(self.scheme.bits):
+                    made = self.scheme.run(
+                        self._numbers, self._weights, self.done + 1, count, record
+                    )
+            else:
+                made = self.scheme.run(self._numbers, self._weights, self.done + 1, count, record)
+        except NotSolved as failure:
+            raise StepFailed(failure.number, self.h, failure.residual) from None
+        self._numbers, iterations, jacobians = made
+        self._iterations = [a + b for a, b in zip(self._iterations, iterations, strict=True)]
+        self._jacobians += jacobians
+        self.done += count

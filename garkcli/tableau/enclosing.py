@@ -1,0 +1,73 @@
+"""A tableau entry by entry in balls: what residuals are computed with when coefficients are
+rounded.
+"""
+
+from __future__ import annotations
+
+from collections.abc import Mapping, Sequence
+from dataclasses import dataclass
+from typing import cast
+
+from flint import arb, arb_mat, ctx
+
+from garkcli.exact.display import to_ball
+from garkcli.exact.field import Number
+from garkcli.tableau.pointwise import Cell, numeric_entries
+from garkcli.tableau.stages import PointSpace
+from garkcli.tableau.tableau import Tableau
+
+MOST_DIGITS = 300
+"""Digits to which entries of polynomial stage spaces are enclosed at most; the exponents of floats
+end at 308.
+"""
+GUARD = 32
+"""Bits that entries are enclosed more finely than the arithmetic that uses them."""
+
+
+@dataclass(frozen=True)
+class Enclosure:
+    """Balls around the entries of a tableau, one coordinate a stage whatever the stage spaces are.
+
+    Attributes:
+        bits: the precision of the arithmetic meant for them.
+        stages: s of each stage space.
+        A: the block of each pair (space, colour) as in ``Tableau.blocks``, shape (s_space,
+            s_colour).
+        b: the weights of each colour as a column, shape (s_colour, 1).
+    """
+
+    bits: int
+    stages: tuple[int, ...]
+    A: Mapping[tuple[int, int], arb_mat]
+    b: tuple[arb_mat, ...]
+
+
+def enclose_tableau(tableau: Tableau, bits: int) -> Enclosure:
+    """The entries to ``bits`` bits.
+
+    Where all coefficients are spelled out any number of bits is reached; the nodes of families are
+    known to ``MOST_DIGITS`` digits at most.
+    """
+    digits = int((bits + GUARD) * 0.302)
+    with ctx.workprec(bits + GUARD):
+        if all(isinstance(space, PointSpace) for space in tableau.spaces):
+            A = {key: _balls(block, digits) for key, block in tableau.blocks.items()}
+            b = [_balls([colour.b], digits).transpose() for colour in tableau.colours]
+        else:
+            found = numeric_entries(tableau, min(digits, MOST_DIGITS))
+            colour_of = {colour.rows: l for l, colour in enumerate(tableau.colours)}
+            A = {(k, m): _matrix(found.A[colour_of[k]][m] or ()) for k, m in tableau.blocks}
+            b = [_matrix([row]).transpose() for row in found.b]
+    return Enclosure(bits, tuple(space.stages for space in tableau.spaces), A, tuple(b))
+
+
+def _matrix(rows: Sequence[Sequence[Cell]]) -> arb_mat:
+    return arb_mat([[cast("arb", x) for x in row] for row in rows])
+
+
+def _balls(rows: Sequence[Sequence[Number]], digits: int) -> arb_mat:
+    known: dict[Number, arb] = {}
+    for number in (x for row in rows for x in row):
+        if number not in known:
+            known[number] = to_ball(number, digits)
+    return arb_mat([[known[x] for x in row] for row in rows])

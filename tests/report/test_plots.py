@@ -1,0 +1,323 @@
+"""Plots of results, in text and as files."""
+
+from __future__ import annotations
+
+from collections.abc import Sequence
+from dataclasses import replace
+from itertools import pairwise
+from pathlib import Path
+
+import numpy as np
+import pytest
+from flint import arb, fmpq
+from matplotlib.backends.backend_agg import FigureCanvasAgg
+from matplotlib.colors import to_rgb
+from matplotlib.figure import Figure
+from matplotlib.lines import Line2D
+
+from garkcli.convergence.convergence import Convergence, converge
+from garkcli.convergence.work import timed
+from garkcli.errors import UsageProblem
+from garkcli.families.registry import diagonal_method
+from garkcli.longtime.energy import drift
+from garkcli.plots.convergence_plot import comparison_figure, convergence_figure, save
+from garkcli.plots.energy_plot import drift_figure
+from garkcli.problems.oscillator import Oscillator
+from garkcli.report.asciiplot import SEVERAL, terminal_curves, terminal_plot
+from garkcli.tableau.forms import gark
+
+OSCILLATOR = Oscillator.default(1, fmpq(1))
+
+
+def result_of(name: str, s: int | None = None) -> Convergence:
+    """The convergence test of one method."""
+    return converge(gark([diagonal_method(name, s)], {}), OSCILLATOR)
+
+
+def test_terminal_plot_is_a_straight_line() -> None:
+    """Points of error = h² rise from the lower left to the upper right corner, in equal steps."""
+    h = [10.0**-k for k in range(4)]
+    lines = terminal_plot(h, [x**2 for x in h], width=31, height=7).splitlines()
+    at = [(i, line.index("•")) for i, line in enumerate(lines) if "•" in line]
+    assert [i for i, _ in at] == [1, 3, 5, 7]
+    assert [at[k][1] - at[k + 1][1] for k in range(3)] == [10, 10, 10]
+
+
+@pytest.mark.parametrize("name", ["explicit-euler", "rk4"])
+def test_terminal_plot_fits_the_terminal(name: str) -> None:
+    """Every point is there, the reference line too, within 80 columns."""
+    result = result_of(name)
+    text = terminal_plot(
+        [r.h for r in result.rows], [r.error for r in result.rows], order=result.visible_order
+    )
+    lines = text.splitlines()
+    assert len(lines) == 16 + 3
+    assert max(map(len, lines)) <= 80
+    assert text.count("•") == len(result.rows)
+    assert "·" in text
+
+
+def test_terminal_plot_below_the_floats() -> None:
+    """Errors that no float can hold are plotted all the same."""
+    tiny = [arb(10) ** -(k * 400) for k in (1, 2, 3)]
+    text = terminal_plot([fmpq(1), fmpq(1, 2), fmpq(1, 4)], tiny)
+    assert "1e-400" in text
+    assert text.count("•") == 3
+
+
+def test_terminal_plot_of_little() -> None:
+    """One point has a plot, none has words."""
+    assert terminal_plot([0.5], [0.1]).count("•") == 1
+    assert terminal_plot([0.5], [0.0]) == "no positive errors to plot"
+
+
+def test_terminal_curves_have_marks_of_their_own() -> None:
+    """Points of two methods in one frame; where they fall together there is a sign for that."""
+    one, two = [(k, 10.0**-k) for k in (1, 2, 3)], [(k, 10.0 ** (k - 4)) for k in (1, 2, 3)]
+    text = terminal_curves({"A": one, "B": two}, "steps")
+    assert (text.count("A"), text.count("B"), text.count(SEVERAL)) == (2, 2, 1)
+    assert text.endswith("  steps")
+    assert terminal_curves({"A": []}, "steps") == "no positive errors to plot"
+
+
+@pytest.mark.parametrize(
+    ("top", "label"), [(999.0, "1000"), (1234.0, "1200"), (56789.0, "57000"), (1.26e6, "1.3e6")]
+)
+def test_terminal_axis_of_counts(top: float, label: str) -> None:
+    """Counts are whole numbers with two digits that are right, large ones with an exponent, within
+    80 columns.
+    """
+    text = terminal_curves({"A": [(1.0, 1.0), (top, 0.1)]}, "evaluations")
+    assert text.splitlines()[-1].split()[-2:] == [label, "evaluations"]
+    assert max(map(len, text.splitlines())) <= 78
+
+
+@pytest.mark.parametrize(
+    ("suffix", "start"), [(".png", b"\x89PNG"), (".svg", b"<?xml"), (".pdf", b"%PDF")]
+)
+def test_figures_are_saved(tmp_path: Path, suffix: str, start: bytes) -> None:
+    """Each format is what its name says, nothing else is left behind, and an old file is
+    replaced.
+    """
+    path = tmp_path / f"figure{suffix}"
+    path.write_text("old")
+    save(convergence_figure(result_of("rk4")), path)
+    assert path.read_bytes().startswith(start)
+    assert path.stat().st_size > 5000
+    assert list(tmp_path.iterdir()) == [path]
+
+
+def test_convergence_figure_shows_the_result() -> None:
+    """Its lines are the errors, the energy errors and a reference of the right slope; all are
+    labelled.
+    """
+    result = result_of("rk4")
+    (axes,) = convergence_figure(result).axes
+    error, energy, reference = axes.get_lines()
+    assert list(error.get_ydata()) == pytest.approx([float(r.error) for r in result.rows])
+    assert list(energy.get_ydata()) == pytest.approx([float(r.energy_error) for r in result.rows])
+    x, y = reference.get_xdata(), reference.get_ydata()
+    assert y[0] / y[1] == pytest.approx((x[0] / x[1]) ** 4)
+    assert reference.get_label() == "reference, slope 4"
+    assert (axes.get_xscale(), axes.get_yscale()) == ("log", "log")
+
+
+def test_comparison_figure_shows_every_method() -> None:
+    """Errors with a mark and a dash each, a line a visible order with its slope, and all names in
+    the legend.
+    """
+    named = [
+        (f"the method {name}", result_of(name))
+        for name in ("explicit-euler", "rk4", "heun", "kutta")
+    ]
+    named.append(("again rk4", result_of("rk4")))
+    figure = comparison_figure(named)
+    (axes,) = figure.axes
+    curves, slopes = axes.get_lines()[:5], axes.get_lines()[5:]
+    for drawn, (_, result) in zip(curves, named, strict=True):
+        assert list(drawn.get_ydata()) == pytest.approx([float(row.error) for row in result.rows])
+    assert len({(x.get_marker(), x.get_linestyle()) for x in curves}) == 5
+    found = []
+    for line in slopes:
+        x, y = line.get_xdata(), line.get_ydata()
+        found.append(round(float(np.log(y[0] / y[1]) / np.log(x[0] / x[1])), 9))
+        assert line.get_label() == f"slope {found[-1]:.0f}"
+    assert sorted(found) == [1, 2, 3, 4]
+    assert [text.get_text() for text in figure.legends[0].get_texts()] == [
+        name for name, _ in named
+    ]
+
+
+def test_comparison_figure_in_grey() -> None:
+    """Without colours curves differ by marks, or by dashes where marks repeat; all stand out from
+    white.
+    """
+    curves = (
+        comparison_figure([(str(k), result_of("rk4")) for k in range(20)]).axes[0].get_lines()[:20]
+    )
+    assert len({(x.get_marker(), str(x._dash_pattern)) for x in curves}) == 20
+    for one, other in pairwise(curves):
+        assert one.get_marker() != other.get_marker()
+        assert one._dash_pattern != other._dash_pattern
+    colours = [to_rgb(x.get_color()) for x in curves]
+    assert max(0.299 * r + 0.587 * g + 0.114 * b for r, g, b in colours) < 0.6
+
+
+@pytest.mark.parametrize(("against", "sign"), [("evaluations", -1), ("seconds", -1), ("h", 1)])
+def test_work_figure(against: str, sign: int) -> None:
+    """Errors against what they cost; the line beside them falls as fast as the order says."""
+    tableau = gark([diagonal_method("rk4")], {})
+    result = timed(tableau, result_of("rk4"))
+    (axes,) = comparison_figure([("rk4", result)], against).axes
+    curve, slope = axes.get_lines()
+    if against == "evaluations":
+        assert list(curve.get_xdata()) == pytest.approx(
+            [row.cost.evaluations for row in result.rows if row.cost]
+        )
+    x, y = slope.get_xdata(), slope.get_ydata()
+    assert np.log(y[0] / y[1]) / np.log(x[0] / x[1]) == pytest.approx(4 * sign)
+    assert slope.get_label() == ("slope 4" if sign > 0 else "slope −4")
+
+
+def test_names_are_no_formulas(tmp_path: Path) -> None:
+    """Dollars, braces, a first underscore, letters that the font has not, and a very long name are
+    all drawn.
+    """
+    names = ["$x^{", "_hidden", "方法", "long " * 40]
+    figure = comparison_figure([(name, result_of("rk4")) for name in names])
+    shown = [text.get_text() for text in figure.legends[0].get_texts()]
+    assert shown[:3] == names[:3]
+    assert len(shown[3]) < 80
+    save(figure, tmp_path / "figure.svg")
+    save(figure, tmp_path / "figure.pdf")
+
+
+def test_figures_without_errors(tmp_path: Path) -> None:
+    """Where a method makes no error there is nothing to draw but the axes, and that is no fault."""
+    result = result_of("rk4")
+    exact = replace(
+        result,
+        rows=(replace(result.rows[0], error=arb(0), energy_error=arb(0)),),
+        observed_order=None,
+    )
+    for k, figure in enumerate((convergence_figure(exact), comparison_figure([("rk4", exact)]))):
+        assert figure.axes[0].get_lines() == []
+        save(figure, tmp_path / f"{k}.png")
+    mixed = comparison_figure([("exact", exact), ("rk4", result)])
+    assert [text.get_text() for text in mixed.legends[0].get_texts()] == ["rk4"]
+
+
+def test_comparison_beyond_the_floats(tmp_path: Path) -> None:
+    """Errors below 1e-308 beside large ones: logarithms are drawn instead."""
+    path = tmp_path / "figure.svg"
+    save(comparison_figure([("gauss 40", result_of("gauss", 40)), ("rk4", result_of("rk4"))]), path)
+    assert path.stat().st_size > 5000
+
+
+@pytest.mark.parametrize(("name", "s"), [("gauss", 2), ("gauss", 40), ("explicit-euler", None)])
+def test_figures_without_energy_errors_or_floats(tmp_path: Path, name: str, s: int | None) -> None:
+    """Exact conservation and errors below 1e-308 have figures too."""
+    path = tmp_path / "figure.svg"
+    save(convergence_figure(result_of(name, s)), path)
+    assert path.stat().st_size > 5000
+
+
+@pytest.mark.parametrize("name", ["rk4", "explicit-euler", "gauss"])
+def test_drift_figure(tmp_path: Path, name: str) -> None:
+    """Small, exploded and zero energy errors all make a figure of the series."""
+    tableau = gark([diagonal_method(name, 2 if name == "gauss" else None)], {})
+    result = drift(tableau, OSCILLATOR, fmpq(1000), fmpq(1, 2))
+    figure = drift_figure(result)
+    assert list(figure.axes[0].get_lines()[0].get_ydata()) == list(result.energy_errors)
+    save(figure, tmp_path / "drift.png")
+    assert (tmp_path / "drift.png").stat().st_size > 5000
+
+
+@pytest.mark.parametrize("name", ["figure.jpg", "figure", "figure.txt"])
+def test_other_suffixes_are_refused(tmp_path: Path, name: str) -> None:
+    """Before anything is written."""
+    with pytest.raises(UsageProblem, match="no figure can be saved"):
+        save(Figure(), tmp_path / name)
+    assert not list(tmp_path.iterdir())
+
+
+def test_failed_save_leaves_the_old_file(tmp_path: Path, monkeypatch: pytest.MonkeyPatch) -> None:
+    """A fault while drawing removes the half-written file and keeps the old one."""
+
+    def fail(*_: object, **__: object) -> None:
+        raise OSError("disk full")
+
+    path = tmp_path / "figure.png"
+    path.write_text("old")
+    monkeypatch.setattr(Figure, "savefig", fail)
+    with pytest.raises(OSError, match="disk full"):
+        save(Figure(), path)
+    assert [x.read_text() for x in tmp_path.iterdir()] == ["old"]
+
+
+def _clearance(line: Line2D, curves: Sequence[Line2D]) -> float:
+    """The least distance of a line from curves, in decades of the error."""
+    (a, b), (c, d) = np.log10(line.get_xdata()), np.log10(line.get_ydata())
+    least = float("inf")
+    for x in np.linspace(a, b, 50):
+        y = c + (d - c) * (x - a) / (b - a)
+        for curve in curves:
+            xs, ys = np.log10(curve.get_xdata())[::-1], np.log10(curve.get_ydata())[::-1]
+            if xs[0] <= x <= xs[-1]:
+                least = min(least, abs(y - np.interp(x, xs, ys)))
+    return least
+
+
+def test_lines_of_slopes_are_on_no_curve() -> None:
+    """A second method whose errors are where the line of the first would be: the line is somewhere
+    else.
+    """
+    result = result_of("rk4")
+    for factor in (1e-3, 0.03, 0.3, 0.5, 2, 30):
+        shifted = replace(
+            result, rows=tuple(replace(row, error=row.error * factor) for row in result.rows)
+        )
+        (axes,) = comparison_figure([("one", result), ("other", shifted)]).axes
+        *curves, line = axes.get_lines()
+        errors = np.log10([y for x in curves for y in x.get_ydata()])
+        assert _clearance(line, curves) > 0.03 * np.ptp(errors)
+
+
+def test_the_reference_is_not_on_the_energy_error() -> None:
+    """Energy errors may be a little above the errors, where the reference usually is."""
+    result = result_of("rk4")
+    rows = tuple(replace(row, energy_error=row.error * 3) for row in result.rows)
+    (axes,) = convergence_figure(replace(result, rows=rows)).axes
+    *curves, line = axes.get_lines()
+    assert _clearance(line, curves) > 0.3
+
+
+@pytest.mark.parametrize(
+    ("steps", "shown"),
+    [
+        ((fmpq(1, 3), fmpq(1, 5), fmpq(1, 7)), ["0.2", "0.3"]),
+        ((fmpq(1, 2), fmpq(1, 10), fmpq(1, 20)), ["0.05", "0.1", "0.2", "0.5"]),
+        (
+            (fmpq(1, 2), fmpq(1, 100), fmpq(1, 1000)),
+            ["$\\mathdefault{10^{-3}}$", "$\\mathdefault{10^{-2}}$"],
+        ),
+    ],
+)
+def test_numbers_below_do_not_collide(steps: tuple[fmpq, ...], shown: list[str]) -> None:
+    """Over few decades some multiples of powers of ten are labelled too, and never one on
+    another.
+    """
+    result = converge(gark([diagonal_method("rk4")], {}), OSCILLATOR, fmpq(1), steps)
+    figure = comparison_figure([("rk4", result)])
+    canvas = FigureCanvasAgg(figure)
+    canvas.draw()
+    (axes,) = figure.axes
+    low, high = axes.get_xlim()
+    labels = [
+        text
+        for tick in (*axes.xaxis.get_major_ticks(), *axes.xaxis.get_minor_ticks())
+        if (text := tick.label1).get_text() and low <= tick.get_loc() <= high
+    ]
+    assert set(shown) <= {text.get_text() for text in labels}
+    boxes = sorted((text.get_window_extent() for text in labels), key=lambda box: box.x0)
+    assert all(one.x1 < other.x0 for one, other in pairwise(boxes))
