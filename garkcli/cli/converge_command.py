@@ -15,11 +15,19 @@ from garkcli.cli.stepping import applied, positive, refuse_misplaced
 from garkcli.errors import UsageProblem
 
 if TYPE_CHECKING:
-    from flint import fmpq
     from matplotlib.figure import Figure
 
 AXES = ("h", "evaluations", "seconds")
 """What plots of errors can have below."""
+
+
+def _moved(_: click.Context, option: click.Parameter, value: object) -> None:
+    """Say where an option has gone that earlier versions had."""
+    if value:
+        raise UsageProblem(
+            f"gark converge has no {option.opts[0]}: the energy over a long time is gark energy",
+            "gark energy FILE --t-end T --step H",
+        )
 
 
 @click.command("converge", context_settings=CONTEXT)
@@ -38,9 +46,7 @@ AXES = ("h", "evaluations", "seconds")
 @click.option(
     "--seed", type=click.IntRange(0), metavar="N", help="The coefficients of generic; 1 by default."
 )
-@click.option(
-    "--t-end", metavar="T", help="The final time; without --drift each problem has its own."
-)
+@click.option("--t-end", metavar="T", help="The final time; each problem has its own.")
 @click.option(
     "--steps",
     metavar="H,...",
@@ -56,10 +62,8 @@ AXES = ("h", "evaluations", "seconds")
     type=click.Choice(AXES),
     help="What plots have below: h, or evaluations with --work; seconds depend on the machine.",
 )
-@click.option(
-    "--drift", is_flag=True, help="The energy error over a long time; with --t-end and --step."
-)
-@click.option("--step", metavar="H", help="The step size for --drift.")
+@click.option("--drift", is_flag=True, hidden=True, expose_value=False, callback=_moved)
+@click.option("--step", hidden=True, expose_value=False, callback=_moved)
 @click.option("--plot", metavar="FILE", help="Draw into FILE: .png, .svg or .pdf.")
 @common(["text", "json", "csv"])
 def command(
@@ -72,8 +76,6 @@ def command(
     steps: str | None,
     work: bool,
     against: str | None,
-    drift: bool,
-    step: str | None,
     plot: str | None,
     output: Output,
 ) -> int:
@@ -93,19 +95,9 @@ def command(
     from garkcli.methodfile.load import find_files
 
     paths = list(find_files(files))
-    refuse_misplaced(problem, seed, {"--omega": omega, "--split": split, "--drift": drift})
+    refuse_misplaced(problem, seed, {"--omega": omega, "--split": split})
     if omega:
         positive("--omega", omega)
-    if drift and (steps or work or not (t_end and step)):
-        raise UsageProblem(
-            "--drift follows one step size over one time", "give --t-end T and --step H only"
-        )
-    if drift and len(paths) > 1:
-        raise UsageProblem("--drift follows one method", "give one file")
-    if step and not drift:
-        raise UsageProblem(
-            "--step is the step size of --drift", "give --steps H,H,... for the convergence test"
-        )
     if against not in (None, "h") and not work:
         raise UsageProblem(f"--against {against} is not known without measuring it", "add --work")
     if plot is not None:
@@ -121,8 +113,6 @@ def command(
         None if steps is None else tuple(positive("--steps", h) for h in steps.split(",")),
         work,
     )
-    if drift:
-        return _drift(paths[0], wanted, positive("--step", step), plot, output)
     shown = Shown(work, against or ("evaluations" if work else "h"), plot)
     return (
         _one(paths[0], wanted, shown, output)
@@ -201,22 +191,3 @@ def _save(figure: Figure, shown: Shown, output: Output) -> None:
 
     save(figure, Path(shown.plot or ""))
     output.note(f"wrote {shown.plot}")
-
-
-def _drift(path: str, wanted: Wanted, step: fmpq, plot: str | None, output: Output) -> int:
-    from garkcli.longtime.energy import drift
-    from garkcli.methodfile.load import load
-    from garkcli.report import energy as report
-
-    method = load(path)
-    tableau = applied(method, output)
-    assert wanted.t_end is not None
-    result = drift(tableau, oscillator(wanted, tableau), wanted.t_end, step)
-    output.write(report.render_drift(result, method.name, output.format, output.paint))
-    if plot is not None:
-        from garkcli.plots.convergence_plot import save
-        from garkcli.plots.energy_plot import drift_figure
-
-        save(drift_figure(result), Path(plot))
-        output.note(f"wrote {plot}")
-    return 0

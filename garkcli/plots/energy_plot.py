@@ -9,10 +9,9 @@ from matplotlib.axes import Axes
 from matplotlib.figure import Figure
 
 from garkcli.longtime.courses import Course, LongRun
-from garkcli.longtime.energy import Drift
 from garkcli.problems.hamiltonian import Hamiltonian
 
-_BLUE, _PALE, _RED = "#1f4e9e", "#7fa1d6", "#a02417"  # of clearly different lightness in grey
+_PALE, _RED = "#7fa1d6", "#a02417"  # of clearly different lightness in grey
 
 
 def energy_figure(run: LongRun) -> Figure:
@@ -65,22 +64,3 @@ def _words(course: Course) -> str:
         "undecided": "too short to judge",
     }
     return words.get(course.verdict, course.verdict)
-
-
-def drift_figure(result: Drift) -> Figure:
-    """The energy error against time."""
-    figure = Figure(figsize=(7.2, 3.6), layout="constrained")
-    axes = figure.add_subplot()
-    axes.plot(result.times, result.energy_errors, color=_BLUE, linewidth=0.4)
-    axes.axhline(0.0, color="0.3", linewidth=0.8)
-    axes.set_title(
-        f"Energy of the oscillator, h = {result.step}: largest error {result.max_energy_error:.2e}, "
-        f"drift {result.drift:.1e} per unit of time",
-        fontsize=10,
-    )
-    axes.set_xlabel("time t")
-    axes.set_ylabel("H(t) − H(0)")
-    axes.ticklabel_format(axis="y", style="sci", scilimits=(-2, 3), useMathText=True)
-    axes.grid(True, color="0.9", linewidth=0.6)
-    axes.margins(x=0)
-    return figure

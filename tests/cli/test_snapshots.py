@@ -42,15 +42,6 @@ RUNS = {
         "methods/ark-ars222.gark.yaml",
         "methods/three-colours.gark.yaml",
     ),
-    "converge-drift": (
-        "converge",
-        "methods/stoermer-verlet.gark.yaml",
-        "--drift",
-        "--t-end",
-        "100",
-        "--step",
-        "1/10",
-    ),
     "energy": ("energy", "methods/rectangular.gark.yaml"),
     "energy-kepler": (
         "energy",

@@ -133,7 +133,6 @@ def test_choices_are_the_problems() -> None:
     [
         (2, "H{1} of generic depends on q", ("--problem", "generic")),
         (2, "--omega is for the oscillator", ("--problem", "kepler", "--omega", "2")),
-        (2, "--drift is for the oscillator", ("--problem", "kepler", "--drift")),
         (2, "--seed is for the problem generic", ("--seed", "2")),
         (2, "not a whole number of steps", ("--problem", "pendulum", "--steps", "3/7")),
         (1, "THEY DISAGREE", ("--problem", "kepler", "--steps", "1/2,1/4")),

@@ -19,9 +19,7 @@ from garkcli.convergence.convergence import Convergence, converge
 from garkcli.convergence.work import timed
 from garkcli.errors import UsageProblem
 from garkcli.families.registry import diagonal_method
-from garkcli.longtime.energy import drift
 from garkcli.plots.convergence_plot import comparison_figure, convergence_figure, save
-from garkcli.plots.energy_plot import drift_figure
 from garkcli.problems.oscillator import Oscillator
 from garkcli.report.asciiplot import SEVERAL, terminal_curves, terminal_plot
 from garkcli.tableau.forms import gark
@@ -220,17 +218,6 @@ def test_figures_without_energy_errors_or_floats(tmp_path: Path, name: str, s: i
     path = tmp_path / "figure.svg"
     save(convergence_figure(result_of(name, s)), path)
     assert path.stat().st_size > 5000
-
-
-@pytest.mark.parametrize("name", ["rk4", "explicit-euler", "gauss"])
-def test_drift_figure(tmp_path: Path, name: str) -> None:
-    """Small, exploded and zero energy errors all make a figure of the series."""
-    tableau = gark([diagonal_method(name, 2 if name == "gauss" else None)], {})
-    result = drift(tableau, OSCILLATOR, fmpq(1000), fmpq(1, 2))
-    figure = drift_figure(result)
-    assert list(figure.axes[0].get_lines()[0].get_ydata()) == list(result.energy_errors)
-    save(figure, tmp_path / "drift.png")
-    assert (tmp_path / "drift.png").stat().st_size > 5000
 
 
 @pytest.mark.parametrize("name", ["figure.jpg", "figure", "figure.txt"])
