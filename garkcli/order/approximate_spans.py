@@ -96,10 +96,10 @@ class ApproximateSpans:
     def _stage_vectors(self, l: int, order: int) -> _Hull | None:
         """The trees of an order with root colour l; None where there is none."""
         colour = self.tableau.colours[l]
-        self._extend(colour.rows, order - 1)
+        self._extend(colour.space, order - 1)
         if colour.is_linear and order > 1:
-            return self._branches[colour.rows][order - 1]
-        return self._forests[colour.rows][order - 1]
+            return self._branches[colour.space][order - 1]
+        return self._forests[colour.space][order - 1]
 
     def _extend(self, k: int, order: int) -> None:
         while len(self._forests[k]) <= order:

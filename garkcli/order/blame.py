@@ -99,8 +99,8 @@ def find_blame(tableau: Tableau, order: int, claimed: int) -> Blame | None:
 
 def _canonical(tableau: Tableau, edge: tuple[int, int]) -> tuple[int, int]:
     """The edge named after the first colour that has these stages: one name for each block."""
-    rows = tableau.colours[edge[0]].rows
-    first = next(l for l, colour in enumerate(tableau.colours) if colour.rows == rows)
+    rows = tableau.colours[edge[0]].space
+    first = next(l for l, colour in enumerate(tableau.colours) if colour.space == rows)
     return first, edge[1]
 
 
@@ -142,7 +142,7 @@ def _solved(tableau: Tableau, condition: Condition) -> Iterator[tuple[Repair, Ta
     """Each entry that occurs linearly in ``condition``, changed such that the condition holds."""
     counts = _blocks_in(tableau, condition.tree)
     for (l, m), count in counts.items():
-        k = tableau.colours[l].rows
+        k = tableau.colours[l].space
         pointwise = isinstance(tableau.spaces[k], PointSpace) and isinstance(
             tableau.space(m), PointSpace
         )
@@ -184,6 +184,6 @@ def _with_weight(tableau: Tableau, l: int, j: int, value: Number) -> Tableau:
     old = tableau.colours[l]
     b = (*old.b[:j], value, *old.b[j + 1 :])
     colours = (
-        replace(x, b=b) if (x.rows, x.b) == (old.rows, old.b) else x for x in tableau.colours
+        replace(x, b=b) if (x.space, x.b) == (old.space, old.b) else x for x in tableau.colours
     )
     return replace(tableau, colours=tuple(colours))

@@ -112,7 +112,7 @@ class _Spans:
 
     def stage_vectors(self, colour: int, order: int) -> Sequence[_Forest]:
         """Members that span Ψ_order of a colour."""
-        rows = self.tableau.colours[colour].rows
+        rows = self.tableau.colours[colour].space
         self._extend(rows, order - 1)
         if self.tableau.colours[colour].is_linear and order > 1:
             return self.branches[rows][order - 1]

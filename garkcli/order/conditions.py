@@ -141,7 +141,11 @@ def twin_roots(tableau: Tableau) -> dict[int, tuple[int, ...]]:
     for l, colour in enumerate(tableau.colours):
         for first in groups:
             other = tableau.colours[first]
-            if (colour.rows, colour.b, colour.is_linear) == (other.rows, other.b, other.is_linear):
+            if (colour.space, colour.b, colour.is_linear) == (
+                other.space,
+                other.b,
+                other.is_linear,
+            ):
                 groups[first] += (l,)
                 break
         else:

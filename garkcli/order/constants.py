@@ -118,7 +118,7 @@ def _in_floats(tableau: Tableau, order: int) -> ErrorConstants:
     edges, linear = coupling_graph(tableau)
     table = TreeTable.upto(tableau.size, order, edges, linear)
     entries = numeric_entries(tableau, 25)
-    rows = [colour.rows for colour in tableau.colours]
+    rows = [colour.space for colour in tableau.colours]
     blocks = {}
     for l, m in tableau.edges():
         blocks[rows[l], m] = np.array([[_float(x) for x in row] for row in entries.A[l][m] or ()])

@@ -57,7 +57,7 @@ class Defects:
         return tuple(x - y / k for x, y in zip(left, right, strict=True))
 
     def _map(self, l: int, m: int) -> LinearMap:
-        key = self.tableau.colours[l].rows, m
+        key = self.tableau.colours[l].space, m
         if key not in self._maps:
             self._maps[key] = LinearMap(self.tableau.blocks[key], self.tableau.field)
         return self._maps[key]
@@ -73,7 +73,7 @@ def is_symplectic_within(tableau: Tableau, tolerance: fmpq) -> bool:
     for l, one in enumerate(tableau.colours):
         for m, other in enumerate(tableau.colours):
             parts = {one.part, other.part}
-            if parts == {"q", "p"} and one.rows == other.rows:
+            if parts == {"q", "p"} and one.space == other.space:
                 difference = tuple(x - y for x, y in zip(one.b, other.b, strict=True))
                 if not functional_within(tableau.space(l), difference, tolerance):
                     return False

@@ -55,8 +55,8 @@ class TreeResiduals:
 
     def __init__(self, tableau: Tableau, enclosure: Enclosure) -> None:
         self.enclosure = enclosure
-        self._rows = [colour.rows for colour in tableau.colours]
-        self._natures = [(colour.rows, colour.is_linear) for colour in tableau.colours]
+        self._rows = [colour.space for colour in tableau.colours]
+        self._natures = [(colour.space, colour.is_linear) for colour in tableau.colours]
         self._roots = tuple(twin_roots(tableau))
         edges, linear = coupling_graph(tableau)
         self._admissible = Admissible.of(tableau.size, edges, linear)

@@ -40,7 +40,7 @@ def as_data(outcomes: Sequence[Outcome]) -> dict[str, Any]:
 
 def colours_data(tableau: Tableau) -> list[dict[str, Any]]:
     """The colours with their stages."""
-    return [{"name": x.name, "stages": tableau.spaces[x.rows].stages} for x in tableau.colours]
+    return [{"name": x.name, "stages": tableau.spaces[x.space].stages} for x in tableau.colours]
 
 
 def _outcome(outcome: Outcome) -> dict[str, Any]:

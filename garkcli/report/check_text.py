@@ -127,7 +127,7 @@ def _full(outcome: Outcome, analysis: Analysis, paint: Paint) -> list[str]:
 def _kind(tableau: Tableau, structure: str, tolerance: fmpq | None) -> str:
     plain = all(x.name == str(l) for l, x in enumerate(tableau.colours, start=1))
     stages = ", ".join(
-        f"{'' if plain else x.name + ': '}{tableau.spaces[x.rows].stages}" for x in tableau.colours
+        f"{'' if plain else x.name + ': '}{tableau.spaces[x.space].stages}" for x in tableau.colours
     )
     colours = "1 colour" if tableau.size == 1 else f"{tableau.size} colours"
     domain = (

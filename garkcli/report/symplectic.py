@@ -189,7 +189,7 @@ def subject_of_method(tableau: Tableau, orders: range) -> Subject:
             raise _not_symplectic(tableau)
         tableau = pair(tableau)
     split = tableau.is_partitioned
-    colours = tuple((x.rows if split else l, x.part) for l, x in enumerate(tableau.colours))
+    colours = tuple((x.space if split else l, x.part) for l, x in enumerate(tableau.colours))
     natures = list(zip(colours, tableau.colours, strict=True))
     quadratic = frozenset(term for (term, _), x in natures if x.is_linear)
     for (term, _), x in natures:
@@ -212,7 +212,7 @@ def _kind(structure: Structure) -> Kind:
 
 
 def _not_symplectic(tableau: Tableau) -> UsageProblem:
-    weights = {(x.rows, x.b) for x in tableau.colours}
+    weights = {(x.space, x.b) for x in tableau.colours}
     if len(weights) > len({rows for rows, _ in weights}):
         reason = "positions and momenta have different weights at the same stages"
         return UsageProblem(f"the method is not symplectic: {reason}", "give both the same weights")

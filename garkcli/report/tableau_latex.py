@@ -19,7 +19,7 @@ def render(tableau: Tableau, entries: Entries, name: str) -> str:
     lines += ["\\[", "\\renewcommand{\\arraystretch}{1.2}", f"\\begin{{array}}{{c|{groups}}}"]
     rows: dict[int, int] = {}
     for l, colour in enumerate(tableau.colours):
-        rows.setdefault(colour.rows, l)
+        rows.setdefault(colour.space, l)
     for l in rows.values():
         for i, node in enumerate(entries.c[l]):
             cells = [_cell(node, entries)]

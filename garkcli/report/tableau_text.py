@@ -110,7 +110,7 @@ def _distinct_rows(tableau: Tableau) -> list[int]:
     """One colour for each stage space: colours that share stages share rows."""
     seen: dict[int, int] = {}
     for l, colour in enumerate(tableau.colours):
-        seen.setdefault(colour.rows, l)
+        seen.setdefault(colour.space, l)
     return list(seen.values())
 
 

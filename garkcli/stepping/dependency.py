@@ -130,7 +130,7 @@ def coupling(tableau: Tableau, fields: Fields) -> Coupling:
     entries = numeric_entries(tableau, DIGITS + 5)
     arguments: dict[Value, tuple[Stage, ...]] = {}
     for (m, group), field in fields.items():
-        space = tableau.colours[m].rows
+        space = tableau.colours[m].space
         for j in range(tableau.space(m).stages):
             arguments[Value(m, j, group)] = tuple(Stage(space, j, g) for g in field.depends)
     sums: dict[Stage, tuple[Value, ...]] = {}
@@ -156,7 +156,7 @@ def entry(tableau: Tableau, entries: Entries, stage: Stage | None, value: Value)
         return entries.b[value.colour][value.index]
     for l, colour in enumerate(tableau.colours):
         block = entries.A[l][value.colour]
-        if colour.rows == stage.space and block is not None:
+        if colour.space == stage.space and block is not None:
             return block[stage.index][value.index]
     return 0
 
@@ -235,7 +235,7 @@ def visible(tableau: Tableau, fields: Fields) -> Tableau:
     """
     names = list(fields)
     colours = tuple(
-        replace(tableau.colours[m], rows=k, part=group, is_linear=fields[m, group].is_linear)
+        replace(tableau.colours[m], space=k, part=group, is_linear=fields[m, group].is_linear)
         for k, (m, group) in enumerate(names)
     )
     blocks = {}

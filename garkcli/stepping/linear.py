@@ -107,15 +107,15 @@ def linear_step(tableau: Tableau, problem: Oscillator) -> LinearStep:
     first: dict[tuple[int, int], int] = {}  # (stage space, component of y) → its first unknown
     n = 0
     for m, _, j, _ in terms:
-        if (tableau.colours[m].rows, j) not in first:
-            first[tableau.colours[m].rows, j] = n
+        if (tableau.colours[m].space, j) not in first:
+            first[tableau.colours[m].space, j] = n
             n += tableau.space(m).stages
     W: list[list[Number]] = [[ZERO] * n for _ in range(n)]
     E: list[list[Number]] = [[ZERO] * 2 for _ in range(n)]
     B: list[list[Number]] = [[ZERO] * n for _ in range(2)]
     for m, i, j, factor in terms:
         colour = tableau.colours[m]
-        column = first[colour.rows, j]
+        column = first[colour.space, j]
         _add(B, i, column, factor, (colour.b,))
         for (k, component), row in first.items():
             block = tableau.blocks.get((k, m))

@@ -61,7 +61,7 @@ def conjugate(tableau: Tableau) -> Tableau:
     if tableau.is_partitioned:
         return replace(tableau, blocks=_exchanged(tableau))
     spaces = tuple(tableau.space(l) for l in range(tableau.size))
-    colours = tuple(replace(colour, rows=l) for l, colour in enumerate(tableau.colours))
+    colours = tuple(replace(colour, space=l) for l, colour in enumerate(tableau.colours))
     blocks = {(l, m): conjugate_of(tableau, l, m) for m, l in tableau.edges()}
     return Tableau(spaces, colours, blocks)
 
@@ -80,7 +80,7 @@ def conjugate_of(tableau: Tableau, l: int, m: int) -> Matrix:
 
 def _exchanged(tableau: Tableau) -> dict[tuple[int, int], Matrix]:
     return {
-        (tableau.colours[l].rows, m): conjugate_of(tableau, l, m)
+        (tableau.colours[l].space, m): conjugate_of(tableau, l, m)
         for m, l in tableau.edges()
         if _are_opposite(tableau.colours[l], tableau.colours[m])
     }
@@ -102,7 +102,11 @@ def is_symplectic(tableau: Tableau) -> bool:
         for m, other in enumerate(tableau.colours):
             if _are_opposite(one, other) and not _is_symplectic_between(tableau, l, m):
                 return False
-            if one.rows == other.rows and {one.part, other.part} == {"q", "p"} and one.b != other.b:
+            if (
+                one.space == other.space
+                and {one.part, other.part} == {"q", "p"}
+                and one.b != other.b
+            ):
                 return False
     return True
 

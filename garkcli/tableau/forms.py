@@ -126,7 +126,7 @@ def symplectic_pair(tableau: Tableau, velocities: Sequence[int], forces: Sequenc
 
     def colour(name: str, l: int, part: Part) -> Colour:
         return replace(
-            tableau.colours[l], name=f"{name}{tableau.colours[l].name}", rows=row[l], part=part
+            tableau.colours[l], name=f"{name}{tableau.colours[l].name}", space=row[l], part=part
         )
 
     V = [colour("V", l, "q") for l in velocities]
@@ -157,7 +157,7 @@ def pair(tableau: Tableau) -> Tableau:
     is_q = [colour.part == "q" for colour in tableau.colours]
     kept = {(k, m): block for (k, m), block in tableau.blocks.items() if is_q[m]}
     made = {
-        (tableau.colours[l].rows, m): conjugate_of(tableau, l, m)
+        (tableau.colours[l].space, m): conjugate_of(tableau, l, m)
         for m, l in tableau.edges()
         if is_q[l] and not is_q[m]
     }

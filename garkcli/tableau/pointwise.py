@@ -140,7 +140,7 @@ def in_points(tableau: Tableau) -> Tableau | None:
         return space, V, solve(V, identity(space.stages))
 
     def column(m: int) -> Matrix:
-        return frame(tableau.colours[m].rows)[2]
+        return frame(tableau.colours[m].space)[2]
 
     blocks = {
         (k, m): multiply(frame(k)[1], multiply(_embedded(block, embed), column(m)))
@@ -150,7 +150,7 @@ def in_points(tableau: Tableau) -> Tableau | None:
         replace(
             colour,
             b=apply_left(tuple(map(embed, colour.b)), column(m)),
-            c=apply(frame(colour.rows)[1], tuple(map(embed, colour.c))),
+            c=apply(frame(colour.space)[1], tuple(map(embed, colour.c))),
         )
         for m, colour in enumerate(tableau.colours)
     )
@@ -213,16 +213,16 @@ def _numeric(tableau: Tableau, digits: int) -> Entries:
         exact = tableau.block(l, m)
         if exact is None:
             return None
-        V, back = frames[tableau.colours[l].rows][0], frames[tableau.colours[m].rows][1]
+        V, back = frames[tableau.colours[l].space][0], frames[tableau.colours[m].space][1]
         return tuple(tuple(row) for row in (V * _to_arb(exact) * back).tolist())
 
     colours = tableau.colours
     return Entries(
         c=tuple(
-            tuple((frames[x.rows][0] * _to_arb([[y] for y in x.c])).entries()) for x in colours
+            tuple((frames[x.space][0] * _to_arb([[y] for y in x.c])).entries()) for x in colours
         ),
         A=tuple(tuple(block(l, m) for m in range(tableau.size)) for l in range(tableau.size)),
-        b=tuple(tuple((_to_arb([x.b]) * frames[x.rows][1]).entries()) for x in colours),
+        b=tuple(tuple((_to_arb([x.b]) * frames[x.space][1]).entries()) for x in colours),
         is_exact=False,
         digits=digits,
     )

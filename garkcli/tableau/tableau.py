@@ -24,7 +24,7 @@ class Colour:
 
     Attributes:
         name: for people, ``1`` or ``V1``.
-        rows: index of the stage space of its stages; colours may share one.
+        space: index of the stage space of its stages; colours may share one.
         b: its weights, a functional on that space.
         c: its nodes, an element of that space. They enter B, C, D and consistency only.
         term: which term of the split, H^{l} or f^{l}, the vector field comes from, counted from 0.
@@ -33,7 +33,7 @@ class Colour:
     """
 
     name: str
-    rows: int
+    space: int
     b: Vector
     c: Vector
     term: int = 0
@@ -62,7 +62,7 @@ class Tableau:
 
     def __post_init__(self) -> None:
         for number, colour in enumerate(self.colours, start=1):
-            s = self.spaces[colour.rows].stages
+            s = self.spaces[colour.space].stages
             for what, row in (("b", colour.b), ("c", colour.c)):
                 if len(row) != s:
                     found = counted(len(row), "entry", "entries")
@@ -85,11 +85,11 @@ class Tableau:
 
     def space(self, colour: int) -> StageSpace:
         """The stage space of a colour."""
-        return self.spaces[self.colours[colour].rows]
+        return self.spaces[self.colours[colour].space]
 
     def block(self, l: int, m: int) -> Matrix | None:
         """A^{l,m}, or None where the stages of colour l do not see colour m."""
-        return self.blocks.get((self.colours[l].rows, m))
+        return self.blocks.get((self.colours[l].space, m))
 
     def edges(self) -> Iterator[tuple[int, int]]:
         """All (l, m) for which A^{l,m} exists."""

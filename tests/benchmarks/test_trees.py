@@ -52,7 +52,7 @@ def test_weights() -> None:
     tableau = pair(load(str(ROOT / "methods/collocation.gark.yaml")).tableau)
     edges, linear = coupling_graph(tableau)
     entries = numeric_entries(tableau)
-    rows = [colour.rows for colour in tableau.colours]
+    rows = [colour.space for colour in tableau.colours]
     blocks = {(rows[l], m): np.array(entries.A[l][m], dtype=float) for l, m in tableau.edges()}
     weights = [np.array(row, dtype=float) for row in entries.b]
     table = TreeTable.upto(4, 7, edges, linear)

@@ -56,7 +56,7 @@ def test_brute_force_over_the_table_in_floats(name: str) -> None:
     edges, linear = coupling_graph(tableau)
     table = TreeTable.upto(tableau.size, order + 1, edges, linear)
     printed = numeric_entries(tableau, 25)
-    rows = [colour.rows for colour in tableau.colours]
+    rows = [colour.space for colour in tableau.colours]
     blocks = {(rows[l], m): _floats(printed.A[l][m] or ()) for l, m in tableau.edges()}
     weights = [_floats([row])[0] for row in printed.b]
     residuals = np.abs(

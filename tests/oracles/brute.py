@@ -107,7 +107,7 @@ class Weights:
 
     def stage_vector(self, u: Plain) -> Vector:
         """𝒜^[u]."""
-        rows = self.tableau.colours[u[0]].rows
+        rows = self.tableau.colours[u[0]].space
         result = one(self.tableau.spaces[rows])
         for v in u[1]:
             result = self._products[rows](result, self._branch(rows, v))

@@ -60,7 +60,7 @@ def at_points(tableau: Tableau, nodes: Sequence[Vector]) -> Tableau:
     """A tableau whose spaces are all polynomial ones, with the nodes of each space given."""
 
     def nodes_of(m: int) -> Vector:
-        return nodes[tableau.colours[m].rows]
+        return nodes[tableau.colours[m].space]
 
     blocks = {
         (k, m): block_at(block, nodes[k], nodes_of(m)) for (k, m), block in tableau.blocks.items()

@@ -304,12 +304,14 @@ def with_permuted_stages(tableau: Tableau, dice: Random) -> Tableau:
     def moved(v: Vector, k: int) -> Vector:
         return tuple(v[i] for i in orders[k])
 
-    rows = [colour.rows for colour in tableau.colours]
+    rows = [colour.space for colour in tableau.colours]
     blocks = {
         (k, m): tuple(moved(block[i], rows[m]) for i in orders[k])
         for (k, m), block in tableau.blocks.items()
     }
-    colours = tuple(replace(x, b=moved(x.b, x.rows), c=moved(x.c, x.rows)) for x in tableau.colours)
+    colours = tuple(
+        replace(x, b=moved(x.b, x.space), c=moved(x.c, x.space)) for x in tableau.colours
+    )
     spaces = tuple(PointSpace(moved(space.nodes, k)) for k, space in enumerate(tableau.spaces))
     return Tableau(spaces, colours, blocks)
 

@@ -101,7 +101,7 @@ def step(tableau: Tableau, problem: Problem, powers: int) -> dict[Component, lis
         ]
         f = {}
         for (l, i), forms in problem.fields.items():
-            rows = tableau.colours[l].rows
+            rows = tableau.colours[l].space
             f[l, i] = _field(forms, stages[rows], known, ones[rows], products[rows])
     return {
         (l, i): [fmpq(0), *(pairing(tableau.colours[l].b, v) for v in f[l, i])]

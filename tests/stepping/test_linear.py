@@ -88,8 +88,8 @@ def dense_step(tableau: Tableau, problem: Oscillator, h: float) -> np.ndarray:
     system, weights = np.eye(2 * total), np.zeros((2, 2 * total))
     for m, colour in enumerate(tableau.colours):
         L = float_matrix(problem.matrix(colour))
-        seen = slice(2 * start[colour.rows], 2 * start[colour.rows + 1])
-        to_values = np.linalg.inv(change[colour.rows])
+        seen = slice(2 * start[colour.space], 2 * start[colour.space + 1])
+        to_values = np.linalg.inv(change[colour.space])
         b = np.array([[float(x) for x in enclosure((colour.b,), 80).tolist()[0]]]) @ to_values
         weights[:, seen] += np.kron(b, L)
         for k in range(len(sizes)):

@@ -209,8 +209,8 @@ def test_the_structure_is_that_of_the_tableau(kind: Kind, seed: int) -> None:
         tuple(m for m in range(tableau.size) if row[m]) for row in edges
     )
     assert admissible.linear == linear
-    quadratic = frozenset(colour.rows for colour in tableau.colours if colour.is_linear)
-    told = Structure(tuple((colour.rows, colour.part) for colour in tableau.colours), quadratic)
+    quadratic = frozenset(colour.space for colour in tableau.colours if colour.is_linear)
+    told = Structure(tuple((colour.space, colour.part) for colour in tableau.colours), quadratic)
     assert told.admissible == admissible
     assert count_classes(told, 6) == count_classes(structure_of(kind), 6)
 
