@@ -5,7 +5,8 @@ worse.
 from __future__ import annotations
 
 import json
-from collections.abc import Mapping, Sequence
+import stat
+from collections.abc import Mapping
 from dataclasses import dataclass
 from pathlib import Path, PurePath
 from typing import Any
@@ -27,27 +28,60 @@ class Regression:
     now: str
 
 
+MAX_BYTES = 256 * 2**20
+"""Largest baseline that is read: room for some hundred thousand files."""
+_CURE = "make one with gark check --format json -o FILE"
+
+
 def read_baseline(path: str) -> Mapping[str, Mapping[str, Any]]:
     """The files of an earlier report by path.
 
     Raises:
-        UsageProblem: it is not a report of ``gark check --format json``.
+        UsageProblem: it is not a report of ``gark check --format json``, or one that was damaged.
     """
-    cure = "make one with gark check --format json -o FILE"
     try:
-        report = json.loads(Path(path).read_text(encoding="utf-8"))
-    except OSError as error:
-        raise UsageProblem(f"--baseline {path}: {error.strerror}", cure) from None
+        report = json.loads(_text(path))
     except (ValueError, RecursionError):
-        raise UsageProblem(f"--baseline {path}: not JSON", cure) from None
-    if (
-        not isinstance(report, dict)
-        or report.get("schema") != SCHEMA
-        or not isinstance(report.get("files"), list)
-    ):
-        raise UsageProblem(f"--baseline {path}: not a report of gark check", cure)
-    files = [file for file in report["files"] if isinstance(file, dict)]
-    return {PurePath(str(file.get("file"))).as_posix(): file for file in files}
+        raise _refused(path, "not JSON") from None
+    if not isinstance(report, dict) or report.get("schema") != SCHEMA:
+        raise _refused(path, "not a report of gark check")
+    files = report.get("files")
+    if not isinstance(files, list) or not all(_is_whole(file) for file in files):
+        raise _refused(path, "a damaged report of gark check")
+    return {PurePath(file["file"]).as_posix(): file for file in files}
+
+
+def _text(path: str) -> str:
+    """What stands in the file; pipes, devices and what is too large are not read at all."""
+    try:
+        file = Path(path)
+        status = file.stat()
+        if not stat.S_ISREG(status.st_mode):
+            raise _refused(path, "not a regular file")
+        if status.st_size > MAX_BYTES:
+            raise _refused(path, f"more than {MAX_BYTES} bytes")
+        return file.read_text(encoding="utf-8")
+    except OSError as error:
+        raise _refused(path, error.strerror or "cannot be read") from None
+
+
+def _refused(path: str, why: str) -> UsageProblem:
+    return UsageProblem(f"--baseline {path}: {why}", _CURE)
+
+
+def _is_whole(file: object) -> bool:
+    """Whether the entry of one file has the fields that are compared, each of its kind."""
+    if not isinstance(file, dict) or not isinstance(file.get("file"), str):
+        return False
+    if "errors" in file:
+        return True
+    claims = file.get("claims")
+    return isinstance(claims, list) and all(
+        isinstance(claim, dict)
+        and isinstance(claim.get("claim"), str)
+        and isinstance(claim.get("holds"), bool)
+        for claim in claims
+    )
 
 
 def regressions(
@@ -79,7 +113,7 @@ def _changed(now: Mapping[str, Any], before: Mapping[str, Any]) -> list[Regressi
         return [] if "errors" in before else [Regression(file, "file", "a method", "unreadable")]
     if "errors" in before:
         return []  # it can be read now: better, whatever its claims say
-    held = {x.get("claim"): x.get("holds") for x in before.get("claims", []) if isinstance(x, dict)}
+    held = {x["claim"]: x["holds"] for x in before["claims"]}
     found = [
         Regression(
             file,
@@ -92,13 +126,6 @@ def _changed(now: Mapping[str, Any], before: Mapping[str, Any]) -> list[Regressi
     ]
     for order in ORDERS:
         old, new = before.get(order), now[order]
-        if isinstance(old, int) and (new is None or new < old):
+        if type(old) is int and (new is None or new < old):
             found.append(Regression(file, order.replace("_", " "), str(old), str(new)))
     return found
-
-
-def render(found: Sequence[Regression], files: int) -> str:
-    """The regressions for people."""
-    lines = [f"{x.file}: {x.what} got worse: {x.before} -> {x.now}" for x in found]
-    lines.append(f"{files} file{'s' * (files != 1)}: {len(found) or 'nothing'} got worse")
-    return "\n".join(lines) + "\n"

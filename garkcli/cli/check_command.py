@@ -79,11 +79,12 @@ def command(
     running = check_files(paths, max_order, error_constants, jobs or os.cpu_count() or 1)
     outcomes = list(tracked(running, len(paths), "checking", output.verbosity >= 0))
     if earlier is not None:
-        from garkcli.check import baseline as comparison
+        from garkcli.check.baseline import regressions
+        from garkcli.report import check_baseline
         from garkcli.report.check_json import as_data
 
-        worse = comparison.regressions(as_data(outcomes), earlier)
-        output.write(comparison.render(worse, len(outcomes)))
+        worse = regressions(as_data(outcomes), earlier)
+        output.write(check_baseline.render(worse, len(outcomes)))
         return int(bool(worse))
     output.write(_rendered(outcomes, output))
     return max(outcome.exit_code for outcome in outcomes)

@@ -3,7 +3,7 @@
 from __future__ import annotations
 
 from garkcli.cli.options import Output
-from garkcli.report.paint import printable
+from garkcli.report.plain import printable
 from garkcli.tableau.pointwise import entries
 from garkcli.tableau.tableau import Tableau
 

@@ -9,6 +9,7 @@ from garkcli.check.findings import Finding, findings
 from garkcli.check.outcome import Outcome
 from garkcli.report import check_text
 from garkcli.report.paint import Paint
+from garkcli.report.plain import printable
 
 
 def render(outcomes: Sequence[Outcome]) -> str:
@@ -31,7 +32,9 @@ def _annotation(finding: Finding) -> str:
 
 
 def _data(text: str) -> str:
-    return text.replace("%", "%25").replace("\r", "%0D").replace("\n", "%0A")
+    """The text of a command: what ends a line is written by its number, other signs by name."""
+    escaped = text.replace("%", "%25").replace("\r", "%0D").replace("\n", "%0A")
+    return printable(escaped)
 
 
 def _property(text: str) -> str:

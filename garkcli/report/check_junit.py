@@ -7,6 +7,7 @@ import xml.etree.ElementTree as ET
 from collections.abc import Sequence
 
 from garkcli.check.outcome import Outcome
+from garkcli.report.plain import printable
 
 _NOT_XML = re.compile("[^\t\n\r -\ud7ff\ue000-\ufffd\U00010000-\U0010ffff]")
 
@@ -45,5 +46,6 @@ def _suite(outcome: Outcome) -> ET.Element:
 
 
 def _clean(text: str) -> str:
-    """``text`` without the characters that XML has no way to write."""
-    return _NOT_XML.sub("\N{REPLACEMENT CHARACTER}", text)
+    """``text`` without the characters that XML has no way to write; signs that turn text by name."""
+    lines = _NOT_XML.sub("\N{REPLACEMENT CHARACTER}", text).split("\n")
+    return "\n".join(printable(line) for line in lines)

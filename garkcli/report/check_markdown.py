@@ -7,6 +7,7 @@ from collections.abc import Sequence
 from garkcli.check.analysis import AnyOrder
 from garkcli.check.findings import findings
 from garkcli.check.outcome import Outcome
+from garkcli.report.plain import printable
 
 
 def render(outcomes: Sequence[Outcome]) -> str:
@@ -53,8 +54,10 @@ def _order(order: AnyOrder | None) -> str:
 
 
 def _cell(text: str) -> str:
-    return text.replace("\\", "\\\\").replace("|", "\\|").replace("<", "&lt;").replace("\n", " ")
+    text = printable(text.replace("\n", " "))
+    return text.replace("\\", "\\\\").replace("|", "\\|").replace("<", "&lt;")
 
 
 def _code(text: str) -> str:
-    return text.replace("`", "'").replace("|", "\\|").replace("\n", " ")
+    text = printable(text.replace("\n", " "))
+    return text.replace("`", "'").replace("|", "\\|")

@@ -9,6 +9,7 @@ from typing import Any
 from garkcli import __version__
 from garkcli.check.findings import RULES, Finding, findings
 from garkcli.check.outcome import Outcome
+from garkcli.report.plain import printable
 
 
 def render(outcomes: Sequence[Outcome]) -> str:
@@ -35,7 +36,7 @@ def _result(finding: Finding) -> dict[str, Any]:
         "ruleId": finding.rule,
         "ruleIndex": list(RULES).index(finding.rule),
         "level": "error",
-        "message": {"text": text},
+        "message": {"text": printable(text)},
         "locations": [
             {
                 "physicalLocation": {

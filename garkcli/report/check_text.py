@@ -13,7 +13,8 @@ from garkcli.check.outcome import Claim, Outcome
 from garkcli.exact.display import decimal, to_decimal, to_text
 from garkcli.order.certificate import Order, Witness
 from garkcli.order.simplifying import Simplifying
-from garkcli.report.paint import Paint, aligned, beside, printable
+from garkcli.report.paint import Paint, aligned, beside
+from garkcli.report.plain import inert, printable
 from garkcli.tableau.tableau import Tableau
 from garkcli.trees.drawing import draw_text
 from garkcli.trees.notation import format_tree
@@ -38,7 +39,7 @@ def render(outcomes: Sequence[Outcome], paint: Paint, verbosity: int = 0) -> str
     text = ("\n\n" if full else "\n").join(block for block in blocks if block)
     if len(outcomes) > 1 and verbosity >= 0:
         text += "\n\n" + _summary(outcomes, paint)
-    return text + "\n" if text else ""
+    return inert(text) + "\n" if text else ""
 
 
 def _outcome(outcome: Outcome, paint: Paint, full: bool, quiet: bool) -> str:
@@ -69,11 +70,11 @@ def faults_text(outcome: Outcome, paint: Paint) -> str:
     for fault in outcome.faults:
         file = printable(outcome.file)
         place = f"{file}:{fault.line}:{fault.column}" if fault.line else file
-        lines.append(f"{place}: {paint('bad', 'error')}: {fault.message}")
+        lines.append(f"{place}: {paint('bad', 'error')}: {printable(fault.message)}")
         if 0 < fault.line <= len(source):
             lines += _excerpt(source[fault.line - 1], fault.line, fault.column, paint)
         if fault.help:
-            lines.append(f"      {paint('note', 'help')}: {fault.help}")
+            lines.append(f"      {paint('note', 'help')}: {printable(fault.help)}")
     return "\n".join(lines)
 
 
@@ -81,9 +82,10 @@ def _excerpt(text: str, line: int, column: int, paint: Paint, width: int = 72) -
     """The source line, cut to the terminal, with a caret under ``column``."""
     start = max(0, min(column - 1 - width // 2, len(text) - width))
     shown = text[start : start + width].replace("\t", " ")
+    before = shown[: column - 1 - start]
     return [
-        f"{line:5} | {shown}",
-        f"      | {' ' * (column - 1 - start)}{paint('bad', '^')}",
+        f"{line:5} | {printable(shown)}",
+        f"      | {' ' * len(printable(before))}{paint('bad', '^')}",
     ]
 
 
@@ -103,7 +105,7 @@ def _number(order: AnyOrder) -> str:
 def _full(outcome: Outcome, analysis: Analysis, paint: Paint) -> list[str]:
     tableau = analysis.tableau
     file = printable(outcome.file)
-    title = file if outcome.name == outcome.file else f"{file}: {outcome.name}"
+    title = file if outcome.name == outcome.file else f"{file}: {printable(outcome.name)}"
     kind = wrap(_kind(tableau, outcome.structure, analysis.tolerance), 78)
     lines = [paint("strong", title), *(f"  {line}" for line in kind), ""]
     lines += _orders(analysis, paint)

@@ -10,15 +10,6 @@ _CODES = {"good": "32", "bad": "31;1", "strong": "1", "faint": "2", "note": "36"
 _DOTS = (34, 33, 32, 35, 36, 31)
 
 
-def printable(text: str) -> str:
-    r"""A file name as it can be shown: what a terminal would act on is written out.
-
-    >>> print(printable("a\x1b[2Jb"))
-    a\x1b[2Jb
-    """
-    return "".join(x if x.isprintable() else repr(x)[1:-1] for x in text)
-
-
 @dataclass(frozen=True)
 class Paint:
     """Marks text for a terminal when ``color`` is on; nothing is told by colour alone."""

@@ -10,6 +10,7 @@ from pathlib import Path
 
 import pytest
 
+from garkcli.check.baseline import MAX_BYTES
 from tests.cli.harness import ROOT, Run, gark
 
 SLOW = "radicals-of-large-degree"
@@ -240,3 +241,40 @@ def test_a_baseline_of_many_at_a_time(tmp_path: Path) -> None:
         0,
         "nothing got worse",
     )
+
+
+@pytest.mark.parametrize(
+    "files",
+    [
+        "[5]",
+        '[{"file": 5, "claims": []}]',
+        '[{"file": "a"}]',
+        '[{"file": "a", "claims": 5}]',
+        '[{"file": "a", "claims": [{"claim": [], "holds": true}]}]',
+        '[{"file": "a", "claims": [{"claim": "order", "holds": "yes"}]}]',
+    ],
+)
+def test_a_damaged_baseline_is_refused(files: str, tmp_path: Path) -> None:
+    """A report whose fields are not what they were is no baseline, and no fault of the program."""
+    (tmp_path / "a.gark.yaml").write_text("methods: [{family: gauss, stages: 1}]\n")
+    base = tmp_path / "base.json"
+    base.write_text(f'{{"schema": "gark/check/1", "files": {files}}}')
+    run = gark("check", "a.gark.yaml", "--baseline", "base.json", cwd=tmp_path)
+    assert run.code == 2
+    assert "--baseline base.json: a damaged report of gark check" in run.err
+
+
+def test_a_baseline_is_a_file_of_bounded_size(tmp_path: Path) -> None:
+    """Devices, pipes, directories and huge files are refused before a byte of them is read."""
+    (tmp_path / "a.gark.yaml").write_text("methods: [{family: gauss, stages: 1}]\n")
+    names = ["."]
+    if hasattr(os, "mkfifo"):
+        os.mkfifo(tmp_path / "pipe")
+        names += ["pipe", "/dev/zero"]
+    for name in names:
+        run = gark("check", "a.gark.yaml", "--baseline", name, cwd=tmp_path)
+        assert (run.code, "not a regular file" in run.err) == (2, True)
+    with (tmp_path / "huge.json").open("wb") as stream:
+        stream.truncate(MAX_BYTES + 1)
+    run = gark("check", "a.gark.yaml", "--baseline", "huge.json", cwd=tmp_path)
+    assert (run.code, f"more than {MAX_BYTES} bytes" in run.err) == (2, True)

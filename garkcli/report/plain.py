@@ -1,0 +1,51 @@
+"""Text from strangers made harmless: for terminals, for the log of GitHub Actions, for spreadsheets.
+
+Names of files and methods, and lines of files that are shown, are not ours. Every report writes
+them through here.
+"""
+
+from __future__ import annotations
+
+import re
+
+_COMMAND = re.compile(r"^([^\S\n]*):(?=:)", re.MULTILINE)
+"""A line that GitHub Actions takes for a workflow command: it begins with two colons."""
+_OLD_COMMAND = re.compile(r"##(?=\[)")
+"""The older form of these commands, which is looked for anywhere in a line."""
+_FORMULA = ("=", "+", "-", "@", "\t", "\r")
+"""What a spreadsheet takes for the beginning of a formula."""
+
+
+def printable(text: str) -> str:
+    r"""A name as it can be shown: what a terminal would act on is written out.
+
+    That is every control character, and the signs that turn the direction of writing.
+
+    >>> print(printable("a\x1b[2Jb"))
+    a\x1b[2Jb
+    """
+    return "".join(x if x.isprintable() else repr(x)[1:-1] for x in text)
+
+
+def inert(text: str) -> str:
+    r"""Lines of a report that GitHub Actions would take for commands, written as text.
+
+    >>> print(inert("::error::no"))
+    \x3a:error::no
+    """
+    return _OLD_COMMAND.sub(r"#\\x23", _COMMAND.sub(r"\1\\x3a", text))
+
+
+def csv_cell(text: str) -> str:
+    """A name as the cell of a CSV file: never a formula; numbers stay as they are.
+
+    >>> csv_cell("=1+1"), csv_cell("-1.5e-3")
+    ("'=1+1", '-1.5e-3')
+    """
+    if not text.startswith(_FORMULA):
+        return text
+    try:
+        float(text)
+    except ValueError:
+        return f"'{text}"
+    return text
