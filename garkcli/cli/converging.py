@@ -48,8 +48,8 @@ class Wanted:
 class Problems:
     """The problem, split for each of the methods that are tested on it.
 
-    A file is read once. The random H of ``generic`` depends on its number of terms: all methods get
-    that of the method with the most, with terms added up where they have fewer.
+    A file is read once. A random H, as that of ``generic``, depends on its number of terms: all
+    methods get that of the method with the most, with terms added up where they have fewer.
 
     Args:
         wanted: names the problem.
@@ -80,6 +80,7 @@ class Problems:
         Raises:
             UsageProblem: it cannot be split for it.
         """
+        from garkcli.problems.builtin import built_in
         from garkcli.problems.comparison import gathered
         from garkcli.problems.oscillator import terms_of
         from garkcli.stepping.matching import fit
@@ -87,9 +88,10 @@ class Problems:
         terms = terms_of(tableau)
         if self.read is not None:
             return fit(self.read, terms)
-        if self._wanted.problem != "generic" or self._widest is None:
-            return find_problem(self._wanted.problem, tableau, self._wanted.seed)
-        return gathered(find_problem("generic", self._widest, self._wanted.seed), terms)
+        name, seed = self._wanted.problem, self._wanted.seed
+        if not built_in(name).takes_seed or self._widest is None:
+            return find_problem(name, tableau, seed)
+        return gathered(find_problem(name, self._widest, seed), terms)
 
 
 def tested(

@@ -12,9 +12,10 @@ from garkcli.cli.options import CONTEXT, Output, common
 def command(output: Output) -> int:
     """Families of diagonal methods, transfer rules, problems."""
     from garkcli.families.registry import FAMILIES
-    from garkcli.problems.oscillator import PROBLEMS
+    from garkcli.problems.builtin import PROBLEMS
     from garkcli.report import listing
     from garkcli.transfer import SUMMARIES
 
-    output.write(listing.render(FAMILIES, SUMMARIES, PROBLEMS, output.format, output.paint))
+    problems = {entry.name: entry.summary for entry in PROBLEMS.values()}
+    output.write(listing.render(FAMILIES, SUMMARIES, problems, output.format, output.paint))
     return 0

@@ -11,24 +11,12 @@ from typing import TYPE_CHECKING
 import click
 from click.shell_completion import CompletionItem
 
-from garkcli.errors import UsageProblem, did_you_mean
+from garkcli.errors import did_you_mean
 
 if TYPE_CHECKING:
     from garkcli.cli.options import Output
     from garkcli.problems.hamiltonian import Hamiltonian
     from garkcli.tableau.tableau import Tableau
-
-PROBLEMS = (
-    "oscillator",
-    "split-oscillator",
-    "pendulum",
-    "kepler",
-    "henon-heiles",
-    "fput",
-    "double-pendulum",
-    "generic",
-)
-"""The names that --problem takes; the tests hold them against ``garkcli.problems.oscillator``."""
 
 
 def is_path(text: str) -> bool:
@@ -37,7 +25,7 @@ def is_path(text: str) -> bool:
 
 
 class ProblemType(click.ParamType):  # type: ignore[type-arg]
-    """A name of ``PROBLEMS`` or the path of a problem file."""
+    """The name of a built-in problem or the path of a problem file."""
 
     name = "problem"
 
@@ -47,8 +35,10 @@ class ProblemType(click.ParamType):  # type: ignore[type-arg]
 
     def convert(self, value: str, param: click.Parameter | None, ctx: click.Context | None) -> str:
         """Refuse what is neither, before anything is read."""
+        from garkcli.problems.builtin import PROBLEMS
+
         if value not in PROBLEMS and not is_path(value):
-            cure = did_you_mean(value, PROBLEMS)
+            cure = did_you_mean(value, tuple(PROBLEMS))
             self.fail(f"no problem {value!r}; {cure}; a problem file ends in .yaml", param, ctx)
         return value
 
@@ -59,6 +49,8 @@ class ProblemType(click.ParamType):  # type: ignore[type-arg]
         incomplete: str,
     ) -> list[CompletionItem]:
         """The names, and files."""
+        from garkcli.problems.builtin import PROBLEMS
+
         names = [CompletionItem(x) for x in PROBLEMS if x.startswith(incomplete)]
         return names or [CompletionItem(incomplete, type="file")]
 
@@ -68,28 +60,24 @@ def find_problem(name_or_path: str, tableau: Tableau, seed: int | None = None) -
     for.
 
     Args:
-        name_or_path: a name of ``PROBLEMS``, or the path of a problem file.
+        name_or_path: the name of a built-in problem, or the path of a problem file.
         tableau: of the method.
-        seed: for ``generic``; 1 by default.
+        seed: for problems with random coefficients; 1 by default.
 
     Raises:
         UsageProblem: there is no such problem, it takes no seed, or it has another number of terms.
         MethodFileError: the file has faults.
     """
+    from garkcli.problems.builtin import check_seed, hamiltonian
     from garkcli.problems.oscillator import terms_of
     from garkcli.stepping.dependency import fitted
 
-    if seed is not None and name_or_path != "generic":
-        raise UsageProblem(
-            f"--seed is for the problem generic, not for {name_or_path}", "leave it out"
-        )
+    check_seed(name_or_path, seed)
     terms = terms_of(fitted(tableau))
     if is_path(name_or_path):
         from garkcli.stepping.matching import fit
 
         return fit(_loaded(name_or_path, _stamp(name_or_path)), terms)
-    from garkcli.problems.builtin import hamiltonian
-
     return hamiltonian(name_or_path, terms, 1 if seed is None else seed)
 
 

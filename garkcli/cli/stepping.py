@@ -43,17 +43,18 @@ def refuse_misplaced(problem: str, seed: int | None, of_oscillator: Mapping[str,
 
     Args:
         problem: the one that was named.
-        seed: the value of --seed, which is for generic.
+        seed: the value of --seed, which is for problems with random coefficients.
         of_oscillator: the options that are for the oscillator alone, with their values.
 
     Raises:
         UsageProblem: one of them was given.
     """
+    from garkcli.problems.builtin import check_seed
+
     given = next((option for option, value in of_oscillator.items() if value), None)
     if problem != "oscillator" and given:
         raise UsageProblem(f"{given} is for the oscillator, not for {problem}", "leave it out")
-    if problem != "generic" and seed is not None:
-        raise UsageProblem(f"--seed is for the problem generic, not for {problem}", "leave it out")
+    check_seed(problem, seed)
 
 
 def positive(option: str, text: str | None) -> fmpq:

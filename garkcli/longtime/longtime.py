@@ -35,14 +35,6 @@ if TYPE_CHECKING:
 
 Watch: TypeAlias = Callable[[Iterator[Any], int], Iterator[Any]]
 """Passes on a number of things, one a step, and may count them."""
-_USUAL = {
-    "split-oscillator": (fmpq(1, 10), fmpq(1000)),
-    "pendulum": (fmpq(1, 10), fmpq(1000)),
-    "kepler": (fmpq(1, 50), fmpq(1000)),
-    "henon-heiles": (fmpq(1, 10), fmpq(1000)),
-    "fput": (fmpq(1, 10), fmpq(1000)),
-    "generic": (fmpq(1, 100), fmpq(1)),  # its solutions need not exist for long
-}
 _SPARE = 15  # more digits with which the first steps are done too
 _TURNS = 8  # times that some coordinate has to turn back: four oscillations
 _LARGE = 0.1  # part of the energy that is a drift however short the run
@@ -52,7 +44,7 @@ def usual(problem: Hamiltonian) -> tuple[fmpq, fmpq]:
     """A step size and a time that show the long run of ``problem``; 10 000 steps where nothing more
     is known.
     """
-    return _USUAL.get(problem.name, (problem.t_end / 40, 250 * problem.t_end))
+    return problem.long_run or (problem.t_end / 40, 250 * problem.t_end)
 
 
 def follow(

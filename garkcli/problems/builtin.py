@@ -1,51 +1,50 @@
-"""The built-in Hamiltonian problems, split for the number of terms of a method.
+"""The built-in problems: one list, from which the choices of ``--problem``, ``gark list`` and
+docs/problems.md are made.
 
-The kinetic energy goes to the first term and the potential to the others: one part each where there
-are as many parts as terms, equal shares of all of it otherwise. ``generic`` has no separable term.
+A problem is added by an entry here, and its test.
 """
 
 from __future__ import annotations
 
 from collections.abc import Callable, Mapping
 from dataclasses import dataclass
-from random import Random
-from typing import Any
+from typing import Any, TypeAlias
 
 from flint import arb, fmpq
 
 from garkcli.errors import UsageProblem, did_you_mean
-from garkcli.problems.hamiltonian import Hamiltonian, symbols
+from garkcli.problems.generic import generic
+from garkcli.problems.hamiltonian import Hamiltonian
+from garkcli.problems.mechanical import Mechanical
 
-DEGREE = 8
-"""The degree of ``generic``: its fields have nonzero derivatives up to the seventh, for all trees
-of order 8.
-"""
-_FORMS = 3  # powers of linear forms in each term of generic
+Maker: TypeAlias = Callable[[int, int], Hamiltonian]
+"""Makes a problem of a number of terms and a seed."""
 
 
 @dataclass(frozen=True)
-class Mechanical:
-    """H = T + Σ potentials(q).
+class BuiltIn:
+    """A built-in problem.
 
     Attributes:
-        variables: names of the positions.
-        kinetic: T of the positions and momenta.
-        potentials: the parts of the potential, of the positions.
-        initial: q(0), then p(0).
-        t_end: the default final time.
-        invariants: names, and expressions in positions and momenta.
+        name: what ``--problem`` takes.
+        summary: one line for ``gark list``.
+        energy: H, for people.
+        sees: which trees it sees, for people.
+        make: makes it.
+        takes_seed: whether its coefficients depend on the seed.
     """
 
-    variables: tuple[str, ...]
-    kinetic: Callable[[tuple[Any, ...], tuple[Any, ...]], Any]
-    potentials: Callable[..., tuple[Any, ...]]
-    initial: tuple[fmpq, ...]
-    t_end: fmpq
-    invariants: Callable[..., tuple[tuple[str, Any], ...]] = lambda *_: ()
+    name: str
+    summary: str
+    energy: str
+    sees: str
+    make: Maker
+    takes_seed: bool = False
 
 
 def hamiltonian(name: str, terms: int, seed: int = 1) -> Hamiltonian:
-    """The problem called ``name``, split into ``terms`` terms; ``seed`` is for ``generic``.
+    """The problem called ``name``, split into ``terms`` terms; ``seed`` is for those with random
+    coefficients.
 
     Raises:
         UsageProblem: there is no such problem.
@@ -53,62 +52,60 @@ def hamiltonian(name: str, terms: int, seed: int = 1) -> Hamiltonian:
     >>> [str(x) for x in hamiltonian("pendulum", 2).terms]
     ['px**2/2', '1 - cos(x)']
     """
-    if name == "generic":
-        return _generic(terms, seed)
-    if name not in MECHANICAL:
-        raise UsageProblem(f"no problem {name!r}", did_you_mean(name, (*MECHANICAL, "generic")))
-    return _split(name, MECHANICAL[name], terms)
+    return built_in(name).make(terms, seed)
 
 
-def _split(name: str, made: Mechanical, terms: int) -> Hamiltonian:
-    import sympy
+def built_in(name: str) -> BuiltIn:
+    """The entry called ``name``.
 
-    q, p = symbols(made.variables, "q"), symbols(made.variables, "p")
-    T, parts = made.kinetic(q, p), made.potentials(*q)
-    V = sum(parts)
-    if terms == 1:
-        split = (T + V,)
-    elif terms - 1 == len(parts):
-        split = (T, *parts)
-    else:
-        split = (T, *(sympy.expand(V / (terms - 1)),) * (terms - 1))
-    return Hamiltonian(
-        name, made.variables, split, made.initial, made.t_end, made.invariants(*q, *p)
-    )
-
-
-def _generic(terms: int, seed: int) -> Hamiltonian:
-    """H^{l} = Σ_k c_k (1 + a_k·(q, p))^8, with random rational c_k and a_k: every term has every
-    derivative.
-
-    Powers of linear forms span all polynomials; three of them a term are enough for no derivative
-    to vanish, and are cheap to evaluate. The terms stay small, so that all solutions from the
-    origin exist to the final time.
+    Raises:
+        UsageProblem: there is no such problem.
     """
+    if name not in PROBLEMS:
+        raise UsageProblem(f"no problem {name!r}", did_you_mean(name, tuple(PROBLEMS)))
+    return PROBLEMS[name]
+
+
+def check_seed(name: str, seed: int | None) -> None:
+    """Refuse a seed for a problem that has no random coefficients, be it one of a file.
+
+    Raises:
+        UsageProblem: ``seed`` is given and would change nothing.
+    """
+    takers = [x.name for x in PROBLEMS.values() if x.takes_seed]
+    if seed is not None and name not in takers:
+        whose = f"problem{'s' * (len(takers) > 1)} {', '.join(takers)}"
+        raise UsageProblem(f"--seed is for the {whose}, not for {name}", "leave it out")
+
+
+def _mechanical(name: str, summary: str, energy: str, sees: str, made: Mechanical) -> BuiltIn:
+    def make(terms: int, _: int) -> Hamiltonian:
+        return made.problem(name, terms)
+
+    return BuiltIn(name, summary, energy, sees, make)
+
+
+def _cos(x: Any) -> Any:
     import sympy
 
-    draw = Random(seed)
-    variables = ("x", "y")
-    y = (*symbols(variables, "q"), *symbols(variables, "p"))
-    split = []
-    for _ in range(terms):
-        H = sympy.Integer(0)
-        for _ in range(_FORMS):
-            u = sum(sympy.Rational(draw.choice((-1, 1)) * draw.randint(3, 12), 20) * x for x in y)
-            H += (
-                sympy.Rational(draw.choice((-1, 1)) * draw.randint(5, 20), 1600 * terms)
-                * (1 + u) ** DEGREE
-            )
-        split.append(H)
-    start = tuple(fmpq(draw.randint(-10, 10), 50) for _ in y)
-    return Hamiltonian("generic", variables, tuple(split), start, fmpq(1), is_generic=True)
+    return sympy.cos(x)
 
 
-def _quadratic(_: tuple[Any, ...], p: tuple[Any, ...]) -> Any:
-    return sum(x**2 for x in p) / 2
+def _kepler_potential(x: Any, y: Any) -> tuple[Any, ...]:
+    import sympy
+
+    return (-1 / sympy.sqrt(x**2 + y**2),)
 
 
-def _double_pendulum(q: tuple[Any, ...], _: tuple[Any, ...]) -> Any:
+def _springs(*q: Any) -> tuple[Any, ...]:
+    """Springs between walls with quadratic and cubic forces, α = 1/4, β = 1/2: V = Σ r²/2 + αr³/3 +
+    βr⁴/4.
+    """
+    stretched = [b - a for a, b in zip((0, *q), (*q, 0), strict=True)]
+    return (sum(r**2 / 2 + r**3 / 12 + r**4 / 8 for r in stretched),)
+
+
+def _rods(q: tuple[Any, ...], _: tuple[Any, ...]) -> Any:
     """T of two rods of length 1 with masses 1, in absolute angles: its mass matrix depends on their
     difference.
     """
@@ -118,73 +115,108 @@ def _double_pendulum(q: tuple[Any, ...], _: tuple[Any, ...]) -> Any:
     from garkcli.problems.mass import velocities
 
     (a, b), (u, w) = q, velocities(("a", "b"))
-    return legendre(
-        u**2 + w**2 / 2 + u * w * sympy.cos(a - b), ("a", "b"), dict.fromkeys(q, arb(0))
-    )
+    kinetic = u**2 + w**2 / 2 + u * w * sympy.cos(a - b)
+    return legendre(kinetic, ("a", "b"), dict.fromkeys(q, arb(0)))
 
 
-def _cos(x: Any) -> Any:
-    import sympy
+_ALTERNATING = "alternating trees in which velocities do not branch"
+_TENTHS = (fmpq(1, 10), fmpq(1000))  # a step size and a time
 
-    return sympy.cos(x)
-
-
-def _kepler(x: Any, y: Any) -> tuple[Any, ...]:
-    import sympy
-
-    return (-1 / sympy.sqrt(x**2 + y**2),)
-
-
-def _chain(*q: Any) -> tuple[Any, ...]:
-    """Springs between walls with quadratic and cubic forces, α = 1/4, β = 1/2: V = Σ r²/2 + αr³/3 +
-    βr⁴/4.
-    """
-    stretched = [b - a for a, b in zip((0, *q), (*q, 0), strict=True)]
-    return (sum(r**2 / 2 + r**3 / 12 + r**4 / 8 for r in stretched),)
-
-
-MECHANICAL: Mapping[str, Mechanical] = {
-    "oscillator": Mechanical(
-        ("q",), _quadratic, lambda q: (q**2 / 2,), (fmpq(1), fmpq(1, 2)), fmpq(4)
+_ENTRIES = (
+    _mechanical(
+        "oscillator",
+        "q̈ = −ω²q as ½p² and parts of ½ω²q²; sees the unbranched trees only",
+        "½p² + ½ω²q², the step map taken exactly",
+        "the unbranched trees",
+        Mechanical(("q",), lambda q: (q**2 / 2,), (fmpq(1), fmpq(1, 2)), fmpq(4)),
     ),
-    "split-oscillator": Mechanical(
-        ("x", "y"),
-        _quadratic,
-        lambda x, y: (x**2 / 2, 25 * (y - x) ** 2 / 8),
-        (fmpq(1), fmpq(1, 2), fmpq(0), fmpq(1)),
-        fmpq(2),
+    _mechanical(
+        "split-oscillator",
+        "two springs of frequencies 1 and 5/2; sees the unbranched trees only",
+        "½|p|² + ½x² + ½(5/2)²(y − x)²",
+        "the unbranched trees",
+        Mechanical(
+            ("x", "y"),
+            lambda x, y: (x**2 / 2, 25 * (y - x) ** 2 / 8),
+            (fmpq(1), fmpq(1, 2), fmpq(0), fmpq(1)),
+            fmpq(2),
+            long_run=_TENTHS,
+        ),
     ),
-    "pendulum": Mechanical(
-        ("x",), _quadratic, lambda x: (1 - _cos(x),), (fmpq(1), fmpq(1, 2)), fmpq(4)
+    _mechanical(
+        "pendulum",
+        "½p² + 1 − cos q",
+        "½p² + 1 − cos q",
+        _ALTERNATING,
+        Mechanical(
+            ("x",),
+            lambda x: (1 - _cos(x),),
+            (fmpq(1), fmpq(1, 2)),
+            fmpq(4),
+            long_run=_TENTHS,
+        ),
     ),
-    "kepler": Mechanical(
-        ("x", "y"),
-        _quadratic,
-        _kepler,
-        (fmpq(2, 5), fmpq(0), fmpq(0), fmpq(2)),  # eccentricity 3/5, period 2π
-        fmpq(2),
-        lambda x, y, px, py: (("angular momentum", x * py - y * px),),
+    _mechanical(
+        "kepler",
+        "½|p|² − 1/|q|, eccentricity 3/5; with angular momentum",
+        "½|p|² − 1/|q|, eccentricity 3/5, with angular momentum",
+        _ALTERNATING,
+        Mechanical(
+            ("x", "y"),
+            _kepler_potential,
+            (fmpq(2, 5), fmpq(0), fmpq(0), fmpq(2)),  # eccentricity 3/5, period 2π
+            fmpq(2),
+            invariants=lambda x, y, px, py: (("angular momentum", x * py - y * px),),
+            long_run=(fmpq(1, 50), fmpq(1000)),
+        ),
     ),
-    "henon-heiles": Mechanical(
-        ("x", "y"),
-        _quadratic,
-        lambda x, y: ((x**2 + y**2) / 2 + x**2 * y - y**3 / 3,),
-        (fmpq(0), fmpq(3, 10), fmpq(2, 5), fmpq(1, 10)),
-        fmpq(4),
+    _mechanical(
+        "henon-heiles",
+        "½|p|² + ½|q|² + x²y − y³/3",
+        "½|p|² + ½|q|² + x²y − y³/3",
+        _ALTERNATING,
+        Mechanical(
+            ("x", "y"),
+            lambda x, y: ((x**2 + y**2) / 2 + x**2 * y - y**3 / 3,),
+            (fmpq(0), fmpq(3, 10), fmpq(2, 5), fmpq(1, 10)),
+            fmpq(4),
+            long_run=_TENTHS,
+        ),
     ),
-    "fput": Mechanical(
-        ("x", "y", "z"),
-        _quadratic,
-        _chain,
-        (fmpq(1), fmpq(1, 2), fmpq(-1, 4), fmpq(0), fmpq(1, 2), fmpq(0)),
-        fmpq(2),
+    _mechanical(
+        "fput",
+        "three masses between walls, on springs with quadratic and cubic forces",
+        "three masses between walls, α = 1/4, β = 1/2",
+        _ALTERNATING,
+        Mechanical(
+            ("x", "y", "z"),
+            _springs,
+            (fmpq(1), fmpq(1, 2), fmpq(-1, 4), fmpq(0), fmpq(1, 2), fmpq(0)),
+            fmpq(2),
+            long_run=_TENTHS,
+        ),
     ),
-    "double-pendulum": Mechanical(
-        ("a", "b"),
-        _double_pendulum,
-        lambda a, b: (1 - _cos(a), 2 - _cos(a) - _cos(b)),  # of the upper and of the lower mass
-        (fmpq(1), fmpq(-1, 2), fmpq(1), fmpq(1, 2)),
-        fmpq(2),
+    _mechanical(
+        "double-pendulum",
+        "two rods; the kinetic energy depends on the angles",
+        "two rods, by the Legendre transform of their Lagrangian",
+        "all; what depends on positions alone has only velocities as branches",
+        Mechanical(
+            ("a", "b"),
+            lambda a, b: (1 - _cos(a), 2 - _cos(a) - _cos(b)),  # of the upper and the lower mass
+            (fmpq(1), fmpq(-1, 2), fmpq(1), fmpq(1, 2)),
+            fmpq(2),
+            kinetic=_rods,
+        ),
     ),
-}
-"""The problems H = T + V(q); T depends on the momenta alone but for the double pendulum."""
+    BuiltIn(
+        "generic",
+        "a random polynomial in N terms, none separable; sees every tree",
+        "Σ c (1 + a·(q, p))⁸, three powers a term, random rational c, a",
+        "all, with at most 7 branches at a vertex",
+        generic,
+        takes_seed=True,
+    ),
+)
+PROBLEMS: Mapping[str, BuiltIn] = {entry.name: entry for entry in _ENTRIES}
+"""The problems by name, in the order in which they are shown."""

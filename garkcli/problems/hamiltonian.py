@@ -9,13 +9,13 @@ field is derived.
 from __future__ import annotations
 
 from collections.abc import Callable
-from dataclasses import dataclass
+from dataclasses import dataclass, replace
 from functools import cache
-from random import Random
 from typing import Any, Literal, TypeAlias
 
 from flint import arb, ctx, fmpq
 
+from garkcli.problems.draw import Draw
 from garkcli.problems.straightline import function
 
 Group: TypeAlias = Literal["q", "p"]
@@ -38,6 +38,8 @@ class Hamiltonian:
         invariants: first integrals besides H: a name and an expression each.
         is_generic: whether it is made to see every tree, so that no order above that of the method
             is to be seen.
+        long_run: a step size and a time that show the motion over a long time, where they are
+            known.
     """
 
     name: str
@@ -47,6 +49,7 @@ class Hamiltonian:
     t_end: fmpq
     invariants: tuple[tuple[str, Any], ...] = ()
     is_generic: bool = False
+    long_run: tuple[fmpq, fmpq] | None = None
 
     @property
     def dimension(self) -> int:
@@ -60,9 +63,7 @@ class Hamiltonian:
 
     def unsplit(self) -> Hamiltonian:
         """The same problem in one term."""
-        return Hamiltonian(
-            self.name, self.variables, (self.energy,), self.initial, self.t_end, self.invariants
-        )
+        return replace(self, terms=(self.energy,))
 
 
 @cache
@@ -169,13 +170,13 @@ def _differs(x: Any, names: tuple[Any, ...]) -> bool:
     """Whether two values of an expression lie in balls that do not overlap, which proves that it is
     no constant.
     """
-    draw = Random(1)
+    draw = Draw(1)
     found: list[arb] = []
     with ctx.workprec(200):
         value = function((x,), names, True)
         for _ in range(8):
             try:
-                (ball,) = value(*(arb(fmpq(draw.randint(1, 999), 1000)) for _ in names))
+                (ball,) = value(*(arb(fmpq(draw.between(1, 999), 1000)) for _ in names))
             except (ArithmeticError, ValueError):
                 continue
             found.append(arb(ball))

@@ -6,12 +6,12 @@ from __future__ import annotations
 
 from collections.abc import Mapping, Sequence
 from dataclasses import dataclass
-from random import Random
 from typing import Any
 
 from flint import arb, ctx, fmpq
 
 from garkcli.errors import NoLegendreTransform
+from garkcli.problems.draw import Draw
 from garkcli.problems.hamiltonian import symbols
 from garkcli.problems.mass import (
     BITS,
@@ -179,11 +179,11 @@ def _is_right(
     """Whether ∂L/∂v(q, v(q, p)) is p, and v(q, p) the velocity at the start, wherever it is
     tested.
     """
-    draw = Random(1)
+    draw = Draw(1)
     tested = 0
     for k in range(_TRIES):
         with ctx.workprec(BITS):
-            near = {x: start[x] + arb(fmpq(draw.randint(-50, 50) if k else 0, 1000)) for x in start}
+            near = {x: start[x] + arb(fmpq(draw.between(-50, 50) if k else 0, 1000)) for x in start}
         at = near | _known(gradient, p, near)
         if not all(x in at for x in p):
             return False

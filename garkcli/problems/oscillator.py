@@ -7,7 +7,6 @@ momentum part only.
 
 from __future__ import annotations
 
-from collections.abc import Mapping
 from dataclasses import dataclass
 
 from flint import fmpq
@@ -18,18 +17,6 @@ from garkcli.exact.expression import parse
 from garkcli.exact.field import ONE, ZERO
 from garkcli.exact.matrix import Matrix
 from garkcli.tableau.tableau import Colour, Tableau
-
-PROBLEMS: Mapping[str, str] = {
-    "oscillator": "q̈ = −ω²q as ½p² and parts of ½ω²q²; sees the unbranched trees only",
-    "split-oscillator": "two springs of frequencies 1 and 5/2; sees the unbranched trees only",
-    "pendulum": "½p² + 1 − cos q",
-    "kepler": "½|p|² − 1/|q|, eccentricity 3/5; with angular momentum",
-    "henon-heiles": "½|p|² + ½|q|² + x²y − y³/3",
-    "fput": "three masses between walls, on springs with quadratic and cubic forces",
-    "double-pendulum": "two rods; the kinetic energy depends on the angles",
-    "generic": "a random polynomial in N terms, none separable; sees every tree",
-}
-"""One line a problem, for people."""
 
 
 @dataclass(frozen=True)

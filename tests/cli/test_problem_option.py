@@ -12,10 +12,10 @@ import pytest
 from click.shell_completion import ShellComplete
 
 from garkcli.cli.main import gark as group
-from garkcli.cli.problems import PROBLEMS, ProblemType, find_problem, is_path
+from garkcli.cli.problems import ProblemType, find_problem, is_path
 from garkcli.errors import UsageProblem
 from garkcli.methodfile.load import load
-from garkcli.problems.oscillator import PROBLEMS as SUMMARIES
+from garkcli.problems.builtin import PROBLEMS
 from tests.cli.harness import ROOT, gark
 
 RECTANGULAR = "methods/rectangular.gark.yaml"
@@ -137,7 +137,9 @@ def test_a_problem_file_is_no_method_file() -> None:
 
 def test_names_are_those_of_the_list() -> None:
     """What --problem takes is what gark list shows, in one order; each name makes a problem."""
-    assert tuple(SUMMARIES) == PROBLEMS
+    listed = json.loads(gark("list", "--format", "json").out)["problems"]
+    assert [x["name"] for x in listed] == list(PROBLEMS)
+    assert all(ProblemType().convert(name, None, None) == name for name in PROBLEMS)
     tableau = load(str(ROOT / COLLOCATION)).tableau
     for name in PROBLEMS:
         assert len(find_problem(name, tableau).terms) == 2

@@ -10,13 +10,12 @@ from typing import Any
 import pytest
 from flint import arb, fmpq
 
-from garkcli.cli.problems import PROBLEMS as CHOICES
 from garkcli.convergence.nonlinear import Observation, observe
 from garkcli.convergence.trial import PathRow
 from garkcli.families.registry import diagonal_method
 from garkcli.problems.builtin import hamiltonian
 from garkcli.problems.hamiltonian import Hamiltonian, symbols
-from garkcli.problems.oscillator import PROBLEMS, terms_of
+from garkcli.problems.oscillator import terms_of
 from garkcli.tableau.forms import gark as gark_tableau
 from garkcli.tableau.forms import pair, spelled_out
 from garkcli.tableau.tableau import Tableau
@@ -121,11 +120,6 @@ def test_invariants_are_reported() -> None:
     data = json.loads(gark("converge", VERLET, "--problem", "kepler", "--format", "json").out)
     assert data["problem"] == "kepler"
     assert all(row["invariant_errors"]["angular momentum"] < 1e-14 for row in data["steps"])
-
-
-def test_choices_are_the_problems() -> None:
-    """What --problem takes is what gark list shows."""
-    assert tuple(PROBLEMS) == CHOICES
 
 
 @pytest.mark.parametrize(

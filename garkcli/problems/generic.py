@@ -1,0 +1,61 @@
+"""Problems with random coefficients, made to see every tree of a structure."""
+
+from __future__ import annotations
+
+from collections.abc import Sequence
+from typing import Any
+
+from flint import fmpq
+
+from garkcli.problems.draw import Draw
+from garkcli.problems.hamiltonian import Hamiltonian, symbols
+
+DEGREE = 8
+"""The degree of the terms: fields have nonzero derivatives up to the seventh, for all trees of
+order 8.
+"""
+VARIABLES = ("x", "y")
+"""The positions."""
+_FORMS = 3  # powers of linear forms in each term
+
+
+def generic(terms: int, seed: int) -> Hamiltonian:
+    """H^{l} = Σ_k c_k (1 + a_k·(q, p))^8, with random rational c_k and a_k: every term has every
+    derivative.
+
+    The terms stay small, so that all solutions from the start exist to the final time.
+    """
+    draw = Draw(seed)
+    y = (*symbols(VARIABLES, "q"), *symbols(VARIABLES, "p"))
+    split = tuple(polynomial(draw, y, terms) for _ in range(terms))
+    return Hamiltonian(
+        "generic",
+        VARIABLES,
+        split,
+        start(draw),
+        fmpq(1),
+        is_generic=True,
+        long_run=(fmpq(1, 100), fmpq(1)),  # the solutions need not exist for longer
+    )
+
+
+def polynomial(draw: Draw, variables: Sequence[Any], terms: int) -> Any:
+    """Σ_k c_k (1 + a_k·y)^8 in the symbols y, one of ``terms`` terms of a Hamiltonian.
+
+    Powers of linear forms span all polynomials; three of them a term are enough for no derivative
+    to vanish, and are cheap to evaluate.
+    """
+    import sympy
+
+    total = sympy.Integer(0)
+    for _ in range(_FORMS):
+        slopes = [sympy.Rational(draw.sign() * draw.between(3, 12), 20) for _ in variables]
+        form = 1 + sum(a * x for a, x in zip(slopes, variables, strict=True))
+        factor = sympy.Rational(draw.sign() * draw.between(5, 20), 1600 * terms)
+        total += factor * form**DEGREE
+    return total
+
+
+def start(draw: Draw) -> tuple[fmpq, ...]:
+    """q(0), then p(0), each at most 1/5 from zero."""
+    return tuple(fmpq(draw.between(-10, 10), 50) for _ in range(2 * len(VARIABLES)))
