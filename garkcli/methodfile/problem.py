@@ -10,6 +10,7 @@ from typing import TYPE_CHECKING
 from flint import fmpq
 from yaml.nodes import MappingNode, Node, ScalarNode, SequenceNode
 
+from garkcli.exact.formula import RESERVED
 from garkcli.methodfile.description import FORMS as METHOD_FORMS
 from garkcli.methodfile.formulas import Formulas, bad_name
 from garkcli.methodfile.load import read_text
@@ -154,9 +155,17 @@ class _Reader:
         return list(found.items())
 
     def _refuse_clashes(self, variables: list[tuple[str, Node]], form: str) -> None:
-        """Refuse a variable that is the momentum or velocity of another."""
+        """Refuse a variable that is the momentum or velocity of another, or has one with a name of
+        the formulas: the momentum of ``i`` would be π.
+        """
         derived = _derived(variables, form)
         for name, node in variables:
+            if f"p{name}" in RESERVED:
+                self.source.fault(
+                    node,
+                    f"variables: the momentum of {name} would be p{name}, which has a meaning already",
+                    "choose another name",
+                )
             if name in derived:
                 self.source.fault(
                     node, f"variables: {name} is {derived[name]}", "choose another name"

@@ -6,11 +6,22 @@ It says what can be said about one value at a time: which names formulas may hav
 
 from __future__ import annotations
 
+from collections.abc import Iterable
+
 from garkcli.exact.formula import RESERVED
 from garkcli.methodfile.problem import KEYS, MAX_INVARIANTS, MAX_TERMS, MAX_VARIABLES
 from garkcli.methodfile.schema import Schema
 
-_NAME = f"^(?!({'|'.join(sorted(RESERVED))})$)[A-Za-z_][A-Za-z_0-9]{{0,29}}$"
+_CLASHING = {name.removeprefix("p") for name in RESERVED if name.startswith("p")}
+
+
+def _name_but(names: Iterable[str]) -> str:
+    """The pattern of a name that is none of ``names``."""
+    return f"^(?!({'|'.join(sorted(names))})$)[A-Za-z_][A-Za-z_0-9]{{0,29}}$"
+
+
+_NAME = _name_but(RESERVED)
+_VARIABLE = _name_but({*RESERVED, *_CLASHING})
 _TEXT: Schema = {"type": ["string", "number", "boolean", "null"]}
 _CONSTANT: Schema = {
     "description": "A number: 2, 0.1, 2/5, sqrt(2), pi/3, with parameters.",
@@ -33,7 +44,7 @@ def problem_file_schema() -> Schema:
             {"type": "array", "items": formula, "minItems": 1, "maxItems": MAX_TERMS},
         ]
     }
-    name: Schema = {"type": "string", "pattern": _NAME}
+    name: Schema = {"type": "string", "pattern": _VARIABLE}
     variables = {
         "type": "array",
         "items": name,

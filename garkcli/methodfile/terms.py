@@ -89,6 +89,7 @@ class Maker:
         at = {str(x): start[str(x)] for x in (*self.q, *self.p)}
         self._check_fields(terms, at)
         self._check_values(invariants, at)
+        self._refuse_constants(terms, invariants)
         self.source.close()
         return Hamiltonian(
             self.text.name,
@@ -236,6 +237,27 @@ class Maker:
             self.source.fault(moving[0].node, message, "start elsewhere")
             self.source.close()
         return found, start | {str(x): nearby(y) for x, y in zip(self.p, momenta, strict=True)}
+
+    def _refuse_constants(self, terms: Sequence[_Term], invariants: Sequence[_Term]) -> None:
+        """Note an H with which nothing moves, and invariants that are none: they are constant for
+        every motion.
+        """
+        from garkcli.problems.hamiltonian import is_constant
+
+        if is_constant(sum(x.made for x in terms)):
+            parts = "the sum of its terms" if len(terms) > 1 else "it"
+            self.source.fault(
+                terms[0].node,
+                f"the Hamiltonian is constant: {parts} depends on no variable, and nothing moves",
+                "write it in positions and momenta",
+            )
+        for invariant in invariants:
+            if is_constant(invariant.made):
+                self.source.fault(
+                    invariant.node,
+                    f"{invariant.where} is constant: it depends on no variable",
+                    "write a first integral in positions and momenta, or leave it out",
+                )
 
     def _check_fields(self, terms: Sequence[_Term], start: dict[str, fmpq]) -> None:
         """Note terms that have no derivative at the start."""

@@ -97,7 +97,7 @@ class VectorField:
     @property
     def is_linear(self) -> bool:
         """Whether all second derivatives vanish."""
-        return all(_is_constant(x) for g in self.depends for row in self.derivative(g) for x in row)
+        return all(is_constant(x) for g in self.depends for row in self.derivative(g) for x in row)
 
     @property
     def degree(self) -> int | None:
@@ -148,7 +148,7 @@ def energy_function(problem: Hamiltonian, digits: int) -> Callable[..., list[Any
     )
 
 
-def _is_constant(x: Any) -> bool:
+def is_constant(x: Any) -> bool:
     """Whether an expression depends on nothing, be it written with symbols that cancel."""
     import sympy
 

@@ -31,6 +31,7 @@ BALLS: Mapping[str, Any] = {
     **{f"ball_{name}": getattr(arb, name) for name in _NAMES},
     "ball_power": pow,
     "ball_pi": arb.pi,
+    "ball_zero": arb(0),
 }
 """What the text for balls calls; the text for floats has names of its own."""
 
@@ -234,7 +235,8 @@ def function(
     names = [f"a{i}" for i in range(len(arguments))]
     lines, results = made.lines(names, "r")
     source = f"def evaluate({', '.join(names)}):\n" + "".join(f" {line}\n" for line in lines)
-    source += f" return [{', '.join('0.0' if x == '0' else x for x in results)}]\n"
+    zero = "ball_zero" if is_for_balls else "0.0"
+    source += f" return [{', '.join(zero if x == '0' else x for x in results)}]\n"
     program: Callable[..., list[Any]] = define(
         source, "evaluate", enclosed([made]) if is_for_balls else {}
     )

@@ -194,6 +194,26 @@ def test_momenta_of_a_lagrangian() -> None:
             [(4, 17, "parameters: a: 'yes' is no number: YAML reads it as bool")],
         ),
         (ONE.replace("[x]", "[pi]"), [(1, 13, "variables: 'pi' has a meaning already")]),
+        (
+            "variables: [i]\nhamiltonian: pi**2/2 - cos(i)\ninitial: {i: 1, pi: 0}",
+            [(1, 13, "variables: the momentum of i would be pi, which has a meaning already")],
+        ),
+        (
+            ONE + "invariants: {z: x - x, one: 7, j: px**2}",
+            [(4, 17, "invariants: z is constant"), (4, 29, "invariants: one is constant")],
+        ),
+        (
+            ONE + "invariants: {z: sin(x)**2 + cos(x)**2}",
+            [(4, 17, "invariants: z is constant")],
+        ),
+        (
+            "variables: [x]\nhamiltonian: (x + 1)**2 - x**2 - 2*x\ninitial: {x: 1, px: 0}",
+            [(2, 14, "the Hamiltonian is constant: it depends on no variable, and nothing moves")],
+        ),
+        (
+            "variables: [x]\nhamiltonian: [0, 0]\ninitial: {x: 1, px: 0}",
+            [(2, 15, "the Hamiltonian is constant: the sum of its terms")],
+        ),
         (ONE.replace("[x]", "[x, px]"), [(1, 16, "variables: px is the momentum of x")]),
         (ONE.replace("[x]", "[x, x]"), [(1, 16, "variables: 'x' is named twice")]),
         (ONE.replace("[x]", "[]"), [(1, 12, "variables is empty")]),

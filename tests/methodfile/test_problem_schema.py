@@ -49,6 +49,11 @@ def test_what_loads_is_allowed(text: str) -> None:
         {"variables": []},
         {"variables": ["pi"]},
         {"variables": ["2x"]},
+        {
+            "variables": ["i"],
+            "hamiltonian": "pi**2 + i**2",
+            "initial": {"i": 1, "pi": 0},
+        },
         {"variables": ["x", "x"]},
         {"variables": ["x" * 31]},
         {"variables": None},

@@ -62,7 +62,7 @@ def test_seeds_are_for_random_coefficients() -> None:
         else:
             with pytest.raises(UsageProblem, match=f"generic.*not for {entry.name}"):
                 check_seed(entry.name, 3)
-    with pytest.raises(UsageProblem, match="not for a.yaml"):
+    with pytest.raises(UsageProblem, match=r"not for a\.yaml"):
         check_seed("a.yaml", 3)
 
 

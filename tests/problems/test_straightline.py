@@ -125,3 +125,15 @@ def test_constants_beyond_the_floats_are_infinite() -> None:
     huge = sympy.Integer(10) ** 400
     assert function((huge * X[0], -huge * X[0]), X[:1], False)(2.0) == [math.inf, -math.inf]
     assert function((huge * X[0],), X[:1], True)(arb(0.5))[0].overlaps(arb(10) ** 400 / 2)
+
+
+def test_zero_is_a_number_of_the_kind_asked_for() -> None:
+    """Zero beside other expressions and alone: a float for floats, a ball for balls."""
+    zero, one = sympy.Integer(0), X[0]
+    with ctx.workprec(100):
+        assert function((zero, one), X[:1], False)(0.5) == [0.0, 0.5]
+        found = function((zero, one), X[:1], True)(arb(2))
+        assert all(isinstance(x, arb) for x in found)
+        assert found[0] == 0
+        (alone,) = function((zero,), X[:1], True)(arb(2))
+        assert alone.mid() == 0
