@@ -4,6 +4,7 @@
 
 from __future__ import annotations
 
+import os
 import warnings
 from collections.abc import Callable
 from dataclasses import dataclass
@@ -34,13 +35,13 @@ from tests.fuzz.problem_inputs import problem_file, problem_seeds, written_probl
 SLOWEST = 5.0
 """Seconds of the processor that no file may take before its verdict."""
 FUZZ = settings(
-    max_examples=400,
+    max_examples=int(os.environ.get("GARK_FUZZ_EXAMPLES", "150")),
     deadline=None,  # that is of a clock; ``faults_of`` has the other
     derandomize=True,
     database=None,
     suppress_health_check=list(HealthCheck),
 )
-"""As many cases, always the same ones."""
+"""As many cases, always the same ones; ``make fuzz`` asks for more."""
 
 NUMBERS = st.one_of(
     st.integers(-3, 12),

@@ -4,6 +4,7 @@ from __future__ import annotations
 
 from collections.abc import Sequence
 from dataclasses import replace
+from functools import cache
 from itertools import pairwise
 from pathlib import Path
 
@@ -27,8 +28,9 @@ from garkcli.tableau.forms import gark
 OSCILLATOR = Oscillator.default(1, fmpq(1))
 
 
+@cache
 def result_of(name: str, s: int | None = None) -> Convergence:
-    """The convergence test of one method."""
+    """The convergence test of one method; once, for many stages take seconds."""
     return converge(gark([diagonal_method(name, s)], {}), OSCILLATOR)
 
 
