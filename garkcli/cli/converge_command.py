@@ -8,7 +8,7 @@ from typing import TYPE_CHECKING
 
 import click
 
-from garkcli.cli.converging import Problems, Wanted, compared, hint_rounding, oscillator, tested
+from garkcli.cli.converging import Problems, Wanted, compared, hint_rounding, tested
 from garkcli.cli.options import CONTEXT, Output, common
 from garkcli.cli.problems import ProblemType, note_changing
 from garkcli.cli.stepping import applied, positive, refuse_misplaced
