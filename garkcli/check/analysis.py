@@ -10,9 +10,8 @@ from flint import fmpq
 from garkcli.errors import ZeroWeight
 from garkcli.exact.field import ZERO
 from garkcli.order.certificate import DEFAULT_LIMIT, Order, find_order
-from garkcli.order.closeness import within
-from garkcli.order.defects import is_symplectic_within
 from garkcli.order.simplifying import Simplifying, consistent_blocks, simplifying
+from garkcli.order.tolerance import TINY, within
 from garkcli.tableau.conjugate import conjugate, is_symplectic
 from garkcli.tableau.forms import pair
 from garkcli.tableau.stages import PointSpace
@@ -45,11 +44,14 @@ class Analysis:
         pair: the symplectic pair with 2N colours, or None.
         pair_order: the exact order of the pair.
         pair_simplifying: B, C, D and the bound for the pair.
+        bound: the paper's lower bound of the order; within a tolerance as far as the order bears it
+            out.
+        pair_bound: the same for the pair.
         obstacle: why there is no conjugate; empty where there is one.
         limit: where the search for orders stopped.
         tolerance: the rounding within which all of this holds; None where it holds exactly.
-        suggestion: for a method that is exact by its word, the tolerance that its residuals
-            suggest.
+        suggestion: the tolerance that the residuals speak for: of a method that is exact by its
+            word, or where the tolerance of the file is too tight for its own rounding.
     """
 
     tableau: Tableau
@@ -63,6 +65,8 @@ class Analysis:
     pair: Tableau | None
     pair_order: AnyOrder | None
     pair_simplifying: Simplifying | None
+    bound: int
+    pair_bound: int | None
     obstacle: str
     limit: int
     tolerance: fmpq | None = None
@@ -79,7 +83,40 @@ def analyse(
         limit: where the search for orders stops.
         tolerance: the rounding of its coefficients; None for coefficients that are meant exactly.
     """
-    near = ZERO if tolerance is None else tolerance
+    if tolerance is not None:
+        from garkcli.check.within import analyse_within
+
+        return analyse_within(tableau, tolerance, limit)
+    conjugated, both, obstacle = conjugate_and_pair(tableau)
+    order, conditions = find_order(tableau, limit), simplifying(tableau, limit)
+    conjugate_order = None if conjugated is None else find_order(conjugated, limit)
+    pair_order, pair_conditions = None, None
+    if both is not None and is_pair_of_itself(tableau, both):
+        pair_order, pair_conditions = order, conditions
+    elif both is not None:
+        pair_order, pair_conditions = find_order(both, limit), simplifying(both, limit)
+    return Analysis(
+        tableau=tableau,
+        order=order,
+        simplifying=conditions,
+        inconsistent=inconsistent_blocks(tableau),
+        symplectic=is_symplectic(tableau),
+        conjugate=conjugated,
+        conjugate_order=conjugate_order,
+        conjugate_inconsistent=inconsistent_blocks(conjugated),
+        pair=both,
+        pair_order=pair_order,
+        pair_simplifying=pair_conditions,
+        bound=conditions.bound,
+        pair_bound=None if pair_conditions is None else pair_conditions.bound,
+        obstacle=obstacle,
+        limit=limit,
+        suggestion=_suggestion(tableau, order, limit),
+    )
+
+
+def conjugate_and_pair(tableau: Tableau) -> tuple[Tableau | None, Tableau | None, str]:
+    """The conjugate and the symplectic pair, None where a weight is zero, and then why."""
     conjugated, both, obstacle = None, None, ""
     try:
         conjugated = conjugate(tableau)
@@ -89,51 +126,27 @@ def analyse(
         both = pair(tableau)
     except ZeroWeight as error:
         obstacle = error.message
-    same = both is not None and tableau.is_partitioned and both.blocks == tableau.blocks
-    order, conditions = _order(tableau, limit, tolerance), simplifying(tableau, limit, near)
-    pair_order = pair_conditions = None
-    if both is not None:
-        pair_order = order if same else _order(both, limit, tolerance)
-        pair_conditions = conditions if same else simplifying(both, limit, near)
-    return Analysis(
-        tableau=tableau,
-        order=order,
-        simplifying=conditions,
-        inconsistent=_inconsistent(tableau, near),
-        symplectic=is_symplectic(tableau)
-        if tolerance is None
-        else is_symplectic_within(tableau, near),
-        conjugate=conjugated,
-        conjugate_order=_order(conjugated, limit, tolerance) if conjugated is not None else None,
-        conjugate_inconsistent=_inconsistent(conjugated, near) if conjugated is not None else (),
-        pair=both,
-        pair_order=pair_order,
-        pair_simplifying=pair_conditions,
-        obstacle=obstacle,
-        limit=limit,
-        tolerance=tolerance,
-        suggestion=_suggestion(tableau, order, limit) if tolerance is None else None,
-    )
+    return conjugated, both, obstacle
 
 
-def _order(tableau: Tableau, limit: int, tolerance: fmpq | None) -> AnyOrder:
-    if tolerance is None:
-        return find_order(tableau, limit)
-    from garkcli.order.rounded import find_order_within
-
-    return find_order_within(tableau, tolerance, limit)
+def is_pair_of_itself(tableau: Tableau, both: Tableau) -> bool:
+    """Whether a partitioned tableau is the pair that is made of it."""
+    return tableau.is_partitioned and both.blocks == tableau.blocks
 
 
-def _inconsistent(tableau: Tableau, tolerance: fmpq) -> tuple[tuple[int, int], ...]:
+def inconsistent_blocks(
+    tableau: Tableau | None, tolerance: fmpq = ZERO
+) -> tuple[tuple[int, int], ...]:
+    """The blocks with A^{l,m} 𝟙 ≠ c^{l} within a tolerance; none of what does not exist."""
+    if tableau is None:
+        return ()
     return tuple(edge for edge, holds in consistent_blocks(tableau, tolerance).items() if not holds)
 
 
-def _suggestion(tableau: Tableau, order: AnyOrder, limit: int) -> Suggestion | None:
+def _suggestion(tableau: Tableau, order: Order, limit: int) -> Suggestion | None:
     """What to write into a file that looks rounded; only tiny residuals are looked at further."""
     spelled_out = any(isinstance(space, PointSpace) for space in tableau.spaces)
-    if not spelled_out or not isinstance(order, Order) or order.witness is None:
-        return None
-    if not within(order.witness.residual, fmpq(1, 10**6)):
+    if not spelled_out or order.witness is None or not within(order.witness.residual, TINY):
         return None
     from garkcli.order.suggestion import suggest_tolerance
 

@@ -2,7 +2,7 @@
 
 from __future__ import annotations
 
-from garkcli.check.analysis import Analysis
+from garkcli.check.analysis import Analysis, AnyOrder
 from garkcli.check.outcome import Claim
 from garkcli.methodfile.description import ClaimText
 from garkcli.methodfile.expectations import AtLeast
@@ -15,20 +15,26 @@ def verify(claims: tuple[ClaimText, ...], analysis: Analysis) -> tuple[Claim, ..
 
 
 def _found(key: str, analysis: Analysis) -> object:
-    conjugate, pair, both = analysis.conjugate_order, analysis.pair_order, analysis.pair_simplifying
     table: Simplifying = analysis.simplifying
     limit = analysis.limit
     return {
-        "order": _capped(analysis.order.order, limit),
-        "conjugate-order": _capped(conjugate.order, limit) if conjugate else None,
-        "pair-order": _capped(pair.order, limit) if pair else None,
-        "bound": table.bound,
-        "pair-bound": both.bound if both else None,
+        "order": _order(analysis.order),
+        "conjugate-order": _order(analysis.conjugate_order),
+        "pair-order": _order(analysis.pair_order),
+        "bound": analysis.bound,
+        "pair-bound": analysis.pair_bound,
         "B": [_capped(x, limit) for x in table.B],
         "C": [[_capped(x, limit) for x in row] for row in table.C],
         "D": [[_capped(x, limit) for x in row] for row in table.D],
         "symplectic": analysis.symplectic,
     }[key]
+
+
+def _order(found: AnyOrder | None) -> object:
+    """An order at which nothing is known to fail is at least that large, no more."""
+    if found is None:
+        return None
+    return AtLeast(found.order) if found.is_lower_bound else found.order
 
 
 def _capped(number: int | None, limit: int) -> object:

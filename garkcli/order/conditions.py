@@ -10,7 +10,7 @@ from flint import fmpq
 from garkcli.errors import MethodError
 from garkcli.exact.field import ZERO, Number
 from garkcli.exact.matrix import Vector, apply, dot
-from garkcli.order.closeness import within
+from garkcli.order.tolerance import within
 from garkcli.tableau.tableau import Tableau
 from garkcli.trees.tree import Tree
 

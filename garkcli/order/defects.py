@@ -1,7 +1,7 @@
 """By how much B, C and D are missed, and which symplectic tableaus are so within a tolerance.
 
 A defect is an exact element, functional or bilinear form of stage spaces: zero where the condition
-holds, and within t where all its values at the nodes are, ``closeness`` says how.
+holds, and within t where all its values at the nodes are, ``tolerance`` says how.
 """
 
 from __future__ import annotations
@@ -11,7 +11,7 @@ from flint import fmpq
 from garkcli.exact.field import Number
 from garkcli.exact.linear_map import LinearMap
 from garkcli.exact.matrix import Vector, dot
-from garkcli.order.closeness import form_within, functional_within
+from garkcli.order.tolerance import form_within, functional_within
 from garkcli.tableau.conjugate import symplectic_defect
 from garkcli.tableau.tableau import Tableau
 

@@ -13,8 +13,8 @@ from flint import fmpq
 
 from garkcli.exact.field import ZERO
 from garkcli.order.certificate import DEFAULT_LIMIT
-from garkcli.order.closeness import functional_within, vector_within, within
 from garkcli.order.defects import Defects
+from garkcli.order.tolerance import functional_within, vector_within, within
 from garkcli.tableau.tableau import Tableau
 
 

@@ -4,7 +4,6 @@ from __future__ import annotations
 
 from collections.abc import Iterator
 from dataclasses import dataclass, field
-from math import factorial
 
 from flint import arb, ctx, fmpq
 
@@ -12,17 +11,15 @@ from garkcli.exact.display import to_ball
 from garkcli.order.approximate_spans import ApproximateSpans
 from garkcli.order.certificate import DEFAULT_LIMIT, Order
 from garkcli.order.conditions import coupling_graph
+from garkcli.order.propagation import Propagation
 from garkcli.order.residuals import Sizes, TreeResiduals
-from garkcli.order.rounded import FEW_TREES
+from garkcli.order.rounded import FEW_TREES, RoundedOrder, find_order_within
+from garkcli.order.tolerance import unnatural
 from garkcli.tableau.enclosing import enclose_tableau
 from garkcli.tableau.stages import PointSpace
 from garkcli.tableau.tableau import Tableau
 from garkcli.trees.count import Admissible, counts_upto
 
-TINY = fmpq(1, 10**6)
-"""No larger residual is taken for rounding, at any order."""
-UNNATURAL = fmpq(1, 1000)
-"""Nor is one larger than this part of the smallest error that quadrature leaves at its order."""
 JUMP = 1000
 """The first residual that is genuine is so many times larger than all those of rounding."""
 
@@ -87,11 +84,11 @@ def suggest_tolerance(
     if exact.witness is None or not any(isinstance(space, PointSpace) for space in tableau.spaces):
         return None
     first = abs(to_ball(exact.witness.residual))
-    if not first <= _unnatural(exact.order + 1):
+    if not first <= unnatural(exact.order + 1):
         return None
     rounding = first
     for order, sizes in _sizes(tableau, first, range(exact.order + 1, limit + 1)):
-        if sizes.bound <= _unnatural(order):
+        if sizes.bound <= unnatural(order):
             rounding = rounding.max(sizes.bound)
         elif order > exact.order + 1 and sizes.reached >= JUMP * rounding:
             return Suggestion(order - 1, _exponent(rounding), rounding, sizes.reached)
@@ -100,10 +97,41 @@ def suggest_tolerance(
     return None
 
 
-def _unnatural(order: int) -> arb:
-    s = order // 2
-    best = fmpq(factorial(s) ** 4, (2 * s + 1) * factorial(2 * s) ** 2)
-    return arb(min(TINY, best * UNNATURAL))
+def suggest_wider(
+    tableau: Tableau, found: RoundedOrder, limit: int = DEFAULT_LIMIT
+) -> Suggestion | None:
+    """A tolerance that would do where that of the file is too tight for its own rounding.
+
+    Entries that are off by t make residuals of several t. Where the residual that misses t is no
+    larger than that, ``Propagation``, the power of ten that lets it pass is proposed, if residuals
+    jump afterwards.
+
+    Args:
+        tableau: the method.
+        found: its order within the tolerance of the file.
+        limit: the order at which to stop.
+
+    Returns:
+        None where the order fails by more than rounding explains.
+    """
+    if found.witness is None:
+        return None
+    order = found.order + 1
+    reached = abs(to_ball(found.witness.residual))
+    if not reached <= unnatural(order):
+        return None
+    explained = Propagation(tableau, {}, found.tolerance).effect(order)
+    if not reached <= explained + found.tolerance:
+        return None
+    first = _exponent(reached)
+    for exponent in range(first, first + 3):
+        wider = find_order_within(tableau, fmpq(10) ** exponent, limit)
+        if wider.witness is None or wider.order < order:
+            return None
+        genuine = abs(to_ball(wider.witness.residual))
+        if genuine >= JUMP * wider.largest_residual:
+            return Suggestion(wider.order, exponent, wider.largest_residual, genuine)
+    return None
 
 
 def _sizes(tableau: Tableau, first: arb, orders: range) -> Iterator[tuple[int, Sizes]]:

@@ -75,7 +75,6 @@ def _outcome(outcome: Outcome) -> dict[str, Any]:
 
 
 def _analysis(outcome: Outcome, analysis: Analysis) -> dict[str, Any]:
-    both = analysis.pair_simplifying
     return {
         "exact": analysis.tolerance is None,
         "tolerance": None if analysis.tolerance is None else decimal(analysis.tolerance),
@@ -89,8 +88,8 @@ def _analysis(outcome: Outcome, analysis: Analysis) -> dict[str, Any]:
         **_order("", analysis.order),
         **_order("conjugate_", analysis.conjugate_order),
         **_order("pair_", analysis.pair_order),
-        "simplifying": _simplifying(analysis.simplifying),
-        "pair_bound": None if both is None else both.bound,
+        "simplifying": _simplifying(analysis.simplifying, analysis.bound),
+        "pair_bound": analysis.pair_bound,
         **hints_data(outcome),
         **_suggested(analysis.suggestion),
     }
@@ -104,6 +103,7 @@ def _order(prefix: str, order: AnyOrder | None) -> dict[str, Any]:
         found[f"{prefix}order_is_lower_bound"] = True
     if not isinstance(order, Order):
         found[f"{prefix}order_largest_residual"] = float(order.largest_residual.upper())
+        found[f"{prefix}order_tolerance"] = decimal(order.tolerance)
         if order.undecided:
             found[f"{prefix}order_undecided"] = True
     if order.witness is not None:
@@ -124,7 +124,7 @@ def _suggested(found: Suggestion | None) -> dict[str, Any]:
     return {"suggestion": {"line": found.line, "order": found.order, **sizes}}
 
 
-def _simplifying(found: Simplifying) -> dict[str, Any]:
+def _simplifying(found: Simplifying, bound: int) -> dict[str, Any]:
     return {
         "B": list(found.B),
         "C": [list(row) for row in found.C],
@@ -133,5 +133,5 @@ def _simplifying(found: Simplifying) -> dict[str, Any]:
         "eta": found.eta,
         "zeta": found.zeta,
         "xi": found.xi,
-        "bound": found.bound,
+        "bound": bound,
     }

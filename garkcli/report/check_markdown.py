@@ -36,7 +36,7 @@ def _row(outcome: Outcome) -> str:
         cells = [
             f"`{_code(outcome.file)}`",
             *(_order(order) for order in orders),
-            str(analysis.simplifying.bound),
+            str(analysis.bound),
             "yes" if analysis.symplectic else "no",
             f"**{failed} of {claims} fail**" if failed else f"{claims} hold",
         ]

@@ -76,6 +76,7 @@ def _checked() -> Schema:
         orders[f"{prefix}witness"] = {"oneOf": [{"type": "null"}, _witness()]}
         bounds[f"{prefix}order_is_lower_bound"] = {"const": True}
         bounds[f"{prefix}order_largest_residual"] = {"type": "number", "minimum": 0}
+        bounds[f"{prefix}order_tolerance"] = {"type": "string"}
         bounds[f"{prefix}order_undecided"] = {"const": True}
     required = {
         "file": {"type": "string"},

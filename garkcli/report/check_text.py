@@ -20,6 +20,7 @@ from garkcli.trees.drawing import draw_text
 from garkcli.trees.notation import format_tree
 
 if TYPE_CHECKING:
+    from garkcli.order.rounded import RoundedOrder
     from garkcli.order.suggestion import Suggestion
 
 _LABEL = 17
@@ -110,7 +111,7 @@ def _full(outcome: Outcome, analysis: Analysis, paint: Paint) -> list[str]:
     lines = [paint("strong", title), *(f"  {line}" for line in kind), ""]
     lines += _orders(analysis, paint)
     if analysis.suggestion is not None:
-        lines += _suggested(analysis.suggestion, paint)
+        lines += _suggested(analysis.suggestion, analysis.tolerance, paint)
     lines += ["", *_conditions(analysis)]
     lines += ["", *_properties(analysis, paint)]
     if outcome.constants is not None:
@@ -167,8 +168,8 @@ def _order(
             f"   within {decimal(order.tolerance)}, residuals up to {_size(order.largest_residual)}"
         )
     witness = order.witness
-    if witness is None and not isinstance(order, Order) and order.undecided:
-        return [f"{head}; order {order.order + 1} is too much to decide"]
+    if not isinstance(order, Order) and order.undecided:
+        return _undecided(head, order)
     if witness is None:
         return [f"{head}   every condition up to order {order.order} holds; no further was looked"]
     if witness in shown:
@@ -187,8 +188,26 @@ def _order(
     return [head, *(paint.dots(f"      {line}") for line in text)]
 
 
-def _suggested(found: Suggestion, paint: Paint) -> list[str]:
-    """The coefficients look rounded: what to add to the file."""
+def _undecided(head: str, order: RoundedOrder) -> list[str]:
+    """What is left open, and why."""
+    next_order, doubt = order.order + 1, order.doubt
+    if doubt is None:
+        return [f"{head}; order {next_order} is too much to decide"]
+    why = "a weight may be zero within it"
+    if doubt.effect is not None:
+        why = f"rounding may make up to {_size(doubt.effect)} of that"
+    reached = f"order {next_order} is not decided: residuals reach {_size(doubt.reached)}"
+    return [head, f"      {reached}, {why}"]
+
+
+def _suggested(found: Suggestion, tolerance: fmpq | None, paint: Paint) -> list[str]:
+    """The coefficients look rounded, or more so than they say: what to write into the file."""
+    if tolerance is not None:
+        return [
+            f"  {paint('note', 'hint')}: rounding by {decimal(tolerance)} makes residuals up to "
+            f"{_size(found.rounding)}: the tolerance is too tight;",
+            f"        with the line  {found.line}  the order is {found.order}",
+        ]
     return [
         f"  {paint('note', 'hint')}: up to order {found.order} the residuals are at most {_size(found.rounding)}, "
         f"then {_size(found.genuine)}:",
@@ -232,9 +251,10 @@ def _conditions(analysis: Analysis) -> list[str]:
         rows += [
             f"  {label if i == 0 else '':{_LABEL}}{line}" for i, line in enumerate(aligned(cells))
         ]
-    rows.append(f"  {'bound':{_LABEL}}{_bound(found)}")
-    if analysis.pair_simplifying is not None and analysis.pair_simplifying is not found:
-        rows.append(f"  {'pair bound':{_LABEL}}{_bound(analysis.pair_simplifying)}")
+    rows += _bound("bound", found, analysis.bound)
+    both = analysis.pair_simplifying
+    if both is not None and both is not found and analysis.pair_bound is not None:
+        rows += _bound("pair bound", both, analysis.pair_bound)
     return rows
 
 
@@ -242,9 +262,16 @@ def _capped(number: int, limit: int) -> str:
     return f">={number}" if number >= limit else str(number)
 
 
-def _bound(found: Simplifying) -> str:
+def _bound(label: str, found: Simplifying, bound: int) -> list[str]:
+    """The bound with its formula; within a tolerance residuals may not bear out what that gives."""
     r, eta, zeta, xi = found.r, found.eta, found.zeta, found.xi
-    return f"{found.bound} = min{{r, 2η+2, ξ+1, η+ζ+1}}   r = {r}, η = {eta}, ζ = {zeta}, ξ = {xi}"
+    formula = f"min{{r, 2η+2, ξ+1, η+ζ+1}}   r = {r}, η = {eta}, ζ = {zeta}, ξ = {xi}"
+    if bound == found.bound:
+        return [f"  {label:{_LABEL}}{bound} = {formula}"]
+    return [
+        f"  {label:{_LABEL}}{bound}   {found.bound} is not decided within the tolerance,",
+        f"  {'':{_LABEL}}{found.bound} = {formula}",
+    ]
 
 
 def _properties(analysis: Analysis, paint: Paint) -> list[str]:

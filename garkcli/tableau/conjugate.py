@@ -82,11 +82,11 @@ def _exchanged(tableau: Tableau) -> dict[tuple[int, int], Matrix]:
     return {
         (tableau.colours[l].space, m): conjugate_of(tableau, l, m)
         for m, l in tableau.edges()
-        if _are_opposite(tableau.colours[l], tableau.colours[m])
+        if are_opposite(tableau.colours[l], tableau.colours[m])
     }
 
 
-def _are_opposite(one: Colour, other: Colour) -> bool:
+def are_opposite(one: Colour, other: Colour) -> bool:
     """Whether the symplectic form pairs what the two vector fields drive."""
     return {one.part, other.part} in ({"q", "p"}, {"y"})
 
@@ -100,7 +100,7 @@ def is_symplectic(tableau: Tableau) -> bool:
     """
     for l, one in enumerate(tableau.colours):
         for m, other in enumerate(tableau.colours):
-            if _are_opposite(one, other) and not _is_symplectic_between(tableau, l, m):
+            if are_opposite(one, other) and not _is_symplectic_between(tableau, l, m):
                 return False
             if (
                 one.space == other.space

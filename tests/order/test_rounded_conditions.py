@@ -1,4 +1,4 @@
-"""B, C, D, consistency and symplecticity within a tolerance, and the closeness they rest on."""
+"""B, C, D, consistency and symplecticity within a tolerance, and the comparisons they rest on."""
 
 from __future__ import annotations
 
@@ -15,9 +15,9 @@ from garkcli.exact.display import to_decimal
 from garkcli.exact.domain import Domain
 from garkcli.exact.expression import parse
 from garkcli.families.registry import diagonal_method
-from garkcli.order.closeness import form_within, functional_within, vector_within, within
 from garkcli.order.defects import is_symplectic_within
 from garkcli.order.simplifying import consistent_blocks, simplifying
+from garkcli.order.tolerance import form_within, functional_within, vector_within, within
 from garkcli.tableau.conjugate import is_symplectic
 from garkcli.tableau.forms import gark, pair
 from garkcli.tableau.tableau import Tableau

@@ -8,8 +8,9 @@ by their coefficients there: the entries that a printed tableau has.
 from __future__ import annotations
 
 from contextlib import suppress
+from math import factorial
 
-from flint import arb_mat, ctx, fmpq
+from flint import arb, arb_mat, ctx, fmpq
 
 from garkcli.exact.display import to_ball
 from garkcli.exact.field import Algebraic, Number
@@ -23,6 +24,42 @@ MOST_BITS = 8192
 """Precision at which a value at an irrational node that still cannot be told from the tolerance
 counts as equal.
 """
+TINY = fmpq(1, 10**6)
+"""No larger residual is taken for rounding, at any order."""
+UNNATURAL = fmpq(1, 1000)
+"""Nor is one larger than this part of the smallest error that quadrature leaves at its order."""
+
+
+def unnatural(order: int) -> fmpq:
+    """The size below which a residual of an order is too small to be that of a good exact method.
+
+    A thousandth of the error of x^(n−1) in the best quadrature of s = ⌊n/2⌋ nodes, which is
+    (s!)⁴ / ((2s+1) ((2s)!)²), and 10⁻⁶ at most.
+    """
+    s = order // 2
+    best = fmpq(factorial(s) ** 4, (2 * s + 1) * factorial(2 * s) ** 2)
+    return min(TINY, best * UNNATURAL)
+
+
+def rounded_up(size: arb) -> fmpq:
+    """A bound with two digits: at least ``size``, and less than a tenth more.
+
+    >>> rounded_up(arb("3.14159e-9"))
+    1/312500000
+    """
+    upper = size.abs_upper()
+    if upper == 0:
+        return fmpq(0)
+    exponent = _whole((upper.log() / arb(10).log()).mid().floor())
+    step = fmpq(10) ** (exponent - 1)
+    return _whole((upper / arb(step)).abs_upper().ceil()) * step
+
+
+def _whole(number: arb) -> int:
+    found = number.unique_fmpz()
+    if found is None:
+        raise ArithmeticError(f"{number} is no whole number")
+    return int(found)
 
 
 def within(number: Number, tolerance: fmpq) -> bool:
@@ -81,6 +118,12 @@ def form_within(
                 return True
         bits *= 2
     return True
+
+
+def form_entries(space: StageSpace, other: StageSpace, matrix: Matrix) -> arb_mat:
+    """The coefficients m_ij of a bilinear form at the nodes, in balls."""
+    with ctx.workprec(FIRST_BITS):
+        return _at_nodes(space, other, matrix, dual=True)
 
 
 def _at_nodes(space: StageSpace, other: StageSpace | None, matrix: Matrix, dual: bool) -> arb_mat:

@@ -1,0 +1,140 @@
+"""Reports within a tolerance: whatever is rounded and by whatever tolerance it is judged, no line
+contradicts another.
+"""
+
+from __future__ import annotations
+
+from random import Random
+
+import pytest
+from flint import fmpq
+from hypothesis import given, settings
+from hypothesis import strategies as st
+
+from garkcli.check.analysis import Analysis, analyse
+from garkcli.check.claims import verify
+from garkcli.check.outcome import Outcome
+from garkcli.methodfile.load import loads
+from garkcli.report.check_text import render
+from garkcli.report.paint import Paint
+from garkcli.tableau.forms import gark
+from garkcli.tableau.method import butcher
+from garkcli.tableau.tableau import Tableau
+from tests.oracles import samples
+from tests.order.rounded_samples import in_decimals
+
+SMALL = [
+    name
+    for name, make in samples.NAMED.items()
+    if not make().is_partitioned and sum(space.stages for space in make().spaces) <= 5
+]
+GAUSS = "methods: [{A: [[0.25, -0.03867513], [0.53867513, 0.25]], b: [0.5, 0.5]}]\n"
+LIMIT = 9
+
+
+def assert_no_contradiction(found: Analysis) -> None:
+    """What follows from each other holds together."""
+    own, conjugate, both = found.order, found.conjugate_order, found.pair_order
+    assert found.bound <= own.order
+    assert bool(found.inconsistent) == any(0 in row for row in found.simplifying.C)
+    if not found.inconsistent:
+        assert min(found.simplifying.B) >= own.order
+    if found.pair is None or conjugate is None or both is None or found.pair_bound is None:
+        return
+    assert found.pair_bound <= both.order <= min(own.order, conjugate.order)
+    assert found.pair_bound <= found.bound
+    if not own.is_lower_bound and own.order < 2:
+        assert conjugate.order <= own.order
+    if found.symplectic:
+        assert own.order == conjugate.order == both.order
+        assert own.is_lower_bound == conjugate.is_lower_bound == both.is_lower_bound
+
+
+@settings(max_examples=60)
+@given(
+    st.sampled_from(SMALL),
+    st.sampled_from([3, 5, 8, 12, 16]),
+    st.sampled_from([fmpq(1, 2), fmpq(1), fmpq(3), fmpq(30)]),
+)
+def test_no_report_on_a_rounded_method_contradicts_itself(
+    name: str, digits: int, units: fmpq
+) -> None:
+    """Methods cut off after some digits, with tolerances from half a digit to thirty."""
+    method = in_decimals(samples.NAMED[name](), digits)
+    assert_no_contradiction(analyse(method, LIMIT, units / fmpq(10) ** digits))
+
+
+def random_method(dice: Random) -> Tableau:
+    """Two or three stages, symplectic up to rounding; weights down to a thousandth."""
+    stages = dice.choice([2, 3])
+    b = [fmpq(dice.choice([1, 5, 300, 700]), 1000) for _ in range(stages - 1)]
+    b.append(1 - sum(b, fmpq(0)))
+    error = fmpq(1, 10 ** dice.choice([6, 9]))
+    rows = [[fmpq(0)] * stages for _ in range(stages)]
+    for i in range(stages):
+        rows[i][i] = b[i] / 2
+        for j in range(i):
+            rows[i][j] = fmpq(dice.randint(-9, 9), 10)
+            rows[j][i] = b[j] - b[j] * rows[i][j] / b[i] if b[i] else fmpq(0)
+    rows = [[x + error * fmpq(dice.randint(-9, 9), 10) for x in row] for row in rows]
+    return gark([butcher(tuple(tuple(row) for row in rows), tuple(b))], {})
+
+
+@settings(max_examples=80)
+@given(st.integers(0, 2**32 - 1), st.integers(5, 11))
+def test_nearly_symplectic_methods(seed: int, exponent: int) -> None:
+    """Small weights make the conjugate many times less certain than the method."""
+    found = analyse(random_method(Random(seed)), LIMIT, fmpq(1, 10**exponent))
+    assert_no_contradiction(found)
+
+
+def test_a_small_weight_leaves_the_conjugate_open() -> None:
+    """b_1 = 10⁻⁷ is divided by: within 10⁻⁶ the conjugate is not decided, and it says so."""
+    text = "methods: [{A: [[0, 0], [0.1, 0.4]], b: [0.0000001, 0.9999999]}]\ntolerance: 1e-6\n"
+    method = loads(text)
+    found = analyse(method.tableau, LIMIT, method.tolerance)
+    assert found.conjugate_order is not None
+    assert found.conjugate_order.is_lower_bound
+    shown = render([Outcome("f", "f", analysis=found)], Paint())
+    assert "is not decided: residuals reach" in shown
+
+
+def test_a_tolerance_that_is_too_tight_gets_the_one_that_would_do() -> None:
+    """Gauss 2 in 8 decimals has residuals of 4e-9: with 1e-9 the hint says 1e-8, and that does."""
+    method = loads(f"{GAUSS}tolerance: 1e-9\n")
+    found = analyse(method.tableau, LIMIT, method.tolerance)
+    assert (found.order.order, found.bound) == (2, 2)
+    assert found.suggestion is not None
+    assert (found.suggestion.line, found.suggestion.order) == ("tolerance: 1e-8", 4)
+    shown = render([Outcome("f", "f", analysis=found)], Paint())
+    assert "the tolerance is too tight" in shown
+    better = analyse(method.tableau, LIMIT, found.suggestion.tolerance)
+    assert better.suggestion is None
+    assert (better.order.order, better.bound, better.pair_bound) == (4, 4, 4)
+    assert better.symplectic
+
+
+def test_what_is_left_open_confirms_no_exact_claim() -> None:
+    """An order that is a lower bound confirms `>= n`, and no equal number."""
+    body = "methods: [{A: [[0, 0], [0.1, 0.4]], b: [0.0000001, 0.9999999]}]\ntolerance: 1e-6\n"
+    for claim, holds in (("'>= 2'", True), ("2", False)):
+        method = loads(f"{body}expect: {{conjugate-order: {claim}}}\n")
+        (found,) = verify(method.claims, analyse(method.tableau, LIMIT, method.tolerance))
+        assert found.holds is holds
+
+
+@pytest.mark.parametrize("name", SMALL)
+def test_much_finer_tolerances_say_what_is_exactly_so(name: str) -> None:
+    """Exact rational methods keep their verdicts within 10⁻⁴⁰."""
+    method = samples.NAMED[name]()
+    near, exact = analyse(method, LIMIT, fmpq(1, 10**40)), analyse(method, LIMIT)
+    orders = [
+        [x if x is None else x.order for x in (a.order, a.conjugate_order, a.pair_order)]
+        for a in (near, exact)
+    ]
+    assert orders[0] == orders[1]
+    assert (near.bound, near.pair_bound, near.symplectic) == (
+        exact.bound,
+        exact.pair_bound,
+        exact.symplectic,
+    )
