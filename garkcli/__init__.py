@@ -24,8 +24,8 @@ if TYPE_CHECKING:
     from garkcli.order.simplifying import simplifying
     from garkcli.problems.builtin import hamiltonian
     from garkcli.problems.oscillator import Oscillator
-    from garkcli.stepping.integrator import scheme
-    from garkcli.stepping.step import final, trajectory
+    from garkcli.stepping.integrator import bind
+    from garkcli.stepping.step import integrate, trajectory
     from garkcli.tableau.conjugate import conjugate, is_symplectic
     from garkcli.tableau.forms import gark, pair, symplectic_pair
     from garkcli.tableau.tableau import Tableau
@@ -37,6 +37,7 @@ __version__ = "0.1.0"
 _HOMES = {
     "analyse": "check.analysis",
     "check_file": "check.check_file",
+    "bind": "stepping.integrator",
     "conditions": "order.conditions",
     "conjugate": "tableau.conjugate",
     "converge": "convergence.convergence",
@@ -44,12 +45,12 @@ _HOMES = {
     "diagonal_method": "families.registry",
     "drift": "longtime.energy",
     "elementary_weight": "order.conditions",
-    "final": "stepping.step",
     "find_order": "order.certificate",
     "follow": "longtime.longtime",
     "format_tree": "trees.notation",
     "gark": "tableau.forms",
     "hamiltonian": "problems.builtin",
+    "integrate": "stepping.step",
     "is_symplectic": "tableau.conjugate",
     "load": "methodfile.load",
     "load_problem": "methodfile.problem",
@@ -59,7 +60,6 @@ _HOMES = {
     "Oscillator": "problems.oscillator",
     "pair": "tableau.forms",
     "parse_tree": "trees.notation",
-    "scheme": "stepping.integrator",
     "simplifying": "order.simplifying",
     "symplectic_pair": "tableau.forms",
     "Tableau": "tableau.tableau",
@@ -72,6 +72,7 @@ __all__ = [
     "Tableau",
     "Tree",
     "analyse",
+    "bind",
     "check_file",
     "conditions",
     "conjugate",
@@ -80,12 +81,12 @@ __all__ = [
     "diagonal_method",
     "drift",
     "elementary_weight",
-    "final",
     "find_order",
     "follow",
     "format_tree",
     "gark",
     "hamiltonian",
+    "integrate",
     "is_symplectic",
     "load",
     "load_problem",
@@ -94,7 +95,6 @@ __all__ = [
     "observe",
     "pair",
     "parse_tree",
-    "scheme",
     "simplifying",
     "symplectic_pair",
     "trajectory",

@@ -11,7 +11,7 @@ import click
 from garkcli.cli.converging import Problems, Wanted, compared, hint_rounding, tested
 from garkcli.cli.options import CONTEXT, Output, common
 from garkcli.cli.problems import ProblemType, note_changing
-from garkcli.cli.stepping import applied, positive, refuse_misplaced
+from garkcli.cli.stepping import positive, refuse_misplaced, stepped_tableau
 from garkcli.errors import UsageProblem
 
 if TYPE_CHECKING:
@@ -144,7 +144,7 @@ def _one(path: str, wanted: Wanted, shown: Shown, output: Output) -> int:
     from garkcli.stepping.step import StepFailed
 
     method = load(path)
-    tableau = applied(method, output)
+    tableau = stepped_tableau(method, output)
     problems = Problems(wanted, [tableau])
     if problems.read is not None:
         note_changing(problems.read, output)

@@ -10,7 +10,7 @@ import click
 
 from garkcli.cli.options import Output
 from garkcli.cli.problems import find_problem, is_path, note_changing
-from garkcli.cli.stepping import applied, rational
+from garkcli.cli.stepping import rational, stepped_tableau
 from garkcli.errors import Fault, GarkError, MethodFileError
 
 if TYPE_CHECKING:
@@ -64,11 +64,11 @@ class Problems:
 
     def __init__(self, wanted: Wanted, tableaux: Sequence[Tableau]) -> None:
         from garkcli.problems.oscillator import terms_of
-        from garkcli.stepping.dependency import fitted
+        from garkcli.stepping.dependency import with_joined_terms
 
         self._wanted = wanted
         self.read: Hamiltonian | None = None
-        self._widest = max(map(fitted, tableaux), key=terms_of, default=None)
+        self._widest = max(map(with_joined_terms, tableaux), key=terms_of, default=None)
         if is_path(wanted.problem):
             from garkcli.methodfile.problem import load_problem
 
@@ -81,17 +81,17 @@ class Problems:
             UsageProblem: it cannot be split for it.
         """
         from garkcli.problems.builtin import built_in
-        from garkcli.problems.comparison import gathered
+        from garkcli.problems.comparison import merge_terms
         from garkcli.problems.oscillator import terms_of
-        from garkcli.stepping.matching import fit
+        from garkcli.stepping.matching import split_into
 
         terms = terms_of(tableau)
         if self.read is not None:
-            return fit(self.read, terms)
+            return split_into(self.read, terms)
         name, seed = self._wanted.problem, self._wanted.seed
         if not built_in(name).takes_seed or self._widest is None:
             return find_problem(name, tableau, seed)
-        return gathered(find_problem(name, self._widest, seed), terms)
+        return merge_terms(find_problem(name, self._widest, seed), terms)
 
 
 def tested(
@@ -105,9 +105,9 @@ def tested(
     if wanted.problem == "oscillator":
         return _on_oscillator(method, tableau, wanted)
     from garkcli.convergence.nonlinear import observe
-    from garkcli.stepping.dependency import fitted
+    from garkcli.stepping.dependency import with_joined_terms
 
-    tableau = fitted(tableau)
+    tableau = with_joined_terms(tableau)
     return observe(
         tableau,
         problems.of(tableau),
@@ -188,7 +188,7 @@ def compared(paths: Sequence[str], wanted: Wanted, output: Output) -> list[Entry
     for path in paths:
         try:
             method = load(path)
-            methods.append((method, applied(method, output, path)))
+            methods.append((method, stepped_tableau(method, output, path)))
         except GarkError as error:
             methods.append(_failed(path, path, error))
     problems = Problems(wanted, [found[1] for found in methods if isinstance(found, tuple)])

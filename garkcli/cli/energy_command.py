@@ -9,7 +9,7 @@ import click
 
 from garkcli.cli.options import CONTEXT, Output, common
 from garkcli.cli.problems import ProblemType, find_problem, is_path, note_changing
-from garkcli.cli.stepping import applied, positive, refuse_misplaced
+from garkcli.cli.stepping import positive, refuse_misplaced, stepped_tableau
 from garkcli.errors import UsageProblem
 
 if TYPE_CHECKING:
@@ -110,7 +110,7 @@ def command(
     time = None if t_end is None else positive("--t-end", t_end)
     size = None if step is None else positive("--step", step)
     method = load(file)
-    tableau = applied(method, output)
+    tableau = stepped_tableau(method, output)
     try:
         if problem == "oscillator":
             run, steps = _oscillator(tableau, method, omega, split, time, size, points)
@@ -179,9 +179,9 @@ def _follow(
     from garkcli.longtime.symplecticity import Symplecticity, defects, is_proved
     from garkcli.problems.hamiltonian import FLOAT_DIGITS
     from garkcli.report.progress import tracked
-    from garkcli.stepping.dependency import fitted
+    from garkcli.stepping.dependency import with_joined_terms
 
-    tableau = fitted(tableau)
+    tableau = with_joined_terms(tableau)
     problem = find_problem(name, tableau, seed)
     if is_path(name):
         note_changing(problem, output)

@@ -70,14 +70,14 @@ def find_problem(name_or_path: str, tableau: Tableau, seed: int | None = None) -
     """
     from garkcli.problems.builtin import check_seed, hamiltonian
     from garkcli.problems.oscillator import terms_of
-    from garkcli.stepping.dependency import fitted
+    from garkcli.stepping.dependency import with_joined_terms
 
     check_seed(name_or_path, seed)
-    terms = terms_of(fitted(tableau))
+    terms = terms_of(with_joined_terms(tableau))
     if is_path(name_or_path):
-        from garkcli.stepping.matching import fit
+        from garkcli.stepping.matching import split_into
 
-        return fit(_loaded(name_or_path, _stamp(name_or_path)), terms)
+        return split_into(_loaded(name_or_path, _stamp(name_or_path)), terms)
     return hamiltonian(name_or_path, terms, 1 if seed is None else seed)
 
 

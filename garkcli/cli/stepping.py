@@ -20,7 +20,7 @@ DECADES = 50
 """Times, frequencies and errors are numbers from 10^-50 to 10^50."""
 
 
-def applied(method: MethodFile, output: Output, path: str = "") -> Tableau:
+def stepped_tableau(method: MethodFile, output: Output, path: str = "") -> Tableau:
     """The tableau that steps: the symplectic pair of ``methods``, else what the file gives.
 
     A note on the latter names ``path``, where several files are at work.

@@ -19,8 +19,8 @@ from garkcli.convergence.reference import Watch
 from garkcli.convergence.trial import MAX_STEPS, PathRow, Trial
 from garkcli.order.certificate import find_order
 from garkcli.problems.hamiltonian import Hamiltonian
-from garkcli.stepping.dependency import fields_of, sight, visible
-from garkcli.stepping.matching import matched
+from garkcli.stepping.dependency import visible_tableau, visible_trees
+from garkcli.stepping.integrator import bind
 from garkcli.stepping.step import StepFailed
 from garkcli.tableau.tableau import Tableau
 
@@ -134,12 +134,12 @@ def observe(
     >>> round(result.observed_order, 1), result.verdict
     (4.0, 'agree')
     """
-    tableau, problem = matched(tableau, problem)
+    bound = bind(tableau, problem)
+    tableau, problem, fields = bound.tableau, bound.problem, bound.fields
     t_end = problem.t_end if t_end is None else t_end
-    fields = fields_of(tableau, problem)
-    seen = visible(tableau, fields)
+    seen = visible_tableau(tableau, fields)
     predicted, order = (_order(x, tolerance) for x in (tableau, seen))
-    trial = Trial(tableau, problem, t_end, order, watch)
+    trial = Trial(bound, t_end, order, watch)
     rows = _default_rows(trial, tolerance, is_timed) if steps is None else _given_rows(trial, steps)
     plateau = ladder.plateau(rows, order, trial.rounding(tolerance))
     fitted = rows[: len(rows) - plateau]
@@ -152,7 +152,7 @@ def observe(
     if is_off and tolerance is None:
         for k in range(1, _SHORTER + 1):
             short_time = min(t_end, problem.t_end) / SHORT**k
-            short_order = _short_order(Trial(tableau, problem, short_time, order, watch))
+            short_order = _short_order(Trial(bound, short_time, order, watch))
             if short_order is None or abs(short_order - round(short_order)) <= CLOSE:
                 break
     return Observation(
@@ -163,7 +163,7 @@ def observe(
         observed,
         predicted,
         order,
-        sight(fields),
+        visible_trees(fields),
         short_time,
         short_order,
         tolerance is None or (len(fitted) >= ladder.ROWS and ladder.has_settled(fitted)),

@@ -15,8 +15,8 @@ from flint import arb, ctx, fmpq
 from garkcli.errors import UsageProblem
 from garkcli.exact.display import to_float
 from garkcli.problems.hamiltonian import Hamiltonian
-from garkcli.stepping.integrator import Scheme, scheme
-from garkcli.stepping.step import State, StepFailed
+from garkcli.stepping.integrator import Integrator, bind
+from garkcli.stepping.step import StepFailed, Stepper
 
 Watch: TypeAlias = Callable[[str, int, int], None]
 """Is told what is being computed, how many steps of it are done, and of how many."""
@@ -32,13 +32,15 @@ _FAR = 0.01  # part of the solution by which runs differ that have found none
 _REFINED = 64  # times the first number of steps with which they should have
 
 
-def run(made: Scheme, h: fmpq, count: int, watch: Watch | None = None, what: str = "") -> State:
+def run(
+    made: Integrator, h: fmpq, count: int, watch: Watch | None = None, what: str = ""
+) -> Stepper:
     """The state after ``count`` steps of size ``h``; ``watch`` is told about ``what``.
 
     Raises:
         StepFailed: the stage equations of a step were not solved.
     """
-    state = State(made, h)
+    state = Stepper(made, h)
     each = count if watch is None else max(1, count // _CALLS)
     while state.done < count:
         state.advance(min(each, count - state.done))
@@ -107,7 +109,7 @@ def _solved(
     from garkcli.tableau.forms import gark
 
     stages = min(_STAGES, max(6, 2 * digits // 5))
-    method = scheme(gark([diagonal_method("gauss", stages)], {}), problem, digits + _SPARE)
+    method = bind(gark([diagonal_method("gauss", stages)], {}), problem).at(digits + _SPARE)
     before: list[Any] = []
     fewer, enough = 0, max(MAX_TRIED // 2, _REFINED * steps)
     while True:

@@ -20,9 +20,8 @@ from garkcli.convergence.work import MAX_DIGITS, REACHED, cost_of, work_of
 from garkcli.errors import UsageProblem
 from garkcli.exact.display import to_float
 from garkcli.problems.hamiltonian import FLOAT_DIGITS, Hamiltonian, energy_function
-from garkcli.stepping.integrator import Scheme, scheme
+from garkcli.stepping.integrator import Binding, Integrator
 from garkcli.stepping.linear import whole_steps
-from garkcli.tableau.tableau import Tableau
 
 MAX_STEPS = 1_000_000
 """Most steps of one row."""
@@ -52,20 +51,23 @@ class Trial:
     """One method on one problem up to one time, and what is kept between step sizes.
 
     Attributes:
-        tableau: whose structure the problem is of.
-        problem: the split problem.
+        bound: the method on the problem.
         t_end: when errors are taken.
         order: that the errors are expected to have; tells only how many digits to begin with.
         watch: is told how far each run is.
     """
 
-    tableau: Tableau
-    problem: Hamiltonian
+    bound: Binding
     t_end: fmpq
     order: int
     watch: Watch | None
-    schemes: dict[int, Scheme] = field(default_factory=dict)
+    integrators: dict[int, Integrator] = field(default_factory=dict)
     reference: Reference = field(init=False)
+
+    @property
+    def problem(self) -> Hamiltonian:
+        """What is solved."""
+        return self.bound.problem
 
     def __post_init__(self) -> None:
         self.reference = reference(self.problem, self.t_end)
@@ -81,7 +83,7 @@ class Trial:
             )
         digits = self._digits(h, before)
         while True:
-            state = run(self._scheme(digits), h, steps, self.watch, f"h = {h}")
+            state = run(self._integrator(digits), h, steps, self.watch, f"h = {h}")
             error = self._error(state.y, digits)
             if error > self._size * arb(10) ** (_SPARE - 1 - digits):
                 break
@@ -112,7 +114,7 @@ class Trial:
 
     def timed(self, row: PathRow) -> PathRow:
         """The row with the cost of its steps in floats, where these reach its error to a tenth."""
-        y, cost = work_of(self._scheme(FLOAT_DIGITS), row.h, whole_steps(self.t_end, row.h))
+        y, cost = work_of(self._integrator(FLOAT_DIGITS), row.h, whole_steps(self.t_end, row.h))
         difference = abs(self._error(y, FLOAT_DIGITS) - row.error)
         return replace(row, cost=cost) if difference < REACHED * row.error else row
 
@@ -123,7 +125,7 @@ class Trial:
     def _error(self, y: Sequence[Any], digits: int) -> arb:
         """The distance of ``y`` from the reference solution."""
         exact = self.reference.to(self._digits_of_reference(digits), self.watch)
-        with ctx.workprec(self._scheme(digits).bits + 32):
+        with ctx.workprec(self._integrator(digits).bits + 32):
             return (
                 sum(((arb(a) - b) ** 2 for a, b in zip(y, exact, strict=True)), arb(0)).sqrt().mid()
             )
@@ -142,20 +144,20 @@ class Trial:
             to_float(before.h / h)
         )
         needed = ceil(-decades) + _SPARE
-        # in whole tens, so that the same scheme serves several rows
+        # in whole tens, so that the same integrator serves several rows
         return (
             FLOAT_DIGITS
             if needed <= FLOAT_DIGITS
             else min(MAX_DIGITS, max(before.digits, -(-needed // 10) * 10))
         )
 
-    def _scheme(self, digits: int) -> Scheme:
-        if digits not in self.schemes:
-            self.schemes[digits] = scheme(self.tableau, self.problem, digits)
-        return self.schemes[digits]
+    def _integrator(self, digits: int) -> Integrator:
+        if digits not in self.integrators:
+            self.integrators[digits] = self.bound.at(digits)
+        return self.integrators[digits]
 
     def _invariant_errors(self, y: Sequence[Any], digits: int) -> list[arb]:
-        bits = self.schemes[digits].bits + 32
+        bits = self.integrators[digits].bits + 32
         with ctx.workprec(bits):
             measure = energy_function(self.problem, digits + 10)
             now, then = measure(*map(arb, y)), measure(*map(arb, self.problem.initial))

@@ -10,9 +10,9 @@ from typing import TYPE_CHECKING, Any
 from flint import arb, ctx, fmpq
 
 from garkcli.problems.hamiltonian import FLOAT_DIGITS, Hamiltonian, symbols
-from garkcli.stepping.integrator import Scheme, scheme
+from garkcli.stepping.integrator import Integrator, bind
 from garkcli.stepping.linear import whole_steps
-from garkcli.stepping.step import State
+from garkcli.stepping.step import Stepper
 
 if TYPE_CHECKING:
     from garkcli.convergence.convergence import Convergence
@@ -50,13 +50,13 @@ class Cost:
     seconds: float | None = None
 
 
-def cost_of(state: State, seconds: float | None = None) -> Cost:
+def cost_of(state: Stepper, seconds: float | None = None) -> Cost:
     """What the steps of ``state`` so far have cost."""
     work = state.work
     return Cost(state.done, work.evaluations, work.iterations, work.jacobians, seconds)
 
 
-def work_of(scheme: Scheme, h: fmpq, count: int) -> tuple[list[Any], Cost]:
+def work_of(integrator: Integrator, h: fmpq, count: int) -> tuple[list[Any], Cost]:
     """(q, p) after ``count`` steps of size ``h``, shape (2d,), and their cost with the time of the
     fastest run.
 
@@ -65,7 +65,7 @@ def work_of(scheme: Scheme, h: fmpq, count: int) -> tuple[list[Any], Cost]:
     """
     times: list[float] = []
     while sum(times) < ENOUGH and len(times) < MAX_RUNS:
-        state = State(scheme, h)
+        state = Stepper(integrator, h)
         start = process_time()
         state.advance(count)
         times.append(process_time() - start)
@@ -101,19 +101,20 @@ def timed(tableau: Tableau, result: Convergence) -> Convergence:
         StepFailed: the stage equations of a step were not solved.
     """
     problem = hamiltonian_of(result.problem, result.t_end)
-    schemes = {FLOAT_DIGITS: scheme(tableau, problem)}
+    bound = bind(tableau, problem)
+    integrators = {FLOAT_DIGITS: bound.at()}
     rows = []
     for row in result.rows:
         steps = whole_steps(result.t_end, row.h)
-        y, cost = work_of(schemes[FLOAT_DIGITS], row.h, steps)
+        y, cost = work_of(integrators[FLOAT_DIGITS], row.h, steps)
         if not abs(_error(y, result) - row.error) < REACHED * row.error:
             digits = -(-ceil(8 - float(row.error.log() / arb(10).log())) // 10) * 10
             if digits > MAX_DIGITS:
                 rows.append(row)
                 continue
-            if digits not in schemes:
-                schemes[digits] = scheme(tableau, problem, digits)
-            state = State(schemes[digits], row.h)
+            if digits not in integrators:
+                integrators[digits] = bound.at(digits)
+            state = Stepper(integrators[digits], row.h)
             state.advance(steps)
             cost = cost_of(state)
         rows.append(replace(row, cost=cost))

@@ -21,9 +21,8 @@ from garkcli.longtime.measure import Measure
 from garkcli.longtime.record import Record
 from garkcli.longtime.trend import LEAST, Shape
 from garkcli.problems.hamiltonian import FLOAT_DIGITS, Hamiltonian
-from garkcli.stepping.integrator import scheme
+from garkcli.stepping.integrator import Binding, bind
 from garkcli.stepping.linear import whole_steps
-from garkcli.stepping.matching import matched
 from garkcli.stepping.step import trajectory
 from garkcli.tableau.tableau import Tableau
 
@@ -82,16 +81,17 @@ def follow(
     >>> [(course.name, course.verdict) for course in run.courses]
     [('energy', 'bounded')]
     """
-    tableau, problem = matched(tableau, problem)
+    bound = bind(tableau, problem)
+    problem = bound.problem
     count = whole_steps(t_end, step)
     if count > MAX_STEPS:
         raise UsageProblem(
             f"{count} steps (limit {MAX_STEPS})", "choose a shorter time or a larger step"
         )
-    method = scheme(tableau, problem, digits)
+    method = bound.at(digits)
     record = Record(Measure(problem, method.digits), count, points)
     record.take(watch(trajectory(method, step, count), count + 1))
-    noise = _noise(record, tableau, problem, step, method.digits)
+    noise = _noise(record, bound, step, method.digits)
     rounding = (
         0.0 if tolerance is None else to_float(tolerance) * record.done * record.measure.scale
     )
@@ -113,9 +113,7 @@ def follow(
     )
 
 
-def _noise(
-    record: Record, tableau: Tableau, problem: Hamiltonian, step: fmpq, digits: int
-) -> Floats:
+def _noise(record: Record, bound: Binding, step: fmpq, digits: int) -> Floats:
     """What the errors are good to at the end: what is found on the first steps, taken to grow with
     their number.
     """
@@ -124,8 +122,8 @@ def _noise(
     if record.blew_up:
         return np.zeros(len(record.largest))
     compared = len(record.first) - 1
-    method = scheme(tableau, problem, digits + _SPARE)
-    exact = Measure(problem, method.digits).errors(trajectory(method, step, compared))
+    method = bound.at(digits + _SPARE)
+    exact = Measure(bound.problem, method.digits).errors(trajectory(method, step, compared))
     found = np.abs(record.first - exact).max(axis=0)
     least = 10.0**-digits * np.abs(record.measure.initial)
     noise: Floats = np.maximum(found, least) * (1 + record.done / max(compared, 1))

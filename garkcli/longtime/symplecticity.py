@@ -17,10 +17,9 @@ from flint import arb, ctx, fmpq
 from garkcli.longtime.courses import State
 from garkcli.order.defects import is_symplectic_within
 from garkcli.problems.hamiltonian import FLOAT_DIGITS, Hamiltonian
-from garkcli.stepping.dependency import fields_of, visible
-from garkcli.stepping.integrator import Scheme, scheme
-from garkcli.stepping.matching import matched
-from garkcli.stepping.step import final
+from garkcli.stepping.dependency import visible_tableau
+from garkcli.stepping.integrator import Integrator, bind
+from garkcli.stepping.step import integrate
 from garkcli.tableau.conjugate import is_symplectic
 from garkcli.tableau.tableau import Tableau
 
@@ -79,7 +78,7 @@ def defects(
     Raises:
         StepFailed: the stage equations of one were not solved.
     """
-    method = scheme(tableau, problem, max(DIGITS, FLOAT_DIGITS + 1))
+    method = bind(tableau, problem).at(max(DIGITS, FLOAT_DIGITS + 1))
     return tuple(_defect(method, step, time, [_exactly(x) for x in y]) for time, y in states)
 
 
@@ -88,7 +87,7 @@ def _exactly(x: Any) -> fmpq | arb:
     return fmpq(*x.as_integer_ratio()) if isinstance(x, float) else x
 
 
-def _defect(method: Scheme, step: fmpq, time: fmpq, y: Sequence[Any]) -> Defect:
+def _defect(method: Integrator, step: fmpq, time: fmpq, y: Sequence[Any]) -> Defect:
     delta = fmpq(1, 10**_DECADES)
     with ctx.workprec(method.bits):
         M, coarse = _jacobian(method, step, y, delta), _jacobian(method, step, y, 2 * delta)
@@ -102,11 +101,11 @@ def _defect(method: Scheme, step: fmpq, time: fmpq, y: Sequence[Any]) -> Defect:
         return Defect(time, float(_deviation(M)), float(error))
 
 
-def _jacobian(method: Scheme, step: fmpq, y: Sequence[Any], delta: fmpq) -> Jacobian:
+def _jacobian(method: Integrator, step: fmpq, y: Sequence[Any], delta: fmpq) -> Jacobian:
     columns = []
     for i in range(len(y)):
         after, before = (
-            final(
+            integrate(
                 method,
                 step,
                 1,
@@ -145,10 +144,10 @@ def is_proved(tableau: Tableau, problem: Hamiltonian, tolerance: fmpq | None = N
     """
     if holds(tableau, tolerance):
         return True
-    tableau, problem = matched(tableau, problem)
-    fields = fields_of(tableau, problem)
+    bound = bind(tableau, problem)
+    tableau, fields = bound.tableau, bound.fields
     drives: dict[int, set[str]] = {}
     for l, group in fields:
         drives.setdefault(tableau.colours[l].term, set()).add(group)
     is_separable = all(len(groups) == 1 for groups in drives.values())
-    return is_separable and holds(visible(tableau, fields), tolerance)
+    return is_separable and holds(visible_tableau(tableau, fields), tolerance)

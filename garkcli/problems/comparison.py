@@ -7,11 +7,11 @@ from dataclasses import replace
 from garkcli.problems.hamiltonian import Hamiltonian
 
 
-def gathered(problem: Hamiltonian, terms: int) -> Hamiltonian:
+def merge_terms(problem: Hamiltonian, terms: int) -> Hamiltonian:
     """The same H in fewer terms, the last of which is the sum of all that remain.
 
     >>> from garkcli.problems.builtin import hamiltonian
-    >>> [str(x) for x in gathered(hamiltonian("pendulum", 2), 1).terms]
+    >>> [str(x) for x in merge_terms(hamiltonian("pendulum", 2), 1).terms]
     ['px**2/2 - cos(x) + 1']
     """
     first, rest = problem.terms[: terms - 1], problem.terms[terms - 1 :]

@@ -11,7 +11,7 @@ from collections.abc import Mapping, Sequence
 from itertools import groupby
 from typing import TYPE_CHECKING, TypeAlias
 
-from garkcli.stepping.dependency import Block, Coupling, Stage, Value
+from garkcli.stepping.dependency import DependencyGraph, FieldEvaluation, Stage, StageBlock
 
 if TYPE_CHECKING:
     import numpy as np
@@ -36,20 +36,23 @@ class ChainRule:
 
     def __init__(
         self,
-        block: Block,
-        graph: Coupling,
+        block: StageBlock,
+        graph: DependencyGraph,
         dimension: int,
-        weights: Mapping[tuple[Stage, Value], int],
+        weights: Mapping[tuple[Stage, FieldEvaluation], int],
     ) -> None:
         self.d, self.unknowns = dimension, block.unknowns
-        self.values = [x for x in block.order if isinstance(x, Value)]
+        self.values = [x for x in block.order if isinstance(x, FieldEvaluation)]
         inside = {*self.unknowns, *(x for x in block.order if isinstance(x, Stage))}
         self.arguments = tuple(
             (v, s) for v in self.values for s in graph.arguments[v] if s in inside
         )
         self._graph, self._weights = graph, weights
         self._place = {value: i for i, value in enumerate(self.values)}
-        layers = [list(layer) for _, layer in groupby(block.order, lambda x: isinstance(x, Value))]
+        layers = [
+            list(layer)
+            for _, layer in groupby(block.order, lambda x: isinstance(x, FieldEvaluation))
+        ]
         self._layers = [
             (layer, self._entries([x for x in layer if isinstance(x, Stage)])) for layer in layers
         ]
@@ -84,7 +87,7 @@ class ChainRule:
             if entries:
                 stages.update(zip(layer, _combined(len(layer), entries, w, of_values), strict=True))  # type: ignore[arg-type]
             for x in layer:
-                if isinstance(x, Value):
+                if isinstance(x, FieldEvaluation):
                     terms = (
                         fields[x, s] @ stages[s] for s in self._graph.arguments[x] if s in stages
                     )

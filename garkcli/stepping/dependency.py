@@ -36,7 +36,7 @@ class Stage:
 
 
 @dataclass(frozen=True)
-class Value:
+class FieldEvaluation:
     """The vector field of ``colour`` that drives ``group``, at its stage ``index``."""
 
     colour: int
@@ -45,7 +45,7 @@ class Value:
 
 
 @dataclass(frozen=True)
-class Block:
+class StageBlock:
     """Vertices that are computed together.
 
     Attributes:
@@ -54,11 +54,11 @@ class Block:
     """
 
     unknowns: tuple[Stage, ...]
-    order: tuple[Stage | Value, ...]
+    order: tuple[Stage | FieldEvaluation, ...]
 
 
 @dataclass(frozen=True)
-class Coupling:
+class DependencyGraph:
     """What a method computes on a problem.
 
     Attributes:
@@ -69,14 +69,14 @@ class Coupling:
             text.
     """
 
-    values: tuple[Value, ...]
-    arguments: Mapping[Value, tuple[Stage, ...]]
-    sums: Mapping[Stage, tuple[Value, ...]]
-    coefficients: Mapping[tuple[Stage | None, Value], str]
+    values: tuple[FieldEvaluation, ...]
+    arguments: Mapping[FieldEvaluation, tuple[Stage, ...]]
+    sums: Mapping[Stage, tuple[FieldEvaluation, ...]]
+    coefficients: Mapping[tuple[Stage | None, FieldEvaluation], str]
 
-    def blocks(self) -> tuple[Block, ...]:
+    def blocks(self) -> tuple[StageBlock, ...]:
         """The components in the order in which they can be computed."""
-        after: dict[Stage | Value, list[Stage | Value]] = {}
+        after: dict[Stage | FieldEvaluation, list[Stage | FieldEvaluation]] = {}
         after |= {stage: [] for stage in self.sums}
         after |= {value: [] for value in self.values}
         for value, stages in self.arguments.items():
@@ -88,13 +88,13 @@ class Coupling:
         found = []
         for component in components(after):
             if len(component) == 1:
-                found.append(Block((), tuple(component)))
+                found.append(StageBlock((), tuple(component)))
                 continue
             unknowns = self._cut([x for x in component if isinstance(x, Stage)])
             left = set(component) - unknowns
             rest = {x: [y for y in after[x] if y in left] for x in component if x in left}
             order = tuple(x for single in components(rest) for x in single)
-            found.append(Block(tuple(x for x in self.sums if x in unknowns), order))
+            found.append(StageBlock(tuple(x for x in self.sums if x in unknowns), order))
         return tuple(found)
 
     def _cut(self, stages: Sequence[Stage]) -> set[Stage]:
@@ -123,18 +123,20 @@ class Coupling:
                 )
 
 
-def coupling(tableau: Tableau, fields: Fields) -> Coupling:
+def dependency_graph(tableau: Tableau, fields: Fields) -> DependencyGraph:
     """What has to be computed; coefficients are zero or equal when they are to ``DIGITS``
     digits.
     """
     entries = numeric_entries(tableau, DIGITS + 5)
-    arguments: dict[Value, tuple[Stage, ...]] = {}
+    arguments: dict[FieldEvaluation, tuple[Stage, ...]] = {}
     for (m, group), field in fields.items():
         space = tableau.colours[m].space
         for j in range(tableau.space(m).stages):
-            arguments[Value(m, j, group)] = tuple(Stage(space, j, g) for g in field.depends)
-    sums: dict[Stage, tuple[Value, ...]] = {}
-    coefficients: dict[tuple[Stage | None, Value], str] = {}
+            arguments[FieldEvaluation(m, j, group)] = tuple(
+                Stage(space, j, g) for g in field.depends
+            )
+    sums: dict[Stage, tuple[FieldEvaluation, ...]] = {}
+    coefficients: dict[tuple[Stage | None, FieldEvaluation], str] = {}
     for stage in dict.fromkeys(s for stages in arguments.values() for s in stages):
         found = []
         for value in arguments:
@@ -145,10 +147,10 @@ def coupling(tableau: Tableau, fields: Fields) -> Coupling:
         sums[stage] = tuple(found)
     for value in arguments:
         coefficients[None, value] = _text(entry(tableau, entries, None, value))
-    return Coupling(tuple(arguments), arguments, sums, coefficients)
+    return DependencyGraph(tuple(arguments), arguments, sums, coefficients)
 
 
-def entry(tableau: Tableau, entries: Entries, stage: Stage | None, value: Value) -> Any:
+def entry(tableau: Tableau, entries: Entries, stage: Stage | None, value: FieldEvaluation) -> Any:
     """The coefficient of ``value`` in a stage, an enclosure, or 0 where it is not seen; for no
     stage its weight.
     """
@@ -170,7 +172,7 @@ def driven(colour: Colour) -> tuple[Group, ...]:
     return GROUPS if colour.part == "y" else (colour.part,)
 
 
-def fitted(tableau: Tableau) -> Tableau:
+def with_joined_terms(tableau: Tableau) -> Tableau:
     """A partitioned method for an unsplit problem q̇ = V(q, p), ṗ = F(q, p) with both in one
     term.
     """
@@ -226,7 +228,7 @@ def _check_sight(tableau: Tableau, fields: Fields) -> None:
                 )
 
 
-def visible(tableau: Tableau, fields: Fields) -> Tableau:
+def visible_tableau(tableau: Tableau, fields: Fields) -> Tableau:
     """The tableau whose trees are those that the problem can see: its order is the one to be
     observed.
 
@@ -247,7 +249,7 @@ def visible(tableau: Tableau, fields: Fields) -> Tableau:
     return Tableau(tuple(tableau.space(m) for m, _ in names), colours, blocks)
 
 
-def sight(fields: Fields) -> str:
+def visible_trees(fields: Fields) -> str:
     """In one line, which trees a problem with these fields can see."""
     if all(field.is_linear for field in fields.values()):
         return "a linear problem sees only the unbranched trees"

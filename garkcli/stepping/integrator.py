@@ -7,15 +7,24 @@ from __future__ import annotations
 import math
 from collections.abc import Callable
 from dataclasses import dataclass
+from functools import cached_property
 from math import ceil
 from typing import TYPE_CHECKING, Any, TypeAlias
 
 from flint import arb, ctx, fmpq
 
 from garkcli.problems.hamiltonian import FLOAT_DIGITS, Hamiltonian
+from garkcli.problems.oscillator import terms_of
 from garkcli.problems.straightline import define, enclosed
-from garkcli.stepping.dependency import coupling, entry, fields_of
-from garkcli.stepping.matching import matched
+from garkcli.stepping.dependency import (
+    DependencyGraph,
+    Fields,
+    dependency_graph,
+    entry,
+    fields_of,
+    with_joined_terms,
+)
+from garkcli.stepping.matching import split_into
 from garkcli.stepping.program import Program, write
 from garkcli.tableau.pointwise import numeric_entries
 from garkcli.tableau.tableau import Tableau
@@ -26,12 +35,14 @@ if TYPE_CHECKING:
 
     Floats: TypeAlias = NDArray[np.float64]
 
+FLOAT_PRECISION = 2.0**-52
+"""The distance from 1 to the next float."""
 Real: TypeAlias = Any
-"""A float, or the midpoint of a ball with the digits of the scheme."""
-Record: TypeAlias = Callable[[list[Real]], None]
+"""A float, or the midpoint of a ball with the digits of the integrator."""
+Recorder: TypeAlias = Callable[[list[Real]], None]
 """Is given (q, p) after a step, shape (2d,)."""
-Run: TypeAlias = Callable[
-    [list[Real], list[Real], int, int, Record | None], tuple[list[Real], list[int], int]
+StepProgram: TypeAlias = Callable[
+    [list[Real], list[Real], int, int, Recorder | None], tuple[list[Real], list[int], int]
 ]
 """See ``Program.source``."""
 
@@ -47,7 +58,7 @@ class NotSolved(Exception):
 
 
 @dataclass(frozen=True)
-class Scheme:
+class Integrator:
     """A method on a problem, ready to step.
 
     Attributes:
@@ -62,7 +73,7 @@ class Scheme:
     digits: int
     program: Program
     coefficients: tuple[arb, ...]
-    run: Run
+    run: StepProgram
 
     @property
     def bits(self) -> int:
@@ -75,7 +86,7 @@ class Scheme:
         return self.digits > FLOAT_DIGITS
 
     def number(self, x: Any) -> Real:
-        """A rational number or ball as the scheme computes with it."""
+        """A rational number or ball as the integrator computes with it."""
         return arb(x).mid() if self.is_for_balls else float(arb(x))
 
     def weights(self, h: fmpq) -> list[Real]:
@@ -84,44 +95,76 @@ class Scheme:
             return [self.number(arb(h) * a) for a in self.coefficients]
 
 
-def scheme(tableau: Tableau, problem: Hamiltonian, digits: int = FLOAT_DIGITS) -> Scheme:
-    """Prepare the steps of ``tableau`` on ``problem`` with ``digits`` digits.
+@dataclass(frozen=True, eq=False)
+class Binding:
+    """A method on a problem, before it is said with how many digits it steps.
+
+    Attributes:
+        tableau: with the terms that the problem has.
+        problem: in as many terms as the tableau is for.
+        fields: the vector fields of the colours.
+    """
+
+    tableau: Tableau
+    problem: Hamiltonian
+    fields: Fields
+
+    def at(self, digits: int = FLOAT_DIGITS) -> Integrator:
+        """The steps with numbers of ``digits`` digits; floats up to ``FLOAT_DIGITS``."""
+        digits = max(digits, FLOAT_DIGITS)
+        is_for_balls = digits > FLOAT_DIGITS
+        program = self._program_for_balls if is_for_balls else self._program_for_floats
+        entries = numeric_entries(self.tableau, digits + 5)
+        with _precision(digits):
+            coefficients = tuple(
+                entry(self.tableau, entries, stage, value) for stage, value in program.coefficients
+            )
+            names: dict[str, Any] = {
+                **enclosed(program.formulas),
+                "NotSolved": NotSolved,
+                "nan": math.nan,
+                "precision": arb(10) ** -digits if is_for_balls else FLOAT_PRECISION,
+                "inverted": _inverted,
+                **{f"chain{i}": chain.inverse for i, chain in program.chains.items()},
+                "corrections": _corrections_of_balls if is_for_balls else _corrections,
+            }
+            run = define(program.source, "run", names)
+        return Integrator(self.problem, digits, program, coefficients, run)
+
+    @cached_property
+    def graph(self) -> DependencyGraph:
+        """What has to be computed in a step."""
+        return dependency_graph(self.tableau, self.fields)
+
+    # one text serves any number of digits: its coefficients and constants have names
+    @cached_property
+    def _program_for_floats(self) -> Program:
+        return write(self.graph, self.fields, self.problem.dimension, is_for_balls=False)
+
+    @cached_property
+    def _program_for_balls(self) -> Program:
+        return write(self.graph, self.fields, self.problem.dimension, is_for_balls=True)
+
+
+def bind(tableau: Tableau, problem: Hamiltonian) -> Binding:
+    """Make ``tableau`` and ``problem`` for each other, to step with any number of digits.
 
     Args:
         tableau: of any structure.
         problem: in as many terms as the tableau is for, or in one that has a natural split.
-        digits: of all numbers; floats up to ``FLOAT_DIGITS``.
 
     Raises:
         UsageProblem: the problem is not of the form that the structure is for.
 
-    >>> from garkcli import final, hamiltonian, loads
+    >>> from garkcli import hamiltonian, integrate, loads
     >>> rk4 = loads("methods: [{family: rk4}]").tableau
-    >>> made = scheme(rk4, hamiltonian("pendulum", 1))
-    >>> [round(x, 6) for x in final(made, fmpq(1, 10), 10)]
+    >>> made = bind(rk4, hamiltonian("pendulum", 1)).at()
+    >>> [round(x, 6) for x in integrate(made, fmpq(1, 10), 10)]
     [1.056272, -0.391965]
     """
-    tableau, problem = matched(tableau, problem)
-    digits = max(digits, FLOAT_DIGITS)
-    fields = fields_of(tableau, problem)
-    program = write(coupling(tableau, fields), fields, problem.dimension, digits > FLOAT_DIGITS)
-    entries = numeric_entries(tableau, digits + 5)
-    with _precision(digits):
-        coefficients = tuple(
-            entry(tableau, entries, stage, value) for stage, value in program.coefficients
-        )
-        constants: dict[str, Any] = {
-            **enclosed(program.formulas),
-            "NotSolved": NotSolved,
-            "nan": math.nan,
-            "precision": arb(10) ** -digits if digits > FLOAT_DIGITS else 2.0**-52,
-            "inverted": _inverted,
-            **{f"chain{i}": chain.inverse for i, chain in program.chains.items()},
-            "corrections": _corrections_of_balls if digits > FLOAT_DIGITS else _corrections,
-        }
-        return Scheme(
-            problem, digits, program, coefficients, define(program.source, "run", constants)
-        )
+    joined = with_joined_terms(tableau)
+    split = split_into(problem, terms_of(joined))
+    return Binding(joined, split, fields_of(joined, split))
 
 
 def _bits(digits: int) -> int:

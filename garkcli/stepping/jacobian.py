@@ -6,7 +6,7 @@ from collections.abc import Iterator, Mapping, Sequence
 from typing import TypeAlias
 
 from garkcli.stepping.chainrule import ChainRule
-from garkcli.stepping.dependency import Block, Coupling, Fields, Stage, Value
+from garkcli.stepping.dependency import DependencyGraph, FieldEvaluation, Fields, Stage, StageBlock
 from garkcli.stepping.stagewriter import StageWriter
 
 Slope: TypeAlias = dict[int, str]
@@ -21,11 +21,13 @@ class JacobianWriter(StageWriter):
             blocks.
     """
 
-    def __init__(self, graph: Coupling, fields: Fields, dimension: int, is_for_balls: bool) -> None:
+    def __init__(
+        self, graph: DependencyGraph, fields: Fields, dimension: int, is_for_balls: bool
+    ) -> None:
         super().__init__(graph, fields, dimension, is_for_balls)
         self.chains: dict[int, ChainRule] = {}
 
-    def _chain(self, block: Block, index: int) -> None:
+    def _chain(self, block: StageBlock, index: int) -> None:
         """The Jacobian by ``ChainRule`` from the derivatives of the fields."""
         # all weights first: their places are what the chain rule knows them by
         pairs = [(stage, value) for stage in self.graph.sums for value in self.graph.sums[stage]]
@@ -40,18 +42,18 @@ class JacobianWriter(StageWriter):
         numbers = ", ".join("0.0" if x == "0" else x for x in entries)
         self._write(f"inverse = chain{index}([{numbers}], {'v' if self.is_for_balls else 'w'})")
 
-    def _jacobian(self, block: Block) -> list[Slope]:
+    def _jacobian(self, block: StageBlock) -> list[Slope]:
         """The derivative of the image of the unknowns, row by row, from lines that are written
         here.
         """
-        slopes: dict[tuple[Stage | Value, int], Slope] = {}
+        slopes: dict[tuple[Stage | FieldEvaluation, int], Slope] = {}
         for k, stage in enumerate(block.unknowns):
             for i in range(self.d):
                 slopes[stage, i] = {k * self.d + i: "1.0"}
         for vertex in block.order:
             for i, row in enumerate(
                 self._slopes_of_value(vertex, slopes)
-                if isinstance(vertex, Value)
+                if isinstance(vertex, FieldEvaluation)
                 else [self._slope_of_sum(vertex, i, slopes) for i in range(self.d)]
             ):
                 slopes[vertex, i] = self._named(row, f"s{self.number[vertex]}_{i}_")
@@ -60,7 +62,7 @@ class JacobianWriter(StageWriter):
         ]
 
     def _slope_of_sum(
-        self, stage: Stage, i: int, slopes: Mapping[tuple[Stage | Value, int], Slope]
+        self, stage: Stage, i: int, slopes: Mapping[tuple[Stage | FieldEvaluation, int], Slope]
     ) -> Slope:
         v = "v" if self.is_for_balls else ""
         return _sums(
@@ -70,7 +72,7 @@ class JacobianWriter(StageWriter):
         )
 
     def _slopes_of_value(
-        self, value: Value, slopes: Mapping[tuple[Stage | Value, int], Slope]
+        self, value: FieldEvaluation, slopes: Mapping[tuple[Stage | FieldEvaluation, int], Slope]
     ) -> list[Slope]:
         by = [
             (stage, k)
@@ -86,7 +88,9 @@ class JacobianWriter(StageWriter):
             _sums((entry, slope) for entry, slope in row if entry != "0" and slope) for row in rows
         ]
 
-    def _derivatives(self, value: Value, by: Sequence[tuple[Stage, int]]) -> list[list[str]]:
+    def _derivatives(
+        self, value: FieldEvaluation, by: Sequence[tuple[Stage, int]]
+    ) -> list[list[str]]:
         """The derivatives of an evaluation by some components of its arguments, d rows."""
         field = self.fields[value.colour, value.group]
         arguments = self._arguments(value)

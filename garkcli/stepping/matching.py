@@ -1,6 +1,4 @@
-"""A method and a problem made for each other: the problem in the number of terms that the method is
-for.
-"""
+"""A problem in the number of terms that a method is for."""
 
 from __future__ import annotations
 
@@ -9,23 +7,9 @@ from typing import Any
 
 from garkcli.errors import UsageProblem
 from garkcli.problems.hamiltonian import Hamiltonian, symbols
-from garkcli.problems.oscillator import terms_of
-from garkcli.stepping.dependency import fitted
-from garkcli.tableau.tableau import Tableau
 
 
-def matched(tableau: Tableau, problem: Hamiltonian) -> tuple[Tableau, Hamiltonian]:
-    """``tableau`` as ``fitted`` makes it, and ``problem`` as ``fit`` does: what every step is made
-    of.
-
-    Raises:
-        UsageProblem: the problem has no natural split into the terms that the method is for.
-    """
-    tableau = fitted(tableau)
-    return tableau, fit(problem, terms_of(tableau))
-
-
-def fit(problem: Hamiltonian, terms: int) -> Hamiltonian:
+def split_into(problem: Hamiltonian, terms: int) -> Hamiltonian:
     """``problem`` with as many terms.
 
     One term is the sum. A problem of one term is split in the natural way: the summands with

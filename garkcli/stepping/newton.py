@@ -10,7 +10,7 @@ from __future__ import annotations
 from collections.abc import Sequence
 
 from garkcli.problems.hamiltonian import Group
-from garkcli.stepping.dependency import Block, Coupling, Fields, Value
+from garkcli.stepping.dependency import DependencyGraph, FieldEvaluation, Fields, StageBlock
 from garkcli.stepping.jacobian import JacobianWriter, Slope, identity_minus
 from garkcli.stepping.stagewriter import names
 
@@ -29,11 +29,13 @@ class NewtonWriter(JacobianWriter):
         frozen: the names of the fields at y_0.
     """
 
-    def __init__(self, graph: Coupling, fields: Fields, dimension: int, is_for_balls: bool) -> None:
+    def __init__(
+        self, graph: DependencyGraph, fields: Fields, dimension: int, is_for_balls: bool
+    ) -> None:
         super().__init__(graph, fields, dimension, is_for_balls)
         self.frozen: dict[tuple[int, Group], list[str]] = {}
 
-    def _newton(self, block: Block, index: int) -> None:
+    def _newton(self, block: StageBlock, index: int) -> None:
         """Newton's method for the unknowns of ``block``."""
         components = [self._component(stage, i) for stage in block.unknowns for i in range(self.d)]
         zs = [f"z{c}" for c in components]
@@ -68,7 +70,7 @@ class NewtonWriter(JacobianWriter):
         self._write(" raise NotSolved(number, float(size))")
         self._write(f"n{index} += iteration + 1")
 
-    def _start(self, block: Block) -> None:
+    def _start(self, block: StageBlock) -> None:
         """The fields frozen at y_0, and what that missed in the last step, extrapolated."""
         for stage in block.unknowns:
             for value in self.graph.sums[stage]:
@@ -85,7 +87,7 @@ class NewtonWriter(JacobianWriter):
                 guess = f"g{c} + m{c} + n{c}"
                 self._write(f"z{c} = ({guess}).mid()" if self.is_for_balls else f"z{c} = {guess}")
 
-    def _freeze(self, value: Value) -> None:
+    def _freeze(self, value: FieldEvaluation) -> None:
         key = value.colour, value.group
         if key not in self.frozen:
             groups = self.fields[key].depends
@@ -93,7 +95,7 @@ class NewtonWriter(JacobianWriter):
             made = self._formula(self.fields[key].components, value)
             self.frozen[key] = self._emit(made, at, f"g{value.colour}{value.group}_")
 
-    def _residuals(self, block: Block) -> None:
+    def _residuals(self, block: StageBlock) -> None:
         k = 0
         for stage in block.unknowns:
             total = self._total(stage, self.graph.sums[stage])
@@ -113,7 +115,7 @@ class NewtonWriter(JacobianWriter):
         self._write("t = a*d - b*c")
         self._write("c0, c1 = (d*r0 - b*r1)/t, (a*r1 - c*r0)/t")
 
-    def _by_inverse(self, block: Block, n: int, index: int) -> None:
+    def _by_inverse(self, block: StageBlock, n: int, index: int) -> None:
         """Corrections by the inverse of I − J, a matrix of floats, which is kept as long as it
         serves.
         """

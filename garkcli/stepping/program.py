@@ -16,7 +16,7 @@ from dataclasses import dataclass, replace
 from garkcli.problems.hamiltonian import GROUPS
 from garkcli.problems.straightline import Formula
 from garkcli.stepping.chainrule import ChainRule
-from garkcli.stepping.dependency import Block, Coupling, Fields, Stage, Value
+from garkcli.stepping.dependency import DependencyGraph, FieldEvaluation, Fields, Stage, StageBlock
 from garkcli.stepping.newton import NewtonWriter
 from garkcli.stepping.stagewriter import names
 
@@ -41,20 +41,22 @@ class Program:
     """
 
     source: str
-    coefficients: tuple[tuple[Stage | None, Value], ...]
+    coefficients: tuple[tuple[Stage | None, FieldEvaluation], ...]
     formulas: tuple[Formula, ...]
     size: int
     evaluations: int
-    implicit: tuple[Block, ...]
+    implicit: tuple[StageBlock, ...]
     chains: Mapping[int, ChainRule]
 
     @property
     def repeated(self) -> tuple[int, ...]:
         """Evaluations of vector fields in one iteration of each implicit block."""
-        return tuple(sum(isinstance(x, Value) for x in block.order) for block in self.implicit)
+        return tuple(
+            sum(isinstance(x, FieldEvaluation) for x in block.order) for block in self.implicit
+        )
 
 
-def write(graph: Coupling, fields: Fields, dimension: int, is_for_balls: bool) -> Program:
+def write(graph: DependencyGraph, fields: Fields, dimension: int, is_for_balls: bool) -> Program:
     """The program of one step of the method with this ``graph`` on vector fields of d =
     ``dimension``.
     """
@@ -64,7 +66,9 @@ def write(graph: Coupling, fields: Fields, dimension: int, is_for_balls: bool) -
 class _Writer(NewtonWriter):
     """Writes all of a step."""
 
-    def __init__(self, graph: Coupling, fields: Fields, dimension: int, is_for_balls: bool) -> None:
+    def __init__(
+        self, graph: DependencyGraph, fields: Fields, dimension: int, is_for_balls: bool
+    ) -> None:
         super().__init__(graph, fields, dimension, is_for_balls)
         self.blocks = graph.blocks()
         self.unknowns = [stage for block in self.blocks for stage in block.unknowns]
@@ -114,7 +118,7 @@ class _Writer(NewtonWriter):
         )
         return replace(made, evaluations=made.evaluations - sum(made.repeated))
 
-    def _body(self, implicit: Sequence[Block]) -> list[str]:
+    def _body(self, implicit: Sequence[StageBlock]) -> list[str]:
         """One step."""
         self.indent = "   "
         for block in self.blocks:

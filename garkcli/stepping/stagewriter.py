@@ -8,7 +8,7 @@ from dataclasses import dataclass
 
 from garkcli.problems.hamiltonian import Group
 from garkcli.problems.straightline import Formula, formula
-from garkcli.stepping.dependency import Block, Coupling, Fields, Stage, Value
+from garkcli.stepping.dependency import DependencyGraph, FieldEvaluation, Fields, Stage, StageBlock
 
 
 @dataclass(frozen=True)
@@ -17,7 +17,7 @@ class Sum:
     it is zero.
     """
 
-    terms: dict[Value, str]
+    terms: dict[FieldEvaluation, str]
     texts: list[str]
 
 
@@ -31,22 +31,26 @@ class StageWriter:
         is_for_balls: whether the numbers are balls.
     """
 
-    def __init__(self, graph: Coupling, fields: Fields, dimension: int, is_for_balls: bool) -> None:
+    def __init__(
+        self, graph: DependencyGraph, fields: Fields, dimension: int, is_for_balls: bool
+    ) -> None:
         self.graph, self.fields, self.d, self.is_for_balls = graph, fields, dimension, is_for_balls
         self.lines: list[str] = []
         self.indent = ""
         self.weights: dict[str, str] = {}  # names of the numbers w
-        self.first: list[tuple[Stage | None, Value]] = []  # where each of them occurs first
+        self.first: list[
+            tuple[Stage | None, FieldEvaluation]
+        ] = []  # where each of them occurs first
         self.sums: list[Sum] = []
         self.formulas: list[Formula] = []
-        self.values: dict[Value, list[str]] = {}
+        self.values: dict[FieldEvaluation, list[str]] = {}
         self.stages: dict[Stage, list[str]] = {}
         self.number = {vertex: i for i, vertex in enumerate((*graph.sums, *graph.values))}
 
-    def _explicit(self, block: Block) -> None:
+    def _explicit(self, block: StageBlock) -> None:
         """All vertices of ``block`` but its unknowns."""
         for vertex in block.order:
-            if isinstance(vertex, Value):
+            if isinstance(vertex, FieldEvaluation):
                 made = self._formula(self.fields[vertex.colour, vertex.group].components, vertex)
                 self.values[vertex] = self._emit(
                     made, self._arguments(vertex), f"f{self.number[vertex]}_"
@@ -69,10 +73,10 @@ class StageWriter:
         self.stages[stage] = found
         self.sums.append(total)
 
-    def _arguments(self, value: Value) -> list[str]:
+    def _arguments(self, value: FieldEvaluation) -> list[str]:
         return [x for stage in self.graph.arguments[value] for x in self.stages[stage]]
 
-    def _total(self, stage: Stage | None, values: Sequence[Value]) -> Sum:
+    def _total(self, stage: Stage | None, values: Sequence[FieldEvaluation]) -> Sum:
         """The sums of w f over ``values``; from a sum that is known, where that has at least two of
         the terms.
 
@@ -92,10 +96,10 @@ class StageWriter:
             texts.append(" + ".join([base.texts[i]] * bool(base.texts[i]) + rest))
         return Sum(terms, texts)
 
-    def _nonzero(self, value: Value) -> list[bool]:
+    def _nonzero(self, value: FieldEvaluation) -> list[bool]:
         return [f != "0" for f in self.values[value]]
 
-    def _weight(self, stage: Stage | None, value: Value) -> str:
+    def _weight(self, stage: Stage | None, value: FieldEvaluation) -> str:
         text = self.graph.coefficients[stage, value]
         if text not in self.weights:
             self.weights[text] = f"w{len(self.first)}"
@@ -103,7 +107,10 @@ class StageWriter:
         return self.weights[text]
 
     def _formula(
-        self, expressions: Sequence[object], value: Value, is_for_balls: bool | None = None
+        self,
+        expressions: Sequence[object],
+        value: FieldEvaluation,
+        is_for_balls: bool | None = None,
     ) -> Formula:
         arguments = self.fields[value.colour, value.group].arguments
         made = formula(

@@ -23,7 +23,7 @@ from typing import Any
 from flint import ctx, fmpq
 
 from garkcli.errors import GarkError
-from garkcli.stepping.integrator import NotSolved, Real, Record, Scheme
+from garkcli.stepping.integrator import Integrator, NotSolved, Real, Recorder
 
 _AHEAD = 64  # most steps in floats by which a trajectory is ahead of who looks at it
 
@@ -66,7 +66,11 @@ class Work:
 
 
 def trajectory(
-    scheme: Scheme, h: fmpq, count: int, initial: Sequence[Any] | None = None, every: int = 1
+    integrator: Integrator,
+    h: fmpq,
+    count: int,
+    initial: Sequence[Any] | None = None,
+    every: int = 1,
 ) -> Iterator[list[Real]]:
     """(q, p) at the start and after each ``every`` of ``count`` steps of size ``h``, shape (2d,).
 
@@ -76,42 +80,44 @@ def trajectory(
     Raises:
         StepFailed: the stage equations of a step were not solved.
     """
-    state = State(scheme, h, initial)
-    yield state.y
-    if every > 1 or scheme.is_for_balls:
-        while state.done < count:
-            state.advance(min(every, count - state.done))
-            yield state.y
+    stepper = Stepper(integrator, h, initial)
+    yield stepper.y
+    if every > 1 or integrator.is_for_balls:
+        while stepper.done < count:
+            stepper.advance(min(every, count - stepper.done))
+            yield stepper.y
         return
-    while state.done < count:
+    while stepper.done < count:
         states: list[list[Real]] = []
         try:
-            state.advance(min(_AHEAD, count - state.done), states.append)
+            stepper.advance(min(_AHEAD, count - stepper.done), states.append)
         except StepFailed:
             yield from states
             raise
         yield from states
 
 
-def final(scheme: Scheme, h: fmpq, count: int, initial: Sequence[Any] | None = None) -> list[Real]:
+def integrate(
+    integrator: Integrator, h: fmpq, count: int, initial: Sequence[Any] | None = None
+) -> list[Real]:
     """(q, p) after ``count`` steps; see ``trajectory``."""
-    state = State(scheme, h, initial)
-    state.advance(count)
-    return state.y
+    stepper = Stepper(integrator, h, initial)
+    stepper.advance(count)
+    return stepper.y
 
 
 @dataclass
-class State:
+class Stepper:
     """A trajectory at one time, to be advanced.
 
     Attributes:
-        scheme: what steps.
+        integrator: what steps.
         h: the step size.
         initial: (q, p) at the start, shape (2d,), or None for the problem's.
         done: how many steps have been done.
     """
 
-    scheme: Scheme
+    integrator: Integrator
     h: fmpq
     initial: Sequence[Any] | None = None
     done: int = 0
@@ -121,42 +127,44 @@ class State:
     _jacobians: int = 0
 
     def __post_init__(self) -> None:
-        scheme = self.scheme
-        start = scheme.problem.initial if self.initial is None else self.initial
-        with ctx.workprec(scheme.bits):
-            self._numbers = [scheme.number(x) for x in start]
-            self._numbers += [scheme.number(0)] * (scheme.program.size - len(self._numbers))
-        self._weights = scheme.weights(self.h)
-        self._iterations = [0] * len(scheme.program.repeated)
+        integrator = self.integrator
+        start = integrator.problem.initial if self.initial is None else self.initial
+        with ctx.workprec(integrator.bits):
+            self._numbers = [integrator.number(x) for x in start]
+            self._numbers += [integrator.number(0)] * (integrator.program.size - len(self._numbers))
+        self._weights = integrator.weights(self.h)
+        self._iterations = [0] * len(integrator.program.repeated)
 
     @property
     def y(self) -> list[Real]:
         """(q, p), shape (2d,)."""
-        return self._numbers[: 2 * self.scheme.problem.dimension]
+        return self._numbers[: 2 * self.integrator.problem.dimension]
 
     @property
     def work(self) -> Work:
         """What all steps so far have cost."""
-        program = self.scheme.program
+        program = self.integrator.program
         repeated = sum(n * k for n, k in zip(self._iterations, program.repeated, strict=True))
         return Work(
             self.done * program.evaluations + repeated, sum(self._iterations), self._jacobians
         )
 
-    def advance(self, count: int, record: Record | None = None) -> None:
+    def advance(self, count: int, record: Recorder | None = None) -> None:
         """``count`` steps; ``record`` is told of each.
 
         Raises:
             StepFailed: the stage equations of a step were not solved.
         """
         try:
-            if self.scheme.is_for_balls:
-                with ctx.workprec(self.scheme.bits):
-                    made = self.scheme.run(
+            if self.integrator.is_for_balls:
+                with ctx.workprec(self.integrator.bits):
+                    made = self.integrator.run(
                         self._numbers, self._weights, self.done + 1, count, record
                     )
             else:
-                made = self.scheme.run(self._numbers, self._weights, self.done + 1, count, record)
+                made = self.integrator.run(
+                    self._numbers, self._weights, self.done + 1, count, record
+                )
         except NotSolved as failure:
             raise StepFailed(failure.number, self.h, failure.residual) from None
         self._numbers, iterations, jacobians = made

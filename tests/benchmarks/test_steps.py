@@ -13,8 +13,8 @@ from flint import arb, ctx, fmpq
 
 from garkcli import load, loads
 from garkcli.problems.builtin import hamiltonian
-from garkcli.stepping.integrator import scheme
-from garkcli.stepping.step import State, trajectory
+from garkcli.stepping.integrator import bind
+from garkcli.stepping.step import Stepper, trajectory
 from tests.benchmarks.measuring import ROOT, interleaved, report
 from tests.catalogue.method_files import method_file
 
@@ -29,9 +29,9 @@ def test_pendulum_against_leapfrog() -> None:
     """A million steps of the rectangular method, of order 4 and implicit, in the time of 40 million
     of leapfrog.
     """
-    made = scheme(
+    made = bind(
         load(str(ROOT / "methods/rectangular.gark.yaml")).tableau, hamiltonian("pendulum", 2)
-    )
+    ).at()
 
     def leapfrog() -> None:
         q, p, h = 1.0, 0.5, 0.1
@@ -40,7 +40,7 @@ def test_pendulum_against_leapfrog() -> None:
             q += h * p
             p -= h / 2 * sin(q)
 
-    ours, theirs = interleaved(lambda: State(made, fmpq(1, 10)).advance(STEPS), leapfrog, 3)
+    ours, theirs = interleaved(lambda: Stepper(made, fmpq(1, 10)).advance(STEPS), leapfrog, 3)
     report(
         "rectangular pendulum / leapfrog loop", ours / theirs, 40, f"{ours:.2f} s, {theirs:.3f} s"
     )
@@ -85,12 +85,12 @@ def _ours(per_period: int) -> tuple[float, float]:
     entry = json.loads(
         (ROOT / "tests/catalogue/data/sprk_Sofroniou_10_36.json").read_text(encoding="utf-8")
     )
-    made = scheme(loads(method_file(entry)).tableau, hamiltonian("kepler", 2))
+    made = bind(loads(method_file(entry)).tableau, hamiltonian("kepler", 2)).at()
     with ctx.workprec(120):
         period = fmpq(int((2 * arb.pi() * 10**30).floor().unique_fmpz()), 10**30)
     h = period / per_period
     start = process_time()
-    state = State(made, h)
+    state = Stepper(made, h)
     state.advance(PERIODS * per_period)
     seconds = process_time() - start
     error = float(np.linalg.norm(np.subtract(state.y, START)))

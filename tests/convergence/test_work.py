@@ -9,19 +9,19 @@ from garkcli.convergence.work import cost_of, work_of
 from garkcli.families.registry import diagonal_method
 from garkcli.problems.builtin import hamiltonian
 from garkcli.problems.oscillator import terms_of
-from garkcli.stepping.integrator import scheme
-from garkcli.stepping.step import State, final
+from garkcli.stepping.integrator import bind
+from garkcli.stepping.step import Stepper, integrate
 from garkcli.tableau.forms import gark, pair
 from tests.stepping.test_step import RECTANGULAR, RK4, coupled
 
 
 def test_explicit_method_is_counted_by_hand() -> None:
     """rk4 has four stages with a velocity and a force each, and nothing to solve."""
-    y, cost = work_of(scheme(RK4, hamiltonian("pendulum", 1)), fmpq(1, 10), 50)
+    y, cost = work_of(bind(RK4, hamiltonian("pendulum", 1)).at(), fmpq(1, 10), 50)
     assert (cost.steps, cost.evaluations, cost.iterations, cost.jacobians) == (50, 400, 0, 0)
     assert cost.seconds is not None
     assert 0 < cost.seconds < 1
-    assert y == final(scheme(RK4, hamiltonian("pendulum", 1)), fmpq(1, 10), 50)
+    assert y == integrate(bind(RK4, hamiltonian("pendulum", 1)).at(), fmpq(1, 10), 50)
 
 
 def test_implicit_method_iterates() -> None:
@@ -29,7 +29,7 @@ def test_implicit_method_iterates() -> None:
     constant share.
     """
     tableau = gark([diagonal_method("gauss", 2)], {})
-    made = scheme(tableau, hamiltonian("pendulum", terms_of(tableau)))
+    made = bind(tableau, hamiltonian("pendulum", terms_of(tableau))).at()
     outside = set()
     for n in (4, 16, 256):
         _, cost = work_of(made, fmpq(4, n), n)
@@ -44,7 +44,7 @@ def test_digits_cost_evaluations() -> None:
     """More digits take more iterations."""
     costs = []
     for digits in (15, 40):
-        state = State(scheme(RECTANGULAR, hamiltonian("pendulum", 2), digits), fmpq(1, 10))
+        state = Stepper(bind(RECTANGULAR, hamiltonian("pendulum", 2)).at(digits), fmpq(1, 10))
         state.advance(20)
         costs.append(cost_of(state))
     assert costs[0].seconds is None

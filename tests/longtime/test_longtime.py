@@ -18,8 +18,8 @@ from garkcli.methodfile.load import load, loads
 from garkcli.problems.builtin import hamiltonian
 from garkcli.problems.hamiltonian import Hamiltonian, energy_function, symbols
 from garkcli.problems.oscillator import Oscillator, terms_of
-from garkcli.stepping.dependency import fitted
-from garkcli.stepping.integrator import scheme
+from garkcli.stepping.dependency import with_joined_terms
+from garkcli.stepping.integrator import bind
 from garkcli.stepping.step import StepFailed, trajectory
 from garkcli.tableau.tableau import Tableau
 
@@ -37,7 +37,7 @@ GAUSS3 = "methods: [{family: gauss, stages: 3}]"
 
 def tableau_of(source: str) -> Tableau:
     """Of a file, or of its text."""
-    return fitted((loads(source) if ":" in source else load(source)).tableau)
+    return with_joined_terms((loads(source) if ":" in source else load(source)).tableau)
 
 
 def run(source: str, name: str, t_end: fmpq | int, h: fmpq, **rest: Any) -> LongRun:
@@ -51,7 +51,7 @@ def stepped(source: str, name: str, count: int, h: fmpq) -> np.ndarray:
     tableau = tableau_of(source)
     problem = hamiltonian(name, terms_of(tableau))
     measure = energy_function(problem, 15)
-    values = np.array([measure(*y) for y in trajectory(scheme(tableau, problem), h, count)])
+    values = np.array([measure(*y) for y in trajectory(bind(tableau, problem).at(), h, count)])
     return values - values[0]
 
 

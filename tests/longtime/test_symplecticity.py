@@ -11,9 +11,9 @@ from garkcli.methodfile.load import loads
 from garkcli.problems.builtin import hamiltonian
 from garkcli.problems.hamiltonian import Hamiltonian
 from garkcli.problems.oscillator import terms_of
-from garkcli.stepping.dependency import fitted
-from garkcli.stepping.integrator import scheme
-from garkcli.stepping.step import final
+from garkcli.stepping.dependency import with_joined_terms
+from garkcli.stepping.integrator import bind
+from garkcli.stepping.step import integrate
 from garkcli.tableau.forms import pair
 from garkcli.tableau.tableau import Tableau
 
@@ -37,7 +37,7 @@ H = fmpq(1, 10)
 def measured(text: str, name: str, as_pair: bool = False) -> tuple[Tableau, Hamiltonian, Defect]:
     """The defect of the first step."""
     tableau = loads(text).tableau
-    tableau = fitted(pair(tableau) if as_pair else tableau)
+    tableau = with_joined_terms(pair(tableau) if as_pair else tableau)
     problem = hamiltonian(name, terms_of(tableau))
     (found,) = defects(tableau, problem, H, [(fmpq(0), problem.initial)])
     return tableau, problem, found
@@ -81,14 +81,14 @@ def test_defect_of_explicit_euler() -> None:
 def test_defect_is_that_of_floats() -> None:
     """Plain differences in floats give the same, to the few digits they have."""
     tableau, problem, found = measured(RK4, "kepler")
-    method, y = scheme(tableau, problem), [float(x.p) / float(x.q) for x in problem.initial]
+    method, y = bind(tableau, problem).at(), [float(x.p) / float(x.q) for x in problem.initial]
     columns = []
     for i in range(4):
         ends = []
         for sign in (1, -1):
             moved = list(y)
             moved[i] += sign * 1e-5
-            ends.append(np.array(final(method, H, 1, moved)))
+            ends.append(np.array(integrate(method, H, 1, moved)))
         columns.append((ends[0] - ends[1]) / 2e-5)
     M = np.stack(columns, axis=1)
     J = np.block([[np.zeros((2, 2)), np.eye(2)], [-np.eye(2), np.zeros((2, 2))]])

@@ -18,9 +18,9 @@ from garkcli.methodfile.load import load
 from garkcli.problems.builtin import hamiltonian
 from garkcli.problems.hamiltonian import symbols
 from garkcli.stepping.dependency import fields_of
-from garkcli.stepping.integrator import scheme
-from garkcli.stepping.matching import fit
-from garkcli.stepping.step import final
+from garkcli.stepping.integrator import bind
+from garkcli.stepping.matching import split_into
+from garkcli.stepping.step import integrate
 from garkcli.tableau.forms import gark, pair
 from tests.cli.harness import ROOT
 from tests.stepping.test_step import RECTANGULAR, coupled
@@ -57,7 +57,7 @@ def test_it_is_the_solution_of_the_euler_lagrange_equations() -> None:
         wanted = [end[0], end[1], 2 * end[2] + c * end[3], c * end[2] + end[3]]
         texts = [mpmath.nstr(x, 22) for x in wanted]
     gauss = gark([diagonal_method("gauss", 10)], {})
-    found = final(scheme(gauss, hamiltonian("double-pendulum", 1), 25), fmpq(1, 20), 20)
+    found = integrate(bind(gauss, hamiltonian("double-pendulum", 1)).at(25), fmpq(1, 20), 20)
     with ctx.workprec(100):
         assert all(abs(x - arb(text)) < 1e-18 for x, text in zip(found, texts, strict=True))
 
@@ -99,11 +99,11 @@ def test_natural_splits() -> None:
     splits.
     """
     whole = hamiltonian("double-pendulum", 1)
-    assert fit(whole, 2).terms == hamiltonian("double-pendulum", 2).terms
-    assert fit(whole, 4).terms == hamiltonian("double-pendulum", 4).terms
-    assert fit(whole, 1) is whole
-    assert fit(hamiltonian("kepler", 2), 1).terms == hamiltonian("kepler", 1).terms
+    assert split_into(whole, 2).terms == hamiltonian("double-pendulum", 2).terms
+    assert split_into(whole, 4).terms == hamiltonian("double-pendulum", 4).terms
+    assert split_into(whole, 1) is whole
+    assert split_into(hamiltonian("kepler", 2), 1).terms == hamiltonian("kepler", 1).terms
     with pytest.raises(UsageProblem, match="has 2 terms, the method is for 3"):
-        fit(hamiltonian("kepler", 2), 3)
+        split_into(hamiltonian("kepler", 2), 3)
     with pytest.raises(UsageProblem, match="has 1 term, the method is for 2"):
-        fit(hamiltonian("generic", 1), 2)
+        split_into(hamiltonian("generic", 1), 2)

@@ -13,8 +13,8 @@ from garkcli.exact.display import to_float
 from garkcli.families.registry import diagonal_method
 from garkcli.problems.builtin import hamiltonian
 from garkcli.problems.hamiltonian import GROUPS, function, symbols, vector_field
-from garkcli.stepping.integrator import scheme
-from garkcli.stepping.step import final
+from garkcli.stepping.integrator import bind
+from garkcli.stepping.step import integrate
 from garkcli.tableau.forms import gark
 from garkcli.trees.tree import Tree
 
@@ -91,5 +91,5 @@ def test_solutions_stay_small(terms: int, seed: int) -> None:
     three terms.
     """
     problem = hamiltonian("generic", terms, seed)
-    method = scheme(gark([diagonal_method("rk4")], {}), problem.unsplit())
-    assert max(map(abs, final(method, problem.t_end / 200, 200))) < 1 / 2
+    method = bind(gark([diagonal_method("rk4")], {}), problem.unsplit()).at()
+    assert max(map(abs, integrate(method, problem.t_end / 200, 200))) < 1 / 2

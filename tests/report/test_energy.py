@@ -26,7 +26,7 @@ from garkcli.report.bandplot import INSIDE, SINGLE, terminal_band
 from garkcli.report.energy import render
 from garkcli.report.energy_text import Claim, Report
 from garkcli.report.paint import Paint
-from garkcli.stepping.dependency import fitted
+from garkcli.stepping.dependency import with_joined_terms
 
 ROOT = Path(__file__).parents[2]
 RECTANGULAR, RK4 = (str(ROOT / "methods" / f"{name}.gark.yaml") for name in ("rectangular", "rk4"))
@@ -43,7 +43,7 @@ def oscillator(path: str, t_end: int = 100) -> LongRun:
 
 def nonlinear(path: str, name: str, t_end: int) -> LongRun:
     """Another problem."""
-    tableau = fitted(load(path).tableau)
+    tableau = with_joined_terms(load(path).tableau)
     return follow(tableau, hamiltonian(name, terms_of(tableau)), fmpq(t_end), fmpq(1, 20))
 
 

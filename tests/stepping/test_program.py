@@ -14,9 +14,9 @@ from garkcli.families.registry import diagonal_method
 from garkcli.problems.builtin import hamiltonian
 from garkcli.problems.hamiltonian import GROUPS, Hamiltonian, symbols
 from garkcli.problems.oscillator import terms_of
-from garkcli.stepping.dependency import fitted
-from garkcli.stepping.integrator import scheme
-from garkcli.stepping.step import State, final, trajectory
+from garkcli.stepping.dependency import with_joined_terms
+from garkcli.stepping.integrator import bind
+from garkcli.stepping.step import Stepper, integrate, trajectory
 from garkcli.tableau.forms import gark, pair, separable_prk, symplectic_pair
 from garkcli.tableau.tableau import Tableau
 from garkcli.transfer import collocation
@@ -53,12 +53,14 @@ def test_many_steps_are_single_steps(tableau: Tableau, name: str) -> None:
     """Running on, stopping at each step, and stopping at every third give the same numbers to the
     last bit.
     """
-    made = scheme(fitted(tableau), hamiltonian(name, terms_of(fitted(tableau))))
+    made = bind(
+        with_joined_terms(tableau), hamiltonian(name, terms_of(with_joined_terms(tableau)))
+    ).at()
     singly = list(trajectory(made, fmpq(1, 20), 10))
     assert len(singly) == 11
-    assert final(made, fmpq(1, 20), 10) == singly[-1]
+    assert integrate(made, fmpq(1, 20), 10) == singly[-1]
     assert list(trajectory(made, fmpq(1, 20), 10, every=3)) == [singly[k] for k in (0, 3, 6, 9, 10)]
-    state = State(made, fmpq(1, 20))
+    state = Stepper(made, fmpq(1, 20))
     for k in range(11):
         assert state.y == singly[k]
         state.advance(1)
@@ -69,11 +71,14 @@ def test_balls_take_the_same_path(tableau: Tableau, name: str) -> None:
     """The same structure and coefficients for 15 and for 50 digits, and the same numbers to
     round-off.
     """
-    problem = hamiltonian(name, terms_of(fitted(tableau)))
-    few, many = scheme(fitted(tableau), problem), scheme(fitted(tableau), problem, 50)
+    problem = hamiltonian(name, terms_of(with_joined_terms(tableau)))
+    few, many = (
+        bind(with_joined_terms(tableau), problem).at(),
+        bind(with_joined_terms(tableau), problem).at(50),
+    )
     assert few.program.coefficients == many.program.coefficients
     assert few.program.implicit == many.program.implicit
-    ends = [[float(x) for x in final(made, fmpq(1, 20), 10)] for made in (few, many)]
+    ends = [[float(x) for x in integrate(made, fmpq(1, 20), 10)] for made in (few, many)]
     assert ends[0] == pytest.approx(ends[1], abs=1e-14)
 
 
@@ -83,14 +88,14 @@ def test_jacobian_in_matrices_is_that_written_out(
     monkeypatch: pytest.MonkeyPatch, tableau: Tableau, name: str, digits: int
 ) -> None:
     """The same steps, in as many iterations, whichever way the chain rule is done."""
-    problem = hamiltonian(name, terms_of(fitted(tableau)))
+    problem = hamiltonian(name, terms_of(with_joined_terms(tableau)))
     monkeypatch.setattr("garkcli.stepping.newton._DIRECT", 0)
     states = []
     for written in (0, 1000):
         monkeypatch.setattr("garkcli.stepping.newton._WRITTEN", written)
-        made = scheme(fitted(tableau), problem, digits)
+        made = bind(with_joined_terms(tableau), problem).at(digits)
         assert bool(made.program.chains) == (written == 0 and bool(made.program.implicit))
-        states.append(State(made, fmpq(1, 20)))
+        states.append(Stepper(made, fmpq(1, 20)))
         states[-1].advance(10)
     assert [float(x) for x in states[0].y] == pytest.approx(
         [float(x) for x in states[1].y], abs=1e-15
@@ -107,7 +112,9 @@ def test_cyclic_variable_has_balls_too() -> None:
     problem = Hamiltonian(
         "cyclic", ("x", "y"), terms, (fmpq(1), fmpq(0), fmpq(1, 2), fmpq(1)), fmpq(1)
     )
-    ends = [final(scheme(pair(COUPLED), problem, digits), fmpq(1, 10), 5) for digits in (15, 40)]
+    ends = [
+        integrate(bind(pair(COUPLED), problem).at(digits), fmpq(1, 10), 5) for digits in (15, 40)
+    ]
     assert [float(a) for a in ends[1]] == pytest.approx(ends[0], abs=1e-14)
     assert ends[1][3] == 1
 
@@ -119,7 +126,7 @@ def test_compositions_cost_what_their_steps_cost(parts: int) -> None:
     length O(n).
     """
     problem = hamiltonian("kepler", 2)
-    made = scheme(composition(parts), problem)
+    made = bind(composition(parts), problem).at()
     assert not made.program.implicit
     assert made.program.evaluations == 2 * parts + 1
     products = made.program.source.count("w")
@@ -128,7 +135,7 @@ def test_compositions_cost_what_their_steps_cost(parts: int) -> None:
         y = [_number(x) for x in problem.initial]
         for b in composition(parts).colours[0].b:
             y = _leapfrog(y, _number(b) / 10)
-        assert final(made, fmpq(1, 10), 1) == pytest.approx(y, abs=1e-14)
+        assert integrate(made, fmpq(1, 10), 1) == pytest.approx(y, abs=1e-14)
 
 
 def _number(x: object) -> float:
@@ -149,16 +156,16 @@ def test_work_is_counted() -> None:
     """rk4: four evaluations a step. The rectangular method: what is repeated in each iteration, and
     the rest.
     """
-    state = State(scheme(RK4, hamiltonian("generic", 1)), fmpq(1, 10))
+    state = Stepper(bind(RK4, hamiltonian("generic", 1)).at(), fmpq(1, 10))
     state.advance(7)
     assert (state.work.evaluations, state.work.iterations, state.work.jacobians) == (
         7 * 4 * 2,
         0,
         0,
     )  # V and F
-    state = State(scheme(RECTANGULAR, hamiltonian("pendulum", 2)), fmpq(1, 10))
+    state = Stepper(bind(RECTANGULAR, hamiltonian("pendulum", 2)).at(), fmpq(1, 10))
     state.advance(10)
-    program, work = state.scheme.program, state.work
+    program, work = state.integrator.program, state.work
     assert (program.evaluations, program.repeated) == (
         2 + 1,
         (3,),
@@ -173,8 +180,8 @@ def test_text_has_names_of_ours_only(tableau: Tableau, name: str) -> None:
     """Every name in the text is one that the writer or the namespace defines: none of the
     problem's.
     """
-    problem = hamiltonian(name, terms_of(fitted(tableau)))
-    tree = ast.parse(scheme(fitted(tableau), problem).program.source)
+    problem = hamiltonian(name, terms_of(with_joined_terms(tableau)))
+    tree = ast.parse(bind(with_joined_terms(tableau), problem).at().program.source)
     stored = {
         x.id for x in ast.walk(tree) if isinstance(x, ast.Name) and isinstance(x.ctx, ast.Store)
     }

@@ -19,9 +19,9 @@ from garkcli.problems.builtin import hamiltonian
 from garkcli.problems.hamiltonian import GROUPS, Hamiltonian, symbols, vector_field
 from garkcli.problems.oscillator import terms_of
 from garkcli.problems.straightline import function
-from garkcli.stepping.dependency import Stage, fields_of, fitted, sight
-from garkcli.stepping.integrator import scheme
-from garkcli.stepping.step import StepFailed, final, trajectory
+from garkcli.stepping.dependency import Stage, fields_of, visible_trees, with_joined_terms
+from garkcli.stepping.integrator import bind
+from garkcli.stepping.step import StepFailed, integrate, trajectory
 from garkcli.tableau.forms import gark, pair, separable_prk, symplectic_pair, with_linear
 from garkcli.tableau.pointwise import numeric_entries
 from garkcli.tableau.tableau import Tableau
@@ -98,15 +98,17 @@ def test_step_is_that_of_a_plain_iteration(tableau: Tableau, name: str) -> None:
     """
     problem = hamiltonian(name, terms_of(tableau))
     expected = plain_step(tableau, problem, 0.1)
-    assert final(scheme(tableau, problem), H, 1) == pytest.approx(expected, abs=3e-15)
-    many = [float(x) for x in final(scheme(tableau, problem, 40), H, 1)]
+    assert integrate(bind(tableau, problem).at(), H, 1) == pytest.approx(expected, abs=3e-15)
+    many = [float(x) for x in integrate(bind(tableau, problem).at(40), H, 1)]
     assert many == pytest.approx(expected, abs=3e-15)
 
 
 def test_digits_are_correct() -> None:
     """30, 60 and 120 digits agree to the digits of the shorter."""
     problem = hamiltonian("kepler", 2)
-    ends = {digits: final(scheme(RECTANGULAR, problem, digits), H, 5) for digits in (30, 60, 120)}
+    ends = {
+        digits: integrate(bind(RECTANGULAR, problem).at(digits), H, 5) for digits in (30, 60, 120)
+    }
     with ctx.workprec(420):
         for short, long in ((30, 60), (60, 120)):
             assert max(abs(a - b) for a, b in zip(ends[short], ends[long], strict=True)) < arb(
@@ -116,7 +118,9 @@ def test_digits_are_correct() -> None:
 
 def unknowns(tableau: Tableau, name: str) -> list[tuple[Stage, ...]]:
     """The unknowns of each implicit block."""
-    made = scheme(fitted(tableau), hamiltonian(name, terms_of(fitted(tableau))))
+    made = bind(
+        with_joined_terms(tableau), hamiltonian(name, terms_of(with_joined_terms(tableau)))
+    ).at()
     return [block.unknowns for block in made.program.implicit]
 
 
@@ -160,13 +164,13 @@ def test_pair_is_symplectic(tableau: Tableau) -> None:
 
 def symplecticity(tableau: Tableau, problem: Hamiltonian) -> float:
     """‖MᵀJM − J‖ in the largest entry, for one step of size ``H``."""
-    made, d = scheme(tableau, problem, 60), problem.dimension
+    made, d = bind(tableau, problem).at(60), problem.dimension
     tiny, columns = fmpq(1, 10**20), []
     for j in range(2 * d):
         ends = []
         for sign in (1, -1):
             start = [x + (sign * tiny if i == j else 0) for i, x in enumerate(problem.initial)]
-            ends.append(final(made, H, 1, start))
+            ends.append(integrate(made, H, 1, start))
         with ctx.workprec(260):
             columns.append([(a - b) / arb(2 * tiny) for a, b in zip(*ends, strict=True)])
     worst = 0.0
@@ -185,7 +189,7 @@ def test_energy_stays_near_its_start() -> None:
     swing = hamiltonian("pendulum", 2)
 
     def errors(tableau: Tableau, problem: Hamiltonian) -> list[float]:
-        path = trajectory(scheme(tableau, problem), fmpq(1, 2), 4000)
+        path = trajectory(bind(tableau, problem).at(), fmpq(1, 2), 4000)
         energy = [p * p / 2 + 1 - math.cos(q) for q, p in path]
         return [abs(x - energy[0]) for x in energy]
 
@@ -200,7 +204,7 @@ def test_compensated_sums_keep_the_last_digits() -> None:
     """
     (px,) = symbols(("x",), "p")
     free = Hamiltonian("free", ("x",), (px**2 / 2,), (fmpq(0), fmpq(1, 3)), fmpq(1))
-    q, _ = final(scheme(RK4, free), fmpq(1, 10), 30_000)
+    q, _ = integrate(bind(RK4, free).at(), fmpq(1, 10), 30_000)
     assert q == pytest.approx(1000, abs=3e-13)
     plain = 0.0
     for _ in range(30_000):
@@ -214,12 +218,12 @@ def test_states_before_a_failure_are_seen() -> None:
     """
     x, px = (symbols(("x",), group)[0] for group in GROUPS)
     fall = Hamiltonian("fall", ("x",), (px**2 / 2 - sympy.sqrt(x),), (fmpq(1), fmpq(-2)), fmpq(1))
-    made = scheme(RK4, fall)
+    made = bind(RK4, fall).at()
     seen: list[list[float]] = []
     with pytest.raises(StepFailed) as caught:
         seen.extend(trajectory(made, H / 10, 200))
     assert len(seen) == caught.value.number > 40
-    assert seen[-1] == final(made, H / 10, len(seen) - 1)
+    assert seen[-1] == integrate(made, H / 10, len(seen) - 1)
 
 
 @pytest.mark.parametrize("mass", [fmpq(1, 10**20), fmpq(10**10), fmpq(10**20)])
@@ -230,7 +234,7 @@ def test_units_do_not_matter(tableau: Tableau, mass: fmpq) -> None:
     m = sympy.Rational(int(mass.p), int(mass.q))
     terms = (px**2 / (2 * m), -m * sympy.cos(x))
     heavy = Hamiltonian("heavy", ("x",), terms, (fmpq(1), mass / 2), fmpq(1))
-    floats, exact = (final(scheme(tableau, heavy, digits), H / 2, 40) for digits in (15, 40))
+    floats, exact = (integrate(bind(tableau, heavy).at(digits), H / 2, 40) for digits in (15, 40))
     assert floats == pytest.approx([float(y) for y in exact], rel=2e-15)
 
 
@@ -245,14 +249,14 @@ def test_balls_around_zero_have_powers() -> None:
 def test_failing_step_says_where() -> None:
     """Kepler with huge steps: the number of the step, its size and the residual."""
     with pytest.raises(StepFailed, match=r"step 1 of size 1000000: .*residual") as caught:
-        final(scheme(pair(coupled(2, 3)), hamiltonian("generic", 2)), fmpq(10**6), 3)
+        integrate(bind(pair(coupled(2, 3)), hamiltonian("generic", 2)).at(), fmpq(10**6), 3)
     assert (caught.value.number, caught.value.h) == (1, 10**6)
     assert caught.value.help
     falling = Hamiltonian(
         "fall", ("x",), (1 / symbols(("x",), "q")[0],), (fmpq(0), fmpq(0)), fmpq(1)
     )
     with pytest.raises(StepFailed, match="step 1") as left:
-        final(scheme(RK4, falling), H, 1)
+        integrate(bind(RK4, falling).at(), H, 1)
     assert "an earlier final time" in (left.value.help or "")
 
 
@@ -276,10 +280,12 @@ def test_problem_is_split_for_the_method() -> None:
     three.
     """
     whole, split = (hamiltonian("pendulum", terms) for terms in (1, 2))
-    assert final(scheme(RECTANGULAR, whole), H, 5) == final(scheme(RECTANGULAR, split), H, 5)
+    assert integrate(bind(RECTANGULAR, whole).at(), H, 5) == integrate(
+        bind(RECTANGULAR, split).at(), H, 5
+    )
     triple = gark([diagonal_method("gauss", 1)] * 3, {})
     with pytest.raises(UsageProblem, match="2 terms, the method is for 3"):
-        scheme(triple, split)
+        bind(triple, split).at()
     with pytest.raises(UsageProblem, match="2 terms, the method is for 3"):
         observe(triple, split)
     with pytest.raises(UsageProblem, match="2 terms, the method is for 3"):
@@ -303,4 +309,4 @@ def test_unknown_problem() -> None:
 )
 def test_what_a_problem_sees(tableau: Tableau, name: str, said: str) -> None:
     """Linear, quadratic kinetic energy, all."""
-    assert said in sight(fields_of(tableau, hamiltonian(name, terms_of(tableau))))
+    assert said in visible_trees(fields_of(tableau, hamiltonian(name, terms_of(tableau))))

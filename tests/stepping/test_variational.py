@@ -27,7 +27,7 @@ from mpmath import mpf
 
 from garkcli.families.registry import diagonal_method
 from garkcli.problems.hamiltonian import FLOAT_DIGITS, Hamiltonian, symbols
-from garkcli.stepping.integrator import scheme
+from garkcli.stepping.integrator import bind
 from garkcli.stepping.step import trajectory
 from garkcli.tableau.forms import gark, pair, spelled_out, symplectic_pair
 from garkcli.tableau.method import Method
@@ -218,7 +218,7 @@ class Case:
 
     def path(self, digits: int, count: int = 3, tableau: Tableau | None = None) -> list[Any]:
         """(q, p) after 0, 1, … steps, in mpmath's numbers, shape (count + 1, 2, d)."""
-        made = scheme(tableau or self.pair, hamiltonian(self.lagrangian), digits)
+        made = bind(tableau or self.pair, hamiltonian(self.lagrangian)).at(digits)
         return [
             np.array(list(map(number, y)), object).reshape(2, -1)
             for y in trajectory(made, H, count)
