@@ -20,6 +20,7 @@ COMMANDS = {
     "conditions": "the order-condition table, of any method or of a file",
     "tableau": "the assembled tableau, all blocks",
     "conjugate": "the symplectic conjugate tableau, or the pair",
+    "stability": "A-, L-, P-stability, intervals, SSP coefficient, exactly",
     "converge": "the convergence test on a problem",
     "energy": "energy and other invariants over a long time: do they drift?",
     "list": "families, transfer rules, problems",

@@ -1,0 +1,147 @@
+"""Subsets of the real line that are described by signs of polynomials.
+
+The roots of all polynomials that matter cut the line into points and open intervals. On each of
+these cells every sign is constant, so one question a cell decides everything: nothing is sampled
+that could be missed.
+"""
+
+from __future__ import annotations
+
+from collections.abc import Callable, Iterable, Iterator, Sequence
+from dataclasses import dataclass
+from typing import TypeAlias
+
+from flint import arb, fmpq
+
+from garkcli.exact.polynomial import FIRST_BITS, Polynomial, RealRoot, real_roots, sign, sign_at
+
+Point: TypeAlias = fmpq | RealRoot
+"""A number at which polynomials have signs."""
+
+
+@dataclass(frozen=True)
+class Interval:
+    """A set of real numbers without gaps.
+
+    Attributes:
+        start: its left end; None for −∞.
+        end: its right end; None for ∞.
+        has_start: whether the left end belongs to it.
+        has_end: whether the right end belongs to it.
+    """
+
+    start: RealRoot | None
+    end: RealRoot | None
+    has_start: bool = False
+    has_end: bool = False
+
+    @property
+    def is_point(self) -> bool:
+        """Whether it is a single number."""
+        return self.start is not None and self.start == self.end
+
+
+def sign_of(p: Polynomial, point: Point) -> int:
+    """The sign of p at a point, decided exactly."""
+    return sign_at(p, point) if isinstance(point, RealRoot) else sign(p(point))
+
+
+def where(
+    holds: Callable[[Point], bool],
+    polynomials: Iterable[Polynomial],
+    start: fmpq | None = None,
+) -> tuple[Interval, ...]:
+    """The numbers x ≥ ``start`` for which something holds, as intervals in ascending order.
+
+    Args:
+        holds: decides a point; it depends on the signs of ``polynomials`` there alone.
+        polynomials: those whose signs matter; zero ones are left out.
+        start: where the line begins; None for −∞.
+    """
+    roots = _roots_of(polynomials)
+    left = None if start is None else RealRoot.rational(start)
+    if left is not None:
+        roots = [left, *(root for root in roots if root > left)]
+    found: list[Interval] = []
+    open_since: Interval | None = None
+    for cell in _cells(roots, left is not None):
+        if not holds(_sample(cell)):
+            if open_since is not None:
+                found.append(open_since)
+            open_since = None
+        elif open_since is None:
+            open_since = cell
+        else:
+            open_since = Interval(open_since.start, cell.end, open_since.has_start, cell.has_end)
+    if open_since is not None:
+        found.append(open_since)
+    return tuple(found)
+
+
+def _roots_of(polynomials: Iterable[Polynomial]) -> list[RealRoot]:
+    roots: set[RealRoot] = set()
+    for p in polynomials:
+        if p:
+            roots.update(root for root, _ in real_roots(p))
+    return sorted(roots)
+
+
+def _cells(roots: Sequence[RealRoot], is_bounded: bool) -> Iterator[Interval]:
+    """Open intervals and points in turn, from the left."""
+    if not is_bounded:
+        yield Interval(None, roots[0] if roots else None)
+    for k, root in enumerate(roots):
+        yield Interval(root, root, has_start=True, has_end=True)
+        yield Interval(root, roots[k + 1] if k + 1 < len(roots) else None)
+
+
+def _sample(cell: Interval) -> Point:
+    """A point of a cell: itself, or a rational number with a small denominator."""
+    if cell.is_point:
+        assert cell.start is not None
+        return cell.start
+    return between(cell.start, cell.end)
+
+
+def between(left: RealRoot | None, right: RealRoot | None) -> fmpq:
+    """A rational number strictly between two others, of small denominator.
+
+    >>> between(RealRoot.rational(fmpq(1, 3)), RealRoot.rational(fmpq(1, 2)))
+    2/5
+    """
+    if left is None and right is None:
+        return fmpq(0)
+    bits = FIRST_BITS
+    while True:
+        low = None if left is None else _upper(left.ball(bits))
+        high = None if right is None else _lower(right.ball(bits))
+        if low is None:
+            assert high is not None
+            return high.floor() - fmpq(1)
+        if high is None:
+            return low.floor() + fmpq(1)
+        if low < high:
+            return _simplest(low, high)
+        bits *= 2
+
+
+def _upper(ball: arb) -> fmpq:
+    mantissa, exponent = ball.upper().man_exp()
+    return fmpq(mantissa) * fmpq(2) ** int(exponent)
+
+
+def _lower(ball: arb) -> fmpq:
+    mantissa, exponent = ball.lower().man_exp()
+    return fmpq(mantissa) * fmpq(2) ** int(exponent)
+
+
+def _simplest(low: fmpq, high: fmpq) -> fmpq:
+    """The number of smallest denominator strictly between two, by continued fractions."""
+    whole = low.floor()
+    if whole + 1 < high:
+        return fmpq(whole + 1)
+    rest = high - whole
+    if low == whole:
+        denominator = (1 / rest).floor() + 1
+        return whole + fmpq(1) / denominator
+    return whole + 1 / _simplest(1 / rest, 1 / (low - whole))

@@ -1,0 +1,67 @@
+"""Determinants of I − z W as polynomials in z, over ℚ or a number field."""
+
+from __future__ import annotations
+
+from collections.abc import Sequence
+
+from flint import fmpq
+
+from garkcli.exact.field import ONE, ZERO, Number
+from garkcli.exact.matrix import Matrix, is_rational, multiply, to_flint
+from garkcli.exact.polynomial import Polynomial
+from garkcli.graph import components
+
+
+def reciprocal_characteristic(W: Matrix) -> Polynomial:
+    """det(I − z W), the characteristic polynomial of W read backwards.
+
+    The strongly connected components of the graph of W are taken one by one: an explicit method
+    has none but single vertices, and a diagonally implicit one the entries of its diagonal.
+
+    Args:
+        W: square, exact.
+
+    >>> half = fmpq(1, 2)
+    >>> reciprocal_characteristic(((half, half), (half, half)))
+    Polynomial([1, -1])
+    """
+    n = len(W)
+    neighbours = {i: [j for j in range(n) if W[i][j]] for i in range(n)}
+    result = Polynomial([1])
+    for component in components(neighbours):
+        block = tuple(tuple(W[i][j] for j in component) for i in component)
+        result = result * _dense(block)
+    return result
+
+
+def _dense(W: Matrix) -> Polynomial:
+    if len(W) == 1:
+        return Polynomial([ONE, -W[0][0]])
+    if is_rational(W):
+        characteristic = to_flint(W, len(W)).charpoly()
+        return Polynomial.from_flint(characteristic).reversed(len(W))
+    return Polynomial(_from_traces(_traces(W)))
+
+
+def _traces(W: Matrix) -> list[Number]:
+    """The traces of W, W², …, W^n."""
+    power = W
+    traces = []
+    for _ in W:
+        trace: Number = ZERO
+        for i, row in enumerate(power):
+            trace = trace + row[i]
+        traces.append(trace)
+        power = multiply(power, W)
+    return traces
+
+
+def _from_traces(traces: Sequence[Number]) -> list[Number]:
+    """The coefficients e_k of det(I − z W) by Newton's identities, k e_k = −Σ_j t_j e_{k−j}."""
+    coefficients: list[Number] = [ONE]
+    for k in range(1, len(traces) + 1):
+        total: Number = ZERO
+        for j in range(1, k + 1):
+            total = total + traces[j - 1] * coefficients[k - j]
+        coefficients.append(total * fmpq(-1, k))
+    return coefficients

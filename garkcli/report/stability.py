@@ -1,0 +1,47 @@
+"""``gark stability`` as text, JSON or LaTeX."""
+
+from __future__ import annotations
+
+import json
+from collections.abc import Sequence
+
+from garkcli.exact.polynomial import Polynomial
+from garkcli.report.exactly import integral, polynomial_latex
+from garkcli.report.paint import Paint
+from garkcli.report.stability_data import StabilityReport, as_data
+from garkcli.report.stability_text import text_of
+
+
+def render(reports: Sequence[StabilityReport], format: str, paint: Paint) -> str:  # noqa: A002
+    """All reports in one format."""
+    if format == "json":
+        data = {"schema": "gark/stability/1", "files": [as_data(report) for report in reports]}
+        return json.dumps(data, indent=2, ensure_ascii=False) + "\n"
+    if format == "latex":
+        return "\n".join(_latex(report) for report in reports)
+    return "\n".join("\n".join(text_of(report, paint)) + "\n" for report in reports)
+
+
+def _latex(report: StabilityReport) -> str:
+    lines = []
+    if report.springs is not None:
+        trace = report.springs.trace
+        lines.append(
+            _latex_line(r"\operatorname{tr} M(x)", trace.numerator, trace.denominator, "x")
+        )
+    else:
+        for one in report.found.linear:
+            name = "R(z)" if one.name == "all" else rf"R_{{\mathrm{{{one.name}}}}}(z)"
+            lines.append(_latex_line(name, one.R.numerator, one.R.denominator, "z"))
+        oscillator = report.found.oscillator
+        if oscillator is not None:
+            trace, area = oscillator.trace, oscillator.determinant
+            name = r"\operatorname{tr} M(x)"
+            lines.append(_latex_line(name, trace.numerator, trace.denominator, "x"))
+            lines.append(_latex_line(r"\det M(x)", area.numerator, area.denominator, "x"))
+    return "\\begin{align*}\n" + " \\\\\n".join(lines) + "\n\\end{align*}\n"
+
+
+def _latex_line(name: str, numerator: Polynomial, denominator: Polynomial, variable: str) -> str:
+    over, under = (polynomial_latex(p, variable) for p in integral([numerator, denominator]))
+    return f"  {name} &= " + (over if under == "1" else rf"\frac{{{over}}}{{{under}}}")

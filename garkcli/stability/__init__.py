@@ -1,0 +1,1 @@
+"""What a method does to linear and contractive problems, decided exactly."""

@@ -1,0 +1,104 @@
+"""Algebraic stability: whether differences of solutions of contractive problems never grow.
+
+A Runge–Kutta method is algebraically stable, hence B-stable, when its weights are not negative and
+the matrix M = B A + Aᵀ B − b bᵀ is positive semidefinite (K. Burrage, J. C. Butcher 1979). For a
+GARK method M consists of the blocks B^l A^{l,m} + (A^{m,l})ᵀ B^m − b^l (b^m)ᵀ (A. Sandu,
+M. Günther 2015, section 4). Both conditions are about quadratic forms, which may be written in any
+basis: in the stage algebra of a family no node is needed.
+"""
+
+from __future__ import annotations
+
+from dataclasses import dataclass
+from itertools import chain
+
+from garkcli.exact.field import ZERO, Number
+from garkcli.exact.matrix import Matrix, Vector, outer, subtract, transpose
+from garkcli.exact.matrix import add as add_matrices
+from garkcli.exact.polynomial import sign
+from garkcli.tableau.tableau import Tableau
+
+
+@dataclass(frozen=True)
+class AlgebraicStability:
+    """What decides it.
+
+    Attributes:
+        weights_are_positive: whether no weight is negative.
+        form_is_positive: whether M is positive semidefinite.
+    """
+
+    weights_are_positive: bool
+    form_is_positive: bool
+
+    @property
+    def holds(self) -> bool:
+        """Whether the method is algebraically stable."""
+        return self.weights_are_positive and self.form_is_positive
+
+
+def algebraic_stability(tableau: Tableau) -> AlgebraicStability | None:
+    """Whether a method is algebraically stable; None where a block is missing.
+
+    A missing block is no block of zeros: the problem has no such coupling, and so no contractivity
+    of its own to be inherited.
+
+    >>> from garkcli.families.registry import diagonal_method
+    >>> from garkcli.tableau.forms import gark
+    >>> found = algebraic_stability(gark([diagonal_method("lobatto-iiia", 2)], {}))
+    >>> found.weights_are_positive, found.form_is_positive
+    (True, False)
+    """
+    colours = range(tableau.size)
+    if any(tableau.block(l, m) is None for l in colours for m in colours):
+        return None
+    weights = all(
+        is_positive_semidefinite(tableau.space(l).gram(tableau.colours[l].b)) for l in colours
+    )
+    blocks = [[_form(tableau, l, m) for m in colours] for l in colours]
+    return AlgebraicStability(weights, is_positive_semidefinite(_assembled(blocks)))
+
+
+def _form(tableau: Tableau, l: int, m: int) -> Matrix:
+    """B^l A^{l,m} + (A^{m,l})ᵀ B^m − b^l (b^m)ᵀ, in the bases of the two stage spaces."""
+    there, back = tableau.block(l, m), tableau.block(m, l)
+    assert there is not None
+    assert back is not None
+    weights, others = tableau.colours[l].b, tableau.colours[m].b
+    outgoing = tableau.space(l).form(weights, there)
+    incoming = transpose(tableau.space(m).form(others, back))
+    return subtract(add_matrices(outgoing, incoming), outer(weights, others))
+
+
+def _assembled(blocks: list[list[Matrix]]) -> Matrix:
+    """One matrix from rows of blocks."""
+    rows: list[Vector] = []
+    for row_of_blocks in blocks:
+        pieces = zip(*row_of_blocks, strict=True)
+        rows.extend(tuple(chain.from_iterable(parts)) for parts in pieces)
+    return tuple(rows)
+
+
+def is_positive_semidefinite(form: Matrix) -> bool:
+    """Whether a symmetric matrix has no negative eigenvalue, by exact symmetric elimination.
+
+    A zero on the diagonal must have a zero row; a positive pivot is eliminated.
+    """
+    rows: list[list[Number]] = [list(row) for row in form]
+    remaining = list(range(len(rows)))
+    while remaining:
+        signs = {i: sign(rows[i][i]) for i in remaining}
+        if -1 in signs.values():
+            return False
+        pivot = next((i for i in remaining if signs[i]), None)
+        if pivot is None:
+            return not any(rows[i][j] for i in remaining for j in remaining)
+        remaining.remove(pivot)
+        for i in remaining:
+            factor = rows[i][pivot] / rows[pivot][pivot]
+            if factor:
+                for j in remaining:
+                    rows[i][j] = rows[i][j] - factor * rows[pivot][j]
+        for i in remaining:
+            rows[i][pivot] = rows[pivot][i] = ZERO
+    return True

@@ -1,0 +1,156 @@
+"""The linear test equation ẏ = Σ_l λ_l y: the stability function and what follows from it.
+
+A method is A-stable when |R(z)| ≤ 1 for Re z ≤ 0. By the maximum principle that means two things
+(E. Hairer, G. Wanner, Solving Ordinary Differential Equations II, section IV.3): all poles lie in
+the right half plane, and |R(iy)| ≤ 1 on the imaginary axis, where with R = P/Q
+
+    E(y) = |Q(iy)|² − |P(iy)|² ≥ 0   for all real y.
+
+Both are decided from signs of polynomials at exact numbers; no grid is laid anywhere.
+"""
+
+from __future__ import annotations
+
+from collections.abc import Sequence
+from dataclasses import dataclass
+from itertools import pairwise
+
+from garkcli.exact.cells import Interval, Point, sign_of, where
+from garkcli.exact.field import ONE, ZERO, Number
+from garkcli.exact.polynomial import Polynomial, gcd, sign
+from garkcli.stability.step_function import stage_system, step_function
+from garkcli.tableau.tableau import Tableau
+
+
+@dataclass(frozen=True)
+class StabilityFunction:
+    """R = P/Q in lowest terms, with Q(0) = 1.
+
+    Attributes:
+        numerator: P.
+        denominator: Q.
+
+    >>> from garkcli.families.registry import diagonal_method
+    >>> from garkcli.tableau.forms import gark
+    >>> midpoint = gark([diagonal_method("gauss", 1)], {})
+    >>> stability_function(midpoint).numerator
+    Polynomial([1, 1/2])
+    """
+
+    numerator: Polynomial
+    denominator: Polynomial
+
+    def at_infinity(self) -> Number | None:
+        """R(∞); None where R is unbounded."""
+        if self.numerator.degree > self.denominator.degree:
+            return None
+        return self.numerator[self.denominator.degree] / self.denominator.leading
+
+
+def stability_function(
+    tableau: Tableau, shares: Sequence[Number] | None = None
+) -> StabilityFunction:
+    """R(z) for λ_l = w_l λ, z = hλ.
+
+    Args:
+        tableau: the method; every stage that is used sees every colour with w_l ≠ 0.
+        shares: the w_l, one a colour; None for 1 each, the problem with all parts equal.
+    """
+    weights = [ONE] * tableau.size if shares is None else list(shares)
+    step = step_function(stage_system(tableau, [((w,),) for w in weights]))
+    return StabilityFunction(step.numerators[0][0], step.denominator)
+
+
+def real_and_imaginary(p: Polynomial) -> tuple[Polynomial, Polynomial]:
+    """The polynomials u and v in y with p(iy) = u(y) + i v(y)."""
+    signs = (1, 1, -1, -1)  # of i⁰, i¹, i², i³
+    real = [a * signs[k % 4] if k % 2 == 0 else ZERO for k, a in enumerate(p.coefficients)]
+    imaginary = [a * signs[k % 4] if k % 2 == 1 else ZERO for k, a in enumerate(p.coefficients)]
+    return Polynomial(real), Polynomial(imaginary)
+
+
+def squared_modulus(p: Polynomial) -> Polynomial:
+    """|p(iy)|² as a polynomial in x = y²."""
+    u, v = real_and_imaginary(p)
+    in_y = u * u + v * v
+    return Polynomial(in_y.coefficients[::2])
+
+
+def e_polynomial(R: StabilityFunction) -> Polynomial:
+    """E as a polynomial in x = y²."""
+    return squared_modulus(R.denominator) - squared_modulus(R.numerator)
+
+
+def imaginary_set(R: StabilityFunction) -> tuple[Interval, ...]:
+    """The x = y² ≥ 0 with |R(iy)| ≤ 1, as intervals in x."""
+    E = e_polynomial(R)
+    Q = squared_modulus(R.denominator)
+
+    def is_bounded(x: Point) -> bool:
+        return sign_of(E, x) >= 0 and sign_of(Q, x) != 0
+
+    return where(is_bounded, [E, Q], start=ZERO)
+
+
+def real_set(R: StabilityFunction) -> tuple[Interval, ...]:
+    """The x ≥ 0 with |R(−x)| ≤ 1, as intervals in x."""
+    minus = Polynomial([0, -1])
+    P, Q = R.numerator.substituted(minus), R.denominator.substituted(minus)
+    difference = Q * Q - P * P
+
+    def is_bounded(x: Point) -> bool:
+        return sign_of(difference, x) >= 0 and sign_of(Q, x) != 0
+
+    return where(is_bounded, [difference, Q], start=ZERO)
+
+
+def is_i_stable(R: StabilityFunction) -> bool:
+    """Whether |R(iy)| ≤ 1 for all real y."""
+    found = imaginary_set(R)
+    return len(found) == 1 and found[0].end is None and found[0].has_start
+
+
+def poles_are_right(Q: Polynomial) -> bool:
+    """Whether all roots of Q have a positive real part, by the theorem of Hermite and Biehler.
+
+    With Q(iy) = u(y) + i v(y), the argument of Q(iy) turns by −π deg Q along the real line exactly
+    when all roots lie to the right. That turning is a Cauchy index, read off a Sturm chain of u, v.
+    A common root of u and v is a root of Q on the axis, or a pair ±: not all lie to the right then.
+    """
+    if Q.degree <= 0:
+        return True
+    u, v = real_and_imaginary(Q)
+    if gcd(u, v).degree > 0:
+        return False
+    # one of u, v has the degree of Q, the other less: the index is that of lower/higher
+    if u.degree > v.degree:
+        return _cauchy_index(u, v) == Q.degree
+    return _cauchy_index(v, -u) == Q.degree
+
+
+def _cauchy_index(f: Polynomial, g: Polynomial) -> int:
+    """The Cauchy index of g/f over the real line, by Sturm's chain f, g, −rem, …"""
+    chain = [f, g]
+    while chain[-1]:
+        chain.append(-(chain[-2] % chain[-1]))
+    chain.pop()
+    return _variations(chain, at_plus=False) - _variations(chain, at_plus=True)
+
+
+def _variations(chain: Sequence[Polynomial], at_plus: bool) -> int:
+    """Changes of sign along the chain at ∞ or −∞."""
+    signs = []
+    for p in chain:
+        leading = sign(p.leading)
+        signs.append(leading if at_plus or p.degree % 2 == 0 else -leading)
+    return sum(1 for a, b in pairwise(signs) if a != b)
+
+
+def is_a_stable(R: StabilityFunction) -> bool:
+    """Whether |R(z)| ≤ 1 for all z with Re z ≤ 0, decided exactly."""
+    return poles_are_right(R.denominator) and is_i_stable(R)
+
+
+def is_l_stable(R: StabilityFunction) -> bool:
+    """Whether R is A-stable and R(∞) = 0."""
+    return R.numerator.degree < R.denominator.degree and is_a_stable(R)

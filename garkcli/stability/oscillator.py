@@ -1,0 +1,221 @@
+"""The harmonic oscillator: the step matrix, its trace, and for which step sizes it is stable.
+
+In the variables (ωq, p) one step is y₁ = M(z) y₀ with z = hω and M rational in z. Its determinant
+and its trace are even in z, rational functions of x = z². The eigenvalues are bounded by 1 where
+
+    1 − det M ≥ 0,    1 + det M − tr M ≥ 0,    1 + det M + tr M ≥ 0;
+
+for det M = 1 the two last ones say 4D² − N² ≥ 0 with tr M = N/D. Where an eigenvalue ±1 is double,
+powers of M stay bounded only if M = ±I.
+"""
+
+from __future__ import annotations
+
+from collections.abc import Sequence
+from dataclasses import dataclass
+
+from flint import fmpq
+
+from garkcli.exact.cells import Interval, Point, sign_of, where
+from garkcli.exact.field import ONE, ZERO, Number
+from garkcli.exact.matrix import Matrix
+from garkcli.exact.polynomial import Polynomial, gcd
+from garkcli.problems.oscillator import Oscillator, check_structure
+from garkcli.stability.step_function import StepFunction, stage_system, step_function
+from garkcli.tableau.tableau import Tableau
+
+
+@dataclass(frozen=True)
+class Ratio:
+    """A rational function in lowest terms; the denominator is 1 at 0.
+
+    Attributes:
+        numerator: a polynomial.
+        denominator: a polynomial ≠ 0.
+    """
+
+    numerator: Polynomial
+    denominator: Polynomial
+
+    @classmethod
+    def of(cls, numerator: Polynomial, denominator: Polynomial) -> Ratio:
+        """The quotient in lowest terms."""
+        common = gcd(numerator, denominator)
+        over, under = numerator // common, denominator // common
+        unit = ONE / under[0] if under[0] else ONE / under.leading
+        return cls(over * unit, under * unit)
+
+    @property
+    def is_one(self) -> bool:
+        """Whether it is 1 everywhere."""
+        return self.numerator == self.denominator
+
+
+@dataclass(frozen=True)
+class PhaseError:
+    """The leading term of arccos(tr M / (2 √det M)) − z = constant · z^(order+1) + ….
+
+    Attributes:
+        order: the phase-lag order; None where the frequency is exact.
+        constant: its constant, 0 where the frequency is exact.
+    """
+
+    order: int | None
+    constant: Number
+
+
+@dataclass(frozen=True)
+class OscillatorStability:
+    """A method on the oscillator.
+
+    Attributes:
+        step: M(z), in the variables (ωq, p).
+        trace: tr M as a function of x = z².
+        determinant: det M as a function of x.
+        discriminant: 4D² − N² for tr M = N/D, in x; decides where det M = 1.
+        stable: the x ≥ 0 for which all powers of M are bounded, as intervals.
+        phase: the error of the frequency.
+    """
+
+    step: StepFunction
+    trace: Ratio
+    determinant: Ratio
+    discriminant: Polynomial
+    stable: tuple[Interval, ...]
+    phase: PhaseError
+
+    @property
+    def is_p_stable(self) -> bool:
+        """Whether no step size is unstable."""
+        return len(self.stable) == 1 and self.stable[0].has_start and self.stable[0].end is None
+
+    @property
+    def conserved(self) -> tuple[Polynomial, Polynomial, Polynomial] | None:
+        """The quadratic form α (ωq)² + β ωqp + γ p² that every step conserves, as (α, β, γ) in z.
+
+        For det M = 1 it is y ↦ det(y, My), up to a factor; None for other methods.
+        """
+        if not self.determinant.is_one:
+            return None
+        (a, b), (c, d) = self.step.numerators
+        form = (c, d - a, -b)
+        common = gcd(gcd(form[0], form[1]), form[2])
+        if not common:
+            return None  # M is a multiple of the identity: every form is conserved
+        reduced = [p // common for p in form]
+        unit = ONE / next(x for p in reduced for x in p.coefficients if x)
+        scaled = [p * unit for p in reduced]
+        return scaled[0], scaled[1], scaled[2]
+
+
+def oscillator_stability(tableau: Tableau, problem: Oscillator) -> OscillatorStability:
+    """What a method does to q̈ = −ω²q for every step size.
+
+    Args:
+        tableau: the method.
+        problem: the split of the oscillator; its frequency is of no consequence.
+
+    Raises:
+        UsageProblem: the split is not one that the structure of the tableau is for.
+    """
+    unit = Oscillator(ONE, problem.shares)
+    check_structure(tableau, unit)
+    return analysed(tableau, [unit.matrix(colour) for colour in tableau.colours])
+
+
+def analysed(tableau: Tableau, fields: Sequence[Matrix]) -> OscillatorStability:
+    """The same for given fields y ↦ L^m y with L^m = (0, k_m; −v_m, 0) in (ωq, p)."""
+    step = step_function(stage_system(tableau, fields))
+    (a, b), (c, d) = step.numerators
+    trace = Ratio.of(_even(a + d), _even(step.denominator))
+    determinant = Ratio.of(_even(a * d - b * c), _even(step.denominator * step.denominator))
+    N, D = trace.numerator, trace.denominator
+    return OscillatorStability(
+        step=step,
+        trace=trace,
+        determinant=determinant,
+        discriminant=D * D * 4 - N * N,
+        stable=stable_set(trace, determinant, _off_diagonal(step)),
+        phase=phase_error(trace, determinant),
+    )
+
+
+def _even(p: Polynomial) -> Polynomial:
+    """A polynomial in z with even powers only, in x = z².
+
+    The fields exchange ωq and p, so that reflecting ωq is the same as taking −z: traces and
+    determinants do not change.
+    """
+    assert not any(p.coefficients[1::2])
+    return Polynomial(p.coefficients[::2])
+
+
+def stable_set(
+    trace: Ratio, determinant: Ratio, off_diagonal: Sequence[Polynomial]
+) -> tuple[Interval, ...]:
+    """The x ≥ 0 for which all powers of M are bounded.
+
+    Args:
+        trace: tr M.
+        determinant: det M.
+        off_diagonal: two polynomials with the roots of the entries off the diagonal. With a double
+            eigenvalue ±1 and det M = 1 the diagonal of M ∓ I is (e, −e) with e² = −bc: M = ±I where
+            both are zero.
+    """
+    N, D = trace.numerator, trace.denominator
+    P, Q = determinant.numerator, determinant.denominator
+    # each condition is multiplied by D² Q² > 0
+    scale = D * Q
+    area = (Q - P) * D * scale
+    right = ((Q + P) * D - N * Q) * scale
+    left = ((Q + P) * D + N * Q) * scale
+    defect = gcd(*off_diagonal)
+
+    def is_stable(x: Point) -> bool:
+        if sign_of(scale, x) == 0:
+            return False
+        signs = [sign_of(p, x) for p in (area, right, left)]
+        if min(signs) < 0:
+            return False
+        is_double = signs[0] == 0 and 0 in signs[1:]
+        return not is_double or sign_of(defect, x) == 0
+
+    return where(is_stable, [scale, area, right, left, defect], start=ZERO)
+
+
+def _off_diagonal(step: StepFunction) -> tuple[Polynomial, Polynomial]:
+    """The entries off the diagonal, odd in z, times z as polynomials in x."""
+    (_, b), (c, _) = step.numerators
+    return Polynomial([ZERO, *b.coefficients[1::2]]), Polynomial([ZERO, *c.coefficients[1::2]])
+
+
+def phase_error(trace: Ratio, determinant: Ratio) -> PhaseError:
+    """The leading error of the frequency, by power series in x.
+
+    With cos θ = tr M / (2 √det M), cos² θ − cos² z = −2 sin z cos z (θ − z) + …, and the left-hand side
+    is a series with exact coefficients: no root is taken.
+    """
+    N, D = trace.numerator, trace.denominator
+    P, Q = determinant.numerator, determinant.denominator
+    over, under = N * N * Q, D * D * P * 4
+    terms = 16
+    limit = 4 * (over.degree + under.degree) + 40
+    while terms <= limit:
+        difference = (over - under * _cosine_squared(terms)).coefficients[:terms]
+        leading = next((k for k, a in enumerate(difference) if a), None)
+        if leading is not None:
+            # −2 z · c z^(order+1) = leading term; under is 4 at x = 0
+            constant = difference[leading] / (under[0] * -2)
+            return PhaseError(2 * leading - 2, constant)
+        terms *= 2
+    return PhaseError(None, ZERO)
+
+
+def _cosine_squared(terms: int) -> Polynomial:
+    """cos² z = (1 + cos 2z)/2 as a series in x = z²."""
+    coefficients = [ONE]
+    term = fmpq(1)
+    for k in range(1, terms):
+        term = term * -4 / ((2 * k - 1) * (2 * k))
+        coefficients.append(term / 2)
+    return Polynomial(coefficients)

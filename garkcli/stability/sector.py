@@ -1,0 +1,125 @@
+"""A(α)-stability: the largest sector in which |R| ≤ 1, with its angle as an algebraic number.
+
+On the ray z = −r e^{iφ} the difference E = |Q|² − |P|² is a polynomial in r and c = cos φ, since
+
+    |p(−r e^{iφ})|² = Σ_{j,k} a_j a_k (−r)^{j+k} cos (j − k)φ,    cos nφ = T_n(c).
+
+E/r is positive at r = 0 for φ < π/2. As φ grows, it can become negative somewhere only where it has
+a double root, or where its leading coefficient is zero: at roots of a resultant in c. Between them
+one angle decides for all. The sector is closed: on its edge |R| ≤ 1 by continuity.
+"""
+
+from __future__ import annotations
+
+from dataclasses import dataclass
+
+from flint import fmpq
+
+from garkcli.exact.cells import between
+from garkcli.exact.field import ONE, ZERO, Number
+from garkcli.exact.polynomial import Polynomial, RealRoot, interpolated, real_roots, resultant, sign
+from garkcli.stability.linear import StabilityFunction, is_a_stable
+
+MOST_POINTS = 400
+"""Values of a resultant that are computed at most: enough for ten stages."""
+
+
+@dataclass(frozen=True)
+class Sector:
+    """The largest sector |arg(−z)| ≤ α in which |R| ≤ 1.
+
+    Attributes:
+        cosine: cos α; None where there is no sector, not even the negative real axis.
+    """
+
+    cosine: RealRoot | None
+
+
+def largest_sector(R: StabilityFunction) -> Sector | None:
+    """The angle α of A(α)-stability; None where the resultant would be too large.
+
+    A(0) is the negative real axis alone.
+    """
+    if is_a_stable(R):
+        return Sector(RealRoot.rational(ZERO))
+    if not _is_bounded_at(R, ONE):
+        return Sector(None)
+    critical = _critical_cosines(R)
+    if critical is None:
+        return None
+    edge = RealRoot.rational(ONE)
+    for root in reversed([RealRoot.rational(ZERO), *critical]):
+        if not _is_bounded_at(R, between(root, edge)):
+            return Sector(edge)
+        edge = root
+    return Sector(edge)
+
+
+def _critical_cosines(R: StabilityFunction) -> list[RealRoot] | None:
+    """The cosines in (0, 1) at which |R| ≤ 1 on the ray may begin or end to hold, ascending."""
+    stages = max(R.numerator.degree, R.denominator.degree)
+    highest = 2 * stages - 1
+    count = (2 * highest - 1) * stages + 1
+    if count > MOST_POINTS:
+        return None
+    points = [fmpq(k, count + 1) for k in range(1, count + 1)]
+    rays = [_on_ray(R, c) for c in points]
+    degree = max(ray.degree for ray in rays)
+    leading = interpolated(points, [ray[degree] for ray in rays])
+    double = interpolated(points, [_resultant_with_derivative(ray, degree) for ray in rays])
+    if not double:
+        return None  # a double root on every ray: nothing is read off the resultant
+    zero, one = RealRoot.rational(ZERO), RealRoot.rational(ONE)
+    found: set[RealRoot] = set()
+    for p in (leading, double):
+        found |= {root for root, _ in real_roots(p.square_free()) if zero < root < one}
+    return sorted(found)
+
+
+def _resultant_with_derivative(p: Polynomial, degree: int) -> Number:
+    """Res(p, p′) for p taken as of ``degree``; 0 where its leading coefficient is zero.
+
+    That keeps the values those of one polynomial in c, of which the leading coefficient is a factor.
+    """
+    if p.degree < degree:
+        return ZERO
+    return resultant(p, p.derivative())
+
+
+def _on_ray(R: StabilityFunction, c: Number) -> Polynomial:
+    """E/r on the ray with cos φ = c."""
+    E = _squared_on_ray(R.denominator, c) - _squared_on_ray(R.numerator, c)
+    return Polynomial(E.coefficients[1:])
+
+
+def _squared_on_ray(p: Polynomial, c: Number) -> Polynomial:
+    """|p(−r e^{iφ})|² as a polynomial in r."""
+    cosines = _chebyshev(c, p.degree)
+    squared: list[Number] = [ZERO] * (2 * p.degree + 1)
+    for j, a in enumerate(p.coefficients):
+        for k, b in enumerate(p.coefficients):
+            term = a * b * cosines[abs(j - k)]
+            squared[j + k] = squared[j + k] + (term if (j + k) % 2 == 0 else -term)
+    return Polynomial(squared)
+
+
+def _chebyshev(c: Number, most: int) -> list[Number]:
+    """T_0(c), T_1(c), …: the cosines of the multiples of φ."""
+    cosines: list[Number] = [ONE, c]
+    for _ in range(most):
+        cosines.append(2 * c * cosines[-1] - cosines[-2])
+    return cosines
+
+
+def _is_bounded_at(R: StabilityFunction, c: fmpq) -> bool:
+    """Whether |R| ≤ 1 on the whole ray with cos φ = c, decided exactly."""
+    ray = _on_ray(R, c)
+    if not ray:
+        return True
+    if sign(ray.leading) < 0:
+        return False
+    poles = _squared_on_ray(R.denominator, c)
+    origin = RealRoot.rational(ZERO)
+    if any(root > origin for root, _ in real_roots(poles)):
+        return False
+    return all(power % 2 == 0 for root, power in real_roots(ray) if root > origin)

@@ -1,0 +1,138 @@
+"""The SSP coefficient: the radius of absolute monotonicity of a tableau.
+
+With K = (A 0; bᵀ 0), it is the largest r for which I + rK is regular and
+
+    (I + rK)⁻¹ K ≥ 0,    (I + rK)⁻¹ 𝟙 ≥ 0
+
+entry by entry (J. F. B. M. Kraaijevanger 1991). In the additive case rK is r₁K₁ + r₂K₂ + … and the
+first condition holds for each K_l (I. Higueras 2006). All entries are rational in r with the one
+denominator det(I + rA), which is 1 at r = 0; so each condition fails first at a root of its
+numerator, or at once.
+"""
+
+from __future__ import annotations
+
+from collections.abc import Iterator, Sequence
+from dataclasses import dataclass
+
+from garkcli.exact.characteristic import reciprocal_characteristic
+from garkcli.exact.field import ONE, ZERO, Number
+from garkcli.exact.matrix import Matrix, apply
+from garkcli.exact.polynomial import Polynomial, RealRoot, real_roots, sign
+from garkcli.tableau.pointwise import in_points
+from garkcli.tableau.tableau import Tableau
+
+
+@dataclass(frozen=True)
+class SspCoefficient:
+    """The radius of absolute monotonicity.
+
+    Attributes:
+        value: the radius; None where it is infinite.
+    """
+
+    value: RealRoot | None
+
+
+def ssp_coefficient(
+    tableau: Tableau, ratios: Sequence[Number] | None = None
+) -> SspCoefficient | None:
+    """The SSP coefficient; None where the stages have no simple nodes or a block is missing.
+
+    Args:
+        tableau: the method.
+        ratios: r_l / r for each colour, for the additive radius in one direction; None for 1 each.
+
+    >>> from garkcli.families.registry import diagonal_method
+    >>> from garkcli.tableau.forms import gark
+    >>> found = ssp_coefficient(gark([diagonal_method("ssp2", 2)], {}))
+    >>> found.value.exact
+    1
+    """
+    exact = in_points(tableau)
+    if exact is None:
+        return None
+    colours = range(exact.size)
+    if any(exact.block(l, m) is None for l in colours for m in colours):
+        return None
+    directions = [ONE] * exact.size if ratios is None else list(ratios)
+    whole, parts = _stacked(exact, directions)
+    smallest: RealRoot | None = None
+    for condition in _conditions(whole, parts):
+        failing = _first_failure(condition)
+        if failing is not None and (smallest is None or failing < smallest):
+            smallest = failing
+    return SspCoefficient(smallest)
+
+
+def _stacked(tableau: Tableau, ratios: Sequence[Number]) -> tuple[Matrix, list[Matrix]]:
+    """Σ ratio_l K_l and the K_l, on all stages of all spaces and the new value after them.
+
+    K_l has the columns of colour l only; stages that colours share are one row.
+    """
+    starts = []
+    size = 0
+    for space in tableau.spaces:
+        starts.append(size)
+        size += space.stages
+    parts = []
+    for m, colour in enumerate(tableau.colours):
+        K: list[list[Number]] = [[ZERO] * (size + 1) for _ in range(size + 1)]
+        column = starts[colour.space]
+        for k, start in enumerate(starts):
+            for i, row in enumerate(tableau.blocks.get((k, m), ()), start=start):
+                K[i][column : column + len(row)] = row
+        K[size][column : column + len(colour.b)] = colour.b
+        parts.append(tuple(tuple(row) for row in K))
+    whole: list[list[Number]] = [[ZERO] * (size + 1) for _ in range(size + 1)]
+    for ratio, part in zip(ratios, parts, strict=True):
+        for i, row in enumerate(part):
+            for j, x in enumerate(row):
+                whole[i][j] = whole[i][j] + ratio * x
+    return tuple(tuple(row) for row in whole), parts
+
+
+def _conditions(whole: Matrix, parts: Sequence[Matrix]) -> Iterator[Polynomial]:
+    """Polynomials in r that must not be negative from 0 to the radius.
+
+    (I + rK)⁻¹ = Σ (−r)^k K^k. With the denominator d(r) = det(I + rK), d · (I + rK)⁻¹ is a polynomial of
+    degree at most n: finitely many terms of the product of the series determine it.
+    """
+    n = len(whole)
+    minus_whole = tuple(tuple(-x for x in row) for row in whole)
+    denominator = reciprocal_characteristic(minus_whole)
+    yield denominator
+    for part in parts:
+        for column in range(n):
+            vector = tuple(row[column] for row in part)
+            if any(vector):
+                yield from _entries(denominator, minus_whole, vector, n)
+    yield from _entries(denominator, minus_whole, (ONE,) * n, n)
+
+
+def _entries(
+    denominator: Polynomial, minus_whole: Matrix, vector: Sequence[Number], n: int
+) -> list[Polynomial]:
+    """The numerators of (I + rK)⁻¹ v."""
+    series: list[list[Number]] = [[] for _ in range(n)]
+    state = tuple(vector)
+    for _ in range(n + 1):
+        for i, x in enumerate(state):
+            series[i].append(x)
+        state = apply(minus_whole, state)
+    products = [denominator * Polynomial(terms) for terms in series]
+    return [Polynomial(product.coefficients[: n + 1]) for product in products]
+
+
+def _first_failure(p: Polynomial) -> RealRoot | None:
+    """The r ≥ 0 from which p is negative: 0, a root where it changes sign, or None for never."""
+    if not p:
+        return None
+    lowest = next(a for a in p.coefficients if a)
+    origin = RealRoot.rational(ZERO)
+    if sign(lowest) < 0:
+        return origin
+    for root, power in real_roots(p):
+        if root > origin and power % 2 == 1:
+            return root
+    return None

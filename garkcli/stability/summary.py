@@ -1,0 +1,173 @@
+"""Everything about the stability of one method, as one value: what ``gark stability`` reports."""
+
+from __future__ import annotations
+
+from collections.abc import Sequence
+from dataclasses import dataclass
+
+from flint import fmpq
+
+from garkcli.errors import UsageProblem
+from garkcli.exact.cells import Interval
+from garkcli.exact.field import ONE, ZERO, Number
+from garkcli.exact.polynomial import Polynomial
+from garkcli.problems.oscillator import Oscillator, terms_of
+from garkcli.stability.algebraic import AlgebraicStability, algebraic_stability
+from garkcli.stability.linear import (
+    StabilityFunction,
+    e_polynomial,
+    imaginary_set,
+    is_a_stable,
+    is_l_stable,
+    real_set,
+    stability_function,
+)
+from garkcli.stability.oscillator import OscillatorStability, oscillator_stability
+from garkcli.stability.sector import Sector, largest_sector
+from garkcli.stability.ssp import SspCoefficient, ssp_coefficient
+from garkcli.stability.within import stability_within
+from garkcli.tableau.tableau import Tableau
+
+
+@dataclass(frozen=True)
+class LinearStability:
+    """What a stability function R(z) tells; None where rounded coefficients leave it open.
+
+    Attributes:
+        name: which colours are driven: ``all``, or the name of one with the others at 0.
+        R: the stability function.
+        e_polynomial: |Q(iy)|² − |P(iy)|² as a polynomial in y².
+        a_stable: |R(z)| ≤ 1 in the left half plane.
+        l_stable: a_stable with R(∞) = 0.
+        sector: the sector of A(α)-stability; None where it is not decided.
+        real: the x ≥ 0 with |R(−x)| ≤ 1.
+        imaginary: the x = y² ≥ 0 with |R(iy)| ≤ 1.
+        ssp: the SSP coefficient in the direction of these colours; None where it is not decided.
+    """
+
+    name: str
+    R: StabilityFunction
+    e_polynomial: Polynomial
+    a_stable: bool | None
+    l_stable: bool | None
+    sector: Sector | None
+    real: tuple[Interval, ...] | None
+    imaginary: tuple[Interval, ...] | None
+    ssp: SspCoefficient | None
+
+
+@dataclass(frozen=True)
+class Stability:
+    """The stability of one method.
+
+    Attributes:
+        tableau: the method.
+        linear: R for all colours together, then for each colour alone where there are several;
+            empty where colours drive positions or momenta only, or do not see one another.
+        oscillator: the method on the harmonic oscillator; None where it has no split for it.
+        algebraic: algebraic stability; None where it has no meaning.
+        tolerance: the rounding within which it holds; None where it holds exactly.
+    """
+
+    tableau: Tableau
+    linear: tuple[LinearStability, ...]
+    oscillator: OscillatorStability | None
+    algebraic: AlgebraicStability | None
+    tolerance: fmpq | None = None
+
+    @property
+    def kind(self) -> str:
+        """``linear`` where the linear test equation has a meaning, else ``oscillator``."""
+        return "linear" if self.linear else "oscillator"
+
+
+def stability(tableau: Tableau, problem: Oscillator | None = None) -> Stability:
+    """Decide everything that ``gark stability`` reports.
+
+    Args:
+        tableau: the method, with coefficients that are meant exactly.
+        problem: the split of the oscillator; None for the usual one.
+
+    >>> from garkcli.families.registry import diagonal_method
+    >>> from garkcli.tableau.forms import gark
+    >>> stability(gark([diagonal_method("radau-iia", 2)], {})).linear[0].l_stable
+    True
+    """
+    return Stability(
+        tableau=tableau,
+        linear=_linear(tableau),
+        oscillator=_oscillator(tableau, problem),
+        algebraic=algebraic_stability(tableau),
+    )
+
+
+def stability_of_rounded(tableau: Tableau, tolerance: fmpq) -> Stability:
+    """What holds for all methods within a tolerance: A- and L-stability, where they are decided.
+
+    Args:
+        tableau: the method.
+        tolerance: the rounding of its coefficients.
+    """
+    from garkcli.order.rounded import find_order_within
+
+    order = find_order_within(tableau, tolerance).order
+    found = []
+    for name, shares in _directions(tableau):
+        decided = stability_within(tableau, shares, tolerance, order)
+        R = stability_function(tableau, shares)
+        one = LinearStability(
+            name=name,
+            R=R,
+            e_polynomial=e_polynomial(R),
+            a_stable=decided.a_stable,
+            l_stable=decided.l_stable,
+            sector=None,
+            real=None,
+            imaginary=None,
+            ssp=None,
+        )
+        found.append(one)
+    return Stability(tableau, tuple(found), None, None, tolerance)
+
+
+def _linear(tableau: Tableau) -> tuple[LinearStability, ...]:
+    return tuple(linear_stability(tableau, name, shares) for name, shares in _directions(tableau))
+
+
+def _directions(tableau: Tableau) -> list[tuple[str, list[Number]]]:
+    """The directions of (λ_1, …, λ_N) that are looked at, with their names."""
+    colours = range(tableau.size)
+    is_complete = all(tableau.block(l, m) is not None for l in colours for m in colours)
+    if tableau.is_partitioned or not is_complete:
+        return []
+    found: list[tuple[str, list[Number]]] = [("all", [ONE] * tableau.size)]
+    if tableau.size > 1:
+        for l in colours:
+            shares: list[Number] = [ONE if m == l else ZERO for m in colours]
+            found.append((tableau.colours[l].name, shares))
+    return found
+
+
+def linear_stability(tableau: Tableau, name: str, shares: Sequence[Number]) -> LinearStability:
+    """What the stability function in one direction of (λ_1, …, λ_N) tells."""
+    R = stability_function(tableau, shares)
+    return LinearStability(
+        name=name,
+        R=R,
+        e_polynomial=e_polynomial(R),
+        a_stable=is_a_stable(R),
+        l_stable=is_l_stable(R),
+        sector=largest_sector(R),
+        real=real_set(R),
+        imaginary=imaginary_set(R),
+        ssp=ssp_coefficient(tableau, shares),
+    )
+
+
+def _oscillator(tableau: Tableau, problem: Oscillator | None) -> OscillatorStability | None:
+    if problem is not None:
+        return oscillator_stability(tableau, problem)
+    try:
+        return oscillator_stability(tableau, Oscillator.default(terms_of(tableau), fmpq(1)))
+    except UsageProblem:
+        return None

@@ -1,0 +1,155 @@
+"""An oscillator with a slow and a fast spring, driven by different colours.
+
+q̈ = −(ω_s² + ω_f²) q. With a = (hω_s)² given and x = (hω_f)² the step matrix is rational in x; where the
+two colours do not fit together it has resonances, intervals of x in which |tr M| > 2. A determinant
+is a polynomial in x of degree at most the number of unknown stage values, so it is interpolated.
+"""
+
+from __future__ import annotations
+
+from collections.abc import Sequence
+from dataclasses import dataclass
+
+from flint import fmpq
+
+from garkcli.errors import UsageProblem
+from garkcli.exact.cells import Interval
+from garkcli.exact.characteristic import reciprocal_characteristic
+from garkcli.exact.field import ONE, ZERO, Number
+from garkcli.exact.matrix import Matrix
+from garkcli.exact.polynomial import Polynomial, interpolated
+from garkcli.problems.oscillator import Oscillator, check_structure, terms_of
+from garkcli.stability.oscillator import Ratio, stable_set
+from garkcli.stability.step_function import StageSystem, stage_system
+from garkcli.tableau.tableau import Colour, Tableau
+
+
+@dataclass(frozen=True)
+class SplitSprings:
+    """Which term has which spring.
+
+    Attributes:
+        kinetic: the share of the kinetic energy of each term.
+        slow: the share of the slow spring.
+        fast: the share of the fast spring.
+    """
+
+    kinetic: tuple[fmpq, ...]
+    slow: tuple[fmpq, ...]
+    fast: tuple[fmpq, ...]
+
+    def matrix(self, colour: Colour, a: Number, x: Number) -> Matrix:
+        """L with (q, p)˙ = L (q, p), h = 1, shape (2, 2)."""
+        l = colour.term
+        velocity = ZERO if colour.part == "p" else self.kinetic[l]
+        force: Number = ZERO if colour.part == "q" else self.slow[l] * a + self.fast[l] * x
+        return ((ZERO, velocity), (-force, ZERO))
+
+
+@dataclass(frozen=True)
+class TwoFrequencies:
+    """A method on the two springs, for one slow frequency.
+
+    Attributes:
+        slow: a = (hω_s)².
+        trace: tr M as a function of x = (hω_f)².
+        determinant: det M as a function of x.
+        discriminant: 4D² − N² with tr M = N/D.
+        stable: the x ≥ 0 with all powers of M bounded.
+    """
+
+    slow: fmpq
+    trace: Ratio
+    determinant: Ratio
+    discriminant: Polynomial
+    stable: tuple[Interval, ...]
+
+
+def springs(tableau: Tableau, fast: int) -> SplitSprings:
+    """The fast spring to one term, the slow one to the others that may have potential energy.
+
+    Args:
+        tableau: the method.
+        fast: the term of the fast spring, counted from 0.
+
+    Raises:
+        UsageProblem: the method has one term only, or none is left for the slow spring.
+    """
+    terms = terms_of(tableau)
+    if terms < 2:
+        raise UsageProblem(
+            "a method of one term has no two colours for two springs",
+            "take a method with at least two terms",
+        )
+    has_force = [any(x.term == l and x.part in "yp" for x in tableau.colours) for l in range(terms)]
+    others = [l for l in range(terms) if l != fast and has_force[l]]
+    later = [l for l in others if l > 0]
+    slow_terms = later or others
+    if not has_force[fast] or not slow_terms:
+        raise UsageProblem(
+            f"term {fast + 1} leaves no term for the other spring",
+            "give another colour with --fast",
+        )
+    share = fmpq(1, len(slow_terms))
+    return SplitSprings(
+        kinetic=tuple(ONE if l == 0 else ZERO for l in range(terms)),
+        slow=tuple(share if l in slow_terms else ZERO for l in range(terms)),
+        fast=tuple(ONE if l == fast else ZERO for l in range(terms)),
+    )
+
+
+def two_frequencies(tableau: Tableau, split: SplitSprings, slow: fmpq) -> TwoFrequencies:
+    """The exact intervals of the fast frequency for one slow one.
+
+    Raises:
+        UsageProblem: the split is not one that the structure of the tableau is for.
+    """
+    check_structure(tableau, _like_an_oscillator(split))
+    count = len(_system(tableau, split, slow, ZERO).W) + 1
+    points = [fmpq(k) for k in range(count)]
+    rows = [_determinants(_system(tableau, split, slow, x)) for x in points]
+    D, a, b, c, d = (interpolated(points, column) for column in zip(*rows, strict=True))
+    trace = Ratio.of(a + d, D)
+    determinant = Ratio.of(a * d - b * c, D * D)
+    N = trace.numerator
+    return TwoFrequencies(
+        slow=slow,
+        trace=trace,
+        determinant=determinant,
+        discriminant=trace.denominator * trace.denominator * 4 - N * N,
+        stable=stable_set(trace, determinant, (b, c)),
+    )
+
+
+def _like_an_oscillator(split: SplitSprings) -> Oscillator:
+    """A split with the same terms in play, for the check of the structure."""
+    force = tuple((s + f) / 2 for s, f in zip(split.slow, split.fast, strict=True))
+    return Oscillator(ONE, tuple(zip(split.kinetic, force, strict=True)))
+
+
+def _system(tableau: Tableau, split: SplitSprings, slow: fmpq, x: fmpq) -> StageSystem:
+    # both springs are kept in the structure of the system, whatever their strengths
+    fields = [split.matrix(colour, slow, x) for colour in tableau.colours]
+    kept = [split.matrix(colour, ONE, ONE) for colour in tableau.colours]
+    return stage_system(tableau, fields, kept)
+
+
+def _determinants(system: StageSystem) -> Sequence[Number]:
+    """det(I − W) and, times it, the entries of M = I + B (I − W)⁻¹ E."""
+    D = _determinant(system.W)
+    entries: list[Number] = []
+    for i in range(2):
+        for j in range(2):
+            column = tuple(row[j] for row in system.E)
+            changed = tuple(
+                tuple(w - e * b for w, b in zip(row, system.B[i], strict=True))
+                for row, e in zip(system.W, column, strict=True)
+            )
+            unit = ONE if i == j else ZERO
+            entries.append(_determinant(changed) - D + unit * D)
+    return (D, *entries)
+
+
+def _determinant(W: Matrix) -> Number:
+    """det(I − W)."""
+    return reciprocal_characteristic(W)(ONE)

@@ -1,0 +1,206 @@
+"""Stability of methods with rounded coefficients: what is true of all methods within a tolerance.
+
+Every coefficient that is not zero in the file is a ball of the radius of the tolerance. What follows
+for all numbers in the balls is decided; the rest is not, and is never guessed. One thing more is
+used: the order p that the method has within its tolerance is taken for its order, so that
+|R(iy)|² = 1 + O(y^(p+1)) and the first coefficients of the E-polynomial are zero and not noise.
+"""
+
+from __future__ import annotations
+
+from collections.abc import Sequence
+from dataclasses import dataclass
+
+from flint import arb, arb_mat, arb_poly, ctx, fmpq
+
+from garkcli.exact.display import to_ball
+from garkcli.exact.field import Number
+from garkcli.graph import components
+from garkcli.stability.step_function import StageSystem, stage_system
+from garkcli.tableau.tableau import Tableau
+
+BITS = 256
+"""Precision of the balls; far below any tolerance that files have."""
+MOST_PIECES = 4000
+"""Pieces of an interval on which a sign is tried before it is left undecided."""
+
+
+@dataclass(frozen=True)
+class StabilityWithin:
+    """What holds for all methods within a tolerance; None where that is not decided.
+
+    Attributes:
+        a_stable: A-stability.
+        l_stable: A-stability with R(∞) = 0.
+    """
+
+    a_stable: bool | None
+    l_stable: bool | None
+
+
+def stability_within(
+    tableau: Tableau, shares: Sequence[Number], tolerance: fmpq, order: int
+) -> StabilityWithin:
+    """A- and L-stability of a method with rounded coefficients.
+
+    Args:
+        tableau: the method, one coordinate a stage.
+        shares: w_l with λ_l = w_l λ, one a colour.
+        tolerance: the largest error of a coefficient that is not zero.
+        order: the order that the method has within the tolerance.
+    """
+    before = ctx.prec
+    try:
+        ctx.prec = BITS
+        system = stage_system(tableau, [((w,),) for w in shares])
+        P, Q = _fraction(system, tolerance)
+        stiff = is_stiffly_accurate(system)
+        bounded = _is_bounded(P, Q, order, stiff)
+        right = _poles_are_right(Q)
+        a_stable = _both(bounded, right)
+        return StabilityWithin(a_stable, _both(a_stable, _vanishes_at_infinity(P, Q, stiff)))
+    finally:
+        ctx.prec = before
+
+
+def _both(first: bool | None, second: bool | None) -> bool | None:
+    """Whether both hold, where one that fails decides."""
+    if first is False or second is False:
+        return False
+    return True if first and second else None
+
+
+def is_stiffly_accurate(system: StageSystem) -> bool:
+    """Whether a row of W is B: the last stage is the step, so that R(∞) = 0 for regular W."""
+    return any(row == system.B[0] for row in system.W)
+
+
+def _fraction(system: StageSystem, tolerance: fmpq) -> tuple[list[arb], list[arb]]:
+    """The coefficients of P and Q as balls."""
+    W = [[_widened(x, tolerance) for x in row] for row in system.W]
+    b = [_widened(x, tolerance) for x in system.B[0]]
+    n = len(W)
+    Q = arb_poly([1])
+    for component in components({i: [j for j in range(n) if system.W[i][j]] for i in range(n)}):
+        block = arb_mat([[W[i][j] for j in component] for i in component])
+        Q = Q * arb_poly(_characteristic(block)[::-1])
+    series = [arb(1)]
+    state = arb_mat([[to_ball(x)] for (x,) in system.E])
+    matrix, weights = arb_mat(W), arb_mat([b])
+    for _ in range(n):
+        series.append((weights * state)[0, 0])
+        state = matrix * state
+    product = Q * arb_poly(series)
+    degree = _numerator_degree(system)
+    return [product[k] for k in range(degree + 1)], [Q[k] for k in range(len(Q))]
+
+
+def _characteristic(block: arb_mat) -> list[arb]:
+    """The coefficients of the characteristic polynomial, from the lowest."""
+    if block.nrows() == 1:
+        return [-block[0, 0], arb(1)]
+    return list(block.charpoly().coeffs())
+
+
+def _numerator_degree(system: StageSystem) -> int:
+    return len(system.W)
+
+
+def _widened(x: Number, tolerance: fmpq) -> arb:
+    """A coefficient with its rounding; zeros are structure."""
+    ball = to_ball(x, BITS // 4)
+    return ball if not x else ball + arb(0, arb(tolerance).upper())
+
+
+def _is_bounded(P: list[arb], Q: list[arb], order: int, stiff: bool) -> bool | None:
+    """Whether |R(iy)| ≤ 1 for all real y."""
+    E = _difference(_squared(Q), _squared(P))
+    for k in range(min(order // 2 + 1, len(E))):
+        if E[k].contains(0):
+            E[k] = arb(0)
+    while E and E[-1].is_zero():
+        E.pop()
+    first = next((k for k, a in enumerate(E) if not a.is_zero()), None)
+    if first is None:
+        return None
+    rest = E[first:]
+    if rest[0] < 0 or rest[-1] < 0:  # near 0 or far away
+        return False
+    if stiff and rest[-1].contains(0):
+        return None
+    return _is_positive(rest)
+
+
+def _squared(p: list[arb]) -> list[arb]:
+    """|p(iy)|² as a polynomial in y²."""
+    real = arb_poly([a * (-1) ** k for k, a in enumerate(p[0::2])])
+    imaginary = arb_poly([a * (-1) ** k for k, a in enumerate(p[1::2])])
+    total = real * real + arb_poly([0, 1]) * imaginary * imaginary
+    return [total[k] for k in range(len(total))]
+
+
+def _difference(a: list[arb], b: list[arb]) -> list[arb]:
+    n = max(len(a), len(b))
+    zero = arb(0)
+    return [(a[k] if k < len(a) else zero) - (b[k] if k < len(b) else zero) for k in range(n)]
+
+
+def _is_positive(coefficients: list[arb]) -> bool | None:
+    """Whether a polynomial is positive for all x > 0: on (0, 1], and reversed on (0, 1]."""
+    near = _sign_on_unit_interval(coefficients)
+    far = _sign_on_unit_interval(coefficients[::-1])
+    return _both(near, far)
+
+
+def _sign_on_unit_interval(coefficients: list[arb]) -> bool | None:
+    """Whether it is positive on [0, 1]: True, False where a value is negative, None undecided.
+
+    Pieces are halved until the enclosure of the polynomial on each has a sign.
+    """
+    p = arb_poly(coefficients)
+    pieces = [(fmpq(0), fmpq(1))]
+    tried = 0
+    while pieces:
+        low, high = pieces.pop()
+        tried += 1
+        if tried > MOST_PIECES:
+            return None
+        value = p(arb((low + high) / 2, (high - low) / 2))
+        if value > 0:
+            continue
+        middle = (low + high) / 2
+        if p(arb(middle)) < 0:
+            return False
+        pieces += [(low, middle), (middle, high)]
+    return True
+
+
+def _poles_are_right(Q: list[arb]) -> bool | None:
+    """Whether all roots of Q have positive real parts, by Routh's scheme of Q(−z)."""
+    mirrored = [a * (-1) ** k for k, a in enumerate(Q)][::-1]
+    while mirrored and mirrored[0].is_zero():
+        mirrored.pop(0)
+    upper, lower = mirrored[0::2], mirrored[1::2]
+    signs = [upper[0]]
+    while lower:
+        if lower[0].contains(0):
+            return None
+        signs.append(lower[0])
+        factor = upper[0] / lower[0]
+        following = [
+            upper[k + 1] - factor * (lower[k + 1] if k + 1 < len(lower) else arb(0))
+            for k in range(len(upper) - 1)
+        ]
+        upper, lower = lower, following
+    if all(x > 0 for x in signs) or all(x < 0 for x in signs):
+        return True
+    return None if any(x.contains(0) for x in signs) else False
+
+
+def _vanishes_at_infinity(P: list[arb], Q: list[arb], stiff: bool) -> bool | None:
+    if stiff and not Q[-1].contains(0):
+        return True
+    top = P[len(Q) - 1] if len(P) >= len(Q) else arb(0)
+    if top.is_zero():
+        return True
+    return None if top.contains(0) else False

@@ -1,0 +1,77 @@
+"""``gark stability`` as users see it: text within 80 columns, JSON, LaTeX, two springs, refusals."""
+
+from __future__ import annotations
+
+import json
+from pathlib import Path
+
+import pytest
+from click.testing import CliRunner, Result
+
+from garkcli.cli.main import gark
+from garkcli.errors import GarkError
+
+METHODS = sorted(str(path) for path in Path("methods").glob("*.gark.yaml"))
+
+
+def run(*arguments: str) -> Result:
+    """One run in this process."""
+    return CliRunner().invoke(gark, ["stability", *arguments])
+
+
+@pytest.mark.parametrize("path", METHODS)
+def test_every_method_of_the_paper(path: str) -> None:
+    """The text fits 80 columns; JSON tells the same."""
+    text = run(path)
+    assert text.exit_code == 0, text.output
+    assert max(map(len, text.output.splitlines())) <= 80
+    (data,) = json.loads(run(path, "--format", "json").output)["files"]
+    assert ("A-stable" in text.output) == ("a_stable" in data)
+    if "p_stable" in data:
+        assert f"P-stable              {'yes' if data['p_stable'] else 'no'}" in text.output
+
+
+def test_the_page_shows_what_the_program_prints() -> None:
+    """The transcript in docs/stability.md."""
+    page = Path("docs/stability.md").read_text(encoding="utf-8")
+    block = page.split("```console\n")[1].split("```")[0]
+    command, _, shown = block.partition("\n")
+    assert command == "$ gark stability methods/rectangular.gark.yaml"
+    assert run("methods/rectangular.gark.yaml").output == shown
+
+
+def test_two_springs() -> None:
+    """The resonance of three colours with a slow spring of a = 1/4, exactly."""
+    path = "methods/three-colours.gark.yaml"
+    result = run(path, "--slow", "1/4", "--fast", "2", "--format", "json")
+    (data,) = json.loads(result.output)["files"]
+    assert data["kind"] == "two-frequencies"
+    assert [(x["from"], x["to"]) for x in data["stable"]] == [
+        ("0", "1407/160"),
+        ("47/4", "1437/40"),
+    ]
+    assert {"factor": "4*x - 47", "multiplicity": 1} in data["factors"]
+
+
+def test_latex() -> None:
+    """R of the classical method as a fraction."""
+    assert (
+        r"\frac{z^{4}+4z^{3}+12z^{2}+24z+24}{24}"
+        in run("methods/rk4.gark.yaml", "--format", "latex").output
+    )
+
+
+@pytest.mark.parametrize(
+    ("arguments", "message"),
+    [
+        (["methods/rk4.gark.yaml", "--slow", "1"], "--slow and --fast belong together"),
+        (["methods/three-colours.gark.yaml", "--slow", "1", "--fast", "4"], "no colour '4'"),
+        (["methods/three-colours.gark.yaml", "--slow", "-1", "--fast", "2"], "is not negative"),
+        (["methods/rk4.gark.yaml", "--slow", "1", "--fast", "1"], "no two colours for two springs"),
+    ],
+)
+def test_refusals(arguments: list[str], message: str) -> None:
+    """What cannot be asked is refused with its reason."""
+    result = run(*arguments)
+    assert isinstance(result.exception, GarkError)
+    assert message in result.exception.message

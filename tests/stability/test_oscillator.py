@@ -1,0 +1,160 @@
+"""The oscillator: the step matrix and the stable step sizes by a second way, and the known figures."""
+
+from __future__ import annotations
+
+from functools import cache
+from pathlib import Path
+
+import pytest
+from flint import fmpq
+from hypothesis import given, settings
+from hypothesis import strategies as st
+
+from garkcli.exact.field import ONE
+from garkcli.exact.polynomial import Polynomial, RealRoot
+from garkcli.families.registry import diagonal_method
+from garkcli.longtime.stability import stability as fate_of
+from garkcli.methodfile.load import load, loads
+from garkcli.problems.oscillator import Oscillator, terms_of
+from garkcli.stability.oscillator import OscillatorStability, oscillator_stability
+from garkcli.stability.two_frequencies import springs, two_frequencies
+from garkcli.stepping.linear import linear_step
+from garkcli.tableau.forms import gark
+from garkcli.tableau.tableau import Tableau
+
+METHODS = sorted(Path("methods").glob("*.gark.yaml"))
+STEPS = st.fractions(min_value="1/40", max_value=8, max_denominator=40).map(
+    lambda x: fmpq(x.numerator, x.denominator)
+)
+
+
+@cache
+def analysed(path: Path) -> tuple[Tableau, Oscillator, OscillatorStability]:
+    """A method of the paper with what is found of it."""
+    tableau = load(str(path)).tableau
+    problem = Oscillator.default(terms_of(tableau), ONE)
+    return tableau, problem, oscillator_stability(tableau, problem)
+
+
+def contains(found: OscillatorStability, x: fmpq) -> bool:
+    """Whether x is in the stable set."""
+    at = RealRoot.rational(x)
+    for interval in found.stable:
+        after = interval.start < at or (interval.has_start and interval.start == at)  # type: ignore[operator]
+        before = (
+            interval.end is None or at < interval.end or (interval.has_end and interval.end == at)
+        )
+        if after and before:
+            return True
+    return False
+
+
+@pytest.mark.parametrize("path", METHODS, ids=lambda path: path.name)
+@settings(max_examples=15, deadline=None)
+@given(STEPS)
+def test_step_sizes_one_by_one(path: Path, h: fmpq) -> None:
+    """For single step sizes R(h) is found by solving the stages, and its powers are followed exactly."""
+    tableau, problem, found = analysed(path)
+    R = linear_step(tableau, problem).at(h)
+    for i in range(2):
+        for j in range(2):
+            entry = found.step.numerators[i][j](h)
+            assert entry == R[i][j] * found.step.denominator(h)
+    is_bounded = fate_of(R).fate not in ("grows", "unstable")
+    assert contains(found, h * h) == is_bounded
+
+
+def test_the_rectangular_method() -> None:
+    """Its trace, both intervals, its phase lag and the form that it conserves."""
+    _, _, found = analysed(Path("methods/rectangular.gark.yaml"))
+    x = Polynomial([0, 1])
+    assert found.trace.numerator * 24 == x * x - x * 22 + 48
+    assert found.trace.denominator * 24 == x + 24
+    assert found.determinant.is_one
+    ends = [(i.start.exact, i.end.exact) for i in found.stable]  # type: ignore[union-attr]
+    assert ends == [(0, 8), (12, 24)]
+    assert [(i.has_start, i.has_end) for i in found.stable] == [(True, False), (False, False)]
+    assert not found.is_p_stable
+    assert (found.phase.order, found.phase.constant) == (4, fmpq(1, 2880))
+
+
+@pytest.mark.parametrize("path", METHODS, ids=lambda path: path.name)
+def test_the_form_is_conserved(path: Path) -> None:
+    """S(M y) = S(y) as an identity of rational functions, where det M = 1."""
+    _, _, found = analysed(path)
+    form = found.conserved
+    if form is None:
+        assert not found.determinant.is_one
+        return
+    (a, b), (c, d) = found.step.numerators
+    D = found.step.denominator
+    alpha, beta, gamma = form
+    # columns of M are the images of (1, 0) and (0, 1)
+    assert alpha * a * a + beta * a * c + gamma * c * c == alpha * D * D
+    assert alpha * b * b + beta * b * d + gamma * d * d == gamma * D * D
+    mixed = alpha * a * b * 2 + beta * (a * d + b * c) + gamma * c * d * 2
+    assert mixed == beta * D * D
+
+
+@pytest.mark.parametrize("stages", range(1, 7))
+def test_gauss_methods_are_p_stable(stages: int) -> None:
+    """|R(iy)| = 1 for all y."""
+    tableau = gark([diagonal_method("gauss", stages)], {})
+    found = oscillator_stability(tableau, Oscillator.default(1, ONE))
+    assert found.is_p_stable
+    assert found.phase.order == 2 * stages
+
+
+def test_stoermer_verlet_is_unstable_at_its_end() -> None:
+    """At hω = 2 the eigenvalue −1 is double and the step is no multiple of the identity."""
+    _, _, found = analysed(Path("methods/stoermer-verlet.gark.yaml"))
+    (interval,) = found.stable
+    assert interval.end is not None
+    assert interval.end.exact == 4
+    assert not interval.has_end
+    assert (found.phase.order, found.phase.constant) == (2, fmpq(1, 24))
+
+
+def test_half_interpolation_half_collocation() -> None:
+    """The combination with τ = 1/2 on Gauss 2 × Lobatto IIIA 3: its first instability, exactly."""
+    tableau = loads(
+        "methods: [{family: gauss, stages: 2}, {family: lobatto-iiia, stages: 3}]\n"
+        "transfer: {interpolation: 1/2, collocation: 1/2}"
+    ).tableau
+    found = oscillator_stability(tableau, Oscillator.default(2, ONE))
+    first = found.stable[0].end
+    assert first is not None
+    assert first.exact == fmpq(144, 13)
+    assert not found.stable[0].has_end
+
+
+def test_a_fast_spring_against_steps_at_single_strengths() -> None:
+    """The trace in x for given a is that of the step with both strengths put in."""
+    tableau = load("methods/three-colours.gark.yaml").tableau
+    split = springs(tableau, 1)
+    found = two_frequencies(tableau, split, fmpq(1, 4))
+    for x in (fmpq(1), fmpq(7, 3), fmpq(40)):
+        total = fmpq(1, 4) + x
+        shares = tuple(
+            (k, (s * fmpq(1, 4) + f * x) / total)
+            for k, s, f in zip(split.kinetic, split.slow, split.fast, strict=True)
+        )
+        whole = Oscillator(ONE, shares)
+        M = oscillator_stability(tableau, whole)
+        left = M.trace.numerator(total) * found.trace.denominator(x)
+        assert left == found.trace.numerator(x) * M.trace.denominator(total)
+
+
+def test_one_spring_is_two_without_the_slow_one() -> None:
+    """With a = 0 the fast spring has the intervals of the oscillator with the same split.
+
+    At x = 0 there is no spring at all, and the particle goes away: in units of ω nothing moves.
+    """
+    tableau = load("methods/three-colours.gark.yaml").tableau
+    found = two_frequencies(tableau, springs(tableau, 1), fmpq(0)).stable
+    shares = ((ONE, fmpq(0)), (fmpq(0), ONE), (fmpq(0), fmpq(0)))
+    alone = oscillator_stability(tableau, Oscillator(ONE, shares)).stable
+    assert [(x.start, x.end, x.has_end) for x in found] == [
+        (x.start, x.end, x.has_end) for x in alone
+    ]
+    assert not found[0].has_start
