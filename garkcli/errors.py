@@ -91,17 +91,77 @@ class Fault:
     column: int = 0
 
 
+MANY_WORDS = 50
+"""Of so many known words only those that begin like the misspelt one are compared with it."""
+WORDS_SHOWN = 20
+"""Most known words that are listed where none is near."""
+
+
 def did_you_mean(word: str, known: Iterable[str]) -> str:
-    """The cure for a misspelt word: the nearest known one, or all of them.
+    """The cure for a misspelt word: the nearest known one, those it begins, or all of them.
 
     >>> did_you_mean("colocation", ["collocation", "interpolation"])
     "did you mean 'collocation'?"
+    >>> did_you_mean("radau", ["radau-ia", "radau-iia", "gauss"])
+    "did you mean 'radau-ia' or 'radau-iia'?"
+    """
+    known = list(known)
+    close = nearest(word, known)
+    if close:
+        return f"did you mean {close!r}?"
+    letters = _letters(word)
+    begun = [x for x in known if len(letters) > 2 and _letters(x).startswith(letters)]
+    if begun:
+        return f"did you mean {' or '.join(map(repr, begun[:WORDS_SHOWN]))}?"
+    if not known:
+        return ""
+    more = f", … ({len(known)} in all)" if len(known) > WORDS_SHOWN else ""
+    return f"one of: {', '.join(known[:WORDS_SHOWN])}{more}"
+
+
+def nearest(word: str, known: Iterable[str]) -> str:
+    """The known word that a misspelt one was meant to be; empty where none is near.
+
+    Capitals, hyphens, blanks and underscores do not count.
+
+    >>> nearest("LobattoIIIA", ["lobatto-iiia", "lobatto-iiib"]), nearest("Euler", ["gauss"])
+    ('lobatto-iiia', '')
     """
     from difflib import get_close_matches  # paid for by mistakes alone
 
-    known = list(known)
-    close = get_close_matches(word, known, n=1)
-    return f"did you mean {close[0]!r}?" if close else f"one of: {', '.join(known)}"
+    letters = _letters(word[:MAX_WORD])
+    words = list(known)
+    if len(words) > MANY_WORDS:
+        words = [x for x in words if _letters(x)[:1] == letters[:1]][:MANY_WORDS]
+    spelt = {_letters(x): x for x in reversed(words)}  # of two alike the first stays
+    if letters in spelt:
+        return spelt[letters]
+    close = get_close_matches(letters, spelt, n=1)
+    begun = [x for x in spelt if x.startswith(letters)]
+    if len(begun) > 1 and len(letters) > 2:  # a word cut short is near to all that it begins
+        return ""
+    return spelt[close[0]] if close else ""
+
+
+MAX_WORD = 100
+"""No known word is as long as this."""
+
+
+def _letters(word: str) -> str:
+    """A word without what people forget: capitals, hyphens, blanks, underscores."""
+    return "".join(x for x in word.lower() if x not in "-_ ")
+
+
+def printable(text: str) -> str:
+    r"""A text from outside as it can be shown on one line: what a terminal would act on is written
+    out.
+
+    >>> print(printable("a\x1b[2Jb"))
+    a\x1b[2Jb
+    """
+    if text.isprintable():
+        return text
+    return "".join(x if x.isprintable() else repr(x)[1:-1] for x in text)
 
 
 def counted(count: int, noun: str, plural: str = "") -> str:
@@ -123,3 +183,35 @@ class MethodFileError(GarkError):
         self.source = source
         self.faults = tuple(faults)
         self.text = text
+
+    def __str__(self) -> str:
+        """Every fault with its place, the line it stands in, and its cure."""
+        lines = self.text.splitlines()
+        parts: list[str] = []
+        for fault in self.faults:
+            place = printable(self.source)
+            if fault.line:
+                place += f":{fault.line}:{fault.column}"
+            parts.append(f"{place}: {fault.message}")
+            if 0 < fault.line <= len(lines):
+                parts += excerpt(lines[fault.line - 1], fault.line, fault.column)
+            if fault.help:
+                parts.append(f"      help: {fault.help}")
+        return "\n".join(parts)
+
+
+EXCERPT_WIDTH = 72
+"""Most columns that are shown of a line at fault."""
+
+
+def excerpt(text: str, line: int, column: int, caret: str = "^") -> list[str]:
+    r"""A line of a file, cut to the terminal, and a caret under ``column``, which counts from 1.
+
+    >>> print("\n".join(excerpt("b: [0.5, O.5]", 3, 10)))
+        3 | b: [0.5, O.5]
+          |          ^
+    """
+    start = max(0, min(column - 1 - EXCERPT_WIDTH // 2, len(text) - EXCERPT_WIDTH))
+    shown = text[start : start + EXCERPT_WIDTH].replace("\t", " ")
+    before = printable(shown[: column - 1 - start])
+    return [f"{line:5} | {printable(shown)}", f"      | {' ' * len(before)}{caret}"]

@@ -6,7 +6,7 @@ from collections.abc import Callable, Mapping
 from dataclasses import dataclass
 from functools import partial
 
-from garkcli.errors import UnknownFamily, did_you_mean
+from garkcli.errors import UnknownFamily, counted, did_you_mean
 from garkcli.families import explicit, gauss, lobatto, radau
 from garkcli.tableau.method import Method
 
@@ -99,6 +99,57 @@ FAMILIES: Mapping[str, Family] = {
 """Every family by name."""
 
 
+OTHER_NAMES: Mapping[str, str] = {
+    "euler": "explicit-euler",
+    "forward-euler": "explicit-euler",
+    "backward-euler": "radau-iia with 1 stage",
+    "implicit-euler": "radau-iia with 1 stage",
+    "midpoint": "explicit-midpoint, or gauss with 1 stage for the implicit one",
+    "implicit-midpoint": "gauss with 1 stage",
+    "trapezoidal": "lobatto-iiia with 2 stages",
+    "crank-nicolson": "lobatto-iiia with 2 stages",
+    "gauss-legendre": "gauss",
+    "radau5": "radau-iia with 3 stages",
+    "runge-kutta": "rk4",
+    "classical": "rk4",
+    "rk": "rk4",
+    "erk4": "rk4",
+    "rk2": "explicit-midpoint or heun",
+    "rk3": "kutta",
+    "ssprk2": "ssp2",
+}
+"""What people call members of the families, and how the program does."""
+
+
+def require_member(name: str, stages: int | None = None) -> int:
+    """The stages of the member of a family, which is not made.
+
+    Raises:
+        UnknownFamily: no such family, or not with that many stages.
+    """
+    family = FAMILIES.get(name)
+    if family is None:
+        other = OTHER_NAMES.get(name.lower().replace("_", "-").replace(" ", "-"))
+        cure = f"it is called {other} here" if other else did_you_mean(name, FAMILIES)
+        raise UnknownFamily(f"no family {name[:MAX_NAME]!r}", cure)
+    is_single = family.smallest == family.largest
+    s = family.smallest if stages is None and is_single else stages
+    if s is None:
+        example = f"write for instance stages: {max(2, family.smallest)}"
+        raise UnknownFamily(f"the family {name} needs its number of stages", example)
+    if not family.smallest <= s <= family.largest:
+        have = str(family.smallest) if is_single else f"{family.smallest} or more"
+        if s > family.largest:
+            have += f", at most {family.largest}"
+        message = f"{name} with {counted(s, 'stage')} does not exist"
+        raise UnknownFamily(message, f"it has {have}")
+    return s
+
+
+MAX_NAME = 60
+"""Most characters of an unknown name that are shown."""
+
+
 def diagonal_method(name: str, stages: int | None = None) -> Method:
     """The member of a family.
 
@@ -112,24 +163,5 @@ def diagonal_method(name: str, stages: int | None = None) -> Method:
     >>> diagonal_method("gauss", 2).space.modulus
     x^2 + (-1)*x + 1/6
     """
-    family = FAMILIES.get(name)
-    if family is None:
-        raise UnknownFamily(f"no family {name!r}", did_you_mean(name, FAMILIES))
-    s = family.smallest if stages is None and family.smallest == family.largest else stages
-    if s is None:
-        raise UnknownFamily(
-            f"the family {name} needs its number of stages",
-            f"write for instance stages: {max(2, family.smallest)}",
-        )
-    if not family.smallest <= s <= family.largest:
-        have = (
-            str(family.smallest)
-            if family.smallest == family.largest
-            else f"{family.smallest} or more"
-        )
-        if s > family.largest:
-            have += f", at most {family.largest}"
-        raise UnknownFamily(
-            f"{name} with {s} stage{'s' * (s != 1)} does not exist", f"it has {have}"
-        )
-    return family.make(s)
+    s = require_member(name, stages)
+    return FAMILIES[name].make(s)

@@ -9,7 +9,7 @@ from typing import TypeAlias, TypeVar
 from flint import fmpq
 from yaml.nodes import Node
 
-from garkcli.errors import GarkError, MethodError, MethodFileError, ShapeMismatch, UnknownFamily
+from garkcli.errors import GarkError, MethodError, MethodFileError, ShapeMismatch
 from garkcli.exact.field import ONE, ZERO, Number
 from garkcli.exact.matrix import Matrix
 from garkcli.families.registry import diagonal_method
@@ -41,7 +41,7 @@ from garkcli.tableau.forms import (
     with_linear,
 )
 from garkcli.tableau.method import Method, butcher
-from garkcli.tableau.stages import PolynomialSpace
+from garkcli.tableau.stages import PolynomialSpace, StageSpace
 from garkcli.tableau.tableau import Tableau
 from garkcli.transfer import PAIR_RULES, RULES, Rule, build_on, combination, symplectic_blocks
 
@@ -83,9 +83,16 @@ class Builder:
     place.
     """
 
-    def __init__(self, source: Source, values: Values, nodes: Mapping[int, Row]) -> None:
+    def __init__(
+        self,
+        source: Source,
+        values: Values,
+        families: Mapping[int, Method],
+        nodes: Mapping[int, Row],
+    ) -> None:
         self.source = source
         self.values = values
+        self.families = families
         self.nodes = nodes
 
     def tableau(self, description: Description) -> Tableau:
@@ -154,7 +161,7 @@ class Builder:
 
     def _diagonal(self, l: int, text: FamilyText | ButcherText) -> Method:
         if isinstance(text, FamilyText):
-            method = self._at(text.node, lambda: diagonal_method(text.name, text.stages))
+            method = self.families[l]
             if l not in self.nodes:
                 return method
             from garkcli.tableau.pointwise import method_in_points
@@ -238,18 +245,25 @@ def _pair_rule(text: MethodsText, l: int, m: int) -> RuleText | None:
     return block if is_pair and isinstance(block, RuleText) else None
 
 
-def refuse_unknown_families(description: Description, source: Source) -> None:
-    """Note every family that does not exist, or not with that many stages."""
+def families_of(description: Description) -> dict[int, Method]:
+    """The methods of a file that are members of families, by their number from 0, each made once."""
     content = description.content
-    for text in content.methods if isinstance(content, MethodsText) else ():
+    if not isinstance(content, MethodsText):
+        return {}
+    made: dict[tuple[str, int], Method] = {}
+    found: dict[int, Method] = {}
+    for l, text in enumerate(content.methods):
         if isinstance(text, FamilyText):
-            try:
-                diagonal_method(text.name, text.stages)
-            except UnknownFamily as error:
-                source.fault(text.node, error.message, error.help)
+            key = text.name, text.stages
+            if key not in made:
+                made[key] = diagonal_method(*key)
+            found[l] = made[key]
+    return found
 
 
-def nodes_to_spell_out(description: Description, numbers: Numbers) -> dict[int, Row]:
+def nodes_to_spell_out(
+    description: Description, families: Mapping[int, Method], numbers: Numbers
+) -> dict[int, Row]:
     """For each family that meets a spelled-out block, its nodes as coefficients of the file.
 
     The entries of such a block refer to single stages, so its methods need one coordinate a stage.
@@ -257,23 +271,24 @@ def nodes_to_spell_out(description: Description, numbers: Numbers) -> dict[int, 
     content = description.content
     if not isinstance(content, MethodsText):
         return {}
+    blocks = content.transfer.blocks
+    beside = [key for key, block in blocks.items() if isinstance(block, MatrixText)]
     rows: dict[int, Row] = {}
-    for (l, m), block in content.transfer.blocks.items():
-        for k in (l, m):
-            text = content.methods[k]
-            if isinstance(block, MatrixText) and isinstance(text, FamilyText) and k not in rows:
-                nodes = _family_nodes(text, numbers)
-                if nodes is not None:
-                    rows[k] = nodes
-                    numbers.entries += nodes
+    for k in dict.fromkeys(k for key in beside for k in key):
+        text = content.methods[k]
+        if not isinstance(text, FamilyText):
+            continue
+        nodes = _family_nodes(text, families[k].space, numbers)
+        if nodes is not None:
+            rows[k] = nodes
+            numbers.entries += nodes
     return rows
 
 
-def _family_nodes(text: FamilyText, numbers: Numbers) -> Row | None:
-    try:
-        space = diagonal_method(text.name, text.stages).space
-    except UnknownFamily:
-        return None  # reported where the method is built
+def _family_nodes(text: FamilyText, space: StageSpace, numbers: Numbers) -> Row | None:
+    """The nodes of a family as coefficients; None where there is nothing to spell out, or a fault
+    where it cannot be.
+    """
     if not isinstance(space, PolynomialSpace):
         return None
     from garkcli.tableau.pointwise import simple_nodes  # few files need it
@@ -281,9 +296,8 @@ def _family_nodes(text: FamilyText, numbers: Numbers) -> Row | None:
     nodes = simple_nodes(space)
     if nodes is None:
         message = f"a block next to {text.name} is spelled out, whose nodes have no simple radicals"
-        numbers.source.fault(
-            text.node, message, "make the block by a rule, or spell the method out"
-        )
+        cure = "make the block by a rule, or spell the method out"
+        numbers.source.fault(text.node, message, cure)
         return None
     return tuple(
         Entry(node, text.node, f"node {i} of {text.name}") for i, node in enumerate(nodes, start=1)

@@ -14,6 +14,8 @@ Structure: TypeAlias = Literal["general", "semi-separable", "separable", "nystro
 STRUCTURES: tuple[Structure, ...] = ("general", "semi-separable", "separable", "nystrom")
 Form: TypeAlias = Literal["methods", "tableau", "ark", "prk"]
 FORMS: tuple[Form, ...] = ("methods", "tableau", "ark", "prk")
+PLAIN = ("A", "b", "c")
+"""The keys of a Butcher tableau that stands at the top of a file."""
 
 
 @dataclass(frozen=True)
@@ -22,7 +24,7 @@ class FamilyText:
 
     node: Node
     name: str
-    stages: int | None
+    stages: int
 
 
 @dataclass(frozen=True)

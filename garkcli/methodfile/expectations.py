@@ -15,6 +15,7 @@ NUMBERS = ("order", "conjugate-order", "pair-order", "bound", "pair-bound")
 TABLES = ("B", "C", "D")
 CLAIMS = (*NUMBERS, *TABLES, "symplectic")
 """Everything a file may claim."""
+_FORM = "write for instance expect: {order: 4}"
 _AT_LEAST = re.compile(r">=\s*([0-9]{1,4})")
 
 
@@ -36,7 +37,7 @@ def read(source: Source, node: Node | None) -> tuple[ClaimText, ...]:
     if node is None:
         return ()
     claims = []
-    for key, value_node in source.mapping(node, "expect", CLAIMS).items():
+    for key, value_node in source.mapping(node, "expect", CLAIMS, form=_FORM).items():
         where = f"expect, {key}"
         if key == "symplectic":
             word = source.choice(value_node, where, ("true", "false"))
@@ -57,7 +58,8 @@ def _number(source: Source, node: Node, where: str) -> Wanted:
     if text.isascii() and text.isdigit() and len(text) < 5:
         return int(text)
     if isinstance(node, ScalarNode):
-        source.fault(node, f'{where}: a number or ">= n" is expected, not {shortened(text)}')
+        message = f'{where}: a number or ">= n" is expected, not {shortened(text)}'
+        source.fault(node, message, 'for instance order: 4, or order: ">= 4"')
     return None
 
 

@@ -65,7 +65,7 @@ class Formulas:
                 message = f"more than {MAX_SIZE} operations, with the parameters written out"
                 raise LimitExceeded(message, "write it shorter", 0, len(text))
         except ExpressionError as error:
-            self.source.expression_fault(node, where, explained(error, text, node))
+            self.source.expression_fault(node, where, *explained(error, text))
             return None
         return (
             expression

@@ -10,8 +10,8 @@ from garkcli.errors import Fault, MethodFileError
 from garkcli.methodfile.build import (
     Builder,
     MethodFile,
+    families_of,
     nodes_to_spell_out,
-    refuse_unknown_families,
 )
 from garkcli.methodfile.numbers import Values
 from garkcli.methodfile.reader import Reader
@@ -106,12 +106,13 @@ def loads(text: str, source: str = "<text>") -> MethodFile:
     reader = Reader(reading)
     description = reader.read()
     if description is None:
+        Values(reader.numbers)  # what is wrong with the numbers is told in the same run
         raise reading.error()
-    refuse_unknown_families(description, reading)
-    nodes = nodes_to_spell_out(description, reader.numbers)
+    families = families_of(description)
+    nodes = nodes_to_spell_out(description, families, reader.numbers)
     values = Values(reader.numbers)
     reading.close()
-    tableau = Builder(reading, values, nodes).tableau(description)
+    tableau = Builder(reading, values, families, nodes).tableau(description)
     reading.close()
     return MethodFile(
         source=source,

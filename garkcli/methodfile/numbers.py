@@ -3,18 +3,19 @@
 from __future__ import annotations
 
 import re
+from collections.abc import Sequence
 from dataclasses import dataclass, field
 from typing import TypeAlias
 
-from yaml.nodes import Node, ScalarNode
+from yaml.nodes import Node, ScalarNode, SequenceNode
 
-from garkcli.errors import ExpressionError, LimitExceeded, UndefinedValue
+from garkcli.errors import ExpressionError, LimitExceeded, UndefinedValue, counted
 from garkcli.exact.domain import Domain
 from garkcli.exact.expression import FUNCTIONS, Expression, Literal, parse
 from garkcli.exact.field import ZERO, Number
 from garkcli.exact.matrix import Matrix, Vector
 from garkcli.exact.rewriting import depth_of, roots_in, size_of, substitute
-from garkcli.methodfile.source import Source
+from garkcli.methodfile.source import Source, key_nodes, shortened
 
 _READ_DIFFERENTLY = re.compile(
     r"[-+]?(0[0-9_]+|0[xob][0-9a-f_]+|[0-9][0-9_]*(:[0-5]?[0-9])+(\.[0-9_]*)?|[0-9]*_[0-9_.]*)",
@@ -69,7 +70,7 @@ class Numbers:
             try:
                 expression = self._expression(text)
             except ExpressionError as error:
-                self.source.expression_fault(node, where, explained(error, text, node))
+                self.source.expression_fault(node, where, *explained(error, text))
         entry = Entry(expression, node, where)
         self.entries.append(entry)
         return entry
@@ -91,38 +92,200 @@ class Numbers:
 
     def row(self, node: Node, where: str) -> Row:
         """A row of coefficients; a single value is a row of one."""
+        if self._is_text([node], where, "a row"):
+            return ()
         if isinstance(node, ScalarNode):
             return (self.entry(node, where),)
         items = self.source.items(node, where)
         if not items and not self.source.faults:
             self.source.fault(node, f"{where} is empty", "every method has a stage")
-        return tuple(
-            self.entry(item, f"{where}, entry {j}") for j, item in enumerate(items, start=1)
-        )
+        return self._entries(items, where)
+
+    def _entries(self, items: Sequence[Node], where: str) -> Row:
+        """The entries of a row; one that YAML cut in two at a comma is noted, and counts once."""
+        row: list[Entry] = []
+        is_open = False
+        for item in items:
+            was_open, is_open = is_open, _opens(item)
+            if was_open:
+                is_open = False
+                continue
+            place = f"{where}, entry {len(row) + 1}"
+            if is_open:
+                message = "a comma ends the value inside brackets"
+                self.source.fault(item, message, 'quote it: "root(x, n)"', where=place)
+                row.append(Entry(Literal(ZERO), item, place))
+            else:
+                row.append(self.entry(item, place))
+        return tuple(row)
 
     def matrix(self, node: Node, where: str) -> Rows:
-        """A matrix, row by row, with every row equally long."""
-        rows = tuple(
-            self.row(item, f"{where}, row {i}")
-            for i, item in enumerate(self.source.items(node, where), 1)
-        )
-        for i, row in enumerate(rows[1:], start=2):
-            if len(row) != len(rows[0]):
-                item = node.value[i - 1]
-                message = f"{where}, row {i} has {len(row)} entries, row 1 has {len(rows[0])}"
-                self.source.fault(item, message, "give every row the same number")
-        if not rows and not self.source.faults:
+        """A matrix, row by row; the rows may still be of different lengths, see ``fitted``."""
+        rows_of = node.value if isinstance(node, SequenceNode) else [node]
+        if self._is_text(rows_of, where, "a matrix"):
+            return ()
+        items = self.source.items(node, where, "write it row by row: [[0, 0], [1/2, 0]]")
+        deep = _first_list_in_rows(items)
+        if deep is not None:
+            message = f"{where}: a list stands where a coefficient is expected"
+            self.source.fault(deep, message, "a matrix is a list of rows: [[0, 0], [1/2, 0]]")
+            return ()
+        rows: list[Row] = []
+        for i, item in enumerate(items, start=1):
+            if isinstance(item, SequenceNode):
+                rows.append(self._entries(item.value, f"{where}, row {i}"))
+            else:
+                rows.append(self.row(item, f"{where}, row {i}"))
+        if not any(rows) and not self.source.faults:
             self.source.fault(node, f"{where} is empty", "every method has a stage")
+        return tuple(rows) if any(rows) else ()
+
+    def _is_text(self, rows: Sequence[Node], where: str, what: str) -> bool:
+        """Note, once, rows that are a text of several numbers, as other programs print them."""
+        texts = [_only_text(row) for row in rows]
+        first = next((i for i, text in enumerate(texts) if _holds_several(text)), None)
+        if first is None:
+            return False
+        message = f"{what} is a list, not the text {shortened(texts[first])}"
+        example = "[0, 1/2]" if what == "a row" else "[[0, 0], [1/2, 0]]"
+        cure = f"put it in brackets, with commas: {_bracketed(';'.join(texts)) or example}"
+        self.source.fault(rows[first], message, cure, where=where)
+        return True
+
+    def fitted(self, rows: Rows, node: Node, where: str, shape: tuple[int, int], why: str) -> Rows:
+        """A matrix of the given shape; note at most one fault where it has another.
+
+        The rows of a triangular matrix may end at the diagonal or before it, as explicit tableaus
+        are printed: what is left out is zero.
+
+        Args:
+            rows: as ``matrix`` read them; none where it noted a fault.
+            node: the matrix in the file.
+            where: what it is, for messages.
+            shape: the rows and columns it should have.
+            why: where this shape comes from.
+        """
+        if not rows:
+            return rows
+        lengths = [len(row) for row in rows]
+        if shape[0] == shape[1] == len(rows) and _is_triangle(lengths):
+            return self._completed(rows, node, where)
+        if len(rows) == shape[0] and set(lengths) == {shape[1]}:
+            return rows
+        if len(set(lengths)) == 1:
+            wanted = f"{shape[0]} by {shape[1]}"
+            message = f"{where} is {len(rows)} by {lengths[0]} and should be {wanted}"
+            self.source.fault(node, message, why)
+            return rows
+        if shape[0] == shape[1] == len(rows) + 1 and _is_triangle([0, *lengths]):
+            message = f"{where} has {counted(len(rows), 'row')} for {counted(shape[0], 'stage')}"
+            cure = "begin with the empty row of the first stage: [[], [1/2], …]"
+            self.source.fault(node, message, cure)
+            return rows
+        self._uneven(lengths, node, where, shape[1])
         return rows
 
-    def expect_shape(
-        self, rows: Rows, node: Node, where: str, shape: tuple[int, int], why: str
-    ) -> None:
-        """Note a matrix that does not have the given shape."""
-        found = (len(rows), len(rows[0]) if rows else 0)
-        if found != shape and all(len(row) == found[1] for row in rows):
-            message = f"{where} is {found[0]} by {found[1]} and should be {shape[0]} by {shape[1]}"
-            self.source.fault(node, message, why)
+    def rectangular(self, rows: Rows, node: Node, where: str) -> None:
+        """Note a matrix whose rows are not equally long, where no shape is known yet."""
+        lengths = [len(row) for row in rows]
+        if len(set(lengths)) > 1:
+            self._uneven(lengths, node, where, lengths[0])
+
+    def _uneven(self, lengths: Sequence[int], node: Node, where: str, columns: int) -> None:
+        """Note rows of different lengths: one fault, at the first of another length."""
+        wrong = [i for i, length in enumerate(lengths) if length != columns]
+        first = node.value[wrong[0]] if isinstance(node, SequenceNode) else node
+        found = counted(lengths[wrong[0]], "entry", "entries")
+        message = f"{where}, row {wrong[0] + 1} has {found} and should have {columns}"
+        if len(wrong) > 1:
+            others = ", ".join(str(i + 1) for i in wrong[1:6])
+            more = ", …" if len(wrong) > 6 else ""
+            message += f"; other lengths in row{'s' * (len(wrong) > 2)} {others}{more} too"
+        cure = "give every row the same number, or end each at the diagonal"
+        self.source.fault(first, message, cure)
+
+    def _completed(self, rows: Rows, node: Node, where: str) -> Rows:
+        """A triangle of rows, with the zeros above it."""
+        whole: list[Row] = []
+        for i, row in enumerate(rows, start=1):
+            missing = len(rows) - len(row)
+            zero = Entry(Literal(ZERO), node, f"{where}, row {i}")
+            if missing:
+                self.entries.append(zero)
+            whole.append(row + (zero,) * missing)
+        return tuple(whole)
+
+
+def _is_triangle(lengths: Sequence[int]) -> bool:
+    """Whether rows end at the diagonal each, or each before it.
+
+    >>> _is_triangle([1, 2, 3]), _is_triangle([0, 1, 2]), _is_triangle([1, 1, 3])
+    (True, True, False)
+    """
+    stages = len(lengths)
+    return list(lengths) in (list(range(stages)), list(range(1, stages + 1)))
+
+
+def _opens(node: Node) -> bool:
+    """Whether a plain value has a function of two arguments that YAML cut at the comma."""
+    if not isinstance(node, ScalarNode) or node.style in {"'", '"'}:
+        return False
+    text = str(node.value)
+    return "root(" in text and text.count("(") > text.count(")")
+
+
+def _first_list_in_rows(items: Sequence[Node]) -> Node | None:
+    """The first entry of a matrix that is a list itself."""
+    for row in items:
+        for entry in row.value if isinstance(row, SequenceNode) else ():
+            if isinstance(entry, SequenceNode):
+                return entry
+    return None
+
+
+_SEVERAL = re.compile(r"[0-9)][ \t]*[,;\n]|[0-9)][ \t]+[0-9.]")
+"""Two numbers with no sign of an operation between them."""
+_IN_PARENTHESES = re.compile(r"\([^()]*\)")
+MAX_PRINTED = 2_000
+"""Longest text that is looked at for being a printed row or matrix."""
+
+
+def _only_text(node: Node) -> str:
+    """The text of a value, or of the only one in a list; empty for anything else."""
+    while isinstance(node, SequenceNode) and len(node.value) == 1:
+        node = node.value[0]
+    return str(node.value) if isinstance(node, ScalarNode) else ""
+
+
+def _holds_several(text: str) -> bool:
+    """Whether a text has several numbers with nothing between them but blanks, commas, semicolons.
+
+    >>> _holds_several("0 0; 1/2 0"), _holds_several("1/2 - 1/3"), _holds_several("root(2, 5)")
+    (True, False, False)
+    """
+    if len(text) > MAX_PRINTED or not _SEVERAL.search(text):
+        return False
+    outside = text
+    while _IN_PARENTHESES.search(outside):
+        outside = _IN_PARENTHESES.sub("0", outside)
+    return _SEVERAL.search(outside) is not None
+
+
+def _bracketed(text: str) -> str:
+    """Numbers parted by blanks or commas, rows by semicolons or line ends, as YAML writes them.
+
+    >>> _bracketed("0 0; 1/2 0"), _bracketed("1/6, 2/3, 1/6")
+    ('[[0, 0], [1/2, 0]]', '[1/6, 2/3, 1/6]')
+    """
+    rows = [row.split() for row in re.split("[;\n]", text.replace(",", " ")) if row.split()]
+    words = [word for row in rows for word in row]
+    if len(words) > 16 or not all(_PLAIN.fullmatch(word) for word in words):
+        return ""
+    texts = [f"[{', '.join(row)}]" for row in rows]
+    return texts[0] if len(texts) == 1 else f"[{', '.join(texts)}]"
+
+
+_PLAIN = re.compile(r"[-+]?[0-9][0-9./]*", re.ASCII)
 
 
 def is_misread(source: Source, node: Node, text: str, where: str) -> bool:
@@ -132,29 +295,57 @@ def is_misread(source: Source, node: Node, text: str, where: str) -> bool:
     if not isinstance(node, ScalarNode) or node.style in {"'", '"'}:
         return False
     kind = str(node.tag).rpartition(":")[2]
+    message, cure = "", ""
     if kind in _WORDS:
-        message = f"{where}: {text or 'nothing'!r} is no number: YAML reads it as {kind}"
-        source.fault(node, message, "write a number, such as 1/2")
-        return True
-    if _READ_DIFFERENTLY.fullmatch(text):
+        message = f"{text or 'nothing'!r} is no number: YAML reads it as {kind}"
+        cure = "write a number, such as 1/2"
+    elif _READ_DIFFERENTLY.fullmatch(text):
+        message = f"{text} means different numbers to different readers of YAML"
         cure = "leave out the _" if "_" in text else "write the number in plain decimal digits"
-        source.fault(
-            node, f"{where}: {text} means different numbers to different readers of YAML", cure
-        )
-        return True
-    if text.lower().lstrip("+-") in {".inf", ".nan", "nan", "inf", "infinity"}:
-        source.fault(node, f"{where}: {text} is not a number", "coefficients are finite")
-        return True
-    return False
+    elif text.lower().lstrip("+-") in {".inf", ".nan", "nan", "inf", "infinity"}:
+        message, cure = f"{text} is not a number", "coefficients are finite"
+    if message:
+        source.fault(node, message, cure, where=where)
+    return bool(message)
 
 
-def explained(error: ExpressionError, text: str, node: Node) -> ExpressionError:
-    """The cure for what YAML cut in two: root(x, n) without quotes inside brackets."""
-    plain = isinstance(node, ScalarNode) and node.style not in {"'", '"'}
-    if plain and "root(" in text and text.count("(") > text.count(")"):
-        cure = 'inside brackets YAML ends a value at a comma: quote it, "root(x, n)"'
-        return ExpressionError(error.message, cure, error.start, error.end)
-    return error
+_SPELLINGS: tuple[tuple[re.Pattern[str], str], ...] = tuple(
+    (re.compile(pattern, re.ASCII), cure)
+    for pattern, cure in (
+        (r"(?P<x>[0-9.]+)[dD](?P<n>[-+]?[0-9]+)", "write the exponent with e: {x}e{n}"),
+        (r"(?P<x>[0-9.]+([eE][-+]?[0-9]+)?)_[A-Za-z]\w*", "leave the kind out: {x}"),
+        (r"(?P<x>[0-9]*\.[0-9]+|[0-9]+\.)[fFlLq]\b", "leave the suffix out: {x}"),
+        (r"\b(?P<f>sqrt|cbrt)(?P<x>[0-9]+)", "write {f}({x})"),
+        (r"\b(math|np|numpy|sympy|sp|cmath|jnp)\.(?P<f>sqrt|cbrt)", "write {f}(x)"),
+        (r"\b(?P<f>Sqrt|SQRT)\b", "write sqrt(x)"),
+        (r"\\d?frac", "write fractions as 1/2"),
+        (r"\\sqrt", "write sqrt(x)"),
+        (r"\b(Fraction|Rational)\b", "write fractions as 1/2"),
+        (r"(?P<x>[0-9]+)//(?P<y>[0-9]+)", "write {x}/{y}"),
+        (r"[0-9)][ \t]+[0-9.]+", "put commas between the entries: [0, 1/2]"),
+    )
+)
+"""Numbers as other languages write them, and how a method file does."""
+
+
+def explained(error: ExpressionError, text: str) -> tuple[ExpressionError, str]:
+    """The error with the cure for what comes from another language; and its cause, where that is
+    not the word at fault.
+    """
+    start = error.start
+    if len(text) > MAX_PRINTED:
+        return error, ""
+    for pattern, better in _SPELLINGS:
+        found = pattern.search(text)
+        # the fault lies in what the pattern found, or right behind it
+        if found and found.start() <= start <= found.end():
+            message = error.message
+            if not isinstance(error, UndefinedValue):
+                message = f"{shortened(found.group())} is not how a number is written here"
+            cure = better.format(**found.groupdict())
+            explanation = ExpressionError(message, cure, found.start(), found.end())
+            return explanation, pattern.pattern
+    return error, ""
 
 
 class Values:
@@ -218,17 +409,16 @@ def read_parameters(numbers: Numbers, node: Node | None) -> None:
     if node is None:
         return
     source = numbers.source
+    keys = key_nodes(node)
     for name, value_node in source.mapping(node, "parameters", ()).items():
+        key = keys[name]
         where = f"parameters: {name}"
         value: Expression = Literal(ZERO)
         if name in FUNCTIONS:
-            source.fault(value_node, f"{where} is a function already", "choose another name")
+            source.fault(key, f"{where} is a function already", "choose another name")
         elif not name.isidentifier() or not name.isascii():
-            source.fault(
-                value_node,
-                f"{where} cannot be the name of a parameter",
-                "use letters, digits and _",
-            )
+            message = f"{where} cannot be the name of a parameter"
+            source.fault(key, message, "use letters, digits and _")
         elif isinstance(value_node, ScalarNode) and value_node.value == "free":
             cure = "give it a value, for instance 1/2"
             source.fault(value_node, f"{where} is free; orders are decided for given values", cure)

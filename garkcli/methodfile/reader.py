@@ -10,11 +10,13 @@ from typing import cast
 from flint import fmpq
 from yaml.nodes import MappingNode, Node, ScalarNode, SequenceNode
 
-from garkcli.errors import LimitExceeded
+from garkcli.errors import LimitExceeded, UnknownFamily, nearest
 from garkcli.exact.expression import read_decimal
+from garkcli.families.registry import FAMILIES, require_member
 from garkcli.methodfile import expectations
 from garkcli.methodfile.description import (
     FORMS,
+    PLAIN,
     STRUCTURES,
     ArkText,
     BlockText,
@@ -30,8 +32,9 @@ from garkcli.methodfile.description import (
     TableauText,
     TransferText,
 )
+from garkcli.methodfile.expectations import NUMBERS
 from garkcli.methodfile.numbers import Numbers, read_parameters
-from garkcli.methodfile.source import Source, keys_of
+from garkcli.methodfile.source import Source, key_nodes, keys_of, shortened
 from garkcli.methodfile.spelled_out import SpelledOutReader
 from garkcli.transfer import PAIR_RULES, RULES
 
@@ -41,6 +44,7 @@ KEYS = (
     "description",
     "reference",
     *FORMS,
+    *PLAIN,
     "transfer",
     "structure",
     "conjugate",
@@ -50,9 +54,37 @@ KEYS = (
     "expect",
 )
 """The keys of a method file."""
+_START = "give A and b, or one of the keys methods, tableau, ark, prk"
+_CURES = (
+    dict.fromkeys(
+        (*NUMBERS, "symplectic"), "claims go under expect, for instance expect: {order: 4}"
+    )
+    | dict.fromkeys(("family", "stages"), "write methods: [{family: gauss, stages: 2}]")
+    | dict.fromkeys(("blocks", "default"), "it goes under transfer")
+    | dict.fromkeys(("q", "p"), "it goes under prk: {q: {A, b}, p: {A, b}}")
+    | dict.fromkeys(
+        ("bhat", "b_hat", "bh", "b2", "b*", "b^"),
+        "embedded weights make another method: give it a file of its own",
+    )
+    | dict.fromkeys(RULES, "write it under transfer")
+)
+"""Keys that are expected elsewhere than at the top of the file, and where."""
 ALL_RULES = (*RULES, *PAIR_RULES)
 _DECIMAL = re.compile(r"([0-9]+(\.[0-9]*)?|\.[0-9]+)([eE][+-]?[0-9]+)?", re.ASCII)
+_BLOCK_OR_COLOUR = re.compile(r"[1-9][0-9 ,]*")
 _BLOCK = re.compile(r"\s*([1-9][0-9]{0,3})\s*,\s*([1-9][0-9]{0,3})\s*")
+
+
+_METHODS = "write a list: [{family: gauss, stages: 2}, …]"
+
+
+def _written_out(node: ScalarNode) -> str:
+    """The cure for a method that is a mere word."""
+    word = nearest(str(node.value), FAMILIES) or "gauss"
+    family = FAMILIES[word]
+    if family.smallest == family.largest:
+        return f"write {{family: {word}}}"
+    return f"write for instance {{family: {word}, stages: {max(2, family.smallest)}}}"
 
 
 class Reader:
@@ -73,12 +105,8 @@ class Reader:
             cure = "give it beside a method file: gark converge METHOD --problem FILE"
             source.fault(root, "this is a problem file, not a method file", cure)
             return None
-        entries = source.mapping(root, "the file", KEYS)
-        version = entries.get("gark")
-        if version is not None and source.scalar(version, "gark") != "1":
-            source.fault(
-                version, "gark: this program reads version 1 of the format", "write gark: 1"
-            )
+        entries = source.mapping(root, "the file", KEYS, _CURES)
+        self._version(entries.get("gark"))
         text = {
             key: source.scalar(entries[key], key) or ""
             for key in ("name", "description", "reference")
@@ -99,13 +127,18 @@ class Reader:
         return Description(
             form=form,
             content=content,
-            node=entries[form],
+            node=entries[form] if form in entries else entries["b"],
             structure=structure,
             is_conjugate=is_conjugate,
             tolerance=tolerance,
             claims=claims,
             **text,
         )
+
+    def _version(self, node: Node | None) -> None:
+        if node is not None and self.source.scalar(node, "gark") != "1":
+            message = "gark: this program reads version 1 of the format"
+            self.source.fault(node, message, "write gark: 1")
 
     def _tolerance(self, node: Node | None) -> fmpq | None:
         """A rational number between 0 and 1; no parameters, as it is no coefficient."""
@@ -119,21 +152,36 @@ class Reader:
         except LimitExceeded:
             value = None
         if value is None or not 0 < value < 1:
-            message = f"tolerance: a decimal number between 0 and 1 is expected, not {text!r}"
+            wanted = "a decimal number between 0 and 1 is expected"
+            message = f"tolerance: {wanted}, not {shortened(text)}"
             self.source.fault(node, message, "for instance 1e-13")
             return None
         return value
 
     def _form(self, root: Node, entries: dict[str, Node]) -> Form | None:
-        present = [key for key in FORMS if key in entries]
-        if len(present) == 1:
-            return present[0]
-        if not present:
-            self.source.fault(root, "no coefficients", f"give one of the keys {', '.join(FORMS)}")
+        """Which form the coefficients have; A, b and c at the top are those of a tableau."""
+        present: list[str] = [key for key in FORMS if key in entries]
+        plain = [key for key in PLAIN if key in entries]
+        if plain:
+            present.append(plain[0])
         for key in present[1:]:
             message = f"{key}: the coefficients are given by {present[0]} already"
             self.source.fault(entries[key], message, f"keep one of {', '.join(present)}")
-        return None
+        if not present:
+            # a key that belongs elsewhere was noted with its cure, which is where to begin
+            if not keys_of(root) & set(_CURES):
+                self.source.fault(root, "no coefficients", _START)
+            return None
+        if len(present) > 1:
+            return None
+        if not plain:
+            return cast("Form", present[0])
+        missing = [key for key in ("A", "b") if key not in entries]
+        if missing:
+            message = f"{' and '.join(missing)} missing beside {', '.join(plain)}"
+            self.source.fault(entries[plain[0]], message, "give A, b and perhaps c")
+            return None
+        return "tableau"
 
     def _structure(self, form: Form, entries: dict[str, Node]) -> Structure:
         node = entries.get("structure")
@@ -166,6 +214,8 @@ class Reader:
     def _content(
         self, form: Form, structure: Structure, entries: dict[str, Node]
     ) -> MethodsText | TableauText | ArkText | PrkText | None:
+        if form not in entries:
+            return self.spelled_out.tableau_of(entries, entries.get("linear"))
         node = entries[form]
         if form == "methods":
             return self._methods(node, structure, entries.get("transfer"))
@@ -178,7 +228,10 @@ class Reader:
     def _methods(
         self, node: Node, structure: Structure, transfer: Node | None
     ) -> MethodsText | None:
-        items = self.source.items(node, "methods")
+        keys = keys_of(node)
+        is_one = bool(keys & {"A", "b", "family", "stages"})
+        # one method needs no brackets around it
+        items = [node] if is_one else self.source.items(node, "methods", _METHODS)
         methods = [self._method(item, l) for l, item in enumerate(items, start=1)]
         if not items and isinstance(node, SequenceNode):
             self.source.fault(node, "methods is empty", "list at least one diagonal method")
@@ -187,67 +240,99 @@ class Reader:
         if len(items) > 1 and transfer is None:
             cure = "write transfer: collocation (or interpolation)"
             self.source.fault(node, "two colours or more need a transfer rule", cure)
-        rules = (
-            self._transfer(transfer, len(items)) if transfer is not None else TransferText(None, {})
-        )
+        rules = TransferText(None, {})
+        if transfer is not None:
+            rules = self._transfer(transfer, len(items))
         found = tuple(method for method in methods if method is not None)
         return MethodsText(found, rules) if found and len(found) == len(methods) else None
 
     def _method(self, node: Node, l: int) -> FamilyText | ButcherText | None:
         keys, where = keys_of(node), f"method {l}"
+        if isinstance(node, ScalarNode):
+            self.source.fault(node, f"{where}: a mapping is expected here", _written_out(node))
+            return None
         if isinstance(node, MappingNode) and keys & {"stages"} and not keys & {"family", "A", "b"}:
             self.source.fault(node, f"{where}: family missing", "write for instance family: gauss")
             return None
         if "family" not in keys and isinstance(node, MappingNode):
-            return self.spelled_out.butcher(
-                node, where, (f"A^{{{l},{l}}}", f"b^{{{l}}}", f"c^{{{l}}}")
-            )
+            names = (f"A^{{{l},{l}}}", f"b^{{{l}}}", f"c^{{{l}}}")
+            return self.spelled_out.butcher(node, where, names)
         before = len(self.source.faults)
-        entries = self.source.mapping(node, where, ("family", "stages", "name"))
+        form = "write for instance {family: gauss, stages: 2}"
+        entries = self.source.mapping(node, where, ("family", "stages", "name"), form=form)
         if "family" not in entries or len(self.source.faults) > before:
             return None
+        return self._family(node, where, entries)
+
+    def _family(self, node: Node, where: str, entries: dict[str, Node]) -> FamilyText | None:
+        """A member of a family, which exists."""
         name = self.source.scalar(entries["family"], f"{where}, family")
+        has_stages = "stages" in entries
         stages = None
-        if "stages" in entries:
+        if has_stages:
             stages = self.source.whole(entries["stages"], f"{where}, stages", smallest=1)
-            if stages is None:
-                return None
-        return FamilyText(node, name, stages) if name is not None else None
+        if name is None or (name in FAMILIES and has_stages and stages is None):
+            return None
+        try:
+            return FamilyText(node, name, require_member(name, stages))
+        except UnknownFamily as error:
+            at_stages = name in FAMILIES and has_stages
+            place = entries["stages" if at_stages else "family"]
+            self.source.fault(place, error.message, error.help)
+            return None
 
     def _transfer(self, node: Node, colours: int) -> TransferText:
         keys = keys_of(node)
         if not keys & {"default", "blocks"}:
+            # without quotes {1,2: rule} has the keys 1 and 2
+            numbered = [x for x in key_nodes(node).values() if _BLOCK_OR_COLOUR.fullmatch(x.value)]
+            if numbered:
+                message = "transfer: single blocks stand under blocks"
+                cure = 'write transfer: {default: …, blocks: {"1,2": …}}'
+                self.source.fault(numbered[0], message, cure)
+                return TransferText(None, {})
             return TransferText(self._rule(node, "transfer"), {})
         entries = self.source.mapping(node, "transfer", ("default", "blocks"))
-        default = (
-            self._rule(entries["default"], "transfer, default") if "default" in entries else None
-        )
+        default = None
+        if "default" in entries:
+            default = self._rule(entries["default"], "transfer, default")
         blocks: dict[tuple[int, int], BlockText] = {}
         if "blocks" in entries:
-            for key, value in self.source.mapping(
-                entries["blocks"], "transfer, blocks", ()
-            ).items():
-                place = _BLOCK.fullmatch(key)
-                l, m = (int(place[1]) - 1, int(place[2]) - 1) if place else (0, 0)
-                if l == m or max(l, m) >= colours:
-                    message = f"transfer, blocks: {key!r} names no off-diagonal block of {colours} colours"
-                    self.source.fault(
-                        value, message, 'write for instance "1,2" for the block A^{1,2}'
-                    )
-                    continue
-                where = f"A^{{{l + 1},{m + 1}}}"
-                if (l, m) in blocks:
-                    self.source.fault(
-                        value, f"transfer, blocks: {where} is given twice", "keep one of them"
-                    )
-                block = (
-                    MatrixText(value, self.numbers.matrix(value, where))
-                    if isinstance(value, SequenceNode)
-                    else self._rule(value, where)
-                )
-                if block is not None:
-                    blocks[l, m] = block
+            blocks = self._blocks(entries["blocks"], colours)
         return TransferText(default, blocks)
+
+    def _blocks(self, node: Node, colours: int) -> dict[tuple[int, int], BlockText]:
+        """The blocks that are given one by one; keys such as ``1,2`` count colours from 1."""
+        blocks: dict[tuple[int, int], BlockText] = {}
+        keys = key_nodes(node)
+        form = 'write for instance {"1,2": interpolation}'
+        for key, value in self.source.mapping(node, "transfer, blocks", (), form=form).items():
+            place = _BLOCK.fullmatch(key)
+            l, m = (int(place[1]) - 1, int(place[2]) - 1) if place else (0, 0)
+            if l == m or max(l, m) >= colours:
+                shown = shortened(key)
+                message = (
+                    f"transfer, blocks: {shown} names no off-diagonal block of {colours} colours"
+                )
+                cure = 'write for instance "1,2" for the block A^{1,2}'
+                self.source.fault(keys[key], message, cure)
+                continue
+            where = f"A^{{{l + 1},{m + 1}}}"
+            if (l, m) in blocks:
+                message = f"transfer, blocks: {where} is given twice"
+                self.source.fault(keys[key], message, "keep one of them")
+            block = self._block(value, where)
+            if block is not None:
+                blocks[l, m] = block
+        return blocks
+
+    def _block(self, node: Node, where: str) -> BlockText | None:
+        """A block as a matrix or as a rule."""
+        if not isinstance(node, SequenceNode):
+            return self._rule(node, where)
+        rows = self.numbers.matrix(node, where)
+        self.numbers.rectangular(rows, node, where)
+        return MatrixText(node, rows) if rows else None
 
     def _rule(self, node: Node, where: str) -> RuleText | None:
         if isinstance(node, ScalarNode):
@@ -260,7 +345,8 @@ class Reader:
             )
             self.source.fault(node, message, f"write {mixed[0]} on its own")
             return None
-        entries = self.source.mapping(node, where, RULES)
+        form = "write one of the rules, for instance transfer: collocation"
+        entries = self.source.mapping(node, where, RULES, form=form)
         if not entries:
             if isinstance(node, MappingNode) and not node.value:
                 self.source.fault(node, f"{where}: no rule", f"one of: {', '.join(ALL_RULES)}")

@@ -23,7 +23,12 @@ _NUMBER: Schema = {
     "pattern": r"^[-+*/^(),.\sA-Za-z0-9_]+$",
 }
 _ROW: Schema = {"anyOf": [{"type": "array", "items": _NUMBER, "minItems": 1}, _NUMBER]}
-_MATRIX: Schema = {"type": "array", "items": {"$ref": "#/definitions/row"}, "minItems": 1}
+_MATRIX: Schema = {
+    "description": "Row by row; the rows of a triangle may end at the diagonal or before it.",
+    "type": "array",
+    "items": {"anyOf": [{"$ref": "#/definitions/row"}, {"type": "array", "maxItems": 0}]},
+    "minItems": 1,
+}
 _TEXT: Schema = {"type": ["string", "number", "boolean", "null"]}
 
 
@@ -35,12 +40,16 @@ def method_file_schema() -> Schema:
         "description": "One Runge-Kutta method: GARK, ARK, PRK, or built from diagonal methods.",
         "type": "object",
         "additionalProperties": False,
-        "oneOf": [{"required": [form]} for form in FORMS],
+        "oneOf": [*({"required": [form]} for form in FORMS), {"required": ["A", "b"]}],
         "allOf": [
-            _goes_with("transfer", "methods"),
-            _goes_with("linear", "tableau"),
+            _goes_with("transfer", {"required": ["methods"]}),
+            _goes_with("linear", {"anyOf": [{"required": ["tableau"]}, {"required": ["A"]}]}),
+            _goes_with("c", {"anyOf": [{"required": ["A"]}]}),
             {
-                "if": {"required": ["methods"], "properties": {"methods": {"minItems": 2}}},
+                "if": {
+                    "required": ["methods"],
+                    "properties": {"methods": {"type": "array", "minItems": 2}},
+                },
                 "then": {"required": ["transfer"]},
             },
             {
@@ -67,8 +76,8 @@ def method_file_schema() -> Schema:
     }
 
 
-def _goes_with(key: str, form: str) -> Schema:
-    return {"if": {"required": [key]}, "then": {"required": [form]}}
+def _goes_with(key: str, form: Schema) -> Schema:
+    return {"if": {"required": [key]}, "then": form}
 
 
 def _properties() -> Schema:
@@ -78,11 +87,13 @@ def _properties() -> Schema:
         "description": {**_TEXT, "description": "What it is for."},
         "reference": {**_TEXT, "description": "Where it was published."},
         "methods": {
-            "description": "The diagonal methods, one a colour.",
-            "type": "array",
-            "minItems": 1,
-            "items": {"$ref": "#/definitions/method"},
+            "description": "The diagonal methods, one a colour; one on its own needs no list.",
+            "anyOf": [
+                {"type": "array", "minItems": 1, "items": {"$ref": "#/definitions/method"}},
+                {"$ref": "#/definitions/method"},
+            ],
         },
+        **_tableau_keys(),
         "transfer": _transfer(),
         "tableau": _tableau(),
         "ark": _ark(),
@@ -173,24 +184,32 @@ def _transfer() -> Schema:
     return {"description": "How the off-diagonal blocks are made.", "anyOf": [rule, split]}
 
 
-def _tableau() -> Schema:
-    block = {"anyOf": [{"$ref": "#/definitions/matrix"}, {"type": "null"}]}
-    properties = {
+def _tableau_keys() -> Schema:
+    """A, b and c: of one colour a matrix and rows, of several a block or a row for each."""
+    matrix: Schema = {"$ref": "#/definitions/matrix"}
+    row: Schema = {"$ref": "#/definitions/row"}
+    blocks = {"type": "array", "minItems": 1, "items": {"anyOf": [matrix, {"type": "null"}]}}
+    rows_of_blocks = {"type": "array", "minItems": 1, "items": blocks}
+    rows = {"type": "array", "minItems": 1, "items": row}
+    nodes = {"type": "array", "minItems": 1, "items": {"anyOf": [row, {"type": "null"}]}}
+    return {
         "A": {
-            "type": "array",
-            "minItems": 1,
-            "items": {"type": "array", "minItems": 1, "items": block},
+            "description": "The matrix, or for several colours rows of blocks A^{l,m}, null where "
+            "there is none.",
+            "anyOf": [matrix, rows_of_blocks],
         },
-        "b": {"type": "array", "minItems": 1, "items": {"$ref": "#/definitions/row"}},
+        "b": {"description": "The weights; of several colours a row each.", "anyOf": [row, rows]},
         "c": {
-            "type": "array",
-            "minItems": 1,
-            "items": {"anyOf": [{"$ref": "#/definitions/row"}, {"type": "null"}]},
+            "description": "The nodes; where they are left out, the row sums of A.",
+            "anyOf": [row, nodes],
         },
     }
+
+
+def _tableau() -> Schema:
     return {
-        **_closed(properties, "A", "b"),
-        "description": "Every block A^{l,m}; null where there is none.",
+        **_closed(_tableau_keys(), "A", "b"),
+        "description": "One Butcher tableau, or every block A^{l,m} of several colours.",
     }
 
 

@@ -1,29 +1,45 @@
 """YAML text to nodes with positions, within limits, and the list in which faults are collected.
 
-``yaml.compose`` keeps what ``safe_load`` loses: where each value stands, keys that occur twice, and
-the text of a number as it was written.
+Composing keeps what ``safe_load`` loses: where each value stands, keys that occur twice, and the
+text of a number as it was written. PyYAML's loader in Python is used whatever there is in C: the two
+word their faults differently and count columns differently, and a file has to be met with the same
+answer on every machine.
 """
 
 from __future__ import annotations
 
-from collections.abc import Iterable, Iterator
-from dataclasses import dataclass
+from collections import Counter
+from collections.abc import Iterable, Iterator, Mapping, Sequence
+from dataclasses import dataclass, replace
 
 import yaml
 from yaml.nodes import MappingNode, Node, ScalarNode, SequenceNode
 
-from garkcli.errors import ExpressionError, Fault, MethodFileError, did_you_mean
+from garkcli.errors import (
+    ExpressionError,
+    Fault,
+    MethodFileError,
+    counted,
+    did_you_mean,
+    nearest,
+    printable,
+)
 
-MAX_BYTES = 4_000_000
+MAX_BYTES = 1_000_000
 """Largest file that is read."""
-MAX_NODES = 400_000
+MAX_NODES = 50_000
 """Most YAML values in one file, with aliases counted each time they are used."""
 MAX_FAULTS = 200
 """Most faults of one file that are reported one by one."""
+MAX_FAULTS_READ = 1_000
+"""After so many faults a file is read no further."""
+MAX_PLACES = 3
+"""Most further places that are named where one cause shows in many."""
 MAX_NESTING = 12
 """Deepest nesting of lists and mappings; files need six."""
 
-_LOADER = getattr(yaml, "CSafeLoader", yaml.SafeLoader)
+
+_NO_CURES: Mapping[str, str] = {}
 
 
 @dataclass(frozen=True)
@@ -45,8 +61,8 @@ class FileKind:
 
 METHOD_FILE = FileKind(
     "method file",
-    "the smallest file has methods and transfer",
-    "start with methods: or tableau:",
+    "the smallest file has A and b, or methods",
+    "start with A: and b:, or with methods:",
     "docs/method-file.md",
 )
 PROBLEM_FILE = FileKind(
@@ -57,6 +73,21 @@ PROBLEM_FILE = FileKind(
 )
 
 
+@dataclass(frozen=True)
+class _Found:
+    """A fault as it was noted.
+
+    Attributes:
+        fault: what is told.
+        cause: what it has in common with others; empty for a fault on its own.
+        is_one: whether faults of this cause are told once, however few there are.
+    """
+
+    fault: Fault
+    cause: str = ""
+    is_one: bool = False
+
+
 class Source:
     """One file being read: its name, its text, its kind, and the faults found so far."""
 
@@ -64,14 +95,48 @@ class Source:
         self.name = name
         self.text = text
         self.kind = kind
-        self.faults: list[Fault] = []
+        self._found: list[_Found] = []
 
-    def fault(self, node: Node | None, message: str, cure: str = "", offset: int = 0) -> None:
-        """Note a fault at ``node``, ``offset`` characters into its text."""
-        if node is None:
-            self.faults.append(Fault(message, cure, 1, 1))
-            return
-        self.faults.append(Fault(message, cure, *self._place(node, offset)))
+    @property
+    def faults(self) -> list[Fault]:
+        """What was noted so far, in the order of reading."""
+        return [found.fault for found in self._found]
+
+    def fault(
+        self,
+        node: Node | None,
+        message: str,
+        cure: str = "",
+        offset: int = 0,
+        where: str = "",
+        cause: str = "",
+    ) -> None:
+        """Note a fault at ``node``, ``offset`` characters into its text.
+
+        Args:
+            node: the value at fault; None for the file as a whole.
+            message: what is wrong.
+            cure: what to do about it.
+            offset: where in the text of the value.
+            where: what the value is, such as ``A^{1,1}, row 2``. The same message about a word of
+                the file, with another ``where``, has the same cause and is told once, with its
+                other places; so is any other message that occurs often.
+            cause: what has the same cause though the message is another one.
+
+        Raises:
+            MethodFileError: there are ``MAX_FAULTS_READ`` of them; no file is read further.
+        """
+        line, column = (1, 1) if node is None else self._place(node, offset)
+        text = f"{where}: {message}" if where else message
+        is_one = bool(cause) or "'" in message
+        cause = cause or (f"{message}: {cure}" if where else "")
+        fault = Fault(printable(text), printable(cure), line, column)
+        self._note(fault, cause, is_one)
+
+    def _note(self, fault: Fault, cause: str = "", is_one: bool = False) -> None:
+        self._found.append(_Found(fault, cause, is_one))
+        if len(self._found) >= MAX_FAULTS_READ:
+            raise self.error()
 
     def _place(self, node: Node, offset: int) -> tuple[int, int]:
         """Line and column of the text of a value, ``offset`` characters into it."""
@@ -82,9 +147,11 @@ class Source:
             return _folded_place(self.text, node, offset)
         return mark.line + 1, mark.column + 1 + (node.style in {"'", '"'}) + offset
 
-    def expression_fault(self, node: Node, where: str, error: ExpressionError) -> None:
+    def expression_fault(
+        self, node: Node, where: str, error: ExpressionError, cause: str = ""
+    ) -> None:
         """Note what is wrong with the text of a number."""
-        self.fault(node, f"{where}: {error.message}", error.help, error.start)
+        self.fault(node, error.message, error.help, error.start, where, cause)
 
     def close(self) -> None:
         """Raise what has been found.
@@ -92,20 +159,20 @@ class Source:
         Raises:
             MethodFileError: there are faults; all of them, in file order.
         """
-        if self.faults:
+        if self._found:
             raise self.error()
 
     def error(self) -> MethodFileError:
-        """What has been found, as one error; faults in file order, each once, and at least one."""
-        if not self.faults:
+        """What has been found, as one error; faults in file order, each cause once, and at least
+        one.
+        """
+        if not self._found:
             self.fault(None, f"this is not a {self.kind.name}", f"see {self.kind.page}")
-        faults = sorted(dict.fromkeys(self.faults), key=_place)
+        faults = _told_once(sorted(dict.fromkeys(self._found), key=_place_of))
         if len(faults) > MAX_FAULTS:
-            rest = Fault(
-                f"and {len(faults) - MAX_FAULTS} more faults",
-                "mend these first",
-                *_place(faults[MAX_FAULTS]),
-            )
+            last = faults[MAX_FAULTS]
+            more = f"and {len(faults) - MAX_FAULTS} more faults"
+            rest = Fault(more, "mend these first", last.line, last.column)
             faults = [*faults[:MAX_FAULTS], rest]
         return MethodFileError(self.name, faults, self.text)
 
@@ -115,85 +182,118 @@ class Source:
             self.fault(None, f"a file of more than {MAX_BYTES} characters", "split it")
             return None
         try:
-            if len(self.text) > _SHALLOW:
-                _refuse_deep(self.text)
-            root = yaml.compose(self.text, Loader=_LOADER)
-            if root is None:
-                self.fault(None, "the file is empty", self.kind.smallest)
-                return None
-            _walk(root)
-        except RecursionError:
-            self.fault(None, f"nested more than {MAX_NESTING} deep", "write it flatter")
-            return None
-        except UnicodeEncodeError as error:  # half of a surrogate pair, which no file has
-            place = _place_of_sign(self.text, ord(self.text[error.start]))
-            self.faults.append(
-                Fault("half a sign, which no text has", "write the text as Unicode", *place)
-            )
+            root = _compose(self.text)
+        except _TooLargeError as error:
+            self._note(Fault(error.message, error.cure, error.line, error.column))
             return None
         except yaml.MarkedYAMLError as error:
-            mark = error.problem_mark or error.context_mark
-            place = (mark.line + 1, mark.column + 1) if mark else (1, 1)
-            self.faults.append(
-                Fault(f"this is not YAML: {error.problem or error.context}", "", *place)
-            )
+            self._note(_yaml_fault(error))
             return None
         except yaml.YAMLError as error:
-            place = _place_of_sign(self.text, getattr(error, "character", None))
-            self.faults.append(Fault(f"this is not YAML: {str(error).splitlines()[0]}", "", *place))
+            sign = getattr(error, "character", "")
+            place = _place_of_sign(self.text, sign)
+            if isinstance(sign, int) and 0xD800 <= sign <= 0xDFFF:
+                message, cure = "half a sign, which no text has", "write the text as Unicode"
+            else:
+                message = f"this is not YAML: {str(error).splitlines()[0]}"
+                cure = "leave the control character out"
+            self._note(Fault(message, cure, *place))
             return None
-        except _TooLargeError as error:
-            self.faults.append(Fault(error.message, error.cure, error.line, error.column))
+        if root is None:
+            self.fault(None, "the file is empty", self.kind.smallest)
             return None
         if not isinstance(root, MappingNode):
             self.fault(root, f"a {self.kind.name} is a mapping of keys to values", self.kind.start)
             return None
         return root
 
-    def mapping(self, node: Node, where: str, allowed: Iterable[str]) -> dict[str, Node]:
-        """The entries of a mapping by key; doubled and unknown keys are noted."""
+    def mapping(
+        self,
+        node: Node,
+        where: str,
+        allowed: Iterable[str],
+        cures: Mapping[str, str] = _NO_CURES,
+        form: str = "",
+    ) -> dict[str, Node]:
+        """The entries of a mapping by key; doubled and unknown keys are noted.
+
+        A key that is misspelt is read as the one it was meant to be, so that a slip of the finger
+        is one fault and not also a missing key.
+
+        Args:
+            node: the value.
+            where: what it is, for messages.
+            allowed: the keys there are; none for any.
+            cures: what to do about keys that are expected elsewhere.
+            form: the cure where there is no mapping at all.
+        """
         if not isinstance(node, MappingNode):
-            self.fault(node, f"{where}: a mapping of keys to values is expected here")
+            self.fault(node, f"{where}: a mapping of keys to values is expected here", form)
             return {}
         known = list(allowed)
+        given = keys_of(node)
         entries: dict[str, Node] = {}
+        unknown: list[ScalarNode] = []
         for key_node, value in node.value:
             if not isinstance(key_node, ScalarNode):
                 self.fault(key_node, f"{where}: a key is a plain word")
                 continue
             key = key_node.value
             if key in entries:
-                self.fault(
-                    key_node,
-                    f"{where}: the key {shortened(key)} stands here twice",
-                    "keep one of them",
-                )
-            elif known and key not in known:
-                self.fault(
-                    key_node, f"{where}: unknown key {shortened(key)}", did_you_mean(key, known)
-                )
-            else:
+                message = f"{where}: the key {shortened(key)} stands here twice"
+                self.fault(key_node, message, "keep one of them")
+            elif not known or key in known:
                 entries[key] = value
+            else:
+                unknown.append(key_node)
+                meant = _meant(key, known) if len(unknown) <= MAX_FAULTS else ""
+                if meant and key not in cures and meant not in given:
+                    entries[meant] = value
+        self._unknown_keys(unknown, where, known, cures)
         return entries
 
-    def items(self, node: Node, where: str) -> list[Node]:
+    def _unknown_keys(
+        self,
+        unknown: Sequence[ScalarNode],
+        where: str,
+        known: Sequence[str],
+        cures: Mapping[str, str],
+    ) -> None:
+        """Note keys that there are not; those that belong to one other place as one fault."""
+        together: dict[str, list[ScalarNode]] = {}
+        for number, key_node in enumerate(unknown[:MAX_FAULTS]):
+            cure = cures.get(key_node.value, "")
+            together.setdefault(cure or str(number), []).append(key_node)
+        for cure, nodes in together.items():
+            first = nodes[0].value
+            names = ", ".join(shortened(x.value) for x in nodes[:MAX_PLACES])
+            message = f"{where}: unknown key{'s' * (len(nodes) > 1)} {names}"
+            if first not in cures:
+                meant = _meant(first, known)
+                cure = f"did you mean {meant!r}?" if meant else did_you_mean(first, known)
+            self.fault(nodes[0], message, cure)
+        if len(unknown) > MAX_FAULTS:
+            count = len(unknown) - MAX_FAULTS
+            message = f"{where}: and {count} more unknown keys"
+            self.fault(unknown[MAX_FAULTS], message, "mend these first")
+
+    def items(self, node: Node, where: str, cure: str = "") -> list[Node]:
         """The items of a list."""
         if not isinstance(node, SequenceNode):
-            self.fault(node, f"{where}: a list is expected here", "write it in brackets: [ , ]")
+            cure = cure or "write it in brackets: [ , ]"
+            self.fault(node, "a list is expected here", cure, where=where)
             return []
         return list(node.value)
 
     def scalar(self, node: Node, where: str) -> str | None:
         """The text of a single value, as written."""
         if not isinstance(node, ScalarNode):
-            self.fault(node, f"{where}: a single value is expected here")
+            self.fault(node, "a single value is expected here", where=where)
             return None
-        if not str(node.tag).startswith("tag:yaml.org,2002:") or str(node.tag).startswith(_PYTHON):
-            self.fault(
-                node,
-                f"{where}: the tag {shortened(str(node.tag))} has no place here",
-                "leave it out",
-            )
+        tag = str(node.tag)
+        if not tag.startswith("tag:yaml.org,2002:") or tag.startswith(_PYTHON):
+            message = f"the tag {shortened(tag)} has no place here"
+            self.fault(node, message, "leave it out", where=where)
             return None
         return str(node.value)
 
@@ -204,10 +304,8 @@ class Source:
             return None
         plain = text.isascii() and text.isdigit() and (text == "0" or not text.startswith("0"))
         if not plain or len(text) > 6 or int(text) < smallest:
-            self.fault(
-                node,
-                f"{where}: a whole number of at least {smallest} is expected, not {shortened(text)}",
-            )
+            wanted = f"a whole number of at least {smallest} is expected"
+            self.fault(node, f"{where}: {wanted}, not {shortened(text)}")
             return None
         return int(text)
 
@@ -220,6 +318,29 @@ class Source:
         return None
 
 
+_OTHER_WORDS = {
+    "weights": "b",
+    "weight": "b",
+    "nodes": "c",
+    "abscissae": "c",
+    "abscissas": "c",
+    "matrix": "A",
+    "coefficients": "A",
+    "title": "name",
+    "method": "methods",
+    "params": "parameters",
+    "butcher": "tableau",
+    "claims": "expect",
+}
+"""What people call keys besides their names."""
+
+
+def _meant(key: str, known: Sequence[str]) -> str:
+    """The key that an unknown one stands for; empty where it is none of them."""
+    other = _OTHER_WORDS.get(key.lower(), "")
+    return other if other in known else nearest(key, known)
+
+
 class _TooLargeError(Exception):
     def __init__(self, at: Node | yaml.Event, message: str, cure: str) -> None:
         super().__init__(message)
@@ -228,22 +349,75 @@ class _TooLargeError(Exception):
         self.message, self.cure = message, cure
 
 
+class _Composer(yaml.SafeLoader):
+    """PyYAML's composer; it refuses too many values and too deep nesting as it meets them."""
+
+    def __init__(self, text: str) -> None:
+        super().__init__(text)
+        self._depth = 0
+        self._count = 0
+
+    def _next_event(self) -> yaml.Event:
+        event: yaml.Event = self.peek_event()  # type: ignore[no-untyped-call]
+        return event
+
+    def compose_node(self, parent: Node | None, index: int) -> Node | None:
+        """One value and those in it."""
+        self._count += 1
+        if self._count > MAX_NODES:
+            raise _TooLargeError(self._next_event(), _TOO_MANY, "no method needs that")
+        if self._depth >= MAX_NESTING:
+            event = self._next_event()
+            if isinstance(event, (yaml.SequenceStartEvent, yaml.MappingStartEvent)):
+                raise _TooLargeError(event, _TOO_DEEP, "no file needs that")
+        self._depth += 1
+        node: Node | None = super().compose_node(parent, index)
+        self._depth -= 1
+        return node
+
+
 _PYTHON = "tag:yaml.org,2002:python"
 _TOO_DEEP = f"nested more than {MAX_NESTING} deep"
-_SHALLOW = 5_000
-"""Texts up to this length cannot be nested deeply enough to hurt the parser."""
+_TOO_MANY = f"more than {MAX_NODES} values in one file"
+_YAML_CURES = (
+    ("'\\t'", "indent with spaces, not with tabs"),
+    ("mapping values are not allowed", "quote a text that holds a colon, and align the keys"),
+    ("block end", "align the keys and the dashes of one list"),
+    ("undefined alias", "define it first as &name, or quote the text"),
+    ("cannot start any token", "quote a text that begins with this sign"),
+    ("another document", "give every method a file of its own"),
+    ("unexpected end of stream", "a quotation mark is open: close it"),
+    ("duplicate anchor", "give every anchor a name of its own"),
+    ("undefined tag", "leave the tag out, or quote the text"),
+)
+"""What is behind the words of PyYAML."""
 
 
-def _refuse_deep(text: str) -> None:
-    """Refuse deep nesting while it is still a flat list of events: composing it recurses in C."""
-    depth = 0
-    for event in yaml.parse(text, Loader=_LOADER):
-        if isinstance(event, (yaml.SequenceStartEvent, yaml.MappingStartEvent)):
-            depth += 1
-            if depth > MAX_NESTING:
-                raise _TooLargeError(event, _TOO_DEEP, "no file needs that")
-        elif isinstance(event, (yaml.SequenceEndEvent, yaml.MappingEndEvent)):
-            depth -= 1
+def _yaml_fault(error: yaml.MarkedYAMLError) -> Fault:
+    """What PyYAML complains about, where, and its cure."""
+    mark = error.problem_mark or error.context_mark
+    place = (mark.line + 1, mark.column + 1) if mark else (1, 1)
+    context = str(error.context or "")
+    problem = str(error.problem or context)
+    if context.startswith("found "):  # here the context says what is wrong
+        problem = context.partition(";")[0]
+    cure = next((cure for words, cure in _YAML_CURES if words in problem), "")
+    if "parsing a flow" in context and error.context_mark:
+        opened = f"{error.context_mark.line + 1}:{error.context_mark.column + 1}"
+        cure = f"the bracket at {opened} is open: close it, and put commas between its values"
+    return Fault(printable(f"this is not YAML: {problem}"), printable(cure), *place)
+
+
+def _compose(text: str) -> Node | None:
+    """The one document of a text, within the limits; None where there is nothing in it."""
+    composer = _Composer(text)
+    try:
+        root: Node | None = composer.get_single_node()
+    finally:
+        composer.dispose()
+    if root is not None:
+        _walk(root)
+    return root
 
 
 def _walk(root: Node) -> None:
@@ -254,9 +428,7 @@ def _walk(root: Node) -> None:
         node, depth = pending.pop()
         count += 1
         if count > MAX_NODES:
-            raise _TooLargeError(
-                root, f"more than {MAX_NODES} values in one file", "aliases count each time"
-            )
+            raise _TooLargeError(root, _TOO_MANY, "aliases count each time")
         if depth > MAX_NESTING:
             raise _TooLargeError(
                 node, _TOO_DEEP, "no file needs that; or an anchor contains itself"
@@ -273,8 +445,35 @@ def _children(node: Node) -> Iterator[Node]:
             yield value
 
 
-def _place(fault: Fault) -> tuple[int, int]:
-    return fault.line, fault.column
+def _place_of(found: _Found) -> tuple[int, int]:
+    return found.fault.line, found.fault.column
+
+
+def _told_once(found: Sequence[_Found]) -> list[Fault]:
+    """The faults in file order; those of one cause at their first place, which names the others."""
+    causes = Counter(one.cause for one in found)
+    first: dict[object, Fault] = {}
+    places: dict[object, dict[tuple[int, int], None]] = {}
+    for number, one in enumerate(found):
+        together = one.cause and (one.is_one or causes[one.cause] > MAX_PLACES)
+        key: object = one.cause if together else number
+        first.setdefault(key, one.fault)
+        places.setdefault(key, {})[_place_of(one)] = None
+    return [
+        replace(fault, message=f"{fault.message}{_elsewhere(list(places[key])[1:])}")
+        for key, fault in first.items()
+    ]
+
+
+def _elsewhere(others: Sequence[tuple[int, int]]) -> str:
+    """Where else a cause shows: ``(also at 4:12 and in 3 more places)``."""
+    if not others:
+        return ""
+    places = ", ".join(f"{line}:{column}" for line, column in others[:MAX_PLACES])
+    left = len(others) - MAX_PLACES
+    if left > 0:
+        return f" (also at {places} and in {counted(left, 'more place')})"
+    return f" (also at {places})"
 
 
 def _folded_place(text: str, node: ScalarNode, offset: int) -> tuple[int, int]:
@@ -298,11 +497,11 @@ def _folded_place(text: str, node: ScalarNode, offset: int) -> tuple[int, int]:
     return line + 1, position - text.rfind("\n", 0, position)
 
 
-def _place_of_sign(text: str, code: object) -> tuple[int, int]:
-    """Where a sign that YAML refuses stands first; its parser in C counts bytes, not signs."""
-    position = (
-        text.find(chr(code), 1 if text.startswith("\ufeff") else 0) if isinstance(code, int) else 0
-    )
+def _place_of_sign(text: str, sign: object) -> tuple[int, int]:
+    """Where a sign that YAML refuses stands first; one at the start of the text marks its bytes."""
+    code = ord(sign) if isinstance(sign, str) and len(sign) == 1 else sign
+    start = 1 if text.startswith("\ufeff") else 0
+    position = text.find(chr(code), start) if isinstance(code, int) else 0
     position = max(position, 0)
     return text.count("\n", 0, position) + 1, position - text.rfind("\n", 0, position)
 
@@ -312,6 +511,15 @@ def keys_of(node: Node) -> set[str]:
     if not isinstance(node, MappingNode):
         return set()
     return {key.value for key, _ in node.value if isinstance(key, ScalarNode)}
+
+
+def key_nodes(node: Node) -> dict[str, ScalarNode]:
+    """Where the keys of a mapping stand, the first of equal ones."""
+    found: dict[str, ScalarNode] = {}
+    for key, _ in node.value if isinstance(node, MappingNode) else ():
+        if isinstance(key, ScalarNode):
+            found.setdefault(str(key.value), key)
+    return found
 
 
 def one_line(text: str) -> str:

@@ -10,6 +10,7 @@ from flint import arb, fmpq
 
 from garkcli.check.analysis import Analysis, AnyOrder
 from garkcli.check.outcome import Claim, Outcome
+from garkcli.errors import excerpt
 from garkcli.exact.display import decimal, to_decimal, to_text
 from garkcli.order.certificate import Order, Witness
 from garkcli.order.simplifying import Simplifying
@@ -73,21 +74,11 @@ def faults_text(outcome: Outcome, paint: Paint) -> str:
         place = f"{file}:{fault.line}:{fault.column}" if fault.line else file
         lines.append(f"{place}: {paint('bad', 'error')}: {printable(fault.message)}")
         if 0 < fault.line <= len(source):
-            lines += _excerpt(source[fault.line - 1], fault.line, fault.column, paint)
+            shown = source[fault.line - 1]
+            lines += excerpt(shown, fault.line, fault.column, paint("bad", "^"))
         if fault.help:
             lines.append(f"      {paint('note', 'help')}: {printable(fault.help)}")
     return "\n".join(lines)
-
-
-def _excerpt(text: str, line: int, column: int, paint: Paint, width: int = 72) -> list[str]:
-    """The source line, cut to the terminal, with a caret under ``column``."""
-    start = max(0, min(column - 1 - width // 2, len(text) - width))
-    shown = text[start : start + width].replace("\t", " ")
-    before = shown[: column - 1 - start]
-    return [
-        f"{line:5} | {printable(shown)}",
-        f"      | {' ' * len(printable(before))}{paint('bad', '^')}",
-    ]
 
 
 def _line(outcome: Outcome, analysis: Analysis, paint: Paint) -> str:

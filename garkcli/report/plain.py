@@ -8,23 +8,16 @@ from __future__ import annotations
 
 import re
 
+from garkcli.errors import printable
+
+__all__ = ["csv_cell", "inert", "printable"]
+
 _COMMAND = re.compile(r"^([^\S\n]*):(?=:)", re.MULTILINE)
 """A line that GitHub Actions takes for a workflow command: it begins with two colons."""
 _OLD_COMMAND = re.compile(r"##(?=\[)")
 """The older form of these commands, which is looked for anywhere in a line."""
 _FORMULA = ("=", "+", "-", "@", "\t", "\r")
 """What a spreadsheet takes for the beginning of a formula."""
-
-
-def printable(text: str) -> str:
-    r"""A name as it can be shown: what a terminal would act on is written out.
-
-    That is every control character, and the signs that turn the direction of writing.
-
-    >>> print(printable("a\x1b[2Jb"))
-    a\x1b[2Jb
-    """
-    return "".join(x if x.isprintable() else repr(x)[1:-1] for x in text)
 
 
 def inert(text: str) -> str:

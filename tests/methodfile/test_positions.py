@@ -95,7 +95,7 @@ def test_one_stage_is_no_plural() -> None:
         ("3**2**2", "**2"),
         ("2**99", "99"),
         ("sine(1)", "sine(1)"),
-        ("1 2 3", "2 3"),
+        ("1 2 3", "1 2 3"),
         ('"root(2, 1.5)"', '1.5)"'),
         ('"(1/2"', '"'),
     ],
@@ -124,19 +124,19 @@ def test_a_missing_file_has_no_line() -> None:
 
 
 def test_a_fault_is_told_once_where_one_node_is_used_twice() -> None:
-    """An anchor that is read for two colours is reported at its place, once for each colour it is
-    read for.
+    """An anchor that is read for several blocks has one mistake, which is reported once, at its
+    place.
     """
     text = "tableau:\n  A: [[&a [[x]], *a], [null, *a]]\n  b: [[1], [1]]\n"
     found = faults(text)
-    assert len(found) == len(set(found)) == 3
-    assert {(fault.line, fault.column) for fault in found} == {(2, 13)}
+    assert [(fault.line, fault.column) for fault in found] == [(2, 13)]
+    assert "also at" not in found[0].message
 
 
 def test_limits_are_part_of_the_fault() -> None:
     """A file that would exhaust the machine is refused with the limit it passes."""
     assert (
-        "400000 values"
+        "50000 values"
         in faults("a: &a [" + "1, " * 1000 + "1]\nb: [" + "*a, " * 500 + "*a]\n")[0].message
     )
     assert "12 deep" in faults("methods: " + "[" * 40 + "]" * 40)[0].message

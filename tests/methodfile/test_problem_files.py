@@ -149,7 +149,7 @@ def test_momenta_of_a_lagrangian() -> None:
     [
         ("", [(1, 1, "the file is empty")]),
         ("[1, 2]", [(1, 1, "a problem file is a mapping of keys to values")]),
-        ("variables: [x", [(2, 1, "this is not YAML")]),
+        ("variables: [x", [(1, 14, "this is not YAML")]),
         (
             "methods: [{family: gauss, stages: 2}]",
             [(1, 1, "this is a method file, not a problem file")],

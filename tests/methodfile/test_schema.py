@@ -12,7 +12,7 @@ import yaml
 from jsonschema import Draft7Validator
 
 from garkcli.families.registry import FAMILIES, MAX_STAGES
-from garkcli.methodfile.description import FORMS, STRUCTURES
+from garkcli.methodfile.description import FORMS, PLAIN, STRUCTURES
 from garkcli.methodfile.expectations import CLAIMS
 from garkcli.methodfile.load import load
 from garkcli.methodfile.reader import ALL_RULES, KEYS
@@ -56,10 +56,10 @@ BEYOND = {
     "sizes that have to fit": {
         "ark-shapes", "ark-too-many-weights", "block-shape", "methods-shapes", "prk-general-sizes", "prk-shapes",
         "ragged-rows", "structure-colours", "tableau-counts", "tableau-shapes", "transfer-without-default",
-        "block-doubled",
+        "block-doubled", "plain-tableau-embedded", "plain-tableau-lengths",
     },
     "the grammar of numbers": {
-        "deep-parentheses", "huge-exponent", "not-finite", "parameter-free", "parameter-names",
+        "deep-parentheses", "huge-exponent", "not-finite", "other-languages", "parameter-free", "parameter-names",
         "parameter-used-before", "parameters-that-explode", "powers-of-powers", "tolerance-irrational",
         "tolerance-no-number", "tolerance-too-large", "unknown-name",
     },
@@ -148,7 +148,8 @@ def test_the_schema_knows_the_words_of_the_loader() -> None:
     """
     properties = SCHEMA["properties"]
     assert set(properties) == set(KEYS)
-    assert {x["required"][0] for x in SCHEMA["oneOf"]} == set(FORMS)
+    assert [x["required"] for x in SCHEMA["oneOf"]] == [*([form] for form in FORMS), ["A", "b"]]
+    assert set(properties["tableau"]["properties"]) == set(PLAIN)
     assert properties["structure"]["enum"] == list(STRUCTURES)
     assert set(properties["expect"]["properties"]) == set(CLAIMS)
     *words, combination = SCHEMA["definitions"]["rule"]["oneOf"]
