@@ -37,7 +37,7 @@ BALLS: Mapping[str, Any] = {
 
 
 @dataclass(frozen=True)
-class Formula:
+class Code:
     """Straight-line code for several expressions of the same arguments.
 
     The texts have ``{a0}``, ``{a1}``, … for the arguments, ``{t0}``, … for the temporaries, and
@@ -99,9 +99,7 @@ def constant_name(x: fmpq) -> str:
 
 
 @cache
-def formula(
-    expressions: tuple[Any, ...], arguments: tuple[Any, ...], is_for_balls: bool
-) -> Formula:
+def code_of(expressions: tuple[Any, ...], arguments: tuple[Any, ...], is_for_balls: bool) -> Code:
     """The code of sympy expressions in the symbols ``arguments``.
 
     Raises:
@@ -116,7 +114,7 @@ def formula(
     for symbol, expression in found:
         writer.symbols[symbol] = writer.named(writer.text(expression))
     results = tuple("0" if x == 0 else writer.text(x) for x in reduced)
-    return Formula(
+    return Code(
         len(arguments), tuple(writer.temporaries), results, tuple(writer.constants), is_for_balls
     )
 
@@ -231,7 +229,7 @@ def function(
 
     For balls the rational constants are enclosed once, at the precision in force now.
     """
-    made = formula(expressions, arguments, is_for_balls)
+    made = code_of(expressions, arguments, is_for_balls)
     names = [f"a{i}" for i in range(len(arguments))]
     lines, results = made.lines(names, "r")
     source = f"def evaluate({', '.join(names)}):\n" + "".join(f" {line}\n" for line in lines)
@@ -243,9 +241,9 @@ def function(
     return program
 
 
-def enclosed(formulas: Sequence[Formula]) -> dict[str, arb]:
+def enclosed(codes: Sequence[Code]) -> dict[str, arb]:
     """The rational constants of the texts for balls, at the precision in force."""
-    found = {x for made in formulas if made.is_for_balls for x in made.constants if x is not None}
+    found = {x for made in codes if made.is_for_balls for x in made.constants if x is not None}
     return {constant_name(x): arb(x) for x in found}
 
 

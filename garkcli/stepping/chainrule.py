@@ -8,6 +8,7 @@ derivative by all n unknowns.
 from __future__ import annotations
 
 from collections.abc import Mapping, Sequence
+from dataclasses import dataclass
 from itertools import groupby
 from typing import TYPE_CHECKING, TypeAlias
 
@@ -19,6 +20,18 @@ if TYPE_CHECKING:
 
     Floats: TypeAlias = NDArray[np.float64]
 
+Entry: TypeAlias = tuple[int, int, int]
+"""Row, column and place of the number w of one entry of a matrix W of weights."""
+
+
+@dataclass(frozen=True)
+class _Layer:
+    """Stage values or field evaluations that do not depend on each other."""
+
+    stages: Sequence[Stage]
+    entries: Sequence[Entry]  # of the matrix W whose sums of w f the stages are
+    evaluations: Sequence[FieldEvaluation]
+
 
 class ChainRule:
     """The derivative of the image of the unknowns of a block.
@@ -27,9 +40,10 @@ class ChainRule:
         block: with its unknowns.
         graph: that it is a part of.
         dimension: d; there are n = d · (unknown stage values) unknowns.
-        weights: at which place the number w = h a of a stage and a value is.
+        weights: at which place the number w = h a of a stage and an evaluation is.
 
     Attributes:
+        evaluations: those of the block, in their order.
         arguments: the pairs of an evaluation and a stage value whose derivatives it needs, in this
             order.
     """
@@ -42,32 +56,33 @@ class ChainRule:
         weights: Mapping[tuple[Stage, FieldEvaluation], int],
     ) -> None:
         self.d, self.unknowns = dimension, block.unknowns
-        self.values = [x for x in block.order if isinstance(x, FieldEvaluation)]
-        inside = {*self.unknowns, *(x for x in block.order if isinstance(x, Stage))}
-        self.arguments = tuple(
-            (v, s) for v in self.values for s in graph.arguments[v] if s in inside
-        )
+        self.evaluations = [x for x in block.order if isinstance(x, FieldEvaluation)]
+        self._place = {x: i for i, x in enumerate(self.evaluations)}
         self._graph, self._weights = graph, weights
-        self._place = {value: i for i, value in enumerate(self.values)}
-        layers = [
-            list(layer)
-            for _, layer in groupby(block.order, lambda x: isinstance(x, FieldEvaluation))
-        ]
-        self._layers = [
-            (layer, self._entries([x for x in layer if isinstance(x, Stage)])) for layer in layers
-        ]
+
+        inside = {*self.unknowns, *(x for x in block.order if isinstance(x, Stage))}
+        arguments = []
+        for evaluation in self.evaluations:
+            arguments += [(evaluation, s) for s in graph.arguments[evaluation] if s in inside]
+        self.arguments = tuple(arguments)
+
+        self._layers = []
+        for _, group in groupby(block.order, lambda x: isinstance(x, FieldEvaluation)):
+            vertices = list(group)
+            stages = [x for x in vertices if isinstance(x, Stage)]
+            evaluations = [x for x in vertices if isinstance(x, FieldEvaluation)]
+            self._layers.append(_Layer(stages, self._entries(stages), evaluations))
         self._image = self._entries(self.unknowns)
 
-    def _entries(self, stages: Sequence[Stage]) -> list[tuple[int, int, int]]:
-        """Row, column and number of each entry of the matrix W of the sums of w f that ``stages``
-        are.
-        """
-        return [
-            (i, self._place[value], self._weights[stage, value])
-            for i, stage in enumerate(stages)
-            for value in self._graph.sums[stage]
-            if value in self._place
-        ]
+    def _entries(self, stages: Sequence[Stage]) -> list[Entry]:
+        """The entries of the matrix W of the sums of w f that ``stages`` are."""
+        found = []
+        for row, stage in enumerate(stages):
+            for evaluation in self._graph.sums[stage]:
+                if evaluation in self._place:
+                    place = self._weights[stage, evaluation]
+                    found.append((row, self._place[evaluation], place))
+        return found
 
     def inverse(self, derivatives: Sequence[float], weights: Sequence[float]) -> Floats:
         """(I − J)⁻¹, shape (n, n).
@@ -79,30 +94,30 @@ class ChainRule:
         import numpy as np
 
         d, n = self.d, self.d * len(self.unknowns)
-        fields = dict(zip(self.arguments, np.array(derivatives).reshape(-1, d, d), strict=True))
+        matrices = np.array(derivatives).reshape(-1, d, d)
+        fields = dict(zip(self.arguments, matrices, strict=True))
         stages: dict[Stage, Floats] = {s: np.eye(d, n, i * d) for i, s in enumerate(self.unknowns)}
-        of_values = np.zeros((len(self.values), d, n))
+        of_fields = np.zeros((len(self.evaluations), d, n))
         w = np.array(weights)
-        for layer, entries in self._layers:
-            if entries:
-                stages.update(zip(layer, _combined(len(layer), entries, w, of_values), strict=True))  # type: ignore[arg-type]
-            for x in layer:
-                if isinstance(x, FieldEvaluation):
-                    terms = (
-                        fields[x, s] @ stages[s] for s in self._graph.arguments[x] if s in stages
-                    )
-                    of_values[self._place[x]] = sum(terms, np.zeros((d, n)))
-        J = _combined(len(self.unknowns), self._image, w, of_values).reshape(n, n)
+        for layer in self._layers:
+            if layer.entries:
+                found = _combined(len(layer.stages), layer.entries, w, of_fields)
+                stages.update(zip(layer.stages, found, strict=True))
+            for x in layer.evaluations:
+                total = np.zeros((d, n))
+                for stage in self._graph.arguments[x]:
+                    if stage in stages:
+                        total = total + fields[x, stage] @ stages[stage]
+                of_fields[self._place[x]] = total
+        J = _combined(len(self.unknowns), self._image, w, of_fields).reshape(n, n)
         return np.asarray(np.linalg.inv(np.eye(n) - J), dtype=np.float64)
 
 
-def _combined(
-    count: int, entries: Sequence[tuple[int, int, int]], w: Floats, of_values: Floats
-) -> Floats:
+def _combined(count: int, entries: Sequence[Entry], w: Floats, of_fields: Floats) -> Floats:
     """The derivatives of ``count`` sums of w f, shape (count, d, n)."""
     import numpy as np
 
-    W = np.zeros((count, len(of_values)))
+    W = np.zeros((count, len(of_fields)))
     rows, columns, numbers = np.array(entries).T
     W[rows, columns] = w[numbers]
-    return np.asarray(np.tensordot(W, of_values, axes=1), dtype=np.float64)
+    return np.asarray(np.tensordot(W, of_fields, axes=1), dtype=np.float64)

@@ -62,14 +62,14 @@ class DependencyGraph:
     """What a method computes on a problem.
 
     Attributes:
-        values: every evaluation of a vector field.
+        evaluations: every evaluation of a vector field.
         arguments: the stage values that each evaluation looks at, positions before momenta.
         sums: the evaluations that each stage value is a combination of.
         coefficients: their coefficients, and for no stage the weights; equal numbers have the same
             text.
     """
 
-    values: tuple[FieldEvaluation, ...]
+    evaluations: tuple[FieldEvaluation, ...]
     arguments: Mapping[FieldEvaluation, tuple[Stage, ...]]
     sums: Mapping[Stage, tuple[FieldEvaluation, ...]]
     coefficients: Mapping[tuple[Stage | None, FieldEvaluation], str]
@@ -78,7 +78,7 @@ class DependencyGraph:
         """The components in the order in which they can be computed."""
         after: dict[Stage | FieldEvaluation, list[Stage | FieldEvaluation]] = {}
         after |= {stage: [] for stage in self.sums}
-        after |= {value: [] for value in self.values}
+        after |= {value: [] for value in self.evaluations}
         for value, stages in self.arguments.items():
             for stage in stages:
                 after[stage].append(value)

@@ -25,6 +25,7 @@ from garkcli.stepping.dependency import (
     with_joined_terms,
 )
 from garkcli.stepping.matching import split_into
+from garkcli.stepping.newton import MAX_ITERATIONS
 from garkcli.stepping.program import Program, write
 from garkcli.tableau.pointwise import numeric_entries
 from garkcli.tableau.tableau import Tableau
@@ -120,10 +121,11 @@ class Binding:
                 entry(self.tableau, entries, stage, value) for stage, value in program.coefficients
             )
             names: dict[str, Any] = {
-                **enclosed(program.formulas),
+                **enclosed(program.codes),
                 "NotSolved": NotSolved,
                 "nan": math.nan,
                 "precision": arb(10) ** -digits if is_for_balls else FLOAT_PRECISION,
+                "iterations": MAX_ITERATIONS + (digits if is_for_balls else 0),
                 "inverted": _inverted,
                 **{f"chain{i}": chain.inverse for i, chain in program.chains.items()},
                 "corrections": _corrections_of_balls if is_for_balls else _corrections,

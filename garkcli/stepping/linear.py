@@ -161,13 +161,6 @@ def _columns(rows: list[list[Number]], field: NumberField | None) -> fmpq_mat:
     )
 
 
-def step_matrix(step: LinearStep, h: fmpq, bits: int) -> arb_mat:
-    """R(h) enclosed with about ``bits`` correct bits an entry, shape (2, 2); raises as
-    ``LinearStep.at``.
-    """
-    return enclosure(step.at(h), bits)
-
-
 def enclosure(matrix: Matrix, bits: int) -> arb_mat:
     """An exact matrix as balls of about ``bits`` correct bits."""
     return arb_mat([[_ball(x, bits) for x in row] for row in matrix])

@@ -3,6 +3,11 @@
 It starts from the fields at y_0, corrected by what that missed in the last step. Up to two unknowns
 floats have a new Jacobian in every iteration, more an inverse in floats that is kept as long as it
 serves.
+
+With Δ_k the size of correction k, the next one is foreseen from the rate Θ = Δ_k/Δ_{k−1} as in
+Hairer and Wanner, Solving Ordinary Differential Equations II, section IV.8: Θ Δ_k with a Jacobian
+that is kept, and with a new one C Δ_k², where C = Δ_k/Δ_{k−1}². When that is below round-off, the
+correction that was just made is the last.
 """
 
 from __future__ import annotations
@@ -10,143 +15,180 @@ from __future__ import annotations
 from collections.abc import Sequence
 
 from garkcli.problems.hamiltonian import Group
-from garkcli.stepping.dependency import DependencyGraph, FieldEvaluation, Fields, StageBlock
+from garkcli.stepping.dependency import FieldEvaluation, Stage, StageBlock
 from garkcli.stepping.jacobian import JacobianWriter, Slope, identity_minus
-from garkcli.stepping.stagewriter import names
+from garkcli.stepping.stagewriter import StageWriter, names
 
 MAX_ITERATIONS = 50
-"""Newton iterations before a step is given up."""
+"""Newton iterations in floats before a step is given up; numbers with more digits may take one more
+for each digit, since a Jacobian of floats is worth at least one in each.
+"""
 _WRITTEN = 40
 """Up to so many unknowns the Jacobian is written out."""
 _DIRECT = 2
 """Up to so many unknowns floats solve by formulas, with a new Jacobian in every iteration."""
 
+# Parts of the size of the unknowns. A float is good to 1.1e-16 of itself.
+_SQUARED_AWAY = 1e-9  # a correction whose square is below round-off: 1e-18
+_BELOW_FLOATS = 1e-17  # a foreseen correction that no float can show, with a factor of ten to spare
+_NEAR_FOR_FLOATS = 1e-2  # a Jacobian one hundredth off gains two digits an iteration: it is kept
+_NEAR_FOR_BALLS = 1e-10  # one made so near gains ten digits, of the sixteen that its floats allow
+_KEPT_RATE = 0.1  # a kept Jacobian that gains less than a digit an iteration is made anew
+_STALLED_RATE = 0.5  # corrections that do not halve are round-off, where they are small enough:
+_STALLED_UNITS = 1e4  # in units of the precision; evaluations lose some digits to cancellation
 
-class NewtonWriter(JacobianWriter):
+
+class NewtonWriter:
     """Writes Newton's method.
+
+    Args:
+        stages: writes the stages and the lines.
+        jacobians: writes derivatives.
 
     Attributes:
         frozen: the names of the fields at y_0.
     """
 
-    def __init__(
-        self, graph: DependencyGraph, fields: Fields, dimension: int, is_for_balls: bool
-    ) -> None:
-        super().__init__(graph, fields, dimension, is_for_balls)
+    def __init__(self, stages: StageWriter, jacobians: JacobianWriter) -> None:
         self.frozen: dict[tuple[int, Group], list[str]] = {}
+        self._stages, self._jacobians = stages, jacobians
+        self._lines = stages.lines
+        self._is_for_balls = stages.is_for_balls
 
-    def _newton(self, block: StageBlock, index: int) -> None:
-        """Newton's method for the unknowns of ``block``."""
-        components = [self._component(stage, i) for stage in block.unknowns for i in range(self.d)]
-        zs = [f"z{c}" for c in components]
-        is_direct = len(zs) <= _DIRECT and not self.is_for_balls
+    def solve(self, block: StageBlock, index: int) -> None:
+        """Write Newton's method for the unknowns of ``block``, implicit block number ``index``."""
+        write, d = self._lines.write, self._stages.d
+        components = [self._stages.component(s, i) for s in block.unknowns for i in range(d)]
+        unknowns = [f"z{c}" for c in components]
+        is_direct = len(unknowns) <= _DIRECT and not self._is_for_balls
         self._start(block)
-        self._write("floor = " + " + ".join(f"abs({y})" for y in names("y", 2 * self.d)))
-        self._write("before = 0.0")
-        self._write("done = False")
+        write("floor = " + " + ".join(f"abs({y})" for y in names("y", 2 * d)))
+        write("before = 0.0")
+        write("done = False")
         if not is_direct:
-            self._write("stale = True")
-        self._write(f"for iteration in range({MAX_ITERATIONS}):")
-        with self._nested():
+            write("stale = True")
+        write("for iteration in range(iterations):")
+        with self._lines.nested():
             for stage in block.unknowns:
-                self.stages[stage] = [f"x{self._component(stage, i)}" for i in range(self.d)]
-                for i in range(self.d):
-                    c = self._component(stage, i)
-                    self._write(f"x{c} = {self._y(stage.group, i)} + z{c}")
-            self._explicit(block)
-            self._write("if done:")
-            self._write(" break")
+                self._place(stage)
+            self._stages.explicit(block)
+            write("if done:")
+            write(" break")
             self._residuals(block)
             if is_direct:
-                self._directly(self._jacobian(block))
+                self._directly(self._jacobians.written_out(block))
             else:
-                self._by_inverse(block, len(zs), index)
-            for k, z in enumerate(zs):
-                self._write(f"{z} = ({z} - c{k}).mid()" if self.is_for_balls else f"{z} -= c{k}")
-            self._write("size = " + " + ".join(f"abs(c{k})" for k in range(len(zs))))
-            self._write("scale = " + " + ".join(f"abs({z})" for z in zs))
+                self._by_inverse(block, len(unknowns), index)
+            for k, z in enumerate(unknowns):
+                write(f"{z} = ({z} - c{k}).mid()" if self._is_for_balls else f"{z} -= c{k}")
+            write("size = " + " + ".join(f"abs(c{k})" for k in range(len(unknowns))))
+            write("scale = " + " + ".join(f"abs({z})" for z in unknowns))
             self._ending(is_direct)
-        self._write("else:")
-        self._write(" raise NotSolved(number, float(size))")
-        self._write(f"n{index} += iteration + 1")
+        write("else:")
+        write(" raise NotSolved(number, float(size))")
+        write(f"n{index} += iteration + 1")
+
+    def _place(self, stage: Stage) -> None:
+        """An unknown stage value, from what is solved for."""
+        stages = self._stages
+        stages.stages[stage] = [f"x{stages.component(stage, i)}" for i in range(stages.d)]
+        for i in range(stages.d):
+            c = stages.component(stage, i)
+            self._lines.write(f"x{c} = {stages.start(stage.group, i)} + z{c}")
 
     def _start(self, block: StageBlock) -> None:
         """The fields frozen at y_0, and what that missed in the last step, extrapolated."""
+        stages = self._stages
         for stage in block.unknowns:
-            for value in self.graph.sums[stage]:
-                self._freeze(value)
+            for evaluation in stages.graph.sums[stage]:
+                self._freeze(evaluation)
         for stage in block.unknowns:
-            for i in range(self.d):
-                c = self._component(stage, i)
-                terms = [
-                    f"{self._weight(stage, v)}*{f}"
-                    for v in self.graph.sums[stage]
-                    if (f := self.frozen[v.colour, v.group][i]) != "0"
-                ]
-                self._write(f"g{c} = {' + '.join(terms) or '0.0'}")
+            for i in range(stages.d):
+                c = stages.component(stage, i)
+                self._lines.write(f"g{c} = {self._frozen_sum(stage, i)}")
                 guess = f"g{c} + m{c} + n{c}"
-                self._write(f"z{c} = ({guess}).mid()" if self.is_for_balls else f"z{c} = {guess}")
+                self._lines.write(
+                    f"z{c} = ({guess}).mid()" if self._is_for_balls else f"z{c} = {guess}"
+                )
 
-    def _freeze(self, value: FieldEvaluation) -> None:
-        key = value.colour, value.group
-        if key not in self.frozen:
-            groups = self.fields[key].depends
-            at = [self._y(group, i) for group in groups for i in range(self.d)]
-            made = self._formula(self.fields[key].components, value)
-            self.frozen[key] = self._emit(made, at, f"g{value.colour}{value.group}_")
+    def _frozen_sum(self, stage: Stage, i: int) -> str:
+        terms = []
+        for evaluation in self._stages.graph.sums[stage]:
+            f = self.frozen[evaluation.colour, evaluation.group][i]
+            if f != "0":
+                terms.append(f"{self._stages.weight(stage, evaluation)}*{f}")
+        return " + ".join(terms) or "0.0"
+
+    def _freeze(self, evaluation: FieldEvaluation) -> None:
+        key = evaluation.colour, evaluation.group
+        if key in self.frozen:
+            return
+        stages = self._stages
+        field = stages.fields[key]
+        start = [stages.start(group, i) for group in field.depends for i in range(stages.d)]
+        code = stages.code(field.components, evaluation, self._is_for_balls)
+        prefix = f"g{evaluation.colour}{evaluation.group}_"
+        self.frozen[key] = stages.emit(code, start, prefix)
 
     def _residuals(self, block: StageBlock) -> None:
         k = 0
         for stage in block.unknowns:
-            total = self._total(stage, self.graph.sums[stage])
+            total = self._stages.total(stage, self._stages.graph.sums[stage])
             for i, text in enumerate(total.texts):
-                self._write(f"r{k} = z{self._component(stage, i)} - ({text or '0.0'})")
+                z = f"z{self._stages.component(stage, i)}"
+                self._lines.write(f"r{k} = {z} - ({text or '0.0'})")
                 k += 1
 
     def _directly(self, J: Sequence[Slope]) -> None:
         """Corrections by Cramer's rule for (I − J) c = r."""
         M = identity_minus(J)
-        self._write("jacobians += 1")
+        self._lines.write("jacobians += 1")
         if len(J) == 1:
-            self._write(f"c0 = r0/({M[0][0]})")
+            self._lines.write(f"c0 = r0/({M[0][0]})")
             return
         (a, b), (c, d) = M
-        self._write(f"a, b, c, d = {a}, {b}, {c}, {d}")
-        self._write("t = a*d - b*c")
-        self._write("c0, c1 = (d*r0 - b*r1)/t, (a*r1 - c*r0)/t")
+        self._lines.write(f"a, b, c, d = {a}, {b}, {c}, {d}")
+        self._lines.write("t = a*d - b*c")
+        self._lines.write("c0, c1 = (d*r0 - b*r1)/t, (a*r1 - c*r0)/t")
 
     def _by_inverse(self, block: StageBlock, n: int, index: int) -> None:
         """Corrections by the inverse of I − J, a matrix of floats, which is kept as long as it
         serves.
         """
-        self._write("if stale:")
-        with self._nested():
+        self._lines.write("if stale:")
+        with self._lines.nested():
             if n > _WRITTEN:
-                self._chain(block, index)
+                self._jacobians.by_chain_rule(block, index)
             else:
-                entries = [x for row in identity_minus(self._jacobian(block)) for x in row]
-                self._write(f"inverse = inverted([{', '.join(entries)}], {n})")
-            self._write("jacobians += 1")
+                matrix = identity_minus(self._jacobians.written_out(block))
+                entries = ", ".join(x for row in matrix for x in row)
+                self._lines.write(f"inverse = inverted([{entries}], {n})")
+            self._lines.write("jacobians += 1")
         residuals = ", ".join(f"r{k}" for k in range(n))
-        self._write(f"{', '.join(names('c', n))}, = corrections(inverse, [{residuals}])")
+        corrections = ", ".join(names("c", n))
+        self._lines.write(f"{corrections}, = corrections(inverse, [{residuals}])")
 
     def _ending(self, is_direct: bool) -> None:
         """Whether the next correction would be below round-off, and whether the Jacobian still
         serves.
         """
-        self._write("if not size < inf:")
-        self._write(" raise NotSolved(number, float(size))")
-        # the next correction: of the size squared with a new Jacobian, in proportion with an old
-        # one
+        write = self._lines.write
+        write("if not size < inf:")
+        write(" raise NotSolved(number, float(size))")
+        squared_away = f"size < {_SQUARED_AWAY:.0e}*scale"
         if is_direct:
-            ends = "size < 1e-9*scale or size**3 <= 1e-17*scale*before**2"
+            ends = f"{squared_away} or size**3 <= {_BELOW_FLOATS:.0e}*scale*before**2"
         else:
             ends = "size <= precision*scale or size*size <= precision*scale*before"
-            if not self.is_for_balls:
-                ends += " or (stale and size < 1e-9*scale)"
+            if not self._is_for_balls:
+                ends += f" or (stale and {squared_away})"
         # or round-off: only a second correction no smaller than the first tells that it is reached
-        self._write(f"done = {ends} or 0 < 0.5*before <= size <= 1e4*precision*(scale + floor)")
+        stalled = (
+            f"0 < {_STALLED_RATE}*before <= size <= {_STALLED_UNITS:.0e}*precision*(scale + floor)"
+        )
+        write(f"done = {ends} or {stalled}")
         if not is_direct:
-            near = "1e-10" if self.is_for_balls else "1e-2"
-            self._write(f"stale = size > {near}*scale or (iteration > 0 and size > 0.1*before)")
-        self._write("before = size")
+            near = _NEAR_FOR_BALLS if self._is_for_balls else _NEAR_FOR_FLOATS
+            slow = f"(iteration > 0 and size > {_KEPT_RATE}*before)"
+            write(f"stale = size > {near:.0e}*scale or {slow}")
+        write("before = size")

@@ -10,15 +10,18 @@ found by Newton's method, see ``garkcli.stepping.newton``. The text has names of
 
 from __future__ import annotations
 
-from collections.abc import Mapping, Sequence
+from collections.abc import Mapping
 from dataclasses import dataclass, replace
 
 from garkcli.problems.hamiltonian import GROUPS
-from garkcli.problems.straightline import Formula
+from garkcli.problems.straightline import Code
 from garkcli.stepping.chainrule import ChainRule
 from garkcli.stepping.dependency import DependencyGraph, FieldEvaluation, Fields, Stage, StageBlock
+from garkcli.stepping.jacobian import JacobianWriter
 from garkcli.stepping.newton import NewtonWriter
-from garkcli.stepping.stagewriter import names
+from garkcli.stepping.stagewriter import Lines, StageWriter, names
+
+_INSIDE = "   "  # of the function, its try and its loop
 
 
 @dataclass(frozen=True)
@@ -33,7 +36,7 @@ class Program:
             called with (q, p) after each step.
         coefficients: of which stage and value the coefficient a is that each w is h times; of no
             stage for b.
-        formulas: all that the text was made of.
+        codes: all that the text was made of.
         size: of a state.
         evaluations: of vector fields outside of Newton's method in one step.
         implicit: the blocks that are solved by Newton's method, in order.
@@ -42,7 +45,7 @@ class Program:
 
     source: str
     coefficients: tuple[tuple[Stage | None, FieldEvaluation], ...]
-    formulas: tuple[Formula, ...]
+    codes: tuple[Code, ...]
     size: int
     evaluations: int
     implicit: tuple[StageBlock, ...]
@@ -51,107 +54,119 @@ class Program:
     @property
     def repeated(self) -> tuple[int, ...]:
         """Evaluations of vector fields in one iteration of each implicit block."""
-        return tuple(
-            sum(isinstance(x, FieldEvaluation) for x in block.order) for block in self.implicit
-        )
+        counts = []
+        for block in self.implicit:
+            evaluations = [x for x in block.order if isinstance(x, FieldEvaluation)]
+            counts.append(len(evaluations))
+        return tuple(counts)
 
 
 def write(graph: DependencyGraph, fields: Fields, dimension: int, is_for_balls: bool) -> Program:
     """The program of one step of the method with this ``graph`` on vector fields of d =
     ``dimension``.
     """
-    return _Writer(graph, fields, dimension, is_for_balls).program()
+    return _ProgramWriter(graph, fields, dimension, is_for_balls).program()
 
 
-class _Writer(NewtonWriter):
-    """Writes all of a step."""
+class _ProgramWriter:
+    """Writes all of a step, with the help of those who write its parts."""
 
     def __init__(
         self, graph: DependencyGraph, fields: Fields, dimension: int, is_for_balls: bool
     ) -> None:
-        super().__init__(graph, fields, dimension, is_for_balls)
+        self.body = Lines(_INSIDE)
+        self.stages = StageWriter(graph, fields, dimension, is_for_balls, self.body)
+        self.jacobians = JacobianWriter(self.stages)
+        self.newton = NewtonWriter(self.stages, self.jacobians)
+        self.graph, self.d, self.is_for_balls = graph, dimension, is_for_balls
         self.blocks = graph.blocks()
+        self.implicit = tuple(block for block in self.blocks if block.unknowns)
         self.unknowns = [stage for block in self.blocks for stage in block.unknowns]
 
     def program(self) -> Program:
         """Write everything."""
-        implicit = [block for block in self.blocks if block.unknowns]
-        body = self._body(implicit)
-        y, lost = names("y", 2 * self.d), names("e", 2 * self.d)
-        starts = [
-            f"{x}{self._component(s, i)}"
-            for x in "mn"
-            for s in self.unknowns
-            for i in range(self.d)
-        ]
-        state = ", ".join((*y, *lost, *starts))
-        counts = names("n", len(implicit))
-        w = list(self.weights.values())
-        self.lines = ["def run(state, w, first, count, record):"]
-        self.indent = " "
-        self._write(f"{state}, = state")
-        if w:
-            self._write(f"{', '.join(w)}, = w")
-            if self.is_for_balls:
-                self._write("v = list(map(float, w))")
-                self._write(f"{', '.join('v' + x for x in w)}, = v")
-        self._write(" = ".join((*counts, "jacobians", "0")))
-        self._write("number = first")
-        self._write("try:")
-        with self._nested():
-            self._write("for number in range(first, first + count):")
-            with self._nested():
-                self.lines += body
-        self._write(
-            "except (ArithmeticError, ValueError):"
-        )  # outside the domain of a field, or singular
-        self._write(" raise NotSolved(number, nan) from None")
-        self._write(f"return [{state}], [{', '.join(counts)}], jacobians")
+        self._write_step()
+        text = "\n".join(self._around(self.body.texts)) + "\n"
         made = Program(
-            "\n".join(self.lines) + "\n",
-            tuple(self.first),
-            tuple(self.formulas),
-            4 * self.d + 2 * self.d * len(self.unknowns),
-            len(self.graph.values) + len(self.frozen),
-            tuple(implicit),
-            self.chains,
+            source=text,
+            coefficients=tuple(self.stages.first),
+            codes=tuple(self.stages.codes),
+            size=4 * self.d + 2 * self.d * len(self.unknowns),
+            evaluations=len(self.graph.evaluations) + len(self.newton.frozen),
+            implicit=self.implicit,
+            chains=self.jacobians.chains,
         )
         return replace(made, evaluations=made.evaluations - sum(made.repeated))
 
-    def _body(self, implicit: Sequence[StageBlock]) -> list[str]:
+    def _around(self, body: list[str]) -> list[str]:
+        """The function whose loop has this ``body``."""
+        y, lost = names("y", 2 * self.d), names("e", 2 * self.d)
+        components = [
+            self.stages.component(stage, i) for stage in self.unknowns for i in range(self.d)
+        ]
+        missed = [f"m{c}" for c in components]
+        changed = [f"n{c}" for c in components]
+        state = ", ".join((*y, *lost, *missed, *changed))
+        counts = names("n", len(self.implicit))
+        weights = list(self.stages.weights.values())
+
+        lines = Lines()
+        lines.write("def run(state, w, first, count, record):")
+        with lines.nested():
+            lines.write(f"{state}, = state")
+            if weights:
+                lines.write(f"{', '.join(weights)}, = w")
+            if weights and self.is_for_balls:  # as floats for the Jacobians
+                lines.write("v = list(map(float, w))")
+                lines.write(f"{', '.join('v' + x for x in weights)}, = v")
+            lines.write(" = ".join((*counts, "jacobians", "0")))
+            lines.write("number = first")
+            lines.write("try:")
+            with lines.nested():
+                lines.write("for number in range(first, first + count):")
+                lines.texts += body
+            # outside the domain of a field, or a singular matrix
+            lines.write("except (ArithmeticError, ValueError):")
+            lines.write(" raise NotSolved(number, nan) from None")
+            lines.write(f"return [{state}], [{', '.join(counts)}], jacobians")
+        return lines.texts
+
+    def _write_step(self) -> None:
         """One step."""
-        self.indent = "   "
+        write = self.body.write
         for block in self.blocks:
             if block.unknowns:
-                self._newton(block, implicit.index(block))
+                self.newton.solve(block, self.implicit.index(block))
             else:
-                self._explicit(block)
+                self.stages.explicit(block)
         for k, group in enumerate(GROUPS):
-            total = self._total(None, [v for v in self.graph.values if v.group == group])
+            driving = [x for x in self.graph.evaluations if x.group == group]
+            total = self.stages.total(None, driving)
             for i, change in enumerate(total.texts, k * self.d):
-                self._write(f"d{i} = {change or '0.0'}")
+                write(f"d{i} = {change or '0.0'}")
         for stage in self.unknowns:
             for i in range(self.d):
-                c = self._component(stage, i)
-                self._write(f"m{c}, n{c} = z{c} - g{c}, z{c} - g{c} - m{c}")
+                c = self.stages.component(stage, i)
+                write(f"m{c}, n{c} = z{c} - g{c}, z{c} - g{c} - m{c}")
         for i in range(2 * self.d):
             self._add(i)
         y = names("y", 2 * self.d)
-        text = f"({' + '.join(y)})"
-        self._write(
-            f"if not {text}.is_finite():" if self.is_for_balls else f"if not isfinite{text}:"
-        )
-        self._write(" raise NotSolved(number, inf)")
-        self._write("if record:")
-        self._write(f" record([{', '.join(y)}])")
-        return self.lines
+        total_of_all = f"({' + '.join(y)})"
+        if self.is_for_balls:
+            write(f"if not {total_of_all}.is_finite():")
+        else:
+            write(f"if not isfinite{total_of_all}:")
+        write(" raise NotSolved(number, inf)")
+        write("if record:")
+        write(f" record([{', '.join(y)}])")
 
     def _add(self, i: int) -> None:
         """One component of y_1: compensated in floats."""
+        write = self.body.write
         if self.is_for_balls:
-            self._write(f"y{i} = (y{i} + d{i}).mid()")
+            write(f"y{i} = (y{i} + d{i}).mid()")
             return
-        self._write(f"d{i} += e{i}")
-        self._write(f"s = y{i} + d{i}")
-        self._write(f"e{i} = y{i} - s + d{i}")
-        self._write(f"y{i} = s")
+        write(f"d{i} += e{i}")
+        write(f"s = y{i} + d{i}")
+        write(f"e{i} = y{i} - s + d{i}")
+        write(f"y{i} = s")

@@ -7,8 +7,40 @@ from contextlib import contextmanager
 from dataclasses import dataclass
 
 from garkcli.problems.hamiltonian import Group
-from garkcli.problems.straightline import Formula, formula
-from garkcli.stepping.dependency import DependencyGraph, FieldEvaluation, Fields, Stage, StageBlock
+from garkcli.problems.straightline import Code, code_of
+from garkcli.stepping.dependency import (
+    DependencyGraph,
+    FieldEvaluation,
+    Fields,
+    Stage,
+    StageBlock,
+)
+
+
+class Lines:
+    """Lines of a program.
+
+    Args:
+        indent: what the first of them begin with.
+
+    Attributes:
+        texts: the lines written so far.
+    """
+
+    def __init__(self, indent: str = "") -> None:
+        self.texts: list[str] = []
+        self._indent = indent
+
+    def write(self, line: str) -> None:
+        """Add one line."""
+        self.texts.append(self._indent + line)
+
+    @contextmanager
+    def nested(self) -> Iterator[None]:
+        """What is written in this context belongs to the line before."""
+        self._indent += " "
+        yield
+        self._indent = self._indent[:-1]
 
 
 @dataclass(frozen=True)
@@ -22,125 +54,138 @@ class Sum:
 
 
 class StageWriter:
-    """Writes lines and remembers the names of what they compute.
+    """Writes stage values and evaluations, and remembers the names of what they compute.
 
     Args:
         graph: of the method on the problem.
         fields: its vector fields.
         dimension: d.
         is_for_balls: whether the numbers are balls.
+        lines: where they are written.
+
+    Attributes:
+        weights: the names of the numbers w, by the texts of their coefficients.
+        first: where each of them occurs first.
+        codes: all that was written of fields.
+        values: the names of what each evaluation gave, d each.
+        stages: the names of each stage value, d each.
+        number: of each vertex, for names.
     """
 
     def __init__(
-        self, graph: DependencyGraph, fields: Fields, dimension: int, is_for_balls: bool
+        self,
+        graph: DependencyGraph,
+        fields: Fields,
+        dimension: int,
+        is_for_balls: bool,
+        lines: Lines,
     ) -> None:
         self.graph, self.fields, self.d, self.is_for_balls = graph, fields, dimension, is_for_balls
-        self.lines: list[str] = []
-        self.indent = ""
-        self.weights: dict[str, str] = {}  # names of the numbers w
-        self.first: list[
-            tuple[Stage | None, FieldEvaluation]
-        ] = []  # where each of them occurs first
-        self.sums: list[Sum] = []
-        self.formulas: list[Formula] = []
+        self.lines = lines
+        self.weights: dict[str, str] = {}
+        self.first: list[tuple[Stage | None, FieldEvaluation]] = []
+        self.codes: list[Code] = []
         self.values: dict[FieldEvaluation, list[str]] = {}
         self.stages: dict[Stage, list[str]] = {}
-        self.number = {vertex: i for i, vertex in enumerate((*graph.sums, *graph.values))}
+        self.number = {vertex: i for i, vertex in enumerate((*graph.sums, *graph.evaluations))}
+        self._known_sums: list[Sum] = []
 
-    def _explicit(self, block: StageBlock) -> None:
+    def explicit(self, block: StageBlock) -> None:
         """All vertices of ``block`` but its unknowns."""
         for vertex in block.order:
             if isinstance(vertex, FieldEvaluation):
-                made = self._formula(self.fields[vertex.colour, vertex.group].components, vertex)
-                self.values[vertex] = self._emit(
-                    made, self._arguments(vertex), f"f{self.number[vertex]}_"
-                )
+                self._evaluate(vertex)
             else:
                 self._place(vertex)
 
+    def _evaluate(self, evaluation: FieldEvaluation) -> None:
+        components = self.fields[evaluation.colour, evaluation.group].components
+        code = self.code(components, evaluation, self.is_for_balls)
+        prefix = f"f{self.number[evaluation]}_"
+        self.values[evaluation] = self.emit(code, self.arguments(evaluation), prefix)
+
     def _place(self, stage: Stage) -> None:
         """The stage value itself, y_0 and the sum."""
-        total = self._total(stage, self.graph.sums[stage])
+        total = self.total(stage, self.graph.sums[stage])
         found = []
         for i, text in enumerate(total.texts):
-            y = self._y(stage.group, i)
+            name = self.start(stage.group, i)
             if text:
-                c = self._component(stage, i)
-                self._write(f"z{c} = {text}")
-                self._write(f"x{c} = {y} + z{c}")
-                y, total.texts[i] = f"x{c}", f"z{c}"
-            found.append(y)
+                c = self.component(stage, i)
+                self.lines.write(f"z{c} = {text}")
+                self.lines.write(f"x{c} = {name} + z{c}")
+                name, total.texts[i] = f"x{c}", f"z{c}"
+            found.append(name)
         self.stages[stage] = found
-        self.sums.append(total)
+        self._known_sums.append(total)
 
-    def _arguments(self, value: FieldEvaluation) -> list[str]:
-        return [x for stage in self.graph.arguments[value] for x in self.stages[stage]]
+    def arguments(self, evaluation: FieldEvaluation) -> list[str]:
+        """The names of the numbers that a field is evaluated at."""
+        return [x for stage in self.graph.arguments[evaluation] for x in self.stages[stage]]
 
-    def _total(self, stage: Stage | None, values: Sequence[FieldEvaluation]) -> Sum:
-        """The sums of w f over ``values``; from a sum that is known, where that has at least two of
-        the terms.
+    def total(self, stage: Stage | None, evaluations: Sequence[FieldEvaluation]) -> Sum:
+        """The sums of w f over ``evaluations``; from a sum that is known, where that has at least
+        two of the terms.
 
         In a composition of short steps each stage goes on from the one before, and so costs no more
         than that.
         """
-        terms = {value: self._weight(stage, value) for value in values if any(self._nonzero(value))}
-        known = [x for x in self.sums if len(x.terms) > 1 and x.terms.items() <= terms.items()]
-        base = max(known, key=lambda x: len(x.terms), default=Sum({}, [""] * self.d))
+        terms = {x: self.weight(stage, x) for x in evaluations if any(self._nonzero(x))}
+        base = self._largest_part(terms)
         texts = []
         for i in range(self.d):
-            rest = [
-                f"{w}*{self.values[v][i]}"
-                for v, w in terms.items()
-                if v not in base.terms and self._nonzero(v)[i]
-            ]
-            texts.append(" + ".join([base.texts[i]] * bool(base.texts[i]) + rest))
+            parts = [base.texts[i]] if base.texts[i] else []
+            for evaluation, w in terms.items():
+                if evaluation not in base.terms and self._nonzero(evaluation)[i]:
+                    parts.append(f"{w}*{self.values[evaluation][i]}")
+            texts.append(" + ".join(parts))
         return Sum(terms, texts)
 
-    def _nonzero(self, value: FieldEvaluation) -> list[bool]:
-        return [f != "0" for f in self.values[value]]
+    def _largest_part(self, terms: dict[FieldEvaluation, str]) -> Sum:
+        """The known sum with the most of these terms and no others; an empty one where none has
+        two.
+        """
+        largest = Sum({}, [""] * self.d)
+        for known in self._known_sums:
+            is_part = len(known.terms) > 1 and known.terms.items() <= terms.items()
+            if is_part and len(known.terms) > len(largest.terms):
+                largest = known
+        return largest
 
-    def _weight(self, stage: Stage | None, value: FieldEvaluation) -> str:
-        text = self.graph.coefficients[stage, value]
+    def _nonzero(self, evaluation: FieldEvaluation) -> list[bool]:
+        return [f != "0" for f in self.values[evaluation]]
+
+    def weight(self, stage: Stage | None, evaluation: FieldEvaluation) -> str:
+        """The name of w = h a, or of h b for no stage; equal numbers have one name."""
+        text = self.graph.coefficients[stage, evaluation]
         if text not in self.weights:
             self.weights[text] = f"w{len(self.first)}"
-            self.first.append((stage, value))
+            self.first.append((stage, evaluation))
         return self.weights[text]
 
-    def _formula(
-        self,
-        expressions: Sequence[object],
-        value: FieldEvaluation,
-        is_for_balls: bool | None = None,
-    ) -> Formula:
-        arguments = self.fields[value.colour, value.group].arguments
-        made = formula(
-            tuple(expressions),
-            arguments,
-            self.is_for_balls if is_for_balls is None else is_for_balls,
-        )
-        self.formulas.append(made)
+    def code(
+        self, expressions: Sequence[object], evaluation: FieldEvaluation, is_for_balls: bool
+    ) -> Code:
+        """The code of expressions in what the field of an evaluation depends on."""
+        arguments = self.fields[evaluation.colour, evaluation.group].arguments
+        made = code_of(tuple(expressions), arguments, is_for_balls)
+        self.codes.append(made)
         return made
 
-    def _emit(self, made: Formula, arguments: Sequence[str], prefix: str) -> list[str]:
-        lines, results = made.lines(arguments, prefix)
+    def emit(self, code: Code, arguments: Sequence[str], prefix: str) -> list[str]:
+        """Write ``code`` for these arguments; the names of its results."""
+        lines, results = code.lines(arguments, prefix)
         for line in lines:
-            self._write(line)
+            self.lines.write(line)
         return results
 
-    def _y(self, group: Group, i: int) -> str:
+    def start(self, group: Group, i: int) -> str:
+        """The name of component i of q_0 or of p_0."""
         return f"y{i + (self.d if group == 'p' else 0)}"
 
-    def _component(self, stage: Stage, i: int) -> str:
+    def component(self, stage: Stage, i: int) -> str:
+        """What the names of component i of a stage value end in."""
         return f"{self.number[stage]}_{i}"
-
-    def _write(self, line: str) -> None:
-        self.lines.append(self.indent + line)
-
-    @contextmanager
-    def _nested(self) -> Iterator[None]:
-        self.indent += " "
-        yield
-        self.indent = self.indent[:-1]
 
 
 def names(letter: str, count: int) -> list[str]:

@@ -11,7 +11,7 @@ from flint import arb, ctx, fmpq
 from hypothesis import assume, given, settings
 from hypothesis import strategies as st
 
-from garkcli.problems.straightline import FUNCTIONS, formula, function
+from garkcli.problems.straightline import FUNCTIONS, code_of, function
 
 X = sympy.symbols("x y z", positive=True)
 DIGITS = 40
@@ -75,7 +75,7 @@ def test_common_parts_are_computed_once() -> None:
     """Kepler's force: one square root, one division, four products."""
     x, y, _ = X
     r3 = sympy.Pow(x**2 + y**2, sympy.Rational(3, 2))
-    lines, results = formula((-x / r3, -y / r3), (x, y), False).lines(("q0", "q1"), "f_")
+    lines, results = code_of((-x / r3, -y / r3), (x, y), False).lines(("q0", "q1"), "f_")
     text = "\n".join(lines)
     assert (text.count("sqrt"), text.count("/"), text.count("*")) == (1, 1, 5)
     assert results == ["f_0", "f_1"]
@@ -83,7 +83,7 @@ def test_common_parts_are_computed_once() -> None:
 
 def test_what_is_there_needs_no_line() -> None:
     """An argument is its own result, and zero is no code at all."""
-    lines, results = formula((X[1], sympy.Integer(0), sympy.Integer(2)), X[:2], False).lines(
+    lines, results = code_of((X[1], sympy.Integer(0), sympy.Integer(2)), X[:2], False).lines(
         ("p0", "p1"), "f_"
     )
     assert (lines, results) == ([], ["p1", "0", "2.0"])
@@ -94,9 +94,9 @@ def test_names_of_others_are_no_code() -> None:
     nasty = sympy.Symbol("__import__('os').abort()")
     assert function((nasty + 1,), (nasty,), False)(2.0) == [3.0]
     with pytest.raises(TypeError, match="no argument"):
-        formula((X[0] + X[1],), X[:1], False)
+        code_of((X[0] + X[1],), X[:1], False)
     with pytest.raises(TypeError, match="no code for gamma"):
-        formula((sympy.gamma(X[0]),), X[:1], False)
+        code_of((sympy.gamma(X[0]),), X[:1], False)
 
 
 def test_powers_are_real() -> None:

@@ -24,7 +24,6 @@ from garkcli.stepping.linear import (
     deviations,
     enclosure,
     linear_step,
-    step_matrix,
     visible_order,
     whole_steps,
 )
@@ -246,7 +245,7 @@ def test_precision_is_what_was_asked_for() -> None:
     """The enclosure of an irrational or long number has the bits."""
     tableau = TABLEAUS["separable"]
     step = linear_step(tableau, default(tableau))
-    assert all(x.rel_accuracy_bits() >= 500 for x in step_matrix(step, H, 500).entries())
+    assert all(x.rel_accuracy_bits() >= 500 for x in enclosure(step.at(H), 500).entries())
 
 
 def test_singular_stage_equations() -> None:
