@@ -7,6 +7,7 @@ GarkError                     what is wrong, and the cure
 ├── MethodError               numbers that do not make the method asked for
 │   ├── ShapeMismatch         a matrix or row of the wrong size
 │   ├── CoincidingNodes       a rule interpolates at nodes that are not distinct
+│   ├── BlockTooLarge         interpolation whose exact entries would fill the memory
 │   ├── ZeroWeight            a conjugate divides by a weight that is zero
 │   └── UnknownFamily         no such family, or not with that many stages
 ├── NoLegendreTransform       a Lagrangian whose Hamiltonian is not found
@@ -61,6 +62,10 @@ class ShapeMismatch(MethodError):
 
 class CoincidingNodes(MethodError):
     """Interpolation was asked for at nodes that are not distinct."""
+
+
+class BlockTooLarge(MethodError):
+    """Interpolation was asked for whose exact entries would take minutes, or all memory."""
 
 
 class ZeroWeight(MethodError):

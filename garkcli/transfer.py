@@ -11,11 +11,22 @@ from __future__ import annotations
 from collections.abc import Callable, Mapping, Sequence
 from typing import TypeAlias
 
+from flint import fmpq
+
+from garkcli.errors import BlockTooLarge, counted
 from garkcli.exact.field import Number
-from garkcli.exact.matrix import Matrix, add, multiply, scale
+from garkcli.exact.matrix import Matrix, add, multiply, scale, transpose
 from garkcli.tableau.conjugate import conjugate_block
 from garkcli.tableau.method import Method
-from garkcli.tableau.stages import integration
+from garkcli.tableau.stages import PointSpace, antiderivative
+
+LOG10_2 = fmpq(30103, 100000)
+"""Decimal digits of a bit."""
+MAX_WORK = 100_000_000
+"""Most bits in a block by interpolation, each entry as long as their common denominator.
+
+So many bits are decided on, with all simplifying conditions, in about a minute.
+"""
 
 Rule: TypeAlias = Callable[[Method, Method], Matrix]
 
@@ -25,9 +36,13 @@ def collocation(l: Method, m: Method) -> Matrix:
 
     Raises:
         CoincidingNodes: two nodes of ``m`` are equal.
+        BlockTooLarge: the entries would be too long.
     """
-    integrals = multiply(integration(m.stages), m.space.lifts())
-    return multiply(l.space.reductions(m.stages + 1), integrals)
+    _refuse_large(l, m)
+    columns = [
+        l.space.of_polynomial(antiderivative(basis)) for basis in m.space.basis_polynomials()
+    ]
+    return transpose(tuple(columns))
 
 
 def interpolation(l: Method, m: Method) -> Matrix:
@@ -35,8 +50,28 @@ def interpolation(l: Method, m: Method) -> Matrix:
 
     Raises:
         CoincidingNodes: two nodes of ``m`` are equal.
+        BlockTooLarge: the entries would be too long.
     """
-    return multiply(l.space.reductions(m.stages), multiply(m.space.lifts(), m.A))
+    _refuse_large(l, m)
+    columns = [l.space.of_polynomial(basis) for basis in m.space.basis_polynomials()]
+    return multiply(transpose(tuple(columns)), m.A)
+
+
+def _refuse_large(l: Method, m: Method) -> None:
+    """Refuse a block before gigabytes are spent on it, by an estimate of its size."""
+    if not isinstance(m.space, PointSpace):
+        return
+    entries = l.stages * m.stages
+    bits = m.space.interpolation_bits(enough=MAX_WORK // entries)
+    if entries * bits > MAX_WORK:
+        digits = int(bits * LOG10_2)
+        unit = 10 ** (len(str(digits)) - 1)
+        raise BlockTooLarge(
+            f"interpolation through {counted(m.stages, 'node')} makes {l.stages} by {m.stages}"
+            f" entries with a common denominator of about {digits // unit * unit} digits:"
+            " too large to be exact",
+            "choose nodes that share small denominators, or fewer; or spell the block out",
+        )
 
 
 def conjugate_rule(rule: Rule) -> Rule:

@@ -6,20 +6,27 @@ Over ℚ that is one product of two matrices in python-flint. Over K = ℚ(θ) o
     A v = Σ_{j,k} θ^(j+k) A_k v_j:
 
 at most d² products over ℚ, and one reduction for each entry of the result.
+
+A product in python-flint puts every row over one denominator. Where the denominators of a row have
+next to nothing in common, as in interpolation through unrelated fractions, that denominator is as
+long as many entries together, and the row is summed as fractions instead.
 """
 
 from __future__ import annotations
 
 from collections.abc import Sequence
+from math import lcm
 from typing import TypeAlias, cast
 
-from flint import fmpq, fmpq_mat, fmpq_poly
+from flint import fmpq, fmpq_mat, fmpq_poly, fmpz
 
 from garkcli.exact.field import ZERO, Algebraic, NumberField
 from garkcli.exact.matrix import Matrix, Vector
 
 _Parts: TypeAlias = list[tuple[int, fmpq_mat]]
 """Pairs (k, A_k)."""
+MIN_BITS_APART = 20_000
+"""Bits of all denominators of a row from which on it is looked at how much they share."""
 
 
 class LinearMap:
@@ -37,14 +44,53 @@ class LinearMap:
         self.field = field
         self._parts = _parts(rows, field)
         self._transposed = [(k, part.transpose()) for k, part in self._parts]
+        self._rows_apart = _rational_rows_apart(rows) if field is None else None
 
     def images(self, vectors: Sequence[Vector]) -> list[Vector]:
         """A v for each of the vectors."""
+        if self._rows_apart is not None:
+            return [_image(self._rows_apart, cast("Sequence[fmpq]", v)) for v in vectors]
         return _products(vectors, self._transposed, self.field)
 
     def pullbacks(self, functionals: Sequence[Vector]) -> list[Vector]:
         """wᵀ A for each of the functionals."""
         return _products(functionals, self._parts, self.field)
+
+
+def _rational_rows_apart(rows: Matrix) -> Sequence[Sequence[fmpq]] | None:
+    """The rows, where one of them is better summed as fractions; else None."""
+    rational = cast("Sequence[Sequence[fmpq]]", rows)
+    return rational if any(map(_has_denominators_apart, rational)) else None
+
+
+def _has_denominators_apart(row: Sequence[fmpq]) -> bool:
+    lengths = [int(x.q).bit_length() for x in row]
+    if sum(lengths) < MIN_BITS_APART:
+        return False
+    # Over one denominator the row is len(row) numbers of its length, as fractions it is as long as
+    # all denominators together; summing these is Python's work, the other python-flint's.
+    common = lcm(*(int(x.q) for x in row))
+    return len(row) * common.bit_length() > 4 * sum(lengths)
+
+
+def _image(rows: Sequence[Sequence[fmpq]], vector: Sequence[fmpq]) -> Vector:
+    return tuple(_sum([a * x for a, x in zip(row, vector, strict=True)]) for row in rows)
+
+
+def _sum(terms: Sequence[fmpq]) -> fmpq:
+    """Terms added in pairs, and pairs in pairs, as fractions that are reduced once, at the end.
+
+    Sums of neighbours are of equal length, which is what fast multiplication needs; a reduction of
+    each would take most of the time.
+    """
+    fractions = [(term.p, term.q) for term in terms]
+    while len(fractions) > 1:
+        if len(fractions) % 2:
+            fractions.append((fmpz(0), fmpz(1)))
+        pairs = zip(fractions[::2], fractions[1::2], strict=True)
+        fractions = [(p * s + r * q, q * s) for (p, q), (r, s) in pairs]
+    numerator, denominator = fractions[0]
+    return fmpq(numerator, denominator)
 
 
 def _products(rows: Sequence[Vector], parts: _Parts, field: NumberField | None) -> list[Vector]:

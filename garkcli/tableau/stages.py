@@ -12,15 +12,17 @@ block a matrix that acts on coordinates.
 from __future__ import annotations
 
 from abc import ABC, abstractmethod
-from collections.abc import Sequence
+from collections.abc import Iterator, Sequence
 from dataclasses import dataclass
-from functools import cached_property
+from functools import cached_property, lru_cache
+from itertools import combinations
+from math import prod
 from typing import cast
 
-from flint import fmpq, fmpq_mat, fmpq_poly
+from flint import fmpq, fmpq_mat, fmpq_poly, fmpz
 
 from garkcli.errors import CoincidingNodes
-from garkcli.exact.field import ONE, ZERO, Number
+from garkcli.exact.field import ONE, ZERO, Algebraic, Number
 from garkcli.exact.matrix import (
     Matrix,
     SingularMatrixError,
@@ -35,6 +37,9 @@ from garkcli.exact.matrix import (
     to_flint,
     transpose,
 )
+
+MAX_BITS_COMPARED = 5_000_000
+"""Longest denominators that are compared with each other only to tell what they share."""
 
 
 class StageSpace(ABC):
@@ -68,9 +73,28 @@ class StageSpace(ABC):
         """The classes of 1, x, …, x^(count−1) as columns, shape (s, count)."""
 
     @abstractmethod
+    def of_polynomial(self, coefficients: Sequence[Number]) -> Vector:
+        """The element that a polynomial is, its coefficients given from the lowest to the highest.
+
+        At points these are its values at the nodes.
+        """
+
+    @abstractmethod
+    def basis_polynomials(self) -> Iterator[Vector]:
+        """The polynomial of degree < s that each basis vector stands for, lowest coefficient first.
+
+        At points these are the Lagrange polynomials of the nodes. One is made at a time: together
+        they can be far larger than what is made from them.
+
+        Raises:
+            CoincidingNodes: two nodes are equal.
+        """
+
+    @abstractmethod
     def lifts(self) -> Matrix:
-        """Coordinates to the polynomial of degree < s they stand for, lowest coefficient first, (s,
-        s).
+        """Coordinates to the polynomial of degree < s they stand for, shape (s, s).
+
+        The columns are the ``basis_polynomials``.
 
         Raises:
             CoincidingNodes: two nodes are equal.
@@ -110,7 +134,18 @@ class StageSpace(ABC):
         Raises:
             SingularMatrixError: a weight of ``source`` is zero.
         """
-        return solve(source.gram(source_weights), transpose(self.form(weights, block)))
+        right = transpose(self.form(weights, block))
+        return source.divide_by_weights(source_weights, right)
+
+    @abstractmethod
+    def divide_by_weights(self, weights: Vector, right: Matrix) -> Matrix:
+        """The matrix X with G X = ``right``, where G is the ``gram`` of the weights.
+
+        At points this is B⁻¹ ``right``.
+
+        Raises:
+            SingularMatrixError: one of the weights is zero.
+        """
 
 
 @dataclass(frozen=True)
@@ -140,24 +175,55 @@ class PointSpace(StageSpace):
     def reductions(self, count: int) -> Matrix:
         return tuple(_powers(c, count) for c in self.points)
 
+    def of_polynomial(self, coefficients: Sequence[Number]) -> Vector:
+        if is_rational((coefficients, self.points)):
+            polynomial = _in_flint(coefficients)
+            return tuple(polynomial(c) for c in cast("tuple[fmpq, ...]", self.points))
+        return tuple(_value(coefficients, c) for c in self.points)
+
+    def interpolation_bits(self, enough: int) -> int:
+        """About how long the common denominator of the Lagrange polynomials of the nodes is.
+
+        Args:
+            enough: a bound that is not larger than this is returned as it is; otherwise it is looked
+                at closer, at what the polynomials have in common.
+
+        Returns:
+            Bits, summed over the coordinates of irrational nodes.
+        """
+        pairs = combinations(self.points, 2)
+        bound = sum(_bits(x - y) for x, y in pairs)
+        if bound <= enough or bound > MAX_BITS_COMPARED or not is_rational((self.points,)):
+            return bound
+        common = fmpz(1)
+        for c in cast("tuple[fmpq, ...]", self.points):
+            others = prod((c - x for x in self.points if x != c), start=ONE)
+            common = common.lcm(cast("fmpq", others).p)
+        return common.bit_length()
+
+    def basis_polynomials(self) -> Iterator[Vector]:
+        self._check_distinct()
+        if is_rational((self.points,)):
+            yield from _rational_lagrange(cast("tuple[fmpq, ...]", self.points))
+        else:
+            yield from _lagrange(self.points)
+
+    def _check_distinct(self) -> None:
+        first: dict[Number, int] = {}
+        for j, c in enumerate(self.points):
+            i = first.setdefault(c, j)
+            if i != j:
+                raise CoincidingNodes(
+                    f"nodes c_{i + 1} and c_{j + 1} are both {c}: no interpolation through them",
+                    "spell the blocks out, or choose a method with distinct nodes",
+                )
+
     def lifts(self) -> Matrix:
         return self._lifts
 
     @cached_property
     def _lifts(self) -> Matrix:
-        try:
-            return solve(self.reductions(self.stages), identity(self.stages))
-        except SingularMatrixError:
-            i, j = next(
-                (i, j)
-                for j in range(self.stages)
-                for i in range(j)
-                if self.points[i] == self.points[j]
-            )
-            raise CoincidingNodes(
-                f"nodes c_{i + 1} and c_{j + 1} are both {self.points[i]}: no interpolation through them",
-                "spell the blocks out, or choose a method with distinct nodes",
-            ) from None
+        return transpose(tuple(self.basis_polynomials()))
 
     def zero_weights(self, weights: Vector) -> str:
         names = [f"b_{i}" for i, weight in enumerate(weights, start=1) if not weight]
@@ -166,17 +232,12 @@ class PointSpace(StageSpace):
     def form(self, weights: Vector, block: Matrix) -> Matrix:
         return tuple(tuple(w * a for a in row) for w, row in zip(weights, block, strict=True))
 
-    def adjoint(
-        self, block: Matrix, weights: Vector, source: StageSpace, source_weights: Vector
-    ) -> Matrix:
-        if not isinstance(source, PointSpace):
-            return super().adjoint(block, weights, source, source_weights)
-        if not all(source_weights):
+    def divide_by_weights(self, weights: Vector, right: Matrix) -> Matrix:
+        if not all(weights):
             raise SingularMatrixError
-        inverses = [ONE / b for b in source_weights]  # of irrational weights they take the time
+        inverses = [ONE / b for b in weights]  # of irrational weights they take the time
         return tuple(
-            tuple(w * a * inverse for w, a in zip(weights, column, strict=True))
-            for inverse, column in zip(inverses, transpose(block), strict=True)
+            tuple(inverse * x for x in row) for inverse, row in zip(inverses, right, strict=True)
         )
 
 
@@ -245,8 +306,21 @@ class PolynomialSpace(StageSpace):
             power = fmpq_poly([0, 1]) * power % self.modulus
         return transpose(tuple(columns))
 
+    def of_polynomial(self, coefficients: Sequence[Number]) -> Vector:
+        if is_rational((coefficients,)):
+            return self._vector(_in_flint(coefficients) % self.modulus)
+        return apply(self.reductions(len(coefficients)), coefficients)
+
+    def basis_polynomials(self) -> Iterator[Vector]:
+        yield from identity(self.stages)
+
     def lifts(self) -> Matrix:
         return identity(self.stages)
+
+    def divide_by_weights(self, weights: Vector, right: Matrix) -> Matrix:
+        # Not solve(gram, right): a row of right may hold entries of many stages without a common
+        # factor in their denominators, which elimination would multiply with each other.
+        return multiply(_inverse_gram(self, weights), right)
 
     def zero_weights(self, weights: Vector) -> str:
         if not is_rational((weights,)):
@@ -269,6 +343,62 @@ class PolynomialSpace(StageSpace):
         return fmpq_poly([*square.solve(column).entries(), fmpq(1)])
 
 
+@lru_cache(maxsize=32)
+def _inverse_gram(space: PolynomialSpace, weights: Vector) -> Matrix:
+    """G⁻¹ of the weights: all blocks that lead to one colour are conjugated with the same."""
+    return solve(space.gram(weights), identity(space.stages))
+
+
+def _in_flint(coefficients: Sequence[Number]) -> fmpq_poly:
+    return fmpq_poly(cast("list[fmpq]", list(coefficients)))
+
+
+def _bits(number: Number) -> int:
+    if isinstance(number, Algebraic):
+        return sum(int(x.height_bits()) for x in number.poly.coeffs())
+    return int(number.height_bits())
+
+
+def _value(coefficients: Sequence[Number], x: Number) -> Number:
+    """A polynomial at x, by Horner's scheme."""
+    total: Number = ZERO
+    for coefficient in reversed(coefficients):
+        total = total * x + coefficient
+    return total
+
+
+def _rational_lagrange(nodes: Sequence[fmpq]) -> Iterator[Vector]:
+    """L_j = w/(x − c_j) / w'(c_j) for w = ∏ (x − c_k), each with one common denominator.
+
+    Elimination in the Vandermonde matrix would carry the common denominator of all of them.
+    """
+    x = fmpq_poly([0, 1])
+    w = fmpq_poly([1])
+    for c in nodes:
+        w *= x - c
+    for c in nodes:
+        others = w // (x - c)
+        polynomial = others / others(c)
+        yield tuple(polynomial[k] for k in range(len(nodes)))
+
+
+def _lagrange(nodes: Sequence[Number]) -> Iterator[Vector]:
+    """The same in any domain, dividing w by x − c_j with Horner's scheme."""
+    w: list[Number] = [ONE]
+    for c in nodes:
+        shifted = [ZERO, *w]
+        w = [a - c * b for a, b in zip(shifted, [*w, ZERO], strict=True)]
+    for c in nodes:
+        others: list[Number] = []
+        carried: Number = ZERO
+        for coefficient in reversed(w[1:]):
+            carried = carried * c + coefficient
+            others.append(carried)
+        others.reverse()
+        factor = ONE / _value(others, c)
+        yield tuple(factor * coefficient for coefficient in others)
+
+
 def _powers(x: Number, count: int) -> Vector:
     powers: list[Number] = [ONE]
     while len(powers) < count:
@@ -288,6 +418,15 @@ def _convolution(u: Sequence[Number], v: Sequence[Number]) -> Vector:
 def integral(moments: int) -> Vector:
     """∫_0^1 on 1, x, …, x^(moments−1)."""
     return tuple(fmpq(1, k) for k in range(1, moments + 1))
+
+
+def antiderivative(coefficients: Sequence[Number]) -> Vector:
+    """∫_0^x of a polynomial, lowest coefficient first.
+
+    >>> antiderivative((fmpq(1), fmpq(1)))
+    (0, 1, 1/2)
+    """
+    return (ZERO, *(a * fmpq(1, k) for k, a in enumerate(coefficients, start=1)))
 
 
 def integration(degree: int) -> Matrix:

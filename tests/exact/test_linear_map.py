@@ -10,7 +10,7 @@ from hypothesis import strategies as st
 from garkcli.exact.domain import Domain
 from garkcli.exact.expression import parse
 from garkcli.exact.field import Algebraic, Number, NumberField
-from garkcli.exact.linear_map import LinearMap
+from garkcli.exact.linear_map import LinearMap, _has_denominators_apart, _sum
 from garkcli.exact.matrix import Matrix, Vector, dot
 
 FIELDS = {
@@ -89,3 +89,18 @@ def test_numbers_of_two_fields_do_not_meet() -> None:
     a, b = (Domain([parse(text)]).evaluate(parse(text)) for text in ("sqrt(2)", "sqrt(3)"))
     with pytest.raises(TypeError, match="two different fields"):
         dot((a, fmpq(1)), (fmpq(1), b))
+
+
+@given(st.integers(8, 12), st.integers(0, 5))
+def test_rows_of_unrelated_denominators(width: int, seed: int) -> None:
+    """Rows that are summed as fractions have the same images as by definition."""
+    row = tuple(fmpq(k + seed, 2 ** (6000 + k) + 2 * k + 1) for k in range(1, width + 1))
+    vector = tuple(fmpq(2 * k - 5, k + 3) for k in range(width))
+    linear = LinearMap((row, vector), None)
+    assert _has_denominators_apart(row)
+    assert not _has_denominators_apart((row[0],) * 60)
+    assert linear.images([vector, row]) == [
+        (naive(row, vector), naive(vector, vector)),
+        (naive(row, row), naive(vector, row)),
+    ]
+    assert _sum(vector) == naive(vector, (fmpq(1),) * width)

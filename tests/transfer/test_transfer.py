@@ -2,21 +2,24 @@
 
 from __future__ import annotations
 
+from math import lcm
 from random import Random
+from time import process_time
 
 import pytest
 from flint import fmpq, fmpq_poly
 from hypothesis import given
 from hypothesis import strategies as st
 
-from garkcli.errors import CoincidingNodes, ZeroWeight
+from garkcli.errors import BlockTooLarge, CoincidingNodes, ZeroWeight
+from garkcli.exact.field import Number
 from garkcli.exact.matrix import Matrix, Vector
 from garkcli.order.certificate import find_order
 from garkcli.order.simplifying import simplifying
 from garkcli.tableau.conjugate import conjugate
 from garkcli.tableau.forms import gark, pair
 from garkcli.tableau.method import Method, butcher
-from garkcli.tableau.stages import PolynomialSpace
+from garkcli.tableau.stages import PointSpace, PolynomialSpace
 from garkcli.transfer import (
     PAIR_RULES,
     RULES,
@@ -29,7 +32,7 @@ from garkcli.transfer import (
     symplectic_blocks,
 )
 from tests.oracles import samples
-from tests.oracles.points import lagrange, value
+from tests.oracles.points import lagrange, numbers, value
 from tests.oracles.stages import image
 
 NAMES = [
@@ -246,3 +249,78 @@ def test_all_combinations_are_consistent(seed: int) -> None:
     tableau = samples.everywhere(rule, "gauss 2", "lobatto-iiia 3")
     found = simplifying(tableau, 3).C
     assert all(x is not None and x >= 1 for row in found for x in row)
+
+
+def unrelated_nodes(count: int, first_denominator: int) -> Vector:
+    """Distinct fractions whose denominators have little in common."""
+    return tuple(fmpq(k, first_denominator + 2 * k) for k in range(1, count + 1))
+
+
+def at_nodes(c: Vector) -> Method:
+    """A method with the nodes c, of which nothing else matters."""
+    s = len(c)
+    A = tuple((node,) + (fmpq(0),) * (s - 1) for node in c)
+    return butcher(A, (fmpq(1, s),) * s, c)
+
+
+@pytest.mark.parametrize("nodes", ["0, sqrt(2), 1, 1/3", "cbrt(2), 1 - cbrt(2), sqrt(3)"])
+def test_collocation_at_irrational_nodes_is_its_definition(nodes: str) -> None:
+    """Eq. (coll) where the nodes lie in a number field, at rational and at these nodes."""
+    (c,) = numbers(nodes)
+    m = at_nodes(c)
+    for l in (m, at_nodes((fmpq(1, 7), fmpq(2)))):
+        block = collocation(l, m)
+        for i, x in enumerate(l.c):
+            for j in range(m.stages):
+                powers = enumerate(lagrange(m.c, j), start=1)
+                integral_to_x: Number = fmpq(0)
+                for k, a in powers:
+                    integral_to_x = integral_to_x + a * x**k / k
+                assert block[i][j] == integral_to_x
+
+
+def test_thirty_unrelated_nodes_cost_little() -> None:
+    """Interpolation through fractions without a common denominator is exact, and quick.
+
+    The block integrates 1, x, …, x^(s−1), which determines it; elimination in the Vandermonde
+    matrix took a hundred times as long.
+    """
+    m, l = at_nodes(unrelated_nodes(30, 10**40)), samples.method("gauss 2")
+    start = process_time()
+    block = collocation(l, m)
+    assert process_time() - start < 5
+    for k in (0, 1, 17, 29):
+        power = tuple(c**k for c in m.c)
+        wanted = fmpq_poly([0] * (k + 1) + [fmpq(1, k + 1)]) % l.space.modulus
+        assert image(block, power) == (wanted[0], wanted[1])
+
+
+def test_the_estimate_is_the_common_denominator() -> None:
+    """The bits that a block is refused by are those of the denominators of the Lagrange
+    polynomials.
+    """
+    nodes = unrelated_nodes(12, 100)
+    leading = [lagrange(nodes, j)[-1] for j in range(12)]
+    common = lcm(*(int(x.q) for x in leading))
+    space = PointSpace(nodes)
+    assert space.interpolation_bits(enough=0) == common.bit_length()
+    assert space.interpolation_bits(enough=10**9) >= common.bit_length()
+
+
+def test_what_would_fill_the_memory_is_refused() -> None:
+    """400 unrelated nodes are refused by an estimate, in a moment, with the reason and a cure."""
+    m, l = at_nodes(unrelated_nodes(400, 10**40)), samples.method("gauss 2")
+    start = process_time()
+    rules = [(collocation, l, m), (interpolation, l, m), (conjugate_rule(collocation), m, l)]
+    for rule, here, there in rules:
+        with pytest.raises(BlockTooLarge, match=r"400 nodes .* digits: too large") as caught:
+            rule(here, there)
+        assert "small denominators" in caught.value.help
+    assert process_time() - start < 60
+    assert len(collocation(m, l)) == 400
+
+
+def test_many_nodes_of_one_denominator_are_not_refused() -> None:
+    """100 nodes k/100 share their denominator: the estimate knows."""
+    m = at_nodes(tuple(fmpq(k, 100) for k in range(100)))
+    assert image(collocation(samples.method("gauss 2"), m), (fmpq(1),) * 100) == (0, 1)
