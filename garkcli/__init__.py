@@ -12,7 +12,6 @@ if TYPE_CHECKING:
     from garkcli.check.analysis import analyse
     from garkcli.check.check_file import check_file
     from garkcli.convergence.convergence import converge
-    from garkcli.convergence.nonlinear import observe
     from garkcli.families.registry import diagonal_method
     from garkcli.longtime.energy import drift
     from garkcli.longtime.longtime import follow
@@ -56,7 +55,6 @@ _HOMES = {
     "load_problem": "methodfile.problem",
     "loads": "methodfile.load",
     "loads_problem": "methodfile.problem",
-    "observe": "convergence.nonlinear",
     "Oscillator": "problems.oscillator",
     "pair": "tableau.forms",
     "parse_tree": "trees.notation",
@@ -92,7 +90,6 @@ __all__ = [
     "load_problem",
     "loads",
     "loads_problem",
-    "observe",
     "pair",
     "parse_tree",
     "simplifying",

@@ -143,9 +143,10 @@ def _one(path: str, wanted: Wanted, shown: Shown, output: Output) -> int:
     from garkcli.report.progress import watching
     from garkcli.stepping.step import StepFailed
 
+    problems = Problems(wanted)
     method = load(path)
     tableau = stepped_tableau(method, output)
-    problems = Problems(wanted, [tableau])
+    problems.prepare([tableau])
     if problems.read is not None:
         note_changing(problems.read, output)
     try:
@@ -159,13 +160,11 @@ def _one(path: str, wanted: Wanted, shown: Shown, output: Output) -> int:
     if shown.plot is not None:
         from garkcli.plots.convergence_plot import comparison_figure, convergence_figure
 
-        is_plain = shown.against == "h" and not shown.work
-        named = [(method.name, result)]
-        _save(
-            convergence_figure(result) if is_plain else comparison_figure(named, shown.against),
-            shown,
-            output,
-        )
+        if shown.against == "h" and not shown.work:
+            figure = convergence_figure(result, method.name)
+        else:
+            figure = comparison_figure([(method.name, result)], shown.against)
+        _save(figure, shown, output)
     return int(result.verdict == "disagree")
 
 

@@ -4,7 +4,7 @@ from __future__ import annotations
 
 from collections.abc import Sequence
 from dataclasses import dataclass
-from typing import TYPE_CHECKING
+from typing import TYPE_CHECKING, TypeAlias
 
 import click
 
@@ -16,12 +16,15 @@ from garkcli.errors import Fault, GarkError, MethodFileError
 if TYPE_CHECKING:
     from flint import fmpq
 
-    from garkcli.convergence.reference import Watch
+    from garkcli.convergence.result import Convergence
+    from garkcli.convergence.solver import Watch
     from garkcli.methodfile.build import MethodFile
     from garkcli.problems.hamiltonian import Hamiltonian
     from garkcli.problems.oscillator import Oscillator
-    from garkcli.report.convergence_data import Entry, Result
+    from garkcli.report.convergence_data import Entry
     from garkcli.tableau.tableau import Tableau
+
+    Loaded: TypeAlias = tuple[MethodFile, Tableau]
 
 
 @dataclass(frozen=True)
@@ -53,28 +56,54 @@ class Problems:
 
     Args:
         wanted: names the problem.
-        tableaux: of all methods.
 
     Attributes:
         read: the problem of a file, as it was read.
 
     Errors:
         MethodFileError: the problem file has faults.
+        UsageProblem: the steps that are wanted do not fit the time.
     """
 
-    def __init__(self, wanted: Wanted, tableaux: Sequence[Tableau]) -> None:
-        from garkcli.problems.oscillator import terms_of
-        from garkcli.stepping.dependency import with_joined_terms
-
+    def __init__(self, wanted: Wanted) -> None:
         self._wanted = wanted
+        self._widest: Tableau | None = None
         self.read: Hamiltonian | None = None
-        self._widest = max(map(with_joined_terms, tableaux), key=terms_of, default=None)
         if is_path(wanted.problem):
             from garkcli.methodfile.problem import load_problem
 
             self.read = load_problem(wanted.problem)
+        self._check_steps()
 
-    def of(self, tableau: Tableau) -> Hamiltonian:
+    def _check_steps(self) -> None:
+        """Refuse steps that do not divide the time, before methods are read."""
+        wanted = self._wanted
+        if wanted.steps is None:
+            return
+        from garkcli.convergence.convergence import check_steps, usual_time
+
+        problem = self._unsplit()
+        check_steps(problem, wanted.t_end or usual_time(problem), wanted.steps)
+
+    def _unsplit(self) -> Hamiltonian | Oscillator:
+        """The problem in one term: its times are those of every split."""
+        from garkcli.problems.builtin import hamiltonian
+        from garkcli.problems.oscillator import Oscillator
+
+        if self.read is not None:
+            return self.read
+        if self._wanted.problem == "oscillator":
+            return Oscillator.default(1, rational("--omega", self._wanted.omega or "1"))
+        return hamiltonian(self._wanted.problem, 1)
+
+    def prepare(self, tableaux: Sequence[Tableau]) -> None:
+        """Make the problem one for all of these methods."""
+        from garkcli.problems.oscillator import terms_of
+        from garkcli.stepping.dependency import with_joined_terms
+
+        self._widest = max(map(with_joined_terms, tableaux), key=terms_of, default=None)
+
+    def of(self, tableau: Tableau) -> Hamiltonian | Oscillator:
         """The problem for one method.
 
         Raises:
@@ -83,81 +112,18 @@ class Problems:
         from garkcli.problems.builtin import built_in
         from garkcli.problems.comparison import merge_terms
         from garkcli.problems.oscillator import terms_of
+        from garkcli.stepping.dependency import with_joined_terms
         from garkcli.stepping.matching import split_into
 
-        terms = terms_of(tableau)
+        wanted = self._wanted
+        if wanted.problem == "oscillator":
+            return oscillator(wanted, tableau)
+        terms = terms_of(with_joined_terms(tableau))
         if self.read is not None:
             return split_into(self.read, terms)
-        name, seed = self._wanted.problem, self._wanted.seed
-        if not built_in(name).takes_seed or self._widest is None:
-            return find_problem(name, tableau, seed)
-        return merge_terms(find_problem(name, self._widest, seed), terms)
-
-
-def tested(
-    method: MethodFile, tableau: Tableau, wanted: Wanted, problems: Problems, watch: Watch
-) -> Result:
-    """The convergence test of one method.
-
-    Raises:
-        GarkError: the method is not for the problem, or a step fails.
-    """
-    if wanted.problem == "oscillator":
-        return _on_oscillator(method, tableau, wanted)
-    from garkcli.convergence.nonlinear import observe
-    from garkcli.stepping.dependency import with_joined_terms
-
-    tableau = with_joined_terms(tableau)
-    return observe(
-        tableau,
-        problems.of(tableau),
-        wanted.t_end,
-        wanted.steps,
-        method.tolerance,
-        wanted.work,
-        watch,
-    )
-
-
-def hint_rounding(
-    method: MethodFile, tableau: Tableau, result: Result, output: Output, path: str = ""
-) -> None:
-    """Where observed and exact order disagree because coefficients look rounded: the line that is
-    missing.
-    """
-    if result.verdict != "disagree" or method.tolerance is not None:
-        return
-    from garkcli.order.certificate import find_order
-    from garkcli.order.suggestion import suggest_tolerance
-
-    found = suggest_tolerance(tableau, find_order(tableau))
-    if found is not None:
-        where = f"{path}: " if path else ""
-        output.note(
-            f"{where}hint: the coefficients look rounded; with the line  {found.line}  the order is {found.order}"
-        )
-
-
-def _on_oscillator(method: MethodFile, tableau: Tableau, wanted: Wanted) -> Result:
-    from garkcli.convergence.convergence import converge
-
-    predicted, tolerance = None, 0.0
-    if method.tolerance is not None:
-        from garkcli.exact.display import to_float
-        from garkcli.order.rounded import find_order_within
-
-        predicted, tolerance = (
-            find_order_within(tableau, method.tolerance).order,
-            to_float(method.tolerance),
-        )
-    result = converge(
-        tableau, oscillator(wanted, tableau), wanted.t_end, wanted.steps, predicted, tolerance
-    )
-    if wanted.work:
-        from garkcli.convergence.work import timed
-
-        result = timed(tableau, result)
-    return result
+        if not built_in(wanted.problem).takes_seed or self._widest is None:
+            return find_problem(wanted.problem, tableau, wanted.seed)
+        return merge_terms(find_problem(wanted.problem, self._widest, wanted.seed), terms)
 
 
 def oscillator(wanted: Wanted, tableau: Tableau) -> Oscillator:
@@ -174,55 +140,96 @@ def oscillator(wanted: Wanted, tableau: Tableau) -> Oscillator:
     return Oscillator.default(terms, frequency)
 
 
+def tested(
+    method: MethodFile, tableau: Tableau, wanted: Wanted, problems: Problems, watch: Watch
+) -> Convergence:
+    """The convergence test of one method.
+
+    Raises:
+        GarkError: the method is not for the problem, or a step fails.
+    """
+    from garkcli.convergence.convergence import converge
+
+    return converge(
+        tableau,
+        problems.of(tableau),
+        wanted.t_end,
+        wanted.steps,
+        method.tolerance,
+        wanted.work,
+        watch,
+    )
+
+
+def hint_rounding(
+    method: MethodFile, tableau: Tableau, result: Convergence, output: Output, path: str = ""
+) -> None:
+    """Where the exact order shows late or not at all because coefficients look rounded: the line
+    that is missing.
+    """
+    is_late = result.verdict == "disagree" or result.short_time is not None
+    if not is_late or method.tolerance is not None:
+        return
+    from garkcli.order.certificate import find_order
+    from garkcli.order.suggestion import suggest_tolerance
+
+    found = suggest_tolerance(tableau, find_order(tableau))
+    if found is not None:
+        where = f"{path}: " if path else ""
+        output.note(
+            f"{where}hint: the coefficients look rounded; with the line  {found.line}  "
+            f"the order is {found.order}"
+        )
+
+
 def compared(paths: Sequence[str], wanted: Wanted, output: Output) -> list[Entry]:
     """The tests of all files, in order. What fails is told on stderr at once, and stops none of the
     others.
 
     Raises:
         MethodFileError: the problem file has faults.
+        UsageProblem: the steps that are wanted do not fit the time.
     """
-    from garkcli.methodfile.load import load
     from garkcli.report.progress import watching
 
-    methods: list[tuple[MethodFile, Tableau] | Entry] = []
-    for path in paths:
-        try:
-            method = load(path)
-            methods.append((method, stepped_tableau(method, output, path)))
-        except GarkError as error:
-            methods.append(_failed(path, path, error))
-    problems = Problems(wanted, [found[1] for found in methods if isinstance(found, tuple)])
+    problems = Problems(wanted)
+    methods = [_loaded(path, output) for path in paths]
+    problems.prepare([found[1] for found in methods if isinstance(found, tuple)])
     if problems.read is not None:
         note_changing(problems.read, output)
     entries = []
     with watching(output.verbosity >= 0) as watch:
         for k, (path, found) in enumerate(zip(paths, methods, strict=True), start=1):
-            prefixed = _prefixed(watch, f"{k}/{len(paths)}")
-            entries.append(
-                _entry(path, *found, wanted, problems, prefixed)
-                if isinstance(found, tuple)
-                else found
-            )
+            if isinstance(found, tuple):
+                prefixed = _prefixed(watch, f"{k}/{len(paths)}")
+                entries.append(_entry(path, found, wanted, problems, prefixed))
+            else:
+                entries.append(found)
     for path, found, entry in zip(paths, methods, entries, strict=True):
         if isinstance(found, tuple) and entry.result is not None:
             hint_rounding(*found, entry.result, output, path)
     return entries
 
 
+def _loaded(path: str, output: Output) -> Loaded | Entry:
+    """A method with the tableau that steps, or what its failure leaves."""
+    from garkcli.methodfile.load import load
+
+    try:
+        method = load(path)
+        return method, stepped_tableau(method, output, path)
+    except GarkError as error:
+        return _failed(path, path, error)
+
+
 def _prefixed(watch: Watch, prefix: str) -> Watch:
     return lambda what, done, total: watch(f"{prefix} {what}", done, total)
 
 
-def _entry(
-    path: str,
-    method: MethodFile,
-    tableau: Tableau,
-    wanted: Wanted,
-    problems: Problems,
-    watch: Watch,
-) -> Entry:
+def _entry(path: str, loaded: Loaded, wanted: Wanted, problems: Problems, watch: Watch) -> Entry:
     from garkcli.report.convergence_data import Entry
 
+    method, tableau = loaded
     try:
         result = tested(method, tableau, wanted, problems, watch)
     except GarkError as error:
@@ -244,8 +251,6 @@ def _failed(path: str, name: str, error: GarkError) -> Entry:
         faults, text = error.faults, error.text
     else:
         faults, text = (Fault(error.message, error.help),), ""
-    click.echo(
-        faults_text(Outcome(path, name, faults=faults, text=text), Paint(sys.stderr.isatty())),
-        err=True,
-    )
+    outcome = Outcome(path, name, faults=faults, text=text)
+    click.echo(faults_text(outcome, Paint(sys.stderr.isatty())), err=True)
     return Entry(path, name, None, faults, 1 if isinstance(error, StepFailed) else 2)

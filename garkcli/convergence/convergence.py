@@ -1,246 +1,201 @@
-"""The convergence test: errors over a ladder of step sizes, and the order they show.
+"""The convergence test: errors over a ladder of step sizes, against the order they can show.
 
-The step map of a linear problem is known exactly and its powers are enclosed in balls with as many
-bits as the error needs, so a slope is never a slope of rounding errors.
+Slopes at steps of usual size may still be those of larger ones, where the error constant is small
+or coefficients are large. Then the order is observed over a short time as well, with steps so small
+that nothing is left of that.
 """
 
 from __future__ import annotations
 
-from collections.abc import Iterator, Sequence
-from dataclasses import dataclass, field
-from itertools import count, islice
-from typing import TYPE_CHECKING, Literal, TypeAlias
+from collections.abc import Sequence
 
-from flint import arb, arb_mat, ctx, fmpq
+from flint import fmpq
 
-from garkcli.errors import UsageProblem
-from garkcli.exact.matrix import Matrix
-from garkcli.order.certificate import find_order
-from garkcli.problems.oscillator import Oscillator
-from garkcli.stepping.linear import (
-    MAX_STEPS,
-    LinearStep,
-    conserves_energy,
-    deviations,
-    enclosure,
-    linear_step,
-    visible_order,
-    whole_steps,
+from garkcli.convergence import ladder
+from garkcli.convergence.result import (
+    CLOSE,
+    MAX_ORDER,
+    Convergence,
+    Row,
+    Visible,
+    observed_order,
 )
+from garkcli.convergence.solver import Solver, Watch
+from garkcli.errors import UsageProblem
+from garkcli.order.certificate import find_order
+from garkcli.problems.hamiltonian import Hamiltonian
+from garkcli.problems.oscillator import Oscillator
+from garkcli.stepping.linear import whole_steps
 from garkcli.tableau.tableau import Tableau
 
-if TYPE_CHECKING:
-    from garkcli.convergence.work import Cost
-
-Verdict: TypeAlias = Literal["agree", "disagree", "undecided"]
-"""Of observed and visible order; undecided where there is no order to be seen."""
-LINEAR_ONLY = "a linear problem sees only the unbranched trees: it can show an order too high, never one too low"
-"""What every report of this test has to say."""
-ROWS = 8
-"""Step sizes of the default ladder; more only while the slopes still move."""
-MAX_ROWS = 24
-"""Most step sizes of the default ladder."""
-ERROR_BITS = 40
-"""Correct bits of every error."""
-ENERGY_BITS = 20
-"""Correct bits of every energy error that is not zero."""
-MAX_ORDER = 120
-"""Where the certificate stops to look for a higher order."""
-CLOSE = 0.05
-"""How near the observed order is to the order it agrees with."""
-_SETTLED = 0.01  # change between two slopes at which the ladder may end
-
-
-@dataclass(frozen=True)
-class Row:
-    """One step size.
-
-    Attributes:
-        h: the step size.
-        error: ‖(Δq, Δp/ω)‖₂ at t_end, in units of q, to ``ERROR_BITS``. Balls, because the errors
-            of methods of high order lie below the range of floats; ``float(row.error)`` where they
-            do not.
-        slope: of log error over log h, between the row before and this one; None in the first row.
-        energy_error: |H(t_end) − H(0)|. Zero only where that is proved, as for a step that
-            conserves H; an upper bound, far smaller than the error, where the two energies could
-            not be told apart.
-        cost: of the steps; None where they were not taken one by one.
-    """
-
-    h: fmpq
-    error: arb
-    slope: float | None
-    energy_error: arb
-    cost: Cost | None = field(default=None, kw_only=True)
-
-
-@dataclass(frozen=True)
-class Convergence:
-    """The outcome of a convergence test.
-
-    Attributes:
-        problem: the oscillator and its split.
-        t_end: the time at which errors are taken; the initial values are q(0) = 1, p(0) = ω/2.
-        rows: from the largest step to the smallest.
-        observed_order: extrapolated from the last rows to h = 0; None for a single row.
-        predicted_order: of the tableau, by the certificate.
-        visible_order: the exact order on this problem, ≥ ``predicted_order``.
-    """
-
-    problem: Oscillator
-    t_end: fmpq
-    rows: tuple[Row, ...]
-    observed_order: float | None
-    predicted_order: int
-    visible_order: int
-
-    @property
-    def verdict(self) -> Verdict:
-        """Whether the observed order is the visible one, and that no smaller than predicted."""
-        if self.observed_order is None:
-            return "undecided"
-        is_visible = abs(self.observed_order - self.visible_order) <= CLOSE
-        return "agree" if is_visible and self.visible_order >= self.predicted_order else "disagree"
-
-    @property
-    def agrees(self) -> bool:
-        """Whether the verdict is that they agree."""
-        return self.verdict == "agree"
+_SHORT_STEPS = (4, 8, 16, 32)  # in which a short time is stepped through
 
 
 def converge(
     tableau: Tableau,
-    problem: Oscillator,
+    problem: Oscillator | Hamiltonian,
     t_end: fmpq | None = None,
     steps: Sequence[fmpq] | None = None,
-    predicted: int | None = None,
-    tolerance: float = 0.0,
+    tolerance: fmpq | None = None,
+    is_timed: bool = False,
+    watch: Watch | None = None,
 ) -> Convergence:
     """Test the convergence of ``tableau`` on ``problem``.
 
     Args:
-        tableau: any tableau whose structure fits the split.
-        problem: the oscillator and its split.
-        t_end: 4/ω by default.
-        steps: step sizes that divide ``t_end``; by default 1/(2ω), halved until the slopes have
-            settled.
-        predicted: the order to compare with; by default that of the certificate.
-        tolerance: of rounded coefficients, see ``visible_order``. The default ladder then ends
-            before the rounding is a thousandth of the error.
+        tableau: of any structure.
+        problem: in as many terms as the tableau is for, or in one that has a natural split. The
+            oscillator is solved by the exact step map.
+        t_end: the problem's own by default, 4/ω for the oscillator.
+        steps: step sizes that divide ``t_end``; by default the ladder of
+            ``garkcli.convergence.ladder``.
+        tolerance: of rounded coefficients; slopes may then end on a plateau.
+        is_timed: whether to measure the time of the steps in floats as well.
+        watch: is told how far each run is.
 
     Raises:
-        UsageProblem: the split does not fit the structure, a step does not divide ``t_end``, or the
-            stage equations of a given step have no unique solution.
+        UsageProblem: the problem is not of the form of the structure, a step does not divide
+            ``t_end``, or the stage equations of a given step have no unique solution.
+        StepFailed: Newton's method fails for a given step size, or for all of the default ladder.
+
+    >>> from garkcli import hamiltonian, loads
+    >>> rk4 = loads("methods: [{family: rk4}]").tableau
+    >>> result = converge(rk4, hamiltonian("pendulum", 1))
+    >>> round(result.observed_order, 1), result.verdict
+    (4.0, 'agree')
     """
-    t_end = 4 / problem.omega if t_end is None else t_end
-    step = linear_step(tableau, problem)
-    visible = visible_order(step, tolerance)
+    usual = usual_time(problem)
+    t_end = usual if t_end is None else t_end
+    if steps is not None:
+        check_steps(problem, t_end, steps)  # before any work is done
+    predicted = order_of(tableau, tolerance)
+    solver = _solver(tableau, problem, t_end, tolerance, predicted, watch)
     if steps is None:
-        rows = _default_rows(step, t_end, list(islice(deviations(step), visible)))
+        rows, plateau = ladder.default_rows(solver, is_timed)
     else:
-        rows = []
-        for h in sorted(set(steps), reverse=True):
-            rows.append(_row(step, h, t_end, rows[-1] if rows else None))
-    if predicted is None:
-        predicted = find_order(tableau, MAX_ORDER).order
-    return Convergence(problem, t_end, tuple(rows), observed_order(rows), predicted, visible)
+        rows = _given_rows(solver, steps)
+        plateau = ladder.plateau(rows, solver.visible.order, solver.rounding())
+    fitted = rows[: len(rows) - plateau]
+    observed = observed_order(fitted)
+    has_settled = len(fitted) >= ladder.ROWS and ladder.has_settled(fitted)
+
+    short_time, short_order = None, None
+    is_off = observed is not None and abs(observed - solver.visible.order) > CLOSE
+    if is_off and tolerance is None:
+        short_time, short_order = _over_short_times(solver, min(t_end, usual))
+    if is_timed:
+        rows = [solver.timed(row) for row in rows]
+    return Convergence(
+        solver.problem,
+        t_end,
+        tuple(rows),
+        plateau,
+        observed,
+        predicted,
+        solver.visible,
+        short_time,
+        short_order,
+        has_settled or tolerance is None,
+        steps is not None,
+    )
 
 
-def _default_rows(step: LinearStep, t_end: fmpq, rounding: Sequence[arb]) -> list[Row]:
-    """The ladder; ``rounding`` are the deviations of the coefficients that only their rounding has
-    caused.
+def usual_time(problem: Oscillator | Hamiltonian) -> fmpq:
+    """The final time of a test where none is given."""
+    return 4 / problem.omega if isinstance(problem, Oscillator) else problem.t_end
+
+
+def most_steps(problem: Oscillator | Hamiltonian) -> int:
+    """Of one row."""
+    if isinstance(problem, Oscillator):
+        from garkcli.stepping.linear import MAX_STEPS
+
+        return MAX_STEPS
+    from garkcli.convergence import stepped_solver
+
+    return stepped_solver.MAX_STEPS
+
+
+def check_steps(problem: Oscillator | Hamiltonian, t_end: fmpq, steps: Sequence[fmpq]) -> None:
+    """Whether step sizes can be taken, before any work is done.
+
+    Raises:
+        UsageProblem: a step does not divide the time, or there are too many of them.
     """
+    limit = most_steps(problem)
+    for h in steps:
+        count = whole_steps(t_end, h)
+        if count > limit:
+            raise UsageProblem(
+                f"{count} steps (limit {limit})", "choose a shorter time or larger steps"
+            )
+
+
+def order_of(tableau: Tableau, tolerance: fmpq | None) -> int:
+    """By the certificate, up to ``MAX_ORDER``; within the tolerance of rounded coefficients."""
+    if tolerance is None:
+        return find_order(tableau, MAX_ORDER).order
+    from garkcli.order.rounded import find_order_within
+
+    return find_order_within(tableau, tolerance).order
+
+
+def _solver(
+    tableau: Tableau,
+    problem: Oscillator | Hamiltonian,
+    t_end: fmpq,
+    tolerance: fmpq | None,
+    predicted: int,
+    watch: Watch | None,
+) -> Solver:
+    if isinstance(problem, Oscillator):
+        from garkcli.convergence.linear_solver import linear_solver
+
+        return linear_solver(tableau, problem, t_end, tolerance, predicted)
+    from garkcli.convergence.stepped_solver import SteppedSolver
+    from garkcli.stepping.dependency import visible_tableau, visible_trees
+    from garkcli.stepping.integrator import bind
+
+    bound = bind(tableau, problem)
+    seen = visible_tableau(bound.tableau, bound.fields)
+    order = max(order_of(seen, tolerance), predicted)
+    visible = Visible(order, problem.is_generic, visible_trees(bound.fields))
+    return SteppedSolver(bound, t_end, visible, tolerance, watch)
+
+
+def _given_rows(solver: Solver, steps: Sequence[fmpq]) -> list[Row]:
     rows: list[Row] = []
-    turns = step.problem.omega * t_end
-    for h in _halvings(step.problem.omega, t_end):
-        try:
-            row = _row(step, h, t_end, rows[-1] if rows else None)
-        except UsageProblem:
-            continue  # a pole of R at this very h; the next one is another
-        x = step.problem.omega * h
-        rounded = sum((deviation * x**k for k, deviation in enumerate(rounding)), arb(0)) * turns
-        if len(rows) >= 2 and row.error < 1000 * rounded:
-            break
-        rows.append(row)
-        if len(rows) == MAX_ROWS or (len(rows) >= ROWS and _has_settled(rows)):
-            break
+    for h in sorted(set(steps), reverse=True):
+        rows.append(solver.row(h, rows[-1] if rows else None))
+        if rows[-1].error.is_zero():
+            return rows[-1:]
     return rows
 
 
-def _halvings(omega: fmpq, t_end: fmpq) -> Iterator[fmpq]:
-    """t_end/n with the smallest n for which ωh ≤ 1/2, then n doubled up to ``MAX_STEPS``."""
-    whole_steps(t_end, t_end)  # refuses a time that is not positive
-    n = (2 * omega * t_end).ceil()
-    whole_steps(t_end, t_end / n)  # refuses too many
-    for k in count():
-        if n * 2**k > MAX_STEPS:
-            return
-        yield t_end / (n * 2**k)
+def _over_short_times(solver: Solver, usual: fmpq) -> tuple[fmpq, float | None]:
+    """A short time, and the order over it: the first that is a whole number.
 
-
-def _has_settled(rows: Sequence[Row]) -> bool:
-    before, last = rows[-2].slope, rows[-1].slope
-    return before is not None and last is not None and abs(last - before) < _SETTLED
-
-
-def _row(step: LinearStep, h: fmpq, t_end: fmpq, before: Row | None) -> Row:
-    n, omega = whole_steps(t_end, h), step.problem.omega
-    error, energy_error = _errors(step.at(h), n, omega, t_end)
-    slope = (
-        None
-        if before is None
-        else float((before.error / error).log() / (arb(before.h) / arb(h)).log())
-    )
-    return Row(h, error, slope, energy_error)
-
-
-def _errors(R: Matrix, n: int, omega: fmpq, t_end: fmpq) -> tuple[arb, arb]:
-    """Error and energy error of y_n = Rⁿ y₀.
-
-    The loop ends because the error is not zero: R and y₀ are algebraic, cos ωt and sin ωt are not
-    (Lindemann). The energy error can be zero by coincidence, so four times the bits have to do.
+    Where only the visible order can be, shorter times follow while it is larger: a condition that
+    is missed by little shows only where the powers of the step are smaller still.
     """
-    bits, enough, conserved = 128, 0, conserves_energy(R, omega)
-    while True:
-        with ctx.workprec(bits):
-            power = enclosure(R, bits) ** n
-            error, energy_error = _errors_of(power, arb(omega), arb(t_end))
-        if error.rel_accuracy_bits() >= ERROR_BITS:
-            enough = enough or 4 * bits
-            if conserved:
-                return error, arb(0)
-            if energy_error.rel_accuracy_bits() >= ENERGY_BITS:
-                return error, energy_error
-            if bits >= enough:
-                return error, energy_error.abs_upper()
-        bits *= 2
+    short, order = usual, None
+    for decades in solver.decades:
+        short = usual / fmpq(10) ** decades
+        order = _order_over(solver.over(short))
+        if order is None:
+            break
+        is_whole = abs(order - round(order)) <= CLOSE
+        may_fall = solver.visible.is_sharp and order > solver.visible.order + CLOSE
+        if is_whole and not may_fall:
+            break
+    return short, order
 
 
-def _errors_of(power: arb_mat, omega: arb, t: arb) -> tuple[arb, arb]:
-    q0, p0 = arb(1), omega / 2
-    q, p = (power[i, 0] * q0 + power[i, 1] * p0 for i in (0, 1))
-    sine, cosine = (omega * t).sin_cos()
-    dq = q - (q0 * cosine + p0 / omega * sine)
-    dp = (p - (p0 * cosine - omega * q0 * sine)) / omega
-    energy_error = ((p * p + omega**2 * q * q) - (p0 * p0 + omega**2 * q0 * q0)) / 2
-    return (dq * dq + dp * dp).sqrt(), abs(energy_error)
-
-
-def observed_order(rows: Sequence[Row]) -> float | None:
-    """The order p in log error = log C + p log h + a h + b h² through the last four rows.
-
-    The slopes alone approach p as fast as h → 0; with the first two terms of the expansion of the
-    error taken along they do as h³. Fewer rows have fewer terms; one row has no order.
-    """
-    last = rows[-4:]
-    if len(last) < 2:
-        return None
-    with ctx.workprec(256):
-        terms = [
-            [arb(1), arb(row.h).log(), arb(row.h / last[0].h), arb((row.h / last[0].h) ** 2)][
-                : len(last)
-            ]
-            for row in last
-        ]
-        solution = arb_mat(terms).solve(arb_mat([[row.error.log()] for row in last]))
-        return float(solution[1, 0])
+def _order_over(solver: Solver) -> float | None:
+    """The order up to the final time; None where the problem or the method has no error there."""
+    rows: list[Row] = []
+    for n in _SHORT_STEPS:
+        rows.append(solver.row(solver.t_end / n, rows[-1] if rows else None))
+        if rows[-1].error.is_zero():
+            return None
+    return observed_order(rows)

@@ -12,14 +12,14 @@ from __future__ import annotations
 from collections.abc import Iterator, Sequence
 from dataclasses import replace
 from itertools import count
-from typing import TypeVar
 
 from flint import arb, fmpq
 
-from garkcli.convergence.convergence import CLOSE, Row, observed_order
+from garkcli.convergence.result import CLOSE, Row, observed_order
+from garkcli.convergence.solver import NoUniqueStep, Solver
 from garkcli.stepping.linear import whole_steps
+from garkcli.stepping.step import StepFailed
 
-R = TypeVar("R", bound=Row)
 ROWS = 5
 """Step sizes of the default ladder; more only while the slopes still move."""
 MAX_ROWS = 10
@@ -28,6 +28,8 @@ MAX_COARSE = 20_000
 """Steps from which on the default ladder takes a large error for what there is to see."""
 LARGEST = 1 / 32
 """The part of the solution that an error of the default ladder is at most."""
+LONGEST = 8
+"""Units of time of the longest step that is tried."""
 _NEAR = 0.125  # how far, in parts of the order, the first slope of a ladder may be off
 _STEADY = 0.02  # change between two slopes at which they have settled
 _EXTRAPOLATED = 0.06  # change between two extrapolated orders at which they have
@@ -36,20 +38,65 @@ _FLAT = 0.25  # how far a slope on the plateau is below the order
 _ABOVE = 300  # how many times the error of the plateau an error has to be to count
 
 
-def halvings(t_end: fmpq) -> Iterator[fmpq]:
-    """t_end/n with n doubled without end; the first step is no longer than 8, and all methods have
-    the same.
+def default_rows(solver: Solver, is_timed: bool) -> tuple[list[Row], int]:
+    """The rows of the default ladder, and how many at its end show the rounding of coefficients.
+
+    Step sizes that are too large for Newton's method, and poles of a step map, are left out. A
+    single row with the error 0 is all there is where the method makes no error.
+
+    Args:
+        solver: the method on the problem.
+        is_timed: whether costs are compared: then the ladder keeps its coarse steps, because large
+            errors are asked for as well.
+
+    Raises:
+        StepFailed: Newton's method fails where steps are not coarse.
+    """
+    rows: list[Row] = []
+    is_small: list[bool] = []
+    flat = 0
+    for h in halvings(solver.t_end, solver.unit):
+        is_coarse = h * MAX_COARSE > solver.t_end
+        if rows and solver.t_end / h > solver.most_steps:
+            break
+        try:
+            row = solver.row(h, rows[-1] if rows else None)
+        except NoUniqueStep:
+            continue
+        except StepFailed:
+            if any(is_small) or not is_coarse:
+                raise
+            rows, is_small = [], []
+            continue
+        if row.error.is_zero():
+            return [row], 0
+        rows.append(row)
+        is_small.append(not is_coarse or is_part(row, solver.size()))
+        flat = plateau(rows, solver.visible.order, solver.rounding())
+        if flat > 1 or is_complete(rows, is_small):
+            break
+    return trimmed(rows, is_small, flat, may_be_off=is_timed), flat
+
+
+def is_part(row: Row, size: arb) -> bool:
+    """Whether the error is a small part of the solution; ``size`` counts its start and its end."""
+    return bool(row.error < size * LARGEST / 2)
+
+
+def halvings(t_end: fmpq, unit: fmpq) -> Iterator[fmpq]:
+    """t_end/n with n doubled without end; the first step is no longer than ``LONGEST`` units of
+    time, and all methods have the same.
 
     Raises:
         UsageProblem: the time is not positive.
 
     >>> from itertools import islice
-    >>> [str(h) for h in islice(halvings(fmpq(12)), 4)]
+    >>> [str(h) for h in islice(halvings(fmpq(12), fmpq(1)), 4)]
     ['4', '2', '1', '1/2']
     """
     whole_steps(t_end, t_end)
-    n = int(t_end.ceil())
-    while n % 2 == 0 and t_end / (n // 2) <= 8:
+    n = int((t_end / unit).ceil())
+    while n % 2 == 0 and t_end / (n // 2) <= LONGEST * unit:
         n //= 2
     for k in count():
         yield t_end / (n * 2**k)
@@ -69,7 +116,10 @@ def is_complete(rows: Sequence[Row], is_small: Sequence[bool]) -> bool:
 
 def _first_small(is_small: Sequence[bool]) -> int:
     """Where the errors begin to stay small."""
-    return next((len(is_small) - k for k, small in enumerate(reversed(is_small)) if not small), 0)
+    start = len(is_small)
+    while start > 0 and is_small[start - 1]:
+        start -= 1
+    return start
 
 
 def _start(rows: Sequence[Row], is_small: Sequence[bool]) -> int:
@@ -78,12 +128,10 @@ def _start(rows: Sequence[Row], is_small: Sequence[bool]) -> int:
     if observed is None:
         return start
     allowed = max(_NEAR * observed, _FLAT)
-    off = (
-        i
-        for i, row in enumerate(rows)
-        if row.slope is not None and abs(row.slope - observed) > allowed
-    )
-    return max(start, *off, 0)
+    for i, row in enumerate(rows):
+        if row.slope is not None and abs(row.slope - observed) > allowed:
+            start = max(start, i)
+    return start
 
 
 def has_settled(rows: Sequence[Row]) -> bool:
@@ -104,8 +152,8 @@ def has_settled(rows: Sequence[Row]) -> bool:
 
 
 def trimmed(
-    rows: Sequence[R], is_small: Sequence[bool], plateau: int = 0, may_be_off: bool = False
-) -> list[R]:
+    rows: Sequence[Row], is_small: Sequence[bool], plateau: int = 0, may_be_off: bool = False
+) -> list[Row]:
     """The rows without those at the start that are too coarse to belong; ``ROWS`` of them stay at
     least.
 
@@ -113,9 +161,13 @@ def trimmed(
     belong, whatever their slopes.
     """
     end = len(rows) - plateau
-    start = _first_small(is_small[:end]) if may_be_off else _start(rows[:end], is_small[:end])
-    kept = rows[max(0, min(start, len(rows) - ROWS)) :]
-    return [replace(row, slope=None) if i == 0 else row for i, row in enumerate(kept)]
+    start = _first_small(is_small[:end])
+    if not may_be_off:
+        start = _start(rows[:end], is_small[:end])
+    kept = list(rows[max(0, min(start, len(rows) - ROWS)) :])
+    if kept:
+        kept[0] = replace(kept[0], slope=None)
+    return kept
 
 
 def plateau(rows: Sequence[Row], order: int, rounding: arb) -> int:
@@ -134,7 +186,8 @@ def plateau(rows: Sequence[Row], order: int, rounding: arb) -> int:
     if not flat:
         return 0
     level = min((row.error for row in rows[flat[0] :]), key=float) * _ABOVE
-    return len(rows) - next(i for i, row in enumerate(rows) if i == flat[0] or row.error < level)
+    spoilt = next(i for i, row in enumerate(rows) if i == flat[0] or row.error < level)
+    return len(rows) - spoilt
 
 
 def _is_flat(row: Row, order: int) -> bool:

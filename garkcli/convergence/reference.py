@@ -4,22 +4,21 @@ asked for.
 
 from __future__ import annotations
 
-from collections.abc import Callable, Sequence
+from collections.abc import Sequence
 from dataclasses import dataclass, replace
 from functools import cache
 from math import ceil
-from typing import Any, TypeAlias
+from typing import Any
 
 from flint import arb, ctx, fmpq
 
+from garkcli.convergence.solver import Watch
 from garkcli.errors import UsageProblem
 from garkcli.exact.display import to_float
 from garkcli.problems.hamiltonian import Hamiltonian
 from garkcli.stepping.integrator import Integrator, bind
 from garkcli.stepping.step import StepFailed, Stepper
 
-Watch: TypeAlias = Callable[[str, int, int], None]
-"""Is told what is being computed, how many steps of it are done, and of how many."""
 MAX_TRIED = 10_000
 """Steps from which on a step that fails is the fault of the problem."""
 MAX_STEPS = 1_000_000

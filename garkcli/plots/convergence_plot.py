@@ -19,11 +19,13 @@ from matplotlib.axes import Axes
 from matplotlib.figure import Figure
 from matplotlib.ticker import FuncFormatter, MaxNLocator
 
+from garkcli.convergence.result import Convergence
 from garkcli.errors import UsageProblem
 from garkcli.plots.slopes import Curve, Line, place_line
 from garkcli.report.asciiplot import log10
-from garkcli.report.comparison import curve
-from garkcli.report.convergence_data import Result, problem_name
+from garkcli.report.convergence import order_text
+from garkcli.report.convergence_data import problem_name
+from garkcli.report.costs import curve
 
 SUFFIXES = (".png", ".svg", ".pdf")
 """The kinds of file that figures can be saved as."""
@@ -48,8 +50,10 @@ _LONGEST = 72  # characters of a name in a legend
 _FLOATS = 290  # decades: beyond, logarithms are drawn on a linear axis
 
 
-def convergence_figure(result: Result) -> Figure:
-    """Error and energy error against h, log–log, with a line whose slope is the visible order."""
+def convergence_figure(result: Convergence, name: str) -> Figure:
+    """Error and energy error of the method called ``name`` against h, log–log, with a line whose
+    slope is the visible order.
+    """
     points = [(log10(x), log10(error)) for x, error in curve(result, "h")]
     kept = [(log10(row.h), log10(row.energy_error)) for row in result.rows if row.energy_error > 0]
     curves = []
@@ -65,15 +69,16 @@ def convergence_figure(result: Result) -> Figure:
         curves.append(
             Curve(line.xs, line.ys, label, {"color": _RED, "linestyle": "--", "linewidth": 1.4})
         )
-    observed = "none" if result.observed_order is None else f"{result.observed_order:.2f}"
-    title = f"{_title(result)}: observed order {observed}"
+    title = (
+        f"{_shortened(name)}\n{_title(result)}: observed order {order_text(result.observed_order)}"
+    )
     figure = _log_log(curves, [], title, "step size h", 4.8)
     if curves:
         figure.axes[0].legend(frameon=False)
     return figure
 
 
-def comparison_figure(named: Sequence[tuple[str, Result]], against: str = "h") -> Figure:
+def comparison_figure(named: Sequence[tuple[str, Convergence]], against: str = "h") -> Figure:
     """Errors of several methods, log–log, with a line for each visible order.
 
     Args:
@@ -108,7 +113,7 @@ def comparison_figure(named: Sequence[tuple[str, Result]], against: str = "h") -
     return figure
 
 
-def _title(result: Result) -> str:
+def _title(result: Convergence) -> str:
     name = problem_name(result)
     return f"{name[:1].upper()}{name[1:]} to t = {result.t_end}"
 

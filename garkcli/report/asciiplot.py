@@ -12,6 +12,9 @@ Positive: TypeAlias = float | fmpq | arb
 """What can be plotted; balls and fractions reach beyond the range of floats."""
 
 POINT, LINE, SEVERAL = "•", "·", "*"
+COLUMNS = 58
+"""Of a plot with its axes; indented by two it fits narrow terminals."""
+_AROUND = 13  # columns beside the frame: marks of decades, half a number, gaps
 
 
 def log10(x: Positive) -> float:
@@ -26,7 +29,7 @@ def log10(x: Positive) -> float:
 def terminal_plot(
     hs: Sequence[Positive],
     errors: Sequence[Positive],
-    width: int = 60,
+    width: int = 0,
     height: int = 16,
     order: int | None = None,
 ) -> str:
@@ -36,7 +39,7 @@ def terminal_plot(
     Args:
         hs: step sizes, positive.
         errors: an error for each; those that are not positive are left out.
-        width: columns inside the frame; the lines are 12 longer at most.
+        width: columns inside the frame, so many that the lines have at most ``COLUMNS`` by default.
         height: lines inside the frame.
         order: the slope of a dotted line through the smallest step; none by default.
 
@@ -51,8 +54,11 @@ def terminal_plot(
         0.01       0.1        1  h
     """
     points = sorted((log10(h), log10(e)) for h, e in zip(hs, errors, strict=True) if e > 0)
-    line = None if order is None or not points else (*points[0], order)
-    return _plot([(x, y, POINT) for x, y in points], "h", width, height, line)
+    line = None
+    if order is not None and points:
+        line = (*points[0], order)
+    marked = [(x, y, POINT) for x, y in points]
+    return _plot(marked, "h", width or _inside("h"), height, line)
 
 
 def terminal_curves(
@@ -66,7 +72,7 @@ def terminal_curves(
     Args:
         curves: pairs (x, error) by the letter that marks them; two on top of each other make a *.
         label: of the horizontal axis.
-        width: columns inside the frame, so many that the lines have at most 76 by default.
+        width: columns inside the frame, so many that the lines have at most ``COLUMNS`` by default.
         height: lines inside the frame.
 
     >>> print(terminal_curves({"A": [(10, 1), (100, 0.1)], "B": [(100, 1)]}, "steps", width=13, height=3))
@@ -77,14 +83,15 @@ def terminal_curves(
          └┬───────────┬
          10          100  steps
     """
-    width = width or 61 - len(label)
-    points = [
-        (log10(x), log10(y), mark)
-        for mark, pairs in curves.items()
-        for x, y in pairs
-        if x > 0 and y > 0
-    ]
-    return _plot(points, label, width, height, None)
+    points = []
+    for mark, pairs in curves.items():
+        points += [(log10(x), log10(y), mark) for x, y in pairs if x > 0 and y > 0]
+    return _plot(points, label, width or _inside(label), height, None)
+
+
+def _inside(label: str) -> int:
+    """Columns inside a frame with this label behind its horizontal axis."""
+    return COLUMNS - _AROUND - len(label)
 
 
 def _plot(
@@ -101,29 +108,31 @@ def _plot(
     left, right = min(xs), max(max(xs), min(xs) + 0.1)
     bottom, top = floor(min(ys)), ceil(max(ys))
     top = max(top, bottom + 1)
-    field = [[" "] * width for _ in range(height)]
+    frame = [[" "] * width for _ in range(height)]
 
     def put(x: float, y: float, mark: str) -> None:
         row = _cell(top - y, top - bottom, height)
-        if 0 <= row < height:
-            column = _cell(x - left, right - left, width)
-            field[row][column] = mark if field[row][column] in (" ", LINE, mark) else SEVERAL
+        if not 0 <= row < height:
+            return
+        column = _cell(x - left, right - left, width)
+        is_free = frame[row][column] in (" ", LINE, mark)
+        frame[row][column] = mark if is_free else SEVERAL
 
     if line is not None:
+        start, level, slope = line
         for column in range(width):
             x = left + (right - left) * column / (width - 1)
-            put(x, line[1] + line[2] * (x - line[0]), LINE)
+            put(x, level + slope * (x - start), LINE)
     for x, y, mark in points:
         put(x, y, mark)
-    rows = {
-        _cell(top - k, top - bottom, height): f"1e{k:+d}"
-        for k in _decades(bottom, top, (height + 1) // 2)
-    }
-    columns = {
-        _cell(x - left, right - left, width): _short(x)
-        for x in (*range(ceil(left), floor(right) + 1), left, right)
-    }
-    return "\n".join(_framed(field, rows, columns, label))
+
+    rows = {}
+    for k in _decades(bottom, top, (height + 1) // 2):
+        rows[_cell(top - k, top - bottom, height)] = f"1e{k:+d}"
+    columns = {}
+    for x in (*range(ceil(left), floor(right) + 1), left, right):
+        columns[_cell(x - left, right - left, width)] = _short(x)
+    return "\n".join(_framed(frame, rows, columns, label))
 
 
 def _cell(distance: float, extent: float, cells: int) -> int:
@@ -132,38 +141,47 @@ def _cell(distance: float, extent: float, cells: int) -> int:
 
 def _decades(bottom: int, top: int, most: int) -> range:
     """Whole exponents from the top down, so far apart that they are at most ``most``."""
-    apart = max(1, -(-(top - bottom) // max(most - 1, 1)))
+    gaps = max(most - 1, 1)
+    apart = max(1, ceil((top - bottom) / gaps))
     return range(top, bottom - 1, -apart)
 
 
 def _short(exponent: float) -> str:
-    if 2 <= exponent < 15:
-        whole = f"{10**exponent:.1e}"
-        mantissa, power = float(whole[:3]), int(whole[4:])
-        return f"{mantissa:g}e{power}" if power >= 5 else f"{round(mantissa * 10**power)}"
-    return f"{10**exponent:.2g}" if abs(exponent) < 300 else f"1e{exponent:+.1f}"
+    if abs(exponent) >= 300:
+        return f"1e{exponent:+.1f}"
+    if not 2 <= exponent < 15:
+        return f"{10**exponent:.2g}"
+    whole = f"{10**exponent:.1e}"
+    mantissa, power = float(whole[:3]), int(whole[4:])
+    return f"{mantissa:g}e{power}" if power >= 5 else f"{round(mantissa * 10**power)}"
 
 
 def _framed(
-    field: Sequence[Sequence[str]], rows: Mapping[int, str], columns: Mapping[int, str], label: str
+    frame: Sequence[Sequence[str]], rows: Mapping[int, str], columns: Mapping[int, str], label: str
 ) -> list[str]:
-    """The field with its axes; ``rows`` and ``columns`` say where they have a mark, and its
+    """The frame with its axes; ``rows`` and ``columns`` say where they have a mark, and its
     label.
     """
     margin = max(len(text) for text in rows.values())
-    lines = [" " * margin + " error"]
-    for i, row in enumerate(field):
-        lines.append(
-            f"{rows.get(i, ''):>{margin}} {'┤' if i in rows else '│'}{''.join(row)}".rstrip()
-        )
-    width = len(field[0])
-    lines.append(" " * margin + " └" + "".join("┬" if j in columns else "─" for j in range(width)))
-    labels = [" "] * (margin + width + 8)
-    for j in sorted(
-        columns, key=lambda j: (0 < j < width - 1, j)
-    ):  # the ends first, then what still fits
+    blank = " " * margin
+    lines = [f"{blank} error"]
+    for i, row in enumerate(frame):
+        axis = "┤" if i in rows else "│"
+        lines.append(f"{rows.get(i, ''):>{margin}} {axis}{''.join(row)}".rstrip())
+    width = len(frame[0])
+    ticks = ["┬" if j in columns else "─" for j in range(width)]
+    lines.append(f"{blank} └{''.join(ticks)}")
+    numbers = _placed(columns, margin, width)
+    return [*lines, f"{numbers}  {label}"]
+
+
+def _placed(columns: Mapping[int, str], margin: int, width: int) -> str:
+    """The numbers below their marks: those at the ends first, then what still fits."""
+    cells = [" "] * (margin + width + 8)
+    inner_last = sorted(columns, key=lambda j: (0 < j < width - 1, j))
+    for j in inner_last:
         text = columns[j]
         start = margin + 2 + j - len(text) // 2
-        if all(x == " " for x in labels[start - 1 : start + len(text) + 1]):
-            labels[start : start + len(text)] = text
-    return [*lines, "".join(labels).rstrip() + f"  {label}"]
+        if all(x == " " for x in cells[start - 1 : start + len(text) + 1]):
+            cells[start : start + len(text)] = text
+    return "".join(cells).rstrip()

@@ -7,19 +7,17 @@ import io
 import json
 from collections.abc import Sequence
 from dataclasses import dataclass
-from typing import Any, TypeAlias
+from typing import Any
 
-from garkcli.convergence.convergence import LINEAR_ONLY, Convergence, Row
-from garkcli.convergence.nonlinear import Observation
-from garkcli.convergence.trial import PathRow
-from garkcli.convergence.work import Cost
+from garkcli.convergence.result import Convergence, Cost, Row
 from garkcli.errors import Fault
 from garkcli.exact.display import to_float
-from garkcli.report.figures import scientific
+from garkcli.problems.oscillator import Oscillator
+from garkcli.report.figures import for_programs
 
-Result: TypeAlias = Convergence | Observation
-"""A convergence test, on the oscillator or on a nonlinear problem."""
-_DIGITS = 6  # of errors in CSV; they are good to as many
+_DIGITS = 6  # of errors
+_SLOPE_DIGITS = 4  # decimal places of slopes and of observed orders
+_WORK = ("steps", "evaluations", "newton_iterations", "jacobians", "seconds")
 
 
 @dataclass(frozen=True)
@@ -36,12 +34,24 @@ class Entry:
 
     file: str
     name: str
-    result: Result | None
+    result: Convergence | None
     faults: tuple[Fault, ...]
     exit_code: int
 
 
-def json_of(result: Result, name: str, with_work: bool) -> str:
+def problem_name(result: Convergence) -> str:
+    """What --problem calls it."""
+    problem = result.problem
+    return "oscillator" if isinstance(problem, Oscillator) else problem.name
+
+
+def invariant_names(result: Convergence) -> list[str]:
+    """Of the first integrals besides the energy."""
+    problem = result.problem
+    return [] if isinstance(problem, Oscillator) else [name for name, _ in problem.invariants]
+
+
+def json_of(result: Convergence, name: str, with_work: bool) -> str:
     """One test as JSON."""
     return _dumped(_data(result, name, with_work))
 
@@ -52,29 +62,31 @@ def json_of_several(entries: Sequence[Entry], with_work: bool) -> str:
     for entry in entries:
         head: dict[str, Any] = {"file": entry.file, "ok": entry.exit_code == 0}
         if entry.result is None:
-            errors = [
-                {"line": x.line, "column": x.column, "message": x.message, "help": x.help}
-                for x in entry.faults
-            ]
-            results.append({**head, "name": entry.name, "errors": errors})
+            results.append({**head, "name": entry.name, "errors": _errors(entry.faults)})
         else:
             results.append({**head, **_data(entry.result, entry.name, with_work)})
     failed = sum(entry.exit_code != 0 for entry in entries)
-    return _dumped(
-        {
-            "schema": "gark/converge-comparison/1",
-            "results": results,
-            "summary": {"files": len(entries), "failed": failed},
-        }
-    )
+    comparison = {
+        "schema": "gark/converge-comparison/1",
+        "results": results,
+        "summary": {"files": len(entries), "failed": failed},
+    }
+    return _dumped(comparison)
 
 
 def _dumped(data: dict[str, Any]) -> str:
     return json.dumps(data, indent=2, ensure_ascii=False) + "\n"
 
 
-def _data(result: Result, name: str, with_work: bool) -> dict[str, Any]:
-    return {
+def _errors(faults: Sequence[Fault]) -> list[dict[str, Any]]:
+    return [
+        {"line": x.line, "column": x.column, "message": x.message, "help": x.help} for x in faults
+    ]
+
+
+def _data(result: Convergence, name: str, with_work: bool) -> dict[str, Any]:
+    names = invariant_names(result)
+    data: dict[str, Any] = {
         "schema": "gark/converge/1",
         "problem": problem_name(result),
         "name": name,
@@ -82,75 +94,65 @@ def _data(result: Result, name: str, with_work: bool) -> dict[str, Any]:
         "t_end": str(result.t_end),
         "predicted_order": result.predicted_order,
         "visible_order": result.visible_order,
-        "observed_order": result.observed_order,
+        "visible_order_is_exact": result.visible.is_sharp,
+        "observed_order": _place(result.observed_order),
         "agrees": result.agrees,
         "verdict": result.verdict,
-        **_short(result),
-        "steps": [
-            {
-                "h": to_float(row.h),
-                "h_exact": str(row.h),
-                "error": float(row.error),
-                "slope": row.slope,
-                "energy_error": float(row.energy_error),
-                **_path(result, row),
-                **({"work": _work(row.cost)} if with_work else {}),
-            }
-            for row in result.rows
-        ],
-        "note": note(result),
+        "plateau": result.plateau,
     }
+    if result.short_time is not None:
+        order = _place(result.short_order)
+        data["short"] = {"t_end": str(result.short_time), "observed_order": order}
+    data["steps"] = [_step(row, names, with_work) for row in result.rows]
+    data["note"] = result.visible.trees
+    return data
 
 
-def problem_name(result: Result) -> str:
-    """What --problem calls it."""
-    return result.problem.name if isinstance(result, Observation) else "oscillator"
+def _split(result: Convergence) -> dict[str, Any]:
+    problem = result.problem
+    if isinstance(problem, Oscillator):
+        split = [[str(k), str(v)] for k, v in problem.shares]
+        return {"omega": str(problem.omega), "split": split}
+    return {"hamiltonian": [str(term) for term in problem.terms]}
 
 
-def note(result: Result) -> str:
-    """Which trees the problem can see."""
-    return result.sees if isinstance(result, Observation) else LINEAR_ONLY
+def _place(order: float | None) -> float | None:
+    """An order or slope in as many decimal places as say something; never −0."""
+    return None if order is None else round(order, _SLOPE_DIGITS) + 0.0
 
 
-def _split(result: Result) -> dict[str, Any]:
-    if isinstance(result, Observation):
-        return {
-            "hamiltonian": [str(term) for term in result.problem.terms],
-            "plateau": result.plateau,
-        }
-    return {
-        "omega": str(result.problem.omega),
-        "split": [[str(k), str(v)] for k, v in result.problem.shares],
+def _step(row: Row, names: Sequence[str], with_work: bool) -> dict[str, Any]:
+    errors = dict(zip(names, row.invariant_errors, strict=True))
+    step: dict[str, Any] = {
+        "h": to_float(row.h),
+        "h_exact": str(row.h),
+        "error": _number(row.error),
+        "slope": _place(row.slope),
+        "energy_error": _number(row.energy_error),
+        "digits": row.digits,
+        "invariant_errors": {name: _number(error) for name, error in errors.items()},
     }
+    measured = {"energy": row.energy_error, **errors}
+    below = [name for name, x in measured.items() if x.contains(0) and not x.is_zero()]
+    if below:
+        step["below_round_off"] = below
+    if with_work:
+        step["work"] = _work(row.cost)
+    return step
 
 
-def _short(result: Result) -> dict[str, Any]:
-    if not isinstance(result, Observation) or result.short_time is None:
-        return {}
-    return {"short": {"t_end": str(result.short_time), "observed_order": result.short_order}}
-
-
-def _path(result: Result, row: Row) -> dict[str, Any]:
-    if not (isinstance(result, Observation) and isinstance(row, PathRow)):
-        return {}
-    names = (name for name, _ in result.problem.invariants)
-    errors = {name: float(error) for name, error in zip(names, row.invariant_errors, strict=True)}
-    return {"digits": row.digits, "invariant_errors": errors}
+def _number(ball: Any) -> float:
+    return float(for_programs(ball, _DIGITS))
 
 
 def _work(cost: Cost | None) -> dict[str, Any] | None:
     if cost is None:
         return None
-    return {
-        "steps": cost.steps,
-        "evaluations": cost.evaluations,
-        "newton_iterations": cost.iterations,
-        "jacobians": cost.jacobians,
-        "seconds": cost.seconds,
-    }
+    values = (cost.steps, cost.evaluations, cost.iterations, cost.jacobians, cost.seconds)
+    return dict(zip(_WORK, values, strict=True))
 
 
-def csv_of(result: Result, with_work: bool) -> str:
+def csv_of(result: Convergence, with_work: bool) -> str:
     """One test as CSV, a row a step size."""
     return _written([([], result)], [], with_work)
 
@@ -163,40 +165,40 @@ def csv_of_several(entries: Sequence[Entry], with_work: bool) -> str:
     return _written(tests, ["file", "method"], with_work)
 
 
-def _written(tests: Sequence[tuple[list[str], Result]], first: list[str], with_work: bool) -> str:
+def _written(
+    tests: Sequence[tuple[list[str], Convergence]], first: list[str], with_work: bool
+) -> str:
     text = io.StringIO()
     writer = csv.writer(text, lineterminator="\n")
-    writer.writerow(
-        [*first, *_columns(tests[0][1] if tests else None), *(_WORK if with_work else ())]
-    )
+    heads = [*first, *_columns(tests[0][1] if tests else None)]
+    writer.writerow([*heads, *_WORK] if with_work else heads)
     for cells, result in tests:
         for row in result.rows:
-            writer.writerow([*cells, *_cells(row), *(_work_cells(row.cost) if with_work else ())])
+            found = [*cells, *_cells(row)]
+            writer.writerow([*found, *_work_cells(row.cost)] if with_work else found)
     return text.getvalue()
 
 
-_WORK = ("steps", "evaluations", "newton_iterations", "jacobians", "seconds")
-
-
-def _columns(result: Result | None) -> list[str]:
+def _columns(result: Convergence | None) -> list[str]:
     columns = ["h", "h_exact", "error", "slope", "energy_error"]
-    if isinstance(result, Observation):
-        columns += [f"{name.replace(' ', '_')}_error" for name, _ in result.problem.invariants]
-        columns.append("digits")
+    if result is not None:
+        columns += [f"{name.replace(' ', '_')}_error" for name in invariant_names(result)]
+        if any(row.digits is not None for row in result.rows):
+            columns.append("digits")
     return columns
 
 
 def _cells(row: Row) -> list[str]:
-    slope = "" if row.slope is None else f"{row.slope:.4f}"
-    cells = [repr(to_float(row.h)), str(row.h), scientific(row.error, _DIGITS), slope]
-    cells.append(scientific(row.energy_error, _DIGITS))
-    if isinstance(row, PathRow):
-        cells += [*(scientific(x, _DIGITS) for x in row.invariant_errors), str(row.digits)]
-    return cells
+    slope = "" if row.slope is None else f"{row.slope:.{_SLOPE_DIGITS}f}"
+    cells = [repr(to_float(row.h)), str(row.h), for_programs(row.error, _DIGITS), slope]
+    cells.append(for_programs(row.energy_error, _DIGITS))
+    cells += [for_programs(x, _DIGITS) for x in row.invariant_errors]
+    return cells if row.digits is None else [*cells, str(row.digits)]
 
 
 def _work_cells(cost: Cost | None) -> list[str]:
-    values = (_work(cost) or {}).values()
-    return [
-        "" if x is None else f"{x:.4g}" if isinstance(x, float) else str(x) for x in values
-    ] or [""] * len(_WORK)
+    if cost is None:
+        return [""] * len(_WORK)
+    counts = (cost.steps, cost.evaluations, cost.iterations, cost.jacobians)
+    seconds = "" if cost.seconds is None else f"{cost.seconds:.4g}"
+    return [*map(str, counts), seconds]

@@ -1,21 +1,34 @@
-"""Positive numbers of any size as short text."""
+"""Positive numbers of any size as short text: only digits that are certain.
+
+What is measured comes as a ball, whose radius is what rounding leaves open. Digits within the
+radius hang on the processor, so they are not shown; of a ball that holds 0 only a bound is.
+"""
 
 from __future__ import annotations
 
+from math import ceil, floor, log10
 from typing import Any
 
 from flint import arb
 
-from garkcli.report.asciiplot import log10
+from garkcli.report.asciiplot import log10 as decades_of
+
+_DIGITS_PER_BIT = log10(2)
+_ALL = 15  # digits of a float
 
 
 def rounded(ball: Any, digits: int = 4) -> str:
-    """A few digits of an enclosed number; "0" for zero.
+    """A few digits of an enclosed number; "0" for zero, a bound for what is below round-off.
 
-    >>> rounded(arb(1) / 3)
-    '0.3333'
+    >>> rounded(arb(1) / 3), rounded(arb(1, 0.004)), rounded(arb(0, 3e-15)), rounded(arb(0))
+    ('0.3333', '1.00', '< 1e-14', '0')
     """
-    return "0" if ball.is_zero() else str(arb(ball).str(digits, radius=False))
+    ball = arb(ball)
+    if ball.is_zero():
+        return "0"
+    if ball.contains(0):
+        return f"< 1e{bound(ball)}"
+    return str(ball.str(digits, radius=False))
 
 
 def scientific(ball: Any, digits: int = 3) -> str:
@@ -23,12 +36,38 @@ def scientific(ball: Any, digits: int = 3) -> str:
 
     >>> scientific(arb(2) / 300), scientific(arb("9.999e-400")), scientific(arb(12)), scientific(arb(0))
     ('6.67e-3', '1.00e-399', '1.20e1', '0')
+    >>> scientific(arb(12, 0.5), 6)
+    '1e1'
     """
-    if ball <= 0:
+    ball = arb(ball)
+    if ball.is_zero():
         return "0"
-    exponent = int(log10(ball) // 1)
-    mantissa = f"{float(arb(ball) / arb(10) ** exponent):.{digits - 1}f}"
+    if ball.contains(0):
+        return f"< 1e{bound(ball)}"
+    digits = min(digits, certain_digits(ball))
+    exponent = floor(decades_of(ball.mid()))
+    mantissa = f"{float(ball.mid() / arb(10) ** exponent):.{digits - 1}f}"
     if float(mantissa) >= 10:
         exponent += 1
         mantissa = f"{1:.{digits - 1}f}"
     return f"{mantissa}e{exponent}"
+
+
+def for_programs(ball: Any, digits: int = 6) -> str:
+    """The same as a number that every program reads: a bound is the power of ten that it is.
+
+    >>> for_programs(arb(2) / 3), for_programs(arb(0, 3e-15))
+    ('6.66667e-1', '1e-14')
+    """
+    return scientific(ball, digits).removeprefix("< ")
+
+
+def bound(ball: Any) -> int:
+    """The smallest k for which all of a ball about 0 is below 10^k."""
+    return ceil(decades_of(arb(ball).abs_upper()))
+
+
+def certain_digits(ball: Any) -> int:
+    """How many digits of a number its ball leaves no doubt about; at least one."""
+    bits = min(arb(ball).rel_accuracy_bits(), 10**6)
+    return min(max(floor(bits * _DIGITS_PER_BIT), 1), _ALL)

@@ -58,3 +58,17 @@ def beside(left: Sequence[str], right: Sequence[str], gap: str = "   ") -> list[
         [*left, *[""] * (height - len(left))], [*right, *[""] * (height - len(right))], strict=True
     )
     return [f"{a.ljust(width)}{gap}{b}".rstrip() for a, b in rows]
+
+
+def padded(rows: Sequence[Sequence[str]], gap: str = "   ") -> list[str]:
+    """The same with the first column to the left, the others to the right.
+
+    >>> padded([["order", "4"], ["A", "12"]])
+    ['order    4', 'A       12']
+    """
+    widths = [max(len(row[j]) for row in rows) for j in range(len(rows[0]))]
+    lines = []
+    for first, *others in rows:
+        cells = [x.rjust(w) for x, w in zip(others, widths[1:], strict=True)]
+        lines.append(gap.join([first.ljust(widths[0]), *cells]).rstrip())
+    return lines

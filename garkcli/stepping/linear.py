@@ -202,7 +202,7 @@ def deviations(step: LinearStep) -> Iterator[arb]:
         yield largest
 
 
-def visible_order(step: LinearStep, tolerance: float = 0.0) -> int:
+def visible_order(step: LinearStep, tolerance: fmpq | None = None) -> int:
     """The largest r with R(h) = exp(hL) + O(h^{r+1}), decided exactly: the order that this problem
     can see.
 
@@ -211,9 +211,17 @@ def visible_order(step: LinearStep, tolerance: float = 0.0) -> int:
 
     Args:
         step: the method on the problem.
-        tolerance: the largest of the ``deviations`` that counts as rounding.
+        tolerance: the largest of the ``deviations`` that counts as rounding; none by default. The
+            search ends where the coefficients 1/r! of exp(hL) themselves are no larger: from there
+            on every step agrees with it.
     """
-    return next(r for r, deviation in enumerate(deviations(step)) if deviation > tolerance)
+    limit = fmpq(0) if tolerance is None else tolerance
+    coefficient = ONE
+    for r, deviation in enumerate(deviations(step)):
+        coefficient /= r + 1
+        if deviation > limit or coefficient <= limit:
+            return r
+    raise AssertionError("the series of a rational function has no end")
 
 
 def whole_steps(t_end: fmpq, h: fmpq) -> int:

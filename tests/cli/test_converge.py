@@ -199,8 +199,8 @@ def test_options_that_do_not_go_together(said: str, arguments: tuple[str, ...]) 
 
 
 def test_rounded_coefficients_are_hinted_at(tmp_path: Path) -> None:
-    """Gauss 2 in 13 digits has order 2 and shows 4: the line that is missing is said, and with it
-    they agree.
+    """Gauss 2 in 13 digits has order 1 or 2 and shows 4, over a short time what it is: then the line
+    that is missing is said; with it the order is 4.
     """
     text = """
 ark:
@@ -212,7 +212,8 @@ ark:
     toleranced.write_text(f"{text}tolerance: 1e-13\n", encoding="utf-8")
     hint = "hint: the coefficients look rounded; with the line  tolerance: 1e-13  the order is 4"
     alone = gark("converge", str(rounded))
-    assert (alone.code, hint in alone.err) == (1, True)
+    assert (alone.code, hint in alone.err) == (0, True)
+    assert "conditions of order 3 are missed by little" in alone.out
     both = gark("converge", str(rounded), str(toleranced))
-    assert (both.code, both.err.count(hint)) == (1, 1)
+    assert (both.code, both.err.count(hint)) == (0, 1)
     assert gark("converge", str(toleranced)).code == 0

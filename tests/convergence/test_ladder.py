@@ -11,9 +11,9 @@ from flint import arb, fmpq
 from hypothesis import given
 from hypothesis import strategies as st
 
-from garkcli.convergence.convergence import Row, observed_order
+from garkcli.convergence.convergence import converge
 from garkcli.convergence.ladder import MAX_ROWS, ROWS, halvings, is_complete, plateau, trimmed
-from garkcli.convergence.nonlinear import observe
+from garkcli.convergence.result import Row, observed_order
 from garkcli.errors import UsageProblem
 from garkcli.families.registry import diagonal_method
 from garkcli.problems.builtin import hamiltonian
@@ -103,7 +103,7 @@ def test_plateau_stays_and_has_no_say() -> None:
 def test_halvings_divide_the_time(p: int, q: int) -> None:
     """Each step size divides the time, is half of the one before, and the first is not long."""
     t = fmpq(p, q)
-    found = list(islice(halvings(t), 5))
+    found = list(islice(halvings(t, fmpq(1)), 5))
     assert all((t / h).q == 1 for h in found)
     assert all(a == 2 * b for a, b in pairwise(found))
     assert found[0] <= 8
@@ -112,7 +112,7 @@ def test_halvings_divide_the_time(p: int, q: int) -> None:
 def test_time_has_to_be_positive() -> None:
     """There is nothing to divide."""
     with pytest.raises(UsageProblem, match="not both positive"):
-        next(halvings(fmpq(0)))
+        next(halvings(fmpq(0), fmpq(1)))
 
 
 @pytest.mark.parametrize("order", [1, 4])
@@ -121,7 +121,7 @@ def test_ladder_fits_the_method(order: int) -> None:
     in few rows.
     """
     tableau = RECTANGULAR if order == 4 else gark([diagonal_method("explicit-euler")], {})
-    rows = observe(tableau, hamiltonian("pendulum", terms_of(tableau))).rows
+    rows = converge(tableau, hamiltonian("pendulum", terms_of(tableau))).rows
     assert len(rows) == ROWS
     assert 1e-6 < float(rows[0].error) < 0.1
     assert rows[0].h == (fmpq(1, 64) if order == 1 else fmpq(1, 2))

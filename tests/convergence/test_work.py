@@ -4,7 +4,7 @@ from __future__ import annotations
 
 from flint import fmpq
 
-from garkcli.convergence.nonlinear import observe
+from garkcli.convergence.convergence import converge
 from garkcli.convergence.work import cost_of, work_of
 from garkcli.families.registry import diagonal_method
 from garkcli.problems.builtin import hamiltonian
@@ -57,7 +57,7 @@ def test_time_is_measured_where_floats_reach() -> None:
     """
     tableau = pair(coupled(3, 4))
     steps = [fmpq(1, 2**k) for k in (0, 1, 2, 3, 7, 10)]
-    rows = observe(tableau, hamiltonian("generic", 2), steps=steps, is_timed=True).rows
+    rows = converge(tableau, hamiltonian("generic", 2), steps=steps, is_timed=True).rows
     timed = [row.cost is not None and row.cost.seconds is not None for row in rows]
     assert timed[:4] == [True] * 4
     assert not timed[-1]

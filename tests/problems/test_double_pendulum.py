@@ -11,7 +11,7 @@ import pytest
 import sympy
 from flint import arb, ctx, fmpq
 
-from garkcli.convergence.nonlinear import observe
+from garkcli.convergence.convergence import converge
 from garkcli.errors import UsageProblem
 from garkcli.families.registry import diagonal_method
 from garkcli.methodfile.load import load
@@ -89,7 +89,7 @@ def test_observed_orders() -> None:
     """Four by the semi-separable method of the paper, and by a general pair."""
     for tableau in (load(SEMI_SEPARABLE).tableau, pair(coupled(2, 3))):
         steps = [fmpq(1, 2**k) for k in (4, 5, 6)]
-        result = observe(tableau, hamiltonian("double-pendulum", 2), steps=steps)
+        result = converge(tableau, hamiltonian("double-pendulum", 2), steps=steps)
         assert result.agrees
         assert result.observed_order == pytest.approx(4, abs=0.05)
 

@@ -13,16 +13,16 @@ from functools import cache
 import pytest
 from flint import arb, fmpq
 
-from garkcli.convergence.convergence import Convergence, Row, converge
-from garkcli.convergence.nonlinear import Observation, observe
-from garkcli.convergence.work import Cost, timed
+from garkcli.convergence.convergence import converge
+from garkcli.convergence.result import Convergence, Cost, Row
 from garkcli.errors import Fault
 from garkcli.families.registry import diagonal_method
 from garkcli.problems.builtin import hamiltonian
 from garkcli.problems.oscillator import Oscillator
-from garkcli.report.comparison import amount, curve, letters, render
+from garkcli.report.comparison import letters, render
 from garkcli.report.convergence import render as render_one
 from garkcli.report.convergence_data import Entry
+from garkcli.report.costs import amount, curve
 from garkcli.report.figures import rounded, scientific
 from garkcli.report.paint import Paint
 from garkcli.tableau.forms import gark
@@ -38,9 +38,9 @@ def method(name: str) -> Tableau:
 
 
 @cache
-def on_kepler(name: str, with_work: bool = False) -> Observation:
+def on_kepler(name: str, with_work: bool = False) -> Convergence:
     """Its test on a problem with an invariant, in two rows."""
-    return observe(
+    return converge(
         method(name),
         hamiltonian("kepler", 1),
         steps=[fmpq(1, 64), fmpq(1, 128)],
@@ -227,18 +227,20 @@ def test_oscillator_has_costs_too() -> None:
     """Its step map is not stepped, so that the costs are of the same method on the same problem, in
     steps.
     """
-    result = timed(method("rk4"), on_oscillator("rk4"))
+    steps = [fmpq(1, 4), fmpq(1, 8), fmpq(1, 16)]
+    problem = Oscillator.default(1, fmpq(1))
+    result = converge(method("rk4"), problem, steps=steps, is_timed=True)
     assert [row.cost.evaluations for row in result.rows if row.cost is not None] == [128, 256, 512]
     assert all(row.cost is not None and row.cost.seconds is not None for row in result.rows)
-    assert [row.error for row in result.rows] == [row.error for row in on_oscillator("rk4").rows]
+    plain = on_oscillator("rk4").rows
+    assert [float(x.error) for x in result.rows] == [float(x.error) for x in plain]
 
 
 def test_oscillator_beyond_floats_is_counted_without_time() -> None:
     """Gauss 8 with h = 1/4 has an error of 1e-26: more digits, more iterations, no time."""
     tableau = gark([diagonal_method("gauss", 8)], {})
-    result = timed(
-        tableau, converge(tableau, Oscillator.default(1, fmpq(1)), fmpq(4), [fmpq(2), fmpq(1, 4)])
-    )
+    steps = [fmpq(2), fmpq(1, 4)]
+    result = converge(tableau, Oscillator.default(1, fmpq(1)), steps=steps, is_timed=True)
     coarse, fine = (row.cost for row in result.rows)
     assert coarse is not None
     assert fine is not None

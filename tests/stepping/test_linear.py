@@ -238,7 +238,17 @@ def test_visible_order_within_a_tolerance() -> None:
     tableau = spelled_out([[((fmpq(0), fmpq(0)), (fmpq(1), fmpq(0)))]], [b], [None])
     step = linear_step(tableau, default(tableau))
     assert visible_order(step) == 0
-    assert visible_order(step, 1e-10) == 2
+    assert visible_order(step, fmpq(1, 10**10)) == 2
+
+
+def test_visible_order_ends_where_the_tolerance_hides_all() -> None:
+    """Within 1e-4 the coefficients 1/k! of the exponential are none from order 8 on, so that a
+    method with small ones there agrees for ever: the search ends at 7.
+    """
+    tableau = gark([diagonal_method("gauss", 6)], {})
+    step = linear_step(tableau, default(tableau))
+    assert visible_order(step) == 12
+    assert visible_order(step, fmpq(1, 10**4)) == 7
 
 
 def test_precision_is_what_was_asked_for() -> None:

@@ -10,7 +10,7 @@ import pytest
 import sympy
 from flint import arb, ctx, fmpq
 
-from garkcli.convergence.nonlinear import observe
+from garkcli.convergence.convergence import converge
 from garkcli.errors import UsageProblem
 from garkcli.families.registry import diagonal_method
 from garkcli.graph import components
@@ -287,7 +287,7 @@ def test_problem_is_split_for_the_method() -> None:
     with pytest.raises(UsageProblem, match="2 terms, the method is for 3"):
         bind(triple, split).at()
     with pytest.raises(UsageProblem, match="2 terms, the method is for 3"):
-        observe(triple, split)
+        converge(triple, split)
     with pytest.raises(UsageProblem, match="2 terms, the method is for 3"):
         follow(triple, split, fmpq(1), H)
 

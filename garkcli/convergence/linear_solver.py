@@ -1,0 +1,229 @@
+"""The oscillator, solved by the exact step map of a method.
+
+R(h) is known exactly and its powers are enclosed in balls with as many bits as the error needs, so
+a slope is never a slope of rounding errors.
+"""
+
+from __future__ import annotations
+
+from dataclasses import dataclass, field, replace
+from itertools import islice
+from math import ceil, factorial
+
+from flint import arb, arb_mat, ctx, fmpq
+
+from garkcli.convergence.result import Cost, Row, Visible, absolute, slope_between
+from garkcli.convergence.solver import NoUniqueStep
+from garkcli.convergence.work import MAX_DIGITS, REACHED, cost_of, work_of
+from garkcli.errors import UsageProblem
+from garkcli.exact.matrix import Matrix
+from garkcli.problems.hamiltonian import FLOAT_DIGITS, Hamiltonian, symbols
+from garkcli.problems.oscillator import Oscillator
+from garkcli.stepping.integrator import Integrator, bind
+from garkcli.stepping.linear import (
+    MAX_STEPS,
+    LinearStep,
+    conserves_energy,
+    deviations,
+    enclosure,
+    linear_step,
+    visible_order,
+    whole_steps,
+)
+from garkcli.stepping.step import Stepper
+from garkcli.tableau.tableau import Tableau
+
+ERROR_BITS = 40
+"""Correct bits of every error."""
+ENERGY_BITS = 20
+"""Correct bits of every energy error that is not zero."""
+LINEAR_ONLY = (
+    "a linear problem sees only the unbranched trees: "
+    "it can show an order too high, never one too low"
+)
+"""What every report of this test has to say."""
+_FIRST_BITS = 128
+_DECADES = (6, 12, 24, 48, 96, 192, 384)  # balls are as exact as the smallest errors need
+_AGREEING = 8  # digits of an error by which steps and the step map have to agree
+
+
+@dataclass
+class LinearSolver:
+    """A method on the oscillator from q(0) = 1, p(0) = ω/2; see ``Solver``.
+
+    Attributes:
+        tableau: the method.
+        step: the same with its exact step map.
+        t_end: when errors are taken.
+        visible: what the problem sees.
+        spoilt: how much of R(h) the rounding of the coefficients is, at the step 1/ω: the sum of
+            the deviations that a tolerance makes none of.
+        integrators: the method with so many digits, to measure what steps cost.
+    """
+
+    tableau: Tableau
+    step: LinearStep
+    t_end: fmpq
+    visible: Visible
+    spoilt: arb = field(default_factory=arb)
+    most_steps: int = MAX_STEPS
+    decades: tuple[int, ...] = _DECADES
+    integrators: dict[int, Integrator] = field(default_factory=dict)
+
+    @property
+    def problem(self) -> Oscillator:
+        """The oscillator and its split."""
+        return self.step.problem
+
+    @property
+    def unit(self) -> fmpq:
+        """1/ω."""
+        return 1 / self.problem.omega
+
+    def row(self, h: fmpq, before: Row | None) -> Row:
+        """The errors of steps of size ``h``, exact to ``ERROR_BITS``; see ``Solver.row``."""
+        steps = whole_steps(self.t_end, h)
+        try:
+            R = self.step.at(h)
+        except UsageProblem as pole:
+            raise NoUniqueStep(pole.message, pole.help) from None
+        error, energy_error = _errors(R, steps, self.problem.omega, self.t_end)
+        return Row(h, error, slope_between(before, h, error), energy_error)
+
+    def size(self) -> arb:
+        """|q| + |p/ω| at the start and at the end."""
+        q, p = _solution(self.problem.omega, self.t_end)
+        return arb(fmpq(3, 2)) + abs(q) + abs(p / self.problem.omega)
+
+    def rounding(self) -> arb:
+        """About the error that the rounding of the coefficients makes."""
+        return self.size() * self.spoilt * max(arb(1), arb(self.t_end / self.unit))
+
+    def over(self, t_end: fmpq) -> LinearSolver:
+        """The same up to another time."""
+        return replace(self, t_end=t_end)
+
+    def timed(self, row: Row) -> Row:
+        """The row with the cost of its steps, in floats where these reach its error.
+
+        Rows whose errors are below what ``MAX_DIGITS`` digits can show have no cost.
+
+        Raises:
+            StepFailed: the stage equations of a step were not solved.
+        """
+        steps = whole_steps(self.t_end, row.h)
+        y, cost = work_of(self._integrator(FLOAT_DIGITS), row.h, steps)
+        if abs(self._distance(y) - row.error) < REACHED * row.error:
+            return replace(row, cost=cost)
+        decades = float(row.error.log() / arb(10).log())
+        digits = 10 * ceil((_AGREEING - decades) / 10)
+        if digits > MAX_DIGITS:
+            return row
+        return replace(row, cost=self._cost_with(digits, row.h, steps))
+
+    def _cost_with(self, digits: int, h: fmpq, steps: int) -> Cost:
+        state = Stepper(self._integrator(digits), h)
+        state.advance(steps)
+        return cost_of(state)
+
+    def _integrator(self, digits: int) -> Integrator:
+        if digits not in self.integrators:
+            problem = hamiltonian_of(self.problem, self.t_end)
+            self.integrators[digits] = bind(self.tableau, problem).at(digits)
+        return self.integrators[digits]
+
+    def _distance(self, y: list[float]) -> arb:
+        """‖(Δq, Δp/ω)‖₂ of a state in floats from the solution at the final time."""
+        omega = self.problem.omega
+        with ctx.workprec(_FIRST_BITS):
+            q, p = _solution(omega, self.t_end)
+            return arb((y[0] - q) ** 2 + ((y[1] - p) / omega) ** 2).sqrt()
+
+
+def linear_solver(
+    tableau: Tableau,
+    problem: Oscillator,
+    t_end: fmpq,
+    tolerance: fmpq | None = None,
+    predicted: int = 0,
+) -> LinearSolver:
+    """``tableau`` on ``problem`` up to ``t_end``.
+
+    Args:
+        tableau: the method.
+        problem: the oscillator and its split.
+        t_end: when errors are taken.
+        tolerance: of rounded coefficients.
+        predicted: the order of the method; what is visible is no smaller.
+
+    Raises:
+        UsageProblem: the split is not one that the structure of the tableau is for.
+    """
+    step = linear_step(tableau, problem)
+    met = visible_order(step, tolerance)
+    order = max(met, predicted)
+    # where the next condition itself is below the tolerance nothing is known of it
+    is_sharp = tolerance is None or fmpq(1, factorial(order + 1)) > tolerance
+    visible = Visible(order, is_sharp, LINEAR_ONLY)
+    spoilt = arb(0) if tolerance is None else sum(islice(deviations(step), met), arb(0))
+    return LinearSolver(tableau, step, t_end, visible, spoilt)
+
+
+def _solution(omega: fmpq, t: fmpq) -> tuple[arb, arb]:
+    """(q, p) at the time t, from q(0) = 1 and p(0) = ω/2, with the precision in force."""
+    sine, cosine = arb(omega * t).sin_cos()
+    q = cosine + sine / 2
+    p = (cosine / 2 - sine) * omega
+    return q, p
+
+
+def _errors(R: Matrix, n: int, omega: fmpq, t_end: fmpq) -> tuple[arb, arb]:
+    """Error and energy error of y_n = Rⁿ y₀.
+
+    The loop ends because the error is not zero: R and y₀ are algebraic, cos ωt and sin ωt are not
+    (Lindemann). The energy error can be zero by coincidence, so four times the bits have to do;
+    then it is a ball about 0.
+    """
+    bits, enough = _FIRST_BITS, 0
+    is_conserved = conserves_energy(R, omega)
+    while True:
+        with ctx.workprec(bits):
+            power = enclosure(R, bits) ** n
+            error, energy_error = _errors_of(power, omega, t_end)
+        if error.rel_accuracy_bits() >= ERROR_BITS:
+            if is_conserved:
+                return error, arb(0)
+            enough = enough or 4 * bits
+            is_sharp = energy_error.rel_accuracy_bits() >= ENERGY_BITS
+            if is_sharp or bits >= enough:
+                return error, energy_error
+        bits *= 2
+
+
+def _errors_of(power: arb_mat, omega: fmpq, t: fmpq) -> tuple[arb, arb]:
+    q0, p0 = arb(1), arb(omega) / 2
+    q = power[0, 0] * q0 + power[0, 1] * p0
+    p = power[1, 0] * q0 + power[1, 1] * p0
+    exact_q, exact_p = _solution(omega, t)
+    dq, dp = q - exact_q, (p - exact_p) / omega
+    kinetic = p * p - p0 * p0
+    potential = arb(omega) ** 2 * (q * q - q0 * q0)
+    return (dq * dq + dp * dp).sqrt(), absolute((kinetic + potential) / 2)
+
+
+def hamiltonian_of(oscillator: Oscillator, t_end: fmpq) -> Hamiltonian:
+    """The oscillator as a problem to be stepped, from q(0) = 1, p(0) = ω/2."""
+    import sympy
+
+    def rational(x: fmpq) -> sympy.Rational:
+        return sympy.Rational(int(x.p), int(x.q))
+
+    (q,), (p,) = symbols(("q",), "q"), symbols(("q",), "p")
+    omega = rational(oscillator.omega)
+    terms = []
+    for k, v in oscillator.shares:
+        kinetic = rational(k) * p**2 / 2
+        potential = rational(v) * omega**2 * q**2 / 2
+        terms.append(kinetic + potential)
+    start = (fmpq(1), oscillator.omega / 2)
+    return Hamiltonian("oscillator", ("q",), tuple(terms), start, t_end)

@@ -1,0 +1,203 @@
+"""What a convergence test finds: a row a step size, the order they show, and a verdict."""
+
+from __future__ import annotations
+
+from collections.abc import Sequence
+from dataclasses import dataclass
+from typing import TYPE_CHECKING, Literal, TypeAlias
+
+from flint import arb, arb_mat, ctx, fmpq
+
+if TYPE_CHECKING:
+    from garkcli.problems.hamiltonian import Hamiltonian
+    from garkcli.problems.oscillator import Oscillator
+
+Verdict: TypeAlias = Literal["agree", "disagree", "undecided"]
+"""Of observed and visible order; undecided where there is no order to be seen."""
+MAX_ORDER = 120
+"""Where the certificate stops to look for a higher order."""
+CLOSE = 0.05
+"""How near the observed order is to the order it agrees with."""
+_FITTED = 4  # rows that the order is extrapolated from
+_BITS = 256  # of the extrapolation: far more than any error has
+
+
+@dataclass(frozen=True)
+class Cost:
+    """What the steps of one row have cost.
+
+    Attributes:
+        steps: how many.
+        evaluations: of vector fields: each is one V^{l} or F^{l} at one stage; those of Newton's
+            method included.
+        iterations: of Newton's method, over all steps and implicit blocks.
+        jacobians: of an implicit block, each with its factorisation.
+        seconds: of processor time, in floats; None where floats do not reach the error, and numbers
+            with more digits were used.
+    """
+
+    steps: int
+    evaluations: int
+    iterations: int
+    jacobians: int
+    seconds: float | None = None
+
+
+@dataclass(frozen=True)
+class Row:
+    """One step size.
+
+    Errors are balls. Their radius is what the digits of the computation leave open, so a ball that
+    contains 0 is below round-off, and 0 itself is proved. They reach below the range of floats.
+
+    Attributes:
+        h: the step size.
+        error: the distance from the exact solution at t_end: ‖(Δq, Δp)‖₂, and ‖(Δq, Δp/ω)‖₂ on the
+            oscillator. Its ball holds 0 only where it is 0: the method makes no error.
+        slope: of log error over log h, between the row before and this one; None in the first row.
+        energy_error: |H(t_end) − H(0)|.
+        invariant_errors: |I(t_end) − I(0)| for each invariant of the problem besides H.
+        digits: that the row was computed with, 15 for floats; None where nothing was rounded.
+        cost: of the steps; None where they were not taken one by one.
+    """
+
+    h: fmpq
+    error: arb
+    slope: float | None
+    energy_error: arb
+    invariant_errors: tuple[arb, ...] = ()
+    digits: int | None = None
+    cost: Cost | None = None
+
+
+@dataclass(frozen=True)
+class Visible:
+    """The trees of a method that a problem can see.
+
+    Attributes:
+        order: of the method by these trees alone.
+        is_sharp: whether an order above it cannot be observed. A problem may hide more trees than
+            its form tells, or let their errors cancel.
+        trees: which ones they are, in one line.
+    """
+
+    order: int
+    is_sharp: bool
+    trees: str
+
+
+@dataclass(frozen=True)
+class Convergence:
+    """The outcome of a convergence test.
+
+    Attributes:
+        problem: the problem and its split.
+        t_end: the time at which errors are taken.
+        rows: from the largest step to the smallest. A single one with the error 0 where the method
+            makes no error on the problem.
+        plateau: how many of the last rows show the rounding of the coefficients; they are not
+            fitted.
+        observed_order: extrapolated from the last rows before the plateau to h = 0; None for a
+            single row.
+        predicted_order: of the tableau, by the certificate.
+        visible: what the problem can see; its order is at least the predicted one.
+        short_time: the time of the observation with tiny steps; None where there was no need for
+            it, and for rounded coefficients, whose errors are then all rounding.
+        short_order: the order observed then.
+        has_settled: whether the slopes before the plateau have.
+        are_given: whether the step sizes were asked for: then it is these that have to show the
+            order.
+    """
+
+    problem: Oscillator | Hamiltonian
+    t_end: fmpq
+    rows: tuple[Row, ...]
+    plateau: int
+    observed_order: float | None
+    predicted_order: int
+    visible: Visible
+    short_time: fmpq | None = None
+    short_order: float | None = None
+    has_settled: bool = True
+    are_given: bool = False
+
+    @property
+    def visible_order(self) -> int:
+        """The order by the trees that the problem can see."""
+        return self.visible.order
+
+    @property
+    def hides_failure(self) -> bool:
+        """Whether the trees at which the method fails are none that the problem sees."""
+        return self.visible.order > self.predicted_order
+
+    @property
+    def is_exact(self) -> bool:
+        """Whether the method makes no error on the problem."""
+        return all(row.error.is_zero() for row in self.rows)
+
+    @property
+    def verdict(self) -> Verdict:
+        """Whether the order is the visible one, or at least that where the problem may hide some
+        trees.
+
+        Undecided where there is no order to be seen, or where the rounding of the coefficients
+        comes before the slopes have settled.
+        """
+        if self.observed_order is None:
+            return "agree" if self.is_exact else "undecided"
+        if self.short_order is None:
+            if self._is_visible(self.observed_order):
+                return "agree"
+            return "disagree" if self.has_settled else "undecided"
+        is_shown = not self.are_given or abs(self.observed_order - self.short_order) <= CLOSE
+        return "agree" if is_shown and self._is_visible(self.short_order) else "disagree"
+
+    def _is_visible(self, order: float) -> bool:
+        if self.visible.order < self.predicted_order:
+            return False
+        excess = order - self.visible.order
+        return abs(excess) <= CLOSE or (excess > 0 and not self.visible.is_sharp)
+
+    @property
+    def agrees(self) -> bool:
+        """Whether the verdict is that they agree."""
+        return self.verdict == "agree"
+
+
+def absolute(x: arb) -> arb:
+    """|x|; a ball that holds 0 becomes one about 0, whose radius does not hang on where the middle
+    came out.
+    """
+    if not x.contains(0):
+        return abs(x)
+    return x if x.is_zero() else arb(0, 2 * x.rad())
+
+
+def slope_between(before: Row | None, h: fmpq, error: arb) -> float | None:
+    """The slope of log error over log h from a row to the next; None without a row or an error."""
+    if before is None or error.contains(0):
+        return None
+    rise = (before.error / error).log()
+    run = (arb(before.h) / arb(h)).log()
+    return float((rise / run).mid())
+
+
+def observed_order(rows: Sequence[Row]) -> float | None:
+    """The order p in log error = log C + p log h + a h + b h² through the last four rows.
+
+    The slopes alone approach p as fast as h → 0; with the first two terms of the expansion of the
+    error taken along they do as h³. Fewer rows have fewer terms; one row has no order.
+    """
+    last = rows[-_FITTED:]
+    if len(last) < 2:
+        return None
+    with ctx.workprec(_BITS):
+        equations = []
+        for row in last:
+            ratio = arb(row.h / last[0].h)
+            terms = [arb(1), arb(row.h).log(), ratio, ratio * ratio]
+            equations.append(terms[: len(last)])
+        logarithms = [[row.error.mid().log()] for row in last]
+        unknowns = arb_mat(equations).solve(arb_mat(logarithms))
+        return float(unknowns[1, 0])

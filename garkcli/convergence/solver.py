@@ -1,0 +1,81 @@
+"""What a convergence test asks of a method on a problem: the error of any step size."""
+
+from __future__ import annotations
+
+from collections.abc import Callable
+from typing import TYPE_CHECKING, Protocol, TypeAlias
+
+from flint import arb, fmpq
+
+from garkcli.convergence.result import Row, Visible
+from garkcli.errors import UsageProblem
+
+if TYPE_CHECKING:
+    from garkcli.problems.hamiltonian import Hamiltonian
+    from garkcli.problems.oscillator import Oscillator
+
+Watch: TypeAlias = Callable[[str, int, int], None]
+"""Is told what is being computed, how many steps of it are done, and of how many."""
+
+
+class NoUniqueStep(UsageProblem):
+    """The stage equations of a linear problem have no unique solution at one step size."""
+
+
+class Solver(Protocol):
+    """A method that solves a problem up to one time."""
+
+    @property
+    def problem(self) -> Oscillator | Hamiltonian:
+        """What is solved, in as many terms as the method is for."""
+        ...
+
+    @property
+    def t_end(self) -> fmpq:
+        """When errors are taken."""
+        ...
+
+    @property
+    def visible(self) -> Visible:
+        """What the problem can see of the method."""
+        ...
+
+    @property
+    def unit(self) -> fmpq:
+        """A unit of time that is natural for the problem: ladders begin at steps of a few."""
+        ...
+
+    @property
+    def most_steps(self) -> int:
+        """That a row may take."""
+        ...
+
+    @property
+    def decades(self) -> tuple[int, ...]:
+        """Of the short times that are tried: parts 10^−k of the usual time of the problem."""
+        ...
+
+    def row(self, h: fmpq, before: Row | None) -> Row:
+        """The errors of steps of size ``h``, with a slope from the row ``before``.
+
+        Raises:
+            StepFailed: the stage equations of a step were not solved.
+            NoUniqueStep: they have no unique solution at this step size.
+        """
+        ...
+
+    def size(self) -> arb:
+        """How large the solution is: the sum of its numbers at the start and at the end."""
+        ...
+
+    def rounding(self) -> arb:
+        """About the error that the rounding of coefficients makes; 0 for exact ones."""
+        ...
+
+    def timed(self, row: Row) -> Row:
+        """A row with what its steps cost when they are taken one by one."""
+        ...
+
+    def over(self, t_end: fmpq) -> Solver:
+        """The same up to another time."""
+        ...

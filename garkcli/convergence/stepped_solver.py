@@ -1,0 +1,194 @@
+"""A Hamiltonian problem, solved step by step with as many digits as the errors need.
+
+Rows are computed in floats where they do, with more digits where the error would fall below
+round-off. The reference solution has more.
+"""
+
+from __future__ import annotations
+
+from collections.abc import Sequence
+from dataclasses import dataclass, field, replace
+from math import ceil, log10
+from typing import Any
+
+from flint import arb, ctx, fmpq
+
+from garkcli.convergence.reference import Reference, magnitude, reference, run
+from garkcli.convergence.result import MAX_ORDER, Row, Visible, absolute, slope_between
+from garkcli.convergence.solver import Watch
+from garkcli.convergence.work import MAX_DIGITS, REACHED, cost_of, work_of
+from garkcli.exact.display import to_float
+from garkcli.problems.hamiltonian import FLOAT_DIGITS, Hamiltonian, energy_function
+from garkcli.stepping.integrator import FLOAT_PRECISION, Binding, Integrator
+from garkcli.stepping.linear import whole_steps
+
+MAX_STEPS = 1_000_000
+"""Most steps of one row."""
+GROWTH = 16
+"""How much larger round-off may become on its way. On the built-in problems it was once, at most."""
+_ENOUGH = 30  # digits whose round-off alone proves enough where every condition holds
+_MANY = 120  # digits that do not agree by chance
+_SPARE = 6  # correct digits of an error
+_AHEAD = 2  # halvings of the step for which a reference solution will do
+_GUARD = 32  # bits
+_GENERIC_DECADES = (6, 12, 24, 48)
+_DECADES = (6, 12, 18)
+
+
+@dataclass
+class SteppedSolver:
+    """A method on a Hamiltonian problem, and what is kept between step sizes; see ``Solver``.
+
+    Attributes:
+        bound: the method on the problem.
+        t_end: when errors are taken.
+        visible: what the problem sees; its order tells how many digits to begin with.
+        tolerance: of rounded coefficients; None for exact ones.
+        watch: is told how far each run is.
+        integrators: the method with so many digits.
+    """
+
+    bound: Binding
+    t_end: fmpq
+    visible: Visible
+    tolerance: fmpq | None = None
+    watch: Watch | None = None
+    integrators: dict[int, Integrator] = field(default_factory=dict)
+    reference: Reference = field(init=False)
+
+    def __post_init__(self) -> None:
+        self.reference = reference(self.problem, self.t_end)
+
+    @property
+    def problem(self) -> Hamiltonian:
+        """What is solved."""
+        return self.bound.problem
+
+    @property
+    def most_steps(self) -> int:
+        """Of one row."""
+        return MAX_STEPS
+
+    @property
+    def unit(self) -> fmpq:
+        """Problems come in units of their own."""
+        return fmpq(1)
+
+    @property
+    def decades(self) -> tuple[int, ...]:
+        """Of the short times: shorter ones where the order has to be the visible one."""
+        return _GENERIC_DECADES if self.visible.is_sharp else _DECADES
+
+    def over(self, t_end: fmpq) -> SteppedSolver:
+        """The same up to another time."""
+        return replace(self, t_end=t_end)
+
+    def size(self) -> arb:
+        """The sum of the sizes of all numbers at the start and at the end."""
+        end = self.reference.to(FLOAT_DIGITS + _SPARE, self.watch)
+        return magnitude(end, self.problem)
+
+    def row(self, h: fmpq, before: Row | None) -> Row:
+        """The errors of steps of size ``h``, with digits enough for them; see ``Solver.row``.
+
+        The error is 0 where digits enough do not show any.
+        """
+        steps = whole_steps(self.t_end, h)
+        digits = self._digits(h, before)
+        while True:
+            state = run(self._integrator(digits), h, steps, self.watch, f"h = {h}")
+            error = self._distance(state.y, digits)
+            if error > self.size() * arb(10) ** (_SPARE - 1 - digits):
+                break
+            if self._shows_no_error(error, digits):
+                error = arb(0)
+                break
+            digits = min(MAX_DIGITS, 2 * digits)
+        error = _with_radius(error, self._round_off(digits))
+        energy, *others = self._invariant_errors(state.y, digits)
+        slope = slope_between(before, h, error)
+        return Row(h, error, slope, energy, tuple(others), digits, cost_of(state))
+
+    def rounding(self) -> arb:
+        """About the error that coefficients rounded to the tolerance make."""
+        if self.tolerance is None:
+            return arb(0)
+        return self.size() * arb(self.tolerance) * max(arb(1), arb(self.t_end))
+
+    def timed(self, row: Row) -> Row:
+        """The row with the cost of its steps in floats, where these reach its error to a tenth."""
+        y, cost = work_of(self._integrator(FLOAT_DIGITS), row.h, whole_steps(self.t_end, row.h))
+        difference = abs(self._distance(y, FLOAT_DIGITS) - row.error)
+        return replace(row, cost=cost) if difference < REACHED * row.error else row
+
+    def _shows_no_error(self, error: arb, digits: int) -> bool:
+        """Whether an error within round-off is taken for none.
+
+        All of many digits are the same only where nothing moves. Where no tree that the problem
+        sees fails up to the highest order that is looked for, as those of a constant force, the
+        error is round-off whatever the digits.
+        """
+        if digits == MAX_DIGITS:
+            return True
+        if self.visible.order >= MAX_ORDER and digits >= _ENOUGH:
+            return True
+        return digits >= _MANY and error.is_zero()
+
+    def _distance(self, y: Sequence[Any], digits: int) -> arb:
+        """‖(Δq, Δp)‖₂ of ``y`` from the reference solution, the middle of its ball."""
+        exact = self.reference.to(self._digits_of_reference(digits), self.watch)
+        with ctx.workprec(self._integrator(digits).bits + _GUARD):
+            squares = [(arb(a) - b) ** 2 for a, b in zip(y, exact, strict=True)]
+            return sum(squares, arb(0)).sqrt().mid()
+
+    def _round_off(self, digits: int) -> arb:
+        """What the digits leave open of a state at ``t_end``.
+
+        Steps sum with compensation, so that their number does not count; the increments are rounded,
+        and they add up to the way that the solution goes. The flow makes more of it.
+        """
+        precision = arb(FLOAT_PRECISION) if digits <= FLOAT_DIGITS else arb(10) ** -digits
+        return self.size() * precision * max(arb(1), arb(self.t_end)) * GROWTH
+
+    def _digits_of_reference(self, digits: int) -> int:
+        """Enough for the row, and beyond floats for the next ones as well."""
+        if digits <= FLOAT_DIGITS or self.reference.digits >= digits + _SPARE:
+            return digits + _SPARE
+        return digits + _SPARE + ceil(_AHEAD * self.visible.order * log10(2))
+
+    def _digits(self, h: fmpq, before: Row | None) -> int:
+        """Digits for the error that the row before and the order let expect."""
+        if before is None:
+            return FLOAT_DIGITS
+        part = before.error.mid() / self.size()
+        decades = float((part.log() / arb(10).log()).mid())
+        decades -= self.visible.order * log10(to_float(before.h / h))
+        needed = ceil(-decades) + _SPARE
+        if needed <= FLOAT_DIGITS:
+            return FLOAT_DIGITS
+        # in whole tens, so that the same integrator serves several rows
+        tens = 10 * ceil(needed / 10)
+        return min(MAX_DIGITS, max(before.digits or 0, tens))
+
+    def _integrator(self, digits: int) -> Integrator:
+        if digits not in self.integrators:
+            self.integrators[digits] = self.bound.at(digits)
+        return self.integrators[digits]
+
+    def _invariant_errors(self, y: Sequence[Any], digits: int) -> list[arb]:
+        """|I(y) − I(y_0)| of the energy and of the other invariants, for all states that round-off
+        leaves possible.
+        """
+        round_off = self._round_off(digits)
+        with ctx.workprec(self._integrator(digits).bits + _GUARD):
+            measure = energy_function(self.problem, digits + 10)
+            possible = [_with_radius(arb(x), round_off) for x in y]
+            now = measure(*possible)
+            then = measure(*map(arb, self.problem.initial))
+            changes = [arb(a) - arb(b) for a, b in zip(now, then, strict=True)]
+        return [absolute(change) for change in changes]
+
+
+def _with_radius(x: arb, radius: arb) -> arb:
+    """The ball about the middle of ``x``; 0 stays what it is."""
+    return x if x.is_zero() else arb(x.mid(), radius.abs_upper())

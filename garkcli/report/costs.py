@@ -1,0 +1,99 @@
+"""What the errors of several methods cost: a table, and costs of equal errors."""
+
+from __future__ import annotations
+
+from collections import Counter
+from collections.abc import Iterator, Sequence
+from itertools import pairwise
+from math import ceil, floor
+from typing import TypeAlias
+
+from flint import arb, fmpq
+
+from garkcli.convergence.result import Convergence, Cost
+from garkcli.report.asciiplot import log10
+from garkcli.report.convergence import NO_TIME, WORK, work_cells
+from garkcli.report.figures import scientific
+from garkcli.report.paint import padded
+
+Tested: TypeAlias = Sequence[tuple[str, Convergence]]
+"""The results by the letters of their methods."""
+_GOALS = 6  # errors at which costs are compared
+
+
+def costs_of(tested: Tested) -> list[str]:
+    """What the rows have cost, and what errors of the same size have."""
+    rows = [["work", "h", "error", *WORK]]
+    for letter, result in tested:
+        for i, row in enumerate(result.rows):
+            first = letter if i == 0 else ""
+            rows.append([first, str(row.h), scientific(row.error), *work_cells(row.cost)])
+    lines = [f"  {line}" for line in padded(rows, "  ")]
+    costs = [row.cost for _, result in tested for row in result.rows]
+    if any(cost is None or cost.seconds is None for cost in costs):
+        lines.append(f"  {NO_TIME}")
+    tables = [_at_equal_errors(tested, what) for what in ("evaluations", "seconds")]
+    for table in tables:
+        if table:
+            lines += ["", *(f"  {line}" for line in table)]
+    if any(tables):
+        lines.append("  read off between the rows, on logarithmic scales")
+    return lines
+
+
+def amount(cost: Cost | None, what: str) -> float | None:
+    """How much of ``what`` a row has cost: evaluations or seconds; None where that is not known."""
+    if cost is None:
+        return None
+    return float(cost.evaluations) if what == "evaluations" else cost.seconds
+
+
+def curve(result: Convergence, against: str) -> Iterator[tuple[float | fmpq, arb]]:
+    """The points (x, error) of a plot against h, evaluations or seconds, where both are known and
+    positive.
+    """
+    for row in result.rows:
+        x = row.h if against == "h" else amount(row.cost, against)
+        if x is not None and row.error > 0:
+            yield x, row.error
+
+
+def _at_equal_errors(tested: Tested, what: str) -> list[str]:
+    """A line a method: what errors of 10^k cost, where it has larger and smaller ones."""
+    curves = {}
+    for letter, result in tested:
+        curves[letter] = [(log10(error), log10(x)) for x, error in curve(result, what)]
+    goals = _goals([[y for y, _ in points] for points in curves.values() if points])
+    if not goals:
+        return []
+    rows = [[f"{what} for an error of", *(f"1e{k}" for k in goals)]]
+    for letter, points in curves.items():
+        found = [_between(points, k) for k in goals]
+        rows.append([letter, *("" if x is None else _amount(10**x, what) for x in found)])
+    return padded(rows, "  ")
+
+
+def _amount(x: float, what: str) -> str:
+    return str(round(x)) if what == "evaluations" else scientific(arb(x), 2)
+
+
+def _goals(errors: Sequence[Sequence[float]]) -> list[int]:
+    """Whole decades, thinned out evenly, that at least two methods reach, or one where no two
+    do.
+    """
+    reached: Counter[int] = Counter()
+    for ys in errors:
+        if len(ys) > 1:
+            reached.update(range(ceil(min(ys)), floor(max(ys)) + 1))
+    shared = [k for k, count in reached.items() if count > 1] or list(reached)
+    decades = sorted(shared, reverse=True)
+    apart = max(1, ceil(len(decades) / _GOALS))
+    return decades[::apart]
+
+
+def _between(points: Sequence[tuple[float, float]], goal: float) -> float | None:
+    """The second coordinate where the first is ``goal``, on the line between two neighbours."""
+    for (a, x), (b, y) in pairwise(points):
+        if min(a, b) <= goal <= max(a, b) and a != b:
+            return x + (y - x) * (goal - a) / (b - a)
+    return None
