@@ -2,15 +2,17 @@
 
 from __future__ import annotations
 
+from pathlib import Path
 from typing import TYPE_CHECKING
 
 import click
 
 from garkcli.cli.options import CONTEXT, Output, common
+from garkcli.errors import UsageProblem, did_you_mean
 
 if TYPE_CHECKING:
-    from garkcli.stability.two_frequencies import TwoFrequencies
-    from garkcli.tableau.tableau import Tableau
+    from garkcli.methodfile.build import MethodFile
+    from garkcli.report.stability_data import StabilityReport
 
 
 @click.command("stability", context_settings=CONTEXT)
@@ -29,54 +31,96 @@ if TYPE_CHECKING:
     metavar="N",
     help="Digits of numbers that have no simple radicals.",
 )
+@click.option("--plot", metavar="FILE", help="Draw regions or traces into FILE: .png, .svg, .pdf.")
+@click.option("--order-star", is_flag=True, help="With --plot: |R(z)| > |exp z| instead.")
 @common(["text", "json", "latex"])
 def command(
-    files: tuple[str, ...], slow: str | None, fast: str | None, digits: int, output: Output
+    files: tuple[str, ...],
+    slow: str | None,
+    fast: str | None,
+    digits: int,
+    plot: str | None,
+    order_star: bool,
+    output: Output,
 ) -> int:
     """Stability on linear, oscillating and contractive problems, decided exactly.
 
     The stability function with A-, L- and A(α)-stability; the trace on the harmonic oscillator,
     its intervals of stability, P-stability, phase lag; algebraic stability; the SSP coefficient.
     """
-    from garkcli.errors import UsageProblem
-    from garkcli.methodfile.load import load
+    from garkcli.methodfile.load import find_files, load
     from garkcli.report.stability import render
-    from garkcli.report.stability_data import StabilityReport
-    from garkcli.stability.summary import stability, stability_of_rounded
 
     if (slow is None) != (fast is None):
         raise UsageProblem("--slow and --fast belong together", "give both")
+    if order_star and plot is None:
+        raise UsageProblem("--order-star is for the picture", "give --plot FILE too")
+    if plot is not None:
+        _check_plot(plot)
     reports = []
-    for file in files:
+    for file in find_files(files):
         method = load(file)
-        springs = None
-        if slow is not None and fast is not None:
-            if method.tolerance is not None:
-                raise UsageProblem(
-                    f"{file}: with rounded coefficients nothing is decided about two springs",
-                    "give exact coefficients, without tolerance",
-                )
-            springs = _springs(method.tableau, slow, fast)
-        if method.tolerance is None:
-            found = stability(method.tableau)
+        if slow is None or fast is None:
+            reports.append(_whole_report(file, method, digits))
         else:
-            found = stability_of_rounded(method.tableau, method.tolerance)
-        reports.append(StabilityReport(file, method.name, found, springs, digits))
+            reports.append(_springs_report(file, method, digits, slow, fast, plot is not None))
     output.write(render(reports, output.format, output.paint))
+    if plot is not None:
+        from garkcli.plots.convergence_plot import save
+        from garkcli.plots.stability_plot import stability_figure
+
+        save(stability_figure(reports, order_star), Path(plot))
+        output.note(f"wrote {plot}")
     return 0
 
 
-def _springs(tableau: Tableau, slow: str, fast: str) -> TwoFrequencies:
+def _check_plot(plot: str) -> None:
+    """Refuse a picture that could not be written, before the work."""
+    from garkcli.plots.convergence_plot import check_suffix
+
+    check_suffix(Path(plot))
+    if not Path(plot).parent.is_dir():
+        raise UsageProblem(f"cannot write {plot}: there is no such folder", "choose another place")
+
+
+def _whole_report(file: str, method: MethodFile, digits: int) -> StabilityReport:
+    from garkcli.report.stability_data import StabilityReport
+    from garkcli.stability.summary import stability, stability_of_rounded
+
+    if method.tolerance is None:
+        found = stability(method.tableau)
+    else:
+        found = stability_of_rounded(method.tableau, method.tolerance)
+    return StabilityReport(file, method.name, found, digits=digits)
+
+
+def _springs_report(
+    file: str, method: MethodFile, digits: int, slow: str, fast: str, with_plane: bool
+) -> StabilityReport:
     """The two springs that the options ask for."""
     from garkcli.cli.stepping import rational
-    from garkcli.errors import UsageProblem, did_you_mean
+    from garkcli.report.stability_data import StabilityReport
+    from garkcli.stability.summary import Stability
     from garkcli.stability.two_frequencies import springs, two_frequencies
 
+    if method.tolerance is not None:
+        raise UsageProblem(
+            f"{file}: with rounded coefficients nothing is decided about two springs",
+            "give exact coefficients, without tolerance",
+        )
+    tableau = method.tableau
     names = [colour.name for colour in tableau.colours]
     if fast not in names:
         raise UsageProblem(f"--fast: no colour {fast!r}", did_you_mean(fast, names))
-    term = tableau.colours[names.index(fast)].term
     strength = rational("--slow", slow)
     if strength < 0:
         raise UsageProblem(f"--slow {slow}: a square is not negative", "give 0 or more")
-    return two_frequencies(tableau, springs(tableau, term), strength)
+    split = springs(tableau, tableau.colours[names.index(fast)].term)
+    found = two_frequencies(tableau, split, strength)
+    plane = None
+    if with_plane:
+        from garkcli.stability.springs_plane import plane_with_ends_of
+
+        plane = plane_with_ends_of(tableau, split, found)
+    nothing = Stability(tableau, (), None, None)
+    return StabilityReport(file, method.name, nothing, found, digits, plane)

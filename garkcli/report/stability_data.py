@@ -4,7 +4,7 @@ from __future__ import annotations
 
 from collections.abc import Sequence
 from dataclasses import dataclass
-from typing import Any
+from typing import TYPE_CHECKING, Any
 
 from flint import arb, ctx
 
@@ -19,6 +19,9 @@ from garkcli.stability.ssp import SspCoefficient
 from garkcli.stability.summary import LinearStability, Stability
 from garkcli.stability.two_frequencies import TwoFrequencies
 
+if TYPE_CHECKING:
+    from garkcli.stability.springs_plane import SpringsPlane
+
 
 @dataclass(frozen=True)
 class StabilityReport:
@@ -30,6 +33,7 @@ class StabilityReport:
         found: its stability.
         springs: the two-frequency problem where it was asked for.
         digits: decimals of algebraic numbers.
+        plane: both frequencies in floats, for a picture.
     """
 
     file: str
@@ -37,6 +41,7 @@ class StabilityReport:
     found: Stability
     springs: TwoFrequencies | None = None
     digits: int = 12
+    plane: SpringsPlane | None = None
 
 
 def as_data(report: StabilityReport) -> dict[str, Any]:

@@ -6,13 +6,14 @@ from collections.abc import Iterator, Sequence
 from textwrap import wrap
 
 from garkcli.exact.cells import Interval
-from garkcli.exact.display import decimal, to_text
+from garkcli.exact.display import decimal, to_float, to_text
 from garkcli.exact.polynomial import Polynomial, RealRoot
 from garkcli.report.exactly import integral, polynomial_text, root_decimal, root_text
 from garkcli.report.paint import Paint
 from garkcli.report.plain import printable
+from garkcli.report.region_text import terminal_region
 from garkcli.report.stability_data import StabilityReport, degrees, factors, square_root
-from garkcli.stability.linear import poles_are_right
+from garkcli.stability.linear import StabilityFunction, poles_are_right
 from garkcli.stability.oscillator import OscillatorStability, Ratio
 from garkcli.stability.sector import Sector
 from garkcli.stability.ssp import SspCoefficient
@@ -49,6 +50,9 @@ def text_of(report: StabilityReport, paint: Paint) -> Iterator[str]:
         yield from _linear_text(linear, len(found.linear) > 1, report.digits, paint)
     if within is not None:
         return
+    if found.linear:
+        yield ""
+        yield from _region_lines(found.linear[0].R)
     if found.oscillator is not None:
         yield ""
         yield from _oscillator_text(found.oscillator, report.digits, paint)
@@ -92,6 +96,39 @@ def _linear_text(
     yield from _line("real axis", _real_text(found.real, digits))
     yield from _line("imaginary axis", _imaginary_text(found.imaginary, digits))
     yield from _line("SSP coefficient", _ssp_text(found.ssp, digits))
+
+
+def _region_lines(R: StabilityFunction) -> Iterator[str]:
+    """A small picture of the region |R(z)| ≤ 1."""
+    P = [to_float(a) for a in R.numerator.coefficients]
+    Q = [to_float(a) for a in R.denominator.coefficients]
+
+    def is_inside(z: complex) -> bool:
+        # the margin keeps points on the very edge inside on every machine
+        return abs(_horner(P, z)) <= abs(_horner(Q, z)) * (1 + 1e-9)
+
+    reach = _reach([P, Q])
+    right = reach / 3 if len(Q) == 1 else reach
+    picture = terminal_region(is_inside, -reach, right, reach, width=52, height=15)
+    yield "    |R(z)| ≤ 1, roughly"
+    yield from (f"    {line}" for line in picture.splitlines())
+
+
+def _reach(polynomials: Sequence[Sequence[float]]) -> float:
+    """A radius that holds all zeros and poles, by Fujiwara's bound, with some room."""
+    reach = 2.0
+    for p in polynomials:
+        n = len(p) - 1
+        sizes = [abs(p[n - k] / p[n]) ** (1 / k) for k in range(1, n + 1)]
+        reach = max([reach, *sizes])
+    return float(f"{1.6 * reach:.1g}")
+
+
+def _horner(coefficients: Sequence[float], z: complex) -> complex:
+    value = 0j
+    for a in reversed(coefficients):
+        value = value * z + a
+    return value
 
 
 def _decided(holds: bool | None, paint: Paint) -> str:

@@ -75,3 +75,33 @@ def test_refusals(arguments: list[str], message: str) -> None:
     result = run(*arguments)
     assert isinstance(result.exception, GarkError)
     assert message in result.exception.message
+
+
+@pytest.mark.parametrize(
+    "arguments",
+    [
+        ["methods/rk4.gark.yaml"],
+        ["methods/rk4.gark.yaml", "--order-star"],
+        ["methods/ark-ars222.gark.yaml"],
+        ["methods/rk4.gark.yaml", "methods/collocation.gark.yaml"],
+        ["methods/rectangular.gark.yaml", "methods/stoermer-verlet.gark.yaml"],
+        ["methods/three-colours.gark.yaml", "--slow", "1/4", "--fast", "2"],
+    ],
+    ids=["region", "order star", "colours", "several", "traces", "springs"],
+)
+def test_pictures(arguments: list[str], tmp_path: Path) -> None:
+    """Each kind of picture is written, with its axes labelled."""
+    plot = tmp_path / "picture.svg"
+    result = run(*arguments, "--plot", str(plot))
+    assert result.exit_code == 0, result.output
+    assert plot.read_text(encoding="utf-8").startswith("<?xml")
+
+
+def test_a_region_in_text_is_that_of_the_method() -> None:
+    """−2.79 is the end of the real axis of the classical method: the marks on the axis end there."""
+    lines = run("methods/rk4.gark.yaml").output.splitlines()
+    (axis,) = [line for line in lines if line.strip().startswith("0 ┤")]
+    cells = axis.split("┤")[1]
+    step = 8 / (len(cells) - 1)
+    left_end = -6 + step * cells.index("█")
+    assert abs(left_end + 2.785) < 2 * step

@@ -1,0 +1,202 @@
+"""Pictures of stability: regions in the complex plane, the trace over z, the plane of two springs.
+
+They illustrate what was decided exactly and decide nothing. Lines differ in dashes as well as in
+colour, so that the figures can be printed in grey.
+"""
+
+from __future__ import annotations
+
+from collections.abc import Sequence
+from dataclasses import dataclass
+from typing import Any
+
+import numpy as np
+from matplotlib.axes import Axes
+from matplotlib.figure import Figure
+from matplotlib.lines import Line2D
+from numpy.typing import NDArray
+
+from garkcli.exact.display import to_float
+from garkcli.exact.polynomial import Polynomial
+from garkcli.report.stability_data import StabilityReport
+from garkcli.stability.linear import StabilityFunction
+from garkcli.stability.oscillator import OscillatorStability
+from garkcli.stability.springs_plane import SpringsPlane
+
+COLOURS = ("#24558f", "#a02417", "#3f7f3f", "#7a4f9a", "#8a6d1a", "#30777a")
+DASHES: tuple[Any, ...] = (
+    "solid",
+    (0, (6, 2)),
+    (0, (2, 2)),
+    (0, (8, 2, 2, 2)),
+    (0, (1, 2)),
+    (0, (4, 1, 1, 1)),
+)
+POINTS = 401
+"""Points a side of a region."""
+
+
+@dataclass(frozen=True)
+class Window:
+    """A part of the complex plane."""
+
+    left: float
+    right: float
+    top: float
+
+    def grid(self) -> tuple[NDArray[np.float64], NDArray[np.float64], NDArray[np.complex128]]:
+        """The real parts, the imaginary parts, and all points, shape (POINTS, POINTS)."""
+        x = np.linspace(self.left, self.right, POINTS)
+        y = np.linspace(-self.top, self.top, POINTS)
+        return x, y, x[np.newaxis, :] + 1j * y[:, np.newaxis]
+
+
+def values(p: Polynomial, z: NDArray[Any]) -> NDArray[Any]:
+    """The values of p at many points, in floats."""
+    coefficients = [to_float(a) for a in reversed(p.coefficients)]
+    found: NDArray[Any] = np.polyval(coefficients, z)
+    return found
+
+
+def modulus(R: StabilityFunction, z: NDArray[Any]) -> NDArray[Any]:
+    """|R| at many points; infinite at poles."""
+    with np.errstate(divide="ignore", invalid="ignore"):
+        size: NDArray[Any] = np.abs(values(R.numerator, z) / values(R.denominator, z))
+    return size
+
+
+def window_of(functions: Sequence[StabilityFunction], is_symmetric: bool) -> Window:
+    """A part of the plane with all that happens: zeros of P, poles, and where |R| = 1 on the axis."""
+    reach = 2.0
+    for R in functions:
+        for p in (R.numerator, R.denominator):
+            if p.degree > 0:
+                roots = np.roots([to_float(a) for a in reversed(p.coefficients)])
+                reach = max(reach, float(np.max(np.abs(roots))))
+    reach *= 1.6
+    is_left = not is_symmetric and all(R.denominator.degree == 0 for R in functions)
+    return Window(-reach, reach / 4 if is_left else reach, reach)
+
+
+def stability_figure(reports: Sequence[StabilityReport], order_star: bool = False) -> Figure:
+    """What there is to draw of one or several methods.
+
+    Args:
+        reports: all with a linear part, or all with an oscillator.
+        order_star: draw |R(z)| > |e^z| instead of |R(z)| ≤ 1.
+    """
+    planes = [report.plane for report in reports if report.plane is not None]
+    if planes:
+        return springs_figure(planes[0], reports[0].name)
+    if all(report.found.linear for report in reports):
+        return region_figure(reports, order_star)
+    return trace_figure(reports)
+
+
+def region_figure(reports: Sequence[StabilityReport], order_star: bool) -> Figure:
+    """The regions |R(z)| ≤ 1, a panel a direction where there is one method of several colours."""
+    figure = Figure(figsize=(6.4, 5.6), layout="constrained")
+    axes = figure.subplots()
+    named: list[tuple[str, StabilityFunction]] = []
+    for report in reports:
+        linear = report.found.linear
+        if len(reports) == 1 and len(linear) > 1:
+            named += [(_direction(one.name), one.R) for one in linear]
+        else:
+            named.append((report.name, linear[0].R))
+    title = reports[0].name if len(reports) == 1 else f"{len(reports)} methods"
+    figure.suptitle(title, fontsize=11, parse_math=False)
+    _draw_regions(axes, named, order_star)
+    return figure
+
+
+def _direction(name: str) -> str:
+    return "all colours alike" if name == "all" else f"colour {name} alone"
+
+
+def _draw_regions(
+    axes: Axes, named: Sequence[tuple[str, StabilityFunction]], order_star: bool
+) -> None:
+    window = window_of([R for _, R in named], order_star)
+    x, y, z = window.grid()
+    handles = []
+    for k, (name, R) in enumerate(named):
+        colour, dashes = COLOURS[k % len(COLOURS)], DASHES[k % len(DASHES)]
+        size = modulus(R, z)
+        level = size / np.exp(z.real) if order_star else size
+        inside = [1.0, np.inf] if order_star else [0.0, 1.0]
+        finite = np.nan_to_num(level, nan=1e9, posinf=1e9)
+        bounds = [inside[0], min(inside[1], 2e9)]
+        axes.contourf(x, y, finite, levels=bounds, colors=[colour], alpha=0.18)
+        axes.contour(
+            x, y, finite, levels=[1.0], colors=[colour], linestyles=[dashes], linewidths=1.4
+        )
+        handles.append(Line2D([], [], color=colour, linestyle=dashes, label=name))
+    axes.axhline(0.0, color="0.1", linewidth=0.8)
+    axes.axvline(0.0, color="0.1", linewidth=0.8)
+    axes.set_aspect("equal")
+    axes.set_xlabel("Re z")
+    axes.set_ylabel("Im z")
+    what = "order star: |R(z)| > |exp z|" if order_star else "filled: |R(z)| ≤ 1"
+    axes.set_title(what, fontsize=10, loc="left")
+    if len(named) > 1:
+        legend = axes.legend(handles=handles, fontsize=9, loc="upper left")
+        for text in legend.get_texts():
+            text.set_parse_math(False)
+
+
+def trace_figure(reports: Sequence[StabilityReport]) -> Figure:
+    """|tr M|/2 against z, with the stable step sizes shaded where there is one method."""
+    figure = Figure(figsize=(7.2, 3.9), layout="constrained")
+    axes = figure.subplots()
+    found = [
+        (report.name, report.found.oscillator)
+        for report in reports
+        if report.found.oscillator is not None
+    ]
+    end = max(_last_end(oscillator) for _, oscillator in found) * 1.25
+    z = np.linspace(0.0, end, 1200)
+    for k, (name, oscillator) in enumerate(found):
+        ratio = oscillator.trace
+        with np.errstate(divide="ignore", invalid="ignore"):
+            trace = values(ratio.numerator, z**2) / values(ratio.denominator, z**2)
+        half = np.abs(trace) / 2
+        style = DASHES[k % len(DASHES)]
+        axes.plot(z, half, color=COLOURS[k % len(COLOURS)], linestyle=style, label=name)
+    if len(found) == 1:
+        for interval in found[0][1].stable:
+            low = 0.0 if interval.start is None else float(interval.start.ball(64)) ** 0.5
+            high = end if interval.end is None else float(interval.end.ball(64)) ** 0.5
+            axes.axvspan(low, min(high, end), color="0.9", linewidth=0)
+    axes.axhline(1.0, color="0.1", linewidth=0.9)
+    axes.set_ylim(0.0, 2.0)
+    axes.set_xlim(0.0, end)
+    axes.set_xlabel("z = hω")
+    axes.set_ylabel("|tr M(z)| / 2")
+    title = found[0][0] if len(found) == 1 else f"{len(found)} methods"
+    axes.set_title(title, fontsize=11, loc="left", parse_math=False)
+    if len(found) > 1:
+        for text in axes.legend(frameon=False, fontsize=9).get_texts():
+            text.set_parse_math(False)
+    return figure
+
+
+def _last_end(oscillator: OscillatorStability) -> float:
+    ends = [i.end for i in oscillator.stable if i.end is not None]
+    return float(ends[-1].ball(64)) ** 0.5 if ends else 8.0
+
+
+def springs_figure(plane: SpringsPlane, name: str) -> Figure:
+    """The plane of the two frequencies: where |tr M| > 2, the resonances, is filled."""
+    figure = Figure(figsize=(6.4, 5.2), layout="constrained")
+    axes = figure.subplots()
+    levels = [0.0, 1.0, np.inf]
+    shown = np.nan_to_num(plane.half_trace, nan=1e9, posinf=1e9)
+    axes.contourf(
+        plane.fast, plane.slow, shown, levels=[levels[1], 2e9], colors=["#a02417"], alpha=0.35
+    )
+    axes.contour(plane.fast, plane.slow, shown, levels=[1.0], colors=["#a02417"], linewidths=1.2)
+    axes.set_xlabel("hω of the fast spring")
+    axes.set_ylabel("hω of the slow spring")
+    axes.set_title(f"{name}: filled where unstable", fontsize=11, loc="left", parse_math=False)
+    return figure

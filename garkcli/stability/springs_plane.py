@@ -1,0 +1,89 @@
+"""The plane of two frequencies in floats, for pictures: |tr M|/2 on a grid.
+
+Nothing is decided here; ``two_frequencies`` does that for one slow frequency.
+"""
+
+from __future__ import annotations
+
+from dataclasses import dataclass
+
+import numpy as np
+from flint import fmpq
+from numpy.typing import NDArray
+
+from garkcli.exact.display import to_float
+from garkcli.stability.step_function import stage_system
+from garkcli.stability.two_frequencies import SplitSprings, TwoFrequencies
+from garkcli.tableau.tableau import Tableau
+
+
+@dataclass(frozen=True)
+class SpringsPlane:
+    """|tr M|/2 over both frequencies.
+
+    Attributes:
+        fast: hω of the fast spring, ascending.
+        slow: hω of the slow spring, ascending.
+        half_trace: shape (slow, fast).
+    """
+
+    fast: NDArray[np.float64]
+    slow: NDArray[np.float64]
+    half_trace: NDArray[np.float64]
+
+
+def springs_plane(
+    tableau: Tableau, split: SplitSprings, slow_end: float, fast_end: float, points: int = 160
+) -> SpringsPlane:
+    """The half trace on a grid.
+
+    W is linear in a and x, W = W_0 + a W_a + x W_x, and so are its three parts found from three
+    strengths.
+
+    Args:
+        tableau: the method.
+        split: which term has which spring.
+        slow_end: the largest hω of the slow spring.
+        fast_end: the largest hω of the fast spring.
+        points: a side of the grid.
+    """
+    parts = [_floats(tableau, split, fmpq(a), fmpq(x)) for a, x in ((0, 0), (1, 0), (0, 1))]
+    (W, B, E), (W_a, B_a, _), (W_x, B_x, _) = parts
+    slow = np.linspace(0.0, slow_end, points)
+    fast = np.linspace(0.0, fast_end, points)
+    half = np.empty((points, points))
+    unit = np.eye(len(W))
+    for i, s in enumerate(slow):
+        for j, f in enumerate(fast):
+            a, x = s * s, f * f
+            matrix = unit - (W + a * (W_a - W) + x * (W_x - W))
+            weights = B + a * (B_a - B) + x * (B_x - B)
+            try:
+                M = np.eye(2) + weights @ np.linalg.solve(matrix, E)
+                half[i, j] = abs(np.trace(M)) / 2
+            except np.linalg.LinAlgError:
+                half[i, j] = np.inf
+    return SpringsPlane(fast, slow, half)
+
+
+def plane_with_ends_of(
+    tableau: Tableau, split: SplitSprings, found: TwoFrequencies
+) -> SpringsPlane:
+    """The plane as far as something happens for the slow frequency that was decided."""
+    ends = [float(i.end.ball(64)) ** 0.5 for i in found.stable if i.end is not None]
+    fast_end = 1.3 * max([*ends, 4.0])
+    slow_end = 1.3 * max(to_float(found.slow) ** 0.5, 3.0)
+    return springs_plane(tableau, split, slow_end, fast_end)
+
+
+def _floats(
+    tableau: Tableau, split: SplitSprings, a: fmpq, x: fmpq
+) -> tuple[NDArray[np.float64], NDArray[np.float64], NDArray[np.float64]]:
+    """W, B and E of the stage system for one strength of each spring."""
+    fields = [split.matrix(colour, a, x) for colour in tableau.colours]
+    one = fmpq(1)
+    pattern = [split.matrix(colour, one, one) for colour in tableau.colours]
+    system = stage_system(tableau, fields, pattern)
+    matrices = (system.W, system.B, system.E)
+    W, B, E = (np.array([[to_float(x) for x in row] for row in m]) for m in matrices)
+    return W, B, E
