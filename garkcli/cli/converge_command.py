@@ -12,6 +12,7 @@ from garkcli.cli.converging import Problems, Wanted, compared, hint_rounding, te
 from garkcli.cli.options import CONTEXT, Output, common
 from garkcli.cli.problems import ProblemType, note_changing
 from garkcli.cli.stepping import positive, refuse_misplaced, stepped_tableau
+from garkcli.cli.streams import say_problem
 from garkcli.errors import UsageProblem
 
 if TYPE_CHECKING:
@@ -153,7 +154,7 @@ def _one(path: str, wanted: Wanted, shown: Shown, output: Output) -> int:
         with watching(output.verbosity >= 0) as watch:
             result = tested(method, tableau, wanted, problems, watch)
     except StepFailed as error:
-        click.echo(f"gark: {error.message}\nhelp: {error.help}", err=True)
+        say_problem(error)
         return 1
     output.write(report.render(result, method.name, output.format, output.paint, shown.work))
     hint_rounding(method, tableau, result, output)

@@ -6,11 +6,10 @@ from collections.abc import Sequence
 from dataclasses import dataclass
 from typing import TYPE_CHECKING, TypeAlias
 
-import click
-
 from garkcli.cli.options import Output
 from garkcli.cli.problems import find_problem, is_path, note_changing
 from garkcli.cli.stepping import rational, stepped_tableau
+from garkcli.cli.streams import say_faults
 from garkcli.errors import Fault, GarkError, MethodFileError
 
 if TYPE_CHECKING:
@@ -239,18 +238,13 @@ def _entry(path: str, loaded: Loaded, wanted: Wanted, problems: Problems, watch:
 
 def _failed(path: str, name: str, error: GarkError) -> Entry:
     """Tell an error; a step that fails has exit code 1, everything else 2."""
-    import sys
-
     from garkcli.check.outcome import Outcome
-    from garkcli.report.check_text import faults_text
     from garkcli.report.convergence_data import Entry
-    from garkcli.report.paint import Paint
     from garkcli.stepping.step import StepFailed
 
     if isinstance(error, MethodFileError):
         faults, text = error.faults, error.text
     else:
         faults, text = (Fault(error.message, error.help),), ""
-    outcome = Outcome(path, name, faults=faults, text=text)
-    click.echo(faults_text(outcome, Paint(sys.stderr.isatty())), err=True)
+    say_faults(Outcome(path, name, faults=faults, text=text))
     return Entry(path, name, None, faults, 1 if isinstance(error, StepFailed) else 2)

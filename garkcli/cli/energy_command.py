@@ -10,6 +10,7 @@ import click
 from garkcli.cli.options import CONTEXT, Output, common
 from garkcli.cli.problems import ProblemType, find_problem, is_path, note_changing
 from garkcli.cli.stepping import positive, refuse_misplaced, stepped_tableau
+from garkcli.cli.streams import say_problem
 from garkcli.errors import UsageProblem
 
 if TYPE_CHECKING:
@@ -102,10 +103,6 @@ def command(
         from garkcli.plots.convergence_plot import check_suffix
 
         check_suffix(Path(plot))
-        if not Path(plot).parent.is_dir():
-            raise UsageProblem(
-                f"cannot write {plot}: there is no such folder", "choose another place"
-            )
     limit = None if max_error is None else positive("--max-error", max_error)
     time = None if t_end is None else positive("--t-end", t_end)
     size = None if step is None else positive("--step", step)
@@ -119,7 +116,7 @@ def command(
                 tableau, method, problem, seed, time, size, digits, points, symplecticity, output
             )
     except StepFailed as error:
-        click.echo(f"gark: {error.message}\nhelp: {error.help}", err=True)
+        say_problem(error)
         return 1
     claims = _claims(run, bounded, limit)
     made = Report(method.name, run, steps, claims)

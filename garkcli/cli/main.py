@@ -11,9 +11,25 @@ from typing import NoReturn
 import click
 
 from garkcli import __version__
-from garkcli.errors import GarkError, did_you_mean
+from garkcli.cli.options import help_option
+from garkcli.cli.signals import INTERRUPTED, READER_GONE, Ended, ending
+from garkcli.cli.streams import (
+    NoStandardOutput,
+    ReaderGone,
+    drop,
+    flush,
+    prepare,
+    put,
+    say,
+    say_faults,
+    say_problem,
+)
+from garkcli.errors import GarkError, MethodFileError, did_you_mean
+from garkcli.report.plain import printable
 
 REPORT_TO = "the issue tracker of the project"
+COMPLETION = "_GARK_COMPLETE"
+"""The variable in which shells ask for completions."""
 COMMANDS = {
     "check": "orders, B/C/D, symplecticity and the claims of method files",
     "trees": "enumerate or count the N-trees of an order",
@@ -46,7 +62,8 @@ class _LazyGroup(click.Group):
         self, ctx: click.Context, args: list[str]
     ) -> tuple[str | None, click.Command | None, list[str]]:
         if args and args[0] not in COMMANDS and not args[0].startswith("-"):
-            ctx.fail(f"no such command {args[0]!r}; {did_you_mean(args[0], COMMANDS)}")
+            what = f"no such command {printable(args[0])!r}"
+            ctx.fail(f"{what}; {did_you_mean(args[0], COMMANDS)}")
         return super().resolve_command(ctx, args)
 
     def format_commands(self, ctx: click.Context, formatter: click.HelpFormatter) -> None:  # noqa: ARG002
@@ -54,14 +71,33 @@ class _LazyGroup(click.Group):
             formatter.write_dl(list(COMMANDS.items()))
 
 
+def _show_version(context: click.Context, _: click.Parameter, wanted: bool) -> None:
+    if wanted and not context.resilient_parsing:
+        put(f"gark {__version__}\n")
+        context.exit()
+
+
 @click.group(
     cls=_LazyGroup,
-    context_settings={"help_option_names": ["-h", "--help"], "max_content_width": 100},
-    epilog='Shell completion: eval "$(_GARK_COMPLETE=bash_source gark)"; also zsh and fish.',
+    context_settings={"help_option_names": [], "max_content_width": 100},
+    # what a call without arguments does is said below: releases of click differ in it
+    subcommand_metavar="COMMAND [ARGS]...",
+    no_args_is_help=False,
+    invoke_without_command=True,
+    epilog=f'Shell completion: eval "$({COMPLETION}=bash_source gark)"; also zsh and fish.',
 )
-@click.version_option(__version__, "--version", prog_name="gark", message="%(prog)s %(version)s")
+@click.option(
+    "--version",
+    is_flag=True,
+    is_eager=True,
+    expose_value=False,
+    callback=_show_version,
+    help="Show the version and exit.",
+)
 @click.option("--debug", is_flag=True, help="Show the traceback of a fault of the program.")
-def gark(debug: bool) -> None:
+@help_option
+@click.pass_context
+def gark(context: click.Context, debug: bool) -> int:  # noqa: ARG001 -- read where faults are shown
     """Order conditions and design of generalized additive Runge-Kutta methods, decided exactly.
 
     A method file (YAML) describes the diagonal methods and how the blocks between them are made:
@@ -72,60 +108,102 @@ def gark(debug: bool) -> None:
           - {family: lobatto-iiia, stages: 3}
         transfer: collocation
     """  # noqa: D301 -- click's sign for lines that stay as they are
+    if context.invoked_subcommand is None:
+        say(context.get_help())
+        return 2
+    return 0
 
 
 def main(arguments: Sequence[str] | None = None) -> NoReturn:
-    """Run the command line and exit: 0, 1 a claim fails, 2 usage or input, 3 our fault, 130
-    interrupted.
+    """Run the command line and exit.
+
+    Exit codes: 0 all is well, 1 a claim fails, 2 usage or input, or there is no place for the
+    report, 3 our fault, 128 + n ended by signal n: 130 interrupted, 141 nobody reads the report.
     """
     arguments = sys.argv[1:] if arguments is None else list(arguments)
-    code = 0
+    prepare()
+    if COMPLETION in os.environ:
+        gark.main(arguments, prog_name="gark", complete_var=COMPLETION)
+    sys.exit(_exit_code(arguments))
+
+
+def _exit_code(arguments: list[str]) -> int:
+    """Run the command line, say what went wrong, and return the exit code."""
     try:
-        result = gark.main(list(arguments), prog_name="gark", standalone_mode=False)
-        code = result if isinstance(result, int) else 0
-        sys.stdout.flush()
+        with ending():
+            code = _run(arguments)
+            flush()
+            return code
+    except (KeyboardInterrupt, click.Abort):
+        drop(sys.stdout)
+        return INTERRUPTED
+    except Ended as end:
+        drop(sys.stdout)
+        return end.exit_code
+    except ReaderGone:
+        drop(sys.stdout)
+        return READER_GONE
+    except NoStandardOutput:
+        say("gark: standard output is closed\nhelp: -o FILE writes the report into a file")
+        return 2
     except click.ClickException as error:
-        error.show()
-        code = 2
+        say(_usage_text(error))
+        return 2
     except GarkError as error:
         _complain(error)
-        code = 2
-    except (KeyboardInterrupt, click.Abort):
-        code = 130
-    except BrokenPipeError:
-        _drop_stdout()  # the reader has gone, which is its right
+        return 2
     except OSError as error:
-        click.echo(f"gark: the report cannot be written: {error.strerror or error}", err=True)
-        _drop_stdout()
-        code = 2
+        say(f"gark: the report cannot be written: {error.strerror or error}")
+        drop(sys.stdout)
+        return 2
     except Exception as error:
-        if "--debug" in arguments:
-            import traceback
-
-            traceback.print_exc()
-        what = f"{type(error).__name__}: {error}".splitlines()[0]
-        click.echo(f"gark: internal fault: {what[:200]}", err=True)
-        click.echo(f"please report it, with the command and the file, to {REPORT_TO}", err=True)
-        code = 3
-    sys.exit(code)
+        _own_up(error, "--debug" in arguments)
+        return 3
 
 
-def _drop_stdout() -> None:
-    """Keep the interpreter from flushing, at its end, what cannot be written."""
-    os.dup2(os.open(os.devnull, os.O_WRONLY), sys.stdout.fileno())
+def _run(arguments: list[str]) -> int:
+    """Run the command line without what click does at its end: it exits 1 where a reader goes away,
+    which is the code of a claim that fails.
+    """
+    try:
+        with gark.make_context("gark", list(arguments)) as context:
+            result = gark.invoke(context)
+    except click.exceptions.Exit as end:
+        return end.exit_code
+    return result if isinstance(result, int) else 0
+
+
+def _usage_text(error: click.ClickException) -> str:
+    """A mistake in the arguments, in words that are the same whatever release of click finds it."""
+    message = error.format_message()
+    context = getattr(error, "ctx", None)
+    if isinstance(error, click.NoSuchOption):
+        known = [] if context is None else [x for p in context.command.params for x in p.opts]
+        message = f"no such option {printable(error.option_name)}"
+        if error.option_name.startswith("--"):
+            message += f"; {did_you_mean(error.option_name, known)}"
+    lines = []
+    if context is not None:
+        lines = [context.get_usage(), f"Try '{context.command_path} --help' for help.", ""]
+    return "\n".join([*lines, f"Error: {message}"])
+
+
+def _own_up(error: Exception, with_traceback: bool) -> None:
+    """Say that the fault is ours."""
+    if with_traceback:
+        import traceback
+
+        say("".join(traceback.format_exception(error)).rstrip())
+    what = f"{type(error).__name__}: {error}".splitlines()[0]
+    say(f"gark: internal fault: {what[:200]}")
+    say(f"please report it, with the command and the file, to {REPORT_TO}")
 
 
 def _complain(error: GarkError) -> None:
-    from garkcli.errors import MethodFileError
-
+    """Say what is wrong with a file or an option, and the cure."""
     if isinstance(error, MethodFileError):
         from garkcli.check.outcome import Outcome
-        from garkcli.report.check_text import faults_text
-        from garkcli.report.paint import Paint
 
-        outcome = Outcome(error.source, error.source, faults=error.faults, text=error.text)
-        click.echo(faults_text(outcome, Paint(sys.stderr.isatty())), err=True)
+        say_faults(Outcome(error.source, error.source, faults=error.faults, text=error.text))
         return
-    click.echo(f"gark: {error.message}", err=True)
-    if error.help:
-        click.echo(f"help: {error.help}", err=True)
+    say_problem(error)

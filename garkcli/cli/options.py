@@ -2,20 +2,38 @@
 
 from __future__ import annotations
 
-import os
 import sys
 from collections.abc import Callable, Iterable, Sequence
-from contextlib import suppress
-from pathlib import Path
 from typing import Any, TypeVar
 
 import click
 
-from garkcli.errors import UsageProblem
+from garkcli.cli.streams import is_terminal, put, safe_pieces, say, wants_colour
 from garkcli.report.paint import Paint
 
 F = TypeVar("F", bound=Callable[..., Any])
-CONTEXT = {"help_option_names": ["-h", "--help"], "max_content_width": 100}
+CONTEXT = {"help_option_names": [], "max_content_width": 100}
+"""Settings of every command; ``-h`` and ``--help`` are options of ``common``."""
+PATH = click.Path(readable=False)
+"""The type of arguments that are files: shells complete them, whoever reads them checks them."""
+
+
+def _show_help(context: click.Context, _: click.Parameter, wanted: bool) -> None:
+    if wanted and not context.resilient_parsing:
+        put(context.get_help() + "\n")
+        context.exit()
+
+
+help_option: Callable[[F], F] = click.option(
+    "-h",
+    "--help",
+    is_flag=True,
+    is_eager=True,
+    expose_value=False,
+    callback=_show_help,
+    help="Show this message and exit.",
+)
+"""The option that shows the help of its command."""
 
 
 def common(formats: Sequence[str]) -> Callable[[F], F]:
@@ -39,7 +57,9 @@ def common(formats: Sequence[str]) -> Callable[[F], F]:
             click.option(
                 "--format", type=click.Choice(formats), default=formats[0], show_default=True
             ),
-            click.option("-o", "--output", metavar="FILE", help="Write the report to FILE."),
+            click.option(
+                "-o", "--output", type=PATH, metavar="FILE", help="Write the report to FILE."
+            ),
             click.option("-q", "--quiet", is_flag=True, help="Say less."),
             click.option("-v", "--verbose", is_flag=True, help="Say more."),
             click.option(
@@ -48,6 +68,7 @@ def common(formats: Sequence[str]) -> Callable[[F], F]:
                 default="auto",
                 show_default=True,
             ),
+            help_option,
         ]
         decorated: Any = run
         for option in reversed(options):
@@ -62,7 +83,11 @@ class Output:
 
     Attributes:
         format: the chosen format.
+        path: the file of ``-o``, or None.
         verbosity: −1, 0 or 1.
+
+    Raises:
+        UsageProblem: the report will have no place; said before any work is done.
     """
 
     def __init__(self, format: str, path: str | None, verbosity: int, color: str) -> None:  # noqa: A002
@@ -70,14 +95,17 @@ class Output:
         self.path = path
         self.verbosity = verbosity
         self._color = color
+        if path is not None:
+            from garkcli.report.writing import refuse_unwritable
+
+            refuse_unwritable(path)
 
     @property
     def paint(self) -> Paint:
-        """Colour, where the report goes to a terminal or colour is asked for."""
-        wanted = self._color == "always"
-        if self._color == "auto":
-            wanted = self.path is None and sys.stdout.isatty() and "NO_COLOR" not in os.environ
-        return Paint(wanted)
+        """Colour, where it is asked for or the report goes to a terminal."""
+        if self._color != "auto":
+            return Paint(self._color == "always")
+        return Paint(self.path is None and wants_colour(sys.stdout))
 
     @property
     def width(self) -> int:
@@ -86,60 +114,32 @@ class Output:
 
         return get_terminal_size((80, 24)).columns if self.path is None else 80
 
-    def write(self, text: str | Iterable[str]) -> None:
-        """Write the report; a file appears whole or not at all."""
+    def write(self, text: str | Iterable[str], format: str = "") -> None:  # noqa: A002
+        """Write the report; a file appears whole or not at all.
+
+        Args:
+            text: the report, or its pieces.
+            format: where it is not that of ``--format``.
+        """
         pieces = [text] if isinstance(text, str) else text
+        format = format or self.format  # noqa: A001
+        coloured = self.paint.color
         if self.path is None:
             for piece in pieces:
-                sys.stdout.write(piece)
+                put(piece, format, coloured)
             return
-        write_whole(self.path, pieces)
+        from garkcli.report.writing import write_whole
+
+        write_whole(self.path, safe_pieces(pieces, format, coloured))
 
     @property
     def may_show_progress(self) -> bool:
         """Whether a bar on stderr disturbs nobody: not when the report itself scrolls by on the
         terminal.
         """
-        return self.verbosity >= 0 and (self.path is not None or not sys.stdout.isatty())
+        return self.verbosity >= 0 and (self.path is not None or not is_terminal(sys.stdout))
 
     def note(self, text: str) -> None:
         """A remark beside the report, on stderr."""
         if self.verbosity >= 0:
-            click.echo(text, err=True)
-
-
-def write_whole(path: str, pieces: Iterable[str]) -> None:
-    """Write a file beside its place, then rename it into place.
-
-    Raises:
-        UsageProblem: the file cannot be written; nothing is left behind.
-    """
-    import tempfile
-
-    target = Path(path)
-    if target.exists() and not target.is_file():  # a device or a pipe has no name to be replaced
-        try:
-            with target.open("w", encoding="utf-8") as stream:
-                stream.writelines(pieces)
-        except OSError as error:
-            raise UsageProblem(
-                f"cannot write {path}: {error.strerror}", "choose another place"
-            ) from None
-        return
-    temporary = ""
-    try:
-        handle, temporary = tempfile.mkstemp(prefix=f".{target.name}.", dir=target.parent)
-        with os.fdopen(handle, "w", encoding="utf-8") as stream:
-            stream.writelines(pieces)
-        umask = os.umask(0)
-        os.umask(umask)
-        Path(temporary).chmod(0o666 & ~umask)
-        Path(temporary).replace(target)
-    except OSError as error:
-        raise UsageProblem(
-            f"cannot write {path}: {error.strerror}", "choose another place"
-        ) from None
-    finally:
-        if temporary:
-            with suppress(OSError):
-                Path(temporary).unlink()
+            say(text)

@@ -200,8 +200,8 @@ def _free_trees(
 
 def _single(text: str, svg: str | None, document: bool, output: Output) -> int:
     """One tree, given in bracket text."""
-    from garkcli.cli.options import write_whole
     from garkcli.report import trees as report
+    from garkcli.report.writing import write_whole
     from garkcli.trees.drawing import draw_svg_sheet
     from garkcli.trees.notation import NotationError, format_tree, parse_tree
 
@@ -284,7 +284,7 @@ def _rows(query: Query, orders: range) -> Iterator[TreeRow]:
 def _draw(path: str, listed: Iterable[Tree], coloured: bool) -> None:
     from itertools import islice
 
-    from garkcli.cli.options import write_whole
+    from garkcli.report.writing import write_whole
     from garkcli.trees.drawing import draw_svg_sheet
     from garkcli.trees.notation import format_tree
 

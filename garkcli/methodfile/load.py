@@ -65,6 +65,8 @@ def read_text(path: str, kind: FileKind) -> tuple[str, str]:
         MethodFileError: there is no such file, or no such text in it.
     """
     if path == STDIN:
+        if sys.stdin is None:
+            raise MethodFileError("<stdin>", [Fault("standard input is closed", "name a file")])
         return _decoded("<stdin>", sys.stdin.buffer.read(MAX_BYTES + 1)), "<stdin>"
     file = Path(path)
     if not file.exists():

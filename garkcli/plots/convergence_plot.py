@@ -6,10 +6,9 @@ printed in grey.
 
 from __future__ import annotations
 
-import os
-import tempfile
 import warnings
 from collections.abc import Mapping, Sequence
+from io import BytesIO
 from math import floor
 from pathlib import Path
 from typing import Any
@@ -26,6 +25,7 @@ from garkcli.report.asciiplot import log10
 from garkcli.report.convergence import order_text
 from garkcli.report.convergence_data import problem_name
 from garkcli.report.costs import curve
+from garkcli.report.writing import refuse_unwritable, write_whole
 
 SUFFIXES = (".png", ".svg", ".pdf")
 """The kinds of file that figures can be saved as."""
@@ -213,38 +213,24 @@ def check_suffix(path: Path) -> None:
         raise UsageProblem(
             f"no figure can be saved to {path.name!r}, {kind}", f"end it in {', '.join(SUFFIXES)}"
         )
-    if not path.parent.is_dir():
-        raise UsageProblem(f"cannot write {path}: there is no such folder", "choose another place")
+    refuse_unwritable(str(path))
 
 
 def save(figure: Figure, path: Path) -> None:
     """Write ``figure`` in the format of the suffix of ``path``: whole or not at all.
 
     Raises:
-        UsageProblem: the suffix is none of ``SUFFIXES``.
-        OSError: the file cannot be written.
+        UsageProblem: the suffix is none of ``SUFFIXES``, or the file cannot be written.
     """
     check_suffix(path)
     kind = path.suffix.lower().removeprefix(".")
-    handle, name = tempfile.mkstemp(dir=path.parent, prefix=f".{path.stem}-", suffix=path.suffix)
-    try:
-        # no date, and no names drawn by lot: the same result gives the same file
-        with (
-            os.fdopen(handle, "wb") as file,
-            rc_context({"svg.hashsalt": "gark"}),
-            warnings.catch_warnings(),
-        ):
-            warnings.filterwarnings(
-                "ignore", "Glyph .* missing"
-            )  # of a name in letters that the font has not
-            figure.savefig(file, format=kind, dpi=150, metadata=_undated(kind))
-        umask = os.umask(0)
-        os.umask(umask)
-        os.chmod(name, 0o666 & ~umask)  # mkstemp makes it private; a figure is an ordinary file
-        os.replace(name, path)
-    except BaseException:
-        Path(name).unlink(missing_ok=True)
-        raise
+    drawn = BytesIO()
+    # no date, and no names drawn by lot: the same result gives the same file
+    with rc_context({"svg.hashsalt": "gark"}), warnings.catch_warnings():
+        # of a name in letters that the font has not
+        warnings.filterwarnings("ignore", "Glyph .* missing")
+        figure.savefig(drawn, format=kind, dpi=150, metadata=_undated(kind))
+    write_whole(str(path), [drawn.getvalue()])
 
 
 def _undated(kind: str) -> dict[str, None]:

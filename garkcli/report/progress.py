@@ -2,6 +2,7 @@
 
 from __future__ import annotations
 
+import os
 import sys
 from collections.abc import Callable, Iterable, Iterator
 from contextlib import contextmanager
@@ -17,6 +18,11 @@ PATIENCE = 0.5
 _EVERY = 64
 
 
+def _is_watched() -> bool:
+    """Whether somebody sees standard error; a terminal that cannot move its cursor shows no bar."""
+    return sys.stderr is not None and sys.stderr.isatty() and os.environ.get("TERM") != "dumb"
+
+
 def tracked(items: Iterable[T], total: int | None, what: str, wanted: bool = True) -> Iterator[T]:
     """The same items; a bar counts them once they have taken longer than ``PATIENCE``.
 
@@ -26,7 +32,7 @@ def tracked(items: Iterable[T], total: int | None, what: str, wanted: bool = Tru
         what: the word beside the bar.
         wanted: False for a report that goes to the same terminal as the bar, or for ``--quiet``.
     """
-    if not wanted or not sys.stderr.isatty():
+    if not wanted or not _is_watched():
         yield from items
         return
     start, iterator = monotonic(), iter(items)
@@ -69,7 +75,7 @@ def watching(wanted: bool = True) -> Iterator[Callable[[str, int, int], None]]:
     Args:
         wanted: False for ``--quiet``.
     """
-    if not wanted or not sys.stderr.isatty():
+    if not wanted or not _is_watched():
         yield lambda *_: None
         return
     bar = _Bar()

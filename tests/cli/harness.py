@@ -28,17 +28,32 @@ class _Input(io.TextIOWrapper):
         super().__init__(io.BytesIO(text.encode()), encoding="utf-8")
 
 
-def gark(*arguments: str, stdin: str = "", cwd: Path = ROOT) -> Run:
-    """Run ``gark`` with ``arguments`` in ``cwd``, 80 columns wide, with no colour asked for."""
-    out, err = io.StringIO(), io.StringIO()
+ASKING = ("NO_COLOR", "FORCE_COLOR", "GITHUB_ACTIONS")
+"""Variables of the environment that change what is written."""
+
+
+def gark(
+    *arguments: str, stdin: str = "", cwd: Path = ROOT, encoding: str = "", **variables: str
+) -> Run:
+    """Run ``gark`` with ``arguments`` in ``cwd``, 80 columns wide, with no colour asked for.
+
+    Args:
+        arguments: of the command line.
+        stdin: what standard input has.
+        cwd: the folder to run in.
+        encoding: of standard output and error; text is kept as it is without one.
+        variables: of the environment.
+    """
+    out, err = _stream(encoding), _stream(encoding)
     code: object = None
     before = Path.cwd()
     with (
         patch.dict(os.environ, {"COLUMNS": "80", "LINES": "24"}),
         patch("sys.stdin", _Input(stdin)),
     ):
-        for name in ("NO_COLOR", "GITHUB_ACTIONS"):
+        for name in ASKING:
             os.environ.pop(name, None)
+        os.environ.update(variables)
         os.chdir(cwd)
         try:
             with redirect_stdout(out), redirect_stderr(err):
@@ -47,4 +62,16 @@ def gark(*arguments: str, stdin: str = "", cwd: Path = ROOT) -> Run:
             code = end.code
         finally:
             os.chdir(before)
-    return Run(code, out.getvalue(), err.getvalue())
+    return Run(code, _written(out), _written(err))
+
+
+def _stream(encoding: str) -> io.TextIOWrapper | io.StringIO:
+    return io.TextIOWrapper(io.BytesIO(), encoding=encoding) if encoding else io.StringIO()
+
+
+def _written(stream: io.TextIOWrapper | io.StringIO) -> str:
+    if isinstance(stream, io.StringIO):
+        return stream.getvalue()
+    stream.flush()
+    stream.seek(0)
+    return stream.read()

@@ -1,0 +1,161 @@
+"""The three standard streams: any encoding, closed ones, readers that go away."""
+
+from __future__ import annotations
+
+import io
+import os
+import sys
+from collections.abc import Iterable
+from typing import TYPE_CHECKING
+
+from garkcli.errors import GarkError
+from garkcli.report.plain import printable
+from garkcli.report.plaintext import HANDLER, plain_text
+from garkcli.report.safety import JSON, XML, YAML, escaped, without_commands, written_out
+
+if TYPE_CHECKING:
+    from garkcli.check.outcome import Outcome
+
+
+class NoStandardOutput(Exception):
+    """The report has nowhere to go."""
+
+
+class ReaderGone(Exception):
+    """Whoever read the report has stopped, which is their right."""
+
+
+def prepare() -> None:
+    """Ready the streams: what their encoding lacks is written in ASCII, and a stream that is closed
+    leaves no place for a file to be opened in.
+    """
+    _fill_places()
+    for stream in (sys.stdout, sys.stderr):
+        if isinstance(stream, io.TextIOWrapper):
+            stream.reconfigure(errors=HANDLER)
+    if sys.stderr is None:  # nobody listens
+        sys.stderr = open(os.devnull, "w", encoding="utf-8")  # noqa: SIM115
+
+
+def _fill_places() -> None:
+    """Open nothing as 0, 1 and 2 where these are closed: the next file would be taken for one of
+    them.
+    """
+    if sys.stdin is not None and sys.stdout is not None and sys.stderr is not None:
+        return
+    while True:
+        place = os.open(os.devnull, os.O_RDWR)
+        if place > 2:
+            os.close(place)
+            return
+
+
+def put(text: str, format: str = "text", coloured: bool = False) -> None:  # noqa: A002 -- the option's name
+    """Write a piece of a report to standard output.
+
+    Raises:
+        NoStandardOutput: it is closed.
+        ReaderGone: nobody reads it any more.
+    """
+    if not text:
+        return
+    if sys.stdout is None:
+        raise NoStandardOutput
+    text = safe(text, format, coloured)
+    try:
+        sys.stdout.write(_for(sys.stdout.encoding, text, format))
+    except BrokenPipeError:
+        raise ReaderGone from None
+
+
+def flush() -> None:
+    """Write what is held back.
+
+    Raises:
+        ReaderGone: nobody reads it any more.
+    """
+    if sys.stdout is None:
+        return
+    try:
+        sys.stdout.flush()
+    except BrokenPipeError:
+        raise ReaderGone from None
+
+
+def say(text: str, coloured: bool = False) -> None:
+    """Write a line to standard error, which is never a reason to stop."""
+    text = safe(text, "text", coloured)
+    try:
+        sys.stderr.write(_for(sys.stderr.encoding, text, "text") + "\n")
+        sys.stderr.flush()
+    except OSError:
+        drop(sys.stderr)
+
+
+def say_problem(error: GarkError) -> None:
+    """Say what is wrong and the cure, each in one line whatever a stranger has put into it."""
+    say(f"gark: {printable(error.message)}")
+    if error.help:
+        say(f"help: {printable(error.help)}")
+
+
+def say_faults(outcome: Outcome) -> None:
+    """Say every fault of a file that cannot be read."""
+    from garkcli.report.check_text import faults_text
+    from garkcli.report.paint import Paint
+
+    paint = Paint(wants_colour(sys.stderr))
+    say(faults_text(outcome, paint), paint.color)
+
+
+def drop(stream: io.TextIOBase | object) -> None:
+    """Keep the interpreter from flushing, at its end, what cannot be written."""
+    fileno = getattr(stream, "fileno", None)
+    if fileno is None:
+        return
+    try:
+        os.dup2(os.open(os.devnull, os.O_WRONLY), fileno())
+    except (OSError, io.UnsupportedOperation):
+        return
+
+
+def safe(text: str, format: str = "text", coloured: bool = False) -> str:  # noqa: A002
+    """A text that gives no orders to a terminal or to the runner of a job."""
+    text = written_out(text, format, coloured)
+    is_job = os.environ.get("GITHUB_ACTIONS") == "true"
+    return without_commands(text, format) if is_job and format != "github" else text
+
+
+def safe_pieces(pieces: Iterable[str], format: str, coloured: bool) -> Iterable[str]:  # noqa: A002
+    """The same for a report in pieces."""
+    return (safe(piece, format, coloured) for piece in pieces)
+
+
+def _for(encoding: str | None, text: str, format: str) -> str:  # noqa: A002
+    """A text for a stream of this encoding: in formats that have escapes nothing is lost."""
+    encoding = encoding or "utf-8"
+    if text.isascii() or encoding.lower().replace("_", "-").startswith("utf"):
+        return text
+    if format in JSON | YAML | XML:
+        return "".join(x if x.isascii() else escaped(x, format) for x in text)
+    return plain_text(text, encoding)
+
+
+def is_terminal(stream: object) -> bool:
+    """Whether somebody sits at the other end; nobody does where it is closed."""
+    isatty = getattr(stream, "isatty", None)
+    return bool(isatty is not None and isatty())
+
+
+def wants_colour(stream: object) -> bool:
+    """Whether text on this stream has colour where no option says so.
+
+    ``NO_COLOR`` says no and ``FORCE_COLOR`` yes, where they are not empty; without them a terminal
+    has colour unless it says that it is a dumb one.
+    """
+    if os.environ.get("NO_COLOR"):
+        return False
+    forced = os.environ.get("FORCE_COLOR", "")
+    if forced:
+        return forced != "0"
+    return is_terminal(stream) and os.environ.get("TERM") != "dumb"

@@ -1,0 +1,180 @@
+"""Text for streams that have no Greek: an ASCII form for every sign that reports use."""
+
+from __future__ import annotations
+
+import codecs
+import re
+import unicodedata
+from functools import lru_cache
+
+HANDLER = "garkcli.plaintext"
+"""The name of the error handler, for ``reconfigure(errors=…)`` of a stream."""
+PHRASES = {" · ": " * ", "½": "1/2 "}
+"""Signs that read differently among others than alone; they come first."""
+SIGNS = {
+    # letters and operators
+    "Â": "A^",
+    "ℚ": "Q",
+    "𝟙": " 1",
+    "ᵀ": "^T",
+    "∀": "for all",
+    "∂": "d",
+    "∫": "int ",
+    "√": "sqrt",
+    "⊙": ".*",
+    "⊗": "(x)",
+    "×": "x",
+    "·": ".",
+    "±": "+-",
+    "½": "1/2",
+    "°": "deg",
+    "−": "-",
+    "≤": "<=",
+    "≥": ">=",
+    "≠": "!=",
+    "≈": "~",
+    "∈": "in",
+    "∞": "inf",
+    "∎": "[]",
+    "∑": "sum ",
+    "∏": "prod ",
+    "∇": "grad ",
+    "∪": "u",
+    "∩": "n",
+    "⇒": "=>",
+    "←": "<-",
+    "↔": "<->",
+    "⟨": "<",
+    "⟩": ">",
+    "∧": "and",
+    "∨": "or",
+    "¬": "not ",
+    "→": "->",
+    "\N{COMBINING DIAERESIS}": "''",
+    "\N{COMBINING DOT ABOVE}": "'",
+    # punctuation
+    "–": "-",
+    "—": "--",
+    "…": "...",
+    "•": "*",
+    "“": '"',
+    "”": '"',
+    "‘": "'",
+    "’": "'",
+    "\N{NO-BREAK SPACE}": " ",
+    "\N{REPLACEMENT CHARACTER}": "?",
+    # trees and plots, one column each
+    "●": "o",
+    "○": "o",
+    "─": "-",
+    "│": "|",
+    "└": "`",
+    "┘": "'",
+    "┌": ".",
+    "┐": ".",
+    "├": "+",
+    "┤": "+",
+    "┬": "+",
+    "┴": "+",
+    "┼": "+",
+    "╯": "'",
+    "╰": "`",
+}
+"""The ASCII form of each sign that is not a letter with an accent."""
+EVERYTHING = "¹⁴γ𝟙●"
+"""An encoding that has these has every sign: it is one of Unicode."""
+_GREEK = re.compile(r"GREEK (SMALL|CAPITAL) LETTER (FINAL )?(?P<name>[A-Z]+)( |$)")
+_SCRIPT = re.compile(r"(SUPERSCRIPT|SUBSCRIPT) ")
+
+
+@lru_cache(4096)
+def ascii_form(sign: str) -> str:
+    r"""One sign in ASCII; a script of another language is written in code points.
+
+    >>> [ascii_form(x) for x in "γΩ²ö中"]
+    ['gamma', 'Omega', '^2', 'o', '\\u4e2d']
+    """
+    if sign.isascii():
+        return sign
+    if sign in SIGNS:
+        return SIGNS[sign]
+    name = unicodedata.name(sign, "")
+    greek = _GREEK.match(name)
+    if greek is not None:
+        letter = greek["name"].lower().replace("lamda", "lambda")
+        return letter.capitalize() if greek[1] == "CAPITAL" else letter
+    plain = unicodedata.normalize("NFKD", sign)
+    plain = "".join(x for x in plain if not unicodedata.combining(x)).replace("−", "-")
+    if not plain.isascii() or not plain:
+        return sign.encode("ascii", "backslashreplace").decode("ascii")
+    if _SCRIPT.match(name):
+        return ("^" if name.startswith("SUPER") else "_") + plain
+    return plain
+
+
+def plain_line(line: str, encoding: str = "ascii") -> str:
+    """A line with an ASCII form for every sign that ``encoding`` lacks.
+
+    What the longer forms take is given back at the next gap of two blanks or more, so that columns
+    and drawings further right stay where they are.
+
+    >>> plain_line("10¹² trees, σ = 2      ●1 ●1")
+    '10^12 trees, sigma = 2 o1 o1'
+    """
+    for phrase, form in PHRASES.items():
+        if not _has(encoding, phrase):
+            line = line.replace(phrase, form)
+    made: list[str] = []
+    column = 0  # in the line as it is meant
+    width = 0  # in the line as it is made
+    raised = ""  # the sign of a running exponent or index, which is written once
+    for at, sign in enumerate(line):
+        form = sign if _has(encoding, sign) else ascii_form(sign)
+        mark = form[0] if len(form) == 2 and form[0] in "^_" and sign not in SIGNS else ""
+        if mark and mark == raised:
+            form = form[1:]
+        raised = mark
+        column += not unicodedata.combining(sign)
+        is_gap = sign == " " and line[at - 1 : at] == " "
+        if is_gap and width >= column:
+            continue
+        made.append(form)
+        width += len(form)
+    return "".join(made)
+
+
+def plain_text(text: str, encoding: str) -> str:
+    """A text of any number of lines for a stream of this encoding."""
+    if text.isascii() or _has(encoding, EVERYTHING):
+        return text
+    return "\n".join(plain_line(line, encoding) for line in text.split("\n"))
+
+
+@lru_cache(4096)
+def _has(encoding: str, text: str) -> bool:
+    """Whether a stream of this encoding takes the text as it is.
+
+    An exponent of two digits must not be half a sign and half ASCII: what has no fourth power has
+    no powers.
+    """
+    if _SCRIPT.match(unicodedata.name(text, "") if len(text) == 1 else ""):
+        text = "⁴"
+    try:
+        text.encode(encoding)
+    except UnicodeEncodeError:
+        return False
+    return True
+
+
+def _handle(error: UnicodeError) -> tuple[str, int]:
+    """What to write from the first sign that cannot be encoded to the end of its line.
+
+    The net below ``plain_text``, for what others write to the stream.
+    """
+    assert isinstance(error, UnicodeEncodeError)
+    end = error.object.find("\n", error.start)
+    end = len(error.object) if end < 0 else end
+    return plain_line(error.object[error.start : end], error.encoding), end
+
+
+codecs.register_error(HANDLER, _handle)

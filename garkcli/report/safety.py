@@ -1,0 +1,72 @@
+"""The last look at a report before it is written, in the escapes of its format.
+
+Reports make the names of strangers harmless where they write them (``plain``); here nothing that
+was forgotten gets through to a terminal or to the runner of a job.
+"""
+
+from __future__ import annotations
+
+import re
+
+from garkcli.report.plain import inert
+
+JSON = frozenset({"json", "ndjson", "sarif"})
+"""Formats that are JSON: a sign may always be written as ``\\u1234``."""
+YAML = frozenset({"yaml"})
+XML = frozenset({"junit"})
+_COLOURS = re.compile(r"(\x1b\[(?:[012]|3[1-6]|31;1)m)")
+
+
+def written_out(text: str, format: str = "text", coloured: bool = False) -> str:  # noqa: A002 -- the option's name
+    r"""A whole report in which every sign that does not print is written out.
+
+    Control characters would command a terminal, bidirectional ones would show another text than
+    there is, halves of pairs cannot be encoded. The colours of ``Paint`` stay where it is ``coloured``.
+
+    >>> print(written_out("a\x1b[2Jb \u202ec\n"), end="")
+    a\x1b[2Jb \u202ec
+    """
+    if text.replace("\n", "").isprintable():
+        return text
+    if not coloured:
+        return _written_out(text, format)
+    pieces = _COLOURS.split(text)
+    # the odd ones are colours
+    pieces[::2] = [_written_out(piece, format) for piece in pieces[::2]]
+    return "".join(pieces)
+
+
+def _written_out(text: str, format: str) -> str:  # noqa: A002
+    if text.replace("\n", "").isprintable():
+        return text
+    return "".join(x if x == "\n" or x.isprintable() else escaped(x, format) for x in text)
+
+
+def escaped(sign: str, format: str = "text") -> str:  # noqa: A002
+    r"""One sign written out as the format has it.
+
+    >>> escaped("\x1b"), escaped("\x1b", "json"), escaped("𝟙", "json"), escaped("ö", "junit")
+    ('\\x1b', '\\u001b', '\\ud835\\udfd9', '&#246;')
+    """
+    if format in JSON:
+        units = sign.encode("utf-16-be", "surrogatepass")
+        return "".join(f"\\u{units[i : i + 2].hex()}" for i in range(0, len(units), 2))
+    if format in XML and not sign.isascii() and not "\ud800" <= sign <= "\udfff":
+        return f"&#{ord(sign)};"
+    if format in YAML:
+        return f"\\U{ord(sign):08x}"
+    return repr(sign)[1:-1] if not sign.isprintable() else f"\\x{ord(sign):02x}"
+
+
+def without_commands(text: str, format: str = "text") -> str:  # noqa: A002
+    r"""A text none of whose lines the runner of GitHub Actions takes for a command of the job.
+
+    >>> print(without_commands("  ::error::no\nsee ##[group]"))
+      \x3a:error::no
+    see #\x23[group]
+    >>> print(without_commands('{"name": "##[group]"}', "json"))
+    {"name": "#\u0023[group]"}
+    """
+    if format in JSON:  # where strings have no lines of their own
+        return text.replace("##[", f"#{escaped('#', format)}[")
+    return inert(text)

@@ -1,0 +1,158 @@
+"""Files that appear whole or not at all."""
+
+from __future__ import annotations
+
+import os
+import re
+import stat
+import sys
+from collections.abc import Iterable, Iterator
+from contextlib import contextmanager, suppress
+from pathlib import Path
+from typing import BinaryIO
+
+from garkcli.errors import UsageProblem
+
+_OWN_STREAM = re.compile(r"/dev/(?:fd/)?(\d+|stdout|stderr)|/proc/self/fd/(\d+)")
+_MOST_LINKS = 40
+"""As many links in a row as Linux follows."""
+
+
+def write_whole(path: str, pieces: Iterable[str | bytes]) -> None:
+    """Write a file beside its place, then rename it into place.
+
+    A link stays a link, and what it leads to is written; a file that exists keeps its permissions.
+    What is no ordinary file (a device, a pipe, a stream of this process) or has several names is
+    written through.
+
+    Args:
+        path: where to.
+        pieces: text, which is written as UTF-8, or bytes.
+
+    Raises:
+        UsageProblem: the file cannot be written; nothing is left behind.
+    """
+    with _told(path):
+        target = _without_links(path)
+        stream = _own_stream(target)
+        before = None if stream is not None else _status(target)
+        if stream is not None:
+            sys.stdout.flush()
+            with os.fdopen(os.dup(stream), "wb") as opened:
+                opened.writelines(_encoded(pieces))
+        elif before is None:
+            _replace(target, _encoded(pieces), 0o666 & ~_umask())
+        elif stat.S_ISREG(before.st_mode) and before.st_nlink == 1:
+            _refuse_protected(target)
+            _replace(target, _encoded(pieces), stat.S_IMODE(before.st_mode))
+        else:
+            _write_through(target, pieces, stat.S_ISREG(before.st_mode))
+
+
+def refuse_unwritable(path: str) -> None:
+    """Say before any work is done that there will be no place for its result.
+
+    Raises:
+        UsageProblem: there is no such folder, it or the file is protected, or it is a folder.
+    """
+    with _told(path):
+        target = _without_links(path)
+        if _own_stream(target) is not None:
+            return
+        if target.is_dir():
+            raise IsADirectoryError(0, "it is a folder")
+        if _status(target) is not None:
+            _refuse_protected(target)
+            return
+        if not target.parent.is_dir():
+            raise FileNotFoundError(0, "there is no such folder")
+        if not os.access(target.parent, os.W_OK):
+            raise PermissionError(0, "the folder is protected")
+
+
+@contextmanager
+def _told(path: str) -> Iterator[None]:
+    """What the system says, as a problem of the option."""
+    try:
+        yield
+    except BrokenPipeError:
+        raise
+    except OSError as error:
+        why = error.strerror or str(error)
+        raise UsageProblem(f"cannot write {path}: {why}", "choose another place") from None
+
+
+def _without_links(path: str) -> Path:
+    """Where a path leads; a stream of this process, which is a link of its own kind, stays."""
+    target = Path(path)
+    for _ in range(_MOST_LINKS):
+        if _own_stream(target) is not None or not target.is_symlink():
+            return target
+        target = target.parent / target.readlink()
+    raise OSError(0, "too many links")
+
+
+def _own_stream(target: Path) -> int | None:
+    """The descriptor that such a path means, or None."""
+    found = _OWN_STREAM.fullmatch(str(target))
+    if found is None:
+        return None
+    word = found[1] or found[2]
+    return {"stdout": 1, "stderr": 2}.get(word) or int(word)
+
+
+def _status(target: Path) -> os.stat_result | None:
+    try:
+        return target.stat()
+    except FileNotFoundError:
+        return None
+
+
+def _refuse_protected(target: Path) -> None:
+    if not os.access(target, os.W_OK):
+        raise PermissionError(0, "the file is protected")
+
+
+def _umask() -> int:
+    umask = os.umask(0)
+    os.umask(umask)
+    return umask
+
+
+def _encoded(pieces: Iterable[str | bytes]) -> Iterator[bytes]:
+    for piece in pieces:
+        yield piece.encode("utf-8") if isinstance(piece, str) else piece
+
+
+def _write_through(target: Path, pieces: Iterable[str | bytes], is_file: bool) -> None:
+    """Write into what is there: a file of several names at the end, a device as it comes."""
+    data = _encoded(pieces)
+    if is_file:
+        data = iter([b"".join(data)])
+    with target.open("wb") as opened:
+        opened.writelines(data)
+
+
+def _replace(target: Path, pieces: Iterable[bytes], mode: int) -> None:
+    """Write beside ``target``, then rename over it."""
+    with _temporary(target) as (stream, temporary):
+        stream.writelines(pieces)
+        stream.close()
+        temporary.chmod(mode)
+        temporary.replace(target)
+
+
+@contextmanager
+def _temporary(target: Path) -> Iterator[tuple[BinaryIO, Path]]:
+    """A file in the folder of ``target`` that is gone at the end, whatever ends it."""
+    import tempfile
+
+    # the name of the target may fill what a name may have
+    handle, name = tempfile.mkstemp(prefix=".gark-", dir=target.parent)
+    stream = os.fdopen(handle, "wb")
+    try:
+        yield stream, Path(name)
+    finally:
+        stream.close()
+        with suppress(OSError):
+            Path(name).unlink()

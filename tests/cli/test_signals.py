@@ -1,0 +1,101 @@
+"""Runs that are ended from outside: they clean up, say nothing, and have the code of the signal."""
+
+from __future__ import annotations
+
+import os
+import signal
+import subprocess
+import sys
+import time
+from collections.abc import Iterator
+from contextlib import contextmanager
+from pathlib import Path
+
+import pytest
+
+from tests.cli.harness import ROOT
+
+pytestmark = pytest.mark.skipif(os.name != "posix", reason="signals between processes")
+PATIENCE = 60.0
+"""Seconds to wait for a sign of life, on a machine that is very busy."""
+# nothing to be fast enough for: millions of trees
+FOR_EVER = ("trees", "-N", "2", "-n", "13", "--format", "ndjson")
+
+
+def _as_from_a_terminal() -> None:
+    """What a job in the background inherits, ignored interrupts, is not what is tested here."""
+    for number in (signal.SIGINT, signal.SIGTERM, signal.SIGHUP):
+        signal.signal(number, signal.SIG_DFL)
+
+
+@contextmanager
+def running(*arguments: str, ignoring: bool = False) -> Iterator[subprocess.Popen[bytes]]:
+    """The program at work; it is gone at the end."""
+    with subprocess.Popen(
+        [sys.executable, "-m", "garkcli", *arguments],
+        cwd=ROOT,
+        env={**os.environ, "PYTHONPATH": str(ROOT)},
+        stdout=subprocess.PIPE,
+        stderr=subprocess.PIPE,
+        preexec_fn=None if ignoring else _as_from_a_terminal,
+    ) as process:
+        try:
+            yield process
+        finally:
+            process.kill()
+
+
+def wait_for(folder: Path, process: subprocess.Popen[bytes]) -> None:
+    """Wait until the program has begun to write into ``folder``."""
+    end = time.monotonic() + PATIENCE
+    while not any(path.stat().st_size for path in folder.iterdir()):
+        assert process.poll() is None
+        assert time.monotonic() < end
+        time.sleep(0.02)
+
+
+@pytest.mark.parametrize("name", ["SIGINT", "SIGTERM", "SIGHUP"])
+def test_a_report_that_is_cut_short_leaves_nothing(name: str, tmp_path: Path) -> None:
+    """A signal while a file is being written takes it back: no file, no temporary one, no word, and
+    128 plus the number of the signal.
+    """
+    number = getattr(signal, name)
+    with running(*FOR_EVER, "-o", str(tmp_path / "trees.ndjson")) as process:
+        wait_for(tmp_path, process)
+        process.send_signal(number)
+        out, err = process.communicate(timeout=PATIENCE)
+    assert (process.returncode, out, err) == (128 + number, b"", b"")
+    assert list(tmp_path.iterdir()) == []
+
+
+@pytest.mark.parametrize("name", ["SIGINT", "SIGTERM", "SIGHUP"])
+def test_a_reader_that_does_not_read_holds_nothing_up(name: str) -> None:
+    """A program that waits for the pipe to have room ends at the signal, not when somebody reads."""
+    number = getattr(signal, name)
+    with running(*FOR_EVER) as process:
+        assert process.stdout is not None
+        assert process.stdout.read(1) == b"{"
+        process.send_signal(number)
+        assert process.wait(timeout=PATIENCE) == 128 + number
+        assert process.stderr is not None
+        assert process.stderr.read() == b""
+
+
+def test_signals_that_are_ignored_stay_so(tmp_path: Path) -> None:
+    """Under ``nohup`` a terminal that closes does not end the run; SIGTERM still does."""
+    before = signal.signal(signal.SIGHUP, signal.SIG_IGN)
+    try:
+        with running(*FOR_EVER, "-o", str(tmp_path / "trees"), ignoring=True) as process:
+            wait_for(tmp_path, process)
+            process.send_signal(signal.SIGHUP)
+            size = next(tmp_path.iterdir()).stat().st_size
+            end = time.monotonic() + PATIENCE
+            while next(tmp_path.iterdir()).stat().st_size <= size:
+                assert process.poll() is None
+                assert time.monotonic() < end
+                time.sleep(0.02)
+            process.send_signal(signal.SIGTERM)
+            assert process.wait(timeout=PATIENCE) == 128 + signal.SIGTERM
+    finally:
+        signal.signal(signal.SIGHUP, before)
+    assert list(tmp_path.iterdir()) == []

@@ -1,0 +1,165 @@
+"""Files appear whole or not at all, and what was there keeps its kind, links and permissions."""
+
+from __future__ import annotations
+
+import os
+import stat
+import subprocess
+import sys
+import threading
+from collections.abc import Iterator
+from pathlib import Path
+
+import pytest
+
+from garkcli.errors import UsageProblem
+from garkcli.report.writing import refuse_unwritable, write_whole
+from tests.cli.harness import ROOT, gark
+
+posix = pytest.mark.skipif(os.name != "posix", reason="links and permissions of POSIX")
+
+
+def mode(path: Path) -> int:
+    """The permissions of a file."""
+    return stat.S_IMODE(path.stat().st_mode)
+
+
+def test_a_new_file(tmp_path: Path) -> None:
+    """Text is UTF-8, bytes are as they are, nothing else is left in the folder."""
+    write_whole(str(tmp_path / "f"), ["γ\n", b"\xff"])
+    assert (tmp_path / "f").read_bytes() == "γ\n".encode() + b"\xff"
+    assert [path.name for path in tmp_path.iterdir()] == ["f"]
+
+
+@posix
+@pytest.mark.parametrize("umask", [0o022, 0o077])
+def test_permissions(umask: int, tmp_path: Path) -> None:
+    """A new file has those that the user gives to files, an old one keeps its own."""
+    before = os.umask(umask)
+    try:
+        write_whole(str(tmp_path / "new"), ["1"])
+    finally:
+        os.umask(before)
+    assert mode(tmp_path / "new") == 0o666 & ~umask
+    for kept in (0o600, 0o640, 0o755):
+        (tmp_path / "old").write_text("old")
+        (tmp_path / "old").chmod(kept)
+        write_whole(str(tmp_path / "old"), ["new"])
+        assert (mode(tmp_path / "old"), (tmp_path / "old").read_text()) == (kept, "new")
+
+
+@posix
+def test_links_stay_links(tmp_path: Path) -> None:
+    """What a link leads to is written, through links of links, relative and absolute, also where
+    nothing is there yet.
+    """
+    (tmp_path / "sub").mkdir()
+    (tmp_path / "sub" / "file").write_text("old")
+    (tmp_path / "one").symlink_to(Path("sub") / "file")
+    (tmp_path / "two").symlink_to(tmp_path / "one")
+    write_whole(str(tmp_path / "two"), ["new"])
+    assert (tmp_path / "two").is_symlink()
+    assert (tmp_path / "one").is_symlink()
+    assert (tmp_path / "sub" / "file").read_text() == "new"
+    (tmp_path / "ahead").symlink_to("not-yet")
+    write_whole(str(tmp_path / "ahead"), ["first"])
+    assert (tmp_path / "ahead").is_symlink()
+    assert (tmp_path / "not-yet").read_text() == "first"
+
+
+@posix
+def test_a_file_of_two_names_keeps_both(tmp_path: Path) -> None:
+    """Hard links still share what was written."""
+    (tmp_path / "one").write_text("old and longer")
+    (tmp_path / "two").hardlink_to(tmp_path / "one")
+    write_whole(str(tmp_path / "one"), ["new"])
+    assert (tmp_path / "two").read_text() == "new"
+    assert (tmp_path / "one").samefile(tmp_path / "two")
+
+
+@posix
+def test_a_pipe_is_written_through(tmp_path: Path) -> None:
+    """A FIFO gets the report and stays one."""
+    fifo = tmp_path / "pipe"
+    os.mkfifo(fifo)
+    read: list[str] = []
+    reader = threading.Thread(target=lambda: read.append(fifo.read_text()))
+    reader.start()
+    write_whole(str(fifo), ["a", "b"])
+    reader.join(timeout=60)
+    assert read == ["ab"]
+    assert stat.S_ISFIFO(fifo.stat().st_mode)
+
+
+@posix
+@pytest.mark.parametrize("name", ["/dev/stdout", "/dev/fd/1", "/proc/self/fd/1", "link"])
+@pytest.mark.parametrize("redirection", [">", ">>", "| cat >"])
+def test_the_devices_of_streams(name: str, redirection: str, tmp_path: Path) -> None:
+    """``-o /dev/stdout`` is standard output, whatever that is, at the place where it is; neither
+    the device nor a link to it is replaced.
+    """
+    if name.startswith("/proc") and not Path("/proc/self/fd").exists():
+        pytest.skip("this system has no /proc")
+    (tmp_path / "link").symlink_to("/dev/stdout")
+    target = tmp_path / "target"
+    target.write_text("before\n")
+    command = f'{sys.executable} -m garkcli list -o "{name}" {redirection} target'
+    done = subprocess.run(
+        ["bash", "-c", command],
+        cwd=tmp_path,
+        env={**os.environ, "PYTHONPATH": str(ROOT)},
+        capture_output=True,
+        timeout=60,
+    )
+    assert (done.returncode, done.stdout, done.stderr) == (0, b"", b"")
+    before = "before\n" if redirection == ">>" else ""
+    assert target.read_text("utf-8") == before + gark("list").out
+    assert Path("/dev/stdout").is_symlink()
+    assert (tmp_path / "link").is_symlink()
+
+
+@posix
+def test_a_device_stays_a_device() -> None:
+    """``-o /dev/null`` throws away; the device is still there."""
+    assert gark("list", "-o", "/dev/null").code == 0
+    assert stat.S_ISCHR(Path("/dev/null").stat().st_mode)
+
+
+def test_what_fails_leaves_the_old_file(tmp_path: Path) -> None:
+    """Pieces that end in an error change nothing and leave nothing."""
+    (tmp_path / "f").write_text("old")
+
+    def pieces() -> Iterator[str]:
+        yield "new"
+        raise KeyboardInterrupt
+
+    with pytest.raises(KeyboardInterrupt):
+        write_whole(str(tmp_path / "f"), pieces())
+    assert (tmp_path / "f").read_text() == "old"
+    assert [path.name for path in tmp_path.iterdir()] == ["f"]
+
+
+@posix
+@pytest.mark.parametrize(
+    ("place", "why"),
+    [
+        ("nowhere/f", "there is no such folder"),
+        (".", "it is a folder"),
+        ("loop", "too many links"),
+        ("n" * 300, "File name too long"),
+        ("file/f", "Not a directory"),
+    ],
+)
+def test_no_place_is_said_before_the_work(place: str, why: str, tmp_path: Path) -> None:
+    """Where nothing can be written a command says so before it reads its files."""
+    (tmp_path / "loop").symlink_to("loop")
+    (tmp_path / "file").write_text("")
+    with pytest.raises(UsageProblem, match=why):
+        refuse_unwritable(str(tmp_path / place))
+    with pytest.raises(UsageProblem, match="cannot write"):
+        write_whole(str(tmp_path / place), ["x"])
+    for command in ("check", "tableau", "conjugate", "converge", "energy"):
+        run = gark(command, "no such file", "-o", str(tmp_path / place))
+        assert run.code == 2
+        assert run.err.startswith("gark: cannot write ")
+        assert why in run.err
