@@ -7,7 +7,7 @@ from __future__ import annotations
 from collections.abc import Mapping, Sequence
 from dataclasses import dataclass
 from math import comb, prod
-from typing import Any
+from typing import Any, TypeAlias
 
 MAX_TERMS = 3_000
 """Most terms of an equation for a velocity, multiplied out over its common denominator."""
@@ -67,18 +67,22 @@ def _terms(f: Any, v: Any) -> int:
     return max(found.terms ** (2 if has_root else 1), found.inside)
 
 
+Factors: TypeAlias = Mapping[Any, tuple[int, int]]
+"""The factors of a denominator: the terms and the exponent of each."""
+
+
 @dataclass(frozen=True)
 class _Fraction:
     """The size of an expression as one fraction.
 
     Attributes:
         terms: those of the numerator, multiplied out.
-        factors: the factors of the denominator: the terms and the exponent of each.
+        factors: of the denominator.
         inside: most terms of what stands in functions and roots.
     """
 
     terms: int
-    factors: Mapping[Any, tuple[int, int]]
+    factors: Factors
     inside: int = 1
 
 
@@ -86,41 +90,55 @@ def _fraction(f: Any) -> _Fraction:
     parts = [_fraction(x) for x in f.args]
     inside = max((x.inside for x in parts), default=1)
     if f.is_Add:
-        factors: dict[Any, tuple[int, int]] = {}
-        for part in parts:
-            for base, (size, power) in part.factors.items():
-                factors[base] = size, max(power, factors.get(base, (size, 0))[1])
-        terms = sum(x.terms * _missing(factors, x.factors) for x in parts)
-        return _Fraction(terms, factors, inside)
+        return _sum(parts, inside)
     if f.is_Mul:
-        product: dict[Any, tuple[int, int]] = {}
-        for part in parts:
-            for base, (size, power) in part.factors.items():
-                product[base] = size, power + product.get(base, (size, 0))[1]
-        return _Fraction(prod(x.terms for x in parts), product, inside)
+        return _product(parts, inside)
     if f.is_Pow and f.exp.is_Integer:
-        base, power = parts[0], int(f.exp)
-        if power > 0:
-            factors = {x: (size, power * n) for x, (size, n) in base.factors.items()}
-            return _Fraction(_power(base.terms, power), factors, inside)
-        numerator = _missing({x: (size, -power * n) for x, (size, n) in base.factors.items()}, {})
-        return _Fraction(
-            numerator, {f.base: (base.terms, -power)} if f.base.free_symbols else {}, inside
-        )
-    below = max((x.terms for x in parts), default=1)
-    if f.is_Pow and f.exp.is_Rational and f.exp.p < 0:
-        return _Fraction(1, {f.base ** abs(f.exp): (1, 1)}, max(inside, below))
-    return _Fraction(1, {}, max(inside, below))
+        return _integer_power(f, parts[0], inside)
+    # a root or a function: one term, whatever stands in it
+    inside = max(inside, *(x.terms for x in parts)) if parts else inside
+    is_below = f.is_Pow and f.exp.is_Rational and f.exp.p < 0
+    factors = {f.base ** abs(f.exp): (1, 1)} if is_below else {}
+    return _Fraction(1, factors, inside)
 
 
-def _missing(
-    all_factors: Mapping[Any, tuple[int, int]], factors: Mapping[Any, tuple[int, int]]
-) -> int:
+def _sum(parts: Sequence[_Fraction], inside: int) -> _Fraction:
+    """Over the least common denominator."""
+    common: dict[Any, tuple[int, int]] = {}
+    for part in parts:
+        for base, (size, power) in part.factors.items():
+            _, known = common.get(base, (size, 0))
+            common[base] = size, max(power, known)
+    terms = sum(x.terms * _missing(common, x.factors) for x in parts)
+    return _Fraction(terms, common, inside)
+
+
+def _product(parts: Sequence[_Fraction], inside: int) -> _Fraction:
+    factors: dict[Any, tuple[int, int]] = {}
+    for part in parts:
+        for base, (size, power) in part.factors.items():
+            _, known = factors.get(base, (size, 0))
+            factors[base] = size, power + known
+    return _Fraction(prod(x.terms for x in parts), factors, inside)
+
+
+def _integer_power(f: Any, base: _Fraction, inside: int) -> _Fraction:
+    exponent = int(f.exp)
+    raised = {x: (size, abs(exponent) * n) for x, (size, n) in base.factors.items()}
+    if exponent > 0:
+        return _Fraction(_power(base.terms, exponent), raised, inside)
+    # the denominator of the base comes into the numerator, and the other way round
+    below = {f.base: (base.terms, -exponent)} if f.base.free_symbols else {}
+    return _Fraction(_missing(raised, {}), below, inside)
+
+
+def _missing(all_factors: Factors, factors: Factors) -> int:
     """The terms of a denominator divided by some of its factors."""
-    return prod(
-        _power(size, power - factors.get(x, (size, 0))[1])
-        for x, (size, power) in all_factors.items()
-    )
+    found = 1
+    for x, (size, power) in all_factors.items():
+        _, present = factors.get(x, (size, 0))
+        found *= _power(size, power - present)
+    return found
 
 
 def _power(terms: int, exponent: int) -> int:

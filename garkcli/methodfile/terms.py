@@ -4,7 +4,7 @@ derivatives.
 
 from __future__ import annotations
 
-from collections.abc import Sequence
+from collections.abc import Container, Mapping, Sequence
 from dataclasses import dataclass, replace
 from typing import TYPE_CHECKING, Any
 
@@ -19,6 +19,8 @@ from garkcli.methodfile.source import Source, shortened
 
 if TYPE_CHECKING:
     from garkcli.problems.hamiltonian import Hamiltonian
+
+_SHOWN = 8  # most missing names that are told
 
 
 @dataclass(frozen=True)
@@ -106,28 +108,37 @@ class Maker:
         if node is None:
             return None
         if not self.text.are_named:
-            for name, x in self.source.mapping(node, "initial", ()).items():
-                self.formulas.rational(x, f"initial: {shortened(name)[1:-1]}")
+            self._read_unnamed(node)
             return None
         before = len(self.source.faults)
-        groups = [self.p, self.v] if self.is_lagrangian else [self.p]
-        names = [str(x) for group in (self.q, *groups) for x in group]
+        motions = [self.p, self.v] if self.is_lagrangian else [self.p]
+        names = [str(x) for group in (self.q, *motions) for x in group]
         entries = self.source.mapping(node, "initial", names)
-        values = {
-            name: self.formulas.rational(x, f"initial: {name}") for name, x in entries.items()
-        }
-        given = [group for group in groups if any(str(x) in entries for x in group)] or groups[-1:]
+        values = {}
+        for name, x in entries.items():
+            value = self.formulas.rational(x, f"initial: {name}")
+            if value is not None:
+                values[name] = value
+        given = [group for group in motions if any(str(x) in entries for x in group)]
         if len(given) > 1:
-            self.source.fault(
-                node, "initial: velocities and momenta", "give all velocities or all momenta"
-            )
+            cure = "give all velocities or all momenta"
+            self.source.fault(node, "initial: velocities and momenta", cure)
         elif len(self.source.faults) == before:
-            missing = [str(x) for x in (*self.q, *given[0]) if str(x) not in entries]
-            if missing:
-                message = f"initial: no value for {', '.join(missing[:8])}{', …' if len(missing) > 8 else ''}"
-                self.source.fault(node, message, f"give each a number, such as {missing[0]}: 1/2")
-        found = {name: x for name, x in values.items() if x is not None}
-        return found if len(self.source.faults) == before else None
+            self._refuse_missing(node, given[0] if given else motions[-1], entries)
+        return values if len(self.source.faults) == before else None
+
+    def _read_unnamed(self, node: Node) -> None:
+        """Note what is wrong with the numbers alone, where the names are not known."""
+        for name, x in self.source.mapping(node, "initial", ()).items():
+            self.formulas.rational(x, f"initial: {shortened(name)[1:-1]}")
+
+    def _refuse_missing(self, node: Node, motion: Sequence[Any], given: Container[str]) -> None:
+        """Note positions, and momenta or velocities, without a value."""
+        missing = [str(x) for x in (*self.q, *motion) if str(x) not in given]
+        if missing:
+            more = ", …" if len(missing) > _SHOWN else ""
+            message = f"initial: no value for {', '.join(missing[:_SHOWN])}{more}"
+            self.source.fault(node, message, f"give each a number, such as {missing[0]}: 1/2")
 
     def _names(self, motion: Sequence[Any], other: Sequence[Any], cure: str) -> dict[str, str]:
         """For names that may stand in a formula nothing, for others the cure."""
@@ -194,10 +205,6 @@ class Maker:
         self, lagrangians: list[_Term], start: dict[str, fmpq]
     ) -> tuple[list[_Term], dict[str, fmpq]]:
         """The Hamiltonian terms, and the start with momenta."""
-        from garkcli.problems.legendre import legendre
-        from garkcli.problems.mass import WRITE_HAMILTONIAN
-        from garkcli.problems.start import initial_momenta
-
         moving = [x for x in lagrangians if x.made.free_symbols & set(self.v)]
         if not moving:
             cure = f"the kinetic energy has {', '.join(map(str, self.v[:3]))}"
@@ -205,38 +212,55 @@ class Maker:
         has_velocities = str(self.v[0]) in start
         with ctx.workprec(BITS):
             at = {x: arb(start[str(x)]) for x in (*self.q, *self.p, *self.v) if str(x) in start}
-        known = (
-            at
-            if len(moving) == 1 or not has_velocities
-            else {x: y for x, y in at.items() if x in self.q}
-        )
-        found = []
-        for term in lagrangians:
-            unsolved = too_long(term.made, self.v)
-            if unsolved is not None:
-                message = f"{term.where}: p = ∂L/∂v was not solved for {unsolved}, it is too long"
-                self.source.fault(term.node, message, WRITE_HAMILTONIAN)
-                continue
-            try:
-                found.append(replace(term, made=legendre(term.made, self.text.variables, known)))
-            except NoLegendreTransform as error:
-                self.source.fault(term.node, f"{term.where}: {error.message}", error.help)
+        # with several moving terms the velocity of each is not q̇(0), only their sum is
+        is_one = len(moving) == 1 or not has_velocities
+        known = at if is_one else {x: at[x] for x in self.q}
+        transformed = (self._transform(term, known) for term in lagrangians)
+        found = [term for term in transformed if term is not None]
         self.source.close()
         self._check_size(found)
         self.source.close()
-        if not has_velocities:
-            return found, start
+        if has_velocities:
+            start = start | self._momenta(lagrangians, found, at, moving[0])
+        return found, start
+
+    def _transform(self, term: _Term, known: Mapping[Any, arb]) -> _Term | None:
+        """The Hamiltonian of one term; None where it is not found, which is noted."""
+        from garkcli.problems.lagrangian import legendre_transform
+        from garkcli.problems.mass import WRITE_HAMILTONIAN
+
+        unsolved = too_long(term.made, self.v)
+        if unsolved is not None:
+            message = f"{term.where}: p = ∂L/∂v was not solved for {unsolved}, it is too long"
+            self.source.fault(term.node, message, WRITE_HAMILTONIAN)
+            return None
         try:
-            made = [[x.made for x in terms] for terms in (lagrangians, found)]
-            momenta = initial_momenta(made[0], made[1], self.text.variables, at)
+            return replace(term, made=legendre_transform(term.made, self.text.variables, known))
+        except NoLegendreTransform as error:
+            self.source.fault(term.node, f"{term.where}: {error.message}", error.help)
+            return None
+
+    def _momenta(
+        self,
+        lagrangians: Sequence[_Term],
+        hamiltonians: Sequence[_Term],
+        at: Mapping[Any, arb],
+        moving: _Term,
+    ) -> dict[str, fmpq]:
+        """The momenta by name that belong to the velocities at the start."""
+        from garkcli.problems.start import initial_momenta
+
+        L, H = ([x.made for x in terms] for terms in (lagrangians, hamiltonians))
+        try:
+            momenta = initial_momenta(L, H, self.text.variables, at)
         except NoLegendreTransform as error:
             self.source.fault(self.text.initial, f"initial: {error.message}", error.help)
             self.source.close()
         if not all(x.is_finite() and x.rad() < 10.0**-PLACES for x in momenta):
-            message = f"{moving[0].where}: the momenta do not exist at the initial values"
-            self.source.fault(moving[0].node, message, "start elsewhere")
+            message = f"{moving.where}: the momenta do not exist at the initial values"
+            self.source.fault(moving.node, message, "start elsewhere")
             self.source.close()
-        return found, start | {str(x): nearby(y) for x, y in zip(self.p, momenta, strict=True)}
+        return {str(x): nearby(y) for x, y in zip(self.p, momenta, strict=True)}
 
     def _refuse_constants(self, terms: Sequence[_Term], invariants: Sequence[_Term]) -> None:
         """Note an H with which nothing moves, and invariants that are none: they are constant for

@@ -111,12 +111,12 @@ def _rods(q: tuple[Any, ...], _: tuple[Any, ...]) -> Any:
     """
     import sympy
 
-    from garkcli.problems.legendre import legendre
+    from garkcli.problems.lagrangian import legendre_transform
     from garkcli.problems.mass import velocities
 
     (a, b), (u, w) = q, velocities(("a", "b"))
     kinetic = u**2 + w**2 / 2 + u * w * sympy.cos(a - b)
-    return legendre(kinetic, ("a", "b"), dict.fromkeys(q, arb(0)))
+    return legendre_transform(kinetic, ("a", "b"), dict.fromkeys(q, arb(0)))
 
 
 _ALTERNATING = "alternating trees in which velocities do not branch"

@@ -25,6 +25,8 @@ from garkcli.problems.mass import (
 from garkcli.problems.solving import solutions
 
 _TRIES = 8  # random places where a solution is tested
+_NEAR = 50  # thousandths: how far from the start they are
+_GOOD = 1e-40  # what enclosures have to be good to, to tell that two numbers are one
 
 
 @dataclass(frozen=True)
@@ -37,6 +39,38 @@ class _Solved:
     forms: Mapping[Any, Any]
 
 
+@dataclass(frozen=True)
+class _Equations:
+    """p = ∂L/∂v for velocities that depend on each other alone.
+
+    Attributes:
+        v: the velocities.
+        p: their momenta.
+        gradient: ∂L/∂v.
+        M: ∂²L/∂v².
+        start: what is known at the start.
+    """
+
+    v: Sequence[Any]
+    p: Sequence[Any]
+    gradient: Sequence[Any]
+    M: Sequence[Sequence[Any]]
+    start: Mapping[Any, arb]
+
+    @property
+    def are_linear(self) -> bool:
+        """Whether they are linear in the velocities."""
+        moving = set(self.v)
+        return not any(x.free_symbols & moving for row in self.M for x in row)
+
+    def momenta(self, at: Mapping[Any, arb]) -> dict[Any, arb]:
+        """∂L/∂v where the velocities are known and the momenta are not."""
+        needed = set().union(*(g.free_symbols for g in self.gradient))
+        if all(x in at for x in self.p) or not needed <= set(at):
+            return {}
+        return dict(zip(self.p, enclosed(self.gradient, at), strict=True))
+
+
 def by_solving(
     L: Any,
     gradient: Sequence[Any],
@@ -44,105 +78,150 @@ def by_solving(
     variables: tuple[str, ...],
     start: Mapping[Any, arb],
 ) -> Any:
-    """The transform of a Lagrangian that is not quadratic; see ``legendre``."""
+    """The transform of a Lagrangian that is not quadratic; see ``legendre_transform``."""
     v, p = velocities(variables), symbols(variables, "p")
-    solved: dict[Any, Any] = {}
-    forms: dict[Any, Any] = {}
+    replaced: dict[Any, Any] = {}
     for block in coupled(M):
-        of, momenta = [v[i] for i in block], [p[i] for i in block]
-        own = [gradient[i] for i in block]
-        if not any(M[i][j].free_symbols & set(v) for i in block for j in block):
-            inverse, divisor = inverse_of([[M[i][j] for j in block] for i in block], of, start)
-            shifted = [
-                x - g.xreplace(dict.fromkeys(of, 0)) for x, g in zip(momenta, own, strict=True)
-            ]
-            found = [
-                _Solved(
-                    {x: y / divisor for x, y in zip(of, _times(inverse, shifted), strict=True)}, {}
-                )
-            ]
-        else:
-            found = _by_form(L, of, momenta, start)
-            found += [
-                _Solved({of[0]: x}, {})
-                for x in solutions(own[0], of[0], momenta[0])
-                if len(of) == 1
-            ]
-        right = [
-            x
-            for one in found
-            for x in _smooth(one, p)
-            if _is_right(x.velocities, own, momenta, start)
-        ]
-        if not right:
-            whose = ", ".join(map(str, of))
-            raise NoLegendreTransform(f"p = ∂L/∂v was not solved for {whose}", WRITE_HAMILTONIAN)
-        values = [
-            enclosed(list(x.velocities.values()), {**start, **_known(own, momenta, start)})
-            for x in right
-        ]
-        if not all(
-            x.overlaps(y) for other in values for x, y in zip(other, values[0], strict=True)
-        ):
+        equations = _Equations(
+            [v[i] for i in block],
+            [p[i] for i in block],
+            [gradient[i] for i in block],
+            [[M[i][j] for j in block] for i in block],
+            start,
+        )
+        solved = _solution(L, equations, p)
+        replaced |= {**solved.velocities, **solved.forms}
+    work = sum(a * replaced[x] for a, x in zip(p, v, strict=True))
+    H = work - L.xreplace(replaced)
+    derivatives = (H.diff(x) for x in (*symbols(variables, "q"), *p))
+    if not is_smooth(H) or not all(map(is_smooth, derivatives)):
+        raise NoLegendreTransform("the Hamiltonian was not found without kinks", WRITE_HAMILTONIAN)
+    return H
+
+
+def _solution(L: Any, equations: _Equations, p: Sequence[Any]) -> _Solved:
+    """The one solution that is right.
+
+    Raises:
+        NoLegendreTransform: none was found, or the start does not tell which it is.
+    """
+    right: list[_Solved] = []
+    for candidate in _candidates(L, equations):
+        smooth = _smooth(candidate, p)
+        right += [solved for solved in smooth if _is_right(solved.velocities, equations)]
+    if not right:
+        whose = ", ".join(map(str, equations.v))
+        raise NoLegendreTransform(f"p = ∂L/∂v was not solved for {whose}", WRITE_HAMILTONIAN)
+    known = {**equations.start, **equations.momenta(equations.start)}
+    first, *others = (enclosed(list(x.velocities.values()), known) for x in right)
+    for other in others:
+        if not all(x.overlaps(y) for x, y in zip(first, other, strict=True)):
             raise NoLegendreTransform(
                 "several velocities have these momenta at the start",
                 "give the initial velocities instead of momenta",
             )
-        solved |= right[0].velocities
-        forms |= right[0].forms
-    H = sum(a * solved[x] for a, x in zip(p, v, strict=True)) - L.xreplace({**solved, **forms})
-    if not is_smooth(H) or not all(is_smooth(H.diff(x)) for x in (*symbols(variables, "q"), *p)):
-        raise NoLegendreTransform("the Hamiltonian was not found without kinks", WRITE_HAMILTONIAN)
-    return H
+    return right[0]
+
+
+def _candidates(L: Any, equations: _Equations) -> list[_Solved]:
+    """What may solve the equations; some do not."""
+    if equations.are_linear:
+        return [_by_elimination(equations)]
+    found = _by_form(L, equations)
+    if len(equations.v) == 1:
+        (v,), (p,), (slope,) = equations.v, equations.p, equations.gradient
+        found += [_Solved({v: x}, {}) for x in solutions(slope, v, p)]
+    return found
+
+
+def _by_elimination(equations: _Equations) -> _Solved:
+    """Where they are linear: v = M⁻¹(p − ∂L/∂v at v = 0)."""
+    at_rest = dict.fromkeys(equations.v, 0)
+    inverse, divisor = inverse_of(equations.M, equations.v, equations.start)
+    pairs = zip(equations.p, equations.gradient, strict=True)
+    shifted = [p - slope.xreplace(at_rest) for p, slope in pairs]
+    products = _times(inverse, shifted)
+    return _Solved({v: x / divisor for v, x in zip(equations.v, products, strict=True)}, {})
 
 
 def _times(matrix: Sequence[Sequence[Any]], vector: Sequence[Any]) -> list[Any]:
     return [sum(a * x for a, x in zip(row, vector, strict=True)) for row in matrix]
 
 
-def _by_form(L: Any, v: Sequence[Any], p: Sequence[Any], start: Mapping[Any, arb]) -> list[_Solved]:
-    """The velocities where L = φ(q, a) + b(q)·v with one form a = a_0(q) + ½ v·G(q)v.
+@dataclass(frozen=True)
+class _Form:
+    """L = φ(q, a) + b(q)·v with one form a = a_0(q) + ½ v·G(q)v.
+
+    Attributes:
+        a: the form, as it stands in L.
+        symbol: what stands for it in φ.
+        G: the matrix.
+        slope: φ'(a).
+        b: of the linear part.
+        at_rest: a_0.
+    """
+
+    a: Any
+    symbol: Any
+    G: Sequence[Sequence[Any]]
+    slope: Any
+    b: Sequence[Any]
+    at_rest: Any
+
+
+def _by_form(L: Any, equations: _Equations) -> list[_Solved]:
+    """The velocities where L depends on them by one quadratic form, and linearly besides.
 
     Then p − b = φ'(a) G v, so that (p − b)·G⁻¹(p − b) = 2 φ'(a)² (a − a_0) is an equation for a
     alone.
     """
     import sympy
 
-    a, square = sympy.Dummy("a", real=True), sympy.Dummy("n", positive=True)
-    rest_of = dict.fromkeys(v, 0)
-    for form in sorted(L.atoms(sympy.Add), key=sympy.default_sort_key):
-        if not set(v) <= form.free_symbols:
-            continue
-        G = [[form.diff(x, y) for y in v] for x in v]
-        if any(x.free_symbols & set(v) for row in G for x in row):
-            continue
-        phi = L.xreplace({form: a})
-        b = [phi.diff(x) for x in v]
-        if any(x.free_symbols & {a, *v} for x in b) or any(
-            form.diff(x).xreplace(rest_of) != 0 for x in v
-        ):
+    candidates = sorted(L.atoms(sympy.Add), key=sympy.default_sort_key)
+    for candidate in candidates:
+        form = _form(L, candidate, equations.v)
+        if form is None:
             continue
         try:
-            inverse, divisor = inverse_of(G, v, start)
+            inverse, divisor = inverse_of(form.G, equations.v, equations.start)
         except NoLegendreTransform:
             continue
-        slope = phi.xreplace(rest_of).diff(a)
-        shifted = [x - y for x, y in zip(p, b, strict=True)]
+        shifted = [p - b for p, b in zip(equations.p, form.b, strict=True)]
         raised = [x / divisor for x in _times(inverse, shifted)]
         # a symbol for the square of the momenta keeps sympy from mixing it up with the rest
+        square = sympy.Dummy("n", positive=True)
         norm = {square: sum(x * y for x, y in zip(shifted, raised, strict=True))}
-        values = solutions(2 * slope**2 * (a - form.xreplace(rest_of)), a, square)
-        return [
-            _Solved(
-                {
-                    x: y / slope.xreplace({a: value}).xreplace(norm)
-                    for x, y in zip(v, raised, strict=True)
-                },
-                {form: value.xreplace(norm)},
-            )
-            for value in values
-        ]
+        equation = 2 * form.slope**2 * (form.symbol - form.at_rest)
+        found = []
+        for value in solutions(equation, form.symbol, square):
+            slope = form.slope.xreplace({form.symbol: value}).xreplace(norm)
+            made = {v: x / slope for v, x in zip(equations.v, raised, strict=True)}
+            found.append(_Solved(made, {form.a: value.xreplace(norm)}))
+        return found
     return []
+
+
+def _form(L: Any, a: Any, v: Sequence[Any]) -> _Form | None:
+    """L by its part ``a``; None where that is no quadratic form that has all velocities, or where
+    they occur besides it other than linearly.
+    """
+    import sympy
+
+    moving, at_rest = set(v), dict.fromkeys(v, 0)
+    if not moving <= a.free_symbols:
+        return None
+    slopes = [a.diff(x) for x in v]
+    G = [[slope.diff(y) for y in v] for slope in slopes]
+    is_quadratic = not any(x.free_symbols & moving for row in G for x in row)
+    is_even = all(slope.xreplace(at_rest) == 0 for slope in slopes)
+    symbol = sympy.Dummy("a", real=True)
+    phi = L.xreplace({a: symbol})
+    b = [phi.diff(x) for x in v]
+    is_apart = not any(x.free_symbols & {symbol, *v} for x in b)
+    if not (is_quadratic and is_even and is_apart):
+        return None
+    slope = phi.xreplace(at_rest).diff(symbol)
+    return _Form(a, symbol, G, slope, b, a.xreplace(at_rest))
 
 
 def _smooth(solved: _Solved, p: Sequence[Any]) -> list[_Solved]:
@@ -162,46 +241,51 @@ def _smooth(solved: _Solved, p: Sequence[Any]) -> list[_Solved]:
         return [solved]
     if any(x.free_symbols - set(p) for x in kinks):
         return []
-    return [
-        _Solved(
-            *(
-                {x: y.replace(sympy.Abs, lambda u, s=sign: s * u) for x, y in of.items()}
-                for of in (solved.velocities, solved.forms)
-            )
-        )
-        for sign in (1, -1)
-    ]
+    return [_with_sign(solved, sign) for sign in (1, -1)]
 
 
-def _is_right(
-    solved: Mapping[Any, Any], gradient: Sequence[Any], p: Sequence[Any], start: Mapping[Any, arb]
-) -> bool:
+def _with_sign(solved: _Solved, sign: int) -> _Solved:
+    """The same with ``sign`` · y for |y|."""
+    import sympy
+
+    def signed(of: Mapping[Any, Any]) -> dict[Any, Any]:
+        return {x: y.replace(sympy.Abs, lambda u: sign * u) for x, y in of.items()}
+
+    return _Solved(signed(solved.velocities), signed(solved.forms))
+
+
+def _is_right(solved: Mapping[Any, Any], equations: _Equations) -> bool:
     """Whether ∂L/∂v(q, v(q, p)) is p, and v(q, p) the velocity at the start, wherever it is
-    tested.
+    tested: at the start, and at most of some places near it.
     """
     draw = Draw(1)
-    tested = 0
-    for k in range(_TRIES):
+    if _agrees(solved, equations, equations.start) is not True:
+        return False
+    tested = 1
+    for _ in range(_TRIES - 1):
         with ctx.workprec(BITS):
-            near = {x: start[x] + arb(fmpq(draw.between(-50, 50) if k else 0, 1000)) for x in start}
-        at = near | _known(gradient, p, near)
-        if not all(x in at for x in p):
+            near = {
+                x: y + arb(fmpq(draw.between(-_NEAR, _NEAR), 1000))
+                for x, y in equations.start.items()
+            }
+        found = _agrees(solved, equations, near)
+        if found is False:
             return False
-        found = dict(zip(solved, enclosed(list(solved.values()), at), strict=True))
-        back = enclosed(gradient, {**at, **found})
-        pairs = [(y, at[x]) for x, y in zip(p, back, strict=True)]
-        pairs += [(found[x], at[x]) for x in solved if x in at]
-        if all(x.is_finite() for pair in pairs for x in pair):
-            if not all(x.overlaps(y) and x.rad() + y.rad() < 1e-40 for x, y in pairs):
-                return False
-            tested += 1
-        elif not k:
-            return False
+        tested += found is True
     return tested > _TRIES // 2
 
 
-def _known(gradient: Sequence[Any], p: Sequence[Any], at: Mapping[Any, arb]) -> dict[Any, arb]:
-    """The momenta ∂L/∂v where the velocities are known."""
-    if all(x in at for x in p) or not all(x in at for g in gradient for x in g.free_symbols):
-        return {}
-    return dict(zip(p, enclosed(gradient, at), strict=True))
+def _agrees(
+    solved: Mapping[Any, Any], equations: _Equations, place: Mapping[Any, arb]
+) -> bool | None:
+    """Whether the equations hold at one place; None where something has no value there."""
+    at = {**place, **equations.momenta(place)}
+    if not all(x in at for x in equations.p):
+        return False
+    found = dict(zip(solved, enclosed(list(solved.values()), at), strict=True))
+    back = enclosed(equations.gradient, {**at, **found})
+    pairs = [(y, at[x]) for x, y in zip(equations.p, back, strict=True)]
+    pairs += [(found[x], at[x]) for x in solved if x in at]
+    if not all(x.is_finite() for pair in pairs for x in pair):
+        return None
+    return all(x.overlaps(y) and x.rad() + y.rad() < _GOOD for x, y in pairs)

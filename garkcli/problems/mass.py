@@ -34,7 +34,7 @@ def coupled(M: Sequence[Sequence[Any]]) -> list[list[int]]:
 
 
 def inverse_of(
-    M: list[list[Any]], names: Sequence[Any], start: Mapping[Any, arb]
+    M: Sequence[Sequence[Any]], names: Sequence[Any], start: Mapping[Any, arb]
 ) -> tuple[list[list[Any]], Any]:
     """The inverse of a symmetric matrix as a matrix and its divisor: the adjugate and the
     determinant, or 1.
@@ -44,9 +44,8 @@ def inverse_of(
     """
     import sympy
 
-    n, whose = len(M), ", ".join(map(str, names))
     singular = NoLegendreTransform(
-        f"the mass matrix of {whose} is singular",
+        f"the mass matrix of {', '.join(map(str, names))} is singular",
         "each velocity needs a kinetic energy of its own in this term",
     )
     if all(x.is_Rational for row in M for x in row):
@@ -55,37 +54,59 @@ def inverse_of(
             raise singular
         rows = matrix.inv().tolist()
         return [[sympy.Rational(int(x.p), int(x.q)) for x in row] for row in rows], sympy.Integer(1)
-    if n > MAX_COUPLED:
+    if len(M) > MAX_COUPLED:
         raise NoLegendreTransform(
-            f"a mass matrix of {n} coupled velocities that is not constant (limit {MAX_COUPLED})",
+            f"a mass matrix of {len(M)} coupled velocities that is not constant "
+            f"(limit {MAX_COUPLED})",
             WRITE_HAMILTONIAN,
         )
-    minors: dict[tuple[tuple[int, ...], tuple[int, ...]], Any] = {}
-
-    def minor(rows: tuple[int, ...], columns: tuple[int, ...]) -> Any:
-        if not rows:
-            return sympy.Integer(1)
-        if (rows, columns) not in minors:
-            minors[rows, columns] = sum(
-                (-1) ** k * M[rows[0]][j] * minor(rows[1:], columns[:k] + columns[k + 1 :])
-                for k, j in enumerate(columns)
-            )
-        return minors[rows, columns]
-
-    every = tuple(range(n))
-    det = minor(every, every)
+    minors = _Minors(M)
+    det = minors.determinant()
     if det == 0 or enclosed([det], start)[0].contains(0):
         raise singular
+    return minors.adjugate(), det
 
-    def without(i: int) -> tuple[int, ...]:
-        return every[:i] + every[i + 1 :]
 
-    # the adjugate is symmetric: one of each pair of entries, written once
-    adjugate = [
-        [(-1) ** (i + j) * minor(without(min(i, j)), without(max(i, j))) for j in every]
-        for i in every
-    ]
-    return adjugate, det
+class _Minors:
+    """The minors of a symmetric matrix, each computed once."""
+
+    def __init__(self, M: Sequence[Sequence[Any]]) -> None:
+        self._M = M
+        self._every = tuple(range(len(M)))
+        self._known: dict[tuple[tuple[int, ...], tuple[int, ...]], Any] = {}
+
+    def determinant(self) -> Any:
+        """That of the matrix."""
+        return self._of(self._every, self._every)
+
+    def adjugate(self) -> list[list[Any]]:
+        """The determinant times the inverse. It is symmetric: one of each pair of entries, written once."""
+        rows = []
+        for i in self._every:
+            row = []
+            for j in self._every:
+                minor = self._of(self._without(min(i, j)), self._without(max(i, j)))
+                row.append((-1) ** (i + j) * minor)
+            rows.append(row)
+        return rows
+
+    def _of(self, rows: tuple[int, ...], columns: tuple[int, ...]) -> Any:
+        """The determinant of some rows and columns, by its first row."""
+        import sympy
+
+        if not rows:
+            return sympy.Integer(1)
+        if (rows, columns) not in self._known:
+            first, *others = rows
+            total = 0
+            for k, j in enumerate(columns):
+                rest = self._of(tuple(others), columns[:k] + columns[k + 1 :])
+                total += (-1) ** k * self._M[first][j] * rest
+            self._known[rows, columns] = total
+        return self._known[rows, columns]
+
+    def _without(self, i: int) -> tuple[int, ...]:
+        return self._every[:i] + self._every[i + 1 :]
 
 
 def enclosed(expressions: Sequence[Any], at: Mapping[Any, arb]) -> list[arb]:

@@ -79,22 +79,9 @@ def _by_polynomial(f: Any, u: Any) -> list[Any]:
     """
     import sympy
 
-    numerator = f.as_numer_denom()[0]
-    roots = [
-        x
-        for x in numerator.atoms(sympy.Pow)
-        if u in x.free_symbols and x.exp.is_Rational and x.exp.q == 2
-    ]
-    if roots:
-        base = roots[0].base
-        if any(x.base != base for x in roots):
-            return []
-        r = sympy.Dummy("r")
-        replaced = numerator.xreplace({x: r**x.exp.p for x in roots})
-        even, odd = _parts(sympy.together(replaced).as_numer_denom()[0], r, base)
-        if even is None:
-            return []
-        numerator = even**2 - base * odd**2
+    numerator = _without_root(f.as_numer_denom()[0], u)
+    if numerator is None:
+        return []
     try:
         polynomial = sympy.Poly(sympy.expand(numerator), u)
     except sympy.PolynomialError:
@@ -102,27 +89,44 @@ def _by_polynomial(f: Any, u: Any) -> list[Any]:
     coefficients = dict(polynomial.terms())
     if any(u in x.free_symbols for x in coefficients.values()):
         return []
+
+    def coefficient(n: int) -> Any:
+        return coefficients.get((n,), sympy.Integer(0))
+
     degrees = {n for (n,) in coefficients}
     if degrees <= {0, 1, 2}:
-        return _quadratic(*(coefficients.get((n,), sympy.Integer(0)) for n in (2, 1, 0)))
+        return _quadratic(coefficient(2), coefficient(1), coefficient(0))
     if degrees <= {0, 2, 4}:
-        squares = _quadratic(*(coefficients.get((n,), sympy.Integer(0)) for n in (4, 2, 0)))
+        squares = _quadratic(coefficient(4), coefficient(2), coefficient(0))
         return [sign * sympy.sqrt(x) for x in squares for sign in (1, -1)]
     return []
 
 
-def _parts(f: Any, r: Any, square: Any) -> tuple[Any, Any]:
-    """P and Q with f = P + r Q where r² is ``square``; None where f is no polynomial in r."""
+def _without_root(f: Any, u: Any) -> Any:
+    """What is zero where f = P + Q √S is: P² − S Q². f itself where it has no root of u, and None
+    where it has several, or is no polynomial in its root.
+    """
     import sympy
 
+    powers = [x for x in f.atoms(sympy.Pow) if u in x.free_symbols and x.exp.is_Rational]
+    roots = [x for x in powers if x.exp.q == 2]
+    if not roots:
+        return f
+    square = roots[0].base
+    if any(x.base != square for x in roots):
+        return None
+    r = sympy.Dummy("r")
+    replaced = f.xreplace({x: r**x.exp.p for x in roots})
+    numerator = sympy.together(replaced).as_numer_denom()[0]
     try:
-        terms = sympy.Poly(sympy.expand(f), r).terms()
+        terms = sympy.Poly(sympy.expand(numerator), r).terms()
     except sympy.PolynomialError:
-        return None, None
-    even, odd = (
-        sympy.Add(*(c * square ** (n // 2) for (n,), c in terms if n % 2 == k)) for k in (0, 1)
-    )
-    return even, odd
+        return None
+    parts: tuple[list[Any], list[Any]] = ([], [])  # of P and of Q
+    for (n,), coefficient in terms:
+        parts[n % 2].append(coefficient * square ** (n // 2))
+    P, Q = (sympy.Add(*x) for x in parts)
+    return P**2 - square * Q**2
 
 
 def _quadratic(a: Any, b: Any, c: Any) -> list[Any]:

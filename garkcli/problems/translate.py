@@ -171,36 +171,67 @@ def size_of_derivatives(expression: Any) -> int:
     >>> size_of_derivatives(x + y), size_of_derivatives(x * y)
     (0, 6)
     """
-    return _sizes(expression, {})[3]
+    return _sizes(expression, {}).second
 
 
-def _sizes(x: Any, known: dict[Any, tuple[int, int, int, int]]) -> tuple[int, int, int, int]:
-    """Operations of x, number of its symbols, operations of its first and of its second derivatives
-    in all.
+@dataclass(frozen=True)
+class _Sizes:
+    """How long an expression and its derivatives are.
+
+    Attributes:
+        own: operations of the expression.
+        symbols: the number of its symbols.
+        first: operations of its first derivatives in all.
+        second: of its second derivatives in all.
     """
+
+    own: int
+    symbols: int
+    first: int
+    second: int
+
+
+def _sizes(x: Any, known: dict[Any, _Sizes]) -> _Sizes:
+    """The sizes of x; ``known`` are those of parts."""
     if x not in known:
         known[x] = _sizes_of(x, known)
     return known[x]
 
 
-def _sizes_of(x: Any, known: dict[Any, tuple[int, int, int, int]]) -> tuple[int, int, int, int]:
+def _sizes_of(x: Any, known: dict[Any, _Sizes]) -> _Sizes:
     n = len(x.free_symbols)
     if not x.args:
-        return 1, n, n, 0
+        return _Sizes(1, n, first=n, second=0)
     if not n:
-        return 1, 0, 0, 0
+        return _Sizes(1, 0, first=0, second=0)
     parts = [_sizes(y, known) for y in x.args]
-    size = 1 + sum(s for s, *_ in parts)
     if x.is_Add:
-        return size, n, sum(a for _, _, a, _ in parts), sum(b for *_, b in parts)
+        size = 1 + sum(y.own for y in parts)
+        first, second = sum(y.first for y in parts), sum(y.second for y in parts)
+        return _Sizes(size, n, first, second)
     if x.is_Mul:
-        first = sum(a + k * (size - s) for s, k, a, _ in parts if k)
-        # a term for each pair of factors that are differentiated, or one factor twice
-        symbols, slopes = sum(k for _, k, *_ in parts), sum(a for _, _, a, _ in parts)
-        second = sum(b + (k * k * (size - s) if b else 0) for s, k, _, b in parts)
-        second += sum(2 * a * (symbols - k) for _, k, a, _ in parts)
-        second += sum(k * (symbols - k) * max(size - 2 * s, 0) for s, k, *_ in parts)
-        return size, n, first, second if slopes else 0
-    # f(u): f'' u_a u_b + f' u_ab
-    inner, k, a, b = (sum(part[i] for part in parts) for i in range(4))
-    return size, n, a + k * (inner + 3), b + 2 * k * k * (inner + 3) + 2 * k * a
+        return _sizes_of_product(n, parts)
+    # f(u): f'' u_a u_b + f' u_ab, with f' and f'' three operations longer than u
+    outer = 3 + sum(y.own for y in parts)
+    k = sum(y.symbols for y in parts)
+    slopes = sum(y.first for y in parts)
+    second = sum(y.second for y in parts) + 2 * k * k * outer + 2 * k * slopes
+    return _Sizes(outer - 2, n, slopes + k * outer, second)
+
+
+def _sizes_of_product(n: int, factors: list[_Sizes]) -> _Sizes:
+    """A product with n symbols: its second derivatives have a term for each pair of factors that
+    are differentiated, or one factor twice.
+    """
+    size = 1 + sum(y.own for y in factors)
+    symbols, slopes = sum(y.symbols for y in factors), sum(y.first for y in factors)
+    first = second = 0
+    for y in factors:
+        k, others = y.symbols, symbols - y.symbols
+        if k:
+            first += y.first + k * (size - y.own)
+        if y.second:
+            second += y.second + k * k * (size - y.own)
+        second += 2 * y.first * others
+        second += k * others * max(size - 2 * y.own, 0)
+    return _Sizes(size, n, first, second if slopes else 0)

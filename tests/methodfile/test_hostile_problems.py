@@ -72,10 +72,10 @@ REFUSED = {
         "more than 2000 operations",
     ),
     "variables": (
-        problem(", ".join(f"x{i}" for i in range(60_000)), "hamiltonian", "1", "x: 1"),
-        "60000 variables",
+        problem(", ".join(f"x{i}" for i in range(40_000)), "hamiltonian", "1", "x: 1"),
+        "40000 variables",
     ),
-    "terms": (one("[" + "0, " * 60_000 + "]"), "60000 terms"),
+    "terms": (one("[" + "0, " * 40_000 + "]"), "40000 terms"),
     "invariants": (
         one("px**2", "invariants: {" + ", ".join(f"j{i}: x" for i in range(99)) + "}"),
         "99 invariants",

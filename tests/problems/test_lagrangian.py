@@ -15,7 +15,7 @@ from sympy import Rational, cos, cosh, exp, log, sin, sqrt
 
 from garkcli.errors import NoLegendreTransform
 from garkcli.problems.hamiltonian import symbols
-from garkcli.problems.legendre import legendre
+from garkcli.problems.lagrangian import legendre_transform
 from garkcli.problems.mass import enclosed, velocities
 from garkcli.problems.solving import solutions
 from garkcli.problems.start import initial_momenta, missing_derivative
@@ -66,9 +66,9 @@ def test_quadratic_lagrangians_are_transformed_exactly(
     hessian = sympy.Matrix([[L.diff(a, b).xreplace(q) for a in v] for b in v])
     if hessian.det() == 0:
         with pytest.raises(NoLegendreTransform, match="singular"):
-            legendre(L, variables, balls(q))
+            legendre_transform(L, variables, balls(q))
         return
-    H = legendre(L, variables, balls(q))
+    H = legendre_transform(L, variables, balls(q))
     p = {x: L.diff(y).xreplace({**q, **v}) for x, y in zip(p_symbols, v, strict=True)}
     at = {**q, **p}
     assert [H.diff(x).xreplace(at) for x in p] == list(v.values())
@@ -89,7 +89,7 @@ def test_chains_of_pendulums(coupled: int) -> None:
         for j in range(coupled)
     ) + sum(cos(x) for x in q)
     start = {x: Rational(k, 7) for k, x in enumerate((*q, *v), 1)}
-    H = legendre(L, variables, {x: y for x, y in balls(start).items() if x in q})
+    H = legendre_transform(L, variables, {x: y for x, y in balls(start).items() if x in q})
     at = balls(start)
     momenta = dict(zip(p, enclosed([L.diff(x) for x in v], at), strict=True))
     back = enclosed([H.diff(x) for x in p], {**at, **momenta})
@@ -126,9 +126,9 @@ def test_other_lagrangians(L: Any, d: int, knows_velocities: bool) -> None:
     start = at if knows_velocities else {x: y for x, y in (at | momenta).items() if x not in v}
     if not knows_velocities and L.has(VX**3):
         with pytest.raises(NoLegendreTransform, match="several velocities"):
-            legendre(L, variables, start)
+            legendre_transform(L, variables, start)
         return
-    H = legendre(L, variables, start)
+    H = legendre_transform(L, variables, start)
     assert not H.free_symbols & set(v)
     elsewhere = balls({x: y + Rational(k, 17) for k, (x, y) in enumerate(values.items(), 1)})
     momenta = dict(zip(p, enclosed([L.diff(x) for x in v], elsewhere), strict=True))
@@ -157,7 +157,7 @@ def test_what_has_no_transform_is_refused(L: Any, message: str) -> None:
     """Degenerate mass matrices, and what is not solved in closed form."""
     start = balls({X: Rational(3, 10), Y: Rational(7, 10), VX: Rational(1, 2), VY: Rational(1, 5)})
     with pytest.raises(NoLegendreTransform) as caught:
-        legendre(L, ("x", "y"), start)
+        legendre_transform(L, ("x", "y"), start)
     assert message in caught.value.message
     assert caught.value.help
 
@@ -170,9 +170,11 @@ def test_too_many_coupled_velocities_are_refused() -> None:
     q, v = symbols(variables, "q"), velocities(variables)
     start = dict.fromkeys(q, arb(0))
     constant = sum((x + y) ** 2 for x in v for y in v)
-    assert legendre(constant, variables, start).free_symbols == set(symbols(variables, "p"))
+    assert legendre_transform(constant, variables, start).free_symbols == set(
+        symbols(variables, "p")
+    )
     with pytest.raises(NoLegendreTransform, match="6 coupled velocities"):
-        legendre(constant + cos(q[0]) * v[0] ** 2, variables, start)
+        legendre_transform(constant + cos(q[0]) * v[0] ** 2, variables, start)
 
 
 def test_terms_have_velocities_of_their_own() -> None:
@@ -181,10 +183,10 @@ def test_terms_have_velocities_of_their_own() -> None:
     """
     variables, (x,), (v,), (p,) = names(1)
     start = {x: arb(0)}
-    one, other = (legendre(v**2 / 2, variables, start) for _ in range(2))
+    one, other = (legendre_transform(v**2 / 2, variables, start) for _ in range(2))
     assert (one + other).diff(p) == 2 * p
-    assert legendre(v**2, variables, start).diff(p) == p / 2
-    assert legendre(-cos(x), variables, start) == cos(x)
+    assert legendre_transform(v**2, variables, start).diff(p) == p / 2
+    assert legendre_transform(-cos(x), variables, start) == cos(x)
 
 
 def test_momenta_of_velocities() -> None:
@@ -194,14 +196,14 @@ def test_momenta_of_velocities() -> None:
     terms = [v**2 / 2, -cos(x)]
     assert initial_momenta(terms, [p**2 / 2, cos(x)], variables, at)[0].overlaps(arb(3))
     terms = [(1 + x**2) * v**2 / 2 + x * v, v**2]
-    H = [legendre(L, variables, at) for L in terms]
+    H = [legendre_transform(L, variables, at) for L in terms]
     (found,) = initial_momenta(terms, H, variables, at)
     rate = enclosed([sum(H).diff(p)], {x: at[x], p: found})[0]
     assert rate.overlaps(arb(3))
     assert rate.rad() < 1e-60
     with pytest.raises(NoLegendreTransform) as caught:
         initial_momenta(
-            [v**2, cosh(v)], [p**2 / 4, legendre(cosh(v), variables, at)], variables, at
+            [v**2, cosh(v)], [p**2 / 4, legendre_transform(cosh(v), variables, at)], variables, at
         )
     assert "momenta" in caught.value.help
 

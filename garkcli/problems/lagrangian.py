@@ -9,8 +9,7 @@ semi-separable and separable cases).
 
 from __future__ import annotations
 
-from collections.abc import Mapping
-from itertools import product
+from collections.abc import Mapping, Sequence
 from typing import Any
 
 from flint import arb
@@ -21,7 +20,7 @@ from garkcli.problems.inversion import by_solving
 from garkcli.problems.mass import coupled, inverse_of, velocities
 
 
-def legendre(L: Any, variables: tuple[str, ...], start: Mapping[Any, arb]) -> Any:
+def legendre_transform(L: Any, variables: tuple[str, ...], start: Mapping[Any, arb]) -> Any:
     """The Hamiltonian of a Lagrangian, sympy expressions both.
 
     Lagrangians that are quadratic in the velocities are transformed exactly: with L = ½ v·Mv + b·v
@@ -41,11 +40,9 @@ def legendre(L: Any, variables: tuple[str, ...], start: Mapping[Any, arb]) -> An
 
     >>> from sympy import cos
     >>> (x,), (v,) = symbols(("x",), "q"), velocities(("x",))
-    >>> legendre(v**2 / 2 - cos(x), ("x",), {x: arb(0)})
+    >>> legendre_transform(v**2 / 2 - cos(x), ("x",), {x: arb(0)})
     px**2/2 + cos(x)
     """
-    import sympy
-
     v = velocities(variables)
     present = [x for x in v if x in L.free_symbols]
     if not present:
@@ -53,21 +50,40 @@ def legendre(L: Any, variables: tuple[str, ...], start: Mapping[Any, arb]) -> An
     if len(present) < len(v):
         missing = ", ".join(str(x) for x in v if x not in present)
         raise NoLegendreTransform(
-            f"the mass matrix is singular: {missing} does not occur beside {', '.join(map(str, present))}",
-            f"each term has all velocities or none; move {missing} into this term, or write the Hamiltonian",
+            f"the mass matrix is singular: {missing} does not occur beside "
+            f"{', '.join(map(str, present))}",
+            f"each term has all velocities or none; move {missing} into this term, "
+            f"or write the Hamiltonian",
         )
     gradient = [L.diff(x) for x in v]
     M = [[g.diff(x) for x in v] for g in gradient]
-    if any(entry.free_symbols & set(v) for row in M for entry in row):
+    moving = set(v)
+    if any(entry.free_symbols & moving for row in M for entry in row):
         return by_solving(L, gradient, M, variables, start)
-    rest = dict.fromkeys(v, 0)
-    shifted = [p - g.xreplace(rest) for p, g in zip(symbols(variables, "p"), gradient, strict=True)]
-    H = [-L.xreplace(rest)]
+    return _of_quadratic(L, gradient, M, variables, start)
+
+
+def _of_quadratic(
+    L: Any,
+    gradient: Sequence[Any],
+    M: Sequence[Sequence[Any]],
+    variables: tuple[str, ...],
+    start: Mapping[Any, arb],
+) -> Any:
+    """H = ½ (p − b)·M⁻¹(p − b) − c, block by block of M."""
+    import sympy
+
+    v, p = velocities(variables), symbols(variables, "p")
+    at_rest = dict.fromkeys(v, 0)
+    shifted = [x - slope.xreplace(at_rest) for x, slope in zip(p, gradient, strict=True)]
+    H = [-L.xreplace(at_rest)]
     for block in coupled(M):
-        inverse, divisor = inverse_of(
-            [[M[i][j] for j in block] for i in block], [v[i] for i in block], start
-        )
-        pairs = product(enumerate(block), repeat=2)
-        form = sympy.Add(*(inverse[a][b] * shifted[i] * shifted[j] for (a, i), (b, j) in pairs))
-        H.append(form / (2 * divisor))
+        own = [[M[i][j] for j in block] for i in block]
+        inverse, divisor = inverse_of(own, [v[i] for i in block], start)
+        products = [
+            inverse[a][b] * shifted[i] * shifted[j]
+            for a, i in enumerate(block)
+            for b, j in enumerate(block)
+        ]
+        H.append(sympy.Add(*products) / (2 * divisor))
     return sympy.Add(*H)
