@@ -9,54 +9,73 @@ from importlib import import_module
 from typing import TYPE_CHECKING, Any
 
 if TYPE_CHECKING:
-    from garkcli.check.analysis import analyse
+    from garkcli.api.arguments import of_methods
+    from garkcli.api.arrays import from_arrays
+    from garkcli.api.construction import diagonal_method, gark
+    from garkcli.api.methods import analyse, conjugate, find_order, is_symplectic, method_of, pair
     from garkcli.check.check_file import check_file
-    from garkcli.convergence.convergence import converge
-    from garkcli.families.registry import diagonal_method
-    from garkcli.longtime.energy import drift
-    from garkcli.longtime.longtime import follow
-    from garkcli.longtime.symplecticity import defects
+    from garkcli.convergence import convergence as _convergence
+    from garkcli.errors import GarkError, MethodFileError
+    from garkcli.longtime import energy as _energy
+    from garkcli.longtime import longtime as _longtime
+    from garkcli.longtime import symplecticity as _symplecticity
+    from garkcli.methodfile.build import MethodFile
     from garkcli.methodfile.load import load, loads
     from garkcli.methodfile.problem import load_problem, loads_problem
-    from garkcli.order.certificate import find_order
-    from garkcli.order.conditions import conditions, elementary_weight
-    from garkcli.order.simplifying import simplifying
+    from garkcli.order import conditions as _conditions
+    from garkcli.order import simplifying as _simplifying
     from garkcli.problems.builtin import hamiltonian
     from garkcli.problems.oscillator import Oscillator
-    from garkcli.stepping.integrator import bind
+    from garkcli.stepping import integrator as _integrator
     from garkcli.stepping.step import integrate, trajectory
-    from garkcli.tableau.conjugate import conjugate, is_symplectic
-    from garkcli.tableau.forms import gark, pair, symplectic_pair
+    from garkcli.tableau import forms as _forms
+    from garkcli.tableau.garkmethod import GarkMethod
     from garkcli.tableau.tableau import Tableau
     from garkcli.trees.notation import format_tree, parse_tree
     from garkcli.trees.tree import Tree
 
+    bind = of_methods(_integrator.bind)
+    conditions = of_methods(_conditions.conditions)
+    converge = of_methods(_convergence.converge)
+    defects = of_methods(_symplecticity.defects)
+    drift = of_methods(_energy.drift)
+    elementary_weight = of_methods(_conditions.elementary_weight)
+    follow = of_methods(_longtime.follow)
+    simplifying = of_methods(_simplifying.simplifying)
+    symplectic_pair = of_methods(_forms.symplectic_pair)
+
 __version__ = "0.1.0"
 
 _HOMES = {
-    "analyse": "check.analysis",
-    "check_file": "check.check_file",
+    "analyse": "api.methods",
     "bind": "stepping.integrator",
+    "check_file": "check.check_file",
     "conditions": "order.conditions",
-    "conjugate": "tableau.conjugate",
+    "conjugate": "api.methods",
     "converge": "convergence.convergence",
     "defects": "longtime.symplecticity",
-    "diagonal_method": "families.registry",
+    "diagonal_method": "api.construction",
     "drift": "longtime.energy",
     "elementary_weight": "order.conditions",
-    "find_order": "order.certificate",
+    "find_order": "api.methods",
     "follow": "longtime.longtime",
     "format_tree": "trees.notation",
-    "gark": "tableau.forms",
+    "from_arrays": "api.arrays",
+    "gark": "api.construction",
+    "GarkError": "errors",
+    "GarkMethod": "tableau.garkmethod",
     "hamiltonian": "problems.builtin",
     "integrate": "stepping.step",
-    "is_symplectic": "tableau.conjugate",
+    "is_symplectic": "api.methods",
     "load": "methodfile.load",
     "load_problem": "methodfile.problem",
     "loads": "methodfile.load",
     "loads_problem": "methodfile.problem",
+    "method_of": "api.methods",
+    "MethodFile": "methodfile.build",
+    "MethodFileError": "errors",
     "Oscillator": "problems.oscillator",
-    "pair": "tableau.forms",
+    "pair": "api.methods",
     "parse_tree": "trees.notation",
     "simplifying": "order.simplifying",
     "symplectic_pair": "tableau.forms",
@@ -64,8 +83,28 @@ _HOMES = {
     "trajectory": "stepping.step",
     "Tree": "trees.tree",
 }
+"""The module that each public name comes from."""
+
+_OF_METHODS = frozenset(
+    {
+        "bind",
+        "conditions",
+        "converge",
+        "defects",
+        "drift",
+        "elementary_weight",
+        "follow",
+        "simplifying",
+        "symplectic_pair",
+    }
+)
+"""Functions of tableaus, which are handed out as functions of whatever has a tableau."""
 
 __all__ = [
+    "GarkError",
+    "GarkMethod",
+    "MethodFile",
+    "MethodFileError",
     "Oscillator",
     "Tableau",
     "Tree",
@@ -82,6 +121,7 @@ __all__ = [
     "find_order",
     "follow",
     "format_tree",
+    "from_arrays",
     "gark",
     "hamiltonian",
     "integrate",
@@ -90,6 +130,7 @@ __all__ = [
     "load_problem",
     "loads",
     "loads_problem",
+    "method_of",
     "pair",
     "parse_tree",
     "simplifying",
@@ -101,4 +142,12 @@ __all__ = [
 def __getattr__(name: str) -> Any:
     if name not in _HOMES:
         raise AttributeError(f"module 'garkcli' has no attribute {name!r}")
-    return getattr(import_module(f"garkcli.{_HOMES[name]}"), name)
+    value = getattr(import_module(f"garkcli.{_HOMES[name]}"), name)
+    if name in _OF_METHODS:
+        value = import_module("garkcli.api.arguments").of_methods(value)
+    globals()[name] = value  # the next use finds it at once
+    return value
+
+
+def __dir__() -> list[str]:
+    return sorted({*globals(), *__all__})

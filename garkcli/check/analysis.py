@@ -27,7 +27,7 @@ AnyOrder: TypeAlias = Union[Order, "RoundedOrder"]
 """
 
 
-@dataclass(frozen=True)
+@dataclass(frozen=True, repr=False)
 class Analysis:
     """The truth about a tableau, its symplectic conjugate, and their pair.
 
@@ -71,6 +71,14 @@ class Analysis:
     limit: int
     tolerance: fmpq | None = None
     suggestion: Suggestion | None = None
+
+    def __repr__(self) -> str:
+        orders = [f"order {self.order.order}"]
+        if self.conjugate_order is not None:
+            orders.append(f"conjugate {self.conjugate_order.order}")
+        if self.pair_order is not None:
+            orders.append(f"pair {self.pair_order.order}")
+        return f"<Analysis {', '.join(orders)}>"
 
 
 def analyse(

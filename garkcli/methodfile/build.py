@@ -6,7 +6,6 @@ from collections.abc import Callable, Mapping
 from dataclasses import dataclass
 from typing import TypeAlias, TypeVar
 
-from flint import fmpq
 from yaml.nodes import Node
 
 from garkcli.errors import GarkError, MethodError, MethodFileError, ShapeMismatch
@@ -40,6 +39,7 @@ from garkcli.tableau.forms import (
     symplectic_pair,
     with_linear,
 )
+from garkcli.tableau.garkmethod import GarkMethod
 from garkcli.tableau.method import Method, butcher
 from garkcli.tableau.stages import PolynomialSpace, StageSpace
 from garkcli.tableau.tableau import Tableau
@@ -49,30 +49,24 @@ T = TypeVar("T")
 Blocks: TypeAlias = dict[tuple[int, int], Matrix]
 
 
-@dataclass(frozen=True)
-class MethodFile:
-    """One method file, read.
+@dataclass(frozen=True, repr=False, kw_only=True)
+class MethodFile(GarkMethod):
+    """One method file, read: the method that it describes, and what else it says.
 
     Attributes:
         source: the path as given, or ``<stdin>``.
         text: the file as it was read.
-        name: the name it gives, or its path.
-        tableau: the method that its order conditions are about.
         form: which of the four forms the coefficients have.
         structure: which vector fields the problem has.
         is_conjugate: whether the file describes the conjugate of what it spells out.
-        tolerance: the rounding it admits, or None.
         claims: what ``expect`` says.
     """
 
     source: str
     text: str
-    name: str
-    tableau: Tableau
     form: Form
     structure: Structure
     is_conjugate: bool
-    tolerance: fmpq | None
     claims: tuple[ClaimText, ...]
     reference: str = ""
     description: str = ""

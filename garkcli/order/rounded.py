@@ -15,7 +15,7 @@ from typing import Literal, TypeAlias
 
 from flint import arb, ctx, fmpq
 
-from garkcli.exact.display import to_ball
+from garkcli.exact.display import decimal, to_ball
 from garkcli.order.approximate_spans import ApproximateSpans
 from garkcli.order.certificate import DEFAULT_LIMIT, Witness, find_order
 from garkcli.order.conditions import coupling_graph, elementary_weight
@@ -62,7 +62,7 @@ class Doubt:
     effect: arb | None
 
 
-@dataclass(frozen=True)
+@dataclass(frozen=True, repr=False)
 class RoundedOrder:
     """The outcome: every condition up to ``order`` is met within ``tolerance``.
 
@@ -85,6 +85,10 @@ class RoundedOrder:
     sizes: tuple[arb, ...] = field(default=(), compare=False)
     means: tuple[Means, ...] = ()
     doubt: Doubt | None = field(default=None, compare=False)
+
+    def __repr__(self) -> str:
+        least = "at least " if self.is_lower_bound else ""
+        return f"<RoundedOrder {least}{self.order} within {decimal(self.tolerance)}>"
 
     @property
     def is_lower_bound(self) -> bool:

@@ -41,7 +41,7 @@ class Colour:
     is_linear: bool = False
 
 
-@dataclass(frozen=True)
+@dataclass(frozen=True, repr=False)
 class Tableau:
     """A GARK tableau as a directed graph of colours.
 
@@ -77,6 +77,10 @@ class Tableau:
                     f"the block {k + 1},{m + 1} is not {rows} by {columns}",
                     f"it maps {counted(columns, 'stage')} of colour {m + 1} to {counted(rows, 'stage')}",
                 )
+
+    def __repr__(self) -> str:
+        stages = ", ".join(str(self.space(l).stages) for l in range(self.size))
+        return f"<Tableau {counted(self.size, 'colour')}, stages {stages}>"
 
     @property
     def size(self) -> int:

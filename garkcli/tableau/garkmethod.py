@@ -1,0 +1,79 @@
+"""A tableau with its name and its tolerance: what the Python interface hands out and takes."""
+
+from __future__ import annotations
+
+from dataclasses import dataclass
+from functools import cached_property
+from typing import TYPE_CHECKING, Any, Literal, TypeAlias
+
+from flint import fmpq
+
+from garkcli.errors import counted
+from garkcli.tableau.tableau import Tableau
+
+if TYPE_CHECKING:
+    from garkcli.tableau.pointwise import Entries
+
+Derivation: TypeAlias = Literal["", "conjugate", "pair"]
+
+
+@dataclass(frozen=True, repr=False, kw_only=True)
+class GarkMethod:
+    """A GARK method of one colour or of several, with its entries as they are printed.
+
+    Entries are exact numbers, ``flint.fmpq`` or elements of a number field, whose ``str`` is the
+    text of a method file; where the nodes have no simple radicals they are enclosures,
+    ``flint.arb``.
+
+    Attributes:
+        tableau: what its order conditions are about.
+        name: what people call it.
+        tolerance: the rounding that its coefficients admit, or None where they are meant exactly.
+        derivation: whether it was made as the conjugate or the pair of ``base``.
+        base: the method it was made from.
+    """
+
+    tableau: Tableau
+    name: str = ""
+    tolerance: fmpq | None = None
+    derivation: Derivation = ""
+    base: GarkMethod | None = None
+
+    @cached_property
+    def _entries(self) -> Entries:
+        from garkcli.tableau.pointwise import entries  # loaded when entries are asked for
+
+        return entries(self.tableau)
+
+    @property
+    def A(self) -> Any:  # noqa: N802 -- the name it has everywhere
+        """The matrix, row by row; of several colours ``A[l][m]`` is a block, or None where colour l
+        does not see colour m. Colours count from 0.
+        """
+        return self._of_one(self._entries.A, is_block=True)
+
+    @property
+    def b(self) -> Any:
+        """The weights; of several colours a row each."""
+        return self._of_one(self._entries.b)
+
+    @property
+    def c(self) -> Any:
+        """The nodes; of several colours a row each."""
+        return self._of_one(self._entries.c)
+
+    def _of_one(self, whole: Any, is_block: bool = False) -> Any:
+        if self.tableau.size > 1:
+            return whole
+        return whole[0][0] if is_block else whole[0]
+
+    @property
+    def stages(self) -> tuple[int, ...]:
+        """The number of stages of each colour."""
+        return tuple(self.tableau.space(l).stages for l in range(self.tableau.size))
+
+    def __repr__(self) -> str:
+        name = f"{self.name}: " if self.name else ""
+        colours = counted(self.tableau.size, "colour")
+        stages = ", ".join(map(str, self.stages))
+        return f"<{type(self).__name__} {name}{colours}, stages {stages}>"
