@@ -5,7 +5,7 @@ BIN    := $(VENV)/bin
 READY  := $(VENV)/.ready
 
 .DEFAULT_GOAL := help
-.PHONY: help run test lint types layers pytest bench fuzz figures format clean
+.PHONY: help run test lint types layers pytest portable bench fuzz figures format clean
 
 help: ## this list
 	@grep -E '^[a-z]+:.*## ' $(MAKEFILE_LIST) | sed 's/:.*## /\t/' | expand -t 12
@@ -34,6 +34,9 @@ layers: $(READY)
 pytest: $(READY)
 	$(BIN)/python -m pytest
 
+portable: ## the suite under other circumstances, see docs/portability.md; ONLY=kernel,floors
+	$(PYTHON) -m tests.portable.run --only "$(ONLY)"
+
 bench: $(READY) ## benchmarks, as ratios within one run
 	$(BIN)/python -m pip install --quiet --disable-pip-version-check --editable ".[bench]"
 	$(BIN)/python -m pytest tests/benchmarks -s --override-ini addopts="-q --import-mode=importlib" --override-ini norecursedirs=".*"
@@ -56,4 +59,4 @@ format: $(READY) ## put the code into its one format
 	$(BIN)/ruff format .
 
 clean: ## remove everything that was made
-	rm -rf $(VENV) build dist *.egg-info .pytest_cache .mypy_cache .ruff_cache .hypothesis .import_linter_cache
+	rm -rf $(VENV) .portable build dist *.egg-info .pytest_cache .mypy_cache .ruff_cache .hypothesis .import_linter_cache

@@ -1,0 +1,85 @@
+"""What ``make portable`` runs, without running it."""
+
+from __future__ import annotations
+
+import sys
+from pathlib import Path
+
+import pytest
+
+from tests.portable import circumstances as module
+from tests.portable.circumstances import circumstances, other_pythons
+from tests.portable.run import Outcome, chosen, table
+from tests.portable.venvs import ROOT, NotHad, Venv, floors, version_of
+
+NEWEST = Venv(sys.executable, "newest")
+
+
+def test_every_dependency_has_a_floor() -> None:
+    """Those of the program and of its tests, each once."""
+    names = [line.partition("==")[0].lower() for line in floors()]
+    assert {"click", "matplotlib", "numpy", "python-flint", "pyyaml", "rich", "sympy"} < {*names}
+    assert {"hypothesis", "jsonschema", "pytest", "pytest-xdist"} < {*names}
+    assert len(names) == len({*names})
+
+
+def test_all_paths_are_there() -> None:
+    """What a circumstance tests is part of the suite; names are different."""
+    found = list(circumstances())
+    assert all((ROOT / path).exists() for x in found for path in x.tests)
+    assert len({x.name for x in found}) == len(found)
+    assert all(x.venv.folder.parent.name == ".portable" for x in found)
+
+
+def test_beginnings_choose() -> None:
+    """Several words, each the beginning of several names; a word of no name is said."""
+    assert [x.name for x in chosen("floors,newest")] == ["newest", "floors"]
+    assert len(chosen("")) == len(list(circumstances()))
+    with pytest.raises(SystemExit, match="no circumstance begins with 'flor'"):
+        chosen("floors,flor")
+
+
+def test_pythons_that_do_not_run_are_left_out(
+    monkeypatch: pytest.MonkeyPatch, tmp_path: Path
+) -> None:
+    """Also this one's own version; nothing is looked for beyond what was asked for."""
+    old, broken = tmp_path / "old", tmp_path / "broken"
+    old.write_text("#!/bin/sh\necho 3.9\n")
+    broken.write_text("#!/bin/sh\nexit 127\n")
+    for path in (old, broken):
+        path.chmod(0o755)
+    asked = ":".join([sys.executable, str(old), str(broken), str(tmp_path / "none")])
+    monkeypatch.setenv("GARK_PYTHONS", asked)
+    assert other_pythons() == []
+    with pytest.raises(NotHad, match="does not run"):
+        version_of(str(broken))
+    newer = tmp_path / "newer"
+    newer.write_text("#!/bin/sh\necho 3.99\n")
+    newer.chmod(0o755)
+    monkeypatch.setenv("GARK_PYTHONS", f"{asked}:{newer}")
+    assert other_pythons() == [str(newer)]
+
+
+def test_a_circumstance_that_does_not_hold_is_not_had(monkeypatch: pytest.MonkeyPatch) -> None:
+    """A kernel that numpy does not take, features that stay, a locale that nobody has: said."""
+    python = Path(sys.executable)
+    monkeypatch.setattr(module, "_asked", lambda *_: "Haswell")
+    kernel = module._kernel("HASWELL")
+    assert kernel(python) == {"OPENBLAS_CORETYPE": "HASWELL"}
+    with pytest.raises(NotHad, match="numpy computes with Haswell"):
+        module._kernel("NEHALEM")(python)
+    with pytest.raises(NotHad, match="numpy uses Haswell"):
+        module._no_simd(python)
+    monkeypatch.undo()
+    monkeypatch.setattr(module, "LOCALES", ("xx_XX.none",))
+    with pytest.raises(NotHad, match=r"none of xx_XX\.none is installed"):
+        module._locale(python)
+    with pytest.raises(NotHad, match="signal 11"):
+        module._asked(python, "import os; os.kill(os.getpid(), 11)", {})
+
+
+def test_what_could_not_be_had_is_no_failure() -> None:
+    """But no test at all is one, and so is one that fails; the table has a line for each."""
+    runs = [Outcome("a", 5), Outcome("b", 0), Outcome("c", 4, 1), Outcome("d", note="not")]
+    assert [x.is_good for x in runs] == [True, False, False, True]
+    assert [line.split()[0] for line in table(runs).splitlines()] == ["circumstance", *"abcd"]
