@@ -31,14 +31,14 @@ class Wanted:
     """What to test on, by the names of the options.
 
     Attributes:
-        problem: a name or the path of a problem file.
+        problem: a name or the path of a problem file, or None for one that sees every tree.
         omega, split, seed: of the problems that take them.
         t_end: the final time, or None for that of the problem.
         steps: step sizes, or None for the default ladder.
         work: whether the cost of the steps is measured.
     """
 
-    problem: str
+    problem: str | None
     omega: str | None
     split: str | None
     seed: int | None
@@ -50,11 +50,11 @@ class Wanted:
 class Problems:
     """The problem, split for each of the methods that are tested on it.
 
-    A file is read once. A random H, as that of ``generic``, depends on its number of terms: all
-    methods get that of the method with the most, with terms added up where they have fewer.
+    A file is read once. All methods get the same sum of terms, also where its coefficients depend
+    on their number. Where no problem is named it is one that sees every tree of the methods.
 
     Args:
-        wanted: names the problem.
+        wanted: names the problem, or none.
 
     Attributes:
         read: the problem of a file, as it was read.
@@ -66,12 +66,13 @@ class Problems:
 
     def __init__(self, wanted: Wanted) -> None:
         self._wanted = wanted
-        self._widest: Tableau | None = None
+        self._name = wanted.problem
+        self._tableaux: Sequence[Tableau] = ()
         self.read: Hamiltonian | None = None
-        if is_path(wanted.problem):
+        if self._name is not None and is_path(self._name):
             from garkcli.methodfile.problem import load_problem
 
-            self.read = load_problem(wanted.problem)
+            self.read = load_problem(self._name)
         self._check_steps()
 
     def _check_steps(self) -> None:
@@ -86,43 +87,52 @@ class Problems:
 
     def _unsplit(self) -> Hamiltonian | Oscillator:
         """The problem in one term: its times are those of every split."""
-        from garkcli.problems.builtin import hamiltonian
+        from garkcli.problems.builtin import GENERIC, hamiltonian
         from garkcli.problems.oscillator import Oscillator
 
         if self.read is not None:
             return self.read
-        if self._wanted.problem == "oscillator":
+        if self._name == "oscillator":
             return Oscillator.default(1, rational("--omega", self._wanted.omega or "1"))
-        return hamiltonian(self._wanted.problem, 1)
+        return hamiltonian(self._name or GENERIC[0], 1)
 
     def prepare(self, tableaux: Sequence[Tableau]) -> None:
-        """Make the problem one for all of these methods."""
-        from garkcli.problems.oscillator import terms_of
-        from garkcli.stepping.dependency import with_joined_terms
+        """Make the problem one for all of these methods.
 
-        self._widest = max(map(with_joined_terms, tableaux), key=terms_of, default=None)
+        Raises:
+            UsageProblem: none is named, and there is none for their structures.
+        """
+        self._tableaux = tableaux
+        if self._name is None and tableaux:
+            from garkcli.convergence.default_problem import seeing_problem
+
+            self._name = seeing_problem(tableaux, self._seed)
+
+    @property
+    def _seed(self) -> int:
+        return 1 if self._wanted.seed is None else self._wanted.seed
 
     def of(self, tableau: Tableau) -> Hamiltonian | Oscillator:
-        """The problem for one method.
+        """The problem for one of the methods that it was prepared for.
 
         Raises:
             UsageProblem: it cannot be split for it.
         """
+        from garkcli.convergence.default_problem import in_common
         from garkcli.problems.builtin import built_in
-        from garkcli.problems.comparison import merge_terms
         from garkcli.problems.oscillator import terms_of
         from garkcli.stepping.dependency import with_joined_terms
         from garkcli.stepping.matching import split_into
 
-        wanted = self._wanted
-        if wanted.problem == "oscillator":
-            return oscillator(wanted, tableau)
-        terms = terms_of(with_joined_terms(tableau))
+        if self._name == "oscillator":
+            return oscillator(self._wanted, tableau)
         if self.read is not None:
-            return split_into(self.read, terms)
-        if not built_in(wanted.problem).takes_seed or self._widest is None:
-            return find_problem(wanted.problem, tableau, wanted.seed)
-        return merge_terms(find_problem(wanted.problem, self._widest, wanted.seed), terms)
+            return split_into(self.read, terms_of(with_joined_terms(tableau)))
+        assert self._name is not None
+        if not built_in(self._name).takes_seed:
+            return find_problem(self._name, tableau)
+        first, *_ = in_common(self._name, [tableau, *self._tableaux], self._seed)
+        return first
 
 
 def oscillator(wanted: Wanted, tableau: Tableau) -> Oscillator:

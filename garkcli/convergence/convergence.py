@@ -12,6 +12,7 @@ from collections.abc import Sequence
 from flint import fmpq
 
 from garkcli.convergence import ladder
+from garkcli.convergence.default_problem import in_common, seeing_problem
 from garkcli.convergence.result import (
     CLOSE,
     MAX_ORDER,
@@ -33,7 +34,7 @@ _SHORT_STEPS = (4, 8, 16, 32)  # in which a short time is stepped through
 
 def converge(
     tableau: Tableau,
-    problem: Oscillator | Hamiltonian,
+    problem: Oscillator | Hamiltonian | None = None,
     t_end: fmpq | None = None,
     steps: Sequence[fmpq] | None = None,
     tolerance: fmpq | None = None,
@@ -45,7 +46,8 @@ def converge(
     Args:
         tableau: of any structure.
         problem: in as many terms as the tableau is for, or in one that has a natural split. The
-            oscillator is solved by the exact step map.
+            oscillator is solved by the exact step map. By default the problem with random
+            coefficients that sees every tree of the structure.
         t_end: the problem's own by default, 4/ω for the oscillator.
         steps: step sizes that divide ``t_end``; by default the ladder of
             ``garkcli.convergence.ladder``.
@@ -64,6 +66,8 @@ def converge(
     >>> round(result.observed_order, 1), result.verdict
     (4.0, 'agree')
     """
+    if problem is None:
+        problem = in_common(seeing_problem([tableau]), [tableau], 1)[0]
     usual = usual_time(problem)
     t_end = usual if t_end is None else t_end
     if steps is not None:

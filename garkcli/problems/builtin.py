@@ -13,7 +13,7 @@ from typing import Any, TypeAlias
 from flint import arb, fmpq
 
 from garkcli.errors import UsageProblem, did_you_mean
-from garkcli.problems.generic import generic
+from garkcli.problems.generic import generic, nystrom, semi_separable, separable
 from garkcli.problems.hamiltonian import Hamiltonian
 from garkcli.problems.mechanical import Mechanical
 
@@ -217,6 +217,32 @@ _ENTRIES = (
         generic,
         takes_seed=True,
     ),
+    BuiltIn(
+        "generic-semi-separable",
+        "the same; all terms but the first of positions",
+        "H¹(q, p) + Σ U(q), powers as in `generic`",
+        "all of a semi-separable structure, with at most 7 branches at a vertex",
+        semi_separable,
+        takes_seed=True,
+    ),
+    BuiltIn(
+        "generic-separable",
+        "the same as T(p) + Σ U(q); sees every tree of this form",
+        "T(p) + Σ U(q), powers as in `generic`",
+        "all alternating trees, with at most 7 branches at a vertex",
+        separable,
+        takes_seed=True,
+    ),
+    BuiltIn(
+        "generic-nystrom",
+        "the same as ½|p|² + Σ U(q); sees every tree of this form",
+        "½|p|² + Σ U(q), powers as in `generic`",
+        "alternating trees in which velocities do not branch, forces at most 7 times",
+        nystrom,
+        takes_seed=True,
+    ),
 )
 PROBLEMS: Mapping[str, BuiltIn] = {entry.name: entry for entry in _ENTRIES}
 """The problems by name, in the order in which they are shown."""
+GENERIC = ("generic", "generic-semi-separable", "generic-separable", "generic-nystrom")
+"""Those that see every tree of a structure, from the most general one to the most special."""

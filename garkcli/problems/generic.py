@@ -26,17 +26,56 @@ def generic(terms: int, seed: int) -> Hamiltonian:
     The terms stay small, so that all solutions from the start exist to the final time.
     """
     draw = Draw(seed)
-    y = (*symbols(VARIABLES, "q"), *symbols(VARIABLES, "p"))
-    split = tuple(polynomial(draw, y, terms) for _ in range(terms))
+    y = (*_positions(), *_momenta())
+    split = [polynomial(draw, y, terms) for _ in range(terms)]
+    return _problem("generic", split, draw)
+
+
+def semi_separable(terms: int, seed: int) -> Hamiltonian:
+    """H^{1}(q, p) + Σ_l U^{l}(q), for methods that give forces to all terms but the first."""
+    draw = Draw(seed)
+    split = [polynomial(draw, (*_positions(), *_momenta()), terms)]
+    split += [polynomial(draw, _positions(), terms) for _ in range(terms - 1)]
+    return _problem("generic-semi-separable", split, draw)
+
+
+def separable(terms: int, seed: int) -> Hamiltonian:
+    """T(p) + Σ_l U^{l}(q): velocities and forces alternate, and nothing else is missing."""
+    draw = Draw(seed)
+    return _separated("generic-separable", polynomial(draw, _momenta(), terms), terms, draw)
+
+
+def nystrom(terms: int, seed: int) -> Hamiltonian:
+    """½|p|² + Σ_l U^{l}(q): velocities are linear, so that they do not branch."""
+    kinetic = sum(p**2 for p in _momenta()) / 2
+    return _separated("generic-nystrom", kinetic, terms, Draw(seed))
+
+
+def _separated(name: str, kinetic: Any, terms: int, draw: Draw) -> Hamiltonian:
+    if terms == 1:
+        return _problem(name, [kinetic + polynomial(draw, _positions(), terms)], draw)
+    potentials = [polynomial(draw, _positions(), terms) for _ in range(terms - 1)]
+    return _problem(name, [kinetic, *potentials], draw)
+
+
+def _problem(name: str, split: Sequence[Any], draw: Draw) -> Hamiltonian:
     return Hamiltonian(
-        "generic",
+        name,
         VARIABLES,
-        split,
+        tuple(split),
         start(draw),
         fmpq(1),
         is_generic=True,
         long_run=(fmpq(1, 100), fmpq(1)),  # the solutions need not exist for longer
     )
+
+
+def _positions() -> tuple[Any, ...]:
+    return symbols(VARIABLES, "q")
+
+
+def _momenta() -> tuple[Any, ...]:
+    return symbols(VARIABLES, "p")
 
 
 def polynomial(draw: Draw, variables: Sequence[Any], terms: int) -> Any:

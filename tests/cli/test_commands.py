@@ -385,7 +385,7 @@ def test_json_of_converge() -> None:
     error.
     """
     report = data("converge", VERLET)
-    assert (report["problem"], report["predicted_order"]) == ("oscillator", 2)
+    assert (report["problem"], report["predicted_order"]) == ("generic-separable", 2)
     assert report["observed_order"] == pytest.approx(2, abs=0.1)
     assert {"h", "error", "slope", "energy_error"} <= set(report["steps"][0])
     assert [step["h"] for step in report["steps"]] == sorted(

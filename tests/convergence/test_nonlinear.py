@@ -134,7 +134,8 @@ def test_invariants_are_reported() -> None:
     [
         (2, "H{1} of generic depends on q", ("--problem", "generic")),
         (2, "--omega is for the oscillator", ("--problem", "kepler", "--omega", "2")),
-        (2, "--seed is for the problem generic", ("--seed", "2")),
+        (2, "--seed is for the problems generic", ("--problem", "pendulum", "--seed", "2")),
+        (2, "--seed is for the problems generic", ("--omega", "2", "--seed", "2")),
         (2, "not a whole number of steps", ("--problem", "pendulum", "--steps", "3/7")),
         (1, "THEY DISAGREE", ("--problem", "kepler", "--steps", "1/2,1/4")),
     ],

@@ -1,0 +1,63 @@
+"""The problem of a convergence test where none is named: one that sees every tree of the method."""
+
+from __future__ import annotations
+
+from collections.abc import Iterable, Sequence
+from contextlib import suppress
+
+from garkcli.errors import UsageProblem
+from garkcli.problems.builtin import GENERIC, hamiltonian
+from garkcli.problems.comparison import merge_terms
+from garkcli.problems.hamiltonian import Hamiltonian
+from garkcli.problems.oscillator import terms_of
+from garkcli.stepping.dependency import with_joined_terms
+from garkcli.stepping.integrator import bind
+from garkcli.tableau.tableau import Tableau
+
+
+def seeing_problem(tableaux: Sequence[Tableau], seed: int = 1) -> str:
+    """The name of the problem that sees the most trees and is of the form that the structures of
+    all methods are for; of most of them where there is none for all.
+
+    Args:
+        tableaux: of the methods, at least one.
+        seed: of the random coefficients.
+
+    Raises:
+        UsageProblem: it is for none of them.
+
+    >>> from garkcli import loads
+    >>> seeing_problem([loads("methods: [{family: rk4}]").tableau])
+    'generic'
+    """
+    counts = {}
+    for name in GENERIC:
+        problems = in_common(name, tableaux, seed)
+        counts[name] = sum(map(_fits, tableaux, problems))
+        if counts[name] == len(tableaux):
+            return name
+    most = max(counts, key=lambda name: counts[name])  # the first of those that are equal
+    if counts[most] == 0:
+        raise UsageProblem(
+            "no problem with random coefficients is of the form that the structure is for",
+            "name one with --problem",
+        )
+    return most
+
+
+def in_common(name: str, tableaux: Iterable[Tableau], seed: int) -> list[Hamiltonian]:
+    """The problem called ``name`` for each method, with one sum for all of them.
+
+    Its coefficients depend on the number of terms: all methods get that of the method with the
+    most, with terms added up where they have fewer.
+    """
+    terms = [terms_of(with_joined_terms(tableau)) for tableau in tableaux]
+    widest = hamiltonian(name, max(terms), seed)
+    return [merge_terms(widest, count) for count in terms]
+
+
+def _fits(tableau: Tableau, problem: Hamiltonian) -> bool:
+    with suppress(UsageProblem):
+        bind(tableau, problem)
+        return True
+    return False
