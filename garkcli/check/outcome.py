@@ -49,6 +49,7 @@ class Outcome:
         blame: where the order falls short of a claim, what the failing conditions tell; None
             otherwise.
         constants: the error constants at the first failing order, where they were asked for.
+        is_crash: whether the program failed, not the file; ``faults`` say how.
     """
 
     file: str
@@ -60,6 +61,7 @@ class Outcome:
     text: str = ""
     blame: Blame | None = None
     constants: ErrorConstants | None = None
+    is_crash: bool = False
 
     @property
     def failed_claims(self) -> tuple[Claim, ...]:
@@ -73,7 +75,9 @@ class Outcome:
 
     @property
     def exit_code(self) -> int:
-        """0 where all holds, 1 where a claim fails, 2 where the file cannot be read."""
+        """0 where all holds, 1 where a claim fails, 2 where the file cannot be read, 3 where the
+        program failed.
+        """
         if self.analysis is None:
-            return 2
+            return 3 if self.is_crash else 2
         return 1 if self.failed_claims else 0

@@ -67,7 +67,7 @@ def command(
     Exit code: 0 every claim holds, 1 a claim fails, 2 a file cannot be read as a method.
     """
     from garkcli.cli.parallel import check_files
-    from garkcli.methodfile.load import find_files
+    from garkcli.methodfile.finding import find_files
     from garkcli.report.progress import tracked
 
     earlier = None

@@ -96,7 +96,7 @@ def command(
     Exit code: 0 every observed order is the one the method has on this problem, 1 one is not, or a
     step fails, 2 a file cannot be read, or its method is not for this problem.
     """
-    from garkcli.methodfile.load import find_files
+    from garkcli.methodfile.finding import find_files
 
     paths = list(find_files(files))
     if problem is None and (omega or split):

@@ -48,7 +48,8 @@ def command(
     The stability function with A-, L- and A(α)-stability; the trace on the harmonic oscillator,
     its intervals of stability, P-stability, phase lag; algebraic stability; the SSP coefficient.
     """
-    from garkcli.methodfile.load import find_files, load
+    from garkcli.methodfile.finding import find_files
+    from garkcli.methodfile.load import load
     from garkcli.report.stability import render
 
     if (slow is None) != (fast is None):

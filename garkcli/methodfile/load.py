@@ -2,8 +2,9 @@
 
 from __future__ import annotations
 
+import os
+import stat
 import sys
-from collections.abc import Iterable, Iterator
 from pathlib import Path
 
 from garkcli.errors import Fault, MethodFileError
@@ -13,31 +14,10 @@ from garkcli.methodfile.build import (
     families_of,
     nodes_to_spell_out,
 )
+from garkcli.methodfile.finding import STDIN, SUFFIX, find_files
 from garkcli.methodfile.numbers import Values
 from garkcli.methodfile.reader import Reader
 from garkcli.methodfile.source import MAX_BYTES, METHOD_FILE, FileKind, Source, one_line
-
-SUFFIX = ".gark.yaml"
-"""How method files end."""
-STDIN = "-"
-
-
-def find_files(paths: Iterable[str]) -> Iterator[str]:
-    """The files meant by ``paths``, in order.
-
-    A directory stands for all method files below it, a pattern such as ``**/*.yaml`` for the files
-    it matches; what stands for nothing stays, to be reported as missing.
-    """
-    for path in paths:
-        if path != STDIN and Path(path).is_dir():
-            found = sorted(str(file) for file in Path(path).rglob(f"*{SUFFIX}"))
-            yield from found or [path]
-        elif any(sign in path for sign in "*?[") and not Path(path).exists():
-            from glob import glob
-
-            yield from sorted(glob(path, recursive=True)) or [path]
-        else:
-            yield path
 
 
 def load(path: str) -> MethodFile:
@@ -46,16 +26,21 @@ def load(path: str) -> MethodFile:
     Raises:
         MethodFileError: every fault of the file, with positions.
     """
-    if path != STDIN and Path(path).is_dir():
-        first = next(find_files([path]))
-        if first == path:
-            fault = Fault(f"no {SUFFIX} files in this directory", "name the files, or rename them")
-        else:
-            fault = Fault(
-                "a directory, where one method file is expected", f"name one, such as {first}"
-            )
-        raise MethodFileError(path, [fault])
+    if path != STDIN and os.path.isdir(path):
+        raise MethodFileError(path, [_of_folder(path)])
     return loads(*read_text(path, METHOD_FILE))
+
+
+def _of_folder(path: str) -> Fault:
+    """Why a folder is no method."""
+    try:
+        os.scandir(path).close()
+    except OSError as error:
+        return Fault(f"this folder cannot be read: {error.strerror}", "name the files")
+    first = next(find_files([path]))
+    if first == path:
+        return Fault(f"no {SUFFIX} files in this directory", "name the files, or rename them")
+    return Fault("a directory, where one method file is expected", f"name one, such as {first}")
 
 
 def read_text(path: str, kind: FileKind) -> tuple[str, str]:
@@ -69,9 +54,13 @@ def read_text(path: str, kind: FileKind) -> tuple[str, str]:
             raise MethodFileError("<stdin>", [Fault("standard input is closed", "name a file")])
         return _decoded("<stdin>", sys.stdin.buffer.read(MAX_BYTES + 1)), "<stdin>"
     file = Path(path)
-    if not file.exists():
-        raise MethodFileError(path, [Fault("no such file")])
-    if not file.is_file():
+    try:
+        status = file.stat()
+    except FileNotFoundError:
+        raise MethodFileError(path, [Fault("no such file")]) from None
+    except OSError as error:  # among them names that are too long, and links in a circle
+        raise MethodFileError(path, [Fault(f"cannot be read: {error.strerror}")]) from None
+    if not stat.S_ISREG(status.st_mode):
         raise MethodFileError(path, [Fault("not a regular file", f"give a {kind.name}")])
     try:
         with file.open("rb") as stream:

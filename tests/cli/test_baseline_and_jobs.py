@@ -278,3 +278,147 @@ def test_a_baseline_is_a_file_of_bounded_size(tmp_path: Path) -> None:
         stream.truncate(MAX_BYTES + 1)
     run = gark("check", "a.gark.yaml", "--baseline", "huge.json", cwd=tmp_path)
     assert (run.code, f"more than {MAX_BYTES} bytes" in run.err) == (2, True)
+
+
+# -- what becomes of workers
+
+
+ENDING = """\
+import os, signal, sys
+import garkcli.cli.parallel as parallel
+from garkcli.cli import main
+check = parallel.check_file
+def check_file(path, **options):
+    if "deadly" in path:
+        {how}
+    return check(path, **options)
+parallel.check_file = check_file
+main(["check", "-j", "2", *sys.argv[1:]])
+"""
+"""``gark check -j 2`` in which a file with a deadly name ends what checks it."""
+
+
+@pytest.mark.skipif(os.name != "posix", reason="workers are forked")
+@pytest.mark.parametrize(
+    ("how", "says"),
+    [
+        ("os.kill(os.getpid(), signal.SIGKILL)", "its check was ended by SIGKILL"),
+        ("os.abort()", "its check was ended by SIGABRT"),
+        ("os._exit(7)", "its check was ended with exit code 7"),
+        ("raise MemoryError('no room')", "internal fault: MemoryError: no room"),
+    ],
+)
+def test_a_worker_that_dies_is_told_and_stops_nothing(how: str, says: str, tmp_path: Path) -> None:
+    """The file is named, all others have their outcome, and the exit code is 3."""
+    names = [f"{i:02}{'-deadly' * (i % 5 == 3)}.gark.yaml" for i in range(20)]
+    for name in names:
+        (tmp_path / name).write_text(HOLDS)
+    done = subprocess.run(
+        [sys.executable, "-c", ENDING.format(how=how), ".", "--format", "json"],
+        cwd=tmp_path,
+        env={**os.environ, "PYTHONPATH": str(ROOT)},
+        capture_output=True,
+        text=True,
+        timeout=100,
+    )
+    assert done.returncode == 3, done.stderr
+    files = json.loads(done.stdout)["files"]
+    assert [x["file"] for x in files] == names
+    for found in files:
+        assert found["ok"] is ("deadly" not in found["file"])
+        if not found["ok"]:
+            assert says in found["errors"][0]["message"]
+
+
+def test_a_fault_in_one_file_stops_nothing(tmp_path: Path, monkeypatch: pytest.MonkeyPatch) -> None:
+    """One at a time too, a fault of ours is told with its file, and the others are checked."""
+    from garkcli.cli import parallel
+
+    check = parallel.check_file
+
+    def check_file(path: str, **options: object) -> object:
+        if path == "b.gark.yaml":
+            raise RuntimeError("broken")
+        return check(path, **options)  # type: ignore[arg-type]
+
+    monkeypatch.setattr(parallel, "check_file", check_file)
+    for name in "abc":
+        (tmp_path / f"{name}.gark.yaml").write_text(FAILS)
+    run = gark("check", ".", cwd=tmp_path)
+    assert run.code == 3
+    assert "b.gark.yaml: error: internal fault: RuntimeError: broken" in run.out
+    assert run.out.count("found 4") == 2
+
+
+def test_more_workers_than_a_system_waits_for() -> None:
+    """``-j 256`` takes as many workers as Windows can wait for, and no more than there are files."""
+    from garkcli.cli.parallel import MOST_WORKERS
+
+    assert MOST_WORKERS <= 61
+    alone, many = process("methods", "-j", "1"), process("methods", "-j", "256")
+    assert (alone.returncode, alone.stdout) == (many.returncode, many.stdout)
+
+
+# -- paths that cannot be looked at
+
+
+def test_a_bad_path_stops_nothing(tmp_path: Path) -> None:
+    """A name that is too long, a link to itself, a link to nothing, a path through a file: each is
+    told, the others are checked, and the exit code is 2.
+    """
+    (tmp_path / "good.gark.yaml").write_text(HOLDS)
+    (tmp_path / "loop.gark.yaml").symlink_to("loop.gark.yaml")
+    (tmp_path / "nothing.gark.yaml").symlink_to("nowhere")
+    long = "n" * 300
+    through = "good.gark.yaml/x"
+    run = gark("check", long, ".", through, cwd=tmp_path)
+    assert run.code == 2
+    assert f"{long}: error: cannot be read: File name too long" in run.out
+    assert "loop.gark.yaml: error: cannot be read: Too many levels of symbolic links" in run.out
+    assert "nothing.gark.yaml: error: no such file" in run.out
+    assert f"{through}: error: cannot be read: Not a directory" in run.out
+    assert "ok   good.gark.yaml: order 4" in run.out
+
+
+def test_a_folder_that_cannot_be_read(tmp_path: Path, monkeypatch: pytest.MonkeyPatch) -> None:
+    """It is told, on its own and below another, and what is beside it is checked."""
+    (tmp_path / "sub" / "closed").mkdir(parents=True)
+    (tmp_path / "sub" / "m.gark.yaml").write_text(HOLDS)
+    scandir = os.scandir
+
+    def guarded(path: str) -> object:
+        if str(path).endswith("closed"):
+            raise PermissionError(13, "Permission denied", str(path))
+        return scandir(path)
+
+    monkeypatch.setattr(os, "scandir", guarded)
+    for path in ("sub", os.path.join("sub", "closed")):
+        run = gark("check", path, cwd=tmp_path)
+        assert run.code == 2
+        closed = os.path.join("sub", "closed")
+        assert f"{closed}: error: this folder cannot be read: Permission denied" in run.out
+        assert ("order 4" in run.out) is (path == "sub")
+
+
+def test_links_that_lead_back_are_not_followed(tmp_path: Path) -> None:
+    """A folder with links to itself is read once, as a folder and by a pattern; names with a dot in
+    front have to be asked for; a folder with the name of a method file is a folder.
+    """
+    for name in ("a", "b", ".hidden", "c.gark.yaml"):
+        (tmp_path / name).mkdir()
+        (tmp_path / name / "m.gark.yaml").write_text(HOLDS)
+        (tmp_path / name / "up").symlink_to("..")
+        (tmp_path / name / "here").symlink_to(".")
+
+    def files(*arguments: str) -> list[str]:
+        report = json.loads(gark("check", *arguments, "--format", "json", cwd=tmp_path).out)
+        return [x["file"].replace(os.sep, "/") for x in report["files"]]
+
+    named = ["a/m.gark.yaml", "b/m.gark.yaml", "c.gark.yaml/m.gark.yaml"]
+    assert files(".") == [".hidden/m.gark.yaml", *named]
+    assert files("**/*.yaml") == named
+    assert files("[ab]") == named[:2]
+    assert files("?/*.gark.yaml") == named[:2]
+    assert files("[b]/m*") == named[1:2]
+    assert files("nothing/*.yaml") == ["nothing/*.yaml"]
+    assert files(f"{tmp_path}/*/m.gark.yaml")[0] == f"{tmp_path}/a/m.gark.yaml"

@@ -1,0 +1,85 @@
+"""Which files are meant: folders, patterns, names; what cannot be looked into is kept, to be told."""
+
+from __future__ import annotations
+
+import os
+from collections.abc import Iterable, Iterator, Sequence
+from fnmatch import fnmatchcase
+from pathlib import Path
+
+SUFFIX = ".gark.yaml"
+"""How method files end."""
+STDIN = "-"
+_MAGIC = frozenset("*?[")
+
+
+def find_files(paths: Iterable[str]) -> Iterator[str]:
+    """The files meant by ``paths``, in order.
+
+    A directory stands for all method files below it, a pattern such as ``**/*.yaml`` for the files
+    it matches. What stands for nothing stays, to be reported as missing, and so does a folder below
+    that cannot be looked into. Links to folders are not followed: they may lead back.
+    """
+    for path in paths:
+        if path == STDIN:
+            yield path
+        elif os.path.isdir(path):
+            yield from _below(path) or [path]
+        elif _MAGIC & set(path) and not os.path.lexists(path):
+            yield from _matching(path) or [path]
+        else:
+            yield path
+
+
+def _below(folder: str) -> list[str]:
+    """All method files below a folder, and the folders that cannot be read."""
+    found: list[str] = []
+
+    def keep(error: OSError) -> None:
+        found.append(error.filename)
+
+    for place, _, names in os.walk(folder, onerror=keep):
+        found += [os.path.join(place, name) for name in names if name.endswith(SUFFIX)]
+    # as pathlib writes them: without ./ before
+    return sorted(str(Path(path)) for path in found)
+
+
+def _matching(pattern: str) -> list[str]:
+    """What a pattern matches, where ``**`` stands for folders of any depth; a folder stands for
+    what is below it.
+    """
+    path = Path(pattern)
+    start = path.anchor
+    parts = path.parts[1:] if start else path.parts
+    found: set[str] = set()
+    for match in _expanded(start, parts):
+        found.update(_below(match) if os.path.isdir(match) else [match])
+    return sorted(found)
+
+
+def _expanded(place: str, parts: Sequence[str]) -> Iterator[str]:
+    if not parts:
+        if os.path.lexists(place):
+            yield place
+        return
+    part, rest = parts[0], parts[1:]
+    if part == "**":
+        for folder, below, _ in os.walk(place or "."):
+            below[:] = [name for name in below if not name.startswith(".")]
+            inside = folder if place else os.path.relpath(folder)
+            yield from _expanded("" if inside == "." else inside, rest or ("*",))
+    elif _MAGIC & set(part):
+        for name in _names(place):
+            # a name that is hidden has to be asked for
+            if fnmatchcase(name, part) and name.startswith(".") <= part.startswith("."):
+                yield from _expanded(os.path.join(place, name), rest)
+    else:
+        yield from _expanded(os.path.join(place, part), rest)
+
+
+def _names(folder: str) -> list[str]:
+    """What is in a folder; nothing where it is none."""
+    try:
+        return os.listdir(folder or ".")
+    except OSError:
+        return []
