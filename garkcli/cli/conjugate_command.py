@@ -13,13 +13,14 @@ from garkcli.cli.options import CONTEXT, Output, common
 @click.option(
     "--digits",
     type=click.IntRange(1, 1000),
-    default=17,
-    show_default=True,
     metavar="N",
-    help="Digits of entries that have no simple radicals.",
+    help="Decimals of N digits; by default exact, or 17 digits.",
+)
+@click.option(
+    "--document", is_flag=True, help="With --format latex: a document that compiles as it stands."
 )
 @common(["text", "yaml", "json", "latex"])
-def command(file: str, is_pair: bool, digits: int, output: Output) -> int:
+def command(file: str, is_pair: bool, digits: int | None, document: bool, output: Output) -> int:
     """The symplectic conjugate tableau of a method.
 
     With --format yaml it is a method file that loads again; conjugated again it gives the original
@@ -33,10 +34,10 @@ def command(file: str, is_pair: bool, digits: int, output: Output) -> int:
     method = load(file)
     name = f"symplectic {'pair' if is_pair else 'conjugate'} of {method.name}"
     made = pair(method.tableau) if is_pair else conjugate(method.tableau)
-    if output.format != "yaml":
-        from garkcli.cli.rendering import write_tableau
+    from garkcli.cli.rendering import write_tableau
 
-        write_tableau(made, name, digits, output, method.tolerance is not None)
+    if output.format != "yaml" or digits is not None or document:
+        write_tableau(made, name, digits, output, method.tolerance, document)
         return 0
     from garkcli.errors import UsageProblem
     from garkcli.methodfile.writer import can_spell_out, write_conjugate_of, write_tableau_file

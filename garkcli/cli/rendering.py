@@ -2,35 +2,86 @@
 
 from __future__ import annotations
 
+from flint import fmpq
+
 from garkcli.cli.options import Output
+from garkcli.errors import UsageProblem
 from garkcli.report.plain import printable
-from garkcli.tableau.pointwise import entries
+from garkcli.tableau.pointwise import Entries, entries, in_points
 from garkcli.tableau.tableau import Tableau
+
+DEFAULT_DIGITS = 17
+"""Digits of entries that have no simple radicals, where none are asked for."""
 
 
 def write_tableau(
-    tableau: Tableau, name: str, digits: int, output: Output, is_rounded: bool
+    tableau: Tableau,
+    name: str,
+    digits: int | None,
+    output: Output,
+    tolerance: fmpq | None,
+    is_document: bool = False,
 ) -> None:
-    """Write a tableau as text, JSON or LaTeX; rounded coefficients as decimals where people read
-    them.
+    """Write a tableau as text, YAML, JSON or LaTeX.
+
+    Args:
+        tableau: any.
+        name: what it is called.
+        digits: the digits of all entries; None for exact entries where the nodes have simple
+            radicals.
+        output: where to, and in which format.
+        tolerance: the rounding that the file admits; its long fractions are decimals where people
+            read them.
+        is_document: whether LaTeX gets a preamble.
+
+    Raises:
+        UsageProblem: no preamble belongs to the format, or no method file says the tableau.
     """
-    found = entries(tableau, digits)
+    if is_document and output.format != "latex":
+        raise UsageProblem("--document goes with --format latex", "add --format latex")
+    if output.format == "yaml":
+        output.write(_method_file(tableau, name, digits, tolerance))
+        return
+    found = _entries(tableau, digits)
     if output.format == "json":
         from garkcli.report import tableau_json
 
         output.write(tableau_json.render(tableau, found, name))
         return
-    if is_rounded:
+    if tolerance is not None:
         from garkcli.report.tableau_text import readable
 
         found = readable(found)
     if output.format == "latex":
         from garkcli.report import tableau_latex
 
-        output.write(tableau_latex.render(tableau, found, printable(name)))
+        output.write(tableau_latex.render(tableau, found, printable(name), is_document))
     else:
         from garkcli.report import tableau_text
 
-        output.write(
-            tableau_text.render(tableau, found, printable(name), output.paint, output.width)
+        text = tableau_text.render(tableau, found, printable(name), output.paint, output.width)
+        output.write(text)
+
+
+def _entries(tableau: Tableau, digits: int | None) -> Entries:
+    found = entries(tableau, digits or DEFAULT_DIGITS)
+    return found if digits is None else found.in_decimals(digits)
+
+
+def _method_file(tableau: Tableau, name: str, digits: int | None, tolerance: fmpq | None) -> str:
+    from garkcli.methodfile.writer import can_spell_out, write_rounded, write_tableau_file
+
+    if not can_spell_out(tableau):
+        raise UsageProblem(
+            "a method file spells out a GARK tableau or one pair (q, p), not this partitioned one",
+            "--format json has all of its blocks",
         )
+    if digits is not None:
+        return write_rounded(tableau, _entries(tableau, digits), name)
+    exact = in_points(tableau)
+    if exact is None:
+        raise UsageProblem(
+            "the nodes have no simple radicals, so the tableau cannot be spelled out exactly",
+            f"--digits {DEFAULT_DIGITS} writes decimals",
+        )
+    return write_tableau_file(exact, name, tolerance)

@@ -12,20 +12,23 @@ from garkcli.cli.options import CONTEXT, Output, common
 @click.option(
     "--digits",
     type=click.IntRange(1, 1000),
-    default=17,
-    show_default=True,
     metavar="N",
-    help="Digits of entries that have no simple radicals.",
+    help="Decimals of N digits; by default exact, or 17 digits.",
 )
-@common(["text", "json", "latex"])
-def command(file: str, digits: int, output: Output) -> int:
+@click.option(
+    "--document", is_flag=True, help="With --format latex: a document that compiles as it stands."
+)
+@common(["text", "yaml", "json", "latex"])
+def command(file: str, digits: int | None, document: bool, output: Output) -> int:
     """The assembled tableau, all blocks.
 
-    Entries are exact where the nodes are rational or quadratic numbers, decimals otherwise.
+    Entries are exact where the nodes are rational or quadratic numbers, decimals otherwise. With
+    --format yaml it is a method file that loads again. LaTeX shows a method for positions and
+    momenta as two arrays, Q and P.
     """
     from garkcli.cli.rendering import write_tableau
     from garkcli.methodfile.load import load
 
     method = load(file)
-    write_tableau(method.tableau, method.name, digits, output, method.tolerance is not None)
+    write_tableau(method.tableau, method.name, digits, output, method.tolerance, document)
     return 0

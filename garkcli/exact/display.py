@@ -106,6 +106,25 @@ def decimal(number: fmpq) -> str:
     )
 
 
+def plain_decimal(number: fmpq) -> str:
+    """A rational number in decimals, all of them; a fraction where they do not end.
+
+    >>> plain_decimal(fmpq(-1, 8)), plain_decimal(fmpq(3)), plain_decimal(fmpq(1, 3))
+    ('-0.125', '3', '1/3')
+    """
+    places = 0
+    shifted = abs(number)
+    while shifted.q % 2 == 0 or shifted.q % 5 == 0:
+        shifted *= 10
+        places += 1
+    if shifted.q != 1:
+        return str(number)
+    digits = str(shifted.p).rjust(places + 1, "0")
+    sign = "-" if number < 0 else ""
+    whole, fraction = digits[: len(digits) - places], digits[len(digits) - places :]
+    return sign + (f"{whole}.{fraction}" if fraction else whole)
+
+
 def to_float(number: Number) -> float:
     """The nearest float, or nearly so."""
     return float(to_ball(number))

@@ -119,10 +119,11 @@ def _full(outcome: Outcome, analysis: Analysis, paint: Paint) -> list[str]:
 
 
 def _kind(tableau: Tableau, structure: str, tolerance: fmpq | None) -> str:
-    plain = all(x.name == str(l) for l, x in enumerate(tableau.colours, start=1))
-    stages = ", ".join(
-        f"{'' if plain else x.name + ': '}{tableau.spaces[x.space].stages}" for x in tableau.colours
-    )
+    if tableau.is_partitioned:
+        counts = [(part, tableau.stages_of(part)) for part in ("q", "p")]
+        stages = ", ".join(f"{part}: {' + '.join(map(str, count))}" for part, count in counts)
+    else:
+        stages = ", ".join(str(tableau.space(l).stages) for l in range(tableau.size))
     colours = "1 colour" if tableau.size == 1 else f"{tableau.size} colours"
     domain = (
         "rational arithmetic"

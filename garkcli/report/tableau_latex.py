@@ -1,38 +1,90 @@
-"""A tableau as a LaTeX array, laid out as the paper prints it; needs amsmath only."""
+"""A tableau as LaTeX arrays, laid out as the paper prints it; needs amsmath only.
+
+A method for positions and momenta is two arrays, Q and P, as in eq. (psymplecticGARK): each with
+the stages at which its part is computed and the weights that update it.
+"""
 
 from __future__ import annotations
+
+from collections.abc import Iterator, Sequence
 
 from flint import arb
 
 from garkcli.exact.display import to_latex
-from garkcli.report.latex import number
-from garkcli.report.tableau_text import cell_text, remark
+from garkcli.report.latex import fragment, number
+from garkcli.report.tableau_text import cell_text, distinct_rows, remark
 from garkcli.tableau.pointwise import Cell, Entries
 from garkcli.tableau.tableau import Tableau
 
+MAX_BESIDE = 8
+"""Most columns of two arrays that stand beside each other."""
 
-def render(tableau: Tableau, entries: Entries, name: str) -> str:
-    """The array, with a comment that names it."""
-    N = tableau.size
-    groups = "|".join("c" * len(entries.b[m]) for m in range(N))
-    lines = [f"% {line}" for line in (name, remark(entries)) if line]
-    lines += ["\\[", "\\renewcommand{\\arraystretch}{1.2}", f"\\begin{{array}}{{c|{groups}}}"]
-    rows: dict[int, int] = {}
-    for l, colour in enumerate(tableau.colours):
-        rows.setdefault(colour.space, l)
-    for l in rows.values():
+
+def render(tableau: Tableau, entries: Entries, name: str, is_document: bool = False) -> str:
+    """The arrays, with a comment that names them.
+
+    Args:
+        tableau: for its colours, and for what they drive.
+        entries: its entries, see ``garkcli.tableau.pointwise``.
+        name: one line.
+        is_document: whether the text is a document that compiles as it stands.
+    """
+    lines = [f"% {line}\n" for line in (name, remark(entries)) if line]
+    lines += (f"{line}\n" for line in _displays(tableau, entries))
+    return "".join(fragment(lines, is_document) if is_document else lines)
+
+
+def _displays(tableau: Tableau, entries: Entries) -> Iterator[str]:
+    if not tableau.is_partitioned:
+        colours = range(tableau.size)
+        yield from _display(_array(entries, distinct_rows(tableau), colours))
+        return
+    arrays = []
+    columns = 0
+    for letter, part in (("Q", "q"), ("P", "p")):
+        driven = [m for m in range(tableau.size) if tableau.colours[m].part == part]
+        array = _array(entries, _stages_of(tableau, driven), driven)
+        arrays.append([f"{letter}: \\quad", *array])
+        columns += sum(len(entries.b[m]) for m in driven)
+    if columns <= MAX_BESIDE:
+        yield from _display([*arrays[0], "\\qquad", *arrays[1]])
+    else:
+        for array in arrays:
+            yield from _display(array)
+
+
+def _stages_of(tableau: Tableau, driven: Sequence[int]) -> list[int]:
+    """A colour for each stage space whose stages see one of the colours ``driven``."""
+    return [
+        l for l in distinct_rows(tableau) if any(tableau.block(l, m) is not None for m in driven)
+    ]
+
+
+def _display(lines: Sequence[str]) -> Iterator[str]:
+    yield r"\["
+    yield r"\renewcommand{\arraystretch}{1.2}"
+    yield from lines
+    yield r"\]"
+
+
+def _array(entries: Entries, shown: Sequence[int], colours: Sequence[int]) -> list[str]:
+    """C | A | …, the stages of one colour of ``shown`` under those of the other, b below."""
+    groups = "|".join("c" * len(entries.b[m]) for m in colours)
+    lines = [f"\\begin{{array}}{{c|{groups}}}"]
+    for l in shown:
         for i, node in enumerate(entries.c[l]):
             cells = [_cell(node, entries)]
-            for m in range(N):
+            for m in colours:
                 block = entries.A[l][m]
-                empty = [""] * len(entries.b[m])
-                cells += empty if block is None else [_cell(x, entries) for x in block[i]]
+                absent = [""] * len(entries.b[m])
+                cells += absent if block is None else [_cell(x, entries) for x in block[i]]
             lines.append("  " + " & ".join(cells) + r" \\")
         lines.append(r"  \hline")
-    weights = [_cell(x, entries) for row in entries.b for x in row]
-    lines += ["  & " + " & ".join(weights), "\\end{array}", "\\]"]
-    return "\n".join(lines) + "\n"
+    weights = [_cell(x, entries) for m in colours for x in entries.b[m]]
+    return [*lines, "  & " + " & ".join(weights), "\\end{array}"]
 
 
 def _cell(cell: Cell, entries: Entries) -> str:
-    return number(cell_text(cell, entries.digits)) if isinstance(cell, arb) else to_latex(cell)
+    if isinstance(cell, arb):
+        return number(cell_text(cell, entries.digits))
+    return to_latex(cell)

@@ -2,8 +2,6 @@
 
 from __future__ import annotations
 
-from dataclasses import replace
-
 from flint import arb
 
 from garkcli.exact.display import to_ball, to_text
@@ -16,36 +14,41 @@ def cell_text(cell: Cell, digits: int) -> str:
     """An entry as text: exact, or rounded to ``digits`` significant digits."""
     if not isinstance(cell, arb):
         return to_text(cell)
-    return "0" if cell.contains(0) else cell.str(digits, radius=False)
+    return "0" if cell.contains(0) else without_zeros(cell.str(digits, radius=False))
+
+
+def without_zeros(decimal: str) -> str:
+    """A decimal without zeros at its end.
+
+    >>> without_zeros("0.50000"), without_zeros("1.0000"), without_zeros("2.500e-7")
+    ('0.5', '1', '2.5e-7')
+    """
+    mantissa, e, exponent = decimal.partition("e")
+    if "." in mantissa:
+        mantissa = mantissa.rstrip("0").rstrip(".")
+    return mantissa + e + exponent
 
 
 def readable(entries: Entries) -> Entries:
     """The entries of a method with rounded coefficients for people: fractions longer than decimals
     as decimals.
     """
+    widest = entries.digits + len("-0.")
 
     def short(cell: Cell) -> Cell:
-        if (
-            isinstance(cell, arb) or len(to_text(cell)) <= entries.digits + 3
-        ):  # a sign, a zero and a point
+        if isinstance(cell, arb) or len(to_text(cell)) <= widest:
             return cell
         return to_ball(cell, entries.digits)
 
-    return replace(
-        entries,
-        c=tuple(tuple(map(short, row)) for row in entries.c),
-        A=tuple(
-            tuple(block and tuple(tuple(map(short, row)) for row in block) for block in row)
-            for row in entries.A
-        ),
-        b=tuple(tuple(map(short, row)) for row in entries.b),
-    )
+    return entries.changed(short)
 
 
 def remark(entries: Entries) -> str:
     """That entries are decimals, and why; empty where none is."""
-    if not entries.is_exact:
+    if not entries.have_radicals:
         return f"the nodes have no simple radicals: decimals, {entries.digits} digits"
+    if not entries.is_exact:
+        return f"decimals, {entries.digits} digits"
     blocks = [row for blocks in entries.A for block in blocks if block is not None for row in block]
     if any(isinstance(x, arb) for row in (*entries.c, *blocks, *entries.b) for x in row):
         return f"rounded coefficients: long fractions as decimals, {entries.digits} digits"
@@ -74,7 +77,7 @@ def render(tableau: Tableau, entries: Entries, title: str, paint: Paint, width: 
 def _grid(tableau: Tableau, entries: Entries) -> list[str]:
     """C | A^{1,1} | A^{1,2} | …, one colour under the other, b below."""
     digits, N = entries.digits, tableau.size
-    shown = _distinct_rows(tableau)
+    shown = distinct_rows(tableau)
     nodes = [cell_text(x, digits) for l in shown for x in entries.c[l]]
     texts = [aligned([[x] for x in ["", *nodes, ""]])]
     for m in range(N):
@@ -106,7 +109,7 @@ def _grid(tableau: Tableau, entries: Entries) -> list[str]:
     return [line.rstrip() for line in [*out, body[-1]]]
 
 
-def _distinct_rows(tableau: Tableau) -> list[int]:
+def distinct_rows(tableau: Tableau) -> list[int]:
     """One colour for each stage space: colours that share stages share rows."""
     seen: dict[int, int] = {}
     for l, colour in enumerate(tableau.colours):
@@ -122,7 +125,7 @@ def _listing(tableau: Tableau, entries: Entries) -> list[str]:
         c = ", ".join(cell_text(x, digits) for x in entries.c[l])
         b = ", ".join(cell_text(x, digits) for x in entries.b[l])
         lines += [f"c{{{names[l]}}} = {c}", f"b{{{names[l]}}} = {b}", ""]
-    for l in _distinct_rows(tableau):
+    for l in distinct_rows(tableau):
         for m in range(tableau.size):
             block = entries.A[l][m]
             if block is not None:

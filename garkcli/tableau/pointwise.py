@@ -37,6 +37,7 @@ class Entries:
         b: the weights, one row a colour.
         is_exact: whether the entries are exact numbers; otherwise enclosures.
         digits: the decimal digits that enclosures are good for.
+        have_radicals: whether the nodes have simple radicals, so that exact entries exist.
     """
 
     c: tuple[tuple[Cell, ...], ...]
@@ -44,6 +45,31 @@ class Entries:
     b: tuple[tuple[Cell, ...], ...]
     is_exact: bool
     digits: int
+    have_radicals: bool = True
+
+    def changed(self, change: Callable[[Cell], Cell]) -> Entries:
+        """Every entry replaced by what ``change`` makes of it."""
+
+        def row(cells: Sequence[Cell]) -> tuple[Cell, ...]:
+            return tuple(map(change, cells))
+
+        def block(rows: Sequence[Sequence[Cell]] | None) -> tuple[tuple[Cell, ...], ...] | None:
+            return None if rows is None else tuple(map(row, rows))
+
+        return replace(
+            self,
+            c=tuple(map(row, self.c)),
+            A=tuple(tuple(map(block, blocks)) for blocks in self.A),
+            b=tuple(map(row, self.b)),
+        )
+
+    def in_decimals(self, digits: int) -> Entries:
+        """The entries as enclosures that are good for ``digits`` significant digits."""
+
+        def enclosed(cell: Cell) -> Cell:
+            return cell if isinstance(cell, arb) else to_ball(cell, digits)
+
+        return replace(self.changed(enclosed), is_exact=False, digits=digits)
 
 
 def entries(tableau: Tableau, digits: int = 17) -> Entries:
@@ -225,6 +251,7 @@ def _numeric(tableau: Tableau, digits: int) -> Entries:
         b=tuple(tuple((_to_arb([x.b]) * frames[x.space][1]).entries()) for x in colours),
         is_exact=False,
         digits=digits,
+        have_radicals=False,
     )
 
 

@@ -102,6 +102,19 @@ class Tableau:
                 if self.block(l, m) is not None:
                     yield l, m
 
+    def stages_of(self, part: Part) -> tuple[int, ...]:
+        """The numbers of stages at which a part of the unknowns is computed, one a stage space.
+
+        These are the rows of the paper's tableaus Q and P: in eq. (rectangular) three stages for q
+        and two for p, although two velocities and three forces are evaluated.
+        """
+        drivers = [m for m, colour in enumerate(self.colours) if colour.part == part]
+        return tuple(
+            space.stages
+            for k, space in enumerate(self.spaces)
+            if any((k, m) in self.blocks for m in drivers)
+        )
+
     @property
     def is_partitioned(self) -> bool:
         """Whether the colours drive positions or momenta, as in the symplectic pair."""

@@ -1,0 +1,151 @@
+"""Tableaus as LaTeX, decimals and method files."""
+
+from __future__ import annotations
+
+import json
+import re
+from pathlib import Path
+
+import pytest
+from flint import fmpq
+from hypothesis import given
+from hypothesis import strategies as st
+
+from garkcli.exact.display import plain_decimal
+from garkcli.exact.expression import read_decimal
+from garkcli.methodfile.load import load, loads
+from tests.cli.harness import gark
+
+ROOT = Path(__file__).resolve().parents[2]
+EXACT = ["rectangular", "collocation", "stoermer-verlet", "prk-lobatto-iiia-iiib", "ark-ars222"]
+
+
+def arrays(text: str) -> list[list[list[str]]]:
+    """The rows of cells of each LaTeX array."""
+    found = re.findall(r"\\begin\{array\}\{[^}]*\}\n(.*?)\\end\{array\}", text, re.DOTALL)
+    rows = [body.replace("\\hline\n", "").split("\\\\") for body in found]
+    return [[[cell.strip() for cell in row.split("&")] for row in body] for body in rows]
+
+
+def test_the_rectangular_method_is_printed_as_in_the_paper() -> None:
+    """Eq. (rectangular): Q has three rows of two, P two rows of three, beside each other."""
+    run = gark("tableau", "methods/rectangular.gark.yaml", "--format", "latex")
+    q, p = arrays(run.out)
+    third, half = r"\frac{1}{3}", r"\frac{1}{2}"
+    assert q == [
+        ["0", "0", "0"],
+        [half, r"\frac{1}{4}+\frac{\sqrt{3}}{8}", r"\frac{1}{4}-\frac{\sqrt{3}}{8}"],
+        ["1", half, half],
+        ["", half, half],
+    ]
+    root = r"\frac{\sqrt{3}}{6}"
+    assert p[0] == [f"{half}-{root}", r"\frac{1}{6}", f"{third}-{root}", "0"]
+    assert p[1] == [f"{half}+{root}", r"\frac{1}{6}", f"{third}+{root}", "0"]
+    assert run.out.count(r"\[") == 1
+    assert run.out.index("Q: ") < run.out.index("P: ")
+
+
+def test_a_wide_pair_is_one_display_after_the_other() -> None:
+    """Q and P of a pair of 2N colours have the same nodes and weights, as in eq.
+    (psymplecticGARK).
+    """
+    run = gark("conjugate", "methods/collocation.gark.yaml", "--pair", "--format", "latex")
+    q, p = arrays(run.out)
+    assert run.out.count(r"\[") == 2
+    assert [row[0] for row in q] == [row[0] for row in p]
+    assert q[-1] == p[-1]
+    assert len(q) == 6
+    assert {len(row) for row in (*q, *p)} == {6}
+    (alone,) = arrays(gark("tableau", "methods/collocation.gark.yaml", "--format", "latex").out)
+    assert alone == q
+    made = gark("conjugate", "methods/collocation.gark.yaml", "--format", "latex")
+    assert arrays(made.out) == [p]
+
+
+def test_a_semi_separable_pair_leaves_out_what_the_problem_lacks() -> None:
+    """The paper's Q has stages of both methods and one column of blocks, its P the other way."""
+    run = gark("tableau", "methods/semi-separable.gark.yaml", "--format", "latex")
+    q, p = arrays(run.out)
+    assert [len(q), len(q[0])] == [2 + 3 + 1, 1 + 2]
+    assert [len(p), len(p[0])] == [2 + 1, 1 + 2 + 3]
+
+
+@pytest.mark.parametrize("command", ["tableau", "conjugate"])
+def test_a_document_is_complete(command: str) -> None:
+    """With --document the arrays stand in a document, which other formats refuse."""
+    arguments = (command, "methods/collocation.gark.yaml", "--document")
+    text = gark(*arguments, "--format", "latex").out
+    assert text.startswith("\\documentclass")
+    assert text.endswith("\\end{document}\n")
+    assert arrays(text) == arrays(gark(*arguments[:2], "--format", "latex").out)
+    for other in ("text", "yaml", "json"):
+        run = gark(*arguments, "--format", other)
+        assert (run.code, run.out) == (2, "")
+        assert "--format latex" in run.err
+
+
+@pytest.mark.parametrize("name", EXACT)
+def test_the_file_of_a_tableau_is_the_method(name: str) -> None:
+    """``gark tableau --format yaml`` loads again as the same blocks at the same nodes."""
+    path = f"methods/{name}.gark.yaml"
+    written = loads(gark("tableau", path, "--format", "yaml").out).tableau
+    shown = [json.loads(gark("tableau", path, "--format", "json").out)]
+    file = gark("tableau", path, "--format", "yaml").out
+    again = gark("tableau", "-", "--format", "json", stdin=file)
+    shown.append(json.loads(again.out))
+    assert [colour.part for colour in written.colours] == [
+        colour.part for colour in load(str(ROOT / path)).tableau.colours
+    ]
+    assert shown[0]["A"] == shown[1]["A"]
+    assert shown[0]["b"] == shown[1]["b"]
+
+
+def test_what_no_file_spells_out() -> None:
+    """Nodes without radicals ask for digits; pairs of several terms have no spelled-out form."""
+    run = gark("tableau", "methods/gauss6-lobatto7.gark.yaml", "--format", "yaml")
+    assert run.code == 2
+    assert "--digits 17" in run.err
+    run = gark("tableau", "methods/semi-separable.gark.yaml", "--format", "yaml", "--digits", "9")
+    assert run.code == 2
+    assert "--format json" in run.err
+
+
+@pytest.mark.parametrize(("name", "order"), [("gauss6-lobatto7", 12), ("rectangular", 4)])
+def test_a_rounded_file_has_the_order_within_its_tolerance(name: str, order: int) -> None:
+    """Decimals of any nodes make a file whose tolerance explains what rounding did."""
+    path = f"methods/{name}.gark.yaml"
+    text = gark("tableau", path, "--format", "yaml", "--digits", "25").out
+    found = json.loads(gark("check", "-", "--format", "json", stdin=text).out)["files"][0]
+    assert found["order"] == order
+    assert loads(text).tolerance == fmpq(1, 10**22)
+
+
+@pytest.mark.parametrize("shape", ["text", "latex", "json", "yaml"])
+@pytest.mark.parametrize("command", ["tableau", "conjugate"])
+def test_digits_make_decimals_in_every_format(command: str, shape: str) -> None:
+    """No root and no fraction is left, and each number is that of the exact tableau, rounded."""
+    run = gark(command, "methods/collocation.gark.yaml", "--digits", "6", "--format", shape)
+    assert run.code == 0
+    assert "sqrt" not in run.out
+    assert "/" not in run.out.replace("gark/tableau/1", "")
+    assert "0.211325" in run.out
+
+
+@given(st.integers(-(10**6), 10**6), st.integers(0, 12), st.integers(0, 12))
+def test_plain_decimals_are_read_back(p: int, twos: int, fives: int) -> None:
+    """A rational number whose decimals end is written with all of them."""
+    number = fmpq(p, 2**twos * 5**fives)
+    text = plain_decimal(number)
+    assert "/" not in text
+    assert read_decimal(text.removeprefix("-")) * (-1 if text.startswith("-") else 1) == number
+
+
+def test_stages_are_counted_as_the_paper_does() -> None:
+    """Three stages for q and two for p, although the weights are two and three."""
+    rectangular = load(str(ROOT / "methods/rectangular.gark.yaml")).tableau
+    assert (rectangular.stages_of("q"), rectangular.stages_of("p")) == ((3,), (2,))
+    semi = load(str(ROOT / "methods/semi-separable.gark.yaml")).tableau
+    assert (semi.stages_of("q"), semi.stages_of("p")) == ((2, 3), (2,))
+    assert semi.stages_of("y") == ()
+    text = gark("check", "methods/rectangular.gark.yaml", "-v").out
+    assert "stages q: 3, p: 2" in text
