@@ -18,9 +18,14 @@ from garkcli.tableau.stages import PointSpace
 from garkcli.tableau.tableau import Tableau
 
 if TYPE_CHECKING:
-    from garkcli.order.rounded import RoundedOrder
-    from garkcli.order.suggestion import Suggestion
+    from collections.abc import Callable, Mapping
 
+    from garkcli.exact.field import Number
+    from garkcli.order.rounded import RoundedOrder
+    from garkcli.order.suggestion import Misprint, Suggestion
+
+Units: TypeAlias = "Callable[[], Mapping[Number, fmpq]]"
+"""By how much each printed value may be off in its last place."""
 AnyOrder: TypeAlias = Union[Order, "RoundedOrder"]
 """An order found exactly, or within a tolerance: both have ``order``, ``witness`` and
 ``is_lower_bound``.
@@ -52,6 +57,7 @@ class Analysis:
         tolerance: the rounding within which all of this holds; None where it holds exactly.
         suggestion: the tolerance that the residuals speak for: of a method that is exact by its
             word, or where the tolerance of the file is too tight for its own rounding.
+        misprint: why no tolerance is proposed though residuals are tiny: digits do not explain them.
     """
 
     tableau: Tableau
@@ -71,6 +77,7 @@ class Analysis:
     limit: int
     tolerance: fmpq | None = None
     suggestion: Suggestion | None = None
+    misprint: Misprint | None = None
 
     def __repr__(self) -> str:
         orders = [f"order {self.order.order}"]
@@ -82,7 +89,10 @@ class Analysis:
 
 
 def analyse(
-    tableau: Tableau, limit: int = DEFAULT_LIMIT, tolerance: fmpq | None = None
+    tableau: Tableau,
+    limit: int = DEFAULT_LIMIT,
+    tolerance: fmpq | None = None,
+    units: Units | None = None,
 ) -> Analysis:
     """Decide everything that ``gark check`` reports; no order beyond ``limit`` is looked for.
 
@@ -90,6 +100,8 @@ def analyse(
         tableau: the method.
         limit: where the search for orders stops.
         tolerance: the rounding of its coefficients; None for coefficients that are meant exactly.
+        units: by how much each printed value may be off, where its digits are known; asked for only
+            where residuals look like rounding.
     """
     if tolerance is not None:
         from garkcli.check.within import analyse_within
@@ -103,6 +115,12 @@ def analyse(
         pair_order, pair_conditions = order, conditions
     elif both is not None:
         pair_order, pair_conditions = find_order(both, limit), simplifying(both, limit)
+    suggestion = _suggestion(tableau, order, limit)
+    misprint = None
+    if suggestion is not None and units is not None:
+        from garkcli.order.suggestion import find_misprint
+
+        misprint = find_misprint(tableau, order, suggestion, units())
     return Analysis(
         tableau=tableau,
         order=order,
@@ -119,7 +137,8 @@ def analyse(
         pair_bound=None if pair_conditions is None else pair_conditions.bound,
         obstacle=obstacle,
         limit=limit,
-        suggestion=_suggestion(tableau, order, limit),
+        suggestion=None if misprint else suggestion,
+        misprint=misprint,
     )
 
 

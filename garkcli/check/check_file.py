@@ -2,19 +2,29 @@
 
 from __future__ import annotations
 
+from dataclasses import replace
 from typing import TYPE_CHECKING
 
-from garkcli.check.analysis import analyse
+from garkcli.check.analysis import Analysis, analyse
 from garkcli.check.claims import verify
 from garkcli.check.outcome import Outcome
 from garkcli.errors import MethodFileError
 from garkcli.methodfile.build import MethodFile
 from garkcli.methodfile.expectations import highest_order
 from garkcli.methodfile.load import load
-from garkcli.order.certificate import DEFAULT_LIMIT
+from garkcli.methodfile.printed import printed_units
+from garkcli.order.certificate import DEFAULT_LIMIT, Order
+from garkcli.tableau.conjugate import conjugate
+from garkcli.tableau.forms import pair
+from garkcli.tableau.tableau import Tableau
 
 if TYPE_CHECKING:
     from garkcli.order.blame import Blame
+
+NEAR = 10
+"""An entry is a repair when it brings residuals within so many tolerances: the entry that is
+solved for carries the rounding of all others.
+"""
 
 
 def check_file(path: str, limit: int = DEFAULT_LIMIT, want_constants: bool = False) -> Outcome:
@@ -30,7 +40,10 @@ def check_file(path: str, limit: int = DEFAULT_LIMIT, want_constants: bool = Fal
     except MethodFileError as error:
         return Outcome(error.source, error.source, faults=error.faults, text=error.text)
     analysis = analyse(
-        method.tableau, max(limit, highest_order(method.claims) + 1), method.tolerance
+        method.tableau,
+        max(limit, highest_order(method.claims) + 1),
+        method.tolerance,
+        lambda: printed_units(method.printed),
     )
     first_failing = None if analysis.order.is_lower_bound else analysis.order.order + 1
     constants = None
@@ -45,16 +58,36 @@ def check_file(path: str, limit: int = DEFAULT_LIMIT, want_constants: bool = Fal
         analysis=analysis,
         claims=verify(method.claims, analysis),
         text=method.text,
-        blame=_blame(method, first_failing),
+        blame=_blame(method, analysis),
         constants=constants,
     )
 
 
-def _blame(method: MethodFile, first_failing: int | None) -> Blame | None:
-    """What is to blame for an order smaller than the file claims."""
-    claimed = highest_order(tuple(claim for claim in method.claims if claim.key == "order"))
-    if first_failing is None or first_failing > claimed or method.tolerance is not None:
-        return None
-    from garkcli.order.blame import find_blame  # paid for by failures alone
+def _blame(method: MethodFile, analysis: Analysis) -> Blame | None:
+    """What is to blame for the first order that is smaller than the file claims.
 
-    return find_blame(method.tableau, first_failing, claimed)
+    Nobody is where the next order is not known to fail, or where rounding explains that it does.
+    """
+    parts = (
+        ("order", analysis.order, _itself),
+        ("conjugate-order", analysis.conjugate_order, conjugate),
+        ("pair-order", analysis.pair_order, pair),
+    )
+    for key, found, derive in parts:
+        claimed = highest_order(tuple(claim for claim in method.claims if claim.key == key))
+        if found is None or found.order >= claimed:
+            continue
+        if found.is_lower_bound or (analysis.suggestion and method.tolerance is not None):
+            return None
+        from garkcli.order.blame import Missed, blame_of  # paid for by failures alone
+
+        missed = Missed(found.order + 1, claimed, key, derive)
+        if not isinstance(found, Order):
+            near = NEAR * found.tolerance
+            missed = replace(missed, tolerance=found.tolerance, near=near)
+        return blame_of(method.tableau, missed)
+    return None
+
+
+def _itself(tableau: Tableau) -> Tableau:
+    return tableau

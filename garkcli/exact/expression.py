@@ -48,9 +48,10 @@ class Expression:
 
 @dataclass(frozen=True)
 class Literal(Expression):
-    """A rational number."""
+    """A rational number; ``text`` is how it is printed, where it was read."""
 
     value: fmpq
+    text: str = field(default="", compare=False, kw_only=True)
 
 
 @dataclass(frozen=True)
@@ -233,7 +234,7 @@ class Parser:
                 if sign == "+":
                     return inner
                 if isinstance(inner, Literal):
-                    return Literal(-inner.value, start=start, end=self.last_end)
+                    return Literal(-inner.value, start=start, end=self.last_end, text=inner.text)
                 return Chain("-", (inner,), start=start, end=self.last_end)
             return self._power()
         finally:
@@ -272,9 +273,9 @@ class Parser:
     def _atom(self) -> Expression:
         start = self.start
         if self.kind == "number":
-            value = read_decimal(self.value, start)
-            self._advance()
-            return Literal(value, start=start, end=self.last_end)
+            text = self._advance()
+            value = read_decimal(text, start)
+            return Literal(value, start=start, end=self.last_end, text=text)
         if self.kind == "name":
             name = self._advance()
             if self.value == "(":

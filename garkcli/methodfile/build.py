@@ -3,7 +3,7 @@
 from __future__ import annotations
 
 from collections.abc import Callable, Mapping
-from dataclasses import dataclass
+from dataclasses import dataclass, field
 from typing import TypeAlias, TypeVar
 
 from yaml.nodes import Node
@@ -27,6 +27,7 @@ from garkcli.methodfile.description import (
     TableauText,
 )
 from garkcli.methodfile.numbers import Entry, Numbers, Row, Values
+from garkcli.methodfile.printed import Printed
 from garkcli.methodfile.source import Source
 from garkcli.order.certificate import find_order
 from garkcli.tableau.conjugate import conjugate
@@ -60,6 +61,7 @@ class MethodFile(GarkMethod):
         structure: which vector fields the problem has.
         is_conjugate: whether the file describes the conjugate of what it spells out.
         claims: what ``expect`` says.
+        printed: the coefficients as they are written.
     """
 
     source: str
@@ -70,6 +72,7 @@ class MethodFile(GarkMethod):
     claims: tuple[ClaimText, ...]
     reference: str = ""
     description: str = ""
+    printed: Printed = field(default=(), repr=False, compare=False)
 
 
 class Builder:

@@ -117,4 +117,5 @@ def loads(text: str, source: str = "<text>") -> MethodFile:
         claims=description.claims,
         reference=description.reference,
         description=description.description,
+        printed=values.printed,
     )

@@ -3,7 +3,7 @@
 from __future__ import annotations
 
 import re
-from collections.abc import Sequence
+from collections.abc import Iterable, Sequence
 from dataclasses import dataclass, field
 from typing import TypeAlias
 
@@ -51,6 +51,7 @@ class Numbers:
     source: Source
     parameters: dict[str, Expression] = field(default_factory=dict)
     entries: list[Entry] = field(default_factory=list)
+    of_parameters: list[Entry] = field(default_factory=list)
     _sizes: dict[str, int] = field(default_factory=dict)
     _depths: dict[str, int] = field(default_factory=dict)
     _read: dict[str, Expression] = field(default_factory=dict)
@@ -349,11 +350,16 @@ def explained(error: ExpressionError, text: str) -> tuple[ExpressionError, str]:
 
 
 class Values:
-    """The exact values of all coefficients of a file, in their common domain."""
+    """The exact values of all coefficients of a file, in their common domain.
+
+    Attributes:
+        printed: each different coefficient, as it is written and its value.
+    """
 
     def __init__(self, numbers: Numbers) -> None:
         source = numbers.source
         self._values: dict[int, Number] = {}
+        self.printed: tuple[tuple[Expression, Number], ...] = ()
         expressions = {id(entry.expression): entry.expression for entry in numbers.entries}
         try:
             domain = Domain(expressions.values())
@@ -369,6 +375,8 @@ class Values:
                 self._values[id(entry)] = known[key]
             except ExpressionError as error:
                 source.expression_fault(entry.node, entry.where, error)
+        self.printed = tuple((expressions[key], value) for key, value in known.items())
+        _note_faults(source, numbers.of_parameters)
 
     def _find_culprits(self, numbers: Numbers, error: ExpressionError) -> None:
         """Note each coefficient that has no real value; failing that, what is wrong with all of
@@ -377,13 +385,7 @@ class Values:
         No field is made for any of them: there may be many, and each may be large.
         """
         before = len(numbers.source.faults)
-        for entry in numbers.entries:
-            try:
-                domain = Domain([entry.expression], only_check=True)
-                if not any(roots_in(entry.expression)):
-                    domain.evaluate(entry.expression)
-            except ExpressionError as own:
-                numbers.source.expression_fault(entry.node, entry.where, own)
+        _note_faults(numbers.source, [*numbers.of_parameters, *numbers.entries])
         if len(numbers.source.faults) == before:
             radical = next(x for x in numbers.entries if any(roots_in(x.expression)))
             numbers.source.fault(radical.node, error.message, error.help)
@@ -401,10 +403,22 @@ class Values:
         return tuple(self.vector(row) for row in rows)
 
 
+def _note_faults(source: Source, entries: Iterable[Entry]) -> None:
+    """Note each coefficient that has no real value; no field is made for any of them."""
+    for entry in entries:
+        try:
+            domain = Domain([entry.expression], only_check=True)
+            if not any(roots_in(entry.expression)):
+                domain.evaluate(entry.expression)
+        except ExpressionError as own:
+            source.expression_fault(entry.node, entry.where, own)
+
+
 def read_parameters(numbers: Numbers, node: Node | None) -> None:
     """Read ``parameters`` into ``numbers``; each may use those before it.
 
-    The values join the coefficients of the file, so that a faulty one is reported where it stands.
+    The values are kept apart from the coefficients: one that no coefficient uses has no part in
+    their domain, but a faulty one is reported where it stands.
     """
     if node is None:
         return
@@ -424,4 +438,5 @@ def read_parameters(numbers: Numbers, node: Node | None) -> None:
             source.fault(value_node, f"{where} is free; orders are decided for given values", cure)
         else:
             value = numbers.entry(value_node, where).expression
+            numbers.of_parameters.append(numbers.entries.pop())
         numbers.define(name, value)

@@ -6,14 +6,20 @@ Both are hints drawn from the failing conditions, never facts about what a sourc
 from __future__ import annotations
 
 from collections import Counter
-from collections.abc import Iterator
+from collections.abc import Callable, Iterator, Sequence
 from dataclasses import dataclass, replace
+from typing import TypeAlias
 
-from garkcli.exact.field import ONE, Number
+from flint import fmpq
+
+from garkcli.errors import ZeroWeight
+from garkcli.exact.display import to_ball
+from garkcli.exact.field import ONE, ZERO, Number
 from garkcli.exact.matrix import Matrix
 from garkcli.order.certificate import find_order
-from garkcli.order.conditions import Condition, elementary_weight
+from garkcli.order.conditions import Condition, conditions
 from garkcli.order.listing import all_conditions, count_conditions
+from garkcli.order.tolerance import within
 from garkcli.tableau.stages import PointSpace
 from garkcli.tableau.tableau import Tableau
 from garkcli.trees.tree import Tree
@@ -22,6 +28,14 @@ MAX_CONDITIONS = 20_000
 """Most conditions that are evaluated to find a culprit."""
 MAX_ENTRIES = 2_000
 """Most entries that are tried."""
+FEW_CONDITIONS = 4
+"""So many failing conditions are solved for an entry of rounded coefficients; the best is kept."""
+FEW_CHECKED = 20
+"""So many failing conditions are looked at before the order is found."""
+NEWTON_STEPS = 3
+"""Steps of the simplified Newton's method; each squares a small misprint, nearly."""
+Derive: TypeAlias = Callable[[Tableau], Tableau]
+"""What is made of a method, such as its conjugate."""
 
 
 @dataclass(frozen=True)
@@ -54,7 +68,10 @@ class Blame:
             none, or where several are equally likely.
         only_coupling: whether every failing condition mixes colours, so that the diagonal methods
             are right.
-        repairs: single entries that restore the claimed order.
+        repairs: single entries of the method that restore the claimed order.
+        of: the claim that is missed, as it is called in a file.
+        names: the colours of the tableau whose conditions fail.
+        tolerance: what coefficients are rounded by; 0 where they are exact.
     """
 
     order: int
@@ -65,10 +82,34 @@ class Blame:
     culprit: tuple[int, int] | None
     only_coupling: bool
     repairs: tuple[Repair, ...]
+    of: str = "order"
+    names: tuple[str, ...] = ()
+    tolerance: fmpq = ZERO
+
+
+@dataclass(frozen=True)
+class Missed:
+    """A claimed order that is missed, and how conditions are judged.
+
+    Attributes:
+        order: the first failing order.
+        claimed: the order that was meant.
+        of: what claims it, as it is called in a file.
+        derive: from the method to the tableau that it is claimed of.
+        tolerance: conditions fail beyond it.
+        near: within it they are restored: more than ``tolerance`` where coefficients are rounded.
+    """
+
+    order: int
+    claimed: int
+    of: str = "order"
+    derive: Derive = lambda tableau: tableau
+    tolerance: fmpq = ZERO
+    near: fmpq = ZERO
 
 
 def find_blame(tableau: Tableau, order: int, claimed: int) -> Blame | None:
-    """Look at all conditions of ``order``, the first failing one.
+    """Look at all conditions of ``order``, the first failing one, of exact coefficients.
 
     Args:
         tableau: the tableau.
@@ -78,22 +119,39 @@ def find_blame(tableau: Tableau, order: int, claimed: int) -> Blame | None:
     Returns:
         None where there are more than ``MAX_CONDITIONS`` conditions.
     """
-    if count_conditions(tableau, order) > MAX_CONDITIONS:
+    return blame_of(tableau, Missed(order, claimed))
+
+
+def blame_of(method: Tableau, missed: Missed) -> Blame | None:
+    """Look at all conditions of the first failing order of a method, its conjugate or their pair.
+
+    Args:
+        method: the tableau whose entries may be wrong.
+        missed: what it was meant to have.
+
+    Returns:
+        None where there are more than ``MAX_CONDITIONS`` conditions.
+    """
+    tableau = missed.derive(method)
+    if count_conditions(tableau, missed.order) > MAX_CONDITIONS:
         return None
-    found = list(all_conditions(tableau, order))
+    found = list(all_conditions(tableau, missed.order, missed.tolerance))
     failing = [condition for condition in found if not condition.holds]
     used = [_blocks_in(tableau, condition.tree) for condition in failing]
     blocks = sorted({_canonical(tableau, edge) for edge in tableau.edges()})
-    in_every = tuple(block for block in blocks if all(block in use for use in used))
+    in_every = tuple(block for block in blocks if used and all(block in use for use in used))
     return Blame(
-        order=order,
+        order=missed.order,
         failing=len(failing),
         total=len(found),
         in_every=in_every,
         in_none=tuple(block for block in blocks if not any(block in use for use in used)),
         culprit=_culprit(tableau, found, in_every),
         only_coupling=all(condition.is_coupling for condition in failing),
-        repairs=tuple(_repairs(tableau, failing, claimed)),
+        repairs=tuple(_repairs(method, missed, failing)),
+        of=missed.of,
+        names=tuple(colour.name for colour in tableau.colours),
+        tolerance=missed.tolerance,
     )
 
 
@@ -124,50 +182,136 @@ def _culprit(
     return best[0] if len(best) == 1 else None
 
 
-def _repairs(tableau: Tableau, failing: list[Condition], claimed: int) -> Iterator[Repair]:
-    """Entries whose change restores ``claimed``: each must solve a failing condition it occurs in
-    once.
+def _repairs(method: Tableau, missed: Missed, failing: list[Condition]) -> Iterator[Repair]:
+    """Entries whose change restores what is claimed: each must solve a failing condition.
+
+    Of exact coefficients one condition tells as much as all; of rounded ones the entry that solves
+    it carries their rounding, so that the condition that depends on it most is solved.
     """
-    tried = 0
-    for condition in sorted(failing, key=lambda x: x.tree.order)[:1]:
-        for repair, changed in _solved(tableau, condition):
-            tried += 1
-            if tried > MAX_ENTRIES:
-                return
-            if find_order(changed, claimed).order >= claimed:
-                yield repair
+    solved = failing[:1]
+    if missed.tolerance:
+        by_size = sorted(failing, key=lambda x: float(abs(to_ball(x.residual, 20))), reverse=True)
+        solved = by_size[:FEW_CONDITIONS]
+    if not solved:
+        return
+    for tried, place in enumerate(_places(method)):
+        if tried >= MAX_ENTRIES:
+            return
+        new = _solution(method, missed, place, solved)
+        if new is None:
+            continue
+        changed = _derived(missed, place.put(method, new))
+        if changed is None or not _holds(changed, failing[:FEW_CHECKED], missed.near):
+            continue
+        if _is_restored(changed, missed):
+            yield Repair(place.l, place.m, place.i, place.j, place.old, new)
 
 
-def _solved(tableau: Tableau, condition: Condition) -> Iterator[tuple[Repair, Tableau]]:
-    """Each entry that occurs linearly in ``condition``, changed such that the condition holds."""
-    counts = _blocks_in(tableau, condition.tree)
-    for (l, m), count in counts.items():
-        k = tableau.colours[l].space
-        pointwise = isinstance(tableau.spaces[k], PointSpace) and isinstance(
-            tableau.space(m), PointSpace
-        )
-        block = tableau.blocks[k, m]
-        for i, row in enumerate(block if pointwise and count == 1 else ()):
-            for j, old in enumerate(row):
-                shifted = _with_entry(tableau, (k, m), i, j, old + ONE)
-                new = _root(condition, old, elementary_weight(shifted, condition.tree))
-                if new is not None:
-                    yield Repair(l, m, i, j, old, new), _with_entry(tableau, (k, m), i, j, new)
-    root = condition.tree.root
-    b = tableau.colours[root].b
-    for j, old in enumerate(b if isinstance(tableau.space(root), PointSpace) else ()):
-        shifted = _with_weight(tableau, root, j, old + ONE)
-        new = _root(condition, old, elementary_weight(shifted, condition.tree))
-        if new is not None:
-            yield Repair(root, None, None, j, old, new), _with_weight(tableau, root, j, new)
+def _holds(tableau: Tableau, failing: Sequence[Condition], near: fmpq) -> bool:
+    """Whether some conditions hold that failed: that takes less than finding the order."""
+    trees = [condition.tree for condition in failing]
+    return all(within(x.residual, near) for x in conditions(tableau, trees))
 
 
-def _root(condition: Condition, old: Number, shifted: Number) -> Number | None:
-    """Where the condition, linear in the entry, vanishes: from its values at the entry and one
-    beyond.
+def _is_restored(tableau: Tableau, missed: Missed) -> bool:
+    if not missed.near:
+        return find_order(tableau, missed.claimed).order >= missed.claimed
+    from garkcli.order.rounded import find_order_within
+
+    return find_order_within(tableau, missed.near, missed.claimed).order >= missed.claimed
+
+
+@dataclass(frozen=True)
+class _Place:
+    """One entry of a method: of the block (l, m), or of the weights of l, where m is None."""
+
+    l: int
+    m: int | None
+    i: int | None
+    j: int
+    old: Number
+
+    def put(self, method: Tableau, value: Number) -> Tableau:
+        """The method with another value there."""
+        if self.m is None or self.i is None:
+            return _with_weight(method, self.l, self.j, value)
+        key = method.colours[self.l].space, self.m
+        return _with_entry(method, key, self.i, self.j, value)
+
+
+def _places(method: Tableau) -> Iterator[_Place]:
+    """The entries that are entries of stages: those of stage spaces of points."""
+    for l, m in sorted({_canonical(method, edge) for edge in method.edges()}):
+        spaces = method.space(l), method.space(m)
+        if all(isinstance(space, PointSpace) for space in spaces):
+            for i, row in enumerate(method.blocks[method.colours[l].space, m]):
+                for j, old in enumerate(row):
+                    yield _Place(l, m, i, j, old)
+    for l, colour in enumerate(method.colours):
+        if isinstance(method.space(l), PointSpace):
+            for j, old in enumerate(colour.b):
+                yield _Place(l, None, None, j, old)
+
+
+def _solution(
+    method: Tableau, missed: Missed, place: _Place, failing: Sequence[Condition]
+) -> Number | None:
+    """The value with which a failing condition holds; None where none depends on the entry.
+
+    Of exact coefficients only conditions that are linear in the entry are solved, by their values
+    at the entry and one beyond; of rounded ones all by a few steps of a simplified Newton's method,
+    as a misprint is a small change.
     """
-    slope = shifted - condition.value
-    return old - condition.residual / slope if slope else None
+    step = missed.near if missed.near else ONE
+    trees = [condition.tree for condition in failing]
+    beyond = _weights(missed, place.put(method, place.old + step), trees)
+    if beyond is None:
+        return None
+    pairs = zip(beyond, failing, strict=True)
+    slopes = [(x - condition.value) / step for x, condition in pairs]
+    sizes = [float(abs(to_ball(slope, 20))) for slope in slopes]
+    best = sizes.index(max(sizes))
+    condition, slope = failing[best], slopes[best]
+    if not slope:
+        return None
+    value = place.old - condition.residual / slope
+    if missed.near:
+        return _refined(method, missed, place, condition, value, slope)
+    twice = _weights(missed, place.put(method, place.old + 2 * ONE), [condition.tree])
+    return value if twice and twice[0] - beyond[best] == slope else None
+
+
+def _refined(
+    method: Tableau,
+    missed: Missed,
+    place: _Place,
+    condition: Condition,
+    value: Number,
+    slope: Number,
+) -> Number:
+    """The root of a condition near ``value``, to a hundredth of what it is to be restored within."""
+    grid = missed.near / 100
+    for _ in range(NEWTON_STEPS):
+        if isinstance(value, fmpq):
+            value = (value / grid).floor() * grid
+        found = _weights(missed, place.put(method, value), [condition.tree])
+        if found is None:
+            break
+        value = value - (found[0] - condition.required) / slope
+    return value
+
+
+def _weights(missed: Missed, method: Tableau, trees: Sequence[Tree]) -> list[Number] | None:
+    tableau = _derived(missed, method)
+    return None if tableau is None else [x.value for x in conditions(tableau, trees)]
+
+
+def _derived(missed: Missed, method: Tableau) -> Tableau | None:
+    """What is claimed of; None where the changed method has none."""
+    try:
+        return missed.derive(method)
+    except ZeroWeight:
+        return None
 
 
 def _with_entry(tableau: Tableau, key: tuple[int, int], i: int, j: int, value: Number) -> Tableau:

@@ -26,6 +26,7 @@ from functools import reduce
 
 from flint import arb, arb_mat, ctx, fmpq
 
+from garkcli.exact.field import Number
 from garkcli.tableau.conjugate import are_opposite
 from garkcli.tableau.enclosing import Enclosure, enclose_tableau
 from garkcli.tableau.tableau import Tableau
@@ -52,9 +53,16 @@ class Propagation:
         radii: for each block how far its entries may be off; where a block is missing it is
             ``tolerance`` everywhere.
         tolerance: how far weights may be off.
+        weights: for each colour how far its weights may be off, where that is not ``tolerance``.
     """
 
-    def __init__(self, tableau: Tableau, radii: Radii, tolerance: fmpq) -> None:
+    def __init__(
+        self,
+        tableau: Tableau,
+        radii: Radii,
+        tolerance: fmpq,
+        weights: Sequence[Entries] | None = None,
+    ) -> None:
         self.tableau = tableau
         with ctx.workprec(BITS):
             self._rounding = arb(tolerance)
@@ -63,6 +71,7 @@ class Propagation:
             self._b = [_upper(b.entries()) for b in enclosure.b]
             self._A = {key: _upper_rows(A) for key, A in enclosure.A.items()}
             self._off = {key: self._radii_of(key, radii) for key in enclosure.A}
+            self._off_b = weights or [[self._rounding] * len(b) for b in self._b]
         self._forests = [[_Range([arb(1)] * s, [arb(0)] * s)] for s in self._stages]
         self._branches: list[list[_Range | None]] = [[None] for _ in self._stages]
 
@@ -76,12 +85,12 @@ class Propagation:
         """No residual of ``order`` changes by more."""
         found = arb(0)
         with ctx.workprec(BITS):
-            for l, b in enumerate(self._b):
+            for l, (b, off) in enumerate(zip(self._b, self._off_b, strict=True)):
                 vectors = self._stage_vectors(l, order)
                 if vectors is None:
                     continue
                 moved = [s + d for s, d in zip(vectors.size, vectors.change, strict=True)]
-                change = _dot(b, vectors.change) + self._rounding * _total(moved)
+                change = _dot(b, vectors.change) + _dot(off, moved)
                 found = found.max(change)
         return found.abs_upper()
 
@@ -129,6 +138,28 @@ class Propagation:
             if branch is not None:
                 found = _either(found, _product(branch, rest))
         return found or _Range(zero, zero)
+
+
+def printed_rounding(tableau: Tableau, units: Mapping[Number, fmpq]) -> Propagation:
+    """What the last digits of printed coefficients leave open.
+
+    Args:
+        tableau: the method.
+        units: by how much each value that is printed may be off; what was made of printed values by
+            a rule may be off by the largest of them.
+    """
+    largest = max(units.values(), default=fmpq(0))
+
+    def unit(value: Number) -> arb:
+        return arb(units.get(value, largest if value else fmpq(0)))
+
+    with ctx.workprec(BITS):
+        radii = {
+            key: arb_mat([[unit(x) for x in row] for row in block])
+            for key, block in tableau.blocks.items()
+        }
+        weights = [[unit(x) for x in colour.b] for colour in tableau.colours]
+    return Propagation(tableau, radii, largest, weights)
 
 
 @dataclass(frozen=True, eq=False)

@@ -2,24 +2,31 @@
 
 from __future__ import annotations
 
-from collections.abc import Iterator
+from collections.abc import Iterator, Mapping
 from dataclasses import dataclass, field
 
 from flint import arb, ctx, fmpq
 
 from garkcli.exact.display import to_ball
+from garkcli.exact.field import ZERO, Number
 from garkcli.order.approximate_spans import ApproximateSpans
+from garkcli.order.blame import Missed, Repair, blame_of
 from garkcli.order.certificate import DEFAULT_LIMIT, Order
 from garkcli.order.conditions import coupling_graph
-from garkcli.order.propagation import Propagation
+from garkcli.order.listing import count_conditions
+from garkcli.order.propagation import Propagation, printed_rounding
 from garkcli.order.residuals import Sizes, TreeResiduals
 from garkcli.order.rounded import FEW_TREES, RoundedOrder, find_order_within
-from garkcli.order.tolerance import unnatural
+from garkcli.order.tolerance import rounded_up, unnatural, within
 from garkcli.tableau.enclosing import enclose_tableau
 from garkcli.tableau.stages import PointSpace
 from garkcli.tableau.tableau import Tableau
 from garkcli.trees.count import Admissible, counts_upto
 
+SLACK = 10
+"""Units of the last place by which a coefficient may be off that was computed in them."""
+FEW_CONDITIONS = 2_000
+"""Most conditions that are looked at for the entry that is misprinted."""
 JUMP = 1000
 """The first residual that is genuine is so many times larger than all those of rounding."""
 
@@ -33,12 +40,14 @@ class Suggestion:
         exponent: the tolerance to propose is 10 to this power.
         rounding: the largest |residual| up to ``order``.
         genuine: the largest |residual| found at the next order.
+        worst: the order at which ``rounding`` is reached; 0 where that is not known.
     """
 
     order: int
     exponent: int
     rounding: arb = field(compare=False)
     genuine: arb = field(compare=False)
+    worst: int = 0
 
     @property
     def tolerance(self) -> fmpq:
@@ -49,6 +58,67 @@ class Suggestion:
     def line(self) -> str:
         """The line to add to the method file."""
         return f"tolerance: 1e{self.exponent}"
+
+
+@dataclass(frozen=True)
+class Misprint:
+    """Residuals that look like rounding, but are larger than the digits of the file explain.
+
+    Attributes:
+        order: the order that the method would have.
+        residual: the largest |residual| up to there.
+        explained: how large rounding of the last digits makes residuals at most.
+        repairs: single entries whose change restores the order: one of them is misprinted.
+    """
+
+    order: int
+    residual: arb = field(compare=False)
+    explained: arb = field(compare=False)
+    repairs: tuple[Repair, ...]
+
+
+def find_misprint(
+    tableau: Tableau, exact: Order, found: Suggestion, units: Mapping[Number, fmpq]
+) -> Misprint | None:
+    """Whether the residuals that a tolerance would cover are larger than rounding makes them.
+
+    A coefficient is rounded by one unit of its last place at most, ten where it was computed; what
+    that does to residuals is bounded, ``printed_rounding``. A long fraction may be off by one in
+    its numerator, so there one entry that makes all conditions hold exactly is a misprint, too.
+
+    Args:
+        tableau: the method.
+        exact: its exact order.
+        found: the tolerance that its residuals suggest.
+        units: by how much each printed value may be off.
+
+    Returns:
+        None where rounding explains them.
+    """
+    made = printed_rounding(tableau, units)
+    explained = arb(0)
+    for order in range(1, found.order + 1):
+        explained = explained.max(made.effect(order))
+    near = rounded_up(SLACK * explained)
+    is_explained = found.rounding <= near
+    if is_explained:
+        near = ZERO
+    # where residuals are largest they depend on the entry most: earlier ones may be its squares
+    looked_at = found.worst if near else exact.order + 1
+    repairs: tuple[Repair, ...] = ()
+    if count_conditions(tableau, looked_at) <= FEW_CONDITIONS:
+        missed = Missed(looked_at, found.order, tolerance=near, near=near)
+        blame = blame_of(tableau, missed)
+        repairs = () if blame is None else blame.repairs
+    largest = max(units.values(), default=ZERO)
+    visible: list[Repair] = []
+    for repair in repairs:
+        unit = largest if is_explained else units.get(repair.old, ZERO)
+        if not within(repair.new - repair.old, SLACK * unit):
+            visible.append(repair)
+    if is_explained and not visible:
+        return None
+    return Misprint(found.order, found.rounding, explained, tuple(visible))
 
 
 def suggest_tolerance(
@@ -86,12 +156,13 @@ def suggest_tolerance(
     first = abs(to_ball(exact.witness.residual))
     if not first <= unnatural(exact.order + 1):
         return None
-    rounding = first
+    rounding, worst = first, exact.order + 1
     for order, sizes in _sizes(tableau, first, range(exact.order + 1, limit + 1)):
         if sizes.bound <= unnatural(order):
-            rounding = rounding.max(sizes.bound)
+            if sizes.bound > rounding:
+                rounding, worst = sizes.bound, order
         elif order > exact.order + 1 and sizes.reached >= JUMP * rounding:
-            return Suggestion(order - 1, _exponent(rounding), rounding, sizes.reached)
+            return Suggestion(order - 1, _exponent(rounding), rounding, sizes.reached, worst)
         else:
             return None
     return None

@@ -104,7 +104,20 @@ def _checked() -> Schema:
     suggestion = _object(
         {"line": {"type": "string"}, "order": _COUNT, "rounding": size, "genuine": size}
     )
-    optional = {"blame": _blame(), "error_constants": _constants(), "suggestion": suggestion}
+    misprint = _object(
+        {
+            "order": _COUNT,
+            "residual": size,
+            "explained": size,
+            "repairs": {"type": "array", "items": _repair()},
+        }
+    )
+    optional = {
+        "blame": _blame(),
+        "error_constants": _constants(),
+        "suggestion": suggestion,
+        "misprint": misprint,
+    }
     return _object(required, {**bounds, **optional})
 
 
@@ -127,15 +140,20 @@ def _claim() -> Schema:
     )
 
 
-def _blame() -> Schema:
+def _repair() -> Schema:
     place = {
         "row": {"type": ["integer", "null"]},
         "entry": {"type": "integer", "minimum": 1},
         "old": _EXACT,
         "new": _EXACT,
     }
+    return _object(place, {"A": _BLOCK, "b": _BLOCK})
+
+
+def _blame() -> Schema:
     return _object(
         {
+            "of": {"enum": ["order", "conjugate-order", "pair-order"]},
             "order": {"type": "integer", "minimum": 1},
             "failing": _COUNT,
             "conditions": _COUNT,
@@ -143,7 +161,7 @@ def _blame() -> Schema:
             "culprit": {"oneOf": [{"type": "null"}, _BLOCK]},
             "in_every": {"type": "array", "items": _BLOCK},
             "in_none": {"type": "array", "items": _BLOCK},
-            "repairs": {"type": "array", "items": _object(place, {"A": _BLOCK, "b": _BLOCK})},
+            "repairs": {"type": "array", "items": _repair()},
         }
     )
 

@@ -103,6 +103,10 @@ def _full(outcome: Outcome, analysis: Analysis, paint: Paint) -> list[str]:
     lines += _orders(analysis, paint)
     if analysis.suggestion is not None:
         lines += _suggested(analysis.suggestion, analysis.tolerance, paint)
+    if analysis.misprint is not None:
+        from garkcli.report.hints import misprint_lines
+
+        lines += misprint_lines(analysis.misprint, tableau, paint)
     lines += ["", *_conditions(analysis)]
     lines += ["", *_properties(analysis, paint)]
     if outcome.constants is not None:

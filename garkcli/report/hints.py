@@ -5,47 +5,87 @@ from __future__ import annotations
 from collections.abc import Sequence
 from typing import Any
 
+from flint import arb, fmpq
+
 from garkcli.check.outcome import Outcome
-from garkcli.exact.display import to_text
+from garkcli.exact.display import to_decimal, to_text
+from garkcli.exact.expression import read_decimal
+from garkcli.exact.field import Number
 from garkcli.order.blame import Blame, Repair
 from garkcli.order.constants import ErrorConstants, Norms
+from garkcli.order.suggestion import Misprint
 from garkcli.report.paint import Paint
 from garkcli.tableau.tableau import Tableau
 from garkcli.trees.notation import format_tree
 
+_SHORT = 20
+"""Characters beyond which an exact entry is shown in decimals."""
+
 
 def blame_lines(blame: Blame, tableau: Tableau, paint: Paint) -> list[str]:
-    """The hints for people."""
-    names = [colour.name for colour in tableau.colours]
+    """The hints for people; ``tableau`` is the method of the file."""
+    own = [colour.name for colour in tableau.colours]
+    names = blame.names or own
+    letter = "Â" if blame.of == "conjugate-order" else "A"
     failing = f"{blame.failing} of the {blame.total} conditions of order {blame.order} fail"
     if blame.total == 1:
         failing = f"the one condition of order {blame.order} fails"
-    coupling = (
-        ", all of them coupling conditions" if blame.only_coupling and tableau.size > 1 else ""
-    )
+    if blame.of != "order":
+        failing = f"{blame.of}: {failing}"
+    coupling = ", all of them coupling conditions" if blame.only_coupling and len(names) > 1 else ""
     lines = [f"  {paint('note', 'hint')}: {failing}{coupling}"]
-    if blame.culprit is not None and tableau.size > 1:
-        lines.append(
-            f"        {_block(blame.culprit, names)} takes part in every one of them: look there first"
-        )
+    if blame.culprit is not None and len(names) > 1:
+        culprit = _block(blame.culprit, names, letter)
+        lines.append(f"        {culprit} takes part in every one of them: look there first")
     elif len(blame.in_every) > 1:
-        lines.append(f"        in every one of them: {_blocks(blame.in_every, names)}")
+        lines.append(f"        in every one of them: {_blocks(blame.in_every, names, letter)}")
     if blame.in_none:
-        lines.append(f"        in none of them: {_blocks(blame.in_none, names)}")
-    lines += [
-        f"        the claimed order would hold with {_place(repair, names)} = {to_text(repair.new)} "
-        f"instead of {to_text(repair.old)}"
-        for repair in blame.repairs[:3]
-    ]
+        lines.append(f"        in none of them: {_blocks(blame.in_none, names, letter)}")
+    for repair in blame.repairs[:3]:
+        place, old, new = _place(repair, own), _value(repair.old), _value(repair.new)
+        lines.append(f"        the claimed order would hold with {place} = {new} instead of {old}")
     return lines
 
 
-def _block(block: tuple[int, int], names: Sequence[str]) -> str:
-    return f"A{{{names[block[0]]},{names[block[1]]}}}"
+def misprint_lines(found: Misprint, tableau: Tableau, paint: Paint) -> list[str]:
+    """Why no tolerance is proposed: an entry looks misprinted, and which."""
+    names = [colour.name for colour in tableau.colours]
+    residual, explained = size(found.residual), size(found.explained)
+    lines = [
+        f"  {paint('note', 'hint')}: up to order {found.order} the residuals are at most {residual}: "
+        f"an entry looks misprinted",
+        f"        the digits in the file explain {explained}",
+    ]
+    for repair in found.repairs[:3]:
+        place, old, new = _place(repair, names), _value(repair.old), _value(repair.new)
+        lines.append(
+            f"        order {found.order} would hold with {place} = {new} instead of {old}"
+        )
+    return lines
 
 
-def _blocks(blocks: Sequence[tuple[int, int]], names: Sequence[str]) -> str:
-    return ", ".join(_block(block, names) for block in blocks)
+def size(ball: arb) -> str:
+    """A bound in two digits."""
+    return "0" if ball == 0 else ball.upper().str(2, radius=False)
+
+
+def _value(number: Number, digits: int = 17) -> str:
+    """An entry as files have them: short ones exactly, decimals in full, others to some digits."""
+    text = to_text(number)
+    if len(text) <= _SHORT:
+        return text
+    shown = to_decimal(number, 60)
+    if isinstance(number, fmpq) and read_decimal(shown.lstrip("-")) == abs(number):
+        return shown
+    return to_decimal(number, digits)
+
+
+def _block(block: tuple[int, int], names: Sequence[str], letter: str = "A") -> str:
+    return f"{letter}{{{names[block[0]]},{names[block[1]]}}}"
+
+
+def _blocks(blocks: Sequence[tuple[int, int]], names: Sequence[str], letter: str) -> str:
+    return ", ".join(_block(block, names, letter) for block in blocks)
 
 
 def _place(repair: Repair, names: Sequence[str]) -> str:
@@ -75,6 +115,7 @@ def hints_data(outcome: Outcome) -> dict[str, Any]:
     blame, constants = outcome.blame, outcome.constants
     if blame is not None:
         data["blame"] = {
+            "of": blame.of,
             "order": blame.order,
             "failing": blame.failing,
             "conditions": blame.total,
@@ -83,6 +124,14 @@ def hints_data(outcome: Outcome) -> dict[str, Any]:
             "in_every": [[l + 1, m + 1] for l, m in blame.in_every],
             "in_none": [[l + 1, m + 1] for l, m in blame.in_none],
             "repairs": [_repair(repair) for repair in blame.repairs],
+        }
+    misprint = outcome.analysis.misprint if outcome.analysis else None
+    if misprint is not None:
+        data["misprint"] = {
+            "order": misprint.order,
+            "residual": float(misprint.residual.upper()),
+            "explained": float(misprint.explained.upper()),
+            "repairs": [_repair(repair) for repair in misprint.repairs],
         }
     if constants is not None:
         data["error_constants"] = {

@@ -9,7 +9,9 @@ import pytest
 from flint import fmpq
 
 from garkcli import Tableau, conjugate, find_order, load
+from garkcli.check.check_file import check_file
 from garkcli.order.blame import Repair, find_blame
+from garkcli.order.tolerance import within
 
 ROOT = Path(__file__).resolve().parents[2]
 
@@ -77,3 +79,53 @@ def test_too_many_conditions() -> None:
     """Beyond the limit nothing is listed and nothing is claimed."""
     tableau = example("gauss6-lobatto7")
     assert find_blame(conjugate(tableau), 13, 14) is None
+
+
+PRINTED = """
+methods:
+- A: [[0.25, -0.03867513459481288], [0.53867513459481288, 0.25]]
+  b: [0.5, 0.5]
+"""
+WRONG = PRINTED.replace("0.53867513459", "0.53867513460")
+
+
+@pytest.mark.parametrize("key", ["order", "conjugate-order", "pair-order"])
+def test_blame_within_a_tolerance(key: str, tmp_path: Path) -> None:
+    """One digit is wrong in the 11th place: the entry is named whatever claim shows it, and with
+    the digits it should have.
+    """
+    file = tmp_path / "m.gark.yaml"
+    file.write_text(f"{WRONG}tolerance: 1e-15\nexpect: {{{key}: 4}}\n")
+    blame = check_file(str(file)).blame
+    assert blame is not None
+    assert (blame.of, blame.order) == (key, 2)
+    (repair,) = [x for x in blame.repairs if (x.m, x.i, x.j) == (0, 1, 0)]
+    assert within(repair.new - fmpq(53867513459481288, 10**17), fmpq(1, 10**15))
+
+
+def test_what_rounding_explains_has_nobody_to_blame(tmp_path: Path) -> None:
+    """Where the tolerance is too tight for all entries no single one is named."""
+    file = tmp_path / "m.gark.yaml"
+    file.write_text(
+        "methods: [{A: [[0.25, -0.03867513], [0.53867513, 0.25]], b: [0.5, 0.5]}]\n"
+        "tolerance: 1e-9\nexpect: {order: 4}\n"
+    )
+    found = check_file(str(file))
+    assert found.blame is None
+    assert found.analysis is not None
+    assert found.analysis.suggestion is not None
+
+
+@pytest.mark.parametrize(("key", "j"), [("conjugate-order", 0), ("pair-order", 1)])
+def test_an_exact_entry_is_found_through_the_conjugate(key: str, j: int, tmp_path: Path) -> None:
+    """A wrong entry of Gauss 2 over ℚ(√3) is repaired by what the conjugate, or the pair, claims."""
+    rows = [["1/4", "1/4 - sqrt(3)/6"], ["1/4 + sqrt(3)/6", "1/4"]]
+    rows[1 - j][j] += " + 1/100"
+    A = ", ".join(f"[{', '.join(row)}]" for row in rows)
+    file = tmp_path / "m.gark.yaml"
+    file.write_text(f"methods: [{{A: [{A}], b: [1/2, 1/2]}}]\nexpect: {{{key}: 4}}\n")
+    blame = check_file(str(file)).blame
+    assert blame is not None
+    assert blame.of == key
+    assert [(x.i, x.j) for x in blame.repairs] == [(1 - j, j)]
+    assert blame.repairs[0].old - blame.repairs[0].new == fmpq(1, 100)

@@ -4,14 +4,24 @@ one.
 
 from __future__ import annotations
 
+import re
+from random import Random
+
 import pytest
 from flint import fmpq
 
+from garkcli.check.analysis import Analysis, analyse
+from garkcli.check.outcome import Outcome
+from garkcli.methodfile.load import loads
+from garkcli.methodfile.printed import printed_units
 from garkcli.order.certificate import find_order
 from garkcli.order.rounded import find_order_within
 from garkcli.order.suggestion import Suggestion, suggest_tolerance
+from garkcli.report.check_text import render
+from garkcli.report.paint import Paint
 from garkcli.tableau.tableau import Tableau
 from tests.catalogue.catalogue import tableau
+from tests.catalogue.method_files import method_file
 from tests.oracles import samples
 from tests.order.rounded_samples import ENTRIES, EXACT, ROUNDED, gauss_lobatto, published
 
@@ -76,3 +86,70 @@ def test_no_gap_no_suggestion() -> None:
     off = suggestion(samples.runge_kutta("0, 0", "1/2, 0", "0, 100000001/100000000"))
     assert off is not None
     assert off.tolerance == fmpq(1, 10**7)
+
+
+DECIMALS = "methods: [{{A: [[0.25, -0.03867513459481288], [{}, 0.25]], b: [0.5, 0.5]}}]"
+
+
+def analysed(text: str) -> Analysis:
+    """What a check finds, the digits of the text known."""
+    method = loads(text)
+    return analyse(method.tableau, 30, None, lambda: printed_units(method.printed))
+
+
+def test_no_tolerance_swallows_a_misprint() -> None:
+    """One digit of 17 is wrong in the 11th place: that is no rounding, and the entry is named."""
+    found = analysed(DECIMALS.format("0.53867513460481288"))
+    assert found.suggestion is None
+    assert found.misprint is not None
+    assert found.misprint.order == 4
+    assert found.misprint.residual > 1000 * found.misprint.explained
+    assert [(x.i, x.j) for x in found.misprint.repairs] == [(1, 0)]
+    shown = render([Outcome("f", "f", analysis=found)], Paint())
+    assert "an entry looks misprinted" in shown
+    assert "row 2, entry 1, = 0.538675134594812" in shown
+    assert "tolerance:" not in shown
+
+
+def test_what_the_digits_explain_is_proposed() -> None:
+    """The same file without the misprint."""
+    found = analysed(DECIMALS.format("0.53867513459481288"))
+    assert found.misprint is None
+    assert found.suggestion is not None
+    assert (found.suggestion.order, found.suggestion.line) == (4, "tolerance: 1e-17")
+
+
+@pytest.mark.parametrize("name", ROUNDED)
+def test_no_published_method_looks_misprinted(name: str) -> None:
+    """Files of all rounded methods without their tolerance: their digits explain their residuals."""
+    found = analysed(re.sub("tolerance: .*", "", method_file(ENTRIES[name])))
+    assert found.misprint is None
+    assert found.suggestion is not None
+
+
+@pytest.mark.parametrize("name", ["sundials_VERNER_10_6_7", "sundials_KVAERNO_4_2_3"])
+@pytest.mark.parametrize("seed", range(3))
+def test_a_wrong_digit_in_a_published_method(name: str, seed: int) -> None:
+    """A digit of A changed in the 11th place is never taken for rounding; where one entry repairs
+    all conditions it is that one.
+    """
+    entry = ENTRIES[name]
+    rows = entry["blocks"]["A"][0][0]
+    places = [
+        (i, j)
+        for i, row in enumerate(rows)
+        for j, text in enumerate(row)
+        if re.fullmatch(r"-?[0-9]\.[0-9]{15,}", text)
+    ]
+    i, j = Random(seed).choice(places)
+    text = rows[i][j]
+    at = text.index(".") + 11
+    wrong = f"{text[:at]}{(int(text[at]) + 5) % 10}{text[at + 1 :]}"
+    changed = [
+        [wrong if (k, m) == (i, j) else x for m, x in enumerate(row)] for k, row in enumerate(rows)
+    ]
+    blocks = {**entry["blocks"], "A": [[changed]]}
+    found = analysed(re.sub("tolerance: .*", "", method_file({**entry, "blocks": blocks})))
+    assert found.suggestion is None
+    assert found.misprint is not None
+    assert (i, j) in [(x.i, x.j) for x in found.misprint.repairs]

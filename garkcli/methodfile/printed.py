@@ -1,0 +1,100 @@
+"""How exactly coefficients are printed: what their last digits leave open."""
+
+from __future__ import annotations
+
+from collections.abc import Iterator, Sequence
+from typing import TypeAlias
+
+from flint import arb, ctx, fmpq
+
+from garkcli.exact.expression import Chain, Expression, Literal, Power, Root
+from garkcli.exact.field import Number
+from garkcli.order.tolerance import rounded_up
+
+Printed: TypeAlias = Sequence[tuple[Expression, Number]]
+"""Coefficients as they are written, with their values."""
+FEWEST_DIGITS = 6
+"""A number with fewer digits is meant exactly."""
+
+
+def printed_units(printed: Printed) -> dict[Number, fmpq]:
+    """By how much each value may be off if its last digits are rounded, one unit of them.
+
+    A decimal is taken for rounded when it has more than half as many digits as the longest one of
+    the file: beside 0.7886751345948129 the number 0.25 is exact. A long numerator or denominator
+    may be off by one.
+
+    >>> from garkcli.exact.expression import parse
+    >>> units = printed_units([(parse(x), fmpq(1, 2)) for x in ("0.50000000", "1/2")])
+    >>> units[fmpq(1, 2)]
+    1/100000000
+    """
+    literals = [x for expression, _ in printed for x in _literals(expression)]
+    longest = max((_digits(x) for x in literals), default=0)
+    fewest = max(FEWEST_DIGITS, longest // 2 + 1)
+    units: dict[Number, fmpq] = {}
+    with ctx.workprec(4 * longest + 128):
+        for expression, value in printed:
+            unit = _radius(_enclosed(expression, fewest))
+            units[value] = max(unit, units.get(value, unit))
+    return units
+
+
+def _literals(expression: Expression) -> Iterator[Literal]:
+    match expression:
+        case Literal():
+            yield expression
+        case Chain(operands=operands):
+            for operand in operands:
+                yield from _literals(operand)
+        case Power(base=inner) | Root(radicand=inner):
+            yield from _literals(inner)
+
+
+def _digits(literal: Literal) -> int:
+    """Digits of a printed number, without zeros in front."""
+    mantissa = literal.text.lower().partition("e")[0]
+    return len(mantissa.replace(".", "").lstrip("0"))
+
+
+def _unit(literal: Literal) -> fmpq:
+    """One in the last place."""
+    mantissa, _, exponent = literal.text.lower().partition("e")
+    decimals = len(mantissa.partition(".")[2]) - int(exponent or 0)
+    return fmpq(10) ** -decimals
+
+
+def _enclosed(expression: Expression, fewest: int) -> arb:
+    """All values that the expression may have, its long numbers off by one unit each."""
+    match expression:
+        case Literal(value=value):
+            least = FEWEST_DIGITS if expression.text.isdigit() else fewest
+            is_rounded = _digits(expression) >= least
+            return arb(value, arb(_unit(expression))) if is_rounded else arb(value)
+        case Chain(signs=signs, operands=operands):
+            total = arb(0) if signs[0] in "+-" else arb(1)
+            for sign, operand in zip(signs, operands, strict=True):
+                total = _joined(sign, total, _enclosed(operand, fewest))
+            return total
+        case Power(base=base, exponent=exponent):
+            return _enclosed(base, fewest) ** exponent
+        case Root(radicand=radicand, index=index):
+            inner = _enclosed(radicand, fewest)
+            return -(-inner).root(index) if inner < 0 else inner.root(index)
+    return arb(0)
+
+
+def _joined(sign: str, total: arb, operand: arb) -> arb:
+    if sign == "+":
+        return total + operand
+    if sign == "-":
+        return total - operand
+    return total * operand if sign == "*" else total / operand
+
+
+def _radius(ball: arb) -> fmpq:
+    """How far the ball reaches, rounded up to a digit or two; 1 where it reaches everywhere."""
+    if not ball.is_finite():
+        return fmpq(1)
+    radius = ball.rad()
+    return fmpq(0) if radius < arb(10) ** -1000 else rounded_up(radius)
