@@ -10,6 +10,7 @@ from flint import fmpq
 from garkcli.errors import ZeroWeight
 from garkcli.exact.field import ZERO
 from garkcli.order.certificate import DEFAULT_LIMIT, Order, find_order
+from garkcli.order.nonautonomous import with_time
 from garkcli.order.simplifying import Simplifying, consistent_blocks, simplifying
 from garkcli.order.tolerance import TINY, within
 from garkcli.tableau.conjugate import conjugate, is_symplectic
@@ -18,7 +19,7 @@ from garkcli.tableau.stages import PointSpace
 from garkcli.tableau.tableau import Tableau
 
 if TYPE_CHECKING:
-    from collections.abc import Callable, Mapping
+    from collections.abc import Callable, Mapping, Sequence
 
     from garkcli.exact.field import Number
     from garkcli.order.rounded import RoundedOrder
@@ -55,6 +56,8 @@ class Analysis:
         obstacle: why there is no conjugate; empty where there is one.
         limit: where the search for orders stopped.
         tolerance: the rounding within which all of this holds; None where it holds exactly.
+        nonautonomous_order: the order on problems ẏ = f(t, y) with the nodes as printed; None where
+            that has no meaning.
         suggestion: the tolerance that the residuals speak for: of a method that is exact by its
             word, or where the tolerance of the file is too tight for its own rounding.
         misprint: why no tolerance is proposed though residuals are tiny: digits do not explain them.
@@ -76,6 +79,7 @@ class Analysis:
     obstacle: str
     limit: int
     tolerance: fmpq | None = None
+    nonautonomous_order: AnyOrder | None = None
     suggestion: Suggestion | None = None
     misprint: Misprint | None = None
 
@@ -115,6 +119,7 @@ def analyse(
         pair_order, pair_conditions = order, conditions
     elif both is not None:
         pair_order, pair_conditions = find_order(both, limit), simplifying(both, limit)
+    inconsistent = inconsistent_blocks(tableau)
     suggestion = _suggestion(tableau, order, limit)
     misprint = None
     if suggestion is not None and units is not None:
@@ -125,7 +130,7 @@ def analyse(
         tableau=tableau,
         order=order,
         simplifying=conditions,
-        inconsistent=inconsistent_blocks(tableau),
+        inconsistent=inconsistent,
         symplectic=is_symplectic(tableau),
         conjugate=conjugated,
         conjugate_order=conjugate_order,
@@ -137,9 +142,25 @@ def analyse(
         pair_bound=None if pair_conditions is None else pair_conditions.bound,
         obstacle=obstacle,
         limit=limit,
+        nonautonomous_order=nonautonomous(
+            tableau, order, inconsistent, lambda timed: find_order(timed, limit)
+        ),
         suggestion=None if misprint else suggestion,
         misprint=misprint,
     )
+
+
+def nonautonomous(
+    tableau: Tableau,
+    order: AnyOrder,
+    inconsistent: Sequence[tuple[int, int]],
+    find: Callable[[Tableau], AnyOrder],
+) -> AnyOrder | None:
+    """The order on problems ẏ = f(t, y); where A^{l,m} 𝟙 = c^{l} it is the order."""
+    timed = with_time(tableau)
+    if timed is None:
+        return None
+    return find(timed) if inconsistent else order
 
 
 def conjugate_and_pair(tableau: Tableau) -> tuple[Tableau | None, Tableau | None, str]:

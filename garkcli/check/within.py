@@ -22,6 +22,7 @@ from garkcli.check.analysis import (
     conjugate_and_pair,
     inconsistent_blocks,
     is_pair_of_itself,
+    nonautonomous,
 )
 from garkcli.exact.display import to_ball
 from garkcli.exact.field import Number
@@ -99,6 +100,12 @@ def analyse_within(tableau: Tableau, tolerance: fmpq, limit: int) -> Analysis:
         obstacle=obstacle,
         limit=limit,
         tolerance=tolerance,
+        nonautonomous_order=nonautonomous(
+            tableau,
+            order,
+            inconsistent,
+            lambda timed: find_order_within(timed, tolerance, limit),
+        ),
         suggestion=suggest_wider(tableau, order, limit),
     )
 

@@ -88,6 +88,7 @@ def _analysis(outcome: Outcome, analysis: Analysis) -> dict[str, Any]:
         **_order("", analysis.order),
         **_order("conjugate_", analysis.conjugate_order),
         **_order("pair_", analysis.pair_order),
+        **_order("nonautonomous_", analysis.nonautonomous_order),
         "simplifying": _simplifying(analysis.simplifying, analysis.bound),
         "pair_bound": analysis.pair_bound,
         **hints_data(outcome),

@@ -68,7 +68,7 @@ def _unreadable() -> Schema:
 def _checked() -> Schema:
     orders: Schema = {}
     bounds: Schema = {}
-    for prefix in ("", "conjugate_", "pair_"):
+    for prefix in ("", "conjugate_", "pair_", "nonautonomous_"):
         orders[f"{prefix}order"] = {
             "type": ["integer", "null"] if prefix else "integer",
             "minimum": 0,

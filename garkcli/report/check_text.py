@@ -13,6 +13,7 @@ from garkcli.check.outcome import Claim, Outcome
 from garkcli.errors import excerpt
 from garkcli.exact.display import decimal, to_decimal, to_text
 from garkcli.order.certificate import Order, Witness
+from garkcli.order.nonautonomous import with_time
 from garkcli.order.simplifying import Simplifying
 from garkcli.report.paint import Paint, aligned, beside
 from garkcli.report.plain import inert, printable
@@ -151,7 +152,23 @@ def _orders(analysis: Analysis, paint: Paint) -> list[str]:
             lines += [f"  {label:{_LABEL}}none", f"      {analysis.obstacle}"]
             continue
         lines += _order(label, order, tableau, paint, shown)
+    if analysis.inconsistent and analysis.nonautonomous_order is not None:
+        lines += _nonautonomous(analysis, analysis.nonautonomous_order, paint, shown)
     return lines
+
+
+def _nonautonomous(
+    analysis: Analysis, order: AnyOrder, paint: Paint, shown: list[Witness]
+) -> list[str]:
+    """The order on y' = f(t, y), as the nodes are not the row sums."""
+    timed = with_time(analysis.tableau)
+    if timed is None:
+        return []
+    lines = _order("non-autonomous", order, timed, paint, shown)
+    return [
+        *lines,
+        f"      for y' = f(t, y) with the nodes as printed; colour {timed.size} is time",
+    ]
 
 
 def _order(

@@ -1,0 +1,48 @@
+"""Problems ẏ = f(t, y): the order of a method with its nodes as they are printed.
+
+With ṫ = 1 the problem is autonomous, and time is one more colour. A method evaluates f at
+t + c_i h, so the block of that colour is c, whatever the row sums of A are; its vector field is
+constant, so its vertices have no branches: its stages see no colour. Where A^{l,m} 𝟙 = c^{l} for
+every block a vertex of time has the same weight as any other leaf, and nothing changes.
+"""
+
+from __future__ import annotations
+
+from garkcli.exact.field import ONE, ZERO
+from garkcli.exact.matrix import Matrix, Vector
+from garkcli.tableau.stages import PointSpace
+from garkcli.tableau.tableau import Colour, Tableau
+
+TIME = "t"
+"""The name of the colour of time."""
+
+
+def with_time(tableau: Tableau) -> Tableau | None:
+    """The tableau with time as its last colour.
+
+    Returns:
+        None where it has no meaning: a vector field that is linear has no time in it, and colours
+        that share stages need the same nodes.
+
+    >>> from flint import fmpq
+    >>> from garkcli.tableau.forms import gark
+    >>> from garkcli.tableau.method import butcher
+    >>> from garkcli.order.certificate import find_order
+    >>> midpoint = gark([butcher(((fmpq(1, 2),),), (fmpq(1),), (fmpq(0),))], {})
+    >>> find_order(midpoint).order, find_order(with_time(midpoint)).order
+    (2, 1)
+    """
+    nodes: dict[int, Vector] = {}
+    for colour in tableau.colours:
+        if colour.is_linear or nodes.setdefault(colour.space, colour.c) != colour.c:
+            return None
+    space, time = len(tableau.spaces), tableau.size
+    columns: dict[tuple[int, int], Matrix] = {
+        (k, time): tuple((c,) for c in row) for k, row in nodes.items()
+    }
+    clock = Colour(TIME, space, (ONE,), (ZERO,), term=time)
+    return Tableau(
+        (*tableau.spaces, PointSpace((ZERO,))),
+        (*tableau.colours, clock),
+        {**tableau.blocks, **columns},
+    )
