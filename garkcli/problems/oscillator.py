@@ -137,22 +137,29 @@ def check_structure(tableau: Tableau, problem: Oscillator) -> None:
             f"the split has {len(problem.shares)} terms, the method {terms}",
             f"such as {example_shares(terms)}",
         )
-    for term, shares in enumerate(problem.shares):
-        for share, parts, energy in zip(
-            shares, ("yq", "yp"), ("kinetic", "potential"), strict=True
-        ):
-            if share and not any(x.term == term and x.part in parts for x in tableau.colours):
-                raise UsageProblem(
-                    f"term {term + 1} has {energy} energy, but the method has no colour for it",
-                    f"move the {energy} share to another term with --split",
-                )
+    for term, (kinetic, potential) in enumerate(problem.shares):
+        if kinetic:
+            _check_colour(tableau, term, "q", "kinetic")
+        if potential:
+            _check_colour(tableau, term, "p", "potential")
     driven = [problem.drives(colour) for colour in tableau.colours]
     for l, (k_l, v_l) in enumerate(driven):
         for m, (k_m, v_m) in enumerate(driven):
-            if (k_l * v_m or v_l * k_m) and tableau.block(l, m) is None:
-                names = tableau.colours[l].name, tableau.colours[m].name
+            is_seen = k_l * v_m or v_l * k_m  # the product L^l L^m is not zero
+            if is_seen and tableau.block(l, m) is None:
+                l_name, m_name = tableau.colours[l].name, tableau.colours[m].name
                 raise UsageProblem(
-                    f"with this split the field of colour {names[0]} depends on what colour {names[1]} drives, "
-                    f"which its stages do not see",
-                    f"give the shares that the structure is for with --split, such as {example_shares(terms)}",
+                    f"with this split the field of colour {l_name} depends on what colour {m_name} "
+                    f"drives, which its stages do not see",
+                    f"give the shares that the structure is for with --split, such as "
+                    f"{example_shares(terms)}",
                 )
+
+
+def _check_colour(tableau: Tableau, term: int, part: str, energy: str) -> None:
+    """Refuse a share of a term that no colour drives."""
+    if not any(x.term == term and x.part in {"y", part} for x in tableau.colours):
+        raise UsageProblem(
+            f"term {term + 1} has {energy} energy, but the method has no colour for it",
+            f"move the {energy} share to another term with --split",
+        )

@@ -50,27 +50,43 @@ def _undone(f: Any, inner: Any, c: Any) -> list[Any]:
     import sympy
 
     if f.is_Pow and f.base == inner and f.exp.is_Rational:
-        root = c ** (1 / f.exp)
-        if f.exp.p % 2 == 0:
-            return [root, -root]
-        return [root, -((-c) ** (1 / f.exp))] if f.exp.q % 2 else [root]
+        return _root(f.exp, c)
     if f.is_Pow and f.exp == inner:
         return [sympy.log(c) / sympy.log(f.base)]
-    inverses = {
-        "exp": lambda: [sympy.log(c)],
-        "log": lambda: [sympy.exp(c)],
-        "sin": lambda: [sympy.asin(c)],
-        "cos": lambda: [sympy.acos(c), -sympy.acos(c)],
-        "tan": lambda: [sympy.atan(c)],
-        "asin": lambda: [sympy.sin(c)],
-        "acos": lambda: [sympy.cos(c)],
-        "atan": lambda: [sympy.tan(c)],
-        "sinh": lambda: [sympy.log(c + sympy.sqrt(c**2 + 1))],
-        "cosh": lambda: [sympy.log(c + sympy.sqrt(c**2 - 1)), sympy.log(c - sympy.sqrt(c**2 - 1))],
-        "tanh": lambda: [sympy.log((1 + c) / (1 - c)) / 2],
-    }
     name = type(f).__name__
-    return inverses[name]() if name in inverses else []
+    if name in _INVERSES:
+        return [getattr(sympy, _INVERSES[name])(c)]
+    if name == "cos":
+        return [sympy.acos(c), -sympy.acos(c)]
+    if name == "sinh":
+        return [sympy.log(c + sympy.sqrt(c**2 + 1))]
+    if name == "cosh":
+        root = sympy.sqrt(c**2 - 1)
+        return [sympy.log(c + root), sympy.log(c - root)]
+    if name == "tanh":
+        return [sympy.log((1 + c) / (1 - c)) / 2]
+    return []
+
+
+_INVERSES = {
+    "exp": "log",
+    "log": "exp",
+    "sin": "asin",
+    "tan": "atan",
+    "asin": "sin",
+    "acos": "cos",
+    "atan": "tan",
+}
+
+
+def _root(exponent: Any, c: Any) -> list[Any]:
+    """The real x with x**exponent = c."""
+    root = c ** (1 / exponent)
+    if exponent.p % 2 == 0:
+        return [root, -root]
+    if exponent.q % 2:  # an odd root: of a negative number too
+        return [root, -((-c) ** (1 / exponent))]
+    return [root]
 
 
 def _by_polynomial(f: Any, u: Any) -> list[Any]:

@@ -12,11 +12,13 @@ import math
 from collections.abc import Callable, Mapping, Sequence
 from dataclasses import dataclass
 from functools import cache
+from itertools import count
 from typing import Any
 
 from flint import arb, fmpq
 
 _LONG = 300  # characters from which a part of an expression is given a name
+_WRITTEN = 3  # powers up to the third are products, which cost less than **
 _NAMES = ("sin", "cos", "tan", "asin", "acos", "atan", "sinh", "cosh", "tanh", "exp", "log", "sqrt")
 FUNCTIONS = frozenset(_NAMES)
 """The functions an expression may have, besides powers."""
@@ -62,17 +64,18 @@ class Code:
         results.
         """
         names = {f"a{i}": name for i, name in enumerate(arguments)}
-        names |= {f"t{i}": f"{prefix}t{i}" for i in range(len(self.temporaries))}
-        names |= {f"k{i}": self._constant(x) for i, x in enumerate(self.constants)}
-        lines = [
-            f"{prefix}t{i} = {text.format_map(names)}" for i, text in enumerate(self.temporaries)
-        ]
+        for i in range(len(self.temporaries)):
+            names[f"t{i}"] = f"{prefix}t{i}"
+        for i, x in enumerate(self.constants):
+            names[f"k{i}"] = self._constant(x)
+
+        lines = []
+        for i, text in enumerate(self.temporaries):
+            lines.append(f"{prefix}t{i} = {text.format_map(names)}")
         results = []
         for i, text in enumerate(self.results):
             made = text.format_map(names)
-            if text != "0" and not (
-                text.startswith("{") and text.endswith("}") and text.count("{") == 1
-            ):
+            if not _is_one_name(text):
                 lines.append(f"{prefix}{i} = {made}")
                 made = f"{prefix}{i}"
             results.append(made)
@@ -86,6 +89,13 @@ class Code:
         return constant_name(x)
 
 
+def _is_one_name(text: str) -> bool:
+    """Whether this is zero, or a single argument, temporary or constant."""
+    if text == "0":
+        return True
+    return text.startswith("{") and text.endswith("}") and text.count("{") == 1
+
+
 def _float(x: fmpq) -> str:
     try:
         return repr(int(x.p) / int(x.q))
@@ -95,7 +105,8 @@ def _float(x: fmpq) -> str:
 
 def constant_name(x: fmpq) -> str:
     """The name that the texts for balls have for a rational constant."""
-    return f"k{'m' if x < 0 else ''}{abs(int(x.p))}_{x.q}"
+    sign = "m" if x < 0 else ""
+    return f"k{sign}{abs(int(x.p))}_{x.q}"
 
 
 @cache
@@ -107,10 +118,10 @@ def code_of(expressions: tuple[Any, ...], arguments: tuple[Any, ...], is_for_bal
     """
     import sympy
 
-    found, reduced = sympy.cse(
-        list(expressions), symbols=(sympy.Dummy(f"t{i}") for i in range(1 << 30))
-    )
-    writer = _Writer({x: f"{{a{i}}}" for i, x in enumerate(arguments)}, is_for_balls)
+    temporaries = (sympy.Dummy(f"t{i}") for i in count())
+    found, reduced = sympy.cse(list(expressions), symbols=temporaries)
+    names = {x: f"{{a{i}}}" for i, x in enumerate(arguments)}
+    writer = _Writer(names, is_for_balls)
     for symbol, expression in found:
         writer.symbols[symbol] = writer.named(writer.text(expression))
     results = tuple("0" if x == 0 else writer.text(x) for x in reduced)
@@ -173,12 +184,16 @@ class _Writer:
         return self.constants.setdefault(x, f"{{k{len(self.constants)}}}")
 
     def _sum(self, terms: Sequence[Any]) -> str:
-        parts: list[str] = []
+        """Terms without a minus sign first."""
+        made = ""
         for term in sorted(terms, key=lambda x: x.could_extract_minus_sign()):
-            negative = bool(term.could_extract_minus_sign()) and bool(parts)
-            text = self.text(-term if negative else term)
-            parts.append(f" - {text}" if negative else f" + {text}" if parts else text)
-        return "".join(parts)
+            if not made:
+                made = self.text(term)
+            elif term.could_extract_minus_sign():
+                made += f" - {self.text(-term)}"
+            else:
+                made += f" + {self.text(term)}"
+        return made
 
     def _product(self, x: Any) -> str:
         """Factors over factors, so that a negative power costs one division."""
@@ -188,34 +203,37 @@ class _Writer:
                 below.append(self._power(factor.base, -factor.exp))
             else:
                 above.append(factor)
-        number = above[0] if above and above[0].is_Rational else None
         sign = ""
-        if number is not None and number == -1:
-            sign, above = "-", above[1:]
+        if above and above[0].is_Rational and above[0] == -1:
+            sign = "-"
+            above = above[1:]
         texts = [self.text(factor) for factor in above]
         numerator = "*".join(texts) if texts else self._constant(fmpq(1))
-        return f"{sign}{numerator}" + "".join(f"/{text}" for text in below)
+        return sign + "/".join([numerator, *below])
 
     def _power(self, base: Any, exponent: Any) -> str:
         if exponent.is_Rational and exponent.is_negative:
-            return f"({self._constant(fmpq(1))}/{self._power(base, -exponent)})"
+            one = self._constant(fmpq(1))
+            return f"({one}/{self._power(base, -exponent)})"
         text = self.text(base)
         if not exponent.is_Rational or exponent.q > 2:
             return f"{self._name('power')}({text}, {self.text(exponent)})"
-        whole, half = divmod(int(exponent.p), 2) if exponent.q == 2 else (int(exponent.p), 0)
-        if whole:
-            text = self.named(text)
-        factors = [self._integer_power(text, whole)] if whole else []
-        if half:
-            factors.append(f"{self._name('sqrt')}({text})")
-        return factors[0] if len(factors) == 1 else "(" + "*".join(factors) + ")"
+        if exponent.q == 1:
+            return self._integer_power(self.named(text), int(exponent.p))
+        # x^(n + 1/2) is x^n √x
+        whole = int(exponent.p) // 2
+        if not whole:
+            return f"{self._name('sqrt')}({text})"
+        name = self.named(text)
+        return f"({self._integer_power(name, whole)}*{self._name('sqrt')}({name}))"
 
     def _integer_power(self, text: str, n: int) -> str:
         """For balls by products: the power of a ball around zero is a ball around zero."""
         if n == 1:
             return text
-        if n <= 3:
-            return "(" + "*".join([text] * n) + ")"
+        if n <= _WRITTEN:
+            factors = "*".join([text] * n)
+            return f"({factors})"
         if not self.is_for_balls:
             return f"({text}**{n})"
         half = self.named(self._integer_power(text, n // 2))
@@ -229,22 +247,26 @@ def function(
 
     For balls the rational constants are enclosed once, at the precision in force now.
     """
-    made = code_of(expressions, arguments, is_for_balls)
+    code = code_of(expressions, arguments, is_for_balls)
     names = [f"a{i}" for i in range(len(arguments))]
-    lines, results = made.lines(names, "r")
-    source = f"def evaluate({', '.join(names)}):\n" + "".join(f" {line}\n" for line in lines)
+    lines, results = code.lines(names, "r")
     zero = "ball_zero" if is_for_balls else "0.0"
-    source += f" return [{', '.join(zero if x == '0' else x for x in results)}]\n"
-    program: Callable[..., list[Any]] = define(
-        source, "evaluate", enclosed([made]) if is_for_balls else {}
-    )
+    returned = ", ".join(zero if x == "0" else x for x in results)
+    body = [f"def evaluate({', '.join(names)}):", *lines, f"return [{returned}]"]
+    source = "\n ".join(body) + "\n"
+    constants = enclosed([code]) if is_for_balls else {}
+    program: Callable[..., list[Any]] = define(source, "evaluate", constants)
     return program
 
 
 def enclosed(codes: Sequence[Code]) -> dict[str, arb]:
     """The rational constants of the texts for balls, at the precision in force."""
-    found = {x for made in codes if made.is_for_balls for x in made.constants if x is not None}
-    return {constant_name(x): arb(x) for x in found}
+    found = {}
+    for code in codes:
+        for x in code.constants:
+            if code.is_for_balls and x is not None:
+                found[constant_name(x)] = arb(x)
+    return found
 
 
 def define(source: str, name: str, constants: Mapping[str, Any]) -> Any:

@@ -20,7 +20,7 @@ if TYPE_CHECKING:
 
     Floats: TypeAlias = NDArray[np.float64]
 
-Entry: TypeAlias = tuple[int, int, int]
+_Entry: TypeAlias = tuple[int, int, int]
 """Row, column and place of the number w of one entry of a matrix W of weights."""
 
 
@@ -29,7 +29,7 @@ class _Layer:
     """Stage values or field evaluations that do not depend on each other."""
 
     stages: Sequence[Stage]
-    entries: Sequence[Entry]  # of the matrix W whose sums of w f the stages are
+    entries: Sequence[_Entry]  # of the matrix W whose sums of w f the stages are
     evaluations: Sequence[FieldEvaluation]
 
 
@@ -74,7 +74,7 @@ class ChainRule:
             self._layers.append(_Layer(stages, self._entries(stages), evaluations))
         self._image = self._entries(self.unknowns)
 
-    def _entries(self, stages: Sequence[Stage]) -> list[Entry]:
+    def _entries(self, stages: Sequence[Stage]) -> list[_Entry]:
         """The entries of the matrix W of the sums of w f that ``stages`` are."""
         found = []
         for row, stage in enumerate(stages):
@@ -113,7 +113,7 @@ class ChainRule:
         return np.asarray(np.linalg.inv(np.eye(n) - J), dtype=np.float64)
 
 
-def _combined(count: int, entries: Sequence[Entry], w: Floats, of_fields: Floats) -> Floats:
+def _combined(count: int, entries: Sequence[_Entry], w: Floats, of_fields: Floats) -> Floats:
     """The derivatives of ``count`` sums of w f, shape (count, d, n)."""
     import numpy as np
 

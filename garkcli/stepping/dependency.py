@@ -44,6 +44,10 @@ class FieldEvaluation:
     group: Group
 
 
+Vertex: TypeAlias = Stage | FieldEvaluation
+"""A vertex of the graph."""
+
+
 @dataclass(frozen=True)
 class StageBlock:
     """Vertices that are computed together.
@@ -54,7 +58,7 @@ class StageBlock:
     """
 
     unknowns: tuple[Stage, ...]
-    order: tuple[Stage | FieldEvaluation, ...]
+    order: tuple[Vertex, ...]
 
 
 @dataclass(frozen=True)
@@ -76,36 +80,41 @@ class DependencyGraph:
 
     def blocks(self) -> tuple[StageBlock, ...]:
         """The components in the order in which they can be computed."""
-        after: dict[Stage | FieldEvaluation, list[Stage | FieldEvaluation]] = {}
-        after |= {stage: [] for stage in self.sums}
-        after |= {value: [] for value in self.evaluations}
-        for value, stages in self.arguments.items():
-            for stage in stages:
-                after[stage].append(value)
-        for stage, values in self.sums.items():
-            for value in values:
-                after[value].append(stage)
+        after = self._successors()
         found = []
         for component in components(after):
             if len(component) == 1:
                 found.append(StageBlock((), tuple(component)))
                 continue
-            unknowns = self._cut([x for x in component if isinstance(x, Stage)])
-            left = set(component) - unknowns
+            cut = self._cut([x for x in component if isinstance(x, Stage)])
+            left = set(component) - cut
             rest = {x: [y for y in after[x] if y in left] for x in component if x in left}
-            order = tuple(x for single in components(rest) for x in single)
-            found.append(StageBlock(tuple(x for x in self.sums if x in unknowns), order))
+            order = [vertex for single in components(rest) for vertex in single]
+            unknowns = [stage for stage in self.sums if stage in cut]
+            found.append(StageBlock(tuple(unknowns), tuple(order)))
         return tuple(found)
+
+    def _successors(self) -> dict[Vertex, list[Vertex]]:
+        """What needs each vertex."""
+        after: dict[Vertex, list[Vertex]] = {stage: [] for stage in self.sums}
+        after |= {evaluation: [] for evaluation in self.evaluations}
+        for evaluation, stages in self.arguments.items():
+            for stage in stages:
+                after[stage].append(evaluation)
+        for stage, evaluations in self.sums.items():
+            for evaluation in evaluations:
+                after[evaluation].append(stage)
+        return after
 
     def _cut(self, stages: Sequence[Stage]) -> set[Stage]:
         """Stage values without which no cycle is left: greedily those with the most neighbours
         before and after.
         """
         inside = set(stages)
-        before = {
-            s: {t for value in self.sums[s] for t in self.arguments[value] if t in inside}
-            for s in stages
-        }
+        before: dict[Stage, set[Stage]] = {s: set() for s in stages}
+        for stage in stages:
+            for evaluation in self.sums[stage]:
+                before[stage].update(inside.intersection(self.arguments[evaluation]))
         cut = {s for s in stages if s in before[s]}
         while True:
             rest = [s for s in stages if s not in cut]
@@ -115,12 +124,11 @@ class DependencyGraph:
                 return cut
             for component in cycles:
                 within = set(component)
-                cut.add(
-                    max(
-                        component,
-                        key=lambda s: len(before[s] & within) * len(within.intersection(after[s])),
-                    )
-                )
+                ways = {
+                    s: len(before[s] & within) * len(within.intersection(after[s]))
+                    for s in component
+                }
+                cut.add(max(component, key=ways.__getitem__))
 
 
 def dependency_graph(tableau: Tableau, fields: Fields) -> DependencyGraph:
@@ -132,21 +140,23 @@ def dependency_graph(tableau: Tableau, fields: Fields) -> DependencyGraph:
     for (m, group), field in fields.items():
         space = tableau.colours[m].space
         for j in range(tableau.space(m).stages):
-            arguments[FieldEvaluation(m, j, group)] = tuple(
-                Stage(space, j, g) for g in field.depends
-            )
+            seen = tuple(Stage(space, j, g) for g in field.depends)
+            arguments[FieldEvaluation(m, j, group)] = seen
     sums: dict[Stage, tuple[FieldEvaluation, ...]] = {}
     coefficients: dict[tuple[Stage | None, FieldEvaluation], str] = {}
-    for stage in dict.fromkeys(s for stages in arguments.values() for s in stages):
+    needed = dict.fromkeys(stage for stages in arguments.values() for stage in stages)
+    for stage in needed:
         found = []
-        for value in arguments:
-            a: Any = entry(tableau, entries, stage, value) if value.group == stage.group else 0
+        for evaluation in arguments:
+            if evaluation.group != stage.group:
+                continue
+            a = entry(tableau, entries, stage, evaluation)
             if a != 0 and not a.contains(0):
-                found.append(value)
-                coefficients[stage, value] = _text(a)
+                found.append(evaluation)
+                coefficients[stage, evaluation] = _text(a)
         sums[stage] = tuple(found)
-    for value in arguments:
-        coefficients[None, value] = _text(entry(tableau, entries, None, value))
+    for evaluation in arguments:
+        coefficients[None, evaluation] = _text(entry(tableau, entries, None, evaluation))
     return DependencyGraph(tuple(arguments), arguments, sums, coefficients)
 
 
@@ -191,27 +201,33 @@ def fields_of(tableau: Tableau, problem: Hamiltonian) -> Fields:
     Raises:
         UsageProblem: the problem is not of the form that the structure of the method is for.
     """
+    driving = {(x.term, group) for x in tableau.colours for group in driven(x)}
     for term in range(len(problem.terms)):
         for group in GROUPS:
-            has_colour = any(x.term == term and group in driven(x) for x in tableau.colours)
-            if not has_colour and not vector_field(problem, term, group).is_zero:
-                raise UsageProblem(
-                    f"H{{{term + 1}}} of {problem.name} depends on {'pq'[group == 'p']}, "
-                    f"but the method has no colour for that",
-                    f"choose a problem whose H{{{term + 1}}} depends on {'pq'[group == 'q']} alone, "
-                    f"or another structure",
-                )
-    fields = {
-        (m, group): field
-        for m, colour in enumerate(tableau.colours)
-        for group in driven(colour)
-        if not (field := vector_field(problem, colour.term, group)).is_zero
-    }
-    _check_sight(tableau, fields)
+            is_missing = (term, group) not in driving
+            if is_missing and not vector_field(problem, term, group).is_zero:
+                raise _no_colour(problem, term, group)
+    fields: dict[tuple[int, Group], VectorField] = {}
+    for m, colour in enumerate(tableau.colours):
+        for group in driven(colour):
+            field = vector_field(problem, colour.term, group)
+            if not field.is_zero:
+                fields[m, group] = field
+    _check_edges(tableau, fields)
     return fields
 
 
-def _check_sight(tableau: Tableau, fields: Fields) -> None:
+def _no_colour(problem: Hamiltonian, term: int, group: Group) -> UsageProblem:
+    on, other = ("p", "q") if group == "q" else ("q", "p")
+    H = f"H{{{term + 1}}}"
+    return UsageProblem(
+        f"{H} of {problem.name} depends on {on}, but the method has no colour for that",
+        f"choose a problem whose {H} depends on {other} alone, or another structure",
+    )
+
+
+def _check_edges(tableau: Tableau, fields: Fields) -> None:
+    """Refuse fields that are not as the method takes them to be."""
     for (l, _), field in fields.items():
         name = tableau.colours[l].name
         if tableau.colours[l].is_linear and not field.is_linear:
@@ -221,8 +237,9 @@ def _check_sight(tableau: Tableau, fields: Fields) -> None:
             )
         for m, driver in fields:
             if driver in field.depends and tableau.block(l, m) is None:
+                other = tableau.colours[m].name
                 raise UsageProblem(
-                    f"the field of colour {name} depends on what colour {tableau.colours[m].name} drives, "
+                    f"the field of colour {name} depends on what colour {other} drives, "
                     f"which its stages do not see",
                     "choose a problem of the form that the structure is for",
                 )
@@ -235,40 +252,50 @@ def visible_tableau(tableau: Tableau, fields: Fields) -> Tableau:
     Each field has a colour and stages of its own, zero fields have none, and no stage sees what its
     field does not depend on.
     """
-    names = list(fields)
-    colours = tuple(
-        replace(tableau.colours[m], space=k, part=group, is_linear=fields[m, group].is_linear)
-        for k, (m, group) in enumerate(names)
-    )
+    colours, spaces = [], []
+    for k, ((m, group), field) in enumerate(fields.items()):
+        own = replace(tableau.colours[m], space=k, part=group, is_linear=field.is_linear)
+        colours.append(own)
+        spaces.append(tableau.space(m))
     blocks = {}
-    for k, (l, group) in enumerate(names):
-        for n, (m, driver) in enumerate(names):
+    for k, ((l, _), field) in enumerate(fields.items()):
+        for n, (m, driver) in enumerate(fields):
             block = tableau.block(l, m)
-            if driver in fields[l, group].depends and block is not None:
+            if driver in field.depends and block is not None:
                 blocks[k, n] = block
-    return Tableau(tuple(tableau.space(m) for m, _ in names), colours, blocks)
+    return Tableau(tuple(spaces), tuple(colours), blocks)
 
 
 def visible_trees(fields: Fields) -> str:
     """In one line, which trees a problem with these fields can see."""
     if all(field.is_linear for field in fields.values()):
         return "a linear problem sees only the unbranched trees"
-    opposite = {"q": ("p",), "p": ("q",)}
-    if all(field.depends in ((), opposite[group]) for (_, group), field in fields.items()):
-        if all(field.is_linear for (_, group), field in fields.items() if group == "q"):
+    if _is_separable(fields):
+        velocities = [field for (_, group), field in fields.items() if group == "q"]
+        if all(field.is_linear for field in velocities):
             return (
-                "with quadratic kinetic energy it sees the trees in which velocities and forces alternate "
-                "and velocities do not branch"
+                "with quadratic kinetic energy it sees the trees in which velocities and forces "
+                "alternate and velocities do not branch"
             )
         return "a separable problem sees the trees in which velocities and forces alternate"
-    degrees = [field.degree for field in fields.values()]
-    branches = (
-        max(degree for degree in degrees if degree is not None) if None not in degrees else None
-    )
-    limit = "" if branches is None else f", with at most {branches} branches at a vertex"
-    alone = [
-        f"what depends on {x} alone has only {branch} as branches"
-        for x, g, branch in (("positions", "q", "velocities"), ("momenta", "p", "forces"))
-        if any(field.depends == (g,) for field in fields.values())
-    ]
-    return "; ".join([f"it sees the trees of all colours of the method{limit}", *alone])
+    parts = [f"it sees the trees of all colours of the method{_branching(fields)}"]
+    for x, group, branch in (("positions", "q", "velocities"), ("momenta", "p", "forces")):
+        if any(field.depends == (group,) for field in fields.values()):
+            parts.append(f"what depends on {x} alone has only {branch} as branches")
+    return "; ".join(parts)
+
+
+def _is_separable(fields: Fields) -> bool:
+    """Whether velocities depend on momenta alone, and forces on positions."""
+    return all(group not in field.depends for (_, group), field in fields.items())
+
+
+def _branching(fields: Fields) -> str:
+    """How many branches a vertex can have, where that is bounded."""
+    degrees = []
+    for field in fields.values():
+        degree = field.degree
+        if degree is None:
+            return ""
+        degrees.append(degree)
+    return f", with at most {max(degrees)} branches at a vertex"

@@ -100,33 +100,60 @@ def linear_step(tableau: Tableau, problem: Oscillator) -> LinearStep:
         UsageProblem: the split is not one that the structure of the tableau is for.
     """
     check_structure(tableau, problem)
-    fields = [problem.matrix(colour) for colour in tableau.colours]
-    terms = [
-        (m, i, j, L[i][j]) for m, L in enumerate(fields) for i in (0, 1) for j in (0, 1) if L[i][j]
-    ]
+    terms = _terms(tableau, problem)
     first: dict[tuple[int, int], int] = {}  # (stage space, component of y) → its first unknown
     n = 0
-    for m, _, j, _ in terms:
-        if (tableau.colours[m].space, j) not in first:
-            first[tableau.colours[m].space, j] = n
-            n += tableau.space(m).stages
-    W: list[list[Number]] = [[ZERO] * n for _ in range(n)]
-    E: list[list[Number]] = [[ZERO] * 2 for _ in range(n)]
-    B: list[list[Number]] = [[ZERO] * n for _ in range(2)]
-    for m, i, j, factor in terms:
-        colour = tableau.colours[m]
-        column = first[colour.space, j]
-        _add(B, i, column, factor, (colour.b,))
-        for (k, component), row in first.items():
-            block = tableau.blocks.get((k, m))
-            if component == i and block is not None:
-                _add(W, row, column, factor, block)
-    for (k, component), row in first.items():
-        _add(E, row, component, ONE, tuple((x,) for x in tableau.spaces[k].one))
+    for term in terms:
+        colour = tableau.colours[term.colour]
+        if (colour.space, term.seen) not in first:
+            first[colour.space, term.seen] = n
+            n += tableau.space(term.colour).stages
+
+    W, E, B = _zeros(n, n), _zeros(n, 2), _zeros(2, n)
+    for term in terms:
+        colour = tableau.colours[term.colour]
+        column = first[colour.space, term.seen]
+        _add(B, term.driven, column, term.factor, (colour.b,))
+        for (space, component), row in first.items():
+            block = tableau.blocks.get((space, term.colour))
+            if component == term.driven and block is not None:
+                _add(W, row, column, term.factor, block)
+    for (space, component), row in first.items():
+        ones = tuple((x,) for x in tableau.spaces[space].one)
+        _add(E, row, component, ONE, ones)
     field = tableau.field
     return LinearStep(
         problem, field, _over_rationals(W, field), _columns(E, field), _over_rationals(B, field)
     )
+
+
+@dataclass(frozen=True)
+class _LinearTerm:
+    """What the field of a colour does: component ``driven`` of y gets ``factor`` times component
+    ``seen``.
+    """
+
+    colour: int
+    driven: int
+    seen: int
+    factor: Number
+
+
+def _terms(tableau: Tableau, problem: Oscillator) -> list[_LinearTerm]:
+    """The entries of all matrices L^m that are not zero."""
+    found = []
+    for m, colour in enumerate(tableau.colours):
+        L = problem.matrix(colour)
+        for i in (0, 1):
+            for j in (0, 1):
+                factor = L[i][j]
+                if factor:
+                    found.append(_LinearTerm(m, i, j, factor))
+    return found
+
+
+def _zeros(rows: int, columns: int) -> list[list[Number]]:
+    return [[ZERO] * columns for _ in range(rows)]
 
 
 def _add(matrix: list[list[Number]], row: int, column: int, factor: Number, block: Matrix) -> None:
@@ -191,14 +218,12 @@ def deviations(step: LinearStep) -> Iterator[arb]:
     exact = identity(2)
     for k, R_k in enumerate(step.series(), start=1):
         exact = scale(fmpq(1, k), multiply(L, exact))
-        scaled = [
-            unit * x / omega**k
-            for row, scales in zip(subtract(R_k, exact), units, strict=True)
-            for x, unit in zip(row, scales, strict=True)
-        ]
+        difference = subtract(R_k, exact)
         largest = arb(0)
-        for x in scaled:
-            largest = largest.max(abs(to_ball(x)))
+        for i in (0, 1):
+            for j in (0, 1):
+                scaled = units[i][j] * difference[i][j] / omega**k
+                largest = largest.max(abs(to_ball(scaled)))
         yield largest
 
 
