@@ -24,6 +24,7 @@ SUFFIX = ".gark.yaml"
 VALID = sorted((EXAMPLES / "valid").glob(f"*{SUFFIX}"))
 INVALID = sorted((EXAMPLES / "invalid").glob(f"*{SUFFIX}"))
 SECONDS = 5
+"""Of the processor, which no refusal may take."""
 
 
 def stem(path: Path) -> str:
@@ -48,10 +49,10 @@ def test_an_invalid_file_is_refused_with_its_faults(
     file.
     """
     monkeypatch.chdir(path.parent)
-    start = time.perf_counter()
+    start = time.process_time()
     with pytest.raises(MethodFileError) as caught:
         load(path.name)
-    assert time.perf_counter() - start < SECONDS
+    assert time.process_time() - start < SECONDS
     error = caught.value
     places = [(fault.line, fault.column) for fault in error.faults]
     assert places

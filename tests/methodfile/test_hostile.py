@@ -417,10 +417,12 @@ def interrupted(arguments: Sequence[str], cwd: Path, ready: str) -> tuple[int, s
         stderr=subprocess.PIPE,
         text=True,
         start_new_session=True,
+        # what is started in the background of a script ignores ^C, and so do its children
+        preexec_fn=lambda: signal.signal(signal.SIGINT, signal.default_int_handler),
     )
     with running:
         try:
-            deadline = time.monotonic() + 10
+            deadline = time.monotonic() + PATIENCE
             while (
                 time.monotonic() < deadline
                 and running.poll() is None
@@ -429,7 +431,7 @@ def interrupted(arguments: Sequence[str], cwd: Path, ready: str) -> tuple[int, s
                 time.sleep(0.01)
             assert running.poll() is None, "the work was done before it could be interrupted"
             os.killpg(running.pid, signal.SIGINT)
-            _, err = running.communicate(timeout=10)
+            _, err = running.communicate(timeout=PATIENCE)
         finally:
             running.kill()
     return running.returncode, err

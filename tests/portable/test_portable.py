@@ -3,6 +3,7 @@
 from __future__ import annotations
 
 import sys
+import tomllib
 from pathlib import Path
 
 import pytest
@@ -21,6 +22,9 @@ def test_every_dependency_has_a_floor() -> None:
     assert {"click", "matplotlib", "numpy", "python-flint", "pyyaml", "rich", "sympy"} < {*names}
     assert {"hypothesis", "jsonschema", "pytest", "pytest-xdist"} < {*names}
     assert len(names) == len({*names})
+    declared = tomllib.loads((ROOT / "pyproject.toml").read_text(encoding="utf-8"))["project"]
+    test = declared["optional-dependencies"]["test"]
+    assert len(names) == len(declared["dependencies"]) + len(test)
 
 
 def test_all_paths_are_there() -> None:

@@ -38,17 +38,11 @@ class Venv:
 
 
 def floors() -> list[str]:
-    """The declared minimum versions, those of the tests included, as pip's constraints.
-
-    Linters are no part of this: they judge the text of the program, which is the same everywhere.
-    """
+    """The declared minimum versions, those of the tests included, as pip's constraints."""
     declared = tomllib.loads((ROOT / "pyproject.toml").read_text(encoding="utf-8"))["project"]
-    extras = declared["optional-dependencies"]
-    found = [FLOOR.match(line) for line in (*declared["dependencies"], *extras["dev"])]
-    return [f"{floor[1]}=={floor[2]}" for floor in found if floor and floor[1] not in LINTERS]
-
-
-LINTERS = ("import-linter", "mypy", "ruff", "types-PyYAML")
+    lines = (*declared["dependencies"], *declared["optional-dependencies"]["test"])
+    found = [FLOOR.match(line) for line in lines]
+    return [f"{floor[1]}=={floor[2]}" for floor in found if floor]
 
 
 @cache
@@ -77,7 +71,7 @@ def python_of(venv: Venv) -> Path:
     python = folder / ("Scripts/python.exe" if sys.platform == "win32" else "bin/python")
     if not python.exists():
         done([venv.python, "-m", "venv", str(folder)])
-    wanted = ["--editable", ".[dev]", "build", "threadpoolctl"]
+    wanted = ["--editable", ".[test]", "build", "threadpoolctl"]
     if venv.versions == "floors":
         constraints = folder / "floors.txt"
         constraints.write_text("\n".join(floors()) + "\n", encoding="utf-8")
