@@ -28,8 +28,6 @@ MAX_COARSE = 20_000
 """Steps from which on the default ladder takes a large error for what there is to see."""
 LARGEST = 1 / 32
 """The part of the solution that an error of the default ladder is at most."""
-LONGEST = 8
-"""Units of time of the longest step that is tried."""
 _NEAR = 0.125  # how far, in parts of the order, the first slope of a ladder may be off
 _STEADY = 0.02  # change between two slopes at which they have settled
 _EXTRAPOLATED = 0.06  # change between two extrapolated orders at which they have
@@ -55,7 +53,7 @@ def default_rows(solver: Solver, is_timed: bool) -> tuple[list[Row], int]:
     rows: list[Row] = []
     is_small: list[bool] = []
     flat = 0
-    for h in halvings(solver.t_end, solver.unit):
+    for h in halvings(solver.t_end, solver.unit, solver.longest):
         is_coarse = h * MAX_COARSE > solver.t_end
         if rows and solver.t_end / h > solver.most_steps:
             break
@@ -83,20 +81,20 @@ def is_part(row: Row, size: arb) -> bool:
     return bool(row.error < size * LARGEST / 2)
 
 
-def halvings(t_end: fmpq, unit: fmpq) -> Iterator[fmpq]:
-    """t_end/n with n doubled without end; the first step is no longer than ``LONGEST`` units of
-    time, and all methods have the same.
+def halvings(t_end: fmpq, unit: fmpq, longest: fmpq) -> Iterator[fmpq]:
+    """t_end/n with n doubled without end. The first step is no longer than ``longest``, nor than a
+    unit of time where that is shorter and cannot be doubled; all methods have the same.
 
     Raises:
         UsageProblem: the time is not positive.
 
     >>> from itertools import islice
-    >>> [str(h) for h in islice(halvings(fmpq(12), fmpq(1)), 4)]
+    >>> [str(h) for h in islice(halvings(fmpq(12), fmpq(1), fmpq(8)), 4)]
     ['4', '2', '1', '1/2']
     """
     whole_steps(t_end, t_end)
-    n = int((t_end / unit).ceil())
-    while n % 2 == 0 and t_end / (n // 2) <= LONGEST * unit:
+    n = int((t_end / min(unit, longest)).ceil())
+    while n % 2 == 0 and t_end / (n // 2) <= longest:
         n //= 2
     for k in count():
         yield t_end / (n * 2**k)

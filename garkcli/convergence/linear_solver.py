@@ -80,6 +80,11 @@ class LinearSolver:
         """1/ω."""
         return 1 / self.problem.omega
 
+    @property
+    def longest(self) -> fmpq:
+        """ωh = 1/2: the expansion of R(h) has begun to be one."""
+        return self.unit / 2
+
     def row(self, h: fmpq, before: Row | None) -> Row:
         """The errors of steps of size ``h``, exact to ``ERROR_BITS``; see ``Solver.row``."""
         steps = whole_steps(self.t_end, h)

@@ -42,7 +42,12 @@ class Solver(Protocol):
 
     @property
     def unit(self) -> fmpq:
-        """A unit of time that is natural for the problem: ladders begin at steps of a few."""
+        """A unit of time that is natural for the problem."""
+        ...
+
+    @property
+    def longest(self) -> fmpq:
+        """The longest step that a ladder may begin with."""
         ...
 
     @property

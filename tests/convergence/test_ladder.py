@@ -103,7 +103,7 @@ def test_plateau_stays_and_has_no_say() -> None:
 def test_halvings_divide_the_time(p: int, q: int) -> None:
     """Each step size divides the time, is half of the one before, and the first is not long."""
     t = fmpq(p, q)
-    found = list(islice(halvings(t, fmpq(1)), 5))
+    found = list(islice(halvings(t, fmpq(1), fmpq(8)), 5))
     assert all((t / h).q == 1 for h in found)
     assert all(a == 2 * b for a, b in pairwise(found))
     assert found[0] <= 8
@@ -112,7 +112,7 @@ def test_halvings_divide_the_time(p: int, q: int) -> None:
 def test_time_has_to_be_positive() -> None:
     """There is nothing to divide."""
     with pytest.raises(UsageProblem, match="not both positive"):
-        next(halvings(fmpq(0), fmpq(1)))
+        next(halvings(fmpq(0), fmpq(1), fmpq(8)))
 
 
 @pytest.mark.parametrize("order", [1, 4])
