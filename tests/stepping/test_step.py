@@ -3,6 +3,7 @@
 from __future__ import annotations
 
 import math
+from functools import cache
 from typing import Any
 
 import numpy as np
@@ -54,15 +55,21 @@ def plain_step(tableau: Tableau, problem: Hamiltonian, h: float) -> list[float]:
     b = [np.array([float(x) for x in row]) for row in entries.b]
     y0 = np.array([float(x.p) / float(x.q) for x in problem.initial])
 
+    @cache
+    def function(m: int, group: str) -> Any:
+        """The gradient of a colour's term, its arguments being the groups it depends on."""
+        f = vector_field(problem, tableau.colours[m].term, group)  # type: ignore[arg-type]
+        made = sympy.lambdify(f.arguments, list(f.components), modules="math")
+        return None if f.is_zero else (f.depends, made)
+
     def field(m: int, y: Any) -> Any:
-        colour, out = tableau.colours[m], np.zeros(2 * d)
+        out, groups = np.zeros(2 * d), {"q": y[:d], "p": y[d:]}
         for group, part, offset in (("q", "yq", 0), ("p", "yp", d)):
-            f = vector_field(problem, colour.term, group)  # type: ignore[arg-type]
-            if colour.part in part and not f.is_zero:
-                function = sympy.lambdify(f.arguments, list(f.components), modules="math")
-                out[offset : offset + d] = function(
-                    *(x for g in f.depends for x in y[slice(d) if g == "q" else slice(d, None)])
-                )
+            made = function(m, group) if tableau.colours[m].part in part else None
+            if made is not None:
+                depends, gradient = made
+                arguments = [x for g in depends for x in groups[g]]
+                out[offset : offset + d] = gradient(*arguments)
         return out
 
     F = [np.array([field(m, y0)] * len(b[m])) for m in range(tableau.size)]
