@@ -8,7 +8,7 @@ from typing import TYPE_CHECKING
 
 import click
 
-from garkcli.cli.options import CONTEXT, Output, common
+from garkcli.cli.options import CONTEXT, PATH, Output, common
 
 if TYPE_CHECKING:
     from garkcli.check.outcome import Outcome
@@ -17,7 +17,7 @@ FORMATS = ["auto", "text", "json", "sarif", "junit", "github", "markdown"]
 
 
 @click.command("check", context_settings=CONTEXT)
-@click.argument("files", nargs=-1, required=True, metavar="FILE...")
+@click.argument("files", nargs=-1, required=True, type=PATH, metavar="FILE...")
 @click.option(
     "--max-order",
     type=click.IntRange(1, 400),
@@ -33,6 +33,7 @@ FORMATS = ["auto", "text", "json", "sarif", "junit", "github", "markdown"]
 )
 @click.option(
     "--baseline",
+    type=PATH,
     metavar="REPORT",
     help="Fail only on what is worse than in an earlier JSON report.",
 )

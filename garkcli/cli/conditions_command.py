@@ -8,7 +8,7 @@ from typing import TYPE_CHECKING
 
 import click
 
-from garkcli.cli.options import CONTEXT, Output, common
+from garkcli.cli.options import CONTEXT, PATH, Output, common
 from garkcli.cli.trees_command import kind_asked, symplectic_options
 from garkcli.errors import UsageProblem
 
@@ -20,7 +20,7 @@ if TYPE_CHECKING:
 
 
 @click.command("conditions", context_settings=CONTEXT)
-@click.argument("file", required=False, metavar="[FILE]")
+@click.argument("file", required=False, type=PATH, metavar="[FILE]")
 @click.option(
     "--colours",
     "-N",

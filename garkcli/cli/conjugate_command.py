@@ -4,11 +4,11 @@ from __future__ import annotations
 
 import click
 
-from garkcli.cli.options import CONTEXT, Output, common
+from garkcli.cli.options import CONTEXT, PATH, Output, common
 
 
 @click.command("conjugate", context_settings=CONTEXT)
-@click.argument("file", metavar="FILE")
+@click.argument("file", type=PATH, metavar="FILE")
 @click.option("--pair", "is_pair", is_flag=True, help="The symplectic pair, 2N colours, instead.")
 @click.option(
     "--digits",

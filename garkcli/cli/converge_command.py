@@ -9,7 +9,7 @@ from typing import TYPE_CHECKING
 import click
 
 from garkcli.cli.converging import Problems, Wanted, compared, hint_rounding, tested
-from garkcli.cli.options import CONTEXT, Output, common
+from garkcli.cli.options import CONTEXT, PATH, Output, common
 from garkcli.cli.problems import ProblemType, note_changing
 from garkcli.cli.stepping import positive, refuse_misplaced, stepped_tableau
 from garkcli.cli.streams import say_problem
@@ -32,7 +32,7 @@ def _moved(_: click.Context, option: click.Parameter, value: object) -> None:
 
 
 @click.command("converge", context_settings=CONTEXT)
-@click.argument("files", nargs=-1, required=True, metavar="FILE...")
+@click.argument("files", nargs=-1, required=True, type=PATH, metavar="FILE...")
 @click.option(
     "--problem",
     type=ProblemType(),
@@ -67,7 +67,7 @@ def _moved(_: click.Context, option: click.Parameter, value: object) -> None:
 )
 @click.option("--drift", is_flag=True, hidden=True, expose_value=False, callback=_moved)
 @click.option("--step", hidden=True, expose_value=False, callback=_moved)
-@click.option("--plot", metavar="FILE", help="Draw into FILE: .png, .svg or .pdf.")
+@click.option("--plot", type=PATH, metavar="FILE", help="Draw into FILE: .png, .svg or .pdf.")
 @common(["text", "json", "csv"])
 def command(
     files: tuple[str, ...],

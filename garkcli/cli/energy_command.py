@@ -7,7 +7,7 @@ from typing import TYPE_CHECKING
 
 import click
 
-from garkcli.cli.options import CONTEXT, Output, common
+from garkcli.cli.options import CONTEXT, PATH, Output, common
 from garkcli.cli.problems import ProblemType, find_problem, is_path, note_changing
 from garkcli.cli.stepping import positive, refuse_misplaced, stepped_tableau
 from garkcli.cli.streams import say_problem
@@ -24,7 +24,7 @@ if TYPE_CHECKING:
 
 
 @click.command("energy", context_settings=CONTEXT)
-@click.argument("file", metavar="FILE")
+@click.argument("file", type=PATH, metavar="FILE")
 @click.option(
     "--problem",
     type=ProblemType(),
@@ -60,7 +60,7 @@ if TYPE_CHECKING:
 )
 @click.option("--bounded", is_flag=True, help="Claim that nothing drifts.")
 @click.option("--max-error", metavar="E", help="Claim that no energy error is larger than E.")
-@click.option("--plot", metavar="FILE", help="Draw into FILE: .png, .svg or .pdf.")
+@click.option("--plot", type=PATH, metavar="FILE", help="Draw into FILE: .png, .svg or .pdf.")
 @common(["text", "json", "csv"])
 def command(
     file: str,

@@ -2,6 +2,7 @@
 
 from __future__ import annotations
 
+import os
 import sys
 from contextlib import suppress
 from functools import cache
@@ -48,11 +49,21 @@ class ProblemType(click.ParamType):  # type: ignore[type-arg]
         param: click.Parameter,  # noqa: ARG002
         incomplete: str,
     ) -> list[CompletionItem]:
-        """The names, and files."""
+        """The names, and problem files; folders are for the shell, which goes on below them."""
         from garkcli.problems.builtin import PROBLEMS
 
-        names = [CompletionItem(x) for x in PROBLEMS if x.startswith(incomplete)]
-        return names or [CompletionItem(incomplete, type="file")]
+        found = [name for name in PROBLEMS if name.startswith(incomplete)]
+        if found:
+            folder, start = os.path.split(incomplete)
+            with suppress(OSError):
+                found += sorted(
+                    os.path.join(folder, name)
+                    for name in os.listdir(folder or ".")
+                    if name.startswith(start) and name.endswith((".yaml", ".yml"))
+                    if name.isprintable()
+                )
+            return [CompletionItem(name) for name in found]
+        return [CompletionItem(incomplete, type="file")]
 
 
 def find_problem(name_or_path: str, tableau: Tableau, seed: int | None = None) -> Hamiltonian:

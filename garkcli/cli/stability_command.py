@@ -7,7 +7,7 @@ from typing import TYPE_CHECKING
 
 import click
 
-from garkcli.cli.options import CONTEXT, Output, common
+from garkcli.cli.options import CONTEXT, PATH, Output, common
 from garkcli.errors import UsageProblem, did_you_mean
 
 if TYPE_CHECKING:
@@ -31,7 +31,9 @@ if TYPE_CHECKING:
     metavar="N",
     help="Digits of numbers that have no simple radicals.",
 )
-@click.option("--plot", metavar="FILE", help="Draw regions or traces into FILE: .png, .svg, .pdf.")
+@click.option(
+    "--plot", type=PATH, metavar="FILE", help="Draw regions or traces into FILE: .png, .svg, .pdf."
+)
 @click.option("--order-star", is_flag=True, help="With --plot: |R(z)| > |exp z| instead.")
 @common(["text", "json", "latex"])
 def command(

@@ -9,7 +9,8 @@ from typing import TYPE_CHECKING, Any, TypeVar, cast
 
 import click
 
-from garkcli.cli.options import CONTEXT, Output, common
+from garkcli.cli.options import CONTEXT, PATH, Output, common
+from garkcli.cli.streams import is_terminal, say
 from garkcli.errors import UsageProblem
 from garkcli.trees.symplectic import KINDS, Kind
 
@@ -18,6 +19,8 @@ if TYPE_CHECKING:
     from garkcli.trees.tree import Tree
 
 F = TypeVar("F", bound=Callable[..., Any])
+MANY = 1_000_000
+"""So many lines are asked for twice."""
 MAX_PICTURES = 2000
 """Most trees on one sheet of pictures."""
 
@@ -80,10 +83,11 @@ def kind_asked(symplectic: bool, kind: str | None, members: bool, format: str) -
     "--colours-used", metavar="L,M,...", help="Only trees in which each of these colours occurs."
 )
 @click.option("--count", is_flag=True, help="Count without generating, for any order.")
+@click.option("--yes", is_flag=True, help="List them also where they are millions.")
 @click.option(
     "--tree", "one", metavar="TEXT", help="One tree, such as [[]_2,[]_1]_1, instead of an order."
 )
-@click.option("--svg", metavar="FILE", help="Draw a sheet of all the trees into FILE.")
+@click.option("--svg", type=PATH, metavar="FILE", help="Draw a sheet of all the trees into FILE.")
 @click.option(
     "--document", is_flag=True, help="With --format latex: a document that compiles as it stands."
 )
@@ -96,6 +100,7 @@ def command(
     root: int | None,
     colours_used: str | None,
     count: bool,
+    yes: bool,
     svg: str | None,
     one: str | None,
     document: bool,
@@ -120,7 +125,7 @@ def command(
                 "free trees have no root", "leave out --root, --colours-used and --tree"
             )
         return _free_trees(
-            asked, colours, _orders(order, upto), count, members, svg, document, output
+            asked, colours, _orders(order, upto), count, yes, members, svg, document, output
         )
     colours = colours or 1
     used = _colours(colours_used, colours)
@@ -142,7 +147,7 @@ def command(
         _draw(svg, (parse_tree(row.tree) for row in _rows(query, orders)), colours > 1)
         output.note(f"wrote {svg}")
         return 0
-    _list(query, orders, document, output)
+    _list(query, orders, yes, document, output)
     return 0
 
 
@@ -152,7 +157,7 @@ def _orders(order: int | None, upto: bool) -> range:
     return range(1, order + 1) if upto else range(order, order + 1)
 
 
-def _list(query: Query, orders: range, document: bool, output: Output) -> None:
+def _list(query: Query, orders: range, yes: bool, document: bool, output: Output) -> None:
     """A row for each tree."""
     from garkcli.report import trees as report
     from garkcli.report.progress import tracked
@@ -163,8 +168,24 @@ def _list(query: Query, orders: range, document: bool, output: Output) -> None:
         if totals is None
         else sum(map(sum, (report.kept(query, by_root) for _, by_root in totals)))
     )
+    _refuse_millions(count_all, yes)
     rows = tracked(_rows(query, orders), count_all, "trees", output.may_show_progress)
     output.write(report.render(query, rows, totals, output.format, output.paint, document))
+
+
+def _refuse_millions(lines: int | None, yes: bool) -> None:
+    """Ask on a terminal whether so many lines are meant, and refuse them without one.
+
+    Raises:
+        UsageProblem: they are not meant, or nobody was asked.
+    """
+    if yes or lines is None or lines <= MANY:
+        return
+    if is_terminal(sys.stdin) and is_terminal(sys.stderr):
+        say(f"{lines} trees: list them all? [y/N]")
+        if sys.stdin.readline().strip().lower() in {"y", "yes"}:
+            return
+    raise UsageProblem(f"{lines} trees", "--yes lists them, --count counts them")
 
 
 def _free_trees(
@@ -172,6 +193,7 @@ def _free_trees(
     terms: int | None,
     orders: range,
     count: bool,
+    yes: bool,
     members: bool,
     svg: str | None,
     document: bool,
@@ -190,6 +212,7 @@ def _free_trees(
         _draw(svg, trees, subject.has_colours)
         output.note(f"wrote {svg}")
     else:
+        _refuse_millions(subject.independent, yes)
         classes = tracked(subject.classes(), subject.independent, "trees", output.may_show_progress)
         pieces = report.render_classes(
             subject, classes, output.format, output.paint, members, document

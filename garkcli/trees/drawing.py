@@ -32,6 +32,7 @@ the numbers do not.
 DOT = "●"
 
 STEP_X, STEP_Y, RADIUS, MARGIN = 30, 36, 11, 16  # of the SVG drawings, in pixels
+ROW_GAP = 24  # between the captions of one row and the highest tree of the next
 CAPTION_SIZE, CAPTION_STEP = 12, 17  # type size and line step of the captions, in pixels
 CHARACTER = 0.62 * CAPTION_SIZE  # width of a character of the captions, in pixels
 
@@ -160,7 +161,8 @@ def draw_svg_sheet(
         heights[k // columns] = max(
             heights[k // columns], max(v.y for v in vertices) * STEP_Y + 2 * RADIUS
         )
-    foot = CAPTION_STEP * max((len(text) for text in lines), default=0) + 2 * MARGIN
+    captioned = CAPTION_STEP * max((len(text) for text in lines), default=0)
+    foot = captioned + 2 * MARGIN + ROW_GAP
     body = []
     for k, vertices in enumerate(placed):
         row, column = divmod(k, columns)
@@ -168,7 +170,7 @@ def draw_svg_sheet(
         ground = MARGIN + sum(heights[: row + 1]) + row * foot - RADIUS
         body += _svg_tree(vertices, middle, ground)
         body += _svg_caption(lines[k], middle, ground + RADIUS)
-    width, height = sum(widths), MARGIN + sum(heights) + len(heights) * foot
+    width, height = sum(widths), MARGIN + sum(heights) + len(heights) * foot - ROW_GAP
     return "\n".join([*_svg_head(width, height), *body, "</svg>", ""])
 
 

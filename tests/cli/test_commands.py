@@ -33,7 +33,7 @@ RUNS = [
     (("conditions", "-n", "3"), ("text", "json", "csv", "latex")),
     (("conditions", "-N", "2", "-n", "3", "--coloured"), ("text", "json", "csv", "latex")),
     (("conditions", COLLOCATION, "-n", "3", "--pair"), ("text", "json", "csv", "latex")),
-    (("tableau", COLLOCATION), ("text", "json", "latex")),
+    (("tableau", COLLOCATION), ("text", "yaml", "json", "latex")),
     (("conjugate", VERLET), ("text", "yaml", "json", "latex")),
     (("conjugate", COLLOCATION, "--pair"), ("text", "yaml", "json", "latex")),
     (("converge", VERLET, "--steps", "1/2,1/4,1/8"), ("text", "json", "csv")),
@@ -334,10 +334,51 @@ def test_counts_of_any_number_of_digits(options: list[str]) -> None:
 
 def test_more_trees_than_fit_are_refused() -> None:
     """The number and the cure, with no word of a fault of the program."""
-    run = gark("trees", "-n", "30")
+    run = gark("trees", "-n", "30", "--yes")
     assert run.code == 2
     assert run.err.startswith("gark: 196268698287 trees of order up to 29 with 1 colour (limit")
     assert "count them" in run.err
+
+
+@pytest.mark.parametrize("options", [(), ("--format", "csv"), ("-o", "trees.txt")])
+def test_millions_of_lines_are_asked_for_twice(options: tuple[str, ...], tmp_path: Path) -> None:
+    """Without a terminal to ask they are refused at once, with the number and both cures; a million
+    and fewer are listed.
+    """
+    run = gark("trees", "-N", "3", "-n", "9", *options, cwd=tmp_path)
+    assert (run.code, run.out) == (2, "")
+    assert list(tmp_path.iterdir()) == []
+    counted = gark("trees", "-N", "3", "-n", "9", "--count", "--format", "json").out
+    number = json.loads(counted)["count"]
+    assert run.err == f"gark: {number} trees\nhelp: --yes lists them, --count counts them\n"
+
+
+def test_whoever_is_asked_decides(monkeypatch: pytest.MonkeyPatch) -> None:
+    """On a terminal the answer decides; anything but yes is no."""
+    from garkcli.cli import trees_command
+
+    monkeypatch.setattr(trees_command, "is_terminal", lambda _: True)
+    monkeypatch.setattr(trees_command, "MANY", 10)
+    for answer, code in (("y\n", 0), ("yes\n", 0), ("n\n", 2), ("\n", 2), ("", 2)):
+        run = gark("trees", "-n", "6", stdin=answer)
+        assert run.code == code
+        assert run.err.startswith("20 trees: list them all? [y/N]\n")
+        assert ("[[]" in run.out) is (code == 0)
+
+
+def test_a_tableau_as_a_method_file(tmp_path: Path) -> None:
+    """--format yaml spells out every block, and loads again to the same tableau; where the nodes
+    have no radicals it says so.
+    """
+    for path in (COLLOCATION, ARK, VERLET):
+        run = gark("tableau", path, "--format", "yaml")
+        assert run.code == 0
+        (tmp_path / "m.gark.yaml").write_text(run.out, encoding="utf-8")
+        again = gark("tableau", "m.gark.yaml", "--format", "json", cwd=tmp_path)
+        assert again.out == gark("tableau", path, "--format", "json").out
+    run = gark("tableau", "methods/gauss6-lobatto7.gark.yaml", "--format", "yaml")
+    assert run.code == 2
+    assert "no simple radicals" in run.err
 
 
 def test_json_of_conditions() -> None:

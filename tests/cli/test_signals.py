@@ -19,7 +19,7 @@ pytestmark = pytest.mark.skipif(os.name != "posix", reason="signals between proc
 PATIENCE = 60.0
 """Seconds to wait for a sign of life, on a machine that is very busy."""
 # nothing to be fast enough for: millions of trees
-FOR_EVER = ("trees", "-N", "2", "-n", "13", "--format", "ndjson")
+FOR_EVER = ("trees", "-N", "2", "-n", "13", "--yes", "--format", "ndjson")
 
 
 def _as_from_a_terminal() -> None:

@@ -193,7 +193,7 @@ def test_nobody_reads_the_report(command: str) -> None:
 
 def test_somebody_stops_reading() -> None:
     """What fills a pipe ends with 141 when its reader stops."""
-    done = shell("$GARK trees -N 3 -n 9 | head -1; exit ${PIPESTATUS[0]}")
+    done = shell("$GARK trees -N 3 -n 9 --yes | head -1; exit ${PIPESTATUS[0]}")
     assert (done.returncode, done.stderr) == (141, b"")
 
 
