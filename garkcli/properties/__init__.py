@@ -1,0 +1,1 @@
+"""What a tableau is like: explicit or implicit, symmetric, stiffly accurate, reducible."""

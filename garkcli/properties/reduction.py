@@ -1,0 +1,159 @@
+"""Reducible methods: stages that do not matter, and stages that are equal.
+
+A stage that no weight and no other stage that matters looks at can be left out (G. Dahlquist, R.
+Jeltsch). Stages that are equal for every problem can be one (W. Hundsdorfer, M. Spijker): they are
+found by refining a partition until equal stages see equal sums of weights in each class.
+"""
+
+from __future__ import annotations
+
+from collections.abc import Sequence
+from dataclasses import replace
+
+from garkcli.exact.field import ZERO, Number
+from garkcli.exact.matrix import Vector
+from garkcli.tableau.pointwise import in_points
+from garkcli.tableau.stages import PointSpace
+from garkcli.tableau.tableau import Tableau
+
+
+def reduced(tableau: Tableau) -> Tableau | None:
+    """The smallest method that does the same; the same object where there is nothing to leave out.
+
+    None where the nodes have no simple radicals. A stage space of which nothing is left keeps one
+    stage, with weight zero.
+
+    >>> from garkcli.methodfile.load import loads
+    >>> twice = loads("methods: [{A: [[0, 0], [0, 0]], b: [1/2, 1/2]}]").tableau
+    >>> reduced(twice).spaces[0].stages
+    1
+    """
+    exact = in_points(tableau)
+    if exact is None:
+        return None
+    smaller = _once(exact)
+    if _sizes(smaller) == _sizes(exact):
+        return tableau
+    # weights that were added may be zero, and leave a stage without influence
+    while True:
+        smaller, before = _once(smaller), smaller
+        if _sizes(smaller) == _sizes(before):
+            return smaller
+
+
+def _once(tableau: Tableau) -> Tableau:
+    return _merged(_without(tableau, _that_matter(tableau)))
+
+
+def _sizes(tableau: Tableau) -> list[int]:
+    return [space.stages for space in tableau.spaces]
+
+
+def is_reducible(tableau: Tableau) -> bool | None:
+    """Whether fewer stages do the same; None where the nodes have no simple radicals."""
+    smaller = reduced(tableau)
+    return None if smaller is None else smaller is not tableau
+
+
+def _that_matter(tableau: Tableau) -> list[list[int]]:
+    """For each space the stages that have an influence on the step."""
+    reached = {
+        (colour.space, i)
+        for colour in tableau.colours
+        for i, weight in enumerate(colour.b)
+        if weight
+    }
+    waiting = list(reached)
+    while waiting:
+        k, i = waiting.pop()
+        for m, colour in enumerate(tableau.colours):
+            block = tableau.blocks.get((k, m))
+            if block is None:
+                continue
+            seen = {(colour.space, j) for j, entry in enumerate(block[i]) if entry}
+            waiting += seen - reached
+            reached |= seen
+    kept = []
+    for k, space in enumerate(tableau.spaces):
+        stages = [i for i in range(space.stages) if (k, i) in reached]
+        kept.append(stages or [0])
+    return kept
+
+
+def _without(tableau: Tableau, kept: Sequence[Sequence[int]]) -> Tableau:
+    """The tableau with the given stages alone."""
+    spaces = tuple(
+        PointSpace(_chosen(space.nodes, stages))
+        for space, stages in zip(tableau.spaces, kept, strict=True)
+    )
+    colours = tuple(
+        replace(x, b=_chosen(x.b, kept[x.space]), c=_chosen(x.c, kept[x.space]))
+        for x in tableau.colours
+    )
+    blocks = {
+        (k, m): tuple(_chosen(block[i], kept[tableau.colours[m].space]) for i in kept[k])
+        for (k, m), block in tableau.blocks.items()
+    }
+    return Tableau(spaces, colours, blocks)
+
+
+def _chosen(row: Vector, stages: Sequence[int]) -> Vector:
+    return tuple(row[i] for i in stages)
+
+
+def _merged(tableau: Tableau) -> Tableau:
+    """The tableau with one stage for each class of equal ones; their weights are added."""
+    classes = _equal_stages(tableau)
+    spaces = tuple(
+        PointSpace(tuple(space.nodes[members[0]] for members in found))
+        for space, found in zip(tableau.spaces, classes, strict=True)
+    )
+    colours = tuple(
+        replace(
+            x,
+            b=_summed(x.b, classes[x.space]),
+            c=tuple(x.c[members[0]] for members in classes[x.space]),
+        )
+        for x in tableau.colours
+    )
+    blocks = {}
+    for (k, m), block in tableau.blocks.items():
+        columns = classes[tableau.colours[m].space]
+        blocks[k, m] = tuple(_summed(block[members[0]], columns) for members in classes[k])
+    return Tableau(spaces, colours, blocks)
+
+
+def _summed(row: Vector, classes: Sequence[Sequence[int]]) -> Vector:
+    sums: list[Number] = []
+    for members in classes:
+        total: Number = ZERO
+        for j in members:
+            total = total + row[j]
+        sums.append(total)
+    return tuple(sums)
+
+
+def _equal_stages(tableau: Tableau) -> list[list[list[int]]]:
+    """For each space its stages in classes of equal ones, the coarsest partition that is stable."""
+    classes = [[list(range(space.stages))] for space in tableau.spaces]
+    while True:
+        finer = [_split(tableau, k, classes) for k in range(len(tableau.spaces))]
+        if [len(found) for found in finer] == [len(found) for found in classes]:
+            return finer
+        classes = finer
+
+
+def _split(tableau: Tableau, k: int, classes: list[list[list[int]]]) -> list[list[int]]:
+    """The classes of one space, divided by what their stages see."""
+    found: list[list[int]] = []
+    for members in classes[k]:
+        by_sight: dict[tuple[object, ...], list[int]] = {}
+        for i in members:
+            sight: list[object] = [tableau.spaces[k].nodes[i]]
+            for m, colour in enumerate(tableau.colours):
+                block = tableau.blocks.get((k, m))
+                if block is not None:
+                    sight.append(_summed(block[i], classes[colour.space]))
+            by_sight.setdefault(tuple(sight), []).append(i)
+        found += by_sight.values()
+    return sorted(found)

@@ -1,0 +1,229 @@
+"""Shape, symmetry, last stages, reduction: the known methods, and properties that must hold."""
+
+from __future__ import annotations
+
+from fractions import Fraction
+
+import pytest
+from flint import fmpq
+from hypothesis import given
+from hypothesis import strategies as st
+
+from garkcli.exact.polynomial import Polynomial
+from garkcli.families.registry import diagonal_method
+from garkcli.methodfile.load import load, loads
+from garkcli.order.certificate import find_order
+from garkcli.properties.last_stage import is_first_same_as_last, is_stiffly_accurate
+from garkcli.properties.reduction import is_reducible, reduced
+from garkcli.properties.shape import shape
+from garkcli.properties.symmetry import is_symmetric
+from garkcli.stability.linear import stability_function
+from garkcli.tableau.forms import gark
+from garkcli.tableau.tableau import Tableau
+
+Rows = list[list[Fraction]]
+ENTRY = st.fractions(min_value=-2, max_value=2, max_denominator=4)
+
+
+@st.composite
+def methods(draw: st.DrawFn) -> tuple[Rows, list[Fraction]]:
+    """A random method of one colour as (A, b)."""
+    s = draw(st.integers(1, 3))
+    row = st.lists(ENTRY, min_size=s, max_size=s)
+    return [draw(row) for _ in range(s)], draw(row)
+
+
+def tableau_of(A: Rows, b: list[Fraction]) -> Tableau:
+    """The method with one colour."""
+    text = [[str(x) for x in row] for row in A]
+    return loads(f"methods: [{{A: {text}, b: {[str(x) for x in b]}}}]").tableau
+
+
+def family(name: str, stages: int | None) -> Tableau:
+    """A method of one colour."""
+    return gark([diagonal_method(name, stages)], {})
+
+
+def followed_by_adjoint(A: Rows, b: list[Fraction]) -> tuple[Rows, list[Fraction]]:
+    """Half a step of the method, then half a step of its adjoint."""
+    s = len(b)
+    half = Fraction(1, 2)
+    adjoint = [[b[s - 1 - j] - A[s - 1 - i][s - 1 - j] for j in range(s)] for i in range(s)]
+    weights = b[::-1]
+    first = [[half * x for x in row] + [Fraction(0)] * s for row in A]
+    second = [[half * x for x in b] + [half * x for x in row] for row in adjoint]
+    return first + second, [half * x for x in b] + [half * x for x in weights]
+
+
+@given(methods())
+def test_a_step_and_its_adjoint_are_symmetric(method: tuple[Rows, list[Fraction]]) -> None:
+    """Φ*_{h/2} ∘ Φ_{h/2} is symmetric, and so R(z) R(−z) = 1, found without stages."""
+    tableau = tableau_of(*followed_by_adjoint(*method))
+    assert is_symmetric(tableau)
+    R = stability_function(tableau)
+    minus = Polynomial([0, -1])
+    P, Q = R.numerator, R.denominator
+    assert P * P.substituted(minus) == Q * Q.substituted(minus)
+
+
+@given(methods())
+def test_symmetry_is_seen_by_the_stability_function(method: tuple[Rows, list[Fraction]]) -> None:
+    """What is symmetric has R(z) R(−z) = 1, and an even order."""
+    tableau = tableau_of(*method)
+    if is_symmetric(tableau):
+        R = stability_function(tableau)
+        minus = Polynomial([0, -1])
+        assert R.numerator * R.numerator.substituted(minus) == (
+            R.denominator * R.denominator.substituted(minus)
+        )
+        found = find_order(tableau)
+        assert found.order % 2 == 0 or found.is_lower_bound
+
+
+@pytest.mark.parametrize(
+    ("name", "expected"),
+    [
+        ("gauss", True),
+        ("lobatto-iiia", True),
+        ("lobatto-iiib", True),
+        ("lobatto-iiic", False),
+        ("lobatto-iiid", True),
+        ("radau-iia", False),
+    ],
+)
+@pytest.mark.parametrize("stages", [2, 3, 4, 7])
+def test_families(name: str, stages: int, expected: bool) -> None:
+    """Hairer, Lubich, Wanner, section V.2; decided in stage algebras, with seven stages too."""
+    assert is_symmetric(family(name, stages)) == expected
+
+
+def test_equal_nodes_are_renumbered_too() -> None:
+    """Stages in another order, and twins of one node, do not hide the symmetry."""
+    text = "methods: [{A: [[1/2, 0], [1/2, 1/2]], b: [1, 1]}]"  # implicit midpoint of weights 1, 1
+    assert is_symmetric(loads(text).tableau) is (stability_symmetric(loads(text).tableau))
+    verlet = load("methods/stoermer-verlet.gark.yaml").tableau
+    assert is_symmetric(verlet)
+
+
+def stability_symmetric(tableau: Tableau) -> bool:
+    """Whether R(z) R(−z) = 1."""
+    R = stability_function(tableau)
+    minus = Polynomial([0, -1])
+    return bool(
+        R.numerator * R.numerator.substituted(minus)
+        == R.denominator * R.denominator.substituted(minus)
+    )
+
+
+@given(methods(), st.data())
+def test_a_stage_written_twice_is_found(
+    method: tuple[Rows, list[Fraction]], data: st.DataObject
+) -> None:
+    """With one stage split in two, and one more that nobody looks at, the method reduces to no more stages."""
+    A, b = method
+    s = len(b)
+    i = data.draw(st.integers(0, s - 1))
+    share = data.draw(ENTRY)
+    wide = [[*row, row[i] - share] for row in A]
+    for row in wide:
+        row[i] = share
+    wide.append(list(wide[i]))
+    weights = [*b, b[i] - share]
+    weights[i] = share
+    idle = [[*row, Fraction(0)] for row in wide] + [[Fraction(1)] * (s + 2)]
+    double = tableau_of(idle, [*weights, Fraction(0)])
+    smaller = reduced(double)
+    assert smaller is not None
+    assert is_reducible(double)
+    assert smaller.spaces[0].stages <= s
+    assert is_reducible(smaller) is False
+    assert find_order(smaller, 8).order == find_order(tableau_of(A, b), 8).order
+    assert stability_function(smaller) == stability_function(tableau_of(A, b))
+
+
+@pytest.mark.parametrize("name", ["rk4", "kutta", "heun", "explicit-euler", "explicit-midpoint"])
+def test_explicit_methods(name: str) -> None:
+    """No stage is solved for; the matrix is nilpotent."""
+    found = shape(family(name, None))
+    assert (found.name, found.implicit_stages) == ("explicit", 0)
+
+
+@given(methods())
+def test_explicit_means_nilpotent(method: tuple[Rows, list[Fraction]]) -> None:
+    """An explicit method has a polynomial as its stability function."""
+    tableau = tableau_of(*method)
+    found = shape(tableau)
+    if found.kind == "explicit":
+        assert stability_function(tableau).denominator == Polynomial([1])
+    strictly_lower = all(x == 0 for i, row in enumerate(method[0]) for x in row[i:])
+    if strictly_lower:
+        assert found.kind == "explicit"
+
+
+def test_diagonally_implicit_methods() -> None:
+    """SDIRK with its γ, ESDIRK, and one with two different entries."""
+    two = loads(
+        "parameters: {g: 1 - sqrt(2)/2}\nmethods: [{A: [[g, 0], [1 - g, g]], b: [1 - g, g]}]"
+    )
+    found = shape(two.tableau)
+    assert (found.name, found.implicit_stages) == ("SDIRK", 2)
+    assert str(found.gamma) == "1 - sqrt(2)/2"
+    trapezoidal = shape(loads("methods: [{A: [[0, 0], [1/2, 1/2]], b: [1/2, 1/2]}]").tableau)
+    assert (trapezoidal.name, trapezoidal.gamma) == ("ESDIRK", fmpq(1, 2))
+    other = shape(loads("methods: [{A: [[1/3, 0], [1/2, 1/4]], b: [1/2, 1/2]}]").tableau)
+    assert (other.name, other.gamma) == ("diagonally implicit", None)
+
+
+def test_an_imex_pair_by_colour_and_as_a_whole() -> None:
+    """ARS(2,2,2): explicit, ESDIRK, together diagonally implicit with two implicit stages."""
+    tableau = load("methods/ark-ars222.gark.yaml").tableau
+    assert [shape(tableau, l).name for l in (0, 1)] == ["explicit", "ESDIRK"]
+    whole = shape(tableau)
+    assert (whole.name, whole.implicit_stages) == ("diagonally implicit", 2)
+
+
+def test_stages_that_are_solved_together() -> None:
+    """Two implicit stages, then one explicit one."""
+    text = "methods: [{A: [[1/4, 1/4, 0], [1/4, 1/2, 0], [1/3, 1/3, 0]], b: [0, 1/2, 1/2]}]"
+    found = shape(loads(text).tableau)
+    assert found.kind == "fully implicit"
+    assert found.systems == (((0, 0), (0, 1)),)
+    assert found.implicit_stages == 2
+
+
+@pytest.mark.parametrize(
+    ("name", "stages", "stiff", "fsal"),
+    [
+        ("radau-iia", 2, True, False),
+        ("lobatto-iiia", 3, True, True),
+        ("lobatto-iiic", 2, True, False),
+        ("gauss", 2, False, False),
+        ("rk4", None, False, False),
+    ],
+)
+def test_last_stages(name: str, stages: int | None, stiff: bool, fsal: bool) -> None:
+    """Stiffly accurate, and first same as last."""
+    tableau = family(name, stages)
+    assert is_stiffly_accurate(tableau) is stiff
+    assert is_first_same_as_last(tableau) is fsal
+
+
+@given(methods())
+def test_a_stiffly_accurate_regular_method_is_damped(
+    method: tuple[Rows, list[Fraction]],
+) -> None:
+    """With the weights as its last row and a regular matrix, R(∞) = 0."""
+    A, _ = method
+    tableau = tableau_of(A, A[-1])
+    assert is_stiffly_accurate(tableau)
+    R = stability_function(tableau)
+    if R.denominator.degree == len(A):
+        assert R.at_infinity() == 0
+
+
+def test_what_has_no_simple_nodes_is_left_open() -> None:
+    """Gauss 6: nothing is claimed of entries that are known by enclosures only."""
+    tableau = family("gauss", 6)
+    assert is_stiffly_accurate(tableau) is None
+    assert is_reducible(tableau) is None
+    assert shape(tableau).kind == "fully implicit"
