@@ -1,0 +1,42 @@
+"""What the README and the tour show is what their commands print."""
+
+from __future__ import annotations
+
+import os
+from pathlib import Path
+
+import pytest
+
+from tests.docs.transcripts import ROOT, agrees, prepare, run, steps
+
+PAGES = [ROOT / "README.md", ROOT / "docs" / "stability.md"]
+
+
+@pytest.mark.skipif(os.name == "nt", reason="the pages are for a shell with sed")
+@pytest.mark.parametrize("page", PAGES, ids=lambda page: page.name)
+def test_a_page_is_a_real_session(page: Path, tmp_path: Path) -> None:
+    """From a folder with nothing but the examples: each file as shown, each command in its turn."""
+    prepare(tmp_path)
+    count = 0
+    for step in steps(page):
+        if step.file:
+            (tmp_path / step.file).write_text(step.text, encoding="utf-8")
+            continue
+        code, lines = run(step.command, tmp_path)
+        assert code in {0, 1}, "\n".join(lines)
+        assert agrees(step.text, lines), f"{step.command} shows\n\n" + "\n".join(lines)
+        count += 1
+    assert count > 0
+
+
+def test_the_readme_is_short() -> None:
+    """It is read in a few minutes: 8 KB at most."""
+    assert len((ROOT / "README.md").read_bytes()) <= 8 * 1024
+
+
+def test_the_comparison_can_fail() -> None:
+    """``...`` stands for lines left out, anything else has to be there."""
+    assert agrees("a\n...\nd", ["a", "b", "c", "d"])
+    assert agrees("a\n...", ["a"])
+    assert not agrees("a\n...\nd", ["a", "b", "c"])
+    assert not agrees("a", ["a", "b"])

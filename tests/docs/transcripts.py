@@ -1,0 +1,78 @@
+"""Pages with sessions: their files are written, their commands are run, one after the other."""
+
+from __future__ import annotations
+
+import re
+import shlex
+import shutil
+import subprocess
+import sys
+from collections.abc import Iterator
+from dataclasses import dataclass
+from pathlib import Path
+
+ROOT = Path(__file__).parents[2]
+FOLDERS = ("methods", "problems", "tests/examples")
+"""What a page may use from the checkout."""
+
+
+@dataclass(frozen=True)
+class Step:
+    """A file to be written, or a command with what it shows.
+
+    Attributes:
+        command: the command line; empty for a file.
+        text: the file, or what the command shows.
+        file: the name of the file; empty for a command.
+    """
+
+    command: str
+    text: str
+    file: str = ""
+
+
+def steps(page: Path) -> Iterator[Step]:
+    """The files and commands of a page in order.
+
+    A file is a block of YAML after a line that ends with its name: `` `name.yaml`: ``. Commands are
+    the lines of console blocks that begin with a dollar sign; those of make are left out.
+    """
+    text = page.read_text(encoding="utf-8")
+    pattern = re.compile(r"(?:`([\w./-]+\.yaml)`:\n\n)?```(\w+)\n(.*?)^```$", re.DOTALL | re.MULTILINE)
+    for name, language, block in pattern.findall(text):
+        if language == "yaml" and name and "/" not in name:
+            yield Step("", block, name)
+        if language == "console":
+            for part in re.split(r"^\$ ", block, flags=re.MULTILINE)[1:]:
+                command, _, shown = part.partition("\n")
+                command = command.partition("  #")[0].strip()
+                if not command.startswith("make "):
+                    yield Step(command, shown.rstrip("\n"))
+
+
+def agrees(shown: str, lines: list[str]) -> bool:
+    """Whether ``lines`` are those shown, where a line ``...`` stands for any number of them."""
+    pattern = "".join(
+        r"(?:.*\n)*" if line.strip() == "..." else re.escape(line.rstrip()) + r"\n"
+        for line in shown.splitlines()
+    )
+    return re.fullmatch(pattern, "".join(f"{line.rstrip()}\n" for line in lines)) is not None
+
+
+def prepare(folder: Path) -> None:
+    """Give a folder what a checkout has."""
+    for name in FOLDERS:
+        target = folder / name
+        target.parent.mkdir(parents=True, exist_ok=True)
+        shutil.copytree(ROOT / name, target)
+
+
+def run(command: str, folder: Path) -> tuple[int, list[str]]:
+    """Run one command as a user does; its exit code, and its lines, errors first."""
+    words = shlex.split(command)
+    if words[0] == "gark":
+        words = [sys.executable, "-m", "garkcli", *words[1:]]
+    done = subprocess.run(
+        words, cwd=folder, capture_output=True, text=True, encoding="utf-8", check=False
+    )
+    return done.returncode, (done.stderr + done.stdout).splitlines()
