@@ -66,6 +66,24 @@ class Simplifying:
         """
         return min(self.r, 2 * self.eta + 2, self.xi + 1, self.eta + self.zeta + 1)
 
+    @property
+    def chi(self) -> int:
+        """χ = min (ζ^{l,m} + η^{m,n}) over pairs of blocks l ← m ← n; r where there are none."""
+        sums = (
+            zeta + eta
+            for row in self.D
+            for m, zeta in enumerate(row)
+            for eta in self.C[m]
+            if zeta is not None and eta is not None
+        )
+        return min(sums, default=self.r)
+
+    @property
+    def sharp_bound(self) -> int:
+        """min{r, 2η+2, ξ+1, χ+2, η+ζ+3}, the project's own, proved in docs/sharper-bound.md."""
+        by_blocks = min(self.xi + 1, self.chi + 2, self.eta + self.zeta + 3)
+        return min(self.r, 2 * self.eta + 2, by_blocks)
+
 
 def simplifying(
     tableau: Tableau, limit: int = DEFAULT_LIMIT, tolerance: fmpq = ZERO

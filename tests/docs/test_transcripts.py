@@ -9,7 +9,7 @@ import pytest
 
 from tests.docs.transcripts import ROOT, agrees, prepare, run, steps
 
-PAGES = [ROOT / "README.md", ROOT / "docs" / "stability.md"]
+PAGES = [ROOT / "README.md", ROOT / "docs" / "tour.md", ROOT / "docs" / "stability.md"]
 
 
 @pytest.mark.skipif(os.name == "nt", reason="the pages are for a shell with sed")

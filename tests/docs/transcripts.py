@@ -38,7 +38,9 @@ def steps(page: Path) -> Iterator[Step]:
     the lines of console blocks that begin with a dollar sign; those of make are left out.
     """
     text = page.read_text(encoding="utf-8")
-    pattern = re.compile(r"(?:`([\w./-]+\.yaml)`:\n\n)?```(\w+)\n(.*?)^```$", re.DOTALL | re.MULTILINE)
+    pattern = re.compile(
+        r"(?:`([\w./-]+\.yaml)`:\n\n)?```(\w+)\n(.*?)^```$", re.DOTALL | re.MULTILINE
+    )
     for name, language, block in pattern.findall(text):
         if language == "yaml" and name and "/" not in name:
             yield Step("", block, name)
