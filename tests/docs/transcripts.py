@@ -61,6 +61,19 @@ def agrees(shown: str, lines: list[str]) -> bool:
     return re.fullmatch(pattern, "".join(f"{line.rstrip()}\n" for line in lines)) is not None
 
 
+def brought_up_to_date(shown: str, lines: list[str]) -> str:
+    """The text that a page should show: all lines, or as many as stood before a ``...`` at its end.
+
+    Texts with ``...`` elsewhere are for a person to mend.
+    """
+    old = shown.splitlines()
+    if agrees(shown, lines) or "..." in [line.strip() for line in old[:-1]]:
+        return shown
+    if old and old[-1].strip() == "...":
+        return "\n".join([*lines[: len(old) - 1], "..."])
+    return "\n".join(lines)
+
+
 def prepare(folder: Path) -> None:
     """Give a folder what a checkout has."""
     for name in FOLDERS:
