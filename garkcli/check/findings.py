@@ -5,18 +5,13 @@ machines.
 from __future__ import annotations
 
 from collections import Counter
-from collections.abc import Iterator
+from collections.abc import Callable, Iterator
 from dataclasses import dataclass
 from hashlib import sha256
 from pathlib import PurePath
 
+from garkcli.check.explained import claim_hint, claim_witness
 from garkcli.check.outcome import Outcome
-
-RULES = {
-    "unreadable": "the file cannot be read as a method",
-    "claim": "a claim under expect does not hold",
-}
-"""Every kind of finding."""
 
 
 @dataclass(frozen=True)
@@ -24,12 +19,12 @@ class Finding:
     """One fault or one failed claim.
 
     Attributes:
-        rule: a key of ``RULES``.
+        rule: a key of ``KINDS``.
         file: the path as given, with forward slashes.
         line: from 1; 1 where unknown.
         column: from 1; 1 where unknown.
-        message: what is wrong.
-        help: the cure, where there is one.
+        message: what is wrong, of an order with the tree whose condition fails.
+        help: the cure or a hint, where there is one.
         fingerprint: the same as long as the same thing is wrong with the same file, wherever it
             stands in it.
     """
@@ -43,26 +38,62 @@ class Finding:
     fingerprint: str
 
 
-def findings(outcome: Outcome) -> Iterator[Finding]:
-    """All findings of one file, in file order."""
-    file = PurePath(outcome.file).as_posix()
+@dataclass(frozen=True)
+class Part:
+    """A finding as its kind makes it: ``key`` is the same as long as the same thing is wrong."""
+
+    message: str
+    help: str
+    key: str
+    line: int = 1
+    column: int = 1
+
+
+@dataclass(frozen=True)
+class Kind:
+    """A kind of finding: what it is in words, and where it occurs."""
+
+    text: str
+    find: Callable[[Outcome], Iterator[Part]]
+
+
+def _unreadable(outcome: Outcome) -> Iterator[Part]:
     seen: Counter[str] = Counter()
     for fault in outcome.faults:
-        key = f"{file}\0unreadable\0{fault.message}\0{seen[fault.message]}"
+        key = f"{fault.message}\0{seen[fault.message]}"
         seen[fault.message] += 1
-        yield Finding(
-            "unreadable",
-            file,
-            fault.line or 1,
-            fault.column or 1,
-            fault.message,
-            fault.help,
-            _digest(key),
-        )
+        yield Part(fault.message, fault.help, key, fault.line or 1, fault.column or 1)
+
+
+def _failed_claims(outcome: Outcome) -> Iterator[Part]:
     for claim in outcome.failed_claims:
         message = f"{claim.claim}: expected {claim.expected}, found {claim.found}"
-        key = f"{file}\0claim\0{claim.claim}"
-        yield Finding("claim", file, claim.line, claim.column, message, "", _digest(key))
+        witness = claim_witness(outcome, claim.claim)
+        if witness:
+            message = f"{message}; {witness}"
+        yield Part(message, claim_hint(outcome, claim.claim), claim.claim, claim.line, claim.column)
+
+
+def _missing_claims(outcome: Outcome) -> Iterator[Part]:
+    if outcome.needs_claims and outcome.makes_no_claim:
+        yield Part("the file makes no claim", "write what holds under expect", "")
+
+
+KINDS = {
+    "unreadable": Kind("the file cannot be read as a method", _unreadable),
+    "claim": Kind("a claim under expect does not hold", _failed_claims),
+    "no-claim": Kind("the file makes no claim", _missing_claims),
+}
+"""Every kind of finding; formats and their documentation are made from it."""
+
+
+def findings(outcome: Outcome) -> Iterator[Finding]:
+    """All findings of one file, kind by kind in file order."""
+    file = PurePath(outcome.file).as_posix()
+    for rule, kind in KINDS.items():
+        for part in kind.find(outcome):
+            digest = _digest(f"{file}\0{rule}\0{part.key}")
+            yield Finding(rule, file, part.line, part.column, part.message, part.help, digest)
 
 
 def _digest(key: str) -> str:

@@ -49,6 +49,7 @@ class Outcome:
         blame: where the order falls short of a claim, what the failing conditions tell; None
             otherwise.
         constants: the error constants at the first failing order, where they were asked for.
+        needs_claims: whether a file that makes no claim fails.
         is_crash: whether the program failed, not the file; ``faults`` say how.
     """
 
@@ -62,6 +63,7 @@ class Outcome:
     blame: Blame | None = None
     constants: ErrorConstants | None = None
     is_crash: bool = False
+    needs_claims: bool = False
 
     @property
     def failed_claims(self) -> tuple[Claim, ...]:
@@ -69,9 +71,15 @@ class Outcome:
         return tuple(claim for claim in self.claims if not claim.holds)
 
     @property
+    def makes_no_claim(self) -> bool:
+        """Whether the file is a method and nothing is claimed of it."""
+        return self.analysis is not None and not self.claims
+
+    @property
     def ok(self) -> bool:
-        """Whether the file is a method and every claim holds."""
-        return self.analysis is not None and not self.failed_claims
+        """Whether the file is a method, every claim holds, and there is one where one is needed."""
+        missing = self.needs_claims and self.makes_no_claim
+        return self.analysis is not None and not self.failed_claims and not missing
 
     @property
     def exit_code(self) -> int:
@@ -80,4 +88,4 @@ class Outcome:
         """
         if self.analysis is None:
             return 3 if self.is_crash else 2
-        return 1 if self.failed_claims else 0
+        return 0 if self.ok else 1

@@ -3,17 +3,12 @@
 from __future__ import annotations
 
 import os
-from collections.abc import Sequence
-from typing import TYPE_CHECKING
+from dataclasses import replace
 
 import click
 
 from garkcli.cli.options import CONTEXT, PATH, Output, common
-
-if TYPE_CHECKING:
-    from garkcli.check.outcome import Outcome
-
-FORMATS = ["auto", "text", "json", "sarif", "junit", "github", "markdown"]
+from garkcli.report.check_formats import FORMATS
 
 
 @click.command("check", context_settings=CONTEXT)
@@ -38,6 +33,9 @@ FORMATS = ["auto", "text", "json", "sarif", "junit", "github", "markdown"]
     help="Fail only on what is worse than in an earlier JSON report.",
 )
 @click.option(
+    "--require-claims", is_flag=True, help="A file that makes no claim under `expect` fails."
+)
+@click.option(
     "-j",
     "--jobs",
     type=click.IntRange(0, 256),
@@ -46,12 +44,13 @@ FORMATS = ["auto", "text", "json", "sarif", "junit", "github", "markdown"]
     metavar="N",
     help="Check N files at a time; 0 for as many as there are processors.",
 )
-@common(FORMATS)
+@common(["auto", *FORMATS])
 def command(
     files: tuple[str, ...],
     max_order: int,
     error_constants: bool,
     baseline: str | None,
+    require_claims: bool,
     jobs: int,
     output: Output,
 ) -> int:
@@ -79,6 +78,8 @@ def command(
     paths = list(find_files(files))
     running = check_files(paths, max_order, error_constants, jobs or os.cpu_count() or 1)
     outcomes = list(tracked(running, len(paths), "checking", output.verbosity >= 0))
+    if require_claims:
+        outcomes = [replace(outcome, needs_claims=True) for outcome in outcomes]
     if earlier is not None:
         from garkcli.check.baseline import regressions
         from garkcli.report import check_baseline
@@ -87,20 +88,13 @@ def command(
         worse = regressions(as_data(outcomes), earlier)
         output.write(check_baseline.render(worse, len(outcomes)))
         return int(bool(worse))
-    output.write(_rendered(outcomes, output))
+    chosen = _format(output)
+    output.write(FORMATS[chosen](outcomes, output.paint, output.verbosity), chosen)
     return max(outcome.exit_code for outcome in outcomes)
 
 
-def _rendered(outcomes: Sequence[Outcome], output: Output) -> str:
-    """The report in the format asked for."""
-    format = output.format  # noqa: A001 -- the option's name
-    if format == "auto":
-        format = "github" if os.environ.get("GITHUB_ACTIONS") == "true" else "text"  # noqa: A001
-    if format == "text":
-        from garkcli.report import check_text
-
-        return check_text.render(outcomes, output.paint, output.verbosity)
-    from importlib import import_module
-
-    text: str = import_module(f"garkcli.report.check_{format}").render(outcomes)
-    return text
+def _format(output: Output) -> str:
+    """The format asked for; auto is what suits where the command runs."""
+    if output.format != "auto":
+        return output.format
+    return "github" if os.environ.get("GITHUB_ACTIONS") == "true" else "text"

@@ -34,7 +34,11 @@ def as_data(outcomes: Sequence[Outcome]) -> dict[str, Any]:
     return {
         "schema": SCHEMA,
         "files": [_outcome(outcome) for outcome in outcomes],
-        "summary": {"files": len(outcomes), "failed": failed},
+        "summary": {
+            "files": len(outcomes),
+            "failed": failed,
+            "without_claims": sum(outcome.makes_no_claim for outcome in outcomes),
+        },
     }
 
 

@@ -6,6 +6,7 @@ import re
 import xml.etree.ElementTree as ET
 from collections.abc import Sequence
 
+from garkcli.check.explained import claim_hint, claim_witness
 from garkcli.check.outcome import Outcome
 from garkcli.report.plain import printable
 
@@ -38,9 +39,15 @@ def _suite(outcome: Outcome) -> ET.Element:
         case = ET.SubElement(suite, "testcase", classname=name, name=title, line=str(claim.line))
         if not claim.holds:
             message = f"expected {claim.expected}, found {claim.found}"
-            ET.SubElement(case, "failure", message=_clean(message), type="claim")
-    suite.set("tests", str(1 + len(outcome.claims)))
-    suite.set("failures", str(len(outcome.failed_claims)))
+            failure = ET.SubElement(case, "failure", message=_clean(message), type="claim")
+            details = claim_witness(outcome, claim.claim), claim_hint(outcome, claim.claim)
+            failure.text = _clean("\n".join(text for text in details if text)) or None
+    missing = outcome.needs_claims and outcome.makes_no_claim
+    if missing:
+        case = ET.SubElement(suite, "testcase", classname=name, name="makes a claim")
+        ET.SubElement(case, "failure", message="the file makes no claim", type="no-claim")
+    suite.set("tests", str(1 + len(outcome.claims) + missing))
+    suite.set("failures", str(len(outcome.failed_claims) + missing))
     suite.set("errors", str(int(bool(outcome.faults))))
     return suite
 

@@ -7,6 +7,7 @@ from collections.abc import Sequence
 from garkcli.check.analysis import AnyOrder
 from garkcli.check.findings import findings
 from garkcli.check.outcome import Outcome
+from garkcli.report.check_text import no_claims
 from garkcli.report.plain import printable
 
 
@@ -19,10 +20,15 @@ def render(outcomes: Sequence[Outcome]) -> str:
     ]
     found = [x for outcome in outcomes for x in findings(outcome)]
     if found:
-        lines += [
-            "",
-            *(f"- `{_code(x.file)}:{x.line}:{x.column}`: {_cell(x.message)}" for x in found),
-        ]
+        lines.append("")
+    for finding in found:
+        place = f"`{_code(finding.file)}:{finding.line}:{finding.column}`"
+        lines.append(f"- {place}: {_cell(finding.message)}")
+        if finding.help:
+            lines.append(f"  - {_cell(finding.help)}")
+    silent = sum(outcome.makes_no_claim for outcome in outcomes)
+    if silent:
+        lines += ["", f"{no_claims(silent)}."]
     return "\n".join(lines) + "\n"
 
 
@@ -38,9 +44,15 @@ def _row(outcome: Outcome) -> str:
             *(_order(order) for order in orders),
             str(analysis.bound),
             "yes" if analysis.symplectic else "no",
-            f"**{failed} of {claims} fail**" if failed else f"{claims} hold",
+            _claims(claims, failed),
         ]
     return f"| {' | '.join(cells)} |"
+
+
+def _claims(claims: int, failed: int) -> str:
+    if failed:
+        return f"**{failed} of {claims} fail**"
+    return f"{claims} hold" if claims else "none"
 
 
 def _order(order: AnyOrder | None) -> str:

@@ -7,14 +7,14 @@ from collections.abc import Sequence
 from typing import Any
 
 from garkcli import __version__
-from garkcli.check.findings import RULES, Finding, findings
+from garkcli.check.findings import KINDS, Finding, findings
 from garkcli.check.outcome import Outcome
 from garkcli.report.plain import printable
 
 
 def render(outcomes: Sequence[Outcome]) -> str:
     """One run with a result for each finding."""
-    rules = [{"id": rule, "shortDescription": {"text": text}} for rule, text in RULES.items()]
+    rules = [{"id": x, "shortDescription": {"text": kind.text}} for x, kind in KINDS.items()]
     log = {
         "$schema": "https://json.schemastore.org/sarif-2.1.0.json",
         "version": "2.1.0",
@@ -34,7 +34,7 @@ def _result(finding: Finding) -> dict[str, Any]:
     region = {"startLine": finding.line, "startColumn": finding.column}
     return {
         "ruleId": finding.rule,
-        "ruleIndex": list(RULES).index(finding.rule),
+        "ruleIndex": list(KINDS).index(finding.rule),
         "level": "error",
         "message": {"text": printable(text)},
         "locations": [

@@ -34,7 +34,7 @@ def check_report_schema() -> Schema:
         "properties": {
             "schema": {"const": SCHEMA},
             "files": {"type": "array", "items": {"oneOf": [_unreadable(), _checked()]}},
-            "summary": _object({"files": _COUNT, "failed": _COUNT}),
+            "summary": _object({"files": _COUNT, "failed": _COUNT, "without_claims": _COUNT}),
         },
     }
 

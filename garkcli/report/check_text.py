@@ -52,6 +52,7 @@ def _outcome(outcome: Outcome, paint: Paint, full: bool, quiet: bool) -> str:
         return "\n".join(_full(outcome, outcome.analysis, paint))
     lines = [] if quiet and outcome.ok else [_line(outcome, outcome.analysis, paint)]
     lines += [_claim(outcome, claim, paint) for claim in outcome.failed_claims]
+    lines += _missing(outcome, paint)
     if outcome.blame is not None:
         from garkcli.report.hints import blame_lines
 
@@ -63,7 +64,14 @@ def _summary(outcomes: Sequence[Outcome], paint: Paint) -> str:
     failed = sum(not outcome.ok for outcome in outcomes)
     claims = sum(len(outcome.claims) for outcome in outcomes)
     text = f"{len(outcomes)} files, {claims} claim{'s' * (claims != 1)}: "
-    return text + paint.verdict(not failed, "all hold", f"{failed} file{'s' * (failed > 1)} failed")
+    text += paint.verdict(not failed, "all hold", f"{failed} file{'s' * (failed > 1)} failed")
+    silent = sum(outcome.makes_no_claim for outcome in outcomes)
+    return f"{text}; {no_claims(silent)}" if silent else text
+
+
+def no_claims(files: int) -> str:
+    """How many files make no claim."""
+    return f"{files} file{'s' * (files != 1)} make{'s' * (files == 1)} no claim"
 
 
 def faults_text(outcome: Outcome, paint: Paint) -> str:
@@ -114,6 +122,8 @@ def _full(outcome: Outcome, analysis: Analysis, paint: Paint) -> list[str]:
         from garkcli.report.hints import constants_lines
 
         lines += ["", *constants_lines(outcome.constants, tableau.size > 1)]
+    if _missing(outcome, paint):
+        lines += ["", *_missing(outcome, paint)]
     if outcome.claims:
         lines += ["", *(_claim(outcome, claim, paint) for claim in outcome.claims)]
     if outcome.blame is not None:
@@ -152,8 +162,9 @@ def _orders(analysis: Analysis, paint: Paint) -> list[str]:
             lines += [f"  {label:{_LABEL}}none", f"      {analysis.obstacle}"]
             continue
         lines += _order(label, order, tableau, paint, shown)
-    if analysis.inconsistent and analysis.nonautonomous_order is not None:
-        lines += _nonautonomous(analysis, analysis.nonautonomous_order, paint, shown)
+    timed = analysis.nonautonomous_order
+    if timed is not None and timed.order < analysis.order.order:
+        lines += _nonautonomous(analysis, timed, paint, shown)
     return lines
 
 
@@ -313,6 +324,13 @@ def _consistent(
     blocks = ", ".join(f"{letter}{{{names[l]},{names[m]}}}𝟙" for l, m in wrong[:4])
     more = f" and {len(wrong) - 4} more" if len(wrong) > 4 else ""
     return f"{paint('bad', 'no')}: {blocks}{more} differ{'s' * (len(wrong) == 1)} from c"
+
+
+def _missing(outcome: Outcome, paint: Paint) -> list[str]:
+    """The line on a file that has to make a claim and makes none."""
+    if not (outcome.needs_claims and outcome.makes_no_claim):
+        return []
+    return [f"  {paint('bad', 'NO CLAIM')}         write what holds under expect"]
 
 
 def _claim(outcome: Outcome, claim: Claim, paint: Paint) -> str:

@@ -5,21 +5,17 @@ from __future__ import annotations
 from collections.abc import Sequence
 from typing import Any
 
-from flint import arb, fmpq
+from flint import arb
 
+from garkcli.check.explained import repair_text
 from garkcli.check.outcome import Outcome
-from garkcli.exact.display import to_decimal, to_text
-from garkcli.exact.expression import read_decimal
-from garkcli.exact.field import Number
+from garkcli.exact.display import to_text
 from garkcli.order.blame import Blame, Repair
 from garkcli.order.constants import ErrorConstants, Norms
 from garkcli.order.suggestion import Misprint
 from garkcli.report.paint import Paint
 from garkcli.tableau.tableau import Tableau
 from garkcli.trees.notation import format_tree
-
-_SHORT = 20
-"""Characters beyond which an exact entry is shown in decimals."""
 
 
 def blame_lines(blame: Blame, tableau: Tableau, paint: Paint) -> list[str]:
@@ -41,9 +37,10 @@ def blame_lines(blame: Blame, tableau: Tableau, paint: Paint) -> list[str]:
         lines.append(f"        in every one of them: {_blocks(blame.in_every, names, letter)}")
     if blame.in_none:
         lines.append(f"        in none of them: {_blocks(blame.in_none, names, letter)}")
-    for repair in blame.repairs[:3]:
-        place, old, new = _place(repair, own), _value(repair.old), _value(repair.new)
-        lines.append(f"        the claimed order would hold with {place} = {new} instead of {old}")
+    lines += [
+        f"        the claimed order would hold with {repair_text(repair, own)}"
+        for repair in blame.repairs[:3]
+    ]
     return lines
 
 
@@ -56,11 +53,10 @@ def misprint_lines(found: Misprint, tableau: Tableau, paint: Paint) -> list[str]
         f"an entry looks misprinted",
         f"        the digits in the file explain {explained}",
     ]
-    for repair in found.repairs[:3]:
-        place, old, new = _place(repair, names), _value(repair.old), _value(repair.new)
-        lines.append(
-            f"        order {found.order} would hold with {place} = {new} instead of {old}"
-        )
+    lines += [
+        f"        order {found.order} would hold with {repair_text(repair, names)}"
+        for repair in found.repairs[:3]
+    ]
     return lines
 
 
@@ -69,29 +65,12 @@ def size(ball: arb) -> str:
     return "0" if ball == 0 else ball.upper().str(2, radius=False)
 
 
-def _value(number: Number, digits: int = 17) -> str:
-    """An entry as files have them: short ones exactly, decimals in full, others to some digits."""
-    text = to_text(number)
-    if len(text) <= _SHORT:
-        return text
-    shown = to_decimal(number, 60)
-    if isinstance(number, fmpq) and read_decimal(shown.lstrip("-")) == abs(number):
-        return shown
-    return to_decimal(number, digits)
-
-
 def _block(block: tuple[int, int], names: Sequence[str], letter: str = "A") -> str:
     return f"{letter}{{{names[block[0]]},{names[block[1]]}}}"
 
 
 def _blocks(blocks: Sequence[tuple[int, int]], names: Sequence[str], letter: str) -> str:
     return ", ".join(_block(block, names, letter) for block in blocks)
-
-
-def _place(repair: Repair, names: Sequence[str]) -> str:
-    if repair.m is None or repair.i is None:
-        return f"b{{{names[repair.l]}}}, entry {repair.j + 1},"
-    return f"{_block((repair.l, repair.m), names)}, row {repair.i + 1}, entry {repair.j + 1},"
 
 
 def constants_lines(constants: ErrorConstants, colours: bool) -> list[str]:

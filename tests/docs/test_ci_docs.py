@@ -13,8 +13,8 @@ from typing import Any
 import pytest
 import yaml
 
-from garkcli.cli.check_command import FORMATS
 from garkcli.methodfile.load import loads
+from garkcli.report.check_formats import FORMATS
 from tests.cli.harness import gark
 
 ROOT = Path(__file__).resolve().parents[2]
@@ -115,7 +115,7 @@ def test_a_method_file_loads(text: str, tmp_path: Path) -> None:
 def test_every_format_has_its_row() -> None:
     """The table of formats is the list of formats."""
     table = PAGE.partition("## Formats")[2].partition("##")[0]
-    assert sorted(re.findall(r"^\| `(\w+)`", table, re.MULTILINE)) == sorted(FORMATS)
+    assert sorted(re.findall(r"^\| `(\w+)`", table, re.MULTILINE)) == sorted(["auto", *FORMATS])
 
 
 def test_every_exit_code_has_its_row(tmp_path: Path) -> None:

@@ -8,6 +8,8 @@ import json
 import re
 import xml.etree.ElementTree as ET
 from collections.abc import Sequence
+from dataclasses import replace
+from pathlib import Path
 from typing import Any
 from unittest.mock import patch
 from urllib.parse import unquote
@@ -17,13 +19,17 @@ from click.testing import CliRunner
 from jsonschema import Draft7Validator
 
 from garkcli.check.analysis import analyse
+from garkcli.check.check_file import check_file
 from garkcli.check.claims import verify
-from garkcli.check.findings import RULES, findings
+from garkcli.check.findings import KINDS, findings
 from garkcli.check.outcome import Outcome
+from garkcli.cli.check_command import command as check_command
 from garkcli.cli.main import gark as commands
 from garkcli.errors import Fault, MethodFileError
 from garkcli.methodfile.load import loads
 from garkcli.report import check_github, check_junit, check_markdown, check_sarif, check_text
+from garkcli.report.check_formats import FORMATS
+from garkcli.report.check_json import as_data
 from garkcli.report.paint import Paint
 from tests.cli.harness import ROOT, gark
 
@@ -71,7 +77,7 @@ _RESULT = {
     "type": "object",
     "required": ["message", "ruleId", "ruleIndex", "locations", "partialFingerprints"],
     "properties": {
-        "ruleId": {"enum": list(RULES)},
+        "ruleId": {"enum": list(KINDS)},
         "ruleIndex": {"type": "integer", "minimum": 0},
         "level": {"enum": ["none", "note", "warning", "error"]},
         "message": _TEXT,
@@ -568,9 +574,10 @@ def test_sarif_of_real_files_has_the_structure_of_the_standard() -> None:
 
 def test_sarif_names_its_rules() -> None:
     """Each result's rule index points at the rule with the result's rule id."""
-    run = sarif(outcome(WRONG), outcome("methods: 1\n"))
+    silent = replace(outcome(MIDPOINT), needs_claims=True)
+    run = sarif(outcome(WRONG), outcome("methods: 1\n"), silent)
     rules = run["tool"]["driver"]["rules"]
-    assert {x["ruleId"] for x in run["results"]} == set(RULES) == {x["id"] for x in rules}
+    assert {x["ruleId"] for x in run["results"]} == set(KINDS) == {x["id"] for x in rules}
     assert all(rules[x["ruleIndex"]]["id"] == x["ruleId"] for x in run["results"])
 
 
@@ -731,7 +738,7 @@ def test_each_finding_is_an_annotation_in_its_place() -> None:
     places = [(x["file"], x["line"], x["col"], x["title"]) for x, _ in found]
     assert places[0] == ("m.gark.yaml", "2", "17", "gark: claim")
     assert [text for _, text in found] == [
-        "order: expected 3, found 2",
+        "order: expected 3, found 2; fails at order 3: [[[]]]: 1/4 instead of 1/6, off by 1/12",
         "symplectic: expected false, found true",
         "B: expected [5], found [2]",
     ]
@@ -786,7 +793,7 @@ def test_markdown_has_a_row_a_file() -> None:
     assert head == ["file", "order", "conjugate", "pair", "bound", "symplectic", "claims"]
     assert set(rule) == {"---"}
     assert wrong == ["`m.gark.yaml`", "2", "2", "2", "2", "yes", "**3 of 4 fail**"]
-    assert right[-1] == "0 hold"
+    assert right[-1] == "none"
     assert bad == ["`m.gark.yaml`", "unreadable", "", "", "", "", ""]
 
 
@@ -822,12 +829,71 @@ def test_no_format_forgets_a_finding() -> None:
     assert len(messages) >= 4
     cases = [x for x in junit(*outcomes).iter() if x.tag in {"failure", "error"}]
     in_junit = " ".join(f"{case.get('message')} {case.text}" for case in cases)
-    assert all(message.partition(": ")[2] in in_junit for message in messages)
-    assert [
-        x["message"]["text"].partition("; ")[0] for x in sarif(*outcomes)["results"]
-    ] == messages
-    assert [text.partition("; ")[0] for _, text in annotations(*outcomes)] == messages
+    # JUnit has the parts of a message in places of their own
+    parts = [x for message in messages for x in message.partition(": ")[2].split("; ")]
+    assert all(part in in_junit for part in parts)
+    results = [x["message"]["text"] for x in sarif(*outcomes)["results"]]
+    shown = [text for _, text in annotations(*outcomes)]
+    for said in (results, shown):
+        assert all(x.startswith(message) for x, message in zip(said, messages, strict=True))
     markdown = check_markdown.render(outcomes)
     assert all(message in markdown for message in messages)
     text = check_text.render(outcomes, Paint(False))
-    assert all(message in text for message in messages)
+    assert all(message.partition("; ")[0] in text for message in messages)
+
+
+# -- witness, hint, missing claims -----------------------------------------------------------------
+
+BLAMED = "methods: [{A: [[0, 0], [1/3, 0]], b: [0, 1]}]\nexpect: {order: 2}\n"
+
+
+def blamed(tmp_path: Path) -> Outcome:
+    """A method that misses its claim by one entry."""
+    file = tmp_path / "m.gark.yaml"
+    file.write_text(BLAMED)
+    return check_file(str(file))
+
+
+def test_every_format_for_machines_has_witness_and_hint(tmp_path: Path) -> None:
+    """The tree whose condition fails, by how much, and the entry that would mend it."""
+    found = blamed(tmp_path)
+    texts = {
+        "sarif": json.loads(check_sarif.render([found]))["runs"][0]["results"][0]["message"][
+            "text"
+        ],
+        "junit": ET.fromstring(check_junit.render([found])).find(".//failure").text,  # type: ignore[union-attr]
+        "github": check_github.render([found]).splitlines()[0],
+        "markdown": check_markdown.render([found]),
+        "json": json.dumps(as_data([found])),
+    }
+    for name, text in texts.items():
+        assert text is not None, name
+        assert "[[]]" in text or "[[]_1]_1" in text, name
+        assert "-1/6" in text, name
+        assert "1/2" in text, name
+    assert "A{1,1}, row 2, entry 1, = 1/2 instead of 1/3" in texts["sarif"]
+
+
+def test_files_without_claims_are_counted_and_may_fail(tmp_path: Path) -> None:
+    """They are counted in every summary; with --require-claims each of them fails."""
+    for name in "ab":
+        (tmp_path / f"{name}.gark.yaml").write_text(MIDPOINT)
+    (tmp_path / "c.gark.yaml").write_text(f"{MIDPOINT}expect: {{order: 2}}\n")
+    run = gark("check", ".", cwd=tmp_path)
+    assert (run.code, run.out.rstrip().endswith("all hold; 2 files make no claim")) == (0, True)
+    run = gark("check", ".", "--require-claims", cwd=tmp_path)
+    assert (run.code, run.out.count("NO CLAIM")) == (1, 2)
+    data = json.loads(gark("check", ".", "--require-claims", "--format", "json", cwd=tmp_path).out)
+    assert data["summary"] == {"files": 3, "failed": 2, "without_claims": 2}
+    assert [file["ok"] for file in data["files"]] == [False, False, True]
+    junit_report = gark("check", ".", "--require-claims", "--format", "junit", cwd=tmp_path).out
+    assert ET.fromstring(junit_report).get("failures") == "2"
+    for name in ("github", "sarif", "markdown"):
+        shown = gark("check", ".", "--require-claims", "--format", name, cwd=tmp_path).out
+        assert shown.count("the file makes no claim") >= 2, name
+
+
+def test_the_formats_are_the_choice() -> None:
+    """One dictionary is what can be asked for and what writes it."""
+    (option,) = [x for x in check_command.params if x.name == "format"]
+    assert list(option.type.choices) == ["auto", *FORMATS]  # type: ignore[attr-defined]

@@ -1,0 +1,91 @@
+"""Witnesses, repairs and tolerances in words, for every format that has room for a sentence."""
+
+from __future__ import annotations
+
+from collections.abc import Sequence
+from typing import TYPE_CHECKING
+
+from flint import fmpq
+
+from garkcli.check.outcome import Outcome
+from garkcli.exact.display import to_decimal, to_text
+from garkcli.exact.expression import read_decimal
+from garkcli.exact.field import Number
+from garkcli.order.certificate import Witness
+from garkcli.trees.notation import format_tree
+
+if TYPE_CHECKING:
+    from garkcli.order.blame import Repair
+
+_SHORT = 20
+"""Characters beyond which an exact entry is shown in decimals."""
+
+
+def witness_text(witness: Witness, colours: bool) -> str:
+    """Which condition fails, and by how much; ``colours`` where there are several."""
+    value, residual = to_text(witness.value), to_text(witness.residual)
+    if len(value) + len(residual) > 60:
+        value, residual = to_decimal(witness.value, 8), to_decimal(witness.residual, 4)
+        value = f"about {value}"
+    tree = format_tree(witness.tree, colours)
+    return (
+        f"fails at order {witness.tree.order}: {tree}: {value} instead of {witness.required}, "
+        f"off by {residual}"
+    )
+
+
+def claim_witness(outcome: Outcome, claim: str) -> str:
+    """The witness against a failed claim on an order; empty where there is none."""
+    analysis = outcome.analysis
+    if analysis is None:
+        return ""
+    found = {
+        "order": (analysis.order, analysis.tableau),
+        "conjugate-order": (analysis.conjugate_order, analysis.conjugate),
+        "pair-order": (analysis.pair_order, analysis.pair),
+    }
+    order, tableau = found.get(claim, (None, None))
+    if order is None or tableau is None or order.witness is None:
+        return ""
+    return witness_text(order.witness, tableau.size > 1)
+
+
+def claim_hint(outcome: Outcome, claim: str) -> str:
+    """What would mend a failed claim on an order; empty where nothing is known."""
+    analysis, blame = outcome.analysis, outcome.blame
+    if analysis is None or claim not in {"order", "conjugate-order", "pair-order"}:
+        return ""
+    names = [colour.name for colour in analysis.tableau.colours]
+    if analysis.suggestion is not None:
+        found = analysis.suggestion
+        return f"with the line {found.line} the order is {found.order}"
+    if analysis.misprint is not None and analysis.misprint.repairs:
+        (repair, *_) = analysis.misprint.repairs
+        return f"an entry looks misprinted: {repair_text(repair, names)}"
+    if blame is not None and blame.of == claim and blame.repairs:
+        return f"the claimed order would hold with {repair_text(blame.repairs[0], names)}"
+    return ""
+
+
+def repair_text(repair: Repair, names: Sequence[str]) -> str:
+    """An entry, as it should be and as it is."""
+    return f"{place_text(repair, names)} = {value_text(repair.new)} instead of {value_text(repair.old)}"
+
+
+def place_text(repair: Repair, names: Sequence[str]) -> str:
+    """Where an entry stands, counted from 1; ``names`` of the colours."""
+    if repair.m is None or repair.i is None:
+        return f"b{{{names[repair.l]}}}, entry {repair.j + 1},"
+    block = f"A{{{names[repair.l]},{names[repair.m]}}}"
+    return f"{block}, row {repair.i + 1}, entry {repair.j + 1},"
+
+
+def value_text(number: Number, digits: int = 17) -> str:
+    """An entry as files have them: short ones exactly, decimals in full, others to some digits."""
+    text = to_text(number)
+    if len(text) <= _SHORT:
+        return text
+    shown = to_decimal(number, 60)
+    if isinstance(number, fmpq) and read_decimal(shown.lstrip("-")) == abs(number):
+        return shown
+    return to_decimal(number, digits)
