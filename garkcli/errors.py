@@ -111,11 +111,12 @@ def did_you_mean(word: str, known: Iterable[str]) -> str:
     "did you mean 'radau-ia' or 'radau-iia'?"
     """
     known = list(known)
-    close = nearest(word, known)
+    words = _that_begin_like(word, known)
+    close = nearest(word, words)
     if close:
         return f"did you mean {close!r}?"
     letters = _letters(word)
-    begun = [x for x in known if len(letters) > 2 and _letters(x).startswith(letters)]
+    begun = [x for x in words if len(letters) > 2 and _letters(x).startswith(letters)]
     if begun:
         return f"did you mean {' or '.join(map(repr, begun[:WORDS_SHOWN]))}?"
     if not known:
@@ -135,9 +136,7 @@ def nearest(word: str, known: Iterable[str]) -> str:
     from difflib import get_close_matches  # paid for by mistakes alone
 
     letters = _letters(word[:MAX_WORD])
-    words = list(known)
-    if len(words) > MANY_WORDS:
-        words = [x for x in words if _letters(x)[:1] == letters[:1]][:MANY_WORDS]
+    words = _that_begin_like(word, list(known))
     spelt = {_letters(x): x for x in reversed(words)}  # of two alike the first stays
     if letters in spelt:
         return spelt[letters]
@@ -146,6 +145,16 @@ def nearest(word: str, known: Iterable[str]) -> str:
     if len(begun) > 1 and len(letters) > 2:  # a word cut short is near to all that it begins
         return ""
     return spelt[close[0]] if close else ""
+
+
+def _that_begin_like(word: str, known: list[str]) -> list[str]:
+    """The known words that are worth a comparison: all, or of very many those of one first
+    letter.
+    """
+    if len(known) <= MANY_WORDS:
+        return known
+    first = word[:1].lower()
+    return [x for x in known if x[:1].lower() == first][:MANY_WORDS]
 
 
 MAX_WORD = 100

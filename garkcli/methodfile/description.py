@@ -18,6 +18,12 @@ PLAIN = ("A", "b", "c")
 """The keys of a Butcher tableau that stands at the top of a file."""
 
 
+MAX_COLOURS = 200
+"""Most colours of a method; there are as many blocks as pairs of them."""
+MAX_ENTRIES = 1_000_000
+"""Most entries of all blocks that transfer rules make."""
+
+
 @dataclass(frozen=True)
 class FamilyText:
     """A member of a family."""

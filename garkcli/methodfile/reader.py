@@ -5,6 +5,7 @@ met.
 from __future__ import annotations
 
 import re
+from collections.abc import Sequence
 from typing import cast
 
 from flint import fmpq
@@ -16,6 +17,7 @@ from garkcli.families.registry import FAMILIES, require_member
 from garkcli.methodfile import expectations
 from garkcli.methodfile.description import (
     FORMS,
+    MAX_ENTRIES,
     PLAIN,
     STRUCTURES,
     ArkText,
@@ -232,6 +234,8 @@ class Reader:
         is_one = bool(keys & {"A", "b", "family", "stages"})
         # one method needs no brackets around it
         items = [node] if is_one else self.source.items(node, "methods", _METHODS)
+        if self.spelled_out.are_too_many(items, node):
+            return None
         methods = [self._method(item, l) for l, item in enumerate(items, start=1)]
         if not items and isinstance(node, SequenceNode):
             self.source.fault(node, "methods is empty", "list at least one diagonal method")
@@ -244,7 +248,19 @@ class Reader:
         if transfer is not None:
             rules = self._transfer(transfer, len(items))
         found = tuple(method for method in methods if method is not None)
-        return MethodsText(found, rules) if found and len(found) == len(methods) else None
+        if not found or len(found) < len(methods) or self._is_too_large(found, node):
+            return None
+        return MethodsText(found, rules)
+
+    def _is_too_large(self, methods: Sequence[FamilyText | ButcherText], node: Node) -> bool:
+        """Note blocks between the methods that together have too many entries to be made."""
+        stages = [x.stages if isinstance(x, FamilyText) else len(x.b) for x in methods]
+        entries = sum(stages) ** 2 - sum(s * s for s in stages)
+        if entries <= MAX_ENTRIES:
+            return False
+        message = f"{entries} entries in the blocks between the methods (limit {MAX_ENTRIES})"
+        self.source.fault(node, message, "use fewer methods, or fewer stages")
+        return True
 
     def _method(self, node: Node, l: int) -> FamilyText | ButcherText | None:
         keys, where = keys_of(node), f"method {l}"

@@ -2,10 +2,19 @@
 
 from __future__ import annotations
 
+from collections.abc import Sequence
+
 from yaml.nodes import MappingNode, Node, SequenceNode
 
 from garkcli.errors import counted
-from garkcli.methodfile.description import ArkText, ButcherText, PrkText, Structure, TableauText
+from garkcli.methodfile.description import (
+    MAX_COLOURS,
+    ArkText,
+    ButcherText,
+    PrkText,
+    Structure,
+    TableauText,
+)
 from garkcli.methodfile.numbers import Numbers, Row, Rows
 from garkcli.methodfile.source import Source, is_null, key_nodes
 
@@ -130,6 +139,8 @@ class SpelledOutReader:
     def _blocks(self, entries: dict[str, Node], linear: Node | None) -> TableauText | None:
         """A tableau block by block."""
         b_nodes = self.source.items(entries["b"], "b")
+        if self.are_too_many(b_nodes, entries["b"]):
+            return None
         if isinstance(entries["b"], SequenceNode) and not b_nodes:
             self.source.fault(entries["b"], "b is empty", "give a row of weights a colour")
         b = tuple(self.numbers.row(item, f"b^{{{l}}}") for l, item in enumerate(b_nodes, start=1))
@@ -181,6 +192,14 @@ class SpelledOutReader:
             rows.append(row)
         return tuple(rows)
 
+    def are_too_many(self, colours: Sequence[Node], node: Node) -> bool:
+        """Note more colours than any method has."""
+        if len(colours) <= MAX_COLOURS:
+            return False
+        message = f"{len(colours)} colours (limit {MAX_COLOURS})"
+        self.source.fault(node, message, "no method needs that many")
+        return True
+
     def _linear(self, node: Node | None, colours: int) -> tuple[int, ...]:
         if node is None:
             return ()
@@ -202,6 +221,8 @@ class SpelledOutReader:
         if self._lacks(node, "ark", entries, "give A, a matrix a colour, and b"):
             return None
         items = self.source.items(entries["A"], "A")
+        if self.are_too_many(items, entries["A"]):
+            return None
         if isinstance(entries["A"], SequenceNode) and not items:
             self.source.fault(entries["A"], "A is empty", "give a matrix a colour")
         if items and _depth(entries["A"]) == 2:

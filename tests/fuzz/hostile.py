@@ -55,7 +55,7 @@ def _numbers() -> Mapping[str, str]:
             "+".join(f"1/(root(5,4)+cbrt(3)+sqrt(5+sqrt(8))+{k})" for k in range(300))
         ),
         "a sum of fractions": _number("+".join(f"1/{10**6 + i}" for i in range(1900))),
-        "many digits": _number("1" * 3_900_000),
+        "many digits": _number("1" * 980_000),
         "an exponent": _number("1e999999999999999999999"),
     }
 
@@ -75,8 +75,8 @@ def _repetitions() -> Mapping[str, str]:
     return {
         "one degree too many, often": f"methods: [{{A: [{_list([six] * 10_000)}], b: [1]}}]",
         "aliases of a long number": f'name: &a "{sum_of_ones}"\n'
-        f"methods: [{{A: [{_list(['*a'] * 10**5)}], b: [1]}}]",
-        "a long parameter": f'parameters: {{p: "{roots}"}}\nmethods: [{{A: [{_list(["p"] * 10**5)}], b: [1]}}]',
+        f"methods: [{{A: [{_list(['*a'] * 49_000)}], b: [1]}}]",
+        "a long parameter": f'parameters: {{p: "{roots}"}}\nmethods: [{{A: [{_list(["p"] * 49_000)}], b: [1]}}]',
         "a chain of parameters": f"parameters: {{p0: 1{chain}}}\nmethods: [{{A: [[p1499]], b: [1]}}]",
         "unknown parameters": f"parameters: {{{', '.join(f'p{i}: 1' for i in range(3000))}}}\n"
         f"methods: [{{A: [{_list([f'q{i}' for i in range(3000)])}], b: [1]}}]",
@@ -92,10 +92,14 @@ def _sizes() -> Mapping[str, str]:
     blocks = f'{{"1,2": {_list(["[1]"] * 60)}}}'
     fractions = _list([_list([f"{i}/{i + j + 1}" for j in range(100)]) for i in range(100)])
     hundred = f"{{A: {fractions}, b: {_list([f'1/{i + 1}' for i in range(100)])}}}"
-    constant = f"{{A: {_square('1/3', 400)}, b: {_list(['1'] * 400)}}}"
+    constant = f"{{A: {_square('1/3', 220)}, b: {_list(['1'] * 220)}}}"
     return {
-        "many colours": f"methods: {_list(['{family: gauss, stages: 1}'] * 20_000)}\ntransfer: collocation",
-        "aliases of a colour": f"methods: {_list(['&a {family: gauss, stages: 1}', *['*a'] * 60_000])}\n"
+        "many colours": f"methods: {_list(['{family: gauss, stages: 1}'] * 9_000)}\ntransfer: collocation",
+        "blocks of many entries": f"methods: {_list(['{family: gauss, stages: 200}'] * 100)}\n"
+        "transfer: collocation",
+        "many colours of an ark": f"ark: {{A: {_list(['[[1]]'] * 12_000)}, b: [1]}}",
+        "many colours of a tableau": f"tableau: {{A: {_list(['[]'] * 12_000)}, b: {_list(['[1]'] * 12_000)}}}",
+        "aliases of a colour": f"methods: {_list(['&a {family: gauss, stages: 1}', *['*a'] * 9_000])}\n"
         "transfer: collocation",
         "a hundred colours": f"methods: {_list(['{family: gauss, stages: 4}'] * 100)}\ntransfer: collocation",
         "a family of many stages": "methods: [{family: gauss, stages: 999999}]",
@@ -108,7 +112,7 @@ def _sizes() -> Mapping[str, str]:
         "the conjugate of many stages": f"conjugate: true\nmethods: [{hundred}]",
         "interpolation at many nodes": f"methods: [{hundred}, {hundred}]\ntransfer: interpolation",
         "the conjugate of many equal stages": "conjugate: true\n"
-        f"ark: {{A: [{_square('1/3', 400)}], b: {_list(['1'] * 400)}}}",
+        f"ark: {{A: [{_square('1/3', 220)}], b: {_list(['1'] * 220)}}}",
     }
 
 
@@ -116,20 +120,20 @@ def _texts() -> Mapping[str, str]:
     """Much text for YAML or for the messages."""
     return {
         "underscores": f"methods: [{{A: [[{'_' * 100_000}x]], b: [1]}}]",
-        "unknown keys": "\n".join(f"methodx{i}: 1" for i in range(190_000)),
-        "doubled keys": "name: 1\n" * 190_000,
-        "many faults": f"methods: [{{A: [{_list(['x'] * 190_000)}], b: [1]}}]",
-        "many faults of YAML's numbers": f"methods: [{{A: [{_list(['010'] * 190_000)}], b: [1]}}]",
-        "a long value": f"name: {'x' * 3_900_000}",
-        "a long key": f"{'methods' * 500_000}: 1",
-        "a long family": f"methods: [{{family: {'gauss' * 500_000}}}]",
-        "a long tag": f"name: {'!' * 3_000_000}",
-        "a long quoted value": f'name: "{chr(10) * 3_900_000}"',
-        "a long block": "name: |\n" + " \n" * 1_900_000,
-        "comments": "# x\n" * 990_000,
-        "spaces": " " * 3_900_000 + "name: 1",
+        "unknown keys": "\n".join(f"methodx{i}: 1" for i in range(24_000)),
+        "doubled keys": "name: 1\n" * 24_000,
+        "many faults": f"methods: [{{A: [{_list(['x'] * 49_000)}], b: [1]}}]",
+        "many faults of YAML's numbers": f"methods: [{{A: [{_list(['010'] * 49_000)}], b: [1]}}]",
+        "a long value": f"name: {'x' * 980_000}",
+        "a long key": f"{'methods' * 140_000}: 1",
+        "a long family": f"methods: [{{family: {'gauss' * 190_000}}}]",
+        "a long tag": f"name: {'!' * 980_000}",
+        "a long quoted value": f'name: "{chr(10) * 980_000}"',
+        "a long block": "name: |\n" + " \n" * 480_000,
+        "comments": "# x\n" * 240_000,
+        "spaces": " " * 980_000 + "name: 1",
         "many directives": "".join(f"%TAG !a{i}! tag:x\n" for i in range(40_000)) + "---\nname: 1",
-        "many anchors": f"name: {_list([f'&a{i} 1' for i in range(190_000)])}",
+        "many anchors": f"name: {_list([f'&a{i} 1' for i in range(24_000)])}",
         "a surrogate": "name: \ud800",
     }
 
@@ -139,16 +143,16 @@ def _nestings() -> Mapping[str, str]:
     names = "bcdefghijkl"
     bomb = "".join(f"{x}: &{x} {_list([f'*{chr(ord(x) - 1)}'] * 9)}\n" for x in names)
     return {
-        "two million values": f"name: [{'1,' * 1_990_000}1]",
-        "a million empty lists": f"name: [{'[],' * 1_300_000}1]",
-        "two million keys": f"{{{'a,' * 1_900_000}}}",
-        "brackets": "[" * 3_990_000,
+        "half a million values": f"name: [{'1,' * 490_000}1]",
+        "many empty lists": f"name: [{'[],' * 320_000}1]",
+        "half a million keys": f"{{{'a,' * 480_000}}}",
+        "brackets": "[" * 990_000,
         "a few thousand brackets": "[" * 4_990,
         "a few thousand braces": "{a: " * 1_200,
         "a few thousand dashes": "- " * 2_490,
         "a few thousand question marks": "? " * 2_490,
-        "question marks": "? " * 1_990_000,
+        "question marks": "? " * 490_000,
         "aliases of aliases": f"a: &a {_list(['1'] * 9)}\n{bomb}",
         "a list in itself": "methods: &a [*a]",
-        "claims": f"expect: {{C: [{'[],' * 190_000}[]]}}\nmethods: [{{family: gauss, stages: 1}}]",
+        "claims": f"expect: {{C: [{'[],' * 49_000}[]]}}\nmethods: [{{family: gauss, stages: 1}}]",
     }

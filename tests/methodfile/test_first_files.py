@@ -4,13 +4,18 @@ with the cure and the caret at the word.
 
 from __future__ import annotations
 
+from time import process_time
+
 import pytest
 
 from garkcli.errors import Fault, MethodFileError
 from garkcli.methodfile.load import loads
 from garkcli.tableau.tableau import Tableau
+from tests.fuzz.hostile import hostile_files
 
 RK4 = "[[0, 0, 0, 0], [1/2, 0, 0, 0], [0, 1/2, 0, 0], [0, 0, 1, 0]]"
+SECONDS = 15.0
+"""Of the processor; five where nothing else runs."""
 TWO = "A: [[0, 0], [1/2, 0]]\n"
 
 
@@ -285,3 +290,27 @@ def test_an_error_is_its_own_report() -> None:
     assert lines[0].startswith("first.gark.yaml:1:15: A, row 2, entry 1: ")
     assert lines[1:3] == ["    1 | A: [[0, 0], [O.5, 0]]", "      |               ^"]
     assert lines[3].startswith("      help: ")
+
+
+@pytest.mark.parametrize(
+    "name",
+    [
+        "roots of a hidden zero",
+        "unknown parameters",
+        "unknown keys",
+        "many colours",
+        "aliases of a colour",
+        "many colours of an ark",
+        "blocks of many entries",
+        "half a million values",
+        "interpolation at many nodes",
+    ],
+)
+def test_hostile_files_are_refused_soon(name: str) -> None:
+    """Files that took more than five seconds, or more memory than there is, are refused with the
+    reason in seconds of the processor.
+    """
+    start = process_time()
+    found = faults(hostile_files()[name])
+    assert process_time() - start < SECONDS
+    assert all(fault.message for fault in found)
