@@ -100,7 +100,12 @@ def _show_version(context: click.Context, _: click.Parameter, wanted: bool) -> N
 def gark(context: click.Context, debug: bool) -> int:  # noqa: ARG001 -- read where faults are shown
     """Order conditions and design of generalized additive Runge-Kutta methods, decided exactly.
 
-    A method file (YAML) describes the diagonal methods and how the blocks between them are made:
+    A method file (YAML) is a Butcher tableau, or diagonal methods and how the blocks between them
+    are made:
+
+    \b
+        A: [[0, 0], [1/2, 0]]
+        b: [0, 1]
 
     \b
         methods:
