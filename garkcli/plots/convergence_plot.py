@@ -7,10 +7,11 @@ printed in grey.
 from __future__ import annotations
 
 import warnings
-from collections.abc import Mapping, Sequence
+from collections.abc import Callable, Iterable, Mapping, Sequence
 from io import BytesIO
 from math import floor
 from pathlib import Path
+from textwrap import wrap
 from typing import Any
 
 from matplotlib import rc_context
@@ -46,7 +47,16 @@ _AXES = {
     "evaluations": "evaluations of vector fields",
     "seconds": "seconds of processor time",
 }
+_ERROR: Mapping[str, Any] = {"marker": "o", "color": _BLUE, "linewidth": 1.6}
+_ENERGY_ERROR: Mapping[str, Any] = {
+    "marker": "s",
+    "color": "0.45",
+    "linewidth": 1.0,
+    "markerfacecolor": "white",
+}
+_REFERENCE: Mapping[str, Any] = {"color": _RED, "linestyle": "--", "linewidth": 1.4}
 _LONGEST = 72  # characters of a name in a legend
+_TITLE_WIDTH = 60  # characters of a line of a title
 _FLOATS = 290  # decades: beyond, logarithms are drawn on a linear axis
 
 
@@ -54,24 +64,17 @@ def convergence_figure(result: Convergence, name: str) -> Figure:
     """Error and energy error of the method called ``name`` against h, log–log, with a line whose
     slope is the visible order.
     """
-    points = [(log10(x), log10(error)) for x, error in curve(result, "h")]
-    kept = [(log10(row.h), log10(row.energy_error)) for row in result.rows if row.energy_error > 0]
-    curves = []
-    if points:
-        h, error = [x for x, _ in points], [y for _, y in points]
-        curves.append(Curve(h, error, "error", {"marker": "o", "color": _BLUE, "linewidth": 1.6}))
-    if kept:
-        style = {"marker": "s", "color": "0.45", "linewidth": 1.0, "markerfacecolor": "white"}
-        curves.append(Curve([x for x, _ in kept], [y for _, y in kept], "energy error", style))
-    if points:
-        line = place_line(curves[:1], result.visible_order, curves, is_whole=True)
+    errors = _curve(curve(result, "h"), "error", _ERROR)
+    kept = [(row.h, row.energy_error) for row in result.rows if row.energy_error > 0]
+    energy_errors = _curve(kept, "energy error", _ENERGY_ERROR)
+    curves = [found for found in (errors, energy_errors) if found is not None]
+    if errors is not None:
+        line = place_line([errors], result.visible_order, curves, is_whole=True)
         label = f"reference, slope {result.visible_order}"
-        curves.append(
-            Curve(line.xs, line.ys, label, {"color": _RED, "linestyle": "--", "linewidth": 1.4})
-        )
-    title = (
-        f"{_shortened(name)}\n{_title(result)}: observed order {order_text(result.observed_order)}"
-    )
+        curves.append(Curve(line.xs, line.ys, label, _REFERENCE))
+    heading = "\n".join(wrap(_shortened(name), _TITLE_WIDTH))
+    observed = order_text(result.observed_order)
+    title = f"{heading}\n{_title(result)}: observed order {observed}"
     figure = _log_log(curves, [], title, "step size h", 4.8)
     if curves:
         figure.axes[0].legend(frameon=False)
@@ -88,29 +91,42 @@ def comparison_figure(named: Sequence[tuple[str, Convergence]], against: str = "
     curves: list[Curve] = []
     of_order: dict[int, list[Curve]] = {}
     for k, (name, result) in enumerate(named):
-        points = [(log10(x), log10(error)) for x, error in curve(result, against)]
-        if not points:
+        errors = _curve(curve(result, against), _shortened(name), _style(k))
+        if errors is None:
             continue
-        xs, ys = [x for x, _ in points], [y for _, y in points]
-        curves.append(Curve(xs, ys, _shortened(name), _style(k)))
+        curves.append(errors)
         if result.visible_order > 0:
-            of_order.setdefault(result.visible_order, []).append(curves[-1])
-    lines = [
-        place_line(x, order if against == "h" else -order, curves) for order, x in of_order.items()
-    ]
+            of_order.setdefault(result.visible_order, []).append(errors)
+    lines = []
+    for order, beside in of_order.items():
+        # errors rise with h, and fall with what they cost
+        slope = order if against == "h" else -order
+        lines.append(place_line(beside, slope, curves))
     size = 4.6 + 0.23 * len(curves)
     figure = _log_log(curves, lines, _title(named[0][1]), _AXES[against], size)
+    _add_legend_below(figure, curves)
+    return figure
+
+
+def _curve(points: Iterable[tuple[Any, Any]], label: str, style: Mapping[str, Any]) -> Curve | None:
+    """The curve through positive points; None where there are none."""
+    logarithms = [(log10(x), log10(y)) for x, y in points]
+    if not logarithms:
+        return None
+    xs, ys = zip(*logarithms, strict=True)
+    return Curve(xs, ys, label, style)
+
+
+def _add_legend_below(figure: Figure, curves: Sequence[Curve]) -> None:
+    """The names of all curves below the axes, where no curve can be."""
     drawn = figure.axes[0].get_lines()[: len(curves)]
-    # below the axes, where no curve can be
     legend = figure.legend(
         drawn, ["method"] * len(drawn), loc="outside lower left", frameon=False, handlelength=3.5
     )
-    for text, x in zip(
-        legend.get_texts(), curves, strict=True
-    ):  # names are no formulas, and may begin with _
+    # names are no formulas, and may begin with _, which would hide them
+    for text, named in zip(legend.get_texts(), curves, strict=True):
         text.set_parse_math(False)
-        text.set_text(x.label)
-    return figure
+        text.set_text(named.label)
 
 
 def _title(result: Convergence) -> str:
@@ -139,37 +155,18 @@ def _log_log(
     """
     figure = Figure(figsize=(6.4, size), layout="constrained")
     axes = figure.add_subplot()
-    drawn: list[Curve | Line] = [*curves, *lines]
-    decades = [abs(z) for x in drawn for z in (*x.xs, *x.ys)]
-    has_floats = max(decades, default=0) < _FLOATS
-
-    def place(z: float) -> float:
-        return 10**z if has_floats else z
-
-    for x in drawn:
-        draw = axes.loglog if has_floats else axes.plot
-        style = _THIN if isinstance(x, Line) else x.style
-        draw([place(z) for z in x.xs], [place(z) for z in x.ys], label=x.label, **style)
+    has_floats = _largest([*curves, *lines]) < _FLOATS
+    place = _power if has_floats else _itself
+    draw = axes.loglog if has_floats else axes.plot
+    for drawn in curves:
+        draw(_placed(drawn.xs, place), _placed(drawn.ys, place), label=drawn.label, **drawn.style)
     for line in lines:
-        middle = place(sum(line.xs) / 2), place(sum(line.ys) / 2)
-        axes.annotate(
-            line.label,
-            middle,
-            (3 if line.is_right else -3, -3 if line.is_below else 3),
-            textcoords="offset points",
-            ha="left" if line.is_right else "right",
-            va="top" if line.is_below else "bottom",
-            zorder=1.6,
-            fontsize=9,
-            color="0.3",
-            bbox={"facecolor": "white", "edgecolor": "none", "pad": 0.6, "alpha": 0.8},
-        )
+        draw(_placed(line.xs, place), _placed(line.ys, place), label=line.label, **_THIN)
+        _annotate(axes, line, place)
     if not has_floats:
-        for axis in (axes.xaxis, axes.yaxis):
-            axis.set_major_formatter(FuncFormatter(lambda x, _: f"$10^{{{x:g}}}$"))
-            axis.set_major_locator(MaxNLocator(8))
+        _label_powers(axes)
     elif curves:
-        _label_decades(axes, [z for curve in curves for z in curve.xs])
+        _label_decades(axes, [z for drawn in curves for z in drawn.xs])
     axes.set_title(title, fontsize=11, parse_math=False)
     axes.set_xlabel(label)
     axes.set_ylabel("error")
@@ -177,12 +174,58 @@ def _log_log(
     return figure
 
 
+def _largest(drawn: Sequence[Curve | Line]) -> float:
+    """The decades that are farthest from 1."""
+    decades = [0.0]
+    for x in drawn:
+        decades += [abs(z) for z in (*x.xs, *x.ys)]
+    return max(decades)
+
+
+def _power(decades: float) -> float:
+    """Where a number is on a logarithmic axis."""
+    return float(10**decades)
+
+
+def _itself(decades: float) -> float:
+    """Where it is on a linear axis of logarithms."""
+    return decades
+
+
+def _placed(decades: Iterable[float], place: Callable[[float], float]) -> list[float]:
+    return [place(z) for z in decades]
+
+
+def _annotate(axes: Axes, line: Line, place: Callable[[float], float]) -> None:
+    """The label of a line beside its middle, on its far side from the curve."""
+    middle = place(sum(line.xs) / 2), place(sum(line.ys) / 2)
+    right, up = (3 if line.is_right else -3), (-3 if line.is_below else 3)
+    axes.annotate(
+        line.label,
+        middle,
+        (right, up),
+        textcoords="offset points",
+        ha="left" if line.is_right else "right",
+        va="top" if line.is_below else "bottom",
+        zorder=1.6,
+        fontsize=9,
+        color="0.3",
+        bbox={"facecolor": "white", "edgecolor": "none", "pad": 0.6, "alpha": 0.8},
+    )
+
+
+def _label_powers(axes: Axes) -> None:
+    """Powers of ten on linear axes of logarithms."""
+    for axis in (axes.xaxis, axes.yaxis):
+        axis.set_major_formatter(FuncFormatter(lambda x, _: f"$10^{{{x:g}}}$"))
+        axis.set_major_locator(MaxNLocator(8))
+
+
 def _label_decades(axes: Axes, decades: Sequence[float]) -> None:
     """Numbers below a logarithmic axis, between the powers of ten too: as many as there is space
     for.
     """
-    span = max(decades) - min(decades)
-    digits = (2, 3, 5, 7) if span < 1 else (2, 5) if span < 2 else ()  # () leaves the powers alone
+    digits = _digits_between(max(decades) - min(decades))
 
     def text(x: float, _: object) -> str:
         power = floor(log10(x) + 1e-9)
@@ -196,6 +239,15 @@ def _label_decades(axes: Axes, decades: Sequence[float]) -> None:
     if digits:
         axes.xaxis.set_major_formatter(FuncFormatter(text))
     axes.xaxis.set_minor_formatter(FuncFormatter(text))
+
+
+def _digits_between(span: float) -> tuple[int, ...]:
+    """Which multiples of the powers of ten are labelled on an axis of so many decades."""
+    if span < 1:
+        return (2, 3, 5, 7)
+    if span < 2:
+        return (2, 5)
+    return ()
 
 
 def _shortened(name: str) -> str:

@@ -66,11 +66,12 @@ def place_line(
 
     The first place that is clear of all curves is taken; where none is, the clearest.
     """
-    xs, ys = [x for c in curves for x in c.xs], [y for c in curves for y in c.ys]
-    wide, high = max(xs) - min(xs) or 1.0, max(ys) - min(ys) or 1.0
-    scaled = [
-        [(x / wide, y / high) for x, y in sorted(zip(c.xs, c.ys, strict=True))] for c in curves
-    ]
+    wide = _extent([x for curve in curves for x in curve.xs])
+    high = _extent([y for curve in curves for y in curve.ys])
+    scaled = []
+    for curve in curves:
+        points = sorted(zip(curve.xs, curve.ys, strict=True))
+        scaled.append([(x / wide, y / high) for x, y in points])
     best, clearest = None, -1.0
     for gap in _GAPS:
         for curve in beside:
@@ -84,6 +85,11 @@ def place_line(
                         return line
     assert best is not None
     return best
+
+
+def _extent(numbers: Sequence[float]) -> float:
+    """From the least to the greatest; 1 where they are one."""
+    return max(numbers) - min(numbers) or 1.0
 
 
 def _parts(curve: Curve, is_whole: bool) -> list[list[tuple[float, float]]]:
@@ -114,16 +120,19 @@ def _clearance(
     """The least vertical distance of the line and its label from the curves, in heights of the
     figure.
     """
-    (a, b), (c, d) = line.xs, line.ys
-    points = [
-        ((a + (b - a) * k / _SAMPLES) / wide, (c + (d - c) * k / _SAMPLES) / high)
-        for k in range(_SAMPLES + 1)
-    ]
+    (left, right), (start, end) = line.xs, line.ys
+    points = []
+    for k in range(_SAMPLES + 1):
+        part = k / _SAMPLES
+        x, y = left + (right - left) * part, start + (end - start) * part
+        points.append((x / wide, y / high))
     if has_label:
-        x, y = (a + b) / 2 / wide, (c + d) / 2 / high
-        down, right = (-1 if line.is_below else 1), (1 if line.is_right else -1)
-        points += [(x + right * u, y + down * v) for u, v in _LABEL]
-    return min((abs(y - height) for x, y in points for height in _heights(scaled, x)), default=1.0)
+        x, y = (left + right) / 2 / wide, (start + end) / 2 / high
+        away = 1 if line.is_right else -1
+        up = -1 if line.is_below else 1
+        points += [(x + away * u, y + up * v) for u, v in _LABEL]
+    distances = [abs(y - height) for x, y in points for height in _heights(scaled, x)]
+    return min(distances, default=1.0)
 
 
 def _heights(scaled: Sequence[Sequence[tuple[float, float]]], x: float) -> list[float]:

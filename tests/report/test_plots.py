@@ -313,3 +313,12 @@ def test_numbers_below_do_not_collide(steps: tuple[fmpq, ...], shown: list[str])
     assert set(shown) <= {text.get_text() for text in labels}
     boxes = sorted((text.get_window_extent() for text in labels), key=lambda box: box.x0)
     assert all(one.x1 < other.x0 for one, other in pairwise(boxes))
+
+
+def test_a_figure_of_one_method_names_it() -> None:
+    """In its title, a long name in lines of their own; dollars are no formula."""
+    figure = convergence_figure(result_of("rk4"), "$the$ method " * 8)
+    *names, last = figure.axes[0].get_title().splitlines()
+    assert last == "Oscillator to t = 4: observed order 4.00"
+    assert names[0].startswith("$the$ method")
+    assert max(map(len, names)) <= 60
