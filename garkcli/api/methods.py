@@ -9,7 +9,7 @@ from __future__ import annotations
 from typing import overload
 
 from garkcli.api.arguments import AnyMethod, tableau_of, tolerance_of
-from garkcli.check import analysis
+from garkcli.check import deciding
 from garkcli.check.analysis import Analysis, AnyOrder
 from garkcli.order import certificate
 from garkcli.order.certificate import DEFAULT_LIMIT
@@ -44,7 +44,7 @@ def find_order(method: AnyMethod, limit: int = DEFAULT_LIMIT, tolerance: object 
     if near is None:
         return certificate.find_order(tableau_of(method), limit)
     if tolerance is None and isinstance(method, GarkMethod) and method.base is not None:
-        found = analysis.analyse(method.base.tableau, limit, near)
+        found = deciding.analyse(method.base.tableau, limit, near)
         order = found.pair_order if method.derivation == "pair" else found.conjugate_order
         if order is not None:
             return order
@@ -62,7 +62,7 @@ def analyse(method: AnyMethod, limit: int = DEFAULT_LIMIT, tolerance: object = N
         tolerance: the rounding of the coefficients; that of the method where it is not given, 0 for
             none.
     """
-    return analysis.analyse(tableau_of(method), limit, tolerance_of(method, tolerance))
+    return deciding.analyse(tableau_of(method), limit, tolerance_of(method, tolerance))
 
 
 def is_symplectic(method: AnyMethod, tolerance: object = None) -> bool:
@@ -72,7 +72,7 @@ def is_symplectic(method: AnyMethod, tolerance: object = None) -> bool:
     near = tolerance_of(method, tolerance)
     if near is None:
         return conjugation.is_symplectic(tableau_of(method))
-    return analysis.analyse(tableau_of(method), 1, near).symplectic
+    return deciding.analyse(tableau_of(method), 1, near).symplectic
 
 
 @overload

@@ -9,13 +9,11 @@ from flint import fmpq
 
 from garkcli.errors import ZeroWeight
 from garkcli.exact.field import ZERO
-from garkcli.order.certificate import DEFAULT_LIMIT, Order, find_order
+from garkcli.order.certificate import Order
 from garkcli.order.nonautonomous import with_time
-from garkcli.order.simplifying import Simplifying, consistent_blocks, simplifying
-from garkcli.order.tolerance import TINY, within
-from garkcli.tableau.conjugate import conjugate, is_symplectic
+from garkcli.order.simplifying import Simplifying, consistent_blocks
+from garkcli.tableau.conjugate import conjugate
 from garkcli.tableau.forms import pair
-from garkcli.tableau.stages import PointSpace
 from garkcli.tableau.tableau import Tableau
 
 if TYPE_CHECKING:
@@ -92,77 +90,6 @@ class Analysis:
         return f"<Analysis {', '.join(orders)}>"
 
 
-def analyse(
-    tableau: Tableau,
-    limit: int = DEFAULT_LIMIT,
-    tolerance: fmpq | None = None,
-    units: Units | None = None,
-) -> Analysis:
-    """Decide everything that ``gark check`` reports; no order beyond ``limit`` is looked for.
-
-    Args:
-        tableau: the method.
-        limit: where the search for orders stops.
-        tolerance: the rounding of its coefficients; None for coefficients that are meant exactly.
-        units: by how much each printed value may be off, where its digits are known; asked for only
-            where residuals look like rounding.
-    """
-    if tolerance is not None:
-        from garkcli.check.within import analyse_within
-
-        return analyse_within(tableau, tolerance, limit)
-    conjugated, both, obstacle = conjugate_and_pair(tableau)
-    order, conditions = find_order(tableau, limit), simplifying(tableau, limit)
-    conjugate_order = None if conjugated is None else find_order(conjugated, limit)
-    pair_order, pair_conditions = None, None
-    if both is not None and is_pair_of_itself(tableau, both):
-        pair_order, pair_conditions = order, conditions
-    elif both is not None:
-        pair_order, pair_conditions = find_order(both, limit), simplifying(both, limit)
-    inconsistent = inconsistent_blocks(tableau)
-    suggestion = _suggestion(tableau, order, limit)
-    misprint = None
-    if suggestion is not None and units is not None:
-        from garkcli.order.suggestion import find_misprint
-
-        misprint = find_misprint(tableau, order, suggestion, units())
-    return Analysis(
-        tableau=tableau,
-        order=order,
-        simplifying=conditions,
-        inconsistent=inconsistent,
-        symplectic=is_symplectic(tableau),
-        conjugate=conjugated,
-        conjugate_order=conjugate_order,
-        conjugate_inconsistent=inconsistent_blocks(conjugated),
-        pair=both,
-        pair_order=pair_order,
-        pair_simplifying=pair_conditions,
-        bound=conditions.bound,
-        pair_bound=None if pair_conditions is None else pair_conditions.bound,
-        obstacle=obstacle,
-        limit=limit,
-        nonautonomous_order=nonautonomous(
-            tableau, order, inconsistent, lambda timed: find_order(timed, limit)
-        ),
-        suggestion=None if misprint else suggestion,
-        misprint=misprint,
-    )
-
-
-def nonautonomous(
-    tableau: Tableau,
-    order: AnyOrder,
-    inconsistent: Sequence[tuple[int, int]],
-    find: Callable[[Tableau], AnyOrder],
-) -> AnyOrder | None:
-    """The order on problems ẏ = f(t, y); where A^{l,m} 𝟙 = c^{l} it is the order."""
-    timed = with_time(tableau)
-    if timed is None:
-        return None
-    return find(timed) if inconsistent else order
-
-
 def conjugate_and_pair(tableau: Tableau) -> tuple[Tableau | None, Tableau | None, str]:
     """The conjugate and the symplectic pair, None where a weight is zero, and then why."""
     conjugated, both, obstacle = None, None, ""
@@ -191,11 +118,14 @@ def inconsistent_blocks(
     return tuple(edge for edge, holds in consistent_blocks(tableau, tolerance).items() if not holds)
 
 
-def _suggestion(tableau: Tableau, order: Order, limit: int) -> Suggestion | None:
-    """What to write into a file that looks rounded; only tiny residuals are looked at further."""
-    spelled_out = any(isinstance(space, PointSpace) for space in tableau.spaces)
-    if not spelled_out or order.witness is None or not within(order.witness.residual, TINY):
+def nonautonomous(
+    tableau: Tableau,
+    order: AnyOrder,
+    inconsistent: Sequence[tuple[int, int]],
+    find: Callable[[Tableau], AnyOrder],
+) -> AnyOrder | None:
+    """The order on problems ẏ = f(t, y); where A^{l,m} 𝟙 = c^{l} it is the order."""
+    timed = with_time(tableau)
+    if timed is None:
         return None
-    from garkcli.order.suggestion import suggest_tolerance
-
-    return suggest_tolerance(tableau, order, limit)
+    return find(timed) if inconsistent else order

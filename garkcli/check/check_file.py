@@ -5,8 +5,9 @@ from __future__ import annotations
 from dataclasses import replace
 from typing import TYPE_CHECKING
 
-from garkcli.check.analysis import Analysis, analyse
+from garkcli.check.analysis import Analysis
 from garkcli.check.claims import verify
+from garkcli.check.deciding import analyse
 from garkcli.check.outcome import Outcome
 from garkcli.errors import MethodFileError
 from garkcli.methodfile.build import MethodFile

@@ -2,59 +2,38 @@
 
 from __future__ import annotations
 
-from collections import Counter
-from collections.abc import Iterator
-
 from flint import arb, ctx, fmpq
 
-from garkcli.exact.domain import enclose
+from garkcli.exact.enclosing import enclose
 from garkcli.exact.field import Algebraic, Number
-from garkcli.exact.rewriting import format_expression
 
 
 def to_text(number: Number) -> str:
     """The number as a method file writes it, for instance ``1/2 - sqrt(3)/6``."""
-    if not isinstance(number, Algebraic):
-        return str(number)
-    text = ""
-    for coefficient, word in _terms(number):
-        factors = "*".join(
-            f"{w}**{k}" if k > 1 else w for w, k in _powers(number, word, latex=False)
-        )
-        p, q = abs(coefficient.p), coefficient.q
-        term = (f"{p}*{factors}" if p != 1 else factors) if factors else str(p)
-        term += f"/{q}" if q != 1 else ""
-        text += f"{' - ' if coefficient < 0 else ' + '}{term}"
-    return text.removeprefix(" + ") if text.startswith(" + ") else "-" + text.removeprefix(" - ")
+    return str(number)
 
 
 def to_latex(number: Number) -> str:
     r"""The number in LaTeX, for instance ``\frac{1}{2}-\frac{\sqrt{3}}{6}``."""
-    terms = _terms(number) if isinstance(number, Algebraic) else iter([(number, ())])
+    if not isinstance(number, Algebraic):
+        return _latex_term(number, "").removeprefix("+")
     text = ""
-    for coefficient, word in terms:
+    for coefficient, word in number.terms():
         factors = ""
-        if isinstance(number, Algebraic):
-            factors = "".join(
-                f"{w}^{{{k}}}" if k > 1 else w for w, k in _powers(number, word, latex=True)
-            )
-        p, q = abs(coefficient.p), coefficient.q
-        top = (f"{p}{factors}" if p != 1 else factors) if factors else str(p)
-        text += ("-" if coefficient < 0 else "+") + (rf"\frac{{{top}}}{{{q}}}" if q != 1 else top)
+        for radical, power in number.field.powers(word, latex=True):
+            factors += f"{radical}^{{{power}}}" if power > 1 else radical
+        text += _latex_term(coefficient, factors)
     return text.removeprefix("+")
 
 
-def _terms(number: Algebraic) -> Iterator[tuple[fmpq, tuple[int, ...]]]:
-    for coefficient, word in zip(
-        number.field.in_radicals(number), number.field.monomials, strict=True
-    ):
-        if coefficient:
-            yield coefficient, word
-
-
-def _powers(number: Algebraic, word: tuple[int, ...], latex: bool) -> Iterator[tuple[str, int]]:
-    for index, power in Counter(word).items():
-        yield format_expression(number.field.radicals[index][0], latex), power
+def _latex_term(coefficient: fmpq, factors: str) -> str:
+    """A signed multiple of radicals, as one fraction."""
+    sign = "-" if coefficient < 0 else "+"
+    numerator = abs(coefficient.p)
+    top = factors if factors and numerator == 1 else f"{numerator}{factors}"
+    if coefficient.q == 1:
+        return sign + top
+    return rf"{sign}\frac{{{top}}}{{{coefficient.q}}}"
 
 
 def to_ball(number: Number, digits: int = 17) -> arb:
@@ -76,7 +55,7 @@ def _ball(number: Number) -> arb:
     if not isinstance(number, Algebraic):
         return arb(number)
     total = arb(0)
-    for coefficient, word in _terms(number):
+    for coefficient, word in number.terms():
         term = arb(coefficient)
         for index in word:
             term *= enclose(number.field.radicals[index][0])

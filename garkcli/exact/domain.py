@@ -7,13 +7,13 @@ root, see ``garkcli.exact.tower``.
 
 from __future__ import annotations
 
-import operator
 from collections.abc import Iterable
 from functools import partial
 
 from flint import arb, ctx, fmpq, fmpq_poly
 
 from garkcli.errors import LimitExceeded, UndefinedValue
+from garkcli.exact.enclosing import OPERATIONS, enclose
 from garkcli.exact.expression import Chain, Expression, Literal, Name, Power, Root
 from garkcli.exact.field import ONE, ZERO, Algebraic, Number, NumberField
 from garkcli.exact.rewriting import roots_in
@@ -27,8 +27,6 @@ MAX_DEGREE = 48
 """Largest degree of the number field of one file."""
 MAX_PRECISION = 8192
 """Bits to which a nested radicand is evaluated before its sign is decided exactly."""
-
-_OPERATIONS = {"+": operator.add, "-": operator.sub, "*": operator.mul, "/": operator.truediv}
 
 
 class Domain:
@@ -204,24 +202,6 @@ def square_free(number: fmpq) -> fmpq:
     return fmpq(n)
 
 
-def enclose(expression: Expression) -> arb:
-    """A ball that holds the value of ``expression``, at the current ``flint.ctx`` precision."""
-    match expression:
-        case Literal(value=value):
-            return arb(value)
-        case Chain(signs=signs, operands=operands):
-            total = arb(0 if signs[0] in "+-" else 1)
-            for sign, operand in zip(signs, operands, strict=True):
-                total = _OPERATIONS[sign](total, enclose(operand))
-            return total
-        case Power(base=base, exponent=exponent):
-            return enclose(base) ** exponent
-        case Root(radicand=radicand, index=index):
-            inside = enclose(radicand)
-            return -((-inside).root(index)) if index % 2 and inside < 0 else inside.root(index)
-    raise TypeError(f"no value: {expression!r}")
-
-
 def _check_sign(root: Root) -> None:
     """Refuse an even root of a negative nested radicand."""
     if _sign(root.radicand) < 0 and root.index % 2 == 0:
@@ -258,7 +238,7 @@ def _even_root(root: Root) -> UndefinedValue:
 def _apply(sign: str, left: Number, right: Number, at: Expression) -> Number:
     if sign == "/" and not right:
         raise UndefinedValue("division by zero", "the divisor is exactly zero", at.start, at.end)
-    result: Number = _OPERATIONS[sign](left, right)
+    result: Number = OPERATIONS[sign](left, right)
     return result
 
 

@@ -6,13 +6,15 @@ elements are plain ``fmpq``, so a number here is ``fmpq | Algebraic`` and zero i
 
 from __future__ import annotations
 
-from collections.abc import Sequence
+from collections import Counter
+from collections.abc import Iterator, Sequence
 from functools import cached_property
 from typing import TypeAlias
 
 from flint import fmpq, fmpq_mat, fmpq_poly, fmpz
 
 from garkcli.exact.expression import Expression
+from garkcli.exact.rewriting import format_expression
 
 ZERO = fmpq(0)
 ONE = fmpq(1)
@@ -73,6 +75,12 @@ class NumberField:
             if len(columns) == self.degree:
                 break
         return tuple(chosen), fmpq_mat(columns).transpose().inv()
+
+    def powers(self, word: tuple[int, ...], latex: bool = False) -> Iterator[tuple[str, int]]:
+        """The radicals of a word of ``monomials`` as text, each with its exponent."""
+        for index, power in Counter(word).items():
+            radical, _ = self.radicals[index]
+            yield format_expression(radical, latex), power
 
     def in_radicals(self, number: Algebraic) -> list[fmpq]:
         """The coordinates of ``number`` in the basis ``monomials``."""
@@ -155,10 +163,33 @@ class Algebraic:
     def __hash__(self) -> int:
         return hash(tuple(self.poly.coeffs()))
 
-    def __repr__(self) -> str:
-        from garkcli.exact.display import to_text
+    def terms(self) -> Iterator[tuple[fmpq, tuple[int, ...]]]:
+        """The number as a sum of radicals: each coefficient with its word, see
+        ``NumberField.monomials``.
+        """
+        coefficients = self.field.in_radicals(self)
+        for coefficient, word in zip(coefficients, self.field.monomials, strict=True):
+            if coefficient:
+                yield coefficient, word
 
-        return to_text(self)
+    def __repr__(self) -> str:
+        text = ""
+        for coefficient, word in self.terms():
+            sign = " - " if coefficient < 0 else " + "
+            text += sign + self._term(coefficient, word)
+        return text.removeprefix(" + ") if text.startswith(" + ") else "-" + text[len(" - ") :]
+
+    def _term(self, coefficient: fmpq, word: tuple[int, ...]) -> str:
+        """A multiple of a product of radicals, without its sign: ``4*sqrt(3)/27``."""
+        factors = [
+            f"{radical}**{power}" if power > 1 else radical
+            for radical, power in self.field.powers(word)
+        ]
+        numerator, denominator = abs(coefficient.p), coefficient.q
+        if numerator != 1 or not factors:
+            factors.insert(0, str(numerator))
+        product = "*".join(factors)
+        return product if denominator == 1 else f"{product}/{denominator}"
 
 
 Number: TypeAlias = fmpq | Algebraic

@@ -5,6 +5,8 @@ from __future__ import annotations
 from collections.abc import Iterator, Mapping
 from dataclasses import replace
 
+from flint import fmpq
+
 from garkcli.errors import UndefinedValue, did_you_mean
 from garkcli.exact.expression import INDEX_OF_ROOT, Chain, Expression, Literal, Name, Power, Root
 from garkcli.exact.formula import Call, RealPower
@@ -61,18 +63,7 @@ def substitute(expression: Expression, values: Mapping[str, Expression]) -> Expr
     match expression:
         case Name(name=name):
             if name not in values:
-                near = did_you_mean(name, values) if values else ""
-                cure = (
-                    near
-                    if near.startswith("did")
-                    else f"define it, before its use: parameters: {{{name}: 1/2}}"
-                )
-                raise UndefinedValue(
-                    f"{name!r} is not a parameter",
-                    cure,
-                    expression.start,
-                    expression.end,
-                )
+                raise _unknown_name(expression, values)
             return values[name]
         case Chain(operands=operands):
             return replace(expression, operands=tuple(substitute(x, values) for x in operands))
@@ -89,6 +80,13 @@ def substitute(expression: Expression, values: Mapping[str, Expression]) -> Expr
     return expression
 
 
+def _unknown_name(name: Name, values: Mapping[str, Expression]) -> UndefinedValue:
+    cure = did_you_mean(name.name, values) if values else ""
+    if not cure.startswith("did"):
+        cure = f"define it, before its use: parameters: {{{name.name}: 1/2}}"
+    return UndefinedValue(f"{name.name!r} is not a parameter", cure, name.start, name.end)
+
+
 def roots_in(expression: Expression) -> Iterator[Root]:
     """Every root in ``expression``, the inner ones first."""
     for part in parts(expression):
@@ -100,42 +98,95 @@ def roots_in(expression: Expression) -> Iterator[Root]:
 def format_expression(expression: Expression, latex: bool = False) -> str:
     """The expression as text that ``parse`` (with functions: ``parse_formula``) reads again, or as
     LaTeX.
+
+    >>> from garkcli.exact.expression import parse
+    >>> format_expression(parse("1/2 - sqrt(3)/6"))
+    '1/2-(sqrt(3)/6)'
     """
-    match expression:
-        case Literal(value=value):
-            if latex and value.q != 1:
-                return f"{'-' if value < 0 else ''}\\frac{{{abs(value.p)}}}{{{value.q}}}"
+    return _Latex().written(expression) if latex else _Text().written(expression)
+
+
+class _Text:
+    """Expressions as the grammar writes them."""
+
+    def written(self, expression: Expression) -> str:
+        """The text of any expression."""
+        match expression:
+            case Literal(value=value):
+                return self.number(value)
+            case Name(name=name):
+                return name
+            case Chain():
+                return self.chain(expression)
+            case Power(base=base, exponent=exponent):
+                return self.power(self.tight(base), exponent)
+            case RealPower(base=base, exponent=real):
+                return self.real_power(self.tight(base), self.written(real))
+            case Call(function=function, argument=argument):
+                return self.call(function, self.written(argument))
+            case Root(radicand=radicand, index=index):
+                return self.root(self.written(radicand), index)
+        raise TypeError(f"no expression: {expression!r}")
+
+    def chain(self, chain: Chain) -> str:
+        """Operands with the signs before them; a leading + or * is left out."""
+        is_product = chain.signs[0] in "*/"
+        parts = []
+        for sign, operand in zip(chain.signs, chain.operands, strict=True):
+            binds = is_product or sign == "-"
+            parts.append(sign + (self.tight(operand) if binds else self.written(operand)))
+        return "".join(parts).removeprefix("+").removeprefix("*")
+
+    def tight(self, expression: Expression) -> str:
+        """The text in parentheses, unless it is one sign or one call."""
+        text = self.written(expression)
+        is_whole_number = isinstance(expression, Literal) and text.isdigit()
+        if is_whole_number or isinstance(expression, (Name, Root, Call)):
+            return text
+        return f"({text})"
+
+    def number(self, value: fmpq) -> str:
+        """A rational number."""
+        return str(value)
+
+    def power(self, base: str, exponent: int) -> str:
+        """An integer power."""
+        return f"{base}**{exponent}"
+
+    def real_power(self, base: str, exponent: str) -> str:
+        """A power whose exponent is an expression."""
+        return f"{base}**({exponent})"
+
+    def call(self, function: str, argument: str) -> str:
+        """A function of one argument."""
+        return f"{function}({argument})"
+
+    def root(self, radicand: str, index: int) -> str:
+        """A root by its name, or by its index where it has none."""
+        for name, named in INDEX_OF_ROOT.items():
+            if named == index:
+                return f"{name}({radicand})"
+        return f"root({radicand}, {index})"
+
+
+class _Latex(_Text):
+    """The same in LaTeX."""
+
+    def number(self, value: fmpq) -> str:
+        if value.q == 1:
             return str(value)
-        case Name(name=name):
-            return name
-        case Chain(signs=signs, operands=operands):
-            parts = [
-                sign + _bracketed(x, signs[0] in "*/" or sign == "-", latex)
-                for sign, x in zip(signs, operands, strict=True)
-            ]
-            return "".join(parts).removeprefix("+").removeprefix("*")
-        case Power(base=base, exponent=exponent):
-            text = _bracketed(base, True, latex)
-            return f"{text}^{{{exponent}}}" if latex else f"{text}**{exponent}"
-        case RealPower(base=base, exponent=exponent):
-            text, power = _bracketed(base, True, latex), format_expression(exponent, latex)
-            return f"{text}^{{{power}}}" if latex else f"{text}**({power})"
-        case Call(function=function, argument=argument):
-            inner = format_expression(argument, latex)
-            return f"\\{function}\\left({inner}\\right)" if latex else f"{function}({inner})"
-        case Root(radicand=radicand, index=index):
-            inner = format_expression(radicand, latex)
-            if latex:
-                return f"\\sqrt{{{inner}}}" if index == 2 else f"\\sqrt[{index}]{{{inner}}}"
-            names = {n: name for name, n in INDEX_OF_ROOT.items()}
-            return f"{names[index]}({inner})" if index in names else f"root({inner}, {index})"
-    raise TypeError(f"no expression: {expression!r}")
+        sign = "-" if value < 0 else ""
+        return f"{sign}\\frac{{{abs(value.p)}}}{{{value.q}}}"
 
+    def power(self, base: str, exponent: int) -> str:
+        return f"{base}^{{{exponent}}}"
 
-def _bracketed(expression: Expression, tight: bool, latex: bool) -> str:
-    text = format_expression(expression, latex)
-    simple = isinstance(expression, (Name, Root, Call)) or (
-        isinstance(expression, Literal) and text.isdigit()
-    )
-    loose = isinstance(expression, Chain) or not simple
-    return f"({text})" if loose and tight else text
+    def real_power(self, base: str, exponent: str) -> str:
+        return f"{base}^{{{exponent}}}"
+
+    def call(self, function: str, argument: str) -> str:
+        return f"\\{function}\\left({argument}\\right)"
+
+    def root(self, radicand: str, index: int) -> str:
+        degree = "" if index == 2 else f"[{index}]"
+        return f"\\sqrt{degree}{{{radicand}}}"

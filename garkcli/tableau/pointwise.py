@@ -16,7 +16,8 @@ from flint import arb, arb_mat, ctx, fmpq_poly
 
 from garkcli.errors import LimitExceeded
 from garkcli.exact.display import to_ball
-from garkcli.exact.domain import Domain, enclose, square_free
+from garkcli.exact.domain import Domain, square_free
+from garkcli.exact.enclosing import enclose
 from garkcli.exact.expression import Chain, Expression, Literal, Root
 from garkcli.exact.field import ONE, ZERO, Algebraic, Number
 from garkcli.exact.matrix import Matrix, Vector, apply, apply_left, identity, multiply, solve

@@ -13,7 +13,8 @@ import json
 from pathlib import Path
 from typing import Any, TypeAlias, cast
 
-from garkcli.exact.domain import Domain, enclose
+from garkcli.exact.domain import Domain
+from garkcli.exact.enclosing import enclose
 from garkcli.exact.expression import parse
 from garkcli.exact.field import Number
 from garkcli.exact.matrix import Matrix, Vector

@@ -11,8 +11,9 @@ from flint import fmpq
 from hypothesis import given, settings
 from hypothesis import strategies as st
 
-from garkcli.check.analysis import Analysis, analyse
+from garkcli.check.analysis import Analysis
 from garkcli.check.claims import verify
+from garkcli.check.deciding import analyse
 from garkcli.check.outcome import Outcome
 from garkcli.methodfile.load import loads
 from garkcli.report.check_text import render

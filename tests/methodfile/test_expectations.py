@@ -4,9 +4,10 @@ from pathlib import Path
 
 import pytest
 
-from garkcli.check.analysis import Analysis, analyse
+from garkcli.check.analysis import Analysis
 from garkcli.check.check_file import check_file
 from garkcli.check.claims import verify
+from garkcli.check.deciding import analyse
 from garkcli.check.outcome import Claim
 from garkcli.methodfile.load import loads
 

@@ -496,7 +496,7 @@ def broken(*arguments: str) -> subprocess.CompletedProcess[str]:
     """A run of a program whose order finder is broken."""
     script = (
         "import sys\n"
-        "import garkcli.check.analysis as check\n"
+        "import garkcli.check.deciding as check\n"
         "def find_order(*_): raise RuntimeError('broken\\nin two lines')\n"
         "check.find_order = find_order\n"
         "from garkcli.cli import main\n"

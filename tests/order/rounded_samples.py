@@ -10,7 +10,7 @@ from typing import Any
 
 from flint import arb, ctx, fmpq
 
-from garkcli.exact.domain import enclose
+from garkcli.exact.enclosing import enclose
 from garkcli.exact.expression import parse
 from garkcli.tableau.forms import spelled_out
 from garkcli.tableau.pointwise import numeric_entries

@@ -10,7 +10,8 @@ from random import Random
 import pytest
 from flint import fmpq
 
-from garkcli.check.analysis import Analysis, analyse
+from garkcli.check.analysis import Analysis
+from garkcli.check.deciding import analyse
 from garkcli.check.outcome import Outcome
 from garkcli.methodfile.load import loads
 from garkcli.methodfile.printed import printed_units

@@ -4,8 +4,8 @@ import re
 
 import pytest
 
-from garkcli.check.analysis import analyse
 from garkcli.check.claims import verify
+from garkcli.check.deciding import analyse
 from garkcli.check.outcome import Outcome
 from garkcli.methodfile.load import loads
 from garkcli.order.blame import find_blame

@@ -1,0 +1,93 @@
+"""From a tableau to its analysis, exactly or within the tolerance of its file."""
+
+from __future__ import annotations
+
+from typing import TYPE_CHECKING
+
+from flint import fmpq
+
+from garkcli.check.analysis import (
+    Analysis,
+    Units,
+    conjugate_and_pair,
+    inconsistent_blocks,
+    is_pair_of_itself,
+    nonautonomous,
+)
+from garkcli.order.certificate import DEFAULT_LIMIT, Order, find_order
+from garkcli.order.simplifying import simplifying
+from garkcli.order.tolerance import TINY, within
+from garkcli.tableau.conjugate import is_symplectic
+from garkcli.tableau.stages import PointSpace
+from garkcli.tableau.tableau import Tableau
+
+if TYPE_CHECKING:
+    from garkcli.order.suggestion import Suggestion
+
+
+def analyse(
+    tableau: Tableau,
+    limit: int = DEFAULT_LIMIT,
+    tolerance: fmpq | None = None,
+    units: Units | None = None,
+) -> Analysis:
+    """Decide everything that ``gark check`` reports; no order beyond ``limit`` is looked for.
+
+    Args:
+        tableau: the method.
+        limit: where the search for orders stops.
+        tolerance: the rounding of its coefficients; None for coefficients that are meant exactly.
+        units: by how much each printed value may be off, where its digits are known; asked for only
+            where residuals look like rounding.
+    """
+    if tolerance is not None:
+        from garkcli.check.within import analyse_within  # balls, which exact methods do without
+
+        return analyse_within(tableau, tolerance, limit)
+    conjugated, both, obstacle = conjugate_and_pair(tableau)
+    order, conditions = find_order(tableau, limit), simplifying(tableau, limit)
+    conjugate_order = None if conjugated is None else find_order(conjugated, limit)
+    pair_order, pair_conditions = None, None
+    if both is not None and is_pair_of_itself(tableau, both):
+        pair_order, pair_conditions = order, conditions
+    elif both is not None:
+        pair_order, pair_conditions = find_order(both, limit), simplifying(both, limit)
+    inconsistent = inconsistent_blocks(tableau)
+    suggestion = _suggestion(tableau, order, limit)
+    misprint = None
+    if suggestion is not None and units is not None:
+        from garkcli.order.suggestion import find_misprint
+
+        misprint = find_misprint(tableau, order, suggestion, units())
+    return Analysis(
+        tableau=tableau,
+        order=order,
+        simplifying=conditions,
+        inconsistent=inconsistent,
+        symplectic=is_symplectic(tableau),
+        conjugate=conjugated,
+        conjugate_order=conjugate_order,
+        conjugate_inconsistent=inconsistent_blocks(conjugated),
+        pair=both,
+        pair_order=pair_order,
+        pair_simplifying=pair_conditions,
+        bound=conditions.bound,
+        pair_bound=None if pair_conditions is None else pair_conditions.bound,
+        obstacle=obstacle,
+        limit=limit,
+        nonautonomous_order=nonautonomous(
+            tableau, order, inconsistent, lambda timed: find_order(timed, limit)
+        ),
+        suggestion=None if misprint else suggestion,
+        misprint=misprint,
+    )
+
+
+def _suggestion(tableau: Tableau, order: Order, limit: int) -> Suggestion | None:
+    """What to write into a file that looks rounded; only tiny residuals are looked at further."""
+    spelled_out = any(isinstance(space, PointSpace) for space in tableau.spaces)
+    if not spelled_out or order.witness is None or not within(order.witness.residual, TINY):
+        return None
+    from garkcli.order.suggestion import suggest_tolerance
+
+    return suggest_tolerance(tableau, order, limit)

@@ -1,0 +1,75 @@
+"""The graph of imports of the package, those inside functions included, has no circle."""
+
+from __future__ import annotations
+
+import ast
+from collections.abc import Iterator, Mapping
+from pathlib import Path
+
+from garkcli.graph import components
+
+ROOT = Path(__file__).resolve().parents[2]
+
+
+def module_files() -> dict[str, Path]:
+    """Every module of the package by its dotted name."""
+    found = {}
+    for path in sorted((ROOT / "garkcli").rglob("*.py")):
+        parts = path.relative_to(ROOT).with_suffix("").parts
+        name = ".".join(parts).removesuffix(".__init__")
+        found[name] = path
+    return found
+
+
+def is_for_types_only(node: ast.AST) -> bool:
+    """Whether a statement is ``if TYPE_CHECKING:``, whose imports are never executed."""
+    return (
+        isinstance(node, ast.If)
+        and isinstance(node.test, ast.Name)
+        and node.test.id == "TYPE_CHECKING"
+    )
+
+
+def executed(node: ast.AST) -> Iterator[ast.AST]:
+    """All nodes below ``node`` but for what only type checkers read."""
+    for child in ast.iter_child_nodes(node):
+        if not is_for_types_only(child):
+            yield child
+            yield from executed(child)
+
+
+def imported_modules(text: str, modules: Mapping[str, Path]) -> set[str]:
+    """The modules of the package that a file imports, at its top or in a function."""
+    found = set()
+    for node in executed(ast.parse(text)):
+        if isinstance(node, ast.Import):
+            found |= {alias.name for alias in node.names}
+        elif isinstance(node, ast.ImportFrom) and node.module:
+            for alias in node.names:
+                submodule = f"{node.module}.{alias.name}"
+                found.add(submodule if submodule in modules else node.module)
+    return found & set(modules)
+
+
+def test_no_circle_of_imports() -> None:
+    """Each module can be read after those it imports: components of the graph are single modules."""
+    modules = module_files()
+    graph = {
+        name: sorted(imported_modules(path.read_text(encoding="utf-8"), modules))
+        for name, path in modules.items()
+    }
+    assert len(graph) > 100
+    assert not any(name in imported for name, imported in graph.items())
+    circles = [component for component in components(graph) if len(component) > 1]
+    assert circles == []
+
+
+def test_imports_in_functions_are_seen_and_those_for_types_are_not() -> None:
+    """What the graph is made of: any import that runs at some time."""
+    modules = dict.fromkeys(["garkcli.a", "garkcli.b", "garkcli.c", "garkcli.d"], Path())
+    text = (
+        "from typing import TYPE_CHECKING\nimport garkcli.a\n"
+        "if TYPE_CHECKING:\n    from garkcli.b import x\n"
+        "def f():\n    from garkcli.c import y\n    from garkcli import d\n"
+    )
+    assert imported_modules(text, modules) == {"garkcli.a", "garkcli.c", "garkcli.d"}
