@@ -92,24 +92,36 @@ def simplifying(
 
     With a ``tolerance`` every entry of every condition is met within it, otherwise exactly.
     """
-    defects, spaces = Defects(tableau), [tableau.space(l) for l in range(tableau.size)]
-    colours = range(tableau.size)
+    defects, colours = Defects(tableau), range(tableau.size)
+    alike = _Alike.of(tableau)
+    B: dict[int, int] = {}
+    C: dict[tuple[int, int], int] = {}
+    D: dict[tuple[int, int], int] = {}
 
     def largest(is_met: Callable[[int], bool]) -> int:
         return next((k - 1 for k in range(1, limit + 1) if not is_met(k)), limit)
 
     def r(l: int) -> int:
-        return largest(lambda k: within(defects.B(l, k), tolerance))
+        key = alike.weights[l]
+        if key not in B:
+            B[key] = largest(lambda k: within(defects.B(l, k), tolerance))
+        return B[key]
 
     def eta(l: int, m: int) -> int | None:
         if tableau.block(l, m) is None:
             return None
-        return largest(lambda k: vector_within(spaces[l], defects.C(l, m, k), tolerance))
+        key, space = (alike.nodes[l], m), tableau.space(l)
+        if key not in C:
+            C[key] = largest(lambda k: vector_within(space, defects.C(l, m, k), tolerance))
+        return C[key]
 
     def zeta(l: int, m: int) -> int | None:
         if tableau.block(l, m) is None:
             return None
-        return largest(lambda k: functional_within(spaces[m], defects.D(l, m, k), tolerance))
+        key, space = (alike.weights[l], m), tableau.space(m)
+        if key not in D:
+            D[key] = largest(lambda k: functional_within(space, defects.D(l, m, k), tolerance))
+        return D[key]
 
     return Simplifying(
         tuple(r(l) for l in colours),
@@ -118,12 +130,40 @@ def simplifying(
     )
 
 
+@dataclass(frozen=True)
+class _Alike:
+    """For each colour the first one with the same stages and nodes, and with the same weights too.
+
+    Their rows of conditions are the same: in an additive method of many colours all are.
+    """
+
+    nodes: tuple[int, ...]
+    weights: tuple[int, ...]
+
+    @staticmethod
+    def of(tableau: Tableau) -> _Alike:
+        nodes: dict[object, int] = {}
+        weights: dict[object, int] = {}
+        firsts = [
+            (
+                nodes.setdefault((x.space, x.c), l),
+                weights.setdefault((x.space, x.c, x.b), l),
+            )
+            for l, x in enumerate(tableau.colours)
+        ]
+        return _Alike(tuple(x for x, _ in firsts), tuple(x for _, x in firsts))
+
+
 def consistent_blocks(tableau: Tableau, tolerance: fmpq = ZERO) -> dict[tuple[int, int], bool]:
     """For each block that exists whether A^{l,m} 𝟙 = c^{l}, eq. (Aone), within ``tolerance`` at
     every stage.
     """
-    defects = Defects(tableau)
-    return {
-        (l, m): vector_within(tableau.space(l), defects.C(l, m, 1), tolerance)
-        for l, m in tableau.edges()
-    }
+    defects, alike = Defects(tableau), _Alike.of(tableau)
+    known: dict[tuple[int, int], bool] = {}
+    found: dict[tuple[int, int], bool] = {}
+    for l, m in tableau.edges():
+        key = alike.nodes[l], m
+        if key not in known:
+            known[key] = vector_within(tableau.space(l), defects.C(l, m, 1), tolerance)
+        found[l, m] = known[key]
+    return found

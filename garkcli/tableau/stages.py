@@ -42,6 +42,10 @@ MAX_BITS_COMPARED = 5_000_000
 """Longest denominators that are compared with each other only to tell what they share."""
 
 
+MOST_MOMENTS = 8
+"""So many functionals of a stage space have their moments kept."""
+
+
 class StageSpace(ABC):
     """A commutative algebra of dimension ``stages`` over the domain of the coefficients."""
 
@@ -294,7 +298,18 @@ class PolynomialSpace(StageSpace):
         return tuple(moments[i : i + s] for i in range(s))
 
     def _moments(self, functional: Vector) -> Vector:
-        """The functional on 1, x, …, x^(2s−2)."""
+        """The functional on 1, x, …, x^(2s−2); kept for weights, which are asked for again."""
+        if functional not in self._known_moments:
+            if len(self._known_moments) >= MOST_MOMENTS:
+                self._known_moments.clear()
+            self._known_moments[functional] = self._new_moments(functional)
+        return self._known_moments[functional]
+
+    @cached_property
+    def _known_moments(self) -> dict[Vector, Vector]:
+        return {}
+
+    def _new_moments(self, functional: Vector) -> Vector:
         if is_rational((functional,)):
             return tuple((to_flint((functional,), self.stages) * self._higher_in_flint).entries())
         return apply_left(functional, self._higher)
