@@ -3,10 +3,7 @@
 from __future__ import annotations
 
 import os
-import sys
 from contextlib import suppress
-from functools import cache
-from pathlib import Path
 from typing import TYPE_CHECKING
 
 import click
@@ -86,9 +83,10 @@ def find_problem(name_or_path: str, tableau: Tableau, seed: int | None = None) -
     check_seed(name_or_path, seed)
     terms = terms_of(with_joined_terms(tableau))
     if is_path(name_or_path):
+        from garkcli.methodfile.problem import load_problem
         from garkcli.stepping.matching import split_into
 
-        return split_into(_loaded(name_or_path, _stamp(name_or_path)), terms)
+        return split_into(load_problem(name_or_path), terms)
     return hamiltonian(name_or_path, terms, 1 if seed is None else seed)
 
 
@@ -100,21 +98,3 @@ def note_changing(problem: Hamiltonian, output: Output) -> None:
         output.note(
             f"{problem.name}: {name} is no invariant: the exact solution changes it by {change:.2g} to t = {time}"
         )
-
-
-def _stamp(path: str) -> object:
-    """What changes when another file, or another standard input, has the same name."""
-    if path == "-":
-        return sys.stdin
-    with suppress(OSError):
-        found = Path(path).stat()
-        return found.st_mtime_ns, found.st_size
-    return None
-
-
-@cache
-def _loaded(path: str, stamp: object) -> Hamiltonian:  # noqa: ARG001 -- the stamp is part of the key
-    """A problem file, read once for all methods."""
-    from garkcli.methodfile.problem import load_problem
-
-    return load_problem(path)

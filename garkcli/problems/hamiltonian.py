@@ -71,7 +71,8 @@ def symbols(variables: tuple[str, ...], group: Group) -> tuple[Any, ...]:
     """The sympy symbols of the positions or of their momenta, shape (d,)."""
     import sympy
 
-    return tuple(sympy.Symbol(x if group == "q" else f"p{x}", real=True) for x in variables)
+    prefix = "" if group == "q" else "p"
+    return tuple(sympy.Symbol(prefix + name, real=True) for name in variables)
 
 
 @dataclass(frozen=True)
@@ -104,8 +105,13 @@ class VectorField:
         """A bound of the degree of all components, before terms cancel; None when they are not
         polynomials.
         """
-        found = [_degree(f) for f in self.components]
-        return None if None in found else max(x for x in found if x is not None)
+        largest = 0
+        for component in self.components:
+            degree = _degree(component)
+            if degree is None:
+                return None
+            largest = max(largest, degree)
+        return largest
 
     def derivative(self, group: Group) -> tuple[tuple[Any, ...], ...]:
         """The Jacobian by positions or by momenta, sympy expressions, shape (d, d)."""
@@ -128,11 +134,13 @@ def vector_field(problem: Hamiltonian, term: int, drives: Group) -> VectorField:
     """V^{l} for ``drives`` q, F^{l} for p."""
     import sympy
 
-    H, sign = problem.terms[term], 1 if drives == "q" else -1
-    by = symbols(problem.variables, "p" if drives == "q" else "q")
-    components = tuple(sign * sympy.diff(H, x) for x in by)
+    H = problem.terms[term]
+    if drives == "q":
+        components = tuple(sympy.diff(H, x) for x in symbols(problem.variables, "p"))
+    else:
+        components = tuple(-sympy.diff(H, x) for x in symbols(problem.variables, "q"))
     free = set().union(*(f.free_symbols for f in components))
-    depends = tuple(g for g in GROUPS if free & set(symbols(problem.variables, g)))
+    depends = tuple(g for g in GROUPS if not free.isdisjoint(symbols(problem.variables, g)))
     return VectorField(components, problem.variables, depends)
 
 
@@ -142,10 +150,9 @@ def energy_function(problem: Hamiltonian, digits: int) -> Callable[..., list[Any
 
     For balls the rational constants are enclosed once, at the precision in force now.
     """
-    arguments = tuple(x for g in GROUPS for x in symbols(problem.variables, g))
-    return function(
-        (problem.energy, *(x for _, x in problem.invariants)), arguments, digits > FLOAT_DIGITS
-    )
+    arguments = (*symbols(problem.variables, "q"), *symbols(problem.variables, "p"))
+    invariants = [x for _, x in problem.invariants]
+    return function((problem.energy, *invariants), arguments, digits > FLOAT_DIGITS)
 
 
 def is_constant(x: Any) -> bool:
@@ -164,6 +171,7 @@ def is_constant(x: Any) -> bool:
 
 
 _SIMPLE = 200  # operations
+_TRIES = 8  # random places where two values are looked for
 
 
 def _differs(x: Any, names: tuple[Any, ...]) -> bool:
@@ -171,17 +179,22 @@ def _differs(x: Any, names: tuple[Any, ...]) -> bool:
     no constant.
     """
     draw = Draw(1)
-    found: list[arb] = []
+    first: arb | None = None
     with ctx.workprec(200):
         value = function((x,), names, True)
-        for _ in range(8):
+        for _ in range(_TRIES):
+            place = [arb(fmpq(draw.between(1, 999), 1000)) for _ in names]
             try:
-                (ball,) = value(*(arb(fmpq(draw.between(1, 999), 1000)) for _ in names))
-            except (ArithmeticError, ValueError):
+                (ball,) = value(*place)
+            except (ArithmeticError, ValueError):  # not defined here
                 continue
-            found.append(arb(ball))
-    finite = [x for x in found if x.is_finite()]
-    return any(not x.overlaps(finite[0]) for x in finite[1:])
+            if not ball.is_finite():
+                continue
+            if first is None:
+                first = ball
+            elif not ball.overlaps(first):
+                return True
+    return False
 
 
 def _degree(x: Any) -> int | None:
@@ -195,6 +208,10 @@ def _degree(x: Any) -> int | None:
         return None if base is None else base * int(x.exp)
     if not (x.is_Add or x.is_Mul):
         return None
-    parts = [_degree(y) for y in x.args]
-    known = [y for y in parts if y is not None]
-    return None if len(known) < len(parts) else max(known) if x.is_Add else sum(known)
+    parts = []
+    for y in x.args:
+        degree = _degree(y)
+        if degree is None:
+            return None
+        parts.append(degree)
+    return max(parts) if x.is_Add else sum(parts)

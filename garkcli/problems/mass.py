@@ -29,7 +29,9 @@ def velocities(variables: tuple[str, ...]) -> tuple[Any, ...]:
 
 def coupled(M: Sequence[Sequence[Any]]) -> list[list[int]]:
     """The sets of velocities that entries of M couple, each in order."""
-    after = {i: [j for j, x in enumerate(row) if x != 0 or M[j][i] != 0] for i, row in enumerate(M)}
+    after: dict[int, list[int]] = {}
+    for i, row in enumerate(M):
+        after[i] = [j for j, x in enumerate(row) if x != 0 or M[j][i] != 0]
     return sorted(sorted(block) for block in components(after))
 
 

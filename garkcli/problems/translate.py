@@ -82,11 +82,10 @@ class Translator:
                 return self.symbols[name]
             case Chain(signs=signs, operands=operands):
                 made = [self._node(x) for x in operands]
-                if signs[0] in "+-":
-                    return sympy.Add(
-                        *(-x if sign == "-" else x for sign, x in zip(signs, made, strict=True))
-                    )
-                return self._product(signs, made, expression)
+                if signs[0] not in "+-":
+                    return self._product(signs, made, expression)
+                terms = [-x if sign == "-" else x for sign, x in zip(signs, made, strict=True)]
+                return sympy.Add(*terms)
             case Power(base=base, exponent=exponent):
                 return self._power(self._node(base), sympy.Integer(exponent), expression)
             case RealPower(base=base, exponent=exponent):
@@ -96,30 +95,25 @@ class Translator:
                 return self._root(self._node(radicand), index, expression)
             case Call(function=function, argument=argument):
                 made = getattr(sympy, function)(self._node(argument))
+                if not made.has(sympy.cot):
+                    return made
                 # sympy writes tan(x + pi/2) so
-                return (
-                    made.replace(sympy.cot, lambda u: 1 / sympy.tan(u))
-                    if made.has(sympy.cot)
-                    else made
-                )
+                return made.replace(sympy.cot, lambda u: 1 / sympy.tan(u))
         raise TypeError(f"no expression: {expression!r}")
 
     def _product(self, signs: str, factors: list[Any], at: Expression) -> Any:
         import sympy
 
-        if sum(_bits(x) for x in factors) > 2 * MAX_BITS:
-            raise LimitExceeded(
-                f"a number of more than {MAX_BITS} bits", "write it smaller", at.start, at.end
-            )
-        return sympy.Mul(
-            *(1 / x if sign == "/" else x for sign, x in zip(signs, factors, strict=True))
-        )
+        if sum(map(_bits, factors)) > 2 * MAX_BITS:
+            raise _too_many_bits(at)
+        made = []
+        for sign, factor in zip(signs, factors, strict=True):
+            made.append(1 / factor if sign == "/" else factor)
+        return sympy.Mul(*made)
 
     def _power(self, base: Any, exponent: Any, at: Expression) -> Any:
         if _bits(base) * abs(exponent) > 2 * MAX_BITS:
-            raise LimitExceeded(
-                f"a number of more than {MAX_BITS} bits", "write it smaller", at.start, at.end
-            )
+            raise _too_many_bits(at)
         made = base**exponent
         if made.is_Pow and made.exp.is_Rational and abs(made.exp) > MAX_EXPONENT:
             message = f"the exponents are {made.exp} together (limit {MAX_EXPONENT})"
@@ -139,6 +133,11 @@ class Translator:
         return -((-radicand) ** power) if radicand.is_negative else radicand**power
 
 
+def _too_many_bits(at: Expression) -> LimitExceeded:
+    message = f"a number of more than {MAX_BITS} bits"
+    return LimitExceeded(message, "write it smaller", at.start, at.end)
+
+
 def _without_kinks(made: Any, at: Expression) -> Any:
     """Refuse |x|, which sympy finds in sqrt(x**2)."""
     import sympy
@@ -156,8 +155,11 @@ def _without_kinks(made: Any, at: Expression) -> Any:
 
 
 def _bits(x: Any) -> int:
+    """The bits of the rational factor of an expression."""
     number = x.as_coeff_Mul()[0]
-    return int(number.p).bit_length() + int(number.q).bit_length() if number.is_Rational else 1
+    if not number.is_Rational:
+        return 1
+    return int(number.p).bit_length() + int(number.q).bit_length()
 
 
 def size_of_derivatives(expression: Any) -> int:

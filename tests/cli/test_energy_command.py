@@ -102,7 +102,7 @@ def test_problem_files() -> None:
         (("--digits", "30"), "--digits is not for the oscillator"),
         (("--problem", "kepler", "--omega", "2"), "--omega is for the oscillator"),
         (("--problem", "kepler", "--split", "1:0,0:1"), "--split is for the oscillator"),
-        (("--problem", "kepler", "--seed", "2"), "--seed is for the problem generic"),
+        (("--problem", "kepler", "--seed", "2"), "--seed is for the problems generic"),
         (("--problem", "keppler"), "did you mean 'kepler'"),
         (("--t-end", "1", "--step", "0.3"), "not a whole number of steps"),
         (("--t-end", "0"), "a positive number is expected"),

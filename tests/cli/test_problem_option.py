@@ -98,7 +98,10 @@ def test_numbers_of_terms(tmp_path: Path) -> None:
         (("--problem", "problems"), "no problem 'problems'"),
         (("--problem", "./problems"), "not a regular file"),
         (("--problem", RECTANGULAR), "this is a method file, not a problem file"),
-        (("--problem", "problems/kepler.yaml", "--seed", "2"), "--seed is for the problem generic"),
+        (
+            ("--problem", "problems/kepler.yaml", "--seed", "2"),
+            "--seed is for the problems generic",
+        ),
         (("--problem", "problems/kepler.yaml", "--omega", "2"), "is for the oscillator"),
         (
             ("--problem", "problems/spherical-pendulum.yaml"),
