@@ -57,6 +57,12 @@ if TYPE_CHECKING:
     help="Order of the rows; worst: the largest residual first.",
 )
 @click.option(
+    "--digits",
+    type=click.IntRange(1, 1000),
+    metavar="N",
+    help="Values and residuals in decimals of N digits; by default exact.",
+)
+@click.option(
     "--document", is_flag=True, help="With --format latex: a document that compiles as it stands."
 )
 @symplectic_options
@@ -70,6 +76,7 @@ def command(
     which: str | None,
     failing: bool,
     sort: str,
+    digits: int | None,
     document: bool,
     symplectic: bool,
     kind: str | None,
@@ -91,7 +98,7 @@ def command(
 
     asked = kind_asked(symplectic, kind, members, output.format)
     orders = range(order, order + 1) if only else range(1, order + 1)
-    if file is None and (which or failing or sort != "tree"):
+    if file is None and (which or failing or digits or sort != "tree"):
         raise UsageProblem("values are those of a method", "give a FILE")
     if file is not None and (colours is not None or coloured is not None):
         raise UsageProblem(
@@ -118,6 +125,8 @@ def command(
         rows = _with_values(valued, orders)
     if sort == "worst":
         rows = iter(sorted(rows, key=_badness, reverse=True))
+    if digits is not None:
+        rows = (replace(row, digits=digits) for row in rows)
     rows = tracked(rows, None, "conditions", output.may_show_progress)
     output.write(
         report.render(rows, output.format, output.paint, output.width, document, subject, valued)

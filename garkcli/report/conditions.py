@@ -10,9 +10,10 @@ from typing import Any
 from flint import fmpq
 
 from garkcli.exact.display import decimal, to_decimal, to_latex, to_text
+from garkcli.exact.field import Number
 from garkcli.order.conditions import Condition
 from garkcli.report.latex import fragment, number
-from garkcli.report.paint import Paint
+from garkcli.report.paint import Paint, folded
 from garkcli.report.symplectic import Subject, legend_lines, member_lines, summary_lines
 from garkcli.report.trees import picture
 from garkcli.tableau.tableau import Tableau
@@ -53,6 +54,7 @@ class ConditionRow:
         stands_for: how many conditions are equivalent to it in a symplectic method; 0 where nobody
             asked.
         members: the trees of these conditions, where asked for.
+        digits: of values in decimals; None for exact ones.
     """
 
     tree: Tree
@@ -60,6 +62,7 @@ class ConditionRow:
     condition: Condition | None = None
     stands_for: int = 0
     members: tuple[Tree, ...] = ()
+    digits: int | None = None
 
     @property
     def formula(self) -> str:
@@ -151,9 +154,9 @@ def _data(row: ConditionRow) -> dict[str, Any]:
         data["for_all"] = list(vertex_letters(tree))
     if row.condition is not None:
         data |= {
-            "value": to_text(row.condition.value),
-            "required": to_text(row.condition.required),
-            "residual": to_text(row.condition.residual),
+            "value": _number(row.condition.value, row.digits),
+            "required": _number(row.condition.required, row.digits),
+            "residual": _number(row.condition.residual, row.digits),
             "holds": row.condition.holds,
             "kind": "coupling" if row.condition.is_coupling else "diagonal",
         }
@@ -246,18 +249,23 @@ def _lines(row: ConditionRow, paint: Paint, width: int) -> Iterator[str]:
     if row.condition is None and len(one) <= width:
         yield one + "\n"
     else:
-        yield f"  {mark}{tree:<22} {sizes}".rstrip() + "\n"
-        yield f"      {row.formula}   {after}".rstrip() + "\n"
+        head = f"{tree:<22} {sizes}".rstrip()
+        lines = [head] if len(head) + 9 <= width else [*folded(tree, width - 9), f"  {sizes}"]
+        yield f"  {mark}{lines[0]}\n"
+        yield from (f"      {line}\n" for line in lines[1:])
+        whole = f"{row.formula}   {after}".rstrip()
+        yield from (f"      {line}\n" for line in folded(whole, width - 6, "    "))
     if row.condition is not None and not row.condition.is_exact:
-        yield f"      {_miss(row.condition)}\n"
+        miss = f"      {_miss(row.condition, row.digits)}"
+        yield from (f"{line}\n" for line in folded(miss, width, "        "))
     yield from (line + "\n" for line in member_lines(map(format_tree, row.members), width))
 
 
-def _miss(condition: Condition) -> str:
-    """The value and the residual, in decimals where they are long."""
+def _miss(condition: Condition, digits: int | None) -> str:
+    """The value and the residual, in decimals where they are long or ``digits`` are asked for."""
     kind = "coupling" if condition.is_coupling else "diagonal"
-    value, residual = to_text(condition.value), to_text(condition.residual)
-    if max(len(value), len(residual)) > MOST_DIGITS:
+    value, residual = _number(condition.value, digits), _number(condition.residual, digits)
+    if digits is None and max(len(value), len(residual)) > MOST_DIGITS:
         value, residual = (
             f"about {to_decimal(condition.value, 8)}",
             to_decimal(condition.residual, 4),
@@ -265,9 +273,16 @@ def _miss(condition: Condition) -> str:
     return f"is {value}, off by {residual}  ({kind} condition)"
 
 
-def _latex_values(condition: Condition) -> tuple[str, str]:
-    """The value and the residual, in decimals where they are long."""
+def _number(value: Number, digits: int | None) -> str:
+    """A number as text, exactly or with so many digits."""
+    return to_text(value) if digits is None else to_decimal(value, digits)
+
+
+def _latex_values(condition: Condition, digits: int | None) -> tuple[str, str]:
+    """The value and the residual, in decimals where they are long or ``digits`` are asked for."""
     value, residual = condition.value, condition.residual
+    if digits is not None:
+        return (number(to_decimal(value, digits)), number(to_decimal(residual, digits)))
     if max(len(to_text(value)), len(to_text(residual))) > MOST_DIGITS:
         return rf"\approx {number(to_decimal(value, 8))}", number(to_decimal(residual, 4))
     return to_latex(value), to_latex(residual)
@@ -293,7 +308,7 @@ def _latex(rows: Iterable[ConditionRow], subject: Subject | None = None) -> Iter
         ]
         cells.append(f"${row.latex}$")
         if row.condition is not None:
-            cells += [f"${cell}$" for cell in _latex_values(row.condition)]
+            cells += [f"${cell}$" for cell in _latex_values(row.condition, row.digits)]
         if row.stands_for:
             cells.append(str(row.stands_for))
         elif not valued:

@@ -14,6 +14,7 @@ from garkcli.errors import Fault
 from garkcli.exact.display import to_float
 from garkcli.problems.oscillator import Oscillator
 from garkcli.report.figures import for_programs
+from garkcli.report.plain import csv_cell
 
 _DIGITS = 6  # of errors
 _SLOPE_DIGITS = 4  # decimal places of slopes and of observed orders
@@ -171,10 +172,12 @@ def _written(
     text = io.StringIO()
     writer = csv.writer(text, lineterminator="\n")
     heads = [*first, *_columns(tests[0][1] if tests else None)]
+    heads = [csv_cell(head) for head in heads]
     writer.writerow([*heads, *_WORK] if with_work else heads)
     for cells, result in tests:
         for row in result.rows:
-            found = [*cells, *_cells(row)]
+            # names are of strangers, numbers are ours
+            found = [*map(csv_cell, cells), *_cells(row)]
             writer.writerow([*found, *_work_cells(row.cost)] if with_work else found)
     return text.getvalue()
 

@@ -12,6 +12,7 @@ from garkcli.longtime.courses import Course, LongRun
 from garkcli.problems.hamiltonian import Hamiltonian
 from garkcli.report.energy_text import Report, text_of
 from garkcli.report.paint import Paint
+from garkcli.report.plain import csv_cell
 
 
 def render(report: Report, format: str, paint: Paint, is_long: bool = True) -> str:  # noqa: A002
@@ -26,7 +27,8 @@ def render(report: Report, format: str, paint: Paint, is_long: bool = True) -> s
 def _csv(run: LongRun) -> str:
     stream = io.StringIO()
     writer = csv.writer(stream, lineterminator="\n")
-    writer.writerow(["t", *(f"{course.name.replace(' ', '_')}_error" for course in run.courses)])
+    names = [csv_cell(course.name.replace(" ", "_")) for course in run.courses]
+    writer.writerow(["t", *(f"{name}_error" for name in names)])
     for t, *errors in zip(run.times, *(course.errors for course in run.courses), strict=True):
         writer.writerow([repr(t), *map(repr, errors)])
     return stream.getvalue()

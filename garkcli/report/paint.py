@@ -2,6 +2,7 @@
 
 from __future__ import annotations
 
+import re
 from collections.abc import Sequence
 from dataclasses import dataclass
 
@@ -24,8 +25,6 @@ class Paint:
         """A line of a drawn tree, its dots in the colours of their numbers."""
         if not self.color:
             return line
-        import re
-
         return re.sub(
             "●([0-9]+)",
             lambda dot: f"\x1b[{_DOTS[(int(dot[1]) - 1) % len(_DOTS)]}m{dot[0]}\x1b[0m",
@@ -48,6 +47,25 @@ def aligned(rows: Sequence[Sequence[str]], gap: str = "  ", right: bool = True) 
     return [
         gap.join(place(x, w) for x, w in zip(row, widths, strict=True)).rstrip() for row in rows
     ]
+
+
+_JOINTS = re.compile(r".+?(?:(?<![∀=⊙]) |\}(?=[Ab(])|\](?:_\d+)?,|$)")
+"""Pieces of a formula or of a tree, each up to a place where a line may end."""
+
+
+def folded(text: str, width: int, indent: str = "      ") -> list[str]:
+    """A formula or a tree in lines of at most ``width``, where it has places to break; those after
+    the first are indented.
+
+    >>> folded("b{l}A{l,m}A{m,n} = 1/24", 16, "  ")
+    ['b{l}A{l,m}A{m,n}', '  = 1/24']
+    """
+    lines = [""]
+    for piece in _JOINTS.findall(text):
+        if lines[-1].strip() and len((lines[-1] + piece).rstrip()) > width:
+            lines.append(indent)
+        lines[-1] += piece
+    return [line.rstrip() for line in lines]
 
 
 def beside(left: Sequence[str], right: Sequence[str], gap: str = "   ") -> list[str]:

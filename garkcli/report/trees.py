@@ -9,13 +9,15 @@ from itertools import groupby
 from typing import NamedTuple, TypeAlias
 
 from garkcli.report.latex import fragment
-from garkcli.report.paint import Paint
+from garkcli.report.paint import Paint, folded
 from garkcli.trees.drawing import draw_text, tikz
 from garkcli.trees.notation import format_latex, parse_tree
 from garkcli.trees.tree import Tree
 
 Counts: TypeAlias = Sequence[tuple[int, tuple[int, ...]]]
 """For each order, the numbers of trees by root colour."""
+WIDTH = 80
+"""Columns of a terminal that nobody has made wider."""
 DRAWN_ORDER = 4
 """Up to this order the text shows the drawn trees too."""
 
@@ -162,7 +164,10 @@ def _text(
 def _entry(row: TreeRow, many: bool) -> Iterator[str]:
     text = f"  {row.tree:<28} σ = {row.sigma:<4} γ = {row.gamma}"
     if row.order > DRAWN_ORDER:
-        yield text.rstrip() + "\n"
+        fits = len(text.rstrip()) <= WIDTH
+        sizes = text[len(row.tree) + 2 :]
+        lines = [text] if fits else [*folded(f"  {row.tree}", WIDTH, "    "), f"     {sizes}"]
+        yield from (f"{line.rstrip()}\n" for line in lines)
         return
     first, *rest = draw_text(parse_tree(row.tree), many)
     yield f"{text:<52}{first}".rstrip() + "\n"
