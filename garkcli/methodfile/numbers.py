@@ -16,6 +16,15 @@ from garkcli.exact.field import ZERO, Number
 from garkcli.exact.matrix import Matrix, Vector
 from garkcli.exact.rewriting import depth_of, roots_in, size_of, substitute
 from garkcli.methodfile.source import Source, key_nodes, shortened
+from garkcli.methodfile.spellings import (
+    bracketed,
+    explained,
+    first_list_in_rows,
+    holds_several,
+    is_triangle,
+    only_text,
+    opens,
+)
 
 _READ_DIFFERENTLY = re.compile(
     r"[-+]?(0[0-9_]+|0[xob][0-9a-f_]+|[0-9][0-9_]*(:[0-5]?[0-9])+(\.[0-9_]*)?|[0-9]*_[0-9_.]*)",
@@ -107,7 +116,7 @@ class Numbers:
         row: list[Entry] = []
         is_open = False
         for item in items:
-            was_open, is_open = is_open, _opens(item)
+            was_open, is_open = is_open, opens(item)
             if was_open:
                 is_open = False
                 continue
@@ -126,7 +135,7 @@ class Numbers:
         if self._is_text(rows_of, where, "a matrix"):
             return ()
         items = self.source.items(node, where, "write it row by row: [[0, 0], [1/2, 0]]")
-        deep = _first_list_in_rows(items)
+        deep = first_list_in_rows(items)
         if deep is not None:
             message = f"{where}: a list stands where a coefficient is expected"
             self.source.fault(deep, message, "a matrix is a list of rows: [[0, 0], [1/2, 0]]")
@@ -143,13 +152,13 @@ class Numbers:
 
     def _is_text(self, rows: Sequence[Node], where: str, what: str) -> bool:
         """Note, once, rows that are a text of several numbers, as other programs print them."""
-        texts = [_only_text(row) for row in rows]
-        first = next((i for i, text in enumerate(texts) if _holds_several(text)), None)
+        texts = [only_text(row) for row in rows]
+        first = next((i for i, text in enumerate(texts) if holds_several(text)), None)
         if first is None:
             return False
         message = f"{what} is a list, not the text {shortened(texts[first])}"
         example = "[0, 1/2]" if what == "a row" else "[[0, 0], [1/2, 0]]"
-        cure = f"put it in brackets, with commas: {_bracketed(';'.join(texts)) or example}"
+        cure = f"put it in brackets, with commas: {bracketed(';'.join(texts)) or example}"
         self.source.fault(rows[first], message, cure, where=where)
         return True
 
@@ -169,7 +178,7 @@ class Numbers:
         if not rows:
             return rows
         lengths = [len(row) for row in rows]
-        if shape[0] == shape[1] == len(rows) and _is_triangle(lengths):
+        if shape[0] == shape[1] == len(rows) and is_triangle(lengths):
             return self._completed(rows, node, where)
         if len(rows) == shape[0] and set(lengths) == {shape[1]}:
             return rows
@@ -178,7 +187,7 @@ class Numbers:
             message = f"{where} is {len(rows)} by {lengths[0]} and should be {wanted}"
             self.source.fault(node, message, why)
             return rows
-        if shape[0] == shape[1] == len(rows) + 1 and _is_triangle([0, *lengths]):
+        if shape[0] == shape[1] == len(rows) + 1 and is_triangle([0, *lengths]):
             message = f"{where} has {counted(len(rows), 'row')} for {counted(shape[0], 'stage')}"
             cure = "begin with the empty row of the first stage: [[], [1/2], …]"
             self.source.fault(node, message, cure)
@@ -217,78 +226,6 @@ class Numbers:
         return tuple(whole)
 
 
-def _is_triangle(lengths: Sequence[int]) -> bool:
-    """Whether rows end at the diagonal each, or each before it.
-
-    >>> _is_triangle([1, 2, 3]), _is_triangle([0, 1, 2]), _is_triangle([1, 1, 3])
-    (True, True, False)
-    """
-    stages = len(lengths)
-    return list(lengths) in (list(range(stages)), list(range(1, stages + 1)))
-
-
-def _opens(node: Node) -> bool:
-    """Whether a plain value has a function of two arguments that YAML cut at the comma."""
-    if not isinstance(node, ScalarNode) or node.style in {"'", '"'}:
-        return False
-    text = str(node.value)
-    return "root(" in text and text.count("(") > text.count(")")
-
-
-def _first_list_in_rows(items: Sequence[Node]) -> Node | None:
-    """The first entry of a matrix that is a list itself."""
-    for row in items:
-        for entry in row.value if isinstance(row, SequenceNode) else ():
-            if isinstance(entry, SequenceNode):
-                return entry
-    return None
-
-
-_SEVERAL = re.compile(r"[0-9)][ \t]*[,;\n]|[0-9)][ \t]+[0-9.]")
-"""Two numbers with no sign of an operation between them."""
-_IN_PARENTHESES = re.compile(r"\([^()]*\)")
-MAX_PRINTED = 2_000
-"""Longest text that is looked at for being a printed row or matrix."""
-
-
-def _only_text(node: Node) -> str:
-    """The text of a value, or of the only one in a list; empty for anything else."""
-    while isinstance(node, SequenceNode) and len(node.value) == 1:
-        node = node.value[0]
-    return str(node.value) if isinstance(node, ScalarNode) else ""
-
-
-def _holds_several(text: str) -> bool:
-    """Whether a text has several numbers with nothing between them but blanks, commas, semicolons.
-
-    >>> _holds_several("0 0; 1/2 0"), _holds_several("1/2 - 1/3"), _holds_several("root(2, 5)")
-    (True, False, False)
-    """
-    if len(text) > MAX_PRINTED or not _SEVERAL.search(text):
-        return False
-    outside = text
-    while _IN_PARENTHESES.search(outside):
-        outside = _IN_PARENTHESES.sub("0", outside)
-    return _SEVERAL.search(outside) is not None
-
-
-def _bracketed(text: str) -> str:
-    """Numbers parted by blanks or commas, rows by semicolons or line ends, as YAML writes them.
-
-    >>> _bracketed("0 0; 1/2 0"), _bracketed("1/6, 2/3, 1/6")
-    ('[[0, 0], [1/2, 0]]', '[1/6, 2/3, 1/6]')
-    """
-    rows = [row.split() for row in re.split("[;\n]", text.replace(",", " ")) if row.split()]
-    words = [word for row in rows for word in row]
-    if len(words) > 16 or not all(_PLAIN.fullmatch(word) for word in words):
-        return ""
-    texts = [f"[{', '.join(row)}]" for row in rows]
-    return texts[0] if len(texts) == 1 else f"[{', '.join(texts)}]"
-
-
-_PLAIN = re.compile(r"[-+]?[0-9][0-9./]*", re.ASCII)
-
-
 def is_misread(source: Source, node: Node, text: str, where: str) -> bool:
     """Note a plain scalar that YAML itself takes for something else than the number it looks
     like.
@@ -308,45 +245,6 @@ def is_misread(source: Source, node: Node, text: str, where: str) -> bool:
     if message:
         source.fault(node, message, cure, where=where)
     return bool(message)
-
-
-_SPELLINGS: tuple[tuple[re.Pattern[str], str], ...] = tuple(
-    (re.compile(pattern, re.ASCII), cure)
-    for pattern, cure in (
-        (r"(?P<x>[0-9.]+)[dD](?P<n>[-+]?[0-9]+)", "write the exponent with e: {x}e{n}"),
-        (r"(?P<x>[0-9.]+([eE][-+]?[0-9]+)?)_[A-Za-z]\w*", "leave the kind out: {x}"),
-        (r"(?P<x>[0-9]*\.[0-9]+|[0-9]+\.)[fFlLq]\b", "leave the suffix out: {x}"),
-        (r"\b(?P<f>sqrt|cbrt)(?P<x>[0-9]+)", "write {f}({x})"),
-        (r"\b(math|np|numpy|sympy|sp|cmath|jnp)\.(?P<f>sqrt|cbrt)", "write {f}(x)"),
-        (r"\b(?P<f>Sqrt|SQRT)\b", "write sqrt(x)"),
-        (r"\\d?frac", "write fractions as 1/2"),
-        (r"\\sqrt", "write sqrt(x)"),
-        (r"\b(Fraction|Rational)\b", "write fractions as 1/2"),
-        (r"(?P<x>[0-9]+)//(?P<y>[0-9]+)", "write {x}/{y}"),
-        (r"[0-9)][ \t]+[0-9.]+", "put commas between the entries: [0, 1/2]"),
-    )
-)
-"""Numbers as other languages write them, and how a method file does."""
-
-
-def explained(error: ExpressionError, text: str) -> tuple[ExpressionError, str]:
-    """The error with the cure for what comes from another language; and its cause, where that is
-    not the word at fault.
-    """
-    start = error.start
-    if len(text) > MAX_PRINTED:
-        return error, ""
-    for pattern, better in _SPELLINGS:
-        found = pattern.search(text)
-        # the fault lies in what the pattern found, or right behind it
-        if found and found.start() <= start <= found.end():
-            message = error.message
-            if not isinstance(error, UndefinedValue):
-                message = f"{shortened(found.group())} is not how a number is written here"
-            cure = better.format(**found.groupdict())
-            explanation = ExpressionError(message, cure, found.start(), found.end())
-            return explanation, pattern.pattern
-    return error, ""
 
 
 class Values:

@@ -72,9 +72,9 @@ def targets(atheris: Any) -> Mapping[str, Callable[[bytes], None]]:
         from garkcli.exact.domain import Domain
         from garkcli.exact.expression import parse
         from garkcli.exact.rewriting import substitute
-        from garkcli.methodfile import source
+        from garkcli.methodfile import composing
         from garkcli.methodfile.load import loads
-    source.MAX_NODES = NODES
+    composing.MAX_NODES = NODES
     files, values = seeds(), {"tau": parse("1/2")}
 
     def one_file(data: bytes) -> None:

@@ -1,0 +1,152 @@
+"""YAML text to nodes with positions, by PyYAML's parser in Python, within limits.
+
+Composing keeps what ``safe_load`` loses: where each value stands, keys that occur twice, and the
+text of a number as it was written. PyYAML's loader in Python is used whatever there is in C: the two
+word their faults differently and count columns differently, and a file has to be met with the same
+answer on every machine.
+"""
+
+from __future__ import annotations
+
+from collections.abc import Iterator
+
+import yaml
+from yaml.nodes import MappingNode, Node, ScalarNode, SequenceNode
+
+from garkcli.errors import Fault, printable
+
+MAX_NODES = 50_000
+"""Most YAML values in one file, with aliases counted each time they are used."""
+MAX_NESTING = 12
+"""Deepest nesting of lists and mappings; files need six."""
+
+
+class TooLargeError(Exception):
+    def __init__(self, at: Node | yaml.Event, message: str, cure: str) -> None:
+        super().__init__(message)
+        mark = at.start_mark
+        self.line, self.column = (mark.line + 1, mark.column + 1) if mark else (1, 1)
+        self.message, self.cure = message, cure
+
+
+class _Composer(yaml.SafeLoader):
+    """PyYAML's composer; it refuses too many values and too deep nesting as it meets them."""
+
+    def __init__(self, text: str) -> None:
+        super().__init__(text)
+        self._depth = 0
+        self._count = 0
+
+    def _next_event(self) -> yaml.Event:
+        event: yaml.Event = self.peek_event()  # type: ignore[no-untyped-call]
+        return event
+
+    def compose_node(self, parent: Node | None, index: int) -> Node | None:
+        """One value and those in it."""
+        self._count += 1
+        if self._count > MAX_NODES:
+            raise TooLargeError(self._next_event(), _TOO_MANY, "no method needs that")
+        if self._depth >= MAX_NESTING:
+            event = self._next_event()
+            if isinstance(event, (yaml.SequenceStartEvent, yaml.MappingStartEvent)):
+                raise TooLargeError(event, _TOO_DEEP, "no file needs that")
+        self._depth += 1
+        node: Node | None = super().compose_node(parent, index)
+        self._depth -= 1
+        return node
+
+
+_TOO_DEEP = f"nested more than {MAX_NESTING} deep"
+_TOO_MANY = f"more than {MAX_NODES} values in one file"
+_YAML_CURES = (
+    ("'\\t'", "indent with spaces, not with tabs"),
+    ("mapping values are not allowed", "quote a text that holds a colon, and align the keys"),
+    ("block end", "align the keys and the dashes of one list"),
+    ("undefined alias", "define it first as &name, or quote the text"),
+    ("cannot start any token", "quote a text that begins with this sign"),
+    ("another document", "give every method a file of its own"),
+    ("unexpected end of stream", "a quotation mark is open: close it"),
+    ("duplicate anchor", "give every anchor a name of its own"),
+    ("undefined tag", "leave the tag out, or quote the text"),
+)
+"""What is behind the words of PyYAML."""
+
+
+def yaml_fault(error: yaml.MarkedYAMLError) -> Fault:
+    """What PyYAML complains about, where, and its cure."""
+    mark = error.problem_mark or error.context_mark
+    place = (mark.line + 1, mark.column + 1) if mark else (1, 1)
+    context = str(error.context or "")
+    problem = str(error.problem or context)
+    if context.startswith("found "):  # here the context says what is wrong
+        problem = context.partition(";")[0]
+    cure = next((cure for words, cure in _YAML_CURES if words in problem), "")
+    if "parsing a flow" in context and error.context_mark:
+        opened = f"{error.context_mark.line + 1}:{error.context_mark.column + 1}"
+        cure = f"the bracket at {opened} is open: close it, and put commas between its values"
+    return Fault(printable(f"this is not YAML: {problem}"), printable(cure), *place)
+
+
+def compose(text: str) -> Node | None:
+    """The one document of a text, within the limits; None where there is nothing in it."""
+    composer = _Composer(text)
+    try:
+        root: Node | None = composer.get_single_node()
+    finally:
+        composer.dispose()
+    if root is not None:
+        _walk(root)
+    return root
+
+
+def _walk(root: Node) -> None:
+    """Count every value as often as it is used, so that no alias multiplies work unseen."""
+    count = 0
+    pending: list[tuple[Node, int]] = [(root, 1)]
+    while pending:
+        node, depth = pending.pop()
+        count += 1
+        if count > MAX_NODES:
+            raise TooLargeError(root, _TOO_MANY, "aliases count each time")
+        if depth > MAX_NESTING:
+            raise TooLargeError(node, _TOO_DEEP, "no file needs that; or an anchor contains itself")
+        pending += ((child, depth + 1) for child in _children(node))
+
+
+def _children(node: Node) -> Iterator[Node]:
+    if isinstance(node, SequenceNode):
+        yield from node.value
+    elif isinstance(node, MappingNode):
+        for key, value in node.value:
+            yield key
+            yield value
+
+
+def folded_place(text: str, node: ScalarNode, offset: int) -> tuple[int, int]:
+    """Where a value over several lines has its character ``offset``: YAML changes nothing but the
+    space between.
+    """
+    position = node.start_mark.index
+    if node.style in {"|", ">"}:
+        line_end = text.find("\n", position)
+        position = len(text) if line_end < 0 else line_end
+    elif node.style:
+        position += 1
+    for sign in node.value[:offset]:
+        found = position if sign.isspace() else text.find(sign, position) + 1
+        if not found:  # written as an escape
+            break
+        position = found
+    while position < len(text) and text[position].isspace():
+        position += 1
+    line = text.count("\n", 0, position)
+    return line + 1, position - text.rfind("\n", 0, position)
+
+
+def place_of_sign(text: str, sign: object) -> tuple[int, int]:
+    """Where a sign that YAML refuses stands first; one at the start of the text marks its bytes."""
+    code = ord(sign) if isinstance(sign, str) and len(sign) == 1 else sign
+    start = 1 if text.startswith("\ufeff") else 0
+    position = text.find(chr(code), start) if isinstance(code, int) else 0
+    position = max(position, 0)
+    return text.count("\n", 0, position) + 1, position - text.rfind("\n", 0, position)

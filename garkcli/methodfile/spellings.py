@@ -1,0 +1,124 @@
+"""What people write where a file has coefficients and lists: other languages, printed matrices,
+triangles.
+"""
+
+from __future__ import annotations
+
+import re
+from collections.abc import Sequence
+
+from yaml.nodes import Node, ScalarNode, SequenceNode
+
+from garkcli.errors import ExpressionError, UndefinedValue
+from garkcli.methodfile.source import shortened
+
+
+def is_triangle(lengths: Sequence[int]) -> bool:
+    """Whether rows end at the diagonal each, or each before it.
+
+    >>> is_triangle([1, 2, 3]), is_triangle([0, 1, 2]), is_triangle([1, 1, 3])
+    (True, True, False)
+    """
+    stages = len(lengths)
+    return list(lengths) in (list(range(stages)), list(range(1, stages + 1)))
+
+
+def opens(node: Node) -> bool:
+    """Whether a plain value has a function of two arguments that YAML cut at the comma."""
+    if not isinstance(node, ScalarNode) or node.style in {"'", '"'}:
+        return False
+    text = str(node.value)
+    return "root(" in text and text.count("(") > text.count(")")
+
+
+def first_list_in_rows(items: Sequence[Node]) -> Node | None:
+    """The first entry of a matrix that is a list itself."""
+    for row in items:
+        for entry in row.value if isinstance(row, SequenceNode) else ():
+            if isinstance(entry, SequenceNode):
+                return entry
+    return None
+
+
+_SEVERAL = re.compile(r"[0-9)][ \t]*[,;\n]|[0-9)][ \t]+[0-9.]")
+"""Two numbers with no sign of an operation between them."""
+_IN_PARENTHESES = re.compile(r"\([^()]*\)")
+MAX_PRINTED = 2_000
+"""Longest text that is looked at for being a printed row or matrix."""
+
+
+def only_text(node: Node) -> str:
+    """The text of a value, or of the only one in a list; empty for anything else."""
+    while isinstance(node, SequenceNode) and len(node.value) == 1:
+        node = node.value[0]
+    return str(node.value) if isinstance(node, ScalarNode) else ""
+
+
+def holds_several(text: str) -> bool:
+    """Whether a text has several numbers with nothing between them but blanks, commas, semicolons.
+
+    >>> holds_several("0 0; 1/2 0"), holds_several("1/2 - 1/3"), holds_several("root(2, 5)")
+    (True, False, False)
+    """
+    if len(text) > MAX_PRINTED or not _SEVERAL.search(text):
+        return False
+    outside = text
+    while _IN_PARENTHESES.search(outside):
+        outside = _IN_PARENTHESES.sub("0", outside)
+    return _SEVERAL.search(outside) is not None
+
+
+def bracketed(text: str) -> str:
+    """Numbers parted by blanks or commas, rows by semicolons or line ends, as YAML writes them.
+
+    >>> bracketed("0 0; 1/2 0"), bracketed("1/6, 2/3, 1/6")
+    ('[[0, 0], [1/2, 0]]', '[1/6, 2/3, 1/6]')
+    """
+    rows = [row.split() for row in re.split("[;\n]", text.replace(",", " ")) if row.split()]
+    words = [word for row in rows for word in row]
+    if len(words) > 16 or not all(_PLAIN.fullmatch(word) for word in words):
+        return ""
+    texts = [f"[{', '.join(row)}]" for row in rows]
+    return texts[0] if len(texts) == 1 else f"[{', '.join(texts)}]"
+
+
+_PLAIN = re.compile(r"[-+]?[0-9][0-9./]*", re.ASCII)
+
+
+_SPELLINGS: tuple[tuple[re.Pattern[str], str], ...] = tuple(
+    (re.compile(pattern, re.ASCII), cure)
+    for pattern, cure in (
+        (r"(?P<x>[0-9.]+)[dD](?P<n>[-+]?[0-9]+)", "write the exponent with e: {x}e{n}"),
+        (r"(?P<x>[0-9.]+([eE][-+]?[0-9]+)?)_[A-Za-z]\w*", "leave the kind out: {x}"),
+        (r"(?P<x>[0-9]*\.[0-9]+|[0-9]+\.)[fFlLq]\b", "leave the suffix out: {x}"),
+        (r"\b(?P<f>sqrt|cbrt)(?P<x>[0-9]+)", "write {f}({x})"),
+        (r"\b(math|np|numpy|sympy|sp|cmath|jnp)\.(?P<f>sqrt|cbrt)", "write {f}(x)"),
+        (r"\b(?P<f>Sqrt|SQRT)\b", "write sqrt(x)"),
+        (r"\\d?frac", "write fractions as 1/2"),
+        (r"\\sqrt", "write sqrt(x)"),
+        (r"\b(Fraction|Rational)\b", "write fractions as 1/2"),
+        (r"(?P<x>[0-9]+)//(?P<y>[0-9]+)", "write {x}/{y}"),
+        (r"[0-9)][ \t]+[0-9.]+", "put commas between the entries: [0, 1/2]"),
+    )
+)
+"""Numbers as other languages write them, and how a method file does."""
+
+
+def explained(error: ExpressionError, text: str) -> tuple[ExpressionError, str]:
+    """The error with the cure for what comes from another language; and its cause, where that is
+    not the word at fault.
+    """
+    start = error.start
+    if len(text) > MAX_PRINTED:
+        return error, ""
+    for pattern, better in _SPELLINGS:
+        found = pattern.search(text)
+        # the fault lies in what the pattern found, or right behind it
+        if found and found.start() <= start <= found.end():
+            message = error.message
+            if not isinstance(error, UndefinedValue):
+                message = f"{shortened(found.group())} is not how a number is written here"
+            cure = better.format(**found.groupdict())
+            explanation = ExpressionError(message, cure, found.start(), found.end())
+            return explanation, pattern.pattern
+    return error, ""
