@@ -7,9 +7,9 @@ the nodes; with the Vandermonde matrices V of the nodes that is V_l A V_m⁻¹.
 
 from __future__ import annotations
 
-from collections.abc import Callable, Sequence
+from collections.abc import Callable, Mapping, Sequence
 from dataclasses import dataclass, replace
-from functools import cache, lru_cache
+from functools import lru_cache
 from typing import Any, TypeAlias
 
 from flint import arb, arb_mat, ctx, fmpq_poly
@@ -20,7 +20,7 @@ from garkcli.exact.domain import Domain, square_free
 from garkcli.exact.enclosing import enclose
 from garkcli.exact.expression import Chain, Expression, Literal, Root
 from garkcli.exact.field import ONE, ZERO, Algebraic, Number
-from garkcli.exact.matrix import Matrix, Vector, apply, apply_left, identity, multiply, solve
+from garkcli.exact.matrix import Matrix, Vector, apply, apply_left, identity, multiply
 from garkcli.tableau.method import Method
 from garkcli.tableau.stages import PointSpace, PolynomialSpace, StageSpace
 from garkcli.tableau.tableau import Tableau
@@ -138,50 +138,68 @@ def in_points(tableau: Tableau) -> Tableau | None:
 
     Nor have they, where together with the coefficients they generate too large a field.
     """
-    polynomial = {
-        k: simple_nodes(space)
-        for k, space in enumerate(tableau.spaces)
-        if isinstance(space, PolynomialSpace)
-    }
-    if any(nodes is None for nodes in polynomial.values()):
-        return None
-    if not polynomial:
+    radical_nodes: dict[int, tuple[Expression, ...]] = {}
+    for k, space in enumerate(tableau.spaces):
+        if isinstance(space, PolynomialSpace):
+            nodes = simple_nodes(space)
+            if nodes is None:
+                return None
+            radical_nodes[k] = nodes
+    if not radical_nodes:
         return tableau
-    known = [radical for radical, _ in tableau.field.radicals] if tableau.field else []
+    domain = _domain_with(tableau, radical_nodes)
+    return None if domain is None else _at_points(tableau, radical_nodes, domain)
+
+
+def _domain_with(
+    tableau: Tableau, radical_nodes: Mapping[int, Sequence[Expression]]
+) -> Domain | None:
+    """The domain of the coefficients and of these nodes; None where it is too large."""
+    radicals = [radical for radical, _ in tableau.field.radicals] if tableau.field else []
+    for nodes in radical_nodes.values():
+        radicals += nodes
     try:
-        domain = Domain([*known, *(node for nodes in polynomial.values() for node in nodes or ())])
+        return Domain(radicals)
     except LimitExceeded:
         return None
+
+
+@dataclass(frozen=True)
+class _Frame:
+    """A stage space with one coordinate a stage, and the maps of coordinates into it and back.
+
+    ``into`` is the Vandermonde matrix of the nodes for a polynomial space, of shape (s, s).
+    """
+
+    space: PointSpace
+    into: Matrix
+    back: Matrix
+
+
+def _at_points(
+    tableau: Tableau, radical_nodes: Mapping[int, Sequence[Expression]], domain: Domain
+) -> Tableau:
+    """Blocks V_k A V_m⁻¹, weights b V⁻¹ and nodes V c, V the Vandermonde matrices of the nodes."""
     embed = _embedding(tableau, domain)
-
-    @cache
-    def frame(k: int) -> tuple[PointSpace, Matrix, Matrix]:
-        """The new space k, and the maps of coordinates into it and back."""
-        old = tableau.spaces[k]
-        nodes = polynomial.get(k)
-        if nodes is None:
-            points = tuple(embed(x) for x in old.nodes)
-            return PointSpace(points), identity(old.stages), identity(old.stages)
-        space = PointSpace(tuple(domain.evaluate(node) for node in nodes))
-        V = space.reductions(space.stages)
-        return space, V, solve(V, identity(space.stages))
-
-    def column(m: int) -> Matrix:
-        return frame(tableau.colours[m].space)[2]
-
-    blocks = {
-        (k, m): multiply(frame(k)[1], multiply(_embedded(block, embed), column(m)))
-        for (k, m), block in tableau.blocks.items()
-    }
-    colours = tuple(
-        replace(
-            colour,
-            b=apply_left(tuple(map(embed, colour.b)), column(m)),
-            c=apply(frame(colour.space)[1], tuple(map(embed, colour.c))),
-        )
-        for m, colour in enumerate(tableau.colours)
-    )
-    return Tableau(tuple(frame(k)[0] for k in range(len(tableau.spaces))), colours, blocks)
+    frames: list[_Frame] = []
+    for k, old in enumerate(tableau.spaces):
+        if k in radical_nodes:
+            space = PointSpace(tuple(domain.evaluate(node) for node in radical_nodes[k]))
+            frames.append(_Frame(space, space.reductions(space.stages), space.lifts()))
+        else:
+            unit = identity(old.stages)
+            frames.append(_Frame(PointSpace(tuple(map(embed, old.nodes))), unit, unit))
+    blocks: dict[tuple[int, int], Matrix] = {}
+    for (k, m), block in tableau.blocks.items():
+        back = frames[tableau.colours[m].space].back
+        blocks[k, m] = multiply(frames[k].into, multiply(_embedded(block, embed), back))
+    colours = []
+    for colour in tableau.colours:
+        frame = frames[colour.space]
+        b = apply_left(tuple(map(embed, colour.b)), frame.back)
+        c = apply(frame.into, tuple(map(embed, colour.c)))
+        colours.append(replace(colour, b=b, c=c))
+    return Tableau(tuple(frame.space for frame in frames), tuple(colours), blocks)
 
 
 def _embedding(tableau: Tableau, domain: Domain) -> Callable[[Number], Number]:
