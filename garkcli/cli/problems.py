@@ -96,5 +96,6 @@ def note_changing(problem: Hamiltonian, output: Output) -> None:
 
     for name, change, time in changing(problem):
         output.note(
-            f"{problem.name}: {name} is no invariant: the exact solution changes it by {change:.2g} to t = {time}"
+            f"{problem.name}: {name} is no invariant: the exact solution changes it by "
+            f"{change:.2g} to t = {time}"
         )

@@ -163,7 +163,8 @@ class _Reader:
             if f"p{name}" in RESERVED:
                 self.source.fault(
                     node,
-                    f"variables: the momentum of {name} would be p{name}, which has a meaning already",
+                    f"variables: the momentum of {name} would be p{name}, "
+                    f"which has a meaning already",
                     "choose another name",
                 )
             if name in derived:

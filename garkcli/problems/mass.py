@@ -82,7 +82,7 @@ class _Minors:
         return self._of(self._every, self._every)
 
     def adjugate(self) -> list[list[Any]]:
-        """The determinant times the inverse. It is symmetric: one of each pair of entries, written once."""
+        """The determinant times the inverse; symmetric, so one of each pair of entries is made."""
         rows = []
         for i in self._every:
             row = []

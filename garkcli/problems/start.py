@@ -43,7 +43,8 @@ def initial_momenta(
     hessian = [x for g in gradient for x in (g.diff(y) for y in p)]
     if any(x.free_symbols & set(p) for x in hessian):
         raise NoLegendreTransform(
-            "several terms have velocities, and the momenta that belong to their sum were not found",
+            "several terms have velocities, and the momenta that belong to their sum were not "
+            "found",
             "give the initial momenta instead of velocities",
         )
     d = len(p)
