@@ -40,18 +40,25 @@ def changing(problem: Hamiltonian) -> tuple[tuple[str, float, fmpq], ...]:
     except (StepFailed, UsageProblem):
         return ()
     names = tuple(x for group in GROUPS for x in symbols(problem.variables, group))
-    found = ((name, _change(made, names, problem, end)) for name, made in problem.invariants)
-    return tuple((name, change, time) for name, change in found if change)
+    found = []
+    for name, made in problem.invariants:
+        change = _change(made, names, problem, end)
+        if change:
+            found.append((name, change, time))
+    return tuple(found)
 
 
 def _change(made: Any, names: Sequence[Any], problem: Hamiltonian, end: Sequence[arb]) -> float:
     """Of one invariant; 0 where it is no more than the errors of the solution."""
     with ctx.workprec(_BITS):
         start = [arb(x) for x in problem.initial]
-        moved = [b - a for a, b in zip(start, end, strict=True)]
-        at_start, at_end = (dict(zip(names, y, strict=True)) for y in (start, end))
+        at_start = dict(zip(names, start, strict=True))
+        at_end = dict(zip(names, end, strict=True))
         change = enclosed([made], at_end)[0] - enclosed([made], at_start)[0]
         slopes = enclosed([made.diff(x) for x in names], at_end)
-        each = sum((abs(s * x) for s, x in zip(slopes, moved, strict=True)), arb(0))
-        is_change = change.is_finite() and each.is_finite() and abs(change) > _LEAST * each
+        each = arb(0)
+        for slope, before, after in zip(slopes, start, end, strict=True):
+            each += abs(slope * (after - before))
+        is_finite = change.is_finite() and each.is_finite()
+        is_change = is_finite and abs(change) > _LEAST * each
     return float(change.mid()) if is_change else 0.0

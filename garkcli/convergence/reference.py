@@ -28,6 +28,7 @@ _STAGES = 60  # beyond, a step costs more than fewer of them save
 _SPARE = 10  # digits that round-off may grow by
 _CREDIT = 1e-6
 _FAR = 0.01  # part of the solution by which runs differ that have found none
+_LEAST_FACTOR, _LARGEST_FACTOR = 1.3, 8  # of the number of steps, from one run to the next
 _REFINED = 64  # times the first number of steps with which they should have
 
 
@@ -108,7 +109,9 @@ def _solved(
     from garkcli.tableau.forms import gark
 
     stages = min(_STAGES, max(6, 2 * digits // 5))
-    method = bind(gark([diagonal_method("gauss", stages)], {}), problem).at(digits + _SPARE)
+    gauss = gark([diagonal_method("gauss", stages)], {})
+    method = bind(gauss, problem).at(digits + _SPARE)
+    what = f"reference solution, {digits} digits"
     before: list[Any] = []
     fewer, enough = 0, max(MAX_TRIED // 2, _REFINED * steps)
     while True:
@@ -118,36 +121,45 @@ def _solved(
                 "choose an earlier final time",
             )
         try:
-            y = run(method, t_end / steps, steps, watch, f"reference solution, {digits} digits").y
-        except StepFailed as error:
+            y = run(method, t_end / steps, steps, watch, what).y
+        except StepFailed as failure:
             if steps > MAX_TRIED:
-                raise UsageProblem(
-                    f"no solution is found at t = {t_end}: steps of {error.h} fail at t = "
-                    f"{to_float((error.number - 1) * error.h):.4g}, and so do longer ones",
-                    f"choose a final time before {to_float(error.number * error.h):.4g}",
-                ) from None
+                raise _no_solution(t_end, failure) from None
             steps, before = 4 * steps, []
             continue
         if not before:
             before, fewer, steps = y, steps, ceil(1.5 * steps)
             continue
         with ctx.workprec(method.bits):
+            size = magnitude(y, problem)
             change = max((abs(a - b) for a, b in zip(y, before, strict=True)), key=float)
-            goal = arb(10) ** -digits * magnitude(y, problem)
+            goal = arb(10) ** -digits * size
             ratio = arb(fewer) / steps
-            if (
-                change * max(ratio**stages, arb(_CREDIT)) <= goal
-            ):  # both are 0 where the solution rests at 0
+            left = change * max(ratio**stages, arb(_CREDIT))
+            if left <= goal:  # both are 0 where the solution rests at 0
                 return tuple(y), steps
-            if fewer > enough and change > _FAR * magnitude(y, problem):
+            if fewer > enough and change > _FAR * size:
                 raise UsageProblem(
-                    f"no solution is found at t = {t_end}: {fewer} and {steps} steps end far from each other",
-                    "choose an earlier final time: it comes near a singularity, or depends on its start too much",
+                    f"no solution is found at t = {t_end}: "
+                    f"{fewer} and {steps} steps end far from each other",
+                    "choose an earlier final time: it comes near a singularity, "
+                    "or depends on its start too much",
                 )
             excess = float((change * ratio ** (2 * stages) / goal).mid())
         before, fewer = y, steps
-        factor = 1.1 * excess ** (1 / stages) if excess > 0 else 1.3
-        steps = ceil(steps * min(max(factor, 1.3), 8))
+        factor = 1.1 * excess ** (1 / stages) if excess > 0 else _LEAST_FACTOR
+        steps = ceil(steps * min(max(factor, _LEAST_FACTOR), _LARGEST_FACTOR))
+
+
+def _no_solution(t_end: fmpq, failure: StepFailed) -> UsageProblem:
+    """What is said where even short steps fail."""
+    start = to_float((failure.number - 1) * failure.h)
+    end = to_float(failure.number * failure.h)
+    return UsageProblem(
+        f"no solution is found at t = {t_end}: steps of {failure.h} fail at t = {start:.4g}, "
+        "and so do longer ones",
+        f"choose a final time before {end:.4g}",
+    )
 
 
 def magnitude(y: Sequence[Any], problem: Hamiltonian) -> arb:
