@@ -56,33 +56,15 @@ def analyse_within(tableau: Tableau, tolerance: fmpq, limit: int) -> Analysis:
     if not inconsistent:
         conditions = replace(conditions, B=_implied(tableau, conditions.B, order.order, tolerance))
     symplectic = is_symplectic_within(tableau, tolerance) and _explained(tableau, rounding)
-    conjugate_part = pair_part = None
-    if conjugated is not None:
-        made = rounding.of_conjugate(conjugated) if rounding else None
-        conjugate_part = _Derived.of(conjugated, made, tolerance, limit)
-    if both is not None and not is_pair_of_itself(tableau, both):
-        made = rounding.of_pair(both) if rounding else None
-        pair_part = _Derived.of(both, made, tolerance, limit)
-    elif both is not None:
-        pair_part = _Derived(both, order, tolerance)
-    conjugate_order = conjugate_part.order if conjugate_part else None
-    pair_order = pair_part.order if pair_part else None
-    if symplectic:
-        conjugate_order = _same(conjugate_order, order)
-        pair_order = _same(pair_order, order)
-    elif conjugated is not None and conjugate_order is not None:
-        conjugate_order = _no_earlier(conjugate_order, order, conjugated)
-    if pair_order is not None and not symplectic and not tableau.is_partitioned:
-        pair_order = _at_most(pair_order, order, 0)
-        if conjugate_order is not None:
-            pair_order = _at_most(pair_order, conjugate_order, tableau.size)
-    bound = min(conditions.bound, order.order)
-    pair_conditions = pair_bound = None
-    if pair_part is not None and pair_order is not None:
-        pair_conditions = simplifying(pair_part.tableau, limit, pair_part.tolerance)
+    hat = _conjugate_part(conjugated, rounding, tolerance, limit)
+    both_parts = _pair_part(tableau, both, rounding, order, limit)
+    hat, both_parts = _agreeing(tableau, order, symplectic, hat, both_parts)
+    pair_conditions = None
+    if both_parts is not None:
+        pair_conditions = simplifying(both_parts.tableau, limit, both_parts.tolerance)
         if not tableau.is_partitioned:
             pair_conditions = _with_own(pair_conditions, conditions)
-        pair_bound = min(pair_conditions.bound, pair_order.order)
+    pair_order = both_parts.order if both_parts else None
     return Analysis(
         tableau=tableau,
         order=order,
@@ -90,13 +72,13 @@ def analyse_within(tableau: Tableau, tolerance: fmpq, limit: int) -> Analysis:
         inconsistent=inconsistent,
         symplectic=symplectic,
         conjugate=conjugated,
-        conjugate_order=conjugate_order,
-        conjugate_inconsistent=_conjugate_nodes(conjugate_part, symplectic, inconsistent),
+        conjugate_order=hat.order if hat else None,
+        conjugate_inconsistent=_conjugate_nodes(hat, symplectic, inconsistent),
         pair=both,
         pair_order=pair_order,
         pair_simplifying=pair_conditions,
-        bound=bound,
-        pair_bound=pair_bound,
+        bound=min(conditions.bound, order.order),
+        pair_bound=_capped(pair_conditions, pair_order),
         obstacle=obstacle,
         limit=limit,
         tolerance=tolerance,
@@ -108,6 +90,13 @@ def analyse_within(tableau: Tableau, tolerance: fmpq, limit: int) -> Analysis:
         ),
         suggestion=suggest_wider(tableau, order, limit),
     )
+
+
+def _capped(conditions: Simplifying | None, order: RoundedOrder | None) -> int | None:
+    """A bound, as far as the order bears it out."""
+    if conditions is None or order is None:
+        return None
+    return min(conditions.bound, order.order)
 
 
 @dataclass(frozen=True)
@@ -125,6 +114,49 @@ class _Derived:
         order = find_order_within(tableau, tolerance, limit, effect)
         wider = tolerance + rounded_up(made.largest_row_sum()) if made else tolerance
         return _Derived(tableau, order, wider if wider <= TINY else tolerance)
+
+
+def _conjugate_part(
+    conjugated: Tableau | None, rounding: ConjugateRounding | None, tolerance: fmpq, limit: int
+) -> _Derived | None:
+    if conjugated is None:
+        return None
+    made = rounding.of_conjugate(conjugated) if rounding else None
+    return _Derived.of(conjugated, made, tolerance, limit)
+
+
+def _pair_part(
+    tableau: Tableau,
+    both: Tableau | None,
+    rounding: ConjugateRounding | None,
+    order: RoundedOrder,
+    limit: int,
+) -> _Derived | None:
+    if both is None:
+        return None
+    if is_pair_of_itself(tableau, both):
+        return _Derived(both, order, order.tolerance)
+    made = rounding.of_pair(both) if rounding else None
+    return _Derived.of(both, made, order.tolerance, limit)
+
+
+def _agreeing(
+    tableau: Tableau,
+    order: RoundedOrder,
+    symplectic: bool,
+    hat: _Derived | None,
+    both: _Derived | None,
+) -> tuple[_Derived | None, _Derived | None]:
+    """The conjugate and the pair with orders that agree with that of the method."""
+    if symplectic:
+        return _like(hat, order), _like(both, order)
+    if hat is not None:
+        hat = replace(hat, order=_no_earlier(hat.order, order, hat.tableau))
+    if both is not None and not tableau.is_partitioned:
+        both = replace(both, order=_at_most(both.order, order, 0))
+        if hat is not None:
+            both = replace(both, order=_at_most(both.order, hat.order, tableau.size))
+    return hat, both
 
 
 def _unknown(_: int) -> arb | None:
@@ -148,12 +180,13 @@ def _explained(tableau: Tableau, rounding: ConjugateRounding | None) -> bool:
     return True
 
 
-def _same(found: RoundedOrder | None, own: RoundedOrder) -> RoundedOrder | None:
-    """The order of what is the method itself within the tolerance: that of the method."""
-    if found is None:
+def _like(derived: _Derived | None, own: RoundedOrder) -> _Derived | None:
+    """What is the method itself within the tolerance has the order of the method."""
+    if derived is None:
         return None
+    found = derived.order
     is_same = found.order == own.order and found.is_lower_bound == own.is_lower_bound
-    return found if is_same else own
+    return derived if is_same else replace(derived, order=own)
 
 
 def _at_most(pair_order: RoundedOrder, part: RoundedOrder, shift: int) -> RoundedOrder:

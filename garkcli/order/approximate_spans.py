@@ -162,21 +162,45 @@ def _reduced(hulls: Sequence[_Hull], grain: arb) -> _Hull | None:
     """Few of the members of all hulls, and bounds that hold for everything in any of them."""
     if not hulls:
         return None
-    points = [[arb(1), *member.vector] for hull in hulls for member in hull.members]
+    members = [member for hull in hulls for member in hull.members]
+    points = [[arb(1), *member.vector] for member in members]
     chosen, weights = _affine_weights(points, grain)
+    kept = [members[i] for i in chosen]
     misses = (arb_mat(points) - weights * arb_mat([points[i] for i in chosen])).tolist()
-    start, weight, error, size = 0, arb(0), None, None
+    rows = weights.tolist()
+    found: _Hull | None = None
+    start = 0
     for hull in hulls:
         part = slice(start, start + len(hull.members))
         start = part.stop
-        amount = _largest(reduce(add, map(abs, row)) for row in weights.tolist()[part])
-        miss = reduce(_entrywise, ([abs(x) for x in row[1:]] for row in misses[part]))
-        weight = weight.max(hull.weight * amount)
-        grown = [e + hull.weight * d for e, d in zip(hull.error, miss, strict=True)]
-        error = grown if error is None else _entrywise(error, grown)
-        size = hull.size if size is None else _entrywise(size, hull.size)
-    members = [member for hull in hulls for member in hull.members]
-    return _Hull([members[i] for i in chosen], weight, error or [], size or [])
+        found = _joined(found, _around(kept, hull, rows[part], misses[part]))
+    return found
+
+
+def _around(
+    kept: Sequence[_Member], hull: _Hull, weights: list[Entries], misses: list[Entries]
+) -> _Hull:
+    """The bounds of one hull around the members that are kept.
+
+    ``weights`` and ``misses`` have a row for each member of the hull: its λ in the members kept, and
+    what these leave of (1, ψ).
+    """
+    amount = _largest(reduce(add, map(abs, row)) for row in weights)
+    miss = reduce(_entrywise, ([abs(x) for x in row[1:]] for row in misses))
+    error = [e + hull.weight * d for e, d in zip(hull.error, miss, strict=True)]
+    return _Hull(kept, hull.weight * amount, error, hull.size)
+
+
+def _joined(one: _Hull | None, other: _Hull) -> _Hull:
+    """Bounds that hold in both of two hulls with the same members."""
+    if one is None:
+        return other
+    return _Hull(
+        other.members,
+        one.weight.max(other.weight),
+        _entrywise(one.error, other.error),
+        _entrywise(one.size, other.size),
+    )
 
 
 def _affine_weights(points: Sequence[Entries], grain: arb) -> tuple[list[int], arb_mat]:
