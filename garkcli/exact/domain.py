@@ -54,9 +54,8 @@ class Domain:
         self._are_real = are_real
         self._values: dict[Root, Number] = {}
         irrational = []
-        for root in dict.fromkeys(
-            root for expression in expressions for root in roots_in(expression)
-        ):
+        found = [root for expression in expressions for root in roots_in(expression)]
+        for root in dict.fromkeys(found):  # each once, the inner ones first
             value = self._rational_root(root)
             if value is None:
                 irrational.append(root)
@@ -90,22 +89,24 @@ class Domain:
             case Chain(signs=signs, operands=operands):
                 total: Number = ZERO if signs[0] in "+-" else ONE
                 for sign, operand in zip(signs, operands, strict=True):
-                    total = _bounded(
-                        _apply(sign, total, self.evaluate(operand), operand), expression
-                    )
+                    number = self.evaluate(operand)
+                    total = _bounded(_apply(sign, total, number, operand), expression)
                 return total
             case Power(base=base, exponent=exponent):
-                number = self.evaluate(base)
-                if not number and exponent < 0:
-                    raise UndefinedValue("division by zero", "", expression.start, expression.end)
-                if _bits(number) * abs(exponent) > MAX_BITS:
-                    _bounded(None, expression)
-                return number**exponent
+                return self._power(self.evaluate(base), exponent, expression)
             case Root():
                 return self._values[expression]
             case Name(name=name):
                 raise UndefinedValue(f"{name!r} has no value", "", expression.start, expression.end)
         raise TypeError(f"no expression: {expression!r}")
+
+    def _power(self, number: Number, exponent: int, at: Expression) -> Number:
+        """A power, refused before it is computed where it would be too long."""
+        if not number and exponent < 0:
+            raise UndefinedValue("division by zero", "", at.start, at.end)
+        if _bits(number) * abs(exponent) > MAX_BITS:
+            _bounded(None, at)
+        return number**exponent
 
     def _rational_root(self, root: Root) -> Number | None:
         """The value of a root that is rational because its radicand is a perfect power; else

@@ -76,37 +76,45 @@ def render(tableau: Tableau, entries: Entries, title: str, paint: Paint, width: 
 
 def _grid(tableau: Tableau, entries: Entries) -> list[str]:
     """C | A^{1,1} | A^{1,2} | …, one colour under the other, b below."""
-    digits, N = entries.digits, tableau.size
     shown = distinct_rows(tableau)
-    nodes = [cell_text(x, digits) for l in shown for x in entries.c[l]]
-    texts = [aligned([[x] for x in ["", *nodes, ""]])]
-    for m in range(N):
-        stages = len(entries.b[m])
-        rows: list[list[str]] = [[""] * stages]
-        for l in shown:
-            block = entries.A[l][m]
-            height = len(entries.c[l])
-            absent = [["."] * stages] * height
-            rows += (
-                absent if block is None else [[cell_text(x, digits) for x in row] for row in block]
-            )
-        rows.append([cell_text(x, digits) for x in entries.b[m]])
-        lines = aligned(rows)
-        lines[0] = tableau.colours[m].name
-        texts.append(lines)
-    widths = [max(map(len, text)) for text in texts]
-    body = [
-        " | ".join(t[i].rjust(w) for t, w in zip(texts, widths, strict=True))
-        for i in range(len(texts[0]))
-    ]
-    rule = "-+-".join("-" * w for w in widths)
-    out = [body[0], rule]
+    columns = [_node_column(entries, shown)]
+    columns += [_colour_column(tableau, entries, shown, m) for m in range(tableau.size)]
+    widths = [max(map(len, column)) for column in columns]
+    lines = []
+    for cells in zip(*columns, strict=True):
+        padded = [cell.rjust(width) for cell, width in zip(cells, widths, strict=True)]
+        lines.append(" | ".join(padded))
+    rule = "-+-".join("-" * width for width in widths)
+    out = [lines[0], rule]
     start = 1
     for l in shown:
-        height = len(entries.c[l])
-        out += [*body[start : start + height], rule]
-        start += height
-    return [line.rstrip() for line in [*out, body[-1]]]
+        end = start + len(entries.c[l])
+        out += [*lines[start:end], rule]
+        start = end
+    out.append(lines[-1])
+    return [line.rstrip() for line in out]
+
+
+def _node_column(entries: Entries, shown: list[int]) -> list[str]:
+    """The nodes of the stage spaces shown, between an empty head and an empty foot."""
+    nodes = [cell_text(x, entries.digits) for l in shown for x in entries.c[l]]
+    return aligned([[text] for text in ["", *nodes, ""]])
+
+
+def _colour_column(tableau: Tableau, entries: Entries, shown: list[int], m: int) -> list[str]:
+    """The name of a colour, its blocks under each other, and its weights."""
+    digits, stages = entries.digits, len(entries.b[m])
+    rows: list[list[str]] = [[""] * stages]
+    for l in shown:
+        block = entries.A[l][m]
+        if block is None:
+            rows += [["."] * stages] * len(entries.c[l])
+        else:
+            rows += [[cell_text(x, digits) for x in row] for row in block]
+    rows.append([cell_text(x, digits) for x in entries.b[m]])
+    lines = aligned(rows)
+    lines[0] = tableau.colours[m].name
+    return lines
 
 
 def distinct_rows(tableau: Tableau) -> list[int]:

@@ -102,13 +102,14 @@ def is_symplectic(tableau: Tableau) -> bool:
         for m, other in enumerate(tableau.colours):
             if are_opposite(one, other) and not _is_symplectic_between(tableau, l, m):
                 return False
-            if (
-                one.space == other.space
-                and {one.part, other.part} == {"q", "p"}
-                and one.b != other.b
-            ):
+            if _share_stages(one, other) and one.b != other.b:
                 return False
     return True
+
+
+def _share_stages(one: Colour, other: Colour) -> bool:
+    """Whether a velocity and a force are evaluated at the same stages."""
+    return one.space == other.space and {one.part, other.part} == {"q", "p"}
 
 
 def _is_symplectic_between(tableau: Tableau, l: int, m: int) -> bool:

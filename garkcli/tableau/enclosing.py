@@ -16,7 +16,7 @@ from garkcli.tableau.pointwise import Cell, numeric_entries
 from garkcli.tableau.stages import PointSpace
 from garkcli.tableau.tableau import Tableau
 
-MOST_DIGITS = 300
+MAX_DIGITS = 300
 """Digits to which entries of polynomial stage spaces are enclosed at most; the exponents of floats
 end at 308.
 """
@@ -46,7 +46,7 @@ def enclose_tableau(tableau: Tableau, bits: int) -> Enclosure:
     """The entries to ``bits`` bits.
 
     Where all coefficients are spelled out any number of bits is reached; the nodes of families are
-    known to ``MOST_DIGITS`` digits at most.
+    known to ``MAX_DIGITS`` digits at most.
     """
     digits = int((bits + GUARD) * 0.302)
     with ctx.workprec(bits + GUARD):
@@ -54,7 +54,7 @@ def enclose_tableau(tableau: Tableau, bits: int) -> Enclosure:
             A = {key: _balls(block, digits) for key, block in tableau.blocks.items()}
             b = [_balls([colour.b], digits).transpose() for colour in tableau.colours]
         else:
-            found = numeric_entries(tableau, min(digits, MOST_DIGITS))
+            found = numeric_entries(tableau, min(digits, MAX_DIGITS))
             colour_of = {colour.space: l for l, colour in enumerate(tableau.colours)}
             A = {(k, m): _matrix(found.A[colour_of[k]][m] or ()) for k, m in tableau.blocks}
             b = [_matrix([row]).transpose() for row in found.b]

@@ -42,7 +42,7 @@ MAX_BITS_COMPARED = 5_000_000
 """Longest denominators that are compared with each other only to tell what they share."""
 
 
-MOST_MOMENTS = 8
+MAX_MOMENTS = 8
 """So many functionals of a stage space have their moments kept."""
 
 
@@ -300,7 +300,7 @@ class PolynomialSpace(StageSpace):
     def _moments(self, functional: Vector) -> Vector:
         """The functional on 1, x, …, x^(2s−2); kept for weights, which are asked for again."""
         if functional not in self._known_moments:
-            if len(self._known_moments) >= MOST_MOMENTS:
+            if len(self._known_moments) >= MAX_MOMENTS:
                 self._known_moments.clear()
             self._known_moments[functional] = self._new_moments(functional)
         return self._known_moments[functional]

@@ -14,7 +14,7 @@ from garkcli.families.registry import diagonal_method
 from garkcli.order.defects import Defects
 from garkcli.order.simplifying import consistent_blocks, simplifying
 from garkcli.tableau.forms import additive
-from garkcli.tableau.stages import MOST_MOMENTS, PolynomialSpace
+from garkcli.tableau.stages import MAX_MOMENTS, PolynomialSpace
 from garkcli.tableau.tableau import Tableau
 from tests.oracles import samples
 
@@ -72,7 +72,7 @@ def test_moments_are_kept_and_right(stages: int) -> None:
     space = method.space
     assert isinstance(space, PolynomialSpace)
     fresh = PolynomialSpace(space.modulus)
-    for k in range(MOST_MOMENTS + 3):
+    for k in range(MAX_MOMENTS + 3):
         functional = tuple(x + k for x in method.b)
         assert space.gram(functional) == fresh.gram(functional) == fresh.gram(functional)
     one = space.gram(method.b)[0]
