@@ -153,6 +153,7 @@ def _temporary(target: Path) -> Iterator[tuple[BinaryIO, Path]]:
     try:
         yield stream, Path(name)
     finally:
-        stream.close()
+        with suppress(OSError):  # after a failed write the rest cannot be written either
+            stream.close()
         with suppress(OSError):
             Path(name).unlink()
