@@ -16,7 +16,6 @@ if TYPE_CHECKING:
     from garkcli.check.check_file import check_file
     from garkcli.convergence import convergence as _convergence
     from garkcli.errors import GarkError, MethodFileError
-    from garkcli.longtime import energy as _energy
     from garkcli.longtime import longtime as _longtime
     from garkcli.longtime import symplecticity as _symplecticity
     from garkcli.methodfile.build import MethodFile
@@ -37,12 +36,11 @@ if TYPE_CHECKING:
     bind = of_methods(_integrator.bind)
     conditions = of_methods(_conditions.conditions)
     converge = of_methods(_convergence.converge)
-    defects = of_methods(_symplecticity.defects)
-    drift = of_methods(_energy.drift)
     elementary_weight = of_methods(_conditions.elementary_weight)
-    follow = of_methods(_longtime.follow)
+    long_run = of_methods(_longtime.long_run)
     simplifying = of_methods(_simplifying.simplifying)
     symplectic_pair = of_methods(_forms.symplectic_pair)
+    symplecticity_defects = of_methods(_symplecticity.symplecticity_defects)
 
 __version__ = "0.1.0"
 
@@ -53,12 +51,9 @@ _HOMES = {
     "conditions": "order.conditions",
     "conjugate": "api.methods",
     "converge": "convergence.convergence",
-    "defects": "longtime.symplecticity",
     "diagonal_method": "api.construction",
-    "drift": "longtime.energy",
     "elementary_weight": "order.conditions",
     "find_order": "api.methods",
-    "follow": "longtime.longtime",
     "format_tree": "trees.notation",
     "from_arrays": "api.arrays",
     "gark": "api.construction",
@@ -71,6 +66,7 @@ _HOMES = {
     "load_problem": "methodfile.problem",
     "loads": "methodfile.load",
     "loads_problem": "methodfile.problem",
+    "long_run": "longtime.longtime",
     "method_of": "api.methods",
     "MethodFile": "methodfile.build",
     "MethodFileError": "errors",
@@ -79,6 +75,7 @@ _HOMES = {
     "parse_tree": "trees.notation",
     "simplifying": "order.simplifying",
     "symplectic_pair": "tableau.forms",
+    "symplecticity_defects": "longtime.symplecticity",
     "Tableau": "tableau.tableau",
     "trajectory": "stepping.step",
     "Tree": "trees.tree",
@@ -90,12 +87,11 @@ _OF_METHODS = frozenset(
         "bind",
         "conditions",
         "converge",
-        "defects",
-        "drift",
         "elementary_weight",
-        "follow",
+        "long_run",
         "simplifying",
         "symplectic_pair",
+        "symplecticity_defects",
     }
 )
 """Functions of tableaus, which are handed out as functions of whatever has a tableau."""
@@ -114,12 +110,9 @@ __all__ = [
     "conditions",
     "conjugate",
     "converge",
-    "defects",
     "diagonal_method",
-    "drift",
     "elementary_weight",
     "find_order",
-    "follow",
     "format_tree",
     "from_arrays",
     "gark",
@@ -130,11 +123,13 @@ __all__ = [
     "load_problem",
     "loads",
     "loads_problem",
+    "long_run",
     "method_of",
     "pair",
     "parse_tree",
     "simplifying",
     "symplectic_pair",
+    "symplecticity_defects",
     "trajectory",
 ]
 

@@ -17,11 +17,10 @@ from flint import fmpq
 from matplotlib.axes import Axes
 from matplotlib.figure import Figure
 
-from garkcli import converge, load
-from garkcli.longtime.courses import LongRun, of_oscillator
-from garkcli.longtime.energy import drift
+from garkcli import converge, load, long_run
+from garkcli.longtime.history import LongRun
 from garkcli.plots.convergence_plot import save
-from garkcli.plots.energy_plot import draw_course
+from garkcli.plots.energy_plot import draw_history
 from garkcli.problems.oscillator import Oscillator
 
 HERE = Path(__file__).resolve().parent
@@ -43,8 +42,8 @@ def draw_energy(axes: Axes) -> None:
     in all.
     """
     run = energy(10_000)
-    draw_course(axes, run, run.courses[0])
-    low, high = min(run.courses[0].errors), max(run.courses[0].errors)
+    draw_history(axes, run, run.energy)
+    low, high = min(run.energy.errors), max(run.energy.errors)
     axes.set_ylim(low - 0.06 * (high - low), high + 0.95 * (high - low))
     axes.set_title("", loc="left")
     axes.set_title("Error in the total energy, h = 1/2", fontsize=11)
@@ -55,7 +54,7 @@ def draw_energy(axes: Axes) -> None:
     short = energy(60)
     first.plot(
         short.times,
-        short.courses[0].errors,
+        short.energy.errors,
         color="#1f4e9e",
         linewidth=0.8,
         marker=".",
@@ -70,8 +69,8 @@ def draw_energy(axes: Axes) -> None:
 
 def energy(t_end: int) -> LongRun:
     """The run to ``t_end``, every extreme of it."""
-    result = drift(load(str(METHOD)).tableau, OSCILLATOR, fmpq(t_end), fmpq(1, 2), points=10_000)
-    return of_oscillator(result)
+    tableau = load(str(METHOD)).tableau
+    return long_run(tableau, OSCILLATOR, fmpq(t_end), fmpq(1, 2), points=10_000)
 
 
 def draw_order(axes: Axes) -> None:

@@ -16,9 +16,11 @@ from garkcli.errors import UsageProblem
 if TYPE_CHECKING:
     from flint import fmpq
 
-    from garkcli.longtime.courses import LongRun
+    from garkcli.longtime.history import LongRun
     from garkcli.longtime.symplecticity import Symplecticity
     from garkcli.methodfile.build import MethodFile
+    from garkcli.problems.hamiltonian import Hamiltonian
+    from garkcli.problems.oscillator import Oscillator
     from garkcli.report.energy_text import Claim
     from garkcli.tableau.tableau import Tableau
 
@@ -58,7 +60,9 @@ if TYPE_CHECKING:
 @click.option(
     "--symplecticity", is_flag=True, help="Measure MᵀJM − J of single steps, M = ∂y₁/∂y₀."
 )
-@click.option("--bounded", is_flag=True, help="Claim that nothing drifts.")
+@click.option(
+    "--bounded", is_flag=True, help="Claim that nothing drifts, as far as this run can tell."
+)
 @click.option("--max-error", metavar="E", help="Claim that no energy error is larger than E.")
 @click.option("--plot", type=PATH, metavar="FILE", help="Draw into FILE: .png, .svg or .pdf.")
 @common(["text", "json", "csv"])
@@ -86,12 +90,19 @@ def command(
     summation, or with --digits. A file with `methods` is taken as its symplectic pair, every other
     file as it stands.
 
+    A drift that a slow modulation may explain is undecided, and a longer run proposed.
+
     Exit code 1 when the claim of --bounded or --max-error fails, a step fails, or the energy blows
-    up.
+    up or the orbit escapes. What is undecided does not meet --bounded.
     """
+    from garkcli.longtime.history import whole_run
+    from garkcli.longtime.longtime import long_run, usual
     from garkcli.methodfile.load import load
+    from garkcli.problems.hamiltonian import FLOAT_DIGITS
     from garkcli.report import energy as report
     from garkcli.report.energy_text import Report
+    from garkcli.report.progress import tracked
+    from garkcli.stepping.dependency import with_joined_terms
     from garkcli.stepping.step import StepFailed
 
     refuse_misplaced(problem, seed, {"--omega": omega, "--split": split})
@@ -108,13 +119,26 @@ def command(
     size = None if step is None else positive("--step", step)
     method = load(file)
     tableau = stepped_tableau(method, output)
+    if problem == "oscillator":
+        solved: Oscillator | Hamiltonian = _oscillator(tableau, omega, split)
+    else:
+        tableau = with_joined_terms(tableau)
+        solved = find_problem(problem, tableau, seed)
+        if is_path(problem):
+            note_changing(solved, output)
+    h, end = whole_run(size, time, *usual(solved))
     try:
-        if problem == "oscillator":
-            run, steps = _oscillator(tableau, method, omega, split, time, size, points)
-        else:
-            run, steps = _follow(
-                tableau, method, problem, seed, time, size, digits, points, symplecticity, output
-            )
+        run = long_run(
+            tableau,
+            solved,
+            end,
+            h,
+            digits or FLOAT_DIGITS,
+            points,
+            method.tolerance,
+            lambda path, total: tracked(path, total, "steps", output.verbosity >= 0),
+        )
+        steps = _symplecticity(tableau, method, run, symplecticity)
     except StepFailed as error:
         say_problem(error)
         return 1
@@ -127,95 +151,57 @@ def command(
 
         save(energy_figure(run), Path(plot))
         output.note(f"wrote {plot}")
-    return 0 if all(claim.holds for claim in claims) and not run.blew_up else 1
+    return 0 if all(claim.holds for claim in claims) and not run.is_unstable else 1
 
 
-def _oscillator(
-    tableau: Tableau,
-    method: MethodFile,
-    omega: str | None,
-    split: str | None,
-    t_end: fmpq | None,
-    step: fmpq | None,
-    points: int,
-) -> tuple[LongRun, Symplecticity]:
-    """The exact run."""
-    from flint import fmpq
-
-    from garkcli.longtime.courses import of_oscillator, whole_run
-    from garkcli.longtime.energy import drift
-    from garkcli.longtime.symplecticity import Symplecticity, holds
+def _oscillator(tableau: Tableau, omega: str | None, split: str | None) -> Oscillator:
+    """The oscillator of --omega and --split."""
     from garkcli.problems.oscillator import Oscillator, parse_shares, terms_of
 
-    terms, frequency = terms_of(tableau), positive("--omega", omega or "1")
-    problem = (
-        Oscillator(frequency, parse_shares(split, terms))
-        if split
-        else Oscillator.default(terms, frequency)
+    terms = terms_of(tableau)
+    frequency = positive("--omega", omega or "1")
+    if split:
+        return Oscillator(frequency, parse_shares(split, terms))
+    return Oscillator.default(terms, frequency)
+
+
+def _symplecticity(
+    tableau: Tableau, method: MethodFile, run: LongRun, is_measured: bool
+) -> Symplecticity:
+    """Of the steps of ``run``: by the coefficients, and measured where that was asked for."""
+    from garkcli.longtime.symplecticity import (
+        Symplecticity,
+        holds,
+        is_proved,
+        symplecticity_defects,
     )
-    h, time = whole_run(step, t_end, fmpq(1, 2) / frequency, fmpq(10_000) / frequency)
-    run = of_oscillator(drift(tableau, problem, time, h, points), method.tolerance)
-    return run, Symplecticity(holds(tableau, method.tolerance))
+    from garkcli.problems.oscillator import Oscillator
 
-
-def _follow(
-    tableau: Tableau,
-    method: MethodFile,
-    name: str,
-    seed: int | None,
-    t_end: fmpq | None,
-    step: fmpq | None,
-    digits: int | None,
-    points: int,
-    is_measured: bool,
-    output: Output,
-) -> tuple[LongRun, Symplecticity]:
-    """The run in numbers of finite precision, with a bar."""
-    from garkcli.longtime.courses import whole_run
-    from garkcli.longtime.longtime import follow, usual
-    from garkcli.longtime.symplecticity import Symplecticity, defects, is_proved
-    from garkcli.problems.hamiltonian import FLOAT_DIGITS
-    from garkcli.report.progress import tracked
-    from garkcli.stepping.dependency import with_joined_terms
-
-    tableau = with_joined_terms(tableau)
-    problem = find_problem(name, tableau, seed)
-    if is_path(name):
-        note_changing(problem, output)
-    h, time = whole_run(step, t_end, *usual(problem))
-    run = follow(
-        tableau,
-        problem,
-        time,
-        h,
-        digits or FLOAT_DIGITS,
-        points,
-        method.tolerance,
-        lambda path, total: tracked(path, total, "steps", output.verbosity >= 0),
-    )
-    measured = defects(tableau, problem, h, run.states) if is_measured else ()
-    return run, Symplecticity(is_proved(tableau, problem, method.tolerance), measured)
+    if isinstance(run.problem, Oscillator):
+        return Symplecticity(holds(tableau, method.tolerance))
+    proved = is_proved(tableau, run.problem, method.tolerance)
+    if not is_measured:
+        return Symplecticity(proved)
+    return Symplecticity(proved, symplecticity_defects(tableau, run.problem, run.step, run.states))
 
 
 def _claims(run: LongRun, bounded: bool, limit: fmpq | None) -> tuple[Claim, ...]:
+    """What the options claim. What is undecided is not shown to be bounded."""
     from garkcli.exact.display import decimal, to_float
     from garkcli.report.energy_text import Claim
+    from garkcli.report.figures import measured
 
     claims = []
     if bounded:
         found = [
             f"{x.name} {x.verdict}"
-            for x in run.courses
+            for x in run.invariants
             if x.verdict in ("drifts", "unstable", "undecided")
         ]
         claims.append(Claim("bounded", ", ".join(found) or "bounded", not found))
     if limit is not None:
-        largest = run.courses[0].max_error
-        claims.append(
-            Claim(
-                f"max-error: {decimal(limit)}",
-                f"{largest:.4e}",
-                not run.blew_up and largest <= to_float(limit),
-            )
-        )
+        energy = run.energy
+        holds = not run.is_unstable and energy.max_error <= to_float(limit)
+        found_error = measured(energy.max_error, energy.round_off)
+        claims.append(Claim(f"max-error: {decimal(limit)}", found_error, holds))
     return tuple(claims)

@@ -18,8 +18,20 @@ from typing import TYPE_CHECKING, TypeAlias
 from flint import arb, arb_mat, ctx, fmpq
 
 from garkcli.errors import UsageProblem
+from garkcli.exact.display import to_float
 from garkcli.exact.matrix import Matrix
-from garkcli.longtime.stability import Stability, stability
+from garkcli.longtime.history import (
+    BLOW_UP,
+    MAX_STEPS,
+    SERIES,
+    InvariantHistory,
+    LongRun,
+    Verdict,
+)
+from garkcli.longtime.record import extremes
+from garkcli.longtime.rounding import energy_rate, power_of_ten
+from garkcli.longtime.stability import stability
+from garkcli.longtime.trend import Shape
 from garkcli.problems.oscillator import Oscillator
 from garkcli.stepping.linear import conserves_energy, enclosure, linear_step, whole_steps
 from garkcli.tableau.tableau import Tableau
@@ -30,12 +42,6 @@ if TYPE_CHECKING:
 
     Floats: TypeAlias = NDArray[np.float64]
 
-MAX_STEPS = 10_000_000
-"""Most steps: each is a float in memory."""
-SERIES = 2000
-"""Most points of the series kept for a plot."""
-BLOW_UP = 1e30
-"""How many times the energy the energy error may become before a run ends as unstable."""
 _GOAL = 60  # bits of the largest energy error that balls have to get right
 _CHUNK = 65536  # steps that a fit looks at at a time
 _ROUNDING = 2.0**-42  # of a slope in all, of the largest error: floats are summed
@@ -43,49 +49,28 @@ _FLOOR = 1000  # energy errors below 2^-1000 count as zero: floats end there
 
 
 @dataclass(frozen=True)
-class Drift:
-    """The energy error over a long time.
+class _Line:
+    """A drift fitted to energy errors, per step, and how good it is."""
 
-    Attributes:
-        problem: the oscillator and its split; q(0) = 1, p(0) = ω/2.
-        step: h.
-        t_end: the time asked for.
-        steps: how many steps were done; fewer than t_end/h only if the energy ``blew_up``.
-        initial_energy: H(0) = 5ω²/8.
-        max_energy_error: max |H(t_n) − H(0)|, absolute.
-        drift: d in the least-squares fit H(t) − H(0) ≈ e + d t + a cos 2θn + b sin 2θn, with
-            e^{±iθ} the directions of the eigenvalues of R(h); without a, b where these are real or
-            turn too slowly to be told from a line. Energy per unit of time.
-        uncertainty: of ``drift``: how far it is in the halves of the run from that in all of it.
-        amplitude: half the range of H(t) − H(0) − d t.
-        stability: what becomes of the energy for ever, decided exactly.
-        is_exact: whether H is conserved exactly.
-        blew_up: whether the energy error passed ``BLOW_UP`` times the energy.
-        times: times for a plot, at most ``SERIES``, ascending.
-        energy_errors: H(t) − H(0), with its sign, at these times: extremes of equal spans.
-    """
-
-    problem: Oscillator
-    step: fmpq
-    t_end: fmpq
-    steps: int
-    initial_energy: float
-    max_energy_error: float
-    drift: float
+    slope: float
     uncertainty: float
-    amplitude: float
-    stability: Stability
-    is_exact: bool
-    blew_up: bool
-    times: tuple[float, ...]
-    energy_errors: tuple[float, ...]
 
 
-def drift(
-    tableau: Tableau, problem: Oscillator, t_end: fmpq, step: fmpq, points: int = SERIES
-) -> Drift:
-    """Follow the energy of ``problem`` under ``tableau`` to the time ``t_end``; keep a series of
-    ``points``.
+def oscillator_run(
+    tableau: Tableau,
+    problem: Oscillator,
+    t_end: fmpq,
+    step: fmpq,
+    points: int = SERIES,
+    tolerance: fmpq | None = None,
+) -> LongRun:
+    """The energy of ``problem`` under ``tableau`` to the time ``t_end``, judged by the step map,
+    exactly. It starts from q = 1, p = ω/2, with the energy 5ω²/8.
+
+    The drift is d in the least-squares fit H(t) − H(0) ≈ e + d t + a cos 2θn + b sin 2θn, with
+    e^{±iθ} the directions of the eigenvalues of R(h); without a, b where these are real or turn too
+    slowly to be told from a line. Its uncertainty is how far it is in the halves of the run from
+    that in all of it. Where the error is bounded for all time, both are zero.
 
     Raises:
         UsageProblem: the split does not fit the structure, the step does not divide the time, there
@@ -99,31 +84,66 @@ def drift(
             f"{count} steps (limit {MAX_STEPS})", "choose a shorter time or a larger step"
         )
     R = linear_step(tableau, problem).at(step)
-    energy = float(5 * problem.omega**2 / 8)
+    fate = stability(R)
+    energy = to_float(5 * problem.omega**2 / 8)
     is_exact = conserves_energy(R, problem.omega)
     errors = np.zeros(count + 1) if is_exact else _energy_errors(R, problem.omega, count)
-    too_large = np.flatnonzero(~(np.abs(errors) <= BLOW_UP * energy))
-    if too_large.size:
-        errors = errors[: int(too_large[0])]
-    kept = np.union1d(extremes(errors, points - 2), [0, len(errors) - 1])
-    slope, uncertainty = _drift(errors, _angle(R, problem.omega))
-    left = errors[kept] - slope * kept
-    return Drift(
+    outside = np.flatnonzero(~(np.abs(errors) <= BLOW_UP * energy))
+    if outside.size:
+        errors = errors[: int(outside[0])]
+    blew_up = len(errors) <= count
+    done = len(errors) - 1
+    h = to_float(step)
+
+    line = _drift(errors, _angle(R, problem.omega))
+    if is_exact or fate.fate == "elliptic":
+        line = _Line(0.0, 0.0)
+    largest = float(np.abs(errors).max())
+    powers = _powers(problem.omega, energy, done * h)
+    excused = energy_rate(tableau, tolerance, h, powers) * done * h
+    verdict: Verdict = "drifts"
+    if is_exact:
+        verdict = "exact"
+    elif blew_up:
+        verdict = "unstable"
+    elif fate.fate == "elliptic" or abs(line.slope) * done <= excused:
+        verdict = "bounded"
+    shape: Shape = "none"
+    if verdict == "drifts":
+        shape = "line" if abs(line.slope) > line.uncertainty else "curve"
+
+    kept = np.union1d(extremes(errors, points - 2), [0, done])
+    left = errors[kept] - line.slope * kept
+    history = InvariantHistory(
+        name="energy",
+        initial=energy,
+        max_error=largest,
+        drift=None if blew_up else line.slope / h,
+        uncertainty=None if blew_up else line.uncertainty / h,
+        amplitude=float(left.max() - left.min()) / 2,
+        round_off=power_of_ten(_ROUNDING * largest),
+        coefficients=excused,
+        verdict=verdict,
+        shape=shape,
+        errors=tuple(errors[kept].tolist()),
+    )
+    return LongRun(
         problem,
         step,
         t_end,
-        len(errors) - 1,
-        energy,
-        float(np.abs(errors).max()),
-        slope / float(step),
-        uncertainty / float(step),
-        float(left.max() - left.min()) / 2,
-        stability(R),
-        is_exact,
-        bool(too_large.size) or len(errors) <= count,
-        tuple((kept * float(step)).tolist()),
-        tuple(errors[kept].tolist()),
+        done,
+        None,
+        (history,),
+        tuple((kept * h).tolist()),
+        stability=fate,
     )
+
+
+def _powers(omega: fmpq, energy: float, time: float) -> tuple[float, float]:
+    """What ``garkcli.longtime.rounding.Exchange`` finds along the exact solution: q̇p̈ and ṗq̈ are
+    −ω²p² and ω⁴q², whose sizes sum to 2ω²H, and q̇ṗ = −d/dt ½ω²q² has a mean of at most H/t.
+    """
+    return energy / max(time, 1e-300), 2 * to_float(omega) ** 2 * energy
 
 
 def _scaled(R: Matrix, omega: fmpq, bits: int) -> arb_mat:
@@ -205,18 +225,20 @@ def _angle(R: Matrix, omega: fmpq) -> float | None:
     return float(2 * np.arctan2(np.sqrt(-discriminant), (a + d) / 2) % (2 * np.pi))
 
 
-def _drift(errors: Floats, angle: float | None) -> tuple[float, float]:
-    """D of the fit in ``Drift`` and its uncertainty, per step."""
+def _drift(errors: Floats, angle: float | None) -> _Line:
+    """The drift of ``oscillator_run`` and its uncertainty."""
     import numpy as np
 
-    slope, half = _slope(errors, angle), len(errors) // 2
+    slope = _slope(errors, angle)
+    half = len(errors) // 2
     rounding = _ROUNDING * float(np.abs(errors).max()) / len(errors)
-    halves = (_slope(part, angle) for part in (errors[: half + 1], errors[half:]))
-    return slope, max(abs(x - slope) for x in halves) + rounding
+    halves = [_slope(part, angle) for part in (errors[: half + 1], errors[half:])]
+    apart = max(abs(x - slope) for x in halves)
+    return _Line(slope, apart + rounding)
 
 
 def _slope(errors: Floats, angle: float | None) -> float:
-    """D of the fit in ``Drift``, per step; by normal equations, whose columns are nearly
+    """The drift of ``oscillator_run``, per step; by normal equations, whose columns are nearly
     orthogonal.
     """
     import numpy as np
@@ -240,16 +262,3 @@ def _slope(errors: Floats, angle: float | None) -> float:
         gram += A.T @ A
         moments += A.T @ part
     return float(np.linalg.solve(gram, moments)[1]) * largest / last
-
-
-def extremes(errors: Floats, points: int) -> NDArray[np.int64]:
-    """Indices of the least and the greatest value of equal spans, so that a wave keeps its height
-    in a plot.
-    """
-    import numpy as np
-
-    if len(errors) <= points:
-        return np.arange(len(errors))
-    spans = np.array_split(np.arange(len(errors)), points // 2)
-    chosen = {int(span[pick(errors[span])]) for span in spans for pick in (np.argmin, np.argmax)}
-    return np.array(sorted(chosen))

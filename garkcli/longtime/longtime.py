@@ -1,26 +1,29 @@
-"""Conserved quantities of a nonlinear problem over a long time: how far they go, and whether they
-drift.
+"""Conserved quantities over a long time: how far they go, and whether they drift.
 
-A nonlinear problem is stepped and measured after each step, in memory that does not grow with their
-number. How good the errors are is measured too, on the first steps, against the same steps with
-more digits.
+The oscillator has an exact step, see ``garkcli.longtime.energy``. Every other problem is stepped
+and measured after each step, in memory that does not grow with their number. How good the errors
+are is bounded by what is carried, and checked on the first steps against the same steps with more
+digits.
 """
 
 from __future__ import annotations
 
 from collections.abc import Callable, Iterator
+from dataclasses import dataclass
 from typing import TYPE_CHECKING, Any, TypeAlias
 
 from flint import fmpq
 
 from garkcli.errors import UsageProblem
 from garkcli.exact.display import to_float
-from garkcli.longtime.courses import Course, LongRun, Verdict
-from garkcli.longtime.energy import MAX_STEPS, SERIES
+from garkcli.longtime.energy import oscillator_run
+from garkcli.longtime.history import MAX_STEPS, SERIES, InvariantHistory, LongRun, Verdict
 from garkcli.longtime.measure import Measure
 from garkcli.longtime.record import Record
-from garkcli.longtime.trend import LEAST, Shape
+from garkcli.longtime.rounding import energy_rate, power_of_ten, unit_round_off
+from garkcli.longtime.trend import CERTAIN, LEAST, Shape, Trend
 from garkcli.problems.hamiltonian import FLOAT_DIGITS, Hamiltonian
+from garkcli.problems.oscillator import Oscillator
 from garkcli.stepping.integrator import Binding, bind
 from garkcli.stepping.linear import whole_steps
 from garkcli.stepping.step import trajectory
@@ -36,19 +39,23 @@ Watch: TypeAlias = Callable[[Iterator[Any], int], Iterator[Any]]
 """Passes on a number of things, one a step, and may count them."""
 _SPARE = 15  # more digits with which the first steps are done too
 _TURNS = 8  # times that some coordinate has to turn back: four oscillations
-_LARGE = 0.1  # part of the energy that is a drift however short the run
+_LARGE = 0.1  # part of the energy that is no oscillation however short the run
+_LONGER = 4  # how many times as long a run is proposed at least where this one decides nothing
+_MARGIN = 2  # and how many times as long as would just do
 
 
-def usual(problem: Hamiltonian) -> tuple[fmpq, fmpq]:
+def usual(problem: Oscillator | Hamiltonian) -> tuple[fmpq, fmpq]:
     """A step size and a time that show the long run of ``problem``; 10 000 steps where nothing more
     is known.
     """
+    if isinstance(problem, Oscillator):
+        return fmpq(1, 2) / problem.omega, fmpq(10_000) / problem.omega
     return problem.long_run or (problem.t_end / 40, 250 * problem.t_end)
 
 
-def follow(
+def long_run(
     tableau: Tableau,
-    problem: Hamiltonian,
+    problem: Oscillator | Hamiltonian,
     t_end: fmpq,
     step: fmpq,
     digits: int = FLOAT_DIGITS,
@@ -56,31 +63,34 @@ def follow(
     tolerance: fmpq | None = None,
     watch: Watch = lambda path, _: path,
 ) -> LongRun:
-    """Follow the energy and the other invariants of ``problem`` under ``tableau`` to the time
-    ``t_end``.
+    """Step ``problem`` with ``tableau`` to the time ``t_end``; what becomes of the energy and of the
+    other invariants?
 
     Args:
         tableau: of any structure.
         problem: in as many terms as the tableau is for, or in one that has a natural split.
         t_end: a whole number of steps.
         step: h.
-        digits: of the steps; floats up to ``FLOAT_DIGITS``.
+        digits: of the steps; floats up to ``FLOAT_DIGITS``. Those of the oscillator are exact.
         points: about how many times are kept.
         tolerance: of rounded coefficients; a drift that they can cause is none of the method's.
-        watch: is given the states and their number.
+        watch: is given the states and their number; not for the oscillator.
 
     Raises:
         UsageProblem: the problem is not of the form of the structure, the step does not divide the
-            time, or there are more than ``MAX_STEPS`` of them.
+            time, there are more than ``MAX_STEPS`` of them, or the stage equations of the
+            oscillator have no unique solution.
         StepFailed: the stage equations of a step were not solved, and the energy had not blown up
             before.
 
     >>> from garkcli import hamiltonian, loads, pair
     >>> midpoint = pair(loads("methods: [{family: gauss, stages: 1}]").tableau)
-    >>> run = follow(midpoint, hamiltonian("pendulum", 1), fmpq(100), fmpq(1, 10))
-    >>> [(course.name, course.verdict) for course in run.courses]
+    >>> run = long_run(midpoint, hamiltonian("pendulum", 1), fmpq(100), fmpq(1, 10))
+    >>> [(x.name, x.verdict) for x in run.invariants]
     [('energy', 'bounded')]
     """
+    if isinstance(problem, Oscillator):
+        return oscillator_run(tableau, problem, t_end, step, points, tolerance)
     bound = bind(tableau, problem)
     problem = bound.problem
     count = whole_steps(t_end, step)
@@ -91,69 +101,134 @@ def follow(
     method = bound.at(digits)
     record = Record(Measure(problem, method.digits), count, points)
     record.take(watch(trajectory(method, step, count), count + 1))
+
+    h = to_float(step)
     noise = _noise(record, bound, step, method.digits)
-    rounding = (
-        0.0 if tolerance is None else to_float(tolerance) * record.done * record.measure.scale
-    )
-    times = (record.kept_numbers * to_float(step)).tolist()
-    courses = (
-        _course(record, k, to_float(step), float(noise[k]), rounding) for k in range(len(noise))
-    )
-    states = ((number * step, y) for number, y in sorted(record.states.items()))
+    rate = energy_rate(tableau, tolerance, h, record.exchange.powers(h))
+    judge = _Judge(record, step, rate * record.done * h)
+    histories = tuple(judge.history(k, float(noise[k])) for k in range(len(noise)))
+    states = tuple((number * step, y) for number, y in sorted(record.states.items()))
+    escape = judge.escape
     return LongRun(
         problem,
         step,
         t_end,
         record.done,
         method.digits,
-        tuple(courses),
-        tuple(times),
-        tuple(states),
-        record.turns,
+        histories,
+        tuple((record.kept_numbers * h).tolist()),
+        states,
+        record.excursions.turns,
+        None if escape is None else escape * step,
     )
 
 
 def _noise(record: Record, bound: Binding, step: fmpq, digits: int) -> Floats:
-    """What the errors are good to at the end: what is found on the first steps, taken to grow with
-    their number.
+    """What the errors are good to at the end, as powers of ten: each step rounds each summand of an
+    invariant once, to leading order; and no less than what is found on the first steps.
     """
     import numpy as np
 
-    if record.blew_up:
+    is_at_rest = all(y == record.states[0] for y in record.states.values())
+    if record.blew_up or (is_at_rest and not record.largest.any()):
         return np.zeros(len(record.largest))
+    measure = record.measure
+    sizes = np.max([measure.sizes(y) for y in record.states.values()], axis=0)
+    derived = unit_round_off(digits) * sizes * (1 + record.done)
+
     compared = len(record.first) - 1
-    method = bound.at(digits + _SPARE)
-    exact = Measure(bound.problem, method.digits).errors(trajectory(method, step, compared))
+    finer = bound.at(digits + _SPARE)
+    exact = Measure(bound.problem, finer.digits).errors(trajectory(finer, step, compared))
     found = np.abs(record.first - exact).max(axis=0)
-    least = 10.0**-digits * np.abs(record.measure.initial)
-    noise: Floats = np.maximum(found, least) * (1 + record.done / max(compared, 1))
-    return noise
+    expected = found * (1 + record.done / max(compared, 1))
+    return np.array([power_of_ten(float(x)) for x in np.maximum(derived, expected)])
 
 
-def _course(record: Record, k: int, h: float, noise: float, rounding: float) -> Course:
-    errors = record.kept_errors[:, k]
-    drift: float | None = None
-    uncertainty: float | None = None
-    shape: Shape = "none"
-    verdict: Verdict = "unstable" if record.blew_up else "undecided"
-    if not record.blew_up and record.count >= LEAST:
-        trend = record.trends.of(k, noise + rounding)
-        drift, uncertainty, shape = trend.slope / h, trend.uncertainty / h, trend.shape
-        verdict = "bounded" if shape == "none" else "drifts"
-        if record.turns < _TURNS and record.largest[0] < _LARGE * record.measure.scale:
-            verdict = "undecided"
-    if not record.blew_up and record.largest[k] <= noise:
-        verdict, shape = "round-off", "none"
-    left = errors - (drift or 0.0) * h * record.kept_numbers
-    return Course(
-        record.measure.names[k],
-        record.measure.initial[k],
-        float(record.largest[k]),
-        drift,
-        uncertainty,
-        float(left.max() - left.min()) / 2,
-        noise,
-        verdict,
-        shape,
-        tuple(errors.tolist()),
-    )
+@dataclass(frozen=True)
+class _Judge:
+    """What has become of the invariants of a run.
+
+    Attributes:
+        record: of the run.
+        step: h.
+        excused: the error of the energy that rounded coefficients can cause in all.
+    """
+
+    record: Record
+    step: fmpq
+    excused: float
+
+    @property
+    def escape(self) -> int | None:
+        """The last step before the orbit escapes, where the energy is wrong enough for that to be
+        no part of the motion.
+        """
+        record = self.record
+        if record.blew_up:
+            return None
+        is_wrong = abs(float(record.kept_errors[-1, 0])) > _LARGE * record.measure.scale
+        return record.excursions.escape if is_wrong else None
+
+    def history(self, k: int, noise: float) -> InvariantHistory:
+        """Of the invariant ``k``, whose errors are good to ``noise``."""
+        record, h = self.record, to_float(self.step)
+        # the bound is one of the energy; other invariants are taken to change in proportion
+        share = 1.0 if k == 0 else self._size(k) / self._size(0)
+        excused = self.excused * share
+        trend = None
+        if not record.blew_up and record.count >= LEAST:
+            trend = record.trends.of(k, noise + excused)
+        verdict, shape = self._verdict(k, noise, trend)
+        slope = trend.slope if trend and verdict != "unstable" else None
+        errors = record.kept_errors[:, k]
+        left = errors - (slope or 0.0) * record.kept_numbers
+        return InvariantHistory(
+            name=record.measure.names[k],
+            initial=record.measure.initial[k],
+            max_error=float(record.largest[k]),
+            drift=None if slope is None else slope / h,
+            uncertainty=None if slope is None or trend is None else trend.uncertainty / h,
+            amplitude=float(left.max() - left.min()) / 2,
+            round_off=noise,
+            coefficients=excused,
+            verdict=verdict,
+            shape=shape,
+            errors=tuple(errors.tolist()),
+            longer=self._longer(trend) if verdict == "undecided" else None,
+        )
+
+    def _verdict(self, k: int, noise: float, trend: Trend | None) -> tuple[Verdict, Shape]:
+        record = self.record
+        if record.blew_up or self.escape is not None:
+            return "unstable", "none"
+        if record.largest[k] <= noise:
+            return "round-off", "none"
+        if trend is None:
+            return "undecided", "none"
+        # an error of that size leaves no doubt about the shortness of the run
+        is_large = float(record.largest[0]) >= _LARGE * record.measure.scale
+        if record.excursions.turns < _TURNS and not is_large:
+            return "undecided", "none"
+        if trend.finding == "none":
+            return "bounded", "none"
+        is_gone = trend.move >= _LARGE * self._size(k)
+        return ("drifts" if trend.finding == "drift" or is_gone else "undecided"), trend.shape
+
+    def _size(self, k: int) -> float:
+        """Of the summands of an invariant at the start; 1 where all are zero."""
+        return float(self.record.measure.sizes(self.record.states[0])[k]) or 1.0
+
+    def _longer(self, trend: Trend | None) -> fmpq | None:
+        """A time that would decide; None if that is too many steps."""
+        record = self.record
+        factor = _LONGER
+        if trend is None:
+            factor = max(factor, -(-_MARGIN * LEAST // record.count))
+        elif record.excursions.turns < _TURNS:
+            factor = max(factor, -(-_MARGIN * _TURNS // max(record.excursions.turns, 1)))
+        elif trend.shape == "line":
+            # what drifts grows with time, and what modulates does not
+            ratio = abs(trend.slope) / trend.uncertainty
+            factor = max(factor, int(_MARGIN * CERTAIN / ratio))
+        count = factor * record.count
+        return count * self.step if count <= MAX_STEPS else None

@@ -3,6 +3,7 @@
 from __future__ import annotations
 
 from collections.abc import Callable, Iterable, Sequence
+from itertools import islice
 from math import ceil, inf
 from typing import TYPE_CHECKING, Any, TypeAlias
 
@@ -31,6 +32,7 @@ class Measure:
         names: "energy", then those of the problem.
         initial: the values at the start.
         scale: the sum of the sizes of the terms of H at the start; 1 where all are zero.
+        digits: that the states have.
 
     Errors:
         UsageProblem: one of them has no value at the start.
@@ -38,18 +40,23 @@ class Measure:
 
     def __init__(self, problem: Hamiltonian, digits: int) -> None:
         self.names = ("energy", *(name for name, _ in problem.invariants))
+        self.digits = digits
         self._bits = 0 if digits <= FLOAT_DIGITS else ceil(3.33 * digits) + 48
         self._function: Callable[..., list[Any]] = self._precisely(
             lambda: energy_function(problem, digits)
         )
         number = arb if self._bits else to_float
         start: list[Any] = self._precisely(lambda: [number(x) for x in problem.initial])
+        summands = [_summands(x) for x in (problem.energy, *(x for _, x in problem.invariants))]
+        self._lengths = [len(x) for x in summands]
         arguments = tuple(x for g in GROUPS for x in symbols(problem.variables, g))
+        self._summands = function(tuple(x for y in summands for x in y), arguments, False)
         try:
             self._first = self._precisely(lambda: self._function(*start))
             terms = function(tuple(problem.terms), arguments, False)(
                 *map(to_float, problem.initial)
             )
+            self.sizes([float(x) for x in start])
         except (ArithmeticError, ValueError):
             raise UsageProblem(
                 f"the energy or an invariant of {problem.name} has no value at the start",
@@ -70,6 +77,17 @@ class Measure:
         with ctx.workprec(self._bits):
             return np.array([[float(x) for x in self._differences(y)] for y in states])
 
+    def sizes(self, y: Sequence[Any]) -> Floats:
+        """The sums of the sizes of the summands of each invariant at the state y, in floats.
+
+        Raises:
+            ArithmeticError, ValueError: y is outside of the domain.
+        """
+        import numpy as np
+
+        values = iter(self._summands(*(float(x) for x in y)))
+        return np.array([sum(abs(x) for x in islice(values, n)) for n in self._lengths])
+
     def _differences(self, y: Sequence[Any]) -> list[Any]:
         return [x - first for x, first in zip(self._values_of(y), self._first, strict=True)]
 
@@ -84,3 +102,10 @@ class Measure:
             return compute()
         with ctx.workprec(self._bits):
             return compute()
+
+
+def _summands(expression: Any) -> tuple[Any, ...]:
+    """What a sympy expression is the sum of."""
+    import sympy
+
+    return tuple(sympy.Add.make_args(expression))

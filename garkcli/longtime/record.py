@@ -7,8 +7,10 @@ from itertools import islice
 from math import ceil
 from typing import TYPE_CHECKING, Any, TypeAlias
 
-from garkcli.longtime.energy import BLOW_UP, extremes
+from garkcli.longtime.escape import Excursions
+from garkcli.longtime.history import BLOW_UP
 from garkcli.longtime.measure import Measure
+from garkcli.longtime.rounding import Exchange
 from garkcli.longtime.trend import Trends
 from garkcli.stepping.step import StepFailed
 
@@ -23,7 +25,6 @@ COMPARED = 128
 # how many times the energy the energy error is when the failure of a step is called a blow-up
 _BLOWN = 1000
 _CHUNK = 8192  # steps measured at a time
-_MOVES = 2.0**-40  # least part of its size that a coordinate moves in a step to have a direction
 _PARTS = 4  # equal parts of a run at whose ends the state is kept
 
 
@@ -42,6 +43,8 @@ class Record:
             invariants).
         states: those at the start and after each quarter of the steps, by the number of the step.
         done: the last step measured.
+        excursions: how often coordinates turn back, and how far they go.
+        exchange: of energy, along the trajectory.
         blew_up: whether the steps ended there because the energy error has passed all bounds.
     """
 
@@ -63,7 +66,8 @@ class Record:
         self._numbers: list[int] = []
         self._errors: list[Floats] = []
         self._last: Floats = np.zeros((0, 0))
-        self._turned: NDArray[np.int64] = np.zeros(1, dtype=np.int64)
+        self.excursions = Excursions()
+        self.exchange = Exchange()
 
     @property
     def kept_numbers(self) -> NDArray[np.int64]:
@@ -80,11 +84,6 @@ class Record:
         import numpy as np
 
         return np.concatenate(self._errors)
-
-    @property
-    def turns(self) -> int:
-        """How often the coordinate that oscillates fastest has turned back."""
-        return int(self._turned.max())
 
     def take(self, path: Iterator[list[Any]]) -> None:
         """Measure all states of ``path``, or those before a blow-up.
@@ -129,7 +128,7 @@ class Record:
         for number in self._wanted:
             if start <= number <= self.done:
                 self.states[number] = tuple(states[number - start])
-        self._count_turns(np.array(states[: len(errors)], dtype=np.float64))
+        self._watch(np.array(states[: len(errors)], dtype=np.float64))
 
     def _chosen(self, errors: Floats, start: int) -> list[int]:
         if self._span == 1:
@@ -139,12 +138,31 @@ class Record:
         found = (extremes(errors[:, k], 2 * spans).tolist() for k in range(errors.shape[1]))
         return sorted(ends.union(*found))
 
-    def _count_turns(self, states: Floats) -> None:
+    def _watch(self, states: Floats) -> None:
+        """What the motion itself does; two states are carried over from piece to piece."""
         import numpy as np
 
+        first = self.done - len(states) + 1
         if self._last.size:
+            first -= len(self._last)
             states = np.concatenate([self._last, states])
         self._last = states[-2:]
-        moves = np.diff(states, axis=0)
-        directions = np.sign(moves) * (np.abs(moves) > _MOVES * np.abs(states[1:]))
-        self._turned = self._turned + (directions[1:] * directions[:-1] < 0).sum(axis=0)
+        self.exchange.add(states)
+        self.excursions.add(first, states)
+
+
+def extremes(errors: Floats, points: int) -> NDArray[np.int64]:
+    """Indices of the least and the greatest value of equal spans, so that a wave keeps its height
+    in a plot.
+    """
+    import numpy as np
+
+    if len(errors) <= points:
+        return np.arange(len(errors))
+    spans = np.array_split(np.arange(len(errors)), points // 2)
+    chosen: set[int] = set()
+    for span in spans:
+        values = errors[span]
+        chosen.add(int(span[np.argmin(values)]))
+        chosen.add(int(span[np.argmax(values)]))
+    return np.array(sorted(chosen))

@@ -15,7 +15,7 @@ from garkcli.exact.display import to_ball
 from garkcli.exact.field import ONE, Number
 from garkcli.exact.matrix import Matrix
 
-Fate: TypeAlias = Literal["turns", "grows", "decays", "rests"]
+Fate: TypeAlias = Literal["elliptic", "unstable", "contractive", "marginal"]
 """Orbits stay on ellipses; leave all bounds; go to zero; stay bounded, but neither of the
 former.
 """
@@ -46,9 +46,9 @@ def stability(R: Matrix) -> Stability:
 
     >>> from flint import fmpq
     >>> stability(((fmpq(3, 5), fmpq(4, 5)), (fmpq(-4, 5), fmpq(3, 5)))).fate
-    'turns'
+    'elliptic'
     >>> stability(((ONE, ONE), (fmpq(0), ONE))).fate
-    'grows'
+    'unstable'
     """
     (a, b), (c, d) = R
     determinant, trace = a * d - b * c, a + d
@@ -59,14 +59,14 @@ def _fate(R: Matrix, determinant: Number, trace: Number) -> Fate:
     if determinant == ONE:
         room = _sign(4 - trace * trace)
         is_diagonal = not (R[0][1] or R[1][0])  # then R is the identity, or its negative
-        return "turns" if room > 0 or (room == 0 and is_diagonal) else "grows"
+        return "elliptic" if room > 0 or (room == 0 and is_diagonal) else "unstable"
     area = _sign(1 - determinant * determinant)
     room = _sign((1 + determinant) * (1 + determinant) - trace * trace)
     if area > 0 and room > 0:
-        return "decays"
+        return "contractive"
     if area < 0 or room < 0:
-        return "grows"
-    return "rests"
+        return "unstable"
+    return "marginal"
 
 
 def _sign(x: Number) -> int:

@@ -14,7 +14,7 @@ from typing import Any, TypeAlias
 
 from flint import arb, ctx, fmpq
 
-from garkcli.longtime.courses import State
+from garkcli.longtime.history import State
 from garkcli.order.defects import is_symplectic_within
 from garkcli.problems.hamiltonian import FLOAT_DIGITS, Hamiltonian
 from garkcli.stepping.dependency import visible_tableau
@@ -64,7 +64,7 @@ class Symplecticity:
     defects: tuple[Defect, ...] = ()
 
 
-def defects(
+def symplecticity_defects(
     tableau: Tableau, problem: Hamiltonian, step: fmpq, states: Sequence[State]
 ) -> tuple[Defect, ...]:
     """Measure the steps from some states.
@@ -90,10 +90,10 @@ def _exactly(x: Any) -> fmpq | arb:
 def _defect(method: Integrator, step: fmpq, time: fmpq, y: Sequence[Any]) -> Defect:
     delta = fmpq(1, 10**_DECADES)
     with ctx.workprec(method.bits):
-        M, coarse = _jacobian(method, step, y, delta), _jacobian(method, step, y, 2 * delta)
-        change = max(
-            abs(a - b) for r, s in zip(M, coarse, strict=True) for a, b in zip(r, s, strict=True)
-        )
+        M = _jacobian(method, step, y, delta)
+        coarse = _jacobian(method, step, y, 2 * delta)
+        pairs = [pair for r, s in zip(M, coarse, strict=True) for pair in zip(r, s, strict=True)]
+        change = max(abs(a - b) for a, b in pairs)
         largest = max(abs(a) for row in M for a in row)
         size = sum((abs(arb(x)) for x in y), arb(1))
         solved = arb(10) ** (_DECADES - method.digits) * size
@@ -102,18 +102,17 @@ def _defect(method: Integrator, step: fmpq, time: fmpq, y: Sequence[Any]) -> Def
 
 
 def _jacobian(method: Integrator, step: fmpq, y: Sequence[Any], delta: fmpq) -> Jacobian:
+    def moved(i: int, by: fmpq) -> list[Any]:
+        """One step from ``y`` with its entry ``i`` changed."""
+        start = list(y)
+        start[i] = arb(y[i]) + arb(by)
+        return integrate(method, step, 1, start)
+
     columns = []
     for i in range(len(y)):
-        after, before = (
-            integrate(
-                method,
-                step,
-                1,
-                [arb(x) + sign * arb(delta) if k == i else x for k, x in enumerate(y)],
-            )
-            for sign in (1, -1)
-        )
-        columns.append([((a - b) / (2 * delta)).mid() for a, b in zip(after, before, strict=True)])
+        after, before = moved(i, delta), moved(i, -delta)
+        column = [((a - b) / (2 * delta)).mid() for a, b in zip(after, before, strict=True)]
+        columns.append(column)
     return [list(row) for row in zip(*columns, strict=True)]
 
 
@@ -136,8 +135,8 @@ def holds(tableau: Tableau, tolerance: fmpq | None = None) -> bool:
 
 
 def is_proved(tableau: Tableau, problem: Hamiltonian, tolerance: fmpq | None = None) -> bool:
-    """Whether the steps of ``tableau`` on ``problem``, as ``defects`` takes them, are symplectic by
-    coefficients.
+    """Whether the steps of ``tableau`` on ``problem``, as ``symplecticity_defects`` takes them, are
+    symplectic by coefficients.
 
     Of a problem whose terms depend on positions or on momenta alone, only the blocks that it can
     see count.

@@ -9,9 +9,17 @@ which is smooth and vanishes with all derivatives at both ends. What an oscillat
 adds to the slope is a Fourier coefficient of w, smaller than any power of 1/f; with equal weights
 it would be 1/f² only. Sums of twenty-odd windows are kept, whatever N is.
 
-The uncertainty of the slope is how far the slopes of the halves are from it, and how much those of
-the quarters vary. A trend of another shape than a line shows in the averages over the eighths, and
-in the ranges of the halves.
+The uncertainty of the slope has two parts, see docs/energy-drift.md:
+
+- how far the slopes of the halves are from it, and how much those of the quarters vary: noise,
+  however it is correlated, and modulations that are not much longer than the run;
+- how much the height of the oscillation changes from quarter to quarter. What modulates the height
+  modulates the mean too, and a modulation much longer than the run is a line for all of its parts.
+
+A slope of less than its uncertainty is none, one of ten times as much is a drift, and what lies
+between is undecided. A trend of another shape than a line is a drift too when the averages over the
+eighths keep rising, or falling, by more than the signal oscillates there. A single move to
+another level is undecided: it may be the first of many, or the last.
 """
 
 from __future__ import annotations
@@ -30,22 +38,31 @@ Shape: TypeAlias = Literal["none", "line", "curve", "step"]
 """What a trend looks like: a line, something that rises or falls all along, or a move to another
 level.
 """
+Finding: TypeAlias = Literal["none", "undecided", "drift"]
+"""No trend to be told from oscillation and noise; one that a modulation may explain; a drift."""
 LEAST = 64
 """Fewest steps that are judged: eight for each eighth."""
+CERTAIN = 10.0
+"""How many times its uncertainty a slope has to be for a drift.
+
+Of 480 runs of symplectic methods on systems of two planets none comes to that, see
+docs/energy-drift.md.
+"""
 _WHOLE = ((0.0, 1.0),)
 _HALVES = tuple((k / 4, k / 4 + 1 / 2) for k in range(3))
 _QUARTERS = tuple((k / 8, k / 8 + 1 / 4) for k in range(7))
 _EIGHTHS = tuple((k / 8, k / 8 + 1 / 8) for k in range(8))
 _WINDOWS = (*_WHOLE, *_HALVES, *_QUARTERS, *_EIGHTHS)
+_OF_HALVES, _OF_QUARTERS, _OF_EIGHTHS = slice(1, 4), slice(4, 11), slice(11, 19)
 # (length / quarter)^(3/2): how much less noise there is in the slope of all than of a quarter
 _SHORTENING = 8.0
 # 99 percent of Student's t with the five degrees of freedom that seven overlapping quarters have
 _SIGMAS = 4.0
-# least part of a rise or fall all along that its slope explains, and of its uncertainty: a wave of
-_SHARE = 0.05
-# nearly a whole period in each eighth seems to rise too, but has hardly a slope
+_CLEAR = 3.0  # how many times the heights of two eighths their levels differ when one has moved
+_CLIMBS = 4  # how many of the seven moves between eighths are clear in a rise that goes on
 _APART = 3.0  # how many times their range the first or the last eighth is away from the others
 _FLOAT = 2.0**-42  # rounding of the sums, of the largest error
+_FLOAT_SQUARED = 2.0**-40  # rounding of sums of squares, of the mean square
 
 
 @dataclass(frozen=True)
@@ -55,12 +72,31 @@ class Trend:
     Attributes:
         slope: of the fitted line, per step.
         uncertainty: of ``slope``.
-        shape: "none" where there is no trend to be told from oscillation and noise.
+        finding: whether the trend is a drift.
+        shape: of the trend; "none" where there is none to be told from oscillation and noise.
+        move: the size of what is undecided, where that is no line.
     """
 
     slope: float
     uncertainty: float
+    finding: Finding
     shape: Shape
+    move: float = 0.0
+
+
+@dataclass(frozen=True)
+class _Windows:
+    """What is fitted to the windows of one signal.
+
+    Attributes:
+        slopes: of the lines, per run, shape (windows,).
+        levels: of the lines, in the middle.
+        heights: root mean squares of what oscillates around the lines.
+    """
+
+    slopes: Floats
+    levels: Floats
+    heights: Floats
 
 
 class Trends:
@@ -78,7 +114,9 @@ class Trends:
         self._largest = np.zeros(signals)
         self._bounds = [(floor(a * count) + 1, ceil(b * count)) for a, b in _WINDOWS]
         self._weights = np.zeros((len(_WINDOWS), 3))  # Σ w, Σ w u, Σ w u² with u = s − ½
-        self._sums = np.zeros((len(_WINDOWS), 2, signals))  # Σ w e, Σ w u e
+        # the first error of each window: x = e − start is of the size of what happens in it
+        self._starts = np.zeros((len(_WINDOWS), signals))
+        self._sums = np.zeros((len(_WINDOWS), 3, signals))  # Σ w x, Σ w u x, Σ w x²
         self._ranges = np.zeros((2, 2, signals))  # half of the run, least and greatest
         self._ranges[:, 0], self._ranges[:, 1] = np.inf, -np.inf
 
@@ -86,24 +124,41 @@ class Trends:
         """The errors e_first, e_{first+1}, …, shape (m, signals)."""
         import numpy as np
 
-        last = first + len(errors)
         np.maximum(self._largest, np.abs(errors).max(axis=0), out=self._largest)
+        self._add_to_ranges(first, errors)
+        for k in range(len(_WINDOWS)):
+            self._add_to_window(k, first, errors)
+
+    def _add_to_ranges(self, first: int, errors: Floats) -> None:
+        import numpy as np
+
         middle = self.count // 2
         for half, (start, end) in enumerate(((0, middle + 1), (middle, self.count + 1))):
             part = errors[max(start - first, 0) : max(end - first, 0)]
-            if len(part):
-                self._ranges[half, 0] = np.minimum(self._ranges[half, 0], part.min(axis=0))
-                self._ranges[half, 1] = np.maximum(self._ranges[half, 1], part.max(axis=0))
-        for k, ((a, b), (start, end)) in enumerate(zip(_WINDOWS, self._bounds, strict=True)):
-            start, end = max(start, first), min(end, last)
-            if start >= end:
+            if not len(part):
                 continue
-            s = (np.arange(start, end) / self.count - a) / (b - a)
-            u = s - 0.5
-            w = np.exp(4.0 - 1.0 / (s * (1.0 - s)))
-            part = errors[start - first : end - first]
-            self._weights[k] += w.sum(), w @ u, w @ (u * u)
-            self._sums[k] += np.stack([w, w * u]) @ part
+            least, greatest = self._ranges[half]
+            np.minimum(least, part.min(axis=0), out=least)
+            np.maximum(greatest, part.max(axis=0), out=greatest)
+
+    def _add_to_window(self, k: int, first: int, errors: Floats) -> None:
+        import numpy as np
+
+        (a, b), (begin, stop) = _WINDOWS[k], self._bounds[k]
+        start = max(begin, first)
+        end = min(stop, first + len(errors))
+        if start >= end:
+            return
+        part = errors[start - first : end - first]
+        if start == begin:
+            self._starts[k] = part[0]
+        x = part - self._starts[k]
+        s = (np.arange(start, end) / self.count - a) / (b - a)
+        u = s - 0.5
+        w = np.exp(4.0 - 1.0 / (s * (1.0 - s)))
+        self._weights[k] += w.sum(), w @ u, w @ (u * u)
+        self._sums[k, :2] += np.stack([w, w * u]) @ x
+        self._sums[k, 2] += w @ (x * x)
 
     def of(self, signal: int, noise: float = 0.0) -> Trend:
         """The trend of one signal, all of whose errors have been added; ``LEAST`` at least.
@@ -112,53 +167,98 @@ class Trends:
             signal: which one.
             noise: what the errors are good to; no trend is smaller.
         """
-        import numpy as np
-
-        slopes, levels = self._lines(signal)
-        slope, halves, quarters, eighths = slopes[0], slopes[1:4], slopes[4:11], levels[11:]
-        spread = sqrt(float(np.mean((quarters - slope) ** 2))) / _SHORTENING
-        floor_ = noise + _FLOAT * float(self._largest[signal])
-        uncertainty = max(float(np.abs(halves - slope).max()), _SIGMAS * spread) + floor_
+        found = self._fitted(signal)
+        least = noise + _FLOAT * float(self._largest[signal])
+        slope = float(found.slopes[0])
+        uncertainty = _uncertainty(found) + least
+        move = self._move(signal, found, least)
+        finding: Finding = "none"
         shape: Shape = "none"
-        if abs(slope) > uncertainty:
-            shape = "line"
-        elif abs(slope) > _SHARE * uncertainty and self._rises(eighths, abs(slope), floor_):
-            shape = "curve"
-        elif self._moves(signal, eighths, floor_):
-            shape = "step"
-        return Trend(float(slope) / self.count, float(uncertainty) / self.count, shape)
+        if abs(slope) > CERTAIN * uncertainty:
+            finding, shape = "drift", "line"
+        elif _climbs(found, least):
+            finding, shape = "drift", "curve"
+        elif abs(slope) > uncertainty:
+            finding, shape = "undecided", "line"
+        elif move > 0.0:
+            finding, shape = "undecided", "step"
+        elif (move := _net(found, least)) > 0.0:
+            finding, shape = "undecided", "curve"
+        return Trend(slope / self.count, uncertainty / self.count, finding, shape, move)
 
-    def _lines(self, signal: int) -> tuple[Floats, Floats]:
-        """Slopes per run and levels in the middle, of all windows."""
+    def _fitted(self, signal: int) -> _Windows:
+        """The lines through all windows."""
         import numpy as np
 
         W, Wu, Wuu = self._weights.T
-        E, Eu = self._sums[:, :, signal].T
-        slopes = (W * Eu - Wu * E) / (W * Wuu - Wu * Wu)
-        levels = (E - slopes * Wu) / W
+        X, Xu, Xx = self._sums[:, :, signal].T
+        slopes = (W * Xu - Wu * X) / (W * Wuu - Wu * Wu)
+        levels = (X - slopes * Wu) / W
+        squares = Xx / W
+        left = squares - (levels * X + slopes * Xu) / W
+        left[left < _FLOAT_SQUARED * squares] = 0.0
         lengths = np.array([b - a for a, b in _WINDOWS])
-        return slopes / lengths, levels
+        return _Windows(slopes / lengths, levels + self._starts[:, signal], np.sqrt(left))
 
-    @staticmethod
-    def _rises(levels: Floats, slope: float, floor_: float) -> bool:
-        """Whether the levels rise or fall all along, by what the slope can explain."""
-        import numpy as np
-
-        total = abs(float(levels[-1] - levels[0]))
-        changes = np.diff(levels)
-        is_monotone = bool((changes > 0).all() or (changes < 0).all())
-        return is_monotone and slope >= _SHARE * total and total > floor_
-
-    def _moves(self, signal: int, levels: Floats, floor_: float) -> bool:
-        """Whether the first or last eighth lies apart, or one half of the run leaves the range of
-        the other.
+    def _move(self, signal: int, found: _Windows, least: float) -> float:
+        """How far the first or last eighth lies apart, or one half of the run leaves the range of
+        the other; 0 where neither does.
         """
+        levels, heights = found.levels[_OF_EIGHTHS], found.heights[_OF_EIGHTHS]
+        move = 0.0
         for one, others in ((levels[0], levels[1:]), (levels[-1], levels[:-1])):
-            away = max(one - others.max(), others.min() - one)
-            if away > _APART * (others.max() - others.min()) + floor_:
-                return True
-        ranges = self._ranges[:, :, signal]
-        for (low, high), (least, greatest) in ((ranges[0], ranges[1]), (ranges[1], ranges[0])):
-            if max(greatest - high, low - least) > (high - low) + floor_:
-                return True
-        return False
+            away = float(max(one - others.max(), others.min() - one))
+            usual = _APART * float(others.max() - others.min()) + float(heights.max())
+            if away > usual + least:
+                move = max(move, away)
+        ranges = self._ranges[:, :, signal].tolist()
+        for (low, high), (lowest, highest) in (ranges, ranges[::-1]):
+            away = max(highest - high, low - lowest)
+            if away > (high - low) + least:
+                move = max(move, away)
+        return move
+
+
+def _uncertainty(found: _Windows) -> float:
+    """Of the slope of the whole run, per run, but for rounding."""
+    import numpy as np
+
+    slope = found.slopes[0]
+    halves = float(np.abs(found.slopes[_OF_HALVES] - slope).max())
+    variance = float(np.mean((found.slopes[_OF_QUARTERS] - slope) ** 2))
+    noise = _SIGMAS * sqrt(variance) / _SHORTENING
+    heights = found.heights[_OF_QUARTERS]
+    modulation = float(heights.max() - heights.min())
+    return max(halves, noise) + modulation
+
+
+def _climbs(found: _Windows, least: float) -> bool:
+    """Whether the levels keep rising, or falling, by more than the signal oscillates: clearly so
+    from eighth to eighth, or by its height from eighth to eighth and clearly so in all.
+    """
+    import numpy as np
+
+    levels, heights = found.levels[_OF_EIGHTHS], found.heights[_OF_EIGHTHS]
+    moves = np.diff(levels)
+    around = heights[1:] + heights[:-1]
+    if _goes_on(moves, _CLEAR * around + least):
+        return True
+    in_all = abs(float(levels[-1] - levels[0]))
+    return in_all > CERTAIN * float(heights.max()) and _goes_on(moves, around / 2 + least)
+
+
+def _goes_on(moves: Floats, clear: Floats) -> bool:
+    """Whether many of the moves are clear, all in one direction."""
+    rises = int((moves > clear).sum())
+    falls = int((moves < -clear).sum())
+    return max(rises, falls) >= _CLIMBS and min(rises, falls) == 0
+
+
+def _net(found: _Windows, least: float) -> float:
+    """How far apart the first and the last level are, if that is clear and more than half of what
+    all levels vary; 0 if not.
+    """
+    levels, heights = found.levels[_OF_EIGHTHS], found.heights[_OF_EIGHTHS]
+    net = abs(float(levels[-1] - levels[0]))
+    is_clear = net > _CLEAR * float(heights[-1] + heights[0]) + least
+    return net if is_clear and net > float(levels.max() - levels.min()) / 2 else 0.0

@@ -8,7 +8,7 @@ from __future__ import annotations
 from matplotlib.axes import Axes
 from matplotlib.figure import Figure
 
-from garkcli.longtime.courses import Course, LongRun
+from garkcli.longtime.history import InvariantHistory, LongRun
 from garkcli.problems.hamiltonian import Hamiltonian
 
 _PALE, _RED = "#7fa1d6", "#a02417"  # of clearly different lightness in grey
@@ -16,51 +16,51 @@ _PALE, _RED = "#7fa1d6", "#a02417"  # of clearly different lightness in grey
 
 def energy_figure(run: LongRun) -> Figure:
     """The energy error against time, and below it a panel for the error of each other invariant."""
-    courses = run.courses
-    heights = [3.0, *(2.0 for _ in courses[1:])]
+    histories = run.invariants
+    heights = [3.0, *(2.0 for _ in histories[1:])]
     figure = Figure(figsize=(7.2, 0.9 + sum(heights)), layout="constrained")
-    panels = figure.subplots(len(courses), 1, sharex=True, squeeze=False, height_ratios=heights)[
+    panels = figure.subplots(len(histories), 1, sharex=True, squeeze=False, height_ratios=heights)[
         :, 0
     ]
     name = run.problem.name if isinstance(run.problem, Hamiltonian) else "oscillator"
     title = f"{name[:1].upper() + name[1:]}, h = {run.step}, {run.steps} steps"
     figure.suptitle(title, fontsize=11, parse_math=False)  # names of files are no formulas
-    for axes, course in zip(panels, courses, strict=True):
-        draw_course(axes, run, course)
+    for axes, history in zip(panels, histories, strict=True):
+        draw_history(axes, run, history)
     panels[-1].set_xlabel("time t")
     return figure
 
 
-def draw_course(axes: Axes, run: LongRun, course: Course) -> None:
+def draw_history(axes: Axes, run: LongRun, history: InvariantHistory) -> None:
     """One quantity against time on ``axes``, with the line of its drift where it has one."""
-    axes.plot(run.times, course.errors, color=_PALE, linewidth=1.1, solid_joinstyle="round")
+    axes.plot(run.times, history.errors, color=_PALE, linewidth=1.1, solid_joinstyle="round")
     axes.axhline(0.0, color="0.1", linewidth=0.9)
-    if course.verdict == "drifts" and course.shape == "line" and course.drift is not None:
-        left = [e - course.drift * t for t, e in zip(run.times, course.errors, strict=True)]
+    if history.verdict == "drifts" and history.shape == "line" and history.drift is not None:
+        left = [e - history.drift * t for t, e in zip(run.times, history.errors, strict=True)]
         middle = (max(left) + min(left)) / 2
         ends = [run.times[0], run.times[-1]]
         axes.plot(
             ends,
-            [middle + course.drift * t for t in ends],
+            [middle + history.drift * t for t in ends],
             color=_RED,
             linestyle=(0, (5, 4)),  # the errors show between the dashes
             linewidth=1.4,
-            label=f"drift {course.drift:.2e} per unit of time",
+            label=f"drift {history.drift:.2e} per unit of time",
         )
         axes.legend(frameon=False, fontsize=9)
-    title = f"{course.name}: largest error {course.max_error:.2e}, {_words(course)}"
+    title = f"{history.name}: largest error {history.max_error:.2e}, {_words(history)}"
     axes.set_title(title, fontsize=10, loc="left", parse_math=False)
-    axes.set_ylabel("H(t) − H(0)" if course.name == "energy" else "error")
+    axes.set_ylabel("H(t) − H(0)" if history.name == "energy" else "error")
     axes.ticklabel_format(axis="y", style="sci", scilimits=(-2, 3), useMathText=True)
     axes.grid(True, color="0.9", linewidth=0.6)
     axes.margins(x=0)
 
 
-def _words(course: Course) -> str:
+def _words(history: InvariantHistory) -> str:
     words = {
         "exact": "conserved exactly",
         "round-off": "not above round-off",
         "unstable": "blown up",
         "undecided": "too short to judge",
     }
-    return words.get(course.verdict, course.verdict)
+    return words.get(history.verdict, history.verdict)

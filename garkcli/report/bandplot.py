@@ -13,10 +13,11 @@ SINGLE = "•"
 """A column whose values share a line."""
 ZERO = "·"
 """The line of zero, where there is nothing else."""
+_FRAME = 5  # columns of the axis left of what is inside, and of the letter right of it
 
 
 def terminal_band(
-    times: Sequence[float], values: Sequence[float], label: str, width: int = 60, height: int = 11
+    times: Sequence[float], values: Sequence[float], label: str, columns: int = 58, height: int = 11
 ) -> str:
     """Values against time, linear on both axes, as lines of text without a final newline.
 
@@ -27,10 +28,10 @@ def terminal_band(
         times: ascending, at least one.
         values: finite, one for each time.
         label: of the vertical axis.
-        width: columns inside the frame; the lines are about 12 longer.
+        columns: of the longest line.
         height: lines inside the frame.
 
-    >>> print(terminal_band([0, 3, 5, 6], [0, 3, 3, -1], "f", width=7, height=5))
+    >>> print(terminal_band([0, 3, 5, 6], [0, 3, 3, -1], "f", columns=14, height=5))
        f
      3 ┤  │••│
        │  │  │
@@ -40,7 +41,6 @@ def terminal_band(
        └┬─────┬
         0     6  t
     """
-    bands = _bands(times, values, width)
     low, high = min(0.0, *values), max(0.0, *values)
     if high == low:
         high = 1.0
@@ -48,16 +48,18 @@ def terminal_band(
     def line(value: float) -> int:
         return round((high - value) / (high - low) * (height - 1))
 
+    marks = {0: high, height - 1: low, line(0.0): 0.0}
+    texts = {i: f"{x:.3g}" for i, x in marks.items()}
+    margin = max(map(len, texts.values()))
+    width = max(columns - margin - _FRAME, 2)
+    bands = _bands(times, values, width)
     field = [[" "] * width for _ in range(height)]
     field[line(0.0)] = [ZERO] * width
     for j, (least, greatest) in enumerate(bands):
         top, bottom = line(greatest), line(least)
         for i in range(top, bottom + 1):
             field[i][j] = SINGLE if top == bottom else INSIDE
-    marks = {0: high, height - 1: low, line(0.0): 0.0}
-    return "\n".join(
-        _framed(field, {i: f"{x:.3g}" for i, x in marks.items()}, label, times[0], times[-1])
-    )
+    return "\n".join(_framed(field, texts, label, times[0], times[-1]))
 
 
 def _bands(
@@ -88,6 +90,6 @@ def _framed(
             f"{marks.get(i, ''):>{margin}} {'┤' if i in marks else '│'}{''.join(row)}".rstrip()
         )
     lines.append(f"{'':{margin}} └┬{'─' * (width - 2)}┬")
-    last = f"{end:g}"
-    lines.append(f"{'':{margin}}  {f'{start:g}':<{width - 1}}{last}  t")
+    first, last = f"{start:g}", f"{end:g}"
+    lines.append(f"{'':{margin}}  {first}{last:>{max(width - len(first), 0)}}  t")
     return lines

@@ -8,7 +8,7 @@ import json
 from typing import Any
 
 from garkcli.exact.display import to_decimal, to_float
-from garkcli.longtime.courses import Course, LongRun
+from garkcli.longtime.history import InvariantHistory, LongRun
 from garkcli.problems.hamiltonian import Hamiltonian
 from garkcli.report.energy_text import Report, text_of
 from garkcli.report.paint import Paint
@@ -27,9 +27,10 @@ def render(report: Report, format: str, paint: Paint, is_long: bool = True) -> s
 def _csv(run: LongRun) -> str:
     stream = io.StringIO()
     writer = csv.writer(stream, lineterminator="\n")
-    names = [csv_cell(course.name.replace(" ", "_")) for course in run.courses]
+    names = [csv_cell(history.name.replace(" ", "_")) for history in run.invariants]
     writer.writerow(["t", *(f"{name}_error" for name in names)])
-    for t, *errors in zip(run.times, *(course.errors for course in run.courses), strict=True):
+    columns = [history.errors for history in run.invariants]
+    for t, *errors in zip(run.times, *columns, strict=True):
         writer.writerow([repr(t), *map(repr, errors)])
     return stream.getvalue()
 
@@ -47,9 +48,10 @@ def _data(report: Report) -> dict[str, Any]:
         "steps": run.steps,
         "digits": run.digits,
         "turns": None if run.digits is None else run.turns,
-        "blew_up": run.blew_up,
+        "blew_up": run.is_unstable and run.escaped is None,
+        "escaped_at": None if run.escaped is None else to_float(run.escaped),
         "drifts": run.drifts,
-        "quantities": [_quantity(course, run) for course in run.courses],
+        "quantities": [_quantity(history, run) for history in run.invariants],
         "symplectic": _symplectic_data(report),
         "claims": [{"claim": x.claim, "found": x.found, "holds": x.holds} for x in report.claims],
     }
@@ -65,18 +67,21 @@ def _problem(run: LongRun) -> dict[str, Any]:
     return {"problem": "oscillator", "omega": str(run.problem.omega), "split": shares}
 
 
-def _quantity(course: Course, run: LongRun) -> dict[str, Any]:
+def _quantity(history: InvariantHistory, run: LongRun) -> dict[str, Any]:
+    drift = history.drift
     return {
-        "name": course.name,
-        "initial": course.initial,
-        "max_error": course.max_error,
-        "drift": course.drift,
-        "drift_uncertainty": course.uncertainty,
-        "drift_in_all": None if course.drift is None else course.drift * run.end,
-        "oscillation": course.amplitude,
-        "round_off": course.round_off,
-        "verdict": course.verdict,
-        "trend": course.shape,
+        "name": history.name,
+        "initial": history.initial,
+        "max_error": history.max_error,
+        "drift": drift,
+        "drift_uncertainty": history.uncertainty,
+        "drift_in_all": None if drift is None else drift * run.end,
+        "oscillation": history.amplitude,
+        "round_off": history.round_off,
+        "rounded_coefficients": history.coefficients,
+        "verdict": history.verdict,
+        "trend": history.shape,
+        "t_end_to_decide": None if history.longer is None else to_float(history.longer),
     }
 
 

@@ -71,3 +71,16 @@ def certain_digits(ball: Any) -> int:
     """How many digits of a number its ball leaves no doubt about; at least one."""
     bits = min(arb(ball).rel_accuracy_bits(), 10**6)
     return min(max(floor(bits * _DIGITS_PER_BIT), 1), _ALL)
+
+
+def measured(value: float, good_to: float, most: int = 5) -> str:
+    """A measured number with the digits that are above what it is good to, at most ``most``.
+
+    >>> measured(0.0123456, 1e-12), measured(1.2345e-13, 1e-15, 3), measured(3e-16, 1e-15)
+    ('1.2346e-02', '1.23e-13', 'below round-off')
+    """
+    if abs(value) <= good_to:
+        return "below round-off"
+    above = log10(abs(value) / good_to) if good_to else most
+    digits = min(most, max(1, floor(above) + 1))
+    return f"{value:.{digits - 1}e}"

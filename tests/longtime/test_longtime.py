@@ -2,19 +2,23 @@
 
 from __future__ import annotations
 
+import tracemalloc
 from collections.abc import Iterator
+from fractions import Fraction
 from typing import Any
 
 import numpy as np
 import pytest
 import sympy
 from flint import fmpq
+from hypothesis import given, settings
+from hypothesis import strategies as st
 
 from garkcli.errors import UsageProblem
-from garkcli.longtime.courses import Course, LongRun, of_oscillator, whole_run
-from garkcli.longtime.energy import MAX_STEPS, drift
-from garkcli.longtime.longtime import follow, usual
+from garkcli.longtime.history import MAX_STEPS, InvariantHistory, LongRun, whole_run
+from garkcli.longtime.longtime import long_run, usual
 from garkcli.methodfile.load import load, loads
+from garkcli.methodfile.problem import loads_problem
 from garkcli.problems.builtin import hamiltonian
 from garkcli.problems.hamiltonian import Hamiltonian, energy_function, symbols
 from garkcli.problems.oscillator import Oscillator, terms_of
@@ -22,8 +26,18 @@ from garkcli.stepping.dependency import with_joined_terms
 from garkcli.stepping.integrator import bind
 from garkcli.stepping.step import StepFailed, trajectory
 from garkcli.tableau.tableau import Tableau
+from tests.longtime.planets import (
+    GAUSS_2,
+    RALSTON,
+    STOERMER_VERLET,
+    SUN_JUPITER_SATURN,
+    YOSHIDA_4,
+    system,
+    two_planets,
+)
 
 RECTANGULAR = "methods/rectangular.gark.yaml"
+RK4_FILE = "methods/rk4.gark.yaml"
 LEAPFROG = "methods/stoermer-verlet.gark.yaml"
 RK4 = """
 ark:
@@ -43,7 +57,7 @@ def tableau_of(source: str) -> Tableau:
 def run(source: str, name: str, t_end: fmpq | int, h: fmpq, **rest: Any) -> LongRun:
     """A built-in problem, followed."""
     tableau = tableau_of(source)
-    return follow(tableau, hamiltonian(name, terms_of(tableau)), fmpq(t_end), h, **rest)
+    return long_run(tableau, hamiltonian(name, terms_of(tableau)), fmpq(t_end), h, **rest)
 
 
 def stepped(source: str, name: str, count: int, h: fmpq) -> np.ndarray:
@@ -68,13 +82,13 @@ def stepped(source: str, name: str, count: int, h: fmpq) -> np.ndarray:
 def test_the_rectangular_method_stays_and_runge_kutta_drifts(name: str, h: fmpq) -> None:
     """On the same problem with the same steps, each far beyond what rounding can do."""
     symplectic, other = run(RECTANGULAR, name, 200, h), run(RK4, name, 200, h)
-    assert [x.verdict for x in symplectic.courses] == [
+    assert [x.verdict for x in symplectic.invariants] == [
         "bounded",
         *["round-off"] * (name == "kepler"),
     ]
     assert not symplectic.drifts
-    assert all(x.verdict == "drifts" for x in other.courses)
-    energy = other.courses[0]
+    assert all(x.verdict == "drifts" for x in other.invariants)
+    energy = other.invariants[0]
     assert energy.drift is not None
     assert energy.drift < 0
     assert energy.max_error > 1e5 * energy.round_off
@@ -86,7 +100,7 @@ def test_the_drift_of_runge_kutta_has_its_order() -> None:
         run(RK4, "pendulum", t, h)
         for t, h in ((400, fmpq(1, 10)), (400, fmpq(1, 20)), (800, fmpq(1, 20)))
     ]
-    drifts = [x.courses[0].drift or 0 for x in runs]
+    drifts = [x.invariants[0].drift or 0 for x in runs]
     assert np.log2(drifts[0] / drifts[1]) == pytest.approx(5, abs=0.1)
     assert drifts[2] == pytest.approx(drifts[1], rel=1e-2)
 
@@ -101,11 +115,11 @@ def test_errors_are_those_of_plain_steps() -> None:
     numbers = np.rint(np.array(result.times) * 50).astype(int)
     assert (numbers[0], numbers[-1]) == (0, count)
     assert all(np.diff(numbers) > 0)
-    for k, course in enumerate(result.courses):
-        assert course.max_error == np.abs(plain[:, k]).max()
-        assert list(course.errors) == list(plain[numbers, k])
-        assert max(course.errors) == plain[:, k].max()
-        assert min(course.errors) == plain[:, k].min()
+    for k, history in enumerate(result.invariants):
+        assert history.max_error == np.abs(plain[:, k]).max()
+        assert list(history.errors) == list(plain[numbers, k])
+        assert max(history.errors) == plain[:, k].max()
+        assert min(history.errors) == plain[:, k].min()
     assert [t for t, _ in result.states] == [count * h * fmpq(k, 4) for k in range(5)]
 
 
@@ -113,7 +127,7 @@ def test_short_runs_keep_all() -> None:
     """Every step of a run with fewer than the points asked for."""
     result = run(LEAPFROG, "pendulum", 100, fmpq(1, 10))
     assert len(result.times) == 1001
-    assert list(result.courses[0].errors) == list(
+    assert list(result.invariants[0].errors) == list(
         stepped(LEAPFROG, "pendulum", 1000, fmpq(1, 10))[:, 0]
     )
 
@@ -132,33 +146,33 @@ def test_more_digits_show_what_floats_hide() -> None:
     """
     text = "methods: [{family: gauss, stages: 6}]"
     floats, digits = (run(text, "pendulum", 60, fmpq(1, 10), digits=n) for n in (15, 40))
-    assert floats.courses[0].verdict == "round-off"
-    assert floats.courses[0].max_error < 1e-14
-    assert digits.courses[0].verdict == "bounded"
-    assert 1e-25 < digits.courses[0].max_error < 1e-20
-    assert digits.courses[0].round_off < 1e-36
+    assert floats.invariants[0].verdict == "round-off"
+    assert floats.invariants[0].max_error < 1e-14
+    assert digits.invariants[0].verdict == "bounded"
+    assert 1e-25 < digits.invariants[0].max_error < 1e-20
+    assert digits.invariants[0].round_off <= 1e-36
 
 
 def test_more_digits_are_those_of_the_initial_values_too() -> None:
     """2/5 is no float: with 30 digits the angular momentum is conserved to 30 of them, from the
     first state on.
     """
-    _, momentum = run(RECTANGULAR, "kepler", 20, fmpq(1, 50), digits=30).courses
+    _, momentum = run(RECTANGULAR, "kepler", 20, fmpq(1, 50), digits=30).invariants
     assert momentum.max_error < 1e-29
     assert momentum.verdict == "round-off"
 
 
 def test_round_off_is_what_floats_do() -> None:
     """The bound is above the errors of an invariant that only rounding changes, and not by much."""
-    momentum = run(RECTANGULAR, "kepler", 400, fmpq(1, 50)).courses[1]
-    assert 1e-16 < momentum.max_error < momentum.round_off < 1e-11
+    momentum = run(RECTANGULAR, "kepler", 400, fmpq(1, 50)).invariants[1]
+    assert 1e-16 < momentum.max_error < momentum.round_off <= 1e-11
 
 
 def test_explicit_euler_blows_up() -> None:
     """A run that leaves all bounds ends, with errors that are numbers."""
     result = run(EULER, "fput", 100, fmpq(1, 10))
-    energy = result.courses[0]
-    assert result.blew_up
+    energy = result.invariants[0]
+    assert result.is_unstable
     assert result.drifts
     assert result.steps < 1000
     assert energy.verdict == "unstable"
@@ -176,7 +190,7 @@ def test_failed_steps_are_faults_of_the_step() -> None:
 
 def test_damping_is_a_move_to_another_level() -> None:
     """The implicit Euler method brings the pendulum to rest; long after that nothing moves."""
-    energy = run(IMPLICIT_EULER, "pendulum", 5000, fmpq(1, 10)).courses[0]
+    energy = run(IMPLICIT_EULER, "pendulum", 5000, fmpq(1, 10)).invariants[0]
     assert energy.verdict == "drifts"
     assert energy.shape == "step"
     assert energy.errors[-1] == pytest.approx(-energy.initial)
@@ -184,7 +198,7 @@ def test_damping_is_a_move_to_another_level() -> None:
 
 def test_growth_that_bends() -> None:
     """Explicit Euler on the pendulum drifts, at whatever rate."""
-    energy = run(EULER, "pendulum", 100, fmpq(1, 10)).courses[0]
+    energy = run(EULER, "pendulum", 100, fmpq(1, 10)).invariants[0]
     assert energy.verdict == "drifts"
     assert energy.drift is not None
     assert energy.drift > 0
@@ -195,24 +209,162 @@ def test_growth_that_bends() -> None:
 )
 def test_short_runs_are_not_judged(t_end: int, verdict: str) -> None:
     """Neither with few steps nor with few revolutions."""
-    assert run(RECTANGULAR, "kepler", t_end, fmpq(1, 50)).courses[0].verdict == verdict
+    assert run(RECTANGULAR, "kepler", t_end, fmpq(1, 50)).invariants[0].verdict == verdict
+
+
+ROUNDED_GAUSS_2 = """
+ark:
+  A: [[[0.25, -0.0386751], [0.5386751, 0.25]]]
+  b: [[0.5, 0.50000004]]
+"""
+RALSTON_8 = "ark: {A: [[[0, 0], [0.66666667, 0]]], b: [[0.25, 0.75]]}"
+BOGACKI_SHAMPINE_8 = """
+ark:
+  A: [[[0, 0, 0], [0.5, 0, 0], [0, 0.75, 0]]]
+  b: [[0.22222222, 0.33333333, 0.44444444]]
+"""
 
 
 def test_rounded_coefficients_excuse_their_drift() -> None:
     """A drift that rounding of the coefficients can cause is none of the method's, within the
     tolerance only.
     """
-    text = """
-ark:
-  A: [[[0.25, -0.0386751], [0.5386751, 0.25]]]
-  b: [[0.5, 0.50000004]]
-"""
     h = fmpq(1, 10)
-    strict = run(text, "pendulum", 400, h).courses[0]
-    loose = run(text, "pendulum", 400, h, tolerance=fmpq(1, 10**6)).courses[0]
+    strict = run(ROUNDED_GAUSS_2, "pendulum", 400, h).energy
+    loose = run(ROUNDED_GAUSS_2, "pendulum", 400, h, tolerance=fmpq(1, 10**6)).energy
     assert strict.verdict == "drifts"
     assert loose.verdict == "bounded"
     assert loose.max_error == strict.max_error
+    assert abs(strict.drift or 0) * 400 < loose.coefficients
+
+
+@pytest.mark.parametrize("source", [RALSTON_8, BOGACKI_SHAMPINE_8])
+def test_rounded_coefficients_excuse_no_other_drift(source: str) -> None:
+    """Methods of low order drift by orders of magnitude more than their tolerance explains."""
+    h = fmpq(1, 50)
+    energy = run(source, "kepler", 200, h, tolerance=fmpq(1, 10**8)).energy
+    assert energy.verdict == "drifts"
+    assert 0 < energy.coefficients < 1e-2 * abs(energy.drift or 0) * 200
+
+
+@given(st.lists(st.integers(-9, 9), min_size=6, max_size=6))
+@settings(max_examples=15, deadline=None)
+def test_what_rounding_does_is_within_its_bound(units: list[int]) -> None:
+    """Gauss 2 with every coefficient changed by up to the tolerance drifts no more than the bound
+    on that.
+    """
+    digits = [0.25, 0.25 - 3**0.5 / 6, 0.25 + 3**0.5 / 6, 0.25, 0.5, 0.5]
+    a, b, c, d, e, f = (f"{x + unit * 1e-6:.15f}" for x, unit in zip(digits, units, strict=True))
+    text = f"ark: {{A: [[[{a}, {b}], [{c}, {d}]]], b: [[{e}, {f}]]}}"
+    energy = run(text, "kepler", 100, fmpq(1, 20), tolerance=fmpq(9, 10**6)).energy
+    assert energy.verdict == "bounded"
+    assert energy.drift is not None
+    assert energy.uncertainty is not None
+    assert abs(energy.drift) * 100 < energy.coefficients
+
+
+@pytest.mark.parametrize("seed", range(4))
+@pytest.mark.parametrize("source", [STOERMER_VERLET, YOSHIDA_4, GAUSS_2])
+def test_slow_modulation_is_no_drift(source: str, seed: int) -> None:
+    """Symplectic methods on two planets, which perturb each other over thousands of orbits."""
+    result = planets(source, two_planets(seed), 300)
+    assert result.energy.verdict == "bounded"
+
+
+@pytest.mark.parametrize("seed", range(4))
+@pytest.mark.parametrize("source", [RK4_FILE, RALSTON])
+def test_drift_under_slow_modulation_is_seen(source: str, seed: int) -> None:
+    """Runge-Kutta methods on the same systems."""
+    assert planets(source, two_planets(seed), 300).energy.verdict == "drifts"
+
+
+@pytest.mark.parametrize("sun_moves", [False, True])
+@pytest.mark.parametrize("source", [STOERMER_VERLET, YOSHIDA_4, GAUSS_2])
+def test_sun_jupiter_saturn(source: str, sun_moves: bool) -> None:
+    """The masses of the planets are 10⁻³ and 3·10⁻⁴ of the sun's; no drift in a short run, none in
+    one that is twenty times as long, and one of Runge's and Kutta's in both.
+    """
+    jupiter, saturn = SUN_JUPITER_SATURN
+    orbits = [
+        (jupiter, Fraction(1), Fraction(48, 1000), Fraction(1, 4)),
+        (saturn, Fraction(183, 100), Fraction(54, 1000), Fraction(2)),
+    ]
+    text = system(orbits, sun_moves)
+    assert planets(source, text, 150).energy.verdict == "bounded"
+    assert planets(RK4_FILE, text, 150).energy.verdict == "drifts"
+    if source == STOERMER_VERLET:
+        assert planets(source, text, 3000).energy.verdict == "bounded"
+
+
+def planets(source: str, text: str, t_end: int) -> LongRun:
+    """A system of planets, in steps of 3/20: 42 an orbit of the inner planet."""
+    return long_run(tableau_of(source), loads_problem(text), fmpq(t_end), fmpq(3, 20))
+
+
+MAGNETIC = """
+variables: [x, y]
+lagrangian: "(vx**2 + vy**2)/2 + (x*vy - y*vx)/2 - x**2/2 - y**2 - (x**4 + x**2*y**2)/10"
+initial: {x: 1, y: 1/2, vx: 0, vy: 1/2}
+"""
+HENON_HEILES = """
+variables: [x, y]
+hamiltonian:
+  - (px**2 + py**2)/2
+  - (x**2 + y**2)/2 + x**2*y - y**3/3
+initial: {x: 0, y: 1/10, px: sqrt(1/3 - 1/100 + 2/3000 - 1/100), py: 1/10}
+"""
+
+
+@pytest.mark.parametrize("text", [MAGNETIC, HENON_HEILES])
+def test_chaos_and_magnetic_fields(text: str) -> None:
+    """A symplectic method is bounded, and the method of Runge and Kutta drifts."""
+    problem = loads_problem(text)
+    verdicts = [
+        long_run(tableau_of(source), problem, fmpq(500), fmpq(1, 10)).energy.verdict
+        for source in (GAUSS_2, RK4_FILE)
+    ]
+    assert verdicts == ["bounded", "drifts"]
+
+
+def test_what_is_undecided_names_a_longer_run() -> None:
+    """A slope of a few times its uncertainty is neither none nor a drift; the time that is proposed
+    decides.
+    """
+    text = two_planets(0)
+    short = planets(RK4_FILE, text, 12).energy
+    assert short.verdict == "undecided"
+    assert short.longer is not None
+    assert short.longer >= 4 * 12
+    longer = planets(RK4_FILE, text, int(short.longer)).energy
+    assert longer.verdict == "drifts"
+    assert longer.longer is None
+
+
+def test_an_orbit_that_escapes_is_unstable() -> None:
+    """Explicit Euler drives the planet away: it turns no more, and no drift is given."""
+    result = run(EULER, "kepler", 400, fmpq(1, 100))
+    assert result.is_unstable
+    assert result.escaped is not None
+    assert 0 < result.escaped < 400
+    assert result.steps == 40_000
+    assert result.energy.drift is None
+    assert run(LEAPFROG, "kepler", 400, fmpq(1, 20)).escaped is None
+
+
+def test_rotation_is_no_escape() -> None:
+    """A pendulum that goes round leaves all angles behind, and comes back to all momenta."""
+    assert run(EULER, "pendulum", 100, fmpq(1, 10)).escaped is None
+
+
+def test_memory_does_not_grow_with_the_steps() -> None:
+    """Three times the steps, and no more is kept."""
+    sizes = []
+    for t_end in (500, 1500):
+        tracemalloc.start()
+        run(LEAPFROG, "kepler", t_end, fmpq(1, 20), points=100)
+        sizes.append(tracemalloc.get_traced_memory()[1])
+        tracemalloc.stop()
+    assert sizes[1] < 1.5 * sizes[0]
 
 
 def test_limits() -> None:
@@ -241,7 +393,7 @@ def test_no_value_at_the_start() -> None:
     q, p = symbols(("x",), "q")[0], symbols(("x",), "p")[0]
     problem = Hamiltonian("bad", ("x",), (p**2 / 2 - sympy.log(q),), (fmpq(0), fmpq(1)), fmpq(1))
     with pytest.raises(UsageProblem, match="no value at the start"):
-        follow(tableau_of(RK4), problem, fmpq(1), fmpq(1, 10))
+        long_run(tableau_of(RK4), problem, fmpq(1), fmpq(1, 10))
 
 
 def test_usual_runs_are_whole() -> None:
@@ -270,11 +422,13 @@ def test_whole_runs(step: fmpq | None, t_end: fmpq | None) -> None:
         assert time <= max(5, h)
 
 
-def oscillator_run(source: str, tolerance: fmpq | None = None, t_end: int = 100) -> Course:
+def oscillator_run(
+    source: str, tolerance: fmpq | None = None, t_end: int = 100
+) -> InvariantHistory:
     """The energy of the oscillator."""
     tableau = tableau_of(source)
     problem = Oscillator.default(terms_of(tableau), fmpq(1))
-    return of_oscillator(drift(tableau, problem, fmpq(t_end), fmpq(1, 2)), tolerance).courses[0]
+    return long_run(tableau, problem, fmpq(t_end), fmpq(1, 2), tolerance=tolerance).energy
 
 
 @pytest.mark.parametrize(
@@ -307,9 +461,11 @@ ark:
 def test_the_oscillator_agrees_with_the_nonlinear_path() -> None:
     """The same problem stepped in floats: the same errors and no drift either."""
     tableau = tableau_of(RECTANGULAR)
-    exact = of_oscillator(drift(tableau, Oscillator.default(2, fmpq(1)), fmpq(500), fmpq(1, 2)))
+    exact = long_run(tableau, Oscillator.default(2, fmpq(1)), fmpq(500), fmpq(1, 2))
     floats = run(RECTANGULAR, "oscillator", 500, fmpq(1, 2))
-    assert floats.courses[0].max_error == pytest.approx(exact.courses[0].max_error, rel=1e-9)
-    assert list(floats.courses[0].errors) == pytest.approx(list(exact.courses[0].errors), abs=1e-14)
-    assert floats.courses[0].amplitude == pytest.approx(exact.courses[0].amplitude, rel=1e-3)
-    assert [x.courses[0].verdict for x in (exact, floats)] == ["bounded", "bounded"]
+    assert floats.invariants[0].max_error == pytest.approx(exact.invariants[0].max_error, rel=1e-9)
+    assert list(floats.invariants[0].errors) == pytest.approx(
+        list(exact.invariants[0].errors), abs=1e-14
+    )
+    assert floats.invariants[0].amplitude == pytest.approx(exact.invariants[0].amplitude, rel=1e-3)
+    assert [x.invariants[0].verdict for x in (exact, floats)] == ["bounded", "bounded"]

@@ -6,7 +6,7 @@ import numpy as np
 import pytest
 from flint import fmpq
 
-from garkcli.longtime.symplecticity import Defect, defects, is_proved
+from garkcli.longtime.symplecticity import Defect, is_proved, symplecticity_defects
 from garkcli.methodfile.load import loads
 from garkcli.problems.builtin import hamiltonian
 from garkcli.problems.hamiltonian import Hamiltonian
@@ -39,7 +39,7 @@ def measured(text: str, name: str, as_pair: bool = False) -> tuple[Tableau, Hami
     tableau = loads(text).tableau
     tableau = with_joined_terms(pair(tableau) if as_pair else tableau)
     problem = hamiltonian(name, terms_of(tableau))
-    (found,) = defects(tableau, problem, H, [(fmpq(0), problem.initial)])
+    (found,) = symplecticity_defects(tableau, problem, H, [(fmpq(0), problem.initial)])
     return tableau, problem, found
 
 
@@ -100,7 +100,7 @@ def test_defect_has_the_order_of_the_method() -> None:
     tableau = loads(RK4).tableau
     problem = hamiltonian("henon-heiles", 1)
     sizes = [
-        defects(tableau, problem, h, [(fmpq(0), problem.initial)])[0].size
+        symplecticity_defects(tableau, problem, h, [(fmpq(0), problem.initial)])[0].size
         for h in (fmpq(1, 20), fmpq(1, 40))
     ]
     assert np.log2(sizes[0] / sizes[1]) > 4.8
@@ -110,7 +110,9 @@ def test_states_of_floats() -> None:
     """A state of a run in floats is taken as the numbers that it has."""
     tableau = loads(LEAPFROG).tableau
     problem = hamiltonian("pendulum", 2)
-    first, second = defects(tableau, problem, H, [(fmpq(0), (0.1, 0.5)), (fmpq(3), (2.5, -0.3))])
+    first, second = symplecticity_defects(
+        tableau, problem, H, [(fmpq(0), (0.1, 0.5)), (fmpq(3), (2.5, -0.3))]
+    )
     assert (first.time, second.time) == (0, 3)
     assert not first.is_seen
     assert not second.is_seen

@@ -50,7 +50,9 @@ def test_slope_of_a_line_through_oscillations(
     found = trend_of(oscillation(parts) + slope * S)
     assert abs(found.slope * N - slope) <= found.uncertainty * N
     if abs(slope) > 2 * found.uncertainty * N:
-        assert found.shape == "line"
+        assert found.finding != "none"
+    if abs(slope) > 20 * found.uncertainty * N:
+        assert (found.finding, found.shape) == ("drift", "line")
 
 
 @given(waves)
@@ -61,8 +63,36 @@ def test_oscillations_do_not_drift(parts: list[tuple[float, float, float]]) -> N
     """
     found = trend_of(oscillation(parts))
     assert abs(found.slope) <= found.uncertainty
+    assert found.finding != "drift"
     if min(f for _, f, _ in parts) > 16:
         assert found.shape == "none"
+
+
+@given(
+    st.floats(-0.9, 0.9),
+    st.floats(0.001, 2),
+    st.floats(0, 2 * np.pi),
+    st.floats(0, 2),
+    st.floats(20, 300),
+)
+@settings(max_examples=300, deadline=None)
+def test_slow_modulation_is_no_drift(
+    depth: float, periods: float, phase: float, offset: float, frequency: float
+) -> None:
+    """What modulates the height of an oscillation and its mean alike is no drift, be its period a
+    thousand times the run.
+    """
+    slow = 1 + depth * np.sin(2 * np.pi * periods * S + phase)
+    signal = slow * (offset + np.sqrt(2) * np.cos(2 * np.pi * frequency * S))
+    assert trend_of(signal - signal[0]).finding != "drift"
+
+
+@pytest.mark.parametrize(("slope", "finding"), [(0.02, "none"), (0.2, "undecided"), (2, "drift")])
+def test_three_findings(slope: float, finding: str) -> None:
+    """Of one modulated oscillation, with drifts of different size."""
+    slow = 1 + 0.1 * S
+    signal = slow * np.cos(2 * np.pi * 60.3 * S) + slope * S
+    assert trend_of(signal - signal[0]).finding == finding
 
 
 @given(
@@ -72,11 +102,16 @@ def test_oscillations_do_not_drift(parts: list[tuple[float, float, float]]) -> N
 )
 @settings(max_examples=100, deadline=None)
 def test_uncertainty_of_fast_oscillations_is_tiny(parts: list[tuple[float, float, float]]) -> None:
-    """Hundreds of oscillations in the run: a drift of a millionth of their height is found."""
+    """Hundreds of oscillations in the run: a drift of a millionth of their height is found, where
+    they do not beat.
+    """
     height = sum(a for a, _, _ in parts)
     found = trend_of(oscillation(parts) + 1e-6 * height * S)
-    assert found.uncertainty * N < 5e-7 * height
-    assert found.shape == "line"
+    assert abs(found.slope * N - 1e-6 * height) < 1e-8 * height
+    beats = [abs(f - g) for k, (_, f, _) in enumerate(parts) for _, g, _ in parts[:k]]
+    if min(beats, default=np.inf) > 150:
+        assert found.uncertainty * N < 1e-7 * height
+        assert (found.finding, found.shape) == ("drift", "line")
 
 
 @given(st.integers(0, 10**6), st.floats(1e-12, 1e12))
@@ -129,6 +164,8 @@ def test_what_is_no_line_is_a_trend(sign: int, rate: float, oscillates: float) -
     for errors in (bend, bend[::-1] - bend[-1]):
         found = trend_of(sign * (errors + oscillates * np.sin(2 * np.pi * 51.3 * S)))
         assert found.shape != "none"
+        if rate <= 3:
+            assert found.finding == "drift"
 
 
 def test_shapes() -> None:
@@ -141,8 +178,9 @@ def test_shapes() -> None:
 
 def test_a_line_below_the_noise_is_none() -> None:
     """What the errors are not good to is no trend."""
-    assert trend_of(1e-14 * S, noise=1e-15).shape == "line"
-    assert trend_of(1e-14 * S, noise=2e-14).shape == "none"
+    assert trend_of(1e-14 * S, noise=1e-16).finding == "drift"
+    assert trend_of(1e-14 * S, noise=5e-15).finding == "undecided"
+    assert trend_of(1e-14 * S, noise=2e-14).finding == "none"
 
 
 @pytest.mark.parametrize("count", [LEAST, LEAST + 1, 2 * LEAST - 1])

@@ -15,7 +15,7 @@ from garkcli.convergence.convergence import converge
 from garkcli.errors import UsageProblem
 from garkcli.families.registry import diagonal_method
 from garkcli.graph import components
-from garkcli.longtime.longtime import follow
+from garkcli.longtime.longtime import long_run
 from garkcli.problems.builtin import hamiltonian
 from garkcli.problems.hamiltonian import GROUPS, Hamiltonian, symbols, vector_field
 from garkcli.problems.oscillator import terms_of
@@ -296,7 +296,7 @@ def test_problem_is_split_for_the_method() -> None:
     with pytest.raises(UsageProblem, match="2 terms, the method is for 3"):
         converge(triple, split)
     with pytest.raises(UsageProblem, match="2 terms, the method is for 3"):
-        follow(triple, split, fmpq(1), H)
+        long_run(triple, split, fmpq(1), H)
 
 
 def test_unknown_problem() -> None:

@@ -1,6 +1,4 @@
-"""What becomes of conserved quantities over a long time: the results, and that of the
-oscillator.
-"""
+"""What becomes of conserved quantities over a long time: the results, of all problems."""
 
 from __future__ import annotations
 
@@ -10,22 +8,28 @@ from typing import Any, Literal, TypeAlias
 from flint import fmpq
 
 from garkcli.exact.display import to_float
-from garkcli.longtime.energy import Drift
 from garkcli.longtime.stability import Stability
 from garkcli.longtime.trend import Shape
 from garkcli.problems.hamiltonian import Hamiltonian
 from garkcli.problems.oscillator import Oscillator
 
+MAX_STEPS = 10_000_000
+"""Most steps of a run."""
+SERIES = 2000
+"""Most points of the series kept for a plot."""
+BLOW_UP = 1e30
+"""How many times the energy the energy error may become before a run ends as unstable."""
+
 Verdict: TypeAlias = Literal["exact", "round-off", "bounded", "drifts", "unstable", "undecided"]
-"""Conserved exactly; no error above round-off; no drift to be told; a drift; blown up; too short to
-judge.
+"""Conserved exactly; no error above round-off; no drift to be told; a drift; blown up or escaped;
+too short to judge.
 """
 State: TypeAlias = tuple[fmpq, tuple[Any, ...]]
 """A time, and (q, p) then, shape (2d,)."""
 
 
 @dataclass(frozen=True)
-class Course:
+class InvariantHistory:
     """A conserved quantity I over a long time.
 
     Attributes:
@@ -36,10 +40,14 @@ class Course:
             run that has blown up or has too few steps.
         uncertainty: of ``drift``; None as there.
         amplitude: half the range of I(t) − I(0) − drift·t.
-        round_off: what the errors are good to, at the end of the run.
+        round_off: what the errors are good to, at the end of the run; a power of ten.
+        coefficients: the error that the rounding of the coefficients can cause, to the end of the
+            run, see ``garkcli.longtime.rounding``; 0 for a method without a tolerance.
         verdict: what has become of I.
         shape: of the trend.
         errors: I(t) − I(0), with its sign, at the times of the run.
+        longer: a time that would decide what is undecided; None where there is no such time within
+            ``MAX_STEPS``, or nothing undecided.
     """
 
     name: str
@@ -49,14 +57,16 @@ class Course:
     uncertainty: float | None
     amplitude: float
     round_off: float
+    coefficients: float
     verdict: Verdict
     shape: Shape
     errors: tuple[float, ...]
+    longer: fmpq | None = None
 
 
 @dataclass(frozen=True)
 class LongRun:
-    """A problem followed over a long time.
+    """A problem stepped over a long time.
 
     Attributes:
         problem: the problem and its split.
@@ -64,11 +74,13 @@ class LongRun:
         t_end: the time asked for.
         steps: how many steps were done; fewer than t_end/h only in a run that has blown up.
         digits: that the steps were done with; None where they are exact.
-        courses: of the energy, then of the other invariants.
+        invariants: what became of the energy, then of the other invariants.
         times: at which the errors are kept, ascending: those where one is extreme in equal spans.
         states: at the start and after each quarter of the run; none for the oscillator.
         turns: how often the coordinate that oscillates fastest has turned back; 0 for the
             oscillator.
+        escaped: the time after which the orbit leaves for ever, with a large error of the energy;
+            None where it does not.
         stability: of the step map of the oscillator, else None.
     """
 
@@ -77,11 +89,17 @@ class LongRun:
     t_end: fmpq
     steps: int
     digits: int | None
-    courses: tuple[Course, ...]
+    invariants: tuple[InvariantHistory, ...]
     times: tuple[float, ...]
     states: tuple[State, ...] = ()
     turns: int = 0
+    escaped: fmpq | None = None
     stability: Stability | None = None
+
+    @property
+    def energy(self) -> InvariantHistory:
+        """What became of the energy."""
+        return self.invariants[0]
 
     @property
     def end(self) -> float:
@@ -89,56 +107,14 @@ class LongRun:
         return to_float(self.steps * self.step)
 
     @property
-    def blew_up(self) -> bool:
-        """Whether the run has ended before its time."""
-        return self.courses[0].verdict == "unstable"
+    def is_unstable(self) -> bool:
+        """Whether the run has blown up, or its orbit has escaped."""
+        return self.energy.verdict == "unstable"
 
     @property
     def drifts(self) -> bool:
-        """Whether a quantity drifts or has blown up."""
-        return any(course.verdict in ("drifts", "unstable") for course in self.courses)
-
-
-def of_oscillator(result: Drift, tolerance: fmpq | None = None) -> LongRun:
-    """The energy of the oscillator as a long run, judged by the step map, exactly.
-
-    Args:
-        result: the energy followed.
-        tolerance: of rounded coefficients: a drift that they can cause is none of the method's.
-    """
-    rounding = (
-        0.0 if tolerance is None else to_float(tolerance) * result.steps * result.initial_energy
-    )
-    is_bounded = result.stability.fate == "turns"
-    if tolerance is not None:
-        is_bounded |= abs(result.drift) * result.steps * to_float(result.step) <= rounding
-    verdict: Verdict = "bounded" if is_bounded else "drifts"
-    if result.is_exact or result.blew_up:
-        verdict = "exact" if result.is_exact else "unstable"
-    course = Course(
-        "energy",
-        result.initial_energy,
-        result.max_energy_error,
-        None if result.blew_up else result.drift,
-        None if result.blew_up else result.uncertainty,
-        result.amplitude,
-        rounding,
-        verdict,
-        ("line" if abs(result.drift) > result.uncertainty else "curve")
-        if verdict == "drifts"
-        else "none",
-        result.energy_errors,
-    )
-    return LongRun(
-        result.problem,
-        result.step,
-        result.t_end,
-        result.steps,
-        None,
-        (course,),
-        result.times,
-        stability=result.stability,
-    )
+        """Whether a quantity drifts, has blown up or escaped."""
+        return any(x.verdict in ("drifts", "unstable") for x in self.invariants)
 
 
 def whole_run(
@@ -154,7 +130,9 @@ def whole_run(
     """
     if t_end is None:
         step = usual_step if step is None else step
-        return step, step * max(int((usual_end / step).floor()), 1)
+        count = max(int((usual_end / step).floor()), 1)
+        return step, step * count
     if step is None:
-        step = t_end / max(int((t_end / usual_step).ceil()), 1)
+        count = max(int((t_end / usual_step).ceil()), 1)
+        step = t_end / count
     return step, t_end

@@ -1,0 +1,79 @@
+"""How coordinates oscillate along a trajectory, and whether one of them leaves for ever."""
+
+from __future__ import annotations
+
+from typing import TYPE_CHECKING, TypeAlias
+
+if TYPE_CHECKING:
+    import numpy as np
+    from numpy.typing import NDArray
+
+    Floats: TypeAlias = NDArray[np.float64]
+
+_MOVES = 2.0**-40  # least part of its size that a coordinate moves in a step to have a direction
+_OFTEN = 8  # times that a position has turned back when its motion is called bounded
+_FAR = 2.0  # how many times its former bound a position is when it has left that
+
+
+class Excursions:
+    """Counts the turns of all coordinates, and keeps how far each position went up to its last one,
+    in pieces.
+
+    A position has escaped at the end when it had turned back often, and is now twice as far from
+    zero as it ever was before it or its momentum turned for the last time. An angle that begins to
+    rotate does not escape: its momentum goes on oscillating.
+    """
+
+    def __init__(self) -> None:
+        import numpy as np
+
+        self._turned: NDArray[np.int64] = np.zeros(0, dtype=np.int64)  # of each coordinate
+        self._last_turns: NDArray[np.int64] = np.zeros(0, dtype=np.int64)  # of each pair (q, p)
+        self._bounds: Floats = np.zeros(0)  # largest |q| up to the last turn
+        self._beyond: Floats = np.zeros(0)  # and after it
+        self._positions: Floats = np.zeros(0)  # at the end
+
+    @property
+    def turns(self) -> int:
+        """How often the coordinate that oscillates fastest has turned back."""
+        return int(self._turned.max(initial=0))
+
+    @property
+    def escape(self) -> int | None:
+        """The number of the last step before a position has escaped, the latest of all; None where
+        none has.
+        """
+        d = len(self._positions)
+        is_often = self._turned[:d] >= _OFTEN
+        is_far = abs(self._positions) > _FAR * self._bounds
+        steps = self._last_turns[is_often & is_far]
+        return int(steps.max()) if steps.size else None
+
+    def add(self, first: int, states: Floats) -> None:
+        """The states of the steps ``first``, ``first`` + 1, …, shape (m, 2d); pieces overlap in two
+        states.
+        """
+        import numpy as np
+
+        d = states.shape[1] // 2
+        if not self._turned.size:
+            self._turned = np.zeros(2 * d, dtype=np.int64)
+            self._last_turns = np.zeros(d, dtype=np.int64)
+            self._bounds, self._beyond = np.zeros(d), np.zeros(d)
+        moves = np.diff(states, axis=0)
+        directions = np.sign(moves) * (np.abs(moves) > _MOVES * np.abs(states[1:]))
+        turned = directions[1:] * directions[:-1] < 0
+        self._turned += turned.sum(axis=0)
+        self._positions = states[-1, :d]
+        sizes = np.abs(states[:, :d])
+        either = turned[:, :d] | turned[:, d:]
+        for i in range(d):
+            found = np.flatnonzero(either[:, i])
+            if not found.size:
+                self._beyond[i] = max(self._beyond[i], sizes[:, i].max())
+                continue
+            last = int(found[-1]) + 1  # turned[n] is about the state n + 1
+            before = sizes[: last + 1, i].max()
+            self._bounds[i] = max(self._bounds[i], self._beyond[i], before)
+            self._beyond[i] = sizes[last:, i].max()
+            self._last_turns[i] = first + last

@@ -1,0 +1,119 @@
+"""What rounding can do to conserved quantities: that of the numbers stepped with, and that of the
+coefficients of the method.
+
+Both are derived in docs/energy-drift.md.
+"""
+
+from __future__ import annotations
+
+from math import ceil, log10
+from typing import TYPE_CHECKING, Any, TypeAlias
+
+from flint import arb, fmpq
+
+from garkcli.exact.display import to_float
+from garkcli.problems.hamiltonian import FLOAT_DIGITS
+from garkcli.tableau.pointwise import entries
+from garkcli.tableau.tableau import Tableau
+
+if TYPE_CHECKING:
+    import numpy as np
+    from numpy.typing import NDArray
+
+    Floats: TypeAlias = NDArray[np.float64]
+
+_UNIT = 2.0**-53  # of floats
+_HIGHER = 2.0  # for the terms of higher order in h and in the tolerance
+
+
+def unit_round_off(digits: int) -> float:
+    """The relative error of one operation on numbers of ``digits``."""
+    return _UNIT if digits <= FLOAT_DIGITS else 10.0**-digits
+
+
+def power_of_ten(x: float) -> float:
+    """The least power of ten that is not below ``x``; 0 for 0.
+
+    A bound on rounding errors is worth its power of ten only, and says the same on every machine.
+
+    >>> power_of_ten(2.3e-13)
+    1e-12
+    """
+    return float(f"1e{ceil(log10(x))}") if x > 0 else 0.0
+
+
+class Exchange:
+    """How much energy the two halves of the equations of motion exchange along a trajectory.
+
+    Collects the sums over all steps, in pieces.
+
+    Attributes:
+        steps: how many have been summed.
+        first: Σ Δq·Δp, with its sign: h² Σ q̇·ṗ to leading order.
+        second: Σ |Δq·Δ²p| + |Δp·Δ²q|: h³ Σ |q̇·p̈| + |ṗ·q̈| to leading order.
+    """
+
+    def __init__(self) -> None:
+        self.steps = 0
+        self.first = 0.0
+        self.second = 0.0
+
+    def add(self, states: Floats) -> None:
+        """Consecutive states, shape (m, 2d); pieces overlap in two states."""
+        import numpy as np
+
+        if len(states) < 3:
+            return
+        d = states.shape[1] // 2
+        moves = np.diff(states, axis=0)[:-1]
+        bends = np.diff(states, 2, axis=0)
+        q, p = moves[:, :d], moves[:, d:]
+        q_bends, p_bends = bends[:, :d], bends[:, d:]
+        self.steps += len(moves)
+        self.first += float((q * p).sum())
+        self.second += float(np.abs((q * p_bends).sum(axis=1)).sum())
+        self.second += float(np.abs((p * q_bends).sum(axis=1)).sum())
+
+    def powers(self, h: float) -> tuple[float, float]:
+        """Per unit of time: |mean of q̇·ṗ|, an energy per time, and the mean of |q̇·p̈| + |ṗ·q̈|, an
+        energy per time squared.
+        """
+        count = max(self.steps, 1)
+        return abs(self.first) / (count * h**2), self.second / (count * h**3)
+
+
+def energy_rate(
+    tableau: Tableau, tolerance: fmpq | None, h: float, powers: tuple[float, float]
+) -> float:
+    """The energy per unit of time that the rounding of coefficients can cause, to leading order.
+
+    Args:
+        tableau: with the coefficients as printed.
+        tolerance: what each coefficient is good to; None for exact ones.
+        h: the step size.
+        powers: along the trajectory, see ``Exchange``.
+    """
+    if tolerance is None:
+        return 0.0
+    weights, sums = sensitivity(tableau)
+    first, second = powers
+    return _HIGHER * to_float(tolerance) * (weights * first + sums * h * second)
+
+
+def sensitivity(tableau: Tableau) -> tuple[float, float]:
+    """How much the conditions of orders 1 and 2 change with coefficients that change by one unit.
+
+    Of order 1: the number of stages, where colours for positions and for momenta have weights of
+    their own that can sum to different numbers, else 0. Of order 2: Σ_l Σ_i |c^l_i| + s |b^l_i|.
+    """
+    printed = entries(tableau)
+    stages = max(len(row) for row in printed.b)
+    is_split = any(colour.part != "y" for colour in tableau.colours)
+    nodes = sum(_size(x) for row in printed.c for x in row)
+    weights = sum(_size(x) for row in printed.b for x in row)
+    return (2.0 * stages if is_split else 0.0), nodes + stages * weights
+
+
+def _size(x: Any) -> float:
+    """|x| of an exact number or an enclosed one."""
+    return abs(float(x) if isinstance(x, arb) else to_float(x))
