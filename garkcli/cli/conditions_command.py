@@ -2,7 +2,7 @@
 
 from __future__ import annotations
 
-from collections.abc import Iterator
+from collections.abc import Iterator, Mapping
 from dataclasses import replace
 from typing import TYPE_CHECKING
 
@@ -15,7 +15,6 @@ from garkcli.errors import UsageProblem
 if TYPE_CHECKING:
     from garkcli.report.conditions import ConditionRow, Valued
     from garkcli.report.symplectic import Subject
-    from garkcli.tableau.tableau import Tableau
     from garkcli.trees.symplectic import Kind
 
 
@@ -98,40 +97,52 @@ def command(
 
     asked = kind_asked(symplectic, kind, members, output.format)
     orders = range(order, order + 1) if only else range(1, order + 1)
-    if file is None and (which or failing or digits or sort != "tree"):
-        raise UsageProblem("values are those of a method", "give a FILE")
-    if file is not None and (colours is not None or coloured is not None):
+    if file is None:
+        _refuse({"--conjugate or --pair": which, "--failing": failing, "--digits": digits})
+        _refuse({"--sort": sort != "tree"})
+    elif colours is not None or coloured is not None:
         raise UsageProblem(
             "the colours are those of FILE", "leave out --colours, --coloured, --shapes"
         )
+    if asked is not None and coloured is not None:
+        raise UsageProblem("free trees have colours", "leave out --coloured and --shapes")
     valued = None if file is None else _chosen(file, which, failing)
-    subject = None
-    if asked is not None:
-        if coloured is not None:
-            raise UsageProblem("free trees have colours", "leave out --coloured and --shapes")
-        subject = (
-            _subject(asked, colours, orders)
-            if valued is None
-            else _of_file(valued.tableau, kind, orders)
-        )
-        if valued is not None and subject.tableau is not None:
-            valued = replace(valued, tableau=subject.tableau)
+    subject = None if asked is None else _subject(asked, kind, colours, orders, valued)
+    if valued is not None and subject is not None and subject.tableau is not None:
+        valued = replace(valued, tableau=subject.tableau)
+    if subject is not None:
         rows = _independent(subject, members, valued)
-    elif valued is None:
-        if coloured is None:
-            coloured = output.format in {"json", "csv"} and colours is not None
-        rows = _table(colours or 1, orders, coloured)
-    else:
+    elif valued is not None:
         rows = _with_values(valued, orders)
-    if sort == "worst":
-        rows = iter(sorted(rows, key=_badness, reverse=True))
-    if digits is not None:
-        rows = (replace(row, digits=digits) for row in rows)
+    else:
+        rows = _table(colours, orders, coloured, output.format)
+    rows = _arranged(rows, sort, digits)
     rows = tracked(rows, None, "conditions", output.may_show_progress)
     output.write(
         report.render(rows, output.format, output.paint, output.width, document, subject, valued)
     )
     return 0
+
+
+def _refuse(given: Mapping[str, object]) -> None:
+    """Refuse options that are about values where there is no method.
+
+    Raises:
+        UsageProblem: one of them was given.
+    """
+    for option, value in given.items():
+        if value:
+            raise UsageProblem(f"{option}: values are those of a method", "give a FILE")
+
+
+def _arranged(
+    rows: Iterator[ConditionRow], sort: str, digits: int | None
+) -> Iterator[ConditionRow]:
+    """The rows as they are to be shown: the worst first, in decimals."""
+    if sort == "worst":
+        rows = iter(sorted(rows, key=_badness, reverse=True))
+    for row in rows:
+        yield row if digits is None else replace(row, digits=digits)
 
 
 def _chosen(file: str, which: str | None, only_failing: bool) -> Valued:
@@ -142,28 +153,24 @@ def _chosen(file: str, which: str | None, only_failing: bool) -> Valued:
 
     method = load(file)
     tableau = method.tableau
-    tableau = (
-        conjugate(tableau)
-        if which == "conjugate"
-        else pair(tableau)
-        if which == "pair"
-        else tableau
-    )
+    if which == "conjugate":
+        tableau = conjugate(tableau)
+    elif which == "pair":
+        tableau = pair(tableau)
     return Valued(tableau, method.tolerance, only_failing)
 
 
-def _subject(kind: Kind, terms: int | None, orders: range) -> Subject:
-    from garkcli.report.symplectic import subject_of_kind
+def _subject(
+    asked: Kind, kind: str | None, terms: int | None, orders: range, valued: Valued | None
+) -> Subject:
+    """What the conditions are independent for: a kind of methods, or the one of a file."""
+    from garkcli.report.symplectic import subject_of_kind, subject_of_method
 
-    return subject_of_kind(kind, terms, orders)
-
-
-def _of_file(tableau: Tableau, kind: str | None, orders: range) -> Subject:
-    from garkcli.report.symplectic import subject_of_method
-
+    if valued is None:
+        return subject_of_kind(asked, terms, orders)
     if kind is not None:
         raise UsageProblem("the kind is that of FILE", "leave out --kind; --pair asks for the pair")
-    return subject_of_method(tableau, orders)
+    return subject_of_method(valued.tableau, orders)
 
 
 def _independent(subject: Subject, members: bool, valued: Valued | None) -> Iterator[ConditionRow]:
@@ -186,12 +193,22 @@ def _independent(subject: Subject, members: bool, valued: Valued | None) -> Iter
         yield ConditionRow(tree, False, condition, stands_for=len(found.members), members=shown)
 
 
-def _table(colours: int, orders: range, coloured: bool) -> Iterator[ConditionRow]:
+def _table(
+    colours: int | None,
+    orders: range,
+    coloured: bool | None,
+    format: str,  # noqa: A002 -- the option's name
+) -> Iterator[ConditionRow]:
+    """A row for each tree: of each shape for people, of each colouring for programs that say how
+    many colours there are.
+    """
     from garkcli.report.conditions import ConditionRow
     from garkcli.trees.blocks import iter_blocks
 
+    if coloured is None:
+        coloured = format in {"json", "csv"} and colours is not None
     for n in orders:
-        for block in iter_blocks(colours if coloured else 1, n, block_size=1 << 14):
+        for block in iter_blocks((colours or 1) if coloured else 1, n, block_size=1 << 14):
             for tree in block.trees():
                 yield ConditionRow(tree, is_shape=not coloured)
 

@@ -10,7 +10,15 @@ import click
 
 from garkcli.cli.converging import Problems, Wanted, compared, hint_rounding, tested
 from garkcli.cli.options import CONTEXT, PATH, Output, common
-from garkcli.cli.problems import ProblemType, note_changing
+from garkcli.cli.problems import (
+    ProblemType,
+    note_changing,
+    omega_option,
+    plot_option,
+    seed_option,
+    split_option,
+    t_end_option,
+)
 from garkcli.cli.stepping import positive, refuse_misplaced, stepped_tableau
 from garkcli.cli.streams import say_problem
 from garkcli.errors import UsageProblem
@@ -39,17 +47,10 @@ def _moved(_: click.Context, option: click.Parameter, value: object) -> None:
     help="What to solve: a name that gark list shows, or a problem file; by default a random "
     "polynomial that sees every tree of the methods.",
 )
-@click.option("--omega", metavar="W", help="The frequency of the oscillator; 1 by default.")
-@click.option(
-    "--split", metavar="K:V,...", help="The oscillator's shares of kinetic and potential energy."
-)
-@click.option(
-    "--seed",
-    type=click.IntRange(0),
-    metavar="N",
-    help="The coefficients of random problems; 1 by default.",
-)
-@click.option("--t-end", metavar="T", help="The final time; each problem has its own.")
+@omega_option
+@split_option
+@seed_option
+@t_end_option
 @click.option(
     "--steps",
     metavar="H,...",
@@ -67,7 +68,7 @@ def _moved(_: click.Context, option: click.Parameter, value: object) -> None:
 )
 @click.option("--drift", is_flag=True, hidden=True, expose_value=False, callback=_moved)
 @click.option("--step", hidden=True, expose_value=False, callback=_moved)
-@click.option("--plot", type=PATH, metavar="FILE", help="Draw into FILE: .png, .svg or .pdf.")
+@plot_option
 @common(["text", "json", "csv"])
 def command(
     files: tuple[str, ...],

@@ -8,7 +8,17 @@ from typing import TYPE_CHECKING
 import click
 
 from garkcli.cli.options import CONTEXT, PATH, Output, common
-from garkcli.cli.problems import ProblemType, find_problem, is_path, note_changing
+from garkcli.cli.problems import (
+    ProblemType,
+    find_problem,
+    is_path,
+    note_changing,
+    omega_option,
+    plot_option,
+    seed_option,
+    split_option,
+    t_end_option,
+)
 from garkcli.cli.stepping import positive, refuse_misplaced, stepped_tableau
 from garkcli.cli.streams import say_problem
 from garkcli.errors import UsageProblem
@@ -34,14 +44,10 @@ if TYPE_CHECKING:
     show_default=True,
     help="What to follow: a name that gark list shows, or a problem file.",
 )
-@click.option("--omega", metavar="W", help="The frequency of the oscillator; 1 by default.")
-@click.option(
-    "--split", metavar="K:V,...", help="The oscillator's shares of kinetic and potential energy."
-)
-@click.option(
-    "--seed", type=click.IntRange(0), metavar="N", help="The coefficients of generic; 1 by default."
-)
-@click.option("--t-end", metavar="T", help="The final time; each problem has its own.")
+@omega_option
+@split_option
+@seed_option
+@t_end_option
 @click.option("--step", metavar="H", help="The step size; each problem has its own.")
 @click.option(
     "--digits",
@@ -64,7 +70,7 @@ if TYPE_CHECKING:
     "--bounded", is_flag=True, help="Claim that nothing drifts, as far as this run can tell."
 )
 @click.option("--max-error", metavar="E", help="Claim that no energy error is larger than E.")
-@click.option("--plot", type=PATH, metavar="FILE", help="Draw into FILE: .png, .svg or .pdf.")
+@plot_option
 @common(["text", "json", "csv"])
 def command(
     file: str,

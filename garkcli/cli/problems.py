@@ -3,18 +3,22 @@
 from __future__ import annotations
 
 import os
+from collections.abc import Callable
 from contextlib import suppress
-from typing import TYPE_CHECKING
+from typing import TYPE_CHECKING, Any, TypeVar
 
 import click
 from click.shell_completion import CompletionItem
 
+from garkcli.cli.options import PATH
 from garkcli.errors import did_you_mean
 
 if TYPE_CHECKING:
     from garkcli.cli.options import Output
     from garkcli.problems.hamiltonian import Hamiltonian
     from garkcli.tableau.tableau import Tableau
+
+F = TypeVar("F", bound=Callable[..., Any])
 
 
 def is_path(text: str) -> bool:
@@ -61,6 +65,26 @@ class ProblemType(click.ParamType):  # type: ignore[type-arg]
                 )
             return [CompletionItem(name) for name in found]
         return [CompletionItem(incomplete, type="file")]
+
+
+omega_option: Callable[[F], F] = click.option(
+    "--omega", metavar="W", help="The frequency of the oscillator; 1 by default."
+)
+split_option: Callable[[F], F] = click.option(
+    "--split", metavar="K:V,...", help="The oscillator's shares of kinetic and potential energy."
+)
+seed_option: Callable[[F], F] = click.option(
+    "--seed",
+    type=click.IntRange(0),
+    metavar="N",
+    help="The coefficients of random problems; 1 by default.",
+)
+t_end_option: Callable[[F], F] = click.option(
+    "--t-end", metavar="T", help="The final time; each problem has its own."
+)
+plot_option: Callable[[F], F] = click.option(
+    "--plot", type=PATH, metavar="FILE", help="Draw into FILE: .png, .svg or .pdf."
+)
 
 
 def find_problem(name_or_path: str, tableau: Tableau, seed: int | None = None) -> Hamiltonian:
