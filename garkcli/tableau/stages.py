@@ -38,6 +38,8 @@ from garkcli.exact.matrix import (
     transpose,
 )
 
+MAX_BITS_OF_ROW = 20_000
+"""Bits of all denominators of a row up to which elimination may multiply them with each other."""
 MAX_BITS_COMPARED = 5_000_000
 """Longest denominators that are compared with each other only to tell what they share."""
 
@@ -333,8 +335,10 @@ class PolynomialSpace(StageSpace):
         return identity(self.stages)
 
     def divide_by_weights(self, weights: Vector, right: Matrix) -> Matrix:
-        # Not solve(gram, right): a row of right may hold entries of many stages without a common
-        # factor in their denominators, which elimination would multiply with each other.
+        # Elimination puts each row of right over one denominator. Where a row holds entries of many
+        # stages whose denominators have nothing in common, the inverse is used instead.
+        if not any(_has_long_denominators(row) for row in right):
+            return solve(self.gram(weights), right)
         return multiply(_inverse_gram(self, weights), right)
 
     def zero_weights(self, weights: Vector) -> str:
@@ -362,6 +366,11 @@ class PolynomialSpace(StageSpace):
 def _inverse_gram(space: PolynomialSpace, weights: Vector) -> Matrix:
     """G⁻¹ of the weights: all blocks that lead to one colour are conjugated with the same."""
     return solve(space.gram(weights), identity(space.stages))
+
+
+def _has_long_denominators(row: Vector) -> bool:
+    lengths = (int(x.q).bit_length() for x in row if isinstance(x, fmpq))
+    return sum(lengths) > MAX_BITS_OF_ROW
 
 
 def _in_flint(coefficients: Sequence[Number]) -> fmpq_poly:

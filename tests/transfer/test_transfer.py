@@ -324,3 +324,12 @@ def test_many_nodes_of_one_denominator_are_not_refused() -> None:
     """100 nodes k/100 share their denominator: the estimate knows."""
     m = at_nodes(tuple(fmpq(k, 100) for k in range(100)))
     assert image(collocation(samples.method("gauss 2"), m), (fmpq(1),) * 100) == (0, 1)
+
+
+def test_the_conjugate_of_long_entries_is_an_involution() -> None:
+    """Conjugated twice, blocks whose denominators have nothing in common are what they were."""
+    m, l = at_nodes(unrelated_nodes(20, 10**40)), samples.method("gauss 2")
+    tableau = gark([l, m], {(0, 1): collocation(l, m), (1, 0): collocation(m, l)})
+    once = conjugate(tableau)
+    assert once.block(0, 1) != tableau.block(0, 1)
+    assert conjugate(once).blocks == tableau.blocks
