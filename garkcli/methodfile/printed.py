@@ -22,12 +22,12 @@ def printed_units(printed: Printed) -> dict[Number, fmpq]:
 
     A decimal is taken for rounded when it has more than half as many digits as the longest one of
     the file: beside 0.7886751345948129 the number 0.25 is exact. A long numerator or denominator
-    may be off by one.
+    may be off by one. Units are rounded up, by less than a tenth.
 
     >>> from garkcli.exact.expression import parse
     >>> units = printed_units([(parse(x), fmpq(1, 2)) for x in ("0.50000000", "1/2")])
     >>> units[fmpq(1, 2)]
-    1/100000000
+    11/1000000000
     """
     literals = [x for expression, _ in printed for x in _literals(expression)]
     longest = max((_digits(x) for x in literals), default=0)
