@@ -9,13 +9,16 @@ from collections import deque
 from collections.abc import Callable, Iterator, Sequence
 from contextlib import contextmanager, suppress
 from functools import partial
-from multiprocessing.connection import Connection, wait
-from multiprocessing.context import BaseContext
-from multiprocessing.process import BaseProcess
+from typing import TYPE_CHECKING
 
 from garkcli.check.check_file import check_file
 from garkcli.check.outcome import Outcome
 from garkcli.errors import Fault
+
+if TYPE_CHECKING:  # slow to import, and of no use to a check of one file
+    from multiprocessing.connection import Connection
+    from multiprocessing.context import BaseContext
+    from multiprocessing.process import BaseProcess
 
 Work = Callable[[str], Outcome]
 MOST_WORKERS = 60
@@ -119,6 +122,8 @@ class _Crew:
                 following += 1
 
     def _as_they_come(self) -> Iterator[tuple[int, Outcome]]:
+        from multiprocessing.connection import Connection, wait
+
         self._hire()
         while any(worker.files for worker in self.workers):
             by_connection = {worker.connection: worker for worker in self.workers}
