@@ -12,7 +12,14 @@ if TYPE_CHECKING:
     from garkcli.api.arguments import of_methods
     from garkcli.api.arrays import from_arrays
     from garkcli.api.construction import diagonal_method, gark
-    from garkcli.api.methods import analyse, conjugate, find_order, is_symplectic, method_of, pair
+    from garkcli.api.methods import (
+        analyse,
+        conjugate,
+        find_order,
+        is_symplectic,
+        method_of,
+        pair,
+    )
     from garkcli.check.check_file import check_file
     from garkcli.convergence import convergence as _convergence
     from garkcli.errors import GarkError, MethodFileError

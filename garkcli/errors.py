@@ -26,7 +26,7 @@ class GarkError(Exception):
     cure.
     """
 
-    def __init__(self, message: str, help: str = "") -> None:  # noqa: A002 -- the word users see
+    def __init__(self, message: str, help: str = "") -> None:
         super().__init__(message)
         self.message = message
         self.help = help
@@ -38,7 +38,9 @@ class GarkError(Exception):
 class ExpressionError(GarkError):
     """A text is not an exact number. ``start`` and ``end`` are offsets into the text."""
 
-    def __init__(self, message: str, help: str = "", start: int = 0, end: int = 0) -> None:  # noqa: A002
+    def __init__(
+        self, message: str, help: str = "", start: int = 0, end: int = 0
+    ) -> None:
         super().__init__(message, help)
         self.start = start
         self.end = end
@@ -142,7 +144,9 @@ def nearest(word: str, known: Iterable[str]) -> str:
         return spelt[letters]
     close = get_close_matches(letters, spelt, n=1)
     begun = [x for x in spelt if x.startswith(letters)]
-    if len(begun) > 1 and len(letters) > 2:  # a word cut short is near to all that it begins
+    if (
+        len(begun) > 1 and len(letters) > 2
+    ):  # a word cut short is near to all that it begins
         return ""
     return spelt[close[0]] if close else ""
 

@@ -40,7 +40,8 @@ def collocation(l: Method, m: Method) -> Matrix:
     """
     _refuse_large(l, m)
     columns = [
-        l.space.of_polynomial(antiderivative(basis)) for basis in m.space.basis_polynomials()
+        l.space.of_polynomial(antiderivative(basis))
+        for basis in m.space.basis_polynomials()
     ]
     return transpose(tuple(columns))
 

@@ -77,9 +77,13 @@ def draw_order(axes: Axes) -> None:
     """The error against the step size, and the reference line."""
     rows = converge(load(str(METHOD)).tableau, OSCILLATOR).rows
     h, errors = [float(row.h) for row in rows], [float(row.error) for row in rows]
-    axes.loglog(h, errors, marker="o", color="#1f4e9e", linewidth=1.6, label="error at t = 4")
+    axes.loglog(
+        h, errors, marker="o", color="#1f4e9e", linewidth=1.6, label="error at t = 4"
+    )
     reference = [2.5 * errors[-1] * (x / h[-1]) ** 4 for x in h]
-    axes.loglog(h, reference, color="#c0392b", linestyle="--", linewidth=1.6, label="order four")
+    axes.loglog(
+        h, reference, color="#c0392b", linestyle="--", linewidth=1.6, label="order four"
+    )
     axes.set_title("Log-log order plot", fontsize=11)
     axes.set_xlabel("step size h")
     axes.set_ylabel("error")

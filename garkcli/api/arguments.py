@@ -78,11 +78,15 @@ def of_methods(
             method, rest = named.pop(first), ()
         else:
             return cast("Callable[..., R]", function)(**named)
-        position = list(parameters).index("tolerance") if "tolerance" in parameters else -1
+        position = (
+            list(parameters).index("tolerance") if "tolerance" in parameters else -1
+        )
         is_given = "tolerance" in named or (0 < position < len(arguments))
         own = tolerance_of(method)
         if position > 0 and not is_given and own is not None:
-            named["tolerance"] = float(own.p) / float(own.q) if isinstance(default, float) else own
+            named["tolerance"] = (
+                float(own.p) / float(own.q) if isinstance(default, float) else own
+            )
         return cast("Callable[..., R]", function)(tableau_of(method), *rest, **named)
 
     return cast("Callable[Concatenate[AnyMethod, P], R]", wrapped)

@@ -55,7 +55,9 @@ def from_arrays(
     if nodes is not None:
         lines.append(f"c: {writer.text(nodes, 'c')}")
     if tolerance is not None:
-        lines.append(f"tolerance: {number_text(tolerance, 'tolerance', is_rounded=True)}")
+        lines.append(
+            f"tolerance: {number_text(tolerance, 'tolerance', is_rounded=True)}"
+        )
     return loads("\n".join(lines) + "\n", SOURCE)
 
 
@@ -113,4 +115,8 @@ def _quoted(text: str) -> str:
     if _PLAIN.fullmatch(text):
         return text
     escaped = text.replace("\\", "\\\\").replace('"', '\\"')
-    return '"' + "".join(x if x.isprintable() else f"\\U{ord(x):08x}" for x in escaped) + '"'
+    return (
+        '"'
+        + "".join(x if x.isprintable() else f"\\U{ord(x):08x}" for x in escaped)
+        + '"'
+    )

@@ -52,10 +52,17 @@ def gark(
     if not isinstance(transfer, str):
         return forms.gark(diagonal, transfer)
     if transfer not in RULES:
-        raise MethodError(f"no transfer rule {transfer!r}", did_you_mean(transfer, RULES))
+        raise MethodError(
+            f"no transfer rule {transfer!r}", did_you_mean(transfer, RULES)
+        )
     rule = RULES[transfer]
     numbered = list(enumerate(diagonal))
-    blocks = {(l, m): rule(here, other) for l, here in numbered for m, other in numbered if l != m}
+    blocks = {
+        (l, m): rule(here, other)
+        for l, here in numbered
+        for m, other in numbered
+        if l != m
+    }
     return forms.gark(diagonal, blocks)
 
 
@@ -66,5 +73,7 @@ def _diagonal(method: GarkMethod | Method) -> Method:
     tableau = method.tableau
     block = tableau.block(0, 0)
     if tableau.size != 1 or block is None:
-        raise MethodError(f"{method!r} is no diagonal method", "give methods of one colour")
+        raise MethodError(
+            f"{method!r} is no diagonal method", "give methods of one colour"
+        )
     return Method(method.name, tableau.space(0), block, tableau.colours[0].b)

@@ -20,7 +20,9 @@ from garkcli.tableau.method import Method
 from garkcli.tableau.tableau import Tableau
 
 
-def find_order(method: AnyMethod, limit: int = DEFAULT_LIMIT, tolerance: object = None) -> AnyOrder:
+def find_order(
+    method: AnyMethod, limit: int = DEFAULT_LIMIT, tolerance: object = None
+) -> AnyOrder:
     r"""The order of a method: exactly, or within its tolerance.
 
     The conjugate and the pair of a rounded method have the orders that ``analyse`` says: its
@@ -45,7 +47,9 @@ def find_order(method: AnyMethod, limit: int = DEFAULT_LIMIT, tolerance: object 
         return certificate.find_order(tableau_of(method), limit)
     if tolerance is None and isinstance(method, GarkMethod) and method.base is not None:
         found = deciding.analyse(method.base.tableau, limit, near)
-        order = found.pair_order if method.derivation == "pair" else found.conjugate_order
+        order = (
+            found.pair_order if method.derivation == "pair" else found.conjugate_order
+        )
         if order is not None:
             return order
     from garkcli.order.rounded import find_order_within
@@ -53,7 +57,9 @@ def find_order(method: AnyMethod, limit: int = DEFAULT_LIMIT, tolerance: object 
     return find_order_within(tableau_of(method), near, limit)
 
 
-def analyse(method: AnyMethod, limit: int = DEFAULT_LIMIT, tolerance: object = None) -> Analysis:
+def analyse(
+    method: AnyMethod, limit: int = DEFAULT_LIMIT, tolerance: object = None
+) -> Analysis:
     """Decide everything that ``gark check`` reports; no order beyond ``limit`` is looked for.
 
     Args:
@@ -87,7 +93,11 @@ def conjugate(method: AnyMethod) -> Tableau | GarkMethod:
     """
     if isinstance(method, Tableau):
         return conjugation.conjugate(method)
-    if isinstance(method, GarkMethod) and method.derivation == "conjugate" and method.base:
+    if (
+        isinstance(method, GarkMethod)
+        and method.derivation == "conjugate"
+        and method.base
+    ):
         return method.base
     return _derived(method, conjugation.conjugate(tableau_of(method)), "conjugate")
 
@@ -107,7 +117,9 @@ def pair(method: AnyMethod) -> Tableau | GarkMethod:
     return _derived(method, forms.pair(tableau_of(method)), "pair")
 
 
-def _derived(method: GarkMethod | Method, tableau: Tableau, derivation: Derivation) -> GarkMethod:
+def _derived(
+    method: GarkMethod | Method, tableau: Tableau, derivation: Derivation
+) -> GarkMethod:
     base = method if isinstance(method, GarkMethod) else method_of(method)
     name = f"{derivation} of {base.name}" if base.name else ""
     return GarkMethod(

@@ -40,7 +40,9 @@ def number_text(x: Any, where: str, is_rounded: bool) -> str:
         return str(x)
     if isinstance(x, Algebraic):
         return to_text(x)
-    if isinstance(x, numbers.Rational):  # int, Fraction, NumPy's integers, SymPy's rationals
+    if isinstance(
+        x, numbers.Rational
+    ):  # int, Fraction, NumPy's integers, SymPy's rationals
         p, q = int(x.numerator), int(x.denominator)
         return str(p) if q == 1 else f"{p}/{q}"
     if isinstance(x, Decimal) and x.is_finite():
@@ -64,7 +66,8 @@ def _shown(x: Any) -> str:
 def _is_float(x: Any) -> bool:
     """Whether it is a float of Python or of NumPy, which is known without importing NumPy."""
     return isinstance(x, float) or (
-        type(x).__module__ == "numpy" and type(x).__name__.startswith(("float", "longdouble"))
+        type(x).__module__ == "numpy"
+        and type(x).__name__.startswith(("float", "longdouble"))
     )
 
 
@@ -106,7 +109,9 @@ def _sympy_text(x: Any, where: str, is_part: bool = False) -> str:
     if getattr(x, "is_Float", False):
         cure = "give it exactly, as a Rational or a text"
         raise MethodError(f"{where}: {_shown(x)} is a rounded number", cure)
-    raise MethodError(f"{where}: {_shown(x)} is made of more than rationals and real roots", _CURE)
+    raise MethodError(
+        f"{where}: {_shown(x)} is made of more than rationals and real roots", _CURE
+    )
 
 
 def _sympy_power(x: Any, where: str) -> str:

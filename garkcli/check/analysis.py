@@ -115,7 +115,11 @@ def inconsistent_blocks(
     """The blocks with A^{l,m} 𝟙 ≠ c^{l} within a tolerance; none of what does not exist."""
     if tableau is None:
         return ()
-    return tuple(edge for edge, holds in consistent_blocks(tableau, tolerance).items() if not holds)
+    return tuple(
+        edge
+        for edge, holds in consistent_blocks(tableau, tolerance).items()
+        if not holds
+    )
 
 
 def nonautonomous(

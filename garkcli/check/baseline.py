@@ -102,7 +102,9 @@ def _new_file(now: Mapping[str, Any]) -> list[Regression]:
         return [Regression(now["file"], "new file", "none", "unreadable")]
     failing = [claim for claim in now["claims"] if not claim["holds"]]
     return [
-        Regression(now["file"], x["claim"], f"new, expected {x['expected']}", x["found"])
+        Regression(
+            now["file"], x["claim"], f"new, expected {x['expected']}", x["found"]
+        )
         for x in failing
     ]
 
@@ -110,7 +112,11 @@ def _new_file(now: Mapping[str, Any]) -> list[Regression]:
 def _changed(now: Mapping[str, Any], before: Mapping[str, Any]) -> list[Regression]:
     file = now["file"]
     if "errors" in now:
-        return [] if "errors" in before else [Regression(file, "file", "a method", "unreadable")]
+        return (
+            []
+            if "errors" in before
+            else [Regression(file, "file", "a method", "unreadable")]
+        )
     if "errors" in before:
         return []  # it can be read now: better, whatever its claims say
     held = {x["claim"]: x["holds"] for x in before["claims"]}

@@ -28,7 +28,9 @@ solved for carries the rounding of all others.
 """
 
 
-def check_file(path: str, limit: int = DEFAULT_LIMIT, want_constants: bool = False) -> Outcome:
+def check_file(
+    path: str, limit: int = DEFAULT_LIMIT, want_constants: bool = False
+) -> Outcome:
     """Check one method file; a file that cannot be read gives an outcome with its faults.
 
     Args:
@@ -75,10 +77,14 @@ def _blame(method: MethodFile, analysis: Analysis) -> Blame | None:
         ("pair-order", analysis.pair_order, pair),
     )
     for key, found, derive in parts:
-        claimed = highest_order(tuple(claim for claim in method.claims if claim.key == key))
+        claimed = highest_order(
+            tuple(claim for claim in method.claims if claim.key == key)
+        )
         if found is None or found.order >= claimed:
             continue
-        if found.is_lower_bound or (analysis.suggestion and method.tolerance is not None):
+        if found.is_lower_bound or (
+            analysis.suggestion and method.tolerance is not None
+        ):
             return None
         from garkcli.order.blame import Missed, blame_of  # paid for by failures alone
 

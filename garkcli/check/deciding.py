@@ -41,7 +41,9 @@ def analyse(
             where residuals look like rounding.
     """
     if tolerance is not None:
-        from garkcli.check.within import analyse_within  # balls, which exact methods do without
+        from garkcli.check.within import (
+            analyse_within,
+        )  # balls, which exact methods do without
 
         return analyse_within(tableau, tolerance, limit)
     conjugated, both, obstacle = conjugate_and_pair(tableau)
@@ -86,7 +88,11 @@ def analyse(
 def _suggestion(tableau: Tableau, order: Order, limit: int) -> Suggestion | None:
     """What to write into a file that looks rounded; only tiny residuals are looked at further."""
     spelled_out = any(isinstance(space, PointSpace) for space in tableau.spaces)
-    if not spelled_out or order.witness is None or not within(order.witness.residual, TINY):
+    if (
+        not spelled_out
+        or order.witness is None
+        or not within(order.witness.residual, TINY)
+    ):
         return None
     from garkcli.order.suggestion import suggest_tolerance
 

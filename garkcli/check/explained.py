@@ -63,7 +63,9 @@ def claim_hint(outcome: Outcome, claim: str) -> str:
         (repair, *_) = analysis.misprint.repairs
         return f"an entry looks misprinted: {repair_text(repair, names)}"
     if blame is not None and blame.of == claim and blame.repairs:
-        return f"the claimed order would hold with {repair_text(blame.repairs[0], names)}"
+        return (
+            f"the claimed order would hold with {repair_text(blame.repairs[0], names)}"
+        )
     return ""
 
 

@@ -71,7 +71,13 @@ def _failed_claims(outcome: Outcome) -> Iterator[Part]:
         witness = claim_witness(outcome, claim.claim)
         if witness:
             message = f"{message}; {witness}"
-        yield Part(message, claim_hint(outcome, claim.claim), claim.claim, claim.line, claim.column)
+        yield Part(
+            message,
+            claim_hint(outcome, claim.claim),
+            claim.claim,
+            claim.line,
+            claim.column,
+        )
 
 
 def _missing_claims(outcome: Outcome) -> Iterator[Part]:
@@ -93,7 +99,9 @@ def findings(outcome: Outcome) -> Iterator[Finding]:
     for rule, kind in KINDS.items():
         for part in kind.find(outcome):
             digest = _digest(f"{file}\0{rule}\0{part.key}")
-            yield Finding(rule, file, part.line, part.column, part.message, part.help, digest)
+            yield Finding(
+                rule, file, part.line, part.column, part.message, part.help, digest
+            )
 
 
 def _digest(key: str) -> str:

@@ -54,8 +54,12 @@ def analyse_within(tableau: Tableau, tolerance: fmpq, limit: int) -> Analysis:
     inconsistent = inconsistent_blocks(tableau, tolerance)
     conditions = simplifying(tableau, limit, tolerance)
     if not inconsistent:
-        conditions = replace(conditions, B=_implied(tableau, conditions.B, order.order, tolerance))
-    symplectic = is_symplectic_within(tableau, tolerance) and _explained(tableau, rounding)
+        conditions = replace(
+            conditions, B=_implied(tableau, conditions.B, order.order, tolerance)
+        )
+    symplectic = is_symplectic_within(tableau, tolerance) and _explained(
+        tableau, rounding
+    )
     hat = _conjugate_part(conjugated, rounding, tolerance, limit)
     both_parts = _pair_part(tableau, both, rounding, order, limit)
     hat, both_parts = _agreeing(tableau, order, symplectic, hat, both_parts)
@@ -108,7 +112,9 @@ class _Derived:
     tolerance: fmpq
 
     @staticmethod
-    def of(tableau: Tableau, made: Propagation | None, tolerance: fmpq, limit: int) -> _Derived:
+    def of(
+        tableau: Tableau, made: Propagation | None, tolerance: fmpq, limit: int
+    ) -> _Derived:
         """Its order within what rounding explains; ``made`` is None where nothing is known."""
         effect: Effect = made.effect if made else _unknown
         order = find_order_within(tableau, tolerance, limit, effect)
@@ -117,7 +123,10 @@ class _Derived:
 
 
 def _conjugate_part(
-    conjugated: Tableau | None, rounding: ConjugateRounding | None, tolerance: fmpq, limit: int
+    conjugated: Tableau | None,
+    rounding: ConjugateRounding | None,
+    tolerance: fmpq,
+    limit: int,
 ) -> _Derived | None:
     if conjugated is None:
         return None
@@ -192,19 +201,34 @@ def _like(derived: _Derived | None, own: RoundedOrder) -> _Derived | None:
 def _at_most(pair_order: RoundedOrder, part: RoundedOrder, shift: int) -> RoundedOrder:
     """The order of the pair, no more than that of a part whose colours begin at ``shift``."""
     fails_with_it = part.order == pair_order.order and pair_order.witness is None
-    if part.order > pair_order.order or (part.order == pair_order.order and not fails_with_it):
+    if part.order > pair_order.order or (
+        part.order == pair_order.order and not fails_with_it
+    ):
         return pair_order
     sizes, means = pair_order.sizes[: part.order], pair_order.means[: part.order]
     witness = part.witness
     if witness is not None:
-        witness = Witness(_shifted(witness.tree, shift), witness.value, witness.required)
-        sizes, means = (*sizes, abs(to_ball(witness.residual))), (*means, part.means[-1])
+        witness = Witness(
+            _shifted(witness.tree, shift), witness.value, witness.required
+        )
+        sizes, means = (
+            (*sizes, abs(to_ball(witness.residual))),
+            (*means, part.means[-1]),
+        )
     return RoundedOrder(
-        part.order, pair_order.tolerance, witness, part.undecided, sizes, means, part.doubt
+        part.order,
+        pair_order.tolerance,
+        witness,
+        part.undecided,
+        sizes,
+        means,
+        part.doubt,
     )
 
 
-def _no_earlier(found: RoundedOrder, own: RoundedOrder, conjugated: Tableau) -> RoundedOrder:
+def _no_earlier(
+    found: RoundedOrder, own: RoundedOrder, conjugated: Tableau
+) -> RoundedOrder:
     """The order of the conjugate: below 2 it is that of the method.
 
     Both have the weights b, and b_lᵀ Â^{l,m} 𝟙 = (b_lᵀ𝟙)(b_mᵀ𝟙) − b_mᵀ A^{m,l} 𝟙.
@@ -223,7 +247,9 @@ def _no_earlier(found: RoundedOrder, own: RoundedOrder, conjugated: Tableau) -> 
 
 
 def _shifted(tree: Tree, shift: int) -> Tree:
-    return Tree(tree.root + shift, tuple(_shifted(branch, shift) for branch in tree.branches))
+    return Tree(
+        tree.root + shift, tuple(_shifted(branch, shift) for branch in tree.branches)
+    )
 
 
 def _with_own(both: Simplifying, own: Simplifying) -> Simplifying:
@@ -231,7 +257,8 @@ def _with_own(both: Simplifying, own: Simplifying) -> Simplifying:
     N = len(own.B)
 
     def mixed(
-        table: tuple[tuple[int | None, ...], ...], part: tuple[tuple[int | None, ...], ...]
+        table: tuple[tuple[int | None, ...], ...],
+        part: tuple[tuple[int | None, ...], ...],
     ) -> tuple[tuple[int | None, ...], ...]:
         return tuple((*part[l % N], *row[N:]) for l, row in enumerate(table))
 
@@ -239,7 +266,9 @@ def _with_own(both: Simplifying, own: Simplifying) -> Simplifying:
 
 
 def _conjugate_nodes(
-    derived: _Derived | None, symplectic: bool, inconsistent: tuple[tuple[int, int], ...]
+    derived: _Derived | None,
+    symplectic: bool,
+    inconsistent: tuple[tuple[int, int], ...],
 ) -> tuple[tuple[int, int], ...]:
     """The blocks with Â^{l,m} 𝟙 ≠ c^{l}."""
     if derived is None:
@@ -249,7 +278,9 @@ def _conjugate_nodes(
     return inconsistent_blocks(derived.tableau, derived.tolerance)
 
 
-def _implied(tableau: Tableau, B: tuple[int, ...], order: int, tolerance: fmpq) -> tuple[int, ...]:
+def _implied(
+    tableau: Tableau, B: tuple[int, ...], order: int, tolerance: fmpq
+) -> tuple[int, ...]:
     """B as far as the order implies it: b c^(k−1) is off by what the rounding of c adds.
 
     That is at most t (k−1) Σ |b_i| (|c_i| + t)^(k−2).
@@ -259,7 +290,8 @@ def _implied(tableau: Tableau, B: tuple[int, ...], order: int, tolerance: fmpq) 
     for l, r in enumerate(B):
         if isinstance(tableau.space(l), PointSpace):
             while r < order and within(
-                defects.B(l, r + 1), tolerance + _nodes_effect(tableau, l, r + 1, tolerance)
+                defects.B(l, r + 1),
+                tolerance + _nodes_effect(tableau, l, r + 1, tolerance),
             ):
                 r += 1
         found.append(r)

@@ -33,7 +33,9 @@ from garkcli.report.check_formats import FORMATS
     help="Fail only on what is worse than in an earlier JSON report.",
 )
 @click.option(
-    "--require-claims", is_flag=True, help="A file that makes no claim under `expect` fails."
+    "--require-claims",
+    is_flag=True,
+    help="A file that makes no claim under `expect` fails.",
 )
 @click.option(
     "-j",
@@ -76,7 +78,9 @@ def command(
 
         earlier = read_baseline(baseline)
     paths = list(find_files(files))
-    running = check_files(paths, max_order, error_constants, jobs or os.cpu_count() or 1)
+    running = check_files(
+        paths, max_order, error_constants, jobs or os.cpu_count() or 1
+    )
     outcomes = list(tracked(running, len(paths), "checking", output.verbosity >= 0))
     if require_claims:
         outcomes = [replace(outcome, needs_claims=True) for outcome in outcomes]

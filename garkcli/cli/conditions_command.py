@@ -44,10 +44,17 @@ if TYPE_CHECKING:
     help="A row for each colouring, or a row for all of them (without FILE).",
 )
 @click.option(
-    "--conjugate", "which", flag_value="conjugate", help="Of the symplectic conjugate of FILE."
+    "--conjugate",
+    "which",
+    flag_value="conjugate",
+    help="Of the symplectic conjugate of FILE.",
 )
-@click.option("--pair", "which", flag_value="pair", help="Of the symplectic pair of FILE.")
-@click.option("--failing", is_flag=True, help="Only conditions of FILE that do not hold.")
+@click.option(
+    "--pair", "which", flag_value="pair", help="Of the symplectic pair of FILE."
+)
+@click.option(
+    "--failing", is_flag=True, help="Only conditions of FILE that do not hold."
+)
 @click.option(
     "--sort",
     type=click.Choice(["tree", "worst"]),
@@ -62,7 +69,9 @@ if TYPE_CHECKING:
     help="Values and residuals in decimals of N digits; by default exact.",
 )
 @click.option(
-    "--document", is_flag=True, help="With --format latex: a document that compiles as it stands."
+    "--document",
+    is_flag=True,
+    help="With --format latex: a document that compiles as it stands.",
 )
 @symplectic_options
 @common(["text", "json", "csv", "latex"])
@@ -98,14 +107,18 @@ def command(
     asked = kind_asked(symplectic, kind, members, output.format)
     orders = range(order, order + 1) if only else range(1, order + 1)
     if file is None:
-        _refuse({"--conjugate or --pair": which, "--failing": failing, "--digits": digits})
+        _refuse(
+            {"--conjugate or --pair": which, "--failing": failing, "--digits": digits}
+        )
         _refuse({"--sort": sort != "tree"})
     elif colours is not None or coloured is not None:
         raise UsageProblem(
             "the colours are those of FILE", "leave out --colours, --coloured, --shapes"
         )
     if asked is not None and coloured is not None:
-        raise UsageProblem("free trees have colours", "leave out --coloured and --shapes")
+        raise UsageProblem(
+            "free trees have colours", "leave out --coloured and --shapes"
+        )
     valued = None if file is None else _chosen(file, which, failing)
     subject = None if asked is None else _subject(asked, kind, colours, orders, valued)
     if valued is not None and subject is not None and subject.tableau is not None:
@@ -119,7 +132,9 @@ def command(
     rows = _arranged(rows, sort, digits)
     rows = tracked(rows, None, "conditions", output.may_show_progress)
     output.write(
-        report.render(rows, output.format, output.paint, output.width, document, subject, valued)
+        report.render(
+            rows, output.format, output.paint, output.width, document, subject, valued
+        )
     )
     return 0
 
@@ -161,7 +176,11 @@ def _chosen(file: str, which: str | None, only_failing: bool) -> Valued:
 
 
 def _subject(
-    asked: Kind, kind: str | None, terms: int | None, orders: range, valued: Valued | None
+    asked: Kind,
+    kind: str | None,
+    terms: int | None,
+    orders: range,
+    valued: Valued | None,
 ) -> Subject:
     """What the conditions are independent for: a kind of methods, or the one of a file."""
     from garkcli.report.symplectic import subject_of_kind, subject_of_method
@@ -169,11 +188,15 @@ def _subject(
     if valued is None:
         return subject_of_kind(asked, terms, orders)
     if kind is not None:
-        raise UsageProblem("the kind is that of FILE", "leave out --kind; --pair asks for the pair")
+        raise UsageProblem(
+            "the kind is that of FILE", "leave out --kind; --pair asks for the pair"
+        )
     return subject_of_method(valued.tableau, orders)
 
 
-def _independent(subject: Subject, members: bool, valued: Valued | None) -> Iterator[ConditionRow]:
+def _independent(
+    subject: Subject, members: bool, valued: Valued | None
+) -> Iterator[ConditionRow]:
     """A row for each class, with its value where there is a method."""
     from itertools import repeat, tee
 
@@ -186,18 +209,23 @@ def _independent(subject: Subject, members: bool, valued: Valued | None) -> Iter
     values = (
         zip(trees, repeat(None))
         if valued is None
-        else ((x.tree, x) for x in conditions(valued.tableau, trees, valued.tolerance or ZERO))
+        else (
+            (x.tree, x)
+            for x in conditions(valued.tableau, trees, valued.tolerance or ZERO)
+        )
     )
     for found, (tree, condition) in zip(classes, values, strict=True):
         shown = found.members if members else ()
-        yield ConditionRow(tree, False, condition, stands_for=len(found.members), members=shown)
+        yield ConditionRow(
+            tree, False, condition, stands_for=len(found.members), members=shown
+        )
 
 
 def _table(
     colours: int | None,
     orders: range,
     coloured: bool | None,
-    format: str,  # noqa: A002 -- the option's name
+    format: str,
 ) -> Iterator[ConditionRow]:
     """A row for each tree: of each shape for people, of each colouring for programs that say how
     many colours there are.
@@ -208,7 +236,9 @@ def _table(
     if coloured is None:
         coloured = format in {"json", "csv"} and colours is not None
     for n in orders:
-        for block in iter_blocks((colours or 1) if coloured else 1, n, block_size=1 << 14):
+        for block in iter_blocks(
+            (colours or 1) if coloured else 1, n, block_size=1 << 14
+        ):
             for tree in block.trees():
                 yield ConditionRow(tree, is_shape=not coloured)
 

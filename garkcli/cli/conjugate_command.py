@@ -9,7 +9,9 @@ from garkcli.cli.options import CONTEXT, PATH, Output, common
 
 @click.command("conjugate", context_settings=CONTEXT)
 @click.argument("file", type=PATH, metavar="FILE")
-@click.option("--pair", "is_pair", is_flag=True, help="The symplectic pair, 2N colours, instead.")
+@click.option(
+    "--pair", "is_pair", is_flag=True, help="The symplectic pair, 2N colours, instead."
+)
 @click.option(
     "--digits",
     type=click.IntRange(1, 1000),
@@ -17,10 +19,14 @@ from garkcli.cli.options import CONTEXT, PATH, Output, common
     help="Decimals of N digits; by default exact, or 17 digits.",
 )
 @click.option(
-    "--document", is_flag=True, help="With --format latex: a document that compiles as it stands."
+    "--document",
+    is_flag=True,
+    help="With --format latex: a document that compiles as it stands.",
 )
 @common(["text", "yaml", "json", "latex"])
-def command(file: str, is_pair: bool, digits: int | None, document: bool, output: Output) -> int:
+def command(
+    file: str, is_pair: bool, digits: int | None, document: bool, output: Output
+) -> int:
     """The symplectic conjugate tableau of a method.
 
     With --format yaml it is a method file that loads again; conjugated again it gives the original
@@ -40,7 +46,11 @@ def command(file: str, is_pair: bool, digits: int | None, document: bool, output
         write_tableau(made, name, digits, output, method.tolerance, document)
         return 0
     from garkcli.errors import UsageProblem
-    from garkcli.methodfile.writer import can_spell_out, write_conjugate_of, write_tableau_file
+    from garkcli.methodfile.writer import (
+        can_spell_out,
+        write_conjugate_of,
+        write_tableau_file,
+    )
     from garkcli.tableau.pointwise import in_points
 
     exact = in_points(made)

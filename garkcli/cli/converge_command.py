@@ -107,7 +107,9 @@ def command(
     if omega:
         positive("--omega", omega)
     if against not in (None, "h") and not work:
-        raise UsageProblem(f"--against {against} is not known without measuring it", "add --work")
+        raise UsageProblem(
+            f"--against {against} is not known without measuring it", "add --work"
+        )
     if plot is not None:
         from garkcli.plots.convergence_plot import check_suffix
 
@@ -118,7 +120,9 @@ def command(
         split,
         seed,
         None if t_end is None else positive("--t-end", t_end),
-        None if steps is None else tuple(positive("--steps", h) for h in steps.split(",")),
+        None
+        if steps is None
+        else tuple(positive("--steps", h) for h in steps.split(",")),
         work,
     )
     shown = Shown(work, against or ("evaluations" if work else "h"), plot)
@@ -163,7 +167,9 @@ def _one(path: str, wanted: Wanted, shown: Shown, output: Output) -> int:
     except StepFailed as error:
         say_problem(error)
         return 1
-    output.write(report.render(result, method.name, output.format, output.paint, shown.work))
+    output.write(
+        report.render(result, method.name, output.format, output.paint, shown.work)
+    )
     hint_rounding(method, tableau, result, output)
     if shown.plot is not None:
         from garkcli.plots.convergence_plot import comparison_figure, convergence_figure
@@ -181,8 +187,12 @@ def _several(paths: list[str], wanted: Wanted, shown: Shown, output: Output) -> 
     from garkcli.report import comparison as report
 
     entries = compared(paths, wanted, output)
-    output.write(report.render(entries, output.format, output.paint, shown.work, shown.against))
-    results = [(entry.name, entry.result) for entry in entries if entry.result is not None]
+    output.write(
+        report.render(entries, output.format, output.paint, shown.work, shown.against)
+    )
+    results = [
+        (entry.name, entry.result) for entry in entries if entry.result is not None
+    ]
     if shown.plot is not None:
         if results:
             from garkcli.plots.convergence_plot import comparison_figure

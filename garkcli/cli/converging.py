@@ -150,7 +150,11 @@ def oscillator(wanted: Wanted, tableau: Tableau) -> Oscillator:
 
 
 def tested(
-    method: MethodFile, tableau: Tableau, wanted: Wanted, problems: Problems, watch: Watch
+    method: MethodFile,
+    tableau: Tableau,
+    wanted: Wanted,
+    problems: Problems,
+    watch: Watch,
 ) -> Convergence:
     """The convergence test of one method.
 
@@ -171,7 +175,11 @@ def tested(
 
 
 def hint_rounding(
-    method: MethodFile, tableau: Tableau, result: Convergence, output: Output, path: str = ""
+    method: MethodFile,
+    tableau: Tableau,
+    result: Convergence,
+    output: Output,
+    path: str = "",
 ) -> None:
     """Where the exact order shows late or not at all because coefficients look rounded: the line
     that is missing.
@@ -235,7 +243,9 @@ def _prefixed(watch: Watch, prefix: str) -> Watch:
     return lambda what, done, total: watch(f"{prefix} {what}", done, total)
 
 
-def _entry(path: str, loaded: Loaded, wanted: Wanted, problems: Problems, watch: Watch) -> Entry:
+def _entry(
+    path: str, loaded: Loaded, wanted: Wanted, problems: Problems, watch: Watch
+) -> Entry:
     from garkcli.report.convergence_data import Entry
 
     method, tableau = loaded

@@ -64,12 +64,18 @@ if TYPE_CHECKING:
     help="How many times the plot and --format csv keep, extremes among them.",
 )
 @click.option(
-    "--symplecticity", is_flag=True, help="Measure MᵀJM − J of single steps, M = ∂y₁/∂y₀."
+    "--symplecticity",
+    is_flag=True,
+    help="Measure MᵀJM − J of single steps, M = ∂y₁/∂y₀.",
 )
 @click.option(
-    "--bounded", is_flag=True, help="Claim that nothing drifts, as far as this run can tell."
+    "--bounded",
+    is_flag=True,
+    help="Claim that nothing drifts, as far as this run can tell.",
 )
-@click.option("--max-error", metavar="E", help="Claim that no energy error is larger than E.")
+@click.option(
+    "--max-error", metavar="E", help="Claim that no energy error is larger than E."
+)
 @plot_option
 @common(["text", "json", "csv"])
 def command(
@@ -150,7 +156,9 @@ def command(
         return 1
     claims = _claims(run, bounded, limit)
     made = Report(method.name, run, steps, claims)
-    output.write(report.render(made, output.format, output.paint, output.verbosity >= 0))
+    output.write(
+        report.render(made, output.format, output.paint, output.verbosity >= 0)
+    )
     if plot is not None:
         from garkcli.plots.convergence_plot import save
         from garkcli.plots.energy_plot import energy_figure
@@ -188,7 +196,9 @@ def _symplecticity(
     proved = is_proved(tableau, run.problem, method.tolerance)
     if not is_measured:
         return Symplecticity(proved)
-    return Symplecticity(proved, symplecticity_defects(tableau, run.problem, run.step, run.states))
+    return Symplecticity(
+        proved, symplecticity_defects(tableau, run.problem, run.step, run.states)
+    )
 
 
 def _claims(run: LongRun, bounded: bool, limit: fmpq | None) -> tuple[Claim, ...]:

@@ -17,5 +17,7 @@ def command(output: Output) -> int:
     from garkcli.transfer import SUMMARIES
 
     problems = {entry.name: entry.summary for entry in PROBLEMS.values()}
-    output.write(listing.render(FAMILIES, SUMMARIES, problems, output.format, output.paint))
+    output.write(
+        listing.render(FAMILIES, SUMMARIES, problems, output.format, output.paint)
+    )
     return 0

@@ -48,10 +48,10 @@ COMMANDS = {
 class _LazyGroup(click.Group):
     """A group that imports a command only to run it or to show its help."""
 
-    def list_commands(self, ctx: click.Context) -> list[str]:  # noqa: ARG002 -- click's signature
+    def list_commands(self, ctx: click.Context) -> list[str]:
         return list(COMMANDS)
 
-    def get_command(self, ctx: click.Context, cmd_name: str) -> click.Command | None:  # noqa: ARG002
+    def get_command(self, ctx: click.Context, cmd_name: str) -> click.Command | None:
         if cmd_name not in COMMANDS:
             return None
         command = import_module(f"garkcli.cli.{cmd_name}_command").command
@@ -66,7 +66,9 @@ class _LazyGroup(click.Group):
             ctx.fail(f"{what}; {did_you_mean(args[0], COMMANDS)}")
         return super().resolve_command(ctx, args)
 
-    def format_commands(self, ctx: click.Context, formatter: click.HelpFormatter) -> None:  # noqa: ARG002
+    def format_commands(
+        self, ctx: click.Context, formatter: click.HelpFormatter
+    ) -> None:
         with formatter.section("Commands"):
             formatter.write_dl(list(COMMANDS.items()))
 
@@ -94,7 +96,9 @@ def _show_version(context: click.Context, _: click.Parameter, wanted: bool) -> N
     callback=_show_version,
     help="Show the version and exit.",
 )
-@click.option("--debug", is_flag=True, help="Show the traceback of a fault of the program.")
+@click.option(
+    "--debug", is_flag=True, help="Show the traceback of a fault of the program."
+)
 @help_option
 @click.pass_context
 def gark(context: click.Context, debug: bool) -> int:  # noqa: ARG001 -- read where faults are shown
@@ -149,7 +153,9 @@ def _exit_code(arguments: list[str]) -> int:
         drop(sys.stdout)
         return READER_GONE
     except NoStandardOutput:
-        say("gark: standard output is closed\nhelp: -o FILE writes the report into a file")
+        say(
+            "gark: standard output is closed\nhelp: -o FILE writes the report into a file"
+        )
         return 2
     except click.ClickException as error:
         say(_usage_text(error))
@@ -183,13 +189,21 @@ def _usage_text(error: click.ClickException) -> str:
     message = error.format_message()
     context = getattr(error, "ctx", None)
     if isinstance(error, click.NoSuchOption):
-        known = [] if context is None else [x for p in context.command.params for x in p.opts]
+        known = (
+            []
+            if context is None
+            else [x for p in context.command.params for x in p.opts]
+        )
         message = f"no such option {printable(error.option_name)}"
         if error.option_name.startswith("--"):
             message += f"; {did_you_mean(error.option_name, known)}"
     lines = []
     if context is not None:
-        lines = [context.get_usage(), f"Try '{context.command_path} --help' for help.", ""]
+        lines = [
+            context.get_usage(),
+            f"Try '{context.command_path} --help' for help.",
+            "",
+        ]
     return "\n".join([*lines, f"Error: {message}"])
 
 
@@ -209,6 +223,8 @@ def _complain(error: GarkError) -> None:
     if isinstance(error, MethodFileError):
         from garkcli.check.outcome import Outcome
 
-        say_faults(Outcome(error.source, error.source, faults=error.faults, text=error.text))
+        say_faults(
+            Outcome(error.source, error.source, faults=error.faults, text=error.text)
+        )
         return
     say_problem(error)

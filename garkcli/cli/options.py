@@ -41,24 +41,33 @@ def common(formats: Sequence[str]) -> Callable[[F], F]:
 
     def decorate(function: F) -> F:
         def run(
-            format: str,  # noqa: A002 -- the option's name
+            format: str,
             output: str | None,
             quiet: bool,
             verbose: bool,
             color: str,
             **rest: Any,
         ) -> Any:
-            return function(output=Output(format, output, verbose - quiet, color), **rest)
+            return function(
+                output=Output(format, output, verbose - quiet, color), **rest
+            )
 
         run.__doc__ = function.__doc__
         run.__name__ = function.__name__
         run.__click_params__ = getattr(function, "__click_params__", [])  # type: ignore[attr-defined]
         options = [
             click.option(
-                "--format", type=click.Choice(formats), default=formats[0], show_default=True
+                "--format",
+                type=click.Choice(formats),
+                default=formats[0],
+                show_default=True,
             ),
             click.option(
-                "-o", "--output", type=PATH, metavar="FILE", help="Write the report to FILE."
+                "-o",
+                "--output",
+                type=PATH,
+                metavar="FILE",
+                help="Write the report to FILE.",
             ),
             click.option("-q", "--quiet", is_flag=True, help="Say less."),
             click.option("-v", "--verbose", is_flag=True, help="Say more."),
@@ -90,7 +99,9 @@ class Output:
         UsageProblem: the report will have no place; said before any work is done.
     """
 
-    def __init__(self, format: str, path: str | None, verbosity: int, color: str) -> None:  # noqa: A002
+    def __init__(
+        self, format: str, path: str | None, verbosity: int, color: str
+    ) -> None:
         self.format = format
         self.path = path
         self.verbosity = verbosity
@@ -114,7 +125,7 @@ class Output:
 
         return get_terminal_size((80, 24)).columns if self.path is None else 80
 
-    def write(self, text: str | Iterable[str], format: str = "") -> None:  # noqa: A002
+    def write(self, text: str | Iterable[str], format: str = "") -> None:
         """Write the report; a file appears whole or not at all.
 
         Args:
@@ -122,7 +133,7 @@ class Output:
             format: where it is not that of ``--format``.
         """
         pieces = [text] if isinstance(text, str) else text
-        format = format or self.format  # noqa: A001
+        format = format or self.format
         coloured = self.paint.color
         if self.path is None:
             for piece in pieces:
@@ -137,7 +148,9 @@ class Output:
         """Whether a bar on stderr disturbs nobody: not when the report itself scrolls by on the
         terminal.
         """
-        return self.verbosity >= 0 and (self.path is not None or not is_terminal(sys.stdout))
+        return self.verbosity >= 0 and (
+            self.path is not None or not is_terminal(sys.stdout)
+        )
 
     def note(self, text: str) -> None:
         """A remark beside the report, on stderr."""

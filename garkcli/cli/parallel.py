@@ -35,7 +35,9 @@ def check_files(
     A file that ends its worker, by a lack of memory or a signal, has an outcome that says so, and
     the others are checked as if nothing had been.
     """
-    work: Work = partial(_checked, partial(check_file, limit=limit, want_constants=want_constants))
+    work: Work = partial(
+        _checked, partial(check_file, limit=limit, want_constants=want_constants)
+    )
     jobs = min(jobs, len(paths), MOST_WORKERS)
     if jobs < 2 or "-" in paths:
         yield from map(work, paths)
@@ -52,7 +54,9 @@ def _checked(check: Work, path: str) -> Outcome:
         if "--debug" in sys.argv:
             raise
         what = f"{type(error).__name__}: {error}".splitlines()[0][:200]
-        return _crashed(path, f"internal fault: {what}", "please report it, with the file")
+        return _crashed(
+            path, f"internal fault: {what}", "please report it, with the file"
+        )
 
 
 def _crashed(path: str, what: str, cure: str) -> Outcome:
@@ -163,7 +167,10 @@ class _Crew:
         if files:
             why = _cause(worker.process.exitcode)
             cure = "check it alone; where memory is short use fewer --jobs"
-            yield files[0], _crashed(self.paths[files[0]], f"its check was ended {why}", cure)
+            yield (
+                files[0],
+                _crashed(self.paths[files[0]], f"its check was ended {why}", cure),
+            )
         self._hire()
 
 

@@ -23,7 +23,9 @@ F = TypeVar("F", bound=Callable[..., Any])
 
 def is_path(text: str) -> bool:
     """Whether this is the path of a problem file rather than the name of a built-in problem."""
-    return text == "-" or text.endswith((".yaml", ".yml")) or "/" in text or "\\" in text
+    return (
+        text == "-" or text.endswith((".yaml", ".yml")) or "/" in text or "\\" in text
+    )
 
 
 class ProblemType(click.ParamType):  # type: ignore[type-arg]
@@ -31,23 +33,31 @@ class ProblemType(click.ParamType):  # type: ignore[type-arg]
 
     name = "problem"
 
-    def get_metavar(self, param: click.Parameter, ctx: click.Context | None = None) -> str:  # noqa: ARG002
+    def get_metavar(
+        self, param: click.Parameter, ctx: click.Context | None = None
+    ) -> str:
         """What help shows."""
         return "NAME|FILE"
 
-    def convert(self, value: str, param: click.Parameter | None, ctx: click.Context | None) -> str:
+    def convert(
+        self, value: str, param: click.Parameter | None, ctx: click.Context | None
+    ) -> str:
         """Refuse what is neither, before anything is read."""
         from garkcli.problems.builtin import PROBLEMS
 
         if value not in PROBLEMS and not is_path(value):
             cure = did_you_mean(value, tuple(PROBLEMS))
-            self.fail(f"no problem {value!r}; {cure}; a problem file ends in .yaml", param, ctx)
+            self.fail(
+                f"no problem {value!r}; {cure}; a problem file ends in .yaml",
+                param,
+                ctx,
+            )
         return value
 
     def shell_complete(
         self,
-        ctx: click.Context,  # noqa: ARG002
-        param: click.Parameter,  # noqa: ARG002
+        ctx: click.Context,
+        param: click.Parameter,
         incomplete: str,
     ) -> list[CompletionItem]:
         """The names, and problem files; folders are for the shell, which goes on below them."""
@@ -71,7 +81,9 @@ omega_option: Callable[[F], F] = click.option(
     "--omega", metavar="W", help="The frequency of the oscillator; 1 by default."
 )
 split_option: Callable[[F], F] = click.option(
-    "--split", metavar="K:V,...", help="The oscillator's shares of kinetic and potential energy."
+    "--split",
+    metavar="K:V,...",
+    help="The oscillator's shares of kinetic and potential energy.",
 )
 seed_option: Callable[[F], F] = click.option(
     "--seed",
@@ -87,7 +99,9 @@ plot_option: Callable[[F], F] = click.option(
 )
 
 
-def find_problem(name_or_path: str, tableau: Tableau, seed: int | None = None) -> Hamiltonian:
+def find_problem(
+    name_or_path: str, tableau: Tableau, seed: int | None = None
+) -> Hamiltonian:
     """The problem called so or described in that file, split into the terms that ``tableau`` is
     for.
 

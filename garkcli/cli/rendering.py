@@ -59,7 +59,9 @@ def write_tableau(
     else:
         from garkcli.report import tableau_text
 
-        text = tableau_text.render(tableau, found, printable(name), output.paint, output.width)
+        text = tableau_text.render(
+            tableau, found, printable(name), output.paint, output.width
+        )
         output.write(text)
 
 
@@ -68,8 +70,14 @@ def _entries(tableau: Tableau, digits: int | None) -> Entries:
     return found if digits is None else found.in_decimals(digits)
 
 
-def _method_file(tableau: Tableau, name: str, digits: int | None, tolerance: fmpq | None) -> str:
-    from garkcli.methodfile.writer import can_spell_out, write_rounded, write_tableau_file
+def _method_file(
+    tableau: Tableau, name: str, digits: int | None, tolerance: fmpq | None
+) -> str:
+    from garkcli.methodfile.writer import (
+        can_spell_out,
+        write_rounded,
+        write_tableau_file,
+    )
 
     if not can_spell_out(tableau):
         raise UsageProblem(

@@ -33,7 +33,9 @@ def ending() -> Iterator[None]:
     changed = []
     if threading.current_thread() is threading.main_thread():
         known = [getattr(signal, name) for name in ENDING if hasattr(signal, name)]
-        changed = [number for number in known if signal.getsignal(number) is signal.SIG_DFL]
+        changed = [
+            number for number in known if signal.getsignal(number) is signal.SIG_DFL
+        ]
     for number in changed:
         signal.signal(number, _end)
     try:
@@ -44,5 +46,7 @@ def ending() -> Iterator[None]:
 
 
 def _end(number: int, frame: FrameType | None) -> NoReturn:  # noqa: ARG001 -- the handler's signature
-    signal.signal(number, signal.SIG_IGN)  # once is enough: the next one would stop the cleaning up
+    signal.signal(
+        number, signal.SIG_IGN
+    )  # once is enough: the next one would stop the cleaning up
     raise Ended(number)

@@ -22,7 +22,9 @@ if TYPE_CHECKING:
     metavar="A",
     help="Two springs: (hω)² of the slow one, a rational number; with --fast.",
 )
-@click.option("--fast", metavar="COLOUR", help="Two springs: the colour of the fast one.")
+@click.option(
+    "--fast", metavar="COLOUR", help="Two springs: the colour of the fast one."
+)
 @click.option(
     "--digits",
     type=click.IntRange(1, 1000),
@@ -32,9 +34,14 @@ if TYPE_CHECKING:
     help="Digits of numbers that have no simple radicals.",
 )
 @click.option(
-    "--plot", type=PATH, metavar="FILE", help="Draw regions or traces into FILE: .png, .svg, .pdf."
+    "--plot",
+    type=PATH,
+    metavar="FILE",
+    help="Draw regions or traces into FILE: .png, .svg, .pdf.",
 )
-@click.option("--order-star", is_flag=True, help="With --plot: |R(z)| > |exp z| instead.")
+@click.option(
+    "--order-star", is_flag=True, help="With --plot: |R(z)| > |exp z| instead."
+)
 @common(["text", "json", "latex"])
 def command(
     files: tuple[str, ...],
@@ -66,7 +73,9 @@ def command(
         if slow is None or fast is None:
             reports.append(_whole_report(file, method, digits))
         else:
-            reports.append(_springs_report(file, method, digits, slow, fast, plot is not None))
+            reports.append(
+                _springs_report(file, method, digits, slow, fast, plot is not None)
+            )
     output.write(render(reports, output.format, output.paint))
     if plot is not None:
         from garkcli.plots.convergence_plot import save
@@ -83,7 +92,9 @@ def _check_plot(plot: str) -> None:
 
     check_suffix(Path(plot))
     if not Path(plot).parent.is_dir():
-        raise UsageProblem(f"cannot write {plot}: there is no such folder", "choose another place")
+        raise UsageProblem(
+            f"cannot write {plot}: there is no such folder", "choose another place"
+        )
 
 
 def _whole_report(file: str, method: MethodFile, digits: int) -> StabilityReport:

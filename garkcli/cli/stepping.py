@@ -34,11 +34,15 @@ def stepped_tableau(method: MethodFile, output: Output, path: str = "") -> Table
         return pair(method.tableau)
     except ZeroWeight as error:
         where = f"{path}: " if path else ""
-        output.note(f"{where}no symplectic pair ({error.message}): tested as a GARK method")
+        output.note(
+            f"{where}no symplectic pair ({error.message}): tested as a GARK method"
+        )
         return method.tableau
 
 
-def refuse_misplaced(problem: str, seed: int | None, of_oscillator: Mapping[str, object]) -> None:
+def refuse_misplaced(
+    problem: str, seed: int | None, of_oscillator: Mapping[str, object]
+) -> None:
     """Refuse options of another problem: they would change nothing.
 
     Args:
@@ -53,7 +57,9 @@ def refuse_misplaced(problem: str, seed: int | None, of_oscillator: Mapping[str,
 
     given = next((option for option, value in of_oscillator.items() if value), None)
     if problem != "oscillator" and given:
-        raise UsageProblem(f"{given} is for the oscillator, not for {problem}", "leave it out")
+        raise UsageProblem(
+            f"{given} is for the oscillator, not for {problem}", "leave it out"
+        )
     check_seed(problem, seed)
 
 
@@ -92,5 +98,7 @@ def rational(option: str, text: str) -> fmpq:
     except ExpressionError as error:
         raise UsageProblem(f"{option} {text}: {error.message}", error.help) from None
     if isinstance(number, Algebraic):
-        raise UsageProblem(f"{option} {text}: a rational number is expected", "such as 1/2")
+        raise UsageProblem(
+            f"{option} {text}: a rational number is expected", "such as 1/2"
+        )
     return number

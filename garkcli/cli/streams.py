@@ -11,7 +11,14 @@ from typing import TYPE_CHECKING
 from garkcli.errors import GarkError
 from garkcli.report.plain import printable
 from garkcli.report.plaintext import HANDLER, plain_text
-from garkcli.report.safety import JSON, XML, YAML, escaped, without_commands, written_out
+from garkcli.report.safety import (
+    JSON,
+    XML,
+    YAML,
+    escaped,
+    without_commands,
+    written_out,
+)
 
 if TYPE_CHECKING:
     from garkcli.check.outcome import Outcome
@@ -50,7 +57,7 @@ def _fill_places() -> None:
             return
 
 
-def put(text: str, format: str = "text", coloured: bool = False) -> None:  # noqa: A002 -- the option's name
+def put(text: str, format: str = "text", coloured: bool = False) -> None:
     """Write a piece of a report to standard output.
 
     Raises:
@@ -119,19 +126,19 @@ def drop(stream: io.TextIOBase | object) -> None:
         return
 
 
-def safe(text: str, format: str = "text", coloured: bool = False) -> str:  # noqa: A002
+def safe(text: str, format: str = "text", coloured: bool = False) -> str:
     """A text that gives no orders to a terminal or to the runner of a job."""
     text = written_out(text, format, coloured)
     is_job = os.environ.get("GITHUB_ACTIONS") == "true"
     return without_commands(text, format) if is_job and format != "github" else text
 
 
-def safe_pieces(pieces: Iterable[str], format: str, coloured: bool) -> Iterable[str]:  # noqa: A002
+def safe_pieces(pieces: Iterable[str], format: str, coloured: bool) -> Iterable[str]:
     """The same for a report in pieces."""
     return (safe(piece, format, coloured) for piece in pieces)
 
 
-def _for(encoding: str | None, text: str, format: str) -> str:  # noqa: A002
+def _for(encoding: str | None, text: str, format: str) -> str:
     """A text for a stream of this encoding: in formats that have escapes nothing is lost."""
     encoding = encoding or "utf-8"
     if text.isascii() or encoding.lower().replace("_", "-").startswith("utf"):

@@ -16,7 +16,9 @@ from garkcli.cli.options import CONTEXT, PATH, Output, common
     help="Decimals of N digits; by default exact, or 17 digits.",
 )
 @click.option(
-    "--document", is_flag=True, help="With --format latex: a document that compiles as it stands."
+    "--document",
+    is_flag=True,
+    help="With --format latex: a document that compiles as it stands.",
 )
 @common(["text", "yaml", "json", "latex"])
 def command(file: str, digits: int | None, document: bool, output: Output) -> int:
@@ -30,5 +32,7 @@ def command(file: str, digits: int | None, document: bool, output: Output) -> in
     from garkcli.methodfile.load import load
 
     method = load(file)
-    write_tableau(method.tableau, method.name, digits, output, method.tolerance, document)
+    write_tableau(
+        method.tableau, method.name, digits, output, method.tolerance, document
+    )
     return 0

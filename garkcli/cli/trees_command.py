@@ -39,7 +39,9 @@ def symplectic_options(function: F) -> F:
             help="With --symplectic: which methods, the pair (A, Â) unless given.",
         ),
         click.option(
-            "--members", is_flag=True, help="With --symplectic: all rooted trees of each free tree."
+            "--members",
+            is_flag=True,
+            help="With --symplectic: all rooted trees of each free tree.",
         ),
     ]
     for option in reversed(options):
@@ -47,19 +49,24 @@ def symplectic_options(function: F) -> F:
     return function
 
 
-def kind_asked(symplectic: bool, kind: str | None, members: bool, format: str) -> Kind | None:  # noqa: A002
+def kind_asked(
+    symplectic: bool, kind: str | None, members: bool, format: str
+) -> Kind | None:
     """The kind of symplectic methods; None where all trees are meant.
 
     Raises:
         UsageProblem: options of ``--symplectic`` without it, or members in a LaTeX table.
     """
     if members and format == "latex":
-        raise UsageProblem("--members do not fit into a LaTeX table", "choose another --format")
+        raise UsageProblem(
+            "--members do not fit into a LaTeX table", "choose another --format"
+        )
     if symplectic:
         return cast("Kind", kind or "pair")
     if kind is not None or members:
         raise UsageProblem(
-            f"{'--members' if kind is None else '--kind'} is about free trees", "add --symplectic"
+            f"{'--members' if kind is None else '--kind'} is about free trees",
+            "add --symplectic",
         )
     return None
 
@@ -73,23 +80,39 @@ def kind_asked(symplectic: bool, kind: str | None, members: bool, format: str) -
     help="How many colours, 1 unless given; with --symplectic, terms of the split.",
 )
 @click.option(
-    "--order", "-n", type=click.IntRange(1, 10000), metavar="n", help="The number of vertices."
+    "--order",
+    "-n",
+    type=click.IntRange(1, 10000),
+    metavar="n",
+    help="The number of vertices.",
 )
 @click.option("--upto", is_flag=True, help="Every order from 1 to n.")
 @click.option(
-    "--root", type=click.IntRange(1), metavar="L", help="Only trees whose root has colour L."
+    "--root",
+    type=click.IntRange(1),
+    metavar="L",
+    help="Only trees whose root has colour L.",
 )
 @click.option(
-    "--colours-used", metavar="L,M,...", help="Only trees in which each of these colours occurs."
+    "--colours-used",
+    metavar="L,M,...",
+    help="Only trees in which each of these colours occurs.",
 )
 @click.option("--count", is_flag=True, help="Count without generating, for any order.")
 @click.option("--yes", is_flag=True, help="List them also where they are millions.")
 @click.option(
-    "--tree", "one", metavar="TEXT", help="One tree, such as [[]_2,[]_1]_1, instead of an order."
+    "--tree",
+    "one",
+    metavar="TEXT",
+    help="One tree, such as [[]_2,[]_1]_1, instead of an order.",
 )
-@click.option("--svg", type=PATH, metavar="FILE", help="Draw a sheet of all the trees into FILE.")
 @click.option(
-    "--document", is_flag=True, help="With --format latex: a document that compiles as it stands."
+    "--svg", type=PATH, metavar="FILE", help="Draw a sheet of all the trees into FILE."
+)
+@click.option(
+    "--document",
+    is_flag=True,
+    help="With --format latex: a document that compiles as it stands.",
 )
 @symplectic_options
 @common(["text", "json", "ndjson", "csv", "latex"])
@@ -125,21 +148,35 @@ def command(
                 "free trees have no root", "leave out --root, --colours-used and --tree"
             )
         return _free_trees(
-            asked, colours, _orders(order, upto), count, yes, members, svg, document, output
+            asked,
+            colours,
+            _orders(order, upto),
+            count,
+            yes,
+            members,
+            svg,
+            document,
+            output,
         )
     colours = colours or 1
     used = _colours(colours_used, colours)
     if root is not None and root > colours:
-        raise UsageProblem(f"there is no colour {root}", f"--colours {colours} numbers them from 1")
+        raise UsageProblem(
+            f"there is no colour {root}", f"--colours {colours} numbers them from 1"
+        )
     if one is not None:
         return _single(one, svg, document, output)
     orders = _orders(order, upto)
     query = report.Query(colours, orders[-1], upto, root, used)
     if count:
         if used:
-            raise UsageProblem("--count knows no --colours-used", "leave one of them out")
+            raise UsageProblem(
+                "--count knows no --colours-used", "leave one of them out"
+            )
         with _any_digits():
-            output.write(report.render_counts(query, _counts(query), output.format, output.paint))
+            output.write(
+                report.render_counts(query, _counts(query), output.format, output.paint)
+            )
         return 0
     if svg is not None:
         from garkcli.trees.notation import parse_tree
@@ -157,7 +194,9 @@ def _orders(order: int | None, upto: bool) -> range:
     return range(1, order + 1) if upto else range(order, order + 1)
 
 
-def _list(query: Query, orders: range, yes: bool, document: bool, output: Output) -> None:
+def _list(
+    query: Query, orders: range, yes: bool, document: bool, output: Output
+) -> None:
     """A row for each tree."""
     from garkcli.report import trees as report
     from garkcli.report.progress import tracked
@@ -170,7 +209,9 @@ def _list(query: Query, orders: range, yes: bool, document: bool, output: Output
     )
     _refuse_millions(count_all, yes)
     rows = tracked(_rows(query, orders), count_all, "trees", output.may_show_progress)
-    output.write(report.render(query, rows, totals, output.format, output.paint, document))
+    output.write(
+        report.render(query, rows, totals, output.format, output.paint, document)
+    )
 
 
 def _refuse_millions(lines: int | None, yes: bool) -> None:
@@ -206,14 +247,18 @@ def _free_trees(
     subject = report.subject_of_kind(kind, terms, orders)
     if count:
         with _any_digits():
-            output.write(report.render_class_counts(subject, output.format, output.paint))
+            output.write(
+                report.render_class_counts(subject, output.format, output.paint)
+            )
     elif svg is not None:
         trees = (found.representative for found in subject.classes())
         _draw(svg, trees, subject.has_colours)
         output.note(f"wrote {svg}")
     else:
         _refuse_millions(subject.independent, yes)
-        classes = tracked(subject.classes(), subject.independent, "trees", output.may_show_progress)
+        classes = tracked(
+            subject.classes(), subject.independent, "trees", output.may_show_progress
+        )
         pieces = report.render_classes(
             subject, classes, output.format, output.paint, members, document
         )
@@ -243,7 +288,9 @@ def _single(text: str, svg: str | None, document: bool, output: Output) -> int:
     row = report.TreeRow(written, tree.root, tree.order, tree.symmetry, tree.density)
     counts = [(tree.order, tuple(int(l == tree.root) for l in range(colours)))]
     query = report.Query(colours, tree.order, False, tree.root + 1)
-    output.write(report.render(query, [row], counts, output.format, output.paint, document))
+    output.write(
+        report.render(query, [row], counts, output.format, output.paint, document)
+    )
     return 0
 
 
@@ -265,10 +312,12 @@ def _colours(text: str | None, colours: int) -> tuple[int, ...]:
         return ()
     words = [word.strip() for word in text.split(",")]
     if not all(
-        word.isascii() and word.isdigit() and 1 <= int(word[:6]) <= colours for word in words
+        word.isascii() and word.isdigit() and 1 <= int(word[:6]) <= colours
+        for word in words
     ):
         raise UsageProblem(
-            f"--colours-used {text}: colours are numbers from 1 to {colours}", "write 1,2"
+            f"--colours-used {text}: colours are numbers from 1 to {colours}",
+            "write 1,2",
         )
     return tuple(sorted({int(word) - 1 for word in words}))
 
@@ -292,7 +341,9 @@ def _rows(query: Query, orders: range) -> Iterator[TreeRow]:
 
     for n in orders:
         root = None if query.root is None else query.root - 1
-        for block in select(query.colours, n, root=root, using=query.used, block_size=1 << 14):
+        for block in select(
+            query.colours, n, root=root, using=query.used, block_size=1 << 14
+        ):
             columns = block.columns
             yield from map(
                 TreeRow,
@@ -314,6 +365,9 @@ def _draw(path: str, listed: Iterable[Tree], coloured: bool) -> None:
     trees = list(islice(listed, MAX_PICTURES + 1))
     if len(trees) > MAX_PICTURES:
         raise UsageProblem(
-            f"more than {MAX_PICTURES} trees do not fit on a sheet", "draw one order or one root"
+            f"more than {MAX_PICTURES} trees do not fit on a sheet",
+            "draw one order or one root",
         )
-    write_whole(path, [draw_svg_sheet(trees, [format_tree(tree, coloured) for tree in trees])])
+    write_whole(
+        path, [draw_svg_sheet(trees, [format_tree(tree, coloured) for tree in trees])]
+    )

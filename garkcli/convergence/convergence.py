@@ -120,7 +120,9 @@ def most_steps(problem: Oscillator | Hamiltonian) -> int:
     return stepped_solver.MAX_STEPS
 
 
-def check_steps(problem: Oscillator | Hamiltonian, t_end: fmpq, steps: Sequence[fmpq]) -> None:
+def check_steps(
+    problem: Oscillator | Hamiltonian, t_end: fmpq, steps: Sequence[fmpq]
+) -> None:
     """Whether step sizes can be taken, before any work is done.
 
     Raises:
@@ -131,7 +133,8 @@ def check_steps(problem: Oscillator | Hamiltonian, t_end: fmpq, steps: Sequence[
         count = whole_steps(t_end, h)
         if count > limit:
             raise UsageProblem(
-                f"{count} steps (limit {limit})", "choose a shorter time or larger steps"
+                f"{count} steps (limit {limit})",
+                "choose a shorter time or larger steps",
             )
 
 

@@ -150,7 +150,10 @@ def has_settled(rows: Sequence[Row]) -> bool:
 
 
 def trimmed(
-    rows: Sequence[Row], is_small: Sequence[bool], plateau: int = 0, may_be_off: bool = False
+    rows: Sequence[Row],
+    is_small: Sequence[bool],
+    plateau: int = 0,
+    may_be_off: bool = False,
 ) -> list[Row]:
     """The rows without those at the start that are too coarse to belong; ``ROWS`` of them stay at
     least.
@@ -180,7 +183,9 @@ def plateau(rows: Sequence[Row], order: int, rounding: arb) -> int:
         rounding: about the error that the rounding of the coefficients makes; 0 for exact ones.
     """
     limit = rounding * _ABOVE
-    flat = [i for i, row in enumerate(rows) if _is_flat(row, order) and row.error < limit]
+    flat = [
+        i for i, row in enumerate(rows) if _is_flat(row, order) and row.error < limit
+    ]
     if not flat:
         return 0
     level = min((row.error for row in rows[flat[0] :]), key=float) * _ABOVE

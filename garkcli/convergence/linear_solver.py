@@ -43,7 +43,15 @@ LINEAR_ONLY = (
 )
 """What every report of this test has to say."""
 _FIRST_BITS = 128
-_DECADES = (6, 12, 24, 48, 96, 192, 384)  # balls are as exact as the smallest errors need
+_DECADES = (
+    6,
+    12,
+    24,
+    48,
+    96,
+    192,
+    384,
+)  # balls are as exact as the smallest errors need
 _AGREEING = 8  # digits of an error by which steps and the step map have to agree
 
 

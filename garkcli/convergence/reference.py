@@ -28,7 +28,10 @@ _STAGES = 60  # beyond, a step costs more than fewer of them save
 _SPARE = 10  # digits that round-off may grow by
 _CREDIT = 1e-6
 _FAR = 0.01  # part of the solution by which runs differ that have found none
-_LEAST_FACTOR, _LARGEST_FACTOR = 1.3, 8  # of the number of steps, from one run to the next
+_LEAST_FACTOR, _LARGEST_FACTOR = (
+    1.3,
+    8,
+)  # of the number of steps, from one run to the next
 _REFINED = 64  # times the first number of steps with which they should have
 
 
@@ -79,7 +82,9 @@ class Reference:
         if digits > self.digits:
             # more digits have more stages: about as many steps are enough again
             first = 2 * self.steps // 3 or ceil(4 * to_float(self.t_end))
-            self.y, self.steps = _solved(self.problem, self.t_end, digits, max(4, first), watch)
+            self.y, self.steps = _solved(
+                self.problem, self.t_end, digits, max(4, first), watch
+            )
             self.digits = digits
         return self.y
 
@@ -132,7 +137,9 @@ def _solved(
             continue
         with ctx.workprec(method.bits):
             size = magnitude(y, problem)
-            change = max((abs(a - b) for a, b in zip(y, before, strict=True)), key=float)
+            change = max(
+                (abs(a - b) for a, b in zip(y, before, strict=True)), key=float
+            )
             goal = arb(10) ** -digits * size
             ratio = arb(fewer) / steps
             left = change * max(ratio**stages, arb(_CREDIT))

@@ -150,8 +150,12 @@ class Convergence:
             if self._is_visible(self.observed_order):
                 return "agree"
             return "disagree" if self.has_settled else "undecided"
-        is_shown = not self.are_given or abs(self.observed_order - self.short_order) <= CLOSE
-        return "agree" if is_shown and self._is_visible(self.short_order) else "disagree"
+        is_shown = (
+            not self.are_given or abs(self.observed_order - self.short_order) <= CLOSE
+        )
+        return (
+            "agree" if is_shown and self._is_visible(self.short_order) else "disagree"
+        )
 
     def _is_visible(self, order: float) -> bool:
         if self.visible.order < self.predicted_order:

@@ -122,7 +122,9 @@ class SteppedSolver:
 
     def timed(self, row: Row) -> Row:
         """The row with the cost of its steps in floats, where these reach its error to a tenth."""
-        y, cost = work_of(self._integrator(FLOAT_DIGITS), row.h, whole_steps(self.t_end, row.h))
+        y, cost = work_of(
+            self._integrator(FLOAT_DIGITS), row.h, whole_steps(self.t_end, row.h)
+        )
         difference = abs(self._distance(y, FLOAT_DIGITS) - row.error)
         return replace(row, cost=cost) if difference < REACHED * row.error else row
 
@@ -152,7 +154,9 @@ class SteppedSolver:
         Steps sum with compensation, so that their number does not count; the increments are rounded,
         and they add up to the way that the solution goes. The flow makes more of it.
         """
-        precision = arb(FLOAT_PRECISION) if digits <= FLOAT_DIGITS else arb(10) ** -digits
+        precision = (
+            arb(FLOAT_PRECISION) if digits <= FLOAT_DIGITS else arb(10) ** -digits
+        )
         return self.size() * precision * max(arb(1), arb(self.t_end)) * GROWTH
 
     def _digits_of_reference(self, digits: int) -> int:

@@ -13,7 +13,14 @@ from typing import TypeAlias
 
 from flint import arb, fmpq
 
-from garkcli.exact.polynomial import FIRST_BITS, Polynomial, RealRoot, real_roots, sign, sign_at
+from garkcli.exact.polynomial import (
+    FIRST_BITS,
+    Polynomial,
+    RealRoot,
+    real_roots,
+    sign,
+    sign_at,
+)
 
 Point: TypeAlias = fmpq | RealRoot
 """A number at which polynomials have signs."""
@@ -72,7 +79,9 @@ def where(
         elif open_since is None:
             open_since = cell
         else:
-            open_since = Interval(open_since.start, cell.end, open_since.has_start, cell.has_end)
+            open_since = Interval(
+                open_since.start, cell.end, open_since.has_start, cell.has_end
+            )
     if open_since is not None:
         found.append(open_since)
     return tuple(found)

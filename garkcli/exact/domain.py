@@ -48,7 +48,10 @@ class Domain:
     """
 
     def __init__(
-        self, expressions: Iterable[Expression], only_check: bool = False, are_real: bool = False
+        self,
+        expressions: Iterable[Expression],
+        only_check: bool = False,
+        are_real: bool = False,
     ) -> None:
         self.field: NumberField | None = None
         self._are_real = are_real
@@ -97,7 +100,9 @@ class Domain:
             case Root():
                 return self._values[expression]
             case Name(name=name):
-                raise UndefinedValue(f"{name!r} has no value", "", expression.start, expression.end)
+                raise UndefinedValue(
+                    f"{name!r} has no value", "", expression.start, expression.end
+                )
         raise TypeError(f"no expression: {expression!r}")
 
     def _power(self, number: Number, exponent: int, at: Expression) -> Number:
@@ -132,14 +137,17 @@ class Domain:
     def _quadratic(self, roots: list[Root]) -> bool:
         """ℚ(√d), when every root is a square root of a rational number of one square class."""
         if any(
-            root.index != 2 or any(r not in self._values for r in roots_in(root.radicand))
+            root.index != 2
+            or any(r not in self._values for r in roots_in(root.radicand))
             for root in roots
         ):
             return False
         radicands = [self._rational_value(root.radicand) for root in roots]
         d = square_free(radicands[0])
         scales = [
-            scale for scale in (_square_root(radicand / d) for radicand in radicands) if scale
+            scale
+            for scale in (_square_root(radicand / d) for radicand in radicands)
+            if scale
         ]
         if len(scales) < len(roots):
             return False
@@ -166,17 +174,26 @@ class Domain:
                 )
             kept.append(root)
             # the list grows with the loop, so its present state is bound here
-            tower = tower.adjoin(root.index, radicand, partial(_enclosures, tuple(kept)))
+            tower = tower.adjoin(
+                root.index, radicand, partial(_enclosures, tuple(kept))
+            )
         if tower.degree > 1:
-            self.field = NumberField(tower.modulus, list(zip(kept, tower.elements, strict=True)))
+            self.field = NumberField(
+                tower.modulus, list(zip(kept, tower.elements, strict=True))
+            )
         for root, poly in zip(kept, tower.elements, strict=True):
-            self._values[root] = poly[0] if self.field is None else self.field.element(poly)
+            self._values[root] = (
+                poly[0] if self.field is None else self.field.element(poly)
+            )
 
-    def _within(self, tower: Tower, roots: list[Root], expression: Expression) -> fmpq_poly:
+    def _within(
+        self, tower: Tower, roots: list[Root], expression: Expression
+    ) -> fmpq_poly:
         """The value of an expression in the roots adjoined so far, as a polynomial in θ."""
         field = NumberField(tower.modulus, ())
         known = {
-            root: field.element(poly) for root, poly in zip(roots, tower.elements, strict=True)
+            root: field.element(poly)
+            for root, poly in zip(roots, tower.elements, strict=True)
         }
         outer, self._values = self._values, {**self._values, **known}
         try:
@@ -225,20 +242,28 @@ def _sign(expression: Expression) -> int:
     # it, doubles the work with every level
     if Domain([expression], are_real=True).evaluate(expression):
         raise LimitExceeded(
-            "a radicand too close to zero", "write it simpler", expression.start, expression.end
+            "a radicand too close to zero",
+            "write it simpler",
+            expression.start,
+            expression.end,
         )
     return 0
 
 
 def _even_root(root: Root) -> UndefinedValue:
     return UndefinedValue(
-        "an even root of a negative number", "coefficients are real numbers", root.start, root.end
+        "an even root of a negative number",
+        "coefficients are real numbers",
+        root.start,
+        root.end,
     )
 
 
 def _apply(sign: str, left: Number, right: Number, at: Expression) -> Number:
     if sign == "/" and not right:
-        raise UndefinedValue("division by zero", "the divisor is exactly zero", at.start, at.end)
+        raise UndefinedValue(
+            "division by zero", "the divisor is exactly zero", at.start, at.end
+        )
     result: Number = OPERATIONS[sign](left, right)
     return result
 
@@ -252,7 +277,10 @@ def _bits(number: Number) -> int:
 def _bounded(number: Number | None, at: Expression) -> Number:
     if number is None or _bits(number) > MAX_BITS:
         raise LimitExceeded(
-            f"a number of more than {MAX_BITS} bits", "write it smaller", at.start, at.end
+            f"a number of more than {MAX_BITS} bits",
+            "write it smaller",
+            at.start,
+            at.end,
         )
     return number
 

@@ -133,7 +133,9 @@ class Parser:
     noun: ClassVar[str] = "coefficient"
     value_noun: ClassVar[str] = "number"
     example: ClassVar[str] = "write a number, such as 1/2"
-    cure: ClassVar[str] = "write digits 0-9, + - * / ** ( ), sqrt(x), cbrt(x), root(x, n)"
+    cure: ClassVar[str] = (
+        "write digits 0-9, + - * / ** ( ), sqrt(x), cbrt(x), root(x, n)"
+    )
     functions: ClassVar[str] = "there are sqrt(x), cbrt(x) and root(x, n)"
 
     def __init__(self, text: str) -> None:
@@ -224,7 +226,10 @@ class Parser:
         self.depth += 1
         if self.depth > MAX_DEPTH:
             raise LimitExceeded(
-                f"nested more than {MAX_DEPTH} deep", "write it flatter", self.start, self.start + 1
+                f"nested more than {MAX_DEPTH} deep",
+                "write it flatter",
+                self.start,
+                self.start + 1,
             )
         try:
             start = self.start
@@ -234,7 +239,9 @@ class Parser:
                 if sign == "+":
                     return inner
                 if isinstance(inner, Literal):
-                    return Literal(-inner.value, start=start, end=self.last_end, text=inner.text)
+                    return Literal(
+                        -inner.value, start=start, end=self.last_end, text=inner.text
+                    )
                 return Chain("-", (inner,), start=start, end=self.last_end)
             return self._power()
         finally:
@@ -257,16 +264,22 @@ class Parser:
     def _raised(self, base: Expression, is_negative: bool, start: int) -> Expression:
         """``base`` to the exponent that comes next, without its sign."""
         exponent = self._integer("an exponent", MAX_EXPONENT)
-        return Power(base, -exponent if is_negative else exponent, start=start, end=self.last_end)
+        return Power(
+            base, -exponent if is_negative else exponent, start=start, end=self.last_end
+        )
 
     def _integer(self, what: str, limit: int) -> int:
         if self.kind != "number" or not self.value.isdigit():
             self._fail(
-                f"{what} is a small whole number", "for roots write sqrt(…), cbrt(…) or root(…, n)"
+                f"{what} is a small whole number",
+                "for roots write sqrt(…), cbrt(…) or root(…, n)",
             )
         if len(self.value) > 4 or int(self.value) > limit:
             raise LimitExceeded(
-                f"{what} is larger than {limit}", "use a smaller one", self.start, self.end
+                f"{what} is larger than {limit}",
+                "use a smaller one",
+                self.start,
+                self.end,
             )
         return int(self._advance())
 
@@ -322,7 +335,11 @@ def read_decimal(text: str, start: int = 0) -> fmpq:
     """
     mantissa, _, exponent = text.lower().partition("e")
     whole, _, fraction = mantissa.partition(".")
-    shift = int(exponent) if exponent and len(exponent) < 8 else (MAX_DIGITS + 1 if exponent else 0)
+    shift = (
+        int(exponent)
+        if exponent and len(exponent) < 8
+        else (MAX_DIGITS + 1 if exponent else 0)
+    )
     if len(whole) + len(fraction) + abs(shift) > MAX_DIGITS:
         raise LimitExceeded(
             f"a number of more than {MAX_DIGITS} digits",

@@ -61,14 +61,21 @@ class NumberField:
         level: dict[tuple[int, ...], fmpq_poly] = {(): fmpq_poly([1])}
         while level:
             words = list(level)
-            candidates = [[level[word][k] for k in range(self.degree)] for word in words]
+            candidates = [
+                [level[word][k] for k in range(self.degree)] for word in words
+            ]
             reduced, rank = fmpq_mat([*columns, *candidates]).transpose().rref()
-            pivots = [next(j for j, x in enumerate(row) if x) for row in reduced.tolist()[:rank]]
+            pivots = [
+                next(j for j, x in enumerate(row) if x)
+                for row in reduced.tolist()[:rank]
+            ]
             new = [j - len(columns) for j in pivots if j >= len(columns)]
             chosen += [words[j] for j in new]
             columns += [candidates[j] for j in new]
             level = {
-                (*words[j], index): level[words[j]] * self.radicals[index][1] % self.modulus
+                (*words[j], index): level[words[j]]
+                * self.radicals[index][1]
+                % self.modulus
                 for j in new
                 for index in range(words[j][-1] if words[j] else 0, len(self.radicals))
             }
@@ -76,7 +83,9 @@ class NumberField:
                 break
         return tuple(chosen), fmpq_mat(columns).transpose().inv()
 
-    def powers(self, word: tuple[int, ...], latex: bool = False) -> Iterator[tuple[str, int]]:
+    def powers(
+        self, word: tuple[int, ...], latex: bool = False
+    ) -> Iterator[tuple[str, int]]:
         """The radicals of a word of ``monomials`` as text, each with its exponent."""
         for index, power in Counter(word).items():
             radical, _ = self.radicals[index]
@@ -177,7 +186,11 @@ class Algebraic:
         for coefficient, word in self.terms():
             sign = " - " if coefficient < 0 else " + "
             text += sign + self._term(coefficient, word)
-        return text.removeprefix(" + ") if text.startswith(" + ") else "-" + text[len(" - ") :]
+        return (
+            text.removeprefix(" + ")
+            if text.startswith(" + ")
+            else "-" + text[len(" - ") :]
+        )
 
     def _term(self, coefficient: fmpq, word: tuple[int, ...]) -> str:
         """A multiple of a product of radicals, without its sign: ``4*sqrt(3)/27``."""

@@ -15,9 +15,28 @@ from typing import ClassVar
 
 from garkcli.errors import ExpressionError, LimitExceeded, did_you_mean
 from garkcli.exact.expression import FUNCTIONS as ROOTS
-from garkcli.exact.expression import MAX_EXPONENT, Chain, Expression, Literal, Parser, Power
+from garkcli.exact.expression import (
+    MAX_EXPONENT,
+    Chain,
+    Expression,
+    Literal,
+    Parser,
+    Power,
+)
 
-FUNCTIONS = ("sin", "cos", "tan", "asin", "acos", "atan", "sinh", "cosh", "tanh", "exp", "log")
+FUNCTIONS = (
+    "sin",
+    "cos",
+    "tan",
+    "asin",
+    "acos",
+    "atan",
+    "sinh",
+    "cosh",
+    "tanh",
+    "exp",
+    "log",
+)
 """The functions of formulas besides the roots: each has a derivative wherever it is defined."""
 CONSTANTS = ("pi",)
 """Names of formulas that have a value of their own."""
@@ -66,14 +85,18 @@ class _FormulaParser(Parser):
     noun: ClassVar[str] = "formula"
     value_noun: ClassVar[str] = "formula"
     example: ClassVar[str] = "write one, such as p**2/2 - cos(x)"
-    cure: ClassVar[str] = "write names, digits 0-9, + - * / ** ( ) and functions such as sin(x)"
+    cure: ClassVar[str] = (
+        "write names, digits 0-9, + - * / ** ( ) and functions such as sin(x)"
+    )
 
     def _raised(self, base: Expression, is_negative: bool, start: int) -> Expression:
         exponent = self._atom()
         if isinstance(exponent, Literal) and exponent.value.q == 1:
             if abs(exponent.value) > MAX_EXPONENT:
                 message = f"an exponent is larger than {MAX_EXPONENT}"
-                raise LimitExceeded(message, "use a smaller one", exponent.start, exponent.end)
+                raise LimitExceeded(
+                    message, "use a smaller one", exponent.start, exponent.end
+                )
             n = int(exponent.value.p)
             return Power(base, -n if is_negative else n, start=start, end=self.last_end)
         if is_negative:
@@ -85,9 +108,7 @@ class _FormulaParser(Parser):
             return super()._function(name, start)
         if name not in FUNCTIONS:
             near = did_you_mean(name, (*FUNCTIONS, "sqrt"))
-            product = (
-                f"write products with *, as in {name}*(x); functions: {', '.join(FUNCTIONS)}, sqrt"
-            )
+            product = f"write products with *, as in {name}*(x); functions: {', '.join(FUNCTIONS)}, sqrt"
             cure = _CURES.get(name) or (near if near.startswith("did") else product)
             raise ExpressionError(
                 f"{name!r} is not a function of formulas", cure, start, self.last_end

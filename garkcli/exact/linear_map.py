@@ -49,7 +49,9 @@ class LinearMap:
     def images(self, vectors: Sequence[Vector]) -> list[Vector]:
         """A v for each of the vectors."""
         if self._rows_apart is not None:
-            return [_image(self._rows_apart, cast("Sequence[fmpq]", v)) for v in vectors]
+            return [
+                _image(self._rows_apart, cast("Sequence[fmpq]", v)) for v in vectors
+            ]
         return _products(vectors, self._transposed, self.field)
 
     def pullbacks(self, functionals: Sequence[Vector]) -> list[Vector]:
@@ -74,7 +76,9 @@ def _has_denominators_apart(row: Sequence[fmpq]) -> bool:
 
 
 def _image(rows: Sequence[Sequence[fmpq]], vector: Sequence[fmpq]) -> Vector:
-    return tuple(_sum([a * x for a, x in zip(row, vector, strict=True)]) for row in rows)
+    return tuple(
+        _sum([a * x for a, x in zip(row, vector, strict=True)]) for row in rows
+    )
 
 
 def _sum(terms: Sequence[fmpq]) -> fmpq:
@@ -93,19 +97,26 @@ def _sum(terms: Sequence[fmpq]) -> fmpq:
     return fmpq(numerator, denominator)
 
 
-def _products(rows: Sequence[Vector], parts: _Parts, field: NumberField | None) -> list[Vector]:
+def _products(
+    rows: Sequence[Vector], parts: _Parts, field: NumberField | None
+) -> list[Vector]:
     if not rows:
         return []
     powers: dict[int, fmpq_mat] = {}
     for j, left in _parts(rows, field):
         for k, right in parts:
-            powers[j + k] = powers[j + k] + left * right if j + k in powers else left * right
+            powers[j + k] = (
+                powers[j + k] + left * right if j + k in powers else left * right
+            )
     if field is None or len(powers) == 1:  # θ⁰ is always among them
         return [tuple(row) for row in powers[0].tolist()]
     zeros = fmpq_mat(len(rows), powers[0].ncols())
     polynomials = [powers.get(n, zeros).tolist() for n in range(max(powers) + 1)]
     return [
-        tuple(field.element(fmpq_poly(list(entry))) for entry in zip(*coefficients, strict=True))
+        tuple(
+            field.element(fmpq_poly(list(entry)))
+            for entry in zip(*coefficients, strict=True)
+        )
         for coefficients in zip(*polynomials, strict=True)
     ]
 
@@ -114,10 +125,24 @@ def _parts(rows: Sequence[Vector], field: NumberField | None) -> _Parts:
     """The rational matrices of Σ θᵏ A_k, those that are zero left out, but for A_0."""
     height, width = len(rows), len(rows[0])
     if field is None:
-        return [(0, fmpq_mat(height, width, cast("list[fmpq]", [x for row in rows for x in row])))]
+        return [
+            (
+                0,
+                fmpq_mat(
+                    height, width, cast("list[fmpq]", [x for row in rows for x in row])
+                ),
+            )
+        ]
     entries = [x.poly if isinstance(x, Algebraic) else x for row in rows for x in row]
     parts = [
-        (0, fmpq_mat(height, width, [x[0] if isinstance(x, fmpq_poly) else x for x in entries]))
+        (
+            0,
+            fmpq_mat(
+                height,
+                width,
+                [x[0] if isinstance(x, fmpq_poly) else x for x in entries],
+            ),
+        )
     ]
     for k in range(1, field.degree):
         coordinates = [x[k] if isinstance(x, fmpq_poly) else ZERO for x in entries]

@@ -33,12 +33,16 @@ def from_flint(matrix: fmpq_mat) -> Matrix:
 
 def to_flint(rows: Sequence[Sequence[Number]], columns: int) -> fmpq_mat:
     """A rational matrix for python-flint; ``columns`` tells the width when there are no rows."""
-    return fmpq_mat(len(rows), columns, cast("list[fmpq]", [x for row in rows for x in row]))
+    return fmpq_mat(
+        len(rows), columns, cast("list[fmpq]", [x for row in rows for x in row])
+    )
 
 
 def identity(size: int) -> Matrix:
     """The unit matrix."""
-    return tuple(tuple(ONE if i == j else ZERO for j in range(size)) for i in range(size))
+    return tuple(
+        tuple(ONE if i == j else ZERO for j in range(size)) for i in range(size)
+    )
 
 
 def transpose(a: Matrix) -> Matrix:
@@ -48,12 +52,18 @@ def transpose(a: Matrix) -> Matrix:
 
 def add(a: Matrix, b: Matrix) -> Matrix:
     """The sum a + b."""
-    return tuple(tuple(x + y for x, y in zip(r, s, strict=True)) for r, s in zip(a, b, strict=True))
+    return tuple(
+        tuple(x + y for x, y in zip(r, s, strict=True))
+        for r, s in zip(a, b, strict=True)
+    )
 
 
 def subtract(a: Matrix, b: Matrix) -> Matrix:
     """The difference a − b."""
-    return tuple(tuple(x - y for x, y in zip(r, s, strict=True)) for r, s in zip(a, b, strict=True))
+    return tuple(
+        tuple(x - y for x, y in zip(r, s, strict=True))
+        for r, s in zip(a, b, strict=True)
+    )
 
 
 def scale(factor: Number, a: Matrix) -> Matrix:
@@ -123,6 +133,7 @@ def solve(a: Matrix, b: Matrix) -> Matrix:
             factor = rows[i][k]
             if i != k and factor:
                 rows[i] = [
-                    x - factor * y if y else x for x, y in zip(rows[i], rows[k], strict=True)
+                    x - factor * y if y else x
+                    for x, y in zip(rows[i], rows[k], strict=True)
                 ]
     return tuple(tuple(row[n:]) for row in rows)

@@ -20,7 +20,10 @@ def _matrix(matrix: fmpq_mat) -> tuple[type[fmpq_mat], tuple[int, int, list[fmpq
 
 
 def _ball(ball: arb) -> tuple[object, tuple[tuple[int, int], tuple[int, int]]]:
-    (mid, mid_exponent), (rad, rad_exponent) = ball.mid().man_exp(), ball.rad().man_exp()
+    (mid, mid_exponent), (rad, rad_exponent) = (
+        ball.mid().man_exp(),
+        ball.rad().man_exp(),
+    )
     return _ball_of, ((int(mid), int(mid_exponent)), (int(rad), int(rad_exponent)))
 
 

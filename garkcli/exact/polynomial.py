@@ -57,7 +57,9 @@ class Polynomial:
     @property
     def field(self) -> NumberField | None:
         """The number field of the coefficients; None when all are rational."""
-        return next((a.field for a in self.coefficients if isinstance(a, Algebraic)), None)
+        return next(
+            (a.field for a in self.coefficients if isinstance(a, Algebraic)), None
+        )
 
     @property
     def is_rational(self) -> bool:
@@ -95,7 +97,9 @@ class Polynomial:
         right = _as_polynomial(other)
         if self.is_rational and right.is_rational:
             return Polynomial.from_flint(self.to_flint() * right.to_flint())
-        product: list[Number] = [ZERO] * max(len(self.coefficients) + len(right.coefficients), 1)
+        product: list[Number] = [ZERO] * max(
+            len(self.coefficients) + len(right.coefficients), 1
+        )
         for i, a in enumerate(self.coefficients):
             for j, b in enumerate(right.coefficients):
                 product[i + j] = product[i + j] + a * b
@@ -198,7 +202,9 @@ def _as_polynomial(value: Polynomial | Number | int) -> Polynomial:
 def _norm_of(number: Number, field: NumberField) -> fmpq:
     """The norm of an element of a field over ℚ."""
     d = field.degree
-    powers = [field.from_coordinates([fmpq(int(i == k)) for i in range(d)]) for k in range(d)]
+    powers = [
+        field.from_coordinates([fmpq(int(i == k)) for i in range(d)]) for k in range(d)
+    ]
     return fmpq_mat([coordinates(number * power, d) for power in powers]).det()
 
 
@@ -298,7 +304,9 @@ class RealRoot:
         if self.exact is not None:
             with _precision(bits):
                 return arb(self.exact)
-        return _real_roots(tuple(int(a) for a in self.polynomial.coeffs()), bits)[self.number]
+        return _real_roots(tuple(int(a) for a in self.polynomial.coeffs()), bits)[
+            self.number
+        ]
 
     def __lt__(self, other: RealRoot) -> bool:
         if self.polynomial == other.polynomial:

@@ -8,7 +8,15 @@ from dataclasses import replace
 from flint import fmpq
 
 from garkcli.errors import UndefinedValue, did_you_mean
-from garkcli.exact.expression import INDEX_OF_ROOT, Chain, Expression, Literal, Name, Power, Root
+from garkcli.exact.expression import (
+    INDEX_OF_ROOT,
+    Chain,
+    Expression,
+    Literal,
+    Name,
+    Power,
+    Root,
+)
 from garkcli.exact.formula import Call, RealPower
 
 
@@ -66,12 +74,16 @@ def substitute(expression: Expression, values: Mapping[str, Expression]) -> Expr
                 raise _unknown_name(expression, values)
             return values[name]
         case Chain(operands=operands):
-            return replace(expression, operands=tuple(substitute(x, values) for x in operands))
+            return replace(
+                expression, operands=tuple(substitute(x, values) for x in operands)
+            )
         case Power(base=base):
             return replace(expression, base=substitute(base, values))
         case RealPower(base=base, exponent=exponent):
             return replace(
-                expression, base=substitute(base, values), exponent=substitute(exponent, values)
+                expression,
+                base=substitute(base, values),
+                exponent=substitute(exponent, values),
             )
         case Root(radicand=radicand):
             return replace(expression, radicand=substitute(radicand, values))
@@ -84,7 +96,9 @@ def _unknown_name(name: Name, values: Mapping[str, Expression]) -> UndefinedValu
     cure = did_you_mean(name.name, values) if values else ""
     if not cure.startswith("did"):
         cure = f"define it, before its use: parameters: {{{name.name}: 1/2}}"
-    return UndefinedValue(f"{name.name!r} is not a parameter", cure, name.start, name.end)
+    return UndefinedValue(
+        f"{name.name!r} is not a parameter", cure, name.start, name.end
+    )
 
 
 def roots_in(expression: Expression) -> Iterator[Root]:
@@ -134,7 +148,9 @@ class _Text:
         parts = []
         for sign, operand in zip(chain.signs, chain.operands, strict=True):
             binds = is_product or sign == "-"
-            parts.append(sign + (self.tight(operand) if binds else self.written(operand)))
+            parts.append(
+                sign + (self.tight(operand) if binds else self.written(operand))
+            )
         return "".join(parts).removeprefix("+").removeprefix("*")
 
     def tight(self, expression: Expression) -> str:

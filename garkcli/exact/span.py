@@ -43,12 +43,16 @@ class AffineSpan:
         if not points or self.is_full:
             return []
         width = self.dimension + 1
-        candidates = fmpq_mat(len(points), width, [x for point in points for x in (ONE, *point)])
+        candidates = fmpq_mat(
+            len(points), width, [x for point in points for x in (ONE, *point)]
+        )
         remainders = self._reduce(candidates).tolist()
         outside = [i for i, row in enumerate(remainders) if any(row)]
         if not outside:
             return []
-        independent = _pivot_columns(fmpq_mat([remainders[i] for i in outside]).transpose())
+        independent = _pivot_columns(
+            fmpq_mat([remainders[i] for i in outside]).transpose()
+        )
         chosen = [outside[i] for i in independent]
         grown = fmpq_mat([*self._echelon.tolist(), *(remainders[i] for i in chosen)])
         self._echelon, _ = grown.rref()
@@ -73,4 +77,6 @@ def _pivot_columns(matrix: fmpq_mat) -> list[int]:
 
 
 def _leading_columns(reduced: fmpq_mat) -> list[int]:
-    return [next(j for j, x in enumerate(row) if x) for row in reduced.tolist() if any(row)]
+    return [
+        next(j for j, x in enumerate(row) if x) for row in reduced.tolist() if any(row)
+    ]

@@ -38,7 +38,9 @@ class Tower:
         """The dimension over ℚ."""
         return int(self.modulus.degree())
 
-    def adjoin(self, index: int, radicand: fmpq_poly, values: Callable[[], list[arb]]) -> Tower:
+    def adjoin(
+        self, index: int, radicand: fmpq_poly, values: Callable[[], list[arb]]
+    ) -> Tower:
         """The field with the real root y of y^index = radicand as a further element.
 
         Args:
@@ -58,7 +60,9 @@ class Tower:
         elements = tuple(f(old_theta) % factor for f in self.elements)
         return Tower(factor, (*elements, y % factor), combination)
 
-    def _multiplications(self, index: int, radicand: fmpq_poly) -> tuple[fmpq_mat, fmpq_mat]:
+    def _multiplications(
+        self, index: int, radicand: fmpq_poly
+    ) -> tuple[fmpq_mat, fmpq_mat]:
         """The matrices of multiplication by y and by θ, on the basis θ^i y^j, i running first."""
         d, n = self.degree, index
         y, theta = fmpq_mat(d * n, d * n), fmpq_mat(d * n, d * n)
@@ -93,11 +97,15 @@ def _as_polynomials(generator: fmpq_mat, wanted: list[fmpq_mat]) -> list[fmpq_po
     ones = [[int(i == 0)] for i in range(size)]
     targets = [(matrix * fmpq_mat(ones)).entries() for matrix in wanted]
     solution = fmpq_mat(columns).transpose().solve(fmpq_mat(targets).transpose())
-    return [fmpq_poly([solution[i, j] for i in range(size)]) for j in range(len(wanted))]
+    return [
+        fmpq_poly([solution[i, j] for i in range(size)]) for j in range(len(wanted))
+    ]
 
 
 def _vanishing_factor(
-    characteristic: fmpq_poly, combination: tuple[int, ...], values: Callable[[], list[arb]]
+    characteristic: fmpq_poly,
+    combination: tuple[int, ...],
+    values: Callable[[], list[arb]],
 ) -> fmpq_poly:
     """The irreducible factor that has the real number Σ combination·values as a root.
 
@@ -108,8 +116,13 @@ def _vanishing_factor(
     try:
         while len(candidates) > 1:
             ctx.prec *= 2
-            theta = sum((k * x for k, x in zip(combination, values(), strict=True)), start=arb(0))
-            candidates = [factor for factor in candidates if _at(factor, theta).contains(0)]
+            theta = sum(
+                (k * x for k, x in zip(combination, values(), strict=True)),
+                start=arb(0),
+            )
+            candidates = [
+                factor for factor in candidates if _at(factor, theta).contains(0)
+            ]
     finally:
         ctx.prec = precision
     return candidates[0] / candidates[0].leading_coefficient()

@@ -11,7 +11,15 @@ from flint import arb, fmpq
 
 from garkcli.errors import LimitExceeded, UndefinedValue
 from garkcli.exact.domain import MAX_BITS
-from garkcli.exact.expression import MAX_EXPONENT, Chain, Expression, Literal, Name, Power, Root
+from garkcli.exact.expression import (
+    MAX_EXPONENT,
+    Chain,
+    Expression,
+    Literal,
+    Name,
+    Power,
+    Root,
+)
 from garkcli.exact.formula import Call, RealPower
 from garkcli.exact.rewriting import format_expression
 
@@ -70,12 +78,16 @@ def value_of(expression: Expression, names: Mapping[str, Value]) -> Value:
         case Power(base=base, exponent=exponent):
             return _power(value_of(base, names), fmpq(exponent), expression, base)
         case RealPower(base=base, exponent=exponent):
-            return _power(value_of(base, names), exponent_of(exponent, names), expression, base)
+            return _power(
+                value_of(base, names), exponent_of(exponent, names), expression, base
+            )
         case Root(radicand=radicand, index=index):
             return _root(value_of(radicand, names), index, expression, radicand)
         case Call(function=function, argument=argument):
             x = value_of(argument, names)
-            return _finite(_FUNCTIONS[function](arb(x)), expression, function, argument, x)
+            return _finite(
+                _FUNCTIONS[function](arb(x)), expression, function, argument, x
+            )
     raise TypeError(f"no expression: {expression!r}")
 
 
@@ -90,12 +102,13 @@ def exponent_of(expression: Expression, names: Mapping[str, Value]) -> fmpq:
     if isinstance(value, arb):
         message = f"the exponent {format_expression(expression)} is no rational number"
         raise UndefinedValue(
-            message, "write a fraction or a decimal, such as 3/2", expression.start, expression.end
+            message,
+            "write a fraction or a decimal, such as 3/2",
+            expression.start,
+            expression.end,
         )
     if abs(value) > MAX_EXPONENT or value.q > MAX_DENOMINATOR:
-        message = (
-            f"the exponent {shown(value)} is beyond {MAX_EXPONENT} or has more than four decimals"
-        )
+        message = f"the exponent {shown(value)} is beyond {MAX_EXPONENT} or has more than four decimals"
         raise LimitExceeded(
             message, "use a smaller or simpler one", expression.start, expression.end
         )
@@ -127,7 +140,11 @@ def _applied(sign: str, left: Value, right: Value, at: Expression) -> Value:
 
 def _check_divisor(number: Value, at: Expression) -> None:
     if number.contains(0) if isinstance(number, arb) else not number:
-        what = "" if isinstance(at, Literal) else f"{_cut(format_expression(at))} is 0 here"
+        what = (
+            ""
+            if isinstance(at, Literal)
+            else f"{_cut(format_expression(at))} is 0 here"
+        )
         raise UndefinedValue("division by zero", what, at.start, at.end)
 
 
@@ -141,14 +158,18 @@ def _power(base: Value, exponent: fmpq, at: Expression, of: Expression) -> Value
         _check_divisor(base, of)
     if exponent.q == 1:
         if isinstance(base, fmpq):
-            _bounded(fmpq(1) if base.height_bits() * abs(exponent) <= MAX_BITS else None, at)
+            _bounded(
+                fmpq(1) if base.height_bits() * abs(exponent) <= MAX_BITS else None, at
+            )
             return base ** int(exponent.p)
         return _bounded(base ** int(exponent.p), at)
     if isinstance(base, fmpq) and not base:
         return fmpq(0)
     if not arb(base) > 0:
         message = f"a power with the exponent {exponent} of {shown(base)}"
-        raise UndefinedValue(message, "such powers are of positive numbers", at.start, at.end)
+        raise UndefinedValue(
+            message, "such powers are of positive numbers", at.start, at.end
+        )
     return _bounded(arb(base) ** arb(exponent), at)
 
 
@@ -162,21 +183,30 @@ def _root(radicand: Value, index: int, at: Expression, of: Expression) -> Value:
     x = arb(radicand)
     if index % 2 and x < 0:
         return -((-x).root(index))
-    return _finite(x.root(index), at, "an even root" if index % 2 == 0 else "a root", of, radicand)
+    return _finite(
+        x.root(index), at, "an even root" if index % 2 == 0 else "a root", of, radicand
+    )
 
 
-def _finite(result: arb, at: Expression, function: str, of: Expression, x: Value) -> Value:
+def _finite(
+    result: arb, at: Expression, function: str, of: Expression, x: Value
+) -> Value:
     if not result.is_finite():
         inner = _cut(format_expression(of))
         what = f"{inner} = {shown(x)}" if inner != str(x) else inner
-        raise UndefinedValue(f"{function} of {what} is no real number", "", at.start, at.end)
+        raise UndefinedValue(
+            f"{function} of {what} is no real number", "", at.start, at.end
+        )
     return _bounded(result, at)
 
 
 def _bounded(number: Value | None, at: Expression) -> Value:
     if number is None or (isinstance(number, fmpq) and number.height_bits() > MAX_BITS):
         raise LimitExceeded(
-            f"a number of more than {MAX_BITS} bits", "write it smaller", at.start, at.end
+            f"a number of more than {MAX_BITS} bits",
+            "write it smaller",
+            at.start,
+            at.end,
         )
     size = abs(arb(number))
     if not (size < _MOST and (size > _LEAST or size.contains(0))):

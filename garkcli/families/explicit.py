@@ -31,7 +31,9 @@ def named(name: str) -> Method:
     """One of the methods of ``STAGES``."""
     rows, b = _ROWS[name]
     return butcher(
-        _lower([[_rational(x) for x in row] for row in rows]), tuple(map(_rational, b)), name=name
+        _lower([[_rational(x) for x in row] for row in rows]),
+        tuple(map(_rational, b)),
+        name=name,
     )
 
 

@@ -5,7 +5,16 @@ from __future__ import annotations
 from flint import fmpq, fmpq_poly
 
 from garkcli.exact.field import ONE, ZERO
-from garkcli.exact.matrix import Vector, add, apply, dot, multiply, outer, scale, subtract
+from garkcli.exact.matrix import (
+    Vector,
+    add,
+    apply,
+    dot,
+    multiply,
+    outer,
+    scale,
+    subtract,
+)
 from garkcli.tableau.method import Method
 from garkcli.tableau.stages import PolynomialSpace, integral, integration
 

@@ -8,7 +8,9 @@ from garkcli.tableau.method import Method
 
 def radau_ia(s: int) -> Method:
     """Radau IA: the first node is 0 and D(s) holds."""
-    return conjugate_method(f"Radau IA {s}", collocation_method("", legendre(s) + legendre(s - 1)))
+    return conjugate_method(
+        f"Radau IA {s}", collocation_method("", legendre(s) + legendre(s - 1))
+    )
 
 
 def radau_iia(s: int) -> Method:

@@ -51,8 +51,16 @@ FAMILIES: Mapping[str, Family] = {
             order="2s",
             summary="collocation at the Gauss nodes; symplectic",
         ),
-        _any("radau-ia", radau.radau_ia, 1, order="2s - 1", summary="first node 0, D(s)"),
-        _any("radau-iia", radau.radau_iia, 1, order="2s - 1", summary="collocation, last node 1"),
+        _any(
+            "radau-ia", radau.radau_ia, 1, order="2s - 1", summary="first node 0, D(s)"
+        ),
+        _any(
+            "radau-iia",
+            radau.radau_iia,
+            1,
+            order="2s - 1",
+            summary="collocation, last node 1",
+        ),
         _any(
             "lobatto-iiia",
             lobatto.lobatto_iiia,
@@ -93,7 +101,13 @@ FAMILIES: Mapping[str, Family] = {
         _named("heun", "2", "the explicit trapezoidal rule"),
         _named("kutta", "3", "Kutta's method of order 3"),
         _named("rk4", "4", "the classical Runge-Kutta method"),
-        _any("ssp2", explicit.ssp2, 2, order="2", summary="explicit, strong-stability-preserving"),
+        _any(
+            "ssp2",
+            explicit.ssp2,
+            2,
+            order="2",
+            summary="explicit, strong-stability-preserving",
+        ),
     )
 }
 """Every family by name."""

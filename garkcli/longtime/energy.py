@@ -33,7 +33,12 @@ from garkcli.longtime.rounding import energy_rate, power_of_ten
 from garkcli.longtime.stability import stability
 from garkcli.longtime.trend import Shape
 from garkcli.problems.oscillator import Oscillator
-from garkcli.stepping.linear import conserves_energy, enclosure, linear_step, whole_steps
+from garkcli.stepping.linear import (
+    conserves_energy,
+    enclosure,
+    linear_step,
+    whole_steps,
+)
 from garkcli.tableau.tableau import Tableau
 
 if TYPE_CHECKING:
@@ -81,13 +86,16 @@ def oscillator_run(
     count = whole_steps(t_end, step)
     if count > MAX_STEPS:
         raise UsageProblem(
-            f"{count} steps (limit {MAX_STEPS})", "choose a shorter time or a larger step"
+            f"{count} steps (limit {MAX_STEPS})",
+            "choose a shorter time or a larger step",
         )
     R = linear_step(tableau, problem).at(step)
     fate = stability(R)
     energy = to_float(5 * problem.omega**2 / 8)
     is_exact = conserves_energy(R, problem.omega)
-    errors = np.zeros(count + 1) if is_exact else _energy_errors(R, problem.omega, count)
+    errors = (
+        np.zeros(count + 1) if is_exact else _energy_errors(R, problem.omega, count)
+    )
     outside = np.flatnonzero(~(np.abs(errors) <= BLOW_UP * energy))
     if outside.size:
         errors = errors[: int(outside[0])]
@@ -168,7 +176,9 @@ def _at_precision(R: Matrix, omega: fmpq, count: int, bits: int) -> Floats | Non
         step = _scaled(R, omega, bits)
         forms, block = _forms(step, isqrt(count) + 1)
         starts, energies = _starts(block, arb(omega), -(-(count + 1) // len(forms)))
-        if not (_are_sharp([x for form in forms for x in form]) and _are_sharp(energies)):
+        if not (
+            _are_sharp([x for form in forms for x in form]) and _are_sharp(energies)
+        ):
             return None
         Q = np.array([[float(x) for x in form] for form in forms])
         z = np.array([[float(x * x), float(x * y), float(y * y)] for x, y in starts])
@@ -192,7 +202,9 @@ def _forms(step: arb_mat, length: int) -> tuple[list[tuple[arb, arb, arb]], arb_
     return forms, power
 
 
-def _starts(block: arb_mat, omega: arb, count: int) -> tuple[list[tuple[arb, arb]], list[arb]]:
+def _starts(
+    block: arb_mat, omega: arb, count: int
+) -> tuple[list[tuple[arb, arb]], list[arb]]:
     """The block starts z_{iK} and their energy errors; fewer when the energy blows up."""
     z = arb_mat([[omega], [omega / 2]])
     energy = 5 * omega**2 / 8
@@ -218,7 +230,9 @@ def _angle(R: Matrix, omega: fmpq) -> float | None:
     """2θ in [0, 2π), twice the argument of the eigenvalues of R; None when they are real."""
     import numpy as np
 
-    (a, b), (c, d) = ([float(x) for x in row] for row in _scaled(R, omega, 128).tolist())
+    (a, b), (c, d) = (
+        [float(x) for x in row] for row in _scaled(R, omega, 128).tolist()
+    )
     discriminant = ((a - d) / 2) ** 2 + b * c
     if discriminant >= 0:
         return None

@@ -10,7 +10,9 @@ if TYPE_CHECKING:
 
     Floats: TypeAlias = NDArray[np.float64]
 
-_MOVES = 2.0**-40  # least part of its size that a coordinate moves in a step to have a direction
+_MOVES = (
+    2.0**-40
+)  # least part of its size that a coordinate moves in a step to have a direction
 _OFTEN = 8  # times that a position has turned back when its motion is called bounded
 _FAR = 2.0  # how many times its former bound a position is when it has left that
 
@@ -27,8 +29,12 @@ class Excursions:
     def __init__(self) -> None:
         import numpy as np
 
-        self._turned: NDArray[np.int64] = np.zeros(0, dtype=np.int64)  # of each coordinate
-        self._last_turns: NDArray[np.int64] = np.zeros(0, dtype=np.int64)  # of each pair (q, p)
+        self._turned: NDArray[np.int64] = np.zeros(
+            0, dtype=np.int64
+        )  # of each coordinate
+        self._last_turns: NDArray[np.int64] = np.zeros(
+            0, dtype=np.int64
+        )  # of each pair (q, p)
         self._bounds: Floats = np.zeros(0)  # largest |q| up to the last turn
         self._beyond: Floats = np.zeros(0)  # and after it
         self._positions: Floats = np.zeros(0)  # at the end

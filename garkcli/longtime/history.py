@@ -20,7 +20,9 @@ SERIES = 2000
 BLOW_UP = 1e30
 """How many times the energy the energy error may become before a run ends as unstable."""
 
-Verdict: TypeAlias = Literal["exact", "round-off", "bounded", "drifts", "unstable", "undecided"]
+Verdict: TypeAlias = Literal[
+    "exact", "round-off", "bounded", "drifts", "unstable", "undecided"
+]
 """Conserved exactly; no error above round-off; no drift to be told; a drift; blown up or escaped;
 too short to judge.
 """

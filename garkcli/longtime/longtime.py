@@ -17,7 +17,13 @@ from flint import fmpq
 from garkcli.errors import UsageProblem
 from garkcli.exact.display import to_float
 from garkcli.longtime.energy import oscillator_run
-from garkcli.longtime.history import MAX_STEPS, SERIES, InvariantHistory, LongRun, Verdict
+from garkcli.longtime.history import (
+    MAX_STEPS,
+    SERIES,
+    InvariantHistory,
+    LongRun,
+    Verdict,
+)
 from garkcli.longtime.measure import Measure
 from garkcli.longtime.record import Record
 from garkcli.longtime.rounding import energy_rate, power_of_ten, unit_round_off
@@ -96,7 +102,8 @@ def long_run(
     count = whole_steps(t_end, step)
     if count > MAX_STEPS:
         raise UsageProblem(
-            f"{count} steps (limit {MAX_STEPS})", "choose a shorter time or a larger step"
+            f"{count} steps (limit {MAX_STEPS})",
+            "choose a shorter time or a larger step",
         )
     method = bound.at(digits)
     record = Record(Measure(problem, method.digits), count, points)
@@ -138,7 +145,9 @@ def _noise(record: Record, bound: Binding, step: fmpq, digits: int) -> Floats:
 
     compared = len(record.first) - 1
     finer = bound.at(digits + _SPARE)
-    exact = Measure(bound.problem, finer.digits).errors(trajectory(finer, step, compared))
+    exact = Measure(bound.problem, finer.digits).errors(
+        trajectory(finer, step, compared)
+    )
     found = np.abs(record.first - exact).max(axis=0)
     expected = found * (1 + record.done / max(compared, 1))
     return np.array([power_of_ten(float(x)) for x in np.maximum(derived, expected)])
@@ -187,7 +196,9 @@ class _Judge:
             initial=record.measure.initial[k],
             max_error=float(record.largest[k]),
             drift=None if slope is None else slope / h,
-            uncertainty=None if slope is None or trend is None else trend.uncertainty / h,
+            uncertainty=None
+            if slope is None or trend is None
+            else trend.uncertainty / h,
             amplitude=float(left.max() - left.min()) / 2,
             round_off=noise,
             coefficients=excused,
@@ -197,7 +208,9 @@ class _Judge:
             longer=self._longer(trend) if verdict == "undecided" else None,
         )
 
-    def _verdict(self, k: int, noise: float, trend: Trend | None) -> tuple[Verdict, Shape]:
+    def _verdict(
+        self, k: int, noise: float, trend: Trend | None
+    ) -> tuple[Verdict, Shape]:
         record = self.record
         if record.blew_up or self.escape is not None:
             return "unstable", "none"
@@ -212,7 +225,9 @@ class _Judge:
         if trend.finding == "none":
             return "bounded", "none"
         is_gone = trend.move >= _LARGE * self._size(k)
-        return ("drifts" if trend.finding == "drift" or is_gone else "undecided"), trend.shape
+        return (
+            "drifts" if trend.finding == "drift" or is_gone else "undecided"
+        ), trend.shape
 
     def _size(self, k: int) -> float:
         """Of the summands of an invariant at the start; 1 where all are zero."""
@@ -225,7 +240,9 @@ class _Judge:
         if trend is None:
             factor = max(factor, -(-_MARGIN * LEAST // record.count))
         elif record.excursions.turns < _TURNS:
-            factor = max(factor, -(-_MARGIN * _TURNS // max(record.excursions.turns, 1)))
+            factor = max(
+                factor, -(-_MARGIN * _TURNS // max(record.excursions.turns, 1))
+            )
         elif trend.shape == "line":
             # what drifts grows with time, and what modulates does not
             ratio = abs(trend.slope) / trend.uncertainty

@@ -11,7 +11,13 @@ from flint import arb, ctx
 
 from garkcli.errors import UsageProblem
 from garkcli.exact.display import to_float
-from garkcli.problems.hamiltonian import FLOAT_DIGITS, GROUPS, Hamiltonian, energy_function, symbols
+from garkcli.problems.hamiltonian import (
+    FLOAT_DIGITS,
+    GROUPS,
+    Hamiltonian,
+    energy_function,
+    symbols,
+)
 from garkcli.problems.straightline import function
 
 if TYPE_CHECKING:
@@ -47,10 +53,14 @@ class Measure:
         )
         number = arb if self._bits else to_float
         start: list[Any] = self._precisely(lambda: [number(x) for x in problem.initial])
-        summands = [_summands(x) for x in (problem.energy, *(x for _, x in problem.invariants))]
+        summands = [
+            _summands(x) for x in (problem.energy, *(x for _, x in problem.invariants))
+        ]
         self._lengths = [len(x) for x in summands]
         arguments = tuple(x for g in GROUPS for x in symbols(problem.variables, g))
-        self._summands = function(tuple(x for y in summands for x in y), arguments, False)
+        self._summands = function(
+            tuple(x for y in summands for x in y), arguments, False
+        )
         try:
             self._first = self._precisely(lambda: self._function(*start))
             terms = function(tuple(problem.terms), arguments, False)(
@@ -73,7 +83,9 @@ class Measure:
 
         if not self._bits:
             first: Floats = np.array(self._first)
-            return np.array([self._values_of(y) for y in states], dtype=np.float64) - first
+            return (
+                np.array([self._values_of(y) for y in states], dtype=np.float64) - first
+            )
         with ctx.workprec(self._bits):
             return np.array([[float(x) for x in self._differences(y)] for y in states])
 
@@ -89,7 +101,9 @@ class Measure:
         return np.array([sum(abs(x) for x in islice(values, n)) for n in self._lengths])
 
     def _differences(self, y: Sequence[Any]) -> list[Any]:
-        return [x - first for x, first in zip(self._values_of(y), self._first, strict=True)]
+        return [
+            x - first for x, first in zip(self._values_of(y), self._first, strict=True)
+        ]
 
     def _values_of(self, y: Sequence[Any]) -> list[Any]:
         try:

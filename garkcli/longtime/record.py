@@ -60,7 +60,9 @@ class Record:
         self.done = -1
         self.blew_up = False
         self._span = (
-            1 if count < points else ceil((count + 1) / max((points - 2) // (2 * signals), 1))
+            1
+            if count < points
+            else ceil((count + 1) / max((points - 2) // (2 * signals), 1))
         )
         self._wanted = {count * part // _PARTS for part in range(_PARTS + 1)}
         self._numbers: list[int] = []
@@ -99,7 +101,9 @@ class Record:
                     states.append(y)  # noqa: PERF402 -- what comes before a failure is wanted
             except StepFailed:
                 self._add(states)
-                self.blew_up = self.blew_up or bool(self.largest[0] > _BLOWN * self.measure.scale)
+                self.blew_up = self.blew_up or bool(
+                    self.largest[0] > _BLOWN * self.measure.scale
+                )
                 if not self.blew_up:
                     raise
                 return
@@ -111,7 +115,9 @@ class Record:
         if not states:
             return
         errors, start = self.measure.errors(states), self.done + 1
-        outside = np.flatnonzero(~(np.abs(errors) <= BLOW_UP * self.measure.scale).all(axis=1))
+        outside = np.flatnonzero(
+            ~(np.abs(errors) <= BLOW_UP * self.measure.scale).all(axis=1)
+        )
         if outside.size:
             self.blew_up = True
             errors = errors[: outside[0]]
@@ -133,9 +139,13 @@ class Record:
     def _chosen(self, errors: Floats, start: int) -> list[int]:
         if self._span == 1:
             return list(range(len(errors)))
-        ends = {number - start for number in (0, self.count) if start <= number <= self.done}
+        ends = {
+            number - start for number in (0, self.count) if start <= number <= self.done
+        }
         spans = -(-len(errors) // self._span)
-        found = (extremes(errors[:, k], 2 * spans).tolist() for k in range(errors.shape[1]))
+        found = (
+            extremes(errors[:, k], 2 * spans).tolist() for k in range(errors.shape[1])
+        )
         return sorted(ends.union(*found))
 
     def _watch(self, states: Floats) -> None:

@@ -58,7 +58,9 @@ def stability(R: Matrix) -> Stability:
 def _fate(R: Matrix, determinant: Number, trace: Number) -> Fate:
     if determinant == ONE:
         room = _sign(4 - trace * trace)
-        is_diagonal = not (R[0][1] or R[1][0])  # then R is the identity, or its negative
+        is_diagonal = not (
+            R[0][1] or R[1][0]
+        )  # then R is the identity, or its negative
         return "elliptic" if room > 0 or (room == 0 and is_diagonal) else "unstable"
     area = _sign(1 - determinant * determinant)
     room = _sign((1 + determinant) * (1 + determinant) - trace * trace)

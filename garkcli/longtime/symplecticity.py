@@ -28,7 +28,9 @@ Jacobian: TypeAlias = list[list[Any]]
 DIGITS = 90
 """Digits of the steps that are differentiated."""
 _DECADES = 30  # the perturbation is 10^-30, so that errors are about 10^-60
-_SAFETY = 8  # the change when the perturbation is doubled is three errors; M occurs twice
+_SAFETY = (
+    8  # the change when the perturbation is doubled is three errors; M occurs twice
+)
 
 
 @dataclass(frozen=True)
@@ -79,7 +81,9 @@ def symplecticity_defects(
         StepFailed: the stage equations of one were not solved.
     """
     method = bind(tableau, problem).at(max(DIGITS, FLOAT_DIGITS + 1))
-    return tuple(_defect(method, step, time, [_exactly(x) for x in y]) for time, y in states)
+    return tuple(
+        _defect(method, step, time, [_exactly(x) for x in y]) for time, y in states
+    )
 
 
 def _exactly(x: Any) -> fmpq | arb:
@@ -92,7 +96,11 @@ def _defect(method: Integrator, step: fmpq, time: fmpq, y: Sequence[Any]) -> Def
     with ctx.workprec(method.bits):
         M = _jacobian(method, step, y, delta)
         coarse = _jacobian(method, step, y, 2 * delta)
-        pairs = [pair for r, s in zip(M, coarse, strict=True) for pair in zip(r, s, strict=True)]
+        pairs = [
+            pair
+            for r, s in zip(M, coarse, strict=True)
+            for pair in zip(r, s, strict=True)
+        ]
         change = max(abs(a - b) for a, b in pairs)
         largest = max(abs(a) for row in M for a in row)
         size = sum((abs(arb(x)) for x in y), arb(1))
@@ -101,7 +109,9 @@ def _defect(method: Integrator, step: fmpq, time: fmpq, y: Sequence[Any]) -> Def
         return Defect(time, float(_deviation(M)), float(error))
 
 
-def _jacobian(method: Integrator, step: fmpq, y: Sequence[Any], delta: fmpq) -> Jacobian:
+def _jacobian(
+    method: Integrator, step: fmpq, y: Sequence[Any], delta: fmpq
+) -> Jacobian:
     def moved(i: int, by: fmpq) -> list[Any]:
         """One step from ``y`` with its entry ``i`` changed."""
         start = list(y)
@@ -111,7 +121,9 @@ def _jacobian(method: Integrator, step: fmpq, y: Sequence[Any], delta: fmpq) -> 
     columns = []
     for i in range(len(y)):
         after, before = moved(i, delta), moved(i, -delta)
-        column = [((a - b) / (2 * delta)).mid() for a, b in zip(after, before, strict=True)]
+        column = [
+            ((a - b) / (2 * delta)).mid() for a, b in zip(after, before, strict=True)
+        ]
         columns.append(column)
     return [list(row) for row in zip(*columns, strict=True)]
 
@@ -122,7 +134,10 @@ def _deviation(M: Jacobian) -> arb:
     largest = arb(0)
     for i in range(2 * d):
         for j in range(i):
-            form = sum((M[k][i] * M[k + d][j] - M[k + d][i] * M[k][j] for k in range(d)), arb(0))
+            form = sum(
+                (M[k][i] * M[k + d][j] - M[k + d][i] * M[k][j] for k in range(d)),
+                arb(0),
+            )
             largest = largest.max(abs(form + (i == j + d)))
     return largest.mid()
 
@@ -131,10 +146,16 @@ def holds(tableau: Tableau, tolerance: fmpq | None = None) -> bool:
     """Whether b_i b_j = b_i a_ij + b_j a_ji throughout, exactly or within a tolerance: all steps
     are symplectic.
     """
-    return is_symplectic(tableau) if tolerance is None else is_symplectic_within(tableau, tolerance)
+    return (
+        is_symplectic(tableau)
+        if tolerance is None
+        else is_symplectic_within(tableau, tolerance)
+    )
 
 
-def is_proved(tableau: Tableau, problem: Hamiltonian, tolerance: fmpq | None = None) -> bool:
+def is_proved(
+    tableau: Tableau, problem: Hamiltonian, tolerance: fmpq | None = None
+) -> bool:
     """Whether the steps of ``tableau`` on ``problem``, as ``symplecticity_defects`` takes them, are
     symplectic by coefficients.
 

@@ -59,7 +59,9 @@ _SHORTENING = 8.0
 # 99 percent of Student's t with the five degrees of freedom that seven overlapping quarters have
 _SIGMAS = 4.0
 _CLEAR = 3.0  # how many times the heights of two eighths their levels differ when one has moved
-_CLIMBS = 4  # how many of the seven moves between eighths are clear in a rise that goes on
+_CLIMBS = (
+    4  # how many of the seven moves between eighths are clear in a rise that goes on
+)
 _APART = 3.0  # how many times their range the first or the last eighth is away from the others
 _FLOAT = 2.0**-42  # rounding of the sums, of the largest error
 _FLOAT_SQUARED = 2.0**-40  # rounding of sums of squares, of the mean square
@@ -113,7 +115,9 @@ class Trends:
         self.count = count
         self._largest = np.zeros(signals)
         self._bounds = [(floor(a * count) + 1, ceil(b * count)) for a, b in _WINDOWS]
-        self._weights = np.zeros((len(_WINDOWS), 3))  # Σ w, Σ w u, Σ w u² with u = s − ½
+        self._weights = np.zeros(
+            (len(_WINDOWS), 3)
+        )  # Σ w, Σ w u, Σ w u² with u = s − ½
         # the first error of each window: x = e − start is of the size of what happens in it
         self._starts = np.zeros((len(_WINDOWS), signals))
         self._sums = np.zeros((len(_WINDOWS), 3, signals))  # Σ w x, Σ w u x, Σ w x²
@@ -133,7 +137,9 @@ class Trends:
         import numpy as np
 
         middle = self.count // 2
-        for half, (start, end) in enumerate(((0, middle + 1), (middle, self.count + 1))):
+        for half, (start, end) in enumerate(
+            ((0, middle + 1), (middle, self.count + 1))
+        ):
             part = errors[max(start - first, 0) : max(end - first, 0)]
             if not len(part):
                 continue
@@ -198,7 +204,9 @@ class Trends:
         left = squares - (levels * X + slopes * Xu) / W
         left[left < _FLOAT_SQUARED * squares] = 0.0
         lengths = np.array([b - a for a, b in _WINDOWS])
-        return _Windows(slopes / lengths, levels + self._starts[:, signal], np.sqrt(left))
+        return _Windows(
+            slopes / lengths, levels + self._starts[:, signal], np.sqrt(left)
+        )
 
     def _move(self, signal: int, found: _Windows, least: float) -> float:
         """How far the first or last eighth lies apart, or one half of the run leaves the range of
@@ -244,7 +252,9 @@ def _climbs(found: _Windows, least: float) -> bool:
     if _goes_on(moves, _CLEAR * around + least):
         return True
     in_all = abs(float(levels[-1] - levels[0]))
-    return in_all > CERTAIN * float(heights.max()) and _goes_on(moves, around / 2 + least)
+    return in_all > CERTAIN * float(heights.max()) and _goes_on(
+        moves, around / 2 + least
+    )
 
 
 def _goes_on(moves: Floats, clear: Floats) -> bool:

@@ -44,7 +44,14 @@ from garkcli.tableau.garkmethod import GarkMethod
 from garkcli.tableau.method import Method, butcher
 from garkcli.tableau.stages import PolynomialSpace, StageSpace
 from garkcli.tableau.tableau import Tableau
-from garkcli.transfer import PAIR_RULES, RULES, Rule, build_on, combination, symplectic_blocks
+from garkcli.transfer import (
+    PAIR_RULES,
+    RULES,
+    Rule,
+    build_on,
+    combination,
+    symplectic_blocks,
+)
 
 T = TypeVar("T")
 Blocks: TypeAlias = dict[tuple[int, int], Matrix]
@@ -107,7 +114,9 @@ class Builder:
             case ArkText():
                 A = [self.values.matrix(rows) for rows in content.A]
                 b = [self.values.vector(row) for row in content.b]
-                tableau = additive(A, b, self.values.vector(content.c) if content.c else None)
+                tableau = additive(
+                    A, b, self.values.vector(content.c) if content.c else None
+                )
             case PrkText():
                 tableau = self._prk(content, description.structure)
         if description.is_conjugate:
@@ -125,7 +134,10 @@ class Builder:
             raise self.source.error() from None
 
     def _spelled_out(self, text: TableauText) -> Tableau:
-        A = [[None if rows is None else self.values.matrix(rows) for rows in row] for row in text.A]
+        A = [
+            [None if rows is None else self.values.matrix(rows) for rows in row]
+            for row in text.A
+        ]
         b = [self.values.vector(row) for row in text.b]
         c = [None if row is None else self.values.vector(row) for row in text.c]
         return spelled_out(A, b, c, text.linear)
@@ -152,8 +164,12 @@ class Builder:
         tableau = gark(methods, self._transfer(text, methods, structure))
         if structure == "general":
             return tableau
-        velocities, forces = ([0], [0, 1]) if structure == "semi-separable" else ([0], [1])
-        both = self._at(text.methods[0].node, lambda: symplectic_pair(tableau, velocities, forces))
+        velocities, forces = (
+            ([0], [0, 1]) if structure == "semi-separable" else ([0], [1])
+        )
+        both = self._at(
+            text.methods[0].node, lambda: symplectic_pair(tableau, velocities, forces)
+        )
         return with_linear(both, ["V1"]) if structure == "nystrom" else both
 
     def _diagonal(self, l: int, text: FamilyText | ButcherText) -> Method:
@@ -165,34 +181,51 @@ class Builder:
 
             return method_in_points(method, self.values.vector(self.nodes[l]))
         c = self.values.vector(text.c) if text.c is not None else None
-        return butcher(self.values.matrix(text.A), self.values.vector(text.b), c, text.name)
+        return butcher(
+            self.values.matrix(text.A), self.values.vector(text.b), c, text.name
+        )
 
-    def _transfer(self, text: MethodsText, methods: list[Method], structure: Structure) -> Blocks:
+    def _transfer(
+        self, text: MethodsText, methods: list[Method], structure: Structure
+    ) -> Blocks:
         """The off-diagonal blocks that the structure needs."""
-        needed = [(l, m) for l in range(len(methods)) for m in range(len(methods)) if l != m]
+        needed = [
+            (l, m) for l in range(len(methods)) for m in range(len(methods)) if l != m
+        ]
         if structure != "general":
             needed = [(1, 0)]
         orders = _Orders(methods)
         blocks: Blocks = {}
         for l, m in needed:
             block = (
-                text.transfer.blocks.get((l, m)) or _pair_rule(text, m, l) or text.transfer.default
+                text.transfer.blocks.get((l, m))
+                or _pair_rule(text, m, l)
+                or text.transfer.default
             )
             try:
                 if block is None:
-                    raise MethodError("it has no rule", "give it one, or a default, under transfer")
+                    raise MethodError(
+                        "it has no rule", "give it one, or a default, under transfer"
+                    )
                 if isinstance(block, MatrixText):
                     blocks[l, m] = self._matrix(block, methods, l, m)
                 else:
                     blocks[l, m] = self._by_rule(block, methods, orders, l, m)
             except GarkError as error:
                 node = block.node if block is not None else text.methods[0].node
-                self.source.fault(node, f"A^{{{l + 1},{m + 1}}}: {error.message}", error.help)
+                self.source.fault(
+                    node, f"A^{{{l + 1},{m + 1}}}: {error.message}", error.help
+                )
         self.source.close()
         return blocks
 
-    def _matrix(self, block: MatrixText, methods: list[Method], l: int, m: int) -> Matrix:
-        shape, found = (methods[l].stages, methods[m].stages), (len(block.rows), len(block.rows[0]))
+    def _matrix(
+        self, block: MatrixText, methods: list[Method], l: int, m: int
+    ) -> Matrix:
+        shape, found = (
+            (methods[l].stages, methods[m].stages),
+            (len(block.rows), len(block.rows[0])),
+        )
         if found != shape:
             raise ShapeMismatch(
                 f"a matrix of {found[0]} by {found[1]} should be {shape[0]} by {shape[1]}",
@@ -211,7 +244,9 @@ class Builder:
         if weight is None:
             return RULES[rule](methods[l], methods[m])
         terms: list[tuple[Number, Rule]] = [
-            (self.values.number(tau), RULES[name]) for name, tau in text.terms if tau is not None
+            (self.values.number(tau), RULES[name])
+            for name, tau in text.terms
+            if tau is not None
         ]
         total = sum((tau for tau, _ in terms), start=ZERO)
         if total != ONE:
@@ -297,5 +332,6 @@ def _family_nodes(text: FamilyText, space: StageSpace, numbers: Numbers) -> Row 
         numbers.source.fault(text.node, message, cure)
         return None
     return tuple(
-        Entry(node, text.node, f"node {i} of {text.name}") for i, node in enumerate(nodes, start=1)
+        Entry(node, text.node, f"node {i} of {text.name}")
+        for i, node in enumerate(nodes, start=1)
     )

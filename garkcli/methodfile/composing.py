@@ -60,7 +60,10 @@ _TOO_DEEP = f"nested more than {MAX_NESTING} deep"
 _TOO_MANY = f"more than {MAX_NODES} values in one file"
 _YAML_CURES = (
     ("'\\t'", "indent with spaces, not with tabs"),
-    ("mapping values are not allowed", "quote a text that holds a colon, and align the keys"),
+    (
+        "mapping values are not allowed",
+        "quote a text that holds a colon, and align the keys",
+    ),
     ("block end", "align the keys and the dashes of one list"),
     ("undefined alias", "define it first as &name, or quote the text"),
     ("cannot start any token", "quote a text that begins with this sign"),
@@ -109,7 +112,9 @@ def _walk(root: Node) -> None:
         if count > MAX_NODES:
             raise TooLargeError(root, _TOO_MANY, "aliases count each time")
         if depth > MAX_NESTING:
-            raise TooLargeError(node, _TOO_DEEP, "no file needs that; or an anchor contains itself")
+            raise TooLargeError(
+                node, _TOO_DEEP, "no file needs that; or an anchor contains itself"
+            )
         pending += ((child, depth + 1) for child in _children(node))
 
 

@@ -11,7 +11,12 @@ from yaml.nodes import Node
 from garkcli.methodfile.numbers import Entry, Row, Rows
 
 Structure: TypeAlias = Literal["general", "semi-separable", "separable", "nystrom"]
-STRUCTURES: tuple[Structure, ...] = ("general", "semi-separable", "separable", "nystrom")
+STRUCTURES: tuple[Structure, ...] = (
+    "general",
+    "semi-separable",
+    "separable",
+    "nystrom",
+)
 Form: TypeAlias = Literal["methods", "tableau", "ark", "prk"]
 FORMS: tuple[Form, ...] = ("methods", "tableau", "ark", "prk")
 PLAIN = ("A", "b", "c")

@@ -32,7 +32,10 @@ def too_long(lagrangian: Any, velocities: Sequence[Any]) -> Any:
     moving = set(velocities)
     for v in velocities:
         slope = lagrangian.diff(v)
-        if slope.diff(v).free_symbols & moving and _terms(_undone(slope, v), v) > MAX_TERMS:
+        if (
+            slope.diff(v).free_symbols & moving
+            and _terms(_undone(slope, v), v) > MAX_TERMS
+        ):
             return v
     return None
 
@@ -62,7 +65,8 @@ def _terms(f: Any, v: Any) -> int:
 
     found = _fraction(f)
     has_root = any(
-        v in x.free_symbols and x.exp.is_Rational and x.exp.q == 2 for x in f.atoms(sympy.Pow)
+        v in x.free_symbols and x.exp.is_Rational and x.exp.q == 2
+        for x in f.atoms(sympy.Pow)
     )
     return max(found.terms ** (2 if has_root else 1), found.inside)
 

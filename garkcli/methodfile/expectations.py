@@ -66,12 +66,16 @@ def _number(source: Source, node: Node, where: str) -> Wanted:
 def _table(source: Source, node: Node, where: str, depth: int) -> Wanted:
     if not isinstance(node, SequenceNode):
         source.fault(
-            node, f"{where}: a list is expected", "one number a colour, for C and D a row a colour"
+            node,
+            f"{where}: a list is expected",
+            "one number a colour, for C and D a row a colour",
         )
         return None
     if depth > 1:
         return [_table(source, item, where, depth - 1) for item in node.value]
-    return [None if is_null(item) else _number(source, item, where) for item in node.value]
+    return [
+        None if is_null(item) else _number(source, item, where) for item in node.value
+    ]
 
 
 def highest_order(claims: tuple[ClaimText, ...]) -> int:

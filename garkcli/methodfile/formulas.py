@@ -41,7 +41,11 @@ class Formulas:
     _sizes: dict[str, int] = field(default_factory=dict)
 
     def parsed(
-        self, node: Node, where: str, names: Mapping[str, str] | None, noun: str = "parameter"
+        self,
+        node: Node,
+        where: str,
+        names: Mapping[str, str] | None,
+        noun: str = "parameter",
     ) -> Expression | None:
         """The expression of a text; None where there are faults, which are noted.
 
@@ -63,7 +67,9 @@ class Formulas:
         try:
             expression = parse_formula(text)
             if size_of(expression, self._sizes) > MAX_SIZE:
-                message = f"more than {MAX_SIZE} operations, with the parameters written out"
+                message = (
+                    f"more than {MAX_SIZE} operations, with the parameters written out"
+                )
                 raise LimitExceeded(message, "write it shorter", 0, len(text))
         except ExpressionError as error:
             self.source.expression_fault(node, where, *explained(error, text))
@@ -75,13 +81,28 @@ class Formulas:
         )
 
     def _are_known(
-        self, expression: Expression, node: Node, where: str, names: Mapping[str, str], noun: str
+        self,
+        expression: Expression,
+        node: Node,
+        where: str,
+        names: Mapping[str, str],
+        noun: str,
     ) -> bool:
-        allowed = {*self.values, *CONSTANTS, *(x for x, cure in names.items() if not cure)}
-        strangers = {x.name: x for x in reversed([*names_in(expression)]) if x.name not in allowed}
+        allowed = {
+            *self.values,
+            *CONSTANTS,
+            *(x for x, cure in names.items() if not cure),
+        }
+        strangers = {
+            x.name: x
+            for x in reversed([*names_in(expression)])
+            if x.name not in allowed
+        }
         for name, place in strangers.items():
             cure = names.get(name) or did_you_mean(name, sorted(allowed))
-            self.source.fault(node, f"{where}: {shortened(name)} is no {noun}", cure, place.start)
+            self.source.fault(
+                node, f"{where}: {shortened(name)} is no {noun}", cure, place.start
+            )
         return not strangers
 
     def constant(self, node: Node, where: str) -> tuple[Expression, Value] | None:
@@ -120,7 +141,9 @@ class Formulas:
             where = f"parameters: {shortened(name)[1:-1]}"
             message = bad_name(name)
             if message:
-                self.source.fault(value_node, f"{where} {message}", "choose another name")
+                self.source.fault(
+                    value_node, f"{where} {message}", "choose another name"
+                )
             found = self.constant(value_node, where)
             # a faulty parameter is 1, so that formulas with it are still read
             expression, value = found or (None, fmpq(1))
@@ -130,7 +153,9 @@ class Formulas:
                 assert expression is not None
                 self.made[name] = self.translator({}).translate(expression)
             self.values[name] = value
-            self._sizes[name] = 1 if expression is None else size_of(expression, self._sizes)
+            self._sizes[name] = (
+                1 if expression is None else size_of(expression, self._sizes)
+            )
 
 
 def bad_name(name: str) -> str:

@@ -39,8 +39,12 @@ def _of_folder(path: str) -> Fault:
         return Fault(f"this folder cannot be read: {error.strerror}", "name the files")
     first = next(find_files([path]))
     if first == path:
-        return Fault(f"no {SUFFIX} files in this directory", "name the files, or rename them")
-    return Fault("a directory, where one method file is expected", f"name one, such as {first}")
+        return Fault(
+            f"no {SUFFIX} files in this directory", "name the files, or rename them"
+        )
+    return Fault(
+        "a directory, where one method file is expected", f"name one, such as {first}"
+    )
 
 
 def read_text(path: str, kind: FileKind) -> tuple[str, str]:
@@ -51,22 +55,32 @@ def read_text(path: str, kind: FileKind) -> tuple[str, str]:
     """
     if path == STDIN:
         if sys.stdin is None:
-            raise MethodFileError("<stdin>", [Fault("standard input is closed", "name a file")])
+            raise MethodFileError(
+                "<stdin>", [Fault("standard input is closed", "name a file")]
+            )
         return _decoded("<stdin>", sys.stdin.buffer.read(MAX_BYTES + 1)), "<stdin>"
     file = Path(path)
     try:
         status = file.stat()
     except FileNotFoundError:
         raise MethodFileError(path, [Fault("no such file")]) from None
-    except OSError as error:  # among them names that are too long, and links in a circle
-        raise MethodFileError(path, [Fault(f"cannot be read: {error.strerror}")]) from None
+    except (
+        OSError
+    ) as error:  # among them names that are too long, and links in a circle
+        raise MethodFileError(
+            path, [Fault(f"cannot be read: {error.strerror}")]
+        ) from None
     if not stat.S_ISREG(status.st_mode):
-        raise MethodFileError(path, [Fault("not a regular file", f"give a {kind.name}")])
+        raise MethodFileError(
+            path, [Fault("not a regular file", f"give a {kind.name}")]
+        )
     try:
         with file.open("rb") as stream:
             data = stream.read(MAX_BYTES + 1)
     except OSError as error:
-        raise MethodFileError(path, [Fault(f"cannot be read: {error.strerror}")]) from None
+        raise MethodFileError(
+            path, [Fault(f"cannot be read: {error.strerror}")]
+        ) from None
     return _decoded(path, data), path
 
 

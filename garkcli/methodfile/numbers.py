@@ -92,11 +92,15 @@ class Numbers:
         if text not in self._read:
             parsed = parse(text)
             if size_of(parsed, self._sizes) > MAX_SIZE:
-                message = f"more than {MAX_SIZE} operations, with the parameters written out"
+                message = (
+                    f"more than {MAX_SIZE} operations, with the parameters written out"
+                )
                 raise LimitExceeded(message, "write it shorter", 0, len(text))
             if depth_of(parsed, self._depths) > MAX_DEPTH:
                 message = f"nested more than {MAX_DEPTH} deep, with the parameters written out"
-                raise LimitExceeded(message, "give the parameter its value", 0, len(text))
+                raise LimitExceeded(
+                    message, "give the parameter its value", 0, len(text)
+                )
             self._read[text] = substitute(parsed, self.parameters)
         return self._read[text]
 
@@ -134,11 +138,15 @@ class Numbers:
         rows_of = node.value if isinstance(node, SequenceNode) else [node]
         if self._is_text(rows_of, where, "a matrix"):
             return ()
-        items = self.source.items(node, where, "write it row by row: [[0, 0], [1/2, 0]]")
+        items = self.source.items(
+            node, where, "write it row by row: [[0, 0], [1/2, 0]]"
+        )
         deep = first_list_in_rows(items)
         if deep is not None:
             message = f"{where}: a list stands where a coefficient is expected"
-            self.source.fault(deep, message, "a matrix is a list of rows: [[0, 0], [1/2, 0]]")
+            self.source.fault(
+                deep, message, "a matrix is a list of rows: [[0, 0], [1/2, 0]]"
+            )
             return ()
         rows: list[Row] = []
         for i, item in enumerate(items, start=1):
@@ -158,11 +166,15 @@ class Numbers:
             return False
         message = f"{what} is a list, not the text {shortened(texts[first])}"
         example = "[0, 1/2]" if what == "a row" else "[[0, 0], [1/2, 0]]"
-        cure = f"put it in brackets, with commas: {bracketed(';'.join(texts)) or example}"
+        cure = (
+            f"put it in brackets, with commas: {bracketed(';'.join(texts)) or example}"
+        )
         self.source.fault(rows[first], message, cure, where=where)
         return True
 
-    def fitted(self, rows: Rows, node: Node, where: str, shape: tuple[int, int], why: str) -> Rows:
+    def fitted(
+        self, rows: Rows, node: Node, where: str, shape: tuple[int, int], why: str
+    ) -> Rows:
         """A matrix of the given shape; note at most one fault where it has another.
 
         The rows of a triangular matrix may end at the diagonal or before it, as explicit tableaus
@@ -201,7 +213,9 @@ class Numbers:
         if len(set(lengths)) > 1:
             self._uneven(lengths, node, where, lengths[0])
 
-    def _uneven(self, lengths: Sequence[int], node: Node, where: str, columns: int) -> None:
+    def _uneven(
+        self, lengths: Sequence[int], node: Node, where: str, columns: int
+    ) -> None:
         """Note rows of different lengths: one fault, at the first of another length."""
         wrong = [i for i, length in enumerate(lengths) if length != columns]
         first = node.value[wrong[0]] if isinstance(node, SequenceNode) else node
@@ -210,7 +224,9 @@ class Numbers:
         if len(wrong) > 1:
             others = ", ".join(str(i + 1) for i in wrong[1:6])
             more = ", …" if len(wrong) > 6 else ""
-            message += f"; other lengths in row{'s' * (len(wrong) > 2)} {others}{more} too"
+            message += (
+                f"; other lengths in row{'s' * (len(wrong) > 2)} {others}{more} too"
+            )
         cure = "give every row the same number, or end each at the diagonal"
         self.source.fault(first, message, cure)
 
@@ -239,7 +255,11 @@ def is_misread(source: Source, node: Node, text: str, where: str) -> bool:
         cure = "write a number, such as 1/2"
     elif _READ_DIFFERENTLY.fullmatch(text):
         message = f"{text} means different numbers to different readers of YAML"
-        cure = "leave out the _" if "_" in text else "write the number in plain decimal digits"
+        cure = (
+            "leave out the _"
+            if "_" in text
+            else "write the number in plain decimal digits"
+        )
     elif text.lower().lstrip("+-") in {".inf", ".nan", "nan", "inf", "infinity"}:
         message, cure = f"{text} is not a number", "coefficients are finite"
     if message:
@@ -258,7 +278,9 @@ class Values:
         source = numbers.source
         self._values: dict[int, Number] = {}
         self.printed: tuple[tuple[Expression, Number], ...] = ()
-        expressions = {id(entry.expression): entry.expression for entry in numbers.entries}
+        expressions = {
+            id(entry.expression): entry.expression for entry in numbers.entries
+        }
         try:
             domain = Domain(expressions.values())
         except (UndefinedValue, LimitExceeded) as error:
@@ -333,7 +355,11 @@ def read_parameters(numbers: Numbers, node: Node | None) -> None:
             source.fault(key, message, "use letters, digits and _")
         elif isinstance(value_node, ScalarNode) and value_node.value == "free":
             cure = "give it a value, for instance 1/2"
-            source.fault(value_node, f"{where} is free; orders are decided for given values", cure)
+            source.fault(
+                value_node,
+                f"{where} is free; orders are decided for given values",
+                cure,
+            )
         else:
             value = numbers.entry(value_node, where).expression
             numbers.of_parameters.append(numbers.entries.pop())

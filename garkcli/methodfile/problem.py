@@ -84,16 +84,23 @@ class _Reader:
         root = source.compose()
         if root is None:
             return None
-        if keys_of(root) & set(METHOD_FORMS) and not keys_of(root) & {"hamiltonian", "lagrangian"}:
+        if keys_of(root) & set(METHOD_FORMS) and not keys_of(root) & {
+            "hamiltonian",
+            "lagrangian",
+        }:
             source.fault(
-                root, "this is a method file, not a problem file", "see docs/problem-file.md"
+                root,
+                "this is a method file, not a problem file",
+                "see docs/problem-file.md",
             )
             return None
         entries = source.mapping(root, "the file", KEYS)
         version = entries.get("gark")
         if version is not None and source.scalar(version, "gark") != "1":
             source.fault(
-                version, "gark: this program reads version 1 of the format", "write gark: 1"
+                version,
+                "gark: this program reads version 1 of the format",
+                "write gark: 1",
             )
         for key in ("description", "reference"):
             if key in entries:
@@ -107,7 +114,9 @@ class _Reader:
         self._refuse_taken(variables, form, entries.get("parameters"))
         if "initial" not in entries:
             cure = (
-                "write initial: {" + ", ".join(f"{x}: 0, p{x}: 0" for x, _ in variables[:2]) + "}"
+                "write initial: {"
+                + ", ".join(f"{x}: 0, p{x}: 0" for x, _ in variables[:2])
+                + "}"
             )
             source.fault(root, "initial missing", cure)
         if form is None:
@@ -131,14 +140,22 @@ class _Reader:
         """The names of the positions that can be names, and where they stand."""
         if node is None:
             self.source.fault(
-                root, "variables missing", "name the positions, for instance variables: [x, y]"
+                root,
+                "variables missing",
+                "name the positions, for instance variables: [x, y]",
             )
             return []
-        items = [node] if isinstance(node, ScalarNode) else self.source.items(node, "variables")
+        items = (
+            [node]
+            if isinstance(node, ScalarNode)
+            else self.source.items(node, "variables")
+        )
         if not items and isinstance(node, SequenceNode):
             self.source.fault(node, "variables is empty", "name at least one position")
         if len(items) > MAX_VARIABLES:
-            self.source.fault(node, f"{len(items)} variables (limit {MAX_VARIABLES})", "use fewer")
+            self.source.fault(
+                node, f"{len(items)} variables (limit {MAX_VARIABLES})", "use fewer"
+            )
             return []
         found: dict[str, Node] = {}
         for item in items:
@@ -193,7 +210,9 @@ class _Reader:
             return None
         if len(present) > 1:
             self.source.fault(
-                entries["lagrangian"], "a hamiltonian and a lagrangian", "keep one of them"
+                entries["lagrangian"],
+                "a hamiltonian and a lagrangian",
+                "keep one of them",
             )
         return present[0]
 
@@ -204,7 +223,9 @@ class _Reader:
         if not items and isinstance(node, SequenceNode):
             self.source.fault(node, f"{form} is empty", "give a formula for each term")
         if len(items) > MAX_TERMS:
-            self.source.fault(node, f"{form}: {len(items)} terms (limit {MAX_TERMS})", "use fewer")
+            self.source.fault(
+                node, f"{form}: {len(items)} terms (limit {MAX_TERMS})", "use fewer"
+            )
             return []
         letter = form[0].upper()
         return [(item, f"{letter}{{{l}}}") for l, item in enumerate(items, start=1)]
@@ -217,7 +238,9 @@ class _Reader:
             return DEFAULT_T_END
         if not isinstance(found[1], fmpq) or found[1] <= 0:
             self.source.fault(
-                node, "t_end: a positive rational number is expected", "such as 2 or 5/2"
+                node,
+                "t_end: a positive rational number is expected",
+                "such as 2 or 5/2",
             )
             return DEFAULT_T_END
         return found[1]
@@ -231,7 +254,9 @@ class _Reader:
             return []
         for name, value in entries.items():
             if name.lower() in {"energy", "h"}:
-                self.source.fault(value, f"invariants: {name} is reported always", "leave it out")
+                self.source.fault(
+                    value, f"invariants: {name} is reported always", "leave it out"
+                )
         return [(shown_name(name), value) for name, value in entries.items()]
 
 

@@ -61,7 +61,10 @@ def problem_file_schema() -> Schema:
         "name": {**_TEXT, "description": "What people call the problem."},
         "description": {**_TEXT, "description": "What it is."},
         "reference": {**_TEXT, "description": "Where it was published."},
-        "variables": {"description": "Names of the positions.", "anyOf": [name, variables]},
+        "variables": {
+            "description": "Names of the positions.",
+            "anyOf": [name, variables],
+        },
         "parameters": {
             **constants,
             "propertyNames": {"pattern": _NAME},

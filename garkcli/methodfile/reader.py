@@ -59,7 +59,8 @@ KEYS = (
 _START = "give A and b, or one of the keys methods, tableau, ark, prk"
 _CURES = (
     dict.fromkeys(
-        (*NUMBERS, "symplectic"), "claims go under expect, for instance expect: {order: 4}"
+        (*NUMBERS, "symplectic"),
+        "claims go under expect, for instance expect: {order: 4}",
     )
     | dict.fromkeys(("family", "stages"), "write methods: [{family: gauss, stages: 2}]")
     | dict.fromkeys(("blocks", "default"), "it goes under transfer")
@@ -103,7 +104,9 @@ class Reader:
         root = source.compose()
         if root is None:
             return None
-        if keys_of(root) & {"hamiltonian", "lagrangian"} and not keys_of(root) & set(FORMS):
+        if keys_of(root) & {"hamiltonian", "lagrangian"} and not keys_of(root) & set(
+            FORMS
+        ):
             cure = "give it beside a method file: gark converge METHOD --problem FILE"
             source.fault(root, "this is a problem file, not a method file", cure)
             return None
@@ -168,7 +171,9 @@ class Reader:
             present.append(plain[0])
         for key in present[1:]:
             message = f"{key}: the coefficients are given by {present[0]} already"
-            self.source.fault(entries[key], message, f"keep one of {', '.join(present)}")
+            self.source.fault(
+                entries[key], message, f"keep one of {', '.join(present)}"
+            )
         if not present:
             # a key that belongs elsewhere was noted with its cure, which is where to begin
             if not keys_of(root) & set(_CURES):
@@ -187,7 +192,11 @@ class Reader:
 
     def _structure(self, form: Form, entries: dict[str, Node]) -> Structure:
         node = entries.get("structure")
-        word = self.source.choice(node, "structure", STRUCTURES) if node is not None else None
+        word = (
+            self.source.choice(node, "structure", STRUCTURES)
+            if node is not None
+            else None
+        )
         if node is not None and form in {"tableau", "ark"} and word != "general":
             cure = (
                 "write absent blocks as null"
@@ -197,20 +206,25 @@ class Reader:
             self.source.fault(node, f"structure does not go with {form}", cure)
         if node is not None and form == "prk" and word == "semi-separable":
             self.source.fault(
-                node, "a prk cannot be semi-separable: that takes two Hamiltonians", "use methods"
+                node,
+                "a prk cannot be semi-separable: that takes two Hamiltonians",
+                "use methods",
             )
         return cast("Structure", word or "general")
 
     def _is_conjugate(self, node: Node | None) -> bool:
         return (
-            node is not None and self.source.choice(node, "conjugate", ("true", "false")) == "true"
+            node is not None
+            and self.source.choice(node, "conjugate", ("true", "false")) == "true"
         )
 
     def _refuse_misplaced(self, form: Form, entries: dict[str, Node]) -> None:
         for key, home in (("transfer", "methods"), ("linear", "tableau")):
             if key in entries and form != home:
                 self.source.fault(
-                    entries[key], f"{key} goes with {home}, not with {form}", "leave it out"
+                    entries[key],
+                    f"{key} goes with {home}, not with {form}",
+                    "leave it out",
                 )
 
     def _content(
@@ -238,9 +252,13 @@ class Reader:
             return None
         methods = [self._method(item, l) for l, item in enumerate(items, start=1)]
         if not items and isinstance(node, SequenceNode):
-            self.source.fault(node, "methods is empty", "list at least one diagonal method")
+            self.source.fault(
+                node, "methods is empty", "list at least one diagonal method"
+            )
         if structure != "general" and len(items) != 2:
-            self.source.fault(node, f"structure: {structure} is for two colours, not {len(items)}")
+            self.source.fault(
+                node, f"structure: {structure} is for two colours, not {len(items)}"
+            )
         if len(items) > 1 and transfer is None:
             cure = "write transfer: collocation (or interpolation)"
             self.source.fault(node, "two colours or more need a transfer rule", cure)
@@ -252,41 +270,59 @@ class Reader:
             return None
         return MethodsText(found, rules)
 
-    def _is_too_large(self, methods: Sequence[FamilyText | ButcherText], node: Node) -> bool:
+    def _is_too_large(
+        self, methods: Sequence[FamilyText | ButcherText], node: Node
+    ) -> bool:
         """Note blocks between the methods that together have too many entries to be made."""
         stages = [x.stages if isinstance(x, FamilyText) else len(x.b) for x in methods]
         entries = sum(stages) ** 2 - sum(s * s for s in stages)
         if entries <= MAX_ENTRIES:
             return False
-        message = f"{entries} entries in the blocks between the methods (limit {MAX_ENTRIES})"
+        message = (
+            f"{entries} entries in the blocks between the methods (limit {MAX_ENTRIES})"
+        )
         self.source.fault(node, message, "use fewer methods, or fewer stages")
         return True
 
     def _method(self, node: Node, l: int) -> FamilyText | ButcherText | None:
         keys, where = keys_of(node), f"method {l}"
         if isinstance(node, ScalarNode):
-            self.source.fault(node, f"{where}: a mapping is expected here", _written_out(node))
+            self.source.fault(
+                node, f"{where}: a mapping is expected here", _written_out(node)
+            )
             return None
-        if isinstance(node, MappingNode) and keys & {"stages"} and not keys & {"family", "A", "b"}:
-            self.source.fault(node, f"{where}: family missing", "write for instance family: gauss")
+        if (
+            isinstance(node, MappingNode)
+            and keys & {"stages"}
+            and not keys & {"family", "A", "b"}
+        ):
+            self.source.fault(
+                node, f"{where}: family missing", "write for instance family: gauss"
+            )
             return None
         if "family" not in keys and isinstance(node, MappingNode):
             names = (f"A^{{{l},{l}}}", f"b^{{{l}}}", f"c^{{{l}}}")
             return self.spelled_out.butcher(node, where, names)
         before = len(self.source.faults)
         form = "write for instance {family: gauss, stages: 2}"
-        entries = self.source.mapping(node, where, ("family", "stages", "name"), form=form)
+        entries = self.source.mapping(
+            node, where, ("family", "stages", "name"), form=form
+        )
         if "family" not in entries or len(self.source.faults) > before:
             return None
         return self._family(node, where, entries)
 
-    def _family(self, node: Node, where: str, entries: dict[str, Node]) -> FamilyText | None:
+    def _family(
+        self, node: Node, where: str, entries: dict[str, Node]
+    ) -> FamilyText | None:
         """A member of a family, which exists."""
         name = self.source.scalar(entries["family"], f"{where}, family")
         has_stages = "stages" in entries
         stages = None
         if has_stages:
-            stages = self.source.whole(entries["stages"], f"{where}, stages", smallest=1)
+            stages = self.source.whole(
+                entries["stages"], f"{where}, stages", smallest=1
+            )
         if name is None or (name in FAMILIES and has_stages and stages is None):
             return None
         try:
@@ -301,7 +337,11 @@ class Reader:
         keys = keys_of(node)
         if not keys & {"default", "blocks"}:
             # without quotes {1,2: rule} has the keys 1 and 2
-            numbered = [x for x in key_nodes(node).values() if _BLOCK_OR_COLOUR.fullmatch(x.value)]
+            numbered = [
+                x
+                for x in key_nodes(node).values()
+                if _BLOCK_OR_COLOUR.fullmatch(x.value)
+            ]
             if numbered:
                 message = "transfer: single blocks stand under blocks"
                 cure = 'write transfer: {default: …, blocks: {"1,2": …}}'
@@ -322,14 +362,14 @@ class Reader:
         blocks: dict[tuple[int, int], BlockText] = {}
         keys = key_nodes(node)
         form = 'write for instance {"1,2": interpolation}'
-        for key, value in self.source.mapping(node, "transfer, blocks", (), form=form).items():
+        for key, value in self.source.mapping(
+            node, "transfer, blocks", (), form=form
+        ).items():
             place = _BLOCK.fullmatch(key)
             l, m = (int(place[1]) - 1, int(place[2]) - 1) if place else (0, 0)
             if l == m or max(l, m) >= colours:
                 shown = shortened(key)
-                message = (
-                    f"transfer, blocks: {shown} names no off-diagonal block of {colours} colours"
-                )
+                message = f"transfer, blocks: {shown} names no off-diagonal block of {colours} colours"
                 cure = 'write for instance "1,2" for the block A^{1,2}'
                 self.source.fault(keys[key], message, cure)
                 continue
@@ -356,16 +396,16 @@ class Reader:
             return RuleText(node, ((rule, None),)) if rule else None
         mixed = sorted(keys_of(node) & set(PAIR_RULES))
         if mixed:
-            message = (
-                f"{where}: {mixed[0]} makes both blocks of a pair of colours and cannot be combined"
-            )
+            message = f"{where}: {mixed[0]} makes both blocks of a pair of colours and cannot be combined"
             self.source.fault(node, message, f"write {mixed[0]} on its own")
             return None
         form = "write one of the rules, for instance transfer: collocation"
         entries = self.source.mapping(node, where, RULES, form=form)
         if not entries:
             if isinstance(node, MappingNode) and not node.value:
-                self.source.fault(node, f"{where}: no rule", f"one of: {', '.join(ALL_RULES)}")
+                self.source.fault(
+                    node, f"{where}: no rule", f"one of: {', '.join(ALL_RULES)}"
+                )
             return None
         terms = (
             (rule, self.numbers.entry(x, f"{where}, weight of {rule}"))

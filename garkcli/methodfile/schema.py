@@ -26,7 +26,9 @@ _ROW: Schema = {"anyOf": [{"type": "array", "items": _NUMBER, "minItems": 1}, _N
 _MATRIX: Schema = {
     "description": "Row by row; the rows of a triangle may end at the diagonal or before it.",
     "type": "array",
-    "items": {"anyOf": [{"$ref": "#/definitions/row"}, {"type": "array", "maxItems": 0}]},
+    "items": {
+        "anyOf": [{"$ref": "#/definitions/row"}, {"type": "array", "maxItems": 0}]
+    },
     "minItems": 1,
 }
 _TEXT: Schema = {"type": ["string", "number", "boolean", "null"]}
@@ -43,7 +45,9 @@ def method_file_schema() -> Schema:
         "oneOf": [*({"required": [form]} for form in FORMS), {"required": ["A", "b"]}],
         "allOf": [
             _goes_with("transfer", {"required": ["methods"]}),
-            _goes_with("linear", {"anyOf": [{"required": ["tableau"]}, {"required": ["A"]}]}),
+            _goes_with(
+                "linear", {"anyOf": [{"required": ["tableau"]}, {"required": ["A"]}]}
+            ),
             _goes_with("c", {"anyOf": [{"required": ["A"]}]}),
             {
                 "if": {
@@ -61,7 +65,9 @@ def method_file_schema() -> Schema:
             },
             {
                 "if": {"required": ["prk"]},
-                "then": {"properties": {"structure": {"not": {"const": "semi-separable"}}}},
+                "then": {
+                    "properties": {"structure": {"not": {"const": "semi-separable"}}}
+                },
             },
         ],
         "properties": _properties(),
@@ -89,7 +95,11 @@ def _properties() -> Schema:
         "methods": {
             "description": "The diagonal methods, one a colour; one on its own needs no list.",
             "anyOf": [
-                {"type": "array", "minItems": 1, "items": {"$ref": "#/definitions/method"}},
+                {
+                    "type": "array",
+                    "minItems": 1,
+                    "items": {"$ref": "#/definitions/method"},
+                },
                 {"$ref": "#/definitions/method"},
             ],
         },
@@ -98,7 +108,10 @@ def _properties() -> Schema:
         "tableau": _tableau(),
         "ark": _ark(),
         "prk": _closed(
-            {"q": {"$ref": "#/definitions/butcher"}, "p": {"$ref": "#/definitions/butcher"}},
+            {
+                "q": {"$ref": "#/definitions/butcher"},
+                "p": {"$ref": "#/definitions/butcher"},
+            },
             "q",
             "p",
         ),
@@ -115,7 +128,10 @@ def _properties() -> Schema:
             "type": "array",
             "items": {"type": "integer", "minimum": 1},
         },
-        "parameters": {"type": "object", "additionalProperties": {"$ref": "#/definitions/number"}},
+        "parameters": {
+            "type": "object",
+            "additionalProperties": {"$ref": "#/definitions/number"},
+        },
         "tolerance": {
             **_NUMBER,
             "description": "The rounding of the coefficients, for instance 1e-13.",
@@ -134,7 +150,10 @@ def _closed(properties: Schema, *required: str) -> Schema:
 
 
 def _family() -> Schema:
-    names = {"enum": list(FAMILIES), "description": "A family of methods, see gark list."}
+    names = {
+        "enum": list(FAMILIES),
+        "description": "A family of methods, see gark list.",
+    }
     stages = {"type": "integer", "minimum": 1, "maximum": MAX_STAGES}
     family = _closed({"family": names, "stages": stages, "name": _TEXT}, "family")
     single = [name for name, x in FAMILIES.items() if x.smallest == x.largest]
@@ -181,24 +200,38 @@ def _transfer() -> Schema:
         "additionalProperties": False,
         "minProperties": 1,
     }
-    return {"description": "How the off-diagonal blocks are made.", "anyOf": [rule, split]}
+    return {
+        "description": "How the off-diagonal blocks are made.",
+        "anyOf": [rule, split],
+    }
 
 
 def _tableau_keys() -> Schema:
     """A, b and c: of one colour a matrix and rows, of several a block or a row for each."""
     matrix: Schema = {"$ref": "#/definitions/matrix"}
     row: Schema = {"$ref": "#/definitions/row"}
-    blocks = {"type": "array", "minItems": 1, "items": {"anyOf": [matrix, {"type": "null"}]}}
+    blocks = {
+        "type": "array",
+        "minItems": 1,
+        "items": {"anyOf": [matrix, {"type": "null"}]},
+    }
     rows_of_blocks = {"type": "array", "minItems": 1, "items": blocks}
     rows = {"type": "array", "minItems": 1, "items": row}
-    nodes = {"type": "array", "minItems": 1, "items": {"anyOf": [row, {"type": "null"}]}}
+    nodes = {
+        "type": "array",
+        "minItems": 1,
+        "items": {"anyOf": [row, {"type": "null"}]},
+    }
     return {
         "A": {
             "description": "The matrix, or for several colours rows of blocks A^{l,m}, null where "
             "there is none.",
             "anyOf": [matrix, rows_of_blocks],
         },
-        "b": {"description": "The weights; of several colours a row each.", "anyOf": [row, rows]},
+        "b": {
+            "description": "The weights; of several colours a row each.",
+            "anyOf": [row, rows],
+        },
         "c": {
             "description": "The nodes; where they are left out, the row sums of A.",
             "anyOf": [row, nodes],
@@ -221,7 +254,11 @@ def _ark() -> Schema:
         ]
     }
     properties = {
-        "A": {"type": "array", "minItems": 1, "items": {"$ref": "#/definitions/matrix"}},
+        "A": {
+            "type": "array",
+            "minItems": 1,
+            "items": {"$ref": "#/definitions/matrix"},
+        },
         "b": rows,
         "c": {"$ref": "#/definitions/row"},
     }
@@ -241,7 +278,9 @@ def _expect() -> Schema:
     entry = {"anyOf": [*number["anyOf"], {"type": "null"}]}
     row = {"type": "array", "items": entry}
     properties: Schema = dict.fromkeys(NUMBERS, number)
-    properties |= {key: row if key == "B" else {"type": "array", "items": row} for key in TABLES}
+    properties |= {
+        key: row if key == "B" else {"type": "array", "items": row} for key in TABLES
+    }
     properties["symplectic"] = {"type": "boolean"}
     return {
         "description": "Claims that gark check confirms.",

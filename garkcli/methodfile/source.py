@@ -190,7 +190,10 @@ class Source:
             sign = getattr(error, "character", "")
             place = place_of_sign(self.text, sign)
             if isinstance(sign, int) and 0xD800 <= sign <= 0xDFFF:
-                message, cure = "half a sign, which no text has", "write the text as Unicode"
+                message, cure = (
+                    "half a sign, which no text has",
+                    "write the text as Unicode",
+                )
             else:
                 message = f"this is not YAML: {str(error).splitlines()[0]}"
                 cure = "leave the control character out"
@@ -200,7 +203,11 @@ class Source:
             self.fault(None, "the file is empty", self.kind.smallest)
             return None
         if not isinstance(root, MappingNode):
-            self.fault(root, f"a {self.kind.name} is a mapping of keys to values", self.kind.start)
+            self.fault(
+                root,
+                f"a {self.kind.name} is a mapping of keys to values",
+                self.kind.start,
+            )
             return None
         return root
 
@@ -225,7 +232,9 @@ class Source:
             form: the cure where there is no mapping at all.
         """
         if not isinstance(node, MappingNode):
-            self.fault(node, f"{where}: a mapping of keys to values is expected here", form)
+            self.fault(
+                node, f"{where}: a mapping of keys to values is expected here", form
+            )
             return {}
         known = list(allowed)
         given = keys_of(node)
@@ -267,7 +276,9 @@ class Source:
             message = f"{where}: unknown key{'s' * (len(nodes) > 1)} {names}"
             if first not in cures:
                 meant = _meant(first, known)
-                cure = f"did you mean {meant!r}?" if meant else did_you_mean(first, known)
+                cure = (
+                    f"did you mean {meant!r}?" if meant else did_you_mean(first, known)
+                )
             self.fault(nodes[0], message, cure)
         if len(unknown) > MAX_FAULTS:
             count = len(unknown) - MAX_FAULTS
@@ -299,7 +310,11 @@ class Source:
         text = self.scalar(node, where)
         if text is None:
             return None
-        plain = text.isascii() and text.isdigit() and (text == "0" or not text.startswith("0"))
+        plain = (
+            text.isascii()
+            and text.isdigit()
+            and (text == "0" or not text.startswith("0"))
+        )
         if not plain or len(text) > 6 or int(text) < smallest:
             wanted = f"a whole number of at least {smallest} is expected"
             self.fault(node, f"{where}: {wanted}, not {shortened(text)}")
@@ -311,7 +326,9 @@ class Source:
         text = self.scalar(node, where)
         if text is None or text in (known := list(known)):
             return text
-        self.fault(node, f"{where}: {shortened(text)} is not known", did_you_mean(text, known))
+        self.fault(
+            node, f"{where}: {shortened(text)} is not known", did_you_mean(text, known)
+        )
         return None
 
 

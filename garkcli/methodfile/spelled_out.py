@@ -29,9 +29,7 @@ _CURES = dict.fromkeys(
 }
 """What people write into a Butcher tableau besides A, b and c."""
 _EXAMPLE = "give A, b and perhaps c: {A: [[0, 0], [1/2, 0]], b: [0, 1]}"
-_LEVELS = (
-    "a method of one colour has A: [[…], …] and b: […], one of two A: [[A11, A12], [A21, A22]]"
-)
+_LEVELS = "a method of one colour has A: [[…], …] and b: […], one of two A: [[A11, A12], [A21, A22]]"
 
 
 def _entries(count: int) -> str:
@@ -59,7 +57,9 @@ class SpelledOutReader:
         self.source = source
         self.numbers = numbers
 
-    def butcher(self, node: Node, where: str, names: tuple[str, str, str]) -> ButcherText | None:
+    def butcher(
+        self, node: Node, where: str, names: tuple[str, str, str]
+    ) -> ButcherText | None:
         """A method spelled out; ``names`` are what its A, b and c are called in messages."""
         keys = ("name", "A", "b", "c")
         entries = self.source.mapping(node, where, keys, _CURES, _EXAMPLE)
@@ -69,7 +69,11 @@ class SpelledOutReader:
         if found is None:
             return None
         A, b, c = found
-        name = self.source.scalar(entries["name"], f"{where}, name") if "name" in entries else ""
+        name = (
+            self.source.scalar(entries["name"], f"{where}, name")
+            if "name" in entries
+            else ""
+        )
         return ButcherText(node, name or "", A, b, c)
 
     def _method(
@@ -86,16 +90,24 @@ class SpelledOutReader:
         is_square = all(len(row) == len(A) for row in A)
         if is_square and len(A) != s and (c is None or len(c) == len(A)):
             # A and c agree with each other, so the mistake is in b
-            message = f"{names[1]} has {_entries(s)}, {names[0]} is {len(A)} by {len(A)}"
+            message = (
+                f"{names[1]} has {_entries(s)}, {names[0]} is {len(A)} by {len(A)}"
+            )
             self.source.fault(entries["b"], message, "both have one a stage")
             return None
-        A = numbers.fitted(A, entries["A"], names[0], (s, s), f"{names[1]} has {_entries(s)}")
+        A = numbers.fitted(
+            A, entries["A"], names[0], (s, s), f"{names[1]} has {_entries(s)}"
+        )
         if c is not None and len(c) != s:
             message = f"{names[2]} has {_entries(len(c))} for {counted(s, 'stage')}"
-            self.source.fault(entries["c"], message, "give a node a stage, or leave c out")
+            self.source.fault(
+                entries["c"], message, "give a node a stage, or leave c out"
+            )
         return A, b, c
 
-    def _lacks(self, node: Node, where: str, entries: dict[str, Node], cure: str) -> bool:
+    def _lacks(
+        self, node: Node, where: str, entries: dict[str, Node], cure: str
+    ) -> bool:
         """Note that A or b is missing."""
         missing = [key for key in ("A", "b") if key not in entries]
         if missing and isinstance(node, MappingNode):
@@ -104,12 +116,16 @@ class SpelledOutReader:
 
     def tableau(self, node: Node, linear: Node | None) -> TableauText | None:
         """The form ``tableau``; ``linear`` lists its linear colours."""
-        entries = self.source.mapping(node, "tableau", ("c", "A", "b"), _CURES, _EXAMPLE)
+        entries = self.source.mapping(
+            node, "tableau", ("c", "A", "b"), _CURES, _EXAMPLE
+        )
         if self._lacks(node, "tableau", entries, _EXAMPLE):
             return None
         return self.tableau_of(entries, linear)
 
-    def tableau_of(self, entries: dict[str, Node], linear: Node | None) -> TableauText | None:
+    def tableau_of(
+        self, entries: dict[str, Node], linear: Node | None
+    ) -> TableauText | None:
         """A, b and c of one colour or of several, told apart by how deep A is nested."""
         depth, of_weights = _depth(entries["A"]), _depth(entries["b"])
         one_colour = depth <= 2 and (of_weights < 2 or _holds_a_number(entries["A"]))
@@ -123,7 +139,9 @@ class SpelledOutReader:
             message = "A is one matrix, of one colour, and b a list of rows"
             rows = len(entries["b"].value)
             cure = "write b as one row: b: [0, 1]"
-            self.source.fault(entries["b"], message, cure if rows == 1 else _ANOTHER_METHOD)
+            self.source.fault(
+                entries["b"], message, cure if rows == 1 else _ANOTHER_METHOD
+            )
             return None
         if depth == 3 and of_weights > 1:
             message = "A is a list of matrices"
@@ -136,17 +154,26 @@ class SpelledOutReader:
             return None
         return self._blocks(entries, linear)
 
-    def _blocks(self, entries: dict[str, Node], linear: Node | None) -> TableauText | None:
+    def _blocks(
+        self, entries: dict[str, Node], linear: Node | None
+    ) -> TableauText | None:
         """A tableau block by block."""
         b_nodes = self.source.items(entries["b"], "b")
         if self.are_too_many(b_nodes, entries["b"]):
             return None
         if isinstance(entries["b"], SequenceNode) and not b_nodes:
-            self.source.fault(entries["b"], "b is empty", "give a row of weights a colour")
-        b = tuple(self.numbers.row(item, f"b^{{{l}}}") for l, item in enumerate(b_nodes, start=1))
+            self.source.fault(
+                entries["b"], "b is empty", "give a row of weights a colour"
+            )
+        b = tuple(
+            self.numbers.row(item, f"b^{{{l}}}")
+            for l, item in enumerate(b_nodes, start=1)
+        )
         rows = self.source.items(entries["A"], "A")
         if len(rows) != len(b):
-            message = f"A has {counted(len(rows), 'row')} of blocks and b {len(b)} of weights"
+            message = (
+                f"A has {counted(len(rows), 'row')} of blocks and b {len(b)} of weights"
+            )
             self.source.fault(entries["A"], message, "both have one a colour")
             return None
         A = tuple(self._block_row(l, row, b) for l, row in enumerate(rows))
@@ -155,12 +182,16 @@ class SpelledOutReader:
             return None
         return TableauText(A, b, c, self._linear(linear, len(b)))
 
-    def _block_row(self, l: int, node: Node, b: tuple[Row, ...]) -> tuple[Rows | None, ...]:
+    def _block_row(
+        self, l: int, node: Node, b: tuple[Row, ...]
+    ) -> tuple[Rows | None, ...]:
         items = self.source.items(node, f"A, row {l + 1} of blocks")
         if len(items) != len(b):
             found = f"{counted(len(items), 'block')} for {counted(len(b), 'colour')}"
             message = f"row {l + 1} of blocks has {found}"
-            self.source.fault(node, message, "write null for a block that does not exist")
+            self.source.fault(
+                node, message, "write null for a block that does not exist"
+            )
         blocks: list[Rows | None] = []
         for m, item in enumerate(items[: len(b)]):
             if is_null(item):
@@ -175,7 +206,9 @@ class SpelledOutReader:
             blocks.append(rows)
         return tuple(blocks)
 
-    def _node_rows(self, node: Node | None, b: tuple[Row, ...]) -> tuple[Row | None, ...]:
+    def _node_rows(
+        self, node: Node | None, b: tuple[Row, ...]
+    ) -> tuple[Row | None, ...]:
         if node is None:
             return (None,) * len(b)
         items = self.source.items(node, "c")
@@ -231,12 +264,17 @@ class SpelledOutReader:
                 entries["A"], message, "write A: [AE, AI]; or tableau: for one colour"
             )
             return None
-        A = tuple(self.numbers.matrix(item, f"A^{{{m}}}") for m, item in enumerate(items, start=1))
+        A = tuple(
+            self.numbers.matrix(item, f"A^{{{m}}}")
+            for m, item in enumerate(items, start=1)
+        )
         b = self._ark_weights(entries["b"], len(A))
         c = self.numbers.row(entries["c"], "c") if "c" in entries else None
         if len(b) != len(A):
             message = f"b has {counted(len(b), 'row')} for {counted(len(A), 'colour')}"
-            self.source.fault(entries["b"], message, "give a row a colour, or a single shared row")
+            self.source.fault(
+                entries["b"], message, "give a row a colour, or a single shared row"
+            )
             return None
         if not A or not all(A) or not all(b):
             return None
@@ -255,21 +293,30 @@ class SpelledOutReader:
         items = self.source.items(node, "b")
         if not any(isinstance(item, SequenceNode) for item in items):
             return (self.numbers.row(node, "b"),) * colours
-        return tuple(self.numbers.row(item, f"b^{{{m}}}") for m, item in enumerate(items, start=1))
+        return tuple(
+            self.numbers.row(item, f"b^{{{m}}}")
+            for m, item in enumerate(items, start=1)
+        )
 
     def _ark_lengths(
         self, entries: dict[str, Node], b: tuple[Row, ...], c: Row | None, s: int
     ) -> None:
         """Note weights and nodes that are not one a stage."""
         is_shared = all(row is b[0] for row in b)
-        rows = {"b": b[0]} if is_shared else {f"b^{{{m}}}": row for m, row in enumerate(b, start=1)}
+        rows = (
+            {"b": b[0]}
+            if is_shared
+            else {f"b^{{{m}}}": row for m, row in enumerate(b, start=1)}
+        )
         for name, row in rows.items():
             if len(row) != s:
                 message = f"{name} has {_entries(len(row))} for {counted(s, 'stage')}"
                 self.source.fault(entries["b"], message, "give a weight a stage")
         if c is not None and len(c) != s:
             message = f"c has {_entries(len(c))} for {counted(s, 'stage')}"
-            self.source.fault(entries["c"], message, "give a node a stage, or leave c out")
+            self.source.fault(
+                entries["c"], message, "give a node a stage, or leave c out"
+            )
 
     def prk(self, node: Node, structure: Structure) -> PrkText | None:
         """The form ``prk``; its blocks are rectangular unless the structure is general."""
@@ -295,13 +342,19 @@ class SpelledOutReader:
     def _part(self, node: Node, part: str) -> ButcherText | None:
         """Q or p of a prk, its sizes not yet looked at."""
         where = f"prk, {part}"
-        entries = self.source.mapping(node, where, ("name", "A", "b", "c"), _CURES, _EXAMPLE)
+        entries = self.source.mapping(
+            node, where, ("name", "A", "b", "c"), _CURES, _EXAMPLE
+        )
         if self._lacks(node, where, entries, "give A, b and perhaps c"):
             return None
         A = self.numbers.matrix(entries["A"], f"{part}.A")
         b = self.numbers.row(entries["b"], f"{part}.b")
         c = self.numbers.row(entries["c"], f"{part}.c") if "c" in entries else None
-        name = self.source.scalar(entries["name"], f"{where}, name") if "name" in entries else ""
+        name = (
+            self.source.scalar(entries["name"], f"{where}, name")
+            if "name" in entries
+            else ""
+        )
         return ButcherText(node, name or "", A, b, c) if A and b else None
 
     def _fitted_part(
@@ -310,9 +363,13 @@ class SpelledOutReader:
         """A part whose matrix has the shape that the weights of both ask for."""
         keys = key_nodes(text.node)
         why = f"q.b has {_entries(s_v)} and p.b has {s_f}"
-        A = self.numbers.fitted(text.A, keys.get("A", text.node), f"{part}.A", shape, why)
+        A = self.numbers.fitted(
+            text.A, keys.get("A", text.node), f"{part}.A", shape, why
+        )
         if text.c is not None and len(text.c) != shape[0]:
-            message = f"{part}.c has {_entries(len(text.c))} for {counted(shape[0], 'node')}"
+            message = (
+                f"{part}.c has {_entries(len(text.c))} for {counted(shape[0], 'node')}"
+            )
             self.source.fault(keys.get("c", text.node), message, "give one of each")
         return ButcherText(text.node, text.name, A, text.b, text.c)
 

@@ -74,7 +74,9 @@ def bracketed(text: str) -> str:
     >>> bracketed("0 0; 1/2 0"), bracketed("1/6, 2/3, 1/6")
     ('[[0, 0], [1/2, 0]]', '[1/6, 2/3, 1/6]')
     """
-    rows = [row.split() for row in re.split("[;\n]", text.replace(",", " ")) if row.split()]
+    rows = [
+        row.split() for row in re.split("[;\n]", text.replace(",", " ")) if row.split()
+    ]
     words = [word for row in rows for word in row]
     if len(words) > 16 or not all(_PLAIN.fullmatch(word) for word in words):
         return ""
@@ -117,7 +119,9 @@ def explained(error: ExpressionError, text: str) -> tuple[ExpressionError, str]:
         if found and found.start() <= start <= found.end():
             message = error.message
             if not isinstance(error, UndefinedValue):
-                message = f"{shortened(found.group())} is not how a number is written here"
+                message = (
+                    f"{shortened(found.group())} is not how a number is written here"
+                )
             cure = better.format(**found.groupdict())
             explanation = ExpressionError(message, cure, found.start(), found.end())
             return explanation, pattern.pattern

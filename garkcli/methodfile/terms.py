@@ -132,15 +132,21 @@ class Maker:
         for name, x in self.source.mapping(node, "initial", ()).items():
             self.formulas.rational(x, f"initial: {shortened(name)[1:-1]}")
 
-    def _refuse_missing(self, node: Node, motion: Sequence[Any], given: Container[str]) -> None:
+    def _refuse_missing(
+        self, node: Node, motion: Sequence[Any], given: Container[str]
+    ) -> None:
         """Note positions, and momenta or velocities, without a value."""
         missing = [str(x) for x in (*self.q, *motion) if str(x) not in given]
         if missing:
             more = ", …" if len(missing) > _SHOWN else ""
             message = f"initial: no value for {', '.join(missing[:_SHOWN])}{more}"
-            self.source.fault(node, message, f"give each a number, such as {missing[0]}: 1/2")
+            self.source.fault(
+                node, message, f"give each a number, such as {missing[0]}: 1/2"
+            )
 
-    def _names(self, motion: Sequence[Any], other: Sequence[Any], cure: str) -> dict[str, str]:
+    def _names(
+        self, motion: Sequence[Any], other: Sequence[Any], cure: str
+    ) -> dict[str, str]:
         """For names that may stand in a formula nothing, for others the cure."""
         names = {str(y): cure.format(x) for x, y in zip(motion, other, strict=True)}
         return names | {str(x): "" for x in (*self.q, *motion)}
@@ -174,7 +180,9 @@ class Maker:
             if expression is None or not self.text.are_named:
                 continue
             try:
-                found.append(_Term(node, where, expression, translator.translate(expression)))
+                found.append(
+                    _Term(node, where, expression, translator.translate(expression))
+                )
             except ExpressionError as error:
                 self.source.expression_fault(node, where, error)
         return found
@@ -186,7 +194,10 @@ class Maker:
         for term in terms:
             if all(str(x) in start for x in term.made.free_symbols):
                 self.formulas.value(
-                    term.expression, term.node, f"{term.where} at the initial values", values
+                    term.expression,
+                    term.node,
+                    f"{term.where} at the initial values",
+                    values,
                 )
 
     def _check_size(self, terms: Sequence[_Term]) -> None:
@@ -196,10 +207,10 @@ class Maker:
         sizes = [size_of_derivatives(x.made) for x in terms]
         if sum(sizes) > MAX_SIZE:
             largest = terms[sizes.index(max(sizes))]
-            message = (
-                f"{largest.where}: second derivatives of {sum(sizes)} operations (limit {MAX_SIZE})"
+            message = f"{largest.where}: second derivatives of {sum(sizes)} operations (limit {MAX_SIZE})"
+            self.source.fault(
+                largest.node, message, "write it shorter, or with fewer variables"
             )
-            self.source.fault(largest.node, message, "write it shorter, or with fewer variables")
 
     def _transformed(
         self, lagrangians: list[_Term], start: dict[str, fmpq]
@@ -208,10 +219,16 @@ class Maker:
         moving = [x for x in lagrangians if x.made.free_symbols & set(self.v)]
         if not moving:
             cure = f"the kinetic energy has {', '.join(map(str, self.v[:3]))}"
-            self.source.fault(lagrangians[0].node, "the Lagrangian has no velocities", cure)
+            self.source.fault(
+                lagrangians[0].node, "the Lagrangian has no velocities", cure
+            )
         has_velocities = str(self.v[0]) in start
         with ctx.workprec(BITS):
-            at = {x: arb(start[str(x)]) for x in (*self.q, *self.p, *self.v) if str(x) in start}
+            at = {
+                x: arb(start[str(x)])
+                for x in (*self.q, *self.p, *self.v)
+                if str(x) in start
+            }
         # with several moving terms the velocity of each is not q̇(0), only their sum is
         is_one = len(moving) == 1 or not has_velocities
         known = at if is_one else {x: at[x] for x in self.q}
@@ -231,11 +248,15 @@ class Maker:
 
         unsolved = too_long(term.made, self.v)
         if unsolved is not None:
-            message = f"{term.where}: p = ∂L/∂v was not solved for {unsolved}, it is too long"
+            message = (
+                f"{term.where}: p = ∂L/∂v was not solved for {unsolved}, it is too long"
+            )
             self.source.fault(term.node, message, WRITE_HAMILTONIAN)
             return None
         try:
-            return replace(term, made=legendre_transform(term.made, self.text.variables, known))
+            return replace(
+                term, made=legendre_transform(term.made, self.text.variables, known)
+            )
         except NoLegendreTransform as error:
             self.source.fault(term.node, f"{term.where}: {error.message}", error.help)
             return None
@@ -254,7 +275,9 @@ class Maker:
         try:
             momenta = initial_momenta(L, H, self.text.variables, at)
         except NoLegendreTransform as error:
-            self.source.fault(self.text.initial, f"initial: {error.message}", error.help)
+            self.source.fault(
+                self.text.initial, f"initial: {error.message}", error.help
+            )
             self.source.close()
         if not all(x.is_finite() and x.rad() < 10.0**-PLACES for x in momenta):
             message = f"{moving.where}: the momenta do not exist at the initial values"
@@ -262,7 +285,9 @@ class Maker:
             self.source.close()
         return {str(x): nearby(y) for x, y in zip(self.p, momenta, strict=True)}
 
-    def _refuse_constants(self, terms: Sequence[_Term], invariants: Sequence[_Term]) -> None:
+    def _refuse_constants(
+        self, terms: Sequence[_Term], invariants: Sequence[_Term]
+    ) -> None:
         """Note an H with which nothing moves, and invariants that are none: they are constant for
         every motion.
         """
@@ -293,5 +318,7 @@ class Maker:
             missing = missing_derivative(term.made, self.text.variables, at)
             if missing is not None:
                 self.source.fault(
-                    term.node, f"{term.where} at the initial values: {missing[0]}", missing[1]
+                    term.node,
+                    f"{term.where} at the initial values: {missing[0]}",
+                    missing[1],
                 )

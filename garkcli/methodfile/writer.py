@@ -125,7 +125,9 @@ def _blocks(tableau: Tableau, text: Callable[[Number], str]) -> list[str]:
             lines += [f"        - {_row(row, text)}" for row in block]
     lines.append("  b:")
     lines += [f"    - {_row(colour.b, text)}" for colour in tableau.colours]
-    linear = [str(l + 1) for l, colour in enumerate(tableau.colours) if colour.is_linear]
+    linear = [
+        str(l + 1) for l, colour in enumerate(tableau.colours) if colour.is_linear
+    ]
     return [*lines, f"linear: [{', '.join(linear)}]"] if linear else lines
 
 
@@ -144,7 +146,10 @@ def _prk(tableau: Tableau, text: Callable[[Number], str]) -> list[str]:
         ]
     if len(tableau.spaces) == 1:
         return [*lines, "structure: general"]
-    return [*lines, f"structure: {'nystrom' if tableau.colours[0].is_linear else 'separable'}"]
+    return [
+        *lines,
+        f"structure: {'nystrom' if tableau.colours[0].is_linear else 'separable'}",
+    ]
 
 
 def _row(numbers: Sequence[Number], text: Callable[[Number], str]) -> str:
@@ -154,7 +159,11 @@ def _row(numbers: Sequence[Number], text: Callable[[Number], str]) -> str:
 
 def _quoted(text: str) -> str:
     escaped = text.replace("\\", "\\\\").replace('"', '\\"')
-    return '"' + "".join(x if x.isprintable() else f"\\U{ord(x):08x}" for x in escaped) + '"'
+    return (
+        '"'
+        + "".join(x if x.isprintable() else f"\\U{ord(x):08x}" for x in escaped)
+        + '"'
+    )
 
 
 def write_conjugate_of(method: MethodFile, name: str) -> str:
@@ -166,10 +175,14 @@ def write_conjugate_of(method: MethodFile, name: str) -> str:
     root = Source(method.source, method.text).compose()
     if root is None:
         raise ValueError("the text of a method file")
-    kept: list[tuple[Node, Node]] = [(key, x) for key, x in root.value if key.value not in _DROPPED]
+    kept: list[tuple[Node, Node]] = [
+        (key, x) for key, x in root.value if key.value not in _DROPPED
+    ]
     kept.insert(0, (_scalar("name"), _scalar(name)))
     if not method.is_conjugate:
-        kept.append((_scalar("conjugate"), ScalarNode("tag:yaml.org,2002:bool", "true")))
+        kept.append(
+            (_scalar("conjugate"), ScalarNode("tag:yaml.org,2002:bool", "true"))
+        )
     text = yaml.serialize(
         MappingNode(root.tag, kept, flow_style=False), allow_unicode=True, width=110
     )

@@ -116,7 +116,8 @@ class ApproximateSpans:
             if hull is not None:
                 A, absolute = self.enclosure.A[k, m] * order, self._absolute[k, m]
                 members = [
-                    _Member(_image(A, x.vector), (Tree(m, x.branches),)) for x in hull.members
+                    _Member(_image(A, x.vector), (Tree(m, x.branches),))
+                    for x in hull.members
                 ]
                 yield _Hull(
                     members,
@@ -148,7 +149,8 @@ def _unit(stages: int) -> _Hull:
 def _product(x: _Hull, y: _Hull) -> _Hull:
     members = [
         _Member(
-            [a * b for a, b in zip(v.vector, w.vector, strict=True)], (*v.branches, *w.branches)
+            [a * b for a, b in zip(v.vector, w.vector, strict=True)],
+            (*v.branches, *w.branches),
         )
         for v in x.members
         for w in y.members
@@ -213,8 +215,12 @@ def _affine_weights(points: Sequence[Entries], grain: arb) -> tuple[list[int], a
     while True:
         corner = arb_mat([[points[i][j] for j in columns] for i in chosen])
         try:
-            return chosen, arb_mat([[point[j] for j in columns] for point in points]) * corner.inv()
-        except ZeroDivisionError:  # too flat for the precision: fewer members, larger errors
+            return chosen, arb_mat(
+                [[point[j] for j in columns] for point in points]
+            ) * corner.inv()
+        except (
+            ZeroDivisionError
+        ):  # too flat for the precision: fewer members, larger errors
             chosen, columns = chosen[:-1], columns[:-1]
 
 

@@ -139,13 +139,17 @@ def blame_of(method: Tableau, missed: Missed) -> Blame | None:
     failing = [condition for condition in found if not condition.holds]
     used = [_blocks_in(tableau, condition.tree) for condition in failing]
     blocks = sorted({_canonical(tableau, edge) for edge in tableau.edges()})
-    in_every = tuple(block for block in blocks if used and all(block in use for use in used))
+    in_every = tuple(
+        block for block in blocks if used and all(block in use for use in used)
+    )
     return Blame(
         order=missed.order,
         failing=len(failing),
         total=len(found),
         in_every=in_every,
-        in_none=tuple(block for block in blocks if not any(block in use for use in used)),
+        in_none=tuple(
+            block for block in blocks if not any(block in use for use in used)
+        ),
         culprit=_culprit(tableau, found, in_every),
         only_coupling=all(condition.is_coupling for condition in failing),
         repairs=tuple(_repairs(method, missed, failing)),
@@ -182,7 +186,9 @@ def _culprit(
     return best[0] if len(best) == 1 else None
 
 
-def _repairs(method: Tableau, missed: Missed, failing: list[Condition]) -> Iterator[Repair]:
+def _repairs(
+    method: Tableau, missed: Missed, failing: list[Condition]
+) -> Iterator[Repair]:
     """Entries whose change restores what is claimed: each must solve a failing condition.
 
     Of exact coefficients one condition tells as much as all; of rounded ones the entry that solves
@@ -190,7 +196,9 @@ def _repairs(method: Tableau, missed: Missed, failing: list[Condition]) -> Itera
     """
     solved = failing[:1]
     if missed.tolerance:
-        by_size = sorted(failing, key=lambda x: float(abs(to_ball(x.residual, 20))), reverse=True)
+        by_size = sorted(
+            failing, key=lambda x: float(abs(to_ball(x.residual, 20))), reverse=True
+        )
         solved = by_size[:FEW_CONDITIONS]
     if not solved:
         return
@@ -218,7 +226,9 @@ def _is_restored(tableau: Tableau, missed: Missed) -> bool:
         return find_order(tableau, missed.claimed).order >= missed.claimed
     from garkcli.order.rounded import find_order_within
 
-    return find_order_within(tableau, missed.near, missed.claimed).order >= missed.claimed
+    return (
+        find_order_within(tableau, missed.near, missed.claimed).order >= missed.claimed
+    )
 
 
 @dataclass(frozen=True)
@@ -301,7 +311,9 @@ def _refined(
     return value
 
 
-def _weights(missed: Missed, method: Tableau, trees: Sequence[Tree]) -> list[Number] | None:
+def _weights(
+    missed: Missed, method: Tableau, trees: Sequence[Tree]
+) -> list[Number] | None:
     tableau = _derived(missed, method)
     return None if tableau is None else [x.value for x in conditions(tableau, trees)]
 
@@ -314,7 +326,9 @@ def _derived(missed: Missed, method: Tableau) -> Tableau | None:
         return None
 
 
-def _with_entry(tableau: Tableau, key: tuple[int, int], i: int, j: int, value: Number) -> Tableau:
+def _with_entry(
+    tableau: Tableau, key: tuple[int, int], i: int, j: int, value: Number
+) -> Tableau:
     block: list[list[Number]] = [list(row) for row in tableau.blocks[key]]
     block[i][j] = value
     changed: Matrix = tuple(tuple(row) for row in block)
@@ -328,6 +342,7 @@ def _with_weight(tableau: Tableau, l: int, j: int, value: Number) -> Tableau:
     old = tableau.colours[l]
     b = (*old.b[:j], value, *old.b[j + 1 :])
     colours = (
-        replace(x, b=b) if (x.space, x.b) == (old.space, old.b) else x for x in tableau.colours
+        replace(x, b=b) if (x.space, x.b) == (old.space, old.b) else x
+        for x in tableau.colours
     )
     return replace(tableau, colours=tuple(colours))

@@ -93,7 +93,11 @@ def find_order(tableau: Tableau, limit: int = DEFAULT_LIMIT) -> Order:
                     tree = Tree(l, forest.branches)
                     return Order(
                         order - 1,
-                        Witness(tree, value * fmpq(order, tree.density), fmpq(1, tree.density)),
+                        Witness(
+                            tree,
+                            value * fmpq(order, tree.density),
+                            fmpq(1, tree.density),
+                        ),
                     )
     return Order(limit, None)
 
@@ -104,7 +108,10 @@ class _Spans:
     def __init__(self, tableau: Tableau) -> None:
         self.tableau = tableau
         self.degree = tableau.degree
-        self.maps = {key: LinearMap(block, tableau.field) for key, block in tableau.blocks.items()}
+        self.maps = {
+            key: LinearMap(block, tableau.field)
+            for key, block in tableau.blocks.items()
+        }
         self.forests: list[list[list[_Forest]]] = [
             [[_Forest(space.one, ())]] for space in tableau.spaces
         ]
@@ -121,7 +128,9 @@ class _Spans:
     def _extend(self, rows: int, size: int) -> None:
         while len(self.forests[rows]) <= size:
             k = len(self.forests[rows])
-            self.branches[rows].append(self._spanning(rows, self._new_branches(rows, k)))
+            self.branches[rows].append(
+                self._spanning(rows, self._new_branches(rows, k))
+            )
             self.forests[rows].append(self._spanning(rows, self._new_forests(rows, k)))
 
     def _new_branches(self, rows: int, order: int) -> Iterator[list[_Forest]]:
@@ -148,7 +157,10 @@ class _Spans:
         for j in range(1, order // 2 + 1):
             for branch in branches[j]:
                 yield [
-                    _Forest(space.product(branch.vector, x.vector), (*branch.branches, *x.branches))
+                    _Forest(
+                        space.product(branch.vector, x.vector),
+                        (*branch.branches, *x.branches),
+                    )
                     for x in forests[order - j]
                 ]
 
@@ -156,7 +168,9 @@ class _Spans:
         span = AffineSpan(self.tableau.spaces[rows].stages * self.degree)
         members: list[_Forest] = []
         for batch in batches:
-            members += [batch[i] for i in span.insert([self._flat(x.vector) for x in batch])]
+            members += [
+                batch[i] for i in span.insert([self._flat(x.vector) for x in batch])
+            ]
             if span.is_full:
                 break
         return members

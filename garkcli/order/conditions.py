@@ -45,7 +45,9 @@ class Condition:
     @property
     def holds(self) -> bool:
         """Whether |residual| ≤ tolerance; without one, whether the residual is exactly zero."""
-        return self.is_exact or bool(self.tolerance and within(self.residual, self.tolerance))
+        return self.is_exact or bool(
+            self.tolerance and within(self.residual, self.tolerance)
+        )
 
     @property
     def is_exact(self) -> bool:
@@ -95,7 +97,8 @@ def is_admissible(tableau: Tableau, tree: Tree) -> bool:
     if colour.is_linear and len(tree.branches) > 1:
         return False
     return all(
-        tableau.block(tree.root, branch.root) is not None and is_admissible(tableau, branch)
+        tableau.block(tree.root, branch.root) is not None
+        and is_admissible(tableau, branch)
         for branch in tree.branches
     )
 
@@ -111,7 +114,10 @@ def _stage_vector(tableau: Tableau, tree: Tree, memo: dict[Tree, Vector]) -> Vec
     for branch in tree.branches:
         block = tableau.block(tree.root, branch.root)
         if block is None:
-            seer, seen = tableau.colours[tree.root].name, tableau.colours[branch.root].name
+            seer, seen = (
+                tableau.colours[tree.root].name,
+                tableau.colours[branch.root].name,
+            )
             raise MethodError(
                 f"colour {seer} does not see colour {seen}: the tree is not admissible"
             )
@@ -121,12 +127,16 @@ def _stage_vector(tableau: Tableau, tree: Tree, memo: dict[Tree, Vector]) -> Vec
     return vector
 
 
-def coupling_graph(tableau: Tableau) -> tuple[tuple[tuple[bool, ...], ...], frozenset[int]]:
+def coupling_graph(
+    tableau: Tableau,
+) -> tuple[tuple[tuple[bool, ...], ...], frozenset[int]]:
     """Which trees are admissible: ``edges[l][m]`` whether colour l sees colour m, and the linear
     colours.
     """
     colours = range(tableau.size)
-    edges = tuple(tuple(tableau.block(l, m) is not None for m in colours) for l in colours)
+    edges = tuple(
+        tuple(tableau.block(l, m) is not None for m in colours) for l in colours
+    )
     return edges, frozenset(l for l in colours if tableau.colours[l].is_linear)
 
 

@@ -75,13 +75,18 @@ def error_constants(tableau: Tableau, order: int) -> ErrorConstants | None:
     if count_conditions(tableau, order) <= EXACT_CONDITIONS:
         return _exact(tableau, order)
     edges, linear = coupling_graph(tableau)
-    if sum(count_trees(tableau.size, n, edges, linear) for n in range(1, order + 1)) > MAX_TREES:
+    if (
+        sum(count_trees(tableau.size, n, edges, linear) for n in range(1, order + 1))
+        > MAX_TREES
+    ):
         return None
     return _in_floats(tableau, order)
 
 
 def _exact(tableau: Tableau, order: int) -> ErrorConstants:
-    coefficients = [(x.residual / x.tree.symmetry, x.trees) for x in all_conditions(tableau, order)]
+    coefficients = [
+        (x.residual / x.tree.symmetry, x.trees) for x in all_conditions(tableau, order)
+    ]
 
     def norms(only_coupling: bool) -> Norms:
         chosen = [
@@ -121,7 +126,9 @@ def _in_floats(tableau: Tableau, order: int) -> ErrorConstants:
     rows = [colour.space for colour in tableau.colours]
     blocks = {}
     for l, m in tableau.edges():
-        blocks[rows[l], m] = np.array([[_float(x) for x in row] for row in entries.A[l][m] or ()])
+        blocks[rows[l], m] = np.array(
+            [[_float(x) for x in row] for row in entries.A[l][m] or ()]
+        )
     weights = [np.array([_float(x) for x in row]) for row in entries.b]
     ids = table.ids(order)
     values = elementary_weights(table, rows, blocks, weights)[ids.start : ids.stop]
@@ -142,7 +149,9 @@ def _in_floats(tableau: Tableau, order: int) -> ErrorConstants:
             worst_value=None,
         )
 
-    return ErrorConstants(order, False, norms(np.ones(len(ids), dtype=bool)), norms(mixes))
+    return ErrorConstants(
+        order, False, norms(np.ones(len(ids), dtype=bool)), norms(mixes)
+    )
 
 
 def _float(cell: Cell) -> float:
@@ -157,5 +166,7 @@ def _mixes(table: TreeTable) -> np.ndarray[tuple[int], np.dtype[np.bool_]]:
     for n in range(2, int(table.order[-1]) + 1):
         ids = slice(table.ids(n).start, table.ids(n).stop)
         stem, branch = table.stem[ids], table.branch[ids]
-        mixes[ids] = mixes[stem] | mixes[branch] | (table.root[stem] != table.root[branch])
+        mixes[ids] = (
+            mixes[stem] | mixes[branch] | (table.root[stem] != table.root[branch])
+        )
     return mixes

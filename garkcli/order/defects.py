@@ -30,7 +30,9 @@ class Defects:
         """c^l to a power."""
         powers = self._powers[l]
         while len(powers) <= exponent:
-            powers.append(self.tableau.space(l).product(powers[-1], self.tableau.colours[l].c))
+            powers.append(
+                self.tableau.space(l).product(powers[-1], self.tableau.colours[l].c)
+            )
         return powers[exponent]
 
     def B(self, l: int, k: int) -> Number:  # noqa: N802 -- the paper's letter
@@ -83,7 +85,10 @@ def is_symplectic_within(tableau: Tableau, tolerance: fmpq) -> bool:
             if (forth is None) != (back is None):
                 return False
             if forth is not None and not form_within(
-                tableau.space(l), tableau.space(m), symplectic_defect(tableau, l, m), tolerance
+                tableau.space(l),
+                tableau.space(m),
+                symplectic_defect(tableau, l, m),
+                tolerance,
             ):
                 return False
     return True

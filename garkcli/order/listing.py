@@ -21,7 +21,9 @@ def count_conditions(tableau: Tableau, order: int) -> int:
     return sum(by_root[root] for root in twin_roots(tableau))
 
 
-def all_conditions(tableau: Tableau, order: int, tolerance: fmpq = ZERO) -> Iterator[Condition]:
+def all_conditions(
+    tableau: Tableau, order: int, tolerance: fmpq = ZERO
+) -> Iterator[Condition]:
     """Every condition of ``order``, its value exact, with the twins of its root: identical ones
     come once.
     """

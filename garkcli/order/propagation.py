@@ -89,7 +89,9 @@ class Propagation:
                 vectors = self._stage_vectors(l, order)
                 if vectors is None:
                     continue
-                moved = [s + d for s, d in zip(vectors.size, vectors.change, strict=True)]
+                moved = [
+                    s + d for s, d in zip(vectors.size, vectors.change, strict=True)
+                ]
                 change = _dot(b, vectors.change) + _dot(off, moved)
                 found = found.max(change)
         return found.abs_upper()
@@ -232,7 +234,9 @@ def conjugate_rounding(tableau: Tableau, tolerance: fmpq) -> ConjugateRounding |
     return ConjugateRounding(tableau, tolerance, hats)
 
 
-def _hat(tableau: Tableau, enclosure: Enclosure, l: int, m: int, tolerance: fmpq) -> arb_mat | None:
+def _hat(
+    tableau: Tableau, enclosure: Enclosure, l: int, m: int, tolerance: fmpq
+) -> arb_mat | None:
     """The radii of Â^{l,m}, made from A^{m,l}."""
     block = enclosure.A[tableau.colours[m].space, l].tolist()
     rows: list[Entries] = []

@@ -61,7 +61,8 @@ class TreeResiduals:
         edges, linear = coupling_graph(tableau)
         self._admissible = Admissible.of(tableau.size, edges, linear)
         self._vectors: dict[tuple[int, tuple[int, bool]], list[list[arb]]] = {
-            (1, nature): [[arb(1)] * enclosure.stages[nature[0]]] for nature in self._natures
+            (1, nature): [[arb(1)] * enclosure.stages[nature[0]]]
+            for nature in self._natures
         }
         self._applied: dict[tuple[int, int, int], arb_mat] = {}
 
@@ -83,7 +84,10 @@ class TreeResiduals:
                     doubtful.append(tree_id)
             trees = tuple(table.tree(u) for u in doubtful)
             return Sizes(
-                bound.abs_upper(), reached, None if largest is None else table.tree(largest), trees
+                bound.abs_upper(),
+                reached,
+                None if largest is None else table.tree(largest),
+                trees,
             )
 
     def _residuals(self, table: TreeTable, order: int) -> Iterator[tuple[arb, int]]:
@@ -113,17 +117,25 @@ class TreeResiduals:
         b = self.enclosure.b[l].entries()
         stems = self._stage_vectors(table, segment.order - segment.branch_order, l)
         weighted = arb_mat(
-            len(stems), len(b), [x * w for row in stems for x, w in zip(row, b, strict=True)]
+            len(stems),
+            len(b),
+            [x * w for row in stems for x, w in zip(row, b, strict=True)],
         )
         return (weighted * self._branches(table, segment)).entries()
 
     def _branches(self, table: TreeTable, segment: Segment) -> arb_mat:
         """A 𝒜^[branch] of all branches that a segment chooses from, one column each."""
-        space, order, m = self._rows[segment.root], segment.branch_order, segment.branch_root
+        space, order, m = (
+            self._rows[segment.root],
+            segment.branch_order,
+            segment.branch_root,
+        )
         if (space, order, m) not in self._applied:
             rows = self._stage_vectors(table, order, m)
             vectors = arb_mat(len(rows), len(rows[0]), [x for row in rows for x in row])
-            self._applied[space, order, m] = self.enclosure.A[space, m] * vectors.transpose()
+            self._applied[space, order, m] = (
+                self.enclosure.A[space, m] * vectors.transpose()
+            )
         return self._applied[space, order, m]
 
     def _stage_vectors(self, table: TreeTable, order: int, l: int) -> list[list[arb]]:
@@ -141,9 +153,16 @@ class TreeResiduals:
         return self._vectors[key]
 
     def _products(self, table: TreeTable, segment: Segment) -> Iterator[list[arb]]:
-        stems = self._stage_vectors(table, segment.order - segment.branch_order, segment.root)
+        stems = self._stage_vectors(
+            table, segment.order - segment.branch_order, segment.root
+        )
         branches = self._branches(table, segment).transpose().tolist()
         ids = slice(segment.ids.start, segment.ids.stop)
         first, other = segment.stems.start, segment.branches.start
-        for i, j in zip(table.stem[ids].tolist(), table.branch[ids].tolist(), strict=True):
-            yield [x * y for x, y in zip(stems[i - first], branches[j - other], strict=True)]
+        for i, j in zip(
+            table.stem[ids].tolist(), table.branch[ids].tolist(), strict=True
+        ):
+            yield [
+                x * y
+                for x, y in zip(stems[i - first], branches[j - other], strict=True)
+            ]

@@ -105,7 +105,10 @@ class RoundedOrder:
 
 
 def find_order_within(
-    tableau: Tableau, tolerance: fmpq, limit: int = DEFAULT_LIMIT, effect: Effect | None = None
+    tableau: Tableau,
+    tolerance: fmpq,
+    limit: int = DEFAULT_LIMIT,
+    effect: Effect | None = None,
 ) -> RoundedOrder:
     """The largest r ≤ ``limit`` for which all conditions of order ≤ r are met within ``tolerance``.
 
@@ -163,11 +166,15 @@ class _Verdict:
 class _Decision:
     """One order after the other of one tableau, with one tolerance > 0."""
 
-    def __init__(self, tableau: Tableau, tolerance: fmpq, effect: Effect | None) -> None:
+    def __init__(
+        self, tableau: Tableau, tolerance: fmpq, effect: Effect | None
+    ) -> None:
         self.tableau = tableau
         self.tolerance = tolerance
         self.effect = effect
-        self.magnitude = int(tolerance.q.bit_length()) - int(tolerance.p.bit_length()) + 1
+        self.magnitude = (
+            int(tolerance.q.bit_length()) - int(tolerance.p.bit_length()) + 1
+        )
         self.bits = GUARD + max(self.magnitude, 0)
         self.admissible = Admissible.of(tableau.size, *coupling_graph(tableau))
 
@@ -203,9 +210,13 @@ class _Decision:
 
     @cached_property
     def spans(self) -> ApproximateSpans:
-        bits = GUARD + 6 * max(self.magnitude, 8)  # each member as short as the grain costs bits
+        bits = GUARD + 6 * max(
+            self.magnitude, 8
+        )  # each member as short as the grain costs bits
         return ApproximateSpans(
-            self.tableau, enclose_tableau(self.tableau, bits), arb(self.tolerance) / GRAIN
+            self.tableau,
+            enclose_tableau(self.tableau, bits),
+            arb(self.tolerance) / GRAIN,
         )
 
     def _decided(self, order: int, tolerance: fmpq) -> _Verdict:
@@ -244,7 +255,9 @@ class _Decision:
         return _Verdict("trees", sizes.bound)
 
     def _witness(self, tree: Tree) -> Witness:
-        return Witness(tree, elementary_weight(self.tableau, tree), fmpq(1, tree.density))
+        return Witness(
+            tree, elementary_weight(self.tableau, tree), fmpq(1, tree.density)
+        )
 
 
 def _failed(means: Means, witness: Witness) -> _Verdict:

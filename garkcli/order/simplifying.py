@@ -112,7 +112,9 @@ def simplifying(
             return None
         key, space = (alike.nodes[l], m), tableau.space(l)
         if key not in C:
-            C[key] = largest(lambda k: vector_within(space, defects.C(l, m, k), tolerance))
+            C[key] = largest(
+                lambda k: vector_within(space, defects.C(l, m, k), tolerance)
+            )
         return C[key]
 
     def zeta(l: int, m: int) -> int | None:
@@ -120,7 +122,9 @@ def simplifying(
             return None
         key, space = (alike.weights[l], m), tableau.space(m)
         if key not in D:
-            D[key] = largest(lambda k: functional_within(space, defects.D(l, m, k), tolerance))
+            D[key] = largest(
+                lambda k: functional_within(space, defects.D(l, m, k), tolerance)
+            )
         return D[key]
 
     return Simplifying(
@@ -154,7 +158,9 @@ class _Alike:
         return _Alike(tuple(x for x, _ in firsts), tuple(x for _, x in firsts))
 
 
-def consistent_blocks(tableau: Tableau, tolerance: fmpq = ZERO) -> dict[tuple[int, int], bool]:
+def consistent_blocks(
+    tableau: Tableau, tolerance: fmpq = ZERO
+) -> dict[tuple[int, int], bool]:
     """For each block that exists whether A^{l,m} 𝟙 = c^{l}, eq. (Aone), within ``tolerance`` at
     every stage.
     """

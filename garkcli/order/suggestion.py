@@ -151,7 +151,9 @@ def suggest_tolerance(
     Returns:
         None where nothing speaks for rounding, or where it takes too many trees to tell.
     """
-    if exact.witness is None or not any(isinstance(space, PointSpace) for space in tableau.spaces):
+    if exact.witness is None or not any(
+        isinstance(space, PointSpace) for space in tableau.spaces
+    ):
         return None
     first = abs(to_ball(exact.witness.residual))
     if not first <= unnatural(exact.order + 1):
@@ -162,7 +164,9 @@ def suggest_tolerance(
             if sizes.bound > rounding:
                 rounding, worst = sizes.bound, order
         elif order > exact.order + 1 and sizes.reached >= JUMP * rounding:
-            return Suggestion(order - 1, _exponent(rounding), rounding, sizes.reached, worst)
+            return Suggestion(
+                order - 1, _exponent(rounding), rounding, sizes.reached, worst
+            )
         else:
             return None
     return None

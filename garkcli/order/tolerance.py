@@ -91,7 +91,11 @@ def functional_within(space: StageSpace, functional: Vector, tolerance: fmpq) ->
 
 
 def form_within(
-    space: StageSpace, other: StageSpace | None, matrix: Matrix, tolerance: fmpq, dual: bool = True
+    space: StageSpace,
+    other: StageSpace | None,
+    matrix: Matrix,
+    tolerance: fmpq,
+    dual: bool = True,
 ) -> bool:
     """Whether a bilinear form Σ m_ij f(c_i) g(c_j) has all |m_ij| ≤ tolerance.
 
@@ -126,10 +130,18 @@ def form_entries(space: StageSpace, other: StageSpace, matrix: Matrix) -> arb_ma
         return _at_nodes(space, other, matrix, dual=True)
 
 
-def _at_nodes(space: StageSpace, other: StageSpace | None, matrix: Matrix, dual: bool) -> arb_mat:
+def _at_nodes(
+    space: StageSpace, other: StageSpace | None, matrix: Matrix, dual: bool
+) -> arb_mat:
     digits = int(ctx.prec * 0.302)
     balls = arb_mat([[to_ball(x, digits) for x in row] for row in matrix])
     if isinstance(space, PolynomialSpace):
-        to_nodes = coordinates_at_nodes(space).transpose() if dual else powers_of_nodes(space)
+        to_nodes = (
+            coordinates_at_nodes(space).transpose() if dual else powers_of_nodes(space)
+        )
         balls = to_nodes * balls
-    return balls * coordinates_at_nodes(other) if isinstance(other, PolynomialSpace) else balls
+    return (
+        balls * coordinates_at_nodes(other)
+        if isinstance(other, PolynomialSpace)
+        else balls
+    )

@@ -38,10 +38,19 @@ _STYLES: Sequence[Mapping[str, Any]] = (
     {"marker": "D", "linestyle": ":", "color": "#e08214", "markerfacecolor": "white"},
     {"marker": "v", "linestyle": (0, (5, 1, 1, 1, 1, 1)), "color": "#4d8f4d"},
     {"marker": "X", "linestyle": (0, (8, 2)), "color": "0.55"},
-    {"marker": "P", "linestyle": (0, (1, 3)), "color": "#7b3f9e", "markerfacecolor": "white"},
+    {
+        "marker": "P",
+        "linestyle": (0, (1, 3)),
+        "color": "#7b3f9e",
+        "markerfacecolor": "white",
+    },
     {"marker": "*", "linestyle": (0, (3, 1, 3, 3)), "color": "#2aa0a8"},
 )
-_THIN: Mapping[str, Any] = {"color": "0.3", "linewidth": 0.8, "zorder": 1.5}  # below all curves
+_THIN: Mapping[str, Any] = {
+    "color": "0.3",
+    "linewidth": 0.8,
+    "zorder": 1.5,
+}  # below all curves
 _AXES = {
     "h": "step size h",
     "evaluations": "evaluations of vector fields",
@@ -81,7 +90,9 @@ def convergence_figure(result: Convergence, name: str) -> Figure:
     return figure
 
 
-def comparison_figure(named: Sequence[tuple[str, Convergence]], against: str = "h") -> Figure:
+def comparison_figure(
+    named: Sequence[tuple[str, Convergence]], against: str = "h"
+) -> Figure:
     """Errors of several methods, log–log, with a line for each visible order.
 
     Args:
@@ -108,7 +119,9 @@ def comparison_figure(named: Sequence[tuple[str, Convergence]], against: str = "
     return figure
 
 
-def _curve(points: Iterable[tuple[Any, Any]], label: str, style: Mapping[str, Any]) -> Curve | None:
+def _curve(
+    points: Iterable[tuple[Any, Any]], label: str, style: Mapping[str, Any]
+) -> Curve | None:
     """The curve through positive points; None where there are none."""
     logarithms = [(log10(x), log10(y)) for x, y in points]
     if not logarithms:
@@ -121,7 +134,11 @@ def _add_legend_below(figure: Figure, curves: Sequence[Curve]) -> None:
     """The names of all curves below the axes, where no curve can be."""
     drawn = figure.axes[0].get_lines()[: len(curves)]
     legend = figure.legend(
-        drawn, ["method"] * len(drawn), loc="outside lower left", frameon=False, handlelength=3.5
+        drawn,
+        ["method"] * len(drawn),
+        loc="outside lower left",
+        frameon=False,
+        handlelength=3.5,
     )
     # names are no formulas, and may begin with _, which would hide them
     for text, named in zip(legend.get_texts(), curves, strict=True):
@@ -138,7 +155,12 @@ def _style(k: int) -> dict[str, Any]:
     """Of the k-th curve: marks and dashes are combined anew once all have been used."""
     count = len(_STYLES)
     dashes = _STYLES[(k + k // count) % count]["linestyle"]
-    return {**_STYLES[k % count], "linestyle": dashes, "linewidth": 1.4, "markersize": 5.5}
+    return {
+        **_STYLES[k % count],
+        "linestyle": dashes,
+        "linewidth": 1.4,
+        "markersize": 5.5,
+    }
 
 
 def _log_log(
@@ -159,9 +181,16 @@ def _log_log(
     place = _power if has_floats else _itself
     draw = axes.loglog if has_floats else axes.plot
     for drawn in curves:
-        draw(_placed(drawn.xs, place), _placed(drawn.ys, place), label=drawn.label, **drawn.style)
+        draw(
+            _placed(drawn.xs, place),
+            _placed(drawn.ys, place),
+            label=drawn.label,
+            **drawn.style,
+        )
     for line in lines:
-        draw(_placed(line.xs, place), _placed(line.ys, place), label=line.label, **_THIN)
+        draw(
+            _placed(line.xs, place), _placed(line.ys, place), label=line.label, **_THIN
+        )
         _annotate(axes, line, place)
     if not has_floats:
         _label_powers(axes)
@@ -263,7 +292,8 @@ def check_suffix(path: Path) -> None:
     if path.suffix.lower() not in SUFFIXES:
         kind = f"of kind {path.suffix!r}" if path.suffix else "without a suffix"
         raise UsageProblem(
-            f"no figure can be saved to {path.name!r}, {kind}", f"end it in {', '.join(SUFFIXES)}"
+            f"no figure can be saved to {path.name!r}, {kind}",
+            f"end it in {', '.join(SUFFIXES)}",
         )
     refuse_unwritable(str(path))
 

@@ -19,12 +19,14 @@ def energy_figure(run: LongRun) -> Figure:
     histories = run.invariants
     heights = [3.0, *(2.0 for _ in histories[1:])]
     figure = Figure(figsize=(7.2, 0.9 + sum(heights)), layout="constrained")
-    panels = figure.subplots(len(histories), 1, sharex=True, squeeze=False, height_ratios=heights)[
-        :, 0
-    ]
+    panels = figure.subplots(
+        len(histories), 1, sharex=True, squeeze=False, height_ratios=heights
+    )[:, 0]
     name = run.problem.name if isinstance(run.problem, Hamiltonian) else "oscillator"
     title = f"{name[:1].upper() + name[1:]}, h = {run.step}, {run.steps} steps"
-    figure.suptitle(title, fontsize=11, parse_math=False)  # names of files are no formulas
+    figure.suptitle(
+        title, fontsize=11, parse_math=False
+    )  # names of files are no formulas
     for axes, history in zip(panels, histories, strict=True):
         draw_history(axes, run, history)
     panels[-1].set_xlabel("time t")
@@ -33,10 +35,19 @@ def energy_figure(run: LongRun) -> Figure:
 
 def draw_history(axes: Axes, run: LongRun, history: InvariantHistory) -> None:
     """One quantity against time on ``axes``, with the line of its drift where it has one."""
-    axes.plot(run.times, history.errors, color=_PALE, linewidth=1.1, solid_joinstyle="round")
+    axes.plot(
+        run.times, history.errors, color=_PALE, linewidth=1.1, solid_joinstyle="round"
+    )
     axes.axhline(0.0, color="0.1", linewidth=0.9)
-    if history.verdict == "drifts" and history.shape == "line" and history.drift is not None:
-        left = [e - history.drift * t for t, e in zip(run.times, history.errors, strict=True)]
+    if (
+        history.verdict == "drifts"
+        and history.shape == "line"
+        and history.drift is not None
+    ):
+        left = [
+            e - history.drift * t
+            for t, e in zip(run.times, history.errors, strict=True)
+        ]
         middle = (max(left) + min(left)) / 2
         ends = [run.times[0], run.times[-1]]
         axes.plot(

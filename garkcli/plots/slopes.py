@@ -100,14 +100,18 @@ def _parts(curve: Curve, is_whole: bool) -> list[list[tuple[float, float]]]:
     return [points[-3:], points[:3]]
 
 
-def _beside(points: Sequence[tuple[float, float]], slope: int, gap: float, is_below: bool) -> Line:
+def _beside(
+    points: Sequence[tuple[float, float]], slope: int, gap: float, is_below: bool
+) -> Line:
     """The line through no point, with this distance from the nearest."""
     left, right = points[0][0], points[-1][0]
     if len(points) == 1:
         left, right = left - 0.2, right + 0.2
     offsets = [b - slope * a for a, b in points]
     offset = min(offsets) - gap if is_below else max(offsets) + gap
-    return Line((left, right), (offset + slope * left, offset + slope * right), slope, is_below)
+    return Line(
+        (left, right), (offset + slope * left, offset + slope * right), slope, is_below
+    )
 
 
 def _clearance(

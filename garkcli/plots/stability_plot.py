@@ -44,7 +44,9 @@ class Window:
     right: float
     top: float
 
-    def grid(self) -> tuple[NDArray[np.float64], NDArray[np.float64], NDArray[np.complex128]]:
+    def grid(
+        self,
+    ) -> tuple[NDArray[np.float64], NDArray[np.float64], NDArray[np.complex128]]:
         """The real parts, the imaginary parts, and all points, shape (POINTS, POINTS)."""
         x = np.linspace(self.left, self.right, POINTS)
         y = np.linspace(-self.top, self.top, POINTS)
@@ -78,7 +80,9 @@ def window_of(functions: Sequence[StabilityFunction], is_symmetric: bool) -> Win
     return Window(-reach, reach / 4 if is_left else reach, reach)
 
 
-def stability_figure(reports: Sequence[StabilityReport], order_star: bool = False) -> Figure:
+def stability_figure(
+    reports: Sequence[StabilityReport], order_star: bool = False
+) -> Figure:
     """What there is to draw of one or several methods.
 
     Args:
@@ -129,7 +133,13 @@ def _draw_regions(
         bounds = [inside[0], min(inside[1], 2e9)]
         axes.contourf(x, y, finite, levels=bounds, colors=[colour], alpha=0.18)
         axes.contour(
-            x, y, finite, levels=[1.0], colors=[colour], linestyles=[dashes], linewidths=1.4
+            x,
+            y,
+            finite,
+            levels=[1.0],
+            colors=[colour],
+            linestyles=[dashes],
+            linewidths=1.4,
         )
         handles.append(Line2D([], [], color=colour, linestyle=dashes, label=name))
     axes.axhline(0.0, color="0.1", linewidth=0.8)
@@ -165,7 +175,9 @@ def trace_figure(reports: Sequence[StabilityReport]) -> Figure:
         axes.plot(z, half, color=COLOURS[k % len(COLOURS)], linestyle=style, label=name)
     if len(found) == 1:
         for interval in found[0][1].stable:
-            low = 0.0 if interval.start is None else float(interval.start.ball(64)) ** 0.5
+            low = (
+                0.0 if interval.start is None else float(interval.start.ball(64)) ** 0.5
+            )
             high = end if interval.end is None else float(interval.end.ball(64)) ** 0.5
             axes.axvspan(low, min(high, end), color="0.9", linewidth=0)
     axes.axhline(1.0, color="0.1", linewidth=0.9)
@@ -193,10 +205,19 @@ def springs_figure(plane: SpringsPlane, name: str) -> Figure:
     levels = [0.0, 1.0, np.inf]
     shown = np.nan_to_num(plane.half_trace, nan=1e9, posinf=1e9)
     axes.contourf(
-        plane.fast, plane.slow, shown, levels=[levels[1], 2e9], colors=["#a02417"], alpha=0.35
+        plane.fast,
+        plane.slow,
+        shown,
+        levels=[levels[1], 2e9],
+        colors=["#a02417"],
+        alpha=0.35,
     )
-    axes.contour(plane.fast, plane.slow, shown, levels=[1.0], colors=["#a02417"], linewidths=1.2)
+    axes.contour(
+        plane.fast, plane.slow, shown, levels=[1.0], colors=["#a02417"], linewidths=1.2
+    )
     axes.set_xlabel("hω of the fast spring")
     axes.set_ylabel("hω of the slow spring")
-    axes.set_title(f"{name}: filled where unstable", fontsize=11, loc="left", parse_math=False)
+    axes.set_title(
+        f"{name}: filled where unstable", fontsize=11, loc="left", parse_math=False
+    )
     return figure

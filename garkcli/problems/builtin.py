@@ -78,7 +78,9 @@ def check_seed(name: str, seed: int | None) -> None:
         raise UsageProblem(f"--seed is for the {whose}, not for {name}", "leave it out")
 
 
-def _mechanical(name: str, summary: str, energy: str, sees: str, made: Mechanical) -> BuiltIn:
+def _mechanical(
+    name: str, summary: str, energy: str, sees: str, made: Mechanical
+) -> BuiltIn:
     def make(terms: int, _: int) -> Hamiltonian:
         return made.problem(name, terms)
 
@@ -203,7 +205,10 @@ _ENTRIES = (
         "all; what depends on positions alone has only velocities as branches",
         Mechanical(
             ("a", "b"),
-            lambda a, b: (1 - _cos(a), 2 - _cos(a) - _cos(b)),  # of the upper and the lower mass
+            lambda a, b: (
+                1 - _cos(a),
+                2 - _cos(a) - _cos(b),
+            ),  # of the upper and the lower mass
             (fmpq(1), fmpq(-1, 2), fmpq(1), fmpq(1, 2)),
             fmpq(2),
             kinetic=_rods,

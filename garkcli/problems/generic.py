@@ -42,7 +42,9 @@ def semi_separable(terms: int, seed: int) -> Hamiltonian:
 def separable(terms: int, seed: int) -> Hamiltonian:
     """T(p) + Σ_l U^{l}(q): velocities and forces alternate, and nothing else is missing."""
     draw = Draw(seed)
-    return _separated("generic-separable", polynomial(draw, _momenta(), terms), terms, draw)
+    return _separated(
+        "generic-separable", polynomial(draw, _momenta(), terms), terms, draw
+    )
 
 
 def nystrom(terms: int, seed: int) -> Hamiltonian:
@@ -88,7 +90,9 @@ def polynomial(draw: Draw, variables: Sequence[Any], terms: int) -> Any:
 
     total = sympy.Integer(0)
     for _ in range(_FORMS):
-        slopes = [sympy.Rational(draw.sign() * draw.between(3, 12), 20) for _ in variables]
+        slopes = [
+            sympy.Rational(draw.sign() * draw.between(3, 12), 20) for _ in variables
+        ]
         form = 1 + sum(a * x for a, x in zip(slopes, variables, strict=True))
         factor = sympy.Rational(draw.sign() * draw.between(5, 20), 1600 * terms)
         total += factor * form**DEGREE

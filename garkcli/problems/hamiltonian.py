@@ -98,7 +98,12 @@ class VectorField:
     @property
     def is_linear(self) -> bool:
         """Whether all second derivatives vanish."""
-        return all(is_constant(x) for g in self.depends for row in self.derivative(g) for x in row)
+        return all(
+            is_constant(x)
+            for g in self.depends
+            for row in self.derivative(g)
+            for x in row
+        )
 
     @property
     def degree(self) -> int | None:
@@ -140,7 +145,9 @@ def vector_field(problem: Hamiltonian, term: int, drives: Group) -> VectorField:
     else:
         components = tuple(-sympy.diff(H, x) for x in symbols(problem.variables, "q"))
     free = set().union(*(f.free_symbols for f in components))
-    depends = tuple(g for g in GROUPS if not free.isdisjoint(symbols(problem.variables, g)))
+    depends = tuple(
+        g for g in GROUPS if not free.isdisjoint(symbols(problem.variables, g))
+    )
     return VectorField(components, problem.variables, depends)
 
 

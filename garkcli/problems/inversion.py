@@ -95,7 +95,9 @@ def by_solving(
     H = work - L.xreplace(replaced)
     derivatives = (H.diff(x) for x in (*symbols(variables, "q"), *p))
     if not is_smooth(H) or not all(map(is_smooth, derivatives)):
-        raise NoLegendreTransform("the Hamiltonian was not found without kinks", WRITE_HAMILTONIAN)
+        raise NoLegendreTransform(
+            "the Hamiltonian was not found without kinks", WRITE_HAMILTONIAN
+        )
     return H
 
 
@@ -108,10 +110,14 @@ def _solution(L: Any, equations: _Equations, p: Sequence[Any]) -> _Solved:
     right: list[_Solved] = []
     for candidate in _candidates(L, equations):
         smooth = _smooth(candidate, p)
-        right += [solved for solved in smooth if _is_right(solved.velocities, equations)]
+        right += [
+            solved for solved in smooth if _is_right(solved.velocities, equations)
+        ]
     if not right:
         whose = ", ".join(map(str, equations.v))
-        raise NoLegendreTransform(f"p = ∂L/∂v was not solved for {whose}", WRITE_HAMILTONIAN)
+        raise NoLegendreTransform(
+            f"p = ∂L/∂v was not solved for {whose}", WRITE_HAMILTONIAN
+        )
     known = {**equations.start, **equations.momenta(equations.start)}
     first, *others = (enclosed(list(x.velocities.values()), known) for x in right)
     for other in others:
@@ -141,7 +147,9 @@ def _by_elimination(equations: _Equations) -> _Solved:
     pairs = zip(equations.p, equations.gradient, strict=True)
     shifted = [p - slope.xreplace(at_rest) for p, slope in pairs]
     products = _times(inverse, shifted)
-    return _Solved({v: x / divisor for v, x in zip(equations.v, products, strict=True)}, {})
+    return _Solved(
+        {v: x / divisor for v, x in zip(equations.v, products, strict=True)}, {}
+    )
 
 
 def _times(matrix: Sequence[Sequence[Any]], vector: Sequence[Any]) -> list[Any]:

@@ -20,7 +20,9 @@ from garkcli.problems.inversion import by_solving
 from garkcli.problems.mass import coupled, inverse_of, velocities
 
 
-def legendre_transform(L: Any, variables: tuple[str, ...], start: Mapping[Any, arb]) -> Any:
+def legendre_transform(
+    L: Any, variables: tuple[str, ...], start: Mapping[Any, arb]
+) -> Any:
     """The Hamiltonian of a Lagrangian, sympy expressions both.
 
     Lagrangians that are quadratic in the velocities are transformed exactly: with L = ½ v·Mv + b·v
@@ -75,7 +77,9 @@ def _of_quadratic(
 
     v, p = velocities(variables), symbols(variables, "p")
     at_rest = dict.fromkeys(v, 0)
-    shifted = [x - slope.xreplace(at_rest) for x, slope in zip(p, gradient, strict=True)]
+    shifted = [
+        x - slope.xreplace(at_rest) for x, slope in zip(p, gradient, strict=True)
+    ]
     H = [-L.xreplace(at_rest)]
     for block in coupled(M):
         own = [[M[i][j] for j in block] for i in block]

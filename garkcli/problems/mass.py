@@ -55,7 +55,9 @@ def inverse_of(
         if not matrix.det():
             raise singular
         rows = matrix.inv().tolist()
-        return [[sympy.Rational(int(x.p), int(x.q)) for x in row] for row in rows], sympy.Integer(1)
+        return [
+            [sympy.Rational(int(x.p), int(x.q)) for x in row] for row in rows
+        ], sympy.Integer(1)
     if len(M) > MAX_COUPLED:
         raise NoLegendreTransform(
             f"a mass matrix of {len(M)} coupled velocities that is not constant "
@@ -129,4 +131,6 @@ def is_smooth(expression: Any) -> bool:
     """Whether a sympy expression is real and has no |x|, which sympy makes of roots of squares."""
     import sympy
 
-    return not expression.has(sympy.Abs, sympy.sign, sympy.I, sympy.zoo, sympy.nan, sympy.oo)
+    return not expression.has(
+        sympy.Abs, sympy.sign, sympy.I, sympy.zoo, sympy.nan, sympy.oo
+    )

@@ -55,7 +55,9 @@ class Mechanical:
             long_run=self.long_run,
         )
 
-    def _split(self, q: tuple[Any, ...], p: tuple[Any, ...], terms: int) -> tuple[Any, ...]:
+    def _split(
+        self, q: tuple[Any, ...], p: tuple[Any, ...], terms: int
+    ) -> tuple[Any, ...]:
         import sympy
 
         T, parts = self.kinetic(q, p), self.potentials(*q)

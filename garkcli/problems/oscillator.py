@@ -41,7 +41,8 @@ class Oscillator:
     def __post_init__(self) -> None:
         if self.omega <= 0:
             raise UsageProblem(
-                f"the frequency {self.omega} is not positive", "give a positive rational, such as 1"
+                f"the frequency {self.omega} is not positive",
+                "give a positive rational, such as 1",
             )
         for column, energy in enumerate(("kinetic", "potential")):
             total = sum((share[column] for share in self.shares), ZERO)
@@ -86,7 +87,9 @@ def parse_shares(text: str, terms: int) -> tuple[tuple[fmpq, fmpq], ...]:
     cure = f"write {terms} pairs kinetic:potential, such as {example_shares(terms)}"
     parts = text.split(",")
     if len(parts) != terms:
-        raise UsageProblem(f"the split {text!r} has {len(parts)} pairs for {terms} terms", cure)
+        raise UsageProblem(
+            f"the split {text!r} has {len(parts)} pairs for {terms} terms", cure
+        )
     shares = []
     for part in parts:
         numbers = part.split(":")
@@ -116,7 +119,8 @@ def _share(text: str) -> fmpq:
         ) from None
     if not isinstance(number, fmpq):
         raise UsageProblem(
-            f"the share {text.strip()!r} is irrational", "write a rational number, such as 1/2"
+            f"the share {text.strip()!r} is irrational",
+            "write a rational number, such as 1/2",
         )
     return number
 

@@ -124,7 +124,9 @@ def _without_root(f: Any, u: Any) -> Any:
     """
     import sympy
 
-    powers = [x for x in f.atoms(sympy.Pow) if u in x.free_symbols and x.exp.is_Rational]
+    powers = [
+        x for x in f.atoms(sympy.Pow) if u in x.free_symbols and x.exp.is_Rational
+    ]
     roots = [x for x in powers if x.exp.q == 2]
     if not roots:
         return f

@@ -83,6 +83,8 @@ def missing_derivative(
         return None
     # one operation that fails spoils them all: the guilty one is undefined on its own
     failing = (
-        str(x) for x, g in zip(by, gradient, strict=True) if not enclosed([g], start)[0].is_finite()
+        str(x)
+        for x, g in zip(by, gradient, strict=True)
+        if not enclosed([g], start)[0].is_finite()
     )
     return f"no derivative by {next(failing, by[0])}", "start elsewhere"

@@ -19,7 +19,20 @@ from flint import arb, fmpq
 
 _LONG = 300  # characters from which a part of an expression is given a name
 _WRITTEN = 3  # powers up to the third are products, which cost less than **
-_NAMES = ("sin", "cos", "tan", "asin", "acos", "atan", "sinh", "cosh", "tanh", "exp", "log", "sqrt")
+_NAMES = (
+    "sin",
+    "cos",
+    "tan",
+    "asin",
+    "acos",
+    "atan",
+    "sinh",
+    "cosh",
+    "tanh",
+    "exp",
+    "log",
+    "sqrt",
+)
 FUNCTIONS = frozenset(_NAMES)
 """The functions an expression may have, besides powers."""
 FLOATS: Mapping[str, Any] = {
@@ -59,7 +72,9 @@ class Code:
     constants: tuple[fmpq | None, ...]
     is_for_balls: bool
 
-    def lines(self, arguments: Sequence[str], prefix: str) -> tuple[list[str], list[str]]:
+    def lines(
+        self, arguments: Sequence[str], prefix: str
+    ) -> tuple[list[str], list[str]]:
         """Assignments to names that start with ``prefix``, and the names or short texts of the
         results.
         """
@@ -110,7 +125,9 @@ def constant_name(x: fmpq) -> str:
 
 
 @cache
-def code_of(expressions: tuple[Any, ...], arguments: tuple[Any, ...], is_for_balls: bool) -> Code:
+def code_of(
+    expressions: tuple[Any, ...], arguments: tuple[Any, ...], is_for_balls: bool
+) -> Code:
     """The code of sympy expressions in the symbols ``arguments``.
 
     Raises:
@@ -126,7 +143,11 @@ def code_of(expressions: tuple[Any, ...], arguments: tuple[Any, ...], is_for_bal
         writer.symbols[symbol] = writer.named(writer.text(expression))
     results = tuple("0" if x == 0 else writer.text(x) for x in reduced)
     return Code(
-        len(arguments), tuple(writer.temporaries), results, tuple(writer.constants), is_for_balls
+        len(arguments),
+        tuple(writer.temporaries),
+        results,
+        tuple(writer.constants),
+        is_for_balls,
     )
 
 
@@ -151,7 +172,9 @@ class _Writer:
         long one.
         """
         text = self._text(x)
-        return text if len(text) < _LONG else self.named(text)  # Python nests no more than 200 deep
+        return (
+            text if len(text) < _LONG else self.named(text)
+        )  # Python nests no more than 200 deep
 
     def _text(self, x: Any) -> str:
         import sympy
@@ -273,7 +296,13 @@ def define(source: str, name: str, constants: Mapping[str, Any]) -> Any:
     """The function ``name`` that a text of ours defines; the text has only names made in this
     package.
     """
-    namespace: dict[str, Any] = {"__builtins__": {}, **_BUILTINS, **FLOATS, **BALLS, **constants}
+    namespace: dict[str, Any] = {
+        "__builtins__": {},
+        **_BUILTINS,
+        **FLOATS,
+        **BALLS,
+        **constants,
+    }
     exec(_compiled(source), namespace)
     return namespace[name]
 

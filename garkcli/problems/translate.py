@@ -12,7 +12,15 @@ from typing import Any
 
 from garkcli.errors import LimitExceeded, UndefinedValue
 from garkcli.exact.domain import MAX_BITS
-from garkcli.exact.expression import MAX_EXPONENT, Chain, Expression, Literal, Name, Power, Root
+from garkcli.exact.expression import (
+    MAX_EXPONENT,
+    Chain,
+    Expression,
+    Literal,
+    Name,
+    Power,
+    Root,
+)
 from garkcli.exact.formula import CONSTANTS, Call, RealPower
 from garkcli.exact.rewriting import format_expression, names_in, parts
 from garkcli.exact.values import FLOAT_BITS, Value, exponent_of, value_of
@@ -41,14 +49,18 @@ class Translator:
             UndefinedValue: a part without variables has no value.
             LimitExceeded: it is too large or too small.
         """
-        if all(x.name in self.values or x.name in CONSTANTS for x in names_in(expression)):
+        if all(
+            x.name in self.values or x.name in CONSTANTS for x in names_in(expression)
+        ):
             value_of(expression, self.values)
             return
         if isinstance(expression, RealPower):
             for name in names_in(expression.exponent):
                 if name.name not in self.values and name.name not in CONSTANTS:
                     message = f"the exponent depends on {name.name}"
-                    raise UndefinedValue(message, "exponents are constants", name.start, name.end)
+                    raise UndefinedValue(
+                        message, "exponents are constants", name.start, name.end
+                    )
         for part in parts(expression):
             self.check_constants(part)
 
@@ -64,10 +76,14 @@ class Translator:
         self.check_constants(expression)
         made = self._node(expression)
         if made.has(sympy.I, sympy.zoo, sympy.nan, sympy.oo, -sympy.oo):
-            raise UndefinedValue("this is no real number", "", expression.start, expression.end)
+            raise UndefinedValue(
+                "this is no real number", "", expression.start, expression.end
+            )
         if any(abs(x) > 1 << FLOAT_BITS for x in made.atoms(sympy.Rational)):
             message = f"the constants together make a number above 2^{FLOAT_BITS}"
-            raise LimitExceeded(message, "choose other units", expression.start, expression.end)
+            raise LimitExceeded(
+                message, "choose other units", expression.start, expression.end
+            )
         return made
 
     def _node(self, expression: Expression) -> Any:
@@ -84,13 +100,20 @@ class Translator:
                 made = [self._node(x) for x in operands]
                 if signs[0] not in "+-":
                     return self._product(signs, made, expression)
-                terms = [-x if sign == "-" else x for sign, x in zip(signs, made, strict=True)]
+                terms = [
+                    -x if sign == "-" else x
+                    for sign, x in zip(signs, made, strict=True)
+                ]
                 return sympy.Add(*terms)
             case Power(base=base, exponent=exponent):
-                return self._power(self._node(base), sympy.Integer(exponent), expression)
+                return self._power(
+                    self._node(base), sympy.Integer(exponent), expression
+                )
             case RealPower(base=base, exponent=exponent):
                 e = exponent_of(exponent, self.values)
-                return self._power(self._node(base), sympy.Rational(int(e.p), int(e.q)), expression)
+                return self._power(
+                    self._node(base), sympy.Rational(int(e.p), int(e.q)), expression
+                )
             case Root(radicand=radicand, index=index):
                 return self._root(self._node(radicand), index, expression)
             case Call(function=function, argument=argument):
@@ -128,7 +151,9 @@ class Translator:
         if radicand.free_symbols:
             inner = format_expression(at.radicand)
             cure = f"where it is positive, write ({inner if len(inner) < 30 else '…'})**(1/{index})"
-            raise UndefinedValue("only square roots are taken of variables", cure, at.start, at.end)
+            raise UndefinedValue(
+                "only square roots are taken of variables", cure, at.start, at.end
+            )
         power = sympy.Rational(1, index)
         return -((-radicand) ** power) if radicand.is_negative else radicand**power
 

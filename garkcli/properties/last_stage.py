@@ -45,7 +45,9 @@ def is_first_same_as_last(tableau: Tableau) -> bool | None:
     )
 
 
-def _row(tableau: Tableau, space: int, stage: int, colour: int) -> tuple[Number, ...] | None:
+def _row(
+    tableau: Tableau, space: int, stage: int, colour: int
+) -> tuple[Number, ...] | None:
     block = tableau.blocks.get((space, colour))
     return None if block is None else block[stage]
 

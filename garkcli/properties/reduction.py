@@ -91,7 +91,9 @@ def _without(tableau: Tableau, kept: Sequence[Sequence[int]]) -> Tableau:
         for x in tableau.colours
     )
     blocks = {
-        (k, m): tuple(_chosen(block[i], kept[tableau.colours[m].space]) for i in kept[k])
+        (k, m): tuple(
+            _chosen(block[i], kept[tableau.colours[m].space]) for i in kept[k]
+        )
         for (k, m), block in tableau.blocks.items()
     }
     return Tableau(spaces, colours, blocks)
@@ -119,7 +121,9 @@ def _merged(tableau: Tableau) -> Tableau:
     blocks = {}
     for (k, m), block in tableau.blocks.items():
         columns = classes[tableau.colours[m].space]
-        blocks[k, m] = tuple(_summed(block[members[0]], columns) for members in classes[k])
+        blocks[k, m] = tuple(
+            _summed(block[members[0]], columns) for members in classes[k]
+        )
     return Tableau(spaces, colours, blocks)
 
 

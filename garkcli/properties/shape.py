@@ -55,7 +55,11 @@ def shape(tableau: Tableau, colour: int | None = None) -> Shape:
     """
     graph = stage_graph(tableau, None if colour is None else [colour])
     together = [tuple(sorted(found)) for found in graph.systems if len(found) > 1]
-    loops = [found[0] for found in graph.systems if len(found) == 1 and graph.is_loop(found[0])]
+    loops = [
+        found[0]
+        for found in graph.systems
+        if len(found) == 1 and graph.is_loop(found[0])
+    ]
     implicit = sum(map(len, together)) + len(loops)
     starts_explicit = _starts_explicit(graph)
     if together:
@@ -70,7 +74,11 @@ def shape(tableau: Tableau, colour: int | None = None) -> Shape:
         return Shape(None, None, (), None, starts_explicit)
     if not loops:
         return Shape("explicit", 0, (), None, starts_explicit)
-    gamma = None if colour is None and tableau.size > 1 else _gamma(tableau, colour or 0, loops)
+    gamma = (
+        None
+        if colour is None and tableau.size > 1
+        else _gamma(tableau, colour or 0, loops)
+    )
     return Shape("diagonally implicit", implicit, (), gamma, starts_explicit)
 
 

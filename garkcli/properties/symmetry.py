@@ -30,7 +30,9 @@ def is_symmetric(tableau: Tableau) -> bool | None:
     >>> is_symmetric(gark([diagonal_method("gauss", 5)], {}))
     True
     """
-    choices = [list(_first(_reflections(tableau, k))) for k in range(len(tableau.spaces))]
+    choices = [
+        list(_first(_reflections(tableau, k))) for k in range(len(tableau.spaces))
+    ]
     total = 1
     for found in choices:
         total *= len(found)
@@ -117,7 +119,11 @@ def _involutions(keys: list[tuple[object, object]]) -> Iterator[Matrix]:
             yield tuple(unit[j] for j in images if j is not None)
             return
         for j in reversed(range(i, size)):
-            if images[j] is None and keys[i][1] == keys[j][0] and keys[j][1] == keys[i][0]:
+            if (
+                images[j] is None
+                and keys[i][1] == keys[j][0]
+                and keys[j][1] == keys[i][0]
+            ):
                 images[i], images[j] = j, i
                 yield from extended(i + 1)
                 images[i] = images[j] = None

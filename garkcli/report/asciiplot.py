@@ -53,7 +53,9 @@ def terminal_plot(
          └┬─────────┬─────────┬
         0.01       0.1        1  h
     """
-    points = sorted((log10(h), log10(e)) for h, e in zip(hs, errors, strict=True) if e > 0)
+    points = sorted(
+        (log10(h), log10(e)) for h, e in zip(hs, errors, strict=True) if e > 0
+    )
     line = None
     if order is not None and points:
         line = (*points[0], order)
@@ -157,7 +159,10 @@ def _short(exponent: float) -> str:
 
 
 def _framed(
-    frame: Sequence[Sequence[str]], rows: Mapping[int, str], columns: Mapping[int, str], label: str
+    frame: Sequence[Sequence[str]],
+    rows: Mapping[int, str],
+    columns: Mapping[int, str],
+    label: str,
 ) -> list[str]:
     """The frame with its axes; ``rows`` and ``columns`` say where they have a mark, and its
     label.

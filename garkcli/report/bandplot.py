@@ -17,7 +17,11 @@ _FRAME = 5  # columns of the axis left of what is inside, and of the letter righ
 
 
 def terminal_band(
-    times: Sequence[float], values: Sequence[float], label: str, columns: int = 58, height: int = 11
+    times: Sequence[float],
+    values: Sequence[float],
+    label: str,
+    columns: int = 58,
+    height: int = 11,
 ) -> str:
     """Values against time, linear on both axes, as lines of text without a final newline.
 
@@ -69,19 +73,29 @@ def _bands(
     scale = (width - 1) / ((times[-1] - times[0]) or 1.0)
     columns: list[list[float]] = [[] for _ in range(width)]
     columns[0].append(values[0])
-    points = [((t - times[0]) * scale, value) for t, value in zip(times, values, strict=True)]
+    points = [
+        ((t - times[0]) * scale, value) for t, value in zip(times, values, strict=True)
+    ]
     for (x, v), (y, w) in pairwise(points):
         columns[round(y)].append(w)
-        for j in range(round(x), round(y)):  # where the line goes from column j to the next
+        for j in range(
+            round(x), round(y)
+        ):  # where the line goes from column j to the next
             value = v + (w - v) * min(max((j + 0.5 - x) / (y - x), 0.0), 1.0)
             columns[j].append(value)
             columns[j + 1].append(value)
-    filled = [column or [values[-1]] for column in columns]  # a single point has one column
+    filled = [
+        column or [values[-1]] for column in columns
+    ]  # a single point has one column
     return [(min(column), max(column)) for column in filled]
 
 
 def _framed(
-    field: Sequence[Sequence[str]], marks: Mapping[int, str], label: str, start: float, end: float
+    field: Sequence[Sequence[str]],
+    marks: Mapping[int, str],
+    label: str,
+    start: float,
+    end: float,
 ) -> list[str]:
     margin, width = max(map(len, marks.values())), len(field[0])
     lines = [f"{'':{margin}} {label}"]

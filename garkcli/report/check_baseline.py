@@ -10,6 +10,10 @@ from garkcli.report.plain import inert, printable
 
 def render(found: Sequence[Regression], files: int) -> str:
     """A line for each regression, then how many of how many files."""
-    lines = [printable(f"{x.file}: {x.what} got worse: {x.before} -> {x.now}") for x in found]
-    lines.append(f"{files} file{'s' * (files != 1)}: {len(found) or 'nothing'} got worse")
+    lines = [
+        printable(f"{x.file}: {x.what} got worse: {x.before} -> {x.now}") for x in found
+    ]
+    lines.append(
+        f"{files} file{'s' * (files != 1)}: {len(found) or 'nothing'} got worse"
+    )
     return inert("\n".join(lines)) + "\n"

@@ -44,11 +44,18 @@ def as_data(outcomes: Sequence[Outcome]) -> dict[str, Any]:
 
 def colours_data(tableau: Tableau) -> list[dict[str, Any]]:
     """The colours with their stages."""
-    return [{"name": x.name, "stages": tableau.spaces[x.space].stages} for x in tableau.colours]
+    return [
+        {"name": x.name, "stages": tableau.spaces[x.space].stages}
+        for x in tableau.colours
+    ]
 
 
 def _outcome(outcome: Outcome) -> dict[str, Any]:
-    head: dict[str, Any] = {"file": outcome.file, "name": outcome.name, "ok": outcome.ok}
+    head: dict[str, Any] = {
+        "file": outcome.file,
+        "name": outcome.name,
+        "ok": outcome.ok,
+    }
     if outcome.analysis is None:
         errors = [
             {
@@ -81,7 +88,9 @@ def _outcome(outcome: Outcome) -> dict[str, Any]:
 def _analysis(outcome: Outcome, analysis: Analysis) -> dict[str, Any]:
     return {
         "exact": analysis.tolerance is None,
-        "tolerance": None if analysis.tolerance is None else decimal(analysis.tolerance),
+        "tolerance": None
+        if analysis.tolerance is None
+        else decimal(analysis.tolerance),
         "colours": colours_data(analysis.tableau),
         "consistent": not analysis.inconsistent,
         "inconsistent_blocks": [[l + 1, m + 1] for l, m in analysis.inconsistent],
@@ -125,7 +134,10 @@ def _order(prefix: str, order: AnyOrder | None) -> dict[str, Any]:
 def _suggested(found: Suggestion | None) -> dict[str, Any]:
     if found is None:
         return {}
-    sizes = {"rounding": float(found.rounding.upper()), "genuine": float(found.genuine.upper())}
+    sizes = {
+        "rounding": float(found.rounding.upper()),
+        "genuine": float(found.genuine.upper()),
+    }
     return {"suggestion": {"line": found.line, "order": found.order, **sizes}}
 
 

@@ -21,7 +21,11 @@ def render(outcomes: Sequence[Outcome]) -> str:
     for count in ("tests", "failures", "errors"):
         root.set(count, str(sum(int(suite.get(count, "0")) for suite in root)))
     ET.indent(root)
-    return '<?xml version="1.0" encoding="UTF-8"?>\n' + ET.tostring(root, encoding="unicode") + "\n"
+    return (
+        '<?xml version="1.0" encoding="UTF-8"?>\n'
+        + ET.tostring(root, encoding="unicode")
+        + "\n"
+    )
 
 
 def _suite(outcome: Outcome) -> ET.Element:
@@ -30,22 +34,34 @@ def _suite(outcome: Outcome) -> ET.Element:
     readable = ET.SubElement(suite, "testcase", classname=name, name="is a method")
     if outcome.faults:
         text = "\n".join(
-            f"{x.line}:{x.column}: {x.message}; {x.help}".rstrip("; ") for x in outcome.faults
+            f"{x.line}:{x.column}: {x.message}; {x.help}".rstrip("; ")
+            for x in outcome.faults
         )
-        error = ET.SubElement(readable, "error", message=_clean(outcome.faults[0].message))
+        error = ET.SubElement(
+            readable, "error", message=_clean(outcome.faults[0].message)
+        )
         error.text = _clean(text)
     for claim in outcome.claims:
         title = _clean(f"{claim.claim}: {claim.expected}")
-        case = ET.SubElement(suite, "testcase", classname=name, name=title, line=str(claim.line))
+        case = ET.SubElement(
+            suite, "testcase", classname=name, name=title, line=str(claim.line)
+        )
         if not claim.holds:
             message = f"expected {claim.expected}, found {claim.found}"
-            failure = ET.SubElement(case, "failure", message=_clean(message), type="claim")
-            details = claim_witness(outcome, claim.claim), claim_hint(outcome, claim.claim)
+            failure = ET.SubElement(
+                case, "failure", message=_clean(message), type="claim"
+            )
+            details = (
+                claim_witness(outcome, claim.claim),
+                claim_hint(outcome, claim.claim),
+            )
             failure.text = _clean("\n".join(text for text in details if text)) or None
     missing = outcome.needs_claims and outcome.makes_no_claim
     if missing:
         case = ET.SubElement(suite, "testcase", classname=name, name="makes a claim")
-        ET.SubElement(case, "failure", message="the file makes no claim", type="no-claim")
+        ET.SubElement(
+            case, "failure", message="the file makes no claim", type="no-claim"
+        )
     suite.set("tests", str(1 + len(outcome.claims) + missing))
     suite.set("failures", str(len(outcome.failed_claims) + missing))
     suite.set("errors", str(int(bool(outcome.faults))))

@@ -14,15 +14,21 @@ from garkcli.report.plain import printable
 
 def render(outcomes: Sequence[Outcome]) -> str:
     """One run with a result for each finding."""
-    rules = [{"id": x, "shortDescription": {"text": kind.text}} for x, kind in KINDS.items()]
+    rules = [
+        {"id": x, "shortDescription": {"text": kind.text}} for x, kind in KINDS.items()
+    ]
     log = {
         "$schema": "https://json.schemastore.org/sarif-2.1.0.json",
         "version": "2.1.0",
         "runs": [
             {
-                "tool": {"driver": {"name": "gark", "version": __version__, "rules": rules}},
+                "tool": {
+                    "driver": {"name": "gark", "version": __version__, "rules": rules}
+                },
                 "columnKind": "unicodeCodePoints",
-                "results": [_result(x) for outcome in outcomes for x in findings(outcome)],
+                "results": [
+                    _result(x) for outcome in outcomes for x in findings(outcome)
+                ],
             }
         ],
     }

@@ -8,7 +8,10 @@ from garkcli.report.check_json import SCHEMA
 
 Schema: TypeAlias = dict[str, Any]
 
-_EXACT: Schema = {"type": "string", "description": "An exact number, such as 1/2 - sqrt(3)/6."}
+_EXACT: Schema = {
+    "type": "string",
+    "description": "An exact number, such as 1/2 - sqrt(3)/6.",
+}
 _COUNT: Schema = {"type": "integer", "minimum": 0}
 _BLOCK: Schema = {
     "type": "array",
@@ -34,7 +37,9 @@ def check_report_schema() -> Schema:
         "properties": {
             "schema": {"const": SCHEMA},
             "files": {"type": "array", "items": {"oneOf": [_unreadable(), _checked()]}},
-            "summary": _object({"files": _COUNT, "failed": _COUNT, "without_claims": _COUNT}),
+            "summary": _object(
+                {"files": _COUNT, "failed": _COUNT, "without_claims": _COUNT}
+            ),
         },
     }
 
@@ -88,7 +93,10 @@ def _checked() -> Schema:
         "colours": {
             "type": "array",
             "items": _object(
-                {"name": {"type": "string"}, "stages": {"type": "integer", "minimum": 1}}
+                {
+                    "name": {"type": "string"},
+                    "stages": {"type": "integer", "minimum": 1},
+                }
             ),
         },
         "consistent": {"type": "boolean"},
@@ -124,19 +132,29 @@ def _checked() -> Schema:
 def _witness() -> Schema:
     numbers = {"value": _EXACT, "required": _EXACT, "residual": _EXACT}
     return _object(
-        {"order": {"type": "integer", "minimum": 1}, "tree": {"type": "string"}, **numbers}
+        {
+            "order": {"type": "integer", "minimum": 1},
+            "tree": {"type": "string"},
+            **numbers,
+        }
     )
 
 
 def _simplifying() -> Schema:
     numbers = dict.fromkeys(("r", "eta", "zeta", "xi", "bound"), _COUNT)
-    return _object({"B": {"type": "array", "items": _COUNT}, "C": _TABLE, "D": _TABLE, **numbers})
+    return _object(
+        {"B": {"type": "array", "items": _COUNT}, "C": _TABLE, "D": _TABLE, **numbers}
+    )
 
 
 def _claim() -> Schema:
     texts = {key: {"type": "string"} for key in ("claim", "expected", "found")}
     return _object(
-        {**texts, "holds": {"type": "boolean"}, "line": {"type": "integer", "minimum": 1}}
+        {
+            **texts,
+            "holds": {"type": "boolean"},
+            "line": {"type": "integer", "minimum": 1},
+        }
     )
 
 

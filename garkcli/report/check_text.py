@@ -64,7 +64,9 @@ def _summary(outcomes: Sequence[Outcome], paint: Paint) -> str:
     failed = sum(not outcome.ok for outcome in outcomes)
     claims = sum(len(outcome.claims) for outcome in outcomes)
     text = f"{len(outcomes)} files, {claims} claim{'s' * (claims != 1)}: "
-    text += paint.verdict(not failed, "all hold", f"{failed} file{'s' * (failed > 1)} failed")
+    text += paint.verdict(
+        not failed, "all hold", f"{failed} file{'s' * (failed > 1)} failed"
+    )
     silent = sum(outcome.makes_no_claim for outcome in outcomes)
     return f"{text}; {no_claims(silent)}" if silent else text
 
@@ -106,7 +108,9 @@ def _number(order: AnyOrder) -> str:
 def _full(outcome: Outcome, analysis: Analysis, paint: Paint) -> list[str]:
     tableau = analysis.tableau
     file = printable(outcome.file)
-    title = file if outcome.name == outcome.file else f"{file}: {printable(outcome.name)}"
+    title = (
+        file if outcome.name == outcome.file else f"{file}: {printable(outcome.name)}"
+    )
     kind = wrap(_kind(tableau, outcome.structure, analysis.tolerance), 78)
     lines = [paint("strong", title), *(f"  {line}" for line in kind), ""]
     lines += _orders(analysis, paint)
@@ -136,7 +140,9 @@ def _full(outcome: Outcome, analysis: Analysis, paint: Paint) -> list[str]:
 def _kind(tableau: Tableau, structure: str, tolerance: fmpq | None) -> str:
     if tableau.is_partitioned:
         counts = [(part, tableau.stages_of(part)) for part in ("q", "p")]
-        stages = ", ".join(f"{part}: {' + '.join(map(str, count))}" for part, count in counts)
+        stages = ", ".join(
+            f"{part}: {' + '.join(map(str, count))}" for part, count in counts
+        )
     else:
         stages = ", ".join(str(tableau.space(l).stages) for l in range(tableau.size))
     colours = "1 colour" if tableau.size == 1 else f"{tableau.size} colours"
@@ -146,7 +152,9 @@ def _kind(tableau: Tableau, structure: str, tolerance: fmpq | None) -> str:
         else f"a number field of degree {tableau.degree}"
     )
     special = "" if structure == "general" else f"for {structure} problems; "
-    how = f"decided in {domain}" if tolerance is None else f"within {decimal(tolerance)}"
+    how = (
+        f"decided in {domain}" if tolerance is None else f"within {decimal(tolerance)}"
+    )
     return f"{special}{colours}, stages {stages}; {how}"
 
 
@@ -188,14 +196,14 @@ def _order(
     """An order with its witness, drawn unless the same failure was shown before."""
     head = f"  {label:{_LABEL}}{paint('strong', _number(order))}"
     if not isinstance(order, Order):
-        head += (
-            f"   within {decimal(order.tolerance)}, residuals up to {_size(order.largest_residual)}"
-        )
+        head += f"   within {decimal(order.tolerance)}, residuals up to {_size(order.largest_residual)}"
     witness = order.witness
     if not isinstance(order, Order) and order.undecided:
         return _undecided(head, order)
     if witness is None:
-        return [f"{head}   every condition up to order {order.order} holds; no further was looked"]
+        return [
+            f"{head}   every condition up to order {order.order} holds; no further was looked"
+        ]
     if witness in shown:
         return [f"{head}   fails at order {witness.tree.order}, as above"]
     shown.append(witness)
@@ -220,7 +228,9 @@ def _undecided(head: str, order: RoundedOrder) -> list[str]:
     why = "a weight may be zero within it"
     if doubt.effect is not None:
         why = f"rounding may make up to {_size(doubt.effect)} of that"
-    reached = f"order {next_order} is not decided: residuals reach {_size(doubt.reached)}"
+    reached = (
+        f"order {next_order} is not decided: residuals reach {_size(doubt.reached)}"
+    )
     return [head, f"      {reached}, {why}"]
 
 
@@ -246,7 +256,9 @@ def _size(ball: arb) -> str:
 
 def _legend(witness: Witness, tableau: Tableau) -> list[str]:
     """What the numbers of the colours mean, where colours have other names."""
-    named = [f"{l + 1} is {tableau.colours[l].name}" for l in sorted(witness.tree.colours)]
+    named = [
+        f"{l + 1} is {tableau.colours[l].name}" for l in sorted(witness.tree.colours)
+    ]
     plain = all(colour.name == str(l + 1) for l, colour in enumerate(tableau.colours))
     return [] if plain else [f"colour {', '.join(named)}"]
 
@@ -259,7 +271,9 @@ def _residual(witness: Witness) -> list[str]:
             to_decimal(witness.residual, 4),
             witness.required,
         )
-        shown = required if len(str(required)) <= 60 else f"about {to_decimal(required, 8)}"
+        shown = (
+            required if len(str(required)) <= 60 else f"about {to_decimal(required, 8)}"
+        )
         return [f"about {value} instead of {shown}, off by {residual}"]
     if len(value) + len(residual) < 50:
         return [f"{value} instead of {witness.required}, off by {residual}"]
@@ -271,9 +285,12 @@ def _conditions(analysis: Analysis) -> list[str]:
     limit = analysis.limit
     rows = [f"  {'B(r)':{_LABEL}}{'  '.join(_capped(x, limit) for x in found.B)}"]
     for label, table in (("C(eta)", found.C), ("D(zeta)", found.D)):
-        cells = [["-" if x is None else _capped(x, limit) for x in row] for row in table]
+        cells = [
+            ["-" if x is None else _capped(x, limit) for x in row] for row in table
+        ]
         rows += [
-            f"  {label if i == 0 else '':{_LABEL}}{line}" for i, line in enumerate(aligned(cells))
+            f"  {label if i == 0 else '':{_LABEL}}{line}"
+            for i, line in enumerate(aligned(cells))
         ]
     rows += _bound("bound", found, analysis.bound)
     both = analysis.pair_simplifying
@@ -300,7 +317,9 @@ def _bound(label: str, found: Simplifying, bound: int) -> list[str]:
 
 def _properties(analysis: Analysis, paint: Paint) -> list[str]:
     names = [colour.name for colour in analysis.tableau.colours]
-    near = "" if analysis.tolerance is None else f" within {decimal(analysis.tolerance)}"
+    near = (
+        "" if analysis.tolerance is None else f" within {decimal(analysis.tolerance)}"
+    )
     lines = [
         f"  {'consistent':{_LABEL}}{_consistent(analysis.inconsistent, names, 'A', near, paint)}"
     ]
@@ -312,18 +331,28 @@ def _properties(analysis: Analysis, paint: Paint) -> list[str]:
         if not analysis.tableau.is_partitioned
         else "each part the conjugate of the other"
     )
-    lines.append(f"  {'symplectic':{_LABEL}}{f'yes{near}, {own}' if analysis.symplectic else 'no'}")
+    lines.append(
+        f"  {'symplectic':{_LABEL}}{f'yes{near}, {own}' if analysis.symplectic else 'no'}"
+    )
     return lines
 
 
 def _consistent(
-    wrong: Sequence[tuple[int, int]], names: Sequence[str], letter: str, near: str, paint: Paint
+    wrong: Sequence[tuple[int, int]],
+    names: Sequence[str],
+    letter: str,
+    near: str,
+    paint: Paint,
 ) -> str:
     if not wrong:
-        return f"{paint('good', 'yes' + near)}, {letter}{{l,m}}𝟙 = c{{l}} for every block"
+        return (
+            f"{paint('good', 'yes' + near)}, {letter}{{l,m}}𝟙 = c{{l}} for every block"
+        )
     blocks = ", ".join(f"{letter}{{{names[l]},{names[m]}}}𝟙" for l, m in wrong[:4])
     more = f" and {len(wrong) - 4} more" if len(wrong) > 4 else ""
-    return f"{paint('bad', 'no')}: {blocks}{more} differ{'s' * (len(wrong) == 1)} from c"
+    return (
+        f"{paint('bad', 'no')}: {blocks}{more} differ{'s' * (len(wrong) == 1)} from c"
+    )
 
 
 def _missing(outcome: Outcome, paint: Paint) -> list[str]:

@@ -31,7 +31,7 @@ _GAP = "   "
 
 def render(
     entries: Sequence[Entry],
-    format: str,  # noqa: A002
+    format: str,
     paint: Paint,
     with_work: bool = False,
     against: str = "h",
@@ -71,12 +71,16 @@ def _about(result: Convergence) -> str:
     return f"{problem.name}; H = {text}" if len(text) <= _LONGEST else problem.name
 
 
-def _text(entries: Sequence[Entry], paint: Paint, with_work: bool, against: str) -> list[str]:
+def _text(
+    entries: Sequence[Entry], paint: Paint, with_work: bool, against: str
+) -> list[str]:
     named = list(zip(letters(len(entries)), entries, strict=True))
     tested = [(letter, x.result) for letter, x in named if x.result is not None]
     lines = [paint("strong", f"{len(entries)} methods")]
     if tested:
-        lines += [f"  {line}" for line in wrapped(title([result for _, result in tested]))]
+        lines += [
+            f"  {line}" for line in wrapped(title([result for _, result in tested]))
+        ]
     lines += ["", *_names(named, paint)]
     for block in _blocks(tested):
         lines += ["", *(f"  {line}" for line in block)]

@@ -67,12 +67,16 @@ class ConditionRow:
     @property
     def formula(self) -> str:
         """The condition in the paper's notation, in plain text."""
-        return condition_text(self.tree, vertex_letters(self.tree) if self.is_shape else None)
+        return condition_text(
+            self.tree, vertex_letters(self.tree) if self.is_shape else None
+        )
 
     @property
     def latex(self) -> str:
         """The condition in the paper's notation, in LaTeX."""
-        return condition_latex(self.tree, vertex_letters(self.tree) if self.is_shape else None)
+        return condition_latex(
+            self.tree, vertex_letters(self.tree) if self.is_shape else None
+        )
 
 
 @dataclass(frozen=True)
@@ -92,7 +96,10 @@ class Valued:
     def data(self) -> dict[str, Any]:
         """The fields of the JSON report."""
         tolerance = None if self.tolerance is None else decimal(self.tolerance)
-        return {"colours": [colour.name for colour in self.tableau.colours], "tolerance": tolerance}
+        return {
+            "colours": [colour.name for colour in self.tableau.colours],
+            "tolerance": tolerance,
+        }
 
     def shows(self, row: ConditionRow) -> bool:
         """Whether a row is in the table."""
@@ -101,7 +108,7 @@ class Valued:
 
 def render(
     rows: Iterable[ConditionRow],
-    format: str,  # noqa: A002
+    format: str,
     paint: Paint,
     width: int = 80,
     is_document: bool = False,
@@ -125,7 +132,9 @@ def render(
         fields = {} if valued is None else valued.data()
         if subject is not None:
             fields["symplectic"] = subject.data()
-        about = "".join(f'"{key}": {json.dumps(value)}, ' for key, value in fields.items())
+        about = "".join(
+            f'"{key}": {json.dumps(value)}, ' for key, value in fields.items()
+        )
         yield f'{{"schema": "gark/conditions/1", {about}"conditions": ['
         separator = "\n"
         for row in rows:
@@ -133,7 +142,9 @@ def render(
             separator = ",\n"
         yield "\n]}\n"
     elif format == "csv":
-        yield from _csv(rows, [*_VALUED, "multiplicity" if subject is None else "stands_for"])
+        yield from _csv(
+            rows, [*_VALUED, "multiplicity" if subject is None else "stands_for"]
+        )
     elif format == "latex":
         yield from fragment(_latex(rows, subject), is_document)
     else:
@@ -186,7 +197,13 @@ def _csv(rows: Iterable[ConditionRow], heading: Sequence[str]) -> Iterator[str]:
 
 def _quoted(value: object) -> str:
     value = " ".join(value) if isinstance(value, list) else value
-    text = "" if value is None else str(value).lower() if isinstance(value, bool) else str(value)
+    text = (
+        ""
+        if value is None
+        else str(value).lower()
+        if isinstance(value, bool)
+        else str(value)
+    )
     return f'"{text}"' if any(sign in text for sign in ", ") else text
 
 
@@ -229,7 +246,9 @@ def _verdict(failed: int, valued: Valued) -> str:
     if failed:
         return f"{failed} fail{'s' * (failed == 1)}"
     return (
-        "all hold" if valued.tolerance is None else f"all hold within {decimal(valued.tolerance)}"
+        "all hold"
+        if valued.tolerance is None
+        else f"all hold within {decimal(valued.tolerance)}"
     )
 
 
@@ -239,7 +258,9 @@ def _lines(row: ConditionRow, paint: Paint, width: int) -> Iterator[str]:
     after = f"∀ {','.join(vertex_letters(row.tree))}" if row.is_shape else ""
     if row.condition is not None:
         mark = paint.verdict(
-            row.condition.holds, "holds  " if row.condition.is_exact else "within ", "FAILS  "
+            row.condition.holds,
+            "holds  " if row.condition.is_exact else "within ",
+            "FAILS  ",
         )
         after = f"({len(row.condition.trees)} times)" if row.condition.twins else ""
     if row.stands_for:
@@ -250,7 +271,11 @@ def _lines(row: ConditionRow, paint: Paint, width: int) -> Iterator[str]:
         yield one + "\n"
     else:
         head = f"{tree:<22} {sizes}".rstrip()
-        lines = [head] if len(head) + 9 <= width else [*folded(tree, width - 9), f"  {sizes}"]
+        lines = (
+            [head]
+            if len(head) + 9 <= width
+            else [*folded(tree, width - 9), f"  {sizes}"]
+        )
         yield f"  {mark}{lines[0]}\n"
         yield from (f"      {line}\n" for line in lines[1:])
         whole = f"{row.formula}   {after}".rstrip()
@@ -258,13 +283,18 @@ def _lines(row: ConditionRow, paint: Paint, width: int) -> Iterator[str]:
     if row.condition is not None and not row.condition.is_exact:
         miss = f"      {_miss(row.condition, row.digits)}"
         yield from (f"{line}\n" for line in folded(miss, width, "        "))
-    yield from (line + "\n" for line in member_lines(map(format_tree, row.members), width))
+    yield from (
+        line + "\n" for line in member_lines(map(format_tree, row.members), width)
+    )
 
 
 def _miss(condition: Condition, digits: int | None) -> str:
     """The value and the residual, in decimals where they are long or ``digits`` are asked for."""
     kind = "coupling" if condition.is_coupling else "diagonal"
-    value, residual = _number(condition.value, digits), _number(condition.residual, digits)
+    value, residual = (
+        _number(condition.value, digits),
+        _number(condition.residual, digits),
+    )
     if digits is None and max(len(value), len(residual)) > MOST_DIGITS:
         value, residual = (
             f"about {to_decimal(condition.value, 8)}",
@@ -284,11 +314,15 @@ def _latex_values(condition: Condition, digits: int | None) -> tuple[str, str]:
     if digits is not None:
         return (number(to_decimal(value, digits)), number(to_decimal(residual, digits)))
     if max(len(to_text(value)), len(to_text(residual))) > MOST_DIGITS:
-        return rf"\approx {number(to_decimal(value, 8))}", number(to_decimal(residual, 4))
+        return rf"\approx {number(to_decimal(value, 8))}", number(
+            to_decimal(residual, 4)
+        )
     return to_latex(value), to_latex(residual)
 
 
-def _latex(rows: Iterable[ConditionRow], subject: Subject | None = None) -> Iterator[str]:
+def _latex(
+    rows: Iterable[ConditionRow], subject: Subject | None = None
+) -> Iterator[str]:
     first = True
     if subject is not None:
         yield from (f"% {line}" for line in legend_lines(subject))

@@ -17,7 +17,9 @@ from garkcli.report.paint import Paint, aligned
 
 WIDTH = 80
 """Columns of a terminal."""
-NO_TIME = "no seconds where floats do not reach the error: the counts are for more digits"
+NO_TIME = (
+    "no seconds where floats do not reach the error: the counts are for more digits"
+)
 WORK = ("steps", "evaluations", "iterations", "Jacobians", "seconds")
 """What is counted, as column heads."""
 _LONGEST = 80  # characters of a Hamiltonian that are still shown
@@ -29,7 +31,7 @@ _GAP = "   "
 def render(
     result: Convergence,
     name: str,
-    format: str,  # noqa: A002
+    format: str,
     paint: Paint,
     with_work: bool = False,
 ) -> str:
@@ -54,7 +56,9 @@ def _text(result: Convergence, name: str, paint: Paint, with_work: bool) -> list
         return [*lines, *_work(result)]
     positive = [row for row in result.rows if row.error > 0]
     if len(positive) > 1:
-        plot = terminal_plot([row.h for row in positive], [row.error for row in positive])
+        plot = terminal_plot(
+            [row.h for row in positive], [row.error for row in positive]
+        )
         lines += ["", *(f"  {line}" for line in plot.splitlines())]
     return lines
 
@@ -63,7 +67,9 @@ def describe(problem: Oscillator | Hamiltonian) -> str:
     """A problem and its split in one line."""
     if isinstance(problem, Hamiltonian):
         return _described(problem)
-    terms = [f"H{{{l}}}: {_energy(k, v)}" for l, (k, v) in enumerate(problem.shares, start=1)]
+    terms = [
+        f"H{{{l}}}: {_energy(k, v)}" for l, (k, v) in enumerate(problem.shares, start=1)
+    ]
     return f"q̈ = −ω²q, ω = {problem.omega}; {', '.join(terms)}"
 
 
@@ -112,7 +118,9 @@ def _tables(result: Convergence) -> list[list[str]]:
 
 
 def _width(columns: Sequence[Sequence[str]]) -> int:
-    return sum(max(map(len, column)) for column in columns) + len(_GAP) * (len(columns) - 1)
+    return sum(max(map(len, column)) for column in columns) + len(_GAP) * (
+        len(columns) - 1
+    )
 
 
 def _short_name(name: str) -> str:
@@ -153,7 +161,9 @@ def order_text(order: float | None) -> str:
 
 def exactly(result: Convergence) -> str:
     """The order to be observed, and whether a larger one would do."""
-    return f"{result.visible_order} {'exactly' if result.visible.is_sharp else 'or more'}"
+    return (
+        f"{result.visible_order} {'exactly' if result.visible.is_sharp else 'or more'}"
+    )
 
 
 def predicted(result: Convergence) -> str:
@@ -187,7 +197,9 @@ def remarks(result: Convergence) -> list[str]:
     elif result.short_time is not None:
         said.append(_of_short_time(result))
     elif not result.has_settled:
-        said.append("the rounding of the coefficients comes before the slopes have settled")
+        said.append(
+            "the rounding of the coefficients comes before the slopes have settled"
+        )
     if len(result.rows) == 1 and result.verdict == "undecided":
         said.append("one step size shows no order")
     return said
@@ -218,13 +230,17 @@ def work_cells(cost: Cost | None) -> list[str]:
 
 def _work(result: Convergence) -> list[str]:
     """What the steps have cost, and a plot of it."""
-    cells = [[str(row.h), rounded(row.error), *work_cells(row.cost)] for row in result.rows]
+    cells = [
+        [str(row.h), rounded(row.error), *work_cells(row.cost)] for row in result.rows
+    ]
     table = aligned([["h", "error", *WORK], *cells])
     lines = ["", "  work", *(f"  {line}" for line in table)]
     costs = [row.cost for row in result.rows]
     if any(cost is None or cost.seconds is None for cost in costs):
         lines.append(f"  {NO_TIME}")
-    points = [(float(x.cost.evaluations), x.error) for x in result.rows if x.cost is not None]
+    points = [
+        (float(x.cost.evaluations), x.error) for x in result.rows if x.cost is not None
+    ]
     plot = terminal_curves({"•": points}, "evaluations")
     return [*lines, "", *(f"  {line}" for line in plot.splitlines())]
 

@@ -49,7 +49,11 @@ def problem_name(result: Convergence) -> str:
 def invariant_names(result: Convergence) -> list[str]:
     """Of the first integrals besides the energy."""
     problem = result.problem
-    return [] if isinstance(problem, Oscillator) else [name for name, _ in problem.invariants]
+    return (
+        []
+        if isinstance(problem, Oscillator)
+        else [name for name, _ in problem.invariants]
+    )
 
 
 def json_of(result: Convergence, name: str, with_work: bool) -> str:
@@ -63,7 +67,9 @@ def json_of_several(entries: Sequence[Entry], with_work: bool) -> str:
     for entry in entries:
         head: dict[str, Any] = {"file": entry.file, "ok": entry.exit_code == 0}
         if entry.result is None:
-            results.append({**head, "name": entry.name, "errors": _errors(entry.faults)})
+            results.append(
+                {**head, "name": entry.name, "errors": _errors(entry.faults)}
+            )
         else:
             results.append({**head, **_data(entry.result, entry.name, with_work)})
     failed = sum(entry.exit_code != 0 for entry in entries)
@@ -81,7 +87,8 @@ def _dumped(data: dict[str, Any]) -> str:
 
 def _errors(faults: Sequence[Fault]) -> list[dict[str, Any]]:
     return [
-        {"line": x.line, "column": x.column, "message": x.message, "help": x.help} for x in faults
+        {"line": x.line, "column": x.column, "message": x.message, "help": x.help}
+        for x in faults
     ]
 
 
@@ -149,7 +156,13 @@ def _number(ball: Any) -> float:
 def _work(cost: Cost | None) -> dict[str, Any] | None:
     if cost is None:
         return None
-    values = (cost.steps, cost.evaluations, cost.iterations, cost.jacobians, cost.seconds)
+    values = (
+        cost.steps,
+        cost.evaluations,
+        cost.iterations,
+        cost.jacobians,
+        cost.seconds,
+    )
     return dict(zip(_WORK, values, strict=True))
 
 
@@ -161,7 +174,9 @@ def csv_of(result: Convergence, with_work: bool) -> str:
 def csv_of_several(entries: Sequence[Entry], with_work: bool) -> str:
     """Several tests as CSV, a row a method and step size; methods without a result have none."""
     tests = [
-        ([entry.file, entry.name], entry.result) for entry in entries if entry.result is not None
+        ([entry.file, entry.name], entry.result)
+        for entry in entries
+        if entry.result is not None
     ]
     return _written(tests, ["file", "method"], with_work)
 
@@ -185,7 +200,9 @@ def _written(
 def _columns(result: Convergence | None) -> list[str]:
     columns = ["h", "h_exact", "error", "slope", "energy_error"]
     if result is not None:
-        columns += [f"{name.replace(' ', '_')}_error" for name in invariant_names(result)]
+        columns += [
+            f"{name.replace(' ', '_')}_error" for name in invariant_names(result)
+        ]
         if any(row.digits is not None for row in result.rows):
             columns.append("digits")
     return columns

@@ -27,7 +27,9 @@ def costs_of(tested: Tested) -> list[str]:
     for letter, result in tested:
         for i, row in enumerate(result.rows):
             first = letter if i == 0 else ""
-            rows.append([first, str(row.h), scientific(row.error), *work_cells(row.cost)])
+            rows.append(
+                [first, str(row.h), scientific(row.error), *work_cells(row.cost)]
+            )
     lines = [f"  {line}" for line in padded(rows, "  ")]
     costs = [row.cost for _, result in tested for row in result.rows]
     if any(cost is None or cost.seconds is None for cost in costs):
@@ -69,7 +71,9 @@ def _at_equal_errors(tested: Tested, what: str) -> list[str]:
     rows = [[f"{what} for an error of", *(f"1e{k}" for k in goals)]]
     for letter, points in curves.items():
         found = [_between(points, k) for k in goals]
-        rows.append([letter, *("" if x is None else _amount(10**x, what) for x in found)])
+        rows.append(
+            [letter, *("" if x is None else _amount(10**x, what) for x in found)]
+        )
     return padded(rows, "  ")
 
 

@@ -15,10 +15,13 @@ from garkcli.report.paint import Paint
 from garkcli.report.plain import csv_cell
 
 
-def render(report: Report, format: str, paint: Paint, is_long: bool = True) -> str:  # noqa: A002
+def render(report: Report, format: str, paint: Paint, is_long: bool = True) -> str:
     """The report as text, JSON or CSV; see ``text_of``."""
     if format == "json":
-        return json.dumps(_data(report), indent=2, ensure_ascii=False, allow_nan=False) + "\n"
+        return (
+            json.dumps(_data(report), indent=2, ensure_ascii=False, allow_nan=False)
+            + "\n"
+        )
     if format == "csv":
         return _csv(report.run)
     return "\n".join(text_of(report, paint, is_long)) + "\n"
@@ -53,7 +56,10 @@ def _data(report: Report) -> dict[str, Any]:
         "drifts": run.drifts,
         "quantities": [_quantity(history, run) for history in run.invariants],
         "symplectic": _symplectic_data(report),
-        "claims": [{"claim": x.claim, "found": x.found, "holds": x.holds} for x in report.claims],
+        "claims": [
+            {"claim": x.claim, "found": x.found, "holds": x.holds}
+            for x in report.claims
+        ],
     }
 
 
@@ -88,7 +94,9 @@ def _quantity(history: InvariantHistory, run: LongRun) -> dict[str, Any]:
 def _symplectic_data(report: Report) -> dict[str, Any]:
     found: dict[str, Any] = {"proved": report.symplecticity.is_proved}
     if report.run.stability is not None:
-        found["determinant_minus_1"] = to_decimal(report.run.stability.determinant - 1, 4)
+        found["determinant_minus_1"] = to_decimal(
+            report.run.stability.determinant - 1, 4
+        )
     found["defects"] = [
         {"t": to_float(x.time), "size": x.size, "good_to": x.error}
         for x in report.symplecticity.defects

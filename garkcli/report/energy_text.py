@@ -31,7 +31,9 @@ STYLES = {
     "unstable": "bad",
 }
 """How verdicts are painted; the others are neither good nor bad."""
-_NEARLY = 2.0  # how many times round-off an uncertainty is that is nothing but round-off
+_NEARLY = (
+    2.0  # how many times round-off an uncertainty is that is nothing but round-off
+)
 
 
 @dataclass(frozen=True)
@@ -66,7 +68,8 @@ def text_of(report: Report, paint: Paint, is_long: bool = True) -> list[str]:
     lines = [paint("strong", report.name)]
     lines += [f"  {line}" for line in _wrapped(describe(run.problem))]
     lines += [
-        f"  {line}" for line in _wrapped(f"step {run.step} to t = {run.t_end}: {_steps(run)}")
+        f"  {line}"
+        for line in _wrapped(f"step {run.step} to t = {run.t_end}: {_steps(run)}")
     ]
     lines.append("")
     for history in run.invariants:
@@ -83,7 +86,9 @@ def text_of(report: Report, paint: Paint, is_long: bool = True) -> list[str]:
 
 
 def _claim(claim: Claim, paint: Paint) -> list[str]:
-    verdict = paint("good", "claim holds") if claim.holds else paint("bad", "CLAIM FAILS")
+    verdict = (
+        paint("good", "claim holds") if claim.holds else paint("bad", "CLAIM FAILS")
+    )
     text = claim.claim if claim.holds else f"{claim.claim}, found: {claim.found}"
     first, *rest = _wrapped(text, 59)
     return [f"  {verdict}      {first}", *(f"  {'':<17}{line}" for line in rest)]
@@ -157,7 +162,11 @@ def _verdict(history: InvariantHistory, run: LongRun) -> tuple[str, str]:
 def _round_off(history: InvariantHistory, run: LongRun) -> str:
     if not history.round_off:
         return " at all"
-    shows = f"; --digits {2 * run.digits} shows more" if run.digits and run.digits <= 100 else ""
+    shows = (
+        f"; --digits {2 * run.digits} shows more"
+        if run.digits and run.digits <= 100
+        else ""
+    )
     return f" above round-off, at most {history.round_off:.0e} here{shows}"
 
 
@@ -173,7 +182,9 @@ def _undecided(history: InvariantHistory, run: LongRun) -> str:
         return f"fewer than {LEAST} steps"
     if history.shape == "line":
         ratio = _times(history)
-        return f"the slope is {ratio} times its uncertainty; a slow modulation may do that"
+        return (
+            f"the slope is {ratio} times its uncertainty; a slow modulation may do that"
+        )
     if history.shape == "none":
         return f"the motion turns back {run.turns} time{'s' * (run.turns != 1)} only"
     return "it moves to another level; that may happen once, or again and again"
@@ -205,7 +216,9 @@ def _reason(history: InvariantHistory, run: LongRun) -> str:
         return f"the slope is {_times(history)} times its uncertainty"
     if history.shape == "curve":
         rises = bool(history.drift and history.drift > 0)
-        return f"it {'rises' if rises else 'falls'} all along, by more than it oscillates"
+        return (
+            f"it {'rises' if rises else 'falls'} all along, by more than it oscillates"
+        )
     return "it moves to another level and stays there"
 
 
@@ -229,7 +242,9 @@ def _symplectic(report: Report, paint: Paint) -> list[str]:
         word = paint("strong", "no")
     else:
         is_hinted = stability is None and not found.defects
-        word = "not proved by its coefficients" + "; --symplecticity measures" * is_hinted
+        word = (
+            "not proved by its coefficients" + "; --symplecticity measures" * is_hinted
+        )
     lines = [f"  symplectic       {word}"]
     if stability is not None:
         lines.append(
@@ -249,7 +264,10 @@ def _measured(found: Symplecticity) -> list[str]:
     else:
         bound = power_of_ten(max(x.error for x in found.defects))
         size = f"MᵀJM − J is below {bound:.0e}, what it is measured to,"
-    return [size, *_wrapped("at t = " + ", ".join(str(x.time) for x in found.defects), 59)]
+    return [
+        size,
+        *_wrapped("at t = " + ", ".join(str(x.time) for x in found.defects), 59),
+    ]
 
 
 def _wrapped(text: str, width: int = 76) -> list[str]:

@@ -47,7 +47,10 @@ def polynomial_text(p: Polynomial, variable: str) -> str:
             is_negative, factor = _factor_text(p.coefficients[k])
             text += " - " if is_negative else " + "
             text += _term(factor, _power(variable, k))
-    return text.removeprefix(" + ").replace(" - ", "-", 1 if text.startswith(" - ") else 0) or "0"
+    return (
+        text.removeprefix(" + ").replace(" - ", "-", 1 if text.startswith(" - ") else 0)
+        or "0"
+    )
 
 
 def _factor_text(a: Number) -> tuple[bool, str]:

@@ -23,20 +23,32 @@ def blame_lines(blame: Blame, tableau: Tableau, paint: Paint) -> list[str]:
     own = [colour.name for colour in tableau.colours]
     names = blame.names or own
     letter = "Â" if blame.of == "conjugate-order" else "A"
-    failing = f"{blame.failing} of the {blame.total} conditions of order {blame.order} fail"
+    failing = (
+        f"{blame.failing} of the {blame.total} conditions of order {blame.order} fail"
+    )
     if blame.total == 1:
         failing = f"the one condition of order {blame.order} fails"
     if blame.of != "order":
         failing = f"{blame.of}: {failing}"
-    coupling = ", all of them coupling conditions" if blame.only_coupling and len(names) > 1 else ""
+    coupling = (
+        ", all of them coupling conditions"
+        if blame.only_coupling and len(names) > 1
+        else ""
+    )
     lines = [f"  {paint('note', 'hint')}: {failing}{coupling}"]
     if blame.culprit is not None and len(names) > 1:
         culprit = _block(blame.culprit, names, letter)
-        lines.append(f"        {culprit} takes part in every one of them: look there first")
+        lines.append(
+            f"        {culprit} takes part in every one of them: look there first"
+        )
     elif len(blame.in_every) > 1:
-        lines.append(f"        in every one of them: {_blocks(blame.in_every, names, letter)}")
+        lines.append(
+            f"        in every one of them: {_blocks(blame.in_every, names, letter)}"
+        )
     if blame.in_none:
-        lines.append(f"        in none of them: {_blocks(blame.in_none, names, letter)}")
+        lines.append(
+            f"        in none of them: {_blocks(blame.in_none, names, letter)}"
+        )
     lines += [
         f"        the claimed order would hold with {repair_text(repair, own)}"
         for repair in blame.repairs[:3]
@@ -69,7 +81,9 @@ def _block(block: tuple[int, int], names: Sequence[str], letter: str = "A") -> s
     return f"{letter}{{{names[block[0]]},{names[block[1]]}}}"
 
 
-def _blocks(blocks: Sequence[tuple[int, int]], names: Sequence[str], letter: str) -> str:
+def _blocks(
+    blocks: Sequence[tuple[int, int]], names: Sequence[str], letter: str
+) -> str:
     return ", ".join(_block(block, names, letter) for block in blocks)
 
 
@@ -81,7 +95,9 @@ def constants_lines(constants: ErrorConstants, colours: bool) -> list[str]:
     lines = [f"  error coefficients of order {constants.order} ({how})"]
     kinds = [("all trees", constants.all), ("coupling trees", constants.coupling)]
     for label, norms in kinds if colours else kinds[:1]:
-        worst = "" if norms.worst is None else f" at {format_tree(norms.worst, colours)}"
+        worst = (
+            "" if norms.worst is None else f" at {format_tree(norms.worst, colours)}"
+        )
         lines.append(
             f"    {label:<15}{norms.trees:>8} trees   2-norm {norms.two:.6g}   largest {norms.largest:.6g}{worst}"
         )
@@ -99,7 +115,9 @@ def hints_data(outcome: Outcome) -> dict[str, Any]:
             "failing": blame.failing,
             "conditions": blame.total,
             "only_coupling": blame.only_coupling,
-            "culprit": None if blame.culprit is None else [k + 1 for k in blame.culprit],
+            "culprit": None
+            if blame.culprit is None
+            else [k + 1 for k in blame.culprit],
             "in_every": [[l + 1, m + 1] for l, m in blame.in_every],
             "in_none": [[l + 1, m + 1] for l, m in blame.in_none],
             "repairs": [_repair(repair) for repair in blame.repairs],
@@ -137,9 +155,13 @@ def _repair(repair: Repair) -> dict[str, Any]:
 def _norms(norms: Norms) -> dict[str, Any]:
     return {
         "trees": norms.trees,
-        "two_norm_squared": None if norms.two_squared is None else to_text(norms.two_squared),
+        "two_norm_squared": None
+        if norms.two_squared is None
+        else to_text(norms.two_squared),
         "two_norm": norms.two,
         "inf_norm": norms.largest,
         "worst": None if norms.worst is None else format_tree(norms.worst),
-        "worst_value": None if norms.worst_value is None else to_text(norms.worst_value),
+        "worst_value": None
+        if norms.worst_value is None
+        else to_text(norms.worst_value),
     }

@@ -13,7 +13,7 @@ def render(
     families: Mapping[str, Family],
     rules: Mapping[str, str],
     problems: Mapping[str, str],
-    format: str,  # noqa: A002
+    format: str,
     paint: Paint,
 ) -> str:
     """The lists as text or JSON."""
@@ -21,15 +21,27 @@ def render(
         data = {
             "schema": "gark/list/1",
             "families": [
-                {"name": x.name, "stages": _stages(x), "order": x.order, "summary": x.summary}
+                {
+                    "name": x.name,
+                    "stages": _stages(x),
+                    "order": x.order,
+                    "summary": x.summary,
+                }
                 for x in families.values()
             ],
-            "transfer": [{"name": name, "summary": summary} for name, summary in rules.items()],
-            "problems": [{"name": name, "summary": summary} for name, summary in problems.items()],
+            "transfer": [
+                {"name": name, "summary": summary} for name, summary in rules.items()
+            ],
+            "problems": [
+                {"name": name, "summary": summary} for name, summary in problems.items()
+            ],
         }
         return json.dumps(data, indent=2, ensure_ascii=False) + "\n"
     lines = [paint("strong", f"{'families':<20} {'stages':<8} {'order':<7}")]
-    lines += [f"  {x.name:<18} {_stages(x):<8} {x.order:<7} {x.summary}" for x in families.values()]
+    lines += [
+        f"  {x.name:<18} {_stages(x):<8} {x.order:<7} {x.summary}"
+        for x in families.values()
+    ]
     for title, entries in (("transfer rules", rules), ("problems", problems)):
         width = max(len(name) for name in entries) + 2
         lines += ["", paint("strong", title)]
@@ -39,9 +51,16 @@ def render(
                 if len(summary) + width < 78
                 else f"  {name}\n      {summary}"
             )
-    lines += ["", "A problem of your own is a file: --problem FILE.yaml, see docs/problem-file.md."]
+    lines += [
+        "",
+        "A problem of your own is a file: --problem FILE.yaml, see docs/problem-file.md.",
+    ]
     return "\n".join(lines) + "\n"
 
 
 def _stages(family: Family) -> str:
-    return str(family.smallest) if family.largest == family.smallest else f">= {family.smallest}"
+    return (
+        str(family.smallest)
+        if family.largest == family.smallest
+        else f">= {family.smallest}"
+    )

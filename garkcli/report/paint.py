@@ -36,16 +36,21 @@ class Paint:
         return self("good", yes) if holds else self("bad", no)
 
 
-def aligned(rows: Sequence[Sequence[str]], gap: str = "  ", right: bool = True) -> list[str]:
+def aligned(
+    rows: Sequence[Sequence[str]], gap: str = "  ", right: bool = True
+) -> list[str]:
     """Rows of cells as lines with columns of equal width.
 
     >>> aligned([["1/2", "-1"], ["0", "1/36"]])
     ['1/2    -1', '  0  1/36']
     """
-    widths = [max(len(row[j]) for row in rows) for j in range(len(rows[0]))] if rows else []
+    widths = (
+        [max(len(row[j]) for row in rows) for j in range(len(rows[0]))] if rows else []
+    )
     place = str.rjust if right else str.ljust
     return [
-        gap.join(place(x, w) for x, w in zip(row, widths, strict=True)).rstrip() for row in rows
+        gap.join(place(x, w) for x, w in zip(row, widths, strict=True)).rstrip()
+        for row in rows
     ]
 
 
@@ -73,7 +78,9 @@ def beside(left: Sequence[str], right: Sequence[str], gap: str = "   ") -> list[
     width = max((len(line) for line in left), default=0)
     height = max(len(left), len(right))
     rows = zip(
-        [*left, *[""] * (height - len(left))], [*right, *[""] * (height - len(right))], strict=True
+        [*left, *[""] * (height - len(left))],
+        [*right, *[""] * (height - len(right))],
+        strict=True,
     )
     return [f"{a.ljust(width)}{gap}{b}".rstrip() for a, b in rows]
 

@@ -68,6 +68,7 @@ SIGNS = {
     "○": "o",
     "─": "-",
     "│": "|",
+    "█": "#",
     "└": "`",
     "┘": "'",
     "┌": ".",
@@ -130,7 +131,9 @@ def plain_line(line: str, encoding: str = "ascii") -> str:
     raised = ""  # the sign of a running exponent or index, which is written once
     for at, sign in enumerate(line):
         form = sign if _has(encoding, sign) else ascii_form(sign)
-        mark = form[0] if len(form) == 2 and form[0] in "^_" and sign not in SIGNS else ""
+        mark = (
+            form[0] if len(form) == 2 and form[0] in "^_" and sign not in SIGNS else ""
+        )
         if mark and mark == raised:
             form = form[1:]
         raised = mark

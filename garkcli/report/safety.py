@@ -17,7 +17,7 @@ XML = frozenset({"junit"})
 _COLOURS = re.compile(r"(\x1b\[(?:[012]|3[1-6]|31;1)m)")
 
 
-def written_out(text: str, format: str = "text", coloured: bool = False) -> str:  # noqa: A002 -- the option's name
+def written_out(text: str, format: str = "text", coloured: bool = False) -> str:
     r"""A whole report in which every sign that does not print is written out.
 
     Control characters would command a terminal, bidirectional ones would show another text than
@@ -36,13 +36,15 @@ def written_out(text: str, format: str = "text", coloured: bool = False) -> str:
     return "".join(pieces)
 
 
-def _written_out(text: str, format: str) -> str:  # noqa: A002
+def _written_out(text: str, format: str) -> str:
     if text.replace("\n", "").isprintable():
         return text
-    return "".join(x if x == "\n" or x.isprintable() else escaped(x, format) for x in text)
+    return "".join(
+        x if x == "\n" or x.isprintable() else escaped(x, format) for x in text
+    )
 
 
-def escaped(sign: str, format: str = "text") -> str:  # noqa: A002
+def escaped(sign: str, format: str = "text") -> str:
     r"""One sign written out as the format has it.
 
     >>> escaped("\x1b"), escaped("\x1b", "json"), escaped("𝟙", "json"), escaped("ö", "junit")
@@ -58,7 +60,7 @@ def escaped(sign: str, format: str = "text") -> str:  # noqa: A002
     return repr(sign)[1:-1] if not sign.isprintable() else f"\\x{ord(sign):02x}"
 
 
-def without_commands(text: str, format: str = "text") -> str:  # noqa: A002
+def without_commands(text: str, format: str = "text") -> str:
     r"""A text none of whose lines the runner of GitHub Actions takes for a command of the job.
 
     >>> print(without_commands("  ::error::no\nsee ##[group]"))

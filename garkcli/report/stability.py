@@ -12,10 +12,13 @@ from garkcli.report.stability_data import StabilityReport, as_data
 from garkcli.report.stability_text import text_of
 
 
-def render(reports: Sequence[StabilityReport], format: str, paint: Paint) -> str:  # noqa: A002
+def render(reports: Sequence[StabilityReport], format: str, paint: Paint) -> str:
     """All reports in one format."""
     if format == "json":
-        data = {"schema": "gark/stability/1", "files": [as_data(report) for report in reports]}
+        data = {
+            "schema": "gark/stability/1",
+            "files": [as_data(report) for report in reports],
+        }
         return json.dumps(data, indent=2, ensure_ascii=False) + "\n"
     if format == "latex":
         return "\n".join(_latex(report) for report in reports)
@@ -27,7 +30,9 @@ def _latex(report: StabilityReport) -> str:
     if report.springs is not None:
         trace = report.springs.trace
         lines.append(
-            _latex_line(r"\operatorname{tr} M(x)", trace.numerator, trace.denominator, "x")
+            _latex_line(
+                r"\operatorname{tr} M(x)", trace.numerator, trace.denominator, "x"
+            )
         )
     else:
         for one in report.found.linear:
@@ -38,10 +43,16 @@ def _latex(report: StabilityReport) -> str:
             trace, area = oscillator.trace, oscillator.determinant
             name = r"\operatorname{tr} M(x)"
             lines.append(_latex_line(name, trace.numerator, trace.denominator, "x"))
-            lines.append(_latex_line(r"\det M(x)", area.numerator, area.denominator, "x"))
+            lines.append(
+                _latex_line(r"\det M(x)", area.numerator, area.denominator, "x")
+            )
     return "\\begin{align*}\n" + " \\\\\n".join(lines) + "\n\\end{align*}\n"
 
 
-def _latex_line(name: str, numerator: Polynomial, denominator: Polynomial, variable: str) -> str:
-    over, under = (polynomial_latex(p, variable) for p in integral([numerator, denominator]))
+def _latex_line(
+    name: str, numerator: Polynomial, denominator: Polynomial, variable: str
+) -> str:
+    over, under = (
+        polynomial_latex(p, variable) for p in integral([numerator, denominator])
+    )
     return f"  {name} &= " + (over if under == "1" else rf"\frac{{{over}}}{{{under}}}")

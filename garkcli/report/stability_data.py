@@ -11,7 +11,13 @@ from flint import arb, ctx
 from garkcli.exact.cells import Interval
 from garkcli.exact.display import decimal, to_text
 from garkcli.exact.polynomial import Polynomial, RealRoot
-from garkcli.report.exactly import BITS_A_DIGIT, ball_decimal, integral, polynomial_text, root_data
+from garkcli.report.exactly import (
+    BITS_A_DIGIT,
+    ball_decimal,
+    integral,
+    polynomial_text,
+    root_data,
+)
 from garkcli.stability.linear import StabilityFunction
 from garkcli.stability.oscillator import OscillatorStability
 from garkcli.stability.sector import Sector
@@ -47,10 +53,18 @@ class StabilityReport:
 def as_data(report: StabilityReport) -> dict[str, Any]:
     """One report as plain data."""
     found, digits = report.found, report.digits
-    head: dict[str, Any] = {"file": report.file, "name": report.name, "kind": found.kind}
+    head: dict[str, Any] = {
+        "file": report.file,
+        "name": report.name,
+        "kind": found.kind,
+    }
     head["tolerance"] = None if found.tolerance is None else decimal(found.tolerance)
     if report.springs is not None:
-        return {**head, "kind": "two-frequencies", **_springs_data(report.springs, digits)}
+        return {
+            **head,
+            "kind": "two-frequencies",
+            **_springs_data(report.springs, digits),
+        }
     data = dict(head)
     if found.linear:
         data |= _linear_data(found.linear[0], digits)
@@ -59,11 +73,15 @@ def as_data(report: StabilityReport) -> dict[str, Any]:
         ]
     if found.oscillator is not None:
         data |= _oscillator_data(found.oscillator, digits)
-    data["algebraically_stable"] = None if found.algebraic is None else found.algebraic.holds
+    data["algebraically_stable"] = (
+        None if found.algebraic is None else found.algebraic.holds
+    )
     return data
 
 
-def _ratio_data(numerator: Polynomial, denominator: Polynomial, variable: str) -> dict[str, str]:
+def _ratio_data(
+    numerator: Polynomial, denominator: Polynomial, variable: str
+) -> dict[str, str]:
     over, under = integral([numerator, denominator])
     return {
         "numerator": polynomial_text(over, variable),
@@ -89,7 +107,10 @@ def _linear_data(found: LinearStability, digits: int) -> dict[str, Any]:
 def _sector_data(sector: Sector | None, digits: int) -> Any:
     if sector is None or sector.cosine is None:
         return None
-    return {"degrees": degrees(sector.cosine, digits), "cosine": root_data(sector.cosine, digits)}
+    return {
+        "degrees": degrees(sector.cosine, digits),
+        "cosine": root_data(sector.cosine, digits),
+    }
 
 
 def _end_data(intervals: Sequence[Interval] | None, digits: int) -> Any:
@@ -130,7 +151,9 @@ def _oscillator_data(found: OscillatorStability, digits: int) -> dict[str, Any]:
         conserved = {"qq": texts[0], "qp": texts[1], "pp": texts[2]}
     return {
         "trace": _ratio_data(found.trace.numerator, found.trace.denominator, "x"),
-        "determinant": _ratio_data(found.determinant.numerator, found.determinant.denominator, "x"),
+        "determinant": _ratio_data(
+            found.determinant.numerator, found.determinant.denominator, "x"
+        ),
         "discriminant": polynomial_text(integral([found.discriminant])[0], "x"),
         "stable": intervals_data(found.stable, digits),
         "p_stable": found.is_p_stable,
@@ -145,8 +168,12 @@ def _springs_data(found: TwoFrequencies, digits: int) -> dict[str, Any]:
     return {
         "slow": str(found.slow),
         "trace": _ratio_data(found.trace.numerator, found.trace.denominator, "x"),
-        "determinant": _ratio_data(found.determinant.numerator, found.determinant.denominator, "x"),
-        "factors": [{"factor": polynomial_text(p, "x"), "multiplicity": n} for p, n in listed],
+        "determinant": _ratio_data(
+            found.determinant.numerator, found.determinant.denominator, "x"
+        ),
+        "factors": [
+            {"factor": polynomial_text(p, "x"), "multiplicity": n} for p, n in listed
+        ],
         "stable": intervals_data(found.stable, digits),
     }
 

@@ -62,13 +62,17 @@ def text_of(report: StabilityReport, paint: Paint) -> Iterator[str]:
 
 def _line(label: str, text: str) -> list[str]:
     """A label and its text, which goes on in the same column."""
-    pieces = wrap(text, WIDTH - LABEL - 4, break_long_words=False, break_on_hyphens=False) or [""]
+    pieces = wrap(
+        text, WIDTH - LABEL - 4, break_long_words=False, break_on_hyphens=False
+    ) or [""]
     first = f"    {label.ljust(LABEL)}{pieces[0]}".rstrip()
     return [first, *(" " * (LABEL + 4) + piece for piece in pieces[1:])]
 
 
 def _quotient(numerator: Polynomial, denominator: Polynomial, variable: str) -> str:
-    over, under = (polynomial_text(p, variable) for p in integral([numerator, denominator]))
+    over, under = (
+        polynomial_text(p, variable) for p in integral([numerator, denominator])
+    )
     if under == "1":
         return over
     return f"({over}) / ({under})" if " " in under else f"({over}) / {under}"
@@ -79,7 +83,11 @@ def _linear_text(
 ) -> Iterator[str]:
     whose = ""
     if is_one_of_many:
-        whose = ", all colours alike" if found.name == "all" else f", colour {found.name} alone"
+        whose = (
+            ", all colours alike"
+            if found.name == "all"
+            else f", colour {found.name} alone"
+        )
     yield f"  {paint('strong', 'linear test equation')}{whose}, z = hλ"
     if found.real is None or found.imaginary is None:
         yield from _line("A-stable", _decided(found.a_stable, paint))
@@ -141,7 +149,9 @@ def _why_not_a_stable(found: LinearStability) -> str:
         return "R is unbounded"
     if not poles_are_right(R.denominator):
         return "a pole is not in the right half plane"
-    return f"|R(iy)| > 1 where E(y²) < 0, E = {polynomial_text(found.e_polynomial, 'x')}"
+    return (
+        f"|R(iy)| > 1 where E(y²) < 0, E = {polynomial_text(found.e_polynomial, 'x')}"
+    )
 
 
 def _sector_text(sector: Sector | None, digits: int) -> str:
@@ -169,7 +179,9 @@ def _number(root: RealRoot, digits: int) -> str:
     simple = root_text(root)
     if simple is None:
         return root_decimal(root, digits)
-    return simple if root.exact is not None else f"{simple} = {root_decimal(root, digits)}"
+    return (
+        simple if root.exact is not None else f"{simple} = {root_decimal(root, digits)}"
+    )
 
 
 def _real_text(intervals: Sequence[Interval], digits: int) -> str:
@@ -203,14 +215,22 @@ def _ssp_text(found: SspCoefficient | None, digits: int) -> str:
     if found.value is None:
         return "∞"
     simple = root_text(found.value)
-    return _number(found.value, digits) if simple else _equation(found.value, "x", digits)[2:]
+    return (
+        _number(found.value, digits)
+        if simple
+        else _equation(found.value, "x", digits)[2:]
+    )
 
 
-def _oscillator_text(found: OscillatorStability, digits: int, paint: Paint) -> Iterator[str]:
+def _oscillator_text(
+    found: OscillatorStability, digits: int, paint: Paint
+) -> Iterator[str]:
     yield f"  {paint('strong', 'oscillator')}, z = hω, x = z²"
     yield from _line("trace", _ratio(found.trace))
     yield from _line("determinant", _ratio(found.determinant))
-    yield from _line("4D² − N²", polynomial_text(integral([found.discriminant])[0], "x"))
+    yield from _line(
+        "4D² − N²", polynomial_text(integral([found.discriminant])[0], "x")
+    )
     yield from _stable_text(found.stable, digits)
     reason = "" if found.is_p_stable else f": {_why_not_p_stable(found, digits)}"
     yield from _line("P-stable", paint.verdict(found.is_p_stable) + reason)
@@ -247,7 +267,9 @@ def _interval_text(interval: Interval, digits: int) -> str:
         text += f", z to {square_root(interval.end, digits)}"
     roots = [x for x in ends if root_text(x) is None]
     for x in roots:
-        text += f"; a root of {polynomial_text(Polynomial.from_flint(x.polynomial), 'x')}"
+        text += (
+            f"; a root of {polynomial_text(Polynomial.from_flint(x.polynomial), 'x')}"
+        )
     return text
 
 
@@ -286,7 +308,9 @@ def _conserved_text(found: OscillatorStability) -> str:
 def _nonlinear_text(found: Stability, paint: Paint) -> Iterator[str]:
     yield f"  {paint('strong', 'nonlinear')}"
     if found.algebraic is None:
-        yield from _line("algebraically stable", "has no meaning: colours do not see one another")
+        yield from _line(
+            "algebraically stable", "has no meaning: colours do not see one another"
+        )
         return
     reasons = []
     if not found.algebraic.weights_are_positive:
@@ -294,7 +318,9 @@ def _nonlinear_text(found: Stability, paint: Paint) -> Iterator[str]:
     if not found.algebraic.form_is_positive:
         reasons.append("B A + Aᵀ B − b bᵀ is not positive semidefinite")
     reason = f": {', '.join(reasons)}" if reasons else ""
-    yield from _line("algebraically stable", paint.verdict(found.algebraic.holds) + reason)
+    yield from _line(
+        "algebraically stable", paint.verdict(found.algebraic.holds) + reason
+    )
 
 
 def _springs_text(found: TwoFrequencies, digits: int) -> Iterator[str]:

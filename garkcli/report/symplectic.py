@@ -71,7 +71,8 @@ class Subject:
         else:  # a tableau that lacks blocks
             independent = [sum(1 for _ in self._of_order(n)) for n in self.orders]
         return tuple(
-            (n, k, sum(every[n - 1])) for n, k in zip(self.orders, independent, strict=True)
+            (n, k, sum(every[n - 1]))
+            for n, k in zip(self.orders, independent, strict=True)
         )
 
     @property
@@ -166,7 +167,8 @@ def subject_of_kind(kind: Kind, terms: int | None, orders: range) -> Subject:
         structure = structure_of(kind, terms)
     except ValueError as error:
         raise UsageProblem(
-            f"--colours {terms}: {error}", "leave out --colours, or choose another --kind"
+            f"--colours {terms}: {error}",
+            "leave out --colours, or choose another --kind",
         ) from None
     names = tuple(f"{_LETTERS[part]}{term + 1}" for term, part in structure.colours)
     return Subject(kind, structure, names, orders)
@@ -189,14 +191,19 @@ def subject_of_method(tableau: Tableau, orders: range) -> Subject:
             raise _not_symplectic(tableau)
         tableau = pair(tableau)
     split = tableau.is_partitioned
-    colours = tuple((x.space if split else l, x.part) for l, x in enumerate(tableau.colours))
+    colours = tuple(
+        (x.space if split else l, x.part) for l, x in enumerate(tableau.colours)
+    )
     natures = list(zip(colours, tableau.colours, strict=True))
     quadratic = frozenset(term for (term, _), x in natures if x.is_linear)
     for (term, _), x in natures:
         if term in quadratic and not x.is_linear:
-            message = f"colour {x.name} is not linear, as the other colour of its stages is"
+            message = (
+                f"colour {x.name} is not linear, as the other colour of its stages is"
+            )
             raise UsageProblem(
-                message, "such a term of the Hamiltonian has no classes; make both linear or none"
+                message,
+                "such a term of the Hamiltonian has no classes; make both linear or none",
             )
     structure = Structure(colours, quadratic)
     names = tuple(x.name for x in tableau.colours)
@@ -207,7 +214,12 @@ def _kind(structure: Structure) -> Kind:
     if not structure.is_directed:
         return "self-conjugate"
     return next(
-        (kind for kind in KINDS if kind in _PROBLEMS and structure_of(kind) == structure), "pair"
+        (
+            kind
+            for kind in KINDS
+            if kind in _PROBLEMS and structure_of(kind) == structure
+        ),
+        "pair",
     )
 
 
@@ -215,17 +227,20 @@ def _not_symplectic(tableau: Tableau) -> UsageProblem:
     weights = {(x.space, x.b) for x in tableau.colours}
     if len(weights) > len({rows for rows, _ in weights}):
         reason = "positions and momenta have different weights at the same stages"
-        return UsageProblem(f"the method is not symplectic: {reason}", "give both the same weights")
+        return UsageProblem(
+            f"the method is not symplectic: {reason}", "give both the same weights"
+        )
     reason = "its momentum blocks are not the conjugates of its position blocks"
     return UsageProblem(
-        f"the method is not symplectic: {reason}", "with --pair they become the conjugates"
+        f"the method is not symplectic: {reason}",
+        "with --pair they become the conjugates",
     )
 
 
 def render_classes(
     subject: Subject,
     classes: Iterable[ConditionClass],
-    format: str,  # noqa: A002
+    format: str,
     paint: Paint,
     with_members: bool = False,
     is_document: bool = False,
@@ -237,7 +252,9 @@ def render_classes(
             yield f"{',' * (k > 0)}\n{json.dumps(_data(subject, tree, with_members))}"
         yield "\n]}\n"
     elif format == "ndjson":
-        yield from (json.dumps(_data(subject, tree, with_members)) + "\n" for tree in classes)
+        yield from (
+            json.dumps(_data(subject, tree, with_members)) + "\n" for tree in classes
+        )
     elif format == "csv":
         yield f"kind,representative,root,order,sigma,gamma,stands_for{',members' * with_members}\n"
         for tree in classes:
@@ -252,7 +269,7 @@ def render_classes(
         yield from _text(subject, classes, paint, with_members)
 
 
-def render_class_counts(subject: Subject, format: str, paint: Paint) -> Iterator[str]:  # noqa: A002
+def render_class_counts(subject: Subject, format: str, paint: Paint) -> Iterator[str]:
     """The numbers of classes alone."""
     if format in {"json", "ndjson"}:
         head = _head(subject)
@@ -262,7 +279,9 @@ def render_class_counts(subject: Subject, format: str, paint: Paint) -> Iterator
         return
     if format == "csv":
         yield "kind,order,count,instead_of\n"
-        yield from (f"{subject.kind},{n},{few},{many}\n" for n, few, many in subject.counts)
+        yield from (
+            f"{subject.kind},{n},{few},{many}\n" for n, few, many in subject.counts
+        )
     elif format == "latex":
         yield from (f"{n} & {few} & {many} \\\\\n" for n, few, many in subject.counts)
     else:
@@ -271,7 +290,9 @@ def render_class_counts(subject: Subject, format: str, paint: Paint) -> Iterator
         yield from summary_lines(subject)
 
 
-def summary_lines(subject: Subject, ending: str = "", width: int = WIDTH) -> Iterator[str]:
+def summary_lines(
+    subject: Subject, ending: str = "", width: int = WIDTH
+) -> Iterator[str]:
     """The summary, in lines of at most ``width``."""
     yield from (line + "\n" for line in _wrapped(subject.summary + ending, width))
 
@@ -284,7 +305,11 @@ def legend_lines(subject: Subject, width: int = WIDTH) -> Iterator[str]:
 def _wrapped(text: str, width: int, indent: str = "") -> list[str]:
     """Lines of whole words; numbers of hundreds of digits stay whole too."""
     return wrap(
-        text, width, subsequent_indent=indent, break_long_words=False, break_on_hyphens=False
+        text,
+        width,
+        subsequent_indent=indent,
+        break_long_words=False,
+        break_on_hyphens=False,
     )
 
 
@@ -322,7 +347,10 @@ def _data(subject: Subject, tree: ConditionClass, with_members: bool) -> dict[st
 
 
 def _text(
-    subject: Subject, classes: Iterable[ConditionClass], paint: Paint, with_members: bool
+    subject: Subject,
+    classes: Iterable[ConditionClass],
+    paint: Paint,
+    with_members: bool,
 ) -> Iterator[str]:
     yield from legend_lines(subject)
     for order, group in groupby(classes, key=lambda tree: tree.order):
@@ -338,7 +366,9 @@ def _entry(subject: Subject, tree: ConditionClass, with_members: bool) -> Iterat
     lines = [f"  {subject.text(tree):<28} {sizes} {many} tree{'s' * (many != 1)}"]
     is_drawn = tree.order <= DRAWN_ORDER
     if with_members:
-        lines += member_lines(subject.members(tree), _DRAWING - 2 if is_drawn else WIDTH)
+        lines += member_lines(
+            subject.members(tree), _DRAWING - 2 if is_drawn else WIDTH
+        )
     drawing = draw_text(here, subject.has_colours) if is_drawn else []
     for left, right in zip_longest(lines, drawing, fillvalue=""):
         yield f"{left:<{_DRAWING}}{right}".rstrip() + "\n"

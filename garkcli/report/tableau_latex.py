@@ -20,7 +20,9 @@ MAX_BESIDE = 8
 """Most columns of two arrays that stand beside each other."""
 
 
-def render(tableau: Tableau, entries: Entries, name: str, is_document: bool = False) -> str:
+def render(
+    tableau: Tableau, entries: Entries, name: str, is_document: bool = False
+) -> str:
     """The arrays, with a comment that names them.
 
     Args:
@@ -56,7 +58,9 @@ def _displays(tableau: Tableau, entries: Entries) -> Iterator[str]:
 def _stages_of(tableau: Tableau, driven: Sequence[int]) -> list[int]:
     """A colour for each stage space whose stages see one of the colours ``driven``."""
     return [
-        l for l in distinct_rows(tableau) if any(tableau.block(l, m) is not None for m in driven)
+        l
+        for l in distinct_rows(tableau)
+        if any(tableau.block(l, m) is not None for m in driven)
     ]
 
 
@@ -77,7 +81,9 @@ def _array(entries: Entries, shown: Sequence[int], colours: Sequence[int]) -> li
             for m in colours:
                 block = entries.A[l][m]
                 absent = [""] * len(entries.b[m])
-                cells += absent if block is None else [_cell(x, entries) for x in block[i]]
+                cells += (
+                    absent if block is None else [_cell(x, entries) for x in block[i]]
+                )
             lines.append("  " + " & ".join(cells) + r" \\")
         lines.append(r"  \hline")
     weights = [_cell(x, entries) for m in colours for x in entries.b[m]]

@@ -49,13 +49,25 @@ def remark(entries: Entries) -> str:
         return f"the nodes have no simple radicals: decimals, {entries.digits} digits"
     if not entries.is_exact:
         return f"decimals, {entries.digits} digits"
-    blocks = [row for blocks in entries.A for block in blocks if block is not None for row in block]
-    if any(isinstance(x, arb) for row in (*entries.c, *blocks, *entries.b) for x in row):
-        return f"rounded coefficients: long fractions as decimals, {entries.digits} digits"
+    blocks = [
+        row
+        for blocks in entries.A
+        for block in blocks
+        if block is not None
+        for row in block
+    ]
+    if any(
+        isinstance(x, arb) for row in (*entries.c, *blocks, *entries.b) for x in row
+    ):
+        return (
+            f"rounded coefficients: long fractions as decimals, {entries.digits} digits"
+        )
     return ""
 
 
-def render(tableau: Tableau, entries: Entries, title: str, paint: Paint, width: int = 80) -> str:
+def render(
+    tableau: Tableau, entries: Entries, title: str, paint: Paint, width: int = 80
+) -> str:
     """The whole tableau.
 
     Args:
@@ -101,7 +113,9 @@ def _node_column(entries: Entries, shown: list[int]) -> list[str]:
     return aligned([[text] for text in ["", *nodes, ""]])
 
 
-def _colour_column(tableau: Tableau, entries: Entries, shown: list[int], m: int) -> list[str]:
+def _colour_column(
+    tableau: Tableau, entries: Entries, shown: list[int], m: int
+) -> list[str]:
     """The name of a colour, its blocks under each other, and its weights."""
     digits, stages = entries.digits, len(entries.b[m])
     rows: list[list[str]] = [[""] * stages]

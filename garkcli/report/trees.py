@@ -47,7 +47,7 @@ def render(
     query: Query,
     rows: Iterable[TreeRow],
     counts: Counts | None,
-    format: str,  # noqa: A002
+    format: str,
     paint: Paint,
     is_document: bool = False,
 ) -> Iterator[str]:
@@ -67,12 +67,16 @@ def render(
         yield from _text(query, rows, counts, paint)
 
 
-def render_counts(query: Query, counts: Counts, format: str, paint: Paint) -> Iterator[str]:  # noqa: A002
+def render_counts(
+    query: Query, counts: Counts, format: str, paint: Paint
+) -> Iterator[str]:
     """The counts alone."""
     if format in {"json", "ndjson"}:
         head = _head(query, counts)
         if query.upto:
-            head["by_order"] = {str(n): sum(kept(query, by_root)) for n, by_root in counts}
+            head["by_order"] = {
+                str(n): sum(kept(query, by_root)) for n, by_root in counts
+            }
         yield json.dumps(head, indent=None if format == "ndjson" else 2) + "\n"
         return
     if format == "csv":
@@ -89,7 +93,8 @@ def render_counts(query: Query, counts: Counts, format: str, paint: Paint) -> It
         yield f"order {n}: {paint('strong', total)}\n"
         if query.colours > 1:
             yield from (
-                f"  root colour {root}: {count}\n" for root, count in _roots(query, by_root)
+                f"  root colour {root}: {count}\n"
+                for root, count in _roots(query, by_root)
             )
 
 
@@ -127,7 +132,9 @@ def _data(row: TreeRow) -> dict[str, object]:
     }
 
 
-def _json(query: Query, rows: Iterable[TreeRow], counts: Counts | None) -> Iterator[str]:
+def _json(
+    query: Query, rows: Iterable[TreeRow], counts: Counts | None
+) -> Iterator[str]:
     if counts is None:
         rows = list(rows)
         counts = _counted(query, rows)
@@ -144,7 +151,11 @@ def _counted(query: Query, rows: Sequence[TreeRow]) -> Counts:
     found = {n: [0] * query.colours for n in range(1, query.order + 1)}
     for row in rows:
         found[row.order][row.root] += 1
-    return [(n, tuple(by_root)) for n, by_root in found.items() if query.upto or n == query.order]
+    return [
+        (n, tuple(by_root))
+        for n, by_root in found.items()
+        if query.upto or n == query.order
+    ]
 
 
 def _text(
@@ -166,7 +177,11 @@ def _entry(row: TreeRow, many: bool) -> Iterator[str]:
     if row.order > DRAWN_ORDER:
         fits = len(text.rstrip()) <= WIDTH
         sizes = text[len(row.tree) + 2 :]
-        lines = [text] if fits else [*folded(f"  {row.tree}", WIDTH, "    "), f"     {sizes}"]
+        lines = (
+            [text]
+            if fits
+            else [*folded(f"  {row.tree}", WIDTH, "    "), f"     {sizes}"]
+        )
         yield from (f"{line.rstrip()}\n" for line in lines)
         return
     first, *rest = draw_text(parse_tree(row.tree), many)

@@ -79,7 +79,9 @@ def _told(path: str) -> Iterator[None]:
         raise
     except OSError as error:
         why = error.strerror or str(error)
-        raise UsageProblem(f"cannot write {path}: {why}", "choose another place") from None
+        raise UsageProblem(
+            f"cannot write {path}: {why}", "choose another place"
+        ) from None
 
 
 def _without_links(path: str) -> Path:
@@ -153,7 +155,9 @@ def _temporary(target: Path) -> Iterator[tuple[BinaryIO, Path]]:
     try:
         yield stream, Path(name)
     finally:
-        with suppress(OSError):  # after a failed write the rest cannot be written either
+        with suppress(
+            OSError
+        ):  # after a failed write the rest cannot be written either
             stream.close()
         with suppress(OSError):
             Path(name).unlink()

@@ -53,7 +53,8 @@ def algebraic_stability(tableau: Tableau) -> AlgebraicStability | None:
     if any(tableau.block(l, m) is None for l in colours for m in colours):
         return None
     weights = all(
-        is_positive_semidefinite(tableau.space(l).gram(tableau.colours[l].b)) for l in colours
+        is_positive_semidefinite(tableau.space(l).gram(tableau.colours[l].b))
+        for l in colours
     )
     blocks = [[_form(tableau, l, m) for m in colours] for l in colours]
     return AlgebraicStability(weights, is_positive_semidefinite(_assembled(blocks)))

@@ -64,8 +64,12 @@ def stability_function(
 def real_and_imaginary(p: Polynomial) -> tuple[Polynomial, Polynomial]:
     """The polynomials u and v in y with p(iy) = u(y) + i v(y)."""
     signs = (1, 1, -1, -1)  # of i⁰, i¹, i², i³
-    real = [a * signs[k % 4] if k % 2 == 0 else ZERO for k, a in enumerate(p.coefficients)]
-    imaginary = [a * signs[k % 4] if k % 2 == 1 else ZERO for k, a in enumerate(p.coefficients)]
+    real = [
+        a * signs[k % 4] if k % 2 == 0 else ZERO for k, a in enumerate(p.coefficients)
+    ]
+    imaginary = [
+        a * signs[k % 4] if k % 2 == 1 else ZERO for k, a in enumerate(p.coefficients)
+    ]
     return Polynomial(real), Polynomial(imaginary)
 
 

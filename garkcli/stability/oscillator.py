@@ -87,7 +87,11 @@ class OscillatorStability:
     @property
     def is_p_stable(self) -> bool:
         """Whether no step size is unstable."""
-        return len(self.stable) == 1 and self.stable[0].has_start and self.stable[0].end is None
+        return (
+            len(self.stable) == 1
+            and self.stable[0].has_start
+            and self.stable[0].end is None
+        )
 
     @property
     def conserved(self) -> tuple[Polynomial, Polynomial, Polynomial] | None:
@@ -128,7 +132,9 @@ def analysed(tableau: Tableau, fields: Sequence[Matrix]) -> OscillatorStability:
     step = step_function(stage_system(tableau, fields))
     (a, b), (c, d) = step.numerators
     trace = Ratio.of(_even(a + d), _even(step.denominator))
-    determinant = Ratio.of(_even(a * d - b * c), _even(step.denominator * step.denominator))
+    determinant = Ratio.of(
+        _even(a * d - b * c), _even(step.denominator * step.denominator)
+    )
     N, D = trace.numerator, trace.denominator
     return OscillatorStability(
         step=step,
@@ -186,7 +192,9 @@ def stable_set(
 def _off_diagonal(step: StepFunction) -> tuple[Polynomial, Polynomial]:
     """The entries off the diagonal, odd in z, times z as polynomials in x."""
     (_, b), (c, _) = step.numerators
-    return Polynomial([ZERO, *b.coefficients[1::2]]), Polynomial([ZERO, *c.coefficients[1::2]])
+    return Polynomial([ZERO, *b.coefficients[1::2]]), Polynomial(
+        [ZERO, *c.coefficients[1::2]]
+    )
 
 
 def phase_error(trace: Ratio, determinant: Ratio) -> PhaseError:

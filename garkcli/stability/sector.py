@@ -17,7 +17,14 @@ from flint import fmpq
 
 from garkcli.exact.cells import between
 from garkcli.exact.field import ONE, ZERO, Number
-from garkcli.exact.polynomial import Polynomial, RealRoot, interpolated, real_roots, resultant, sign
+from garkcli.exact.polynomial import (
+    Polynomial,
+    RealRoot,
+    interpolated,
+    real_roots,
+    resultant,
+    sign,
+)
 from garkcli.stability.linear import StabilityFunction, is_a_stable
 
 MOST_POINTS = 400
@@ -66,7 +73,9 @@ def _critical_cosines(R: StabilityFunction) -> list[RealRoot] | None:
     rays = [_on_ray(R, c) for c in points]
     degree = max(ray.degree for ray in rays)
     leading = interpolated(points, [ray[degree] for ray in rays])
-    double = interpolated(points, [_resultant_with_derivative(ray, degree) for ray in rays])
+    double = interpolated(
+        points, [_resultant_with_derivative(ray, degree) for ray in rays]
+    )
     if not double:
         return None  # a double root on every ray: nothing is read off the resultant
     zero, one = RealRoot.rational(ZERO), RealRoot.rational(ONE)

@@ -33,7 +33,11 @@ class SpringsPlane:
 
 
 def springs_plane(
-    tableau: Tableau, split: SplitSprings, slow_end: float, fast_end: float, points: int = 160
+    tableau: Tableau,
+    split: SplitSprings,
+    slow_end: float,
+    fast_end: float,
+    points: int = 160,
 ) -> SpringsPlane:
     """The half trace on a grid.
 
@@ -47,7 +51,9 @@ def springs_plane(
         fast_end: the largest hω of the fast spring.
         points: a side of the grid.
     """
-    parts = [_floats(tableau, split, fmpq(a), fmpq(x)) for a, x in ((0, 0), (1, 0), (0, 1))]
+    parts = [
+        _floats(tableau, split, fmpq(a), fmpq(x)) for a, x in ((0, 0), (1, 0), (0, 1))
+    ]
     (W, B, E), (W_a, B_a, _), (W_x, B_x, _) = parts
     slow = np.linspace(0.0, slow_end, points)
     fast = np.linspace(0.0, fast_end, points)

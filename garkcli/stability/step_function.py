@@ -65,7 +65,9 @@ def stage_system(
     for m, kept in enumerate(fields if pattern is None else pattern):
         for i in range(d):
             driven += [(m, i, j, fields[m][i][j]) for j in range(d) if kept[i][j]]
-    first: dict[tuple[int, int], int] = {}  # (stage space, component of y) → its first unknown
+    first: dict[
+        tuple[int, int], int
+    ] = {}  # (stage space, component of y) → its first unknown
     size = 0
     for m, _, j, _ in driven:
         values = tableau.colours[m].space, j
@@ -97,7 +99,9 @@ def _frozen(rows: list[list[Number]]) -> Matrix:
     return tuple(tuple(row) for row in rows)
 
 
-def _add(matrix: list[list[Number]], row: int, column: int, factor: Number, block: Matrix) -> None:
+def _add(
+    matrix: list[list[Number]], row: int, column: int, factor: Number, block: Matrix
+) -> None:
     for i, entries in enumerate(block, start=row):
         for j, x in enumerate(entries, start=column):
             matrix[i][j] = matrix[i][j] + factor * x
@@ -110,12 +114,16 @@ def step_function(system: StageSystem) -> StepFunction:
     columns = transpose(system.E) if system.E else ()
     series = [_series(system, columns[j], n) for j in range(d)] if n else []
     numerators = tuple(
-        tuple(_numerator(denominator, series[j][i], i == j, n) for j in range(d)) if n else ()
+        tuple(_numerator(denominator, series[j][i], i == j, n) for j in range(d))
+        if n
+        else ()
         for i in range(d)
     )
     if not n:
         one, zero = Polynomial([1]), Polynomial([])
-        numerators = tuple(tuple(one if i == j else zero for j in range(d)) for i in range(d))
+        numerators = tuple(
+            tuple(one if i == j else zero for j in range(d)) for i in range(d)
+        )
     return _reduced(denominator, numerators)
 
 

@@ -131,7 +131,9 @@ def stability_of_rounded(tableau: Tableau, tolerance: fmpq) -> Stability:
 
 
 def _linear(tableau: Tableau) -> tuple[LinearStability, ...]:
-    return tuple(linear_stability(tableau, name, shares) for name, shares in _directions(tableau))
+    return tuple(
+        linear_stability(tableau, name, shares) for name, shares in _directions(tableau)
+    )
 
 
 def _directions(tableau: Tableau) -> list[tuple[str, list[Number]]]:
@@ -148,7 +150,9 @@ def _directions(tableau: Tableau) -> list[tuple[str, list[Number]]]:
     return found
 
 
-def linear_stability(tableau: Tableau, name: str, shares: Sequence[Number]) -> LinearStability:
+def linear_stability(
+    tableau: Tableau, name: str, shares: Sequence[Number]
+) -> LinearStability:
     """What the stability function in one direction of (λ_1, …, λ_N) tells."""
     R = stability_function(tableau, shares)
     return LinearStability(
@@ -164,10 +168,14 @@ def linear_stability(tableau: Tableau, name: str, shares: Sequence[Number]) -> L
     )
 
 
-def _oscillator(tableau: Tableau, problem: Oscillator | None) -> OscillatorStability | None:
+def _oscillator(
+    tableau: Tableau, problem: Oscillator | None
+) -> OscillatorStability | None:
     if problem is not None:
         return oscillator_stability(tableau, problem)
     try:
-        return oscillator_stability(tableau, Oscillator.default(terms_of(tableau), fmpq(1)))
+        return oscillator_stability(
+            tableau, Oscillator.default(terms_of(tableau), fmpq(1))
+        )
     except UsageProblem:
         return None

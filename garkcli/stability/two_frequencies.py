@@ -42,7 +42,9 @@ class SplitSprings:
         """L with (q, p)˙ = L (q, p), h = 1, shape (2, 2)."""
         l = colour.term
         velocity = ZERO if colour.part == "p" else self.kinetic[l]
-        force: Number = ZERO if colour.part == "q" else self.slow[l] * a + self.fast[l] * x
+        force: Number = (
+            ZERO if colour.part == "q" else self.slow[l] * a + self.fast[l] * x
+        )
         return ((ZERO, velocity), (-force, ZERO))
 
 
@@ -81,7 +83,10 @@ def springs(tableau: Tableau, fast: int) -> SplitSprings:
             "a method of one term has no two colours for two springs",
             "take a method with at least two terms",
         )
-    has_force = [any(x.term == l and x.part in "yp" for x in tableau.colours) for l in range(terms)]
+    has_force = [
+        any(x.term == l and x.part in "yp" for x in tableau.colours)
+        for l in range(terms)
+    ]
     others = [l for l in range(terms) if l != fast and has_force[l]]
     later = [l for l in others if l > 0]
     slow_terms = later or others
@@ -98,7 +103,9 @@ def springs(tableau: Tableau, fast: int) -> SplitSprings:
     )
 
 
-def two_frequencies(tableau: Tableau, split: SplitSprings, slow: fmpq) -> TwoFrequencies:
+def two_frequencies(
+    tableau: Tableau, split: SplitSprings, slow: fmpq
+) -> TwoFrequencies:
     """The exact intervals of the fast frequency for one slow one.
 
     Raises:

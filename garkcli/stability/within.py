@@ -58,7 +58,9 @@ def stability_within(
         bounded = _is_bounded(P, Q, order, stiff)
         right = _poles_are_right(Q)
         a_stable = _both(bounded, right)
-        return StabilityWithin(a_stable, _both(a_stable, _vanishes_at_infinity(P, Q, stiff)))
+        return StabilityWithin(
+            a_stable, _both(a_stable, _vanishes_at_infinity(P, Q, stiff))
+        )
     finally:
         ctx.prec = before
 
@@ -81,7 +83,9 @@ def _fraction(system: StageSystem, tolerance: fmpq) -> tuple[list[arb], list[arb
     b = [_widened(x, tolerance) for x in system.B[0]]
     n = len(W)
     Q = arb_poly([1])
-    for component in components({i: [j for j in range(n) if system.W[i][j]] for i in range(n)}):
+    for component in components(
+        {i: [j for j in range(n) if system.W[i][j]] for i in range(n)}
+    ):
         block = arb_mat([[W[i][j] for j in component] for i in component])
         Q = Q * arb_poly(_characteristic(block)[::-1])
     series = [arb(1)]
@@ -142,7 +146,10 @@ def _squared(p: list[arb]) -> list[arb]:
 def _difference(a: list[arb], b: list[arb]) -> list[arb]:
     n = max(len(a), len(b))
     zero = arb(0)
-    return [(a[k] if k < len(a) else zero) - (b[k] if k < len(b) else zero) for k in range(n)]
+    return [
+        (a[k] if k < len(a) else zero) - (b[k] if k < len(b) else zero)
+        for k in range(n)
+    ]
 
 
 def _is_positive(coefficients: list[arb]) -> bool | None:

@@ -12,7 +12,12 @@ from dataclasses import dataclass
 from itertools import groupby
 from typing import TYPE_CHECKING, TypeAlias
 
-from garkcli.stepping.dependency import DependencyGraph, FieldEvaluation, Stage, StageBlock
+from garkcli.stepping.dependency import (
+    DependencyGraph,
+    FieldEvaluation,
+    Stage,
+    StageBlock,
+)
 
 if TYPE_CHECKING:
     import numpy as np
@@ -63,7 +68,9 @@ class ChainRule:
         inside = {*self.unknowns, *(x for x in block.order if isinstance(x, Stage))}
         arguments = []
         for evaluation in self.evaluations:
-            arguments += [(evaluation, s) for s in graph.arguments[evaluation] if s in inside]
+            arguments += [
+                (evaluation, s) for s in graph.arguments[evaluation] if s in inside
+            ]
         self.arguments = tuple(arguments)
 
         self._layers = []
@@ -96,7 +103,9 @@ class ChainRule:
         d, n = self.d, self.d * len(self.unknowns)
         matrices = np.array(derivatives).reshape(-1, d, d)
         fields = dict(zip(self.arguments, matrices, strict=True))
-        stages: dict[Stage, Floats] = {s: np.eye(d, n, i * d) for i, s in enumerate(self.unknowns)}
+        stages: dict[Stage, Floats] = {
+            s: np.eye(d, n, i * d) for i, s in enumerate(self.unknowns)
+        }
         of_fields = np.zeros((len(self.evaluations), d, n))
         w = np.array(weights)
         for layer in self._layers:
@@ -113,7 +122,9 @@ class ChainRule:
         return np.asarray(np.linalg.inv(np.eye(n) - J), dtype=np.float64)
 
 
-def _combined(count: int, entries: Sequence[_Entry], w: Floats, of_fields: Floats) -> Floats:
+def _combined(
+    count: int, entries: Sequence[_Entry], w: Floats, of_fields: Floats
+) -> Floats:
     """The derivatives of ``count`` sums of w f, shape (count, d, n)."""
     import numpy as np
 

@@ -15,7 +15,13 @@ from typing import Any, TypeAlias, TypeVar
 
 from garkcli.errors import UsageProblem
 from garkcli.graph import components
-from garkcli.problems.hamiltonian import GROUPS, Group, Hamiltonian, VectorField, vector_field
+from garkcli.problems.hamiltonian import (
+    GROUPS,
+    Group,
+    Hamiltonian,
+    VectorField,
+    vector_field,
+)
 from garkcli.tableau.pointwise import Entries, numeric_entries
 from garkcli.tableau.tableau import Colour, Tableau
 
@@ -88,7 +94,9 @@ class DependencyGraph:
                 continue
             cut = self._cut([x for x in component if isinstance(x, Stage)])
             left = set(component) - cut
-            rest = {x: [y for y in after[x] if y in left] for x in component if x in left}
+            rest = {
+                x: [y for y in after[x] if y in left] for x in component if x in left
+            }
             order = [vertex for single in components(rest) for vertex in single]
             unknowns = [stage for stage in self.sums if stage in cut]
             found.append(StageBlock(tuple(unknowns), tuple(order)))
@@ -119,7 +127,9 @@ class DependencyGraph:
         while True:
             rest = [s for s in stages if s not in cut]
             after = {s: [t for t in rest if s in before[t]] for s in rest}
-            cycles = [component for component in components(after) if len(component) > 1]
+            cycles = [
+                component for component in components(after) if len(component) > 1
+            ]
             if not cycles:
                 return cut
             for component in cycles:
@@ -156,11 +166,15 @@ def dependency_graph(tableau: Tableau, fields: Fields) -> DependencyGraph:
                 coefficients[stage, evaluation] = _text(a)
         sums[stage] = tuple(found)
     for evaluation in arguments:
-        coefficients[None, evaluation] = _text(entry(tableau, entries, None, evaluation))
+        coefficients[None, evaluation] = _text(
+            entry(tableau, entries, None, evaluation)
+        )
     return DependencyGraph(tuple(arguments), arguments, sums, coefficients)
 
 
-def entry(tableau: Tableau, entries: Entries, stage: Stage | None, value: FieldEvaluation) -> Any:
+def entry(
+    tableau: Tableau, entries: Entries, stage: Stage | None, value: FieldEvaluation
+) -> Any:
     """The coefficient of ``value`` in a stage, an enclosure, or 0 where it is not seen; for no
     stage its weight.
     """
@@ -191,7 +205,9 @@ def with_joined_terms(tableau: Tableau) -> Tableau:
         and len(tableau.spaces) == 1
         and {x.part for x in tableau.colours} == set(GROUPS)
     ):
-        return replace(tableau, colours=tuple(replace(x, term=0) for x in tableau.colours))
+        return replace(
+            tableau, colours=tuple(replace(x, term=0) for x in tableau.colours)
+        )
     return tableau
 
 
@@ -254,7 +270,9 @@ def visible_tableau(tableau: Tableau, fields: Fields) -> Tableau:
     """
     colours, spaces = [], []
     for k, ((m, group), field) in enumerate(fields.items()):
-        own = replace(tableau.colours[m], space=k, part=group, is_linear=field.is_linear)
+        own = replace(
+            tableau.colours[m], space=k, part=group, is_linear=field.is_linear
+        )
         colours.append(own)
         spaces.append(tableau.space(m))
     blocks = {}
@@ -279,7 +297,10 @@ def visible_trees(fields: Fields) -> str:
             )
         return "a separable problem sees the trees in which velocities and forces alternate"
     parts = [f"it sees the trees of all colours of the method{_branching(fields)}"]
-    for x, group, branch in (("positions", "q", "velocities"), ("momenta", "p", "forces")):
+    for x, group, branch in (
+        ("positions", "q", "velocities"),
+        ("momenta", "p", "forces"),
+    ):
         if any(field.depends == (group,) for field in fields.values()):
             parts.append(f"what depends on {x} alone has only {branch} as branches")
     return "; ".join(parts)

@@ -43,7 +43,8 @@ Real: TypeAlias = Any
 Recorder: TypeAlias = Callable[[list[Real]], None]
 """Is given (q, p) after a step, shape (2d,)."""
 StepProgram: TypeAlias = Callable[
-    [list[Real], list[Real], int, int, Recorder | None], tuple[list[Real], list[int], int]
+    [list[Real], list[Real], int, int, Recorder | None],
+    tuple[list[Real], list[int], int],
 ]
 """See ``Program.source``."""
 
@@ -118,7 +119,8 @@ class Binding:
         entries = numeric_entries(self.tableau, digits + 5)
         with _precision(digits):
             coefficients = tuple(
-                entry(self.tableau, entries, stage, value) for stage, value in program.coefficients
+                entry(self.tableau, entries, stage, value)
+                for stage, value in program.coefficients
             )
             names: dict[str, Any] = {
                 **enclosed(program.codes),
@@ -141,7 +143,9 @@ class Binding:
     # one text serves any number of digits: its coefficients and constants have names
     @cached_property
     def _program_for_floats(self) -> Program:
-        return write(self.graph, self.fields, self.problem.dimension, is_for_balls=False)
+        return write(
+            self.graph, self.fields, self.problem.dimension, is_for_balls=False
+        )
 
     @cached_property
     def _program_for_balls(self) -> Program:
@@ -197,4 +201,7 @@ def _corrections_of_balls(inverse: Floats, residuals: list[arb]) -> list[arb]:
     scale = max(map(abs, middles))
     if scale == 0 or not scale.is_finite():
         return middles
-    return [(c * scale).mid() for c in (inverse @ [float(r / scale) for r in middles]).tolist()]
+    return [
+        (c * scale).mid()
+        for c in (inverse @ [float(r / scale) for r in middles]).tolist()
+    ]

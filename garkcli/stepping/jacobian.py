@@ -27,7 +27,9 @@ class JacobianWriter:
     def __init__(self, stages: StageWriter) -> None:
         self.chains: dict[int, ChainRule] = {}
         self._stages = stages
-        self._prefix = "v" if stages.is_for_balls else ""  # of the floats of the numbers w
+        self._prefix = (
+            "v" if stages.is_for_balls else ""
+        )  # of the floats of the numbers w
 
     def by_chain_rule(self, block: StageBlock, index: int) -> None:
         """Write (I − J)⁻¹ as a call of ``ChainRule``, from the derivatives of the fields."""
@@ -41,9 +43,13 @@ class JacobianWriter:
         chain = self.chains[index] = ChainRule(block, stages.graph, d, places)
         entries: list[str] = []
         for evaluation in chain.evaluations:
-            by = [(s, k) for x, s in chain.arguments if x == evaluation for k in range(d)]
+            by = [
+                (s, k) for x, s in chain.arguments if x == evaluation for k in range(d)
+            ]
             rows = self._derivatives(evaluation, by)
-            for first in range(0, len(by), d):  # a matrix of d columns for each stage value
+            for first in range(
+                0, len(by), d
+            ):  # a matrix of d columns for each stage value
                 for row in rows:
                     entries += row[first : first + d]
         numbers = ", ".join("0.0" if x == "0" else x for x in entries)
@@ -67,16 +73,25 @@ class JacobianWriter:
             for i, row in enumerate(rows):
                 prefix = f"s{self._stages.number[vertex]}_{i}_"
                 slopes[vertex, i] = self._named(row, prefix)
-        return [self._slope_of_sum(stage, i, slopes) for stage in block.unknowns for i in range(d)]
+        return [
+            self._slope_of_sum(stage, i, slopes)
+            for stage in block.unknowns
+            for i in range(d)
+        ]
 
     def _slope_of_sum(
-        self, stage: Stage, i: int, slopes: dict[tuple[Stage | FieldEvaluation, int], Slope]
+        self,
+        stage: Stage,
+        i: int,
+        slopes: dict[tuple[Stage | FieldEvaluation, int], Slope],
     ) -> Slope:
         terms = []
         for evaluation in self._stages.graph.sums[stage]:
             slope = slopes.get((evaluation, i))
             if slope:
-                terms.append((self._prefix + self._stages.weight(stage, evaluation), slope))
+                terms.append(
+                    (self._prefix + self._stages.weight(stage, evaluation), slope)
+                )
         return _sums(terms)
 
     def _slopes_of_field(
@@ -90,7 +105,9 @@ class JacobianWriter:
         found = []
         for row in self._derivatives(evaluation, by):
             factors = zip(row, by, strict=True)
-            terms = [(entry, slopes[x]) for entry, x in factors if entry != "0" and slopes[x]]
+            terms = [
+                (entry, slopes[x]) for entry, x in factors if entry != "0" and slopes[x]
+            ]
             found.append(_sums(terms))
         return found
 

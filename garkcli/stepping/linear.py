@@ -101,7 +101,9 @@ def linear_step(tableau: Tableau, problem: Oscillator) -> LinearStep:
     """
     check_structure(tableau, problem)
     terms = _terms(tableau, problem)
-    first: dict[tuple[int, int], int] = {}  # (stage space, component of y) → its first unknown
+    first: dict[
+        tuple[int, int], int
+    ] = {}  # (stage space, component of y) → its first unknown
     n = 0
     for term in terms:
         colour = tableau.colours[term.colour]
@@ -123,7 +125,11 @@ def linear_step(tableau: Tableau, problem: Oscillator) -> LinearStep:
         _add(E, row, component, ONE, ones)
     field = tableau.field
     return LinearStep(
-        problem, field, _over_rationals(W, field), _columns(E, field), _over_rationals(B, field)
+        problem,
+        field,
+        _over_rationals(W, field),
+        _columns(E, field),
+        _over_rationals(B, field),
     )
 
 
@@ -156,7 +162,9 @@ def _zeros(rows: int, columns: int) -> list[list[Number]]:
     return [[ZERO] * columns for _ in range(rows)]
 
 
-def _add(matrix: list[list[Number]], row: int, column: int, factor: Number, block: Matrix) -> None:
+def _add(
+    matrix: list[list[Number]], row: int, column: int, factor: Number, block: Matrix
+) -> None:
     for i, entries in enumerate(block, start=row):
         for j, x in enumerate(entries, start=column):
             matrix[i][j] = matrix[i][j] + factor * x
@@ -167,7 +175,9 @@ def _over_rationals(rows: list[list[Number]], field: NumberField | None) -> fmpq
     if field is None:
         return fmpq_mat([[x for x in row if isinstance(x, fmpq)] for row in rows])
     d = field.degree
-    powers = [field.from_coordinates([fmpq(int(i == k)) for i in range(d)]) for k in range(d)]
+    powers = [
+        field.from_coordinates([fmpq(int(i == k)) for i in range(d)]) for k in range(d)
+    ]
     columns = [
         [x for row in rows for x in coordinates(row[j] * power, d)]
         for j in range(len(rows[0]))
@@ -257,12 +267,15 @@ def whole_steps(t_end: fmpq, h: fmpq) -> int:
     """
     if h <= 0 or t_end <= 0:
         raise UsageProblem(
-            f"step {h} and end time {t_end} are not both positive", "give positive numbers"
+            f"step {h} and end time {t_end} are not both positive",
+            "give positive numbers",
         )
     n = t_end / h
     if n.q != 1:
         near = h * max(int(n.floor()), 1)
-        raise UsageProblem(f"the end time {t_end} is not a whole number of steps {h}", f"{near} is")
+        raise UsageProblem(
+            f"the end time {t_end} is not a whole number of steps {h}", f"{near} is"
+        )
     if n.p > MAX_STEPS:
         raise UsageProblem(
             f"{n} steps (limit {MAX_STEPS})", "choose a shorter time or larger steps"

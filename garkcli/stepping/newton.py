@@ -30,12 +30,24 @@ _DIRECT = 2
 
 # Parts of the size of the unknowns. A float is good to 1.1e-16 of itself.
 _SQUARED_AWAY = 1e-9  # a correction whose square is below round-off: 1e-18
-_BELOW_FLOATS = 1e-17  # a foreseen correction that no float can show, with a factor of ten to spare
-_NEAR_FOR_FLOATS = 1e-2  # a Jacobian one hundredth off gains two digits an iteration: it is kept
-_NEAR_FOR_BALLS = 1e-10  # one made so near gains ten digits, of the sixteen that its floats allow
-_KEPT_RATE = 0.1  # a kept Jacobian that gains less than a digit an iteration is made anew
-_STALLED_RATE = 0.5  # corrections that do not halve are round-off, where they are small enough:
-_STALLED_UNITS = 1e4  # in units of the precision; evaluations lose some digits to cancellation
+_BELOW_FLOATS = (
+    1e-17  # a foreseen correction that no float can show, with a factor of ten to spare
+)
+_NEAR_FOR_FLOATS = (
+    1e-2  # a Jacobian one hundredth off gains two digits an iteration: it is kept
+)
+_NEAR_FOR_BALLS = (
+    1e-10  # one made so near gains ten digits, of the sixteen that its floats allow
+)
+_KEPT_RATE = (
+    0.1  # a kept Jacobian that gains less than a digit an iteration is made anew
+)
+_STALLED_RATE = (
+    0.5  # corrections that do not halve are round-off, where they are small enough:
+)
+_STALLED_UNITS = (
+    1e4  # in units of the precision; evaluations lose some digits to cancellation
+)
 
 
 class NewtonWriter:
@@ -58,7 +70,9 @@ class NewtonWriter:
     def solve(self, block: StageBlock, index: int) -> None:
         """Write Newton's method for the unknowns of ``block``, implicit block number ``index``."""
         write, d = self._lines.write, self._stages.d
-        components = [self._stages.component(s, i) for s in block.unknowns for i in range(d)]
+        components = [
+            self._stages.component(s, i) for s in block.unknowns for i in range(d)
+        ]
         unknowns = [f"z{c}" for c in components]
         is_direct = len(unknowns) <= _DIRECT and not self._is_for_balls
         self._start(block)
@@ -80,7 +94,11 @@ class NewtonWriter:
             else:
                 self._by_inverse(block, len(unknowns), index)
             for k, z in enumerate(unknowns):
-                write(f"{z} = ({z} - c{k}).mid()" if self._is_for_balls else f"{z} -= c{k}")
+                write(
+                    f"{z} = ({z} - c{k}).mid()"
+                    if self._is_for_balls
+                    else f"{z} -= c{k}"
+                )
             write("size = " + " + ".join(f"abs(c{k})" for k in range(len(unknowns))))
             write("scale = " + " + ".join(f"abs({z})" for z in unknowns))
             self._ending(is_direct)
@@ -91,7 +109,9 @@ class NewtonWriter:
     def _place(self, stage: Stage) -> None:
         """An unknown stage value, from what is solved for."""
         stages = self._stages
-        stages.stages[stage] = [f"x{stages.component(stage, i)}" for i in range(stages.d)]
+        stages.stages[stage] = [
+            f"x{stages.component(stage, i)}" for i in range(stages.d)
+        ]
         for i in range(stages.d):
             c = stages.component(stage, i)
             self._lines.write(f"x{c} = {stages.start(stage.group, i)} + z{c}")
@@ -108,7 +128,9 @@ class NewtonWriter:
                 self._lines.write(f"g{c} = {self._frozen_sum(stage, i)}")
                 guess = f"g{c} + m{c} + n{c}"
                 self._lines.write(
-                    f"z{c} = ({guess}).mid()" if self._is_for_balls else f"z{c} = {guess}"
+                    f"z{c} = ({guess}).mid()"
+                    if self._is_for_balls
+                    else f"z{c} = {guess}"
                 )
 
     def _frozen_sum(self, stage: Stage, i: int) -> str:
@@ -125,7 +147,9 @@ class NewtonWriter:
             return
         stages = self._stages
         field = stages.fields[key]
-        start = [stages.start(group, i) for group in field.depends for i in range(stages.d)]
+        start = [
+            stages.start(group, i) for group in field.depends for i in range(stages.d)
+        ]
         code = stages.code(field.components, evaluation, self._is_for_balls)
         prefix = f"g{evaluation.colour}{evaluation.group}_"
         self.frozen[key] = stages.emit(code, start, prefix)
@@ -183,9 +207,7 @@ class NewtonWriter:
             if not self._is_for_balls:
                 ends += f" or (stale and {squared_away})"
         # or round-off: only a second correction no smaller than the first tells that it is reached
-        stalled = (
-            f"0 < {_STALLED_RATE}*before <= size <= {_STALLED_UNITS:.0e}*precision*(scale + floor)"
-        )
+        stalled = f"0 < {_STALLED_RATE}*before <= size <= {_STALLED_UNITS:.0e}*precision*(scale + floor)"
         write(f"done = {ends} or {stalled}")
         if not is_direct:
             near = _NEAR_FOR_BALLS if self._is_for_balls else _NEAR_FOR_FLOATS

@@ -16,7 +16,13 @@ from dataclasses import dataclass, replace
 from garkcli.problems.hamiltonian import GROUPS
 from garkcli.problems.straightline import Code
 from garkcli.stepping.chainrule import ChainRule
-from garkcli.stepping.dependency import DependencyGraph, FieldEvaluation, Fields, Stage, StageBlock
+from garkcli.stepping.dependency import (
+    DependencyGraph,
+    FieldEvaluation,
+    Fields,
+    Stage,
+    StageBlock,
+)
 from garkcli.stepping.jacobian import JacobianWriter
 from garkcli.stepping.newton import NewtonWriter
 from garkcli.stepping.stagewriter import Lines, StageWriter, names
@@ -61,7 +67,9 @@ class Program:
         return tuple(counts)
 
 
-def write(graph: DependencyGraph, fields: Fields, dimension: int, is_for_balls: bool) -> Program:
+def write(
+    graph: DependencyGraph, fields: Fields, dimension: int, is_for_balls: bool
+) -> Program:
     """The program of one step of the method with this ``graph`` on vector fields of d =
     ``dimension``.
     """
@@ -102,7 +110,9 @@ class _ProgramWriter:
         """The function whose loop has this ``body``."""
         y, lost = names("y", 2 * self.d), names("e", 2 * self.d)
         components = [
-            self.stages.component(stage, i) for stage in self.unknowns for i in range(self.d)
+            self.stages.component(stage, i)
+            for stage in self.unknowns
+            for i in range(self.d)
         ]
         missed = [f"m{c}" for c in components]
         changed = [f"n{c}" for c in components]

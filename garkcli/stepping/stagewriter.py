@@ -80,14 +80,21 @@ class StageWriter:
         is_for_balls: bool,
         lines: Lines,
     ) -> None:
-        self.graph, self.fields, self.d, self.is_for_balls = graph, fields, dimension, is_for_balls
+        self.graph, self.fields, self.d, self.is_for_balls = (
+            graph,
+            fields,
+            dimension,
+            is_for_balls,
+        )
         self.lines = lines
         self.weights: dict[str, str] = {}
         self.first: list[tuple[Stage | None, FieldEvaluation]] = []
         self.codes: list[Code] = []
         self.values: dict[FieldEvaluation, list[str]] = {}
         self.stages: dict[Stage, list[str]] = {}
-        self.number = {vertex: i for i, vertex in enumerate((*graph.sums, *graph.evaluations))}
+        self.number = {
+            vertex: i for i, vertex in enumerate((*graph.sums, *graph.evaluations))
+        }
         self._known_sums: list[Sum] = []
 
     def explicit(self, block: StageBlock) -> None:
@@ -121,7 +128,9 @@ class StageWriter:
 
     def arguments(self, evaluation: FieldEvaluation) -> list[str]:
         """The names of the numbers that a field is evaluated at."""
-        return [x for stage in self.graph.arguments[evaluation] for x in self.stages[stage]]
+        return [
+            x for stage in self.graph.arguments[evaluation] for x in self.stages[stage]
+        ]
 
     def total(self, stage: Stage | None, evaluations: Sequence[FieldEvaluation]) -> Sum:
         """The sums of w f over ``evaluations``; from a sum that is known, where that has at least
@@ -164,7 +173,10 @@ class StageWriter:
         return self.weights[text]
 
     def code(
-        self, expressions: Sequence[object], evaluation: FieldEvaluation, is_for_balls: bool
+        self,
+        expressions: Sequence[object],
+        evaluation: FieldEvaluation,
+        is_for_balls: bool,
     ) -> Code:
         """The code of expressions in what the field of an evaluation depends on."""
         arguments = self.fields[evaluation.colour, evaluation.group].arguments

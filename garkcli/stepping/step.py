@@ -37,10 +37,10 @@ class StepFailed(GarkError):
             cure = "choose a smaller step size"
         else:
             what = "the numbers leave the vector fields"
-            cure = (
-                "choose a smaller step size, or an earlier final time: the solution may end there"
-            )
-        super().__init__(f"step {number} of size {h}: {what} (residual {residual:.1e})", cure)
+            cure = "choose a smaller step size, or an earlier final time: the solution may end there"
+        super().__init__(
+            f"step {number} of size {h}: {what} (residual {residual:.1e})", cure
+        )
         self.number = number
         self.h = h
         self.residual = residual
@@ -128,7 +128,9 @@ class Stepper:
         start = integrator.problem.initial if self.initial is None else self.initial
         with ctx.workprec(integrator.bits):
             self._numbers = [integrator.number(x) for x in start]
-            self._numbers += [integrator.number(0)] * (integrator.program.size - len(self._numbers))
+            self._numbers += [integrator.number(0)] * (
+                integrator.program.size - len(self._numbers)
+            )
         self._weights = integrator.weights(self.h)
         self._iterations = [0] * len(integrator.program.repeated)
 
@@ -141,9 +143,13 @@ class Stepper:
     def work(self) -> Work:
         """What all steps so far have cost."""
         program = self.integrator.program
-        repeated = sum(n * k for n, k in zip(self._iterations, program.repeated, strict=True))
+        repeated = sum(
+            n * k for n, k in zip(self._iterations, program.repeated, strict=True)
+        )
         return Work(
-            self.done * program.evaluations + repeated, sum(self._iterations), self._jacobians
+            self.done * program.evaluations + repeated,
+            sum(self._iterations),
+            self._jacobians,
         )
 
     def advance(self, count: int, record: Recorder | None = None) -> None:
@@ -165,6 +171,8 @@ class Stepper:
         except NotSolved as failure:
             raise StepFailed(failure.number, self.h, failure.residual) from None
         self._numbers, iterations, jacobians = made
-        self._iterations = [a + b for a, b in zip(self._iterations, iterations, strict=True)]
+        self._iterations = [
+            a + b for a, b in zip(self._iterations, iterations, strict=True)
+        ]
         self._jacobians += jacobians
         self.done += count

@@ -61,7 +61,9 @@ def conjugate(tableau: Tableau) -> Tableau:
     if tableau.is_partitioned:
         return replace(tableau, blocks=_exchanged(tableau))
     spaces = tuple(tableau.space(l) for l in range(tableau.size))
-    colours = tuple(replace(colour, space=l) for l, colour in enumerate(tableau.colours))
+    colours = tuple(
+        replace(colour, space=l) for l, colour in enumerate(tableau.colours)
+    )
     blocks = {(l, m): conjugate_of(tableau, l, m) for m, l in tableau.edges()}
     return Tableau(spaces, colours, blocks)
 
@@ -73,7 +75,9 @@ def conjugate_of(tableau: Tableau, l: int, m: int) -> Matrix:
         raise KeyError((l, m))
     here, other = tableau.colours[l], tableau.colours[m]
     try:
-        return conjugate_block(block, tableau.space(l), here.b, tableau.space(m), other.b)
+        return conjugate_block(
+            block, tableau.space(l), here.b, tableau.space(m), other.b
+        )
     except ZeroWeight as error:
         raise ZeroWeight(f"colour {here.name}: {error.message}", error.help) from None
 
@@ -126,5 +130,7 @@ def symplectic_defect(tableau: Tableau, l: int, m: int) -> Matrix:
     if forth is None or back is None:
         raise KeyError((l, m))
     b_l, b_m = tableau.colours[l].b, tableau.colours[m].b
-    both = add(tableau.space(l).form(b_l, forth), transpose(tableau.space(m).form(b_m, back)))
+    both = add(
+        tableau.space(l).form(b_l, forth), transpose(tableau.space(m).form(b_m, back))
+    )
     return subtract(both, outer(b_l, b_m))

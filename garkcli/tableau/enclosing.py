@@ -56,7 +56,10 @@ def enclose_tableau(tableau: Tableau, bits: int) -> Enclosure:
         else:
             found = numeric_entries(tableau, min(digits, MAX_DIGITS))
             colour_of = {colour.space: l for l, colour in enumerate(tableau.colours)}
-            A = {(k, m): _matrix(found.A[colour_of[k]][m] or ()) for k, m in tableau.blocks}
+            A = {
+                (k, m): _matrix(found.A[colour_of[k]][m] or ())
+                for k, m in tableau.blocks
+            }
             b = [_matrix([row]).transpose() for row in found.b]
     return Enclosure(bits, tuple(space.stages for space in tableau.spaces), A, tuple(b))
 

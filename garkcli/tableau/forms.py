@@ -16,7 +16,9 @@ from garkcli.tableau.stages import PointSpace
 from garkcli.tableau.tableau import Colour, Part, Tableau
 
 
-def gark(methods: Sequence[Method], transfer: Mapping[tuple[int, int], Matrix]) -> Tableau:
+def gark(
+    methods: Sequence[Method], transfer: Mapping[tuple[int, int], Matrix]
+) -> Tableau:
     """The tableau with the diagonal ``methods`` and the off-diagonal blocks ``transfer[l, m]``, eq.
     (GARK).
     """
@@ -24,7 +26,9 @@ def gark(methods: Sequence[Method], transfer: Mapping[tuple[int, int], Matrix]) 
         Colour(str(l + 1), l, method.b, method.c, l) for l, method in enumerate(methods)
     )
     diagonal = {(l, l): method.A for l, method in enumerate(methods)}
-    return Tableau(tuple(method.space for method in methods), colours, diagonal | dict(transfer))
+    return Tableau(
+        tuple(method.space for method in methods), colours, diagonal | dict(transfer)
+    )
 
 
 def spelled_out(
@@ -38,10 +42,14 @@ def spelled_out(
     """
     linear = frozenset(linear)
     nodes = [
-        given if given is not None else _row_sums(l, A[l], len(b[l])) for l, given in enumerate(c)
+        given if given is not None else _row_sums(l, A[l], len(b[l]))
+        for l, given in enumerate(c)
     ]
     blocks = {
-        (l, m): block for l, row in enumerate(A) for m, block in enumerate(row) if block is not None
+        (l, m): block
+        for l, row in enumerate(A)
+        for m, block in enumerate(row)
+        if block is not None
     }
     colours = tuple(
         Colour(str(l + 1), l, weights, nodes[l], l, is_linear=l in linear)
@@ -51,7 +59,9 @@ def spelled_out(
 
 
 def _row_sums(l: int, row: Sequence[Matrix | None], stages: int) -> Vector:
-    block = row[l] if row[l] is not None else next((x for x in row if x is not None), None)
+    block = (
+        row[l] if row[l] is not None else next((x for x in row if x is not None), None)
+    )
     if block is None:
         return (ZERO,) * stages
     return apply(block, PointSpace(block[0]).one)
@@ -60,8 +70,12 @@ def _row_sums(l: int, row: Sequence[Matrix | None], stages: int) -> Vector:
 def additive(A: Sequence[Matrix], b: Sequence[Vector], c: Vector | None) -> Tableau:
     """An additive method: one set of stages, a matrix and a row of weights a colour."""
     nodes = c if c is not None else _row_sums(0, A, len(A[0]))
-    colours = tuple(Colour(str(l + 1), 0, weights, nodes, l) for l, weights in enumerate(b))
-    return Tableau((PointSpace(nodes),), colours, {(0, m): block for m, block in enumerate(A)})
+    colours = tuple(
+        Colour(str(l + 1), 0, weights, nodes, l) for l, weights in enumerate(b)
+    )
+    return Tableau(
+        (PointSpace(nodes),), colours, {(0, m): block for m, block in enumerate(A)}
+    )
 
 
 def partitioned(q: Method, p: Method) -> Tableau:
@@ -87,7 +101,10 @@ def separable_prk(
     at_positions = c_q if c_q is not None else _row_sums(0, [A_q], len(b_p))
     return Tableau(
         (PointSpace(at_momenta), PointSpace(at_positions)),
-        (Colour("q", 0, b_q, at_momenta, 0, "q"), Colour("p", 1, b_p, at_positions, 1, "p")),
+        (
+            Colour("q", 0, b_q, at_momenta, 0, "q"),
+            Colour("p", 1, b_p, at_positions, 1, "p"),
+        ),
         {(0, 1): A_p, (1, 0): A_q},
     )
 
@@ -95,11 +112,15 @@ def separable_prk(
 def with_linear(tableau: Tableau, names: Iterable[str]) -> Tableau:
     """The same tableau where the vector fields of the colours called ``names`` are linear."""
     names = frozenset(names)
-    colours = (replace(x, is_linear=True) if x.name in names else x for x in tableau.colours)
+    colours = (
+        replace(x, is_linear=True) if x.name in names else x for x in tableau.colours
+    )
     return replace(tableau, colours=tuple(colours))
 
 
-def symplectic_pair(tableau: Tableau, velocities: Sequence[int], forces: Sequence[int]) -> Tableau:
+def symplectic_pair(
+    tableau: Tableau, velocities: Sequence[int], forces: Sequence[int]
+) -> Tableau:
     """The pair (Q, P) of a GARK tableau Q and its conjugate P, for the vector fields that the
     problem has.
 
@@ -120,13 +141,18 @@ def symplectic_pair(tableau: Tableau, velocities: Sequence[int], forces: Sequenc
         MethodError: the tableau is partitioned already.
     """
     if tableau.is_partitioned:
-        raise MethodError("the method is partitioned already", "give the tableau of the positions")
+        raise MethodError(
+            "the method is partitioned already", "give the tableau of the positions"
+        )
     used = [l for l in range(tableau.size) if l in velocities or l in forces]
     row = {l: k for k, l in enumerate(used)}
 
     def colour(name: str, l: int, part: Part) -> Colour:
         return replace(
-            tableau.colours[l], name=f"{name}{tableau.colours[l].name}", space=row[l], part=part
+            tableau.colours[l],
+            name=f"{name}{tableau.colours[l].name}",
+            space=row[l],
+            part=part,
         )
 
     V = [colour("V", l, "q") for l in velocities]

@@ -41,7 +41,9 @@ class GarkMethod:
 
     @cached_property
     def _entries(self) -> Entries:
-        from garkcli.tableau.pointwise import entries  # loaded when entries are asked for
+        from garkcli.tableau.pointwise import (
+            entries,
+        )  # loaded when entries are asked for
 
         return entries(self.tableau)
 

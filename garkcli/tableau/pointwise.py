@@ -54,7 +54,9 @@ class Entries:
         def row(cells: Sequence[Cell]) -> tuple[Cell, ...]:
             return tuple(map(change, cells))
 
-        def block(rows: Sequence[Sequence[Cell]] | None) -> tuple[tuple[Cell, ...], ...] | None:
+        def block(
+            rows: Sequence[Sequence[Cell]] | None,
+        ) -> tuple[tuple[Cell, ...], ...] | None:
             return None if rows is None else tuple(map(row, rows))
 
         return replace(
@@ -155,7 +157,9 @@ def _domain_with(
     tableau: Tableau, radical_nodes: Mapping[int, Sequence[Expression]]
 ) -> Domain | None:
     """The domain of the coefficients and of these nodes; None where it is too large."""
-    radicals = [radical for radical, _ in tableau.field.radicals] if tableau.field else []
+    radicals = (
+        [radical for radical, _ in tableau.field.radicals] if tableau.field else []
+    )
     for nodes in radical_nodes.values():
         radicals += nodes
     try:
@@ -184,7 +188,9 @@ def _at_points(
     frames: list[_Frame] = []
     for k, old in enumerate(tableau.spaces):
         if k in radical_nodes:
-            space = PointSpace(tuple(domain.evaluate(node) for node in radical_nodes[k]))
+            space = PointSpace(
+                tuple(domain.evaluate(node) for node in radical_nodes[k])
+            )
             frames.append(_Frame(space, space.reductions(space.stages), space.lifts()))
         else:
             unit = identity(old.stages)
@@ -213,7 +219,9 @@ def _embedding(tableau: Tableau, domain: Domain) -> Callable[[Number], Number]:
         if not isinstance(number, Algebraic):
             return number
         total: Number = ZERO
-        for coefficient, word in zip(field.in_radicals(number), field.monomials, strict=True):
+        for coefficient, word in zip(
+            field.in_radicals(number), field.monomials, strict=True
+        ):
             term: Number = ONE * coefficient
             for index in word:
                 term = term * radicals[index]
@@ -238,7 +246,9 @@ def numeric_entries(tableau: Tableau, digits: int = 17) -> Entries:
                 found = _numeric(tableau, digits)
                 if all(x.rad() < arb(10) ** -digits for x in _balls(found)):
                     return found
-            except ZeroDivisionError:  # a Vandermonde matrix too ill-conditioned for the precision
+            except (
+                ZeroDivisionError
+            ):  # a Vandermonde matrix too ill-conditioned for the precision
                 pass
             ctx.prec *= 2
     finally:
@@ -247,7 +257,14 @@ def numeric_entries(tableau: Tableau, digits: int = 17) -> Entries:
 
 def _balls(found: Entries) -> Sequence[arb]:
     cells = [x for row in (*found.c, *found.b) for x in row]
-    cells += [x for blocks in found.A for block in blocks if block for row in block for x in row]
+    cells += [
+        x
+        for blocks in found.A
+        for block in blocks
+        if block
+        for row in block
+        for x in row
+    ]
     return [x for x in cells if isinstance(x, arb)]
 
 
@@ -258,16 +275,24 @@ def _numeric(tableau: Tableau, digits: int) -> Entries:
         exact = tableau.block(l, m)
         if exact is None:
             return None
-        V, back = frames[tableau.colours[l].space][0], frames[tableau.colours[m].space][1]
+        V, back = (
+            frames[tableau.colours[l].space][0],
+            frames[tableau.colours[m].space][1],
+        )
         return tuple(tuple(row) for row in (V * _to_arb(exact) * back).tolist())
 
     colours = tableau.colours
     return Entries(
         c=tuple(
-            tuple((frames[x.space][0] * _to_arb([[y] for y in x.c])).entries()) for x in colours
+            tuple((frames[x.space][0] * _to_arb([[y] for y in x.c])).entries())
+            for x in colours
         ),
-        A=tuple(tuple(block(l, m) for m in range(tableau.size)) for l in range(tableau.size)),
-        b=tuple(tuple((_to_arb([x.b]) * frames[x.space][1]).entries()) for x in colours),
+        A=tuple(
+            tuple(block(l, m) for m in range(tableau.size)) for l in range(tableau.size)
+        ),
+        b=tuple(
+            tuple((_to_arb([x.b]) * frames[x.space][1]).entries()) for x in colours
+        ),
         is_exact=False,
         digits=digits,
         have_radicals=False,

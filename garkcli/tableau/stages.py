@@ -199,7 +199,11 @@ class PointSpace(StageSpace):
         """
         pairs = combinations(self.points, 2)
         bound = sum(_bits(x - y) for x, y in pairs)
-        if bound <= enough or bound > MAX_BITS_COMPARED or not is_rational((self.points,)):
+        if (
+            bound <= enough
+            or bound > MAX_BITS_COMPARED
+            or not is_rational((self.points,))
+        ):
             return bound
         common = fmpz(1)
         for c in cast("tuple[fmpq, ...]", self.points):
@@ -236,14 +240,19 @@ class PointSpace(StageSpace):
         return f"{' = '.join([*names[:3], '…'] if len(names) > 4 else names)} = 0"
 
     def form(self, weights: Vector, block: Matrix) -> Matrix:
-        return tuple(tuple(w * a for a in row) for w, row in zip(weights, block, strict=True))
+        return tuple(
+            tuple(w * a for a in row) for w, row in zip(weights, block, strict=True)
+        )
 
     def divide_by_weights(self, weights: Vector, right: Matrix) -> Matrix:
         if not all(weights):
             raise SingularMatrixError
-        inverses = [ONE / b for b in weights]  # of irrational weights they take the time
+        inverses = [
+            ONE / b for b in weights
+        ]  # of irrational weights they take the time
         return tuple(
-            tuple(inverse * x for x in row) for inverse, row in zip(inverses, right, strict=True)
+            tuple(inverse * x for x in row)
+            for inverse, row in zip(inverses, right, strict=True)
         )
 
 
@@ -290,7 +299,9 @@ class PolynomialSpace(StageSpace):
     def times(self, functional: Vector, v: Vector) -> Vector:
         s, moments = self.stages, self._moments(functional)
         if is_rational((moments, v)):
-            turned, f = (fmpq_poly(cast("list[fmpq]", list(w))) for w in (v[::-1], moments))
+            turned, f = (
+                fmpq_poly(cast("list[fmpq]", list(w))) for w in (v[::-1], moments)
+            )
             product = turned * f
             return tuple(product[s - 1 + j] for j in range(s))
         return tuple(dot(v, moments[j : j + s]) for j in range(s))
@@ -313,7 +324,9 @@ class PolynomialSpace(StageSpace):
 
     def _new_moments(self, functional: Vector) -> Vector:
         if is_rational((functional,)):
-            return tuple((to_flint((functional,), self.stages) * self._higher_in_flint).entries())
+            return tuple(
+                (to_flint((functional,), self.stages) * self._higher_in_flint).entries()
+            )
         return apply_left(functional, self._higher)
 
     def reductions(self, count: int) -> Matrix:
@@ -456,5 +469,6 @@ def antiderivative(coefficients: Sequence[Number]) -> Vector:
 def integration(degree: int) -> Matrix:
     """The map f ↦ ∫_0^x f on polynomials of degree < ``degree``, shape (degree + 1, degree)."""
     return tuple(
-        tuple(fmpq(1, i) if i == j + 1 else ZERO for j in range(degree)) for i in range(degree + 1)
+        tuple(fmpq(1, i) if i == j + 1 else ZERO for j in range(degree))
+        for i in range(degree + 1)
     )

@@ -56,7 +56,9 @@ class Block:
             if branch < 0:
                 yield Tree(root)
             else:
-                yield Tree(root, [*self.lower.tree(stem).branches, self.lower.tree(branch)])
+                yield Tree(
+                    root, [*self.lower.tree(stem).branches, self.lower.tree(branch)]
+                )
 
 
 def iter_blocks(
@@ -89,7 +91,9 @@ def iter_blocks(
     for root in wanted:
         for _, growth in segments_of(admissible, starts, order, lower.columns, root):
             for start in range(0, len(growth), block_size):
-                yield Block(growth.make(start, min(start + block_size, len(growth))), lower)
+                yield Block(
+                    growth.make(start, min(start + block_size, len(growth))), lower
+                )
 
 
 def select(
@@ -115,19 +119,31 @@ def select(
     """
     for colour in {*(only or ()), *using, *(() if root is None else (root,))}:
         if not 0 <= colour < colours:
-            raise ValueError(f"there is no colour {colour} among the {colours} colours 0, 1, …")
+            raise ValueError(
+                f"there is no colour {colour} among the {colours} colours 0, 1, …"
+            )
     within = set(range(colours) if only is None else only)
     narrowed = [
-        [(edges is None or bool(edges[above][m])) and {above, m} <= within for m in range(colours)]
+        [
+            (edges is None or bool(edges[above][m])) and {above, m} <= within
+            for m in range(colours)
+        ]
         for above in range(colours)
     ]
     if len(set(using)) > min(order, MAX_USING):
         return  # more colours than vertices, or than any tree that can be listed has
     bits = np.zeros(colours, np.int64)
     bits[sorted(set(using))] = 1 << np.arange(len(set(using)))
-    used: Column | None = None  # for every tree of the lower orders which of the colours occur
+    used: Column | None = (
+        None  # for every tree of the lower orders which of the colours occur
+    )
     for block in iter_blocks(
-        colours, order, block_size, narrowed, linear, within if root is None else {root} & within
+        colours,
+        order,
+        block_size,
+        narrowed,
+        linear,
+        within if root is None else {root} & within,
     ):
         if used is None:
             used = _used_by_all(block.lower, bits)
@@ -140,7 +156,9 @@ def select(
 
 def _used(trees: Columns, bits: Column, known: Column) -> Column:
     """A bit for each colour that occurs; ``known`` has those of the parents."""
-    return np.where(trees.branch < 0, bits[trees.root], known[trees.stem] | known[trees.branch])
+    return np.where(
+        trees.branch < 0, bits[trees.root], known[trees.stem] | known[trees.branch]
+    )
 
 
 def _used_by_all(table: TreeTable, bits: Column) -> Column:

@@ -120,7 +120,9 @@ class Growth:
     of the possible parents, of one order and root colour each.
     """
 
-    def __init__(self, lower: Columns, order: int, stems: range, branches: range) -> None:
+    def __init__(
+        self, lower: Columns, order: int, stems: range, branches: range
+    ) -> None:
         self.lower = lower
         self.order = order
         self.stems = stems
@@ -153,10 +155,15 @@ class Growth:
         exact = exact_dtype(order)
         multiplicity = np.ones(stop - start, np.int16)
         multiplicity[heads[again]] += lower.multiplicity[stems][again]
-        sigma = np.repeat(lower.sigma[stems].astype(exact, copy=False), count) * lower.sigma[branch]
+        sigma = (
+            np.repeat(lower.sigma[stems].astype(exact, copy=False), count)
+            * lower.sigma[branch]
+        )
         sigma[heads[again]] *= multiplicity[heads[again]]
         stem_gamma = (
-            lower.gamma[stems].astype(exact, copy=False) // int(lower.order[stems.start]) * order
+            lower.gamma[stems].astype(exact, copy=False)
+            // int(lower.order[stems.start])
+            * order
         )
         return Columns(
             stem=np.repeat(np.arange(stems.start, stems.stop), count),

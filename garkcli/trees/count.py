@@ -96,7 +96,10 @@ def counts_upto(admissible: Admissible, order: int) -> list[tuple[int, ...]]:
     [(1, 1), (1, 2), (3, 6)]
     """
     leaders = admissible.leaders
-    forests = {leader: [*map(int, f)] for leader, f in _forests(admissible, leaders, order).items()}
+    forests = {
+        leader: [*map(int, f)]
+        for leader, f in _forests(admissible, leaders, order).items()
+    }
     return [*zip(*(forests[leader] for leader in leaders), strict=True)]
 
 
@@ -112,11 +115,15 @@ def count_by_root(
     """
     admissible = Admissible.of(colours, edges, linear)
     leaders = admissible.leaders
-    last = {leader: int(f[-1]) for leader, f in _forests(admissible, leaders, order).items()}
+    last = {
+        leader: int(f[-1]) for leader, f in _forests(admissible, leaders, order).items()
+    }
     return tuple(last[leader] for leader in leaders)
 
 
-def _forests(admissible: Admissible, leaders: Sequence[int], order: int) -> dict[int, list[fmpz]]:
+def _forests(
+    admissible: Admissible, leaders: Sequence[int], order: int
+) -> dict[int, list[fmpz]]:
     """For each leader the numbers of forests f(0), …, f(order - 1) that may stand on it."""
     if order < 1:
         raise ValueError(f"the order of a tree is at least 1, not {order}")
@@ -175,7 +182,8 @@ class _Growing:
         total = self.sums[n] + c[n]
         if start:
             total += sum(
-                (c[k] * f[n - k] + f[k] * c[n - k] for k in range(start, n)), start=fmpz(0)
+                (c[k] * f[n - k] + f[k] * c[n - k] for k in range(start, n)),
+                start=fmpz(0),
             )
         else:
             total += sum((c[k] * f[n - k] for k in range(1, n)), start=fmpz(0))
@@ -201,7 +209,9 @@ class _Growing:
             ) * fmpz_poly(f[:near])
         else:
             product = fmpz_poly(f) * fmpz_poly(c[:end])
-        for n, coefficient in zip(range(end, stop), product.coeffs()[half:], strict=False):
+        for n, coefficient in zip(
+            range(end, stop), product.coeffs()[half:], strict=False
+        ):
             self.sums[n] += coefficient
 
 

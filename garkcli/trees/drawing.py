@@ -33,7 +33,10 @@ DOT = "●"
 
 STEP_X, STEP_Y, RADIUS, MARGIN = 30, 36, 11, 16  # of the SVG drawings, in pixels
 ROW_GAP = 24  # between the captions of one row and the highest tree of the next
-CAPTION_SIZE, CAPTION_STEP = 12, 17  # type size and line step of the captions, in pixels
+CAPTION_SIZE, CAPTION_STEP = (
+    12,
+    17,
+)  # type size and line step of the captions, in pixels
 CHARACTER = 0.62 * CAPTION_SIZE  # width of a character of the captions, in pixels
 
 
@@ -147,7 +150,9 @@ def draw_svg_sheet(
     of text for each tree. Raises ``ValueError`` when there are not as many captions as trees.
     """
     if captions is not None and len(captions) != len(trees):
-        raise ValueError(f"{len(captions)} captions for {len(trees)} trees; give each tree one")
+        raise ValueError(
+            f"{len(captions)} captions for {len(trees)} trees; give each tree one"
+        )
     placed = [layout(u) for u in trees]
     lines = [[f"σ = {u.symmetry}, γ = {u.density}"] for u in trees]
     for k, caption in enumerate(captions or ()):
@@ -157,7 +162,9 @@ def draw_svg_sheet(
     for k, vertices in enumerate(placed):
         wide = max(v.x for v in vertices) * STEP_X + 2 * RADIUS
         text = max(map(len, lines[k])) * CHARACTER
-        widths[k % columns] = max(widths[k % columns], wide + 2 * MARGIN, text + 2 * MARGIN)
+        widths[k % columns] = max(
+            widths[k % columns], wide + 2 * MARGIN, text + 2 * MARGIN
+        )
         heights[k // columns] = max(
             heights[k // columns], max(v.y for v in vertices) * STEP_Y + 2 * RADIUS
         )
@@ -227,14 +234,16 @@ def tikz(tree: Tree, scale: float = 0.6, colours: bool = True) -> str:
     lines = [rf"\begin{{tikzpicture}}[x={scale:g}cm,y={scale:g}cm,baseline=(v0.base)]"]
     for k, v in enumerate(vertices):
         fill, ink = (_tikz_colour(value) for value in PALETTE[v.colour % len(PALETTE)])
-        style = (
-            f"circle,draw,inner sep=0pt,minimum size=4mm,font=\\scriptsize,fill={fill},text={ink}"
-        )
+        style = f"circle,draw,inner sep=0pt,minimum size=4mm,font=\\scriptsize,fill={fill},text={ink}"
         label = str(v.colour + 1)
         if not colours:
             style, label = "circle,fill,inner sep=0pt,minimum size=1.2mm", ""
         lines.append(rf"  \node[{style}] (v{k}) at ({v.x:g},{v.y}) {{{label}}};")
-    lines += [rf"  \draw (v{v.parent}) -- (v{k});" for k, v in enumerate(vertices) if v.parent >= 0]
+    lines += [
+        rf"  \draw (v{v.parent}) -- (v{k});"
+        for k, v in enumerate(vertices)
+        if v.parent >= 0
+    ]
     return "\n".join([*lines, r"\end{tikzpicture}", ""])
 
 

@@ -49,11 +49,16 @@ class Structure:
         if len(set(self.colours)) < len(self.colours):
             raise ValueError("two colours are the same part of the same term")
         if self.is_directed == any(part == "y" for _, part in self.colours):
-            raise ValueError("colours drive positions and momenta, or all of them everything")
+            raise ValueError(
+                "colours drive positions and momenta, or all of them everything"
+            )
 
     @classmethod
     def pair(
-        cls, velocities: Collection[int], forces: Collection[int], quadratic: Collection[int] = ()
+        cls,
+        velocities: Collection[int],
+        forces: Collection[int],
+        quadratic: Collection[int] = (),
     ) -> Structure:
         """The pair (A, Â) with V^l for l in ``velocities`` and F^l for l in ``forces``, in this
         order.
@@ -91,16 +96,23 @@ class Structure:
         """The rooted trees that have an order condition."""
         everything = range(len(self.colours))
         edges = [
-            [self._turned(above, below) is not None for below in everything] for above in everything
+            [self._turned(above, below) is not None for below in everything]
+            for above in everything
         ]
-        linear = [colour for colour, (term, _) in enumerate(self.colours) if term in self.quadratic]
+        linear = [
+            colour
+            for colour, (term, _) in enumerate(self.colours)
+            if term in self.quadratic
+        ]
         return Admissible.of(len(self.colours), edges, linear)
 
     def _turned(self, above: int, below: int) -> int | None:
         """The colour of the upper vertex once the root has moved below it; None where there is no
         edge.
         """
-        return self._number.get((self.colours[above][0], _PARTNER[self.colours[below][1]]))
+        return self._number.get(
+            (self.colours[above][0], _PARTNER[self.colours[below][1]])
+        )
 
     def is_forward(self, colour: int) -> bool:
         """Whether an edge down to this colour points down: through A, not through the conjugate
@@ -130,18 +142,23 @@ class Structure:
         branch = tree.branches[index]
         colour = self._turned(tree.root, branch.root)
         if colour is None:
-            raise ValueError(f"colour {tree.root + 1} does not see colour {branch.root + 1}")
+            raise ValueError(
+                f"colour {tree.root + 1} does not see colour {branch.root + 1}"
+            )
         rest = Tree(colour, tree.branches[:index] + tree.branches[index + 1 :])
         return self.lead(Tree(branch.root, (*branch.branches, rest)))
 
     def rootings(self, tree: Tree) -> Iterator[Tree]:
         """The rooting at every vertex, with repeats where vertices are alike."""
-        waiting: list[tuple[Tree, tuple[Tree, ...]]] = [(self.lead(tree), tree.branches)]
+        waiting: list[tuple[Tree, tuple[Tree, ...]]] = [
+            (self.lead(tree), tree.branches)
+        ]
         while waiting:
             here, onward = waiting.pop()
             yield here
             waiting.extend(
-                (self.move_root(here, here.branches.index(u)), u.branches) for u in onward
+                (self.move_root(here, here.branches.index(u)), u.branches)
+                for u in onward
             )
 
     def is_admissible(self, tree: Tree) -> bool:
@@ -190,7 +207,9 @@ class Grower:
         """The free trees with two centroids, two halves that differ, rooted as
         ``Structure.centred`` does.
         """
-        for colour in self.structure.admissible.branches[root] if order % 2 == 0 else ():
+        for colour in (
+            self.structure.admissible.branches[root] if order % 2 == 0 else ()
+        ):
             if not self.structure.is_forward(colour) or (
                 colour < root and not self.structure.is_directed
             ):
@@ -219,8 +238,12 @@ class Grower:
         most.
         """
         colours = self.structure.admissible.branches[root]
-        for outline in _outlines(total, (largest, max(colours, default=0)), colours, edges):
-            groups = [(kind, len(list(alike))) for kind, alike in groupby(reversed(outline))]
+        for outline in _outlines(
+            total, (largest, max(colours, default=0)), colours, edges
+        ):
+            groups = [
+                (kind, len(list(alike))) for kind, alike in groupby(reversed(outline))
+            ]
             chosen = [
                 combinations_with_replacement(self.planted(colour, order), times)
                 for (order, colour), times in groups
@@ -241,5 +264,7 @@ def _outlines(
         for order in range(1, min(total, bound[0]) + 1):
             for colour in colours:
                 if (order, colour) <= bound:
-                    for rest in _outlines(total - order, (order, colour), colours, edges - 1):
+                    for rest in _outlines(
+                        total - order, (order, colour), colours, edges - 1
+                    ):
                         yield ((order, colour), *rest)

@@ -40,7 +40,7 @@ class NotationError(ValueError):
     (from 0).
     """
 
-    def __init__(self, message: str, help: str, offset: int) -> None:  # noqa: A002 -- the word users see
+    def __init__(self, message: str, help: str, offset: int) -> None:
         super().__init__(f"{message} at character {offset + 1}; {help}")
         self.message = message
         self.help = help
@@ -83,7 +83,9 @@ class _Reader:
                 self._open(stack)
                 continue
             self._take(
-                "]", "',' or ']' is missing", "branches are separated by commas and closed by ']'"
+                "]",
+                "',' or ']' is missing",
+                "branches are separated by commas and closed by ']'",
             )
             branches = stack.pop()
             tree = Tree(self._colour(), branches)
@@ -94,7 +96,9 @@ class _Reader:
                 self.position += 1
                 self._open(stack)
         if self.position < len(self.text):
-            raise NotationError("text after the end of the tree", "give one tree", self.position)
+            raise NotationError(
+                "text after the end of the tree", "give one tree", self.position
+            )
         return tree
 
     def _open(self, stack: list[list[Tree]]) -> None:
@@ -130,7 +134,9 @@ class _Reader:
         if coloured != self.coloured:
             cure = "give every vertex a colour, as []_1, or none"
             raise NotationError(
-                "only some of the vertices have colours", cure, self.position if coloured else start
+                "only some of the vertices have colours",
+                cure,
+                self.position if coloured else start,
             )
         if not coloured:
             return 0
@@ -140,11 +146,15 @@ class _Reader:
         number = digits.group() if digits else ""
         if not number:
             raise NotationError(
-                "a colour is missing after '_'", "colours are numbers from 1", self.position
+                "a colour is missing after '_'",
+                "colours are numbers from 1",
+                self.position,
             )
         if len(number) > len(str(MAX_COLOUR)) or not 1 <= int(number) <= MAX_COLOUR:
             raise NotationError(
-                "no such colour", f"colours are numbers from 1 to {MAX_COLOUR}", self.position
+                "no such colour",
+                f"colours are numbers from 1 to {MAX_COLOUR}",
+                self.position,
             )
         self.position += len(number)
         self._next()
@@ -189,7 +199,9 @@ def vertex_letters(tree: Tree) -> tuple[str, ...]:
     >>> vertex_letters(Tree(0, [Tree(0), Tree(0)]))
     ('l', 'm', 'n')
     """
-    return tuple(LETTERS[i % len(LETTERS)] + "'" * (i // len(LETTERS)) for i in range(tree.order))
+    return tuple(
+        LETTERS[i % len(LETTERS)] + "'" * (i // len(LETTERS)) for i in range(tree.order)
+    )
 
 
 def condition_text(tree: Tree, letters: Sequence[str] | None = None) -> str:
@@ -238,7 +250,9 @@ class _Formula:
     meets them.
     """
 
-    def __init__(self, block: str, one: str, times: str, letters: Sequence[str] | None) -> None:
+    def __init__(
+        self, block: str, one: str, times: str, letters: Sequence[str] | None
+    ) -> None:
         self.block = block
         self.one = one
         self.times = times

@@ -53,7 +53,9 @@ from garkcli.trees.count import counts_upto
 from garkcli.trees.free import Grower, Structure
 from garkcli.trees.tree import Tree
 
-Kind: TypeAlias = Literal["pair", "self-conjugate", "semi-separable", "separable", "nystrom"]
+Kind: TypeAlias = Literal[
+    "pair", "self-conjugate", "semi-separable", "separable", "nystrom"
+]
 """Symplectic methods with a name; :class:`Structure` has all of them."""
 
 KINDS: tuple[Kind, ...] = get_args(Kind)
@@ -113,14 +115,18 @@ class ConditionClass:
 
         Where a quadratic term does not admit that root, the first rooting that has a condition.
         """
-        return next(filter(self.structure.is_admissible, self.structure.rootings(self.centred)))
+        return next(
+            filter(self.structure.is_admissible, self.structure.rootings(self.centred))
+        )
 
     @cached_property
     def members(self) -> tuple[Tree, ...]:
         """All rooted trees of the class, sorted: at every vertex, with every colour of the same
         stages.
         """
-        rootings = set(filter(self.structure.is_admissible, self.structure.rootings(self.centred)))
+        rootings = set(
+            filter(self.structure.is_admissible, self.structure.rootings(self.centred))
+        )
         twins = (twin for rooting in rootings for twin in self.structure.twins(rooting))
         return tuple(sorted(twins, key=Tree.sort_key))
 
@@ -178,7 +184,9 @@ def class_of(structure: Structure, tree: Tree) -> ConditionClass:
     Raises:
         ValueError: the structure has no such tree.
     """
-    if not tree.colours <= set(range(len(structure.colours))) or not structure.is_admissible(tree):
+    if not tree.colours <= set(
+        range(len(structure.colours))
+    ) or not structure.is_admissible(tree):
         raise ValueError("the method has no order condition for this tree")
     return ConditionClass(structure.centred(tree), structure)
 
@@ -197,17 +205,23 @@ def count_classes(structure: Structure, order: int) -> int:
     """
     _check(order)
     admissible = structure.admissible
-    halves = counts_upto(admissible, order)  # [n - 1][colour]: trees that hang from an edge
+    halves = counts_upto(
+        admissible, order
+    )  # [n - 1][colour]: trees that hang from an edge
     vertices = edges = 0
     for leader in structure.leaders.values():
         vertices += halves[order - 1][leader]
         if admissible.is_linear(leader):
-            branches = [sum(row[m] for m in admissible.branches[leader]) for row in halves]
+            branches = [
+                sum(row[m] for m in admissible.branches[leader]) for row in halves
+            ]
             vertices += _pairs(branches, branches, order - 1, same=True)
         for m in admissible.branches[leader]:
             if structure.is_forward(m) and (structure.is_directed or m >= leader):
                 same = m == leader and not structure.is_directed
-                upper, lower = ([row[colour] for row in halves] for colour in (leader, m))
+                upper, lower = (
+                    [row[colour] for row in halves] for colour in (leader, m)
+                )
                 edges += _pairs(upper, lower, order, same)
     return vertices - edges
 

@@ -56,7 +56,11 @@ class TreeTable:
 
     @classmethod
     def upto(
-        cls, colours: int, order: int, edges: Edges | None = None, linear: Collection[int] = ()
+        cls,
+        colours: int,
+        order: int,
+        edges: Edges | None = None,
+        linear: Collection[int] = (),
     ) -> TreeTable:
         """Generate the table; ``edges`` and ``linear`` as in :class:`Admissible`.
 
@@ -135,7 +139,9 @@ class TreeTable:
         """The ids of the trees of one order, all of them or those with one root colour (from 0)."""
         starts = self.starts[order - 1]
         return (
-            range(starts[0], starts[-1]) if root is None else range(starts[root], starts[root + 1])
+            range(starts[0], starts[-1])
+            if root is None
+            else range(starts[root], starts[root + 1])
         )
 
     def tree(self, tree_id: int) -> Tree:
@@ -173,7 +179,11 @@ def first_ids(admissible: Admissible, order: int) -> tuple[tuple[int, ...], ...]
 
 
 def segments_of(
-    admissible: Admissible, starts: Sequence[Sequence[int]], order: int, lower: Columns, root: int
+    admissible: Admissible,
+    starts: Sequence[Sequence[int]],
+    order: int,
+    lower: Columns,
+    root: int,
 ) -> list[tuple[Segment, Growth]]:
     """The segments of one order and root colour that are not empty, with what makes their trees."""
     made = []
@@ -184,19 +194,29 @@ def segments_of(
             continue
         stems = range(starts[rest - 1][root], starts[rest - 1][root + 1])
         for colour in admissible.branches[root]:
-            branches = range(starts[branch_order - 1][colour], starts[branch_order - 1][colour + 1])
+            branches = range(
+                starts[branch_order - 1][colour], starts[branch_order - 1][colour + 1]
+            )
             growth = Growth(lower, order, stems, branches)
             if len(growth):
                 ids = range(start, start + len(growth))
                 made.append(
-                    (Segment(order, root, branch_order, colour, ids, stems, branches), growth)
+                    (
+                        Segment(
+                            order, root, branch_order, colour, ids, stems, branches
+                        ),
+                        growth,
+                    )
                 )
                 start = ids.stop
     return made
 
 
 def _fill(
-    columns: Columns, admissible: Admissible, starts: Sequence[Sequence[int]], order: int
+    columns: Columns,
+    admissible: Admissible,
+    starts: Sequence[Sequence[int]],
+    order: int,
 ) -> list[Segment]:
     """Write the trees of one order into the table; the lower orders are there already."""
     segments = []

@@ -43,10 +43,14 @@ class Texts:
         columns = self.columns
         wanted = generation = np.unique(ids)
         while len(generation):
-            parents = np.concatenate([columns.stem[generation], columns.branch[generation]])
+            parents = np.concatenate(
+                [columns.stem[generation], columns.branch[generation]]
+            )
             generation = np.unique(parents[parents >= 0])
             wanted = np.union1d(wanted, generation)
-        missing = np.array([u for u in wanted.tolist() if u not in self._insides], np.int64)
+        missing = np.array(
+            [u for u in wanted.tolist() if u not in self._insides], np.int64
+        )
         for order in np.unique(columns.order[missing]):
             ids = missing[columns.order[missing] == order]
             self._insides.update(
@@ -56,7 +60,9 @@ class Texts:
     def _of_children(self, trees: Columns) -> list[Inside]:
         insides, root, order = self._insides, self.columns.root, self.columns.order
         made = []
-        for stem, branch in zip(trees.stem.tolist(), trees.branch.tolist(), strict=True):
+        for stem, branch in zip(
+            trees.stem.tolist(), trees.branch.tolist(), strict=True
+        ):
             if branch < 0:
                 made.append(("", 0, 0))
             else:

@@ -57,7 +57,9 @@ class Tree:
     def symmetry(self) -> int:
         """σ(u): the number of automorphisms that keep the root and every colour."""
         repeats = (len(list(group)) for _, group in groupby(self.branches))
-        return prod(u.symmetry for u in self.branches) * prod(factorial(k) for k in repeats)
+        return prod(u.symmetry for u in self.branches) * prod(
+            factorial(k) for k in repeats
+        )
 
     def vertices(self) -> Iterator[Tree]:
         """Every vertex, as the subtree hanging from it, the root first."""
@@ -80,5 +82,7 @@ class Tree:
 
     def __repr__(self) -> str:
         return (
-            f"Tree({self.root}, {list(self.branches)!r})" if self.branches else f"Tree({self.root})"
+            f"Tree({self.root}, {list(self.branches)!r})"
+            if self.branches
+            else f"Tree({self.root})"
         )

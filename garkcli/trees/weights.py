@@ -53,8 +53,13 @@ def _check(
             f"a table of {table.colours} colours needs as many stage spaces and weights"
         )
     for l, branches in enumerate(table.admissible.branches):
-        if weights[l].shape != weights[rows.index(rows[l])].shape or weights[l].ndim != 1:
-            raise ValueError(f"the weights of colour {l} do not fit its stage space {rows[l]}")
+        if (
+            weights[l].shape != weights[rows.index(rows[l])].shape
+            or weights[l].ndim != 1
+        ):
+            raise ValueError(
+                f"the weights of colour {l} do not fit its stage space {rows[l]}"
+            )
         for m in branches if table.max_order > 1 else ():
             block = blocks.get((rows[l], m))
             if block is None:
@@ -115,13 +120,17 @@ class _Evaluation:
             space = self.rows[colour]
             for m in branches:
                 if (space, order, m) not in self.applied:
-                    self.applied[space, order, m] = self.vectors[order, m] @ self.blocks[space, m].T
+                    self.applied[space, order, m] = (
+                        self.vectors[order, m] @ self.blocks[space, m].T
+                    )
 
     def _evaluate(self, segment: Segment, keep: bool) -> None:
         """Values, and if wanted the vectors, of the trees of a segment."""
         table, root = self.table, segment.root
         stems = self.vectors[segment.order - segment.branch_order, root]
-        branches = self.applied[self.rows[root], segment.branch_order, segment.branch_root]
+        branches = self.applied[
+            self.rows[root], segment.branch_order, segment.branch_root
+        ]
         first = table.ids(segment.order, root).start
         for start in range(segment.ids.start, segment.ids.stop, CHUNK):
             here = slice(start, min(start + CHUNK, segment.ids.stop))
@@ -129,4 +138,6 @@ class _Evaluation:
             product *= branches[table.branch[here] - segment.branches.start]
             self.values[here] = product @ self.weights[root]
             if keep:
-                self.vectors[segment.order, root][here.start - first : here.stop - first] = product
+                self.vectors[segment.order, root][
+                    here.start - first : here.stop - first
+                ] = product

@@ -101,7 +101,10 @@ def test_a_conjugate_goes_back() -> None:
 def test_convergence_takes_a_method() -> None:
     """``converge`` runs with the method as it was loaded."""
     oscillator = Oscillator.default(1, fmpq(1))
-    found, wanted = converge(pair(GAUSS), oscillator), converge(pair(GAUSS.tableau), oscillator)
+    found, wanted = (
+        converge(pair(GAUSS), oscillator),
+        converge(pair(GAUSS.tableau), oscillator),
+    )
     assert [(row.h, str(row.error)) for row in found.rows] == [
         (row.h, str(row.error)) for row in wanted.rows
     ]
@@ -132,7 +135,9 @@ def test_what_is_no_method_is_refused() -> None:
 def test_entries_are_those_that_are_printed() -> None:
     """One colour gives a matrix and rows, several give blocks; without simple radicals enclosures."""
     assert [str(x) for x in GAUSS.c] == ["1/2 - sqrt(3)/6", "1/2 + sqrt(3)/6"]
-    two = loads("methods: [{family: gauss, stages: 1}, {family: kutta}]\ntransfer: collocation")
+    two = loads(
+        "methods: [{family: gauss, stages: 1}, {family: kutta}]\ntransfer: collocation"
+    )
     assert two.stages == (1, 3)
     assert len(two.A[1][0]) == 3
     assert two.b[0] == (1,)

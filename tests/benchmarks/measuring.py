@@ -28,7 +28,9 @@ def seconds(run: Callable[[], object], repeat: int = 5) -> float:
 
 def process(command: Sequence[str]) -> Callable[[], object]:
     """A run of a whole process, from the root of the checkout; its exit code has to be 0."""
-    return lambda: subprocess.run(command, cwd=ROOT, check=True, stdout=subprocess.DEVNULL)
+    return lambda: subprocess.run(
+        command, cwd=ROOT, check=True, stdout=subprocess.DEVNULL
+    )
 
 
 def interleaved(
@@ -41,9 +43,7 @@ def interleaved(
 
 def peak_megabytes(code: str) -> float:
     """The largest resident size of a Python process that runs ``code``."""
-    script = (
-        f"{code}\nimport resource; print(resource.getrusage(resource.RUSAGE_SELF).ru_maxrss / 1024)"
-    )
+    script = f"{code}\nimport resource; print(resource.getrusage(resource.RUSAGE_SELF).ru_maxrss / 1024)"
     out = subprocess.run(
         [*PYTHON, "-c", script], cwd=ROOT, check=True, capture_output=True, text=True
     ).stdout

@@ -25,10 +25,14 @@ def test_collocation_pair(
     methods = f"[{{family: gauss, stages: {gauss}}}, {{family: lobatto-iiia, stages: {gauss + 1}}}]"
     file.write_text(f"methods: {methods}\ntransfer: collocation\n")
     command = [*GARK, "check", str(file), "--format", "json"]
-    found = json.loads(subprocess.run(command, check=True, capture_output=True, text=True).stdout)[
-        "files"
-    ][0]
-    assert (found["order"], found["conjugate_order"], found["pair_order"]) == (order, order, order)
+    found = json.loads(
+        subprocess.run(command, check=True, capture_output=True, text=True).stdout
+    )["files"][0]
+    assert (found["order"], found["conjugate_order"], found["pair_order"]) == (
+        order,
+        order,
+        order,
+    )
     time = seconds(lambda: subprocess.run(command, check=True, capture_output=True), 3)
     memory = peak_of_children()
     report(
@@ -37,4 +41,6 @@ def test_collocation_pair(
         1.0,
         f"{time:.3f} s",
     )
-    report(f"its memory / {megabytes:g} MB", memory / megabytes, 1.0, f"{memory:.0f} MB")
+    report(
+        f"its memory / {megabytes:g} MB", memory / megabytes, 1.0, f"{memory:.0f} MB"
+    )

@@ -48,7 +48,9 @@ def rational_file(k: int) -> str:
 
     def entry(i: int, j: int) -> str:
         return (
-            f"{(3 * i + 5 * j + k) % 7 + 1}/{(i + 2 * j + k) % 5 + 2}" if j < i + implicit else "0"
+            f"{(3 * i + 5 * j + k) % 7 + 1}/{(i + 2 * j + k) % 5 + 2}"
+            if j < i + implicit
+            else "0"
         )
 
     rows = ", ".join(f"[{', '.join(entry(i, j) for j in range(s))}]" for i in range(s))
@@ -100,7 +102,9 @@ def test_the_catalogue_in_one_call(tmp_path: Path) -> None:
     catalogue = entries()
     assert len(catalogue) == 94
     for name, entry in catalogue.items():
-        (tmp_path / f"{name}.gark.yaml").write_text(method_file(entry), encoding="utf-8")
+        (tmp_path / f"{name}.gark.yaml").write_text(
+            method_file(entry), encoding="utf-8"
+        )
     start = perf_counter()
     done = subprocess.run(
         [*GARK, "check", "-j", "2", str(tmp_path)], capture_output=True, text=True

@@ -30,7 +30,8 @@ def test_pendulum_against_leapfrog() -> None:
     of leapfrog.
     """
     made = bind(
-        load(str(ROOT / "methods/rectangular.gark.yaml")).tableau, hamiltonian("pendulum", 2)
+        load(str(ROOT / "methods/rectangular.gark.yaml")).tableau,
+        hamiltonian("pendulum", 2),
     ).at()
 
     def leapfrog() -> None:
@@ -40,9 +41,14 @@ def test_pendulum_against_leapfrog() -> None:
             q += h * p
             p -= h / 2 * sin(q)
 
-    ours, theirs = interleaved(lambda: Stepper(made, fmpq(1, 10)).advance(STEPS), leapfrog, 3)
+    ours, theirs = interleaved(
+        lambda: Stepper(made, fmpq(1, 10)).advance(STEPS), leapfrog, 3
+    )
     report(
-        "rectangular pendulum / leapfrog loop", ours / theirs, 40, f"{ours:.2f} s, {theirs:.3f} s"
+        "rectangular pendulum / leapfrog loop",
+        ours / theirs,
+        40,
+        f"{ours:.2f} s, {theirs:.3f} s",
     )
 
 
@@ -64,7 +70,10 @@ def test_kepler_against_scipy() -> None:
     (seconds, error), best = ours[110], min(theirs, key=_a_digit)
     detail = f"{seconds:.2f} s to {error:.1e}, {best[0]:.1f} s to {best[1]:.1e}"
     report(
-        "Kepler to 1e-8, time a digit / scipy", _a_digit(ours[110]) / _a_digit(best), 1.0, detail
+        "Kepler to 1e-8, time a digit / scipy",
+        _a_digit(ours[110]) / _a_digit(best),
+        1.0,
+        detail,
     )
     (seconds, error), fastest = ours[60], min(theirs)
     assert error < fastest[1]
@@ -83,7 +92,9 @@ def _ours(per_period: int) -> tuple[float, float]:
     ten.
     """
     entry = json.loads(
-        (ROOT / "tests/catalogue/data/sprk_Sofroniou_10_36.json").read_text(encoding="utf-8")
+        (ROOT / "tests/catalogue/data/sprk_Sofroniou_10_36.json").read_text(
+            encoding="utf-8"
+        )
     )
     made = bind(loads(method_file(entry)).tableau, hamiltonian("kepler", 2)).at()
     with ctx.workprec(120):

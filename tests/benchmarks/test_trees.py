@@ -42,7 +42,12 @@ def test_memory() -> None:
     """4 027 360 trees of four colours at order 8, with all below, in less than 2 GB."""
     code = "from garkcli.trees.table import TreeTable\nt = TreeTable.upto(4, 8)\nassert len(t) == 4529000"
     megabytes = peak_megabytes(code)
-    report("memory of 4 colours to order 8 / 2000 MB", megabytes / 2000, 1.0, f"{megabytes:.0f} MB")
+    report(
+        "memory of 4 colours to order 8 / 2000 MB",
+        megabytes / 2000,
+        1.0,
+        f"{megabytes:.0f} MB",
+    )
 
 
 def test_weights() -> None:
@@ -53,7 +58,9 @@ def test_weights() -> None:
     edges, linear = coupling_graph(tableau)
     entries = numeric_entries(tableau)
     rows = [colour.space for colour in tableau.colours]
-    blocks = {(rows[l], m): np.array(entries.A[l][m], dtype=float) for l, m in tableau.edges()}
+    blocks = {
+        (rows[l], m): np.array(entries.A[l][m], dtype=float) for l, m in tableau.edges()
+    }
     weights = [np.array(row, dtype=float) for row in entries.b]
     table = TreeTable.upto(4, 7, edges, linear)
     making = seconds(lambda: TreeTable.upto(4, 7, edges, linear), 7)

@@ -35,7 +35,8 @@ def tableau(entry: Entry) -> Tableau:
     expressions = {text: parse(text) for text in sorted(set(_texts(entry["blocks"])))}
     domain = Domain(expressions.values())
     return _made(
-        entry, {text: domain.evaluate(expression) for text, expression in expressions.items()}
+        entry,
+        {text: domain.evaluate(expression) for text, expression in expressions.items()},
     )
 
 

@@ -27,13 +27,15 @@ def test_one_call_over_the_directory(tmp_path: Path) -> None:
     states.
     """
     for name, entry in ENTRIES.items():
-        (tmp_path / f"{name}.gark.yaml").write_text(method_file(entry), encoding="utf-8")
+        (tmp_path / f"{name}.gark.yaml").write_text(
+            method_file(entry), encoding="utf-8"
+        )
     run = gark("check", str(tmp_path), "--format", "json", "-j", "2")
     assert run.code == 0, run.err
     files = json.loads(run.out)["files"]
-    assert {Path(x["file"]).name.removesuffix(".gark.yaml"): x["order"] for x in files} == {
-        name: entry["verified_order"] for name, entry in ENTRIES.items()
-    }
+    assert {
+        Path(x["file"]).name.removesuffix(".gark.yaml"): x["order"] for x in files
+    } == {name: entry["verified_order"] for name, entry in ENTRIES.items()}
     assert [x["exact"] for x in files] == [entry["exact"] for entry in ENTRIES.values()]
 
 
@@ -61,7 +63,10 @@ def test_brute_force_over_the_table_in_floats(name: str) -> None:
     weights = [_floats([row])[0] for row in printed.b]
     found = elementary_weights(table, rows, blocks, weights)
     sizes = elementary_weights(
-        table, rows, {key: np.abs(A) for key, A in blocks.items()}, [np.abs(b) for b in weights]
+        table,
+        rows,
+        {key: np.abs(A) for key, A in blocks.items()},
+        [np.abs(b) for b in weights],
     )
     # a vertex adds up at most as many products as there are stages, and is multiplied once
     operations = (order + 1) * (max(entry["stages"]) + 2)

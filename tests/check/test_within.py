@@ -40,7 +40,12 @@ def assert_no_contradiction(found: Analysis) -> None:
     assert bool(found.inconsistent) == any(0 in row for row in found.simplifying.C)
     if not found.inconsistent:
         assert min(found.simplifying.B) >= own.order
-    if found.pair is None or conjugate is None or both is None or found.pair_bound is None:
+    if (
+        found.pair is None
+        or conjugate is None
+        or both is None
+        or found.pair_bound is None
+    ):
         return
     assert found.pair_bound <= both.order <= min(own.order, conjugate.order)
     assert found.pair_bound <= found.bound
@@ -120,7 +125,9 @@ def test_what_is_left_open_confirms_no_exact_claim() -> None:
     body = "methods: [{A: [[0, 0], [0.1, 0.4]], b: [0.0000001, 0.9999999]}]\ntolerance: 1e-6\n"
     for claim, holds in (("'>= 2'", True), ("2", False)):
         method = loads(f"{body}expect: {{conjugate-order: {claim}}}\n")
-        (found,) = verify(method.claims, analyse(method.tableau, LIMIT, method.tolerance))
+        (found,) = verify(
+            method.claims, analyse(method.tableau, LIMIT, method.tolerance)
+        )
         assert found.holds is holds
 
 
@@ -130,7 +137,10 @@ def test_much_finer_tolerances_say_what_is_exactly_so(name: str) -> None:
     method = samples.NAMED[name]()
     near, exact = analyse(method, LIMIT, fmpq(1, 10**40)), analyse(method, LIMIT)
     orders = [
-        [x if x is None else x.order for x in (a.order, a.conjugate_order, a.pair_order)]
+        [
+            x if x is None else x.order
+            for x in (a.order, a.conjugate_order, a.pair_order)
+        ]
         for a in (near, exact)
     ]
     assert orders[0] == orders[1]

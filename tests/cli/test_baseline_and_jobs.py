@@ -43,7 +43,9 @@ class Project:
     def __init__(self, folder: Path, **files: str) -> None:
         self.folder = folder
         self.write(**files)
-        assert gark("check", ".", "--format", "json", "-o", "base.json", cwd=folder).code in {
+        assert gark(
+            "check", ".", "--format", "json", "-o", "base.json", cwd=folder
+        ).code in {
             0,
             1,
             2,
@@ -180,7 +182,13 @@ def process(*arguments: str, stdin: str = "") -> subprocess.CompletedProcess[str
     environment = {**os.environ, "PYTHONPATH": str(ROOT), "COLUMNS": "80"}
     environment.pop("GITHUB_ACTIONS", None)
     return subprocess.run(
-        command, cwd=ROOT, env=environment, input=stdin, capture_output=True, text=True, timeout=60
+        command,
+        cwd=ROOT,
+        env=environment,
+        input=stdin,
+        capture_output=True,
+        text=True,
+        timeout=60,
     )
 
 
@@ -189,17 +197,32 @@ def process(*arguments: str, stdin: str = "") -> subprocess.CompletedProcess[str
     [
         (
             ("--format", "json"),
-            ("methods", "tests/examples/valid", "tests/examples/failing", *QUICK, "nowhere"),
+            (
+                "methods",
+                "tests/examples/valid",
+                "tests/examples/failing",
+                *QUICK,
+                "nowhere",
+            ),
         ),
         (
             ("--format", "text"),
-            ("methods", "tests/examples/failing", "tests/examples/invalid/octal.gark.yaml"),
+            (
+                "methods",
+                "tests/examples/failing",
+                "tests/examples/invalid/octal.gark.yaml",
+            ),
         ),
-        (("--format", "text", "-v", "--error-constants"), ("methods", "tests/examples/valid")),
+        (
+            ("--format", "text", "-v", "--error-constants"),
+            ("methods", "tests/examples/valid"),
+        ),
         (("--format", "sarif"), ("methods", "tests/examples/failing", "tests/report")),
     ],
 )
-def test_two_at_a_time_say_the_same(options: tuple[str, ...], paths: tuple[str, ...]) -> None:
+def test_two_at_a_time_say_the_same(
+    options: tuple[str, ...], paths: tuple[str, ...]
+) -> None:
     """Methods, failing and unreadable files give the same report, in the same order, one by one and
     by twos.
     """
@@ -215,7 +238,8 @@ def test_standard_input_among_many() -> None:
     """``-`` is read once, in its place among the files, with ``-j`` as without."""
     paths = ("methods/collocation.gark.yaml", "-", "tests/examples/failing")
     one, two = (
-        process(*paths, *jobs, "--format", "json", stdin=HOLDS) for jobs in ((), ("-j", "2"))
+        process(*paths, *jobs, "--format", "json", stdin=HOLDS)
+        for jobs in ((), ("-j", "2"))
     )
     assert one.stdout == two.stdout
     files = [(x["file"], x["ok"]) for x in json.loads(two.stdout)["files"]]
@@ -235,7 +259,10 @@ def test_as_many_as_there_are_processors() -> None:
 def test_a_baseline_of_many_at_a_time(tmp_path: Path) -> None:
     """A report written by twos is a baseline for a check one by one, with nothing worse."""
     base = tmp_path / "base.json"
-    assert process("methods", "-j", "2", "--format", "json", "-o", str(base)).returncode == 0
+    assert (
+        process("methods", "-j", "2", "--format", "json", "-o", str(base)).returncode
+        == 0
+    )
     run = process("methods", "--baseline", str(base))
     assert (run.returncode, run.stdout.splitlines()[-1].partition(": ")[2]) == (
         0,
@@ -308,7 +335,9 @@ main(["check", "-j", "2", *sys.argv[1:]])
         ("raise MemoryError('no room')", "internal fault: MemoryError: no room"),
     ],
 )
-def test_a_worker_that_dies_is_told_and_stops_nothing(how: str, says: str, tmp_path: Path) -> None:
+def test_a_worker_that_dies_is_told_and_stops_nothing(
+    how: str, says: str, tmp_path: Path
+) -> None:
     """The file is named, all others have their outcome, and the exit code is 3."""
     names = [f"{i:02}{'-deadly' * (i % 5 == 3)}.gark.yaml" for i in range(20)]
     for name in names:
@@ -330,7 +359,9 @@ def test_a_worker_that_dies_is_told_and_stops_nothing(how: str, says: str, tmp_p
             assert says in found["errors"][0]["message"]
 
 
-def test_a_fault_in_one_file_stops_nothing(tmp_path: Path, monkeypatch: pytest.MonkeyPatch) -> None:
+def test_a_fault_in_one_file_stops_nothing(
+    tmp_path: Path, monkeypatch: pytest.MonkeyPatch
+) -> None:
     """One at a time too, a fault of ours is told with its file, and the others are checked."""
     from garkcli.cli import parallel
 
@@ -374,13 +405,18 @@ def test_a_bad_path_stops_nothing(tmp_path: Path) -> None:
     run = gark("check", long, ".", through, cwd=tmp_path)
     assert run.code == 2
     assert f"{long}: error: cannot be read: File name too long" in run.out
-    assert "loop.gark.yaml: error: cannot be read: Too many levels of symbolic links" in run.out
+    assert (
+        "loop.gark.yaml: error: cannot be read: Too many levels of symbolic links"
+        in run.out
+    )
     assert "nothing.gark.yaml: error: no such file" in run.out
     assert f"{through}: error: cannot be read: Not a directory" in run.out
     assert "ok   good.gark.yaml: order 4" in run.out
 
 
-def test_a_folder_that_cannot_be_read(tmp_path: Path, monkeypatch: pytest.MonkeyPatch) -> None:
+def test_a_folder_that_cannot_be_read(
+    tmp_path: Path, monkeypatch: pytest.MonkeyPatch
+) -> None:
     """It is told, on its own and below another, and what is beside it is checked."""
     (tmp_path / "sub" / "closed").mkdir(parents=True)
     (tmp_path / "sub" / "m.gark.yaml").write_text(HOLDS)
@@ -396,7 +432,9 @@ def test_a_folder_that_cannot_be_read(tmp_path: Path, monkeypatch: pytest.Monkey
         run = gark("check", path, cwd=tmp_path)
         assert run.code == 2
         closed = os.path.join("sub", "closed")
-        assert f"{closed}: error: this folder cannot be read: Permission denied" in run.out
+        assert (
+            f"{closed}: error: this folder cannot be read: Permission denied" in run.out
+        )
         assert ("order 4" in run.out) is (path == "sub")
 
 
@@ -411,7 +449,9 @@ def test_links_that_lead_back_are_not_followed(tmp_path: Path) -> None:
         (tmp_path / name / "here").symlink_to(".")
 
     def files(*arguments: str) -> list[str]:
-        report = json.loads(gark("check", *arguments, "--format", "json", cwd=tmp_path).out)
+        report = json.loads(
+            gark("check", *arguments, "--format", "json", cwd=tmp_path).out
+        )
         return [x["file"].replace(os.sep, "/") for x in report["files"]]
 
     named = ["a/m.gark.yaml", "b/m.gark.yaml", "c.gark.yaml/m.gark.yaml"]

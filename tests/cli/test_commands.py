@@ -24,21 +24,34 @@ ARK = "methods/ark-ars222.gark.yaml"
 FAILING = "tests/examples/failing/collocation-misprinted.gark.yaml"
 INVALID = "tests/examples/invalid/many-faults.gark.yaml"
 RUNS = [
-    (("check", COLLOCATION), ("auto", "text", "json", "github", "sarif", "junit", "markdown")),
+    (
+        ("check", COLLOCATION),
+        ("auto", "text", "json", "github", "sarif", "junit", "markdown"),
+    ),
     (("trees", "-N", "2", "-n", "3"), ("text", "json", "ndjson", "csv", "latex")),
     (
         ("trees", "-N", "2", "-n", "3", "--count", "--upto"),
         ("text", "json", "ndjson", "csv", "latex"),
     ),
     (("conditions", "-n", "3"), ("text", "json", "csv", "latex")),
-    (("conditions", "-N", "2", "-n", "3", "--coloured"), ("text", "json", "csv", "latex")),
-    (("conditions", COLLOCATION, "-n", "3", "--pair"), ("text", "json", "csv", "latex")),
+    (
+        ("conditions", "-N", "2", "-n", "3", "--coloured"),
+        ("text", "json", "csv", "latex"),
+    ),
+    (
+        ("conditions", COLLOCATION, "-n", "3", "--pair"),
+        ("text", "json", "csv", "latex"),
+    ),
     (("tableau", COLLOCATION), ("text", "yaml", "json", "latex")),
     (("conjugate", VERLET), ("text", "yaml", "json", "latex")),
     (("conjugate", COLLOCATION, "--pair"), ("text", "yaml", "json", "latex")),
+    (("stability", COLLOCATION), ("text", "json", "latex")),
     (("converge", VERLET, "--steps", "1/2,1/4,1/8"), ("text", "json", "csv")),
     (("converge", VERLET, ARK, "--steps", "1/2,1/4,1/8"), ("text", "json", "csv")),
-    (("converge", VERLET, COLLOCATION, "--problem", "pendulum"), ("text", "json", "csv")),
+    (
+        ("converge", VERLET, COLLOCATION, "--problem", "pendulum"),
+        ("text", "json", "csv"),
+    ),
     (("energy", VERLET, "--t-end", "20", "--step", "1/10"), ("text", "json", "csv")),
     (("list",), ("text", "json")),
     (("schema",), ("json",)),
@@ -60,7 +73,8 @@ def test_every_format_of_every_command_is_tried() -> None:
         (choice,) = [x.type for x in command.params if x.name == "format"]
         known[name] = set(choice.choices)
     tried = {
-        name: {f for run, formats in RUNS if run[0] == name for f in formats} for name in COMMANDS
+        name: {f for run, formats in RUNS if run[0] == name for f in formats}
+        for name in COMMANDS
     }
     assert tried == known
 
@@ -81,7 +95,9 @@ def test_every_command_runs_in_every_format(arguments: tuple[str, ...]) -> None:
     """
     run = gark(*arguments)
     assert run.code == 0, run.err
-    assert run.out.endswith("\n") or arguments[-1] == "github"  # which only knows of failures
+    assert (
+        run.out.endswith("\n") or arguments[-1] == "github"
+    )  # which only knows of failures
     assert "error" not in run.err
     if arguments[-1] in {"json", "sarif"}:
         json.loads(run.out)
@@ -143,7 +159,14 @@ def test_help_of_every_command(command: str) -> None:
     assert run.code == 0
     assert run.out == gark(command, "-h").out
     options = set(re.findall(r"--[a-z]+", run.out))
-    assert {"--format", "--output", "--quiet", "--verbose", "--color", "--help"} <= options
+    assert {
+        "--format",
+        "--output",
+        "--quiet",
+        "--verbose",
+        "--color",
+        "--help",
+    } <= options
     assert f"  {command} " in gark("--help").out
 
 
@@ -184,7 +207,16 @@ def test_version() -> None:
         (2, ("conditions", ARK, "--conjugate")),
         (2, ("tableau", INVALID)),
         (2, ("conjugate", ARK)),
-        (2, ("conjugate", "methods/gauss6-lobatto7.gark.yaml", "--pair", "--format", "yaml")),
+        (
+            2,
+            (
+                "conjugate",
+                "methods/gauss6-lobatto7.gark.yaml",
+                "--pair",
+                "--format",
+                "yaml",
+            ),
+        ),
         (2, ("converge", VERLET, "--omega", "sqrt(2)")),
         (2, ("converge", VERLET, "--steps", "1/2,-1/4")),
         (2, ("converge", VERLET, "--steps", "1/0")),
@@ -244,7 +276,8 @@ def test_colour_is_asked_for() -> None:
     painted = gark("check", COLLOCATION, "--color", "always").out
     assert "\x1b[" in painted
     assert (
-        re.sub(r"\x1b\[[0-9;]*m", "", painted) == gark("check", COLLOCATION, "--color", "never").out
+        re.sub(r"\x1b\[[0-9;]*m", "", painted)
+        == gark("check", COLLOCATION, "--color", "never").out
     )
     assert "\x1b[" not in gark("check", COLLOCATION).out
 
@@ -256,9 +289,15 @@ def test_the_search_stops_at_the_highest_order() -> None:
     gauss = "methods: [{family: gauss, stages: 4}]"
     run = gark("check", "-", "--max-order", "3", "--format", "json", stdin=gauss)
     (found,) = json.loads(run.out)["files"]
-    assert (found["order"], found["order_is_lower_bound"], found["witness"]) == (3, True, None)
+    assert (found["order"], found["order_is_lower_bound"], found["witness"]) == (
+        3,
+        True,
+        None,
+    )
     assert "at least 3" in gark("check", "-", "--max-order", "3", stdin=gauss).out
-    claimed = gark("check", "-", "--max-order", "3", stdin=f"{gauss}\nexpect: {{order: 8}}")
+    claimed = gark(
+        "check", "-", "--max-order", "3", stdin=f"{gauss}\nexpect: {{order: 8}}"
+    )
     assert claimed.code == 0
 
 
@@ -273,10 +312,16 @@ def test_json_of_check() -> None:
     assert found["colours"] == [{"name": "1", "stages": 2}, {"name": "2", "stages": 3}]
     assert (found["order"], found["conjugate_order"], found["pair_order"]) == (4, 4, 4)
     assert (found["ok"], found["exact"], found["tolerance"]) == (True, True, None)
-    assert (found["consistent"], found["symplectic"], found["pair_bound"]) == (True, False, 3)
+    assert (found["consistent"], found["symplectic"], found["pair_bound"]) == (
+        True,
+        False,
+        3,
+    )
     assert found["simplifying"]["C"] == [[2, 3], [3, 3]]
     assert found["witness"]["order"] == 5
-    assert fmpq(*map(int, found["witness"]["value"].split("/"))) - fmpq(1, 120) == fmpq(-1, 720)
+    assert fmpq(*map(int, found["witness"]["value"].split("/"))) - fmpq(1, 120) == fmpq(
+        -1, 720
+    )
     assert {x["claim"]: x["holds"] for x in found["claims"]}["order"] is True
 
 
@@ -336,12 +381,16 @@ def test_more_trees_than_fit_are_refused() -> None:
     """The number and the cure, with no word of a fault of the program."""
     run = gark("trees", "-n", "30", "--yes")
     assert run.code == 2
-    assert run.err.startswith("gark: 196268698287 trees of order up to 29 with 1 colour (limit")
+    assert run.err.startswith(
+        "gark: 196268698287 trees of order up to 29 with 1 colour (limit"
+    )
     assert "count them" in run.err
 
 
 @pytest.mark.parametrize("options", [(), ("--format", "csv"), ("-o", "trees.txt")])
-def test_millions_of_lines_are_asked_for_twice(options: tuple[str, ...], tmp_path: Path) -> None:
+def test_millions_of_lines_are_asked_for_twice(
+    options: tuple[str, ...], tmp_path: Path
+) -> None:
     """Without a terminal to ask they are refused at once, with the number and both cures; a million
     and fewer are listed.
     """
@@ -350,7 +399,10 @@ def test_millions_of_lines_are_asked_for_twice(options: tuple[str, ...], tmp_pat
     assert list(tmp_path.iterdir()) == []
     counted = gark("trees", "-N", "3", "-n", "9", "--count", "--format", "json").out
     number = json.loads(counted)["count"]
-    assert run.err == f"gark: {number} trees\nhelp: --yes lists them, --count counts them\n"
+    assert (
+        run.err
+        == f"gark: {number} trees\nhelp: --yes lists them, --count counts them\n"
+    )
 
 
 def test_whoever_is_asked_decides(monkeypatch: pytest.MonkeyPatch) -> None:
@@ -418,7 +470,10 @@ def test_json_of_a_tableau(command: str) -> None:
 def test_absent_blocks_are_null() -> None:
     """A block that does not exist is null in JSON, and null again when the YAML is loaded."""
     report = data("tableau", VERLET)
-    assert [[x is None for x in row] for row in report["A"]] == [[True, False], [False, True]]
+    assert [[x is None for x in row] for row in report["A"]] == [
+        [True, False],
+        [False, True],
+    ]
 
 
 def test_json_of_converge() -> None:
@@ -472,7 +527,9 @@ def test_pictures_are_written(tmp_path: Path) -> None:
     run = gark("trees", "-N", "2", "-n", "3", "--svg", str(sheet))
     assert (run.code, run.out, run.err) == (0, "", f"wrote {sheet}\n")
     assert ET.parse(sheet).getroot().tag.endswith("svg")
-    assert gark("converge", VERLET, "--steps", "1/2,1/4", "--plot", str(figure)).code == 0
+    assert (
+        gark("converge", VERLET, "--steps", "1/2,1/4", "--plot", str(figure)).code == 0
+    )
     assert ET.parse(figure).getroot().tag.endswith("svg")
 
 
@@ -487,7 +544,10 @@ def test_the_schema_allows_every_file_that_loads() -> None:
         {"methods": [{"family": "gauss", "stages": 2}], "descripton": "a slip"}
     )
     files = sorted(
-        [*ROOT.glob("methods/*.gark.yaml"), *ROOT.glob("tests/examples/valid/*.gark.yaml")]
+        [
+            *ROOT.glob("methods/*.gark.yaml"),
+            *ROOT.glob("tests/examples/valid/*.gark.yaml"),
+        ]
     )
     wrong = {
         x.name: e.message
@@ -502,6 +562,8 @@ def test_the_schema_of_reports_allows_reports() -> None:
     included.
     """
     schema = data("schema", "--report")
-    found = json.loads(gark("check", "methods", FAILING, INVALID, ARK, "--format", "json").out)
+    found = json.loads(
+        gark("check", "methods", FAILING, INVALID, ARK, "--format", "json").out
+    )
     assert [error.message for error in Draft7Validator(schema).iter_errors(found)] == []
     assert not Draft7Validator(schema).is_valid({"schema": "gark/check/1"})

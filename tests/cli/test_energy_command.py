@@ -28,15 +28,27 @@ def test_claims_decide_the_exit_code() -> None:
     assert gark(*drifting).code == 0
     failed = gark(*drifting, "--bounded")
     assert failed.code == 1
-    assert "CLAIM FAILS      bounded, found: energy drifts, angular momentum drifts" in failed.out
+    assert (
+        "CLAIM FAILS      bounded, found: energy drifts, angular momentum drifts"
+        in failed.out
+    )
     held = gark(
-        "energy", RECTANGULAR, "--problem", "kepler", *SHORT, "--bounded", "--max-error", "1e-4"
+        "energy",
+        RECTANGULAR,
+        "--problem",
+        "kepler",
+        *SHORT,
+        "--bounded",
+        "--max-error",
+        "1e-4",
     )
     assert held.code == 0
     assert held.out.count("claim holds") == 2
 
 
-@pytest.mark.parametrize(("limit", "code"), [("1.13e-4", 0), ("1.12e-4", 1), ("1/9000", 1)])
+@pytest.mark.parametrize(
+    ("limit", "code"), [("1.13e-4", 0), ("1.12e-4", 1), ("1/9000", 1)]
+)
 def test_max_error(limit: str, code: int) -> None:
     """The largest error is 1.1201e-4."""
     assert gark("energy", RECTANGULAR, "--max-error", limit).code == code
@@ -44,7 +56,9 @@ def test_max_error(limit: str, code: int) -> None:
 
 def test_what_is_undecided_is_not_bounded() -> None:
     """A claim needs a run that is long enough."""
-    run = gark("energy", RECTANGULAR, "--problem", "kepler", "--t-end", "5", "--bounded")
+    run = gark(
+        "energy", RECTANGULAR, "--problem", "kepler", "--t-end", "5", "--bounded"
+    )
     assert run.code == 1
     assert "found: energy undecided" in run.out
 
@@ -84,13 +98,16 @@ def test_symplecticity_is_measured() -> None:
         assert found["proved"] is proved
         assert len(found["defects"]) == 5
         assert all(
-            x["good_to"] < 1e-45 and (x["size"] > x["good_to"]) is seen for x in found["defects"]
+            x["good_to"] < 1e-45 and (x["size"] > x["good_to"]) is seen
+            for x in found["defects"]
         )
 
 
 def test_problem_files() -> None:
     """A problem of the user's own, with its invariants and ten thousand steps."""
-    run = gark("energy", RECTANGULAR, "--problem", "problems/kepler.yaml", "--format", "json")
+    run = gark(
+        "energy", RECTANGULAR, "--problem", "problems/kepler.yaml", "--format", "json"
+    )
     data = json.loads(run.out)
     assert (data["steps"], data["drifts"]) == (10_000, False)
     assert [x["name"] for x in data["quantities"]] == ["energy", "angular momentum"]
@@ -101,7 +118,10 @@ def test_problem_files() -> None:
     [
         (("--digits", "30"), "--digits is not for the oscillator"),
         (("--problem", "kepler", "--omega", "2"), "--omega is for the oscillator"),
-        (("--problem", "kepler", "--split", "1:0,0:1"), "--split is for the oscillator"),
+        (
+            ("--problem", "kepler", "--split", "1:0,0:1"),
+            "--split is for the oscillator",
+        ),
         (("--problem", "kepler", "--seed", "2"), "--seed is for the problems generic"),
         (("--problem", "keppler"), "did you mean 'kepler'"),
         (("--t-end", "1", "--step", "0.3"), "not a whole number of steps"),
@@ -187,7 +207,16 @@ def test_problem_at_rest(tmp_path: Path) -> None:
     path.write_text(
         'variables: [x]\nhamiltonian: ["px**2/2", "1 - cos(x)"]\ninitial: {x: 0, px: 0}\n'
     )
-    run = gark("energy", RECTANGULAR, "--problem", str(path), "--t-end", "100", "--step", "1/10")
+    run = gark(
+        "energy",
+        RECTANGULAR,
+        "--problem",
+        str(path),
+        "--t-end",
+        "100",
+        "--step",
+        "1/10",
+    )
     assert run.code == 0
     assert "no error at all" in run.out
     assert "--digits" not in run.out

@@ -10,7 +10,9 @@ from garkcli.methodfile.load import loads
 from tests.cli.harness import gark
 
 NAME = "two\\nlines \\e[2Jand \\u202emore"
-METHOD = f'methods: [{{family: gauss, stages: 1}}]\nname: "{NAME}"\nexpect: {{order: 3}}\n'
+METHOD = (
+    f'methods: [{{family: gauss, stages: 1}}]\nname: "{NAME}"\nexpect: {{order: 3}}\n'
+)
 COMMANDS = [
     ("check",),
     ("check", "-q"),

@@ -47,7 +47,11 @@ def test_orders_are_seen(method: str, problem: str) -> None:
 def test_a_file_is_the_built_in_problem() -> None:
     """Kepler from its file and Kepler by name: the same errors."""
     one, other = (
-        json.loads(gark("converge", RECTANGULAR, "--problem", x, *STEPS, "--format", "json").out)
+        json.loads(
+            gark(
+                "converge", RECTANGULAR, "--problem", x, *STEPS, "--format", "json"
+            ).out
+        )
         for x in ("problems/kepler.yaml", "kepler")
     )
     assert one["problem"] == "Kepler"
@@ -64,7 +68,12 @@ def test_standard_input_is_a_file() -> None:
     assert run.code == 0, run.err
     assert "x^4" in run.out
     again = gark(
-        "converge", RECTANGULAR, "--problem", "-", *STEPS, stdin=text.replace("x**4", "x**6")
+        "converge",
+        RECTANGULAR,
+        "--problem",
+        "-",
+        *STEPS,
+        stdin=text.replace("x**4", "x**6"),
     )
     assert "x^6" in again.out
 
@@ -78,11 +87,16 @@ def test_numbers_of_terms(tmp_path: Path) -> None:
     two.write_text(f"variables: [x]\nhamiltonian: [px**2/2, x**2/2]\n{start}")
     one.write_text(f"variables: [x]\nhamiltonian: px**2/2 + x**4/4\n{start}")
     single, double, triple = (
-        load(str(ROOT / x)).tableau for x in ("methods/rk4.gark.yaml", COLLOCATION, THREE)
+        load(str(ROOT / x)).tableau
+        for x in ("methods/rk4.gark.yaml", COLLOCATION, THREE)
     )
     assert len(find_problem(str(two), single).terms) == 1
     assert len(find_problem(str(two), double).terms) == 2
-    assert [len(find_problem(str(one), x).terms) for x in (single, double, triple)] == [1, 2, 3]
+    assert [len(find_problem(str(one), x).terms) for x in (single, double, triple)] == [
+        1,
+        2,
+        3,
+    ]
     assert len(set(find_problem(str(one), triple).terms)) == 2
     run = gark("converge", THREE, "--problem", str(two))
     assert run.code == 2
@@ -102,7 +116,10 @@ def test_numbers_of_terms(tmp_path: Path) -> None:
             ("--problem", "problems/kepler.yaml", "--seed", "2"),
             "--seed is for the problems generic",
         ),
-        (("--problem", "problems/kepler.yaml", "--omega", "2"), "is for the oscillator"),
+        (
+            ("--problem", "problems/kepler.yaml", "--omega", "2"),
+            "is for the oscillator",
+        ),
         (
             ("--problem", "problems/spherical-pendulum.yaml"),
             "H{1} of spherical pendulum depends on q",
@@ -166,7 +183,9 @@ def test_names_are_completed() -> None:
     assert [x.value for x in found] == ["double-pendulum"]
     assert [
         x.type
-        for x in complete.get_completions(["converge", COLLOCATION, "--problem"], "problems/")
+        for x in complete.get_completions(
+            ["converge", COLLOCATION, "--problem"], "problems/"
+        )
     ] == ["file"]
     assert isinstance(ProblemType(), click.ParamType)
 

@@ -43,7 +43,13 @@ def test_a_reader_that_goes_away_is_no_fault() -> None:
     command = f'"{sys.executable}" -m garkcli trees -N 3 -n 8 | head -1'
     environment = {**os.environ, "PYTHONPATH": str(ROOT)}
     done = subprocess.run(
-        command, shell=True, cwd=ROOT, env=environment, capture_output=True, text=True, timeout=60
+        command,
+        shell=True,
+        cwd=ROOT,
+        env=environment,
+        capture_output=True,
+        text=True,
+        timeout=60,
     )
     assert done.stdout == "order 8, root colour 1\n"
     assert done.stderr == ""

@@ -67,7 +67,9 @@ def test_the_conjugate_of_a_rounded_method_is_rounded(rounded: str) -> None:
 
 @pytest.mark.parametrize("command", ["tableau", "conditions", "conjugate"])
 @pytest.mark.parametrize("layout", ["latex", "text"])
-def test_rounded_methods_are_printed_in_decimals(command: str, layout: str, tmp_path: Path) -> None:
+def test_rounded_methods_are_printed_in_decimals(
+    command: str, layout: str, tmp_path: Path
+) -> None:
     """No fraction of twenty digits where people read; the decimals are those of the exact numbers
     in the JSON.
     """
@@ -82,7 +84,9 @@ def test_rounded_methods_are_printed_in_decimals(command: str, layout: str, tmp_
     exact = gark(command, str(file), *order, "--format", "json").out
     assert re.search(r"\d{20}", exact)
     if command == "conditions":
-        rows = [row for row in json.loads(exact)["conditions"] if len(row["value"]) > 60]
+        rows = [
+            row for row in json.loads(exact)["conditions"] if len(row["value"]) > 60
+        ]
         assert rows
         assert shown.count(r"\approx" if layout == "latex" else "is about") == len(rows)
         return
@@ -99,7 +103,9 @@ def test_rounded_methods_are_printed_in_decimals(command: str, layout: str, tmp_
 def test_exact_methods_are_printed_exactly(tmp_path: Path) -> None:
     """Without a tolerance a long fraction is a coefficient as meant, and stays one."""
     file = tmp_path / "long.gark.yaml"
-    file.write_text("methods: [{A: [[12345678901234567890123/98765432109876543210988]], b: [1]}]")
+    file.write_text(
+        "methods: [{A: [[12345678901234567890123/98765432109876543210988]], b: [1]}]"
+    )
     for layout in ("text", "latex"):
         shown = gark("tableau", str(file), "--format", layout).out
         assert "12345678901234567890123" in shown
@@ -124,7 +130,15 @@ def test_failing_conditions_are_counted_among_all() -> None:
 @pytest.mark.parametrize("more", [[], ["--symplectic"]])
 def test_a_csv_without_failing_conditions_has_its_heading(more: list[str]) -> None:
     """Programs that read the table find its columns, whether there are rows or not."""
-    asked = ["conditions", "methods/collocation.gark.yaml", "-n", "3", "--format", "csv", *more]
+    asked = [
+        "conditions",
+        "methods/collocation.gark.yaml",
+        "-n",
+        "3",
+        "--format",
+        "csv",
+        *more,
+    ]
     every, failing = gark(*asked).out, gark(*asked, "--failing").out
     assert failing == every.splitlines(keepends=True)[0]
 

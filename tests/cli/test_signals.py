@@ -29,7 +29,9 @@ def _as_from_a_terminal() -> None:
 
 
 @contextmanager
-def running(*arguments: str, ignoring: bool = False) -> Iterator[subprocess.Popen[bytes]]:
+def running(
+    *arguments: str, ignoring: bool = False
+) -> Iterator[subprocess.Popen[bytes]]:
     """The program at work; it is gone at the end."""
     with subprocess.Popen(
         [sys.executable, "-m", "garkcli", *arguments],
@@ -85,7 +87,9 @@ def test_signals_that_are_ignored_stay_so(tmp_path: Path) -> None:
     """Under ``nohup`` a terminal that closes does not end the run; SIGTERM still does."""
     before = signal.signal(signal.SIGHUP, signal.SIG_IGN)
     try:
-        with running(*FOR_EVER, "-o", str(tmp_path / "trees"), ignoring=True) as process:
+        with running(
+            *FOR_EVER, "-o", str(tmp_path / "trees"), ignoring=True
+        ) as process:
             wait_for(tmp_path, process)
             process.send_signal(signal.SIGHUP)
             size = next(tmp_path.iterdir()).stat().st_size

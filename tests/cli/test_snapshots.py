@@ -28,10 +28,20 @@ RUNS = {
     "conditions-file": ("conditions", VERLET, "--order", "3"),
     "conditions-latex": ("conditions", "--order", "3", "--format", "latex"),
     "tableau": ("tableau", "methods/collocation-conjugate.gark.yaml"),
-    "tableau-decimals": ("tableau", "methods/gauss6-lobatto7.gark.yaml", "--digits", "3"),
+    "tableau-decimals": (
+        "tableau",
+        "methods/gauss6-lobatto7.gark.yaml",
+        "--digits",
+        "3",
+    ),
     "tableau-latex": ("tableau", VERLET, "--format", "latex"),
     "conjugate-pair": ("conjugate", "methods/collocation.gark.yaml", "--pair"),
-    "conjugate-yaml": ("conjugate", "methods/gauss6-lobatto7.gark.yaml", "--format", "yaml"),
+    "conjugate-yaml": (
+        "conjugate",
+        "methods/gauss6-lobatto7.gark.yaml",
+        "--format",
+        "yaml",
+    ),
     "converge": ("converge", VERLET),
     "converge-several": (
         "converge",
@@ -76,7 +86,11 @@ def record(arguments: tuple[str, ...], run: Run) -> str:
     """A run as text."""
     head = f"$ gark {' '.join(arguments)}\nexit code {run.code}\n"
     return "".join(
-        [head, f"\n-- stdout --\n{run.out}", f"\n-- stderr --\n{run.err}" if run.err else ""]
+        [
+            head,
+            f"\n-- stdout --\n{run.out}",
+            f"\n-- stderr --\n{run.err}" if run.err else "",
+        ]
     )
 
 
@@ -94,7 +108,9 @@ def test_a_run_is_as_recorded(name: str) -> None:
 def test_a_run_fits_the_terminal(name: str) -> None:
     """No line of the report is wider than 80 columns, file names apart."""
     run = gark(*RUNS[name])
-    lines = [line for line in (run.out + run.err).splitlines() if ".gark.yaml" not in line]
+    lines = [
+        line for line in (run.out + run.err).splitlines() if ".gark.yaml" not in line
+    ]
     assert [line for line in lines if len(line) > 80] == []
 
 

@@ -55,7 +55,9 @@ def test_every_sign_of_the_program_has_an_ascii_form() -> None:
     assert len(signs) > 100
     forms = {sign: ascii_form(sign) for sign in signs}
     assert all(form.isascii() for form in forms.values())
-    assert [x for x, form in forms.items() if form != x and set(form) & {"\\", "?"}] == []
+    assert [
+        x for x, form in forms.items() if form != x and set(form) & {"\\", "?"}
+    ] == []
     assert "" not in forms.values()
 
 
@@ -80,7 +82,9 @@ def test_columns_stay_where_they_are() -> None:
     arguments = ("trees", "-N", "2", "-n", "3", "--root", "1")
     meant, made = gark(*arguments).out, gark(*arguments, encoding="ascii").out
     drawn = str.maketrans("●╰┬─╯│", "o`+-'|")
-    for before, after in zip(meant.splitlines()[1:-1], made.splitlines()[1:-1], strict=True):
+    for before, after in zip(
+        meant.splitlines()[1:-1], made.splitlines()[1:-1], strict=True
+    ):
         assert after[52:] == before.translate(drawn)[52:]
 
 
@@ -105,7 +109,9 @@ def test_formats_with_escapes_lose_nothing(format_: str, tmp_path: Path) -> None
     """Where the stream lacks a sign, JSON and YAML have it as an escape, and read back the same."""
     method = "methods: [{family: gauss, stages: 2}]\nname: Störmer γ 𝟙 中\n"
     (tmp_path / "m.gark.yaml").write_text(method, encoding="utf-8")
-    run = gark("conjugate", "m.gark.yaml", "--format", format_, cwd=tmp_path, encoding="cp1252")
+    run = gark(
+        "conjugate", "m.gark.yaml", "--format", format_, cwd=tmp_path, encoding="cp1252"
+    )
     assert run.out.isascii()
     read = json.loads if format_ == "json" else yaml.safe_load
     assert read(run.out)["name"] == "symplectic conjugate of Störmer γ 𝟙 中"
@@ -130,7 +136,11 @@ def shell(command: str, **variables: str) -> subprocess.CompletedProcess[bytes]:
     environment["GARK"] = f"{sys.executable} -m garkcli"
     environment.update(variables)
     return subprocess.run(
-        ["bash", "-c", command], cwd=ROOT, env=environment, capture_output=True, timeout=120
+        ["bash", "-c", command],
+        cwd=ROOT,
+        env=environment,
+        capture_output=True,
+        timeout=120,
     )
 
 
@@ -147,7 +157,9 @@ def shell(command: str, **variables: str) -> subprocess.CompletedProcess[bytes]:
 )
 def test_a_process_without_utf_8(variables: dict[str, str]) -> None:
     """The program writes Greek into a pipe of another encoding, without a fault."""
-    done = shell("$GARK trees -N 2 -n 3; $GARK --help; $GARK check methods", **variables)
+    done = shell(
+        "$GARK trees -N 2 -n 3; $GARK --help; $GARK check methods", **variables
+    )
     assert (done.returncode, done.stderr) == (0, b"")
     assert done.stdout.count(b"?") == 1  # that of the help
     assert b"sigma = 2" in done.stdout or "σ = 2" in done.stdout.decode("utf-8")
@@ -182,7 +194,9 @@ def test_a_closed_stream_takes_no_file(tmp_path: Path) -> None:
     assert target.read_text() == gark("check", "methods").out
 
 
-@pytest.mark.parametrize("command", ["check methods", "trees -N 3 -n 8", "schema", "--help"])
+@pytest.mark.parametrize(
+    "command", ["check methods", "trees -N 3 -n 8", "schema", "--help"]
+)
 def test_nobody_reads_the_report(command: str) -> None:
     """The exit code is that of a program that SIGPIPE ends, never that of a claim that fails."""
     done = shell(f"$GARK {command} | true; exit ${{PIPESTATUS[0]}}")
@@ -225,14 +239,23 @@ def test_a_full_disk() -> None:
     ],
     ids=" ".join,
 )
-@pytest.mark.parametrize("file", [f"{HOSTILE}.gark.yaml", "a\n::error::b.gark.yaml", "\udcff.yaml"])
-def test_a_file_name_gives_no_orders(arguments: tuple[str, ...], file: str, tmp_path: Path) -> None:
+@pytest.mark.parametrize(
+    "file", [f"{HOSTILE}.gark.yaml", "a\n::error::b.gark.yaml", "\udcff.yaml"]
+)
+def test_a_file_name_gives_no_orders(
+    arguments: tuple[str, ...], file: str, tmp_path: Path
+) -> None:
     """No sign of a file name reaches a terminal or the runner of a job as an order, for a method
     and for a file that is none, and bytes that are no UTF-8 are no fault.
     """
-    for text in ("methods: [{family: gauss, stages: 2}]\n", f'methods: [{{family: "{HOSTILE}"}}]'):
+    for text in (
+        "methods: [{family: gauss, stages: 2}]\n",
+        f'methods: [{{family: "{HOSTILE}"}}]',
+    ):
         (tmp_path / file).write_text(text, encoding="utf-8")
-        run = gark(arguments[0], file, *arguments[1:], cwd=tmp_path, GITHUB_ACTIONS="true")
+        run = gark(
+            arguments[0], file, *arguments[1:], cwd=tmp_path, GITHUB_ACTIONS="true"
+        )
         assert run.code in (0, 2)
         shown = run.out + run.err
         assert all(sign.isprintable() or sign == "\n" for sign in shown)
@@ -274,7 +297,9 @@ def test_escapes_are_those_of_the_format(text: str) -> None:
         ({"FORCE_COLOR": "1", "NO_COLOR": ""}, True),
     ],
 )
-def test_colour_as_the_environment_asks(variables: dict[str, str], coloured: bool) -> None:
+def test_colour_as_the_environment_asks(
+    variables: dict[str, str], coloured: bool
+) -> None:
     """FORCE_COLOR colours where there is no terminal, reports and errors alike; NO_COLOR wins; an
     option is stronger than both.
     """

@@ -38,7 +38,9 @@ def test_folding_loses_nothing() -> None:
     text = "b{l}ᵀ((A{l,m}A{m,n}𝟙) ⊙ (A{l,u}𝟙) ⊙ (A{l,v}𝟙)) = 1/12   ∀ l,m,n,u,v"
     for width in range(12, 80):
         lines = folded(text, width, "  ")
-        assert "".join(line.strip() for line in lines).replace(" ", "") == text.replace(" ", "")
+        assert "".join(line.strip() for line in lines).replace(" ", "") == text.replace(
+            " ", ""
+        )
         assert all(len(line) <= max(width, 16) for line in lines)
 
 
@@ -47,11 +49,23 @@ def test_conditions_in_decimals(format_: str) -> None:
     """--digits writes values and residuals in decimals, in every format; they are the exact ones,
     rounded.
     """
-    arguments = ("conditions", "methods/rk4.gark.yaml", "-n", "5", "--only", "--format", format_)
+    arguments = (
+        "conditions",
+        "methods/rk4.gark.yaml",
+        "-n",
+        "5",
+        "--only",
+        "--format",
+        format_,
+    )
     exact, rounded = gark(*arguments).out, gark(*arguments, "--digits", "4").out
     assert exact != rounded
     if format_ == "json":
-        pairs = zip(json.loads(exact)["conditions"], json.loads(rounded)["conditions"], strict=True)
+        pairs = zip(
+            json.loads(exact)["conditions"],
+            json.loads(rounded)["conditions"],
+            strict=True,
+        )
         for before, after in pairs:
             for key in ("value", "required", "residual"):
                 numerator, _, denominator = before[key].partition("/")

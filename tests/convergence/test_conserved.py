@@ -58,5 +58,7 @@ def test_nothing_is_said_without_a_solution(monkeypatch: pytest.MonkeyPatch) -> 
     """
     monkeypatch.setattr("garkcli.convergence.reference.MAX_TRIED", 100)
     assert changing(hamiltonian("pendulum", 2)) == ()
-    at_once = replace(kepler_with(X), initial=(fmpq(1, 10**6), fmpq(0), fmpq(0), fmpq(0)))
+    at_once = replace(
+        kepler_with(X), initial=(fmpq(1, 10**6), fmpq(0), fmpq(0), fmpq(0))
+    )
     assert changing(at_once) == ()

@@ -25,7 +25,9 @@ ONE = fmpq(1)
 def collocated(s: int, t: int) -> Tableau:
     """Gauss s × Lobatto IIIA t with collocation blocks."""
     one, other = diagonal_method("gauss", s), diagonal_method("lobatto-iiia", t)
-    return gark([one, other], {(0, 1): collocation(one, other), (1, 0): collocation(other, one)})
+    return gark(
+        [one, other], {(0, 1): collocation(one, other), (1, 0): collocation(other, one)}
+    )
 
 
 def alone(name: str, s: int | None = None) -> Tableau:
@@ -79,7 +81,9 @@ def test_split_decides_what_is_visible() -> None:
     takes part.
     """
     one, other = diagonal_method("gauss", 1), diagonal_method("gauss", 2)
-    tableau = gark([one, other], {(0, 1): collocation(one, other), (1, 0): collocation(other, one)})
+    tableau = gark(
+        [one, other], {(0, 1): collocation(one, other), (1, 0): collocation(other, one)}
+    )
     unsplit = converge(tableau, Oscillator(ONE, ((fmpq(0), fmpq(0)), (ONE, ONE))))
     split = converge(tableau, default(tableau))
     assert (unsplit.visible_order, split.visible_order) == (4, 2)
@@ -90,14 +94,21 @@ def test_split_decides_what_is_visible() -> None:
 def test_errors_are_those_of_stepping() -> None:
     """rk4 with its classical polynomial, stepped in floats: the same errors and energy errors."""
     omega = fmpq(3, 2)
-    result = converge(alone("rk4"), default(alone("rk4"), omega), fmpq(6), [fmpq(1, 4), fmpq(1, 8)])
+    result = converge(
+        alone("rk4"), default(alone("rk4"), omega), fmpq(6), [fmpq(1, 4), fmpq(1, 8)]
+    )
     w = float(omega)
     L = np.array([[0.0, 1.0], [-w * w, 0.0]])
     start = np.array([1.0, w / 2])
-    end = np.array([np.cos(6 * w) + np.sin(6 * w) / 2, w * (np.cos(6 * w) / 2 - np.sin(6 * w))])
+    end = np.array(
+        [np.cos(6 * w) + np.sin(6 * w) / 2, w * (np.cos(6 * w) / 2 - np.sin(6 * w))]
+    )
     for row, h in zip(result.rows, (0.25, 0.125), strict=True):
         R = sum(
-            (np.linalg.matrix_power(h * L, k) / f for k, f in enumerate((1, 1, 2, 6, 24))),
+            (
+                np.linalg.matrix_power(h * L, k) / f
+                for k, f in enumerate((1, 1, 2, 6, 24))
+            ),
             np.zeros((2, 2)),
         )
         q, p = np.linalg.matrix_power(R, round(6 / h)) @ start
@@ -110,7 +121,9 @@ def test_errors_are_those_of_stepping() -> None:
 def test_units_do_not_matter() -> None:
     """A faster oscillator in its own units of time has the very same errors."""
     tableau = symplectic_pair(collocated(2, 3), [0], [1])
-    slow, fast = (converge(tableau, default(tableau, omega)) for omega in (ONE, fmpq(22, 7)))
+    slow, fast = (
+        converge(tableau, default(tableau, omega)) for omega in (ONE, fmpq(22, 7))
+    )
     for one, other in zip(slow.rows, fast.rows, strict=True):
         assert float(one.error / other.error) == pytest.approx(1, abs=1e-9)
     assert slow.observed_order == pytest.approx(fast.observed_order)
@@ -121,7 +134,9 @@ def test_gauss_conserves_energy_exactly() -> None:
     gauss, tableau = alone("gauss", 2), pair(collocated(2, 3))
     assert all(row.energy_error == 0 for row in converge(gauss, default(gauss)).rows)
     rows = converge(tableau, default(tableau)).rows
-    assert float(rows[-2].energy_error / rows[-1].energy_error) == pytest.approx(16, abs=0.1)
+    assert float(rows[-2].energy_error / rows[-1].energy_error) == pytest.approx(
+        16, abs=0.1
+    )
 
 
 def test_coincidence_is_bounded_and_not_called_zero() -> None:
@@ -174,7 +189,11 @@ def test_rounded_coefficients_end_the_ladder() -> None:
     b = tuple(fmpq(x, 10**10) for x in (1666666667, 3333333333, 3333333333, 1666666666))
     tableau = spelled_out([[rk4.A]], [b], [None])
     within = converge(tableau, default(tableau), tolerance=fmpq(1, 10**9))
-    assert (within.visible_order, within.predicted_order, within.verdict) == (4, 4, "agree")
+    assert (within.visible_order, within.predicted_order, within.verdict) == (
+        4,
+        4,
+        "agree",
+    )
     exact = converge(tableau, default(tableau))
     assert (exact.visible_order, exact.verdict) == (0, "agree")
 
@@ -233,7 +252,9 @@ def test_heavy_libraries_are_not_imported() -> None:
         "converge(gark([d('rk4')], {}), Oscillator.default(1, fmpq(1)))\n"
         "print([x for x in ('numpy', 'matplotlib', 'sympy') if x in sys.modules])"
     )
-    run = subprocess.run([sys.executable, "-c", code], capture_output=True, text=True, check=True)
+    run = subprocess.run(
+        [sys.executable, "-c", code], capture_output=True, text=True, check=True
+    )
     assert run.stdout == "[]\n"
 
 

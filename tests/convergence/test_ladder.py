@@ -12,7 +12,14 @@ from hypothesis import given
 from hypothesis import strategies as st
 
 from garkcli.convergence.convergence import converge
-from garkcli.convergence.ladder import MAX_ROWS, ROWS, halvings, is_complete, plateau, trimmed
+from garkcli.convergence.ladder import (
+    MAX_ROWS,
+    ROWS,
+    halvings,
+    is_complete,
+    plateau,
+    trimmed,
+)
 from garkcli.convergence.result import Row, observed_order
 from garkcli.errors import UsageProblem
 from garkcli.families.registry import diagonal_method
@@ -81,7 +88,8 @@ def test_plateau_is_small() -> None:
 
     def rows(*slopes: float) -> list[Row]:
         return [
-            Row(fmpq(1, 2**k), arb(1) / 100 ** min(k, 4), s, arb(0)) for k, s in enumerate(slopes)
+            Row(fmpq(1, 2**k), arb(1) / 100 ** min(k, 4), s, arb(0))
+            for k, s in enumerate(slopes)
         ]
 
     rounding = arb(1) / 10**9
@@ -120,7 +128,9 @@ def test_ladder_fits_the_method(order: int) -> None:
     """On the pendulum: Euler begins with small steps, the rectangular method with large ones; both
     in few rows.
     """
-    tableau = RECTANGULAR if order == 4 else gark([diagonal_method("explicit-euler")], {})
+    tableau = (
+        RECTANGULAR if order == 4 else gark([diagonal_method("explicit-euler")], {})
+    )
     rows = converge(tableau, hamiltonian("pendulum", terms_of(tableau))).rows
     assert len(rows) == ROWS
     assert 1e-6 < float(rows[0].error) < 0.1

@@ -49,7 +49,9 @@ def observed(tableau: Tableau, name: str, seed: int = 1) -> Convergence:
         (RK4, "fput", 4),
     ],
 )
-def test_observed_order_is_the_exact_one(tableau: Tableau, name: str, order: int) -> None:
+def test_observed_order_is_the_exact_one(
+    tableau: Tableau, name: str, order: int
+) -> None:
     """Within 0.01 of the certificate's order, and the last slope within 0.05."""
     result = observed(tableau, name)
     assert (result.predicted_order, result.visible_order) == (order, order)
@@ -86,9 +88,13 @@ def test_seed_makes_another_problem() -> None:
 
 def test_disagreement_is_told() -> None:
     """Two large steps show no order: slopes far from 4 do not agree."""
-    result = converge(RECTANGULAR, hamiltonian("kepler", 2), steps=[fmpq(1, 2), fmpq(1, 4)])
+    result = converge(
+        RECTANGULAR, hamiltonian("kepler", 2), steps=[fmpq(1, 2), fmpq(1, 4)]
+    )
     assert not result.agrees
-    assert not converge(RECTANGULAR, hamiltonian("kepler", 2), steps=[fmpq(1, 8)]).agrees
+    assert not converge(
+        RECTANGULAR, hamiltonian("kepler", 2), steps=[fmpq(1, 8)]
+    ).agrees
 
 
 def test_equal_parts_may_only_gain() -> None:
@@ -118,11 +124,15 @@ def test_rounded_coefficients_end_on_a_plateau() -> None:
 
 def test_invariants_are_reported() -> None:
     """Angular momentum is kept to round-off by the pair, in the table, JSON and CSV."""
-    run = gark("converge", VERLET, "--problem", "kepler", "--steps", "1/16,1/32,1/64,1/128")
+    run = gark(
+        "converge", VERLET, "--problem", "kepler", "--steps", "1/16,1/32,1/64,1/128"
+    )
     assert run.code == 0
     assert "angular momentum error" in run.out
     assert run.out.count("< 1e-1") == 4
-    data = json.loads(gark("converge", VERLET, "--problem", "kepler", "--format", "json").out)
+    data = json.loads(
+        gark("converge", VERLET, "--problem", "kepler", "--format", "json").out
+    )
     assert data["problem"] == "kepler"
     for step in data["steps"]:
         assert step["invariant_errors"]["angular momentum"] <= 1e-12
@@ -134,13 +144,19 @@ def test_invariants_are_reported() -> None:
     [
         (2, "H{1} of generic depends on q", ("--problem", "generic")),
         (2, "--omega is for the oscillator", ("--problem", "kepler", "--omega", "2")),
-        (2, "--seed is for the problems generic", ("--problem", "pendulum", "--seed", "2")),
+        (
+            2,
+            "--seed is for the problems generic",
+            ("--problem", "pendulum", "--seed", "2"),
+        ),
         (2, "--seed is for the problems generic", ("--omega", "2", "--seed", "2")),
         (2, "not a whole number of steps", ("--problem", "pendulum", "--steps", "3/7")),
         (1, "THEY DISAGREE", ("--problem", "kepler", "--steps", "1/2,1/4")),
     ],
 )
-def test_command_says_what_is_wrong(code: int, said: str, arguments: tuple[str, ...]) -> None:
+def test_command_says_what_is_wrong(
+    code: int, said: str, arguments: tuple[str, ...]
+) -> None:
     """Options of another problem, misfits and disagreement."""
     run = gark("converge", VERLET, *arguments)
     assert run.code == code
@@ -150,7 +166,14 @@ def test_command_says_what_is_wrong(code: int, said: str, arguments: tuple[str, 
 def test_failing_step_ends_with_1() -> None:
     """The step, its size and the residual, on stderr."""
     run = gark(
-        "converge", COLLOCATION, "--problem", "generic", "--t-end", "1000000", "--steps", "1000000"
+        "converge",
+        COLLOCATION,
+        "--problem",
+        "generic",
+        "--t-end",
+        "1000000",
+        "--steps",
+        "1000000",
     )
     assert run.code == 1
     assert "step 1 of size 1000000" in run.err
@@ -195,7 +218,12 @@ def test_small_error_constant_needs_tiny_steps() -> None:
     rk4 = diagonal_method("rk4")
     A = (
         *rk4.A[:3],
-        (rk4.A[3][0], rk4.A[3][1] + fmpq(1, 10**4), rk4.A[3][2] - fmpq(1, 10**4), rk4.A[3][3]),
+        (
+            rk4.A[3][0],
+            rk4.A[3][1] + fmpq(1, 10**4),
+            rk4.A[3][2] - fmpq(1, 10**4),
+            rk4.A[3][3],
+        ),
     )
     result = converge(spelled_out([[A]], [rk4.b], [None]), hamiltonian("pendulum", 1))
     assert (result.predicted_order, result.visible_order) == (3, 3)
@@ -215,7 +243,11 @@ def test_exact_solution_has_no_error() -> None:
     for problem in (fall, rest):
         result = converge(RK4, problem)
         assert result.is_exact
-        assert (len(result.rows), result.observed_order, result.verdict) == (1, None, "agree")
+        assert (len(result.rows), result.observed_order, result.verdict) == (
+            1,
+            None,
+            "agree",
+        )
 
 
 def test_ladder_ends_before_too_many_steps(monkeypatch: pytest.MonkeyPatch) -> None:
@@ -231,7 +263,9 @@ def test_mixed_orders_need_a_shorter_time() -> None:
     that.
     """
     A = [["1/4", "-0.0386751345948"], ["0.5386751345948", "1/4"]]
-    tableau = spelled_out([[[[read(x) for x in row] for row in A]]], [[fmpq(1, 2)] * 2], [None])
+    tableau = spelled_out(
+        [[[[read(x) for x in row] for row in A]]], [[fmpq(1, 2)] * 2], [None]
+    )
     result = converge(tableau, hamiltonian("kepler", 1))
     assert result.observed_order == pytest.approx(4, abs=0.1)
     assert result.short_time is not None
@@ -251,7 +285,9 @@ def test_constant_force_is_exact_at_once() -> None:
     so that round-off is taken for no error without hundreds of digits.
     """
     (x,), (p,) = symbols(("x",), "q"), symbols(("x",), "p")
-    fall = Hamiltonian("fall", ("x",), (p**2 / 2 + x / 3,), (fmpq(0), fmpq(1, 7)), fmpq(2))
+    fall = Hamiltonian(
+        "fall", ("x",), (p**2 / 2 + x / 3,), (fmpq(0), fmpq(1, 7)), fmpq(2)
+    )
     result = converge(RK4, fall)
     assert result.is_exact
     assert result.rows[0].digits == 30

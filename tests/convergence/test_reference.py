@@ -75,14 +75,18 @@ def test_watch_is_told() -> None:
 
 
 @pytest.mark.parametrize("digits", [16, 21])
-def test_collision_has_no_solution(digits: int, monkeypatch: pytest.MonkeyPatch) -> None:
+def test_collision_has_no_solution(
+    digits: int, monkeypatch: pytest.MonkeyPatch
+) -> None:
     """A planet without angular momentum falls into the sun at t = π/√8: nothing is made up
     beyond, however few steps are tried.
     """
     from dataclasses import replace
 
     monkeypatch.setattr(module, "MAX_TRIED", 1000)
-    problem = replace(hamiltonian("kepler", 1), initial=(fmpq(1), fmpq(0), fmpq(0), fmpq(0)))
+    problem = replace(
+        hamiltonian("kepler", 1), initial=(fmpq(1), fmpq(0), fmpq(0), fmpq(0))
+    )
     with pytest.raises((StepFailed, UsageProblem)):
         Reference(problem, fmpq(2)).to(digits)
 
@@ -97,7 +101,9 @@ def test_a_solution_that_ends_is_told_when() -> None:
 
     ((x,), (p,)) = (symbols(("x",), group) for group in ("q", "p"))
     problem = replace(
-        hamiltonian("pendulum", 2), terms=(p**2 / 2, -(x**4)), initial=(fmpq(1), fmpq(1))
+        hamiltonian("pendulum", 2),
+        terms=(p**2 / 2, -(x**4)),
+        initial=(fmpq(1), fmpq(1)),
     )
     with pytest.raises(
         UsageProblem, match=r"no solution is found at t = 2: .* fail at t = 0\.75"
@@ -109,5 +115,7 @@ def test_a_solution_that_ends_is_told_when() -> None:
 def test_search_has_an_end(monkeypatch: pytest.MonkeyPatch) -> None:
     """With too few steps allowed it is said, with the time and the digits."""
     monkeypatch.setattr(module, "MAX_STEPS", 10)
-    with pytest.raises(UsageProblem, match="t = 2 is not found to 40 digits in 10 steps"):
+    with pytest.raises(
+        UsageProblem, match="t = 2 is not found to 40 digits in 10 steps"
+    ):
         Reference(hamiltonian("kepler", 1), fmpq(2)).to(40)

@@ -18,7 +18,12 @@ from tests.stepping.test_step import RECTANGULAR, RK4, coupled
 def test_explicit_method_is_counted_by_hand() -> None:
     """rk4 has four stages with a velocity and a force each, and nothing to solve."""
     y, cost = work_of(bind(RK4, hamiltonian("pendulum", 1)).at(), fmpq(1, 10), 50)
-    assert (cost.steps, cost.evaluations, cost.iterations, cost.jacobians) == (50, 400, 0, 0)
+    assert (cost.steps, cost.evaluations, cost.iterations, cost.jacobians) == (
+        50,
+        400,
+        0,
+        0,
+    )
     assert cost.seconds is not None
     assert 0 < cost.seconds < 1
     assert y == integrate(bind(RK4, hamiltonian("pendulum", 1)).at(), fmpq(1, 10), 50)
@@ -44,7 +49,9 @@ def test_digits_cost_evaluations() -> None:
     """More digits take more iterations."""
     costs = []
     for digits in (15, 40):
-        state = Stepper(bind(RECTANGULAR, hamiltonian("pendulum", 2)).at(digits), fmpq(1, 10))
+        state = Stepper(
+            bind(RECTANGULAR, hamiltonian("pendulum", 2)).at(digits), fmpq(1, 10)
+        )
         state.advance(20)
         costs.append(cost_of(state))
     assert costs[0].seconds is None

@@ -23,7 +23,9 @@ def part(room: str) -> str:
 def test_every_file_has_its_place(room: str) -> None:
     """The files named are those that exist."""
     named = set(re.findall(r"\b(\w+\.py)\b", part(room)))
-    exist = {path.name for path in (ROOT / "garkcli" / room).glob("*.py")} - {"__init__.py"}
+    exist = {path.name for path in (ROOT / "garkcli" / room).glob("*.py")} - {
+        "__init__.py"
+    }
     assert named == exist
 
 

@@ -42,7 +42,8 @@ def cell(text: str) -> str:
 def code(text: str) -> str:
     """A line of a file as code in a cell; nothing where there is no line."""
     text = "".join(
-        x if x.isprintable() else "\N{REPLACEMENT CHARACTER}" for x in text.replace("\t", "    ")
+        x if x.isprintable() else "\N{REPLACEMENT CHARACTER}"
+        for x in text.replace("\t", "    ")
     )
     text = " ".join(text.split())
     text = text if len(text) <= WIDTH else f"{text[: WIDTH - 1].rstrip()}…"
@@ -61,14 +62,18 @@ def row(path: Path) -> str:
     with pytest.raises(MethodFileError) as caught:
         load(str(path))
     fault, lines = caught.value.faults[0], caught.value.text.splitlines()
-    line = around(lines[fault.line - 1], fault.column) if fault.line <= len(lines) else ""
+    line = (
+        around(lines[fault.line - 1], fault.column) if fault.line <= len(lines) else ""
+    )
     kind = path.name.removesuffix(SUFFIX).replace("-", " ")
     return f"| {kind} | {code(line)} | {cell(fault.message)} | {cell(fault.help)} |\n"
 
 
 def page() -> str:
     """The whole page."""
-    return HEAD + "".join(map(row, sorted((ROOT / "tests/examples/invalid").glob(f"*{SUFFIX}"))))
+    return HEAD + "".join(
+        map(row, sorted((ROOT / "tests/examples/invalid").glob(f"*{SUFFIX}")))
+    )
 
 
 def test_the_page_is_what_happens() -> None:
@@ -81,9 +86,11 @@ def test_the_page_is_what_happens() -> None:
 
 def test_every_row_has_four_cells() -> None:
     """Nothing in a message or a line breaks the table: each row has four cells, and a message."""
-    rows = [line for line in PAGE.read_text(encoding="utf-8").splitlines() if line.startswith("|")][
-        2:
-    ]
+    rows = [
+        line
+        for line in PAGE.read_text(encoding="utf-8").splitlines()
+        if line.startswith("|")
+    ][2:]
     assert len(rows) == len(list((ROOT / "tests/examples/invalid").glob(f"*{SUFFIX}")))
     for line in rows:
         cells = line.replace("\\|", "").split("|")[1:-1]

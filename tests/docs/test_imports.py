@@ -66,7 +66,9 @@ def test_no_circle_of_imports() -> None:
 
 def test_imports_in_functions_are_seen_and_those_for_types_are_not() -> None:
     """What the graph is made of: any import that runs at some time."""
-    modules = dict.fromkeys(["garkcli.a", "garkcli.b", "garkcli.c", "garkcli.d"], Path())
+    modules = dict.fromkeys(
+        ["garkcli.a", "garkcli.b", "garkcli.c", "garkcli.d"], Path()
+    )
     text = (
         "from typing import TYPE_CHECKING\nimport garkcli.a\n"
         "if TYPE_CHECKING:\n    from garkcli.b import x\n"

@@ -58,7 +58,10 @@ def agrees(shown: str, lines: list[str]) -> bool:
         r"(?:.*\n)*" if line.strip() == "..." else re.escape(line.rstrip()) + r"\n"
         for line in shown.splitlines()
     )
-    return re.fullmatch(pattern, "".join(f"{line.rstrip()}\n" for line in lines)) is not None
+    return (
+        re.fullmatch(pattern, "".join(f"{line.rstrip()}\n" for line in lines))
+        is not None
+    )
 
 
 def brought_up_to_date(shown: str, lines: list[str]) -> str:

@@ -26,7 +26,9 @@ from garkcli.exact.expression import (
 from garkcli.exact.field import Number
 from garkcli.exact.rewriting import format_expression, roots_in, substitute
 
-literals = st.fractions(0, 50, max_denominator=30).map(lambda x: f"{x.numerator}/{x.denominator}")
+literals = st.fractions(0, 50, max_denominator=30).map(
+    lambda x: f"{x.numerator}/{x.denominator}"
+)
 decimals = st.from_regex(r"[0-9]{1,6}(\.[0-9]{0,6})?([eE][+-]?[0-9])?", fullmatch=True)
 RATIONAL_TEXTS = st.recursive(
     literals | decimals | st.integers(0, 99).map(str),
@@ -46,12 +48,18 @@ EXPRESSIONS: st.SearchStrategy[Expression] = st.recursive(
         st.sampled_from(["tau", "x_1"]).map(Name),
     ),
     lambda inner: st.one_of(
-        st.tuples(st.sampled_from(["+-", "++", "+"]), st.lists(inner, min_size=2, max_size=2)).map(
+        st.tuples(
+            st.sampled_from(["+-", "++", "+"]), st.lists(inner, min_size=2, max_size=2)
+        ).map(
             lambda x: (
-                Chain(x[0], tuple(x[1][: len(x[0])])) if len(x[0]) > 1 else Chain("-", (x[1][0],))
+                Chain(x[0], tuple(x[1][: len(x[0])]))
+                if len(x[0]) > 1
+                else Chain("-", (x[1][0],))
             )
         ),
-        st.tuples(st.sampled_from(["**", "*/"]), st.tuples(inner, inner)).map(lambda x: Chain(*x)),
+        st.tuples(st.sampled_from(["**", "*/"]), st.tuples(inner, inner)).map(
+            lambda x: Chain(*x)
+        ),
         st.tuples(inner, st.integers(-5, 5)).map(lambda x: Power(*x)),
         st.tuples(inner, st.sampled_from([2, 3, 5])).map(lambda x: Root(*x)),
     ),
@@ -79,7 +87,9 @@ def by_python(text: str) -> Fraction:
 
 def _fraction(text: str) -> Fraction:
     return Fraction(
-        text.rstrip(".") if text.endswith(".") else text.replace(".e", "e").replace(".E", "e")
+        text.rstrip(".")
+        if text.endswith(".")
+        else text.replace(".e", "e").replace(".E", "e")
     )
 
 
@@ -192,10 +202,16 @@ def test_radicals_are_worth_what_sympy_says(text: str) -> None:
     again.
     """
     number = evaluate(text)
-    names = {"sqrt": sympy.sqrt, "cbrt": lambda x: sympy.real_root(x, 3), "root": sympy.real_root}
+    names = {
+        "sqrt": sympy.sqrt,
+        "cbrt": lambda x: sympy.real_root(x, 3),
+        "root": sympy.real_root,
+    }
     wanted = sympy.N(sympy.sympify(text, locals=names, rational=True), 50)
     for found in (number, evaluate(to_text(number))):
-        assert abs(sympy.Float(to_decimal(found, 45), 50) - wanted) < sympy.Float("1e-40")
+        assert abs(sympy.Float(to_decimal(found, 45), 50) - wanted) < sympy.Float(
+            "1e-40"
+        )
         assert abs(to_float(found) - float(wanted)) < 1e-14
     assert to_ball(number, 60).rel_accuracy_bits() >= 199
 
@@ -224,7 +240,8 @@ def test_faults_have_their_place(text: str, start: int, end: int) -> None:
 
 
 @pytest.mark.parametrize(
-    "text", ["sqrt(-1)", "root(-2, 4)", "sqrt(1 - sqrt(2))", "sqrt(2 - sqrt(3)*sqrt(3))"]
+    "text",
+    ["sqrt(-1)", "root(-2, 4)", "sqrt(1 - sqrt(2))", "sqrt(2 - sqrt(3)*sqrt(3))"],
 )
 def test_even_roots_of_negative_numbers_are_refused(text: str) -> None:
     """There are no complex coefficients, however the sign is hidden."""
@@ -246,7 +263,8 @@ def test_even_roots_of_negative_numbers_are_refused(text: str) -> None:
         "((((2**64)**64)**64)**64)",
         "root(1 + root(2, 12), 12)",
         "+".join(
-            f"sqrt({p})" for p in (2, 3, 5, 7, 11, 13, 17, 19, 23, 29, 31, 37, 41, 43, 47, 53, 59)
+            f"sqrt({p})"
+            for p in (2, 3, 5, 7, 11, 13, 17, 19, 23, 29, 31, 37, 41, 43, 47, 53, 59)
         ),
     ],
 )

@@ -29,7 +29,9 @@ FIELDS = {
     "cbrt(2)": (Domain([parse("cbrt(2)")]), 3),
     "sqrt(2 + sqrt(2))": (Domain([parse("sqrt(2 + sqrt(2))")]), 4),
 }
-rationals = st.fractions(-6, 6, max_denominator=6).map(lambda x: fmpq(x.numerator, x.denominator))
+rationals = st.fractions(-6, 6, max_denominator=6).map(
+    lambda x: fmpq(x.numerator, x.denominator)
+)
 
 
 @st.composite
@@ -57,11 +59,17 @@ def test_square_roots_of_one_class_share_a_field() -> None:
     """√3, √12, √(1/3) and √(4/3) all live in ℚ(√3); with √2 the degree is 4."""
     assert (
         Domain(
-            [parse(x) for x in ("sqrt(3)", "sqrt(12)", "sqrt(1/3)", "sqrt(4/3)", "sqrt(9)")]
+            [
+                parse(x)
+                for x in ("sqrt(3)", "sqrt(12)", "sqrt(1/3)", "sqrt(4/3)", "sqrt(9)")
+            ]
         ).degree
         == 2
     )
-    assert Domain([parse(x) for x in ("sqrt(3)", "sqrt(12)", "sqrt(2)", "sqrt(6)")]).degree == 4
+    assert (
+        Domain([parse(x) for x in ("sqrt(3)", "sqrt(12)", "sqrt(2)", "sqrt(6)")]).degree
+        == 4
+    )
     assert Domain([parse(x) for x in ("sqrt(3 + 2*sqrt(2))", "sqrt(2)")]).degree == 2
     assert Domain([parse("sqrt(49/121)")]).degree == 1
 
@@ -150,7 +158,9 @@ def test_coordinates_and_radicals(numbers: tuple[Number, ...]) -> None:
 
 def test_two_fields_do_not_mix() -> None:
     """Numbers of two domains cannot be added, and are not equal."""
-    one, other = (Domain([parse("sqrt(3)")]).evaluate(parse("sqrt(3)")) for _ in range(2))
+    one, other = (
+        Domain([parse("sqrt(3)")]).evaluate(parse("sqrt(3)")) for _ in range(2)
+    )
     assert one != other
     with pytest.raises(TypeError, match="two different fields"):
         one + other

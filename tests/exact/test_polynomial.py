@@ -57,7 +57,9 @@ def test_over_a_number_field_too(rational: list[fmpq], shifts: list[fmpq]) -> No
     found = real_roots(product(roots))
     assert sum(power for _, power in found) == len(roots)
     for root, power in found:
-        close = [x for x in roots if abs(sign(x - between(root, None))) and _is(root, x)]
+        close = [
+            x for x in roots if abs(sign(x - between(root, None))) and _is(root, x)
+        ]
         assert len(close) == power
 
 
@@ -70,12 +72,22 @@ def test_signs_at_algebraic_numbers_are_exact() -> None:
     """x² − 2 is zero at √2, and x² − 2 − 10⁻⁴⁰ is not."""
     (_, _), (root, _) = real_roots(Polynomial([-2, 0, 1]))
     assert sign_at(Polynomial([-2, 0, 1]), root) == 0
-    assert sign_at(Polynomial([fmpq(-2) - fmpq(1, 10**40), fmpq(0), fmpq(1)]), root) == -1
-    assert sign_at(Polynomial([fmpq(-2) + fmpq(1, 10**40), fmpq(0), fmpq(1)]), root) == 1
+    assert (
+        sign_at(Polynomial([fmpq(-2) - fmpq(1, 10**40), fmpq(0), fmpq(1)]), root) == -1
+    )
+    assert (
+        sign_at(Polynomial([fmpq(-2) + fmpq(1, 10**40), fmpq(0), fmpq(1)]), root) == 1
+    )
 
 
-@given(st.lists(SMALL, max_size=4), st.lists(SMALL, max_size=4), st.lists(SMALL, max_size=3))
-def test_common_roots_are_the_gcd(a: list[fmpq], b: list[fmpq], common: list[fmpq]) -> None:
+@given(
+    st.lists(SMALL, max_size=4),
+    st.lists(SMALL, max_size=4),
+    st.lists(SMALL, max_size=3),
+)
+def test_common_roots_are_the_gcd(
+    a: list[fmpq], b: list[fmpq], common: list[fmpq]
+) -> None:
     """gcd(p g, q g) = g for coprime p, q; the resultant vanishes where there is a common root."""
     a = [x for x in a if x not in b]
     p, q = product([*a, *common]), product([*b, *common])
@@ -91,8 +103,12 @@ def test_interpolation_gives_the_polynomial_back(coefficients: list[fmpq]) -> No
     assert interpolated(points, [p(x) for x in points]) == p
 
 
-@given(st.lists(SMALL, min_size=1, max_size=5), st.lists(SMALL, min_size=1, max_size=20))
-def test_cells_decide_as_evaluation_does(roots: list[fmpq], samples: list[fmpq]) -> None:
+@given(
+    st.lists(SMALL, min_size=1, max_size=5), st.lists(SMALL, min_size=1, max_size=20)
+)
+def test_cells_decide_as_evaluation_does(
+    roots: list[fmpq], samples: list[fmpq]
+) -> None:
     """A number lies in the set p ≥ 0 exactly when p is not negative there."""
     p = product([*roots])
     found = where(lambda x: sign_of(p, x) >= 0, [p])

@@ -58,7 +58,9 @@ def file_of(data: bytes, provider: Any, files: tuple[str, ...]) -> str:
         if kind == 0:
             piece = WORDS[provider.ConsumeIntInRange(0, len(WORDS) - 1)]
         elif kind == 1:
-            piece = "".join(SIGNS[provider.ConsumeIntInRange(0, len(SIGNS) - 1)] for _ in range(6))
+            piece = "".join(
+                SIGNS[provider.ConsumeIntInRange(0, len(SIGNS) - 1)] for _ in range(6)
+            )
         else:
             piece = provider.ConsumeUnicodeNoSurrogates(8)
         text = text[:start] + piece + text[stop:]
@@ -130,7 +132,9 @@ def main() -> None:
         folder.mkdir(parents=True, exist_ok=True)
     write_corpus(corpus, options.target)
     write_words(place / "words", options.target)
-    folders = [] if any(not argument.startswith("-") for argument in rest) else [str(corpus)]
+    folders = (
+        [] if any(not argument.startswith("-") for argument in rest) else [str(corpus)]
+    )
     limits = [f"-timeout={SECONDS}", f"-rss_limit_mb={megabytes}", "-max_len=4000"]
     files = [f"-dict={place / 'words'}", f"-artifact_prefix={faults}/"]
     atheris.Setup([sys.argv[0], *limits, *files, *rest, *folders], target)

@@ -135,7 +135,9 @@ def _run(cases: Cases, number: int, text: str) -> Case:
         tableau = cases.load(text)
     except MethodFileError as error:
         seconds = process_time() - start
-        if not error.faults or any(fault.line < 1 or fault.column < 1 for fault in error.faults):
+        if not error.faults or any(
+            fault.line < 1 or fault.column < 1 for fault in error.faults
+        ):
             return Case(number, "fault", seconds, error="a fault without a place")
         return Case(number, "refused", seconds)
     except Exception as error:
@@ -143,10 +145,16 @@ def _run(cases: Cases, number: int, text: str) -> Case:
     finally:
         signal.setitimer(signal.ITIMER_PROF, 0)
     seconds = process_time() - start
-    if tableau is None or tableau.size > 3 or any(space.stages > 6 for space in tableau.spaces):
+    if (
+        tableau is None
+        or tableau.size > 3
+        or any(space.stages > 6 for space in tableau.spaces)
+    ):
         return Case(number, "loaded", seconds)
     try:
-        return Case(number, "loaded", seconds, "done" if _is_analysed(tableau) else "left")
+        return Case(
+            number, "loaded", seconds, "done" if _is_analysed(tableau) else "left"
+        )
     except Exception as error:
         return Case(number, "fault", seconds, error=f"analyse: {error!r}"[:200])
 
@@ -162,7 +170,9 @@ def _is_analysed(tableau: Tableau) -> bool:
     except _LateError:
         return False
     except GarkError as error:
-        raise RuntimeError(f"{type(error).__name__} from a method that loads") from error
+        raise RuntimeError(
+            f"{type(error).__name__} from a method that loads"
+        ) from error
     finally:
         signal.setitimer(signal.ITIMER_PROF, 0)
     return True
@@ -188,7 +198,12 @@ def run(cases: Cases, numbers: range) -> list[Case]:
                 else f"the worker ended with {worker.exitcode}"
             )
             done.append(
-                Case(numbers[len(done)], "fault", cases.seconds if late else 0.0, error=error)
+                Case(
+                    numbers[len(done)],
+                    "fault",
+                    cases.seconds if late else 0.0,
+                    error=error,
+                )
             )
     return done
 
@@ -206,7 +221,8 @@ def summary(results: list[Case], elapsed: float) -> dict[str, float]:
     a clock.
     """
     count = {
-        kind: sum(case.kind == kind for case in results) for kind in ("loaded", "refused", "fault")
+        kind: sum(case.kind == kind for case in results)
+        for kind in ("loaded", "refused", "fault")
     }
     return {
         "cases": len(results),
@@ -230,10 +246,16 @@ def main() -> int:
     parser.add_argument("--seed", type=int, default=1)
     parser.add_argument("--jobs", type=int, default=2)
     parser.add_argument(
-        "--hostile", action="store_true", help="files made to be slow or large, not random ones"
+        "--hostile",
+        action="store_true",
+        help="files made to be slow or large, not random ones",
     )
-    parser.add_argument("--problems", action="store_true", help="problem files, not method files")
-    parser.add_argument("--faults", type=Path, default=FAULTS, help="where to save faulty inputs")
+    parser.add_argument(
+        "--problems", action="store_true", help="problem files, not method files"
+    )
+    parser.add_argument(
+        "--faults", type=Path, default=FAULTS, help="where to save faulty inputs"
+    )
     options = parser.parse_args()
     cases = Cases(None if options.hostile else options.seed, options.problems)
     names = list(cases.hostile()) if options.hostile else []
@@ -242,13 +264,21 @@ def main() -> int:
     with ThreadPoolExecutor(options.jobs) as threads:
         shares = [range(k, min(k + batch, total)) for k in range(0, total, batch)]
         results = [
-            case for share in threads.map(lambda share: run(cases, share), shares) for case in share
+            case
+            for share in threads.map(lambda share: run(cases, share), shares)
+            for case in share
         ]
     faults, text_of = [case for case in results if case.kind == "fault"], cases.reader()
     for case in faults:
         options.faults.mkdir(parents=True, exist_ok=True)
-        name = names[case.number].replace(" ", "-") if names else f"{options.seed}-{case.number}"
-        file = options.faults / f"{name}{'.problem' if options.problems else '.gark'}.yaml"
+        name = (
+            names[case.number].replace(" ", "-")
+            if names
+            else f"{options.seed}-{case.number}"
+        )
+        file = (
+            options.faults / f"{name}{'.problem' if options.problems else '.gark'}.yaml"
+        )
         file.write_text(text_of(case.number), encoding="utf-8", errors="surrogatepass")
         print(f"{file}: {case.error}", file=sys.stderr)
     print(json.dumps(summary(results, perf_counter() - start)))

@@ -51,11 +51,18 @@ NUMBERS = st.one_of(
     st.sampled_from(["tau", "1 - tau", "free", ">= 2"]),
 )
 SCALARS = st.one_of(
-    NUMBERS, st.none(), st.booleans(), st.dates(), st.text(max_size=20), st.sampled_from(WORDS)
+    NUMBERS,
+    st.none(),
+    st.booleans(),
+    st.dates(),
+    st.text(max_size=20),
+    st.sampled_from(WORDS),
 )
 TREES = st.recursive(
     SCALARS,
-    lambda below: st.lists(below, max_size=4) | st.dictionaries(SCALARS, below, max_size=4),
+    lambda below: (
+        st.lists(below, max_size=4) | st.dictionaries(SCALARS, below, max_size=4)
+    ),
     max_leaves=12,
 )
 """Any value that YAML can write."""
@@ -66,7 +73,9 @@ def _or_anything(good: st.SearchStrategy[Any]) -> st.SearchStrategy[Any]:
     return st.integers(0, 11).flatmap(lambda chance: TREES if chance == 0 else good)
 
 
-def _rows(strategy: st.SearchStrategy[Any], longest: int = 3) -> st.SearchStrategy[list[Any]]:
+def _rows(
+    strategy: st.SearchStrategy[Any], longest: int = 3
+) -> st.SearchStrategy[list[Any]]:
     return st.integers(1, longest).flatmap(
         lambda size: st.lists(strategy, min_size=size, max_size=size)
     )
@@ -74,7 +83,9 @@ def _rows(strategy: st.SearchStrategy[Any], longest: int = 3) -> st.SearchStrate
 
 ROW = _or_anything(_rows(_or_anything(NUMBERS)))
 MATRIX = _or_anything(_rows(ROW))
-BUTCHER = st.fixed_dictionaries({"A": MATRIX, "b": ROW}, optional={"c": ROW, "name": SCALARS})
+BUTCHER = st.fixed_dictionaries(
+    {"A": MATRIX, "b": ROW}, optional={"c": ROW, "name": SCALARS}
+)
 FAMILY = st.fixed_dictionaries(
     {"family": _or_anything(st.sampled_from(sorted(FAMILIES)))},
     optional={"stages": _or_anything(st.integers(0, 5))},
@@ -87,7 +98,9 @@ TRANSFER = RULE | st.fixed_dictionaries(
     {},
     optional={
         "default": RULE,
-        "blocks": st.dictionaries(st.sampled_from(["1,2", "2,1", "3, 1"]), RULE | MATRIX),
+        "blocks": st.dictionaries(
+            st.sampled_from(["1,2", "2,1", "3, 1"]), RULE | MATRIX
+        ),
     },
 )
 VALUES: dict[str, st.SearchStrategy[Any]] = {
@@ -97,7 +110,9 @@ VALUES: dict[str, st.SearchStrategy[Any]] = {
     "tableau": st.fixed_dictionaries(
         {"A": _rows(_rows(MATRIX | st.none())), "b": _rows(ROW)}, optional={"c": MATRIX}
     ),
-    "ark": st.fixed_dictionaries({"A": _rows(MATRIX), "b": ROW | MATRIX}, optional={"c": ROW}),
+    "ark": st.fixed_dictionaries(
+        {"A": _rows(MATRIX), "b": ROW | MATRIX}, optional={"c": ROW}
+    ),
     "prk": st.fixed_dictionaries({"q": BUTCHER, "p": BUTCHER}),
     "structure": st.sampled_from(STRUCTURES),
     "conjugate": st.booleans(),
@@ -111,10 +126,14 @@ VALUES: dict[str, st.SearchStrategy[Any]] = {
 def _files() -> st.SearchStrategy[dict[Any, Any]]:
     """One form, and a few of the other keys, each with a value that may belong there."""
     assert set(VALUES) < set(KEYS)
-    others = {key: _or_anything(value) for key, value in VALUES.items() if key not in FORMS}
+    others = {
+        key: _or_anything(value) for key, value in VALUES.items() if key not in FORMS
+    }
     others |= {key: SCALARS for key in KEYS if key not in VALUES}
     return st.sampled_from(FORMS).flatmap(
-        lambda form: st.fixed_dictionaries({form: _or_anything(VALUES[form])}, optional=others)
+        lambda form: st.fixed_dictionaries(
+            {form: _or_anything(VALUES[form])}, optional=others
+        )
     )
 
 
@@ -134,7 +153,10 @@ def faults_of(text: str, load: Callable[[str], object] = loads) -> tuple[Fault, 
 
 def check_places(text: str) -> None:
     """Every fault of a file says something, and where."""
-    assert all(fault.line >= 1 and fault.column >= 1 and fault.message for fault in faults_of(text))
+    assert all(
+        fault.line >= 1 and fault.column >= 1 and fault.message
+        for fault in faults_of(text)
+    )
 
 
 def offset_of_fault(text: str) -> int:
@@ -158,9 +180,9 @@ def test_method_files(seed: int) -> None:
         text = method_file(random, files)
         faults = faults_of(text)
         refused += bool(faults)
-        assert all(fault.line >= 1 and fault.column >= 1 and fault.message for fault in faults), (
-            text
-        )
+        assert all(
+            fault.line >= 1 and fault.column >= 1 and fault.message for fault in faults
+        ), text
     assert 0 < refused < 300
 
 
@@ -175,9 +197,9 @@ def test_problem_files(seed: int) -> None:
         text = problem_file(random, files)
         faults = faults_of(text, loads_problem)
         refused += bool(faults)
-        assert all(fault.line >= 1 and fault.column >= 1 and fault.message for fault in faults), (
-            text
-        )
+        assert all(
+            fault.line >= 1 and fault.column >= 1 and fault.message for fault in faults
+        ), text
     assert 0 < refused < 200
 
 
@@ -186,7 +208,10 @@ def test_what_is_damaged_was_good() -> None:
     none.
     """
     assert not any(faults_of(text, loads_problem) for text in problem_seeds())
-    good = sum(not faults_of(written_problem(Random(seed)), loads_problem) for seed in range(100))
+    good = sum(
+        not faults_of(written_problem(Random(seed)), loads_problem)
+        for seed in range(100)
+    )
     assert 20 < good < 80
 
 
@@ -281,7 +306,10 @@ def test_any_text(text: str) -> None:
 
 
 @FUZZ
-@given(st.text(max_size=60) | st.text(alphabet="0123456789.+-*/^()eE, sqrtcboau", max_size=60))
+@given(
+    st.text(max_size=60)
+    | st.text(alphabet="0123456789.+-*/^()eE, sqrtcboau", max_size=60)
+)
 def test_any_number(text: str) -> None:
     """Text that need not be a number: a value, or an error with offsets inside the text."""
     assert 0 <= offset_of_fault(text) <= len(text)

@@ -46,7 +46,9 @@ def test_a_file_that_is_called_like_an_option(tmp_path: Path) -> None:
     (hook,) = yaml.safe_load((ROOT / ".pre-commit-hooks.yaml").read_text())
     odd = tmp_path / "--version.gark.yaml"
     odd.write_text("methods: [{family: gauss, stages: 2}]\nexpect: {order: 4}\n")
-    done = run(f"cd {tmp_path} && {' '.join([hook['entry'], *hook['args']])} {odd.name}")
+    done = run(
+        f"cd {tmp_path} && {' '.join([hook['entry'], *hook['args']])} {odd.name}"
+    )
     assert (done.returncode, "order: 4" in done.stdout) == (0, True)
     step = yaml.safe_load((ROOT / "action.yml").read_text())["runs"]["steps"][-1]
     variables = {"FILES": odd.name, "ARGUMENTS": "", "RUNNER_TEMP": str(tmp_path)}
@@ -70,9 +72,13 @@ def test_action(file: str, code: int, tmp_path: Path) -> None:
     """The action's last step passes a right file, and annotates the line of a wrong claim."""
     action = yaml.safe_load((ROOT / "action.yml").read_text())
     step = action["runs"]["steps"][-1]
-    inputs = {name: x["default"] for name, x in action["inputs"].items()} | {"files": file}
+    inputs = {name: x["default"] for name, x in action["inputs"].items()} | {
+        "files": file
+    }
     variables = {
-        name: re.sub(r"\$\{\{ inputs\.([a-z-]+) \}\}", lambda match: inputs[match[1]], text)
+        name: re.sub(
+            r"\$\{\{ inputs\.([a-z-]+) \}\}", lambda match: inputs[match[1]], text
+        )
         for name, text in step["env"].items()
     } | {"RUNNER_TEMP": str(tmp_path)}
     result = run(step["run"], **variables)
@@ -84,6 +90,8 @@ def test_action(file: str, code: int, tmp_path: Path) -> None:
 def test_action_installs_this_project() -> None:
     """What the action installs is the directory it lies in, and that directory is the project."""
     action = yaml.safe_load((ROOT / "action.yml").read_text())
-    install = next(step for step in action["runs"]["steps"] if step.get("name") == "install")
+    install = next(
+        step for step in action["runs"]["steps"] if step.get("name") == "install"
+    )
     assert install["run"].rstrip().endswith('"$GITHUB_ACTION_PATH"')
     assert 'name = "garkcli"' in (ROOT / "pyproject.toml").read_text()

@@ -48,7 +48,9 @@ def two_planets(seed: int) -> str:
     return system(orbits, sun_moves=seed % 2 == 1)
 
 
-def system(orbits: list[tuple[Fraction, Fraction, Fraction, Fraction]], sun_moves: bool) -> str:
+def system(
+    orbits: list[tuple[Fraction, Fraction, Fraction, Fraction]], sun_moves: bool
+) -> str:
     """The problem file of planets that start at their perihelia.
 
     Args:
@@ -60,7 +62,10 @@ def system(orbits: list[tuple[Fraction, Fraction, Fraction, Fraction]], sun_move
     kinetic, potential, initial = [], [], []
     momenta: dict[str, list[str]] = {"x": [], "y": []}
     for name, (mass, axis, e, tangent) in zip(names, orbits, strict=True):
-        cosine, sine = (1 - tangent**2) / (1 + tangent**2), 2 * tangent / (1 + tangent**2)
+        cosine, sine = (
+            (1 - tangent**2) / (1 + tangent**2),
+            2 * tangent / (1 + tangent**2),
+        )
         radius, speed = axis * (1 - e), f"sqrt({(1 + e) / (axis * (1 - e))})"
         px, py = f"{-mass * sine}*{speed}", f"{mass * cosine}*{speed}"
         initial += [f"x{name}: {radius * cosine}", f"y{name}: {radius * sine}"]
@@ -69,8 +74,12 @@ def system(orbits: list[tuple[Fraction, Fraction, Fraction, Fraction]], sun_move
         momenta["y"].append(f"({py})")
         kinetic.append(f"(px{name}**2 + py{name}**2)/(2*{mass})")
         sun = ("- xs", "- ys") if sun_moves else ("", "")
-        potential.append(f"- {mass}/sqrt((x{name} {sun[0]})**2 + (y{name} {sun[1]})**2)")
-    potential.append(f"- {orbits[0][0] * orbits[1][0]}/sqrt((x1 - x2)**2 + (y1 - y2)**2)")
+        potential.append(
+            f"- {mass}/sqrt((x{name} {sun[0]})**2 + (y{name} {sun[1]})**2)"
+        )
+    potential.append(
+        f"- {orbits[0][0] * orbits[1][0]}/sqrt((x1 - x2)**2 + (y1 - y2)**2)"
+    )
     variables = [f"{axis}{name}" for name in names for axis in "xy"]
     if sun_moves:
         variables += ["xs", "ys"]

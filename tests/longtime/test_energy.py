@@ -24,7 +24,9 @@ def separable(s: int, t: int) -> Tableau:
     3.
     """
     one, other = diagonal_method("gauss", s), diagonal_method("lobatto-iiia", t)
-    Q = gark([one, other], {(0, 1): collocation(one, other), (1, 0): collocation(other, one)})
+    Q = gark(
+        [one, other], {(0, 1): collocation(one, other), (1, 0): collocation(other, one)}
+    )
     return symplectic_pair(Q, [0], [1])
 
 
@@ -38,7 +40,9 @@ def default(tableau: Tableau, omega: fmpq | None = None) -> Oscillator:
     return Oscillator.default(terms_of(tableau), omega or fmpq(1))
 
 
-def exact_energy_errors(tableau: Tableau, problem: Oscillator, h: fmpq, steps: int) -> list[float]:
+def exact_energy_errors(
+    tableau: Tableau, problem: Oscillator, h: fmpq, steps: int
+) -> list[float]:
     """H(t_n) − H(0), stepped in exact rational arithmetic and rounded at the very end."""
     (a, b), (c, d) = linear_step(tableau, problem).at(h)
     omega = problem.omega
@@ -60,12 +64,16 @@ def exact_energy_errors(tableau: Tableau, problem: Oscillator, h: fmpq, steps: i
         alone("lobatto-iiic", 2),
     ],
 )
-def test_energy_errors_are_exact_to_the_last_digits(tableau: Tableau, omega: fmpq) -> None:
+def test_energy_errors_are_exact_to_the_last_digits(
+    tableau: Tableau, omega: fmpq
+) -> None:
     """Against rational arithmetic: also errors of 1e-17 of the energy come out to nearly all their
     digits.
     """
     steps = 120
-    expected = np.array(exact_energy_errors(tableau, default(tableau, omega), HALF, steps))
+    expected = np.array(
+        exact_energy_errors(tableau, default(tableau, omega), HALF, steps)
+    )
     result = oscillator_run(tableau, default(tableau, omega), HALF * steps, HALF)
     assert result.steps == steps
     assert np.array(result.energy.errors) == pytest.approx(
@@ -92,7 +100,8 @@ def test_small_energy_errors_are_not_rounding() -> None:
     result = oscillator_run(tableau, default(tableau), fmpq(10_000), fmpq(1, 100))
     assert result.steps == 1_000_000
     early, late = (
-        max(map(abs, half)) for half in (result.energy.errors[:1000], result.energy.errors[1000:])
+        max(map(abs, half))
+        for half in (result.energy.errors[:1000], result.energy.errors[1000:])
     )
     assert 1e-38 < result.energy.max_error < 1e-36
     assert early == pytest.approx(late, rel=1e-3)
@@ -103,8 +112,12 @@ def test_dissipation_is_drift() -> None:
     h = fmpq(1, 10)
     result = oscillator_run(alone("rk4"), default(alone("rk4")), fmpq(100), h)
     rate = np.log1p(-1e-6 / 72 + 1e-8 / 576) / 0.1
-    assert result.energy.drift == pytest.approx(5 / 8 * rate * (1 + rate * 50), rel=1e-3)
-    assert result.energy.max_error == pytest.approx(-5 / 8 * np.expm1(100 * rate), rel=1e-9)
+    assert result.energy.drift == pytest.approx(
+        5 / 8 * rate * (1 + rate * 50), rel=1e-3
+    )
+    assert result.energy.max_error == pytest.approx(
+        -5 / 8 * np.expm1(100 * rate), rel=1e-9
+    )
 
 
 def test_explicit_euler_drifts_and_blows_up() -> None:
@@ -125,7 +138,9 @@ def test_explicit_euler_drifts_and_blows_up() -> None:
 
 def test_violent_instability_is_finite_too() -> None:
     """Rk4 with ωh = 1000 multiplies by 4e10 a step: it ends after a few."""
-    result = oscillator_run(alone("rk4"), default(alone("rk4"), fmpq(1000)), fmpq(100), fmpq(1))
+    result = oscillator_run(
+        alone("rk4"), default(alone("rk4"), fmpq(1000)), fmpq(100), fmpq(1)
+    )
     assert result.is_unstable
     assert result.steps < 5
 
@@ -140,7 +155,9 @@ def test_strong_damping() -> None:
 
 def test_exact_conservation_is_zero() -> None:
     """Gauss: no energy error, no drift, exactly."""
-    result = oscillator_run(alone("gauss", 3), default(alone("gauss", 3)), fmpq(1000), HALF)
+    result = oscillator_run(
+        alone("gauss", 3), default(alone("gauss", 3)), fmpq(1000), HALF
+    )
     assert (result.energy.max_error, result.energy.drift) == (0, 0)
 
 
@@ -156,7 +173,9 @@ def test_series_is_small_and_keeps_the_extremes() -> None:
 def test_too_many_steps_are_refused() -> None:
     """Before memory is."""
     with pytest.raises(UsageProblem, match="steps"):
-        oscillator_run(alone("rk4"), default(alone("rk4")), fmpq(MAX_STEPS + 1), fmpq(1))
+        oscillator_run(
+            alone("rk4"), default(alone("rk4")), fmpq(MAX_STEPS + 1), fmpq(1)
+        )
 
 
 @pytest.mark.parametrize("t_end", [100, 10_000, 100_000])
@@ -181,7 +200,9 @@ def test_amplitude_is_what_the_line_leaves() -> None:
     tableau = separable(2, 3)
     result = oscillator_run(tableau, default(tableau), fmpq(10_000), HALF)
     errors = result.energy.errors
-    assert result.energy.amplitude == pytest.approx((max(errors) - min(errors)) / 2, rel=1e-9)
+    assert result.energy.amplitude == pytest.approx(
+        (max(errors) - min(errors)) / 2, rel=1e-9
+    )
     lost = oscillator_run(alone("rk4"), default(alone("rk4")), fmpq(100), fmpq(1, 10))
     assert lost.energy.amplitude < 0.01 * lost.energy.max_error
 
@@ -198,10 +219,14 @@ def test_series_has_both_ends() -> None:
 def test_exact_conservation_is_known() -> None:
     """It is decided, not seen from errors of zero."""
     assert (
-        oscillator_run(alone("gauss", 3), default(alone("gauss", 3)), fmpq(10), HALF).energy.verdict
+        oscillator_run(
+            alone("gauss", 3), default(alone("gauss", 3)), fmpq(10), HALF
+        ).energy.verdict
         == "exact"
     )
     assert (
-        oscillator_run(alone("rk4"), default(alone("rk4")), fmpq(10), HALF).energy.verdict
+        oscillator_run(
+            alone("rk4"), default(alone("rk4")), fmpq(10), HALF
+        ).energy.verdict
         == "drifts"
     )

@@ -57,7 +57,9 @@ def tableau_of(source: str) -> Tableau:
 def run(source: str, name: str, t_end: fmpq | int, h: fmpq, **rest: Any) -> LongRun:
     """A built-in problem, followed."""
     tableau = tableau_of(source)
-    return long_run(tableau, hamiltonian(name, terms_of(tableau)), fmpq(t_end), h, **rest)
+    return long_run(
+        tableau, hamiltonian(name, terms_of(tableau)), fmpq(t_end), h, **rest
+    )
 
 
 def stepped(source: str, name: str, count: int, h: fmpq) -> np.ndarray:
@@ -65,7 +67,9 @@ def stepped(source: str, name: str, count: int, h: fmpq) -> np.ndarray:
     tableau = tableau_of(source)
     problem = hamiltonian(name, terms_of(tableau))
     measure = energy_function(problem, 15)
-    values = np.array([measure(*y) for y in trajectory(bind(tableau, problem).at(), h, count)])
+    values = np.array(
+        [measure(*y) for y in trajectory(bind(tableau, problem).at(), h, count)]
+    )
     return values - values[0]
 
 
@@ -79,7 +83,9 @@ def stepped(source: str, name: str, count: int, h: fmpq) -> np.ndarray:
         ("split-oscillator", fmpq(1, 10)),
     ],
 )
-def test_the_rectangular_method_stays_and_runge_kutta_drifts(name: str, h: fmpq) -> None:
+def test_the_rectangular_method_stays_and_runge_kutta_drifts(
+    name: str, h: fmpq
+) -> None:
     """On the same problem with the same steps, each far beyond what rounding can do."""
     symplectic, other = run(RECTANGULAR, name, 200, h), run(RK4, name, 200, h)
     assert [x.verdict for x in symplectic.invariants] == [
@@ -145,7 +151,9 @@ def test_more_digits_show_what_floats_hide() -> None:
     to stay.
     """
     text = "methods: [{family: gauss, stages: 6}]"
-    floats, digits = (run(text, "pendulum", 60, fmpq(1, 10), digits=n) for n in (15, 40))
+    floats, digits = (
+        run(text, "pendulum", 60, fmpq(1, 10), digits=n) for n in (15, 40)
+    )
     assert floats.invariants[0].verdict == "round-off"
     assert floats.invariants[0].max_error < 1e-14
     assert digits.invariants[0].verdict == "bounded"
@@ -209,7 +217,9 @@ def test_growth_that_bends() -> None:
 )
 def test_short_runs_are_not_judged(t_end: int, verdict: str) -> None:
     """Neither with few steps nor with few revolutions."""
-    assert run(RECTANGULAR, "kepler", t_end, fmpq(1, 50)).invariants[0].verdict == verdict
+    assert (
+        run(RECTANGULAR, "kepler", t_end, fmpq(1, 50)).invariants[0].verdict == verdict
+    )
 
 
 ROUNDED_GAUSS_2 = """
@@ -254,7 +264,9 @@ def test_what_rounding_does_is_within_its_bound(units: list[int]) -> None:
     on that.
     """
     digits = [0.25, 0.25 - 3**0.5 / 6, 0.25 + 3**0.5 / 6, 0.25, 0.5, 0.5]
-    a, b, c, d, e, f = (f"{x + unit * 1e-6:.15f}" for x, unit in zip(digits, units, strict=True))
+    a, b, c, d, e, f = (
+        f"{x + unit * 1e-6:.15f}" for x, unit in zip(digits, units, strict=True)
+    )
     text = f"ark: {{A: [[[{a}, {b}], [{c}, {d}]]], b: [[{e}, {f}]]}}"
     energy = run(text, "kepler", 100, fmpq(1, 20), tolerance=fmpq(9, 10**6)).energy
     assert energy.verdict == "bounded"
@@ -391,18 +403,29 @@ def test_progress_is_told_every_step() -> None:
 def test_no_value_at_the_start() -> None:
     """An energy that is not defined there is said to be so."""
     q, p = symbols(("x",), "q")[0], symbols(("x",), "p")[0]
-    problem = Hamiltonian("bad", ("x",), (p**2 / 2 - sympy.log(q),), (fmpq(0), fmpq(1)), fmpq(1))
+    problem = Hamiltonian(
+        "bad", ("x",), (p**2 / 2 - sympy.log(q),), (fmpq(0), fmpq(1)), fmpq(1)
+    )
     with pytest.raises(UsageProblem, match="no value at the start"):
         long_run(tableau_of(RK4), problem, fmpq(1), fmpq(1, 10))
 
 
 def test_usual_runs_are_whole() -> None:
     """Every problem has a step and a time that fit; unknown ones have ten thousand steps."""
-    for name in ("split-oscillator", "pendulum", "kepler", "henon-heiles", "fput", "generic"):
+    for name in (
+        "split-oscillator",
+        "pendulum",
+        "kepler",
+        "henon-heiles",
+        "fput",
+        "generic",
+    ):
         h, t_end = usual(hamiltonian(name, 1))
         assert (t_end / h).q == 1
     problem = hamiltonian("pendulum", 1)
-    other = Hamiltonian("mine", problem.variables, problem.terms, problem.initial, fmpq(3))
+    other = Hamiltonian(
+        "mine", problem.variables, problem.terms, problem.initial, fmpq(3)
+    )
     h, t_end = usual(other)
     assert t_end / h == 10_000
 
@@ -428,7 +451,9 @@ def oscillator_run(
     """The energy of the oscillator."""
     tableau = tableau_of(source)
     problem = Oscillator.default(terms_of(tableau), fmpq(1))
-    return long_run(tableau, problem, fmpq(t_end), fmpq(1, 2), tolerance=tolerance).energy
+    return long_run(
+        tableau, problem, fmpq(t_end), fmpq(1, 2), tolerance=tolerance
+    ).energy
 
 
 @pytest.mark.parametrize(
@@ -463,9 +488,13 @@ def test_the_oscillator_agrees_with_the_nonlinear_path() -> None:
     tableau = tableau_of(RECTANGULAR)
     exact = long_run(tableau, Oscillator.default(2, fmpq(1)), fmpq(500), fmpq(1, 2))
     floats = run(RECTANGULAR, "oscillator", 500, fmpq(1, 2))
-    assert floats.invariants[0].max_error == pytest.approx(exact.invariants[0].max_error, rel=1e-9)
+    assert floats.invariants[0].max_error == pytest.approx(
+        exact.invariants[0].max_error, rel=1e-9
+    )
     assert list(floats.invariants[0].errors) == pytest.approx(
         list(exact.invariants[0].errors), abs=1e-14
     )
-    assert floats.invariants[0].amplitude == pytest.approx(exact.invariants[0].amplitude, rel=1e-3)
+    assert floats.invariants[0].amplitude == pytest.approx(
+        exact.invariants[0].amplitude, rel=1e-3
+    )
     assert [x.invariants[0].verdict for x in (exact, floats)] == ["bounded", "bounded"]

@@ -82,7 +82,9 @@ ark:
   A: [[[1 - sqrt(2)/2, 0], [sqrt(2) - 1, 1 - sqrt(2)/2]]]
   b: [[1/2, 1/2]]
 """).tableau
-    R = linear_step(tableau, Oscillator.default(terms_of(tableau), fmpq(1))).at(fmpq(1, 2))
+    R = linear_step(tableau, Oscillator.default(terms_of(tableau), fmpq(1))).at(
+        fmpq(1, 2)
+    )
     assert stability(R).fate == "contractive"
 
 
@@ -113,5 +115,8 @@ prk:
 structure: separable
 """).tableau
     step = linear_step(tableau, Oscillator.default(terms_of(tableau), fmpq(1)))
-    fates = [stability(step.at(h)).fate for h in (fmpq(1), fmpq(199, 100), fmpq(2), fmpq(201, 100))]
+    fates = [
+        stability(step.at(h)).fate
+        for h in (fmpq(1), fmpq(199, 100), fmpq(2), fmpq(201, 100))
+    ]
     assert fates == ["elliptic", "elliptic", "unstable", "unstable"]

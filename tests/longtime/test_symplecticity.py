@@ -34,7 +34,9 @@ structure: separable
 H = fmpq(1, 10)
 
 
-def measured(text: str, name: str, as_pair: bool = False) -> tuple[Tableau, Hamiltonian, Defect]:
+def measured(
+    text: str, name: str, as_pair: bool = False
+) -> tuple[Tableau, Hamiltonian, Defect]:
     """The defect of the first step."""
     tableau = loads(text).tableau
     tableau = with_joined_terms(pair(tableau) if as_pair else tableau)
@@ -81,7 +83,10 @@ def test_defect_of_explicit_euler() -> None:
 def test_defect_is_that_of_floats() -> None:
     """Plain differences in floats give the same, to the few digits they have."""
     tableau, problem, found = measured(RK4, "kepler")
-    method, y = bind(tableau, problem).at(), [float(x.p) / float(x.q) for x in problem.initial]
+    method, y = (
+        bind(tableau, problem).at(),
+        [float(x.p) / float(x.q) for x in problem.initial],
+    )
     columns = []
     for i in range(4):
         ends = []

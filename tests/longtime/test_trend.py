@@ -35,7 +35,10 @@ waves = st.lists(
 
 def oscillation(parts: list[tuple[float, float, float]]) -> Floats:
     """The sum of the waves, from zero on as errors are."""
-    total = sum((a * np.cos(2 * np.pi * f * S + phase) for a, f, phase in parts), np.zeros(N + 1))
+    total = sum(
+        (a * np.cos(2 * np.pi * f * S + phase) for a, f, phase in parts),
+        np.zeros(N + 1),
+    )
     return np.asarray(total - total[0])
 
 
@@ -87,7 +90,9 @@ def test_slow_modulation_is_no_drift(
     assert trend_of(signal - signal[0]).finding != "drift"
 
 
-@pytest.mark.parametrize(("slope", "finding"), [(0.02, "none"), (0.2, "undecided"), (2, "drift")])
+@pytest.mark.parametrize(
+    ("slope", "finding"), [(0.02, "none"), (0.2, "undecided"), (2, "drift")]
+)
 def test_three_findings(slope: float, finding: str) -> None:
     """Of one modulated oscillation, with drifts of different size."""
     slow = 1 + 0.1 * S
@@ -97,11 +102,15 @@ def test_three_findings(slope: float, finding: str) -> None:
 
 @given(
     st.lists(
-        st.tuples(st.floats(0.01, 1), st.floats(150, 900), st.floats(0, 6)), min_size=1, max_size=5
+        st.tuples(st.floats(0.01, 1), st.floats(150, 900), st.floats(0, 6)),
+        min_size=1,
+        max_size=5,
     )
 )
 @settings(max_examples=100, deadline=None)
-def test_uncertainty_of_fast_oscillations_is_tiny(parts: list[tuple[float, float, float]]) -> None:
+def test_uncertainty_of_fast_oscillations_is_tiny(
+    parts: list[tuple[float, float, float]],
+) -> None:
     """Hundreds of oscillations in the run: a drift of a millionth of their height is found, where
     they do not beat.
     """
@@ -122,7 +131,9 @@ def test_noise_has_an_uncertainty(seed: int, size: float) -> None:
     """
     draw = np.random.default_rng(seed)
     found = trend_of(size * (draw.normal(size=N + 1) + np.cos(400 * S)))
-    deviation = size * 8.0 / np.sqrt(N)  # of this weight's least squares, measured on many draws
+    deviation = (
+        size * 8.0 / np.sqrt(N)
+    )  # of this weight's least squares, measured on many draws
     assert deviation < found.uncertainty * N < 20 * deviation
 
 
@@ -150,7 +161,9 @@ def test_pieces_make_no_difference(
     for k in (0, 1):
         whole, found = trend_of(errors[:, k]), trends.of(k)
         scale = float(np.abs(errors[:, k]).max()) + 1e-300
-        assert found.slope * N == pytest.approx(whole.slope * N, rel=1e-9, abs=1e-12 * scale)
+        assert found.slope * N == pytest.approx(
+            whole.slope * N, rel=1e-9, abs=1e-12 * scale
+        )
         assert found.uncertainty == pytest.approx(whole.uncertainty, rel=1e-6)
         assert found.shape == whole.shape
 

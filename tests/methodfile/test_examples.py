@@ -60,7 +60,9 @@ def test_an_invalid_file_is_refused_with_its_faults(
     assert places == sorted(places)
     assert max(line for line, _ in places) <= max(1, error.text.count("\n") + 1)
     outcome = Outcome(error.source, error.source, faults=error.faults, text=error.text)
-    assert_recorded(path.with_name(f"{stem(path)}.txt"), faults_text(outcome, Paint()) + "\n")
+    assert_recorded(
+        path.with_name(f"{stem(path)}.txt"), faults_text(outcome, Paint()) + "\n"
+    )
 
 
 def test_every_record_belongs_to_an_example() -> None:
@@ -86,7 +88,9 @@ def words(paths: list[Path]) -> str:
         ("sqrt(", "cbrt(", "root(", "^", "**"),
     ],
 )
-def test_the_valid_files_say_every_word_of_the_format(vocabulary: tuple[str, ...]) -> None:
+def test_the_valid_files_say_every_word_of_the_format(
+    vocabulary: tuple[str, ...],
+) -> None:
     """No key, form, structure, rule, claim, family or function is without an example that loads."""
     text = words(VALID)
     assert [word for word in vocabulary if word not in text] == []
@@ -97,5 +101,7 @@ def test_the_misprinted_table_fails_its_claim() -> None:
     claimed.
     """
     outcome = check_file(str(EXAMPLES / "failing" / f"collocation-misprinted{SUFFIX}"))
-    assert [(x.claim, x.expected, x.found) for x in outcome.failed_claims] == [("order", "4", "2")]
+    assert [(x.claim, x.expected, x.found) for x in outcome.failed_claims] == [
+        ("order", "4", "2")
+    ]
     assert outcome.exit_code == 1

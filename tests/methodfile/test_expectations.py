@@ -57,7 +57,9 @@ def claim(text: str, found: Analysis) -> Claim:
         ("symplectic: true", False),
     ],
 )
-def test_a_claim_holds_where_it_is_true(text: str, holds: bool, analysis: Analysis) -> None:
+def test_a_claim_holds_where_it_is_true(
+    text: str, holds: bool, analysis: Analysis
+) -> None:
     """A claim is neither held to less nor to more than it says."""
     assert claim(text, analysis).holds is holds
 

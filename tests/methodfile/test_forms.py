@@ -31,7 +31,10 @@ TWO = "methods: [{family: gauss, stages: 2}, {family: lobatto-iiia, stages: 3}]\
 
 def rows(*lines: str) -> tuple[tuple[Number, ...], ...]:
     """A matrix from lines of fractions."""
-    return tuple(tuple(fmpq(*map(int, word.split("/"))) for word in line.split()) for line in lines)
+    return tuple(
+        tuple(fmpq(*map(int, word.split("/"))) for word in line.split())
+        for line in lines
+    )
 
 
 def tableau(text: str) -> Tableau:
@@ -49,7 +52,9 @@ def graph_of(found: Tableau) -> tuple[set[tuple[int, int]], set[int]]:
 def coupled(rule: str) -> Tableau:
     """Gauss 2 and Lobatto IIIA 3 with both blocks made by a rule."""
     make = RULES[rule]
-    return gark([GAUSS, LOBATTO], {(0, 1): make(GAUSS, LOBATTO), (1, 0): make(LOBATTO, GAUSS)})
+    return gark(
+        [GAUSS, LOBATTO], {(0, 1): make(GAUSS, LOBATTO), (1, 0): make(LOBATTO, GAUSS)}
+    )
 
 
 @pytest.mark.parametrize("family", FAMILIES)
@@ -76,7 +81,9 @@ def test_a_rule_for_pairs_builds_on_the_smaller_order(rule: str) -> None:
     """Of two methods of order 4 the one with fewer stages is built on, whichever colour it has."""
     blocks = symplectic_blocks(PAIR_RULES[rule], [GAUSS, LOBATTO], 0, 1)
     assert tableau(f"{TWO}transfer: {rule}") == gark([GAUSS, LOBATTO], blocks)
-    swapped = "methods: [{family: lobatto-iiia, stages: 3}, {family: gauss, stages: 2}]\n"
+    swapped = (
+        "methods: [{family: lobatto-iiia, stages: 3}, {family: gauss, stages: 2}]\n"
+    )
     other = {(1 - l, 1 - m): block for (l, m), block in blocks.items()}
     assert tableau(f"{swapped}transfer: {rule}") == gark([LOBATTO, GAUSS], other)
     assert tableau(f'{TWO}transfer: {{blocks: {{"2,1": {rule}}}}}') == gark(
@@ -115,7 +122,10 @@ def test_a_spelled_out_block_stands_as_it_is_written() -> None:
         butcher(rows("1/2"), rows("1")[0]),
         butcher(rows("0 0", "1/2 1/2"), rows("1/2 1/2")[0]),
     ]
-    blocks = {(0, 1): rows("1/3 1/6"), (1, 0): RULES["collocation"](methods[1], methods[0])}
+    blocks = {
+        (0, 1): rows("1/3 1/6"),
+        (1, 0): RULES["collocation"](methods[1], methods[0]),
+    }
     assert tableau(text) == gark(methods, blocks)
 
 
@@ -207,7 +217,9 @@ def test_a_structure_keeps_the_vector_fields_of_its_problem(
     others.
     """
     found = tableau(f"{TWO}transfer: collocation\nstructure: {structure}")
-    assert found == with_linear(symplectic_pair(coupled("collocation"), velocities, forces), linear)
+    assert found == with_linear(
+        symplectic_pair(coupled("collocation"), velocities, forces), linear
+    )
     assert graph_of(found) == (graph, {0} if linear else set())
 
 
@@ -218,7 +230,9 @@ def test_conjugate_true_is_the_conjugate() -> None:
     assert tableau(f"{TWO}transfer: collocation\nconjugate: true") == conjugate(
         coupled("collocation")
     )
-    assert tableau(f"{TWO}transfer: collocation\nconjugate: false") == coupled("collocation")
+    assert tableau(f"{TWO}transfer: collocation\nconjugate: false") == coupled(
+        "collocation"
+    )
     assert loads(f"{TWO}transfer: collocation\nconjugate: true").is_conjugate
 
 
@@ -231,7 +245,8 @@ def test_a_general_file_is_not_paired() -> None:
 def test_the_parts_of_a_file_are_kept() -> None:
     """Name, description, reference, tolerance, form and structure arrive as written."""
     method = loads(
-        f"{TWO}transfer: collocation\nname: N\ndescription: D\nreference: R\ntolerance: 1e-3", "s"
+        f"{TWO}transfer: collocation\nname: N\ndescription: D\nreference: R\ntolerance: 1e-3",
+        "s",
     )
     assert (method.name, method.description, method.reference) == ("N", "D", "R")
     assert (method.source, method.form, method.structure) == ("s", "methods", "general")

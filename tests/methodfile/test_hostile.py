@@ -35,10 +35,17 @@ def _limited() -> None:
 
 def environment() -> dict[str, str]:
     """That of a plain terminal of 80 columns."""
-    return {**os.environ, "PYTHONPATH": str(ROOT), "COLUMNS": "80", "OPENBLAS_NUM_THREADS": "1"}
+    return {
+        **os.environ,
+        "PYTHONPATH": str(ROOT),
+        "COLUMNS": "80",
+        "OPENBLAS_NUM_THREADS": "1",
+    }
 
 
-def gark(*arguments: str, cwd: Path = ROOT, stdin: bytes = b"") -> subprocess.CompletedProcess[str]:
+def gark(
+    *arguments: str, cwd: Path = ROOT, stdin: bytes = b""
+) -> subprocess.CompletedProcess[str]:
     """A run within the limits."""
     done = subprocess.run(
         [sys.executable, "-m", "garkcli", *arguments],
@@ -75,7 +82,9 @@ def number(text: str) -> str:
 def bomb(levels: int, width: int) -> str:
     """Anchors of anchors: ``width`` to the power of ``levels`` values."""
     lines = ["name: bomb", "a0: &a0 [1/2, 1/2]"]
-    lines += [f"a{k}: &a{k} [{', '.join([f'*a{k - 1}'] * width)}]" for k in range(1, levels)]
+    lines += [
+        f"a{k}: &a{k} [{', '.join([f'*a{k - 1}'] * width)}]" for k in range(1, levels)
+    ]
     return "\n".join([*lines, f"methods: *a{levels - 1}\n"])
 
 
@@ -201,12 +210,23 @@ def answers(tmp_path_factory: pytest.TempPathFactory) -> dict[str, Answer]:
         )
     command = [sys.executable, "-c", ONE_BY_ONE, str(MEGABYTES), *names.values()]
     done = subprocess.run(
-        command, cwd=folder, env=environment(), capture_output=True, text=True, timeout=120
+        command,
+        cwd=folder,
+        env=environment(),
+        capture_output=True,
+        text=True,
+        timeout=120,
     )
     assert done.returncode == 0, done.stderr
     found = [json.loads(line) for line in done.stdout.splitlines()]
-    texts = [(folder / f"{name}.report").read_text(errors="replace") for name in names.values()]
-    return {what: Answer(*x, text) for what, x, text in zip(HOSTILE, found, texts, strict=True)}
+    texts = [
+        (folder / f"{name}.report").read_text(errors="replace")
+        for name in names.values()
+    ]
+    return {
+        what: Answer(*x, text)
+        for what, x, text in zip(HOSTILE, found, texts, strict=True)
+    }
 
 
 @pytest.mark.parametrize("what", HOSTILE)
@@ -228,7 +248,9 @@ def test_a_tag_runs_nothing(tmp_path: Path) -> None:
     (tmp_path / "m.gark.yaml").write_text(
         "methods: [{A: [[!!python/object/apply:os.system 'echo pwned']], b: [1]}]\n"
     )
-    assert "pwned" not in refused(gark("check", "m.gark.yaml", cwd=tmp_path)).splitlines()
+    assert (
+        "pwned" not in refused(gark("check", "m.gark.yaml", cwd=tmp_path)).splitlines()
+    )
 
 
 def big_explicit(stages: int, entry: str) -> str:
@@ -239,9 +261,12 @@ def big_explicit(stages: int, entry: str) -> str:
 
 
 @pytest.mark.parametrize(
-    ("stages", "entry"), [(300, "1/300"), (300, "'sqrt(2)/300'"), (150, "'cbrt(2)/300'")]
+    ("stages", "entry"),
+    [(300, "1/300"), (300, "'sqrt(2)/300'"), (150, "'cbrt(2)/300'")],
 )
-def test_a_big_method_is_answered_or_refused(stages: int, entry: str, tmp_path: Path) -> None:
+def test_a_big_method_is_answered_or_refused(
+    stages: int, entry: str, tmp_path: Path
+) -> None:
     """Hundreds of explicit stages, rational or not: an order or a refusal, in 5 seconds of work and
     500 MB.
     """
@@ -327,7 +352,7 @@ def test_a_name_with_an_odd_byte_is_only_a_name(tmp_path: Path) -> None:
     (Path(os.fsdecode(bytes(tmp_path) + b"/a\xff\nb.gark.yaml"))).write_text(
         "methods: [{family: rk4}]\nexpect: {order: 5}"
     )
-    for format in ("text", "json", "sarif", "junit", "github", "markdown"):  # noqa: A001 -- the option's name
+    for format in ("text", "json", "sarif", "junit", "github", "markdown"):
         run = gark("check", ".", "--format", format, cwd=tmp_path)
         assert run.returncode == 1, run.stderr
         assert run.stderr == ""
@@ -345,7 +370,12 @@ def test_a_full_disk_is_said(arguments: tuple[str, ...]) -> None:
     command = [sys.executable, "-m", "garkcli", *arguments]
     with Path("/dev/full").open("w") as full:
         done = subprocess.run(
-            command, cwd=ROOT, env=environment(), stdout=full, stderr=subprocess.PIPE, text=True
+            command,
+            cwd=ROOT,
+            env=environment(),
+            stdout=full,
+            stderr=subprocess.PIPE,
+            text=True,
         )
     assert (done.returncode, done.stderr) == (
         2,
@@ -353,7 +383,9 @@ def test_a_full_disk_is_said(arguments: tuple[str, ...]) -> None:
     )
     run = gark(*arguments, "-o", "/dev/full")
     assert (run.returncode, run.stdout) == (2, "")
-    assert run.stderr.startswith("gark: cannot write /dev/full: No space left on device\n")
+    assert run.stderr.startswith(
+        "gark: cannot write /dev/full: No space left on device\n"
+    )
 
 
 def test_a_place_that_cannot_be_written_is_said(tmp_path: Path) -> None:
@@ -429,7 +461,9 @@ def interrupted(arguments: Sequence[str], cwd: Path, ready: str) -> tuple[int, s
                 and not _ready(running.pid, cwd, ready)
             ):
                 time.sleep(0.01)
-            assert running.poll() is None, "the work was done before it could be interrupted"
+            assert running.poll() is None, (
+                "the work was done before it could be interrupted"
+            )
             os.killpg(running.pid, signal.SIGINT)
             _, err = running.communicate(timeout=PATIENCE)
         finally:
@@ -440,12 +474,16 @@ def interrupted(arguments: Sequence[str], cwd: Path, ready: str) -> tuple[int, s
 def _ready(pid: int, cwd: Path, ready: str) -> bool:
     """Whether a temporary file has been begun, or workers have been started."""
     if ready == "file":
-        return any(x.name.startswith(".") and x.stat().st_size > 0 for x in cwd.iterdir())
+        return any(
+            x.name.startswith(".") and x.stat().st_size > 0 for x in cwd.iterdir()
+        )
     children = Path(f"/proc/{pid}/task/{pid}/children")
     return len(children.read_text().split()) >= 2
 
 
-@pytest.mark.skipif(not Path("/proc/self/task").exists(), reason="needs /proc to see workers")
+@pytest.mark.skipif(
+    not Path("/proc/self/task").exists(), reason="needs /proc to see workers"
+)
 def test_an_interrupt_ends_workers(tmp_path: Path) -> None:
     """^C during a check of many files by two workers: exit code 130, no traceback, no worker and no
     file left.
@@ -453,14 +491,27 @@ def test_an_interrupt_ends_workers(tmp_path: Path) -> None:
     slow = "methods: [{family: gauss, stages: 20}, {family: lobatto-iiia, stages: 21}]\ntransfer: collocation\n"
     for k in range(40):
         (tmp_path / f"m{k}.gark.yaml").write_text(slow)
-    code, err = interrupted(("check", "-j", "2", ".", "-o", "report"), tmp_path, "workers")
+    code, err = interrupted(
+        ("check", "-j", "2", ".", "-o", "report"), tmp_path, "workers"
+    )
     assert (code, err.strip()) == (130, "")
     assert {x.suffix for x in tmp_path.iterdir()} == {".yaml"}
 
 
 def test_an_interrupt_leaves_no_file(tmp_path: Path) -> None:
     """^C during a long listing into a file: exit code 130, no traceback, no file under any name."""
-    arguments = ("trees", "-N", "4", "-n", "9", "--yes", "--format", "csv", "-o", "trees.csv")
+    arguments = (
+        "trees",
+        "-N",
+        "4",
+        "-n",
+        "9",
+        "--yes",
+        "--format",
+        "csv",
+        "-o",
+        "trees.csv",
+    )
     code, err = interrupted(arguments, tmp_path, "file")
     assert (code, err.strip()) == (130, "")
     assert list(tmp_path.iterdir()) == []
@@ -482,7 +533,13 @@ def test_a_reader_that_goes_away(arguments: str) -> None:
     """
     command = f'"{sys.executable}" -m garkcli {arguments} | head -1'
     done = subprocess.run(
-        command, shell=True, cwd=ROOT, env=environment(), capture_output=True, text=True, timeout=30
+        command,
+        shell=True,
+        cwd=ROOT,
+        env=environment(),
+        capture_output=True,
+        text=True,
+        timeout=30,
     )
     assert done.stdout.count("\n") == 1
     assert done.stderr == ""
@@ -516,7 +573,11 @@ def test_a_fault_of_our_own(jobs: tuple[str, ...]) -> None:
     run = broken("check", "methods", *jobs)
     assert run.returncode == 3
     lines = run.stdout.splitlines()
-    told = [line for line in lines if line.endswith("error: internal fault: RuntimeError: broken")]
+    told = [
+        line
+        for line in lines
+        if line.endswith("error: internal fault: RuntimeError: broken")
+    ]
     helps = [line for line in lines if "please report it" in line]
     count = len(list((ROOT / "methods").glob("*.gark.yaml")))
     assert len(told) == len(helps) == count

@@ -26,9 +26,13 @@ WORDS = (
 )  # fmt: skip
 
 
-def problem(variables: str, form: str, formula: str, initial: str, rest: str = "") -> str:
+def problem(
+    variables: str, form: str, formula: str, initial: str, rest: str = ""
+) -> str:
     """A file of one term."""
-    return f"variables: [{variables}]\n{form}: {formula}\ninitial: {{{initial}}}\n{rest}"
+    return (
+        f"variables: [{variables}]\n{form}: {formula}\ninitial: {{{initial}}}\n{rest}"
+    )
 
 
 def one(formula: str, rest: str = "") -> str:
@@ -50,8 +54,14 @@ REFUSED = {
         "second derivatives of",
     ),
     "parentheses": (one("(" * 500 + "x" + ")" * 500), "nested more than 60 deep"),
-    "powers of powers": (one("(" * 29 + "x" + "+1)**1.5" * 29), "a number above 2^1000"),
-    "large powers": (one("(" * 10 + "x" + "/9)**64" * 10), "a number of more than 60000 bits"),
+    "powers of powers": (
+        one("(" * 29 + "x" + "+1)**1.5" * 29),
+        "a number above 2^1000",
+    ),
+    "large powers": (
+        one("(" * 10 + "x" + "/9)**64" * 10),
+        "a number of more than 60000 bits",
+    ),
     "power of a sum": (
         problem(
             ", ".join(MANY),
@@ -82,13 +92,21 @@ REFUSED = {
     ),
     "aliases": (
         "a: &a [1, 1]\n"
-        + "".join(f"b{i}: &b{i} [*{'ab'[i > 0]}{i - 1 if i else ''}]\n" for i in range(30)),
+        + "".join(
+            f"b{i}: &b{i} [*{'ab'[i > 0]}{i - 1 if i else ''}]\n" for i in range(30)
+        ),
         "nested more than 12 deep",
     ),
     "alias": (one("&a [x, *a]"), "nested more than 12 deep"),
-    "tag": (one("!!python/object/apply:os.system ['true']"), "H{1}: 'true' is no variable"),
+    "tag": (
+        one("!!python/object/apply:os.system ['true']"),
+        "H{1}: 'true' is no variable",
+    ),
     "tagged text": (one("!!python/name:os.system x"), "the tag"),
-    "code": (one("__import__('os').system('true')"), "'__import__' is not a function of formulas"),
+    "code": (
+        one("__import__('os').system('true')"),
+        "'__import__' is not a function of formulas",
+    ),
     "attribute": (one("x.__class__"), "the sign '.' has no place"),
     "mass matrix": (
         problem(
@@ -101,12 +119,17 @@ REFUSED = {
     ),
     "equation": (
         problem(
-            "x", "lagrangian", "+".join(f"sqrt(1+{i}*vx**2)" for i in range(1, 40)), "x: 1, vx: 1"
+            "x",
+            "lagrangian",
+            "+".join(f"sqrt(1+{i}*vx**2)" for i in range(1, 40)),
+            "x: 1, vx: 1",
         ),
         "was not solved for vx",
     ),
     "sum of powers": (
-        problem("x", "lagrangian", "vx**5+vx**3*sin(x*vx)+log(cosh(vx))", "x: 1, vx: 1"),
+        problem(
+            "x", "lagrangian", "vx**5+vx**3*sin(x*vx)+log(cosh(vx))", "x: 1, vx: 1"
+        ),
         "not solved",
     ),
 }
@@ -126,7 +149,9 @@ READ = {
         "+".join(f"(v{a}-v{b})**2" for a, b in pairwise(MANY)) + "+vx0**2",
         ", ".join(f"{x}: 0, v{x}: 1" for x in MANY),
     ),
-    "quotients": one("px**2/2+" + "+".join(f"(x**{i}+1)/(x**{i + 1}-3)" for i in range(1, 60))),
+    "quotients": one(
+        "px**2/2+" + "+".join(f"(x**{i}+1)/(x**{i + 1}-3)" for i in range(1, 60))
+    ),
 }
 
 
@@ -155,7 +180,9 @@ def test_any_text_is_read_or_refused(seed: int) -> None:
     out.
     """
     random = Random(seed)
-    seeds = [path.read_text(encoding="utf-8") for path in sorted(PROBLEMS.glob("*.yaml"))]
+    seeds = [
+        path.read_text(encoding="utf-8") for path in sorted(PROBLEMS.glob("*.yaml"))
+    ]
     for _ in range(100):
         try_one(hostile(random, seeds))
 

@@ -148,7 +148,10 @@ def test_the_schema_knows_the_words_of_the_loader() -> None:
     """
     properties = SCHEMA["properties"]
     assert set(properties) == set(KEYS)
-    assert [x["required"] for x in SCHEMA["oneOf"]] == [*([form] for form in FORMS), ["A", "b"]]
+    assert [x["required"] for x in SCHEMA["oneOf"]] == [
+        *([form] for form in FORMS),
+        ["A", "b"],
+    ]
     assert set(properties["tableau"]["properties"]) == set(PLAIN)
     assert properties["structure"]["enum"] == list(STRUCTURES)
     assert set(properties["expect"]["properties"]) == set(CLAIMS)
@@ -170,7 +173,9 @@ def test_stages_are_needed_where_the_loader_needs_them(name: str) -> None:
     """A family of one method goes without its stages, any other does not."""
     single = FAMILIES[name].smallest == FAMILIES[name].largest
     assert VALIDATOR.is_valid({"methods": [{"family": name}]}) == single
-    assert VALIDATOR.is_valid({"methods": [{"family": name, "stages": FAMILIES[name].smallest}]})
+    assert VALIDATOR.is_valid(
+        {"methods": [{"family": name, "stages": FAMILIES[name].smallest}]}
+    )
 
 
 @pytest.mark.parametrize(

@@ -76,11 +76,16 @@ def flow(problem: Problem, powers: int) -> dict[Component, list[Number]]:
             key: _field(forms, x, known, (fmpq(1),), lambda u, v: (u[0] * v[0],))
             for key, forms in problem.fields.items()
         }
-        x = {key: [(fmpq(0),), *((c[0] / n,) for n, c in enumerate(f[key], start=1))] for key in x}
+        x = {
+            key: [(fmpq(0),), *((c[0] / n,) for n, c in enumerate(f[key], start=1))]
+            for key in x
+        }
     return {key: [c[0] for c in series] for key, series in x.items()}
 
 
-def step(tableau: Tableau, problem: Problem, powers: int) -> dict[Component, list[Number]]:
+def step(
+    tableau: Tableau, problem: Problem, powers: int
+) -> dict[Component, list[Number]]:
     """One step from x = 0 up to h^powers; each iteration of the stage equations gains one power of
     h.
     """
@@ -152,6 +157,8 @@ def series_order(tableau: Tableau, limit: int, seed: int = 0) -> int:
     problem = random_problem(tableau, limit - 1, Random(seed))
     exact, found = flow(problem, limit), step(tableau, problem, limit)
     agreeing = (
-        n for n in range(1, limit + 1) if any(exact[key][n] != found[key][n] for key in exact)
+        n
+        for n in range(1, limit + 1)
+        if any(exact[key][n] != found[key][n] for key in exact)
     )
     return next(agreeing, limit + 1) - 1

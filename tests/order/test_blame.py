@@ -23,7 +23,9 @@ def example(name: str) -> Tableau:
 
 def test_misprinted_collocation_example() -> None:
     """The paper's misprinted block A^{1,2} is named; no single entry repairs four wrong ones."""
-    tableau = load(str(ROOT / "tests/examples/failing/collocation-misprinted.gark.yaml")).tableau
+    tableau = load(
+        str(ROOT / "tests/examples/failing/collocation-misprinted.gark.yaml")
+    ).tableau
     blame = find_blame(tableau, 3, 4)
     assert blame is not None
     assert blame.culprit == (0, 1)
@@ -59,7 +61,10 @@ def test_single_wrong_weight() -> None:
     """
     tableau = example("collocation-conjugate")
     b = tableau.colours[1].b
-    colours = (tableau.colours[0], replace(tableau.colours[1], b=(b[0], fmpq(3, 5), b[2])))
+    colours = (
+        tableau.colours[0],
+        replace(tableau.colours[1], b=(b[0], fmpq(3, 5), b[2])),
+    )
     blame = find_blame(replace(tableau, colours=colours), 1, 4)
     assert blame is not None
     assert [(x.l, x.m, x.j, x.new) for x in blame.repairs] == [(1, None, 1, fmpq(2, 3))]
@@ -117,7 +122,9 @@ def test_what_rounding_explains_has_nobody_to_blame(tmp_path: Path) -> None:
 
 
 @pytest.mark.parametrize(("key", "j"), [("conjugate-order", 0), ("pair-order", 1)])
-def test_an_exact_entry_is_found_through_the_conjugate(key: str, j: int, tmp_path: Path) -> None:
+def test_an_exact_entry_is_found_through_the_conjugate(
+    key: str, j: int, tmp_path: Path
+) -> None:
     """A wrong entry of Gauss 2 over ℚ(√3) is repaired by what the conjugate, or the pair, claims."""
     rows = [["1/4", "1/4 - sqrt(3)/6"], ["1/4 + sqrt(3)/6", "1/4"]]
     rows[1 - j][j] += " + 1/100"

@@ -11,7 +11,15 @@ from flint import fmpq
 from garkcli.order.certificate import DEFAULT_LIMIT, Order, find_order
 from garkcli.tableau.tableau import Tableau
 from tests.oracles import samples
-from tests.oracles.brute import Trees, Weights, brute_order, density, failing, plain, same_tree
+from tests.oracles.brute import (
+    Trees,
+    Weights,
+    brute_order,
+    density,
+    failing,
+    plain,
+    same_tree,
+)
 from tests.oracles.series import series_order
 
 RANDOM: dict[str, tuple[Callable[[Random], Tableau], int]] = {
@@ -27,7 +35,9 @@ LIMIT = 5
 def cases(count_divisor: int = 1) -> list[pytest.param]:
     """Makers of random tableaus, each with its own seed."""
     return [
-        pytest.param(lambda make=make, seed=seed: make(Random(seed)), id=f"{kind}-{seed}")  # type: ignore[misc]
+        pytest.param(
+            lambda make=make, seed=seed: make(Random(seed)), id=f"{kind}-{seed}"
+        )  # type: ignore[misc]
         for kind, (make, count) in RANDOM.items()
         for seed in range(count // count_divisor)
     ]
@@ -101,7 +111,9 @@ def test_random_tableaus_are_worth_trying() -> None:
     tableaus = [case.values[0]() for case in cases()]
     orders = {find_order(tableau, LIMIT).order for tableau in tableaus}
     sparse = sum(len(list(tableau.edges())) < tableau.size**2 for tableau in tableaus)
-    linear = sum(any(colour.is_linear for colour in tableau.colours) for tableau in tableaus)
+    linear = sum(
+        any(colour.is_linear for colour in tableau.colours) for tableau in tableaus
+    )
     assert orders == set(range(LIMIT + 1))
     assert sparse > 10
     assert linear > 10

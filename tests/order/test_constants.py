@@ -7,7 +7,16 @@ from pathlib import Path
 import pytest
 from flint import fmpq
 
-from garkcli import Tableau, Tree, conditions, diagonal_method, find_order, gark, load, pair
+from garkcli import (
+    Tableau,
+    Tree,
+    conditions,
+    diagonal_method,
+    find_order,
+    gark,
+    load,
+    pair,
+)
 from garkcli.order import constants
 from garkcli.order.constants import error_constants
 from garkcli.order.listing import all_conditions
@@ -27,9 +36,12 @@ def example(name: str) -> Tableau:
 
 
 @pytest.mark.parametrize(
-    "name", ["collocation", "rectangular", "semi-separable", "ark-ars222", "three-colours"]
+    "name",
+    ["collocation", "rectangular", "semi-separable", "ark-ars222", "three-colours"],
 )
-def test_exact_and_float_paths_agree(name: str, monkeypatch: pytest.MonkeyPatch) -> None:
+def test_exact_and_float_paths_agree(
+    name: str, monkeypatch: pytest.MonkeyPatch
+) -> None:
     """The exact sum over trees and the float one over the tree table give the same norms."""
     tableau = example(name)
     order = find_order(tableau).order + 1
@@ -57,7 +69,9 @@ def test_twin_roots_count_twice(monkeypatch: pytest.MonkeyPatch) -> None:
     assert exact.all.two == pytest.approx(floats.all.two, rel=1e-9)
 
 
-def test_twin_roots_mix_colours_each_for_itself(monkeypatch: pytest.MonkeyPatch) -> None:
+def test_twin_roots_mix_colours_each_for_itself(
+    monkeypatch: pytest.MonkeyPatch,
+) -> None:
     """[τ^F]^V mixes colours and its twin [τ^F]^F does not: the coupling trees are those that do, in
     both paths.
     """
@@ -123,6 +137,7 @@ def test_a_condition_with_a_diagonal_twin_is_one_of_a_diagonal_method() -> None:
     assert [x.tree.colours for x in found] == [{0}, {0, 1}]
     assert not any(x.is_coupling for x in found)
     assert all(
-        x.is_coupling == (len(x.tree.branches[0].colours | x.tree.branches[-1].colours) > 1)
+        x.is_coupling
+        == (len(x.tree.branches[0].colours | x.tree.branches[-1].colours) > 1)
         for x in all_conditions(both, 3)
     )

@@ -41,7 +41,9 @@ def step(method: Tableau, f: Monomials, start: fmpq) -> fmpq_poly:
     (colour,), A = method.colours, method.blocks[0, 0]
     h, stages = fmpq_poly([0, 1]), [fmpq_poly([start])] * len(colour.b)
     for _ in range(DEGREE + 1):  # each round is right for one power of h more
-        slopes = [right_hand_side(f, c * h, y) for c, y in zip(colour.c, stages, strict=True)]
+        slopes = [
+            right_hand_side(f, c * h, y) for c, y in zip(colour.c, stages, strict=True)
+        ]
         stages = [
             fmpq_poly([start])
             + h * sum((a * k for a, k in zip(row, slopes, strict=True)), fmpq_poly([0]))
@@ -118,7 +120,8 @@ def test_consistent_methods_keep_their_order() -> None:
 
 
 @pytest.mark.parametrize(
-    ("c", "order"), [("[0, 1/2]", 2), ("[0, 1/3]", 1), ("[1/9, 1/2]", 2), ("[1/9, 2/3]", 1)]
+    ("c", "order"),
+    [("[0, 1/2]", 2), ("[0, 1/3]", 1), ("[1/9, 1/2]", 2), ("[1/9, 2/3]", 1)],
 )
 def test_a_check_says_the_order_with_the_nodes_as_printed(c: str, order: int) -> None:
     """The midpoint rule: its second node counts, the first has no weight."""

@@ -17,7 +17,12 @@ from garkcli.exact.expression import parse
 from garkcli.families.registry import diagonal_method
 from garkcli.order.defects import is_symplectic_within
 from garkcli.order.simplifying import consistent_blocks, simplifying
-from garkcli.order.tolerance import form_within, functional_within, vector_within, within
+from garkcli.order.tolerance import (
+    form_within,
+    functional_within,
+    vector_within,
+    within,
+)
 from garkcli.tableau.conjugate import is_symplectic
 from garkcli.tableau.forms import gark, pair
 from garkcli.tableau.tableau import Tableau
@@ -38,7 +43,9 @@ def moved(tableau: Tableau, size: fmpq) -> Tableau:
 
 @pytest.mark.parametrize("name", samples.NAMED)
 @pytest.mark.parametrize("tolerance", [fmpq(0), SMALL])
-def test_exact_methods_satisfy_what_they_satisfy_exactly(name: str, tolerance: fmpq) -> None:
+def test_exact_methods_satisfy_what_they_satisfy_exactly(
+    name: str, tolerance: fmpq
+) -> None:
     """For methods without rounding a tolerance, also of zero, changes nothing, in every kind of
     stage space.
     """
@@ -54,7 +61,9 @@ def test_decimals_satisfy_what_the_family_does(stages: int, digits: int) -> None
     symplectic.
     """
     decimal = gauss_lobatto(stages, digits)
-    exact = samples.everywhere(collocation, f"gauss {stages}", f"lobatto-iiia {stages + 1}")
+    exact = samples.everywhere(
+        collocation, f"gauss {stages}", f"lobatto-iiia {stages + 1}"
+    )
     tolerance = fmpq(1, 10 ** (digits - 3))
     assert simplifying(decimal, tolerance=tolerance) == simplifying(exact)
     assert simplifying(pair(decimal), tolerance=tolerance) == simplifying(pair(exact))
@@ -73,7 +82,11 @@ def test_symplectic_within_the_rounding() -> None:
 
 
 @pytest.mark.parametrize(
-    "make", [lambda: gark([diagonal_method("gauss", 5)], {}), lambda: published("DP8_Hairer_853")]
+    "make",
+    [
+        lambda: gark([diagonal_method("gauss", 5)], {}),
+        lambda: published("DP8_Hairer_853"),
+    ],
 )
 def test_a_change_is_met_by_larger_tolerances_only(make: Callable[[], Tableau]) -> None:
     """A coefficient moved by 10⁻⁸: within 10⁻⁶ all is as before, within 10⁻¹⁰ consistency and C are
@@ -89,7 +102,9 @@ def test_a_change_is_met_by_larger_tolerances_only(make: Callable[[], Tableau]) 
     assert is_symplectic_within(changed, tight) is False
 
 
-@pytest.mark.parametrize("text", ["sqrt(2)", "cbrt(2) - 1", "sqrt(2) - sqrt(3)", "1/3", "-7/5"])
+@pytest.mark.parametrize(
+    "text", ["sqrt(2)", "cbrt(2) - 1", "sqrt(2) - sqrt(3)", "1/3", "-7/5"]
+)
 def test_within_is_exact(text: str) -> None:
     """A number against its own decimals to 200 places, from both sides; equality is met."""
     expression = parse(text)
@@ -98,9 +113,9 @@ def test_within_is_exact(text: str) -> None:
         assert within(number, abs(number))
         assert not within(number, abs(number) - fmpq(1, 10**300))
         return
-    below = abs(Domain([]).evaluate(parse(to_decimal(number, 200).removeprefix("-")))) - fmpq(
-        1, 10**199
-    )
+    below = abs(
+        Domain([]).evaluate(parse(to_decimal(number, 200).removeprefix("-")))
+    ) - fmpq(1, 10**199)
     assert not within(number, below)
     assert within(number, below + fmpq(1, 10**198))
 

@@ -30,7 +30,13 @@ from garkcli.tableau.tableau import Tableau
 from garkcli.transfer import collocation
 from garkcli.trees.table import TreeTable
 from tests.oracles import samples
-from tests.order.rounded_samples import ENTRIES, gauss_lobatto, in_decimals, nearest, published
+from tests.order.rounded_samples import (
+    ENTRIES,
+    gauss_lobatto,
+    in_decimals,
+    nearest,
+    published,
+)
 
 SEEDS = st.integers(0, 2**32 - 1)
 
@@ -51,7 +57,9 @@ def rounded(tableau: Tableau, dice: Random, size: fmpq) -> Tableau:
     def moved(row: tuple[fmpq, ...]) -> tuple[fmpq, ...]:
         return tuple(x + size * fmpq(dice.randint(-100, 100), 100) for x in row)
 
-    blocks = {key: tuple(moved(row) for row in block) for key, block in tableau.blocks.items()}  # type: ignore[arg-type]
+    blocks = {
+        key: tuple(moved(row) for row in block) for key, block in tableau.blocks.items()
+    }  # type: ignore[arg-type]
     colours = tuple(replace(x, b=moved(x.b)) for x in tableau.colours)  # type: ignore[arg-type]
     return Tableau(tableau.spaces, colours, blocks)
 
@@ -104,7 +112,9 @@ def test_orders_are_those_of_exact_enumeration(seed: int) -> None:
     dice = Random(seed)
     tableau = samples.random_graph(dice)
     if dice.random() < 0.5:
-        tableau = gark([samples.method(dice.choice(["rk4", "kutta", "heun", "ssp2 4"]))], {})
+        tableau = gark(
+            [samples.method(dice.choice(["rk4", "kutta", "heun", "ssp2 4"]))], {}
+        )
     tableau = rounded(tableau, dice, fmpq(1, 10 ** dice.randint(1, 30)))
     tolerance = fmpq(1, 10 ** dice.randint(0, 31))
     exact = largest_residuals(tableau, 5)
@@ -114,7 +124,8 @@ def test_orders_are_those_of_exact_enumeration(seed: int) -> None:
     assert found.is_lower_bound == (expected == 5)
     with ctx.workprec(2000):
         assert all(
-            bound >= size for bound, size in zip(found.sizes[:expected], exact, strict=False)
+            bound >= size
+            for bound, size in zip(found.sizes[:expected], exact, strict=False)
         )
 
 
@@ -143,7 +154,10 @@ def test_irrational_residuals_near_the_tolerance() -> None:
     table = TreeTable.upto(1, exact.order + 1)
     trees = map(table.tree, table.ids(exact.order + 1))
     with ctx.workprec(400):
-        size = max((abs(to_ball(x.residual, 100)) for x in conditions(tableau, trees)), key=float)
+        size = max(
+            (abs(to_ball(x.residual, 100)) for x in conditions(tableau, trees)),
+            key=float,
+        )
         below = nearest(size, 90)
     assert find_order_within(tableau, below).order == exact.order
     assert find_order_within(tableau, below + fmpq(1, 10**90)).order > exact.order
@@ -177,7 +191,9 @@ def test_spans_bound_every_tree(seed: int) -> None:
     less.
     """
     dice = Random(seed)
-    tableau = rounded(samples.random_graph(dice), dice, fmpq(1, 10 ** dice.randint(2, 20)))
+    tableau = rounded(
+        samples.random_graph(dice), dice, fmpq(1, 10 ** dice.randint(2, 20))
+    )
     grain = arb(fmpq(1, 10 ** dice.randint(0, 25)))
     spans = ApproximateSpans(tableau, enclose_tableau(tableau, 600), grain)
     for n, largest in enumerate(largest_residuals(tableau, 5), start=1):
@@ -193,7 +209,10 @@ def test_spans_are_sharp_where_all_is_known() -> None:
     """
     tableau = gark([diagonal_method("gauss", 2)], {})
     enclosure = enclose_tableau(tableau, 300)
-    spans, trees = ApproximateSpans(tableau, enclosure, arb(0)), TreeResiduals(tableau, enclosure)
+    spans, trees = (
+        ApproximateSpans(tableau, enclosure, arb(0)),
+        TreeResiduals(tableau, enclosure),
+    )
     assert spans.sizes(4).bound < fmpq(1, 10**60)
     assert spans.sizes(5).reached.overlaps(trees.sizes(5).reached)
 
@@ -222,7 +241,8 @@ def test_families_mixed_with_decimals() -> None:
     cut = in_decimals(gark([lobatto], {}), 30)
     decimal = butcher(cut.blocks[0, 0], cut.colours[0].b, cut.colours[0].c)
     mixed = gark(
-        [gauss, decimal], {(0, 1): collocation(gauss, decimal), (1, 0): collocation(decimal, gauss)}
+        [gauss, decimal],
+        {(0, 1): collocation(gauss, decimal), (1, 0): collocation(decimal, gauss)},
     )
     assert find_order(mixed).order < 6
     assert find_order_within(mixed, fmpq(1, 10**28)).order == 6

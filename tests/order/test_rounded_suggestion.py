@@ -24,7 +24,13 @@ from garkcli.tableau.tableau import Tableau
 from tests.catalogue.catalogue import tableau
 from tests.catalogue.method_files import method_file
 from tests.oracles import samples
-from tests.order.rounded_samples import ENTRIES, EXACT, ROUNDED, gauss_lobatto, published
+from tests.order.rounded_samples import (
+    ENTRIES,
+    EXACT,
+    ROUNDED,
+    gauss_lobatto,
+    published,
+)
 
 
 def suggestion(method: Tableau) -> Suggestion | None:
@@ -43,7 +49,9 @@ def test_rounded_methods_get_a_line_that_gives_their_order(name: str) -> None:
     assert found.rounding < found.tolerance < found.genuine
 
 
-@pytest.mark.parametrize("name", [name for name in EXACT if name != "sprk_McLachlan_3_3"])
+@pytest.mark.parametrize(
+    "name", [name for name in EXACT if name != "sprk_McLachlan_3_3"]
+)
 def test_exact_methods_get_none(name: str) -> None:
     """Their first failing residuals are genuine, down to 7·10⁻⁸ at order 9.
 
@@ -83,7 +91,9 @@ def test_no_gap_no_suggestion() -> None:
     """A weight off by 10⁻⁷, or by 10⁻⁴, under an error of 10⁻⁵ is a mistake, not rounding."""
     rk = samples.runge_kutta("0, 0", "1/2, 0", "1/10000, 9999/10000")
     assert suggestion(rk) is None
-    assert suggestion(samples.runge_kutta("0, 0", "1/2, 0", "0, 1000001/1000000")) is None
+    assert (
+        suggestion(samples.runge_kutta("0, 0", "1/2, 0", "0, 1000001/1000000")) is None
+    )
     off = suggestion(samples.runge_kutta("0, 0", "1/2, 0", "0, 100000001/100000000"))
     assert off is not None
     assert off.tolerance == fmpq(1, 10**7)
@@ -147,10 +157,13 @@ def test_a_wrong_digit_in_a_published_method(name: str, seed: int) -> None:
     at = text.index(".") + 11
     wrong = f"{text[:at]}{(int(text[at]) + 5) % 10}{text[at + 1 :]}"
     changed = [
-        [wrong if (k, m) == (i, j) else x for m, x in enumerate(row)] for k, row in enumerate(rows)
+        [wrong if (k, m) == (i, j) else x for m, x in enumerate(row)]
+        for k, row in enumerate(rows)
     ]
     blocks = {**entry["blocks"], "A": [[changed]]}
-    found = analysed(re.sub("tolerance: .*", "", method_file({**entry, "blocks": blocks})))
+    found = analysed(
+        re.sub("tolerance: .*", "", method_file({**entry, "blocks": blocks}))
+    )
     assert found.suggestion is None
     assert found.misprint is not None
     assert (i, j) in [(x.i, x.j) for x in found.misprint.repairs]

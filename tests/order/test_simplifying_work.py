@@ -39,12 +39,15 @@ def conditions_one_by_one(tableau: Tableau, limit: int) -> list[list[int | None]
 def test_shared_rows_have_their_own_conditions(seed: int) -> None:
     """Additive and partitioned methods, whose colours share stages, and some that share none."""
     dice = Random(seed)
-    make = dice.choice([samples.random_additive, samples.random_partitioned, samples.random_graph])
+    make = dice.choice(
+        [samples.random_additive, samples.random_partitioned, samples.random_graph]
+    )
     tableau = make(dice)
     found = simplifying(tableau, 6)
     assert [list(row) for row in found.C] == conditions_one_by_one(tableau, 6)
     assert all(
-        holds == (found.C[l][m] != 0) for (l, m), holds in consistent_blocks(tableau).items()
+        holds == (found.C[l][m] != 0)
+        for (l, m), holds in consistent_blocks(tableau).items()
     )
 
 
@@ -74,6 +77,8 @@ def test_moments_are_kept_and_right(stages: int) -> None:
     fresh = PolynomialSpace(space.modulus)
     for k in range(MAX_MOMENTS + 3):
         functional = tuple(x + k for x in method.b)
-        assert space.gram(functional) == fresh.gram(functional) == fresh.gram(functional)
+        assert (
+            space.gram(functional) == fresh.gram(functional) == fresh.gram(functional)
+        )
     one = space.gram(method.b)[0]
     assert one == tuple(fmpq(1, k) for k in range(1, stages + 1))

@@ -83,7 +83,9 @@ CONJUGATE_MISPRINTS: Mapping[tuple[int, int], str] = {
 """The same for its conjugate."""
 
 
-def matrix(text: str, corrections: Mapping[tuple[int, int], str] | None = None) -> Matrix:
+def matrix(
+    text: str, corrections: Mapping[tuple[int, int], str] | None = None
+) -> Matrix:
     """A printed matrix, with some entries put right."""
     rows = [[x.strip() for x in line.split(",")] for line in text.strip().splitlines()]
     for (i, j), entry in (corrections or {}).items():

@@ -39,7 +39,8 @@ def entries(tableau: Tableau) -> Matrix:
     for l in range(tableau.size):
         blocks = [tableau.block(l, m) for m in range(tableau.size)]
         for i in range(tableau.space(l).stages):
-            rows.append(tuple(x for block in blocks if block is not None for x in block[i]))  # noqa: PERF401
+            row = tuple(x for block in blocks if block is not None for x in block[i])
+            rows.append(row)
     return tuple(rows)
 
 
@@ -60,7 +61,9 @@ def spelled(tableau: Tableau) -> Tableau:
     ],
     ids=["collocation", "interpolation"],
 )
-def test_examples_entry_by_entry(rule: Rule, printed: Matrix, printed_conjugate: Matrix) -> None:
+def test_examples_entry_by_entry(
+    rule: Rule, printed: Matrix, printed_conjugate: Matrix
+) -> None:
     """A, Â, b and c of both examples are, entry by entry, what the paper prints, its misprints put
     right.
     """
@@ -69,8 +72,14 @@ def test_examples_entry_by_entry(rule: Rule, printed: Matrix, printed_conjugate:
     assert entries(spelled(Q)) == printed
     assert entries(spelled(P)) == printed_conjugate
     for tableau in (Q, P):
-        assert [colour.b for colour in spelled(tableau).colours] == [tables.b_1, tables.b_2]
-        assert [colour.c for colour in spelled(tableau).colours] == [tables.c_1, tables.c_2]
+        assert [colour.b for colour in spelled(tableau).colours] == [
+            tables.b_1,
+            tables.b_2,
+        ]
+        assert [colour.c for colour in spelled(tableau).colours] == [
+            tables.c_1,
+            tables.c_2,
+        ]
 
 
 @pytest.mark.parametrize("rule", [collocation, interpolation])
@@ -107,7 +116,9 @@ def test_the_misprints_are_all_the_differences() -> None:
     printed = tables.matrix(tables.COLLOCATION_AS_PRINTED)
     printed_conjugate = tables.matrix(tables.COLLOCATION_CONJUGATE_AS_PRINTED)
     Q = constructed(collocation)
-    assert _differences(printed, entries(spelled(Q))) == set(tables.COLLOCATION_MISPRINTS)
+    assert _differences(printed, entries(spelled(Q))) == set(
+        tables.COLLOCATION_MISPRINTS
+    )
     assert _differences(printed_conjugate, entries(spelled(conjugate(Q)))) == set(
         tables.CONJUGATE_MISPRINTS
     )
@@ -123,7 +134,8 @@ def _differences(one: Matrix, other: Matrix) -> set[tuple[int, int]]:
     [
         pytest.param(lambda: tables.tableau(CORRECTED), id="collocation"),
         pytest.param(
-            lambda: tables.tableau(tables.matrix(tables.INTERPOLATION)), id="interpolation"
+            lambda: tables.tableau(tables.matrix(tables.INTERPOLATION)),
+            id="interpolation",
         ),
         pytest.param(samples.rectangular, id="rectangular"),
     ],
@@ -156,7 +168,9 @@ def test_the_misprinted_collocation_example_has_order_2() -> None:
     wrong = tables.tableau(tables.matrix(tables.COLLOCATION_AS_PRINTED))
     assert tuple(sum(line[2:], fmpq(0)) for line in entries(wrong)[:2]) != tables.c_1
     assert tuple(sum(line[2:], fmpq(0)) for line in CORRECTED[:2]) == tables.c_1
-    assert find_order(wrong).order == brute_order(wrong, 4) == series_order(wrong, 4) == 2
+    assert (
+        find_order(wrong).order == brute_order(wrong, 4) == series_order(wrong, 4) == 2
+    )
     witness = find_order(wrong).witness
     assert witness is not None
     assert witness.tree == Tree(0, [Tree(0, [Tree(1)])])
@@ -168,7 +182,9 @@ def test_the_misprinted_conjugate_has_order_2() -> None:
     2.
     """
     wrong = tables.tableau(tables.matrix(tables.COLLOCATION_CONJUGATE_AS_PRINTED))
-    assert find_order(wrong).order == brute_order(wrong, 4) == series_order(wrong, 4) == 2
+    assert (
+        find_order(wrong).order == brute_order(wrong, 4) == series_order(wrong, 4) == 2
+    )
     assert entries(conjugate(tables.tableau(CORRECTED))) != entries(wrong)
     assert entries(conjugate(wrong)) != CORRECTED
 
@@ -181,5 +197,7 @@ def test_the_rectangular_method() -> None:
     assert made.blocks == printed.blocks
     assert [(x.b, x.c) for x in made.colours] == [(x.b, x.c) for x in printed.colours]
     assert is_symplectic(printed)
-    upside_down = separable_prk((Q, tables.b_1, tables.c_2), (P[::-1], tables.b_2, tables.c_1))
+    upside_down = separable_prk(
+        (Q, tables.b_1, tables.c_2), (P[::-1], tables.b_2, tables.c_1)
+    )
     assert not is_symplectic(upside_down)

@@ -23,7 +23,14 @@ SAME = {"KATMAI": "PRESCOTT"}
 """Where OpenBLAS has one kernel for two processors it tells the older one's name."""
 LOCALES = ("tr_TR.utf8", "de_DE.utf8", "fr_FR.utf8", "ja_JP.utf8")
 """One of these, where there is one: another decimal sign, another capital of i."""
-OURS = ("OPENBLAS_CORETYPE", "NPY_DISABLE_CPU_FEATURES", "PYTHONHASHSEED", "LANG", "LC_ALL", "TZ")
+OURS = (
+    "OPENBLAS_CORETYPE",
+    "NPY_DISABLE_CPU_FEATURES",
+    "PYTHONHASHSEED",
+    "LANG",
+    "LC_ALL",
+    "TZ",
+)
 """Variables that are unset unless a circumstance sets them."""
 LEAST_PYTHON = (3, 11)
 
@@ -42,7 +49,11 @@ MEASURED = (
 """Everything that computes in numpy's floats, or compares with a recorded text."""
 FILES = ("tests/methodfile", "tests/docs", "tests/cli")
 """Everything that reads or writes YAML."""
-PACKAGED = ("tests/docs", "tests/cli/test_snapshots.py", "tests/methodfile/test_examples.py")
+PACKAGED = (
+    "tests/docs",
+    "tests/cli/test_snapshots.py",
+    "tests/methodfile/test_examples.py",
+)
 """Everything that reads files beside the package."""
 PROCESSES = ("tests/methodfile/test_hostile.py", "tests/cli")
 """Everything that starts and stops processes."""
@@ -92,19 +103,25 @@ def circumstances() -> Iterator[Circumstance]:
     newest = Venv(sys.executable, "newest")
     yield Circumstance("newest", "the newest version of each dependency", newest)
     floors = Venv(sys.executable, "floors")
-    yield Circumstance("floors", "the oldest declared version of each dependency", floors)
+    yield Circumstance(
+        "floors", "the oldest declared version of each dependency", floors
+    )
     no_libyaml = Venv(sys.executable, "no-libyaml")
     yield Circumstance("no-libyaml", "PyYAML without libyaml", no_libyaml, FILES)
     what = "the tree of the source distribution"
     yield Circumstance("sdist", what, newest, PACKAGED, tree=_source_distribution)
     for name in KERNELS.get(platform.machine(), ()):
         what = f"the {name} kernel of OpenBLAS"
-        yield Circumstance(f"kernel-{name.lower()}", what, newest, MEASURED, _kernel(name))
+        yield Circumstance(
+            f"kernel-{name.lower()}", what, newest, MEASURED, _kernel(name)
+        )
     what = "numpy with its SIMD features disabled"
     yield Circumstance("no-simd", what, newest, MEASURED, _no_simd)
     what = "other orders of sets, another time zone"
     yield Circumstance("hash-seed", what, newest, WHOLE, _hash_seed)
-    yield Circumstance("locale", "the locale of another country", newest, FILES, _locale)
+    yield Circumstance(
+        "locale", "the locale of another country", newest, FILES, _locale
+    )
     yield Circumstance("ascii", "a locale and streams of ASCII", newest, FILES, _ascii)
     ignoring = ("sh", "-c", 'trap "" INT; exec "$@"', "sh")
     what = "started with ^C ignored, as in the background of a script"
@@ -128,7 +145,11 @@ def other_pythons() -> list[str]:
             continue
         found.setdefault(version, python)
     found.pop(version_of(sys.executable), None)
-    return [python for version, python in sorted(found.items()) if _number(version) >= LEAST_PYTHON]
+    return [
+        python
+        for version, python in sorted(found.items())
+        if _number(version) >= LEAST_PYTHON
+    ]
 
 
 def _number(version: str) -> tuple[int, ...]:
@@ -141,8 +162,12 @@ def _interpreters() -> Iterator[str]:
         if command := shutil.which(f"python3.{minor}"):
             yield command
     if pyenv := shutil.which("pyenv"):
-        root = subprocess.run([pyenv, "root"], capture_output=True, text=True, check=False)
-        yield from map(str, sorted(Path(root.stdout.strip()).glob("versions/3.*/bin/python")))
+        root = subprocess.run(
+            [pyenv, "root"], capture_output=True, text=True, check=False
+        )
+        yield from map(
+            str, sorted(Path(root.stdout.strip()).glob("versions/3.*/bin/python"))
+        )
 
 
 def _asked(python: Path, program: str, variables: dict[str, str]) -> str:

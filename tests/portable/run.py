@@ -65,7 +65,9 @@ def run(circumstance: Circumstance) -> Outcome:
         return Outcome(name, failed=1, seconds=seconds, note=f"did not run: {where}")
     passed, failed, skipped = counted(report.read_text(encoding="utf-8"))
     bad = failed or not passed
-    return Outcome(name, passed, failed, skipped, seconds, f"see {where}" if bad else "")
+    return Outcome(
+        name, passed, failed, skipped, seconds, f"see {where}" if bad else ""
+    )
 
 
 def counted(report: str) -> tuple[int, int, int]:
@@ -95,7 +97,12 @@ def table(outcomes: Sequence[Outcome]) -> str:
     lines = [f"{'circumstance':{width}}  passed  failed  skipped  seconds"]
     for outcome in outcomes:
         ran = outcome.passed is not None or outcome.failed
-        numbers = (outcome.passed or 0, outcome.failed, outcome.skipped, round(outcome.seconds))
+        numbers = (
+            outcome.passed or 0,
+            outcome.failed,
+            outcome.skipped,
+            round(outcome.seconds),
+        )
         cells = [str(number) if ran else "–" for number in numbers]
         passed, failed, skipped, seconds = cells
         line = f"{outcome.name:{width}}  {passed:>6}  {failed:>6}  {skipped:>7}  {seconds:>7}"
@@ -121,8 +128,12 @@ def chosen(only: str) -> list[Circumstance]:
 def main(arguments: Sequence[str] | None = None) -> int:
     """Run what was asked for; the number of circumstances under which something failed, 0 or 1."""
     parser = argparse.ArgumentParser(description="the suite under other circumstances")
-    parser.add_argument("--only", default="", help="names, or their beginnings, with commas")
-    parser.add_argument("--list", action="store_true", help="what there is on this machine")
+    parser.add_argument(
+        "--only", default="", help="names, or their beginnings, with commas"
+    )
+    parser.add_argument(
+        "--list", action="store_true", help="what there is on this machine"
+    )
     options = parser.parse_args(arguments)
     wanted = chosen(options.only)
     if options.list:

@@ -19,10 +19,20 @@ NEWEST = Venv(sys.executable, "newest")
 def test_every_dependency_has_a_floor() -> None:
     """Those of the program and of its tests, each once."""
     names = [line.partition("==")[0].lower() for line in floors()]
-    assert {"click", "matplotlib", "numpy", "python-flint", "pyyaml", "rich", "sympy"} < {*names}
+    assert {
+        "click",
+        "matplotlib",
+        "numpy",
+        "python-flint",
+        "pyyaml",
+        "rich",
+        "sympy",
+    } < {*names}
     assert {"hypothesis", "jsonschema", "pytest", "pytest-xdist"} < {*names}
     assert len(names) == len({*names})
-    declared = tomllib.loads((ROOT / "pyproject.toml").read_text(encoding="utf-8"))["project"]
+    declared = tomllib.loads((ROOT / "pyproject.toml").read_text(encoding="utf-8"))[
+        "project"
+    ]
     test = declared["optional-dependencies"]["test"]
     assert len(names) == len(declared["dependencies"]) + len(test)
 
@@ -64,7 +74,9 @@ def test_pythons_that_do_not_run_are_left_out(
     assert other_pythons() == [str(newer)]
 
 
-def test_a_circumstance_that_does_not_hold_is_not_had(monkeypatch: pytest.MonkeyPatch) -> None:
+def test_a_circumstance_that_does_not_hold_is_not_had(
+    monkeypatch: pytest.MonkeyPatch,
+) -> None:
     """A kernel that numpy does not take, features that stay, a locale that nobody has: said."""
     python = Path(sys.executable)
     monkeypatch.setattr(module, "_asked", lambda *_: "Haswell")
@@ -84,6 +96,14 @@ def test_a_circumstance_that_does_not_hold_is_not_had(monkeypatch: pytest.Monkey
 
 def test_what_could_not_be_had_is_no_failure() -> None:
     """But no test at all is one, and so is one that fails; the table has a line for each."""
-    runs = [Outcome("a", 5), Outcome("b", 0), Outcome("c", 4, 1), Outcome("d", note="not")]
+    runs = [
+        Outcome("a", 5),
+        Outcome("b", 0),
+        Outcome("c", 4, 1),
+        Outcome("d", note="not"),
+    ]
     assert [x.is_good for x in runs] == [True, False, False, True]
-    assert [line.split()[0] for line in table(runs).splitlines()] == ["circumstance", *"abcd"]
+    assert [line.split()[0] for line in table(runs).splitlines()] == [
+        "circumstance",
+        *"abcd",
+    ]

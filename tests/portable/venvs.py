@@ -39,7 +39,9 @@ class Venv:
 
 def floors() -> list[str]:
     """The declared minimum versions, those of the tests included, as pip's constraints."""
-    declared = tomllib.loads((ROOT / "pyproject.toml").read_text(encoding="utf-8"))["project"]
+    declared = tomllib.loads((ROOT / "pyproject.toml").read_text(encoding="utf-8"))[
+        "project"
+    ]
     lines = (*declared["dependencies"], *declared["optional-dependencies"]["test"])
     found = [FLOOR.match(line) for line in lines]
     return [f"{floor[1]}=={floor[2]}" for floor in found if floor]
@@ -54,7 +56,9 @@ def version_of(python: str) -> str:
     """
     program = "import sys; print('{}.{}'.format(*sys.version_info))"
     try:
-        done = subprocess.run([python, "-c", program], capture_output=True, text=True, check=True)
+        done = subprocess.run(
+            [python, "-c", program], capture_output=True, text=True, check=True
+        )
     except (OSError, subprocess.CalledProcessError) as error:
         raise NotHad(f"{python} does not run") from error
     return done.stdout.strip()
@@ -68,7 +72,9 @@ def python_of(venv: Venv) -> Path:
         NotHad: an environment cannot be made, or some package is not to be had for it.
     """
     folder = venv.folder
-    python = folder / ("Scripts/python.exe" if sys.platform == "win32" else "bin/python")
+    python = folder / (
+        "Scripts/python.exe" if sys.platform == "win32" else "bin/python"
+    )
     if not python.exists():
         done([venv.python, "-m", "venv", str(folder)])
     wanted = ["--editable", ".[test]", "build", "threadpoolctl"]
@@ -96,7 +102,9 @@ def _without_libyaml(folder: Path) -> None:
 
 def done(command: list[str]) -> None:
     """Run, in the root of the project."""
-    done = subprocess.run(command, cwd=ROOT, capture_output=True, text=True, check=False)
+    done = subprocess.run(
+        command, cwd=ROOT, capture_output=True, text=True, check=False
+    )
     if done.returncode:
         said = done.stderr.strip().splitlines() or ["without a word"]
         raise NotHad(f"{' '.join(command[1:4])} fails: {said[-1]}")

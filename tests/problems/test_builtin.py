@@ -8,7 +8,13 @@ from pathlib import Path
 import pytest
 
 from garkcli.errors import UsageProblem
-from garkcli.problems.builtin import PROBLEMS, BuiltIn, built_in, check_seed, hamiltonian
+from garkcli.problems.builtin import (
+    PROBLEMS,
+    BuiltIn,
+    built_in,
+    check_seed,
+    hamiltonian,
+)
 
 PAGE = Path(__file__).resolve().parents[2] / "docs" / "problems.md"
 BEGIN, END = "<!-- problems -->\n", "<!-- end of problems -->\n"
@@ -27,7 +33,9 @@ def test_the_page_has_every_problem() -> None:
     found, end, tail = rest.partition(END)
     assert begin
     assert end
-    table = "| `--problem` | H | sees |\n|---|---|---|\n" + "".join(map(row, PROBLEMS.values()))
+    table = "| `--problem` | H | sees |\n|---|---|---|\n" + "".join(
+        map(row, PROBLEMS.values())
+    )
     if os.environ.get("GARK_UPDATE_SNAPSHOTS"):
         PAGE.write_text(head + begin + table + end + tail, encoding="utf-8")
         return

@@ -65,7 +65,9 @@ def test_generic_is_the_same_everywhere() -> None:
     )
     term = Add(
         *(
-            factor * (1 + Add(*(Rational(a, 20) * x for a, x in zip(slopes, y, strict=True)))) ** 8
+            factor
+            * (1 + Add(*(Rational(a, 20) * x for a, x in zip(slopes, y, strict=True))))
+            ** 8
             for slopes, factor in powers
         )
     )

@@ -28,9 +28,12 @@ def trees(order: int) -> tuple[Tree, ...]:
     forests: list[tuple[Tree, ...]] = [()] if order == 1 else []
     for parts in partitions(order - 1, order - 1):
         choices = [
-            combinations_with_replacement(trees(n), parts.count(n)) for n in sorted(set(parts))
+            combinations_with_replacement(trees(n), parts.count(n))
+            for n in sorted(set(parts))
         ]
-        forests += [tuple(u for group in groups for u in group) for groups in product(*choices)]
+        forests += [
+            tuple(u for group in groups for u in group) for groups in product(*choices)
+        ]
     return tuple(Tree(root, forest) for root in range(4) for forest in forests)
 
 
@@ -53,7 +56,9 @@ def derivative(colour: int, count: int) -> Any:
     field = vector_field(PROBLEM, colour % 2, group)
     places = list(combinations_with_replacement(range(4), count))
     expressions = tuple(
-        f.diff(*(Y[k] for k in where)) if where else f for f in field.components for where in places
+        f.diff(*(Y[k] for k in where)) if where else f
+        for f in field.components
+        for where in places
     )
     values = iter(function(expressions, Y, False)(*map(to_float, PROBLEM.initial)))
     tensor = np.zeros((4,) * (count + 1))
@@ -85,7 +90,9 @@ def test_no_elementary_differential_vanishes() -> None:
         assert min(sizes) > 0.02**order * max(sizes) > 0
 
 
-@pytest.mark.parametrize(("terms", "seed"), [(1, 44), (1, 55), (1, 86), (1, 107), (2, 78), (2, 1)])
+@pytest.mark.parametrize(
+    ("terms", "seed"), [(1, 44), (1, 55), (1, 86), (1, 107), (2, 78), (2, 1)]
+)
 def test_solutions_stay_small(terms: int, seed: int) -> None:
     """To the final time: these seeds have the largest solutions of the first 120 for one, two and
     three terms.

@@ -55,7 +55,10 @@ def spelled(terms: int, seed: int) -> Tableau:
 
     first = [fmpq(1 + int(draw.random() * 4), 5) for _ in range(terms)]
     A: list[list[Any]] = [
-        [tuple(tuple(number() for _ in range(2)) for _ in range(2)) for _ in range(terms)]
+        [
+            tuple(tuple(number() for _ in range(2)) for _ in range(2))
+            for _ in range(terms)
+        ]
         for _ in range(terms)
     ]
     return spelled_out(A, [(b, 1 - b) for b in first], [None] * terms)
@@ -68,8 +71,12 @@ class Differentials:
         bound = bind(tableau, problem)
         seen = visible_tableau(bound.tableau, bound.fields)
         self.problem = bound.problem
-        self.keys = [(bound.tableau.colours[m].term, group) for m, group in bound.fields]
-        self.branches = {l: [m for k, m in seen.edges() if k == l] for l in range(seen.size)}
+        self.keys = [
+            (bound.tableau.colours[m].term, group) for m, group in bound.fields
+        ]
+        self.branches = {
+            l: [m for k, m in seen.edges() if k == l] for l in range(seen.size)
+        }
         self.is_linear = [colour.is_linear for colour in seen.colours]
         self.derivative = cache(self._derivative)
         self.of = cache(self._of)
@@ -83,7 +90,9 @@ class Differentials:
                     found.append(Tree(root, forest))  # noqa: PERF401 -- a step a line
         return found
 
-    def _forests(self, n: int, largest: int, colours: list[int]) -> list[tuple[Tree, ...]]:
+    def _forests(
+        self, n: int, largest: int, colours: list[int]
+    ) -> list[tuple[Tree, ...]]:
         if n == 0:
             return [()]
         found = []
@@ -103,7 +112,9 @@ class Differentials:
         tensor = np.full((4,) * (count + 1), arb(0), dtype=object)
         places = list(combinations_with_replacement(range(4), count))
         for i, f in enumerate(field.components):
-            made = tuple(f.diff(*(names[k] for k in where)) if where else f for where in places)
+            made = tuple(
+                f.diff(*(names[k] for k in where)) if where else f for where in places
+            )
             values = function(made, tuple(names), True)(*map(arb, self.problem.initial))
             for where, value in zip(places, values, strict=True):
                 for k in permutations(where):
@@ -121,7 +132,10 @@ class Differentials:
     ("name", "counts"),
     [
         ("generic-semi-separable", [3, 7, 30, 139]),
-        ("generic-separable", [3, 4, 11, 30]),  # the last one by hand: 14 for V, 8 for each F
+        (
+            "generic-separable",
+            [3, 4, 11, 30],
+        ),  # the last one by hand: 14 for V, 8 for each F
         ("generic-nystrom", [3, 4, 8, 16]),
     ],
 )
@@ -171,7 +185,10 @@ def test_methods_of_the_structure_show_their_order(name: str, seed: int) -> None
 )
 def test_problem_of_a_file(file: str, name: str) -> None:
     """The methods of the paper have the problem of their structure."""
-    assert seeing_problem([load(str(ROOT / "methods" / f"{file}.gark.yaml")).tableau]) == name
+    assert (
+        seeing_problem([load(str(ROOT / "methods" / f"{file}.gark.yaml")).tableau])
+        == name
+    )
 
 
 def test_one_problem_for_several_structures() -> None:

@@ -27,7 +27,12 @@ SMALL = st.integers(-3, 3)
 def names(d: int) -> tuple[tuple[str, ...], Any, Any, Any]:
     """The first d variables and their symbols q, v, p."""
     variables = LETTERS[:d]
-    return variables, symbols(variables, "q"), velocities(variables), symbols(variables, "p")
+    return (
+        variables,
+        symbols(variables, "q"),
+        velocities(variables),
+        symbols(variables, "p"),
+    )
 
 
 def balls(values: dict[Any, Any]) -> dict[Any, arb]:
@@ -46,13 +51,25 @@ def lagrangians(draw: st.DrawFn) -> tuple[int, Any, dict[Any, Any], dict[Any, An
         return sum(draw(SMALL) * a * b for a in (1, *q) for b in (1, *q)) / 4
 
     M = [
-        [polynomial() if draw(st.booleans()) else sympy.Integer(draw(SMALL)) for _ in v] for _ in v
+        [polynomial() if draw(st.booleans()) else sympy.Integer(draw(SMALL)) for _ in v]
+        for _ in v
     ]
-    T = sum((M[min(i, j)][max(i, j)]) * v[i] * v[j] for i in range(d) for j in range(d)) / 2
+    T = (
+        sum((M[min(i, j)][max(i, j)]) * v[i] * v[j] for i in range(d) for j in range(d))
+        / 2
+    )
     T += sum(draw(st.integers(1, 5)) * x**2 for x in v)
     L = T + sum(polynomial() * x for x in v) - polynomial()
-    values = [Rational(draw(st.integers(-20, 20)), draw(st.integers(1, 9))) for _ in range(2 * d)]
-    return d, L, dict(zip(q, values[:d], strict=True)), dict(zip(v, values[d:], strict=True))
+    values = [
+        Rational(draw(st.integers(-20, 20)), draw(st.integers(1, 9)))
+        for _ in range(2 * d)
+    ]
+    return (
+        d,
+        L,
+        dict(zip(q, values[:d], strict=True)),
+        dict(zip(v, values[d:], strict=True)),
+    )
 
 
 @settings(max_examples=30)
@@ -89,11 +106,15 @@ def test_chains_of_pendulums(coupled: int) -> None:
         for j in range(coupled)
     ) + sum(cos(x) for x in q)
     start = {x: Rational(k, 7) for k, x in enumerate((*q, *v), 1)}
-    H = legendre_transform(L, variables, {x: y for x, y in balls(start).items() if x in q})
+    H = legendre_transform(
+        L, variables, {x: y for x, y in balls(start).items() if x in q}
+    )
     at = balls(start)
     momenta = dict(zip(p, enclosed([L.diff(x) for x in v], at), strict=True))
     back = enclosed([H.diff(x) for x in p], {**at, **momenta})
-    assert all(x.overlaps(at[y]) and x.rad() < 1e-60 for x, y in zip(back, v, strict=True))
+    assert all(
+        x.overlaps(at[y]) and x.rad() < 1e-60 for x, y in zip(back, v, strict=True)
+    )
 
 
 (X, Y), (VX, VY), (PX, PY) = (names(2)[k] for k in (1, 2, 3))
@@ -123,18 +144,27 @@ def test_other_lagrangians(L: Any, d: int, knows_velocities: bool) -> None:
     values |= dict(zip(v, (Rational(1, 2), Rational(1, 5)), strict=False))
     at = balls(values)
     momenta = dict(zip(p, enclosed([L.diff(x) for x in v], at), strict=True))
-    start = at if knows_velocities else {x: y for x, y in (at | momenta).items() if x not in v}
+    start = (
+        at
+        if knows_velocities
+        else {x: y for x, y in (at | momenta).items() if x not in v}
+    )
     if not knows_velocities and L.has(VX**3):
         with pytest.raises(NoLegendreTransform, match="several velocities"):
             legendre_transform(L, variables, start)
         return
     H = legendre_transform(L, variables, start)
     assert not H.free_symbols & set(v)
-    elsewhere = balls({x: y + Rational(k, 17) for k, (x, y) in enumerate(values.items(), 1)})
+    elsewhere = balls(
+        {x: y + Rational(k, 17) for k, (x, y) in enumerate(values.items(), 1)}
+    )
     momenta = dict(zip(p, enclosed([L.diff(x) for x in v], elsewhere), strict=True))
     there = {**elsewhere, **momenta}
     back = enclosed([H.diff(x) for x in p], there)
-    assert all(x.overlaps(elsewhere[y]) and x.rad() < 1e-60 for x, y in zip(back, v, strict=True))
+    assert all(
+        x.overlaps(elsewhere[y]) and x.rad() < 1e-60
+        for x, y in zip(back, v, strict=True)
+    )
     sides = enclosed([H + L - sum(a * b for a, b in zip(p, v, strict=True))], there)
     assert sides[0].contains(0)
     assert sides[0].rad() < 1e-60
@@ -146,8 +176,14 @@ def test_other_lagrangians(L: Any, d: int, knows_velocities: bool) -> None:
         (VX**2 / 2 + cos(X), "vy does not occur beside vx"),
         ((VX + VY) ** 2, "the mass matrix of vx, vy is singular"),
         (VX * X + VY, "the mass matrix of vx is singular"),
-        (VX**2 * (sin(X) ** 2 + cos(X) ** 2 - 1) + VY**2, "the mass matrix of vx is singular"),
-        (X**2 * VX**2 - Rational(9, 100) * VX**2 + VY**2, "the mass matrix of vx is singular"),
+        (
+            VX**2 * (sin(X) ** 2 + cos(X) ** 2 - 1) + VY**2,
+            "the mass matrix of vx is singular",
+        ),
+        (
+            X**2 * VX**2 - Rational(9, 100) * VX**2 + VY**2,
+            "the mass matrix of vx is singular",
+        ),
         (VX**4 + VX**2 + VY**2, "not solved for vx"),
         (VX**2 * VY**2, "not solved for vx, vy"),
         (VX**6 + VX + VX**5 + VY**2, "not solved for vx"),
@@ -155,7 +191,9 @@ def test_other_lagrangians(L: Any, d: int, knows_velocities: bool) -> None:
 )
 def test_what_has_no_transform_is_refused(L: Any, message: str) -> None:
     """Degenerate mass matrices, and what is not solved in closed form."""
-    start = balls({X: Rational(3, 10), Y: Rational(7, 10), VX: Rational(1, 2), VY: Rational(1, 5)})
+    start = balls(
+        {X: Rational(3, 10), Y: Rational(7, 10), VX: Rational(1, 2), VY: Rational(1, 5)}
+    )
     with pytest.raises(NoLegendreTransform) as caught:
         legendre_transform(L, ("x", "y"), start)
     assert message in caught.value.message
@@ -203,7 +241,10 @@ def test_momenta_of_velocities() -> None:
     assert rate.rad() < 1e-60
     with pytest.raises(NoLegendreTransform) as caught:
         initial_momenta(
-            [v**2, cosh(v)], [p**2 / 4, legendre_transform(cosh(v), variables, at)], variables, at
+            [v**2, cosh(v)],
+            [p**2 / 4, legendre_transform(cosh(v), variables, at)],
+            variables,
+            at,
         )
     assert "momenta" in caught.value.help
 
@@ -243,11 +284,19 @@ def test_derivatives_at_the_start() -> None:
             log,
             sqrt,
         ),
-        *(lambda u: u**2, lambda u: 1 / u, lambda u: u**3, lambda u: 2**u, lambda u: u + 1 / u),
+        *(
+            lambda u: u**2,
+            lambda u: 1 / u,
+            lambda u: u**3,
+            lambda u: 2**u,
+            lambda u: u + 1 / u,
+        ),
         *(lambda u: u / sqrt(1 + u**2), lambda u: u + sqrt(1 + u)),
     ],
 )
-@pytest.mark.parametrize(("a", "b"), [(Rational(1, 2), 1), (0, 2), (-1, Rational(7, 2))])
+@pytest.mark.parametrize(
+    ("a", "b"), [(Rational(1, 2), 1), (0, 2), (-1, Rational(7, 2))]
+)
 def test_scalar_equations(a: Any, b: Any, outer: Any) -> None:
     """One of the candidates for outer(a + b u) = c is 1/3, for the c that 1/3 gives."""
     u = sympy.Symbol("u", real=True)

@@ -7,7 +7,12 @@ from flint import fmpq
 
 from garkcli.errors import UsageProblem
 from garkcli.families.registry import diagonal_method
-from garkcli.problems.oscillator import Oscillator, check_structure, example_shares, parse_shares
+from garkcli.problems.oscillator import (
+    Oscillator,
+    check_structure,
+    example_shares,
+    parse_shares,
+)
 from garkcli.tableau.forms import gark, spelled_out, symplectic_pair
 from garkcli.tableau.tableau import Colour
 from garkcli.transfer import collocation
@@ -20,7 +25,10 @@ Q = gark(METHODS, {(0, 1): collocation(*METHODS), (1, 0): collocation(*METHODS[:
 @pytest.mark.parametrize("terms", [1, 2, 3, 5])
 def test_default_is_read_from_its_own_text(terms: int) -> None:
     """The example in error messages is the default split, and it parses."""
-    assert parse_shares(example_shares(terms), terms) == Oscillator.default(terms, ONE).shares
+    assert (
+        parse_shares(example_shares(terms), terms)
+        == Oscillator.default(terms, ONE).shares
+    )
 
 
 @pytest.mark.parametrize(
@@ -52,7 +60,10 @@ def test_frequency_is_positive() -> None:
 def test_parts_of_a_term() -> None:
     """The q and p colours of a term share its field; a y colour has all of it."""
     problem = Oscillator(fmpq(3), ((HALF, fmpq(1, 3)), (HALF, fmpq(2, 3))))
-    q, p, y = (problem.matrix(Colour("", 0, (ONE,), (ZERO,), 0, part)) for part in ("q", "p", "y"))
+    q, p, y = (
+        problem.matrix(Colour("", 0, (ONE,), (ZERO,), 0, part))
+        for part in ("q", "p", "y")
+    )
     assert y == ((ZERO, HALF), (fmpq(-3), ZERO))
     assert q == ((ZERO, HALF), (ZERO, ZERO))
     assert p == ((ZERO, ZERO), (fmpq(-3), ZERO))
@@ -70,7 +81,9 @@ def test_structure_has_to_have_the_field() -> None:
         check_structure(separable, Oscillator(ONE, ((HALF, ZERO), (HALF, ONE))))
     with pytest.raises(UsageProblem, match="term 1 has potential energy"):
         check_structure(separable, Oscillator(ONE, ((ONE, HALF), (ZERO, HALF))))
-    check_structure(symplectic_pair(Q, [0], [0, 1]), Oscillator(ONE, ((ONE, HALF), (ZERO, HALF))))
+    check_structure(
+        symplectic_pair(Q, [0], [0, 1]), Oscillator(ONE, ((ONE, HALF), (ZERO, HALF)))
+    )
 
 
 def test_structure_has_to_see_what_the_field_depends_on() -> None:

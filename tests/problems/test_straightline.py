@@ -27,7 +27,17 @@ def numbers() -> st.SearchStrategy[Any]:
 def combined(inner: st.SearchStrategy[Any]) -> st.SearchStrategy[Any]:
     """Sums, products, powers and functions of what there is."""
     powers = st.sampled_from(
-        [-3, -2, -1, 2, 3, 5, sympy.Rational(1, 2), sympy.Rational(-3, 2), sympy.Rational(2, 3)]
+        [
+            -3,
+            -2,
+            -1,
+            2,
+            3,
+            5,
+            sympy.Rational(1, 2),
+            sympy.Rational(-3, 2),
+            sympy.Rational(2, 3),
+        ]
     )
     names = st.sampled_from(["sin", "cos", "exp", "atan", "tanh"])
     return st.one_of(
@@ -46,7 +56,9 @@ POINTS = st.tuples(*[st.integers(1, 40).map(lambda k: fmpq(k, 16))] * 3)
 
 @settings(max_examples=150, deadline=None)
 @given(st.lists(EXPRESSIONS, min_size=1, max_size=4), POINTS)
-def test_values_are_those_of_sympy(expressions: list[Any], point: tuple[fmpq, ...]) -> None:
+def test_values_are_those_of_sympy(
+    expressions: list[Any], point: tuple[fmpq, ...]
+) -> None:
     """Several expressions at once, in floats and in 40 digits."""
     at = {x: sympy.Rational(int(a.p), int(a.q)) for x, a in zip(X, point, strict=True)}
     expected = [sympy.sympify(f).subs(at).evalf(DIGITS + 10) for f in expressions]
@@ -55,9 +67,13 @@ def test_values_are_those_of_sympy(expressions: list[Any], point: tuple[fmpq, ..
         *(int(a.p) / int(a.q) for a in point)
     )
     size = max(1.0, *(float(abs(x)) for x in expected))
-    assert floats == pytest.approx([float(x) for x in expected], rel=1e-9, abs=1e-9 * size)
+    assert floats == pytest.approx(
+        [float(x) for x in expected], rel=1e-9, abs=1e-9 * size
+    )
     with ctx.workprec(200):
-        balls = function(tuple(map(sympy.sympify, expressions)), X, True)(*map(arb, point))
+        balls = function(tuple(map(sympy.sympify, expressions)), X, True)(
+            *map(arb, point)
+        )
         for ball, value in zip(balls, expected, strict=True):
             assert abs(arb(ball) - arb(str(value))) < size * 1e-35
 
@@ -75,7 +91,9 @@ def test_common_parts_are_computed_once() -> None:
     """Kepler's force: one square root, one division, four products."""
     x, y, _ = X
     r3 = sympy.Pow(x**2 + y**2, sympy.Rational(3, 2))
-    lines, results = code_of((-x / r3, -y / r3), (x, y), False).lines(("q0", "q1"), "f_")
+    lines, results = code_of((-x / r3, -y / r3), (x, y), False).lines(
+        ("q0", "q1"), "f_"
+    )
     text = "\n".join(lines)
     assert (text.count("sqrt"), text.count("/"), text.count("*")) == (1, 1, 5)
     assert results == ["f_0", "f_1"]
@@ -83,9 +101,9 @@ def test_common_parts_are_computed_once() -> None:
 
 def test_what_is_there_needs_no_line() -> None:
     """An argument is its own result, and zero is no code at all."""
-    lines, results = code_of((X[1], sympy.Integer(0), sympy.Integer(2)), X[:2], False).lines(
-        ("p0", "p1"), "f_"
-    )
+    lines, results = code_of(
+        (X[1], sympy.Integer(0), sympy.Integer(2)), X[:2], False
+    ).lines(("p0", "p1"), "f_")
     assert (lines, results) == ([], ["p1", "0", "2.0"])
 
 
@@ -123,8 +141,13 @@ def test_constants_beyond_the_floats_are_infinite() -> None:
     it.
     """
     huge = sympy.Integer(10) ** 400
-    assert function((huge * X[0], -huge * X[0]), X[:1], False)(2.0) == [math.inf, -math.inf]
-    assert function((huge * X[0],), X[:1], True)(arb(0.5))[0].overlaps(arb(10) ** 400 / 2)
+    assert function((huge * X[0], -huge * X[0]), X[:1], False)(2.0) == [
+        math.inf,
+        -math.inf,
+    ]
+    assert function((huge * X[0],), X[:1], True)(arb(0.5))[0].overlaps(
+        arb(10) ** 400 / 2
+    )
 
 
 def test_zero_is_a_number_of_the_kind_asked_for() -> None:

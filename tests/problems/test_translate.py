@@ -78,7 +78,9 @@ def test_what_is_made(text: str, wanted: str) -> None:
         ("sqrt(-x**2)", "this has |x|", 0),
     ],
 )
-def test_what_is_not_smooth_or_real_is_refused(text: str, message: str, start: int) -> None:
+def test_what_is_not_smooth_or_real_is_refused(
+    text: str, message: str, start: int
+) -> None:
     """What, and where in the text."""
     with pytest.raises(UndefinedValue) as caught:
         translated(text)

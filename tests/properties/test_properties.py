@@ -48,7 +48,9 @@ def followed_by_adjoint(A: Rows, b: list[Fraction]) -> tuple[Rows, list[Fraction
     """Half a step of the method, then half a step of its adjoint."""
     s = len(b)
     half = Fraction(1, 2)
-    adjoint = [[b[s - 1 - j] - A[s - 1 - i][s - 1 - j] for j in range(s)] for i in range(s)]
+    adjoint = [
+        [b[s - 1 - j] - A[s - 1 - i][s - 1 - j] for j in range(s)] for i in range(s)
+    ]
     weights = b[::-1]
     first = [[half * x for x in row] + [Fraction(0)] * s for row in A]
     second = [[half * x for x in b] + [half * x for x in row] for row in adjoint]
@@ -56,7 +58,9 @@ def followed_by_adjoint(A: Rows, b: list[Fraction]) -> tuple[Rows, list[Fraction
 
 
 @given(methods())
-def test_a_step_and_its_adjoint_are_symmetric(method: tuple[Rows, list[Fraction]]) -> None:
+def test_a_step_and_its_adjoint_are_symmetric(
+    method: tuple[Rows, list[Fraction]],
+) -> None:
     """Φ*_{h/2} ∘ Φ_{h/2} is symmetric, and so R(z) R(−z) = 1, found without stages."""
     tableau = tableau_of(*followed_by_adjoint(*method))
     assert is_symmetric(tableau)
@@ -67,7 +71,9 @@ def test_a_step_and_its_adjoint_are_symmetric(method: tuple[Rows, list[Fraction]
 
 
 @given(methods())
-def test_symmetry_is_seen_by_the_stability_function(method: tuple[Rows, list[Fraction]]) -> None:
+def test_symmetry_is_seen_by_the_stability_function(
+    method: tuple[Rows, list[Fraction]],
+) -> None:
     """What is symmetric has R(z) R(−z) = 1, and an even order."""
     tableau = tableau_of(*method)
     if is_symmetric(tableau):
@@ -100,7 +106,9 @@ def test_families(name: str, stages: int, expected: bool) -> None:
 def test_equal_nodes_are_renumbered_too() -> None:
     """Stages in another order, and twins of one node, do not hide the symmetry."""
     text = "methods: [{A: [[1/2, 0], [1/2, 1/2]], b: [1, 1]}]"  # implicit midpoint of weights 1, 1
-    assert is_symmetric(loads(text).tableau) is (stability_symmetric(loads(text).tableau))
+    assert is_symmetric(loads(text).tableau) is (
+        stability_symmetric(loads(text).tableau)
+    )
     verlet = load("methods/stoermer-verlet.gark.yaml").tableau
     assert is_symmetric(verlet)
 
@@ -141,7 +149,9 @@ def test_a_stage_written_twice_is_found(
     assert stability_function(smaller) == stability_function(tableau_of(A, b))
 
 
-@pytest.mark.parametrize("name", ["rk4", "kutta", "heun", "explicit-euler", "explicit-midpoint"])
+@pytest.mark.parametrize(
+    "name", ["rk4", "kutta", "heun", "explicit-euler", "explicit-midpoint"]
+)
 def test_explicit_methods(name: str) -> None:
     """No stage is solved for; the matrix is nilpotent."""
     found = shape(family(name, None))
@@ -168,9 +178,13 @@ def test_diagonally_implicit_methods() -> None:
     found = shape(two.tableau)
     assert (found.name, found.implicit_stages) == ("SDIRK", 2)
     assert str(found.gamma) == "1 - sqrt(2)/2"
-    trapezoidal = shape(loads("methods: [{A: [[0, 0], [1/2, 1/2]], b: [1/2, 1/2]}]").tableau)
+    trapezoidal = shape(
+        loads("methods: [{A: [[0, 0], [1/2, 1/2]], b: [1/2, 1/2]}]").tableau
+    )
     assert (trapezoidal.name, trapezoidal.gamma) == ("ESDIRK", fmpq(1, 2))
-    other = shape(loads("methods: [{A: [[1/3, 0], [1/2, 1/4]], b: [1/2, 1/2]}]").tableau)
+    other = shape(
+        loads("methods: [{A: [[1/3, 0], [1/2, 1/4]], b: [1/2, 1/2]}]").tableau
+    )
     assert (other.name, other.gamma) == ("diagonally implicit", None)
 
 

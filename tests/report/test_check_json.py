@@ -29,7 +29,9 @@ MISPRINTED = ROOT / "tests/examples/failing/collocation-misprinted.gark.yaml"
 
 def report(*paths: Path, limit: int = 60, constants: bool = False) -> dict[str, Any]:
     """The report on some files, as JSON read back."""
-    found = json.loads(render([check_file(str(path), limit, constants) for path in paths]))
+    found = json.loads(
+        render([check_file(str(path), limit, constants) for path in paths])
+    )
     assert isinstance(found, dict)
     return found
 
@@ -39,7 +41,9 @@ def every_file() -> dict[str, Any]:
     """The report on every file there is: readable, failing, refused, missing, and a directory
     without files.
     """
-    return report(*READABLE, *FAILING, *REFUSED, Path("nowhere.gark.yaml"), Path("tests/report"))
+    return report(
+        *READABLE, *FAILING, *REFUSED, Path("nowhere.gark.yaml"), Path("tests/report")
+    )
 
 
 def one(tmp_path: Path, text: str, **options: Any) -> dict[str, Any]:
@@ -74,12 +78,17 @@ def test_reports_keep_to_the_schema() -> None:
     refused = len(REFUSED) + 2
     total = len(READABLE) + len(FAILING) + refused
     silent = sum("claims" in file and not file["claims"] for file in found["files"])
-    counts = {"files": total, "failed": len(FAILING) + refused, "without_claims": silent}
+    counts = {
+        "files": total,
+        "failed": len(FAILING) + refused,
+        "without_claims": silent,
+    }
     assert found["summary"] == counts
 
 
 @pytest.mark.parametrize(
-    "key", ["order", "witness", "simplifying", "claims", "tolerance", "symplectic", "colours"]
+    "key",
+    ["order", "witness", "simplifying", "claims", "tolerance", "symplectic", "colours"],
 )
 def test_the_schema_needs_every_field(key: str) -> None:
     """A report that lacks a field, or has it with another type, is refused."""
@@ -137,7 +146,9 @@ def test_a_rounded_method_says_so(tmp_path: Path) -> None:
     """A tolerance is repeated as text, ``exact`` is false, and the largest residual is within the
     tolerance.
     """
-    found = one(tmp_path, "methods: [{A: [[0.5000000000000001]], b: [1]}]\ntolerance: 1e-14\n")
+    found = one(
+        tmp_path, "methods: [{A: [[0.5000000000000001]], b: [1]}]\ntolerance: 1e-14\n"
+    )
     assert (found["exact"], found["tolerance"], found["order"]) == (False, "1e-14", 2)
     assert 0 < found["order_largest_residual"] <= 1e-14
     assert "suggestion" not in found
@@ -169,7 +180,10 @@ def test_a_failing_method_is_blamed() -> None:
 )
 def test_a_repair_names_its_place(tmp_path: Path, place: str, key: str) -> None:
     """A single wrong entry is found again, in A or in b, with what it was and what it should be."""
-    found = one(tmp_path, f"methods: [{{{place}}}]\nexpect: {{order: {2 if key == 'A' else 1}}}\n")
+    found = one(
+        tmp_path,
+        f"methods: [{{{place}}}]\nexpect: {{order: {2 if key == 'A' else 1}}}\n",
+    )
     (repair,) = found["blame"]["repairs"]
     assert (repair["old"], repair["new"]) == {"A": ("1/3", "1/2"), "b": ("2", "1")}[key]
     assert key in repair
@@ -178,7 +192,9 @@ def test_a_repair_names_its_place(tmp_path: Path, place: str, key: str) -> None:
 
 def test_a_file_that_cannot_be_read_has_its_errors() -> None:
     """Faults are in file order with places from 1, null for a file that is not there."""
-    found = report(ROOT / "tests/examples/invalid/many-faults.gark.yaml", Path("nowhere.gark.yaml"))
+    found = report(
+        ROOT / "tests/examples/invalid/many-faults.gark.yaml", Path("nowhere.gark.yaml")
+    )
     assert complaints(found) == []
     many, missing = (file["errors"] for file in found["files"])
     places = [(x["line"], x["column"]) for x in many]

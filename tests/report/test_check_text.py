@@ -22,7 +22,12 @@ def outcome(text: str, file: str = "m.gark.yaml") -> Outcome:
     method = loads(text, file)
     analysis = analyse(method.tableau)
     return Outcome(
-        file, method.name, method.structure, analysis, verify(method.claims, analysis), text=text
+        file,
+        method.name,
+        method.structure,
+        analysis,
+        verify(method.claims, analysis),
+        text=text,
     )
 
 
@@ -88,17 +93,22 @@ def test_an_absent_block_is_a_dash() -> None:
 
 def test_inconsistent_blocks_are_named() -> None:
     """A block whose rows do not sum to the nodes is named, in the paper's terms."""
-    assert "no: A{1,1}𝟙 differs from c" in report("tableau: {c: [[1/3]], A: [[[[1/2]]]], b: [[1]]}")
+    assert "no: A{1,1}𝟙 differs from c" in report(
+        "tableau: {c: [[1/3]], A: [[[[1/2]]]], b: [[1]]}"
+    )
 
 
 def test_claims_are_listed_with_their_place() -> None:
     """A claim that holds and one that fails are told apart by words, the failing one with its
     place.
     """
-    found = report("methods: [{family: gauss, stages: 2}]\nexpect: {order: 4, symplectic: false}\n")
+    found = report(
+        "methods: [{family: gauss, stages: 2}]\nexpect: {order: 4, symplectic: false}\n"
+    )
     assert re.search(r"claim holds +order: 4", found)
     assert re.search(
-        r"CLAIM FAILS +symplectic: expected false, found true +\(m\.gark\.yaml:2:32\)", found
+        r"CLAIM FAILS +symplectic: expected false, found true +\(m\.gark\.yaml:2:32\)",
+        found,
     )
 
 
@@ -108,7 +118,9 @@ def test_the_summary_counts_files_and_claims() -> None:
         "methods: [{family: gauss, stages: 2}]\nexpect: {order: 4}",
         tableau("0") + "\nexpect: {order: 2}",
     )
-    assert "2 files, 1 claim: all hold" in render([outcome(good), outcome(tableau("0"))], Paint())
+    assert "2 files, 1 claim: all hold" in render(
+        [outcome(good), outcome(tableau("0"))], Paint()
+    )
     found = render([outcome(good), outcome(bad)], Paint())
     assert "2 files, 2 claims: 1 file failed" in found
     assert found.startswith("ok   m.gark.yaml: order 4")
@@ -122,7 +134,9 @@ def test_colour_adds_nothing_but_colour(verbosity: int) -> None:
         outcome("methods: [{family: gauss, stages: 2}]\nexpect: {order: 5}"),
         outcome(tableau("0")),
     ]
-    plain, painted = (render(outcomes, Paint(color), verbosity) for color in (False, True))
+    plain, painted = (
+        render(outcomes, Paint(color), verbosity) for color in (False, True)
+    )
     assert "\x1b" not in plain
     assert "\x1b[" in painted
     assert ESCAPE.sub("", painted) == plain
@@ -132,7 +146,11 @@ def test_paint_off_is_the_text_itself() -> None:
     """Every style leaves the text alone when colour is off, and marks it when colour is on."""
     for style in ("good", "bad", "strong", "faint", "note"):
         assert Paint()(style, "text") == "text"
-        assert ESCAPE.sub("", Paint(True)(style, "text")) == "text" != Paint(True)(style, "text")
+        assert (
+            ESCAPE.sub("", Paint(True)(style, "text"))
+            == "text"
+            != Paint(True)(style, "text")
+        )
     assert Paint(True)("good", "") == ""
 
 
@@ -140,7 +158,10 @@ def test_columns_line_up() -> None:
     """Cells of a column are equally wide; a shorter block beside a longer one is filled with
     nothing.
     """
-    assert aligned([["1/2", "-1"], ["0", "1/36"]], right=False) == ["1/2  -1", "0    1/36"]
+    assert aligned([["1/2", "-1"], ["0", "1/36"]], right=False) == [
+        "1/2  -1",
+        "0    1/36",
+    ]
     assert aligned([]) == []
     assert beside(["a", "bcd"], ["x"]) == ["a     x", "bcd"]
 
@@ -149,7 +170,8 @@ def test_long_requirements_are_shortened() -> None:
     """Where the value is shown in decimals, a required value of many digits is too."""
     found = report("methods: [{family: gauss, stages: 29}]")
     assert re.search(
-        r"about [0-9.]+e-81 instead of about [0-9.]+e-81, off by -?[0-9.]+e-[0-9]+\n", found
+        r"about [0-9.]+e-81 instead of about [0-9.]+e-81, off by -?[0-9.]+e-[0-9]+\n",
+        found,
     )
 
 
@@ -160,8 +182,12 @@ def test_hints_and_constants_of_one_colour() -> None:
     analysis = analyse(method.tableau)
     lines = blame_lines(find_blame(method.tableau, 2, 2), method.tableau, Paint())
     assert lines[0] == "  hint: the one condition of order 2 fails"
-    assert any(line.endswith("A{1,1}, row 2, entry 1, = 1/2 instead of 1/3") for line in lines)
-    found = Outcome("m", "m", analysis=analysis, constants=error_constants(method.tableau, 2))
+    assert any(
+        line.endswith("A{1,1}, row 2, entry 1, = 1/2 instead of 1/3") for line in lines
+    )
+    found = Outcome(
+        "m", "m", analysis=analysis, constants=error_constants(method.tableau, 2)
+    )
     shown = render([found], Paint())
     assert "largest 0.166667 at [[]]\n" in shown
     assert "coupling" not in shown

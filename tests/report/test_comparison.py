@@ -52,7 +52,10 @@ def on_kepler(name: str, with_work: bool = False) -> Convergence:
 def on_oscillator(name: str) -> Convergence:
     """Its test on the oscillator."""
     return converge(
-        method(name), Oscillator.default(1, fmpq(1)), fmpq(4), [fmpq(1, 4), fmpq(1, 8), fmpq(1, 16)]
+        method(name),
+        Oscillator.default(1, fmpq(1)),
+        fmpq(4),
+        [fmpq(1, 4), fmpq(1, 8), fmpq(1, 16)],
     )
 
 
@@ -66,7 +69,11 @@ def entries(count: int) -> list[Entry]:
 
 
 FAILED = Entry(
-    "bad.gark.yaml", "bad.gark.yaml", None, (Fault("no such file", "look elsewhere", 3, 4),), 2
+    "bad.gark.yaml",
+    "bad.gark.yaml",
+    None,
+    (Fault("no such file", "look elsewhere", 3, 4),),
+    2,
 )
 
 
@@ -83,7 +90,9 @@ def test_text_fits_the_terminal(count: int) -> None:
         assert f"  {letter}  {entry.name}" in lines
         assert entry.result is not None
         assert scientific(entry.result.rows[-1].error) in found
-    assert sum(line.endswith(("they agree", "THEY DISAGREE")) for line in lines) == count
+    assert (
+        sum(line.endswith(("they agree", "THEY DISAGREE")) for line in lines) == count
+    )
 
 
 def test_methods_keep_their_step_sizes() -> None:
@@ -114,7 +123,9 @@ def test_failures_are_told_among_the_others() -> None:
     ]
     assert {
         row["file"]
-        for row in csv.DictReader(io.StringIO(render([*entries(1), FAILED], "csv", PLAIN)))
+        for row in csv.DictReader(
+            io.StringIO(render([*entries(1), FAILED], "csv", PLAIN))
+        )
     } == {"0.gark.yaml"}
     assert render([FAILED], "csv", PLAIN).count("\n") == 1
     assert "FAILED" in render([FAILED], "text", PLAIN)
@@ -142,7 +153,9 @@ def test_csv_has_every_column() -> None:
     """
     name = 'say "rk4", the classical one'
     entry = Entry("a,b.gark.yaml", name, on_kepler("rk4", True), (), 0)
-    rows = list(csv.DictReader(io.StringIO(render([entry], "csv", PLAIN, with_work=True))))
+    rows = list(
+        csv.DictReader(io.StringIO(render([entry], "csv", PLAIN, with_work=True)))
+    )
     assert list(rows[0]) == [
         *(
             "file",
@@ -168,7 +181,9 @@ def test_csv_has_every_column() -> None:
         assert known.cost is not None
         assert int(row["evaluations"]) == known.cost.evaluations == 8 * known.cost.steps
         assert float(row["seconds"]) > 0
-    alone = list(csv.DictReader(io.StringIO(render_one(on_kepler("rk4"), "rk4", "csv", PLAIN))))
+    alone = list(
+        csv.DictReader(io.StringIO(render_one(on_kepler("rk4"), "rk4", "csv", PLAIN)))
+    )
     assert alone == [{k: row[k] for k in alone[0]} for row in rows]
 
 
@@ -178,14 +193,19 @@ def with_costs(name: str, costs: list[Cost | None], errors: list[float]) -> Entr
         Row(fmpq(1, 2**k), arb(e), None, arb(0), cost=c)
         for k, (e, c) in enumerate(zip(errors, costs, strict=True))
     )
-    return Entry(f"{name}.gark.yaml", name, replace(on_oscillator("rk4"), rows=rows), (), 0)
+    return Entry(
+        f"{name}.gark.yaml", name, replace(on_oscillator("rk4"), rows=rows), (), 0
+    )
 
 
 def test_costs_of_equal_errors() -> None:
     """10^2.5 times the evaluations for 5 decades make 10^0.5 for one; nothing is said beyond the
     rows.
     """
-    costs: list[Cost | None] = [Cost(1, 100, 0, 0, 1e-3), Cost(2, round(10**4.5), 0, 0, 1e-1)]
+    costs: list[Cost | None] = [
+        Cost(1, 100, 0, 0, 1e-3),
+        Cost(2, round(10**4.5), 0, 0, 1e-1),
+    ]
     steep = with_costs("steep", costs, [10**-1.5, 10**-6.5])
     other = with_costs("other", [Cost(1, 50, 0, 0), None], [1e-1, 1e-3])
     text = render([steep, other], "text", PLAIN, with_work=True, against="evaluations")
@@ -205,7 +225,9 @@ def test_costs_of_equal_errors() -> None:
 
 def test_points_of_a_plot() -> None:
     """Only rows whose cost is known can be plotted against it."""
-    entry = with_costs("one", [Cost(1, 50, 0, 0), None, Cost(4, 200, 0, 0, 0.5)], [1e-1, 1e-2, 0.0])
+    entry = with_costs(
+        "one", [Cost(1, 50, 0, 0), None, Cost(4, 200, 0, 0, 0.5)], [1e-1, 1e-2, 0.0]
+    )
     assert entry.result is not None
     assert [float(x) for x, _ in curve(entry.result, "evaluations")] == [50]
     assert list(curve(entry.result, "seconds")) == []
@@ -216,7 +238,9 @@ def test_work_of_one_method_in_text() -> None:
     """A table of costs below the errors, and the plot against evaluations."""
     text = render_one(on_kepler("rk4", True), "rk4", "text", PLAIN, with_work=True)
     (line,) = [
-        line for line in text.splitlines() if line.split()[:1] == ["1/64"] and " 128 " in line
+        line
+        for line in text.splitlines()
+        if line.split()[:1] == ["1/64"] and " 128 " in line
     ]
     assert line.split()[2:6] == ["128", "1024", "0", "0"]
     assert text.splitlines()[-1].endswith("evaluations")
@@ -230,8 +254,14 @@ def test_oscillator_has_costs_too() -> None:
     steps = [fmpq(1, 4), fmpq(1, 8), fmpq(1, 16)]
     problem = Oscillator.default(1, fmpq(1))
     result = converge(method("rk4"), problem, steps=steps, is_timed=True)
-    assert [row.cost.evaluations for row in result.rows if row.cost is not None] == [128, 256, 512]
-    assert all(row.cost is not None and row.cost.seconds is not None for row in result.rows)
+    assert [row.cost.evaluations for row in result.rows if row.cost is not None] == [
+        128,
+        256,
+        512,
+    ]
+    assert all(
+        row.cost is not None and row.cost.seconds is not None for row in result.rows
+    )
     plain = on_oscillator("rk4").rows
     assert [float(x.error) for x in result.rows] == [float(x.error) for x in plain]
 
@@ -240,7 +270,9 @@ def test_oscillator_beyond_floats_is_counted_without_time() -> None:
     """Gauss 8 with h = 1/4 has an error of 1e-26: more digits, more iterations, no time."""
     tableau = gark([diagonal_method("gauss", 8)], {})
     steps = [fmpq(2), fmpq(1, 4)]
-    result = converge(tableau, Oscillator.default(1, fmpq(1)), steps=steps, is_timed=True)
+    result = converge(
+        tableau, Oscillator.default(1, fmpq(1)), steps=steps, is_timed=True
+    )
     coarse, fine = (row.cost for row in result.rows)
     assert coarse is not None
     assert fine is not None

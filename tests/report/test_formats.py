@@ -27,7 +27,13 @@ from garkcli.cli.check_command import command as check_command
 from garkcli.cli.main import gark as commands
 from garkcli.errors import Fault, MethodFileError
 from garkcli.methodfile.load import loads
-from garkcli.report import check_github, check_junit, check_markdown, check_sarif, check_text
+from garkcli.report import (
+    check_github,
+    check_junit,
+    check_markdown,
+    check_sarif,
+    check_text,
+)
 from garkcli.report.check_formats import FORMATS
 from garkcli.report.check_json import as_data
 from garkcli.report.paint import Paint
@@ -60,7 +66,9 @@ _PLACE = {
         "artifactLocation": {
             "type": "object",
             "required": ["uri"],
-            "properties": {"uri": {"type": "string", "pattern": "^[A-Za-z0-9._~/%-]+$"}},
+            "properties": {
+                "uri": {"type": "string", "pattern": "^[A-Za-z0-9._~/%-]+$"}
+            },
             "additionalProperties": False,
         },
         "region": _REGION,
@@ -110,7 +118,11 @@ _RUN = {
     "type": "object",
     "required": ["tool", "results"],
     "properties": {
-        "tool": {"type": "object", "required": ["driver"], "properties": {"driver": _DRIVER}},
+        "tool": {
+            "type": "object",
+            "required": ["driver"],
+            "properties": {"driver": _DRIVER},
+        },
         "columnKind": {"enum": ["utf16CodeUnits", "unicodeCodePoints"]},
         "results": {"type": "array", "items": _RESULT},
     },
@@ -139,7 +151,12 @@ def outcome(text: str, file: str = "m.gark.yaml", limit: int = 60) -> Outcome:
         return Outcome(file, file, faults=error.faults, text=text)
     analysis = analyse(method.tableau, limit)
     return Outcome(
-        file, method.name, method.structure, analysis, verify(method.claims, analysis), text=text
+        file,
+        method.name,
+        method.structure,
+        analysis,
+        verify(method.claims, analysis),
+        text=text,
     )
 
 
@@ -155,7 +172,10 @@ def sarif(*outcomes: Outcome) -> dict[str, Any]:
 
 def fingerprints(text: str, file: str = "m.gark.yaml") -> list[str]:
     """The fingerprints of all findings about a text."""
-    return [x["partialFingerprints"]["gark/v1"] for x in sarif(outcome(text, file))["results"]]
+    return [
+        x["partialFingerprints"]["gark/v1"]
+        for x in sarif(outcome(text, file))["results"]
+    ]
 
 
 # -- SARIF
@@ -565,7 +585,8 @@ def test_sarif_of_real_files_has_the_structure_of_the_standard() -> None:
     assert [error.message for error in Draft7Validator(SARIF).iter_errors(log)] == []
     (run,) = log["runs"]
     files = [
-        x["locations"][0]["physicalLocation"]["artifactLocation"]["uri"] for x in run["results"]
+        x["locations"][0]["physicalLocation"]["artifactLocation"]["uri"]
+        for x in run["results"]
     ]
     assert files.count(FAILING) == 1
     assert files.count(INVALID) > 3
@@ -577,7 +598,9 @@ def test_sarif_names_its_rules() -> None:
     silent = replace(outcome(MIDPOINT), needs_claims=True)
     run = sarif(outcome(WRONG), outcome("methods: 1\n"), silent)
     rules = run["tool"]["driver"]["rules"]
-    assert {x["ruleId"] for x in run["results"]} == set(KINDS) == {x["id"] for x in rules}
+    assert (
+        {x["ruleId"] for x in run["results"]} == set(KINDS) == {x["id"] for x in rules}
+    )
     assert all(rules[x["ruleIndex"]]["id"] == x["ruleId"] for x in run["results"])
 
 
@@ -590,7 +613,10 @@ def test_sarif_points_at_the_claim() -> None:
     found = sarif(outcome(text))["results"]
     regions = [x["locations"][0]["physicalLocation"]["region"] for x in found]
     lines = text.splitlines()
-    values = [lines[region["startLine"] - 1][region["startColumn"] - 1 :] for region in regions]
+    values = [
+        lines[region["startLine"] - 1][region["startColumn"] - 1 :]
+        for region in regions
+    ]
     assert [value[:4] for value in values] == ["'>= ", "[[9]", "3} #"]
 
 
@@ -630,13 +656,15 @@ def test_a_claim_that_still_fails_keeps_its_fingerprint() -> None:
 
 
 @pytest.mark.parametrize(
-    "file", [AWKWARD, "späße/m.gark.yaml", "C:m.gark.yaml", "a b.gark.yaml", "#1?.gark.yaml"]
+    "file",
+    [AWKWARD, "späße/m.gark.yaml", "C:m.gark.yaml", "a b.gark.yaml", "#1?.gark.yaml"],
 )
 def test_a_file_name_is_a_uri(file: str) -> None:
     """Any file name becomes a URI reference that gives the name back."""
     run = sarif(outcome(WRONG, file))
     uris = {
-        x["locations"][0]["physicalLocation"]["artifactLocation"]["uri"] for x in run["results"]
+        x["locations"][0]["physicalLocation"]["artifactLocation"]["uri"]
+        for x in run["results"]
     }
     assert {unquote(uri) for uri in uris} == {file}
 
@@ -655,7 +683,9 @@ def junit(*outcomes: Outcome) -> ET.Element:
             ("errors", ".//error"),
         ):
             assert part.get(count) == str(len(part.findall(path)))
-    assert all(case.get("name") and case.get("classname") for case in root.iter("testcase"))
+    assert all(
+        case.get("name") and case.get("classname") for case in root.iter("testcase")
+    )
     return root
 
 
@@ -663,7 +693,13 @@ def test_junit_has_a_case_a_claim() -> None:
     """Each claim of a file is a case beside the one that says the file is a method; the failed ones fail."""
     suite, other = junit(outcome(WRONG), outcome(MIDPOINT, "n.gark.yaml"))
     names = [case.get("name") for case in suite]
-    assert names == ["is a method", "order: 3", "symplectic: false", "bound: 2", "B: [5]"]
+    assert names == [
+        "is a method",
+        "order: 3",
+        "symplectic: false",
+        "bound: 2",
+        "B: [5]",
+    ]
     failed = [case.get("name") for case in suite if case.find("failure") is not None]
     assert failed == ["order: 3", "symplectic: false", "B: [5]"]
     assert [case.get("name") for case in other] == ["is a method"]
@@ -689,7 +725,8 @@ def test_junit_of_real_files() -> None:
 
 
 @pytest.mark.parametrize(
-    "sign", ["\0", "\x07", "\x1b", "\ud800", "\uffff", "\x7f", "<", "&", '"', "\n", "]]>"]
+    "sign",
+    ["\0", "\x07", "\x1b", "\ud800", "\uffff", "\x7f", "<", "&", '"', "\n", "]]>"],
 )
 def test_junit_parses_whatever_a_file_is_called(sign: str) -> None:
     """What XML cannot write is replaced, other control characters are written out, all else stays."""
@@ -700,7 +737,11 @@ def test_junit_parses_whatever_a_file_is_called(sign: str) -> None:
     assert (
         suite.get("name")
         == broken.get("name")
-        == (file.replace("\x7f", "\\x7f") if allowed else "a\N{REPLACEMENT CHARACTER}b.gark.yaml")
+        == (
+            file.replace("\x7f", "\\x7f")
+            if allowed
+            else "a\N{REPLACEMENT CHARACTER}b.gark.yaml"
+        )
     )
 
 
@@ -727,7 +768,13 @@ def annotations(*outcomes: Outcome) -> list[tuple[dict[str, str], str]]:
 
 
 def _unescaped(text: str) -> str:
-    for code, sign in (("%0D", "\r"), ("%0A", "\n"), ("%3A", ":"), ("%2C", ","), ("%25", "%")):
+    for code, sign in (
+        ("%0D", "\r"),
+        ("%0A", "\n"),
+        ("%3A", ":"),
+        ("%2C", ","),
+        ("%25", "%"),
+    ):
         text = text.replace(code, sign)
     return text
 
@@ -745,13 +792,16 @@ def test_each_finding_is_an_annotation_in_its_place() -> None:
 
 
 @pytest.mark.parametrize(
-    "file", [AWKWARD, "%0A.gark.yaml", "::error ::.gark.yaml", "a\r\nb", "x,line=9.gark.yaml"]
+    "file",
+    [AWKWARD, "%0A.gark.yaml", "::error ::.gark.yaml", "a\r\nb", "x,line=9.gark.yaml"],
 )
 def test_annotations_escape_file_names(file: str) -> None:
     """Percent, newline, comma and colon in a file name come back as they were and add no property."""
     found = annotations(outcome(WRONG, file))
     assert [x["file"] for x, _ in found] == [file] * 3
-    assert {frozenset(x) for x, _ in found} == {frozenset({"file", "line", "col", "title"})}
+    assert {frozenset(x) for x, _ in found} == {
+        frozenset({"file", "line", "col", "title"})
+    }
 
 
 def test_annotations_escape_messages() -> None:
@@ -767,12 +817,16 @@ def test_the_format_auto_knows_where_it_runs() -> None:
     outcomes = {}
     for value in ("true", "false", ""):
         with patch.dict("os.environ", {"GITHUB_ACTIONS": value}):
-            outcomes[value] = CliRunner().invoke(commands, ["check", str(ROOT / FAILING)]).output
+            outcomes[value] = (
+                CliRunner().invoke(commands, ["check", str(ROOT / FAILING)]).output
+            )
     assert outcomes["true"].startswith("::error file=")
     assert outcomes["false"] == outcomes[""]
     assert "::error" not in outcomes[""]
     asked = CliRunner().invoke(
-        commands, ["check", str(ROOT / FAILING), "--format", "text"], env={"GITHUB_ACTIONS": "true"}
+        commands,
+        ["check", str(ROOT / FAILING), "--format", "text"],
+        env={"GITHUB_ACTIONS": "true"},
     )
     assert asked.output == outcomes[""]
 
@@ -784,13 +838,25 @@ def rows(outcomes: Sequence[Outcome]) -> list[list[str]]:
     """The cells of the table, where a pipe after a backslash belongs to a cell."""
     lines = check_markdown.render(outcomes).split("\n")
     table = [line for line in lines if line.startswith("|")]
-    return [[cell.strip() for cell in re.split(r"(?<!\\)\|", line)[1:-1]] for line in table]
+    return [
+        [cell.strip() for cell in re.split(r"(?<!\\)\|", line)[1:-1]] for line in table
+    ]
 
 
 def test_markdown_has_a_row_a_file() -> None:
     """Orders, bound and claims stand under their heads; what fails is set off."""
-    head, rule, wrong, right, bad = rows([outcome(WRONG), outcome(MIDPOINT), outcome("methods: 1")])
-    assert head == ["file", "order", "conjugate", "pair", "bound", "symplectic", "claims"]
+    head, rule, wrong, right, bad = rows(
+        [outcome(WRONG), outcome(MIDPOINT), outcome("methods: 1")]
+    )
+    assert head == [
+        "file",
+        "order",
+        "conjugate",
+        "pair",
+        "bound",
+        "symplectic",
+        "claims",
+    ]
     assert set(rule) == {"---"}
     assert wrong == ["`m.gark.yaml`", "2", "2", "2", "2", "yes", "**3 of 4 fail**"]
     assert right[-1] == "none"
@@ -815,7 +881,9 @@ def test_markdown_cells_hold_any_file_name(file: str) -> None:
 
 def test_markdown_escapes_messages() -> None:
     """A message cannot start a tag or a column, and is one line."""
-    text = check_markdown.render([Outcome("m", "m", faults=(Fault("a <b> | c\nd \\", "", 1, 1),))])
+    text = check_markdown.render(
+        [Outcome("m", "m", faults=(Fault("a <b> | c\nd \\", "", 1, 1),))]
+    )
     assert text.endswith("- `m:1:1`: a &lt;b> \\| c d \\\\\n")
 
 
@@ -835,7 +903,9 @@ def test_no_format_forgets_a_finding() -> None:
     results = [x["message"]["text"] for x in sarif(*outcomes)["results"]]
     shown = [text for _, text in annotations(*outcomes)]
     for said in (results, shown):
-        assert all(x.startswith(message) for x, message in zip(said, messages, strict=True))
+        assert all(
+            x.startswith(message) for x, message in zip(said, messages, strict=True)
+        )
     markdown = check_markdown.render(outcomes)
     assert all(message in markdown for message in messages)
     text = check_text.render(outcomes, Paint(False))
@@ -858,9 +928,9 @@ def test_every_format_for_machines_has_witness_and_hint(tmp_path: Path) -> None:
     """The tree whose condition fails, by how much, and the entry that would mend it."""
     found = blamed(tmp_path)
     texts = {
-        "sarif": json.loads(check_sarif.render([found]))["runs"][0]["results"][0]["message"][
-            "text"
-        ],
+        "sarif": json.loads(check_sarif.render([found]))["runs"][0]["results"][0][
+            "message"
+        ]["text"],
         "junit": ET.fromstring(check_junit.render([found])).find(".//failure").text,  # type: ignore[union-attr]
         "github": check_github.render([found]).splitlines()[0],
         "markdown": check_markdown.render([found]),
@@ -880,16 +950,25 @@ def test_files_without_claims_are_counted_and_may_fail(tmp_path: Path) -> None:
         (tmp_path / f"{name}.gark.yaml").write_text(MIDPOINT)
     (tmp_path / "c.gark.yaml").write_text(f"{MIDPOINT}expect: {{order: 2}}\n")
     run = gark("check", ".", cwd=tmp_path)
-    assert (run.code, run.out.rstrip().endswith("all hold; 2 files make no claim")) == (0, True)
+    assert (run.code, run.out.rstrip().endswith("all hold; 2 files make no claim")) == (
+        0,
+        True,
+    )
     run = gark("check", ".", "--require-claims", cwd=tmp_path)
     assert (run.code, run.out.count("NO CLAIM")) == (1, 2)
-    data = json.loads(gark("check", ".", "--require-claims", "--format", "json", cwd=tmp_path).out)
+    data = json.loads(
+        gark("check", ".", "--require-claims", "--format", "json", cwd=tmp_path).out
+    )
     assert data["summary"] == {"files": 3, "failed": 2, "without_claims": 2}
     assert [file["ok"] for file in data["files"]] == [False, False, True]
-    junit_report = gark("check", ".", "--require-claims", "--format", "junit", cwd=tmp_path).out
+    junit_report = gark(
+        "check", ".", "--require-claims", "--format", "junit", cwd=tmp_path
+    ).out
     assert ET.fromstring(junit_report).get("failures") == "2"
     for name in ("github", "sarif", "markdown"):
-        shown = gark("check", ".", "--require-claims", "--format", name, cwd=tmp_path).out
+        shown = gark(
+            "check", ".", "--require-claims", "--format", name, cwd=tmp_path
+        ).out
         assert shown.count("the file makes no claim") >= 2, name
 
 

@@ -99,7 +99,16 @@ def test_conditions_carry_the_signs_of_the_paper() -> None:
 
 
 numbers = st.sampled_from(
-    ["0", "-1", "1/3", "-7/12", "sqrt(3)/6", "-sqrt(3)", "1/2 - sqrt(3)/6", "-1/2 + 5*sqrt(3)/4"]
+    [
+        "0",
+        "-1",
+        "1/3",
+        "-7/12",
+        "sqrt(3)/6",
+        "-sqrt(3)",
+        "1/2 - sqrt(3)/6",
+        "-1/2 + 5*sqrt(3)/4",
+    ]
 )
 
 

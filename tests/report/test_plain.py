@@ -8,7 +8,13 @@ from hypothesis import strategies as st
 
 from garkcli.check.outcome import Outcome
 from garkcli.errors import Fault
-from garkcli.report import check_github, check_junit, check_markdown, check_sarif, check_text
+from garkcli.report import (
+    check_github,
+    check_junit,
+    check_markdown,
+    check_sarif,
+    check_text,
+)
 from garkcli.report.paint import Paint
 from garkcli.report.plain import csv_cell, inert, printable
 
@@ -25,7 +31,11 @@ def test_printable_text_is_one_line_without_controls(text: str) -> None:
     assert len(shown.splitlines()) <= 1
 
 
-@given(st.lists(st.sampled_from([" ", ":", "::", "#", "[", "error", "\n", "\t", "\xa0", "x"])))
+@given(
+    st.lists(
+        st.sampled_from([" ", ":", "::", "#", "[", "error", "\n", "\t", "\xa0", "x"])
+    )
+)
 def test_no_line_is_a_workflow_command(parts: list[str]) -> None:
     """However a line is made, after blanks it does not begin with two colons, nor has ##[ in it."""
     shown = inert("".join(parts))

@@ -48,7 +48,9 @@ def test_terminal_plot_fits_the_terminal(name: str) -> None:
     """Every point is there, the reference line too, within 80 columns."""
     result = result_of(name)
     text = terminal_plot(
-        [r.h for r in result.rows], [r.error for r in result.rows], order=result.visible_order
+        [r.h for r in result.rows],
+        [r.error for r in result.rows],
+        order=result.visible_order,
     )
     lines = text.splitlines()
     assert len(lines) == 16 + 3
@@ -73,7 +75,10 @@ def test_terminal_plot_of_little() -> None:
 
 def test_terminal_curves_have_marks_of_their_own() -> None:
     """Points of two methods in one frame; where they fall together there is a sign for that."""
-    one, two = [(k, 10.0**-k) for k in (1, 2, 3)], [(k, 10.0 ** (k - 4)) for k in (1, 2, 3)]
+    one, two = (
+        [(k, 10.0**-k) for k in (1, 2, 3)],
+        [(k, 10.0 ** (k - 4)) for k in (1, 2, 3)],
+    )
     text = terminal_curves({"A": one, "B": two}, "steps")
     assert (text.count("A"), text.count("B"), text.count(SEVERAL)) == (2, 2, 1)
     assert text.endswith("  steps")
@@ -81,7 +86,8 @@ def test_terminal_curves_have_marks_of_their_own() -> None:
 
 
 @pytest.mark.parametrize(
-    ("top", "label"), [(999.0, "1000"), (1234.0, "1200"), (56789.0, "57000"), (1.26e6, "1.3e6")]
+    ("top", "label"),
+    [(999.0, "1000"), (1234.0, "1200"), (56789.0, "57000"), (1.26e6, "1.3e6")],
 )
 def test_terminal_axis_of_counts(top: float, label: str) -> None:
     """Counts are whole numbers with two digits that are right, large ones with an exponent, within
@@ -114,8 +120,12 @@ def test_convergence_figure_shows_the_result() -> None:
     result = result_of("rk4")
     (axes,) = convergence_figure(result, "a method").axes
     error, energy, reference = axes.get_lines()
-    assert list(error.get_ydata()) == pytest.approx([float(r.error) for r in result.rows])
-    assert list(energy.get_ydata()) == pytest.approx([float(r.energy_error) for r in result.rows])
+    assert list(error.get_ydata()) == pytest.approx(
+        [float(r.error) for r in result.rows]
+    )
+    assert list(energy.get_ydata()) == pytest.approx(
+        [float(r.energy_error) for r in result.rows]
+    )
     x, y = reference.get_xdata(), reference.get_ydata()
     assert y[0] / y[1] == pytest.approx((x[0] / x[1]) ** 4)
     assert reference.get_label() == "reference, slope 4"
@@ -135,7 +145,9 @@ def test_comparison_figure_shows_every_method() -> None:
     (axes,) = figure.axes
     curves, slopes = axes.get_lines()[:5], axes.get_lines()[5:]
     for drawn, (_, result) in zip(curves, named, strict=True):
-        assert list(drawn.get_ydata()) == pytest.approx([float(row.error) for row in result.rows])
+        assert list(drawn.get_ydata()) == pytest.approx(
+            [float(row.error) for row in result.rows]
+        )
     assert len({(x.get_marker(), x.get_linestyle()) for x in curves}) == 5
     found = []
     for line in slopes:
@@ -153,7 +165,9 @@ def test_comparison_figure_in_grey() -> None:
     white.
     """
     curves = (
-        comparison_figure([(str(k), result_of("rk4")) for k in range(20)]).axes[0].get_lines()[:20]
+        comparison_figure([(str(k), result_of("rk4")) for k in range(20)])
+        .axes[0]
+        .get_lines()[:20]
     )
     assert len({(x.get_marker(), str(x._dash_pattern)) for x in curves}) == 20
     for one, other in pairwise(curves):
@@ -163,7 +177,9 @@ def test_comparison_figure_in_grey() -> None:
     assert max(0.299 * r + 0.587 * g + 0.114 * b for r, g, b in colours) < 0.6
 
 
-@pytest.mark.parametrize(("against", "sign"), [("evaluations", -1), ("seconds", -1), ("h", 1)])
+@pytest.mark.parametrize(
+    ("against", "sign"), [("evaluations", -1), ("seconds", -1), ("h", 1)]
+)
 def test_work_figure(against: str, sign: int) -> None:
     """Errors against what they cost; the line beside them falls as fast as the order says."""
     tableau = gark([diagonal_method("rk4")], {})
@@ -212,12 +228,21 @@ def test_figures_without_errors(tmp_path: Path) -> None:
 def test_comparison_beyond_the_floats(tmp_path: Path) -> None:
     """Errors below 1e-308 beside large ones: logarithms are drawn instead."""
     path = tmp_path / "figure.svg"
-    save(comparison_figure([("gauss 40", result_of("gauss", 40)), ("rk4", result_of("rk4"))]), path)
+    save(
+        comparison_figure(
+            [("gauss 40", result_of("gauss", 40)), ("rk4", result_of("rk4"))]
+        ),
+        path,
+    )
     assert path.stat().st_size > 5000
 
 
-@pytest.mark.parametrize(("name", "s"), [("gauss", 2), ("gauss", 40), ("explicit-euler", None)])
-def test_figures_without_energy_errors_or_floats(tmp_path: Path, name: str, s: int | None) -> None:
+@pytest.mark.parametrize(
+    ("name", "s"), [("gauss", 2), ("gauss", 40), ("explicit-euler", None)]
+)
+def test_figures_without_energy_errors_or_floats(
+    tmp_path: Path, name: str, s: int | None
+) -> None:
     """Exact conservation and errors below 1e-308 have figures too."""
     path = tmp_path / "figure.svg"
     save(convergence_figure(result_of(name, s), "method"), path)
@@ -232,7 +257,9 @@ def test_other_suffixes_are_refused(tmp_path: Path, name: str) -> None:
     assert not list(tmp_path.iterdir())
 
 
-def test_failed_save_leaves_the_old_file(tmp_path: Path, monkeypatch: pytest.MonkeyPatch) -> None:
+def test_failed_save_leaves_the_old_file(
+    tmp_path: Path, monkeypatch: pytest.MonkeyPatch
+) -> None:
     """A fault while drawing removes the half-written file and keeps the old one."""
 
     def fail(*_: object, **__: object) -> None:
@@ -253,7 +280,10 @@ def _clearance(line: Line2D, curves: Sequence[Line2D]) -> float:
     for x in np.linspace(a, b, 50):
         y = c + (d - c) * (x - a) / (b - a)
         for curve in curves:
-            xs, ys = np.log10(curve.get_xdata())[::-1], np.log10(curve.get_ydata())[::-1]
+            xs, ys = (
+                np.log10(curve.get_xdata())[::-1],
+                np.log10(curve.get_ydata())[::-1],
+            )
             if xs[0] <= x <= xs[-1]:
                 least = min(least, abs(y - np.interp(x, xs, ys)))
     return least
@@ -266,7 +296,8 @@ def test_lines_of_slopes_are_on_no_curve() -> None:
     result = result_of("rk4")
     for factor in (1e-3, 0.03, 0.3, 0.5, 2, 30):
         shifted = replace(
-            result, rows=tuple(replace(row, error=row.error * factor) for row in result.rows)
+            result,
+            rows=tuple(replace(row, error=row.error * factor) for row in result.rows),
         )
         (axes,) = comparison_figure([("one", result), ("other", shifted)]).axes
         *curves, line = axes.get_lines()
@@ -295,7 +326,9 @@ def test_the_reference_is_not_on_the_energy_error() -> None:
         ),
     ],
 )
-def test_numbers_below_do_not_collide(steps: tuple[fmpq, ...], shown: list[str]) -> None:
+def test_numbers_below_do_not_collide(
+    steps: tuple[fmpq, ...], shown: list[str]
+) -> None:
     """Over few decades some multiples of powers of ten are labelled too, and never one on
     another.
     """
@@ -311,7 +344,9 @@ def test_numbers_below_do_not_collide(steps: tuple[fmpq, ...], shown: list[str])
         if (text := tick.label1).get_text() and low <= tick.get_loc() <= high
     ]
     assert set(shown) <= {text.get_text() for text in labels}
-    boxes = sorted((text.get_window_extent() for text in labels), key=lambda box: box.x0)
+    boxes = sorted(
+        (text.get_window_extent() for text in labels), key=lambda box: box.x0
+    )
     assert all(one.x1 < other.x0 for one, other in pairwise(boxes))
 
 

@@ -17,14 +17,24 @@ from garkcli.methodfile.load import load, loads
 from tests.cli.harness import gark
 
 ROOT = Path(__file__).resolve().parents[2]
-EXACT = ["rectangular", "collocation", "stoermer-verlet", "prk-lobatto-iiia-iiib", "ark-ars222"]
+EXACT = [
+    "rectangular",
+    "collocation",
+    "stoermer-verlet",
+    "prk-lobatto-iiia-iiib",
+    "ark-ars222",
+]
 
 
 def arrays(text: str) -> list[list[list[str]]]:
     """The rows of cells of each LaTeX array."""
-    found = re.findall(r"\\begin\{array\}\{[^}]*\}\n(.*?)\\end\{array\}", text, re.DOTALL)
+    found = re.findall(
+        r"\\begin\{array\}\{[^}]*\}\n(.*?)\\end\{array\}", text, re.DOTALL
+    )
     rows = [body.replace("\\hline\n", "").split("\\\\") for body in found]
-    return [[[cell.strip() for cell in row.split("&")] for row in body] for body in rows]
+    return [
+        [[cell.strip() for cell in row.split("&")] for row in body] for body in rows
+    ]
 
 
 def test_the_rectangular_method_is_printed_as_in_the_paper() -> None:
@@ -49,14 +59,18 @@ def test_a_wide_pair_is_one_display_after_the_other() -> None:
     """Q and P of a pair of 2N colours have the same nodes and weights, as in eq.
     (psymplecticGARK).
     """
-    run = gark("conjugate", "methods/collocation.gark.yaml", "--pair", "--format", "latex")
+    run = gark(
+        "conjugate", "methods/collocation.gark.yaml", "--pair", "--format", "latex"
+    )
     q, p = arrays(run.out)
     assert run.out.count(r"\[") == 2
     assert [row[0] for row in q] == [row[0] for row in p]
     assert q[-1] == p[-1]
     assert len(q) == 6
     assert {len(row) for row in (*q, *p)} == {6}
-    (alone,) = arrays(gark("tableau", "methods/collocation.gark.yaml", "--format", "latex").out)
+    (alone,) = arrays(
+        gark("tableau", "methods/collocation.gark.yaml", "--format", "latex").out
+    )
     assert alone == q
     made = gark("conjugate", "methods/collocation.gark.yaml", "--format", "latex")
     assert arrays(made.out) == [p]
@@ -105,17 +119,30 @@ def test_what_no_file_spells_out() -> None:
     run = gark("tableau", "methods/gauss6-lobatto7.gark.yaml", "--format", "yaml")
     assert run.code == 2
     assert "--digits 17" in run.err
-    run = gark("tableau", "methods/semi-separable.gark.yaml", "--format", "yaml", "--digits", "9")
+    run = gark(
+        "tableau",
+        "methods/semi-separable.gark.yaml",
+        "--format",
+        "yaml",
+        "--digits",
+        "9",
+    )
     assert run.code == 2
     assert "--format json" in run.err
 
 
-@pytest.mark.parametrize(("name", "order"), [("gauss6-lobatto7", 12), ("rectangular", 4)])
-def test_a_rounded_file_has_the_order_within_its_tolerance(name: str, order: int) -> None:
+@pytest.mark.parametrize(
+    ("name", "order"), [("gauss6-lobatto7", 12), ("rectangular", 4)]
+)
+def test_a_rounded_file_has_the_order_within_its_tolerance(
+    name: str, order: int
+) -> None:
     """Decimals of any nodes make a file whose tolerance explains what rounding did."""
     path = f"methods/{name}.gark.yaml"
     text = gark("tableau", path, "--format", "yaml", "--digits", "25").out
-    found = json.loads(gark("check", "-", "--format", "json", stdin=text).out)["files"][0]
+    found = json.loads(gark("check", "-", "--format", "json", stdin=text).out)["files"][
+        0
+    ]
     assert found["order"] == order
     assert loads(text).tolerance == fmpq(1, 10**22)
 
@@ -124,7 +151,9 @@ def test_a_rounded_file_has_the_order_within_its_tolerance(name: str, order: int
 @pytest.mark.parametrize("command", ["tableau", "conjugate"])
 def test_digits_make_decimals_in_every_format(command: str, shape: str) -> None:
     """No root and no fraction is left, and each number is that of the exact tableau, rounded."""
-    run = gark(command, "methods/collocation.gark.yaml", "--digits", "6", "--format", shape)
+    run = gark(
+        command, "methods/collocation.gark.yaml", "--digits", "6", "--format", shape
+    )
     assert run.code == 0
     assert "sqrt" not in run.out
     assert "/" not in run.out.replace("gark/tableau/1", "")
@@ -137,7 +166,10 @@ def test_plain_decimals_are_read_back(p: int, twos: int, fives: int) -> None:
     number = fmpq(p, 2**twos * 5**fives)
     text = plain_decimal(number)
     assert "/" not in text
-    assert read_decimal(text.removeprefix("-")) * (-1 if text.startswith("-") else 1) == number
+    assert (
+        read_decimal(text.removeprefix("-")) * (-1 if text.startswith("-") else 1)
+        == number
+    )
 
 
 def test_stages_are_counted_as_the_paper_does() -> None:

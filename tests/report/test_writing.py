@@ -92,7 +92,9 @@ def test_a_pipe_is_written_through(tmp_path: Path) -> None:
 
 
 @posix
-@pytest.mark.parametrize("name", ["/dev/stdout", "/dev/fd/1", "/proc/self/fd/1", "link"])
+@pytest.mark.parametrize(
+    "name", ["/dev/stdout", "/dev/fd/1", "/proc/self/fd/1", "link"]
+)
 @pytest.mark.parametrize("redirection", [">", ">>", "| cat >"])
 def test_the_devices_of_streams(name: str, redirection: str, tmp_path: Path) -> None:
     """``-o /dev/stdout`` is standard output, whatever that is, at the place where it is; neither

@@ -103,7 +103,9 @@ def test_explicit_methods_are_not(name: str) -> None:
 
 def tangent(shift: fmpq) -> StabilityFunction:
     """A function with |R(iy)|² = 1 + (4δ + δ²) y²/|Q|² − y²(y² − 1)²/|Q|², δ the shift: it touches 1 at y = 1."""
-    return StabilityFunction(Polynomial([fmpq(1), -(2 + shift)]), Polynomial([1, -3, 2, -1]))
+    return StabilityFunction(
+        Polynomial([fmpq(1), -(2 + shift)]), Polynomial([1, -3, 2, -1])
+    )
 
 
 def test_tangency_is_decided() -> None:
@@ -128,7 +130,9 @@ def test_a_pole_close_to_the_axis(distance: int) -> None:
     assert not poles_are_right(rest * right * left)
 
 
-@given(st.lists(st.tuples(st.integers(-4, 4), st.integers(0, 3)), min_size=1, max_size=5))
+@given(
+    st.lists(st.tuples(st.integers(-4, 4), st.integers(0, 3)), min_size=1, max_size=5)
+)
 def test_poles_against_what_was_multiplied_out(pairs: list[tuple[int, int]]) -> None:
     """Q with roots r ± is has all roots to the right exactly when all r > 0."""
     Q = Polynomial([1])

@@ -29,9 +29,7 @@ SSP_10_4 = (
     + "]}]"
 )
 SHU_OSHER = "methods: [{A: [[0,0,0],[1,0,0],[1/4,1/4,0]], b: [1/6,1/6,2/3]}]"
-SSP_4_3 = (
-    "methods: [{A: [[0,0,0,0],[1/2,0,0,0],[1/2,1/2,0,0],[1/6,1/6,1/6,0]], b: [1/6,1/6,1/6,1/2]}]"
-)
+SSP_4_3 = "methods: [{A: [[0,0,0,0],[1/2,0,0,0],[1/2,1/2,0,0],[1/6,1/6,1/6,0]], b: [1/6,1/6,1/6,1/2]}]"
 SSP_3_2 = "methods: [{A: [[0,0,0],[1/2,0,0],[1/2,1/2,0]], b: [1/3,1/3,1/3]}]"
 
 
@@ -65,7 +63,8 @@ def test_semidefinite_against_eigenvalues(n: int, data: st.DataObject) -> None:
     lowest = float(np.min(np.linalg.eigvalsh(gram)))
     less = fmpq(int(np.floor(lowest + 0.5)) + 1)
     shifted = tuple(
-        tuple(x - less if i == j else x for j, x in enumerate(row)) for i, row in enumerate(exact)
+        tuple(x - less if i == j else x for j, x in enumerate(row))
+        for i, row in enumerate(exact)
     )
     assert not is_positive_semidefinite(shifted)
 

@@ -42,7 +42,9 @@ def contains(found: OscillatorStability, x: fmpq) -> bool:
     for interval in found.stable:
         after = interval.start < at or (interval.has_start and interval.start == at)  # type: ignore[operator]
         before = (
-            interval.end is None or at < interval.end or (interval.has_end and interval.end == at)
+            interval.end is None
+            or at < interval.end
+            or (interval.has_end and interval.end == at)
         )
         if after and before:
             return True
@@ -73,7 +75,10 @@ def test_the_rectangular_method() -> None:
     assert found.determinant.is_one
     ends = [(i.start.exact, i.end.exact) for i in found.stable]  # type: ignore[union-attr]
     assert ends == [(0, 8), (12, 24)]
-    assert [(i.has_start, i.has_end) for i in found.stable] == [(True, False), (False, False)]
+    assert [(i.has_start, i.has_end) for i in found.stable] == [
+        (True, False),
+        (False, False),
+    ]
     assert not found.is_p_stable
     assert (found.phase.order, found.phase.constant) == (4, fmpq(1, 2880))
 

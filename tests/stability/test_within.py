@@ -29,13 +29,17 @@ def sdirk(gamma: str) -> str:
 
 def test_the_sdirk_method_of_order_three() -> None:
     """γ = 0.4358665215, a root of x³ − 3x² + 3x/2 − 1/6 in ten digits: L-stable, whatever was rounded."""
-    (found,) = stability_of_rounded(loads(sdirk("0.4358665215")).tableau, TOLERANCE).linear
+    (found,) = stability_of_rounded(
+        loads(sdirk("0.4358665215")).tableau, TOLERANCE
+    ).linear
     assert (found.a_stable, found.l_stable) == (True, True)
 
 
 def test_the_other_root_is_not() -> None:
     """γ = 0.1589838999 has order 3 too, and is not A-stable."""
-    (found,) = stability_of_rounded(loads(sdirk("0.1589838999")).tableau, TOLERANCE).linear
+    (found,) = stability_of_rounded(
+        loads(sdirk("0.1589838999")).tableau, TOLERANCE
+    ).linear
     assert (found.a_stable, found.l_stable) == (False, False)
 
 

@@ -48,7 +48,8 @@ def gark_of(*names: tuple[str, int]) -> Tableau:
     methods = [diagonal_method(*name) for name in names]
     N = range(len(methods))
     return gark(
-        methods, {(l, m): collocation(methods[l], methods[m]) for l in N for m in N if l != m}
+        methods,
+        {(l, m): collocation(methods[l], methods[m]) for l in N for m in N if l != m},
     )
 
 
@@ -89,7 +90,10 @@ def dense_step(tableau: Tableau, problem: Oscillator, h: float) -> np.ndarray:
         L = float_matrix(problem.matrix(colour))
         seen = slice(2 * start[colour.space], 2 * start[colour.space + 1])
         to_values = np.linalg.inv(change[colour.space])
-        b = np.array([[float(x) for x in enclosure((colour.b,), 80).tolist()[0]]]) @ to_values
+        b = (
+            np.array([[float(x) for x in enclosure((colour.b,), 80).tolist()[0]]])
+            @ to_values
+        )
         weights[:, seen] += np.kron(b, L)
         for k in range(len(sizes)):
             if (k, m) in tableau.blocks:
@@ -107,7 +111,10 @@ def rectangular_in_radicals() -> Tableau:
     ]
     parsed = [[[parse(x) for x in row] for row in block] for block in texts]
     domain = Domain([x for block in parsed for row in block for x in row])
-    A_q, A_p = (tuple(tuple(domain.evaluate(x) for x in row) for row in block) for block in parsed)
+    A_q, A_p = (
+        tuple(tuple(domain.evaluate(x) for x in row) for row in block)
+        for block in parsed
+    )
     b_q, b_p = (fmpq(1, 2),) * 2, (fmpq(1, 6), fmpq(2, 3), fmpq(1, 6))
     return separable_prk((A_q, b_q, None), (A_p, b_p, None))
 
@@ -128,7 +135,9 @@ TABLEAUS = {
         [(fmpq(1, 2),) * 2] * 2,
         None,
     ),
-    "partitioned": partitioned(diagonal_method("heun"), diagonal_method("explicit-midpoint")),
+    "partitioned": partitioned(
+        diagonal_method("heun"), diagonal_method("explicit-midpoint")
+    ),
 }
 
 
@@ -147,7 +156,9 @@ def test_radicals_and_families_make_the_same_rectangular_method() -> None:
     ℚ.
     """
     one, other = TABLEAUS["separable"], TABLEAUS["in radicals"]
-    assert linear_step(one, default(one)).at(H) == linear_step(other, default(other)).at(H)
+    assert linear_step(one, default(one)).at(H) == linear_step(
+        other, default(other)
+    ).at(H)
 
 
 @pytest.mark.parametrize("s", [1, 2, 3, 6])
@@ -158,7 +169,8 @@ def test_gauss_step_is_the_pade_approximant(s: int) -> None:
     tableau, omega = gark_of(("gauss", s)), fmpq(3, 2)
     P = [
         fmpq(
-            factorial(2 * s - k) * factorial(s), factorial(2 * s) * factorial(k) * factorial(s - k)
+            factorial(2 * s - k) * factorial(s),
+            factorial(2 * s) * factorial(k) * factorial(s - k),
         )
         for k in range(s + 1)
     ]
@@ -193,12 +205,16 @@ def test_other_methods_are_not_symplectic(name: str) -> None:
 
 @settings(max_examples=25, deadline=None)
 @given(st.fractions(0, 1, max_denominator=9), st.fractions(-1, 2, max_denominator=9))
-def test_one_method_on_all_terms_does_not_see_the_split(kinetic: object, potential: object) -> None:
+def test_one_method_on_all_terms_does_not_see_the_split(
+    kinetic: object, potential: object
+) -> None:
     """Gauss 2 twice is Gauss 2, whatever the shares."""
     k, v = (fmpq(x.numerator, x.denominator) for x in (kinetic, potential))  # type: ignore[attr-defined]
     twice, once = gark_of(("gauss", 2), ("gauss", 2)), gark_of(("gauss", 2))
     split = Oscillator(fmpq(2), ((k, v), (1 - k, 1 - v)))
-    assert linear_step(twice, split).at(H) == linear_step(once, default(once, fmpq(2))).at(H)
+    assert linear_step(twice, split).at(H) == linear_step(
+        once, default(once, fmpq(2))
+    ).at(H)
 
 
 @pytest.mark.parametrize("name", TABLEAUS)
@@ -207,7 +223,8 @@ def test_series_sums_to_the_step(name: str) -> None:
     tableau, h = TABLEAUS[name], fmpq(1, 64)
     step = linear_step(tableau, default(tableau))
     total = np.eye(2) + sum(
-        float_matrix(R_k) * float(h) ** k for k, R_k in enumerate(islice(step.series(), 8), start=1)
+        float_matrix(R_k) * float(h) ** k
+        for k, R_k in enumerate(islice(step.series(), 8), start=1)
     )
     assert total == pytest.approx(float_matrix(step.at(h)), abs=1e-13)
 
@@ -255,7 +272,9 @@ def test_precision_is_what_was_asked_for() -> None:
     """The enclosure of an irrational or long number has the bits."""
     tableau = TABLEAUS["separable"]
     step = linear_step(tableau, default(tableau))
-    assert all(x.rel_accuracy_bits() >= 500 for x in enclosure(step.at(H), 500).entries())
+    assert all(
+        x.rel_accuracy_bits() >= 500 for x in enclosure(step.at(H), 500).entries()
+    )
 
 
 def test_singular_stage_equations() -> None:
@@ -263,7 +282,10 @@ def test_singular_stage_equations() -> None:
     many stages.
     """
     one = fmpq(1)
-    blocks: list[list[Matrix | None]] = [[((one,),), ((one,),)], [((-one,),), ((one,),)]]
+    blocks: list[list[Matrix | None]] = [
+        [((one,),), ((one,),)],
+        [((-one,),), ((one,),)],
+    ]
     tableau = spelled_out(blocks, [(one,), (one,)], [None, None])
     step = linear_step(tableau, default(tableau))
     with pytest.raises(UsageProblem, match="no unique solution for h = 1"):
@@ -271,7 +293,9 @@ def test_singular_stage_equations() -> None:
     assert step.at(fmpq(1, 2))
 
 
-@pytest.mark.parametrize(("t_end", "h"), [("1", "0"), ("-1", "1"), ("1", "2"), ("1", "2/7")])
+@pytest.mark.parametrize(
+    ("t_end", "h"), [("1", "0"), ("-1", "1"), ("1", "2"), ("1", "2/7")]
+)
 def test_steps_have_to_divide_the_time(t_end: str, h: str) -> None:
     """No step is silently made longer or shorter."""
     t, x = (fmpq(*map(int, text.split("/"))) for text in (t_end, h))

@@ -20,10 +20,21 @@ from garkcli.problems.builtin import hamiltonian
 from garkcli.problems.hamiltonian import GROUPS, Hamiltonian, symbols, vector_field
 from garkcli.problems.oscillator import terms_of
 from garkcli.problems.straightline import function
-from garkcli.stepping.dependency import Stage, fields_of, visible_trees, with_joined_terms
+from garkcli.stepping.dependency import (
+    Stage,
+    fields_of,
+    visible_trees,
+    with_joined_terms,
+)
 from garkcli.stepping.integrator import bind
 from garkcli.stepping.step import StepFailed, integrate, trajectory
-from garkcli.tableau.forms import gark, pair, separable_prk, symplectic_pair, with_linear
+from garkcli.tableau.forms import (
+    gark,
+    pair,
+    separable_prk,
+    symplectic_pair,
+    with_linear,
+)
 from garkcli.tableau.pointwise import numeric_entries
 from garkcli.tableau.tableau import Tableau
 from garkcli.transfer import collocation, interpolation
@@ -40,7 +51,10 @@ def coupled(s: int, t: int, rule: Any = collocation) -> Tableau:
 RECTANGULAR = symplectic_pair(coupled(2, 3), [0], [1])
 SEMI = symplectic_pair(coupled(2, 3), [0], [0, 1])
 RK4 = gark([diagonal_method("rk4")], {})
-HEUN = gark([diagonal_method("heun"), diagonal_method("heun")], {(0, 1): diagonal_method("heun").A})
+HEUN = gark(
+    [diagonal_method("heun"), diagonal_method("heun")],
+    {(0, 1): diagonal_method("heun").A},
+)
 
 
 def plain_step(tableau: Tableau, problem: Hamiltonian, h: float) -> list[float]:
@@ -105,7 +119,9 @@ def test_step_is_that_of_a_plain_iteration(tableau: Tableau, name: str) -> None:
     """
     problem = hamiltonian(name, terms_of(tableau))
     expected = plain_step(tableau, problem, 0.1)
-    assert integrate(bind(tableau, problem).at(), H, 1) == pytest.approx(expected, abs=3e-15)
+    assert integrate(bind(tableau, problem).at(), H, 1) == pytest.approx(
+        expected, abs=3e-15
+    )
     many = [float(x) for x in integrate(bind(tableau, problem).at(40), H, 1)]
     assert many == pytest.approx(expected, abs=3e-15)
 
@@ -114,19 +130,21 @@ def test_digits_are_correct() -> None:
     """30, 60 and 120 digits agree to the digits of the shorter."""
     problem = hamiltonian("kepler", 2)
     ends = {
-        digits: integrate(bind(RECTANGULAR, problem).at(digits), H, 5) for digits in (30, 60, 120)
+        digits: integrate(bind(RECTANGULAR, problem).at(digits), H, 5)
+        for digits in (30, 60, 120)
     }
     with ctx.workprec(420):
         for short, long in ((30, 60), (60, 120)):
-            assert max(abs(a - b) for a, b in zip(ends[short], ends[long], strict=True)) < arb(
-                10
-            ) ** (1 - short)
+            assert max(
+                abs(a - b) for a, b in zip(ends[short], ends[long], strict=True)
+            ) < arb(10) ** (1 - short)
 
 
 def unknowns(tableau: Tableau, name: str) -> list[tuple[Stage, ...]]:
     """The unknowns of each implicit block."""
     made = bind(
-        with_joined_terms(tableau), hamiltonian(name, terms_of(with_joined_terms(tableau)))
+        with_joined_terms(tableau),
+        hamiltonian(name, terms_of(with_joined_terms(tableau))),
     ).at()
     return [block.unknowns for block in made.program.implicit]
 
@@ -149,7 +167,10 @@ def test_explicit_and_diagonally_implicit_are_found() -> None:
     A = ((third, fmpq(0)), (third, third))
     dirk = gark([diagonal_method("heun")], {})
     dirk = Tableau(dirk.spaces, dirk.colours, {(0, 0): A})
-    assert [len(block) for block in unknowns(dirk, "generic")] == [2, 2]  # q and p of a stage
+    assert [len(block) for block in unknowns(dirk, "generic")] == [
+        2,
+        2,
+    ]  # q and p of a stage
 
 
 def test_components_come_in_order() -> None:
@@ -159,7 +180,9 @@ def test_components_come_in_order() -> None:
     assert len(components({k: [k + 1] for k in range(5000)} | {5000: []})) == 5001
 
 
-@pytest.mark.parametrize("tableau", [pair(coupled(2, 3)), pair(coupled(3, 4, interpolation))])
+@pytest.mark.parametrize(
+    "tableau", [pair(coupled(2, 3)), pair(coupled(3, 4, interpolation))]
+)
 def test_pair_is_symplectic(tableau: Tableau) -> None:
     """Central differences with 60 digits: ‖MᵀJM − J‖ is their error, where the GARK method's is not
     small.
@@ -176,16 +199,25 @@ def symplecticity(tableau: Tableau, problem: Hamiltonian) -> float:
     for j in range(2 * d):
         ends = []
         for sign in (1, -1):
-            start = [x + (sign * tiny if i == j else 0) for i, x in enumerate(problem.initial)]
+            start = [
+                x + (sign * tiny if i == j else 0)
+                for i, x in enumerate(problem.initial)
+            ]
             ends.append(integrate(made, H, 1, start))
         with ctx.workprec(260):
-            columns.append([(a - b) / arb(2 * tiny) for a, b in zip(*ends, strict=True)])
+            columns.append(
+                [(a - b) / arb(2 * tiny) for a, b in zip(*ends, strict=True)]
+            )
     worst = 0.0
     with ctx.workprec(260):
         for i, u in enumerate(columns):
             for j, v in enumerate(columns):
-                form = sum((u[k] * v[k + d] - u[k + d] * v[k] for k in range(d)), arb(0))
-                worst = max(worst, abs(float(form - (int(j == i + d) - int(i == j + d)))))
+                form = sum(
+                    (u[k] * v[k + d] - u[k + d] * v[k] for k in range(d)), arb(0)
+                )
+                worst = max(
+                    worst, abs(float(form - (int(j == i + d) - int(i == j + d))))
+                )
     return worst
 
 
@@ -224,7 +256,9 @@ def test_states_before_a_failure_are_seen() -> None:
     itself as well.
     """
     x, px = (symbols(("x",), group)[0] for group in GROUPS)
-    fall = Hamiltonian("fall", ("x",), (px**2 / 2 - sympy.sqrt(x),), (fmpq(1), fmpq(-2)), fmpq(1))
+    fall = Hamiltonian(
+        "fall", ("x",), (px**2 / 2 - sympy.sqrt(x),), (fmpq(1), fmpq(-2)), fmpq(1)
+    )
     made = bind(RK4, fall).at()
     seen: list[list[float]] = []
     with pytest.raises(StepFailed) as caught:
@@ -234,14 +268,18 @@ def test_states_before_a_failure_are_seen() -> None:
 
 
 @pytest.mark.parametrize("mass", [fmpq(1, 10**20), fmpq(10**10), fmpq(10**20)])
-@pytest.mark.parametrize("tableau", [RECTANGULAR, pair(coupled(2, 3)), pair(coupled(3, 4))])
+@pytest.mark.parametrize(
+    "tableau", [RECTANGULAR, pair(coupled(2, 3)), pair(coupled(3, 4))]
+)
 def test_units_do_not_matter(tableau: Tableau, mass: fmpq) -> None:
     """A pendulum of any mass in floats: Newton's method ends by the size of its unknowns alone."""
     (x,), (px,) = (symbols(("x",), group) for group in GROUPS)
     m = sympy.Rational(int(mass.p), int(mass.q))
     terms = (px**2 / (2 * m), -m * sympy.cos(x))
     heavy = Hamiltonian("heavy", ("x",), terms, (fmpq(1), mass / 2), fmpq(1))
-    floats, exact = (integrate(bind(tableau, heavy).at(digits), H / 2, 40) for digits in (15, 40))
+    floats, exact = (
+        integrate(bind(tableau, heavy).at(digits), H / 2, 40) for digits in (15, 40)
+    )
     assert floats == pytest.approx([float(y) for y in exact], rel=2e-15)
 
 
@@ -255,8 +293,12 @@ def test_balls_around_zero_have_powers() -> None:
 
 def test_failing_step_says_where() -> None:
     """Kepler with huge steps: the number of the step, its size and the residual."""
-    with pytest.raises(StepFailed, match=r"step 1 of size 1000000: .*residual") as caught:
-        integrate(bind(pair(coupled(2, 3)), hamiltonian("generic", 2)).at(), fmpq(10**6), 3)
+    with pytest.raises(
+        StepFailed, match=r"step 1 of size 1000000: .*residual"
+    ) as caught:
+        integrate(
+            bind(pair(coupled(2, 3)), hamiltonian("generic", 2)).at(), fmpq(10**6), 3
+        )
     assert (caught.value.number, caught.value.h) == (1, 10**6)
     assert caught.value.help
     falling = Hamiltonian(
@@ -276,7 +318,9 @@ def test_failing_step_says_where() -> None:
         (HEUN, "generic", "colour 2 depends on what colour 1 drives"),
     ],
 )
-def test_problem_has_to_fit_the_structure(tableau: Tableau, name: str, said: str) -> None:
+def test_problem_has_to_fit_the_structure(
+    tableau: Tableau, name: str, said: str
+) -> None:
     """A separable method has no colour for a Hamiltonian that is not."""
     with pytest.raises(UsageProblem, match=said):
         fields_of(tableau, hamiltonian(name, 2))
@@ -316,4 +360,6 @@ def test_unknown_problem() -> None:
 )
 def test_what_a_problem_sees(tableau: Tableau, name: str, said: str) -> None:
     """Linear, quadratic kinetic energy, all."""
-    assert said in visible_trees(fields_of(tableau, hamiltonian(name, terms_of(tableau))))
+    assert said in visible_trees(
+        fields_of(tableau, hamiltonian(name, terms_of(tableau)))
+    )

@@ -68,7 +68,9 @@ class Lagrangian:
     @cached_property
     def moving(self) -> tuple[int, ...]:
         """The terms with velocities."""
-        return tuple(l for l, L in enumerate(self.terms) if L.free_symbols & set(self.v))
+        return tuple(
+            l for l, L in enumerate(self.terms) if L.free_symbols & set(self.v)
+        )
 
     @cached_property
     def derivatives(self) -> tuple[Callable[..., Any], ...]:
@@ -89,18 +91,25 @@ class Lagrangian:
     def hamiltonian(self) -> Hamiltonian:
         """H^l(q, p) = p·v − L^l with ∂L^l/∂v = p, term by term."""
         return Hamiltonian(
-            "legendre", self.variables, tuple(map(self._legendre, self.terms)), self.start, fmpq(1)
+            "legendre",
+            self.variables,
+            tuple(map(self._legendre, self.terms)),
+            self.start,
+            fmpq(1),
         )
 
     def _legendre(self, L: Any) -> Any:
         if not L.free_symbols & set(self.v):
             return -L
         p = symbols(self.variables, "p")
-        somewhere = {x: sympy.Rational(k, 7) for k, x in enumerate((*self.q, *p), start=1)}
+        somewhere = {
+            x: sympy.Rational(k, 7) for k, x in enumerate((*self.q, *p), start=1)
+        }
         momenta = tuple(zip(self.v, p, strict=True))
         for v in sympy.solve([L.diff(w) - x for w, x in momenta], self.v, dict=True):
             if all(
-                abs(L.diff(w).subs(v).subs(somewhere) - somewhere[x]).n() < 1e-9 for w, x in momenta
+                abs(L.diff(w).subs(v).subs(somewhere) - somewhere[x]).n() < 1e-9
+                for w, x in momenta
             ):
                 return (sum(x * w for w, x in momenta) - L).subs(v)
         raise AssertionError(f"no velocities for {L}")
@@ -119,13 +128,20 @@ LINE = {
         -sympy.sqrt(1 - U**2) + sympy.exp(X) / 5,
         (3 + sympy.cos(X)) * U**2 / 2 - X**2 * U / 5 - X**3 / 3,
     ),
-    "semi-separable": ((2 + sympy.cos(X)) * U**2 / 2 + X**2 * U - X**3 / 3, -sympy.exp(-X) - X**4),
+    "semi-separable": (
+        (2 + sympy.cos(X)) * U**2 / 2 + X**2 * U - X**3 / 3,
+        -sympy.exp(-X) - X**4,
+    ),
     "separable": (-sympy.sqrt(1 - U**2), sympy.cos(X) - X**4 / 4),
 }
 PLANE = {
     "two": (
-        ((1 + Y**2) * U**2 + X * U * W + (2 + X**2) * W**2) / 2 + X * Y * U - sympy.cos(X - Y),
-        ((2 + sympy.sin(X)) * U**2 + (1 + X**2 * Y**2) * W**2) / 2 - X**4 / 4 - X**2 * Y,
+        ((1 + Y**2) * U**2 + X * U * W + (2 + X**2) * W**2) / 2
+        + X * Y * U
+        - sympy.cos(X - Y),
+        ((2 + sympy.sin(X)) * U**2 + (1 + X**2 * Y**2) * W**2) / 2
+        - X**4 / 4
+        - X**2 * Y,
     ),
     "semi-separable": (
         ((1 + Y**2) * U**2 + (1 + X**2) * W**2) / 2 - X * Y,
@@ -216,7 +232,9 @@ class Case:
         ]
         return symplectic_pair(self.tableau, self.lagrangian.moving, forces)
 
-    def path(self, digits: int, count: int = 3, tableau: Tableau | None = None) -> list[Any]:
+    def path(
+        self, digits: int, count: int = 3, tableau: Tableau | None = None
+    ) -> list[Any]:
         """(q, p) after 0, 1, … steps, in mpmath's numbers, shape (count + 1, 2, d)."""
         made = bind(tableau or self.pair, hamiltonian(self.lagrangian)).at(digits)
         return [
@@ -235,12 +253,16 @@ CASES = {
     "three terms, interpolated": Case(built(interpolation, THREE), ("three", 1)),
     "plane": Case(built(collocation, GAUSS_LOBATTO), ("two", 2)),
     "plane, interpolation": Case(built(interpolation, GAUSS_LOBATTO[::-1]), ("two", 2)),
-    "semi-separable": Case(built(collocation, GAUSS_LOBATTO), ("semi-separable", 1), full=False),
+    "semi-separable": Case(
+        built(collocation, GAUSS_LOBATTO), ("semi-separable", 1), full=False
+    ),
     "semi-separable by the general pair": Case(
         built(interpolation, GAUSS_LOBATTO), ("semi-separable", 1)
     ),
     "semi-separable, zero weight": Case(FLAWED, ("semi-separable", 2), full=False),
-    "rectangular": Case(built(collocation, GAUSS_LOBATTO), ("separable", 1), full=False),
+    "rectangular": Case(
+        built(collocation, GAUSS_LOBATTO), ("separable", 1), full=False
+    ),
     "rectangular in the plane": Case(
         built(interpolation, GAUSS_LOBATTO), ("separable", 2), full=False
     ),
@@ -301,10 +323,13 @@ class Discrete:
             if small:
                 return value, force + multiplier, -multiplier
             change = np.array(
-                list(mpmath.lu_solve(mpmath.matrix(matrix.tolist()), list(residual))), object
+                list(mpmath.lu_solve(mpmath.matrix(matrix.tolist()), list(residual))),
+                object,
             )
             V, multiplier = V - change[:n], multiplier - change[n:]
-            small = max(abs(change)) < mpf(10) ** (2 - DIGITS // 2)  # its square is what is left
+            small = max(abs(change)) < mpf(10) ** (
+                2 - DIGITS // 2
+            )  # its square is what is left
         raise AssertionError("no extremum")
 
 
@@ -327,16 +352,22 @@ def discrete(tableau: Tableau, L: Lagrangian) -> Discrete:
     for l, weights in enumerate(entries.b):
         for i, b in enumerate(weights):
             positions = [
-                h * number(a) for m in L.moving for a in seen(entries.A[l][m], i, len(entries.b[m]))
+                h * number(a)
+                for m in L.moving
+                for a in seen(entries.A[l][m], i, len(entries.b[m]))
             ]
             velocities = [
                 mpf(int((m, j) == (l, i)))
                 for m, s in zip(L.moving, sizes, strict=True)
                 for j in range(s)
             ]
-            stages.append((l, number(b), np.vstack([spread(positions), spread(velocities)])))
+            stages.append(
+                (l, number(b), np.vstack([spread(positions), spread(velocities)]))
+            )
     return Discrete(
-        L, tuple(stages), spread([h * number(b) for m in L.moving for b in entries.b[m]])
+        L,
+        tuple(stages),
+        spread([h * number(b) for m in L.moving for b in entries.b[m]]),
     )
 
 
@@ -372,7 +403,9 @@ def imbalances(case: Case, path: Sequence[Any]) -> tuple[float, float]:
 
 @pytest.mark.parametrize("digits", TOLERANCES)
 @pytest.mark.parametrize("name", CASES)
-def test_trajectory_makes_the_discrete_action_stationary(name: str, digits: int) -> None:
+def test_trajectory_makes_the_discrete_action_stationary(
+    name: str, digits: int
+) -> None:
     """The discrete Euler–Lagrange equations and both discrete Legendre transforms, to round-off."""
     case = CASES[name]
     assert max(imbalances(case, case.path(digits))) < TOLERANCES[digits]
@@ -384,7 +417,10 @@ def test_derivatives_are_those_of_the_discrete_lagrangian(name: str) -> None:
     does not change.
     """
     case = CASES[name]
-    made, (q0, q1, q2) = discrete(case.tableau, case.lagrangian), (y[0] for y in case.path(MANY, 2))
+    made, (q0, q1, q2) = (
+        discrete(case.tableau, case.lagrangian),
+        (y[0] for y in case.path(MANY, 2)),
+    )
     _, before, after = made.extremum(q0, q1)
     tiny = mpf(10) ** -12
     for k in range(len(q0)):
@@ -396,7 +432,13 @@ def test_derivatives_are_those_of_the_discrete_lagrangian(name: str) -> None:
         assert abs(slope(lambda z: made.extremum(q0 + z, q1)[0]) - before[k]) < 1e-20
         assert abs(slope(lambda z: made.extremum(q0, q1 + z)[0]) - after[k]) < 1e-20
         assert (
-            abs(slope(lambda z: made.extremum(q0, q1 + z)[0] + made.extremum(q1 + z, q2)[0]))
+            abs(
+                slope(
+                    lambda z: (
+                        made.extremum(q0, q1 + z)[0] + made.extremum(q1 + z, q2)[0]
+                    )
+                )
+            )
             < 1e-20
         )
         assert min(abs(before[k]), abs(after[k])) > 1e-3
@@ -406,15 +448,24 @@ def test_discrete_lagrangians_known_in_closed_form() -> None:
     """Implicit midpoint: h L((q_0 + q_1)/2, (q_1 − q_0)/h); Störmer–Verlet: the mean of both ends'
     potentials.
     """
-    h, q0, q1 = rational(H), np.array([mpf("0.4")], object), np.array([mpf("0.43")], object)
+    h, q0, q1 = (
+        rational(H),
+        np.array([mpf("0.4")], object),
+        np.array([mpf("0.43")], object),
+    )
     one, separable = lagrangian("one", 1), lagrangian("separable", 1)
     velocity = (q1[0] - q0[0]) / h
     midpoint, *_ = discrete(gark(methods(("gauss", 1)), {}), one).extremum(q0, q1)
-    assert abs(midpoint - h * one.derivatives[0]((q0[0] + q1[0]) / 2, velocity)[0]) < 1e-45
+    assert (
+        abs(midpoint - h * one.derivatives[0]((q0[0] + q1[0]) / 2, velocity)[0]) < 1e-45
+    )
     trapezoidal = built(collocation, methods(("gauss", 1), ("lobatto-iiia", 2)))
     verlet, *_ = discrete(trapezoidal, separable).extremum(q0, q1)
     potential = sum(separable.derivatives[1](q[0], velocity)[0] for q in (q0, q1)) / 2
-    assert abs(verlet - h * (separable.derivatives[0](q0[0], velocity)[0] + potential)) < 1e-45
+    assert (
+        abs(verlet - h * (separable.derivatives[0](q0[0], velocity)[0] + potential))
+        < 1e-45
+    )
 
 
 FRACTIONS = st.builds(fmpq, st.integers(-6, 6), st.integers(6, 9))
@@ -427,12 +478,17 @@ def tableaux(draw: st.DrawFn) -> Tableau:
     """
     sizes = draw(st.lists(st.integers(1, 3), min_size=1, max_size=3))
 
-    def row(length: int, entries: st.SearchStrategy[fmpq] = FRACTIONS) -> tuple[fmpq, ...]:
+    def row(
+        length: int, entries: st.SearchStrategy[fmpq] = FRACTIONS
+    ) -> tuple[fmpq, ...]:
         return tuple(draw(entries) for _ in range(length))
 
     b = [row(s, FRACTIONS.filter(bool)) for s in sizes]
     b = [
-        (*weights[1:], weights[0] + (0 if sum(weights) > fmpq(1, 2) else 1 - sum(weights)))
+        (
+            *weights[1:],
+            weights[0] + (0 if sum(weights) > fmpq(1, 2) else 1 - sum(weights)),
+        )
         for weights in b
     ]
     blocks = [[tuple(row(t) for _ in range(s)) for t in sizes] for s in sizes]
@@ -451,7 +507,9 @@ def test_any_tableau_has_a_variational_pair(tableau: Tableau) -> None:
 @pytest.mark.parametrize(
     ("digits", "error"), [(FLOAT_DIGITS, fmpq(1, 10**4)), (MANY, fmpq(1, 10**20))]
 )
-def test_perturbed_conjugate_is_not_variational(name: str, digits: int, error: fmpq) -> None:
+def test_perturbed_conjugate_is_not_variational(
+    name: str, digits: int, error: fmpq
+) -> None:
     """One coefficient of Â off by 1e-4, or by 1e-20 in balls: the equations are missed by a part of
     that.
     """
@@ -459,7 +517,9 @@ def test_perturbed_conjugate_is_not_variational(name: str, digits: int, error: f
     right = case.pair
     where = next(key for key in right.blocks if right.colours[key[1]].part == "p")
     first, *rest = right.blocks[where]
-    wrong = replace(right, blocks={**right.blocks, where: ((first[0] + error, *first[1:]), *rest)})
+    wrong = replace(
+        right, blocks={**right.blocks, where: ((first[0] + error, *first[1:]), *rest)}
+    )
     found = imbalances(case, case.path(digits, tableau=wrong))
     assert min(found) > 1e-4 * float(rational(error)) > 100 * TOLERANCES[digits]
 
@@ -475,5 +535,7 @@ def test_gark_method_is_not_variational(name: str) -> None:
 def test_other_tableau_is_not_variational() -> None:
     """The pair by collocation does not make the action by interpolation stationary."""
     case = CASES["collocation"]
-    found = imbalances(replace(case, tableau=CASES["interpolation"].tableau), case.path(MANY))
+    found = imbalances(
+        replace(case, tableau=CASES["interpolation"].tableau), case.path(MANY)
+    )
     assert min(found) > 1e-11

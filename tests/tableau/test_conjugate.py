@@ -16,7 +16,14 @@ from garkcli.exact.matrix import dot, identity, transpose
 from garkcli.order.certificate import find_order
 from garkcli.order.simplifying import simplifying
 from garkcli.tableau.conjugate import conjugate, conjugate_block, is_symplectic
-from garkcli.tableau.forms import additive, gark, pair, separable_prk, spelled_out, symplectic_pair
+from garkcli.tableau.forms import (
+    additive,
+    gark,
+    pair,
+    separable_prk,
+    spelled_out,
+    symplectic_pair,
+)
 from garkcli.tableau.stages import PointSpace, PolynomialSpace
 from garkcli.tableau.tableau import Tableau
 from garkcli.transfer import RULES, collocation
@@ -53,7 +60,10 @@ def full_graph(seed: int) -> Tableau:
         return fmpq(dice.choice([-3, -2, -1, 1, 2, 3]), dice.randint(1, 4))
 
     A = [
-        [tuple(tuple(samples.small(dice) for _ in range(s)) for _ in range(r)) for s in stages]
+        [
+            tuple(tuple(samples.small(dice) for _ in range(s)) for _ in range(r))
+            for s in stages
+        ]
         for r in stages
     ]
     b = [tuple(nonzero() for _ in range(s)) for s in stages]
@@ -73,11 +83,15 @@ def test_twice_is_the_identity_at_points(seed: int) -> None:
     """Conjugated twice, a random tableau is the one it was, block by block."""
     tableau = full_graph(seed)
     assert conjugate(conjugate(tableau)) == tableau
-    assert set(tableau.blocks) == {(l, m) for l in range(tableau.size) for m in range(tableau.size)}
+    assert set(tableau.blocks) == {
+        (l, m) for l in range(tableau.size) for m in range(tableau.size)
+    }
 
 
 @given(st.tuples(FAMILIES, FAMILIES), seeds)
-def test_twice_is_the_identity_in_polynomials(names: tuple[str, str], seed: int) -> None:
+def test_twice_is_the_identity_in_polynomials(
+    names: tuple[str, str], seed: int
+) -> None:
     """The same in ℚ[x]/(M), and between such a space and a space of points."""
     tableau = mixed(names, seed)
     assert conjugate(conjugate(tableau)) == tableau
@@ -150,7 +164,9 @@ def assert_exchanged(Q: Tableau) -> None:
 
 
 @given(st.tuples(FAMILIES, FAMILIES), st.sampled_from(sorted(RULES)))
-def test_conjugation_exchanges_stage_order_and_d(names: tuple[str, str], rule: str) -> None:
+def test_conjugation_exchanges_stage_order_and_d(
+    names: tuple[str, str], rule: str
+) -> None:
     """C and D change places under conjugation, for every pair of families and every rule."""
     assert_exchanged(samples.everywhere(RULES[rule], *names))
 
@@ -172,7 +188,9 @@ def test_renumbering_commutes_with_everything(seed: int) -> None:
     difference.
     """
     dice = Random(seed)
-    tableau = samples.everywhere(collocation, "gauss 2", "lobatto-iiia 3", "radau-iia 2")
+    tableau = samples.everywhere(
+        collocation, "gauss 2", "lobatto-iiia 3", "radau-iia 2"
+    )
     tableau = samples.with_perturbed_block(tableau, dice)
     permutation = dice.sample(range(3), 3)
     other = samples.renumbered(tableau, permutation)
@@ -189,7 +207,9 @@ def test_renumbering_commutes_with_everything(seed: int) -> None:
 
 
 @given(seeds, st.sampled_from([full_graph, *SPELLED.values()]))
-def test_numbering_of_stages_does_not_matter(seed: int, make: Callable[[int], Tableau]) -> None:
+def test_numbering_of_stages_does_not_matter(
+    seed: int, make: Callable[[int], Tableau]
+) -> None:
     """Stages in another order: the same order, B, C and D, and the same order of the pair where it
     exists.
     """
@@ -223,7 +243,10 @@ def test_symplecticity_divides_by_no_weight() -> None:
 def test_a_structure_divides_by_fewer_weights() -> None:
     """Separable: only the weights of the velocities need to be nonzero."""
     methods = [samples.method("gauss 2"), samples.method("explicit-midpoint")]
-    Q = gark(methods, {(0, 1): collocation(*methods), (1, 0): collocation(methods[1], methods[0])})
+    Q = gark(
+        methods,
+        {(0, 1): collocation(*methods), (1, 0): collocation(methods[1], methods[0])},
+    )
     assert is_symplectic(symplectic_pair(Q, [0], [1]))
     with pytest.raises(ZeroWeight, match="colour 2"):
         symplectic_pair(Q, [1], [0])
@@ -245,7 +268,9 @@ def test_pair_of_a_partitioned_method_keeps_its_positions() -> None:
     )
     assert is_symplectic(stormer)
     assert pair(stormer) == stormer
-    broken = replace(stormer, blocks={**stormer.blocks, (0, 1): ((fmpq(1, 3), fmpq(1, 6)),)})
+    broken = replace(
+        stormer, blocks={**stormer.blocks, (0, 1): ((fmpq(1, 3), fmpq(1, 6)),)}
+    )
     assert not is_symplectic(broken)
     assert pair(broken) == stormer
     assert find_order(stormer).order == 2
@@ -273,7 +298,11 @@ def test_one_block_by_hand() -> None:
 
 
 @pytest.mark.parametrize(
-    "make", [lambda: samples.without_cycles(), lambda: samples.one_way("gauss 2", "radau-iia 2")]
+    "make",
+    [
+        lambda: samples.without_cycles(),
+        lambda: samples.one_way("gauss 2", "radau-iia 2"),
+    ],
 )
 def test_edges_turn_round(make: Callable[[], Tableau]) -> None:
     """Colour l of the conjugate sees colour m where m saw l."""
@@ -283,7 +312,9 @@ def test_edges_turn_round(make: Callable[[], Tableau]) -> None:
 
 
 @given(FAMILIES, FAMILIES, seeds)
-def test_the_form_of_a_block_is_the_weights_of_products(here: str, there: str, seed: int) -> None:
+def test_the_form_of_a_block_is_the_weights_of_products(
+    here: str, there: str, seed: int
+) -> None:
     """In every stage space the entries of ``form`` are b(e_i ⊙ A e_j)."""
     tableau = mixed((here, there), seed)
     for l, m in tableau.edges():
@@ -302,11 +333,16 @@ def test_the_form_of_a_block_is_the_weights_of_products(here: str, there: str, s
         (("1/2", "0", "1/2"), "which is 0 at the node 1/2"),
         (("1", "0", "-1"), "which is 0 at the node 1/2"),
         (("0", "1", "0"), "which are 0 at the nodes where x^2 + (-1)*x = 0"),
-        (("0", "0", "0"), "which are 0 at the nodes where x^3 + (-3/2)*x^2 + 1/2*x = 0"),
+        (
+            ("0", "0", "0"),
+            "which are 0 at the nodes where x^3 + (-3/2)*x^2 + 1/2*x = 0",
+        ),
         (("0", "sqrt(2)", "1"), "one of which is 0"),
     ],
 )
-def test_zero_weights_in_a_polynomial_space(weights: tuple[str, ...], words: str) -> None:
+def test_zero_weights_in_a_polynomial_space(
+    weights: tuple[str, ...], words: str
+) -> None:
     """The nodes 0, 1/2, 1 without weight are named, though no coordinate of the functional is
     theirs.
     """
@@ -316,7 +352,10 @@ def test_zero_weights_in_a_polynomial_space(weights: tuple[str, ...], words: str
     b = tuple(dot(values, tuple(c**k for c in nodes)) for k in range(3))
     with pytest.raises(ZeroWeight) as caught:
         conjugate_block(identity(3), space, b, space, b)
-    assert caught.value.message == f"the symplectic conjugate divides by the weights b, {words}"
+    assert (
+        caught.value.message
+        == f"the symplectic conjugate divides by the weights b, {words}"
+    )
 
 
 def test_zero_weights_at_points() -> None:

@@ -56,7 +56,9 @@ NODES_OF = {
 }
 names = st.sampled_from(sorted(NODES_OF))
 seeds = st.integers(0, 10**6)
-rationals = st.fractions(-9, 9, max_denominator=12).map(lambda x: fmpq(x.numerator, x.denominator))
+rationals = st.fractions(-9, 9, max_denominator=12).map(
+    lambda x: fmpq(x.numerator, x.denominator)
+)
 
 
 def both_models(one: str, other: str, seed: int) -> tuple[Tableau, Tableau]:
@@ -69,7 +71,9 @@ def both_models(one: str, other: str, seed: int) -> tuple[Tableau, Tableau]:
 
 
 @given(names, names, seeds)
-def test_order_and_simplifying_conditions_agree(one: str, other: str, seed: int) -> None:
+def test_order_and_simplifying_conditions_agree(
+    one: str, other: str, seed: int
+) -> None:
     """Orders, B, C and D in polynomials are those of the entries, computed componentwise over
     ℚ(√3).
     """
@@ -124,7 +128,9 @@ def test_evaluation_is_a_homomorphism(nodes: list[fmpq], data: st.DataObject) ->
     assert at_nodes(space.one) == points.one
     assert at_nodes(space.nodes) == points.nodes
     assert at_nodes(space.power(u, 3)) == points.power(at_nodes(u), 3)
-    unit = [tuple(fmpq(int(i == j)) for j in range(len(nodes))) for i in range(len(nodes))]
+    unit = [
+        tuple(fmpq(int(i == j)) for j in range(len(nodes))) for i in range(len(nodes))
+    ]
     b = tuple(functional(e) for e in unit)
     assert space.times(b, v) == tuple(functional(space.product(v, e)) for e in unit)
     assert space.gram(b) == tuple(
@@ -149,7 +155,9 @@ def test_functionals_with_radicals() -> None:
             assert space.times(functional, f) == tuple(
                 dot(functional, space.product(f, e)) for e in unit
             )
-        rows = tuple(tuple(dot(functional, space.product(e, f)) for f in unit) for e in unit)
+        rows = tuple(
+            tuple(dot(functional, space.product(e, f)) for f in unit) for e in unit
+        )
         assert space.gram(functional) == rows
 
 
@@ -189,7 +197,9 @@ def test_nodes_are_as_precise_as_asked() -> None:
     for bits in (300, 60, 300):
         with ctx.workprec(bits):
             V, W = powers_of_nodes(space), coordinates_at_nodes(space)
-            assert all((V * W)[i, j].contains(int(i == j)) for i in range(7) for j in range(7))
+            assert all(
+                (V * W)[i, j].contains(int(i == j)) for i in range(7) for j in range(7)
+            )
             assert bits - 4 < V[3, 1].rel_accuracy_bits() < bits + 4
     with ctx.workprec(16), pytest.raises(ZeroDivisionError):
         coordinates_at_nodes(diagonal_method("gauss", 40).space)
@@ -212,14 +222,19 @@ def test_adjoint(nodes: list[fmpq], data: st.DataObject) -> None:
     modulus = fmpq_poly([1])
     for c in nodes:
         modulus *= fmpq_poly([-c, 1])
-    here = data.draw(st.sampled_from([PolynomialSpace(modulus), PointSpace(tuple(nodes))]))
+    here = data.draw(
+        st.sampled_from([PolynomialSpace(modulus), PointSpace(tuple(nodes))])
+    )
     source = samples.method("gauss 2").space
     s = len(nodes)
     nonzero = rationals.filter(bool)
     b = data.draw(st.tuples(*[nonzero] * s))
     b_source = samples.method("gauss 2").b
     A = data.draw(st.tuples(*[st.tuples(rationals, rationals)] * s))
-    f, g = data.draw(st.tuples(rationals, rationals)), data.draw(st.tuples(*[rationals] * s))
+    f, g = (
+        data.draw(st.tuples(rationals, rationals)),
+        data.draw(st.tuples(*[rationals] * s)),
+    )
     adjoint = here.adjoint(A, b, source, b_source)
     left = here.product(apply(A, f), g)
     right = source.product(f, apply(adjoint, g))
@@ -239,14 +254,19 @@ def test_nodes_beyond_the_largest_field_are_decimals() -> None:
         diagonal_method("lobatto-iiia", 4),
     ]
     blocks = {
-        (l, m): collocation(methods[l], methods[m]) for l in range(3) for m in range(3) if l != m
+        (l, m): collocation(methods[l], methods[m])
+        for l in range(3)
+        for m in range(3)
+        if l != m
     }
     tableau = gark(methods, blocks)
     assert in_points(tableau) is None
     found = entries(tableau, 20)
     assert not found.is_exact
     assert found.A[0][0] is not None
-    assert abs(float(found.A[0][0][0][0]) - (2**0.5 + 7**0.5 + 11**0.5 + 13**0.5)) < 1e-12
+    assert (
+        abs(float(found.A[0][0][0][0]) - (2**0.5 + 7**0.5 + 11**0.5 + 13**0.5)) < 1e-12
+    )
     assert abs(float(found.c[2][1]) - (0.5 - 5**0.5 / 10)) < 1e-12
 
 
@@ -289,7 +309,8 @@ def test_printing_mixes_the_fields_of_nodes_and_coefficients() -> None:
 
 
 @pytest.mark.parametrize(
-    "names", [("gauss 3", "radau-iia 2"), ("lobatto-iiia 4", "gauss 2"), ("radau-ia 3",)]
+    "names",
+    [("gauss 3", "radau-iia 2"), ("lobatto-iiia 4", "gauss 2"), ("radau-ia 3",)],
 )
 def test_numeric_entries_enclose_the_exact_ones(names: tuple[str, ...]) -> None:
     """Enclosures hold the exact entries, are as narrow as asked, and are in ascending order of the
@@ -307,7 +328,9 @@ def test_numeric_entries_enclose_the_exact_ones(names: tuple[str, ...]) -> None:
             assert_enclosed(exact.A[l][m] or (), numeric.A[l][m] or ())
 
 
-def assert_enclosed(exact: Sequence[Sequence[Cell]], enclosures: Sequence[Sequence[Cell]]) -> None:
+def assert_enclosed(
+    exact: Sequence[Sequence[Cell]], enclosures: Sequence[Sequence[Cell]]
+) -> None:
     """Each ball is narrow and meets a much narrower ball around the exact number."""
     assert len(exact) == len(enclosures) > 0
     for row, balls in zip(exact, enclosures, strict=True):

@@ -46,7 +46,9 @@ NAMES = [
     "kutta",
 ]
 names = st.sampled_from(NAMES)
-rationals = st.fractions(-5, 5, max_denominator=9).map(lambda x: fmpq(x.numerator, x.denominator))
+rationals = st.fractions(-5, 5, max_denominator=9).map(
+    lambda x: fmpq(x.numerator, x.denominator)
+)
 
 
 @st.composite
@@ -56,7 +58,11 @@ def point_methods(draw: st.DrawFn) -> Method:
     c = draw(st.lists(rationals, min_size=s, max_size=s, unique=True))
     b = draw(st.lists(rationals.filter(bool), min_size=s, max_size=s))
     A = draw(
-        st.lists(st.lists(rationals, min_size=s, max_size=s).map(tuple), min_size=s, max_size=s)
+        st.lists(
+            st.lists(rationals, min_size=s, max_size=s).map(tuple),
+            min_size=s,
+            max_size=s,
+        )
     )
     return butcher(tuple(A), tuple(b), tuple(c))
 
@@ -69,7 +75,9 @@ def integral(f: Vector, x: fmpq) -> fmpq:
 @given(point_methods(), point_methods())
 def test_collocation_is_its_definition(l: Method, m: Method) -> None:
     """Eq. (coll): a_ij = ∫_0^{c_i} L_j, entry by entry."""
-    wanted = tuple(tuple(integral(lagrange(m.c, j), c) for j in range(m.stages)) for c in l.c)
+    wanted = tuple(
+        tuple(integral(lagrange(m.c, j), c) for j in range(m.stages)) for c in l.c
+    )
     assert collocation(l, m) == wanted
 
 
@@ -78,7 +86,10 @@ def test_interpolation_is_its_definition(l: Method, m: Method) -> None:
     """Eq. (interp): L^{m}(c^{l}) A^{m,m}, entry by entry."""
     L = tuple(tuple(value(lagrange(m.c, j), c) for j in range(m.stages)) for c in l.c)
     wanted = tuple(
-        tuple(sum((x * m.A[k][j] for k, x in enumerate(row)), fmpq(0)) for j in range(m.stages))
+        tuple(
+            sum((x * m.A[k][j] for k, x in enumerate(row)), fmpq(0))
+            for j in range(m.stages)
+        )
         for row in L
     )
     assert interpolation(l, m) == wanted
@@ -120,12 +131,18 @@ def test_combinations_integrate_low_degrees(l: str, m: str, tau: fmpq) -> None:
     """
     here, there = samples.method(l), samples.method(m)
     block = combination([(tau, interpolation), (1 - tau, collocation)], here, there)
-    if not isinstance(here.space, PolynomialSpace) or not isinstance(there.space, PolynomialSpace):
+    if not isinstance(here.space, PolynomialSpace) or not isinstance(
+        there.space, PolynomialSpace
+    ):
         return
     for k in range(min(there.stages - 1, _stage_order(there))):
         power = tuple(fmpq(int(i == k)) for i in range(there.stages))
-        integral_of_it = fmpq_poly([0] * (k + 1) + [fmpq(1, k + 1)]) % here.space.modulus
-        assert image(block, power) == tuple(integral_of_it[i] for i in range(here.stages))
+        integral_of_it = (
+            fmpq_poly([0] * (k + 1) + [fmpq(1, k + 1)]) % here.space.modulus
+        )
+        assert image(block, power) == tuple(
+            integral_of_it[i] for i in range(here.stages)
+        )
 
 
 def _stage_order(method: Method) -> int:
@@ -139,7 +156,9 @@ def test_stage_order_does_not_depend_on_tau(l: str, m: str, tau: fmpq) -> None:
     """The corollary: C^{l,m}(min(η^{m,m}, s_m − 1)) holds for every τ, and beyond it for τ alone
     where it does.
     """
-    tableau = samples.everywhere(samples.mixture(str(1 - tau), str(tau), "0", "0"), l, m)
+    tableau = samples.everywhere(
+        samples.mixture(str(1 - tau), str(tau), "0", "0"), l, m
+    )
     found = simplifying(tableau, 10).C
     for k, n in ((0, 1), (1, 0)):
         own, mixed = found[n][n], found[k][n]
@@ -167,9 +186,13 @@ def test_rules_differ_where_the_method_is_no_collocation_method() -> None:
 
 
 @given(
-    st.sampled_from(NAMES[:-1]), st.sampled_from(NAMES[:-1]), st.sampled_from(sorted(PAIR_RULES))
+    st.sampled_from(NAMES[:-1]),
+    st.sampled_from(NAMES[:-1]),
+    st.sampled_from(sorted(PAIR_RULES)),
 )
-def test_symplectic_blocks_are_conjugate_to_each_other(base: str, other: str, rule: str) -> None:
+def test_symplectic_blocks_are_conjugate_to_each_other(
+    base: str, other: str, rule: str
+) -> None:
     """A^{other,base} is by the rule, and conjugating the tableau leaves both off-diagonal blocks as
     they are.
     """
@@ -193,7 +216,9 @@ SYMPLECTIC = [
 
 @pytest.mark.parametrize("rule", PAIR_RULES)
 @pytest.mark.parametrize("names", SYMPLECTIC)
-def test_symplectic_rules_keep_the_smaller_order(rule: str, names: tuple[str, str]) -> None:
+def test_symplectic_rules_keep_the_smaller_order(
+    rule: str, names: tuple[str, str]
+) -> None:
     """Built on the method of smaller order, Q and its pair have the smaller of the two orders."""
     methods = [samples.method(name) for name in names]
     orders = [find_order(gark([method], {})).order for method in methods]
@@ -207,7 +232,10 @@ def test_what_a_symplectic_rule_builds_on() -> None:
     """Smaller order first, then fewer stages, then the lower number, whichever way round it is
     asked.
     """
-    methods = [samples.method(name) for name in ("lobatto-iiia 3", "gauss 2", "gauss 1", "gauss 2")]
+    methods = [
+        samples.method(name)
+        for name in ("lobatto-iiia 3", "gauss 2", "gauss 1", "gauss 2")
+    ]
     orders = [4, 4, 2, 4]
     assert build_on(methods, orders, 0, 2) == build_on(methods, orders, 2, 0) == 2
     assert build_on(methods, orders, 0, 1) == build_on(methods, orders, 1, 0) == 1
@@ -232,7 +260,10 @@ def test_zero_weights() -> None:
     assert len(block) == 2
     with pytest.raises(ZeroWeight):
         symplectic_blocks(collocation, [midpoint, gauss], 0, 1)
-    assert set(symplectic_blocks(collocation, [gauss, midpoint], 0, 1)) == {(0, 1), (1, 0)}
+    assert set(symplectic_blocks(collocation, [gauss, midpoint], 0, 1)) == {
+        (0, 1),
+        (1, 0),
+    }
 
 
 def test_every_rule_has_its_line() -> None:
@@ -263,7 +294,9 @@ def at_nodes(c: Vector) -> Method:
     return butcher(A, (fmpq(1, s),) * s, c)
 
 
-@pytest.mark.parametrize("nodes", ["0, sqrt(2), 1, 1/3", "cbrt(2), 1 - cbrt(2), sqrt(3)"])
+@pytest.mark.parametrize(
+    "nodes", ["0, sqrt(2), 1, 1/3", "cbrt(2), 1 - cbrt(2), sqrt(3)"]
+)
 def test_collocation_at_irrational_nodes_is_its_definition(nodes: str) -> None:
     """Eq. (coll) where the nodes lie in a number field, at rational and at these nodes."""
     (c,) = numbers(nodes)
@@ -311,9 +344,15 @@ def test_what_would_fill_the_memory_is_refused() -> None:
     """400 unrelated nodes are refused by an estimate, in a moment, with the reason and a cure."""
     m, l = at_nodes(unrelated_nodes(400, 10**40)), samples.method("gauss 2")
     start = process_time()
-    rules = [(collocation, l, m), (interpolation, l, m), (conjugate_rule(collocation), m, l)]
+    rules = [
+        (collocation, l, m),
+        (interpolation, l, m),
+        (conjugate_rule(collocation), m, l),
+    ]
     for rule, here, there in rules:
-        with pytest.raises(BlockTooLarge, match=r"400 nodes .* digits: too large") as caught:
+        with pytest.raises(
+            BlockTooLarge, match=r"400 nodes .* digits: too large"
+        ) as caught:
             rule(here, there)
         assert "small denominators" in caught.value.help
     assert process_time() - start < 60

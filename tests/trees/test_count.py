@@ -90,8 +90,17 @@ def one_by_one(admissible: Admissible, order: int) -> list[tuple[int, ...]]:
     for n in range(1, order):
         grown = []
         for colour in colours:
-            t = [0, *(sum(forests[m][k] for m in admissible.branches[colour]) for k in range(n))]
-            c = [sum(d * t[d] for d in range(1, k + 1) if k % d == 0) for k in range(n + 1)]
+            t = [
+                0,
+                *(
+                    sum(forests[m][k] for m in admissible.branches[colour])
+                    for k in range(n)
+                ),
+            ]
+            c = [
+                sum(d * t[d] for d in range(1, k + 1) if k % d == 0)
+                for k in range(n + 1)
+            ]
             total = sum(c[k] * forests[colour][n - k] for k in range(1, n + 1))
             assert colour in admissible.linear or total % n == 0
             grown.append(t[n] if colour in admissible.linear else total // n)
@@ -100,7 +109,12 @@ def one_by_one(admissible: Admissible, order: int) -> list[tuple[int, ...]]:
     return [tuple(f[n] for f in forests) for n in range(order)]
 
 
-@given(data=st.data(), colours=st.integers(1, 3), order=st.integers(1, 30), short=st.integers(1, 7))
+@given(
+    data=st.data(),
+    colours=st.integers(1, 3),
+    order=st.integers(1, 30),
+    short=st.integers(1, 7),
+)
 @settings(max_examples=60, deadline=None)
 def test_blocks_make_no_difference(
     data: st.DataObject, colours: int, order: int, short: int

@@ -37,7 +37,9 @@ def test_lying_where_there_is_no_room() -> None:
     """Too wide a tree is drawn on its side, one vertex a line."""
     u = parse_tree("[[[]_3,[]_4]_5,[]_8]_2")
     assert draw_text(u, width=7) == ["●2", "├─●5", "│ ├─●3", "│ ╰─●4", "╰─●8"]
-    assert draw_text(Tree(0, [Tree(0)] * 40), colours=False, width=80)[0] == " ".join(["●"] * 40)
+    assert draw_text(Tree(0, [Tree(0)] * 40), colours=False, width=80)[0] == " ".join(
+        ["●"] * 40
+    )
     assert len(draw_text(Tree(0, [Tree(0)] * 41), colours=False, width=80)) == 42
 
 
@@ -48,7 +50,9 @@ def test_every_vertex_is_drawn(tree: Tree) -> None:
     """
     for width in (80, 1):
         lines = draw_text(tree, width=width)
-        found = sorted(int(number) - 1 for number in re.findall(r"●(\d+)", "\n".join(lines)))
+        found = sorted(
+            int(number) - 1 for number in re.findall(r"●(\d+)", "\n".join(lines))
+        )
         assert found == sorted(u.root for u in tree.vertices())
         assert max(map(len, lines)) <= 80
     assert "\n".join(draw_text(tree, colours=False)).count("●") == tree.order
@@ -104,7 +108,9 @@ def test_svg_sheet_of_nothing() -> None:
 def luminance(colour: str) -> float:
     """Relative luminance of the Web Content Accessibility Guidelines 2.1."""
     channels = [int(colour[i : i + 2], 16) / 255 for i in (1, 3, 5)]
-    linear = [c / 12.92 if c <= 0.03928 else ((c + 0.055) / 1.055) ** 2.4 for c in channels]
+    linear = [
+        c / 12.92 if c <= 0.03928 else ((c + 0.055) / 1.055) ** 2.4 for c in channels
+    ]
     return 0.2126 * linear[0] + 0.7152 * linear[1] + 0.0722 * linear[2]
 
 

@@ -14,7 +14,12 @@ from flint import fmpq
 
 from garkcli.exact.matrix import Matrix, add, scale
 from garkcli.families.registry import diagonal_method
-from garkcli.order.conditions import Condition, conditions, coupling_graph, elementary_weight
+from garkcli.order.conditions import (
+    Condition,
+    conditions,
+    coupling_graph,
+    elementary_weight,
+)
 from garkcli.tableau.conjugate import conjugate, is_symplectic
 from garkcli.tableau.forms import gark, pair, spelled_out, symplectic_pair, with_linear
 from garkcli.tableau.tableau import Tableau
@@ -75,13 +80,18 @@ def random_method(kind: Kind, colours: int, seed: int) -> Tableau:
         return tuple(tuple(number() for _ in range(columns)) for _ in range(rows))
 
     free = spelled_out(
-        [[block(r, k) for k in s] for r in s], [block(1, k)[0] for k in s], [None] * colours
+        [[block(r, k) for k in s] for r in s],
+        [block(1, k)[0] for k in s],
+        [None] * colours,
     )
     if kind == "pair":
         return pair(free)
     if kind == "self-conjugate":
         other = conjugate(free).blocks
-        means = {edge: scale(fmpq(1, 2), add(A, other[edge])) for edge, A in free.blocks.items()}
+        means = {
+            edge: scale(fmpq(1, 2), add(A, other[edge]))
+            for edge, A in free.blocks.items()
+        }
         return replace(free, blocks=means)
     if kind == "semi-separable":
         return symplectic_pair(free, [0], [0, 1])
@@ -126,7 +136,9 @@ def test_the_documented_counts() -> None:
     assert {row[0] for row in counts} == set(KINDS)
     for kind in KINDS:
         for colours, *shown in (map(int, row[1:]) for row in counts if row[0] == kind):
-            assert shown == [count_classes(structure_of(kind, colours), n) for n in range(1, 9)]
+            assert shown == [
+                count_classes(structure_of(kind, colours), n) for n in range(1, 9)
+            ]
 
 
 @listed
@@ -158,7 +170,9 @@ def test_members_partition_the_trees(kind: Structure, highest: int) -> None:
     table = TreeTable.of(kind.admissible, highest)
     for order in range(1, highest + 1):
         members = [u for c in classes(kind, order) for u in c.members]
-        assert sorted(members, key=Tree.sort_key) == [table.tree(i) for i in table.ids(order)]
+        assert sorted(members, key=Tree.sort_key) == [
+            table.tree(i) for i in table.ids(order)
+        ]
 
 
 @listed
@@ -184,7 +198,10 @@ def test_superfluous_is_said(kind: Structure, highest: int) -> None:
 def test_superfluous_by_hand() -> None:
     """With one colour the superfluous trees of order 4 are the two rootings of the path."""
     (path,) = superfluous_classes(structure_of("self-conjugate", 1), 4)
-    assert [format_tree(u, colours=False) for u in path.members] == ["[[[]],[]]", "[[[[]]]]"]
+    assert [format_tree(u, colours=False) for u in path.members] == [
+        "[[[]],[]]",
+        "[[[[]]]]",
+    ]
 
 
 def test_a_class_by_hand() -> None:
@@ -209,8 +226,12 @@ def test_the_structure_is_that_of_the_tableau(kind: Kind, seed: int) -> None:
         tuple(m for m in range(tableau.size) if row[m]) for row in edges
     )
     assert admissible.linear == linear
-    quadratic = frozenset(colour.space for colour in tableau.colours if colour.is_linear)
-    told = Structure(tuple((colour.space, colour.part) for colour in tableau.colours), quadratic)
+    quadratic = frozenset(
+        colour.space for colour in tableau.colours if colour.is_linear
+    )
+    told = Structure(
+        tuple((colour.space, colour.part) for colour in tableau.colours), quadratic
+    )
     assert told.admissible == admissible
     assert count_classes(told, 6) == count_classes(structure_of(kind), 6)
 
@@ -238,15 +259,20 @@ def test_moving_the_root(kind: Kind, colours: int, order: int, seed: int) -> Non
     formal = replace(structure_of(kind, colours), quadratic=frozenset())
     method = random_method(kind, colours, seed)
     method = replace(
-        method, colours=tuple(replace(colour, is_linear=False) for colour in method.colours)
+        method,
+        colours=tuple(replace(colour, is_linear=False) for colour in method.colours),
     )
-    for tree in (u for n in range(2, order + 1) for c in classes(formal, n) for u in c.members):
+    for tree in (
+        u for n in range(2, order + 1) for c in classes(formal, n) for u in c.members
+    ):
         for index, v in enumerate(tree.branches):
             u = Tree(tree.root, tree.branches[:index] + tree.branches[index + 1 :])
             moved = formal.move_root(tree, index)
             values = [elementary_weight(method, x) for x in (tree, moved, u, v)]
             assert values[0] + values[1] == values[2] * values[3]
-            assert fmpq(1, tree.density) + fmpq(1, moved.density) == fmpq(1, u.density * v.density)
+            assert fmpq(1, tree.density) + fmpq(1, moved.density) == fmpq(
+                1, u.density * v.density
+            )
 
 
 def lobatto_pair() -> Tableau:

@@ -41,7 +41,9 @@ class Dual:
         return Dual((constant - self.value) % P, -self.slope % P)
 
     def __mul__(self, other: Dual) -> Dual:
-        slope = self.value[..., None] * other.slope + other.value[..., None] * self.slope
+        slope = (
+            self.value[..., None] * other.slope + other.value[..., None] * self.slope
+        )
         return Dual(self.value * other.value % P, slope % P)
 
     def __getitem__(self, index: Any) -> Dual:
@@ -49,7 +51,9 @@ class Dual:
 
     def inverse(self) -> Dual:
         """One over each entry."""
-        inverse = np.vectorize(lambda x: pow(int(x), -1, P), otypes=[np.int64])(self.value)
+        inverse = np.vectorize(lambda x: pow(int(x), -1, P), otypes=[np.int64])(
+            self.value
+        )
         return Dual(inverse, -(inverse * inverse % P)[..., None] * self.slope % P)
 
     def total(self) -> Dual:
@@ -85,7 +89,9 @@ class Method:
     blocks: dict[tuple[int, int], Dual]
 
 
-def pair_method(made: Structure, stages: dict[int, int], coefficients: Coefficients) -> Method:
+def pair_method(
+    made: Structure, stages: dict[int, int], coefficients: Coefficients
+) -> Method:
     """A random symplectic pair: free A^{l,m} and b^l, conjugate Â^{l,m}."""
     weights = {term: coefficients.new(s) for term, s in stages.items()}
     forward: dict[tuple[int, int], Dual] = {}
@@ -120,7 +126,8 @@ def self_conjugate_method(
     b = coefficients.new(size)
     upper = coefficients.new(size * (size - 1) // 2)
     z = Dual(
-        np.zeros((size, size), np.int64), np.zeros((size, size, upper.slope.shape[-1]), np.int64)
+        np.zeros((size, size), np.int64),
+        np.zeros((size, size, upper.slope.shape[-1]), np.int64),
     )
     above = np.triu_indices(size, 1)
     z.value[above], z.slope[above] = upper.value, upper.slope
@@ -128,7 +135,9 @@ def self_conjugate_method(
     A = (1 - (half - z + z.transposed())) * b[None]
     parts = [slice(start, end) for start, end in pairwise(ends)]
     blocks = {
-        (l, m): A[here, there] for l, here in enumerate(parts) for m, there in enumerate(parts)
+        (l, m): A[here, there]
+        for l, here in enumerate(parts)
+        for m, there in enumerate(parts)
     }
     return Method([b[parts[term]] for term, _ in made.colours], blocks)
 
@@ -231,5 +240,9 @@ def test_without_symplecticity_the_rank_is_larger() -> None:
     roots, not 13.
     """
     coefficients = Coefficients(4, 7 + 2 * 49)
-    jacobian_of_all = jacobian(free_partitioned_method(7, coefficients), TreeTable.upto(2, 4))
-    assert rank(jacobian_of_all) == sum(count_trees(2, n) for n in range(1, 5)) // 2 == 36
+    jacobian_of_all = jacobian(
+        free_partitioned_method(7, coefficients), TreeTable.upto(2, 4)
+    )
+    assert (
+        rank(jacobian_of_all) == sum(count_trees(2, n) for n in range(1, 5)) // 2 == 36
+    )

@@ -19,7 +19,11 @@ def partitions(n: int, largest: int) -> list[list[int]]:
     """The partitions of n into parts of at most ``largest``."""
     if n == 0:
         return [[]]
-    return [[k, *rest] for k in range(min(n, largest), 0, -1) for rest in partitions(n - k, k)]
+    return [
+        [k, *rest]
+        for k in range(min(n, largest), 0, -1)
+        for rest in partitions(n - k, k)
+    ]
 
 
 @cache
@@ -35,7 +39,8 @@ def brute_force(colours: int, order: int) -> frozenset[Tree]:
         ]
         for groups in product(*choices):
             found.update(
-                Tree(root, [u for group in groups for u in group]) for root in range(colours)
+                Tree(root, [u for group in groups for u in group])
+                for root in range(colours)
             )
     return frozenset(found)
 
@@ -67,7 +72,9 @@ def test_every_tree_once(colours: int, order: int) -> None:
     assert table.root.tolist() == [u.root for u in trees]
 
 
-@pytest.mark.parametrize(("colours", "order"), [(1, 14), (2, 9), (3, 8), (4, 7), (5, 6)])
+@pytest.mark.parametrize(
+    ("colours", "order"), [(1, 14), (2, 9), (3, 8), (4, 7), (5, 6)]
+)
 def test_labelled_trees_add_up(colours: int, order: int) -> None:
     """Σ n!/(σ γ) over the trees of order n is Nⁿ (n - 1)!, the number of increasing labelled
     N-trees.
@@ -108,7 +115,17 @@ def test_nystrom_trees() -> None:
     branch.
     """
     table = TreeTable.upto(2, 9, [[False, True], [True, False]], linear=[0])
-    assert [len(table.ids(n, root=1)) for n in range(1, 10)] == [1, 1, 2, 3, 6, 10, 20, 36, 72]
+    assert [len(table.ids(n, root=1)) for n in range(1, 10)] == [
+        1,
+        1,
+        2,
+        3,
+        6,
+        10,
+        20,
+        36,
+        72,
+    ]
 
 
 @pytest.mark.parametrize("colours", [True, False])
@@ -118,7 +135,9 @@ def test_notation_of_many_trees(colours: bool) -> None:
     """
     table = TreeTable.upto(2, 7)
     some = np.arange(len(table))[::-7]
-    assert table.notation(some, colours) == [format_tree(table.tree(int(i)), colours) for i in some]
+    assert table.notation(some, colours) == [
+        format_tree(table.tree(int(i)), colours) for i in some
+    ]
     everything = [format_tree(table.tree(i), colours) for i in range(len(table))]
     assert table.notation(range(len(table)), colours) == everything
     assert table.notation([], colours) == []
@@ -154,12 +173,15 @@ def test_columns_are_read_only() -> None:
 def test_too_large_a_table_is_refused_at_once() -> None:
     """More than MAX_TREES trees are counted, not made."""
     with pytest.raises(
-        TableTooLarge, match=rf"more than 10\^28 trees of order up to 30 .*limit {MAX_TREES}"
+        TableTooLarge,
+        match=rf"more than 10\^28 trees of order up to 30 .*limit {MAX_TREES}",
     ):
         TreeTable.upto(4, 30)
     total = sum(map(sum, counts_upto(Admissible.of(4), 30)))
     assert 10**28 < total < 10**29
-    with pytest.raises(TableTooLarge, match="196268698287 trees of order up to 29 with 1 colour "):
+    with pytest.raises(
+        TableTooLarge, match="196268698287 trees of order up to 29 with 1 colour "
+    ):
         TreeTable.upto(1, 29)
 
 

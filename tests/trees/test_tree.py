@@ -33,7 +33,11 @@ def test_the_order_of_branches_does_not_matter(tree: Tree, dice: random.Random) 
     other = shuffled(tree)
     assert other == tree
     assert hash(other) == hash(tree)
-    assert (other.symmetry, other.density, other.order) == (tree.symmetry, tree.density, tree.order)
+    assert (other.symmetry, other.density, other.order) == (
+        tree.symmetry,
+        tree.density,
+        tree.order,
+    )
 
 
 @given(trees)
