@@ -59,17 +59,19 @@ POINTS = st.tuples(*[st.integers(1, 40).map(lambda k: fmpq(k, 16))] * 3)
 def test_values_are_those_of_sympy(
     expressions: list[Any], point: tuple[fmpq, ...]
 ) -> None:
-    """Several expressions at once, in floats and in 40 digits."""
+    """Several expressions at once, in 40 digits, and in floats where no part of one is large."""
     at = {x: sympy.Rational(int(a.p), int(a.q)) for x, a in zip(X, point, strict=True)}
     expected = [sympy.sympify(f).subs(at).evalf(DIGITS + 10) for f in expressions]
     assume(all(abs(x) < 1e12 for x in expected))
-    floats = function(tuple(map(sympy.sympify, expressions)), X, False)(
-        *(int(a.p) / int(a.q) for a in point)
-    )
     size = max(1.0, *(float(abs(x)) for x in expected))
-    assert floats == pytest.approx(
-        [float(x) for x in expected], rel=1e-9, abs=1e-9 * size
-    )
+    parts = {x for f in expressions for x in sympy.preorder_traversal(sympy.sympify(f))}
+    # the sine of a number of nine digits has half the digits of a float
+    if all(abs(x.subs(at).evalf()) < 1e3 for x in parts):
+        code = function(tuple(map(sympy.sympify, expressions)), X, False)
+        floats = code(*(int(a.p) / int(a.q) for a in point))
+        assert floats == pytest.approx(
+            [float(x) for x in expected], rel=1e-9, abs=1e-9 * size
+        )
     with ctx.workprec(200):
         balls = function(tuple(map(sympy.sympify, expressions)), X, True)(
             *map(arb, point)
