@@ -18,7 +18,8 @@ from garkcli.exact.field import Number
 from garkcli.exact.matrix import Matrix, add, multiply, scale, transpose
 from garkcli.tableau.conjugate import conjugate_block
 from garkcli.tableau.method import Method
-from garkcli.tableau.stages import PointSpace, antiderivative
+from garkcli.tableau.point_space import PointSpace
+from garkcli.tableau.polynomial_space import antiderivative
 
 LOG10_2 = fmpq(30103, 100000)
 """Decimal digits of a bit."""

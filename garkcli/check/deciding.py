@@ -18,7 +18,7 @@ from garkcli.order.certificate import DEFAULT_LIMIT, Order, find_order
 from garkcli.order.simplifying import simplifying
 from garkcli.order.tolerance import TINY, within
 from garkcli.tableau.conjugate import is_symplectic
-from garkcli.tableau.stages import PointSpace
+from garkcli.tableau.point_space import PointSpace
 from garkcli.tableau.tableau import Tableau
 
 if TYPE_CHECKING:

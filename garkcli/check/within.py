@@ -35,7 +35,7 @@ from garkcli.order.simplifying import Simplifying, simplifying
 from garkcli.order.suggestion import suggest_wider
 from garkcli.order.tolerance import TINY, form_entries, rounded_up, within
 from garkcli.tableau.conjugate import symplectic_defect
-from garkcli.tableau.stages import PointSpace
+from garkcli.tableau.point_space import PointSpace
 from garkcli.tableau.tableau import Tableau
 from garkcli.trees.tree import Tree
 

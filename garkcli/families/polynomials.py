@@ -16,7 +16,7 @@ from garkcli.exact.matrix import (
     subtract,
 )
 from garkcli.tableau.method import Method
-from garkcli.tableau.stages import PolynomialSpace, integral, integration
+from garkcli.tableau.polynomial_space import PolynomialSpace, integral, integration
 
 X = fmpq_poly([0, 1])
 

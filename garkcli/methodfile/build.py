@@ -42,7 +42,8 @@ from garkcli.tableau.forms import (
 )
 from garkcli.tableau.garkmethod import GarkMethod
 from garkcli.tableau.method import Method, butcher
-from garkcli.tableau.stages import PolynomialSpace, StageSpace
+from garkcli.tableau.polynomial_space import PolynomialSpace
+from garkcli.tableau.stages import StageSpace
 from garkcli.tableau.tableau import Tableau
 from garkcli.transfer import (
     PAIR_RULES,

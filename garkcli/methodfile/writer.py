@@ -15,8 +15,8 @@ from garkcli.exact.field import Number
 from garkcli.exact.matrix import Matrix, Vector
 from garkcli.methodfile.build import MethodFile
 from garkcli.methodfile.source import Source
+from garkcli.tableau.point_space import PointSpace
 from garkcli.tableau.pointwise import Cell, Entries
-from garkcli.tableau.stages import PointSpace
 from garkcli.tableau.tableau import Tableau
 
 _DROPPED = ("expect", "conjugate", "name", "description")

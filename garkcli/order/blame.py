@@ -20,7 +20,7 @@ from garkcli.order.certificate import find_order
 from garkcli.order.conditions import Condition, conditions
 from garkcli.order.listing import all_conditions, count_conditions
 from garkcli.order.tolerance import within
-from garkcli.tableau.stages import PointSpace
+from garkcli.tableau.point_space import PointSpace
 from garkcli.tableau.tableau import Tableau
 from garkcli.trees.tree import Tree
 

@@ -10,7 +10,7 @@ from __future__ import annotations
 
 from garkcli.exact.field import ONE, ZERO
 from garkcli.exact.matrix import Matrix, Vector
-from garkcli.tableau.stages import PointSpace
+from garkcli.tableau.point_space import PointSpace
 from garkcli.tableau.tableau import Colour, Tableau
 
 TIME = "t"

@@ -19,7 +19,7 @@ from garkcli.order.residuals import Sizes, TreeResiduals
 from garkcli.order.rounded import FEW_TREES, RoundedOrder, find_order_within
 from garkcli.order.tolerance import rounded_up, unnatural, within
 from garkcli.tableau.enclosing import enclose_tableau
-from garkcli.tableau.stages import PointSpace
+from garkcli.tableau.point_space import PointSpace
 from garkcli.tableau.tableau import Tableau
 from garkcli.trees.count import Admissible, counts_upto
 

@@ -12,8 +12,8 @@ from dataclasses import replace
 
 from garkcli.exact.field import ZERO, Number
 from garkcli.exact.matrix import Vector
+from garkcli.tableau.point_space import PointSpace
 from garkcli.tableau.pointwise import in_points
-from garkcli.tableau.stages import PointSpace
 from garkcli.tableau.tableau import Tableau
 
 

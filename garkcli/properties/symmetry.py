@@ -15,7 +15,9 @@ from flint import fmpq_poly
 
 from garkcli.exact.field import ZERO
 from garkcli.exact.matrix import Matrix, add, apply_left, identity, multiply, outer
-from garkcli.tableau.stages import PointSpace, PolynomialSpace, StageSpace
+from garkcli.tableau.point_space import PointSpace
+from garkcli.tableau.polynomial_space import PolynomialSpace
+from garkcli.tableau.stages import StageSpace
 from garkcli.tableau.tableau import Tableau
 
 MOST_RENUMBERINGS = 2000

@@ -12,8 +12,8 @@ from flint import arb, arb_mat, ctx
 
 from garkcli.exact.display import to_ball
 from garkcli.exact.field import Number
+from garkcli.tableau.point_space import PointSpace
 from garkcli.tableau.pointwise import Cell, numeric_entries
-from garkcli.tableau.stages import PointSpace
 from garkcli.tableau.tableau import Tableau
 
 MAX_DIGITS = 300

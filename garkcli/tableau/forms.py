@@ -12,7 +12,7 @@ from garkcli.exact.field import ZERO
 from garkcli.exact.matrix import Matrix, Vector, apply
 from garkcli.tableau.conjugate import conjugate_of
 from garkcli.tableau.method import Method
-from garkcli.tableau.stages import PointSpace
+from garkcli.tableau.point_space import PointSpace
 from garkcli.tableau.tableau import Colour, Part, Tableau
 
 

@@ -6,7 +6,8 @@ from dataclasses import dataclass
 
 from garkcli.exact.field import Number
 from garkcli.exact.matrix import Matrix, Vector, apply
-from garkcli.tableau.stages import PointSpace, StageSpace
+from garkcli.tableau.point_space import PointSpace
+from garkcli.tableau.stages import StageSpace
 
 
 @dataclass(frozen=True)

@@ -22,7 +22,9 @@ from garkcli.exact.expression import Chain, Expression, Literal, Root
 from garkcli.exact.field import ONE, ZERO, Algebraic, Number
 from garkcli.exact.matrix import Matrix, Vector, apply, apply_left, identity, multiply
 from garkcli.tableau.method import Method
-from garkcli.tableau.stages import PointSpace, PolynomialSpace, StageSpace
+from garkcli.tableau.point_space import PointSpace
+from garkcli.tableau.polynomial_space import PolynomialSpace
+from garkcli.tableau.stages import StageSpace
 from garkcli.tableau.tableau import Tableau
 
 Cell: TypeAlias = Number | arb

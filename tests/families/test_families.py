@@ -13,7 +13,7 @@ from garkcli.order.certificate import find_order
 from garkcli.order.simplifying import simplifying
 from garkcli.tableau.conjugate import conjugate, is_symplectic
 from garkcli.tableau.forms import gark
-from garkcli.tableau.stages import PolynomialSpace
+from garkcli.tableau.polynomial_space import PolynomialSpace
 from garkcli.tableau.tableau import Tableau
 from tests.oracles.brute import brute_order
 from tests.oracles.points import method_at, numbers

@@ -14,7 +14,7 @@ from garkcli.exact.expression import parse
 from garkcli.exact.field import Number
 from garkcli.exact.matrix import Matrix, Vector
 from garkcli.tableau.method import Method
-from garkcli.tableau.stages import PointSpace
+from garkcli.tableau.point_space import PointSpace
 from garkcli.tableau.tableau import Tableau
 from tests.oracles.stages import image, pairing
 

@@ -23,7 +23,7 @@ from garkcli.tableau.forms import (
     with_linear,
 )
 from garkcli.tableau.method import Method
-from garkcli.tableau.stages import PointSpace
+from garkcli.tableau.point_space import PointSpace
 from garkcli.tableau.tableau import Colour, Tableau
 from garkcli.transfer import (
     RULES,

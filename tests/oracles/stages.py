@@ -10,7 +10,8 @@ from flint import fmpq
 
 from garkcli.exact.field import Number
 from garkcli.exact.matrix import Matrix, Vector
-from garkcli.tableau.stages import PolynomialSpace, StageSpace
+from garkcli.tableau.polynomial_space import PolynomialSpace
+from garkcli.tableau.stages import StageSpace
 
 
 def one(space: StageSpace) -> Vector:

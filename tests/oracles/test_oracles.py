@@ -10,7 +10,7 @@ from flint import fmpq
 
 from garkcli.families.registry import diagonal_method
 from garkcli.tableau.forms import gark
-from garkcli.tableau.stages import PolynomialSpace
+from garkcli.tableau.polynomial_space import PolynomialSpace
 from tests.oracles import samples
 from tests.oracles.brute import (
     Plain,

@@ -14,7 +14,7 @@ from garkcli.families.registry import diagonal_method
 from garkcli.order.defects import Defects
 from garkcli.order.simplifying import consistent_blocks, simplifying
 from garkcli.tableau.forms import additive
-from garkcli.tableau.stages import MAX_MOMENTS, PolynomialSpace
+from garkcli.tableau.polynomial_space import MAX_MOMENTS, PolynomialSpace
 from garkcli.tableau.tableau import Tableau
 from tests.oracles import samples
 

@@ -24,7 +24,8 @@ from garkcli.tableau.forms import (
     spelled_out,
     symplectic_pair,
 )
-from garkcli.tableau.stages import PointSpace, PolynomialSpace
+from garkcli.tableau.point_space import PointSpace
+from garkcli.tableau.polynomial_space import PolynomialSpace
 from garkcli.tableau.tableau import Tableau
 from garkcli.transfer import RULES, collocation
 from tests.oracles import samples

@@ -22,6 +22,7 @@ from garkcli.order.simplifying import simplifying
 from garkcli.tableau.conjugate import conjugate
 from garkcli.tableau.forms import gark, pair, spelled_out
 from garkcli.tableau.method import butcher
+from garkcli.tableau.point_space import PointSpace
 from garkcli.tableau.pointwise import (
     Cell,
     coordinates_at_nodes,
@@ -30,7 +31,7 @@ from garkcli.tableau.pointwise import (
     numeric_entries,
     powers_of_nodes,
 )
-from garkcli.tableau.stages import PointSpace, PolynomialSpace
+from garkcli.tableau.polynomial_space import PolynomialSpace
 from garkcli.tableau.tableau import Colour, Tableau
 from garkcli.transfer import collocation
 from tests.oracles import samples

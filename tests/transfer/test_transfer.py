@@ -19,7 +19,8 @@ from garkcli.order.simplifying import simplifying
 from garkcli.tableau.conjugate import conjugate
 from garkcli.tableau.forms import gark, pair
 from garkcli.tableau.method import Method, butcher
-from garkcli.tableau.stages import PointSpace, PolynomialSpace
+from garkcli.tableau.point_space import PointSpace
+from garkcli.tableau.polynomial_space import PolynomialSpace
 from garkcli.transfer import (
     PAIR_RULES,
     RULES,

@@ -1,0 +1,196 @@
+"""The stage space K^s: one number a stage."""
+
+from __future__ import annotations
+
+from collections.abc import Iterator, Sequence
+from dataclasses import dataclass
+from functools import cached_property
+from itertools import combinations
+from math import prod
+from typing import cast
+
+from flint import fmpq, fmpq_poly, fmpz
+
+from garkcli.errors import CoincidingNodes
+from garkcli.exact.field import ONE, ZERO, Algebraic, Number
+from garkcli.exact.matrix import (
+    Matrix,
+    SingularMatrixError,
+    Vector,
+    is_rational,
+    transpose,
+)
+from garkcli.tableau.stages import StageSpace, in_flint
+
+MAX_BITS_COMPARED = 5_000_000
+"""Longest denominators that are compared with each other only to tell what they share."""
+
+
+@dataclass(frozen=True)
+class PointSpace(StageSpace):
+    """K^s: one coordinate a stage, in the order of the file. ``points`` are the nodes."""
+
+    points: Vector
+
+    @property
+    def stages(self) -> int:
+        return len(self.points)
+
+    @property
+    def one(self) -> Vector:
+        return (ONE,) * self.stages
+
+    @property
+    def nodes(self) -> Vector:
+        return self.points
+
+    def product(self, u: Vector, v: Vector) -> Vector:
+        return tuple(x * y for x, y in zip(u, v, strict=True))
+
+    def times(self, functional: Vector, v: Vector) -> Vector:
+        return self.product(functional, v)
+
+    def reductions(self, count: int) -> Matrix:
+        return tuple(_powers(c, count) for c in self.points)
+
+    def of_polynomial(self, coefficients: Sequence[Number]) -> Vector:
+        if is_rational((coefficients, self.points)):
+            polynomial = in_flint(coefficients)
+            nodes = cast("tuple[fmpq, ...]", self.points)
+            return tuple(polynomial(c) for c in nodes)
+        return tuple(_value(coefficients, c) for c in self.points)
+
+    def interpolation_bits(self, enough: int) -> int:
+        """About how long the common denominator of the Lagrange polynomials of the nodes is.
+
+        Args:
+            enough: a bound that is not larger than this is returned as it is; otherwise it is looked
+                at closer, at what the polynomials have in common.
+
+        Returns:
+            Bits, summed over the coordinates of irrational nodes.
+        """
+        pairs = combinations(self.points, 2)
+        bound = sum(_bits(x - y) for x, y in pairs)
+        if bound <= enough or bound > MAX_BITS_COMPARED:
+            return bound
+        if not is_rational((self.points,)):
+            return bound
+        nodes = cast("tuple[fmpq, ...]", self.points)
+        return _common_denominator(nodes).bit_length()
+
+    def basis_polynomials(self) -> Iterator[Vector]:
+        self._check_distinct()
+        if is_rational((self.points,)):
+            yield from _rational_lagrange(cast("tuple[fmpq, ...]", self.points))
+        else:
+            yield from _lagrange(self.points)
+
+    def _check_distinct(self) -> None:
+        first: dict[Number, int] = {}
+        for j, c in enumerate(self.points):
+            i = first.setdefault(c, j)
+            if i != j:
+                raise CoincidingNodes(
+                    f"nodes c_{i + 1} and c_{j + 1} are both {c}: no interpolation through them",
+                    "spell the blocks out, or choose a method with distinct nodes",
+                )
+
+    def lifts(self) -> Matrix:
+        return self._lifts
+
+    @cached_property
+    def _lifts(self) -> Matrix:
+        return transpose(tuple(self.basis_polynomials()))
+
+    def zero_weights(self, weights: Vector) -> str:
+        names = [f"b_{i}" for i, weight in enumerate(weights, start=1) if not weight]
+        if len(names) > 4:
+            names = [*names[:3], "…"]
+        return " = ".join([*names, "0"])
+
+    def form(self, weights: Vector, block: Matrix) -> Matrix:
+        return _scaled_rows(weights, block)
+
+    def divide_by_weights(self, weights: Vector, right: Matrix) -> Matrix:
+        if not all(weights):
+            raise SingularMatrixError
+        # One inverse a row: of irrational weights they take the time.
+        inverses = tuple(ONE / b for b in weights)
+        return _scaled_rows(inverses, right)
+
+
+def _scaled_rows(factors: Vector, rows: Matrix) -> Matrix:
+    """The product of a diagonal matrix and another."""
+    scaled = []
+    for factor, row in zip(factors, rows, strict=True):
+        scaled.append(tuple(factor * x for x in row))
+    return tuple(scaled)
+
+
+def _common_denominator(nodes: Sequence[fmpq]) -> fmpz:
+    """What the Lagrange polynomials of rational nodes are divided by, in common.
+
+    L_i = ∏ (x − c_j) / ∏ (c_i − c_j) over j ≠ i: the least common multiple of the numerators of the
+    lower products. The denominators of the nodes themselves are left out.
+    """
+    common = fmpz(1)
+    for c in nodes:
+        differences = [c - x for x in nodes if x != c]
+        scale = prod(differences, start=ONE)
+        common = common.lcm(scale.p)
+    return common
+
+
+def _bits(number: Number) -> int:
+    if isinstance(number, Algebraic):
+        return sum(int(x.height_bits()) for x in number.poly.coeffs())
+    return int(number.height_bits())
+
+
+def _value(coefficients: Sequence[Number], x: Number) -> Number:
+    """A polynomial at x, by Horner's scheme."""
+    total: Number = ZERO
+    for coefficient in reversed(coefficients):
+        total = total * x + coefficient
+    return total
+
+
+def _rational_lagrange(nodes: Sequence[fmpq]) -> Iterator[Vector]:
+    """L_j = w/(x − c_j) / w'(c_j) for w = ∏ (x − c_k), each with one common denominator.
+
+    Elimination in the Vandermonde matrix would carry the common denominator of all of them.
+    """
+    x = fmpq_poly([0, 1])
+    w = fmpq_poly([1])
+    for c in nodes:
+        w *= x - c
+    for c in nodes:
+        others = w // (x - c)
+        polynomial = others / others(c)
+        yield tuple(polynomial[k] for k in range(len(nodes)))
+
+
+def _lagrange(nodes: Sequence[Number]) -> Iterator[Vector]:
+    """The same in any domain, dividing w by x − c_j with Horner's scheme."""
+    w: list[Number] = [ONE]
+    for c in nodes:
+        times_x = [ZERO, *w]
+        padded = [*w, ZERO]
+        w = [a - c * b for a, b in zip(times_x, padded, strict=True)]
+    for c in nodes:
+        others: list[Number] = []
+        carried: Number = ZERO
+        for coefficient in reversed(w[1:]):
+            carried = carried * c + coefficient
+            others.append(carried)
+        others.reverse()
+        factor = ONE / _value(others, c)
+        yield tuple(factor * coefficient for coefficient in others)
+
+
+def _powers(x: Number, count: int) -> Vector:
+    powers: list[Number] = [ONE]
+    while len(powers) < count:
+        powers.append(powers[-1] * x)
+    return tuple(powers[:count])

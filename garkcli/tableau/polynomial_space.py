@@ -1,0 +1,197 @@
+"""The stage space ℚ[x]/(M) of a family whose node polynomial M is rational, and integrals there."""
+
+from __future__ import annotations
+
+from collections.abc import Iterator, Sequence
+from dataclasses import dataclass
+from functools import cached_property, lru_cache
+
+from flint import fmpq, fmpq_mat, fmpq_poly
+
+from garkcli.exact.field import ONE, ZERO, Number
+from garkcli.exact.matrix import (
+    Matrix,
+    Vector,
+    apply,
+    apply_left,
+    dot,
+    identity,
+    is_rational,
+    multiply,
+    solve,
+    to_flint,
+    transpose,
+)
+from garkcli.tableau.stages import StageSpace, in_flint
+
+MAX_BITS_OF_ROW = 20_000
+"""Bits of all denominators of a row up to which elimination may multiply them with each other."""
+MAX_MOMENTS = 8
+"""So many functionals of a stage space have their moments kept."""
+
+
+@dataclass(frozen=True)
+class PolynomialSpace(StageSpace):
+    """ℚ[x]/(M) with the basis 1, x, …, x^(s−1); M is monic with s distinct real roots, the
+    nodes.
+    """
+
+    modulus: fmpq_poly
+
+    def __hash__(self) -> int:
+        return hash(tuple(self.modulus.coeffs()))
+
+    @property
+    def stages(self) -> int:
+        return int(self.modulus.degree())
+
+    @property
+    def one(self) -> Vector:
+        return self._vector(fmpq_poly([1]))
+
+    @property
+    def nodes(self) -> Vector:
+        return self._vector(fmpq_poly([0, 1]) % self.modulus)
+
+    def _vector(self, poly: fmpq_poly) -> Vector:
+        return tuple(poly[k] for k in range(self.stages))
+
+    def product(self, u: Vector, v: Vector) -> Vector:
+        if is_rational((u, v)):
+            f, g = in_flint(u), in_flint(v)
+            return self._vector(f * g % self.modulus)
+        return apply(self._higher, _convolution(u, v))
+
+    @cached_property
+    def _higher(self) -> Matrix:
+        return self.reductions(2 * self.stages - 1)
+
+    @cached_property
+    def _higher_in_flint(self) -> fmpq_mat:
+        return to_flint(self._higher, 2 * self.stages - 1)
+
+    def times(self, functional: Vector, v: Vector) -> Vector:
+        s = self.stages
+        moments = self._moments(functional)
+        if is_rational((moments, v)):
+            # Σ_i v_i m_{i+j} are coefficients of the product with v turned round.
+            product = in_flint(v[::-1]) * in_flint(moments)
+            return tuple(product[s - 1 + j] for j in range(s))
+        return tuple(dot(v, moments[j : j + s]) for j in range(s))
+
+    def gram(self, weights: Vector) -> Matrix:
+        s = self.stages
+        moments = self._moments(weights)
+        return tuple(moments[i : i + s] for i in range(s))
+
+    def _moments(self, functional: Vector) -> Vector:
+        """The functional on 1, x, …, x^(2s−2); kept for weights, which are asked for again."""
+        if functional not in self._known_moments:
+            if len(self._known_moments) >= MAX_MOMENTS:
+                self._known_moments.clear()
+            self._known_moments[functional] = self._new_moments(functional)
+        return self._known_moments[functional]
+
+    @cached_property
+    def _known_moments(self) -> dict[Vector, Vector]:
+        return {}
+
+    def _new_moments(self, functional: Vector) -> Vector:
+        if is_rational((functional,)):
+            row = to_flint((functional,), self.stages)
+            return tuple((row * self._higher_in_flint).entries())
+        return apply_left(functional, self._higher)
+
+    def reductions(self, count: int) -> Matrix:
+        x = fmpq_poly([0, 1])
+        power = fmpq_poly([1]) % self.modulus
+        columns = []
+        for _ in range(count):
+            columns.append(self._vector(power))
+            power = x * power % self.modulus
+        return transpose(tuple(columns))
+
+    def of_polynomial(self, coefficients: Sequence[Number]) -> Vector:
+        if is_rational((coefficients,)):
+            return self._vector(in_flint(coefficients) % self.modulus)
+        return apply(self.reductions(len(coefficients)), coefficients)
+
+    def basis_polynomials(self) -> Iterator[Vector]:
+        yield from identity(self.stages)
+
+    def lifts(self) -> Matrix:
+        return identity(self.stages)
+
+    def divide_by_weights(self, weights: Vector, right: Matrix) -> Matrix:
+        # Elimination puts each row of right over one denominator. Where a row holds entries of many
+        # stages whose denominators have nothing in common, the inverse is used instead.
+        if not any(_has_long_denominators(row) for row in right):
+            return solve(self.gram(weights), right)
+        return multiply(_inverse_gram(self, weights), right)
+
+    def zero_weights(self, weights: Vector) -> str:
+        if not is_rational((weights,)):
+            return "one of which is 0"
+        nodes = self.modulus // self._nodes_with_weight(weights)
+        if nodes.degree() == 1:
+            return f"which is 0 at the node {-nodes[0]}"
+        return f"which are 0 at the nodes where {nodes} = 0"
+
+    def _nodes_with_weight(self, weights: Vector) -> fmpq_poly:
+        """The monic polynomial g with the nodes of nonzero weight as its roots: b(x^i g) = 0 for
+        all i.
+        """
+        gram = self.gram(weights)
+        degree = to_flint(gram, self.stages).rank()
+        rows = gram[:degree]
+        square = to_flint([row[:degree] for row in rows], degree)
+        right = to_flint([(-row[degree],) for row in rows], 1)
+        lower = square.solve(right).entries()
+        return fmpq_poly([*lower, fmpq(1)])
+
+
+@lru_cache(maxsize=32)
+def _inverse_gram(space: PolynomialSpace, weights: Vector) -> Matrix:
+    """G⁻¹ of the weights: all blocks that lead to one colour are conjugated with the same."""
+    return solve(space.gram(weights), identity(space.stages))
+
+
+def _has_long_denominators(row: Vector) -> bool:
+    lengths = (int(x.q).bit_length() for x in row if isinstance(x, fmpq))
+    return sum(lengths) > MAX_BITS_OF_ROW
+
+
+def _convolution(u: Sequence[Number], v: Sequence[Number]) -> Vector:
+    out: list[Number] = [fmpq(0)] * (len(u) + len(v) - 1)
+    for i, x in enumerate(u):
+        for j, y in enumerate(v):
+            if x and y:
+                out[i + j] = out[i + j] + x * y
+    return tuple(out)
+
+
+def integral(moments: int) -> Vector:
+    """∫_0^1 on 1, x, …, x^(moments−1)."""
+    return tuple(fmpq(1, k) for k in range(1, moments + 1))
+
+
+def antiderivative(coefficients: Sequence[Number]) -> Vector:
+    """∫_0^x of a polynomial, lowest coefficient first.
+
+    >>> antiderivative((fmpq(1), fmpq(1)))
+    (0, 1, 1/2)
+    """
+    integrated: list[Number] = [ZERO]
+    for k, a in enumerate(coefficients, start=1):
+        integrated.append(a * fmpq(1, k))
+    return tuple(integrated)
+
+
+def integration(degree: int) -> Matrix:
+    """The map f ↦ ∫_0^x f on polynomials of degree < ``degree``, shape (degree + 1, degree)."""
+    columns = []
+    for j in range(degree):
+        monomial = (ZERO,) * j + (ONE,)
+        padding = (ZERO,) * (degree - 1 - j)
+        columns.append(antiderivative(monomial) + padding)
+    return transpose(tuple(columns))
