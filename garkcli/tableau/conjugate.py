@@ -60,12 +60,13 @@ def conjugate(tableau: Tableau) -> Tableau:
     """
     if tableau.is_partitioned:
         return replace(tableau, blocks=_exchanged(tableau))
-    spaces = tuple(tableau.space(l) for l in range(tableau.size))
-    colours = tuple(
-        replace(colour, space=l) for l, colour in enumerate(tableau.colours)
-    )
+    spaces = []
+    colours = []
+    for l, colour in enumerate(tableau.colours):
+        spaces.append(tableau.space(l))
+        colours.append(replace(colour, space=l))
     blocks = {(l, m): conjugate_of(tableau, l, m) for m, l in tableau.edges()}
-    return Tableau(spaces, colours, blocks)
+    return Tableau(tuple(spaces), tuple(colours), blocks)
 
 
 def conjugate_of(tableau: Tableau, l: int, m: int) -> Matrix:
@@ -74,20 +75,21 @@ def conjugate_of(tableau: Tableau, l: int, m: int) -> Matrix:
     if block is None:
         raise KeyError((l, m))
     here, other = tableau.colours[l], tableau.colours[m]
+    space, other_space = tableau.space(l), tableau.space(m)
     try:
-        return conjugate_block(
-            block, tableau.space(l), here.b, tableau.space(m), other.b
-        )
+        return conjugate_block(block, space, here.b, other_space, other.b)
     except ZeroWeight as error:
         raise ZeroWeight(f"colour {here.name}: {error.message}", error.help) from None
 
 
 def _exchanged(tableau: Tableau) -> dict[tuple[int, int], Matrix]:
-    return {
-        (tableau.colours[l].space, m): conjugate_of(tableau, l, m)
-        for m, l in tableau.edges()
-        if are_opposite(tableau.colours[l], tableau.colours[m])
-    }
+    """The blocks of positions made from those of momenta, and the other way round."""
+    blocks: dict[tuple[int, int], Matrix] = {}
+    for m, l in tableau.edges():
+        here, other = tableau.colours[l], tableau.colours[m]
+        if are_opposite(here, other):
+            blocks[here.space, m] = conjugate_of(tableau, l, m)
+    return blocks
 
 
 def are_opposite(one: Colour, other: Colour) -> bool:
@@ -117,9 +119,11 @@ def _share_stages(one: Colour, other: Colour) -> bool:
 
 
 def _is_symplectic_between(tableau: Tableau, l: int, m: int) -> bool:
-    if tableau.block(l, m) is None or tableau.block(m, l) is None:
-        return tableau.block(l, m) is tableau.block(m, l)
-    return not any(any(row) for row in symplectic_defect(tableau, l, m))
+    forth, back = tableau.block(l, m), tableau.block(m, l)
+    if forth is None or back is None:
+        return forth is back
+    defect = symplectic_defect(tableau, l, m)
+    return not any(any(row) for row in defect)
 
 
 def symplectic_defect(tableau: Tableau, l: int, m: int) -> Matrix:
@@ -130,7 +134,7 @@ def symplectic_defect(tableau: Tableau, l: int, m: int) -> Matrix:
     if forth is None or back is None:
         raise KeyError((l, m))
     b_l, b_m = tableau.colours[l].b, tableau.colours[m].b
-    both = add(
-        tableau.space(l).form(b_l, forth), transpose(tableau.space(m).form(b_m, back))
-    )
+    form_forth = tableau.space(l).form(b_l, forth)
+    form_back = tableau.space(m).form(b_m, back)
+    both = add(form_forth, transpose(form_back))
     return subtract(both, outer(b_l, b_m))

@@ -6,7 +6,7 @@ from __future__ import annotations
 
 from collections.abc import Mapping, Sequence
 from dataclasses import dataclass
-from typing import cast
+from typing import TypeAlias, cast
 
 from flint import arb, arb_mat, ctx
 
@@ -22,6 +22,11 @@ end at 308.
 """
 GUARD = 32
 """Bits that entries are enclosed more finely than the arithmetic that uses them."""
+
+
+DIGITS_OF_A_BIT = 0.302
+"""Decimal digits of a bit, log10(2) rounded up."""
+_Blocks: TypeAlias = dict[tuple[int, int], arb_mat]
 
 
 @dataclass(frozen=True)
@@ -48,20 +53,35 @@ def enclose_tableau(tableau: Tableau, bits: int) -> Enclosure:
     Where all coefficients are spelled out any number of bits is reached; the nodes of families are
     known to ``MAX_DIGITS`` digits at most.
     """
-    digits = int((bits + GUARD) * 0.302)
+    digits = int((bits + GUARD) * DIGITS_OF_A_BIT)
+    is_spelled_out = all(isinstance(space, PointSpace) for space in tableau.spaces)
     with ctx.workprec(bits + GUARD):
-        if all(isinstance(space, PointSpace) for space in tableau.spaces):
-            A = {key: _balls(block, digits) for key, block in tableau.blocks.items()}
-            b = [_balls([colour.b], digits).transpose() for colour in tableau.colours]
+        if is_spelled_out:
+            A, b = _spelled_out(tableau, digits)
         else:
-            found = numeric_entries(tableau, min(digits, MAX_DIGITS))
-            colour_of = {colour.space: l for l, colour in enumerate(tableau.colours)}
-            A = {
-                (k, m): _matrix(found.A[colour_of[k]][m] or ())
-                for k, m in tableau.blocks
-            }
-            b = [_matrix([row]).transpose() for row in found.b]
-    return Enclosure(bits, tuple(space.stages for space in tableau.spaces), A, tuple(b))
+            A, b = _at_nodes(tableau, min(digits, MAX_DIGITS))
+    stages = tuple(space.stages for space in tableau.spaces)
+    return Enclosure(bits, stages, A, tuple(b))
+
+
+def _spelled_out(tableau: Tableau, digits: int) -> tuple[_Blocks, list[arb_mat]]:
+    """A and b of coefficients that are given one by one."""
+    A = {key: _balls(block, digits) for key, block in tableau.blocks.items()}
+    b = [_balls([colour.b], digits).transpose() for colour in tableau.colours]
+    return A, b
+
+
+def _at_nodes(tableau: Tableau, digits: int) -> tuple[_Blocks, list[arb_mat]]:
+    """A and b where stages of families are among them: coordinates become values at nodes."""
+    found = numeric_entries(tableau, digits)
+    # Colours that share a stage space have the same rows, so any of them will do.
+    colour_of = {colour.space: l for l, colour in enumerate(tableau.colours)}
+    A: _Blocks = {}
+    for k, m in tableau.blocks:
+        block = found.A[colour_of[k]][m] or ()
+        A[k, m] = _matrix(block)
+    b = [_matrix([row]).transpose() for row in found.b]
+    return A, b
 
 
 def _matrix(rows: Sequence[Sequence[Cell]]) -> arb_mat:
@@ -70,7 +90,10 @@ def _matrix(rows: Sequence[Sequence[Cell]]) -> arb_mat:
 
 def _balls(rows: Sequence[Sequence[Number]], digits: int) -> arb_mat:
     known: dict[Number, arb] = {}
-    for number in (x for row in rows for x in row):
-        if number not in known:
-            known[number] = to_ball(number, digits)
-    return arb_mat([[known[x] for x in row] for row in rows])
+    enclosed: list[list[arb]] = []
+    for row in rows:
+        for x in row:
+            if x not in known:
+                known[x] = to_ball(x, digits)
+        enclosed.append([known[x] for x in row])
+    return arb_mat(enclosed)

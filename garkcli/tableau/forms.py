@@ -6,6 +6,7 @@ from __future__ import annotations
 
 from collections.abc import Iterable, Mapping, Sequence
 from dataclasses import replace
+from typing import TypeAlias
 
 from garkcli.errors import MethodError
 from garkcli.exact.field import ZERO
@@ -15,20 +16,27 @@ from garkcli.tableau.method import Method
 from garkcli.tableau.point_space import PointSpace
 from garkcli.tableau.tableau import Colour, Part, Tableau
 
+Blocks: TypeAlias = Mapping[tuple[int, int], Matrix]
+"""Blocks by stage space and colour, as in ``Tableau.blocks``."""
+Coefficients: TypeAlias = tuple[Matrix, Vector, Vector | None]
+"""(A, b, c); nodes that are None are the row sums of A."""
+_NewBlocks: TypeAlias = dict[tuple[int, int], Matrix]
 
-def gark(
-    methods: Sequence[Method], transfer: Mapping[tuple[int, int], Matrix]
-) -> Tableau:
+
+def gark(methods: Sequence[Method], transfer: Blocks) -> Tableau:
     """The tableau with the diagonal ``methods`` and the off-diagonal blocks ``transfer[l, m]``, eq.
     (GARK).
     """
-    colours = tuple(
-        Colour(str(l + 1), l, method.b, method.c, l) for l, method in enumerate(methods)
-    )
-    diagonal = {(l, l): method.A for l, method in enumerate(methods)}
-    return Tableau(
-        tuple(method.space for method in methods), colours, diagonal | dict(transfer)
-    )
+    spaces = []
+    colours = []
+    blocks: _NewBlocks = {}
+    for l, method in enumerate(methods):
+        name = str(l + 1)
+        spaces.append(method.space)
+        colours.append(Colour(name, l, method.b, method.c, l))
+        blocks[l, l] = method.A
+    blocks.update(transfer)
+    return Tableau(tuple(spaces), tuple(colours), blocks)
 
 
 def spelled_out(
@@ -41,27 +49,28 @@ def spelled_out(
     block there.
     """
     linear = frozenset(linear)
-    nodes = [
-        given if given is not None else _row_sums(l, A[l], len(b[l]))
-        for l, given in enumerate(c)
-    ]
-    blocks = {
-        (l, m): block
-        for l, row in enumerate(A)
-        for m, block in enumerate(row)
-        if block is not None
-    }
-    colours = tuple(
-        Colour(str(l + 1), l, weights, nodes[l], l, is_linear=l in linear)
-        for l, weights in enumerate(b)
-    )
-    return Tableau(tuple(PointSpace(points) for points in nodes), colours, blocks)
+    spaces = []
+    colours = []
+    for l, weights in enumerate(b):
+        nodes = c[l]
+        if nodes is None:
+            nodes = _row_sums(l, A[l], len(weights))
+        name = str(l + 1)
+        spaces.append(PointSpace(nodes))
+        colours.append(Colour(name, l, weights, nodes, l, is_linear=l in linear))
+    blocks: _NewBlocks = {}
+    for l, row in enumerate(A):
+        for m, block in enumerate(row):
+            if block is not None:
+                blocks[l, m] = block
+    return Tableau(tuple(spaces), tuple(colours), blocks)
 
 
 def _row_sums(l: int, row: Sequence[Matrix | None], stages: int) -> Vector:
-    block = (
-        row[l] if row[l] is not None else next((x for x in row if x is not None), None)
-    )
+    block = row[l]
+    if block is None:
+        existing = (x for x in row if x is not None)
+        block = next(existing, None)
     if block is None:
         return (ZERO,) * stages
     return apply(block, PointSpace(block[0]).one)
@@ -70,51 +79,48 @@ def _row_sums(l: int, row: Sequence[Matrix | None], stages: int) -> Vector:
 def additive(A: Sequence[Matrix], b: Sequence[Vector], c: Vector | None) -> Tableau:
     """An additive method: one set of stages, a matrix and a row of weights a colour."""
     nodes = c if c is not None else _row_sums(0, A, len(A[0]))
-    colours = tuple(
-        Colour(str(l + 1), 0, weights, nodes, l) for l, weights in enumerate(b)
-    )
-    return Tableau(
-        (PointSpace(nodes),), colours, {(0, m): block for m, block in enumerate(A)}
-    )
+    colours = []
+    for l, weights in enumerate(b):
+        name = str(l + 1)
+        colours.append(Colour(name, 0, weights, nodes, l))
+    blocks = {(0, m): block for m, block in enumerate(A)}
+    return Tableau((PointSpace(nodes),), tuple(colours), blocks)
 
 
 def partitioned(q: Method, p: Method) -> Tableau:
     """A partitioned method for q̇ = v(q, p), ṗ = f(q, p), both with the same stages."""
-    return Tableau(
-        (q.space,),
-        (Colour("q", 0, q.b, q.c, 0, "q"), Colour("p", 0, p.b, p.c, 1, "p")),
-        {(0, 0): q.A, (0, 1): p.A},
-    )
+    velocity = Colour("q", 0, q.b, q.c, 0, "q")
+    force = Colour("p", 0, p.b, p.c, 1, "p")
+    blocks = {(0, 0): q.A, (0, 1): p.A}
+    return Tableau((q.space,), (velocity, force), blocks)
 
 
-def separable_prk(
-    q: tuple[Matrix, Vector, Vector | None], p: tuple[Matrix, Vector, Vector | None]
-) -> Tableau:
+def separable_prk(q: Coefficients, p: Coefficients) -> Tableau:
     """A partitioned method for q̇ = V(p), ṗ = F(q), each part given as (A, b, c); blocks may be
     rectangular.
 
     The rows of q.A are the positions at which forces are evaluated, so q.c are the nodes of the
     force colour, and the rows of p.A, with nodes p.c, those of the velocity colour.
     """
-    (A_q, b_q, c_q), (A_p, b_p, c_p) = q, p
+    A_q, b_q, c_q = q
+    A_p, b_p, c_p = p
     at_momenta = c_p if c_p is not None else _row_sums(0, [A_p], len(b_q))
     at_positions = c_q if c_q is not None else _row_sums(0, [A_q], len(b_p))
-    return Tableau(
-        (PointSpace(at_momenta), PointSpace(at_positions)),
-        (
-            Colour("q", 0, b_q, at_momenta, 0, "q"),
-            Colour("p", 1, b_p, at_positions, 1, "p"),
-        ),
-        {(0, 1): A_p, (1, 0): A_q},
-    )
+    spaces = (PointSpace(at_momenta), PointSpace(at_positions))
+    velocity = Colour("q", 0, b_q, at_momenta, 0, "q")
+    force = Colour("p", 1, b_p, at_positions, 1, "p")
+    blocks = {(0, 1): A_p, (1, 0): A_q}
+    return Tableau(spaces, (velocity, force), blocks)
 
 
 def with_linear(tableau: Tableau, names: Iterable[str]) -> Tableau:
     """The same tableau where the vector fields of the colours called ``names`` are linear."""
     names = frozenset(names)
-    colours = (
-        replace(x, is_linear=True) if x.name in names else x for x in tableau.colours
-    )
+    colours = []
+    for colour in tableau.colours:
+        if colour.name in names:
+            colour = replace(colour, is_linear=True)
+        colours.append(colour)
     return replace(tableau, colours=tuple(colours))
 
 
@@ -145,28 +151,26 @@ def symplectic_pair(
             "the method is partitioned already", "give the tableau of the positions"
         )
     used = [l for l in range(tableau.size) if l in velocities or l in forces]
+    spaces = tuple(tableau.space(l) for l in used)
     row = {l: k for k, l in enumerate(used)}
-
-    def colour(name: str, l: int, part: Part) -> Colour:
-        return replace(
-            tableau.colours[l],
-            name=f"{name}{tableau.colours[l].name}",
-            space=row[l],
-            part=part,
-        )
-
-    V = [colour("V", l, "q") for l in velocities]
-    F = [colour("F", l, "p") for l in forces]
-    blocks: dict[tuple[int, int], Matrix] = {}
+    V = [_driving(tableau.colours[l], "V", row[l], "q") for l in velocities]
+    F = [_driving(tableau.colours[l], "F", row[l], "p") for l in forces]
+    blocks: _NewBlocks = {}
     for l in forces:
         for k, m in enumerate(velocities):
-            if (block := tableau.block(l, m)) is not None:
+            block = tableau.block(l, m)
+            if block is not None:
                 blocks[row[l], k] = block
     for l in velocities:
         for k, m in enumerate(forces, start=len(V)):
             if tableau.block(m, l) is not None:
                 blocks[row[l], k] = conjugate_of(tableau, l, m)
-    return Tableau(tuple(tableau.space(l) for l in used), (*V, *F), blocks)
+    return Tableau(spaces, (*V, *F), blocks)
+
+
+def _driving(colour: Colour, letter: str, space: int, part: Part) -> Colour:
+    """The colour V^l or F^l of a pair, with stages in ``space``."""
+    return replace(colour, name=f"{letter}{colour.name}", space=space, part=part)
 
 
 def pair(tableau: Tableau) -> Tableau:
@@ -181,10 +185,9 @@ def pair(tableau: Tableau) -> Tableau:
     if not tableau.is_partitioned:
         return symplectic_pair(tableau, range(tableau.size), range(tableau.size))
     is_q = [colour.part == "q" for colour in tableau.colours]
-    kept = {(k, m): block for (k, m), block in tableau.blocks.items() if is_q[m]}
-    made = {
-        (tableau.colours[l].space, m): conjugate_of(tableau, l, m)
-        for m, l in tableau.edges()
-        if is_q[l] and not is_q[m]
-    }
-    return replace(tableau, blocks=kept | made)
+    blocks = {(k, m): block for (k, m), block in tableau.blocks.items() if is_q[m]}
+    for m, l in tableau.edges():
+        if is_q[l] and not is_q[m]:
+            k = tableau.colours[l].space
+            blocks[k, m] = conjugate_of(tableau, l, m)
+    return replace(tableau, blocks=blocks)

@@ -41,11 +41,9 @@ class GarkMethod:
 
     @cached_property
     def _entries(self) -> Entries:
-        from garkcli.tableau.pointwise import (
-            entries,
-        )  # loaded when entries are asked for
+        from garkcli.tableau import pointwise  # loaded when entries are asked for
 
-        return entries(self.tableau)
+        return pointwise.entries(self.tableau)
 
     @property
     def A(self) -> Any:  # noqa: N802 -- the name it has everywhere

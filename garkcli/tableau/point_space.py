@@ -64,8 +64,8 @@ class PointSpace(StageSpace):
         """About how long the common denominator of the Lagrange polynomials of the nodes is.
 
         Args:
-            enough: a bound that is not larger than this is returned as it is; otherwise it is looked
-                at closer, at what the polynomials have in common.
+            enough: a bound that is not larger than this is returned as it is; otherwise it is
+                looked at closer, at what the polynomials have in common.
 
         Returns:
             Bits, summed over the coordinates of irrational nodes.
@@ -88,11 +88,11 @@ class PointSpace(StageSpace):
 
     def _check_distinct(self) -> None:
         first: dict[Number, int] = {}
-        for j, c in enumerate(self.points):
+        for j, c in enumerate(self.points, start=1):
             i = first.setdefault(c, j)
             if i != j:
                 raise CoincidingNodes(
-                    f"nodes c_{i + 1} and c_{j + 1} are both {c}: no interpolation through them",
+                    f"nodes c_{i} and c_{j} are both {c}: no interpolation through them",
                     "spell the blocks out, or choose a method with distinct nodes",
                 )
 

@@ -28,6 +28,11 @@ from garkcli.tableau.stages import StageSpace
 from garkcli.tableau.tableau import Tableau
 
 Cell: TypeAlias = Number | arb
+Row: TypeAlias = tuple[Cell, ...]
+Block: TypeAlias = tuple[Row, ...] | None
+"""The entries of a block; None where it does not exist."""
+BITS_OF_A_DIGIT = 3.33
+"""Bits of a decimal digit, log2(10) rounded up."""
 
 
 @dataclass(frozen=True)
@@ -43,9 +48,9 @@ class Entries:
         have_radicals: whether the nodes have simple radicals, so that exact entries exist.
     """
 
-    c: tuple[tuple[Cell, ...], ...]
-    A: tuple[tuple[tuple[tuple[Cell, ...], ...] | None, ...], ...]
-    b: tuple[tuple[Cell, ...], ...]
+    c: tuple[Row, ...]
+    A: tuple[tuple[Block, ...], ...]
+    b: tuple[Row, ...]
     is_exact: bool
     digits: int
     have_radicals: bool = True
@@ -53,20 +58,18 @@ class Entries:
     def changed(self, change: Callable[[Cell], Cell]) -> Entries:
         """Every entry replaced by what ``change`` makes of it."""
 
-        def row(cells: Sequence[Cell]) -> tuple[Cell, ...]:
+        def row(cells: Row) -> Row:
             return tuple(map(change, cells))
 
-        def block(
-            rows: Sequence[Sequence[Cell]] | None,
-        ) -> tuple[tuple[Cell, ...], ...] | None:
-            return None if rows is None else tuple(map(row, rows))
+        def block(rows: Block) -> Block:
+            if rows is None:
+                return None
+            return tuple(map(row, rows))
 
-        return replace(
-            self,
-            c=tuple(map(row, self.c)),
-            A=tuple(tuple(map(block, blocks)) for blocks in self.A),
-            b=tuple(map(row, self.b)),
-        )
+        c = tuple(map(row, self.c))
+        A = tuple(tuple(map(block, blocks)) for blocks in self.A)
+        b = tuple(map(row, self.b))
+        return replace(self, c=c, A=A, b=b)
 
     def in_decimals(self, digits: int) -> Entries:
         """The entries as enclosures that are good for ``digits`` significant digits."""
@@ -82,18 +85,17 @@ def entries(tableau: Tableau, digits: int = 17) -> Entries:
     otherwise.
     """
     exact = in_points(tableau)
-    return numeric_entries(tableau, digits) if exact is None else _listed(exact, digits)
+    if exact is None:
+        return numeric_entries(tableau, digits)
+    return _listed(exact, digits)
 
 
 def _listed(tableau: Tableau, digits: int) -> Entries:
     colours = range(tableau.size)
-    return Entries(
-        c=tuple(colour.c for colour in tableau.colours),
-        A=tuple(tuple(tableau.block(l, m) for m in colours) for l in colours),
-        b=tuple(colour.b for colour in tableau.colours),
-        is_exact=True,
-        digits=digits,
-    )
+    c = tuple(colour.c for colour in tableau.colours)
+    A = tuple(tuple(tableau.block(l, m) for m in colours) for l in colours)
+    b = tuple(colour.b for colour in tableau.colours)
+    return Entries(c, A, b, is_exact=True, digits=digits)
 
 
 def simple_nodes(space: PolynomialSpace) -> tuple[Expression, ...] | None:
@@ -106,7 +108,8 @@ def simple_nodes(space: PolynomialSpace) -> tuple[Expression, ...] | None:
     ['1/2-((1/6)*sqrt(3))', '1/2+(1/6)*sqrt(3)']
     """
     nodes: list[Expression] = []
-    for factor, _ in space.modulus.factor()[1]:
+    _, factors = space.modulus.factor()
+    for factor, _ in factors:
         if factor.degree() > 2:
             return None
         nodes += _roots(fmpq_poly(factor))
@@ -114,13 +117,16 @@ def simple_nodes(space: PolynomialSpace) -> tuple[Expression, ...] | None:
 
 
 def _roots(factor: fmpq_poly) -> list[Expression]:
+    """The roots of a linear factor, or of a quadratic one as m ± r√d with rational m, r and d."""
     if factor.degree() == 1:
         return [Literal(-factor[0] / factor[1])]
     middle = -factor[1] / (2 * factor[2])
     radicand = middle * middle - factor[0] / factor[2]
     d = square_free(radicand)
-    half_width = Chain("**", (Literal((radicand / d).sqrt()), Root(Literal(d), 2)))
-    return [Chain(f"+{sign}", (Literal(middle), half_width)) for sign in "-+"]
+    scale = Literal((radicand / d).sqrt())
+    half_width = Chain("**", (scale, Root(Literal(d), 2)))
+    operands = (Literal(middle), half_width)
+    return [Chain("+-", operands), Chain("++", operands)]
 
 
 def _position(node: Expression) -> float:
@@ -152,16 +158,18 @@ def in_points(tableau: Tableau) -> Tableau | None:
     if not radical_nodes:
         return tableau
     domain = _domain_with(tableau, radical_nodes)
-    return None if domain is None else _at_points(tableau, radical_nodes, domain)
+    if domain is None:
+        return None
+    return _at_points(tableau, radical_nodes, domain)
 
 
 def _domain_with(
     tableau: Tableau, radical_nodes: Mapping[int, Sequence[Expression]]
 ) -> Domain | None:
     """The domain of the coefficients and of these nodes; None where it is too large."""
-    radicals = (
-        [radical for radical, _ in tableau.field.radicals] if tableau.field else []
-    )
+    radicals: list[Expression] = []
+    if tableau.field:
+        radicals += [radical for radical, _ in tableau.field.radicals]
     for nodes in radical_nodes.values():
         radicals += nodes
     try:
@@ -190,24 +198,27 @@ def _at_points(
     frames: list[_Frame] = []
     for k, old in enumerate(tableau.spaces):
         if k in radical_nodes:
-            space = PointSpace(
-                tuple(domain.evaluate(node) for node in radical_nodes[k])
-            )
-            frames.append(_Frame(space, space.reductions(space.stages), space.lifts()))
+            space = PointSpace(tuple(map(domain.evaluate, radical_nodes[k])))
+            V = space.reductions(space.stages)
+            frames.append(_Frame(space, V, space.lifts()))
         else:
-            unit = identity(old.stages)
-            frames.append(_Frame(PointSpace(tuple(map(embed, old.nodes))), unit, unit))
+            space = PointSpace(tuple(map(embed, old.nodes)))
+            unit = identity(space.stages)
+            frames.append(_Frame(space, unit, unit))
     blocks: dict[tuple[int, int], Matrix] = {}
     for (k, m), block in tableau.blocks.items():
+        into = frames[k].into
         back = frames[tableau.colours[m].space].back
-        blocks[k, m] = multiply(frames[k].into, multiply(_embedded(block, embed), back))
+        in_domain = tuple(tuple(map(embed, row)) for row in block)
+        blocks[k, m] = multiply(into, multiply(in_domain, back))
     colours = []
     for colour in tableau.colours:
         frame = frames[colour.space]
         b = apply_left(tuple(map(embed, colour.b)), frame.back)
         c = apply(frame.into, tuple(map(embed, colour.c)))
         colours.append(replace(colour, b=b, c=c))
-    return Tableau(tuple(frame.space for frame in frames), tuple(colours), blocks)
+    spaces = tuple(frame.space for frame in frames)
+    return Tableau(spaces, tuple(colours), blocks)
 
 
 def _embedding(tableau: Tableau, domain: Domain) -> Callable[[Number], Number]:
@@ -221,9 +232,8 @@ def _embedding(tableau: Tableau, domain: Domain) -> Callable[[Number], Number]:
         if not isinstance(number, Algebraic):
             return number
         total: Number = ZERO
-        for coefficient, word in zip(
-            field.in_radicals(number), field.monomials, strict=True
-        ):
+        coefficients = field.in_radicals(number)
+        for coefficient, word in zip(coefficients, field.monomials, strict=True):
             term: Number = ONE * coefficient
             for index in word:
                 term = term * radicals[index]
@@ -233,72 +243,68 @@ def _embedding(tableau: Tableau, domain: Domain) -> Callable[[Number], Number]:
     return embed
 
 
-def _embedded(block: Matrix, embed: Callable[[Number], Number]) -> Matrix:
-    return tuple(tuple(map(embed, row)) for row in block)
-
-
 def numeric_entries(tableau: Tableau, digits: int = 17) -> Entries:
     """All entries as enclosures narrower than 10^(−digits)."""
     precision = ctx.prec
-    goal = int(digits * 3.33) + 8
+    goal = int(digits * BITS_OF_A_DIGIT) + 8
     try:
         ctx.prec = goal + 64
         while True:
-            try:
-                found = _numeric(tableau, digits)
-                if all(x.rad() < arb(10) ** -digits for x in _balls(found)):
-                    return found
-            except (
-                ZeroDivisionError
-            ):  # a Vandermonde matrix too ill-conditioned for the precision
-                pass
+            found = _numeric(tableau, digits)
+            if found is not None and _is_narrow(found, digits):
+                return found
             ctx.prec *= 2
     finally:
         ctx.prec = precision
 
 
-def _balls(found: Entries) -> Sequence[arb]:
-    cells = [x for row in (*found.c, *found.b) for x in row]
-    cells += [
-        x
-        for blocks in found.A
-        for block in blocks
-        if block
-        for row in block
-        for x in row
-    ]
-    return [x for x in cells if isinstance(x, arb)]
+def _is_narrow(found: Entries, digits: int) -> bool:
+    bound = arb(10) ** -digits
+    rows = [*found.c, *found.b]
+    for blocks in found.A:
+        for block in blocks:
+            rows += block or ()
+    for row in rows:
+        for x in row:
+            if isinstance(x, arb) and not x.rad() < bound:
+                return False
+    return True
 
 
-def _numeric(tableau: Tableau, digits: int) -> Entries:
-    frames = [_numeric_frame(space) for space in tableau.spaces]
-
-    def block(l: int, m: int) -> tuple[tuple[arb, ...], ...] | None:
-        exact = tableau.block(l, m)
-        if exact is None:
-            return None
-        V, back = (
-            frames[tableau.colours[l].space][0],
-            frames[tableau.colours[m].space][1],
-        )
-        return tuple(tuple(row) for row in (V * _to_arb(exact) * back).tolist())
-
-    colours = tableau.colours
+def _numeric(tableau: Tableau, digits: int) -> Entries | None:
+    """All entries at the current precision; None where it is too small for a Vandermonde matrix."""
+    try:
+        frames = [_numeric_frame(space) for space in tableau.spaces]
+    except ZeroDivisionError:
+        return None
+    c: list[Row] = []
+    A: list[tuple[Block, ...]] = []
+    b: list[Row] = []
+    for l, colour in enumerate(tableau.colours):
+        V, inverse = frames[colour.space]
+        nodes = _to_arb([[x] for x in colour.c])
+        c.append(tuple((V * nodes).entries()))
+        b.append(tuple((_to_arb([colour.b]) * inverse).entries()))
+        blocks: list[Block] = []
+        for m, other in enumerate(tableau.colours):
+            exact = tableau.block(l, m)
+            _, back = frames[other.space]
+            blocks.append(None if exact is None else _in_values(V, exact, back))
+        A.append(tuple(blocks))
     return Entries(
-        c=tuple(
-            tuple((frames[x.space][0] * _to_arb([[y] for y in x.c])).entries())
-            for x in colours
-        ),
-        A=tuple(
-            tuple(block(l, m) for m in range(tableau.size)) for l in range(tableau.size)
-        ),
-        b=tuple(
-            tuple((_to_arb([x.b]) * frames[x.space][1]).entries()) for x in colours
-        ),
+        tuple(c),
+        tuple(A),
+        tuple(b),
         is_exact=False,
         digits=digits,
         have_radicals=False,
     )
+
+
+def _in_values(V: arb_mat, block: Matrix, back: arb_mat) -> Block:
+    """V A V_m⁻¹, ``back`` being V_m⁻¹."""
+    rows = (V * _to_arb(block) * back).tolist()
+    return tuple(tuple(row) for row in rows)
 
 
 def _numeric_frame(space: StageSpace) -> tuple[arb_mat, arb_mat]:
@@ -334,7 +340,8 @@ def coordinates_at_nodes(space: PolynomialSpace) -> arb_mat:
 def _powers_of_nodes(space: PolynomialSpace, _: int) -> arb_mat:
     roots: list[tuple[Any, int]] = space.modulus.numer().complex_roots()  # type: ignore[assignment]
     nodes = sorted((root.real for root, _ in roots), key=float)
-    return arb_mat([[node**k for k in range(space.stages)] for node in nodes])
+    exponents = range(space.stages)
+    return arb_mat([[node**k for k in exponents] for node in nodes])
 
 
 @lru_cache(maxsize=32)
@@ -346,4 +353,5 @@ def _coordinates_at_nodes(space: PolynomialSpace, bits: int) -> arb_mat | None:
 
 
 def _to_arb(rows: Sequence[Sequence[Number]]) -> arb_mat:
-    return arb_mat([[to_ball(x, int(ctx.prec / 3.33)) for x in row] for row in rows])
+    digits = int(ctx.prec / BITS_OF_A_DIGIT)
+    return arb_mat([[to_ball(x, digits) for x in row] for row in rows])

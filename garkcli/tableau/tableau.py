@@ -62,20 +62,17 @@ class Tableau:
 
     def __post_init__(self) -> None:
         for number, colour in enumerate(self.colours, start=1):
-            s = self.spaces[colour.space].stages
-            for what, row in (("b", colour.b), ("c", colour.c)):
-                if len(row) != s:
-                    found = counted(len(row), "entry", "entries")
-                    raise ShapeMismatch(
-                        f"{what}^{{{number}}} has {found} for {counted(s, 'stage')}",
-                        f"give {counted(s, 'entry', 'entries')}",
-                    )
+            stages = self.spaces[colour.space].stages
+            _check_length(f"b^{{{number}}}", colour.b, stages)
+            _check_length(f"c^{{{number}}}", colour.c, stages)
         for (k, m), block in self.blocks.items():
-            rows, columns = self.spaces[k].stages, self.space(m).stages
+            rows = self.spaces[k].stages
+            columns = self.space(m).stages
             if len(block) != rows or any(len(row) != columns for row in block):
+                seen, seeing = counted(columns, "stage"), counted(rows, "stage")
                 raise ShapeMismatch(
                     f"the block {k + 1},{m + 1} is not {rows} by {columns}",
-                    f"it maps {counted(columns, 'stage')} of colour {m + 1} to {counted(rows, 'stage')}",
+                    f"it maps {seen} of colour {m + 1} to {seeing}",
                 )
 
     def __repr__(self) -> str:
@@ -109,11 +106,11 @@ class Tableau:
         and two for p, although two velocities and three forces are evaluated.
         """
         drivers = [m for m, colour in enumerate(self.colours) if colour.part == part]
-        return tuple(
-            space.stages
-            for k, space in enumerate(self.spaces)
-            if any((k, m) in self.blocks for m in drivers)
-        )
+        stages = []
+        for k, space in enumerate(self.spaces):
+            if any((k, m) in self.blocks for m in drivers):
+                stages.append(space.stages)
+        return tuple(stages)
 
     @property
     def is_partitioned(self) -> bool:
@@ -123,18 +120,27 @@ class Tableau:
     @cached_property
     def field(self) -> NumberField | None:
         """The number field of the coefficients; None when all are rational."""
+        rows: list[Vector] = []
         for colour in self.colours:
-            for x in (*colour.b, *colour.c):
+            rows += [colour.b, colour.c]
+        for block in self.blocks.values():
+            rows += block
+        for row in rows:
+            for x in row:
                 if isinstance(x, Algebraic):
                     return x.field
-        for block in self.blocks.values():
-            for row in block:
-                for x in row:
-                    if isinstance(x, Algebraic):
-                        return x.field
         return None
 
     @property
     def degree(self) -> int:
         """The dimension over ℚ of the domain of the coefficients."""
         return self.field.degree if self.field else 1
+
+
+def _check_length(name: str, row: Vector, stages: int) -> None:
+    if len(row) == stages:
+        return
+    found = counted(len(row), "entry", "entries")
+    due = counted(stages, "entry", "entries")
+    message = f"{name} has {found} for {counted(stages, 'stage')}"
+    raise ShapeMismatch(message, f"give {due}")
