@@ -25,7 +25,9 @@ from garkcli.stepping.linear import whole_steps
 MAX_STEPS = 1_000_000
 """Most steps of one row."""
 GROWTH = 16
-"""How much larger round-off may become on its way. On the built-in problems it was once, at most."""
+"""How much larger round-off may become on its way. On the built-in problems it was once, at
+most.
+"""
 _ENOUGH = 30  # digits whose round-off alone proves enough where every condition holds
 _MANY = 120  # digits that do not agree by chance
 _SPARE = 6  # correct digits of an error
@@ -151,8 +153,8 @@ class SteppedSolver:
     def _round_off(self, digits: int) -> arb:
         """What the digits leave open of a state at ``t_end``.
 
-        Steps sum with compensation, so that their number does not count; the increments are rounded,
-        and they add up to the way that the solution goes. The flow makes more of it.
+        Steps sum with compensation, so that their number does not count; the increments are
+        rounded, and they add up to the way that the solution goes. The flow makes more of it.
         """
         precision = (
             arb(FLOAT_PRECISION) if digits <= FLOAT_DIGITS else arb(10) ** -digits

@@ -54,6 +54,21 @@ _FLOOR = 1000  # energy errors below 2^-1000 count as zero: floats end there
 
 
 @dataclass(frozen=True)
+class _Errors:
+    """The energy errors of a run, up to where they blow up.
+
+    Attributes:
+        values: H(z_n) − H(z_0), of n = 0 on.
+        is_exact: whether they are zero, by the step map.
+        blew_up: whether they are fewer than there are steps.
+    """
+
+    values: Floats
+    is_exact: bool
+    blew_up: bool
+
+
+@dataclass(frozen=True)
 class _Line:
     """A drift fitted to energy errors, per step, and how good it is."""
 
@@ -92,59 +107,71 @@ def oscillator_run(
     R = linear_step(tableau, problem).at(step)
     fate = stability(R)
     energy = to_float(5 * problem.omega**2 / 8)
-    is_exact = conserves_energy(R, problem.omega)
-    errors = (
-        np.zeros(count + 1) if is_exact else _energy_errors(R, problem.omega, count)
-    )
-    outside = np.flatnonzero(~(np.abs(errors) <= BLOW_UP * energy))
-    if outside.size:
-        errors = errors[: int(outside[0])]
-    blew_up = len(errors) <= count
-    done = len(errors) - 1
+    errors = _errors(R, problem.omega, energy, count)
+    done = len(errors.values) - 1
     h = to_float(step)
 
-    line = _drift(errors, _angle(R, problem.omega))
-    if is_exact or fate.fate == "elliptic":
+    line = _drift(errors.values, _angle(R, problem.omega))
+    if errors.is_exact or fate.fate == "elliptic":
         line = _Line(0.0, 0.0)
-    largest = float(np.abs(errors).max())
+    largest = float(np.abs(errors.values).max())
     powers = _powers(problem.omega, energy, done * h)
     excused = energy_rate(tableau, tolerance, h, powers) * done * h
-    verdict: Verdict = "drifts"
-    if is_exact:
-        verdict = "exact"
-    elif blew_up:
-        verdict = "unstable"
-    elif fate.fate == "elliptic" or abs(line.slope) * done <= excused:
-        verdict = "bounded"
-    shape: Shape = "none"
-    if verdict == "drifts":
-        shape = "line" if abs(line.slope) > line.uncertainty else "curve"
+    is_bounded = fate.fate == "elliptic" or abs(line.slope) * done <= excused
+    verdict = _verdict(errors, is_bounded)
 
-    kept = np.union1d(extremes(errors, points - 2), [0, done])
-    left = errors[kept] - line.slope * kept
+    kept = np.union1d(extremes(errors.values, points - 2), [0, done])
+    kept_errors = errors.values[kept]
+    left = kept_errors - line.slope * kept
+    drift = None if errors.blew_up else line.slope / h
+    uncertainty = None if errors.blew_up else line.uncertainty / h
     history = InvariantHistory(
         name="energy",
         initial=energy,
         max_error=largest,
-        drift=None if blew_up else line.slope / h,
-        uncertainty=None if blew_up else line.uncertainty / h,
+        drift=drift,
+        uncertainty=uncertainty,
         amplitude=float(left.max() - left.min()) / 2,
         round_off=power_of_ten(_ROUNDING * largest),
         coefficients=excused,
         verdict=verdict,
-        shape=shape,
-        errors=tuple(errors[kept].tolist()),
+        shape=_shape(verdict, line),
+        errors=tuple(kept_errors.tolist()),
     )
-    return LongRun(
-        problem,
-        step,
-        t_end,
-        done,
-        None,
-        (history,),
-        tuple((kept * h).tolist()),
-        stability=fate,
-    )
+    times = tuple((kept * h).tolist())
+    return LongRun(problem, step, t_end, done, None, (history,), times, stability=fate)
+
+
+def _errors(R: Matrix, omega: fmpq, energy: float, count: int) -> _Errors:
+    """The energy errors of ``count`` steps, without those that are no part of a run."""
+    import numpy as np
+
+    is_exact = conserves_energy(R, omega)
+    if is_exact:
+        values: Floats = np.zeros(count + 1)
+    else:
+        values = _energy_errors(R, omega, count)
+    is_inside = np.abs(values) <= BLOW_UP * energy  # and no nan
+    outside = np.flatnonzero(~is_inside)
+    if outside.size:
+        values = values[: int(outside[0])]
+    return _Errors(values, is_exact, blew_up=len(values) <= count)
+
+
+def _verdict(errors: _Errors, is_bounded: bool) -> Verdict:
+    """What the step map and the errors say; ``is_bounded`` of those that have not blown up."""
+    if errors.is_exact:
+        return "exact"
+    if errors.blew_up:
+        return "unstable"
+    return "bounded" if is_bounded else "drifts"
+
+
+def _shape(verdict: Verdict, line: _Line) -> Shape:
+    """Of a drift: a line where its slope can be told from 0."""
+    if verdict != "drifts":
+        return "none"
+    return "line" if abs(line.slope) > line.uncertainty else "curve"
 
 
 def _powers(omega: fmpq, energy: float, time: float) -> tuple[float, float]:
@@ -157,7 +184,8 @@ def _powers(omega: fmpq, energy: float, time: float) -> tuple[float, float]:
 def _scaled(R: Matrix, omega: fmpq, bits: int) -> arb_mat:
     """R in the variables (ωq, p)."""
     (a, b), (c, d) = R
-    return enclosure(((a, b * omega), (c * (1 / omega), d)), bits)
+    scaled = ((a, b * omega), (c * (1 / omega), d))
+    return enclosure(scaled, bits)
 
 
 def _energy_errors(R: Matrix, omega: fmpq, count: int) -> Floats:
@@ -175,15 +203,17 @@ def _at_precision(R: Matrix, omega: fmpq, count: int, bits: int) -> Floats | Non
     with ctx.workprec(bits):
         step = _scaled(R, omega, bits)
         forms, block = _forms(step, isqrt(count) + 1)
-        starts, energies = _starts(block, arb(omega), -(-(count + 1) // len(forms)))
-        if not (
-            _are_sharp([x for form in forms for x in form]) and _are_sharp(energies)
-        ):
+        blocks = -(-(count + 1) // len(forms))  # rounded up
+        starts, energies = _starts(block, arb(omega), blocks)
+        entries = [x for form in forms for x in form]
+        if not (_are_sharp(entries) and _are_sharp(energies)):
             return None
-        Q = np.array([[float(x) for x in form] for form in forms])
-        z = np.array([[float(x * x), float(x * y), float(y * y)] for x, y in starts])
+        Q = np.array([float(x) for x in entries]).reshape(-1, 3)
+        squares = [(x * x, x * y, y * y) for x, y in starts]
+        z = np.array([[float(x) for x in row] for row in squares])
         first = np.array([float(x) for x in energies])
-    errors: Floats = (first[:, None] + z @ Q.T).ravel()[: count + 1]
+    by_blocks = first[:, None] + z @ Q.T
+    errors: Floats = by_blocks.ravel()[: count + 1]
     return errors
 
 
@@ -195,9 +225,12 @@ def _forms(step: arb_mat, length: int) -> tuple[list[tuple[arb, arb, arb]], arb_
     forms: list[tuple[arb, arb, arb]] = []
     while len(forms) < length:
         (a, b), (c, d) = power.tolist()
-        if forms and max(abs(x).mid() for x in (a, b, c, d)) > 1e50:
+        largest = max(abs(x).mid() for x in (a, b, c, d))
+        if forms and largest > 1e50:
             break
-        forms.append(((a * a + c * c - 1) / 2, a * b + c * d, (b * b + d * d - 1) / 2))
+        of_squares = (a * a + c * c - 1) / 2, (b * b + d * d - 1) / 2
+        of_product = a * b + c * d
+        forms.append((of_squares[0], of_product, of_squares[1]))
         power = step * power
     return forms, power
 
@@ -211,9 +244,10 @@ def _starts(
     starts, errors = [], []
     for _ in range(count):
         x, y = z[0, 0], z[1, 0]
+        error = (x * x + y * y) / 2 - energy
         starts.append((x, y))
-        errors.append((x * x + y * y) / 2 - energy)
-        if errors[-1].mid() > BLOW_UP * energy:
+        errors.append(error)
+        if error.mid() > BLOW_UP * energy:
             break
         z = block * z
     return starts, errors
@@ -230,13 +264,15 @@ def _angle(R: Matrix, omega: fmpq) -> float | None:
     """2θ in [0, 2π), twice the argument of the eigenvalues of R; None when they are real."""
     import numpy as np
 
-    (a, b), (c, d) = (
-        [float(x) for x in row] for row in _scaled(R, omega, 128).tolist()
-    )
+    entries = _scaled(R, omega, 128).entries()
+    a, b, c, d = (float(x) for x in entries)
+    # the eigenvalues are those of λ² − (a + d) λ + (ad − bc)
+    real = (a + d) / 2
     discriminant = ((a - d) / 2) ** 2 + b * c
     if discriminant >= 0:
         return None
-    return float(2 * np.arctan2(np.sqrt(-discriminant), (a + d) / 2) % (2 * np.pi))
+    imaginary = np.sqrt(-discriminant)
+    return float(2 * np.arctan2(imaginary, real) % (2 * np.pi))
 
 
 def _drift(errors: Floats, angle: float | None) -> _Line:
@@ -245,9 +281,11 @@ def _drift(errors: Floats, angle: float | None) -> _Line:
 
     slope = _slope(errors, angle)
     half = len(errors) // 2
-    rounding = _ROUNDING * float(np.abs(errors).max()) / len(errors)
-    halves = [_slope(part, angle) for part in (errors[: half + 1], errors[half:])]
-    apart = max(abs(x - slope) for x in halves)
+    largest = float(np.abs(errors).max())
+    rounding = _ROUNDING * largest / len(errors)
+    first = _slope(errors[: half + 1], angle)
+    second = _slope(errors[half:], angle)
+    apart = max(abs(first - slope), abs(second - slope))
     return _Line(slope, apart + rounding)
 
 
@@ -262,17 +300,22 @@ def _slope(errors: Floats, angle: float | None) -> float:
     if last < 1 or largest == 0:
         return 0.0
     # two turns within the run: the least for which a wave is no line
-    if angle is not None and min(angle, 2 * np.pi - angle) * last < 4 * np.pi:
-        angle = None
+    if angle is not None:
+        turned = min(angle, 2 * np.pi - angle) * last
+        if turned < 4 * np.pi:
+            angle = None
     size = 2 if angle is None else 4
-    gram, moments = np.zeros((size, size)), np.zeros(size)
+    gram = np.zeros((size, size))
+    moments = np.zeros(size)
     for start in range(0, len(errors), _CHUNK):
         part = errors[start : start + _CHUNK] / largest
         n = np.arange(start, start + len(part), dtype=np.float64)
         columns = [np.ones_like(n), n / last - 0.5]
         if angle is not None:
-            columns += [np.cos(angle * n), np.sin(angle * n)]
+            phase = angle * n
+            columns += [np.cos(phase), np.sin(phase)]
         A = np.stack(columns, axis=1)
         gram += A.T @ A
         moments += A.T @ part
-    return float(np.linalg.solve(gram, moments)[1]) * largest / last
+    fitted = np.linalg.solve(gram, moments)
+    return float(fitted[1]) * largest / last

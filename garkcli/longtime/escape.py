@@ -10,11 +10,12 @@ if TYPE_CHECKING:
 
     Floats: TypeAlias = NDArray[np.float64]
 
-_MOVES = (
-    2.0**-40
-)  # least part of its size that a coordinate moves in a step to have a direction
-_OFTEN = 8  # times that a position has turned back when its motion is called bounded
-_FAR = 2.0  # how many times its former bound a position is when it has left that
+# least part of its size that a coordinate moves in a step to have a direction
+_MOVES = 2.0**-40
+# times that a position has turned back when its motion is called bounded
+_OFTEN = 8
+# how many times its former bound a position is when it has left that
+_FAR = 2.0
 
 
 class Excursions:
@@ -29,15 +30,18 @@ class Excursions:
     def __init__(self) -> None:
         import numpy as np
 
-        self._turned: NDArray[np.int64] = np.zeros(
-            0, dtype=np.int64
-        )  # of each coordinate
-        self._last_turns: NDArray[np.int64] = np.zeros(
-            0, dtype=np.int64
-        )  # of each pair (q, p)
-        self._bounds: Floats = np.zeros(0)  # largest |q| up to the last turn
-        self._beyond: Floats = np.zeros(0)  # and after it
+        self._shape_for(0)
         self._positions: Floats = np.zeros(0)  # at the end
+
+    def _shape_for(self, d: int) -> None:
+        """Begin to count for d degrees of freedom."""
+        import numpy as np
+
+        # turns of each coordinate, and the step of the last turn of each pair (q, p)
+        self._turned: NDArray[np.int64] = np.zeros(2 * d, dtype=np.int64)
+        self._last_turns: NDArray[np.int64] = np.zeros(d, dtype=np.int64)
+        self._bounds: Floats = np.zeros(d)  # largest |q| up to the last turn
+        self._beyond: Floats = np.zeros(d)  # and after it
 
     @property
     def turns(self) -> int:
@@ -63,23 +67,30 @@ class Excursions:
 
         d = states.shape[1] // 2
         if not self._turned.size:
-            self._turned = np.zeros(2 * d, dtype=np.int64)
-            self._last_turns = np.zeros(d, dtype=np.int64)
-            self._bounds, self._beyond = np.zeros(d), np.zeros(d)
+            self._shape_for(d)
         moves = np.diff(states, axis=0)
-        directions = np.sign(moves) * (np.abs(moves) > _MOVES * np.abs(states[1:]))
+        is_move = np.abs(moves) > _MOVES * np.abs(states[1:])
+        directions = np.sign(moves) * is_move
         turned = directions[1:] * directions[:-1] < 0
         self._turned += turned.sum(axis=0)
         self._positions = states[-1, :d]
         sizes = np.abs(states[:, :d])
         either = turned[:, :d] | turned[:, d:]
         for i in range(d):
-            found = np.flatnonzero(either[:, i])
-            if not found.size:
-                self._beyond[i] = max(self._beyond[i], sizes[:, i].max())
-                continue
-            last = int(found[-1]) + 1  # turned[n] is about the state n + 1
-            before = sizes[: last + 1, i].max()
-            self._bounds[i] = max(self._bounds[i], self._beyond[i], before)
-            self._beyond[i] = sizes[last:, i].max()
-            self._last_turns[i] = first + last
+            self._add_position(i, first, sizes[:, i], np.flatnonzero(either[:, i]))
+
+    def _add_position(
+        self, i: int, first: int, sizes: Floats, turns: NDArray[np.int64]
+    ) -> None:
+        """Of position i: |q| in the steps from ``first`` on, and where it or its momentum turned.
+
+        The turn number n is about the state n + 1.
+        """
+        if not turns.size:
+            self._beyond[i] = max(self._beyond[i], sizes.max())
+            return
+        last = int(turns[-1]) + 1
+        before = sizes[: last + 1].max()
+        self._bounds[i] = max(self._bounds[i], self._beyond[i], before)
+        self._beyond[i] = sizes[last:].max()
+        self._last_turns[i] = first + last

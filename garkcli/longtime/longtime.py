@@ -69,8 +69,8 @@ def long_run(
     tolerance: fmpq | None = None,
     watch: Watch = lambda path, _: path,
 ) -> LongRun:
-    """Step ``problem`` with ``tableau`` to the time ``t_end``; what becomes of the energy and of the
-    other invariants?
+    """Step ``problem`` with ``tableau`` to the time ``t_end``; what becomes of the energy and of
+    the other invariants?
 
     Args:
         tableau: of any structure.
@@ -107,14 +107,16 @@ def long_run(
         )
     method = bound.at(digits)
     record = Record(Measure(problem, method.digits), count, points)
-    record.take(watch(trajectory(method, step, count), count + 1))
+    path = trajectory(method, step, count)
+    record.take(watch(path, count + 1))
 
     h = to_float(step)
     noise = _noise(record, bound, step, method.digits)
     rate = energy_rate(tableau, tolerance, h, record.exchange.powers(h))
     judge = _Judge(record, step, rate * record.done * h)
-    histories = tuple(judge.history(k, float(noise[k])) for k in range(len(noise)))
-    states = tuple((number * step, y) for number, y in sorted(record.states.items()))
+    histories = [judge.history(k, float(x)) for k, x in enumerate(noise)]
+    numbered = sorted(record.states.items())
+    states = [(number * step, y) for number, y in numbered]
     escape = judge.escape
     return LongRun(
         problem,
@@ -122,9 +124,9 @@ def long_run(
         t_end,
         record.done,
         method.digits,
-        histories,
+        tuple(histories),
         tuple((record.kept_numbers * h).tolist()),
-        states,
+        tuple(states),
         record.excursions.turns,
         None if escape is None else escape * step,
     )
@@ -145,12 +147,12 @@ def _noise(record: Record, bound: Binding, step: fmpq, digits: int) -> Floats:
 
     compared = len(record.first) - 1
     finer = bound.at(digits + _SPARE)
-    exact = Measure(bound.problem, finer.digits).errors(
-        trajectory(finer, step, compared)
-    )
+    finer_measure = Measure(bound.problem, finer.digits)
+    exact = finer_measure.errors(trajectory(finer, step, compared))
     found = np.abs(record.first - exact).max(axis=0)
     expected = found * (1 + record.done / max(compared, 1))
-    return np.array([power_of_ten(float(x)) for x in np.maximum(derived, expected)])
+    noise = np.maximum(derived, expected)
+    return np.array([power_of_ten(float(x)) for x in noise])
 
 
 @dataclass(frozen=True)
@@ -175,7 +177,8 @@ class _Judge:
         record = self.record
         if record.blew_up:
             return None
-        is_wrong = abs(float(record.kept_errors[-1, 0])) > _LARGE * record.measure.scale
+        error = float(record.kept_errors[-1, 0])
+        is_wrong = abs(error) > _LARGE * record.measure.scale
         return record.excursions.escape if is_wrong else None
 
     def history(self, k: int, noise: float) -> InvariantHistory:
@@ -188,17 +191,19 @@ class _Judge:
         if not record.blew_up and record.count >= LEAST:
             trend = record.trends.of(k, noise + excused)
         verdict, shape = self._verdict(k, noise, trend)
-        slope = trend.slope if trend and verdict != "unstable" else None
+        drift, uncertainty, slope = None, None, 0.0
+        if trend and verdict != "unstable":
+            slope = trend.slope
+            drift = slope / h
+            uncertainty = trend.uncertainty / h
         errors = record.kept_errors[:, k]
-        left = errors - (slope or 0.0) * record.kept_numbers
+        left = errors - slope * record.kept_numbers
         return InvariantHistory(
             name=record.measure.names[k],
             initial=record.measure.initial[k],
             max_error=float(record.largest[k]),
-            drift=None if slope is None else slope / h,
-            uncertainty=None
-            if slope is None or trend is None
-            else trend.uncertainty / h,
+            drift=drift,
+            uncertainty=uncertainty,
             amplitude=float(left.max() - left.min()) / 2,
             round_off=noise,
             coefficients=excused,
@@ -225,9 +230,9 @@ class _Judge:
         if trend.finding == "none":
             return "bounded", "none"
         is_gone = trend.move >= _LARGE * self._size(k)
-        return (
-            "drifts" if trend.finding == "drift" or is_gone else "undecided"
-        ), trend.shape
+        if trend.finding == "drift" or is_gone:
+            return "drifts", trend.shape
+        return "undecided", trend.shape
 
     def _size(self, k: int) -> float:
         """Of the summands of an invariant at the start; 1 where all are zero."""
@@ -236,16 +241,15 @@ class _Judge:
     def _longer(self, trend: Trend | None) -> fmpq | None:
         """A time that would decide; None if that is too many steps."""
         record = self.record
-        factor = _LONGER
+        turns = record.excursions.turns
+        needed = _LONGER
         if trend is None:
-            factor = max(factor, -(-_MARGIN * LEAST // record.count))
-        elif record.excursions.turns < _TURNS:
-            factor = max(
-                factor, -(-_MARGIN * _TURNS // max(record.excursions.turns, 1))
-            )
+            needed = -(-_MARGIN * LEAST // record.count)  # rounded up
+        elif turns < _TURNS:
+            needed = -(-_MARGIN * _TURNS // max(turns, 1))
         elif trend.shape == "line":
             # what drifts grows with time, and what modulates does not
             ratio = abs(trend.slope) / trend.uncertainty
-            factor = max(factor, int(_MARGIN * CERTAIN / ratio))
-        count = factor * record.count
+            needed = int(_MARGIN * CERTAIN / ratio)
+        count = max(_LONGER, needed) * record.count
         return count * self.step if count <= MAX_STEPS else None

@@ -53,19 +53,19 @@ class Measure:
         )
         number = arb if self._bits else to_float
         start: list[Any] = self._precisely(lambda: [number(x) for x in problem.initial])
-        summands = [
-            _summands(x) for x in (problem.energy, *(x for _, x in problem.invariants))
-        ]
-        self._lengths = [len(x) for x in summands]
+        measured = [problem.energy, *(x for _, x in problem.invariants)]
+        summands: list[Any] = []
+        self._lengths = []
+        for expression in measured:
+            own = _summands(expression)
+            summands += own
+            self._lengths.append(len(own))
         arguments = tuple(x for g in GROUPS for x in symbols(problem.variables, g))
-        self._summands = function(
-            tuple(x for y in summands for x in y), arguments, False
-        )
+        self._summands = function(tuple(summands), arguments, False)
+        terms_of = function(tuple(problem.terms), arguments, False)
         try:
             self._first = self._precisely(lambda: self._function(*start))
-            terms = function(tuple(problem.terms), arguments, False)(
-                *map(to_float, problem.initial)
-            )
+            terms = terms_of(*map(to_float, problem.initial))
             self.sizes([float(x) for x in start])
         except (ArithmeticError, ValueError):
             raise UsageProblem(
@@ -83,9 +83,8 @@ class Measure:
 
         if not self._bits:
             first: Floats = np.array(self._first)
-            return (
-                np.array([self._values_of(y) for y in states], dtype=np.float64) - first
-            )
+            values = [self._values_of(y) for y in states]
+            return np.array(values, dtype=np.float64) - first
         with ctx.workprec(self._bits):
             return np.array([[float(x) for x in self._differences(y)] for y in states])
 
@@ -98,12 +97,15 @@ class Measure:
         import numpy as np
 
         values = iter(self._summands(*(float(x) for x in y)))
-        return np.array([sum(abs(x) for x in islice(values, n)) for n in self._lengths])
+        sizes = []
+        for length in self._lengths:
+            own = islice(values, length)
+            sizes.append(sum(abs(x) for x in own))
+        return np.array(sizes)
 
     def _differences(self, y: Sequence[Any]) -> list[Any]:
-        return [
-            x - first for x, first in zip(self._values_of(y), self._first, strict=True)
-        ]
+        pairs = zip(self._values_of(y), self._first, strict=True)
+        return [x - first for x, first in pairs]
 
     def _values_of(self, y: Sequence[Any]) -> list[Any]:
         try:

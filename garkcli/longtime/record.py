@@ -59,11 +59,10 @@ class Record:
         self.states: dict[int, tuple[Any, ...]] = {}
         self.done = -1
         self.blew_up = False
-        self._span = (
-            1
-            if count < points
-            else ceil((count + 1) / max((points - 2) // (2 * signals), 1))
-        )
+        self._span = 1  # steps of which the extremes are kept
+        if count >= points:
+            spans = max((points - 2) // (2 * signals), 1)
+            self._span = ceil((count + 1) / spans)
         self._wanted = {count * part // _PARTS for part in range(_PARTS + 1)}
         self._numbers: list[int] = []
         self._errors: list[Floats] = []
@@ -101,9 +100,8 @@ class Record:
                     states.append(y)  # noqa: PERF402 -- what comes before a failure is wanted
             except StepFailed:
                 self._add(states)
-                self.blew_up = self.blew_up or bool(
-                    self.largest[0] > _BLOWN * self.measure.scale
-                )
+                if self.largest[0] > _BLOWN * self.measure.scale:
+                    self.blew_up = True
                 if not self.blew_up:
                     raise
                 return
@@ -114,10 +112,10 @@ class Record:
 
         if not states:
             return
-        errors, start = self.measure.errors(states), self.done + 1
-        outside = np.flatnonzero(
-            ~(np.abs(errors) <= BLOW_UP * self.measure.scale).all(axis=1)
-        )
+        start = self.done + 1
+        errors = self.measure.errors(states)
+        is_inside = np.abs(errors) <= BLOW_UP * self.measure.scale  # and no nan
+        outside = np.flatnonzero(~is_inside.all(axis=1))
         if outside.size:
             self.blew_up = True
             errors = errors[: outside[0]]
@@ -126,7 +124,8 @@ class Record:
         if start == 0:
             self.first = errors[: COMPARED + 1].copy()
         self.trends.add(start, errors)
-        np.maximum(self.largest, np.abs(errors).max(axis=0), out=self.largest)
+        largest = np.abs(errors).max(axis=0)
+        np.maximum(self.largest, largest, out=self.largest)
         self.done += len(errors)
         chosen = self._chosen(errors, start)
         self._numbers += [start + i for i in chosen]
@@ -139,14 +138,14 @@ class Record:
     def _chosen(self, errors: Floats, start: int) -> list[int]:
         if self._span == 1:
             return list(range(len(errors)))
-        ends = {
-            number - start for number in (0, self.count) if start <= number <= self.done
-        }
-        spans = -(-len(errors) // self._span)
-        found = (
-            extremes(errors[:, k], 2 * spans).tolist() for k in range(errors.shape[1])
-        )
-        return sorted(ends.union(*found))
+        chosen: set[int] = set()
+        for number in (0, self.count):
+            if start <= number <= self.done:
+                chosen.add(number - start)
+        spans = -(-len(errors) // self._span)  # rounded up
+        for signal in errors.T:
+            chosen.update(extremes(signal, 2 * spans).tolist())
+        return sorted(chosen)
 
     def _watch(self, states: Floats) -> None:
         """What the motion itself does; two states are carried over from piece to piece."""

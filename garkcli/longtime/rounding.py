@@ -39,7 +39,10 @@ def power_of_ten(x: float) -> float:
     >>> power_of_ten(2.3e-13)
     1e-12
     """
-    return float(f"1e{ceil(log10(x))}") if x > 0 else 0.0
+    if x <= 0:
+        return 0.0
+    exponent = ceil(log10(x))
+    return float(f"1e{exponent}")
 
 
 class Exchange:
@@ -69,17 +72,21 @@ class Exchange:
         bends = np.diff(states, 2, axis=0)
         q, p = moves[:, :d], moves[:, d:]
         q_bends, p_bends = bends[:, :d], bends[:, d:]
+        by_forces = (q * p_bends).sum(axis=1)
+        by_velocities = (p * q_bends).sum(axis=1)
         self.steps += len(moves)
         self.first += float((q * p).sum())
-        self.second += float(np.abs((q * p_bends).sum(axis=1)).sum())
-        self.second += float(np.abs((p * q_bends).sum(axis=1)).sum())
+        self.second += float(np.abs(by_forces).sum())
+        self.second += float(np.abs(by_velocities).sum())
 
     def powers(self, h: float) -> tuple[float, float]:
-        """Per unit of time: |mean of q̇·ṗ|, an energy per time, and the mean of |q̇·p̈| + |ṗ·q̈|, an
-        energy per time squared.
+        """Per unit of time: |mean of q̇·ṗ|, an energy per time, and the mean of |q̇·p̈| + |ṗ·q̈|,
+        an energy per time squared.
         """
         count = max(self.steps, 1)
-        return abs(self.first) / (count * h**2), self.second / (count * h**3)
+        first = abs(self.first) / (count * h**2)
+        second = self.second / (count * h**3)
+        return first, second
 
 
 def energy_rate(
@@ -97,7 +104,8 @@ def energy_rate(
         return 0.0
     weights, sums = sensitivity(tableau)
     first, second = powers
-    return _HIGHER * to_float(tolerance) * (weights * first + sums * h * second)
+    change = weights * first + sums * h * second
+    return _HIGHER * to_float(tolerance) * change
 
 
 def sensitivity(tableau: Tableau) -> tuple[float, float]:
@@ -109,11 +117,14 @@ def sensitivity(tableau: Tableau) -> tuple[float, float]:
     printed = entries(tableau)
     stages = max(len(row) for row in printed.b)
     is_split = any(colour.part != "y" for colour in tableau.colours)
+    of_order_1 = 2.0 * stages if is_split else 0.0
     nodes = sum(_size(x) for row in printed.c for x in row)
     weights = sum(_size(x) for row in printed.b for x in row)
-    return (2.0 * stages if is_split else 0.0), nodes + stages * weights
+    of_order_2 = nodes + stages * weights
+    return of_order_1, of_order_2
 
 
 def _size(x: Any) -> float:
     """|x| of an exact number or an enclosed one."""
-    return abs(float(x) if isinstance(x, arb) else to_float(x))
+    value = float(x) if isinstance(x, arb) else to_float(x)
+    return abs(value)

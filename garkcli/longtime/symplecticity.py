@@ -28,9 +28,8 @@ Jacobian: TypeAlias = list[list[Any]]
 DIGITS = 90
 """Digits of the steps that are differentiated."""
 _DECADES = 30  # the perturbation is 10^-30, so that errors are about 10^-60
-_SAFETY = (
-    8  # the change when the perturbation is doubled is three errors; M occurs twice
-)
+# the change when the perturbation is doubled is three errors; M occurs twice
+_SAFETY = 8
 
 
 @dataclass(frozen=True)
@@ -81,9 +80,11 @@ def symplecticity_defects(
         StepFailed: the stage equations of one were not solved.
     """
     method = bind(tableau, problem).at(max(DIGITS, FLOAT_DIGITS + 1))
-    return tuple(
-        _defect(method, step, time, [_exactly(x) for x in y]) for time, y in states
-    )
+    defects = []
+    for time, y in states:
+        start = [_exactly(x) for x in y]
+        defects.append(_defect(method, step, time, start))
+    return tuple(defects)
 
 
 def _exactly(x: Any) -> fmpq | arb:
@@ -96,12 +97,11 @@ def _defect(method: Integrator, step: fmpq, time: fmpq, y: Sequence[Any]) -> Def
     with ctx.workprec(method.bits):
         M = _jacobian(method, step, y, delta)
         coarse = _jacobian(method, step, y, 2 * delta)
-        pairs = [
-            pair
-            for r, s in zip(M, coarse, strict=True)
-            for pair in zip(r, s, strict=True)
-        ]
-        change = max(abs(a - b) for a, b in pairs)
+        changes = []
+        for fine_row, coarse_row in zip(M, coarse, strict=True):
+            pairs = zip(fine_row, coarse_row, strict=True)
+            changes += [abs(a - b) for a, b in pairs]
+        change = max(changes)
         largest = max(abs(a) for row in M for a in row)
         size = sum((abs(arb(x)) for x in y), arb(1))
         solved = arb(10) ** (_DECADES - method.digits) * size
@@ -121,10 +121,8 @@ def _jacobian(
     columns = []
     for i in range(len(y)):
         after, before = moved(i, delta), moved(i, -delta)
-        column = [
-            ((a - b) / (2 * delta)).mid() for a, b in zip(after, before, strict=True)
-        ]
-        columns.append(column)
+        pairs = zip(after, before, strict=True)
+        columns.append([((a - b) / (2 * delta)).mid() for a, b in pairs])
     return [list(row) for row in zip(*columns, strict=True)]
 
 
@@ -134,11 +132,12 @@ def _deviation(M: Jacobian) -> arb:
     largest = arb(0)
     for i in range(2 * d):
         for j in range(i):
-            form = sum(
-                (M[k][i] * M[k + d][j] - M[k + d][i] * M[k][j] for k in range(d)),
-                arb(0),
-            )
-            largest = largest.max(abs(form + (i == j + d)))
+            form = arb(0)  # entry (i, j) of MᵀJM
+            for k in range(d):
+                q, p = M[k], M[k + d]
+                form += q[i] * p[j] - p[i] * q[j]
+            exact = -1 if i == j + d else 0
+            largest = largest.max(abs(form - exact))
     return largest.mid()
 
 
@@ -146,11 +145,9 @@ def holds(tableau: Tableau, tolerance: fmpq | None = None) -> bool:
     """Whether b_i b_j = b_i a_ij + b_j a_ji throughout, exactly or within a tolerance: all steps
     are symplectic.
     """
-    return (
-        is_symplectic(tableau)
-        if tolerance is None
-        else is_symplectic_within(tableau, tolerance)
-    )
+    if tolerance is None:
+        return is_symplectic(tableau)
+    return is_symplectic_within(tableau, tolerance)
 
 
 def is_proved(

@@ -59,10 +59,10 @@ _SHORTENING = 8.0
 # 99 percent of Student's t with the five degrees of freedom that seven overlapping quarters have
 _SIGMAS = 4.0
 _CLEAR = 3.0  # how many times the heights of two eighths their levels differ when one has moved
-_CLIMBS = (
-    4  # how many of the seven moves between eighths are clear in a rise that goes on
-)
-_APART = 3.0  # how many times their range the first or the last eighth is away from the others
+# how many of the seven moves between eighths are clear in a rise that goes on
+_CLIMBS = 4
+# how many times their range the first or the last eighth is away from the others
+_APART = 3.0
 _FLOAT = 2.0**-42  # rounding of the sums, of the largest error
 _FLOAT_SQUARED = 2.0**-40  # rounding of sums of squares, of the mean square
 
@@ -112,23 +112,31 @@ class Trends:
     def __init__(self, count: int, signals: int) -> None:
         import numpy as np
 
+        windows = len(_WINDOWS)
         self.count = count
         self._largest = np.zeros(signals)
-        self._bounds = [(floor(a * count) + 1, ceil(b * count)) for a, b in _WINDOWS]
-        self._weights = np.zeros(
-            (len(_WINDOWS), 3)
-        )  # Σ w, Σ w u, Σ w u² with u = s − ½
+        # numbers of the first step inside each window, and of the step after the last
+        self._bounds: list[tuple[int, int]] = []
+        for a, b in _WINDOWS:
+            begin, stop = floor(a * count) + 1, ceil(b * count)
+            self._bounds.append((begin, stop))
+        # Σ w, Σ w u, Σ w u² with u = s − ½
+        self._weights = np.zeros((windows, 3))
         # the first error of each window: x = e − start is of the size of what happens in it
-        self._starts = np.zeros((len(_WINDOWS), signals))
-        self._sums = np.zeros((len(_WINDOWS), 3, signals))  # Σ w x, Σ w u x, Σ w x²
-        self._ranges = np.zeros((2, 2, signals))  # half of the run, least and greatest
-        self._ranges[:, 0], self._ranges[:, 1] = np.inf, -np.inf
+        self._starts = np.zeros((windows, signals))
+        # Σ w x, Σ w u x, Σ w x²
+        self._sums = np.zeros((windows, 3, signals))
+        # half of the run, least and greatest
+        self._ranges = np.zeros((2, 2, signals))
+        self._ranges[:, 0] = np.inf
+        self._ranges[:, 1] = -np.inf
 
     def add(self, first: int, errors: Floats) -> None:
         """The errors e_first, e_{first+1}, …, shape (m, signals)."""
         import numpy as np
 
-        np.maximum(self._largest, np.abs(errors).max(axis=0), out=self._largest)
+        largest = np.abs(errors).max(axis=0)
+        np.maximum(self._largest, largest, out=self._largest)
         self._add_to_ranges(first, errors)
         for k in range(len(_WINDOWS)):
             self._add_to_window(k, first, errors)
@@ -137,10 +145,11 @@ class Trends:
         import numpy as np
 
         middle = self.count // 2
-        for half, (start, end) in enumerate(
-            ((0, middle + 1), (middle, self.count + 1))
-        ):
-            part = errors[max(start - first, 0) : max(end - first, 0)]
+        halves = ((0, middle + 1), (middle, self.count + 1))
+        for half, (start, end) in enumerate(halves):
+            begin = max(start - first, 0)
+            stop = max(end - first, 0)
+            part = errors[begin:stop]
             if not len(part):
                 continue
             least, greatest = self._ranges[half]
@@ -150,7 +159,8 @@ class Trends:
     def _add_to_window(self, k: int, first: int, errors: Floats) -> None:
         import numpy as np
 
-        (a, b), (begin, stop) = _WINDOWS[k], self._bounds[k]
+        a, b = _WINDOWS[k]
+        begin, stop = self._bounds[k]
         start = max(begin, first)
         end = min(stop, first + len(errors))
         if start >= end:
@@ -159,12 +169,16 @@ class Trends:
         if start == begin:
             self._starts[k] = part[0]
         x = part - self._starts[k]
-        s = (np.arange(start, end) / self.count - a) / (b - a)
+        n = np.arange(start, end)
+        s = (n / self.count - a) / (b - a)
         u = s - 0.5
+        # the weight w(s) of this module's heading, scaled to 1 in the middle
         w = np.exp(4.0 - 1.0 / (s * (1.0 - s)))
-        self._weights[k] += w.sum(), w @ u, w @ (u * u)
-        self._sums[k, :2] += np.stack([w, w * u]) @ x
-        self._sums[k, 2] += w @ (x * x)
+        weighted = np.stack([w, w * u])
+        weights, sums = self._weights[k], self._sums[k]
+        weights += w.sum(), w @ u, w @ (u * u)
+        sums[:2] += weighted @ x
+        sums[2] += w @ (x * x)
 
     def of(self, signal: int, noise: float = 0.0) -> Trend:
         """The trend of one signal, all of whose errors have been added; ``LEAST`` at least.
@@ -198,33 +212,46 @@ class Trends:
 
         W, Wu, Wuu = self._weights.T
         X, Xu, Xx = self._sums[:, :, signal].T
-        slopes = (W * Xu - Wu * X) / (W * Wuu - Wu * Wu)
+        # the normal equations of level + slope · u, by Cramer's rule
+        determinants = W * Wuu - Wu * Wu
+        slopes = (W * Xu - Wu * X) / determinants
         levels = (X - slopes * Wu) / W
         squares = Xx / W
-        left = squares - (levels * X + slopes * Xu) / W
-        left[left < _FLOAT_SQUARED * squares] = 0.0
+        explained = (levels * X + slopes * Xu) / W
+        left = squares - explained
+        is_rounding = left < _FLOAT_SQUARED * squares
+        left[is_rounding] = 0.0
         lengths = np.array([b - a for a, b in _WINDOWS])
-        return _Windows(
-            slopes / lengths, levels + self._starts[:, signal], np.sqrt(left)
-        )
+        starts = self._starts[:, signal]
+        return _Windows(slopes / lengths, levels + starts, np.sqrt(left))
 
     def _move(self, signal: int, found: _Windows, least: float) -> float:
         """How far the first or last eighth lies apart, or one half of the run leaves the range of
         the other; 0 where neither does.
         """
-        levels, heights = found.levels[_OF_EIGHTHS], found.heights[_OF_EIGHTHS]
-        move = 0.0
-        for one, others in ((levels[0], levels[1:]), (levels[-1], levels[:-1])):
-            away = float(max(one - others.max(), others.min() - one))
-            usual = _APART * float(others.max() - others.min()) + float(heights.max())
-            if away > usual + least:
-                move = max(move, away)
+        move = _move_of_an_end(found, least)
         ranges = self._ranges[:, :, signal].tolist()
         for (low, high), (lowest, highest) in (ranges, ranges[::-1]):
             away = max(highest - high, low - lowest)
-            if away > (high - low) + least:
+            usual = high - low
+            if away > usual + least:
                 move = max(move, away)
         return move
+
+
+def _move_of_an_end(found: _Windows, least: float) -> float:
+    """How far the first or the last eighth lies apart from the others; 0 where neither does."""
+    levels = found.levels[_OF_EIGHTHS]
+    height = float(found.heights[_OF_EIGHTHS].max())
+    first, last = levels[0], levels[-1]
+    move = 0.0
+    for one, others in ((first, levels[1:]), (last, levels[:-1])):
+        low, high = others.min(), others.max()
+        away = float(max(one - high, low - one))
+        usual = _APART * float(high - low) + height
+        if away > usual + least:
+            move = max(move, away)
+    return move
 
 
 def _uncertainty(found: _Windows) -> float:
@@ -232,8 +259,10 @@ def _uncertainty(found: _Windows) -> float:
     import numpy as np
 
     slope = found.slopes[0]
-    halves = float(np.abs(found.slopes[_OF_HALVES] - slope).max())
-    variance = float(np.mean((found.slopes[_OF_QUARTERS] - slope) ** 2))
+    of_halves = found.slopes[_OF_HALVES] - slope
+    of_quarters = found.slopes[_OF_QUARTERS] - slope
+    halves = float(np.abs(of_halves).max())
+    variance = float(np.mean(of_quarters**2))
     noise = _SIGMAS * sqrt(variance) / _SHORTENING
     heights = found.heights[_OF_QUARTERS]
     modulation = float(heights.max() - heights.min())
@@ -246,15 +275,16 @@ def _climbs(found: _Windows, least: float) -> bool:
     """
     import numpy as np
 
-    levels, heights = found.levels[_OF_EIGHTHS], found.heights[_OF_EIGHTHS]
+    levels = found.levels[_OF_EIGHTHS]
+    heights = found.heights[_OF_EIGHTHS]
     moves = np.diff(levels)
     around = heights[1:] + heights[:-1]
     if _goes_on(moves, _CLEAR * around + least):
         return True
     in_all = abs(float(levels[-1] - levels[0]))
-    return in_all > CERTAIN * float(heights.max()) and _goes_on(
-        moves, around / 2 + least
-    )
+    if in_all <= CERTAIN * float(heights.max()):
+        return False
+    return _goes_on(moves, around / 2 + least)
 
 
 def _goes_on(moves: Floats, clear: Floats) -> bool:
@@ -268,7 +298,11 @@ def _net(found: _Windows, least: float) -> float:
     """How far apart the first and the last level are, if that is clear and more than half of what
     all levels vary; 0 if not.
     """
-    levels, heights = found.levels[_OF_EIGHTHS], found.heights[_OF_EIGHTHS]
+    levels = found.levels[_OF_EIGHTHS]
+    heights = found.heights[_OF_EIGHTHS]
     net = abs(float(levels[-1] - levels[0]))
-    is_clear = net > _CLEAR * float(heights[-1] + heights[0]) + least
-    return net if is_clear and net > float(levels.max() - levels.min()) / 2 else 0.0
+    around = float(heights[-1] + heights[0])
+    spread = float(levels.max() - levels.min())
+    is_clear = net > _CLEAR * around + least
+    is_most = net > spread / 2
+    return net if is_clear and is_most else 0.0

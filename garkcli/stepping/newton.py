@@ -207,7 +207,8 @@ class NewtonWriter:
             if not self._is_for_balls:
                 ends += f" or (stale and {squared_away})"
         # or round-off: only a second correction no smaller than the first tells that it is reached
-        stalled = f"0 < {_STALLED_RATE}*before <= size <= {_STALLED_UNITS:.0e}*precision*(scale + floor)"
+        round_off = f"{_STALLED_UNITS:.0e}*precision*(scale + floor)"
+        stalled = f"0 < {_STALLED_RATE}*before <= size <= {round_off}"
         write(f"done = {ends} or {stalled}")
         if not is_direct:
             near = _NEAR_FOR_BALLS if self._is_for_balls else _NEAR_FOR_FLOATS

@@ -37,7 +37,10 @@ class StepFailed(GarkError):
             cure = "choose a smaller step size"
         else:
             what = "the numbers leave the vector fields"
-            cure = "choose a smaller step size, or an earlier final time: the solution may end there"
+            cure = (
+                "choose a smaller step size, or an earlier final time: "
+                "the solution may end there"
+            )
         super().__init__(
             f"step {number} of size {h}: {what} (residual {residual:.1e})", cure
         )
