@@ -5,86 +5,76 @@ from __future__ import annotations
 from collections.abc import Sequence
 from typing import Any
 
-from flint import arb
-
 from garkcli.check.explained import repair_text
 from garkcli.check.outcome import Outcome
 from garkcli.exact.display import to_text
 from garkcli.order.blame import Blame, Repair
 from garkcli.order.constants import ErrorConstants, Norms
 from garkcli.order.suggestion import Misprint
+from garkcli.report.check_orders import size
 from garkcli.report.paint import Paint
 from garkcli.tableau.tableau import Tableau
 from garkcli.trees.notation import format_tree
+
+_MARGIN = " " * 8
+_CULPRIT = "takes part in every one of them: look there first"
+_SHOWN_REPAIRS = 3
 
 
 def blame_lines(blame: Blame, tableau: Tableau, paint: Paint) -> list[str]:
     """The hints for people; ``tableau`` is the method of the file."""
     own = [colour.name for colour in tableau.colours]
     names = blame.names or own
+    has_colours = len(names) > 1
     letter = "Â" if blame.of == "conjugate-order" else "A"
-    failing = (
+    lines = [f"  {paint('note', 'hint')}: {_failing(blame, has_colours)}"]
+    if blame.culprit is not None and has_colours:
+        culprit = _blocks([blame.culprit], names, letter)
+        lines.append(f"{_MARGIN}{culprit} {_CULPRIT}")
+    elif len(blame.in_every) > 1:
+        blocks = _blocks(blame.in_every, names, letter)
+        lines.append(f"{_MARGIN}in every one of them: {blocks}")
+    if blame.in_none:
+        blocks = _blocks(blame.in_none, names, letter)
+        lines.append(f"{_MARGIN}in none of them: {blocks}")
+    for repair in blame.repairs[:_SHOWN_REPAIRS]:
+        text = repair_text(repair, own)
+        lines.append(f"{_MARGIN}the claimed order would hold with {text}")
+    return lines
+
+
+def _failing(blame: Blame, has_colours: bool) -> str:
+    """How many conditions fail, of which order, and whether they couple colours."""
+    text = (
         f"{blame.failing} of the {blame.total} conditions of order {blame.order} fail"
     )
     if blame.total == 1:
-        failing = f"the one condition of order {blame.order} fails"
+        text = f"the one condition of order {blame.order} fails"
     if blame.of != "order":
-        failing = f"{blame.of}: {failing}"
-    coupling = (
-        ", all of them coupling conditions"
-        if blame.only_coupling and len(names) > 1
-        else ""
-    )
-    lines = [f"  {paint('note', 'hint')}: {failing}{coupling}"]
-    if blame.culprit is not None and len(names) > 1:
-        culprit = _block(blame.culprit, names, letter)
-        lines.append(
-            f"        {culprit} takes part in every one of them: look there first"
-        )
-    elif len(blame.in_every) > 1:
-        lines.append(
-            f"        in every one of them: {_blocks(blame.in_every, names, letter)}"
-        )
-    if blame.in_none:
-        lines.append(
-            f"        in none of them: {_blocks(blame.in_none, names, letter)}"
-        )
-    lines += [
-        f"        the claimed order would hold with {repair_text(repair, own)}"
-        for repair in blame.repairs[:3]
-    ]
-    return lines
+        text = f"{blame.of}: {text}"
+    if blame.only_coupling and has_colours:
+        text += ", all of them coupling conditions"
+    return text
 
 
 def misprint_lines(found: Misprint, tableau: Tableau, paint: Paint) -> list[str]:
     """Why no tolerance is proposed: an entry looks misprinted, and which."""
     names = [colour.name for colour in tableau.colours]
     residual, explained = size(found.residual), size(found.explained)
-    lines = [
-        f"  {paint('note', 'hint')}: up to order {found.order} the residuals are at most {residual}: "
-        f"an entry looks misprinted",
-        f"        the digits in the file explain {explained}",
-    ]
-    lines += [
-        f"        order {found.order} would hold with {repair_text(repair, names)}"
-        for repair in found.repairs[:3]
-    ]
+    hint = f"  {paint('note', 'hint')}:"
+    small = f"up to order {found.order} the residuals are at most {residual}"
+    lines = [f"{hint} {small}: an entry looks misprinted"]
+    lines.append(f"{_MARGIN}the digits in the file explain {explained}")
+    for repair in found.repairs[:_SHOWN_REPAIRS]:
+        text = repair_text(repair, names)
+        lines.append(f"{_MARGIN}order {found.order} would hold with {text}")
     return lines
-
-
-def size(ball: arb) -> str:
-    """A bound in two digits."""
-    return "0" if ball == 0 else ball.upper().str(2, radius=False)
-
-
-def _block(block: tuple[int, int], names: Sequence[str], letter: str = "A") -> str:
-    return f"{letter}{{{names[block[0]]},{names[block[1]]}}}"
 
 
 def _blocks(
     blocks: Sequence[tuple[int, int]], names: Sequence[str], letter: str
 ) -> str:
-    return ", ".join(_block(block, names, letter) for block in blocks)
+    return ", ".join(f"{letter}{{{names[l]},{names[m]}}}" for l, m in blocks)
 
 
 def constants_lines(constants: ErrorConstants, colours: bool) -> list[str]:
@@ -94,13 +84,14 @@ def constants_lines(constants: ErrorConstants, colours: bool) -> list[str]:
     how = "exact" if constants.is_exact else "in floats"
     lines = [f"  error coefficients of order {constants.order} ({how})"]
     kinds = [("all trees", constants.all), ("coupling trees", constants.coupling)]
-    for label, norms in kinds if colours else kinds[:1]:
-        worst = (
-            "" if norms.worst is None else f" at {format_tree(norms.worst, colours)}"
-        )
-        lines.append(
-            f"    {label:<15}{norms.trees:>8} trees   2-norm {norms.two:.6g}   largest {norms.largest:.6g}{worst}"
-        )
+    if not colours:
+        kinds = kinds[:1]
+    for label, norms in kinds:
+        trees = f"{norms.trees:>8} trees"
+        sizes = f"2-norm {norms.two:.6g}   largest {norms.largest:.6g}"
+        if norms.worst is not None:
+            sizes += f" at {format_tree(norms.worst, colours)}"
+        lines.append(f"    {label:<15}{trees}   {sizes}")
     return lines
 
 
@@ -141,15 +132,17 @@ def hints_data(outcome: Outcome) -> dict[str, Any]:
 
 
 def _repair(repair: Repair) -> dict[str, Any]:
-    weights = repair.m is None or repair.i is None
-    place = {
-        "b" if weights else "A": [repair.l + 1]
-        if repair.m is None
-        else [repair.l + 1, repair.m + 1],
+    is_weight = repair.m is None or repair.i is None
+    colours = [repair.l + 1]
+    if repair.m is not None:
+        colours.append(repair.m + 1)
+    return {
+        "b" if is_weight else "A": colours,
         "row": None if repair.i is None else repair.i + 1,
         "entry": repair.j + 1,
+        "old": to_text(repair.old),
+        "new": to_text(repair.new),
     }
-    return {**place, "old": to_text(repair.old), "new": to_text(repair.new)}
 
 
 def _norms(norms: Norms) -> dict[str, Any]:

@@ -3,12 +3,16 @@
 from __future__ import annotations
 
 import re
-from collections.abc import Sequence
+from collections.abc import Iterable, Sequence
 from dataclasses import dataclass
+from itertools import zip_longest
 
 _CODES = {"good": "32", "bad": "31;1", "strong": "1", "faint": "2", "note": "36"}
 
+_DOT = re.compile("●([0-9]+)")
+"""A dot of a drawn tree, with the number of its colour."""
 _DOTS = (34, 33, 32, 35, 36, 31)
+"""The codes of the colours 1, 2, …, taken anew after the last."""
 
 
 @dataclass(frozen=True)
@@ -25,15 +29,35 @@ class Paint:
         """A line of a drawn tree, its dots in the colours of their numbers."""
         if not self.color:
             return line
-        return re.sub(
-            "●([0-9]+)",
-            lambda dot: f"\x1b[{_DOTS[(int(dot[1]) - 1) % len(_DOTS)]}m{dot[0]}\x1b[0m",
-            line,
-        )
+        return _DOT.sub(_coloured_dot, line)
 
     def verdict(self, holds: bool, yes: str = "yes", no: str = "no") -> str:
         """A word that is good or bad news."""
         return self("good", yes) if holds else self("bad", no)
+
+
+def _coloured_dot(dot: re.Match[str]) -> str:
+    number = int(dot[1])
+    code = _DOTS[(number - 1) % len(_DOTS)]
+    return f"\x1b[{code}m{dot[0]}\x1b[0m"
+
+
+def counted(count: int, noun: str) -> str:
+    """A number of things.
+
+    >>> counted(1, "file"), counted(2, "file")
+    ('1 file', '2 files')
+    """
+    return f"{count} {noun}" if count == 1 else f"{count} {noun}s"
+
+
+def indented(lines: Iterable[str], indent: str = "  ") -> list[str]:
+    """Lines with the same margin.
+
+    >>> indented(["a", "b"])
+    ['  a', '  b']
+    """
+    return [indent + line for line in lines]
 
 
 def aligned(
@@ -44,14 +68,19 @@ def aligned(
     >>> aligned([["1/2", "-1"], ["0", "1/36"]])
     ['1/2    -1', '  0  1/36']
     """
-    widths = (
-        [max(len(row[j]) for row in rows) for j in range(len(rows[0]))] if rows else []
-    )
+    widths = _widths(rows)
     place = str.rjust if right else str.ljust
-    return [
-        gap.join(place(x, w) for x, w in zip(row, widths, strict=True)).rstrip()
-        for row in rows
-    ]
+    lines = []
+    for row in rows:
+        cells = map(place, row, widths)
+        lines.append(gap.join(cells).rstrip())
+    return lines
+
+
+def _widths(rows: Sequence[Sequence[str]]) -> list[int]:
+    """The longest cell of each column; no row may have more or fewer cells than another."""
+    columns = zip(*rows, strict=True)
+    return [max(map(len, column)) for column in columns]
 
 
 _JOINTS = re.compile(r".+?(?:(?<![∀=⊙]) |\}(?=[Ab(])|\](?:_\d+)?,|$)")
@@ -67,22 +96,23 @@ def folded(text: str, width: int, indent: str = "      ") -> list[str]:
     """
     lines = [""]
     for piece in _JOINTS.findall(text):
-        if lines[-1].strip() and len((lines[-1] + piece).rstrip()) > width:
-            lines.append(indent)
-        lines[-1] += piece
+        longer = lines[-1] + piece
+        is_begun = bool(lines[-1].strip())
+        if is_begun and len(longer.rstrip()) > width:
+            longer = indent + piece
+            lines.append("")
+        lines[-1] = longer
     return [line.rstrip() for line in lines]
 
 
 def beside(left: Sequence[str], right: Sequence[str], gap: str = "   ") -> list[str]:
     """Two blocks of lines next to each other."""
     width = max((len(line) for line in left), default=0)
-    height = max(len(left), len(right))
-    rows = zip(
-        [*left, *[""] * (height - len(left))],
-        [*right, *[""] * (height - len(right))],
-        strict=True,
-    )
-    return [f"{a.ljust(width)}{gap}{b}".rstrip() for a, b in rows]
+    lines = []
+    for a, b in zip_longest(left, right, fillvalue=""):
+        line = a.ljust(width) + gap + b
+        lines.append(line.rstrip())
+    return lines
 
 
 def padded(rows: Sequence[Sequence[str]], gap: str = "   ") -> list[str]:
@@ -91,9 +121,11 @@ def padded(rows: Sequence[Sequence[str]], gap: str = "   ") -> list[str]:
     >>> padded([["order", "4"], ["A", "12"]])
     ['order    4', 'A       12']
     """
-    widths = [max(len(row[j]) for row in rows) for j in range(len(rows[0]))]
+    first_width, *other_widths = _widths(rows)
     lines = []
     for first, *others in rows:
-        cells = [x.rjust(w) for x, w in zip(others, widths[1:], strict=True)]
-        lines.append(gap.join([first.ljust(widths[0]), *cells]).rstrip())
+        label = first.ljust(first_width)
+        cells = map(str.rjust, others, other_widths)
+        line = gap.join([label, *cells])
+        lines.append(line.rstrip())
     return lines

@@ -1,0 +1,163 @@
+"""The orders of a method with the trees that fail, for people."""
+
+from __future__ import annotations
+
+from typing import TYPE_CHECKING
+
+from flint import arb, fmpq
+
+from garkcli.check.analysis import Analysis, AnyOrder
+from garkcli.exact.display import decimal, to_decimal, to_text
+from garkcli.order.certificate import Order, Witness
+from garkcli.order.nonautonomous import with_time
+from garkcli.report.paint import Paint, beside, indented
+from garkcli.tableau.tableau import Tableau
+from garkcli.trees.drawing import draw_text
+from garkcli.trees.notation import format_tree
+
+if TYPE_CHECKING:
+    from garkcli.order.rounded import RoundedOrder
+    from garkcli.order.suggestion import Suggestion
+
+LABEL = 17
+"""Columns of a label."""
+_TREE_WIDTH = 30
+"""Columns of a drawn tree."""
+_BESIDE_WIDTH = 74
+"""Text and tree stand beside each other where both together are shorter than that."""
+_LONGEST = 60
+"""Longer values are shown in decimals."""
+_ONE_LINE = 50
+"""Value and residual that are shorter together share a line."""
+
+
+def order_lines(analysis: Analysis, paint: Paint) -> list[str]:
+    """The order of the method, of its conjugate, of their pair, and with time."""
+    lines: list[str] = []
+    shown: list[Witness] = []
+    for label, order, tableau in (
+        ("order", analysis.order, analysis.tableau),
+        ("conjugate order", analysis.conjugate_order, analysis.conjugate),
+        ("pair order", analysis.pair_order, analysis.pair),
+    ):
+        if order is None or tableau is None:
+            lines += [f"  {label:{LABEL}}none", f"      {analysis.obstacle}"]
+            continue
+        lines += _order(label, order, tableau, paint, shown)
+    timed = analysis.nonautonomous_order
+    if timed is not None and timed.order < analysis.order.order:
+        lines += _nonautonomous(analysis, timed, paint, shown)
+    return lines
+
+
+def order_number(order: AnyOrder) -> str:
+    """An order, or that it is the least one possible."""
+    number = str(order.order)
+    return f"at least {number}" if order.is_lower_bound else number
+
+
+def _nonautonomous(
+    analysis: Analysis, order: AnyOrder, paint: Paint, shown: list[Witness]
+) -> list[str]:
+    """The order on y' = f(t, y), as the nodes are not the row sums."""
+    timed = with_time(analysis.tableau)
+    if timed is None:
+        return []
+    lines = _order("non-autonomous", order, timed, paint, shown)
+    time = f"colour {timed.size} is time"
+    lines.append(f"      for y' = f(t, y) with the nodes as printed; {time}")
+    return lines
+
+
+def _order(
+    label: str, order: AnyOrder, tableau: Tableau, paint: Paint, shown: list[Witness]
+) -> list[str]:
+    """An order with its witness, drawn unless the same failure was shown before."""
+    number = paint("strong", order_number(order))
+    head = f"  {label:{LABEL}}{number}"
+    if not isinstance(order, Order):
+        tolerance, largest = decimal(order.tolerance), size(order.largest_residual)
+        head += f"   within {tolerance}, residuals up to {largest}"
+        if order.undecided:
+            return _undecided(head, order)
+    witness = order.witness
+    if witness is None:
+        every = f"every condition up to order {order.order} holds"
+        return [f"{head}   {every}; no further was looked"]
+    failed = f"fails at order {witness.tree.order}"
+    if witness in shown:
+        return [f"{head}   {failed}, as above"]
+    shown.append(witness)
+    text = _failure(failed, witness, tableau)
+    lines = [paint.dots(line) for line in indented(text, " " * 6)]
+    return [head, *lines]
+
+
+def _failure(failed: str, witness: Witness, tableau: Tableau) -> list[str]:
+    """The tree that fails, how far off its condition is, and its drawing where it fits."""
+    has_colours = tableau.size > 1
+    tree = format_tree(witness.tree, has_colours)
+    text = [f"{failed}: {tree}", *_residual(witness), *_legend(witness, tableau)]
+    picture = draw_text(witness.tree, has_colours, width=_TREE_WIDTH)
+    widths = [max(map(len, lines)) for lines in (text, picture)]
+    return beside(text, picture) if sum(widths) < _BESIDE_WIDTH else text
+
+
+def _undecided(head: str, order: RoundedOrder) -> list[str]:
+    """What is left open, and why."""
+    next_order, doubt = order.order + 1, order.doubt
+    if doubt is None:
+        return [f"{head}; order {next_order} is too much to decide"]
+    why = "a weight may be zero within it"
+    if doubt.effect is not None:
+        why = f"rounding may make up to {size(doubt.effect)} of that"
+    reached = f"residuals reach {size(doubt.reached)}"
+    return [head, f"      order {next_order} is not decided: {reached}, {why}"]
+
+
+def suggestion_lines(
+    found: Suggestion, tolerance: fmpq | None, paint: Paint
+) -> list[str]:
+    """The coefficients look rounded, or more so than they say: what to write into the file."""
+    hint = f"  {paint('note', 'hint')}:"
+    cure = f"with the line  {found.line}  the order is {found.order}"
+    rounding = size(found.rounding)
+    if tolerance is not None:
+        effect = f"rounding by {decimal(tolerance)} makes residuals up to {rounding}"
+        return [f"{hint} {effect}: the tolerance is too tight;", f"        {cure}"]
+    small = f"up to order {found.order} the residuals are at most {rounding}"
+    return [
+        f"{hint} {small}, then {size(found.genuine)}:",
+        f"        the coefficients look rounded; {cure}",
+    ]
+
+
+def size(ball: arb) -> str:
+    """A bound in two digits."""
+    return "0" if ball == 0 else ball.upper().str(2, radius=False)
+
+
+def _legend(witness: Witness, tableau: Tableau) -> list[str]:
+    """What the numbers of the colours mean, where colours have other names."""
+    names = [colour.name for colour in tableau.colours]
+    numbers = [str(l) for l in range(1, len(names) + 1)]
+    if names == numbers:
+        return []
+    used = sorted(witness.tree.colours)
+    meanings = [f"{numbers[l]} is {names[l]}" for l in used]
+    return [f"colour {', '.join(meanings)}"]
+
+
+def _residual(witness: Witness) -> list[str]:
+    """The value, what it should be, and the difference; long ones in decimals."""
+    value, residual = to_text(witness.value), to_text(witness.residual)
+    required = str(witness.required)
+    if max(len(value), len(residual)) > _LONGEST:
+        value = to_decimal(witness.value, 8)
+        residual = to_decimal(witness.residual, 4)
+        if len(required) > _LONGEST:
+            required = f"about {to_decimal(witness.required, 8)}"
+        return [f"about {value} instead of {required}, off by {residual}"]
+    if len(value) + len(residual) < _ONE_LINE:
+        return [f"{value} instead of {required}, off by {residual}"]
+    return [f"value    {value}", f"required {required}", f"residual {residual}"]
