@@ -29,6 +29,24 @@ MAX_ENTRIES = 1_000_000
 """Most entries of all blocks that transfer rules make."""
 
 
+def block_name(l: int, m: int) -> str:
+    """What messages call a block; colours are counted from 0.
+
+    >>> block_name(0, 1)
+    'A^{1,2}'
+    """
+    return f"A^{{{l + 1},{m + 1}}}"
+
+
+def of_colour(letter: str, l: int) -> str:
+    """What messages call the weights, nodes or matrix of one colour, counted from 0.
+
+    >>> of_colour("b", 0)
+    'b^{1}'
+    """
+    return f"{letter}^{{{l + 1}}}"
+
+
 @dataclass(frozen=True)
 class FamilyText:
     """A member of a family."""

@@ -15,6 +15,7 @@ from garkcli.errors import LimitExceeded, UnknownFamily, nearest
 from garkcli.exact.expression import read_decimal
 from garkcli.families.registry import FAMILIES, require_member
 from garkcli.methodfile import expectations
+from garkcli.methodfile.ark_prk import ArkReader, PrkReader
 from garkcli.methodfile.description import (
     FORMS,
     MAX_ENTRIES,
@@ -37,7 +38,7 @@ from garkcli.methodfile.description import (
 from garkcli.methodfile.expectations import NUMBERS
 from garkcli.methodfile.numbers import Numbers, read_parameters
 from garkcli.methodfile.source import Source, key_nodes, keys_of, shortened
-from garkcli.methodfile.spelled_out import SpelledOutReader
+from garkcli.methodfile.spelled_out import SpelledOutReader, are_too_many
 from garkcli.transfer import PAIR_RULES, RULES
 
 KEYS = (
@@ -238,8 +239,8 @@ class Reader:
         if form == "tableau":
             return self.spelled_out.tableau(node, entries.get("linear"))
         if form == "ark":
-            return self.spelled_out.ark(node)
-        return self.spelled_out.prk(node, structure)
+            return ArkReader(self.source, self.numbers).read(node)
+        return PrkReader(self.source, self.numbers).read(node, structure)
 
     def _methods(
         self, node: Node, structure: Structure, transfer: Node | None
@@ -248,7 +249,7 @@ class Reader:
         is_one = bool(keys & {"A", "b", "family", "stages"})
         # one method needs no brackets around it
         items = [node] if is_one else self.source.items(node, "methods", _METHODS)
-        if self.spelled_out.are_too_many(items, node):
+        if are_too_many(self.source, items, node):
             return None
         methods = [self._method(item, l) for l, item in enumerate(items, start=1)]
         if not items and isinstance(node, SequenceNode):

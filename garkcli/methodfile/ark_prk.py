@@ -1,0 +1,197 @@
+"""YAML nodes to the forms ``ark`` and ``prk``, whose colours share stages."""
+
+from __future__ import annotations
+
+from collections.abc import Iterator
+from dataclasses import replace
+
+from yaml.nodes import MappingNode, Node, SequenceNode
+
+from garkcli.errors import counted
+from garkcli.methodfile.description import (
+    ArkText,
+    ButcherText,
+    PrkText,
+    Structure,
+    of_colour,
+)
+from garkcli.methodfile.numbers import Numbers, Row, Rows
+from garkcli.methodfile.source import Source, key_nodes
+from garkcli.methodfile.spelled_out import (
+    CURES,
+    EXAMPLE,
+    are_too_many,
+    depth_of_lists,
+    entries_in,
+    lacks_coefficients,
+    method_name,
+)
+
+_FORM_OF_PRK = "give q: {A, b} and p: {A, b}"
+
+
+class ArkReader:
+    """Reads an additive method of one file: a matrix a colour on one set of stages."""
+
+    def __init__(self, source: Source, numbers: Numbers) -> None:
+        self.source = source
+        self.numbers = numbers
+
+    def read(self, node: Node) -> ArkText | None:
+        """The form ``ark``; None where it does not make a method."""
+        source = self.source
+        entries = source.mapping(node, "ark", ("c", "A", "b"), CURES, EXAMPLE)
+        cure = "give A, a matrix a colour, and b"
+        if lacks_coefficients(source, node, "ark", entries, cure):
+            return None
+        matrices = self._matrices(entries["A"])
+        if matrices is None:
+            return None
+        colours = len(matrices)
+        b = self._weights(entries["b"], colours)
+        c = None
+        if "c" in entries:
+            c = self.numbers.row(entries["c"], "c")
+        if len(b) != colours:
+            message = f"b has {counted(len(b), 'row')} for {counted(colours, 'colour')}"
+            cure = "give a row a colour, or a single shared row"
+            source.fault(entries["b"], message, cure)
+            return None
+        if not matrices or not all(matrices) or not all(b):
+            return None
+        stages = len(matrices[0])
+        A = self._fitted(matrices, entries["A"], stages)
+        self._check_lengths(entries, b, c, stages)
+        return ArkText(A, b, c)
+
+    def _matrices(self, node: Node) -> tuple[Rows, ...] | None:
+        """The matrices as they stand; None where A is no list of matrices."""
+        source = self.source
+        items = source.items(node, "A")
+        if are_too_many(source, items, node):
+            return None
+        if isinstance(node, SequenceNode) and not items:
+            source.fault(node, "A is empty", "give a matrix a colour")
+        if items and depth_of_lists(node) == 2:
+            message = "A is one matrix, and an ark has one a colour"
+            cure = "write A: [AE, AI]; or tableau: for one colour"
+            source.fault(node, message, cure)
+            return None
+        matrices: list[Rows] = []
+        for m, item in enumerate(items):
+            matrices.append(self.numbers.matrix(item, of_colour("A", m)))
+        return tuple(matrices)
+
+    def _fitted(
+        self, matrices: tuple[Rows, ...], node: Node, stages: int
+    ) -> tuple[Rows, ...]:
+        """The matrices, each as large as the first."""
+        shape = (stages, stages)
+        why = "the colours of an ark share stages"
+        items = node.value
+        fitted: list[Rows] = []
+        for m, rows in enumerate(matrices):
+            where = of_colour("A", m)
+            fitted.append(self.numbers.fitted(rows, items[m], where, shape, why))
+        return tuple(fitted)
+
+    def _weights(self, node: Node, colours: int) -> tuple[Row, ...]:
+        """The weights of each colour; the same row for all where there is a single one."""
+        items = self.source.items(node, "b")
+        if not any(isinstance(item, SequenceNode) for item in items):
+            return (self.numbers.row(node, "b"),) * colours
+        rows: list[Row] = []
+        for m, item in enumerate(items):
+            rows.append(self.numbers.row(item, of_colour("b", m)))
+        return tuple(rows)
+
+    def _check_lengths(
+        self, entries: dict[str, Node], b: tuple[Row, ...], c: Row | None, stages: int
+    ) -> None:
+        """Note weights and nodes that are not one a stage."""
+        wanted = counted(stages, "stage")
+        for name, row in _rows_of_weights(b):
+            if len(row) != stages:
+                message = f"{name} has {entries_in(len(row))} for {wanted}"
+                self.source.fault(entries["b"], message, "give a weight a stage")
+        if c is not None and len(c) != stages:
+            message = f"c has {entries_in(len(c))} for {wanted}"
+            cure = "give a node a stage, or leave c out"
+            self.source.fault(entries["c"], message, cure)
+
+
+def _rows_of_weights(b: tuple[Row, ...]) -> Iterator[tuple[str, Row]]:
+    """The rows of weights with what they are called; a shared row once."""
+    is_shared = all(row is b[0] for row in b)
+    if is_shared:
+        yield "b", b[0]
+        return
+    for m, row in enumerate(b):
+        yield of_colour("b", m), row
+
+
+class PrkReader:
+    """Reads a partitioned method of one file."""
+
+    def __init__(self, source: Source, numbers: Numbers) -> None:
+        self.source = source
+        self.numbers = numbers
+
+    def read(self, node: Node, structure: Structure) -> PrkText | None:
+        """The form ``prk``; its blocks are rectangular unless the structure is general."""
+        source = self.source
+        entries = source.mapping(node, "prk", ("q", "p"), form=_FORM_OF_PRK)
+        if set(entries) != {"q", "p"}:
+            if isinstance(node, MappingNode):
+                message = "prk: both parts q and p are needed"
+                source.fault(node, message, _FORM_OF_PRK)
+            return None
+        q = self._part(entries["q"], "q")
+        p = self._part(entries["p"], "p")
+        if q is None or p is None:
+            return None
+        # the velocity stages belong to the weights of q, the force stages to those of p
+        s_v, s_f = len(q.b), len(p.b)
+        if structure == "general" and s_v != s_f:
+            message = f"prk: q has {counted(s_v, 'weight')} and p has {s_f}"
+            cure = "a general problem needs one set of stages; or structure: separable"
+            source.fault(node, message, cure)
+            return None
+        why = f"q.b has {entries_in(s_v)} and p.b has {s_f}"
+        q = self._fitted(q, "q", (s_f, s_v), why)
+        p = self._fitted(p, "p", (s_v, s_f), why)
+        return PrkText(q, p)
+
+    def _part(self, node: Node, part: str) -> ButcherText | None:
+        """Q or p of a prk, its sizes not yet looked at."""
+        source = self.source
+        where = f"prk, {part}"
+        keys = ("name", "A", "b", "c")
+        entries = source.mapping(node, where, keys, CURES, EXAMPLE)
+        cure = "give A, b and perhaps c"
+        if lacks_coefficients(source, node, where, entries, cure):
+            return None
+        A = self.numbers.matrix(entries["A"], f"{part}.A")
+        b = self.numbers.row(entries["b"], f"{part}.b")
+        c = None
+        if "c" in entries:
+            c = self.numbers.row(entries["c"], f"{part}.c")
+        name = method_name(source, entries.get("name"), where)
+        if not A or not b:
+            return None
+        return ButcherText(node, name, A, b, c)
+
+    def _fitted(
+        self, text: ButcherText, part: str, shape: tuple[int, int], why: str
+    ) -> ButcherText:
+        """A part whose matrix has the shape that the weights of both ask for."""
+        keys = key_nodes(text.node)
+        place = keys.get("A", text.node)
+        A = self.numbers.fitted(text.A, place, f"{part}.A", shape, why)
+        rows, _ = shape
+        if text.c is not None and len(text.c) != rows:
+            message = f"{part}.c has {entries_in(len(text.c))} for "
+            message += counted(rows, "node")
+            place = keys.get("c", text.node)
+            self.source.fault(place, message, "give one of each")
+        return replace(text, A=A)
