@@ -1,7 +1,7 @@
 """What rounding can do to conserved quantities: that of the numbers stepped with, and that of the
 coefficients of the method.
 
-Both are derived in docs/energy-drift.md.
+Both are derived in docs/energy.md.
 """
 
 from __future__ import annotations

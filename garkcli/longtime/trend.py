@@ -9,7 +9,7 @@ which is smooth and vanishes with all derivatives at both ends. What an oscillat
 adds to the slope is a Fourier coefficient of w, smaller than any power of 1/f; with equal weights
 it would be 1/f² only. Sums of twenty-odd windows are kept, whatever N is.
 
-The uncertainty of the slope has two parts, see docs/energy-drift.md:
+The uncertainty of the slope has two parts, see docs/energy.md:
 
 - how far the slopes of the halves are from it, and how much those of the quarters vary: noise,
   however it is correlated, and modulations that are not much longer than the run;
@@ -46,7 +46,7 @@ CERTAIN = 10.0
 """How many times its uncertainty a slope has to be for a drift.
 
 Of 480 runs of symplectic methods on systems of two planets none comes to that, see
-docs/energy-drift.md.
+docs/energy.md.
 """
 _WHOLE = ((0.0, 1.0),)
 _HALVES = tuple((k / 4, k / 4 + 1 / 2) for k in range(3))

@@ -1,5 +1,5 @@
 """``gark check --format json``: exact numbers as strings, colours and stages from 1; see
-docs/command-line.md.
+docs/json.md.
 """
 
 from __future__ import annotations

@@ -1,5 +1,5 @@
 """The verdicts of ``gark energy`` on 80 random systems of two planets, of three symplectic methods
-and of two that are not; the figures of docs/energy-drift.md.
+and of two that are not; the figures of docs/energy.md.
 """
 
 from __future__ import annotations

@@ -1,0 +1,127 @@
+"""docs/json.md names what the JSON and the CSV of the commands hold."""
+
+from __future__ import annotations
+
+import json
+import re
+from collections.abc import Iterator
+from typing import Any
+
+import pytest
+
+from tests.cli.harness import ROOT, gark
+
+PAGE = (ROOT / "docs" / "json.md").read_text(encoding="utf-8")
+METHOD = "methods/collocation.gark.yaml"
+MISPRINTED = "tests/examples/failing/collocation-misprinted.gark.yaml"
+
+REPORTS = {
+    "check": [["check", METHOD]],
+    "trees": [
+        ["trees", "--order", "3", "--colours", "2"],
+        ["trees", "--order", "3", "--symplectic", "--members"],
+    ],
+    "conditions": [
+        ["conditions", "--order", "2"],
+        ["conditions", METHOD, "--order", "2"],
+        ["conditions", METHOD, "--order", "2", "--symplectic", "--members"],
+    ],
+    "tableau, gark conjugate": [["tableau", METHOD], ["conjugate", METHOD]],
+    "stability": [
+        ["stability", METHOD],
+        ["stability", "methods/rectangular.gark.yaml"],
+        ["stability", METHOD, "--slow", "1/100", "--fast", "2"],
+    ],
+    "converge": [
+        ["converge", METHOD, "--problem", "oscillator"],
+        ["converge", METHOD, "--problem", "kepler", "--steps", "1/8,1/16", "--work"],
+        ["converge", METHOD, METHOD, "--problem", "oscillator"],
+    ],
+    "energy": [
+        ["energy", METHOD, "--t-end", "100"],
+        ["energy", METHOD, "--problem", "pendulum", "--t-end", "10", "--bounded"],
+        ["energy", METHOD, "--problem", "pendulum", "--t-end", "10", "--symplecticity"],
+    ],
+    "list": [["list"]],
+}
+"""Of each section the runs whose reports it describes."""
+
+GIVEN_NAMES = re.compile(r"[VFfHP]?\d+|angular momentum")
+"""Keys that are names of colours or invariants."""
+
+
+def section(name: str) -> str:
+    """What the page says of a command."""
+    return re.split(
+        r"^## ", PAGE.partition(f"## gark {name}\n")[2], flags=re.MULTILINE
+    )[0]
+
+
+def keys(data: Any) -> Iterator[str]:
+    """All keys in a report, however deep."""
+    if isinstance(data, dict):
+        yield from data
+        data = list(data.values())
+    if isinstance(data, list):
+        for entry in data:
+            yield from keys(entry)
+
+
+@pytest.mark.parametrize("name", REPORTS)
+def test_every_key_is_on_the_page(name: str) -> None:
+    """What a report holds is named in the section of its command, and so is its schema."""
+    described = set(re.findall(r'[`"](\w+)[`"]', section(name)))
+    described |= set(re.findall(r"gark/[\w-]+/1", section(name)))
+    for arguments in REPORTS[name]:
+        found = gark(*arguments, "--format", "json")
+        assert found.code in {0, 1}, found.err
+        report = json.loads(found.out)
+        wanted = {key for key in keys(report) if not GIVEN_NAMES.fullmatch(key)}
+        assert wanted | {report["schema"]} <= described
+
+
+def test_the_example_of_a_check_is_real() -> None:
+    """Each pair of key and value that it shows is in the report that it is said to be from."""
+    found = json.loads(gark("check", METHOD, "--format", "json").out)
+    (example,) = re.findall(r"```json\n(.*?)```", PAGE, re.DOTALL)
+    whole = example.replace("{…}", "null").replace(", …", "")
+    shown = json.loads(whole)
+    assert list(shown) == list(found)
+    assert shown["schema"] == found["schema"]
+    assert shown["summary"] == found["summary"]
+    (method,), (real,) = shown["files"], found["files"]
+    assert list(method) == list(real)
+    assert method["claims"] == real["claims"][:1]
+    shortened = {key for key in method if method[key] is None and real[key] is not None}
+    assert shortened == {"conjugate_witness", "pair_witness", "nonautonomous_witness"}
+    for key in set(method) - shortened - {"claims"}:
+        assert method[key] == real[key], key
+
+
+def test_what_a_failing_check_adds_is_on_the_page() -> None:
+    """The parts of a report that only a failure has are named."""
+    found = gark("check", MISPRINTED, "--format", "json", "--error-constants")
+    (file,) = json.loads(found.out)["files"]
+    described = set(re.findall(r'[`"](\w+)[`"]', section("check")))
+    assert set(file) <= described
+    assert {"blame", "error_constants"} <= set(file)
+
+
+@pytest.mark.parametrize(
+    ("name", "arguments"),
+    [
+        (
+            "converge",
+            ["converge", METHOD, "--problem", "kepler", "--steps", "1/8,1/16"],
+        ),
+        ("converge", ["converge", METHOD, METHOD, "--problem", "oscillator", "--work"]),
+        ("energy", ["energy", METHOD, "--problem", "kepler", "--t-end", "10"]),
+    ],
+)
+def test_every_column_is_on_the_page(name: str, arguments: list[str]) -> None:
+    """The columns of the CSV are named in the section of the command."""
+    head = gark(*arguments, "--format", "csv").out.splitlines()[0]
+    described = set(re.findall(r"`(\w+)`", section(name)))
+    if name == "energy":
+        described |= {"angular_momentum_error"}
+    assert set(head.split(",")) <= described

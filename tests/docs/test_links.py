@@ -1,0 +1,76 @@
+"""The links between the pages: README.md and docs/*.md."""
+
+from __future__ import annotations
+
+import re
+from pathlib import Path
+
+import pytest
+
+ROOT = Path(__file__).resolve().parents[2]
+README = ROOT / "README.md"
+PACKAGE_PAGE = ROOT / "docs" / "package-page.md"
+PAGES = [README, *sorted((ROOT / "docs").glob("*.md"))]
+
+
+def prose(page: Path) -> str:
+    """The text of a page without its blocks of code."""
+    text = page.read_text(encoding="utf-8")
+    return re.sub(r"^```.*?^```$", "", text, flags=re.DOTALL | re.MULTILINE)
+
+
+def links(page: Path) -> list[str]:
+    """The targets of links and pictures, those to other machines left out."""
+    text = re.sub(r"`[^`\n]*`(?!\])", "", prose(page))
+    targets = re.findall(r"\]\(([^)\s]+)\)", text)
+    return [target for target in targets if "://" not in target]
+
+
+def anchors(page: Path) -> set[str]:
+    """What its headings are called in links: small letters, hyphens for spaces, no signs."""
+    headings = re.findall(r"^#+ (.*)$", prose(page), re.MULTILINE)
+    plain = [re.sub(r"[^\w\- ]", "", heading.lower()) for heading in headings]
+    return {heading.replace(" ", "-") for heading in plain}
+
+
+def missing(page: Path) -> list[str]:
+    """The links of a page that lead nowhere."""
+    found = []
+    for link in links(page):
+        name, _, anchor = link.partition("#")
+        target = (page.parent / name) if name else page
+        is_there = target.exists() and (not anchor or anchor in anchors(target))
+        if not is_there:
+            found.append(link)
+    return found
+
+
+@pytest.mark.parametrize("page", PAGES, ids=lambda page: page.name)
+def test_every_link_leads_somewhere(page: Path) -> None:
+    """A file that is there, and a heading that it has."""
+    assert missing(page) == []
+
+
+def test_every_page_is_found_from_the_readme() -> None:
+    """Following links from the README one comes to all pages but the one of the package index."""
+    seen: set[Path] = set()
+    ahead = [README]
+    while ahead:
+        page = ahead.pop()
+        seen.add(page)
+        targets = {
+            (page.parent / link.partition("#")[0]).resolve() for link in links(page)
+        }
+        ahead += [x for x in targets if x.suffix == ".md" and x not in seen]
+    assert set(PAGES) - seen == {PACKAGE_PAGE}
+
+
+def test_a_wrong_link_is_found(tmp_path: Path) -> None:
+    """Files and headings that are not there are told, those that are there are not."""
+    page = tmp_path / "a.md"
+    page.write_text(
+        "# One `two`, three\n[x](#one-two-three) [x](a.md) [x](b.md) [`x`](#two)\n"
+        "```\n# four\n```\n[x](a.md#four) [x](https://example.org/c)\n",
+        encoding="utf-8",
+    )
+    assert missing(page) == ["b.md", "#two", "a.md#four"]
