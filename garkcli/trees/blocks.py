@@ -55,10 +55,10 @@ class Block:
         for stem, branch, root in rows:
             if branch < 0:
                 yield Tree(root)
-            else:
-                yield Tree(
-                    root, [*self.lower.tree(stem).branches, self.lower.tree(branch)]
-                )
+                continue
+            others = self.lower.tree(stem).branches
+            last = self.lower.tree(branch)
+            yield Tree(root, [*others, last])
 
 
 def iter_blocks(
@@ -91,9 +91,8 @@ def iter_blocks(
     for root in wanted:
         for _, growth in segments_of(admissible, starts, order, lower.columns, root):
             for start in range(0, len(growth), block_size):
-                yield Block(
-                    growth.make(start, min(start + block_size, len(growth))), lower
-                )
+                stop = min(start + block_size, len(growth))
+                yield Block(growth.make(start, stop), lower)
 
 
 def select(
@@ -117,34 +116,25 @@ def select(
     >>> [u for block in select(2, 3, root=0, using=[1]) for u in block.notation()]
     ['[[]_1,[]_2]_1', '[[]_2,[]_2]_1', '[[[]_2]_1]_1', '[[[]_1]_2]_1', '[[[]_2]_2]_1']
     """
-    for colour in {*(only or ()), *using, *(() if root is None else (root,))}:
+    named = {*(only or ()), *using}
+    if root is not None:
+        named.add(root)
+    for colour in named:
         if not 0 <= colour < colours:
             raise ValueError(
                 f"there is no colour {colour} among the {colours} colours 0, 1, …"
             )
     within = set(range(colours) if only is None else only)
-    narrowed = [
-        [
-            (edges is None or bool(edges[above][m])) and {above, m} <= within
-            for m in range(colours)
-        ]
-        for above in range(colours)
-    ]
-    if len(set(using)) > min(order, MAX_USING):
+    roots = within if root is None else {root} & within
+    narrowed = _narrowed(colours, edges, within)
+    wanted = sorted(set(using))
+    if len(wanted) > min(order, MAX_USING):
         return  # more colours than vertices, or than any tree that can be listed has
     bits = np.zeros(colours, np.int64)
-    bits[sorted(set(using))] = 1 << np.arange(len(set(using)))
-    used: Column | None = (
-        None  # for every tree of the lower orders which of the colours occur
-    )
-    for block in iter_blocks(
-        colours,
-        order,
-        block_size,
-        narrowed,
-        linear,
-        within if root is None else {root} & within,
-    ):
+    bits[wanted] = 1 << np.arange(len(wanted))
+    # for every tree of the lower orders which of the colours occur
+    used: Column | None = None
+    for block in iter_blocks(colours, order, block_size, narrowed, linear, roots):
         if used is None:
             used = _used_by_all(block.lower, bits)
         keep = _used(block.columns, bits, used) == bits.sum()
@@ -154,11 +144,22 @@ def select(
             yield Block(block.columns.part(keep), block.lower)
 
 
+def _narrowed(
+    colours: int, edges: Edges | None, within: Collection[int]
+) -> list[list[bool]]:
+    """The edges between the colours ``within``, as a matrix over all colours."""
+    narrowed = [[False] * colours for _ in range(colours)]
+    for above in within:
+        for m in within:
+            narrowed[above][m] = edges is None or bool(edges[above][m])
+    return narrowed
+
+
 def _used(trees: Columns, bits: Column, known: Column) -> Column:
     """A bit for each colour that occurs; ``known`` has those of the parents."""
-    return np.where(
-        trees.branch < 0, bits[trees.root], known[trees.stem] | known[trees.branch]
-    )
+    is_vertex = trees.branch < 0
+    inherited = known[trees.stem] | known[trees.branch]
+    return np.where(is_vertex, bits[trees.root], inherited)
 
 
 def _used_by_all(table: TreeTable, bits: Column) -> Column:

@@ -149,22 +149,18 @@ class Growth:
         stems = slice(self.stems.start + i, self.stems.start + j)
         branch = np.repeat(begin - heads, count)
         branch += np.arange(stop - start)
-        again = np.flatnonzero(
-            (begin == self._last[i:j]) & (count > 0)
-        )  # the stem's last branch once more
+        # where the branch is the stem's last one once more
+        again = np.flatnonzero((begin == self._last[i:j]) & (count > 0))
+        repeated = heads[again]
         exact = exact_dtype(order)
         multiplicity = np.ones(stop - start, np.int16)
-        multiplicity[heads[again]] += lower.multiplicity[stems][again]
-        sigma = (
-            np.repeat(lower.sigma[stems].astype(exact, copy=False), count)
-            * lower.sigma[branch]
-        )
-        sigma[heads[again]] *= multiplicity[heads[again]]
-        stem_gamma = (
-            lower.gamma[stems].astype(exact, copy=False)
-            // int(lower.order[stems.start])
-            * order
-        )
+        multiplicity[repeated] += lower.multiplicity[stems][again]
+        stem_sigma = lower.sigma[stems].astype(exact, copy=False)
+        sigma = np.repeat(stem_sigma, count) * lower.sigma[branch]
+        sigma[repeated] *= multiplicity[repeated]
+        # γ of the stem with the order of the new tree in the place of its own
+        stem_order = int(lower.order[stems.start])
+        stem_gamma = lower.gamma[stems].astype(exact, copy=False) // stem_order * order
         return Columns(
             stem=np.repeat(np.arange(stems.start, stems.stop), count),
             branch=branch,

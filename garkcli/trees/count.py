@@ -96,11 +96,10 @@ def counts_upto(admissible: Admissible, order: int) -> list[tuple[int, ...]]:
     [(1, 1), (1, 2), (3, 6)]
     """
     leaders = admissible.leaders
-    forests = {
-        leader: [*map(int, f)]
-        for leader, f in _forests(admissible, leaders, order).items()
-    }
-    return [*zip(*(forests[leader] for leader in leaders), strict=True)]
+    forests = _forests(admissible, leaders, order)
+    of_leader = {leader: [*map(int, f)] for leader, f in forests.items()}
+    by_root = [of_leader[leader] for leader in leaders]
+    return [*zip(*by_root, strict=True)]
 
 
 def count_by_root(
@@ -115,10 +114,8 @@ def count_by_root(
     """
     admissible = Admissible.of(colours, edges, linear)
     leaders = admissible.leaders
-    last = {
-        leader: int(f[-1]) for leader, f in _forests(admissible, leaders, order).items()
-    }
-    return tuple(last[leader] for leader in leaders)
+    forests = _forests(admissible, leaders, order)
+    return tuple(int(forests[leader][-1]) for leader in leaders)
 
 
 def _forests(
@@ -127,14 +124,11 @@ def _forests(
     """For each leader the numbers of forests f(0), …, f(order - 1) that may stand on it."""
     if order < 1:
         raise ValueError(f"the order of a tree is at least 1, not {order}")
-    growing = {
-        leader: _Growing(
-            order,
-            Counter(leaders[m] for m in admissible.branches[leader]),
-            leader in admissible.linear,
-        )
-        for leader in dict.fromkeys(leaders)
-    }
+    growing: dict[int, _Growing] = {}
+    for leader in dict.fromkeys(leaders):
+        branches = Counter(leaders[m] for m in admissible.branches[leader])
+        is_linear = admissible.is_linear(leader)
+        growing[leader] = _Growing(order, branches, is_linear)
     block = order
     while block > SHORT:
         block = (block + 1) // 2
@@ -154,20 +148,21 @@ class _Growing:
     """The forests on a colour, f(0), f(1), …, as far as they are counted."""
 
     def __init__(self, order: int, branches: Counter[int], is_linear: bool) -> None:
-        self.branches, self.is_linear = branches, is_linear
+        self.branches = branches
+        self.is_linear = is_linear
         self.f = [fmpz(1)]
-        self.t = [fmpz(0)]  # the trees of each order that may be branches
-        self.c = [fmpz(0)] * order  # the sums c(n), complete up to the last t
-        self.sums = [
-            fmpz(0)
-        ] * order  # the part of Σ c(k) f(n - k), 0 < k < n, of blocks that are done
+        # the trees of each order that may be branches
+        self.t = [fmpz(0)]
+        # the sums c(n), complete up to the last t
+        self.c = [fmpz(0)] * order
+        # the part of Σ c(k) f(n - k), 0 < k < n, of blocks that are done
+        self.sums = [fmpz(0)] * order
 
     def see(self, n: int, growing: dict[int, _Growing]) -> None:
         """Note the trees of order n, each a root on a forest of n - 1 vertices."""
-        t = sum(
-            (many * growing[leader].f[n - 1] for leader, many in self.branches.items()),
-            start=fmpz(0),
-        )
+        t = fmpz(0)
+        for leader, many in self.branches.items():
+            t += many * growing[leader].f[n - 1]
         self.t.append(t)
         if not self.is_linear:
             for multiple in range(n, len(self.c), n):
@@ -178,15 +173,15 @@ class _Growing:
         if self.is_linear:
             self.f.append(self.t[n])
             return
-        f, c = self.f, self.c
+        f = self.f
+        c = self.c
         total = self.sums[n] + c[n]
         if start:
-            total += sum(
-                (c[k] * f[n - k] + f[k] * c[n - k] for k in range(start, n)),
-                start=fmpz(0),
-            )
+            for k in range(start, n):
+                total += c[k] * f[n - k] + f[k] * c[n - k]
         else:
-            total += sum((c[k] * f[n - k] for k in range(1, n)), start=fmpz(0))
+            for k in range(1, n):
+                total += c[k] * f[n - k]
         f.append(total // n)
 
     def spread(self, end: int, block: int) -> None:
@@ -197,21 +192,22 @@ class _Growing:
         and n in the second; so it is counted once. Unless the interval begins at 0, j is below its
         length, hence below ``start``.
         """
-        half = (end // block & -(end // block)) * block
-        start, stop = end - half, min(end + half, len(self.c))
+        done = end // block
+        half = (done & -done) * block  # the largest power of two that divides ``done``
+        start = end - half
+        stop = min(end + half, len(self.c))
         if self.is_linear or stop <= end:
             return
         f, c = self.f, self.c
         if start:
             near = stop - start
-            product = fmpz_poly(f[start:end]) * fmpz_poly(c[:near]) + fmpz_poly(
-                c[start:end]
-            ) * fmpz_poly(f[:near])
+            product = fmpz_poly(f[start:end]) * fmpz_poly(c[:near])
+            product += fmpz_poly(c[start:end]) * fmpz_poly(f[:near])
         else:
             product = fmpz_poly(f) * fmpz_poly(c[:end])
-        for n, coefficient in zip(
-            range(end, stop), product.coeffs()[half:], strict=False
-        ):
+        later = product.coeffs()[half:]
+        # what reaches beyond ``stop`` belongs to larger intervals
+        for n, coefficient in zip(range(end, stop), later, strict=False):
             self.sums[n] += coefficient
 
 

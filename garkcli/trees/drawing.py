@@ -31,13 +31,16 @@ the numbers do not.
 
 DOT = "●"
 
-STEP_X, STEP_Y, RADIUS, MARGIN = 30, 36, 11, 16  # of the SVG drawings, in pixels
+# of the SVG drawings, in pixels
+STEP_X = 30
+STEP_Y = 36
+RADIUS = 11
+MARGIN = 16
 ROW_GAP = 24  # between the captions of one row and the highest tree of the next
-CAPTION_SIZE, CAPTION_STEP = (
-    12,
-    17,
-)  # type size and line step of the captions, in pixels
+CAPTION_SIZE = 12  # type size of the captions, in pixels
+CAPTION_STEP = 17  # from one line of a caption to the next
 CHARACTER = 0.62 * CAPTION_SIZE  # width of a character of the captions, in pixels
+FONTS = "DejaVu Sans, Helvetica, Arial, sans-serif"
 
 
 class Vertex(NamedTuple):
@@ -68,8 +71,11 @@ def layout(tree: Tree) -> list[Vertex]:
         here = len(placed)
         placed.append(Vertex(0, y, u.root, parent))
         columns = [place(branch, y + 1, here) for branch in written_order(u)]
-        x = (columns[0] + columns[-1]) / 2 if columns else float(leaves)
-        leaves += not columns
+        if columns:
+            x = (columns[0] + columns[-1]) / 2
+        else:
+            x = float(leaves)
+            leaves += 1
         placed[here] = Vertex(x, y, u.root, parent)
         return x
 
@@ -92,7 +98,14 @@ def draw_text(tree: Tree, colours: bool = True, width: int = 80) -> list[str]:
      ●1
     """
     lines, _ = _upright(tree, colours)
-    return lines if max(map(len, lines)) <= width else _lying(tree, colours)
+    if _text_width(lines) <= width:
+        return lines
+    return _lying(tree, colours)
+
+
+def _text_width(lines: Sequence[str]) -> int:
+    """Characters in the longest of some lines."""
+    return max(len(line) for line in lines)
 
 
 def _label(tree: Tree, colours: bool) -> str:
@@ -106,15 +119,18 @@ def _upright(tree: Tree, colours: bool) -> tuple[list[str], int]:
         return [label], 0
     parts = [_upright(u, colours) for u in written_order(tree)]
     height = max(len(lines) for lines, _ in parts)
-    left, dots = 0, []
+    left = 0
+    dots = []
     rows = [""] * height
     for lines, dot in parts:
         dots.append(left + dot)
-        for i, line in enumerate(lines, height - len(lines)):
+        top = height - len(lines)
+        for i, line in enumerate(lines, top):
             rows[i] = rows[i].ljust(left) + line
-        left += max(map(len, lines)) + 1
+        left += _text_width(lines) + 1
     root = (dots[0] + dots[-1]) // 2
-    return [*rows, _fork(dots, root), " " * root + label], root
+    fork = _fork(dots, root)
+    return [*rows, fork, " " * root + label], root
 
 
 def _fork(dots: Sequence[int], root: int) -> str:
@@ -134,10 +150,11 @@ def _lying(tree: Tree, colours: bool) -> list[str]:
     lines = [_label(tree, colours)]
     branches = written_order(tree)
     for k, u in enumerate(branches):
-        last = k == len(branches) - 1
+        is_last = k == len(branches) - 1
+        elbow, rail = ("╰─", "  ") if is_last else ("├─", "│ ")
         first, *rest = _lying(u, colours)
-        lines.append(("╰─" if last else "├─") + first)
-        lines += [("  " if last else "│ ") + line for line in rest]
+        lines.append(elbow + first)
+        lines += [rail + line for line in rest]
     return lines
 
 
@@ -158,16 +175,7 @@ def draw_svg_sheet(
     for k, caption in enumerate(captions or ()):
         lines[k].insert(0, caption)
     columns = max(1, min(columns, len(trees)))
-    widths, heights = [0.0] * columns, [0.0] * -(-len(trees) // columns)
-    for k, vertices in enumerate(placed):
-        wide = max(v.x for v in vertices) * STEP_X + 2 * RADIUS
-        text = max(map(len, lines[k])) * CHARACTER
-        widths[k % columns] = max(
-            widths[k % columns], wide + 2 * MARGIN, text + 2 * MARGIN
-        )
-        heights[k // columns] = max(
-            heights[k // columns], max(v.y for v in vertices) * STEP_Y + 2 * RADIUS
-        )
+    widths, heights = _grid(placed, lines, columns)
     captioned = CAPTION_STEP * max((len(text) for text in lines), default=0)
     foot = captioned + 2 * MARGIN + ROW_GAP
     body = []
@@ -177,15 +185,35 @@ def draw_svg_sheet(
         ground = MARGIN + sum(heights[: row + 1]) + row * foot - RADIUS
         body += _svg_tree(vertices, middle, ground)
         body += _svg_caption(lines[k], middle, ground + RADIUS)
-    width, height = sum(widths), MARGIN + sum(heights) + len(heights) * foot - ROW_GAP
-    return "\n".join([*_svg_head(width, height), *body, "</svg>", ""])
+    width = sum(widths)
+    height = MARGIN + sum(heights) + len(heights) * foot - ROW_GAP
+    head = _svg_head(width, height)
+    return "\n".join([*head, *body, "</svg>", ""])
+
+
+def _grid(
+    placed: Sequence[Sequence[Vertex]], captions: Sequence[Sequence[str]], columns: int
+) -> tuple[list[float], list[float]]:
+    """The widths of the columns of a sheet and the heights of its rows, in pixels."""
+    rows = -(-len(placed) // columns)
+    widths = [0.0] * columns
+    heights = [0.0] * rows
+    for k, vertices in enumerate(placed):
+        row, column = divmod(k, columns)
+        drawn = max(v.x for v in vertices) * STEP_X + 2 * RADIUS
+        written = _text_width(captions[k]) * CHARACTER
+        high = max(v.y for v in vertices) * STEP_Y + 2 * RADIUS
+        widths[column] = max(widths[column], drawn + 2 * MARGIN, written + 2 * MARGIN)
+        heights[row] = max(heights[row], high)
+    return widths, heights
 
 
 def _svg_head(width: float, height: float) -> list[str]:
-    size = f'width="{width:.0f}" height="{height:.0f}" viewBox="0 0 {width:.0f} {height:.0f}"'
+    size = f'width="{width:.0f}" height="{height:.0f}"'
+    view = f'viewBox="0 0 {width:.0f} {height:.0f}"'
+    font = f'font-family="{FONTS}" font-size="{CAPTION_SIZE}" text-anchor="middle"'
     return [
-        f'<svg xmlns="http://www.w3.org/2000/svg" {size} font-family="DejaVu Sans, Helvetica, Arial, sans-serif"'
-        f' font-size="{CAPTION_SIZE}" text-anchor="middle">',
+        f'<svg xmlns="http://www.w3.org/2000/svg" {size} {view} {font}>',
         '<rect width="100%" height="100%" fill="#ffffff"/>',
     ]
 
@@ -197,26 +225,30 @@ def _svg_tree(vertices: Sequence[Vertex], middle: float, ground: float) -> list[
     lines = ['<g stroke="#333333" stroke-width="1.6">']
     for v, (x, y) in zip(vertices[1:], points[1:], strict=True):
         x0, y0 = points[v.parent]
-        lines.append(f'<line x1="{x0:.1f}" y1="{y0:.1f}" x2="{x:.1f}" y2="{y:.1f}"/>')
+        start = f'x1="{x0:.1f}" y1="{y0:.1f}"'
+        end = f'x2="{x:.1f}" y2="{y:.1f}"'
+        lines.append(f"<line {start} {end}/>")
     lines.append("</g>")
     for v, (x, y) in zip(vertices, points, strict=True):
         fill, ink = PALETTE[v.colour % len(PALETTE)]
-        lines.append(
-            f'<circle cx="{x:.1f}" cy="{y:.1f}" r="{RADIUS}" fill="{fill}" stroke="#333333"/>'
-        )
-        lines.append(
-            f'<text x="{x:.1f}" y="{y + 4.3:.1f}" font-weight="bold" fill="{ink}">{v.colour + 1}</text>'
-        )
+        centre = f'cx="{x:.1f}" cy="{y:.1f}" r="{RADIUS}"'
+        lines.append(f'<circle {centre} fill="{fill}" stroke="#333333"/>')
+        # a digit is some 9 pixels high: its base lies half of that below the centre
+        base = f'x="{x:.1f}" y="{y + 4.3:.1f}"'
+        number = v.colour + 1
+        lines.append(f'<text {base} font-weight="bold" fill="{ink}">{number}</text>')
     return lines
 
 
 def _svg_caption(lines: Sequence[str], middle: float, top: float) -> list[str]:
     from html import escape  # brings a table of entities along
 
-    return [
-        f'<text x="{middle:.1f}" y="{top + CAPTION_STEP * (i + 1) + 2:.1f}" fill="#222222">{escape(line)}</text>'
-        for i, line in enumerate(lines)
-    ]
+    written = []
+    for i, line in enumerate(lines):
+        base = top + CAPTION_STEP * (i + 1) + 2
+        place = f'x="{middle:.1f}" y="{base:.1f}"'
+        written.append(f'<text {place} fill="#222222">{escape(line)}</text>')
+    return written
 
 
 def tikz(tree: Tree, scale: float = 0.6, colours: bool = True) -> str:
@@ -233,20 +265,26 @@ def tikz(tree: Tree, scale: float = 0.6, colours: bool = True) -> str:
     scale = scale if colours else scale / 2
     lines = [rf"\begin{{tikzpicture}}[x={scale:g}cm,y={scale:g}cm,baseline=(v0.base)]"]
     for k, v in enumerate(vertices):
-        fill, ink = (_tikz_colour(value) for value in PALETTE[v.colour % len(PALETTE)])
-        style = f"circle,draw,inner sep=0pt,minimum size=4mm,font=\\scriptsize,fill={fill},text={ink}"
-        label = str(v.colour + 1)
-        if not colours:
-            style, label = "circle,fill,inner sep=0pt,minimum size=1.2mm", ""
+        style = "circle,fill,inner sep=0pt,minimum size=1.2mm"
+        label = ""
+        if colours:
+            style = _tikz_style(v.colour)
+            label = str(v.colour + 1)
         lines.append(rf"  \node[{style}] (v{k}) at ({v.x:g},{v.y}) {{{label}}};")
-    lines += [
-        rf"  \draw (v{v.parent}) -- (v{k});"
-        for k, v in enumerate(vertices)
-        if v.parent >= 0
-    ]
+    for k, v in enumerate(vertices):
+        if v.parent >= 0:
+            lines.append(rf"  \draw (v{v.parent}) -- (v{k});")
     return "\n".join([*lines, r"\end{tikzpicture}", ""])
 
 
+def _tikz_style(colour: int) -> str:
+    """How the node of a vertex with a number looks."""
+    fill, ink = PALETTE[colour % len(PALETTE)]
+    shape = "circle,draw,inner sep=0pt,minimum size=4mm"
+    paint = f"fill={_tikz_colour(fill)},text={_tikz_colour(ink)}"
+    return rf"{shape},font=\scriptsize,{paint}"
+
+
 def _tikz_colour(value: str) -> str:
-    red, green, blue = (int(value[i : i + 2], 16) for i in (1, 3, 5))
+    red, green, blue = bytes.fromhex(value.removeprefix("#"))
     return f"{{rgb,255:red,{red};green,{green};blue,{blue}}}"

@@ -95,24 +95,22 @@ class Structure:
     def admissible(self) -> Admissible:
         """The rooted trees that have an order condition."""
         everything = range(len(self.colours))
-        edges = [
-            [self._turned(above, below) is not None for below in everything]
-            for above in everything
-        ]
-        linear = [
-            colour
-            for colour, (term, _) in enumerate(self.colours)
-            if term in self.quadratic
-        ]
+        edges: list[list[bool]] = []
+        linear: list[int] = []
+        for above, (term, _) in enumerate(self.colours):
+            turned = [self._turned(above, below) for below in everything]
+            edges.append([colour is not None for colour in turned])
+            if term in self.quadratic:
+                linear.append(above)
         return Admissible.of(len(self.colours), edges, linear)
 
     def _turned(self, above: int, below: int) -> int | None:
         """The colour of the upper vertex once the root has moved below it; None where there is no
         edge.
         """
-        return self._number.get(
-            (self.colours[above][0], _PARTNER[self.colours[below][1]])
-        )
+        term, _ = self.colours[above]
+        _, part = self.colours[below]
+        return self._number.get((term, _PARTNER[part]))
 
     def is_forward(self, colour: int) -> bool:
         """Whether an edge down to this colour points down: through A, not through the conjugate
@@ -150,16 +148,15 @@ class Structure:
 
     def rootings(self, tree: Tree) -> Iterator[Tree]:
         """The rooting at every vertex, with repeats where vertices are alike."""
-        waiting: list[tuple[Tree, tuple[Tree, ...]]] = [
-            (self.lead(tree), tree.branches)
-        ]
+        start = self.lead(tree)
+        # each rooting with the branches that lead away from where the root came from
+        waiting: list[tuple[Tree, tuple[Tree, ...]]] = [(start, tree.branches)]
         while waiting:
             here, onward = waiting.pop()
             yield here
-            waiting.extend(
-                (self.move_root(here, here.branches.index(u)), u.branches)
-                for u in onward
-            )
+            for u in onward:
+                moved = self.move_root(here, here.branches.index(u))
+                waiting.append((moved, u.branches))
 
     def is_admissible(self, tree: Tree) -> bool:
         """Whether every edge exists and no linear vector field has two branches."""
@@ -174,9 +171,9 @@ class Structure:
         Of two centroids it is the tail of the edge between them, or the half that comes first.
         """
         here = self.lead(tree)
-        while here.branches and 2 * here.branches[-1].order > here.order:
+        while _twice_largest(here) > here.order:
             here = self.move_root(here, len(here.branches) - 1)
-        if not here.branches or 2 * here.branches[-1].order < here.order:
+        if _twice_largest(here) < here.order:
             return here
         *rest, half = here.branches
         if self.is_directed:
@@ -184,6 +181,14 @@ class Structure:
         else:
             is_first = Tree(here.root, rest).sort_key() <= half.sort_key()
         return here if is_first else self.move_root(here, len(rest))
+
+
+def _twice_largest(tree: Tree) -> int:
+    """Twice the order of the largest branch: the order of the tree where both ends are centroids.
+
+    0 for a single vertex.
+    """
+    return 2 * tree.branches[-1].order if tree.branches else 0
 
 
 @dataclass(frozen=True)
@@ -207,17 +212,19 @@ class Grower:
         """The free trees with two centroids, two halves that differ, rooted as
         ``Structure.centred`` does.
         """
-        for colour in (
-            self.structure.admissible.branches[root] if order % 2 == 0 else ()
-        ):
-            if not self.structure.is_forward(colour) or (
-                colour < root and not self.structure.is_directed
-            ):
+        if order % 2:
+            return
+        is_directed = self.structure.is_directed
+        for colour in self.structure.admissible.branches[root]:
+            if not self.structure.is_forward(colour):
                 continue
+            if colour < root and not is_directed:
+                continue  # listed from the other half
+            is_mirrored = colour == root and not is_directed
             halves = self.planted(colour, order // 2)
             for position, u in enumerate(self.planted(root, order // 2)):
-                mirrored = colour == root and not self.structure.is_directed
-                for v in halves[position + 1 :] if mirrored else halves:
+                others = halves[position + 1 :] if is_mirrored else halves
+                for v in others:
                     yield Tree(root, (*u.branches, v))
 
     def planted(self, root: int, order: int) -> tuple[Tree, ...]:
@@ -238,17 +245,14 @@ class Grower:
         most.
         """
         colours = self.structure.admissible.branches[root]
-        for outline in _outlines(
-            total, (largest, max(colours, default=0)), colours, edges
-        ):
-            groups = [
-                (kind, len(list(alike))) for kind, alike in groupby(reversed(outline))
-            ]
-            chosen = [
-                combinations_with_replacement(self.planted(colour, order), times)
-                for (order, colour), times in groups
-            ]
-            for parts in product(*chosen):
+        bound = largest, max(colours, default=0)
+        for outline in _outlines(total, bound, colours, edges):
+            choices = []
+            for (order, colour), alike in groupby(reversed(outline)):
+                trees = self.planted(colour, order)
+                times = len(list(alike))
+                choices.append(combinations_with_replacement(trees, times))
+            for parts in product(*choices):
                 yield tuple(chain.from_iterable(parts))
 
 
@@ -260,11 +264,14 @@ def _outlines(
     """
     if total == 0:
         yield ()
-    elif edges > 0:
-        for order in range(1, min(total, bound[0]) + 1):
-            for colour in colours:
-                if (order, colour) <= bound:
-                    for rest in _outlines(
-                        total - order, (order, colour), colours, edges - 1
-                    ):
-                        yield ((order, colour), *rest)
+        return
+    if edges == 0:
+        return
+    largest = min(total, bound[0])
+    for order in range(1, largest + 1):
+        for colour in colours:
+            kind = order, colour
+            if kind > bound:
+                continue
+            for rest in _outlines(total - order, kind, colours, edges - 1):
+                yield (kind, *rest)

@@ -82,11 +82,8 @@ class _Reader:
             if self._next() == "[" and not stack[-1]:
                 self._open(stack)
                 continue
-            self._take(
-                "]",
-                "',' or ']' is missing",
-                "branches are separated by commas and closed by ']'",
-            )
+            cure = "branches are separated by commas and closed by ']'"
+            self._take("]", "',' or ']' is missing", cure)
             branches = stack.pop()
             tree = Tree(self._colour(), branches)
             if not stack:
@@ -109,9 +106,8 @@ class _Reader:
             raise NotationError("the tree is too deep", cure, at)
         self.vertices += 1
         if self.vertices > MAX_VERTICES:
-            raise NotationError(
-                "the tree is too large", f"at most {MAX_VERTICES} vertices are read", at
-            )
+            cure = f"at most {MAX_VERTICES} vertices are read"
+            raise NotationError("the tree is too large", cure, at)
         stack.append([])
 
     def _next(self) -> str:
@@ -132,12 +128,10 @@ class _Reader:
         if self.coloured is None:
             self.coloured = coloured
         if coloured != self.coloured:
+            message = "only some of the vertices have colours"
             cure = "give every vertex a colour, as []_1, or none"
-            raise NotationError(
-                "only some of the vertices have colours",
-                cure,
-                self.position if coloured else start,
-            )
+            at = self.position if coloured else start
+            raise NotationError(message, cure, at)
         if not coloured:
             return 0
         self.position += 1
@@ -145,17 +139,13 @@ class _Reader:
         digits = _DIGITS.match(self.text, self.position)
         number = digits.group() if digits else ""
         if not number:
-            raise NotationError(
-                "a colour is missing after '_'",
-                "colours are numbers from 1",
-                self.position,
-            )
-        if len(number) > len(str(MAX_COLOUR)) or not 1 <= int(number) <= MAX_COLOUR:
-            raise NotationError(
-                "no such colour",
-                f"colours are numbers from 1 to {MAX_COLOUR}",
-                self.position,
-            )
+            message = "a colour is missing after '_'"
+            raise NotationError(message, "colours are numbers from 1", self.position)
+        # the length comes first: Python reads no integer of many thousands of digits
+        is_short = len(number) <= len(str(MAX_COLOUR))
+        if not is_short or not 1 <= int(number) <= MAX_COLOUR:
+            cure = f"colours are numbers from 1 to {MAX_COLOUR}"
+            raise NotationError("no such colour", cure, self.position)
         self.position += len(number)
         self._next()
         return int(number) - 1
@@ -199,9 +189,11 @@ def vertex_letters(tree: Tree) -> tuple[str, ...]:
     >>> vertex_letters(Tree(0, [Tree(0), Tree(0)]))
     ('l', 'm', 'n')
     """
-    return tuple(
-        LETTERS[i % len(LETTERS)] + "'" * (i // len(LETTERS)) for i in range(tree.order)
-    )
+    letters = []
+    for i in range(tree.order):
+        primes, which = divmod(i, len(LETTERS))
+        letters.append(LETTERS[which] + "'" * primes)
+    return tuple(letters)
 
 
 def condition_text(tree: Tree, letters: Sequence[str] | None = None) -> str:
@@ -234,15 +226,17 @@ def condition_latex(tree: Tree, letters: Sequence[str] | None = None) -> str:
     """
     formula = _Formula(r"A^{\{%s,%s\}} ", r"\mathbbm{1}^{\{%s\}}", r" \odot ", letters)
     root, weight = formula.of(tree)
-    density = str(tree.density)
-    required = (
-        "1"
-        if density == "1"
-        else rf"\frac1{density}"
-        if len(density) == 1
-        else rf"\frac1{{{density}}}"
-    )
+    required = _latex_inverse(tree.density)
     return rf"{{b^{{\{{{root}\}}}}}}^T {weight} = {required}"
+
+
+def _latex_inverse(density: int) -> str:
+    """1/γ; a single digit needs no braces."""
+    if density == 1:
+        return "1"
+    if density < 10:
+        return rf"\frac1{density}"
+    return rf"\frac1{{{density}}}"
 
 
 class _Formula:
@@ -266,11 +260,13 @@ class _Formula:
                 "each vertex needs a letter; vertex_letters gives as many as there are vertices"
             )
         if not tree.branches:
-            return name, self.one % name if "%" in self.one else self.one
+            has_name = "%" in self.one
+            return name, self.one % name if has_name else self.one
         factors: list[str] = []
         for u in written_order(tree):
             below, vector = self.of(u)
             factors.append(self.block % (name, below) + vector)
         if len(factors) == 1:
             return name, factors[0]
-        return name, "(" + self.times.join([f"({factor})" for factor in factors]) + ")"
+        product = self.times.join([f"({factor})" for factor in factors])
+        return name, f"({product})"

@@ -115,30 +115,30 @@ class ConditionClass:
 
         Where a quadratic term does not admit that root, the first rooting that has a condition.
         """
-        return next(
-            filter(self.structure.is_admissible, self.structure.rootings(self.centred))
-        )
+        return next(self._admissible_rootings())
 
     @cached_property
     def members(self) -> tuple[Tree, ...]:
         """All rooted trees of the class, sorted: at every vertex, with every colour of the same
         stages.
         """
-        rootings = set(
-            filter(self.structure.is_admissible, self.structure.rootings(self.centred))
-        )
-        twins = (twin for rooting in rootings for twin in self.structure.twins(rooting))
+        twins: list[Tree] = []
+        for rooting in set(self._admissible_rootings()):
+            twins += self.structure.twins(rooting)
         return tuple(sorted(twins, key=Tree.sort_key))
+
+    def _admissible_rootings(self) -> Iterator[Tree]:
+        """The rootings that have a condition, with repeats where vertices are alike."""
+        rootings = self.structure.rootings(self.centred)
+        return filter(self.structure.is_admissible, rootings)
 
     @property
     def is_superfluous(self) -> bool:
         """Whether the condition follows from those of lower order: the tree is u∘u with Â = A."""
-        if (
-            self.structure.is_directed
-            or self.order % 2
-            or 2 * self.centred.branches[-1].order < self.order
-        ):
+        if self.structure.is_directed or self.order % 2:
             return False
+        if 2 * self.centred.branches[-1].order < self.order:
+            return False  # one centroid: there are no halves
         *rest, half = self.centred.branches
         return Tree(self.centred.root, rest) == half
 
@@ -184,9 +184,8 @@ def class_of(structure: Structure, tree: Tree) -> ConditionClass:
     Raises:
         ValueError: the structure has no such tree.
     """
-    if not tree.colours <= set(
-        range(len(structure.colours))
-    ) or not structure.is_admissible(tree):
+    known = set(range(len(structure.colours)))
+    if not tree.colours <= known or not structure.is_admissible(tree):
         raise ValueError("the method has no order condition for this tree")
     return ConditionClass(structure.centred(tree), structure)
 
@@ -205,23 +204,20 @@ def count_classes(structure: Structure, order: int) -> int:
     """
     _check(order)
     admissible = structure.admissible
-    halves = counts_upto(
-        admissible, order
-    )  # [n - 1][colour]: trees that hang from an edge
+    # [n - 1][colour]: trees that hang from an edge
+    halves = counts_upto(admissible, order)
     vertices = edges = 0
     for leader in structure.leaders.values():
-        vertices += halves[order - 1][leader]
+        below = admissible.branches[leader]
+        upper = [row[leader] for row in halves]
+        vertices += upper[order - 1]
         if admissible.is_linear(leader):
-            branches = [
-                sum(row[m] for m in admissible.branches[leader]) for row in halves
-            ]
+            branches = [sum(row[m] for m in below) for row in halves]
             vertices += _pairs(branches, branches, order - 1, same=True)
-        for m in admissible.branches[leader]:
+        for m in below:
             if structure.is_forward(m) and (structure.is_directed or m >= leader):
                 same = m == leader and not structure.is_directed
-                upper, lower = (
-                    [row[colour] for row in halves] for colour in (leader, m)
-                )
+                lower = [row[m] for row in halves]
                 edges += _pairs(upper, lower, order, same)
     return vertices - edges
 
@@ -233,7 +229,10 @@ def _pairs(ones: list[int], others: list[int], total: int, same: bool) -> int:
     ordered = sum(ones[k - 1] * others[total - k - 1] for k in range(1, total))
     if not same:
         return ordered
-    return (ordered + (ones[total // 2 - 1] if total and total % 2 == 0 else 0)) // 2
+    twice = 0  # pairs of a tree with itself
+    if total and total % 2 == 0:
+        twice = ones[total // 2 - 1]
+    return (ordered + twice) // 2
 
 
 def _check(order: int) -> None:

@@ -48,9 +48,8 @@ class TreeTable:
     admissible: Admissible
     max_order: int
     columns: Columns
-    starts: tuple[
-        tuple[int, ...], ...
-    ]  # [order - 1][root]: the first id; one more entry for the end
+    # [order - 1][root]: the first id; one more entry for the end
+    starts: tuple[tuple[int, ...], ...]
     segments: tuple[Segment, ...]
     _texts: dict[bool, Texts] = field(default_factory=dict, repr=False, compare=False)
 
@@ -75,16 +74,7 @@ class TreeTable:
         starts = first_ids(admissible, order)
         size = starts[-1][-1]
         if size > MAX_TREES:
-            about = (
-                str(size)
-                if size < 10**15
-                else f"more than 10^{int((size.bit_length() - 1) * 0.30102)}"
-            )
-            raise TableTooLarge(
-                f"{about} trees of order up to {order} with {counted(admissible.colours, 'colour')}"
-                f" (limit {MAX_TREES})",
-                "ask for a lower order, or count them without generating",
-            )
+            raise _too_large(size, admissible.colours, order)
         columns = Columns.empty(size, exact_dtype(order))
         columns.write(0, Columns.vertices(range(admissible.colours)))
         segments: list[Segment] = []
@@ -138,11 +128,9 @@ class TreeTable:
     def ids(self, order: int, root: int | None = None) -> range:
         """The ids of the trees of one order, all of them or those with one root colour (from 0)."""
         starts = self.starts[order - 1]
-        return (
-            range(starts[0], starts[-1])
-            if root is None
-            else range(starts[root], starts[root + 1])
-        )
+        if root is None:
+            return range(starts[0], starts[-1])
+        return range(starts[root], starts[root + 1])
 
     def tree(self, tree_id: int) -> Tree:
         """The tree with an id; raises ``IndexError`` when there is none."""
@@ -166,6 +154,18 @@ class TreeTable:
     def texts(self, trees: Columns, colours: bool = True) -> list[str]:
         """Bracket text of trees whose parents are in this table, such as those of a block."""
         return self._texts.setdefault(colours, Texts(self.columns, colours)).of(trees)
+
+
+def _too_large(size: int, colours: int, order: int) -> TableTooLarge:
+    about = str(size)
+    if size >= 10**15:
+        # log10(2) = 0.30103 rounded down: "more than" stays true
+        about = f"more than 10^{int((size.bit_length() - 1) * 0.30102)}"
+    which = f"of order up to {order} with {counted(colours, 'colour')}"
+    return TableTooLarge(
+        f"{about} trees {which} (limit {MAX_TREES})",
+        "ask for a lower order, or count them without generating",
+    )
 
 
 def first_ids(admissible: Admissible, order: int) -> tuple[tuple[int, ...], ...]:
@@ -193,22 +193,16 @@ def segments_of(
         if rest > 1 and admissible.is_linear(root):
             continue
         stems = range(starts[rest - 1][root], starts[rest - 1][root + 1])
+        firsts = starts[branch_order - 1]
         for colour in admissible.branches[root]:
-            branches = range(
-                starts[branch_order - 1][colour], starts[branch_order - 1][colour + 1]
-            )
+            branches = range(firsts[colour], firsts[colour + 1])
             growth = Growth(lower, order, stems, branches)
-            if len(growth):
-                ids = range(start, start + len(growth))
-                made.append(
-                    (
-                        Segment(
-                            order, root, branch_order, colour, ids, stems, branches
-                        ),
-                        growth,
-                    )
-                )
-                start = ids.stop
+            if not len(growth):
+                continue
+            ids = range(start, start + len(growth))
+            segment = Segment(order, root, branch_order, colour, ids, stems, branches)
+            made.append((segment, growth))
+            start = ids.stop
     return made
 
 

@@ -33,36 +33,38 @@ class Texts:
         parents = np.concatenate([trees.stem, trees.branch])
         self._remember(parents[parents >= 0])
         insides = self._of_children(trees)
-        return [
-            self._closed(inside[0], root)
-            for inside, root in zip(insides, trees.root.tolist(), strict=True)
-        ]
+        texts = []
+        for inside, root in zip(insides, trees.root.tolist(), strict=True):
+            texts.append(self._closed(inside[0], root))
+        return texts
 
     def _remember(self, ids: Column) -> None:
         """Make the insides of these trees and of all their ancestors, the smaller first."""
         columns = self.columns
         wanted = generation = np.unique(ids)
         while len(generation):
-            parents = np.concatenate(
-                [columns.stem[generation], columns.branch[generation]]
-            )
+            stems = columns.stem[generation]
+            branches = columns.branch[generation]
+            parents = np.concatenate([stems, branches])
             generation = np.unique(parents[parents >= 0])
             wanted = np.union1d(wanted, generation)
-        missing = np.array(
-            [u for u in wanted.tolist() if u not in self._insides], np.int64
-        )
-        for order in np.unique(columns.order[missing]):
-            ids = missing[columns.order[missing] == order]
-            self._insides.update(
-                zip(ids.tolist(), self._of_children(columns.part(ids)), strict=True)
-            )
+        unknown = [u for u in wanted.tolist() if u not in self._insides]
+        missing = np.array(unknown, np.int64)
+        orders = columns.order[missing]
+        for order in np.unique(orders):
+            ids = missing[orders == order]
+            made = self._of_children(columns.part(ids))
+            self._insides.update(zip(ids.tolist(), made, strict=True))
 
     def _of_children(self, trees: Columns) -> list[Inside]:
-        insides, root, order = self._insides, self.columns.root, self.columns.order
+        """The insides of trees whose parents' insides are known."""
+        insides = self._insides
+        root = self.columns.root
+        order = self.columns.order
+        stems = trees.stem.tolist()
+        branches = trees.branch.tolist()
         made = []
-        for stem, branch in zip(
-            trees.stem.tolist(), trees.branch.tolist(), strict=True
-        ):
+        for stem, branch in zip(stems, branches, strict=True):
             if branch < 0:
                 made.append(("", 0, 0))
             else:

@@ -57,9 +57,8 @@ class Tree:
     def symmetry(self) -> int:
         """σ(u): the number of automorphisms that keep the root and every colour."""
         repeats = (len(list(group)) for _, group in groupby(self.branches))
-        return prod(u.symmetry for u in self.branches) * prod(
-            factorial(k) for k in repeats
-        )
+        swaps = prod(factorial(k) for k in repeats)
+        return swaps * prod(u.symmetry for u in self.branches)
 
     def vertices(self) -> Iterator[Tree]:
         """Every vertex, as the subtree hanging from it, the root first."""
@@ -81,8 +80,6 @@ class Tree:
         return hash(self._key)
 
     def __repr__(self) -> str:
-        return (
-            f"Tree({self.root}, {list(self.branches)!r})"
-            if self.branches
-            else f"Tree({self.root})"
-        )
+        if not self.branches:
+            return f"Tree({self.root})"
+        return f"Tree({self.root}, {list(self.branches)!r})"

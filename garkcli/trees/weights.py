@@ -53,23 +53,25 @@ def _check(
             f"a table of {table.colours} colours needs as many stage spaces and weights"
         )
     for l, branches in enumerate(table.admissible.branches):
-        if (
-            weights[l].shape != weights[rows.index(rows[l])].shape
-            or weights[l].ndim != 1
-        ):
+        b, space = weights[l], rows[l]
+        first = weights[rows.index(space)]
+        if b.shape != first.shape or b.ndim != 1:
             raise ValueError(
-                f"the weights of colour {l} do not fit its stage space {rows[l]}"
+                f"the weights of colour {l} do not fit its stage space {space}"
             )
-        for m in branches if table.max_order > 1 else ():
-            block = blocks.get((rows[l], m))
+        if table.max_order == 1:
+            continue  # no branches, no blocks
+        for m in branches:
+            which = f"stage space {space} and colour {m}"
+            block = blocks.get((space, m))
             if block is None:
                 raise ValueError(
-                    f"no block for stage space {rows[l]} and colour {m}; give the table edges without it"
+                    f"no block for {which}; give the table edges without it"
                 )
-            if block.shape != (len(weights[l]), len(weights[m])):
+            shape = len(b), len(weights[m])
+            if block.shape != shape:
                 raise ValueError(
-                    f"the block of stage space {rows[l]} and colour {m} has shape {block.shape}, not"
-                    f" {(len(weights[l]), len(weights[m]))}"
+                    f"the block of {which} has shape {block.shape}, not {shape}"
                 )
 
 
@@ -106,9 +108,8 @@ class _Evaluation:
             last = order == self.table.max_order
             if not last:
                 for colour, b in enumerate(self.weights):
-                    self.vectors[order, colour] = np.empty(
-                        (len(self.table.ids(order, colour)), len(b)), self.dtype
-                    )
+                    shape = len(self.table.ids(order, colour)), len(b)
+                    self.vectors[order, colour] = np.empty(shape, self.dtype)
             for segment in self.table.segments:
                 if segment.order == order:
                     self._evaluate(segment, keep=not last)
@@ -120,17 +121,15 @@ class _Evaluation:
             space = self.rows[colour]
             for m in branches:
                 if (space, order, m) not in self.applied:
-                    self.applied[space, order, m] = (
-                        self.vectors[order, m] @ self.blocks[space, m].T
-                    )
+                    A = self.blocks[space, m]
+                    self.applied[space, order, m] = self.vectors[order, m] @ A.T
 
     def _evaluate(self, segment: Segment, keep: bool) -> None:
         """Values, and if wanted the vectors, of the trees of a segment."""
         table, root = self.table, segment.root
+        space = self.rows[root]
         stems = self.vectors[segment.order - segment.branch_order, root]
-        branches = self.applied[
-            self.rows[root], segment.branch_order, segment.branch_root
-        ]
+        branches = self.applied[space, segment.branch_order, segment.branch_root]
         first = table.ids(segment.order, root).start
         for start in range(segment.ids.start, segment.ids.stop, CHUNK):
             here = slice(start, min(start + CHUNK, segment.ids.stop))
@@ -138,6 +137,5 @@ class _Evaluation:
             product *= branches[table.branch[here] - segment.branches.start]
             self.values[here] = product @ self.weights[root]
             if keep:
-                self.vectors[segment.order, root][
-                    here.start - first : here.stop - first
-                ] = product
+                among_order = slice(here.start - first, here.stop - first)
+                self.vectors[segment.order, root][among_order] = product
