@@ -65,12 +65,12 @@ class ChainRule:
         self._place = {x: i for i, x in enumerate(self.evaluations)}
         self._graph, self._weights = graph, weights
 
-        inside = {*self.unknowns, *(x for x in block.order if isinstance(x, Stage))}
+        inside = {x for x in block.order if isinstance(x, Stage)}
+        inside.update(self.unknowns)
         arguments = []
         for evaluation in self.evaluations:
-            arguments += [
-                (evaluation, s) for s in graph.arguments[evaluation] if s in inside
-            ]
+            seen = [stage for stage in graph.arguments[evaluation] if stage in inside]
+            arguments += [(evaluation, stage) for stage in seen]
         self.arguments = tuple(arguments)
 
         self._layers = []
@@ -103,9 +103,9 @@ class ChainRule:
         d, n = self.d, self.d * len(self.unknowns)
         matrices = np.array(derivatives).reshape(-1, d, d)
         fields = dict(zip(self.arguments, matrices, strict=True))
-        stages: dict[Stage, Floats] = {
-            s: np.eye(d, n, i * d) for i, s in enumerate(self.unknowns)
-        }
+        stages: dict[Stage, Floats] = {}
+        for i, stage in enumerate(self.unknowns):
+            stages[stage] = np.eye(d, n, i * d)
         of_fields = np.zeros((len(self.evaluations), d, n))
         w = np.array(weights)
         for layer in self._layers:
@@ -118,8 +118,10 @@ class ChainRule:
                     if stage in stages:
                         total = total + fields[x, stage] @ stages[stage]
                 of_fields[self._place[x]] = total
-        J = _combined(len(self.unknowns), self._image, w, of_fields).reshape(n, n)
-        return np.asarray(np.linalg.inv(np.eye(n) - J), dtype=np.float64)
+        image = _combined(len(self.unknowns), self._image, w, of_fields)
+        J = image.reshape(n, n)
+        inverse = np.linalg.inv(np.eye(n) - J)
+        return np.asarray(inverse, dtype=np.float64)
 
 
 def _combined(
@@ -131,4 +133,5 @@ def _combined(
     W = np.zeros((count, len(of_fields)))
     rows, columns, numbers = np.array(entries).T
     W[rows, columns] = w[numbers]
-    return np.asarray(np.tensordot(W, of_fields, axes=1), dtype=np.float64)
+    combined = np.tensordot(W, of_fields, axes=1)
+    return np.asarray(combined, dtype=np.float64)

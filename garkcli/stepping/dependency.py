@@ -93,11 +93,10 @@ class DependencyGraph:
                 found.append(StageBlock((), tuple(component)))
                 continue
             cut = self._cut([x for x in component if isinstance(x, Stage)])
-            left = set(component) - cut
-            rest = {
-                x: [y for y in after[x] if y in left] for x in component if x in left
-            }
-            order = [vertex for single in components(rest) for vertex in single]
+            rest = _within([x for x in component if x not in cut], after)
+            order: list[Vertex] = []
+            for single in components(rest):
+                order += single
             unknowns = [stage for stage in self.sums if stage in cut]
             found.append(StageBlock(tuple(unknowns), tuple(order)))
         return tuple(found)
@@ -118,27 +117,43 @@ class DependencyGraph:
         """Stage values without which no cycle is left: greedily those with the most neighbours
         before and after.
         """
-        inside = set(stages)
-        before: dict[Stage, set[Stage]] = {s: set() for s in stages}
-        for stage in stages:
-            for evaluation in self.sums[stage]:
-                before[stage].update(inside.intersection(self.arguments[evaluation]))
+        before = self._predecessors(stages)
         cut = {s for s in stages if s in before[s]}
         while True:
             rest = [s for s in stages if s not in cut]
-            after = {s: [t for t in rest if s in before[t]] for s in rest}
-            cycles = [
-                component for component in components(after) if len(component) > 1
-            ]
+            after: dict[Stage, list[Stage]] = {}
+            for s in rest:
+                after[s] = [t for t in rest if s in before[t]]
+            cycles = [x for x in components(after) if len(x) > 1]
             if not cycles:
                 return cut
             for component in cycles:
                 within = set(component)
-                ways = {
-                    s: len(before[s] & within) * len(within.intersection(after[s]))
-                    for s in component
-                }
+                ways = {}  # from a neighbour through the stage value to a neighbour
+                for s in component:
+                    into = before[s] & within
+                    out = within.intersection(after[s])
+                    ways[s] = len(into) * len(out)
                 cut.add(max(component, key=ways.__getitem__))
+
+    def _predecessors(self, stages: Sequence[Stage]) -> dict[Stage, set[Stage]]:
+        """Which of ``stages`` the evaluations look at that each of them sums."""
+        inside = set(stages)
+        before: dict[Stage, set[Stage]] = {}
+        for stage in stages:
+            seen: set[Stage] = set()
+            for evaluation in self.sums[stage]:
+                seen.update(inside.intersection(self.arguments[evaluation]))
+            before[stage] = seen
+        return before
+
+
+def _within(
+    vertices: Sequence[Vertex], after: Mapping[Vertex, Sequence[Vertex]]
+) -> dict[Vertex, list[Vertex]]:
+    """The part of a graph that has these vertices only."""
+    kept = set(vertices)
+    return {x: [y for y in after[x] if y in kept] for x in vertices}
 
 
 def dependency_graph(tableau: Tableau, fields: Fields) -> DependencyGraph:
@@ -166,9 +181,8 @@ def dependency_graph(tableau: Tableau, fields: Fields) -> DependencyGraph:
                 coefficients[stage, evaluation] = _text(a)
         sums[stage] = tuple(found)
     for evaluation in arguments:
-        coefficients[None, evaluation] = _text(
-            entry(tableau, entries, None, evaluation)
-        )
+        b = entry(tableau, entries, None, evaluation)
+        coefficients[None, evaluation] = _text(b)
     return DependencyGraph(tuple(arguments), arguments, sums, coefficients)
 
 
@@ -200,15 +214,12 @@ def with_joined_terms(tableau: Tableau) -> Tableau:
     """A partitioned method for an unsplit problem q̇ = V(q, p), ṗ = F(q, p) with both in one
     term.
     """
-    if (
-        tableau.size == 2
-        and len(tableau.spaces) == 1
-        and {x.part for x in tableau.colours} == set(GROUPS)
-    ):
-        return replace(
-            tableau, colours=tuple(replace(x, term=0) for x in tableau.colours)
-        )
-    return tableau
+    has_one_space = tableau.size == 2 and len(tableau.spaces) == 1
+    driven_parts = {x.part for x in tableau.colours}
+    if not has_one_space or driven_parts != set(GROUPS):
+        return tableau
+    joined = [replace(x, term=0) for x in tableau.colours]
+    return replace(tableau, colours=tuple(joined))
 
 
 def fields_of(tableau: Tableau, problem: Hamiltonian) -> Fields:
@@ -220,8 +231,9 @@ def fields_of(tableau: Tableau, problem: Hamiltonian) -> Fields:
     driving = {(x.term, group) for x in tableau.colours for group in driven(x)}
     for term in range(len(problem.terms)):
         for group in GROUPS:
-            is_missing = (term, group) not in driving
-            if is_missing and not vector_field(problem, term, group).is_zero:
+            if (term, group) in driving:
+                continue
+            if not vector_field(problem, term, group).is_zero:
                 raise _no_colour(problem, term, group)
     fields: dict[tuple[int, Group], VectorField] = {}
     for m, colour in enumerate(tableau.colours):
@@ -245,8 +257,9 @@ def _no_colour(problem: Hamiltonian, term: int, group: Group) -> UsageProblem:
 def _check_edges(tableau: Tableau, fields: Fields) -> None:
     """Refuse fields that are not as the method takes them to be."""
     for (l, _), field in fields.items():
-        name = tableau.colours[l].name
-        if tableau.colours[l].is_linear and not field.is_linear:
+        colour = tableau.colours[l]
+        name = colour.name
+        if colour.is_linear and not field.is_linear:
             raise UsageProblem(
                 f"the method takes the field of colour {name} to be linear, and here it is not",
                 "choose a problem with quadratic kinetic energy",
@@ -270,10 +283,9 @@ def visible_tableau(tableau: Tableau, fields: Fields) -> Tableau:
     """
     colours, spaces = [], []
     for k, ((m, group), field) in enumerate(fields.items()):
-        own = replace(
-            tableau.colours[m], space=k, part=group, is_linear=field.is_linear
-        )
-        colours.append(own)
+        colour = tableau.colours[m]
+        is_linear = field.is_linear
+        colours.append(replace(colour, space=k, part=group, is_linear=is_linear))
         spaces.append(tableau.space(m))
     blocks = {}
     for k, ((l, _), field) in enumerate(fields.items()):
@@ -297,11 +309,10 @@ def visible_trees(fields: Fields) -> str:
             )
         return "a separable problem sees the trees in which velocities and forces alternate"
     parts = [f"it sees the trees of all colours of the method{_branching(fields)}"]
-    for x, group, branch in (
-        ("positions", "q", "velocities"),
-        ("momenta", "p", "forces"),
-    ):
-        if any(field.depends == (group,) for field in fields.values()):
+    dependences = {field.depends for field in fields.values()}
+    alone = (("positions", ("q",), "velocities"), ("momenta", ("p",), "forces"))
+    for x, groups, branch in alone:
+        if groups in dependences:
             parts.append(f"what depends on {x} alone has only {branch} as branches")
     return "; ".join(parts)
 

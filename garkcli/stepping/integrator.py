@@ -184,7 +184,8 @@ def _precision(digits: int) -> Any:
 def _inverted(entries: list[float], n: int) -> Floats:
     import numpy as np
 
-    return np.asarray(np.linalg.inv(np.array(entries).reshape(n, n)), dtype=np.float64)
+    matrix = np.array(entries).reshape(n, n)
+    return np.asarray(np.linalg.inv(matrix), dtype=np.float64)
 
 
 def _corrections(inverse: Floats, residuals: list[float]) -> list[float]:
@@ -201,7 +202,6 @@ def _corrections_of_balls(inverse: Floats, residuals: list[arb]) -> list[arb]:
     scale = max(map(abs, middles))
     if scale == 0 or not scale.is_finite():
         return middles
-    return [
-        (c * scale).mid()
-        for c in (inverse @ [float(r / scale) for r in middles]).tolist()
-    ]
+    scaled = [float(r / scale) for r in middles]
+    corrections = (inverse @ scaled).tolist()
+    return [(c * scale).mid() for c in corrections]

@@ -11,6 +11,8 @@ from garkcli.stepping.stagewriter import StageWriter
 
 Slope: TypeAlias = dict[int, str]
 """The derivative of one number by the unknowns that it depends on, as texts."""
+_Slopes: TypeAlias = dict[tuple[Stage | FieldEvaluation, int], Slope]
+"""Those of components of stage values and of evaluations."""
 
 
 class JacobianWriter:
@@ -27,44 +29,57 @@ class JacobianWriter:
     def __init__(self, stages: StageWriter) -> None:
         self.chains: dict[int, ChainRule] = {}
         self._stages = stages
-        self._prefix = (
-            "v" if stages.is_for_balls else ""
-        )  # of the floats of the numbers w
+        # of the floats of the numbers w
+        self._prefix = "v" if stages.is_for_balls else ""
 
     def by_chain_rule(self, block: StageBlock, index: int) -> None:
         """Write (I − J)⁻¹ as a call of ``ChainRule``, from the derivatives of the fields."""
-        stages, d = self._stages, self._stages.d
+        stages = self._stages
         # all weights first: their places are what the chain rule knows them by
-        places: dict[tuple[Stage, FieldEvaluation], int] = {}
+        places = self._places_of_weights()
+        chain = ChainRule(block, stages.graph, stages.d, places)
+        self.chains[index] = chain
+        entries: list[str] = []
+        for evaluation in chain.evaluations:
+            seen = [stage for x, stage in chain.arguments if x == evaluation]
+            entries += self._matrices(evaluation, seen)
+        numbers = ", ".join("0.0" if x == "0" else x for x in entries)
+        weights = "v" if stages.is_for_balls else "w"
+        stages.lines.write(f"inverse = chain{index}([{numbers}], {weights})")
+
+    def _places_of_weights(self) -> dict[tuple[Stage, FieldEvaluation], int]:
+        """Where among the numbers w that of each stage value and evaluation is."""
+        stages = self._stages
+        places = {}
         for stage, evaluations in stages.graph.sums.items():
             for evaluation in evaluations:
                 name = stages.weight(stage, evaluation)
                 places[stage, evaluation] = int(name.removeprefix("w"))
-        chain = self.chains[index] = ChainRule(block, stages.graph, d, places)
+        return places
+
+    def _matrices(
+        self, evaluation: FieldEvaluation, seen: Sequence[Stage]
+    ) -> list[str]:
+        """The entries of the derivative (d, d) by each stage value, row by row."""
+        d = self._stages.d
+        by = [(stage, k) for stage in seen for k in range(d)]
+        rows = self._derivatives(evaluation, by)
         entries: list[str] = []
-        for evaluation in chain.evaluations:
-            by = [
-                (s, k) for x, s in chain.arguments if x == evaluation for k in range(d)
-            ]
-            rows = self._derivatives(evaluation, by)
-            for first in range(
-                0, len(by), d
-            ):  # a matrix of d columns for each stage value
-                for row in rows:
-                    entries += row[first : first + d]
-        numbers = ", ".join("0.0" if x == "0" else x for x in entries)
-        weights = "v" if stages.is_for_balls else "w"
-        stages.lines.write(f"inverse = chain{index}([{numbers}], {weights})")
+        for first in range(0, len(by), d):
+            for row in rows:
+                entries += row[first : first + d]
+        return entries
 
     def written_out(self, block: StageBlock) -> list[Slope]:
         """The derivative of the image of the unknowns, row by row, from lines that are written
         here.
         """
         d = self._stages.d
-        slopes: dict[tuple[Stage | FieldEvaluation, int], Slope] = {}
+        slopes: _Slopes = {}
         for k, stage in enumerate(block.unknowns):
             for i in range(d):
-                slopes[stage, i] = {k * d + i: "1.0"}
+                column = k * d + i
+                slopes[stage, i] = {column: "1.0"}
         for vertex in block.order:
             if isinstance(vertex, FieldEvaluation):
                 rows = self._slopes_of_field(vertex, slopes)
@@ -73,41 +88,33 @@ class JacobianWriter:
             for i, row in enumerate(rows):
                 prefix = f"s{self._stages.number[vertex]}_{i}_"
                 slopes[vertex, i] = self._named(row, prefix)
-        return [
-            self._slope_of_sum(stage, i, slopes)
-            for stage in block.unknowns
-            for i in range(d)
-        ]
+        image = []
+        for stage in block.unknowns:
+            image += [self._slope_of_sum(stage, i, slopes) for i in range(d)]
+        return image
 
-    def _slope_of_sum(
-        self,
-        stage: Stage,
-        i: int,
-        slopes: dict[tuple[Stage | FieldEvaluation, int], Slope],
-    ) -> Slope:
+    def _slope_of_sum(self, stage: Stage, i: int, slopes: _Slopes) -> Slope:
         terms = []
         for evaluation in self._stages.graph.sums[stage]:
             slope = slopes.get((evaluation, i))
             if slope:
-                terms.append(
-                    (self._prefix + self._stages.weight(stage, evaluation), slope)
-                )
+                w = self._prefix + self._stages.weight(stage, evaluation)
+                terms.append((w, slope))
         return _sums(terms)
 
     def _slopes_of_field(
-        self,
-        evaluation: FieldEvaluation,
-        slopes: dict[tuple[Stage | FieldEvaluation, int], Slope],
+        self, evaluation: FieldEvaluation, slopes: _Slopes
     ) -> list[Slope]:
         by = []
         for stage in self._stages.graph.arguments[evaluation]:
-            by += [(stage, k) for k in range(self._stages.d) if (stage, k) in slopes]
+            components = [(stage, k) for k in range(self._stages.d)]
+            by += [x for x in components if x in slopes]
         found = []
         for row in self._derivatives(evaluation, by):
-            factors = zip(row, by, strict=True)
-            terms = [
-                (entry, slopes[x]) for entry, x in factors if entry != "0" and slopes[x]
-            ]
+            terms = []
+            for entry, x in zip(row, by, strict=True):
+                if entry != "0" and slopes[x]:
+                    terms.append((entry, slopes[x]))
             found.append(_sums(terms))
         return found
 
@@ -125,10 +132,14 @@ class JacobianWriter:
                 stages.lines.write(f"{name} = float({x})")
             arguments = floats
         columns = {group: field.derivative(group) for group in field.depends}
-        flat = [columns[stage.group][i][k] for i in range(stages.d) for stage, k in by]
+        flat: list[object] = []
+        for i in range(stages.d):
+            flat += [columns[stage.group][i][k] for stage, k in by]
         code = stages.code(flat, evaluation, is_for_balls=False)
         entries = stages.emit(code, arguments, f"j{number}_")
-        return [entries[i * len(by) : (i + 1) * len(by)] for i in range(stages.d)]
+        width = len(by)
+        starts = [i * width for i in range(stages.d)]
+        return [entries[start : start + width] for start in starts]
 
     def _named(self, row: Slope, prefix: str) -> Slope:
         """The same with composite texts given names."""
@@ -137,9 +148,10 @@ class JacobianWriter:
             is_number = text.replace(".", "").isdigit()
             if text.isidentifier() or is_number:
                 made[column] = text
-            else:
-                self._stages.lines.write(f"{prefix}{column} = {text}")
-                made[column] = f"{prefix}{column}"
+                continue
+            name = f"{prefix}{column}"
+            self._stages.lines.write(f"{name} = {text}")
+            made[column] = name
         return made
 
 
@@ -148,14 +160,17 @@ def _sums(terms: Iterable[tuple[str, Slope]]) -> Slope:
     total: dict[int, list[str]] = {}
     for factor, slope in terms:
         for column, text in slope.items():
-            total.setdefault(column, []).append(_product(factor, text))
+            products = total.setdefault(column, [])
+            products.append(_product(factor, text))
     return {column: " + ".join(texts) for column, texts in total.items()}
 
 
 def _product(x: str, y: str) -> str:
     if y == "1.0":
         return x
-    return y if x == "1.0" else f"{x}*{y}"
+    if x == "1.0":
+        return y
+    return f"{x}*{y}"
 
 
 def identity_minus(J: Sequence[Slope]) -> list[list[str]]:

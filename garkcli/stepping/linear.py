@@ -15,7 +15,7 @@ arithmetic in python-flint.
 
 from __future__ import annotations
 
-from collections.abc import Iterator
+from collections.abc import Iterator, Sequence
 from dataclasses import dataclass
 
 from flint import arb, arb_mat, fmpq, fmpq_mat
@@ -67,10 +67,8 @@ class LinearStep:
                 "choose another step size",
             ) from None
         increment = self._numbers(self.B * X * h)
-        return tuple(
-            tuple(x + y for x, y in zip(r, s, strict=True))
-            for r, s in zip(identity(2), increment, strict=True)
-        )
+        (a, b), (c, d) = increment
+        return (ONE + a, b), (c, ONE + d)
 
     def series(self) -> Iterator[Matrix]:
         """The coefficients R_1, R_2, … of R(h) = I + Σ R_k h^k, exact, each of shape (2, 2),
@@ -85,11 +83,13 @@ class LinearStep:
         """Coordinates over ℚ, shape (2d, 2), back to numbers."""
         if self.field is None:
             return tuple(tuple(row) for row in flat.tolist())
-        d, columns = self.field.degree, flat.transpose().tolist()
-        rows = [
-            tuple(self.field.from_coordinates(column[i : i + d]) for column in columns)
-            for i in range(0, 2 * d, d)
-        ]
+        d = self.field.degree
+        columns = flat.transpose().tolist()
+        rows = []
+        for i in range(0, 2 * d, d):
+            coordinates_of_row = [column[i : i + d] for column in columns]
+            row = [self.field.from_coordinates(x) for x in coordinates_of_row]
+            rows.append(tuple(row))
         return tuple(rows)
 
 
@@ -101,15 +101,7 @@ def linear_step(tableau: Tableau, problem: Oscillator) -> LinearStep:
     """
     check_structure(tableau, problem)
     terms = _terms(tableau, problem)
-    first: dict[
-        tuple[int, int], int
-    ] = {}  # (stage space, component of y) → its first unknown
-    n = 0
-    for term in terms:
-        colour = tableau.colours[term.colour]
-        if (colour.space, term.seen) not in first:
-            first[colour.space, term.seen] = n
-            n += tableau.space(term.colour).stages
+    first, n = _first_unknowns(tableau, terms)
 
     W, E, B = _zeros(n, n), _zeros(n, 2), _zeros(2, n)
     for term in terms:
@@ -158,6 +150,23 @@ def _terms(tableau: Tableau, problem: Oscillator) -> list[_LinearTerm]:
     return found
 
 
+def _first_unknowns(
+    tableau: Tableau, terms: Sequence[_LinearTerm]
+) -> tuple[dict[tuple[int, int], int], int]:
+    """The number of the first unknown of each (stage space, component of y) that some field looks
+    at, and how many unknowns there are.
+    """
+    first: dict[tuple[int, int], int] = {}
+    n = 0
+    for term in terms:
+        colour = tableau.colours[term.colour]
+        place = colour.space, term.seen
+        if place not in first:
+            first[place] = n
+            n += tableau.space(term.colour).stages
+    return first, n
+
+
 def _zeros(rows: int, columns: int) -> list[list[Number]]:
     return [[ZERO] * columns for _ in range(rows)]
 
@@ -175,27 +184,28 @@ def _over_rationals(rows: list[list[Number]], field: NumberField | None) -> fmpq
     if field is None:
         return fmpq_mat([[x for x in row if isinstance(x, fmpq)] for row in rows])
     d = field.degree
-    powers = [
-        field.from_coordinates([fmpq(int(i == k)) for i in range(d)]) for k in range(d)
-    ]
-    columns = [
-        [x for row in rows for x in coordinates(row[j] * power, d)]
-        for j in range(len(rows[0]))
-        for power in powers
-    ]
+    powers = []  # 1, θ, … θ^{d−1}
+    for k in range(d):
+        unit = [fmpq(int(i == k)) for i in range(d)]
+        powers.append(field.from_coordinates(unit))
+    columns = []
+    for entries in zip(*rows, strict=True):
+        for power in powers:
+            column: list[fmpq] = []
+            for x in entries:
+                column += coordinates(x * power, d)
+            columns.append(column)
     return fmpq_mat(columns).transpose()
 
 
 def _columns(rows: list[list[Number]], field: NumberField | None) -> fmpq_mat:
     """Each number replaced by its column of coordinates over ℚ."""
     d = field.degree if field else 1
-    return fmpq_mat(
-        [
-            list(row)
-            for entries in rows
-            for row in zip(*(coordinates(x, d) for x in entries), strict=True)
-        ]
-    )
+    flat = []
+    for entries in rows:
+        columns = [coordinates(x, d) for x in entries]
+        flat += [list(row) for row in zip(*columns, strict=True)]
+    return fmpq_mat(flat)
 
 
 def enclosure(matrix: Matrix, bits: int) -> arb_mat:
@@ -212,7 +222,8 @@ def conserves_energy(R: Matrix, omega: fmpq) -> bool:
     exactly.
     """
     G: Matrix = ((omega * omega, ZERO), (ZERO, ONE))
-    difference = subtract(multiply(transpose(R), multiply(G, R)), G)
+    form = multiply(transpose(R), multiply(G, R))
+    difference = subtract(form, G)
     return not any(x for row in difference for x in row)
 
 

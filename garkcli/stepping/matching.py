@@ -24,14 +24,16 @@ def split_into(problem: Hamiltonian, terms: int) -> Hamiltonian:
     if terms == 1:
         return problem.unsplit()
     split = _natural(problem, terms) if found == 1 else None
-    if split is None:
-        raise UsageProblem(
-            f"{problem.name} has {found} term{'s' * (found > 1)}, the method is for {terms}",
-            f"give a list of {terms} in its file, or choose a method for {found}"
-            if found > 1
-            else f"give a list of {terms} in its file: no sum of parts with and without momenta",
-        )
-    return replace(problem, terms=split)
+    if split is not None:
+        return replace(problem, terms=split)
+    plural = "s" if found > 1 else ""
+    cure = f"give a list of {terms} in its file"
+    if found > 1:
+        cure += f", or choose a method for {found}"
+    else:
+        cure += ": no sum of parts with and without momenta"
+    message = f"{problem.name} has {found} term{plural}, the method is for {terms}"
+    raise UsageProblem(message, cure)
 
 
 def _natural(problem: Hamiltonian, terms: int) -> tuple[Any, ...] | None:
@@ -40,9 +42,13 @@ def _natural(problem: Hamiltonian, terms: int) -> tuple[Any, ...] | None:
 
     momenta = set(symbols(problem.variables, "p"))
     summands = sympy.Add.make_args(problem.terms[0])
-    kinetic = [x for x in summands if x.free_symbols & momenta]
-    potential = [x for x in summands if not x.free_symbols & momenta]
+    kinetic: list[Any] = []
+    potential: list[Any] = []
+    for x in summands:
+        part = kinetic if x.free_symbols & momenta else potential
+        part.append(x)
     if not kinetic or not any(x.free_symbols for x in potential):
         return None
-    share = sympy.expand(sympy.Add(*potential) / (terms - 1))
+    V = sympy.Add(*potential)
+    share = sympy.expand(V / (terms - 1))
     return (sympy.Add(*kinetic), *(share,) * (terms - 1))

@@ -29,25 +29,20 @@ _DIRECT = 2
 """Up to so many unknowns floats solve by formulas, with a new Jacobian in every iteration."""
 
 # Parts of the size of the unknowns. A float is good to 1.1e-16 of itself.
-_SQUARED_AWAY = 1e-9  # a correction whose square is below round-off: 1e-18
-_BELOW_FLOATS = (
-    1e-17  # a foreseen correction that no float can show, with a factor of ten to spare
-)
-_NEAR_FOR_FLOATS = (
-    1e-2  # a Jacobian one hundredth off gains two digits an iteration: it is kept
-)
-_NEAR_FOR_BALLS = (
-    1e-10  # one made so near gains ten digits, of the sixteen that its floats allow
-)
-_KEPT_RATE = (
-    0.1  # a kept Jacobian that gains less than a digit an iteration is made anew
-)
-_STALLED_RATE = (
-    0.5  # corrections that do not halve are round-off, where they are small enough:
-)
-_STALLED_UNITS = (
-    1e4  # in units of the precision; evaluations lose some digits to cancellation
-)
+# a correction whose square is below round-off: 1e-18
+_SQUARED_AWAY = 1e-9
+# a foreseen correction that no float can show, with a factor of ten to spare
+_BELOW_FLOATS = 1e-17
+# a Jacobian one hundredth off gains two digits an iteration: it is kept
+_NEAR_FOR_FLOATS = 1e-2
+# one made so near gains ten digits, of the sixteen that its floats allow
+_NEAR_FOR_BALLS = 1e-10
+# a kept Jacobian that gains less than a digit an iteration is made anew
+_KEPT_RATE = 0.1
+# corrections that do not halve are round-off, where they are small enough:
+_STALLED_RATE = 0.5
+# in units of the precision; evaluations lose some digits to cancellation
+_STALLED_UNITS = 1e4
 
 
 class NewtonWriter:
@@ -70,13 +65,12 @@ class NewtonWriter:
     def solve(self, block: StageBlock, index: int) -> None:
         """Write Newton's method for the unknowns of ``block``, implicit block number ``index``."""
         write, d = self._lines.write, self._stages.d
-        components = [
-            self._stages.component(s, i) for s in block.unknowns for i in range(d)
-        ]
-        unknowns = [f"z{c}" for c in components]
+        unknowns = []
+        for stage in block.unknowns:
+            unknowns += [f"z{self._stages.component(stage, i)}" for i in range(d)]
         is_direct = len(unknowns) <= _DIRECT and not self._is_for_balls
         self._start(block)
-        write("floor = " + " + ".join(f"abs({y})" for y in names("y", 2 * d)))
+        write(f"floor = {_size_of(names('y', 2 * d))}")
         write("before = 0.0")
         write("done = False")
         if not is_direct:
@@ -93,14 +87,14 @@ class NewtonWriter:
                 self._directly(self._jacobians.written_out(block))
             else:
                 self._by_inverse(block, len(unknowns), index)
-            for k, z in enumerate(unknowns):
-                write(
-                    f"{z} = ({z} - c{k}).mid()"
-                    if self._is_for_balls
-                    else f"{z} -= c{k}"
-                )
-            write("size = " + " + ".join(f"abs(c{k})" for k in range(len(unknowns))))
-            write("scale = " + " + ".join(f"abs({z})" for z in unknowns))
+            corrections = names("c", len(unknowns))
+            for z, c in zip(unknowns, corrections, strict=True):
+                if self._is_for_balls:
+                    write(f"{z} = ({z} - {c}).mid()")
+                else:
+                    write(f"{z} -= {c}")
+            write(f"size = {_size_of(corrections)}")
+            write(f"scale = {_size_of(unknowns)}")
             self._ending(is_direct)
         write("else:")
         write(" raise NotSolved(number, float(size))")
@@ -109,12 +103,13 @@ class NewtonWriter:
     def _place(self, stage: Stage) -> None:
         """An unknown stage value, from what is solved for."""
         stages = self._stages
-        stages.stages[stage] = [
-            f"x{stages.component(stage, i)}" for i in range(stages.d)
-        ]
+        found = []
         for i in range(stages.d):
             c = stages.component(stage, i)
-            self._lines.write(f"x{c} = {stages.start(stage.group, i)} + z{c}")
+            start = stages.start(stage.group, i)
+            self._lines.write(f"x{c} = {start} + z{c}")
+            found.append(f"x{c}")
+        stages.stages[stage] = found
 
     def _start(self, block: StageBlock) -> None:
         """The fields frozen at y_0, and what that missed in the last step, extrapolated."""
@@ -127,18 +122,17 @@ class NewtonWriter:
                 c = stages.component(stage, i)
                 self._lines.write(f"g{c} = {self._frozen_sum(stage, i)}")
                 guess = f"g{c} + m{c} + n{c}"
-                self._lines.write(
-                    f"z{c} = ({guess}).mid()"
-                    if self._is_for_balls
-                    else f"z{c} = {guess}"
-                )
+                if self._is_for_balls:
+                    guess = f"({guess}).mid()"
+                self._lines.write(f"z{c} = {guess}")
 
     def _frozen_sum(self, stage: Stage, i: int) -> str:
         terms = []
         for evaluation in self._stages.graph.sums[stage]:
             f = self.frozen[evaluation.colour, evaluation.group][i]
             if f != "0":
-                terms.append(f"{self._stages.weight(stage, evaluation)}*{f}")
+                w = self._stages.weight(stage, evaluation)
+                terms.append(f"{w}*{f}")
         return " + ".join(terms) or "0.0"
 
     def _freeze(self, evaluation: FieldEvaluation) -> None:
@@ -147,9 +141,9 @@ class NewtonWriter:
             return
         stages = self._stages
         field = stages.fields[key]
-        start = [
-            stages.start(group, i) for group in field.depends for i in range(stages.d)
-        ]
+        start = []
+        for group in field.depends:
+            start += [stages.start(group, i) for i in range(stages.d)]
         code = stages.code(field.components, evaluation, self._is_for_balls)
         prefix = f"g{evaluation.colour}{evaluation.group}_"
         self.frozen[key] = stages.emit(code, start, prefix)
@@ -157,7 +151,8 @@ class NewtonWriter:
     def _residuals(self, block: StageBlock) -> None:
         k = 0
         for stage in block.unknowns:
-            total = self._stages.total(stage, self._stages.graph.sums[stage])
+            summed = self._stages.graph.sums[stage]
+            total = self._stages.total(stage, summed)
             for i, text in enumerate(total.texts):
                 z = f"z{self._stages.component(stage, i)}"
                 self._lines.write(f"r{k} = {z} - ({text or '0.0'})")
@@ -165,15 +160,16 @@ class NewtonWriter:
 
     def _directly(self, J: Sequence[Slope]) -> None:
         """Corrections by Cramer's rule for (I − J) c = r."""
+        write = self._lines.write
         M = identity_minus(J)
-        self._lines.write("jacobians += 1")
+        write("jacobians += 1")
         if len(J) == 1:
-            self._lines.write(f"c0 = r0/({M[0][0]})")
+            write(f"c0 = r0/({M[0][0]})")
             return
         (a, b), (c, d) = M
-        self._lines.write(f"a, b, c, d = {a}, {b}, {c}, {d}")
-        self._lines.write("t = a*d - b*c")
-        self._lines.write("c0, c1 = (d*r0 - b*r1)/t, (a*r1 - c*r0)/t")
+        write(f"a, b, c, d = {a}, {b}, {c}, {d}")
+        write("t = a*d - b*c")
+        write("c0, c1 = (d*r0 - b*r1)/t, (a*r1 - c*r0)/t")
 
     def _by_inverse(self, block: StageBlock, n: int, index: int) -> None:
         """Corrections by the inverse of I − J, a matrix of floats, which is kept as long as it
@@ -184,11 +180,11 @@ class NewtonWriter:
             if n > _WRITTEN:
                 self._jacobians.by_chain_rule(block, index)
             else:
-                matrix = identity_minus(self._jacobians.written_out(block))
-                entries = ", ".join(x for row in matrix for x in row)
+                J = self._jacobians.written_out(block)
+                entries = ", ".join(x for row in identity_minus(J) for x in row)
                 self._lines.write(f"inverse = inverted([{entries}], {n})")
             self._lines.write("jacobians += 1")
-        residuals = ", ".join(f"r{k}" for k in range(n))
+        residuals = ", ".join(names("r", n))
         corrections = ", ".join(names("c", n))
         self._lines.write(f"{corrections}, = corrections(inverse, [{residuals}])")
 
@@ -215,3 +211,8 @@ class NewtonWriter:
             slow = f"(iteration > 0 and size > {_KEPT_RATE}*before)"
             write(f"stale = size > {near:.0e}*scale or {slow}")
         write("before = size")
+
+
+def _size_of(numbers: Sequence[str]) -> str:
+    """The text of the sum of their absolute values."""
+    return " + ".join(f"abs({x})" for x in numbers)

@@ -95,12 +95,15 @@ class _ProgramWriter:
         """Write everything."""
         self._write_step()
         text = "\n".join(self._around(self.body.texts)) + "\n"
+        # (q, p) and what it lost; of each unknown what was missed, and how that changed
+        size = 2 * (2 * self.d) + 2 * (self.d * len(self.unknowns))
+        evaluations = len(self.graph.evaluations) + len(self.newton.frozen)
         made = Program(
             source=text,
             coefficients=tuple(self.stages.first),
             codes=tuple(self.stages.codes),
-            size=4 * self.d + 2 * self.d * len(self.unknowns),
-            evaluations=len(self.graph.evaluations) + len(self.newton.frozen),
+            size=size,
+            evaluations=evaluations,
             implicit=self.implicit,
             chains=self.jacobians.chains,
         )
@@ -109,11 +112,9 @@ class _ProgramWriter:
     def _around(self, body: list[str]) -> list[str]:
         """The function whose loop has this ``body``."""
         y, lost = names("y", 2 * self.d), names("e", 2 * self.d)
-        components = [
-            self.stages.component(stage, i)
-            for stage in self.unknowns
-            for i in range(self.d)
-        ]
+        components: list[str] = []
+        for stage in self.unknowns:
+            components += [self.stages.component(stage, i) for i in range(self.d)]
         missed = [f"m{c}" for c in components]
         changed = [f"n{c}" for c in components]
         state = ", ".join((*y, *lost, *missed, *changed))
@@ -127,8 +128,9 @@ class _ProgramWriter:
             if weights:
                 lines.write(f"{', '.join(weights)}, = w")
             if weights and self.is_for_balls:  # as floats for the Jacobians
+                floats = [f"v{x}" for x in weights]
                 lines.write("v = list(map(float, w))")
-                lines.write(f"{', '.join('v' + x for x in weights)}, = v")
+                lines.write(f"{', '.join(floats)}, = v")
             lines.write(" = ".join((*counts, "jacobians", "0")))
             lines.write("number = first")
             lines.write("try:")
@@ -149,15 +151,12 @@ class _ProgramWriter:
                 self.newton.solve(block, self.implicit.index(block))
             else:
                 self.stages.explicit(block)
-        for k, group in enumerate(GROUPS):
-            driving = [x for x in self.graph.evaluations if x.group == group]
-            total = self.stages.total(None, driving)
-            for i, change in enumerate(total.texts, k * self.d):
-                write(f"d{i} = {change or '0.0'}")
+        self._write_increments()
         for stage in self.unknowns:
             for i in range(self.d):
                 c = self.stages.component(stage, i)
-                write(f"m{c}, n{c} = z{c} - g{c}, z{c} - g{c} - m{c}")
+                missed = f"z{c} - g{c}"
+                write(f"m{c}, n{c} = {missed}, {missed} - m{c}")
         for i in range(2 * self.d):
             self._add(i)
         y = names("y", 2 * self.d)
@@ -169,6 +168,15 @@ class _ProgramWriter:
         write(" raise NotSolved(number, inf)")
         write("if record:")
         write(f" record([{', '.join(y)}])")
+
+    def _write_increments(self) -> None:
+        """The increments d = y_1 − y_0, positions before momenta."""
+        changes: list[str] = []
+        for group in GROUPS:
+            driving = [x for x in self.graph.evaluations if x.group == group]
+            changes += self.stages.total(None, driving).texts
+        for i, change in enumerate(changes):
+            self.body.write(f"d{i} = {change or '0.0'}")
 
     def _add(self, i: int) -> None:
         """One component of y_1: compensated in floats."""

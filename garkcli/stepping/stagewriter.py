@@ -80,21 +80,16 @@ class StageWriter:
         is_for_balls: bool,
         lines: Lines,
     ) -> None:
-        self.graph, self.fields, self.d, self.is_for_balls = (
-            graph,
-            fields,
-            dimension,
-            is_for_balls,
-        )
+        self.graph, self.fields, self.d = graph, fields, dimension
+        self.is_for_balls = is_for_balls
         self.lines = lines
         self.weights: dict[str, str] = {}
         self.first: list[tuple[Stage | None, FieldEvaluation]] = []
         self.codes: list[Code] = []
         self.values: dict[FieldEvaluation, list[str]] = {}
         self.stages: dict[Stage, list[str]] = {}
-        self.number = {
-            vertex: i for i, vertex in enumerate((*graph.sums, *graph.evaluations))
-        }
+        vertices = (*graph.sums, *graph.evaluations)
+        self.number = {vertex: i for i, vertex in enumerate(vertices)}
         self._known_sums: list[Sum] = []
 
     def explicit(self, block: StageBlock) -> None:
@@ -128,9 +123,10 @@ class StageWriter:
 
     def arguments(self, evaluation: FieldEvaluation) -> list[str]:
         """The names of the numbers that a field is evaluated at."""
-        return [
-            x for stage in self.graph.arguments[evaluation] for x in self.stages[stage]
-        ]
+        found: list[str] = []
+        for stage in self.graph.arguments[evaluation]:
+            found += self.stages[stage]
+        return found
 
     def total(self, stage: Stage | None, evaluations: Sequence[FieldEvaluation]) -> Sum:
         """The sums of w f over ``evaluations``; from a sum that is known, where that has at least
@@ -139,14 +135,18 @@ class StageWriter:
         In a composition of short steps each stage goes on from the one before, and so costs no more
         than that.
         """
-        terms = {x: self.weight(stage, x) for x in evaluations if any(self._nonzero(x))}
+        terms: dict[FieldEvaluation, str] = {}
+        for evaluation in evaluations:
+            if any(f != "0" for f in self.values[evaluation]):
+                terms[evaluation] = self.weight(stage, evaluation)
         base = self._largest_part(terms)
         texts = []
         for i in range(self.d):
             parts = [base.texts[i]] if base.texts[i] else []
             for evaluation, w in terms.items():
-                if evaluation not in base.terms and self._nonzero(evaluation)[i]:
-                    parts.append(f"{w}*{self.values[evaluation][i]}")
+                f = self.values[evaluation][i]
+                if evaluation not in base.terms and f != "0":
+                    parts.append(f"{w}*{f}")
             texts.append(" + ".join(parts))
         return Sum(terms, texts)
 
@@ -161,14 +161,12 @@ class StageWriter:
                 largest = known
         return largest
 
-    def _nonzero(self, evaluation: FieldEvaluation) -> list[bool]:
-        return [f != "0" for f in self.values[evaluation]]
-
     def weight(self, stage: Stage | None, evaluation: FieldEvaluation) -> str:
         """The name of w = h a, or of h b for no stage; equal numbers have one name."""
         text = self.graph.coefficients[stage, evaluation]
         if text not in self.weights:
-            self.weights[text] = f"w{len(self.first)}"
+            place = len(self.first)
+            self.weights[text] = f"w{place}"
             self.first.append((stage, evaluation))
         return self.weights[text]
 
@@ -193,7 +191,8 @@ class StageWriter:
 
     def start(self, group: Group, i: int) -> str:
         """The name of component i of q_0 or of p_0."""
-        return f"y{i + (self.d if group == 'p' else 0)}"
+        before = self.d if group == "p" else 0
+        return f"y{before + i}"
 
     def component(self, stage: Stage, i: int) -> str:
         """What the names of component i of a stage value end in."""

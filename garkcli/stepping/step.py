@@ -130,10 +130,10 @@ class Stepper:
         integrator = self.integrator
         start = integrator.problem.initial if self.initial is None else self.initial
         with ctx.workprec(integrator.bits):
-            self._numbers = [integrator.number(x) for x in start]
-            self._numbers += [integrator.number(0)] * (
-                integrator.program.size - len(self._numbers)
-            )
+            numbers = [integrator.number(x) for x in start]
+            # nothing has been lost or missed before the first step
+            others = integrator.program.size - len(numbers)
+            self._numbers = numbers + [integrator.number(0)] * others
         self._weights = integrator.weights(self.h)
         self._iterations = [0] * len(integrator.program.repeated)
 
@@ -162,20 +162,22 @@ class Stepper:
             StepFailed: the stage equations of a step were not solved.
         """
         try:
-            if self.integrator.is_for_balls:
-                with ctx.workprec(self.integrator.bits):
-                    made = self.integrator.run(
-                        self._numbers, self._weights, self.done + 1, count, record
-                    )
-            else:
-                made = self.integrator.run(
-                    self._numbers, self._weights, self.done + 1, count, record
-                )
+            made = self._run(count, record)
         except NotSolved as failure:
             raise StepFailed(failure.number, self.h, failure.residual) from None
         self._numbers, iterations, jacobians = made
-        self._iterations = [
-            a + b for a, b in zip(self._iterations, iterations, strict=True)
-        ]
+        pairs = zip(self._iterations, iterations, strict=True)
+        self._iterations = [before + more for before, more in pairs]
         self._jacobians += jacobians
         self.done += count
+
+    def _run(
+        self, count: int, record: Recorder | None
+    ) -> tuple[list[Real], list[int], int]:
+        """What the program of the steps gives, with balls at their precision."""
+        integrator = self.integrator
+        first = self.done + 1
+        if not integrator.is_for_balls:
+            return integrator.run(self._numbers, self._weights, first, count, record)
+        with ctx.workprec(integrator.bits):
+            return integrator.run(self._numbers, self._weights, first, count, record)
