@@ -14,6 +14,8 @@ from time import perf_counter
 ROOT = Path(__file__).resolve().parents[2]
 GARK = [str(Path(sys.executable).with_name("gark"))]
 PYTHON = [sys.executable]
+UNIT = 2**20 if sys.platform == "darwin" else 1024
+"""Units of ``ru_maxrss`` in a megabyte: bytes on macOS, kilobytes elsewhere."""
 
 
 def seconds(run: Callable[[], object], repeat: int = 5) -> float:
@@ -43,7 +45,8 @@ def interleaved(
 
 def peak_megabytes(code: str) -> float:
     """The largest resident size of a Python process that runs ``code``."""
-    script = f"{code}\nimport resource; print(resource.getrusage(resource.RUSAGE_SELF).ru_maxrss / 1024)"
+    usage = "resource.getrusage(resource.RUSAGE_SELF).ru_maxrss"
+    script = f"{code}\nimport resource; print({usage} / {UNIT})"
     out = subprocess.run(
         [*PYTHON, "-c", script], cwd=ROOT, check=True, capture_output=True, text=True
     ).stdout
@@ -52,7 +55,7 @@ def peak_megabytes(code: str) -> float:
 
 def peak_of_children() -> float:
     """The largest resident size of any process that was waited for, in megabytes."""
-    return resource.getrusage(resource.RUSAGE_CHILDREN).ru_maxrss / 1024
+    return resource.getrusage(resource.RUSAGE_CHILDREN).ru_maxrss / UNIT
 
 
 def report(what: str, ratio: float, target: float, detail: str) -> None:
