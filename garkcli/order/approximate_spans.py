@@ -19,7 +19,7 @@ balls, so the bounds are proved; the choice of members only makes them good or b
 
 from __future__ import annotations
 
-from collections.abc import Iterable, Iterator, Sequence
+from collections.abc import Iterator, Sequence
 from dataclasses import dataclass
 from functools import reduce
 from operator import add
@@ -65,10 +65,7 @@ class ApproximateSpans:
         self.tableau = tableau
         self.enclosure = enclosure
         self.grain = grain
-        self._absolute = {
-            key: arb_mat([[abs(x) for x in row] for row in A.tolist()])
-            for key, A in enclosure.A.items()
-        }
+        self._absolute = {key: _absolute_matrix(A) for key, A in enclosure.A.items()}
         self._branches: list[list[_Hull | None]] = [[None] for _ in enclosure.stages]
         self._forests: list[list[_Hull | None]] = [[_unit(s)] for s in enclosure.stages]
 
@@ -82,14 +79,16 @@ class ApproximateSpans:
                 if hull is None:
                     continue
                 worst = arb(0)
+                weights = b.entries()
+                required = arb(1) / order
                 for member in hull.members:
                     tree = Tree(l, member.branches)
-                    defect = abs(_dot(b.entries(), member.vector) - arb(1) / order)
+                    defect = abs(_dot(weights, member.vector) - required)
                     size = defect * order / tree.density
                     worst = worst.max(defect)
                     if largest is None or size > reached:
                         reached, largest = size, tree
-                beyond = _dot([abs(x) for x in b.entries()], hull.error)
+                beyond = _dot(_absolute(weights), hull.error)
                 bound = bound.max(hull.weight * worst + beyond)
         return Sizes(bound.abs_upper(), reached, largest)
 
@@ -104,8 +103,10 @@ class ApproximateSpans:
     def _extend(self, k: int, order: int) -> None:
         while len(self._forests[k]) <= order:
             n = len(self._forests[k])
-            self._branches[k].append(_reduced([*self._new_branches(k, n)], self.grain))
-            self._forests[k].append(_reduced([*self._new_forests(k, n)], self.grain))
+            branches = list(self._new_branches(k, n))
+            self._branches[k].append(_reduced(branches, self.grain))
+            forests = list(self._new_forests(k, n))
+            self._forests[k].append(_reduced(forests, self.grain))
 
     def _new_branches(self, k: int, order: int) -> Iterator[_Hull]:
         """Order · A ψ over the colours that the stages of space k see."""
@@ -113,18 +114,17 @@ class ApproximateSpans:
             if (k, m) not in self.enclosure.A:
                 continue
             hull = self._stage_vectors(m, order)
-            if hull is not None:
-                A, absolute = self.enclosure.A[k, m] * order, self._absolute[k, m]
-                members = [
-                    _Member(_image(A, x.vector), (Tree(m, x.branches),))
-                    for x in hull.members
-                ]
-                yield _Hull(
-                    members,
-                    hull.weight / order,
-                    _image(absolute, hull.error),
-                    _image(absolute, hull.size),
-                )
+            if hull is None:
+                continue
+            A = self.enclosure.A[k, m] * order
+            members = []
+            for x in hull.members:
+                branch = Tree(m, x.branches)
+                members.append(_Member(_image(A, x.vector), (branch,)))
+            absolute = self._absolute[k, m]
+            error = _image(absolute, hull.error)
+            size = _image(absolute, hull.size)
+            yield _Hull(members, hull.weight / order, error, size)
 
     def _new_forests(self, k: int, order: int) -> Iterator[_Hull]:
         """The smallest branch times the forest of the others, or one branch.
@@ -147,17 +147,16 @@ def _unit(stages: int) -> _Hull:
 
 
 def _product(x: _Hull, y: _Hull) -> _Hull:
-    members = [
-        _Member(
-            [a * b for a, b in zip(v.vector, w.vector, strict=True)],
-            (*v.branches, *w.branches),
-        )
-        for v in x.members
-        for w in y.members
-    ]
-    bounds = list(zip(x.size, x.error, y.size, y.error, strict=True))
-    error = [p * f + e * q + e * f for p, e, q, f in bounds]
-    return _Hull(members, x.weight * y.weight, error, [p * q for p, _, q, _ in bounds])
+    members = []
+    for v in x.members:
+        for w in y.members:
+            vector = [a * b for a, b in zip(v.vector, w.vector, strict=True)]
+            members.append(_Member(vector, (*v.branches, *w.branches)))
+    error, size = [], []
+    for p, e, q, f in zip(x.size, x.error, y.size, y.error, strict=True):
+        error.append(p * f + e * q + e * f)
+        size.append(p * q)
+    return _Hull(members, x.weight * y.weight, error, size)
 
 
 def _reduced(hulls: Sequence[_Hull], grain: arb) -> _Hull | None:
@@ -168,7 +167,8 @@ def _reduced(hulls: Sequence[_Hull], grain: arb) -> _Hull | None:
     points = [[arb(1), *member.vector] for member in members]
     chosen, weights = _affine_weights(points, grain)
     kept = [members[i] for i in chosen]
-    misses = (arb_mat(points) - weights * arb_mat([points[i] for i in chosen])).tolist()
+    corners = arb_mat([points[i] for i in chosen])
+    misses = (arb_mat(points) - weights * corners).tolist()
     rows = weights.tolist()
     found: _Hull | None = None
     start = 0
@@ -184,11 +184,13 @@ def _around(
 ) -> _Hull:
     """The bounds of one hull around the members that are kept.
 
-    ``weights`` and ``misses`` have a row for each member of the hull: its λ in the members kept, and
-    what these leave of (1, ψ).
+    ``weights`` and ``misses`` have a row for each member of the hull: its λ in the members kept,
+    and what these leave of (1, ψ).
     """
-    amount = _largest(reduce(add, map(abs, row)) for row in weights)
-    miss = reduce(_entrywise, ([abs(x) for x in row[1:]] for row in misses))
+    amount = arb(0)
+    for row in weights:
+        amount = amount.max(reduce(add, _absolute(row)))
+    miss = reduce(_entrywise, [_absolute(row[1:]) for row in misses])
     error = [e + hull.weight * d for e, d in zip(hull.error, miss, strict=True)]
     return _Hull(kept, hull.weight * amount, error, hull.size)
 
@@ -213,14 +215,12 @@ def _affine_weights(points: Sequence[Entries], grain: arb) -> tuple[list[int], a
     """
     chosen, columns = _pivots(arb_mat(points), grain)
     while True:
-        corner = arb_mat([[points[i][j] for j in columns] for i in chosen])
+        rows = [[point[j] for j in columns] for point in points]
+        corner = arb_mat([rows[i] for i in chosen])
         try:
-            return chosen, arb_mat(
-                [[point[j] for j in columns] for point in points]
-            ) * corner.inv()
-        except (
-            ZeroDivisionError
-        ):  # too flat for the precision: fewer members, larger errors
+            return chosen, arb_mat(rows) * corner.inv()
+        except ZeroDivisionError:
+            # too flat for the precision: fewer members, larger errors
             chosen, columns = chosen[:-1], columns[:-1]
 
 
@@ -234,8 +234,10 @@ def _pivots(points: arb_mat, grain: arb) -> tuple[list[int], list[int]]:
     rows, columns = [0], [0]
     while True:
         i, j = rows[-1], columns[-1]
-        column = arb_mat([[row[j]] for row in rest.tolist()])
-        rest = (rest - column * (arb_mat([rest.tolist()[i]]) / rest[i, j])).mid()
+        entries = rest.tolist()
+        column = arb_mat([[row[j]] for row in entries])
+        pivot_row = arb_mat([entries[i]]) / rest[i, j]
+        rest = (rest - column * pivot_row).mid()
         if len(rows) == min(rest.nrows(), rest.ncols()):
             return rows, columns
         sizes = [float(abs(x)) for x in rest.entries()]
@@ -244,6 +246,15 @@ def _pivots(points: arb_mat, grain: arb) -> tuple[list[int], list[int]]:
             return rows, columns
         rows.append(where // rest.ncols())
         columns.append(where % rest.ncols())
+
+
+def _absolute(row: Sequence[arb]) -> Entries:
+    return [abs(x) for x in row]
+
+
+def _absolute_matrix(A: arb_mat) -> arb_mat:
+    """|A|, entry by entry."""
+    return arb_mat([_absolute(row) for row in A.tolist()])
 
 
 def _image(A: arb_mat, vector: Sequence[arb]) -> Entries:
@@ -256,7 +267,3 @@ def _dot(u: Sequence[arb], v: Sequence[arb]) -> arb:
 
 def _entrywise(u: Sequence[arb], v: Sequence[arb]) -> Entries:
     return [x.max(y) for x, y in zip(u, v, strict=True)]
-
-
-def _largest(values: Iterable[arb]) -> arb:
-    return reduce(lambda x, y: x.max(y), values, arb(0))

@@ -90,16 +90,16 @@ def find_order(tableau: Tableau, limit: int = DEFAULT_LIMIT) -> Order:
             for forest in spans.stage_vectors(l, order):
                 value = dot(colour.b, forest.vector)
                 if value != fmpq(1, order):
-                    tree = Tree(l, forest.branches)
-                    return Order(
-                        order - 1,
-                        Witness(
-                            tree,
-                            value * fmpq(order, tree.density),
-                            fmpq(1, tree.density),
-                        ),
-                    )
+                    witness = _witness(Tree(l, forest.branches), value)
+                    return Order(order - 1, witness)
     return Order(limit, None)
+
+
+def _witness(tree: Tree, normalised: Number) -> Witness:
+    """The witness whose tree has b_lᵀ ψ(u) = ``normalised``."""
+    density = tree.density
+    weight = normalised * fmpq(tree.order, density)
+    return Witness(tree, weight, fmpq(1, density))
 
 
 class _Spans:
@@ -128,49 +128,45 @@ class _Spans:
     def _extend(self, rows: int, size: int) -> None:
         while len(self.forests[rows]) <= size:
             k = len(self.forests[rows])
-            self.branches[rows].append(
-                self._spanning(rows, self._new_branches(rows, k))
-            )
-            self.forests[rows].append(self._spanning(rows, self._new_forests(rows, k)))
+            branches = self._spanning(rows, self._new_branches(rows, k))
+            self.branches[rows].append(branches)
+            forests = self._spanning(rows, self._new_forests(rows, k))
+            self.forests[rows].append(forests)
 
     def _new_branches(self, rows: int, order: int) -> Iterator[list[_Forest]]:
         """Θ_order: order · A ψ over the colours that the stages see."""
         for m in range(self.tableau.size):
-            if (rows, m) in self.maps:
-                members = self.stage_vectors(m, order)
-                images = self.maps[rows, m].images(
-                    [tuple(order * y for y in x.vector) for x in members]
-                )
-                yield [
-                    _Forest(image, (Tree(m, x.branches),))
-                    for image, x in zip(images, members, strict=True)
-                ]
+            if (rows, m) not in self.maps:
+                continue
+            members = self.stage_vectors(m, order)
+            scaled = [tuple(order * y for y in x.vector) for x in members]
+            images = self.maps[rows, m].images(scaled)
+            yield [
+                _Forest(image, (Tree(m, x.branches),))
+                for image, x in zip(images, members, strict=True)
+            ]
 
     def _new_forests(self, rows: int, order: int) -> Iterator[list[_Forest]]:
         """Φ_order: one branch, or the smallest branch times the forest of the others."""
-        space, branches, forests = (
-            self.tableau.spaces[rows],
-            self.branches[rows],
-            self.forests[rows],
-        )
+        space = self.tableau.spaces[rows]
+        branches = self.branches[rows]
+        forests = self.forests[rows]
         yield branches[order]
         for j in range(1, order // 2 + 1):
             for branch in branches[j]:
-                yield [
-                    _Forest(
-                        space.product(branch.vector, x.vector),
-                        (*branch.branches, *x.branches),
-                    )
-                    for x in forests[order - j]
-                ]
+                batch = []
+                for rest in forests[order - j]:
+                    vector = space.product(branch.vector, rest.vector)
+                    trees = (*branch.branches, *rest.branches)
+                    batch.append(_Forest(vector, trees))
+                yield batch
 
     def _spanning(self, rows: int, batches: Iterator[list[_Forest]]) -> list[_Forest]:
         span = AffineSpan(self.tableau.spaces[rows].stages * self.degree)
         members: list[_Forest] = []
         for batch in batches:
-            members += [
-                batch[i] for i in span.insert([self._flat(x.vector) for x in batch])
-            ]
+            new = span.insert([self._flat(x.vector) for x in batch])
+            members += [batch[i] for i in new]
             if span.is_full:
                 break
         return members

@@ -11,7 +11,7 @@ from garkcli.errors import MethodError
 from garkcli.exact.field import ZERO, Number
 from garkcli.exact.matrix import Vector, apply, dot
 from garkcli.order.tolerance import within
-from garkcli.tableau.tableau import Tableau
+from garkcli.tableau.tableau import Colour, Tableau
 from garkcli.trees.tree import Tree
 
 
@@ -45,9 +45,9 @@ class Condition:
     @property
     def holds(self) -> bool:
         """Whether |residual| ≤ tolerance; without one, whether the residual is exactly zero."""
-        return self.is_exact or bool(
-            self.tolerance and within(self.residual, self.tolerance)
-        )
+        if self.is_exact:
+            return True
+        return bool(self.tolerance and within(self.residual, self.tolerance))
 
     @property
     def is_exact(self) -> bool:
@@ -96,30 +96,30 @@ def is_admissible(tableau: Tableau, tree: Tree) -> bool:
     colour = tableau.colours[tree.root]
     if colour.is_linear and len(tree.branches) > 1:
         return False
-    return all(
-        tableau.block(tree.root, branch.root) is not None
-        and is_admissible(tableau, branch)
-        for branch in tree.branches
-    )
+    for branch in tree.branches:
+        if tableau.block(tree.root, branch.root) is None:
+            return False
+        if not is_admissible(tableau, branch):
+            return False
+    return True
 
 
 def _stage_vector(tableau: Tableau, tree: Tree, memo: dict[Tree, Vector]) -> Vector:
     """𝒜^[u], eqs. (Ataul) and (Au); branches are kept in ``memo``, the tree itself is not."""
     space = tableau.space(tree.root)
-    if tableau.colours[tree.root].is_linear and len(tree.branches) > 1:
+    colour = tableau.colours[tree.root]
+    if colour.is_linear and len(tree.branches) > 1:
         raise MethodError(
-            f"colour {tableau.colours[tree.root].name} is linear: its vertices have one branch at most"
+            f"colour {colour.name} is linear: its vertices have one branch at most"
         )
     vector = space.one
     for branch in tree.branches:
         block = tableau.block(tree.root, branch.root)
         if block is None:
-            seer, seen = (
-                tableau.colours[tree.root].name,
-                tableau.colours[branch.root].name,
-            )
+            seen = tableau.colours[branch.root]
             raise MethodError(
-                f"colour {seer} does not see colour {seen}: the tree is not admissible"
+                f"colour {colour.name} does not see colour {seen.name}:"
+                " the tree is not admissible"
             )
         if branch not in memo:
             memo[branch] = _stage_vector(tableau, branch, memo)
@@ -150,14 +150,16 @@ def twin_roots(tableau: Tableau) -> dict[int, tuple[int, ...]]:
     groups: dict[int, tuple[int, ...]] = {}
     for l, colour in enumerate(tableau.colours):
         for first in groups:
-            other = tableau.colours[first]
-            if (colour.space, colour.b, colour.is_linear) == (
-                other.space,
-                other.b,
-                other.is_linear,
-            ):
+            if _are_twins(colour, tableau.colours[first]):
                 groups[first] += (l,)
                 break
         else:
             groups[l] = (l,)
     return groups
+
+
+def _are_twins(one: Colour, other: Colour) -> bool:
+    """Whether two colours share their stages, their weights, and whether they are linear."""
+    if one.space != other.space or one.is_linear != other.is_linear:
+        return False
+    return one.b == other.b

@@ -8,7 +8,7 @@ Equations I*, II.3.
 from __future__ import annotations
 
 from dataclasses import dataclass
-from typing import TYPE_CHECKING
+from typing import TYPE_CHECKING, TypeAlias
 
 from flint import arb
 
@@ -22,6 +22,8 @@ from garkcli.trees.count import count_trees
 from garkcli.trees.tree import Tree
 
 if TYPE_CHECKING:
+    from collections.abc import Iterable, Sequence
+
     import numpy as np
 
     from garkcli.trees.table import TreeTable
@@ -30,6 +32,9 @@ EXACT_CONDITIONS = 3_000
 """Most conditions that are evaluated exactly; beyond them floats do."""
 MAX_TREES = 10_000_000
 """Most trees up to the order in question; beyond them there are no error constants."""
+Mask: TypeAlias = "np.ndarray[tuple[int], np.dtype[np.bool_]]"
+_Coefficient: TypeAlias = "tuple[Number, Sequence[Tree]]"
+"""e(u), and the trees u that have it: they differ in their root colours."""
 
 
 @dataclass(frozen=True)
@@ -75,43 +80,47 @@ def error_constants(tableau: Tableau, order: int) -> ErrorConstants | None:
     if count_conditions(tableau, order) <= EXACT_CONDITIONS:
         return _exact(tableau, order)
     edges, linear = coupling_graph(tableau)
-    if (
-        sum(count_trees(tableau.size, n, edges, linear) for n in range(1, order + 1))
-        > MAX_TREES
-    ):
+    trees = 0
+    for n in range(1, order + 1):
+        trees += count_trees(tableau.size, n, edges, linear)
+    if trees > MAX_TREES:
         return None
     return _in_floats(tableau, order)
 
 
 def _exact(tableau: Tableau, order: int) -> ErrorConstants:
-    coefficients = [
-        (x.residual / x.tree.symmetry, x.trees) for x in all_conditions(tableau, order)
-    ]
+    everything: list[_Coefficient] = []
+    coupling: list[_Coefficient] = []
+    for condition in all_conditions(tableau, order):
+        e = condition.residual / condition.tree.symmetry
+        mixed = [u for u in condition.trees if len(u.colours) > 1]
+        everything.append((e, condition.trees))
+        if mixed:
+            coupling.append((e, mixed))
+    return ErrorConstants(order, True, _exact_norms(everything), _exact_norms(coupling))
 
-    def norms(only_coupling: bool) -> Norms:
-        chosen = [
-            (e, kept)
-            for e, trees in coefficients
-            if (kept := [u for u in trees if len(u.colours) > 1 or not only_coupling])
-        ]
-        total: Number = ZERO
-        for e, trees in chosen:
-            total = total + len(trees) * (e * e)
-        sizes = [abs(to_float(e)) for e, _ in chosen]
-        largest = max(sizes, default=0.0)
-        e, u = ZERO, None
-        if largest:
-            e, (u, *_) = chosen[sizes.index(largest)]
-        return Norms(
-            trees=sum(len(trees) for _, trees in chosen),
-            two_squared=total,
-            two=to_float(total) ** 0.5,
-            largest=largest,
-            worst=u,
-            worst_value=e if u is not None else None,
-        )
 
-    return ErrorConstants(order, True, norms(False), norms(True))
+def _exact_norms(coefficients: Sequence[_Coefficient]) -> Norms:
+    trees = 0
+    squared: Number = ZERO
+    for e, same in coefficients:
+        trees += len(same)
+        squared = squared + len(same) * (e * e)
+    sizes = [abs(to_float(e)) for e, _ in coefficients]
+    largest = max(sizes, default=0.0)
+    worst: Tree | None = None
+    worst_value: Number | None = None
+    if largest:
+        worst_value, same = coefficients[sizes.index(largest)]
+        worst = same[0]
+    return Norms(
+        trees=trees,
+        two_squared=squared,
+        two=to_float(squared) ** 0.5,
+        largest=largest,
+        worst=worst,
+        worst_value=worst_value,
+    )
 
 
 def _in_floats(tableau: Tableau, order: int) -> ErrorConstants:
@@ -126,18 +135,18 @@ def _in_floats(tableau: Tableau, order: int) -> ErrorConstants:
     rows = [colour.space for colour in tableau.colours]
     blocks = {}
     for l, m in tableau.edges():
-        blocks[rows[l], m] = np.array(
-            [[_float(x) for x in row] for row in entries.A[l][m] or ()]
-        )
-    weights = [np.array([_float(x) for x in row]) for row in entries.b]
+        A = entries.A[l][m] or ()
+        blocks[rows[l], m] = np.array([_floats(row) for row in A])
+    weights = [np.array(_floats(row)) for row in entries.b]
     ids = table.ids(order)
-    values = elementary_weights(table, rows, blocks, weights)[ids.start : ids.stop]
-    gamma = table.gamma[ids.start : ids.stop].astype(float)
-    sigma = table.sigma[ids.start : ids.stop].astype(float)
+    last = slice(ids.start, ids.stop)
+    values = elementary_weights(table, rows, blocks, weights)[last]
+    gamma = table.gamma[last].astype(float)
+    sigma = table.sigma[last].astype(float)
     e = (values - 1.0 / gamma) / sigma
-    mixes = _mixes(table)[ids.start : ids.stop]
+    mixes = _mixes(table)[last]
 
-    def norms(chosen: np.ndarray[tuple[int], np.dtype[np.bool_]]) -> Norms:
+    def norms(chosen: Mask) -> Norms:
         sizes = np.where(chosen, np.abs(e), 0.0)
         worst = int(sizes.argmax()) if sizes.any() else None
         return Norms(
@@ -149,16 +158,15 @@ def _in_floats(tableau: Tableau, order: int) -> ErrorConstants:
             worst_value=None,
         )
 
-    return ErrorConstants(
-        order, False, norms(np.ones(len(ids), dtype=bool)), norms(mixes)
-    )
+    everything = np.ones(len(ids), dtype=bool)
+    return ErrorConstants(order, False, norms(everything), norms(mixes))
 
 
-def _float(cell: Cell) -> float:
-    return float(cell) if isinstance(cell, arb) else to_float(cell)
+def _floats(row: Iterable[Cell]) -> list[float]:
+    return [float(x) if isinstance(x, arb) else to_float(x) for x in row]
 
 
-def _mixes(table: TreeTable) -> np.ndarray[tuple[int], np.dtype[np.bool_]]:
+def _mixes(table: TreeTable) -> Mask:
     """For each tree of a table whether more than one colour occurs in it."""
     import numpy as np
 
@@ -166,7 +174,6 @@ def _mixes(table: TreeTable) -> np.ndarray[tuple[int], np.dtype[np.bool_]]:
     for n in range(2, int(table.order[-1]) + 1):
         ids = slice(table.ids(n).start, table.ids(n).stop)
         stem, branch = table.stem[ids], table.branch[ids]
-        mixes[ids] = (
-            mixes[stem] | mixes[branch] | (table.root[stem] != table.root[branch])
-        )
+        differs = table.root[stem] != table.root[branch]
+        mixes[ids] = mixes[stem] | mixes[branch] | differs
     return mixes

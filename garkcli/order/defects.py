@@ -28,11 +28,10 @@ class Defects:
 
     def power(self, l: int, exponent: int) -> Vector:
         """c^l to a power."""
+        space, c = self.tableau.space(l), self.tableau.colours[l].c
         powers = self._powers[l]
         while len(powers) <= exponent:
-            powers.append(
-                self.tableau.space(l).product(powers[-1], self.tableau.colours[l].c)
-            )
+            powers.append(space.product(powers[-1], c))
         return powers[exponent]
 
     def B(self, l: int, k: int) -> Number:  # noqa: N802 -- the paper's letter
@@ -51,11 +50,11 @@ class Defects:
         space of m.
         """
         here, there = self.tableau.space(l), self.tableau.space(m)
-        (left,) = self._map(l, m).pullbacks(
-            [here.times(self.tableau.colours[l].b, self.power(l, k - 1))]
-        )
+        b_l, b_m = self.tableau.colours[l].b, self.tableau.colours[m].b
+        weighted = here.times(b_l, self.power(l, k - 1))
+        (left,) = self._map(l, m).pullbacks([weighted])
         rest = tuple(x - y for x, y in zip(there.one, self.power(m, k), strict=True))
-        right = there.times(self.tableau.colours[m].b, rest)
+        right = there.times(b_m, rest)
         return tuple(x - y / k for x, y in zip(left, right, strict=True))
 
     def _map(self, l: int, m: int) -> LinearMap:
@@ -80,15 +79,14 @@ def is_symplectic_within(tableau: Tableau, tolerance: fmpq) -> bool:
                 if not functional_within(tableau.space(l), difference, tolerance):
                     return False
             if parts not in ({"q", "p"}, {"y"}):
-                continue
+                continue  # velocities among each other, or forces: the form pairs none
             forth, back = tableau.block(l, m), tableau.block(m, l)
             if (forth is None) != (back is None):
                 return False
-            if forth is not None and not form_within(
-                tableau.space(l),
-                tableau.space(m),
-                symplectic_defect(tableau, l, m),
-                tolerance,
-            ):
+            if forth is None:
+                continue
+            defect = symplectic_defect(tableau, l, m)
+            spaces = tableau.space(l), tableau.space(m)
+            if not form_within(*spaces, defect, tolerance):
                 return False
     return True

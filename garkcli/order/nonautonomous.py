@@ -37,12 +37,10 @@ def with_time(tableau: Tableau) -> Tableau | None:
         if colour.is_linear or nodes.setdefault(colour.space, colour.c) != colour.c:
             return None
     space, time = len(tableau.spaces), tableau.size
-    columns: dict[tuple[int, int], Matrix] = {
-        (k, time): tuple((c,) for c in row) for k, row in nodes.items()
-    }
+    blocks = dict(tableau.blocks)
+    for k, c in nodes.items():
+        column: Matrix = tuple((c_i,) for c_i in c)
+        blocks[k, time] = column
     clock = Colour(TIME, space, (ONE,), (ZERO,), term=time)
-    return Tableau(
-        (*tableau.spaces, PointSpace((ZERO,))),
-        (*tableau.colours, clock),
-        {**tableau.blocks, **columns},
-    )
+    spaces = (*tableau.spaces, PointSpace((ZERO,)))
+    return Tableau(spaces, (*tableau.colours, clock), blocks)

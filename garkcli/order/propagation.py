@@ -44,6 +44,10 @@ class _Range:
     size: Entries
     change: Entries
 
+    def moved(self) -> Entries:
+        """Bounds on the entries once rounding has moved them: S + D."""
+        return [s + d for s, d in zip(self.size, self.change, strict=True)]
+
 
 class Propagation:
     """Bounds on what rounding does to the residuals of one tableau, order after order.
@@ -89,11 +93,9 @@ class Propagation:
                 vectors = self._stage_vectors(l, order)
                 if vectors is None:
                     continue
-                moved = [
-                    s + d for s, d in zip(vectors.size, vectors.change, strict=True)
-                ]
-                change = _dot(b, vectors.change) + _dot(off, moved)
-                found = found.max(change)
+                kept = _dot(b, vectors.change)
+                added = _dot(off, vectors.moved())
+                found = found.max(kept + added)
         return found.abs_upper()
 
     def largest_row_sum(self) -> arb:
@@ -122,11 +124,10 @@ class Propagation:
             vectors = self._stage_vectors(m, order) if (k, m) in self._A else None
             if vectors is None:
                 continue
-            A, off = self._A[k, m], self._off[k, m]
-            moved = [s + d for s, d in zip(vectors.size, vectors.change, strict=True)]
-            size = [_dot(row, vectors.size) for row in A]
-            kept = [_dot(row, vectors.change) for row in A]
-            added = [_dot(row, moved) for row in off]
+            A = self._A[k, m]
+            size = _image(A, vectors.size)
+            kept = _image(A, vectors.change)
+            added = _image(self._off[k, m], vectors.moved())
             change = [x + y for x, y in zip(kept, added, strict=True)]
             found = _either(found, _Range(size, change))
         return found
@@ -139,7 +140,9 @@ class Propagation:
             branch, rest = self._branches[k][j], self._forests[k][order - j]
             if branch is not None:
                 found = _either(found, _product(branch, rest))
-        return found or _Range(zero, zero)
+        if found is None:
+            return _Range(zero, zero)
+        return found
 
 
 def printed_rounding(tableau: Tableau, units: Mapping[Number, fmpq]) -> Propagation:
@@ -156,10 +159,9 @@ def printed_rounding(tableau: Tableau, units: Mapping[Number, fmpq]) -> Propagat
         return arb(units.get(value, largest if value else fmpq(0)))
 
     with ctx.workprec(BITS):
-        radii = {
-            key: arb_mat([[unit(x) for x in row] for row in block])
-            for key, block in tableau.blocks.items()
-        }
+        radii: dict[tuple[int, int], arb_mat] = {}
+        for key, block in tableau.blocks.items():
+            radii[key] = arb_mat([[unit(x) for x in row] for row in block])
         weights = [[unit(x) for x in colour.b] for colour in tableau.colours]
     return Propagation(tableau, radii, largest, weights)
 
@@ -188,15 +190,14 @@ class ConjugateRounding:
 
     def of_pair(self, both: Tableau) -> Propagation:
         """For the conditions of the pair: half of its blocks are those of the method."""
-        N, colours = self.tableau.size, self.tableau.colours
-        if not self.tableau.is_partitioned:
-            radii = {(l, N + m): off for (l, m), off in self.hats.items()}
-        else:
-            radii = {
-                (colours[l].space, m): off
-                for (l, m), off in self.hats.items()
-                if colours[m].part == "p"
-            }
+        N = self.tableau.size
+        colours = self.tableau.colours
+        radii: dict[tuple[int, int], arb_mat] = {}
+        for (l, m), off in self.hats.items():
+            if not self.tableau.is_partitioned:
+                radii[l, N + m] = off
+            elif colours[m].part == "p":
+                radii[colours[l].space, m] = off
         return Propagation(both, radii, self.tolerance)
 
     def explains(self, l: int, m: int, defect: arb_mat) -> bool:
@@ -204,13 +205,13 @@ class ConjugateRounding:
         entry.
         """
         b = enclose_tableau(self.tableau, BITS).b[l].entries()
+        radii = self.hats[l, m].tolist()
         with ctx.workprec(BITS):
-            pairs = zip(defect.tolist(), self.hats[l, m].tolist(), b, strict=True)
-            return not any(
-                abs(x) > abs(weight) * off
-                for row, radii, weight in pairs
-                for x, off in zip(row, radii, strict=True)
-            )
+            for row, offs, b_i in zip(defect.tolist(), radii, b, strict=True):
+                for x, off in zip(row, offs, strict=True):
+                    if abs(x) > abs(b_i) * off:
+                        return False
+        return True
 
 
 def conjugate_rounding(tableau: Tableau, tolerance: fmpq) -> ConjugateRounding | None:
@@ -276,6 +277,10 @@ def _entrywise(u: Sequence[arb], v: Sequence[arb]) -> Entries:
 
 def _dot(u: Sequence[arb], v: Sequence[arb]) -> arb:
     return sum((x * y for x, y in zip(u, v, strict=True)), arb(0))
+
+
+def _image(rows: Sequence[Entries], vector: Sequence[arb]) -> Entries:
+    return [_dot(row, vector) for row in rows]
 
 
 def _total(values: Sequence[arb]) -> arb:

@@ -60,10 +60,10 @@ class TreeResiduals:
         self._roots = tuple(twin_roots(tableau))
         edges, linear = coupling_graph(tableau)
         self._admissible = Admissible.of(tableau.size, edges, linear)
-        self._vectors: dict[tuple[int, tuple[int, bool]], list[list[arb]]] = {
-            (1, nature): [[arb(1)] * enclosure.stages[nature[0]]]
-            for nature in self._natures
-        }
+        self._vectors: dict[tuple[int, tuple[int, bool]], list[list[arb]]] = {}
+        for space, is_linear in self._natures:
+            one = [arb(1)] * enclosure.stages[space]
+            self._vectors[1, (space, is_linear)] = [one]
         self._applied: dict[tuple[int, int, int], arb_mat] = {}
 
     def sizes(self, order: int, tolerance: arb | None = None) -> Sizes:
@@ -82,13 +82,9 @@ class TreeResiduals:
                     reached, largest, failed = size, tree_id, fails
                 if tolerance is not None and not fails and not size <= tolerance:
                     doubtful.append(tree_id)
+            worst = None if largest is None else table.tree(largest)
             trees = tuple(table.tree(u) for u in doubtful)
-            return Sizes(
-                bound.abs_upper(),
-                reached,
-                None if largest is None else table.tree(largest),
-                trees,
-            )
+            return Sizes(bound.abs_upper(), reached, worst, trees)
 
     def _residuals(self, table: TreeTable, order: int) -> Iterator[tuple[arb, int]]:
         """|b_lᵀ 𝒜^[u] − 1/γ(u)| and the id, for the roots that differ in more than their colour."""
@@ -104,9 +100,9 @@ class TreeResiduals:
             ids = slice(segment.ids.start, segment.ids.stop)
             where = (table.stem[ids] - segment.stems.start) * len(segment.branches)
             where += table.branch[ids] - segment.branches.start
-            for i, u, gamma in zip(
-                where.tolist(), segment.ids, table.gamma[ids].tolist(), strict=True
-            ):
+            densities = table.gamma[ids].tolist()
+            rows = zip(where.tolist(), segment.ids, densities, strict=True)
+            for i, u, gamma in rows:
                 if gamma not in required:
                     required[gamma] = 1 / arb(gamma)
                 yield abs(values[i] - required[gamma]), u
@@ -116,27 +112,20 @@ class TreeResiduals:
         l = segment.root
         b = self.enclosure.b[l].entries()
         stems = self._stage_vectors(table, segment.order - segment.branch_order, l)
-        weighted = arb_mat(
-            len(stems),
-            len(b),
-            [x * w for row in stems for x, w in zip(row, b, strict=True)],
-        )
+        entries = [x * w for row in stems for x, w in zip(row, b, strict=True)]
+        weighted = arb_mat(len(stems), len(b), entries)
         return (weighted * self._branches(table, segment)).entries()
 
     def _branches(self, table: TreeTable, segment: Segment) -> arb_mat:
         """A 𝒜^[branch] of all branches that a segment chooses from, one column each."""
-        space, order, m = (
-            self._rows[segment.root],
-            segment.branch_order,
-            segment.branch_root,
-        )
-        if (space, order, m) not in self._applied:
-            rows = self._stage_vectors(table, order, m)
-            vectors = arb_mat(len(rows), len(rows[0]), [x for row in rows for x in row])
-            self._applied[space, order, m] = (
-                self.enclosure.A[space, m] * vectors.transpose()
-            )
-        return self._applied[space, order, m]
+        space = self._rows[segment.root]
+        order, m = segment.branch_order, segment.branch_root
+        key = space, order, m
+        if key not in self._applied:
+            vectors = arb_mat(self._stage_vectors(table, order, m))
+            A = self.enclosure.A[space, m]
+            self._applied[key] = A * vectors.transpose()
+        return self._applied[key]
 
     def _stage_vectors(self, table: TreeTable, order: int, l: int) -> list[list[arb]]:
         """𝒜^[u] of the trees with root colour l, in the order of the table; there is one at
@@ -144,25 +133,20 @@ class TreeResiduals:
         """
         key = order, self._natures[l]
         if key not in self._vectors:
-            self._vectors[key] = [
-                row
-                for segment in table.segments
-                if (segment.order, segment.root) == (order, l)
-                for row in self._products(table, segment)
-            ]
+            vectors: list[list[arb]] = []
+            for segment in table.segments:
+                if (segment.order, segment.root) == (order, l):
+                    vectors += self._products(table, segment)
+            self._vectors[key] = vectors
         return self._vectors[key]
 
     def _products(self, table: TreeTable, segment: Segment) -> Iterator[list[arb]]:
-        stems = self._stage_vectors(
-            table, segment.order - segment.branch_order, segment.root
-        )
+        """𝒜^[stem] ⊙ A 𝒜^[branch] for the trees of a segment, in their order."""
+        stem_order = segment.order - segment.branch_order
+        stems = self._stage_vectors(table, stem_order, segment.root)
         branches = self._branches(table, segment).transpose().tolist()
         ids = slice(segment.ids.start, segment.ids.stop)
-        first, other = segment.stems.start, segment.branches.start
-        for i, j in zip(
-            table.stem[ids].tolist(), table.branch[ids].tolist(), strict=True
-        ):
-            yield [
-                x * y
-                for x, y in zip(stems[i - first], branches[j - other], strict=True)
-            ]
+        of_stem = (table.stem[ids] - segment.stems.start).tolist()
+        of_branch = (table.branch[ids] - segment.branches.start).tolist()
+        for i, j in zip(of_stem, of_branch, strict=True):
+            yield [x * y for x, y in zip(stems[i], branches[j], strict=True)]
