@@ -10,6 +10,7 @@ from garkcli.api.numbers import number_text
 from garkcli.errors import MethodError
 from garkcli.methodfile.build import MethodFile
 from garkcli.methodfile.load import loads
+from garkcli.methodfile.writer import quoted
 
 SOURCE = "<arrays>"
 """What errors call the file that arrays are written to."""
@@ -18,7 +19,7 @@ SOURCE = "<arrays>"
 def from_arrays(
     A: Any, b: Any, c: Any = None, *, name: str = "", tolerance: Any = None
 ) -> MethodFile:
-    """The method with the coefficients ``A``, ``b`` and, where they differ from the row sums, ``c``.
+    """The method with the coefficients ``A``, ``b`` and, where they are not the row sums, ``c``.
 
     Arrays are lists, tuples, NumPy arrays or matrices of SymPy or FLINT. Their entries are ints,
     Fractions, Decimals, floats, texts such as ``"1/2 - sqrt(3)/6"``, or numbers of NumPy, SymPy or
@@ -50,15 +51,17 @@ def from_arrays(
     A = _listed(A)
     if _depth(A) <= 2:
         weights, nodes = _one_row(weights), _one_row(nodes)
-    lines = [f"name: {_quoted(name)}"] if name else []
-    lines += [f"A: {writer.text(A, 'A')}", f"b: {writer.text(weights, 'b')}"]
+    entries: dict[str, str] = {}
+    if name:
+        entries["name"] = _quoted(name)
+    entries["A"] = writer.text(A, "A")
+    entries["b"] = writer.text(weights, "b")
     if nodes is not None:
-        lines.append(f"c: {writer.text(nodes, 'c')}")
+        entries["c"] = writer.text(nodes, "c")
     if tolerance is not None:
-        lines.append(
-            f"tolerance: {number_text(tolerance, 'tolerance', is_rounded=True)}"
-        )
-    return loads("\n".join(lines) + "\n", SOURCE)
+        entries["tolerance"] = number_text(tolerance, "tolerance", is_rounded=True)
+    lines = [f"{key}: {text}\n" for key, text in entries.items()]
+    return loads("".join(lines), SOURCE)
 
 
 _PLAIN = re.compile(r"-?(0|[1-9][0-9]*)([./][0-9]+)?(e-?[0-9]+)?", re.ASCII)
@@ -96,7 +99,8 @@ def _listed(value: Any) -> Any:
 def _depth(value: Any) -> int:
     if not isinstance(value, list):
         return 0
-    return 1 + max((_depth(item) for item in value), default=0)
+    inside = map(_depth, value)
+    return 1 + max(inside, default=0)
 
 
 def _one_row(value: Any) -> Any:
@@ -114,9 +118,4 @@ def _quoted(text: str) -> str:
     """A text as YAML takes it at its word; plain where it is a plain number."""
     if _PLAIN.fullmatch(text):
         return text
-    escaped = text.replace("\\", "\\\\").replace('"', '\\"')
-    return (
-        '"'
-        + "".join(x if x.isprintable() else f"\\U{ord(x):08x}" for x in escaped)
-        + '"'
-    )
+    return quoted(text)

@@ -34,22 +34,22 @@ def number_text(x: Any, where: str, is_rounded: bool) -> str:
     """
     if isinstance(x, str):
         return x
-    if isinstance(x, bool) or type(x).__name__ == "bool_":
+    kind = type(x)
+    if isinstance(x, bool) or kind.__name__ == "bool_":
         raise MethodError(f"{where}: {x} is no number", "write 0 or 1")
     if isinstance(x, (fmpz, fmpq)):
         return str(x)
     if isinstance(x, Algebraic):
         return to_text(x)
-    if isinstance(
-        x, numbers.Rational
-    ):  # int, Fraction, NumPy's integers, SymPy's rationals
-        p, q = int(x.numerator), int(x.denominator)
-        return str(p) if q == 1 else f"{p}/{q}"
+    if isinstance(x, numbers.Rational):
+        # int, Fraction, NumPy's integers, SymPy's rationals
+        return _fraction_text(int(x.numerator), int(x.denominator))
     if isinstance(x, Decimal) and x.is_finite():
         return str(x)
     if _is_float(x):
         return _float_text(x, where, is_rounded)
-    if type(x).__module__.partition(".")[0] == "sympy":
+    package = kind.__module__.partition(".")[0]
+    if package == "sympy":
         return _sympy_text(x, where)
     raise MethodError(f"{where}: {_shown(x)} is no exact real number", _CURE)
 
@@ -57,18 +57,24 @@ def number_text(x: Any, where: str, is_rounded: bool) -> str:
 _CURE = "give an int, a Fraction, a float, or its text, such as '1/2 - sqrt(3)/6'"
 
 
+def _fraction_text(p: int, q: int) -> str:
+    return str(p) if q == 1 else f"{p}/{q}"
+
+
 def _shown(x: Any) -> str:
     text = repr(x)
-    text = text if len(text) <= 60 else f"{text[:60]}…"
+    if len(text) > 60:
+        text = f"{text[:60]}…"
     return f"{text} of type {type(x).__name__}"
 
 
 def _is_float(x: Any) -> bool:
     """Whether it is a float of Python or of NumPy, which is known without importing NumPy."""
-    return isinstance(x, float) or (
-        type(x).__module__ == "numpy"
-        and type(x).__name__.startswith(("float", "longdouble"))
-    )
+    if isinstance(x, float):
+        return True
+    kind = type(x)
+    is_of_numpy = kind.__module__ == "numpy"
+    return is_of_numpy and kind.__name__.startswith(("float", "longdouble"))
 
 
 def _float_text(x: Any, where: str, is_rounded: bool) -> str:
@@ -80,14 +86,18 @@ def _float_text(x: Any, where: str, is_rounded: bool) -> str:
         raise MethodError(f"{where}: {x} has more digits than a float", cure)
     text = repr(value)
     mantissa = text.lower().partition("e")[0]
-    digits = len(mantissa.replace(".", "").lstrip("-0").rstrip("0"))
+    significant = mantissa.replace(".", "").lstrip("-0").rstrip("0")
+    is_long = len(significant) > FLOAT_DIGITS
     is_subnormal = 0 < abs(value) < float_info.min  # such floats keep fewer digits
-    if (digits > FLOAT_DIGITS or is_subnormal) and not is_rounded:
-        raise MethodError(
-            f"{where}: {text} is a rounded number",
-            "give it exactly, as a Fraction or a text such as '1/3', or say tolerance='1e-13'",
-        )
+    if (is_long or is_subnormal) and not is_rounded:
+        message = f"{where}: {text} is a rounded number"
+        raise MethodError(message, _CURE_OF_ROUNDED)
     return text
+
+
+_CURE_OF_ROUNDED = (
+    "give it exactly, as a Fraction or a text such as '1/3', or say tolerance='1e-13'"
+)
 
 
 def _sympy_text(x: Any, where: str, is_part: bool = False) -> str:
@@ -95,35 +105,46 @@ def _sympy_text(x: Any, where: str, is_part: bool = False) -> str:
 
     ``is_part`` puts parentheses around what would not hold together in a product or a power.
     """
-    if x.is_Rational:
-        text = str(x.p) if x.q == 1 else f"{x.p}/{x.q}"
-        return f"({text})" if is_part and not text.isdigit() else text
-    if x.is_Add:
-        text = " + ".join(_sympy_text(part, where) for part in x.args)
-        return f"({text})" if is_part else text
-    if x.is_Mul:
-        text = "*".join(_sympy_text(part, where, is_part=True) for part in x.args)
-        return f"({text})" if is_part else text
     if x.is_Pow and x.exp.is_Rational:
         return _sympy_power(x, where)
+    if x.is_Rational:
+        text = _fraction_text(x.p, x.q)
+        is_whole = text.isdigit()
+        return f"({text})" if is_part and not is_whole else text
+    if x.is_Add:
+        parts = [_sympy_text(part, where) for part in x.args]
+        text = " + ".join(parts)
+    elif x.is_Mul:
+        parts = [_sympy_text(part, where, is_part=True) for part in x.args]
+        text = "*".join(parts)
+    else:
+        raise _unreadable(x, where)
+    return f"({text})" if is_part else text
+
+
+def _unreadable(x: Any, where: str) -> MethodError:
+    """Why a SymPy expression is no coefficient."""
     if getattr(x, "is_Float", False):
         cure = "give it exactly, as a Rational or a text"
-        raise MethodError(f"{where}: {_shown(x)} is a rounded number", cure)
-    raise MethodError(
-        f"{where}: {_shown(x)} is made of more than rationals and real roots", _CURE
-    )
+        return MethodError(f"{where}: {_shown(x)} is a rounded number", cure)
+    message = f"{where}: {_shown(x)} is made of more than rationals and real roots"
+    return MethodError(message, _CURE)
 
 
 def _sympy_power(x: Any, where: str) -> str:
     """A rational power of SymPy, in parentheses where it is more than a root."""
     p, q = int(x.exp.p), int(x.exp.q)
     if q == 1:
-        return f"({_sympy_text(x.base, where, is_part=True)}**{p})"
+        base = _sympy_text(x.base, where, is_part=True)
+        return f"({base}**{p})"
     if not x.base.is_nonnegative:
         # SymPy's roots of negative numbers are complex, ours are real
-        raise MethodError(f"{where}: {_shown(x)} is a root of a negative number", _CURE)
+        message = f"{where}: {_shown(x)} is a root of a negative number"
+        raise MethodError(message, _CURE)
     inner = _sympy_text(x.base, where)
-    root = f"{_ROOTS[q]}({inner})" if q in _ROOTS else f"root({inner}, {q})"
+    root = f"root({inner}, {q})"
+    if q in _ROOTS:
+        root = f"{_ROOTS[q]}({inner})"
     return root if p == 1 else f"({root}**{p})"
 
 

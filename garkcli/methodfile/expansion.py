@@ -32,10 +32,10 @@ def too_long(lagrangian: Any, velocities: Sequence[Any]) -> Any:
     moving = set(velocities)
     for v in velocities:
         slope = lagrangian.diff(v)
-        if (
-            slope.diff(v).free_symbols & moving
-            and _terms(_undone(slope, v), v) > MAX_TERMS
-        ):
+        is_linear = not slope.diff(v).free_symbols & moving
+        if is_linear:
+            continue
+        if _terms(_undone(slope, v), v) > MAX_TERMS:
             return v
     return None
 
@@ -47,7 +47,8 @@ def _undone(f: Any, v: Any) -> Any:
     while f != v:
         if f.is_Add or f.is_Mul:
             free, rest = f.as_independent(v, as_Add=f.is_Add)
-            if free != (0 if f.is_Add else 1):
+            neutral = 0 if f.is_Add else 1
+            if free != neutral:
                 f = rest
                 continue
         inner = [x for x in f.args if v in x.free_symbols]
@@ -64,11 +65,18 @@ def _terms(f: Any, v: Any) -> int:
     import sympy
 
     found = _fraction(f)
-    has_root = any(
-        v in x.free_symbols and x.exp.is_Rational and x.exp.q == 2
-        for x in f.atoms(sympy.Pow)
-    )
-    return max(found.terms ** (2 if has_root else 1), found.inside)
+    terms = found.terms
+    if any(_is_square_root(x, v) for x in f.atoms(sympy.Pow)):
+        terms **= 2
+    return max(terms, found.inside)
+
+
+def _is_square_root(power: Any, v: Any) -> bool:
+    """Whether a power is an odd one of a square root, and v stands in it."""
+    exponent = power.exp
+    if v not in power.free_symbols:
+        return False
+    return bool(exponent.is_Rational and exponent.q == 2)
 
 
 Factors: TypeAlias = Mapping[Any, tuple[int, int]]
@@ -100,10 +108,13 @@ def _fraction(f: Any) -> _Fraction:
     if f.is_Pow and f.exp.is_Integer:
         return _integer_power(f, parts[0], inside)
     # a root or a function: one term, whatever stands in it
-    inside = max(inside, *(x.terms for x in parts)) if parts else inside
-    is_below = f.is_Pow and f.exp.is_Rational and f.exp.p < 0
-    factors = {f.base ** abs(f.exp): (1, 1)} if is_below else {}
-    return _Fraction(1, factors, inside)
+    for part in parts:
+        inside = max(inside, part.terms)
+    is_root = f.is_Pow and f.exp.is_Rational
+    if is_root and f.exp.p < 0:
+        below = f.base ** abs(f.exp)
+        return _Fraction(1, {below: (1, 1)}, inside)
+    return _Fraction(1, {}, inside)
 
 
 def _sum(parts: Sequence[_Fraction], inside: int) -> _Fraction:
@@ -113,7 +124,9 @@ def _sum(parts: Sequence[_Fraction], inside: int) -> _Fraction:
         for base, (size, power) in part.factors.items():
             _, known = common.get(base, (size, 0))
             common[base] = size, max(power, known)
-    terms = sum(x.terms * _missing(common, x.factors) for x in parts)
+    terms = 0
+    for part in parts:
+        terms += part.terms * _missing(common, part.factors)
     return _Fraction(terms, common, inside)
 
 
@@ -123,17 +136,23 @@ def _product(parts: Sequence[_Fraction], inside: int) -> _Fraction:
         for base, (size, power) in part.factors.items():
             _, known = factors.get(base, (size, 0))
             factors[base] = size, power + known
-    return _Fraction(prod(x.terms for x in parts), factors, inside)
+    terms = prod(x.terms for x in parts)
+    return _Fraction(terms, factors, inside)
 
 
 def _integer_power(f: Any, base: _Fraction, inside: int) -> _Fraction:
     exponent = int(f.exp)
-    raised = {x: (size, abs(exponent) * n) for x, (size, n) in base.factors.items()}
+    times = abs(exponent)
+    raised = {x: (size, times * n) for x, (size, n) in base.factors.items()}
     if exponent > 0:
-        return _Fraction(_power(base.terms, exponent), raised, inside)
+        terms = _power(base.terms, exponent)
+        return _Fraction(terms, raised, inside)
     # the denominator of the base comes into the numerator, and the other way round
-    below = {f.base: (base.terms, -exponent)} if f.base.free_symbols else {}
-    return _Fraction(_missing(raised, {}), below, inside)
+    terms = _missing(raised, {})
+    below: dict[Any, tuple[int, int]] = {}
+    if f.base.free_symbols:
+        below[f.base] = base.terms, times
+    return _Fraction(terms, below, inside)
 
 
 def _missing(all_factors: Factors, factors: Factors) -> int:

@@ -1,4 +1,7 @@
-"""Which files are meant: folders, patterns, names; what cannot be looked into is kept, to be told."""
+"""Which files are meant: folders, patterns, names.
+
+What cannot be looked into is kept, to be told.
+"""
 
 from __future__ import annotations
 
@@ -39,7 +42,8 @@ def _below(folder: str) -> list[str]:
         found.append(error.filename)
 
     for place, _, names in os.walk(folder, onerror=keep):
-        found += [os.path.join(place, name) for name in names if name.endswith(SUFFIX)]
+        methods = [name for name in names if name.endswith(SUFFIX)]
+        found += [os.path.join(place, name) for name in methods]
     # as pathlib writes them: without ./ before
     return sorted(str(Path(path)) for path in found)
 
@@ -53,7 +57,10 @@ def _matching(pattern: str) -> list[str]:
     parts = path.parts[1:] if start else path.parts
     found: set[str] = set()
     for match in _expanded(start, parts):
-        found.update(_below(match) if os.path.isdir(match) else [match])
+        if os.path.isdir(match):
+            found.update(_below(match))
+        else:
+            found.add(match)
     return sorted(found)
 
 
@@ -64,17 +71,31 @@ def _expanded(place: str, parts: Sequence[str]) -> Iterator[str]:
         return
     part, rest = parts[0], parts[1:]
     if part == "**":
-        for folder, below, _ in os.walk(place or "."):
-            below[:] = [name for name in below if not name.startswith(".")]
-            inside = folder if place else os.path.relpath(folder)
-            yield from _expanded("" if inside == "." else inside, rest or ("*",))
+        for folder in _folders(place):
+            yield from _expanded(folder, rest or ("*",))
     elif _MAGIC & set(part):
         for name in _names(place):
-            # a name that is hidden has to be asked for
-            if fnmatchcase(name, part) and name.startswith(".") <= part.startswith("."):
+            if _matches(name, part):
                 yield from _expanded(os.path.join(place, name), rest)
     else:
         yield from _expanded(os.path.join(place, part), rest)
+
+
+def _folders(place: str) -> Iterator[str]:
+    """A folder and all below it but the hidden ones; empty for where we are."""
+    for folder, below, _ in os.walk(place or "."):
+        # os.walk goes on with what is left in the list
+        below[:] = [name for name in below if not name.startswith(".")]
+        inside = folder if place else os.path.relpath(folder)
+        yield "" if inside == "." else inside
+
+
+def _matches(name: str, pattern: str) -> bool:
+    """Whether a name is one of a pattern; a hidden one has to be asked for."""
+    is_hidden = name.startswith(".")
+    if is_hidden and not pattern.startswith("."):
+        return False
+    return fnmatchcase(name, pattern)
 
 
 def _names(folder: str) -> list[str]:

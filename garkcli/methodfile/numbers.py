@@ -37,7 +37,9 @@ MAX_SIZE = 2_000
 """Most operations of one coefficient, those of the parameters in it written out."""
 MAX_DEPTH = 200
 """How deep one coefficient may be nested, the parameters in it written out."""
+_SHOWN_ROWS = 5  # most further rows of another length that are told
 _WORDS = {"bool", "null", "timestamp", "merge"}
+_NO_FINITE_NUMBERS = {".inf", ".nan", "nan", "inf", "infinity"}
 
 
 @dataclass(frozen=True)
@@ -90,19 +92,28 @@ class Numbers:
         lot.
         """
         if text not in self._read:
-            parsed = parse(text)
-            if size_of(parsed, self._sizes) > MAX_SIZE:
-                message = (
-                    f"more than {MAX_SIZE} operations, with the parameters written out"
-                )
-                raise LimitExceeded(message, "write it shorter", 0, len(text))
-            if depth_of(parsed, self._depths) > MAX_DEPTH:
-                message = f"nested more than {MAX_DEPTH} deep, with the parameters written out"
-                raise LimitExceeded(
-                    message, "give the parameter its value", 0, len(text)
-                )
-            self._read[text] = substitute(parsed, self.parameters)
+            self._read[text] = self._parsed(text)
         return self._read[text]
+
+    def _parsed(self, text: str) -> Expression:
+        """What a text means, its parameters written out.
+
+        Raises:
+            ExpressionError: it is no number.
+            LimitExceeded: written out it is too long.
+        """
+        parsed = parse(text)
+        message = cure = ""
+        if size_of(parsed, self._sizes) > MAX_SIZE:
+            message = f"more than {MAX_SIZE} operations"
+            cure = "write it shorter"
+        elif depth_of(parsed, self._depths) > MAX_DEPTH:
+            message = f"nested more than {MAX_DEPTH} deep"
+            cure = "give the parameter its value"
+        if message:
+            message += ", with the parameters written out"
+            raise LimitExceeded(message, cure, 0, len(text))
+        return substitute(parsed, self.parameters)
 
     def row(self, node: Node, where: str) -> Row:
         """A row of coefficients; a single value is a row of one."""
@@ -135,40 +146,41 @@ class Numbers:
 
     def matrix(self, node: Node, where: str) -> Rows:
         """A matrix, row by row; the rows may still be of different lengths, see ``fitted``."""
-        rows_of = node.value if isinstance(node, SequenceNode) else [node]
-        if self._is_text(rows_of, where, "a matrix"):
+        written = node.value if isinstance(node, SequenceNode) else [node]
+        if self._is_text(written, where, "a matrix"):
             return ()
-        items = self.source.items(
-            node, where, "write it row by row: [[0, 0], [1/2, 0]]"
-        )
+        cure = "write it row by row: [[0, 0], [1/2, 0]]"
+        items = self.source.items(node, where, cure)
         deep = first_list_in_rows(items)
         if deep is not None:
             message = f"{where}: a list stands where a coefficient is expected"
-            self.source.fault(
-                deep, message, "a matrix is a list of rows: [[0, 0], [1/2, 0]]"
-            )
+            cure = "a matrix is a list of rows: [[0, 0], [1/2, 0]]"
+            self.source.fault(deep, message, cure)
             return ()
         rows: list[Row] = []
         for i, item in enumerate(items, start=1):
+            place = f"{where}, row {i}"
             if isinstance(item, SequenceNode):
-                rows.append(self._entries(item.value, f"{where}, row {i}"))
+                rows.append(self._entries(item.value, place))
             else:
-                rows.append(self.row(item, f"{where}, row {i}"))
-        if not any(rows) and not self.source.faults:
+                rows.append(self.row(item, place))
+        if any(rows):
+            return tuple(rows)
+        if not self.source.faults:
             self.source.fault(node, f"{where} is empty", "every method has a stage")
-        return tuple(rows) if any(rows) else ()
+        return ()
 
     def _is_text(self, rows: Sequence[Node], where: str, what: str) -> bool:
         """Note, once, rows that are a text of several numbers, as other programs print them."""
         texts = [only_text(row) for row in rows]
-        first = next((i for i, text in enumerate(texts) if holds_several(text)), None)
-        if first is None:
+        several = [i for i, text in enumerate(texts) if holds_several(text)]
+        if not several:
             return False
+        first = several[0]
         message = f"{what} is a list, not the text {shortened(texts[first])}"
         example = "[0, 1/2]" if what == "a row" else "[[0, 0], [1/2, 0]]"
-        cure = (
-            f"put it in brackets, with commas: {bracketed(';'.join(texts)) or example}"
-        )
+        as_list = bracketed(";".join(texts)) or example
+        cure = f"put it in brackets, with commas: {as_list}"
         self.source.fault(rows[first], message, cure, where=where)
         return True
 
@@ -189,22 +201,27 @@ class Numbers:
         """
         if not rows:
             return rows
+        count = len(rows)
         lengths = [len(row) for row in rows]
-        if shape[0] == shape[1] == len(rows) and is_triangle(lengths):
+        stages, columns = shape
+        is_square = stages == columns
+        if is_square and count == stages and is_triangle(lengths):
             return self._completed(rows, node, where)
-        if len(rows) == shape[0] and set(lengths) == {shape[1]}:
+        if count == stages and set(lengths) == {columns}:
             return rows
         if len(set(lengths)) == 1:
-            wanted = f"{shape[0]} by {shape[1]}"
-            message = f"{where} is {len(rows)} by {lengths[0]} and should be {wanted}"
+            found = f"{count} by {lengths[0]}"
+            wanted = f"{stages} by {columns}"
+            message = f"{where} is {found} and should be {wanted}"
             self.source.fault(node, message, why)
             return rows
-        if shape[0] == shape[1] == len(rows) + 1 and is_triangle([0, *lengths]):
-            message = f"{where} has {counted(len(rows), 'row')} for {counted(shape[0], 'stage')}"
+        if is_square and count + 1 == stages and is_triangle([0, *lengths]):
+            found = counted(count, "row")
+            message = f"{where} has {found} for {counted(stages, 'stage')}"
             cure = "begin with the empty row of the first stage: [[], [1/2], …]"
             self.source.fault(node, message, cure)
             return rows
-        self._uneven(lengths, node, where, shape[1])
+        self._uneven(lengths, node, where, columns)
         return rows
 
     def rectangular(self, rows: Rows, node: Node, where: str) -> None:
@@ -217,18 +234,20 @@ class Numbers:
         self, lengths: Sequence[int], node: Node, where: str, columns: int
     ) -> None:
         """Note rows of different lengths: one fault, at the first of another length."""
-        wrong = [i for i, length in enumerate(lengths) if length != columns]
-        first = node.value[wrong[0]] if isinstance(node, SequenceNode) else node
-        found = counted(lengths[wrong[0]], "entry", "entries")
-        message = f"{where}, row {wrong[0] + 1} has {found} and should have {columns}"
-        if len(wrong) > 1:
-            others = ", ".join(str(i + 1) for i in wrong[1:6])
-            more = ", …" if len(wrong) > 6 else ""
-            message += (
-                f"; other lengths in row{'s' * (len(wrong) > 2)} {others}{more} too"
-            )
+        wrong = [i for i, length in enumerate(lengths, 1) if length != columns]
+        first, others = wrong[0], wrong[1:]
+        found = counted(lengths[first - 1], "entry", "entries")
+        message = f"{where}, row {first} has {found} and should have {columns}"
+        if others:
+            noun = "row" if len(others) == 1 else "rows"
+            numbers = ", ".join(map(str, others[:_SHOWN_ROWS]))
+            more = ", …" if len(others) > _SHOWN_ROWS else ""
+            message += f"; other lengths in {noun} {numbers}{more} too"
+        place = node
+        if isinstance(node, SequenceNode):
+            place = node.value[first - 1]
         cure = "give every row the same number, or end each at the diagonal"
-        self.source.fault(first, message, cure)
+        self.source.fault(place, message, cure)
 
     def _completed(self, rows: Rows, node: Node, where: str) -> Rows:
         """A triangle of rows, with the zeros above it."""
@@ -255,12 +274,10 @@ def is_misread(source: Source, node: Node, text: str, where: str) -> bool:
         cure = "write a number, such as 1/2"
     elif _READ_DIFFERENTLY.fullmatch(text):
         message = f"{text} means different numbers to different readers of YAML"
-        cure = (
-            "leave out the _"
-            if "_" in text
-            else "write the number in plain decimal digits"
-        )
-    elif text.lower().lstrip("+-") in {".inf", ".nan", "nan", "inf", "infinity"}:
+        cure = "write the number in plain decimal digits"
+        if "_" in text:
+            cure = "leave out the _"
+    elif text.lower().lstrip("+-") in _NO_FINITE_NUMBERS:
         message, cure = f"{text} is not a number", "coefficients are finite"
     if message:
         source.fault(node, message, cure, where=where)
@@ -278,9 +295,10 @@ class Values:
         source = numbers.source
         self._values: dict[int, Number] = {}
         self.printed: tuple[tuple[Expression, Number], ...] = ()
-        expressions = {
-            id(entry.expression): entry.expression for entry in numbers.entries
-        }
+        # equal texts of a file share one expression, which is evaluated once
+        expressions: dict[int, Expression] = {}
+        for entry in numbers.entries:
+            expressions[id(entry.expression)] = entry.expression
         try:
             domain = Domain(expressions.values())
         except (UndefinedValue, LimitExceeded) as error:
@@ -304,11 +322,14 @@ class Values:
 
         No field is made for any of them: there may be many, and each may be large.
         """
-        before = len(numbers.source.faults)
-        _note_faults(numbers.source, [*numbers.of_parameters, *numbers.entries])
-        if len(numbers.source.faults) == before:
-            radical = next(x for x in numbers.entries if any(roots_in(x.expression)))
-            numbers.source.fault(radical.node, error.message, error.help)
+        source = numbers.source
+        before = len(source.faults)
+        _note_faults(source, numbers.of_parameters)
+        _note_faults(source, numbers.entries)
+        if len(source.faults) > before:
+            return
+        with_roots = (x for x in numbers.entries if any(roots_in(x.expression)))
+        source.fault(next(with_roots).node, error.message, error.help)
 
     def number(self, entry: Entry) -> Number:
         """The value of a coefficient."""
@@ -354,12 +375,9 @@ def read_parameters(numbers: Numbers, node: Node | None) -> None:
             message = f"{where} cannot be the name of a parameter"
             source.fault(key, message, "use letters, digits and _")
         elif isinstance(value_node, ScalarNode) and value_node.value == "free":
+            message = f"{where} is free; orders are decided for given values"
             cure = "give it a value, for instance 1/2"
-            source.fault(
-                value_node,
-                f"{where} is free; orders are decided for given values",
-                cure,
-            )
+            source.fault(value_node, message, cure)
         else:
             value = numbers.entry(value_node, where).expression
             numbers.of_parameters.append(numbers.entries.pop())

@@ -29,13 +29,17 @@ def printed_units(printed: Printed) -> dict[Number, fmpq]:
     >>> units[fmpq(1, 2)]
     11/1000000000
     """
-    literals = [x for expression, _ in printed for x in _literals(expression)]
-    longest = max((_digits(x) for x in literals), default=0)
+    longest = 0
+    for expression, _ in printed:
+        for literal in _literals(expression):
+            longest = max(longest, _digits(literal))
     fewest = max(FEWEST_DIGITS, longest // 2 + 1)
     units: dict[Number, fmpq] = {}
     with ctx.workprec(4 * longest + 128):
         for expression, value in printed:
-            unit = _radius(_enclosed(expression, fewest))
+            enclosure = _enclosed(expression, fewest)
+            unit = _radius(enclosure)
+            # equal values may be printed to different lengths
             units[value] = max(unit, units.get(value, unit))
     return units
 
@@ -54,13 +58,15 @@ def _literals(expression: Expression) -> Iterator[Literal]:
 def _digits(literal: Literal) -> int:
     """Digits of a printed number, without zeros in front."""
     mantissa = literal.text.lower().partition("e")[0]
-    return len(mantissa.replace(".", "").lstrip("0"))
+    digits = mantissa.replace(".", "")
+    return len(digits.lstrip("0"))
 
 
 def _unit(literal: Literal) -> fmpq:
     """One in the last place."""
     mantissa, _, exponent = literal.text.lower().partition("e")
-    decimals = len(mantissa.partition(".")[2]) - int(exponent or 0)
+    fraction = mantissa.partition(".")[2]
+    decimals = len(fraction) - int(exponent or 0)
     return fmpq(10) ** -decimals
 
 
@@ -70,7 +76,10 @@ def _enclosed(expression: Expression, fewest: int) -> arb:
         case Literal(value=value):
             least = FEWEST_DIGITS if expression.text.isdigit() else fewest
             is_rounded = _digits(expression) >= least
-            return arb(value, arb(_unit(expression))) if is_rounded else arb(value)
+            if not is_rounded:
+                return arb(value)
+            unit = arb(_unit(expression))
+            return arb(value, unit)
         case Chain(signs=signs, operands=operands):
             total = arb(0) if signs[0] in "+-" else arb(1)
             for sign, operand in zip(signs, operands, strict=True):
@@ -80,7 +89,9 @@ def _enclosed(expression: Expression, fewest: int) -> arb:
             return _enclosed(base, fewest) ** exponent
         case Root(radicand=radicand, index=index):
             inner = _enclosed(radicand, fewest)
-            return -(-inner).root(index) if inner < 0 else inner.root(index)
+            if inner < 0:
+                return -(-inner).root(index)
+            return inner.root(index)
     return arb(0)
 
 
@@ -89,7 +100,9 @@ def _joined(sign: str, total: arb, operand: arb) -> arb:
         return total + operand
     if sign == "-":
         return total - operand
-    return total * operand if sign == "*" else total / operand
+    if sign == "*":
+        return total * operand
+    return total / operand
 
 
 def _radius(ball: arb) -> fmpq:
@@ -97,4 +110,5 @@ def _radius(ball: arb) -> fmpq:
     if not ball.is_finite():
         return fmpq(1)
     radius = ball.rad()
-    return fmpq(0) if radius < arb(10) ** -1000 else rounded_up(radius)
+    least = arb(10) ** -1000
+    return fmpq(0) if radius < least else rounded_up(radius)

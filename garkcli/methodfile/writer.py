@@ -14,10 +14,11 @@ from garkcli.exact.expression import read_decimal
 from garkcli.exact.field import Number
 from garkcli.exact.matrix import Matrix, Vector
 from garkcli.methodfile.build import MethodFile
+from garkcli.methodfile.description import block_name
 from garkcli.methodfile.source import Source
 from garkcli.tableau.point_space import PointSpace
 from garkcli.tableau.pointwise import Cell, Entries
-from garkcli.tableau.tableau import Tableau
+from garkcli.tableau.tableau import Colour, Tableau
 
 _DROPPED = ("expect", "conjugate", "name", "description")
 
@@ -39,7 +40,7 @@ def write_tableau_file(
         text: how a coefficient is written.
     """
     lines = [f"# {line}" for line in note.splitlines()]
-    lines += ["gark: 1", f"name: {_quoted(name)}"]
+    lines += ["gark: 1", f"name: {quoted(name)}"]
     lines += _prk(tableau, text) if _is_prk(tableau) else _blocks(tableau, text)
     if tolerance is not None:
         lines.append(f"tolerance: {decimal(tolerance)}")
@@ -58,32 +59,44 @@ def write_rounded(tableau: Tableau, entries: Entries, name: str) -> str:
         name: what the file calls the method.
     """
     digits = entries.digits
+    made = _rounded_tableau(tableau, entries)
+    largest = max(abs(x) for x in _rationals(made))
+    digits_before_the_point = len(str(int(largest.floor())))
+    # a hundred units in the last digit
+    exponent = 2 + digits_before_the_point - digits
+    tolerance = fmpq(10) ** exponent
+    note = f"rounded to {digits} digits"
+    return write_tableau_file(made, name, tolerance, note, _decimal_text)
+
+
+def _rounded_tableau(tableau: Tableau, entries: Entries) -> Tableau:
+    """The tableau of the rounded entries, its stages at the rounded nodes."""
 
     def rounded(cells: Sequence[Cell]) -> Vector:
-        return tuple(_rounded(cell, digits) for cell in cells)
+        return tuple(_rounded(cell, entries.digits) for cell in cells)
 
-    colours = tuple(
-        replace(colour, b=rounded(b), c=rounded(c))
-        for colour, b, c in zip(tableau.colours, entries.b, entries.c, strict=True)
-    )
-    nodes = {colour.space: colour.c for colour in colours}
+    colours: list[Colour] = []
+    nodes: dict[int, Vector] = {}
+    for l, colour in enumerate(tableau.colours):
+        b = rounded(entries.b[l])
+        c = rounded(entries.c[l])
+        colours.append(replace(colour, b=b, c=c))
+        nodes[colour.space] = c
     spaces = tuple(PointSpace(nodes[k]) for k in range(len(tableau.spaces)))
     blocks: dict[tuple[int, int], Matrix] = {}
     for l, m in tableau.edges():
         block = entries.A[l][m] or ()
-        blocks[colours[l].space, m] = tuple(map(rounded, block))
-    made = Tableau(spaces, colours, blocks)
-    largest = max(abs(x) for x in _rationals(made))
-    digits_before_the_point = len(str(int(largest.floor())))
-    tolerance = fmpq(10) ** (2 + digits_before_the_point - digits)
-    note = f"rounded to {digits} digits"
-    return write_tableau_file(made, name, tolerance, note, _decimal_text)
+        place = colours[l].space, m
+        blocks[place] = tuple(map(rounded, block))
+    return Tableau(spaces, tuple(colours), blocks)
 
 
 def _rounded(cell: Cell, digits: int) -> fmpq:
     if not isinstance(cell, arb):
         raise TypeError("an enclosure is rounded, not an exact number")
-    return fmpq(0) if cell.contains(0) else read_decimal(cell.str(digits, radius=False))
+    if cell.contains(0):
+        return fmpq(0)
+    return read_decimal(cell.str(digits, radius=False))
 
 
 def _decimal_text(number: Number) -> str:
@@ -92,8 +105,11 @@ def _decimal_text(number: Number) -> str:
 
 def _rationals(tableau: Tableau) -> Iterator[fmpq]:
     """Every coefficient of a tableau whose coefficients are rational."""
-    rows = [row for colour in tableau.colours for row in (colour.b, colour.c)]
-    rows += [row for block in tableau.blocks.values() for row in block]
+    rows: list[Vector] = []
+    for colour in tableau.colours:
+        rows += [colour.b, colour.c]
+    for block in tableau.blocks.values():
+        rows += block
     for row in rows:
         yield from (x for x in row if isinstance(x, fmpq))
 
@@ -106,29 +122,40 @@ def can_spell_out(tableau: Tableau) -> bool:
 
 
 def _is_prk(tableau: Tableau) -> bool:
-    return [colour.part for colour in tableau.colours] == ["q", "p"]
+    parts = [colour.part for colour in tableau.colours]
+    return parts == ["q", "p"]
 
 
 def _blocks(tableau: Tableau, text: Callable[[Number], str]) -> list[str]:
+    """The form ``tableau``: nodes, blocks and weights, and which colours are linear."""
+    colours = tableau.colours
     lines = ["tableau:", "  c:"]
-    lines += [f"    - {_row(colour.c, text)}" for colour in tableau.colours]
+    lines += [f"    - {_row(colour.c, text)}" for colour in colours]
     lines.append("  A:")
     for l in range(tableau.size):
         for m in range(tableau.size):
-            block = tableau.block(l, m)
-            dash = "    - -" if m == 0 else "      -"
-            comment = f"  # A^{{{l + 1},{m + 1}}}"
-            if block is None:
-                lines.append(f"{dash} null{comment}")
-                continue
-            lines.append(f"{dash}{comment}")
-            lines += [f"        - {_row(row, text)}" for row in block]
+            lines += _block(tableau, l, m, text)
     lines.append("  b:")
-    lines += [f"    - {_row(colour.b, text)}" for colour in tableau.colours]
-    linear = [
-        str(l + 1) for l, colour in enumerate(tableau.colours) if colour.is_linear
-    ]
-    return [*lines, f"linear: [{', '.join(linear)}]"] if linear else lines
+    lines += [f"    - {_row(colour.b, text)}" for colour in colours]
+    linear = [str(l) for l, colour in enumerate(colours, 1) if colour.is_linear]
+    if linear:
+        lines.append(f"linear: [{', '.join(linear)}]")
+    return lines
+
+
+def _block(
+    tableau: Tableau, l: int, m: int, text: Callable[[Number], str]
+) -> Iterator[str]:
+    """The lines of the block A^{l,m}, which is null where it does not exist."""
+    block = tableau.block(l, m)
+    dash = "    - -" if m == 0 else "      -"
+    comment = f"  # {block_name(l, m)}"
+    if block is None:
+        yield f"{dash} null{comment}"
+        return
+    yield f"{dash}{comment}"
+    for row in block:
+        yield f"        - {_row(row, text)}"
 
 
 def _prk(tableau: Tableau, text: Callable[[Number], str]) -> list[str]:
@@ -138,32 +165,39 @@ def _prk(tableau: Tableau, text: Callable[[Number], str]) -> list[str]:
     lines = ["prk:"]
     for part, drives, seen_at in (("q", 0, 1), ("p", 1, 0)):
         block = tableau.block(seen_at, drives) or ()
+        weights = tableau.colours[drives].b
+        nodes = tableau.colours[seen_at].c
         lines += [f"  {part}:", "    A:"]
         lines += [f"      - {_row(row, text)}" for row in block]
-        lines += [
-            f"    b: {_row(tableau.colours[drives].b, text)}",
-            f"    c: {_row(tableau.colours[seen_at].c, text)}",
-        ]
+        lines.append(f"    b: {_row(weights, text)}")
+        lines.append(f"    c: {_row(nodes, text)}")
+    structure = "separable"
     if len(tableau.spaces) == 1:
-        return [*lines, "structure: general"]
-    return [
-        *lines,
-        f"structure: {'nystrom' if tableau.colours[0].is_linear else 'separable'}",
-    ]
+        structure = "general"
+    elif tableau.colours[0].is_linear:
+        structure = "nystrom"
+    return [*lines, f"structure: {structure}"]
 
 
 def _row(numbers: Sequence[Number], text: Callable[[Number], str]) -> str:
-    texts = [text(x) for x in numbers]
-    return f"[{', '.join(_quoted(x) if ',' in x else x for x in texts)}]"
+    items = [_item(text(x)) for x in numbers]
+    return f"[{', '.join(items)}]"
 
 
-def _quoted(text: str) -> str:
+def _item(text: str) -> str:
+    """A text as an entry in brackets; the comma of root(x, n) would end it."""
+    return quoted(text) if "," in text else text
+
+
+def quoted(text: str) -> str:
+    """A text as YAML takes it at its word: in quotes, what cannot be printed as an escape."""
     escaped = text.replace("\\", "\\\\").replace('"', '\\"')
-    return (
-        '"'
-        + "".join(x if x.isprintable() else f"\\U{ord(x):08x}" for x in escaped)
-        + '"'
-    )
+    inside = "".join(map(_printable, escaped))
+    return f'"{inside}"'
+
+
+def _printable(sign: str) -> str:
+    return sign if sign.isprintable() else f"\\U{ord(sign):08x}"
 
 
 def write_conjugate_of(method: MethodFile, name: str) -> str:
@@ -175,18 +209,15 @@ def write_conjugate_of(method: MethodFile, name: str) -> str:
     root = Source(method.source, method.text).compose()
     if root is None:
         raise ValueError("the text of a method file")
-    kept: list[tuple[Node, Node]] = [
-        (key, x) for key, x in root.value if key.value not in _DROPPED
-    ]
-    kept.insert(0, (_scalar("name"), _scalar(name)))
+    entries: list[tuple[Node, Node]] = [(_scalar("name"), _scalar(name))]
+    for key, value in root.value:
+        if key.value not in _DROPPED:
+            entries.append((key, value))
     if not method.is_conjugate:
-        kept.append(
-            (_scalar("conjugate"), ScalarNode("tag:yaml.org,2002:bool", "true"))
-        )
-    text = yaml.serialize(
-        MappingNode(root.tag, kept, flow_style=False), allow_unicode=True, width=110
-    )
-    return str(text)
+        true = ScalarNode("tag:yaml.org,2002:bool", "true")
+        entries.append((_scalar("conjugate"), true))
+    mapping = MappingNode(root.tag, entries, flow_style=False)
+    return str(yaml.serialize(mapping, allow_unicode=True, width=110))
 
 
 def _scalar(text: str) -> ScalarNode:
