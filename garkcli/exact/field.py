@@ -7,17 +7,20 @@ elements are plain ``fmpq``, so a number here is ``fmpq | Algebraic`` and zero i
 from __future__ import annotations
 
 from collections import Counter
-from collections.abc import Iterator, Sequence
+from collections.abc import Iterator, Mapping, Sequence
 from functools import cached_property
 from typing import TypeAlias
 
 from flint import fmpq, fmpq_mat, fmpq_poly, fmpz
 
+from garkcli.exact.echelon import pivot_columns
 from garkcli.exact.expression import Expression
 from garkcli.exact.rewriting import format_expression
 
 ZERO = fmpq(0)
 ONE = fmpq(1)
+Word: TypeAlias = tuple[int, ...]
+"""A product of radicals, by their indices in ascending order."""
 
 
 class NumberField:
@@ -45,47 +48,47 @@ class NumberField:
         return self.element(fmpq_poly(list(coordinates)))
 
     @cached_property
-    def monomials(self) -> tuple[tuple[int, ...], ...]:
+    def monomials(self) -> tuple[Word, ...]:
         """Products of radicals that form a basis of K over ℚ, as tuples of indices into
         ``radicals``.
         """
         return self._basis[0]
 
     @cached_property
-    def _basis(self) -> tuple[tuple[tuple[int, ...], ...], fmpq_mat]:
+    def _basis(self) -> tuple[tuple[Word, ...], fmpq_mat]:
         """A multiple of a product that depends on smaller ones does so too: only chosen products
         are extended.
         """
-        chosen: list[tuple[int, ...]] = []
+        chosen: list[Word] = []
         columns: list[list[fmpq]] = []
-        level: dict[tuple[int, ...], fmpq_poly] = {(): fmpq_poly([1])}
+        level: dict[Word, fmpq_poly] = {(): fmpq_poly([1])}
         while level:
             words = list(level)
-            candidates = [
-                [level[word][k] for k in range(self.degree)] for word in words
-            ]
-            reduced, rank = fmpq_mat([*columns, *candidates]).transpose().rref()
-            pivots = [
-                next(j for j, x in enumerate(row) if x)
-                for row in reduced.tolist()[:rank]
-            ]
-            new = [j - len(columns) for j in pivots if j >= len(columns)]
+            candidates = [self._column(level[word]) for word in words]
+            pivots = pivot_columns(fmpq_mat([*columns, *candidates]).transpose())
+            known = len(columns)
+            new = [j - known for j in pivots if j >= known]
             chosen += [words[j] for j in new]
             columns += [candidates[j] for j in new]
-            level = {
-                (*words[j], index): level[words[j]]
-                * self.radicals[index][1]
-                % self.modulus
-                for j in new
-                for index in range(words[j][-1] if words[j] else 0, len(self.radicals))
-            }
             if len(columns) == self.degree:
                 break
+            level = self._extended({words[j]: level[words[j]] for j in new})
         return tuple(chosen), fmpq_mat(columns).transpose().inv()
 
-    def powers(
-        self, word: tuple[int, ...], latex: bool = False
-    ) -> Iterator[tuple[str, int]]:
+    def _extended(self, level: Mapping[Word, fmpq_poly]) -> dict[Word, fmpq_poly]:
+        """The products with one factor more; the indices of a word do not descend."""
+        extended: dict[Word, fmpq_poly] = {}
+        for word, product in level.items():
+            last = word[-1] if word else 0
+            for index in range(last, len(self.radicals)):
+                _, radical = self.radicals[index]
+                extended[(*word, index)] = product * radical % self.modulus
+        return extended
+
+    def _column(self, poly: fmpq_poly) -> list[fmpq]:
+        return [poly[k] for k in range(self.degree)]
+
+    def powers(self, word: Word, latex: bool = False) -> Iterator[tuple[str, int]]:
         """The radicals of a word of ``monomials`` as text, each with its exponent."""
         for index, power in Counter(word).items():
             radical, _ = self.radicals[index]
@@ -93,8 +96,9 @@ class NumberField:
 
     def in_radicals(self, number: Algebraic) -> list[fmpq]:
         """The coordinates of ``number`` in the basis ``monomials``."""
-        column = fmpq_mat(self.degree, 1, [number.poly[k] for k in range(self.degree)])
-        return (self._basis[1] * column).entries()
+        _, inverse = self._basis
+        column = fmpq_mat(self.degree, 1, self._column(number.poly))
+        return (inverse * column).entries()
 
 
 class Algebraic:
@@ -172,7 +176,7 @@ class Algebraic:
     def __hash__(self) -> int:
         return hash(tuple(self.poly.coeffs()))
 
-    def terms(self) -> Iterator[tuple[fmpq, tuple[int, ...]]]:
+    def terms(self) -> Iterator[tuple[fmpq, Word]]:
         """The number as a sum of radicals: each coefficient with its word, see
         ``NumberField.monomials``.
         """
@@ -186,18 +190,15 @@ class Algebraic:
         for coefficient, word in self.terms():
             sign = " - " if coefficient < 0 else " + "
             text += sign + self._term(coefficient, word)
-        return (
-            text.removeprefix(" + ")
-            if text.startswith(" + ")
-            else "-" + text[len(" - ") :]
-        )
+        if text.startswith(" - "):
+            return "-" + text.removeprefix(" - ")
+        return text.removeprefix(" + ")
 
-    def _term(self, coefficient: fmpq, word: tuple[int, ...]) -> str:
+    def _term(self, coefficient: fmpq, word: Word) -> str:
         """A multiple of a product of radicals, without its sign: ``4*sqrt(3)/27``."""
-        factors = [
-            f"{radical}**{power}" if power > 1 else radical
-            for radical, power in self.field.powers(word)
-        ]
+        factors = []
+        for radical, power in self.field.powers(word):
+            factors.append(f"{radical}**{power}" if power > 1 else radical)
         numerator, denominator = abs(coefficient.p), coefficient.q
         if numerator != 1 or not factors:
             factors.insert(0, str(numerator))

@@ -14,14 +14,14 @@ long as many entries together, and the row is summed as fractions instead.
 
 from __future__ import annotations
 
-from collections.abc import Sequence
+from collections.abc import Mapping, Sequence
 from math import lcm
 from typing import TypeAlias, cast
 
 from flint import fmpq, fmpq_mat, fmpq_poly, fmpz
 
 from garkcli.exact.field import ZERO, Algebraic, NumberField
-from garkcli.exact.matrix import Matrix, Vector
+from garkcli.exact.matrix import Matrix, Vector, to_flint
 
 _Parts: TypeAlias = list[tuple[int, fmpq_mat]]
 """Pairs (k, A_k)."""
@@ -49,9 +49,8 @@ class LinearMap:
     def images(self, vectors: Sequence[Vector]) -> list[Vector]:
         """A v for each of the vectors."""
         if self._rows_apart is not None:
-            return [
-                _image(self._rows_apart, cast("Sequence[fmpq]", v)) for v in vectors
-            ]
+            rational = cast("Sequence[Sequence[fmpq]]", vectors)
+            return [_image(self._rows_apart, v) for v in rational]
         return _products(vectors, self._transposed, self.field)
 
     def pullbacks(self, functionals: Sequence[Vector]) -> list[Vector]:
@@ -66,19 +65,22 @@ def _rational_rows_apart(rows: Matrix) -> Sequence[Sequence[fmpq]] | None:
 
 
 def _has_denominators_apart(row: Sequence[fmpq]) -> bool:
-    lengths = [int(x.q).bit_length() for x in row]
-    if sum(lengths) < MIN_BITS_APART:
+    denominators = [int(x.q) for x in row]
+    bits = sum(q.bit_length() for q in denominators)
+    if bits < MIN_BITS_APART:
         return False
     # Over one denominator the row is len(row) numbers of its length, as fractions it is as long as
     # all denominators together; summing these is Python's work, the other python-flint's.
-    common = lcm(*(int(x.q) for x in row))
-    return len(row) * common.bit_length() > 4 * sum(lengths)
+    bits_together = len(row) * lcm(*denominators).bit_length()
+    return bits_together > 4 * bits
 
 
 def _image(rows: Sequence[Sequence[fmpq]], vector: Sequence[fmpq]) -> Vector:
-    return tuple(
-        _sum([a * x for a, x in zip(row, vector, strict=True)]) for row in rows
-    )
+    image = []
+    for row in rows:
+        products = [a * x for a, x in zip(row, vector, strict=True)]
+        image.append(_sum(products))
+    return tuple(image)
 
 
 def _sum(terms: Sequence[fmpq]) -> fmpq:
@@ -105,45 +107,36 @@ def _products(
     powers: dict[int, fmpq_mat] = {}
     for j, left in _parts(rows, field):
         for k, right in parts:
-            powers[j + k] = (
-                powers[j + k] + left * right if j + k in powers else left * right
-            )
+            product = left * right
+            if j + k in powers:
+                powers[j + k] += product
+            else:
+                powers[j + k] = product
     if field is None or len(powers) == 1:  # θ⁰ is always among them
         return [tuple(row) for row in powers[0].tolist()]
-    zeros = fmpq_mat(len(rows), powers[0].ncols())
-    polynomials = [powers.get(n, zeros).tolist() for n in range(max(powers) + 1)]
-    return [
-        tuple(
-            field.element(fmpq_poly(list(entry)))
-            for entry in zip(*coefficients, strict=True)
-        )
-        for coefficients in zip(*polynomials, strict=True)
-    ]
+    return _reduced(powers, field)
+
+
+def _reduced(powers: Mapping[int, fmpq_mat], field: NumberField) -> list[Vector]:
+    """The rows of Σ θⁿ P_n, entry by entry; ``powers`` has P_0, and others that are not zero."""
+    zeros = fmpq_mat(powers[0].nrows(), powers[0].ncols())
+    by_power = [powers.get(n, zeros).tolist() for n in range(max(powers) + 1)]
+    found = []
+    for rows in zip(*by_power, strict=True):
+        entries = zip(*rows, strict=True)
+        row = [field.element(fmpq_poly(list(entry))) for entry in entries]
+        found.append(tuple(row))
+    return found
 
 
 def _parts(rows: Sequence[Vector], field: NumberField | None) -> _Parts:
     """The rational matrices of Σ θᵏ A_k, those that are zero left out, but for A_0."""
     height, width = len(rows), len(rows[0])
     if field is None:
-        return [
-            (
-                0,
-                fmpq_mat(
-                    height, width, cast("list[fmpq]", [x for row in rows for x in row])
-                ),
-            )
-        ]
+        return [(0, to_flint(rows, width))]
     entries = [x.poly if isinstance(x, Algebraic) else x for row in rows for x in row]
-    parts = [
-        (
-            0,
-            fmpq_mat(
-                height,
-                width,
-                [x[0] if isinstance(x, fmpq_poly) else x for x in entries],
-            ),
-        )
-    ]
+    constants = [x[0] if isinstance(x, fmpq_poly) else x for x in entries]
+    parts = [(0, fmpq_mat(height, width, constants))]
     for k in range(1, field.degree):
         coordinates = [x[k] if isinstance(x, fmpq_poly) else ZERO for x in entries]
         if any(coordinates):

@@ -33,16 +33,18 @@ def from_flint(matrix: fmpq_mat) -> Matrix:
 
 def to_flint(rows: Sequence[Sequence[Number]], columns: int) -> fmpq_mat:
     """A rational matrix for python-flint; ``columns`` tells the width when there are no rows."""
-    return fmpq_mat(
-        len(rows), columns, cast("list[fmpq]", [x for row in rows for x in row])
-    )
+    entries = [x for row in rows for x in row]
+    return fmpq_mat(len(rows), columns, cast("list[fmpq]", entries))
 
 
 def identity(size: int) -> Matrix:
     """The unit matrix."""
-    return tuple(
-        tuple(ONE if i == j else ZERO for j in range(size)) for i in range(size)
-    )
+    rows = []
+    for i in range(size):
+        row = [ZERO] * size
+        row[i] = ONE
+        rows.append(tuple(row))
+    return tuple(rows)
 
 
 def transpose(a: Matrix) -> Matrix:
@@ -52,18 +54,18 @@ def transpose(a: Matrix) -> Matrix:
 
 def add(a: Matrix, b: Matrix) -> Matrix:
     """The sum a + b."""
-    return tuple(
-        tuple(x + y for x, y in zip(r, s, strict=True))
-        for r, s in zip(a, b, strict=True)
-    )
+    total = []
+    for row, other in zip(a, b, strict=True):
+        total.append(tuple(x + y for x, y in zip(row, other, strict=True)))
+    return tuple(total)
 
 
 def subtract(a: Matrix, b: Matrix) -> Matrix:
     """The difference a − b."""
-    return tuple(
-        tuple(x - y for x, y in zip(r, s, strict=True))
-        for r, s in zip(a, b, strict=True)
-    )
+    difference = []
+    for row, other in zip(a, b, strict=True):
+        difference.append(tuple(x - y for x, y in zip(row, other, strict=True)))
+    return tuple(difference)
 
 
 def scale(factor: Number, a: Matrix) -> Matrix:
@@ -72,20 +74,23 @@ def scale(factor: Number, a: Matrix) -> Matrix:
 
 
 def outer(u: Vector, v: Vector) -> Matrix:
-    """U vᵀ."""
+    """The product u vᵀ, shape (len(u), len(v))."""
     return tuple(tuple(x * y for y in v) for x in u)
 
 
 def dot(u: Sequence[Number], v: Sequence[Number]) -> Number:
     """Σ u_i v_i."""
-    total, irrational = ZERO, []
+    total = ZERO
+    irrational = []
     for x, y in zip(u, v, strict=True):
         if x and y:
             if isinstance(x, Algebraic) or isinstance(y, Algebraic):
                 irrational.append((x, y))
             else:
                 total = total + x * y
-    return total + sum_of_products(irrational) if irrational else total
+    if irrational:
+        return total + sum_of_products(irrational)
+    return total
 
 
 def apply(a: Matrix, v: Sequence[Number]) -> Vector:
@@ -101,7 +106,8 @@ def apply_left(u: Sequence[Number], a: Matrix) -> Vector:
 def multiply(a: Matrix, b: Matrix) -> Matrix:
     """The product A B."""
     if is_rational(a) and is_rational(b):
-        return from_flint(to_flint(a, len(b)) * to_flint(b, len(b[0])))
+        left, right = to_flint(a, len(b)), to_flint(b, len(b[0]))
+        return from_flint(left * right)
     columns = transpose(b)
     return tuple(tuple(dot(row, column) for column in columns) for row in a)
 
@@ -116,24 +122,30 @@ def solve(a: Matrix, b: Matrix) -> Matrix:
     ((1/2,), (1/4,))
     """
     if is_rational(a) and is_rational(b):
+        left, right = to_flint(a, len(a)), to_flint(b, len(b[0]))
         try:
-            return from_flint(to_flint(a, len(a)).solve(to_flint(b, len(b[0]))))
+            return from_flint(left.solve(right))
         except ZeroDivisionError:
             raise SingularMatrixError from None
-    rows = [[*r, *s] for r, s in zip(a, b, strict=True)]
+    return _eliminated([[*r, *s] for r, s in zip(a, b, strict=True)])
+
+
+def _eliminated(rows: list[list[Number]]) -> Matrix:
+    """A⁻¹ B from the rows of (A B), by Gauss and Jordan's elimination."""
     n = len(rows)
     for k in range(n):
-        pivot = next((i for i in range(k, n) if rows[i][k]), None)
-        if pivot is None:
+        candidates = (i for i in range(k, n) if rows[i][k])
+        chosen = next(candidates, None)
+        if chosen is None:
             raise SingularMatrixError
-        rows[k], rows[pivot] = rows[pivot], rows[k]
+        rows[k], rows[chosen] = rows[chosen], rows[k]
         inverse = ONE / rows[k][k]
-        rows[k] = [x * inverse if x else x for x in rows[k]]
-        for i in range(n):
-            factor = rows[i][k]
-            if i != k and factor:
-                rows[i] = [
-                    x - factor * y if y else x
-                    for x, y in zip(rows[i], rows[k], strict=True)
-                ]
+        pivot_row = [x * inverse if x else x for x in rows[k]]
+        rows[k] = pivot_row
+        for i, row in enumerate(rows):
+            factor = row[k]
+            if i == k or not factor:
+                continue
+            pairs = zip(row, pivot_row, strict=True)
+            rows[i] = [x - factor * y if y else x for x, y in pairs]
     return tuple(tuple(row[n:]) for row in rows)

@@ -3,32 +3,44 @@
 from __future__ import annotations
 
 import copyreg
+from collections.abc import Callable
+from typing import Any, TypeAlias
 
 from flint import arb, ctx, fmpq, fmpq_mat, fmpq_poly
 
+Made: TypeAlias = tuple[Callable[..., Any], tuple[Any, ...]]
+"""What makes a value again, and from what."""
+Dyadic: TypeAlias = tuple[int, int]
+"""(m, e) for m · 2^e."""
 
-def _rational(number: fmpq) -> tuple[type[fmpq], tuple[int, int]]:
+
+def _rational(number: fmpq) -> Made:
     return fmpq, (int(number.p), int(number.q))
 
 
-def _polynomial(poly: fmpq_poly) -> tuple[type[fmpq_poly], tuple[list[fmpq]]]:
+def _polynomial(poly: fmpq_poly) -> Made:
     return fmpq_poly, (poly.coeffs(),)
 
 
-def _matrix(matrix: fmpq_mat) -> tuple[type[fmpq_mat], tuple[int, int, list[fmpq]]]:
-    return fmpq_mat, (matrix.nrows(), matrix.ncols(), matrix.entries())
+def _matrix(matrix: fmpq_mat) -> Made:
+    rows, columns = matrix.nrows(), matrix.ncols()
+    return fmpq_mat, (rows, columns, matrix.entries())
 
 
-def _ball(ball: arb) -> tuple[object, tuple[tuple[int, int], tuple[int, int]]]:
-    (mid, mid_exponent), (rad, rad_exponent) = (
-        ball.mid().man_exp(),
-        ball.rad().man_exp(),
-    )
-    return _ball_of, ((int(mid), int(mid_exponent)), (int(rad), int(rad_exponent)))
+def _ball(ball: arb) -> Made:
+    return _ball_of, (_dyadic(ball.mid()), _dyadic(ball.rad()))
 
 
-def _ball_of(mid: tuple[int, int], rad: tuple[int, int]) -> arb:
-    with ctx.workprec(max(ctx.prec, mid[0].bit_length() + 8)):
+def _dyadic(exact: arb) -> Dyadic:
+    mantissa, exponent = exact.man_exp()
+    return int(mantissa), int(exponent)
+
+
+def _ball_of(mid: Dyadic, rad: Dyadic) -> arb:
+    mantissa, _ = mid
+    # So many bits that the midpoint is not rounded on its way.
+    needed = mantissa.bit_length() + 8
+    with ctx.workprec(max(ctx.prec, needed)):
         return arb(mid, rad)
 
 

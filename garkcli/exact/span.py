@@ -11,6 +11,7 @@ from collections.abc import Sequence
 
 from flint import fmpq, fmpq_mat
 
+from garkcli.exact.echelon import leading_columns, pivot_columns
 from garkcli.exact.field import ONE
 
 
@@ -42,21 +43,18 @@ class AffineSpan:
         """Insert ``points`` from left to right; the indices of those that enlarged the span."""
         if not points or self.is_full:
             return []
-        width = self.dimension + 1
-        candidates = fmpq_mat(
-            len(points), width, [x for point in points for x in (ONE, *point)]
-        )
+        candidates = fmpq_mat([[ONE, *point] for point in points])
         remainders = self._reduce(candidates).tolist()
         outside = [i for i, row in enumerate(remainders) if any(row)]
         if not outside:
             return []
-        independent = _pivot_columns(
-            fmpq_mat([remainders[i] for i in outside]).transpose()
-        )
+        directions = fmpq_mat([remainders[i] for i in outside])
+        independent = pivot_columns(directions.transpose())
         chosen = [outside[i] for i in independent]
-        grown = fmpq_mat([*self._echelon.tolist(), *(remainders[i] for i in chosen)])
+        added = [remainders[i] for i in chosen]
+        grown = fmpq_mat([*self._echelon.tolist(), *added])
         self._echelon, _ = grown.rref()
-        self._pivots = _leading_columns(self._echelon)
+        self._pivots = leading_columns(self._echelon)
         return chosen
 
     def _reduce(self, candidates: fmpq_mat) -> fmpq_mat:
@@ -68,15 +66,3 @@ class AffineSpan:
         rows = candidates.tolist()
         along = fmpq_mat([[row[p] for p in self._pivots] for row in rows])
         return candidates - along * self._echelon
-
-
-def _pivot_columns(matrix: fmpq_mat) -> list[int]:
-    """The columns that are independent of those to their left."""
-    reduced, rank = matrix.rref()
-    return _leading_columns(reduced)[:rank]
-
-
-def _leading_columns(reduced: fmpq_mat) -> list[int]:
-    return [
-        next(j for j, x in enumerate(row) if x) for row in reduced.tolist() if any(row)
-    ]

@@ -65,18 +65,19 @@ class Tower:
     ) -> tuple[fmpq_mat, fmpq_mat]:
         """The matrices of multiplication by y and by θ, on the basis θ^i y^j, i running first."""
         d, n = self.degree, index
-        y, theta = fmpq_mat(d * n, d * n), fmpq_mat(d * n, d * n)
+        size = d * n
+        y, theta = fmpq_mat(size, size), fmpq_mat(size, size)
         for i in range(d):
-            wrapped = _X**i * radicand % self.modulus
-            shifted = _X ** (i + 1) % self.modulus
+            raised = _X ** (i + 1) % self.modulus  # θ · θ^i
+            wrapped = _X**i * radicand % self.modulus  # y · θ^i y^(n−1) = a θ^i
             for j in range(n):
-                if j + 1 < n:
-                    y[i + d * (j + 1), i + d * j] = fmpq(1)
-                else:
-                    for row in range(d):
-                        y[row, i + d * j] = wrapped[row]
+                column = i + d * j
                 for row in range(d):
-                    theta[row + d * j, i + d * j] = shifted[row]
+                    theta[row + d * j, column] = raised[row]
+                if j + 1 < n:
+                    y[column + d, column] = fmpq(1)
+            for row in range(d):
+                y[row, i + d * (n - 1)] = wrapped[row]
         return y, theta
 
 
@@ -89,17 +90,18 @@ def _as_polynomials(generator: fmpq_mat, wanted: list[fmpq_mat]) -> list[fmpq_po
     matrices.
     """
     size = generator.nrows()
-    power = fmpq_mat([[fmpq(int(i == 0))] for i in range(size)])
-    columns = []
+    one = fmpq_mat(size, 1)
+    one[0, 0] = fmpq(1)
+    power = one
+    powers = []
     for _ in range(size):
-        columns.append(power.entries())
+        powers.append(power.entries())
         power = generator * power
-    ones = [[int(i == 0)] for i in range(size)]
-    targets = [(matrix * fmpq_mat(ones)).entries() for matrix in wanted]
-    solution = fmpq_mat(columns).transpose().solve(fmpq_mat(targets).transpose())
-    return [
-        fmpq_poly([solution[i, j] for i in range(size)]) for j in range(len(wanted))
-    ]
+    targets = [(matrix * one).entries() for matrix in wanted]
+    basis = fmpq_mat(powers).transpose()
+    solution = basis.solve(fmpq_mat(targets).transpose())
+    coefficients = solution.transpose().tolist()
+    return [fmpq_poly(row) for row in coefficients]
 
 
 def _vanishing_factor(
@@ -111,21 +113,20 @@ def _vanishing_factor(
 
     The factors have no common root, so all but one are told from zero by enough digits.
     """
-    candidates = [fmpq_poly(factor) for factor, _ in characteristic.factor()[1]]
+    _, factors = characteristic.factor()
+    candidates = [fmpq_poly(factor) for factor, _ in factors]
     precision = ctx.prec
     try:
         while len(candidates) > 1:
             ctx.prec *= 2
-            theta = sum(
-                (k * x for k, x in zip(combination, values(), strict=True)),
-                start=arb(0),
-            )
-            candidates = [
-                factor for factor in candidates if _at(factor, theta).contains(0)
-            ]
+            theta = arb(0)
+            for k, x in zip(combination, values(), strict=True):
+                theta += k * x
+            candidates = [f for f in candidates if _at(f, theta).contains(0)]
     finally:
         ctx.prec = precision
-    return candidates[0] / candidates[0].leading_coefficient()
+    found = candidates[0]
+    return found / found.leading_coefficient()
 
 
 def _at(poly: fmpq_poly, x: arb) -> arb:

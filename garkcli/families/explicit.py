@@ -6,20 +6,28 @@ Shu, *Strong Stability Preserving Runge–Kutta and Multistep Time Discretizatio
 
 from __future__ import annotations
 
+from collections.abc import Sequence
+
 from flint import fmpq
 
-from garkcli.exact.matrix import Matrix
+from garkcli.exact.field import ZERO
+from garkcli.exact.matrix import Matrix, Vector
 from garkcli.tableau.method import Method, butcher
 
-_ROWS: dict[str, tuple[tuple[tuple[str, ...], ...], tuple[str, ...]]] = {
-    "explicit-euler": ((), ("1",)),
-    "explicit-midpoint": ((("1/2",),), ("0", "1")),
-    "heun": ((("1",),), ("1/2", "1/2")),
-    "kutta": ((("1/2",), ("-1", "2")), ("1/6", "2/3", "1/6")),
-    "rk4": ((("1/2",), ("0", "1/2"), ("0", "0", "1")), ("1/6", "1/3", "1/3", "1/6")),
+_ROWS: dict[str, tuple[str, str]] = {
+    "explicit-euler": ("", "1"),
+    "explicit-midpoint": ("1/2", "0 1"),
+    "heun": ("1", "1/2 1/2"),
+    "kutta": ("1/2; -1 2", "1/6 2/3 1/6"),
+    "rk4": ("1/2; 0 1/2; 0 0 1", "1/6 1/3 1/3 1/6"),
 }
-STAGES = {name: len(b) for name, (_, b) in _ROWS.items()}
+"""A below its diagonal from the second row on, rows between semicolons; and b."""
+STAGES = {name: len(b.split()) for name, (_, b) in _ROWS.items()}
 """How many stages each named method has."""
+
+
+def _row(text: str) -> Vector:
+    return tuple(_rational(entry) for entry in text.split())
 
 
 def _rational(text: str) -> fmpq:
@@ -29,20 +37,24 @@ def _rational(text: str) -> fmpq:
 
 def named(name: str) -> Method:
     """One of the methods of ``STAGES``."""
-    rows, b = _ROWS[name]
-    return butcher(
-        _lower([[_rational(x) for x in row] for row in rows]),
-        tuple(map(_rational, b)),
-        name=name,
-    )
+    below, b = _ROWS[name]
+    rows = [_row(row) for row in below.split(";") if row]
+    return butcher(_lower(rows), _row(b), name=name)
 
 
 def ssp2(s: int) -> Method:
     """SSPRK(s, 2): a_{ij} = 1/(s − 1) below the diagonal, b_i = 1/s; it needs s ≥ 2."""
-    rows = [[fmpq(1, s - 1)] * i for i in range(1, s)]
-    return butcher(_lower(rows), (fmpq(1, s),) * s, name=f"SSPRK({s},2)")
+    a = fmpq(1, s - 1)
+    rows = [(a,) * i for i in range(1, s)]
+    b = (fmpq(1, s),) * s
+    return butcher(_lower(rows), b, name=f"SSPRK({s},2)")
 
 
-def _lower(rows: list[list[fmpq]]) -> Matrix:
+def _lower(rows: Sequence[Vector]) -> Matrix:
+    """The strictly lower triangular matrix with these rows below its first, which is zero."""
     s = len(rows) + 1
-    return tuple(tuple(row) + (fmpq(0),) * (s - len(row)) for row in ([], *rows))
+    matrix: list[Vector] = [(ZERO,) * s]
+    for row in rows:
+        padding = (ZERO,) * (s - len(row))
+        matrix.append(row + padding)
+    return tuple(matrix)
