@@ -46,7 +46,7 @@ def _ball_of(mid: Dyadic, rad: Dyadic) -> arb:
 
 def register() -> None:
     """Teach pickle the numbers of python-flint that results are made of."""
-    copyreg.pickle(arb, _ball)  # type: ignore[arg-type]
+    copyreg.pickle(arb, _ball)
     copyreg.pickle(fmpq, _rational)
     copyreg.pickle(fmpq_poly, _polynomial)
     copyreg.pickle(fmpq_mat, _matrix)
