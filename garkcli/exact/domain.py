@@ -56,8 +56,10 @@ class Domain:
         self.field: NumberField | None = None
         self._are_real = are_real
         self._values: dict[Root, Number] = {}
+        found: list[Root] = []
+        for expression in expressions:
+            found += roots_in(expression)
         irrational = []
-        found = [root for expression in expressions for root in roots_in(expression)]
         for root in dict.fromkeys(found):  # each once, the inner ones first
             value = self._rational_root(root)
             if value is None:
@@ -65,12 +67,10 @@ class Domain:
             else:
                 self._values[root] = value
         if len(irrational) > MAX_RADICALS:
-            raise LimitExceeded(
-                f"{len(irrational)} different radicals (limit {MAX_RADICALS})",
-                "write the coefficients in fewer",
-                irrational[0].start,
-                irrational[0].end,
-            )
+            message = f"{len(irrational)} different radicals (limit {MAX_RADICALS})"
+            first = irrational[0]
+            cure = "write the coefficients in fewer"
+            raise LimitExceeded(message, cure, first.start, first.end)
         if irrational and not only_check and not self._quadratic(irrational):
             self._generated(irrational)
 
@@ -100,9 +100,8 @@ class Domain:
             case Root():
                 return self._values[expression]
             case Name(name=name):
-                raise UndefinedValue(
-                    f"{name!r} has no value", "", expression.start, expression.end
-                )
+                message = f"{name!r} has no value"
+                raise UndefinedValue(message, "", expression.start, expression.end)
         raise TypeError(f"no expression: {expression!r}")
 
     def _power(self, number: Number, exponent: int, at: Expression) -> Number:
@@ -110,23 +109,27 @@ class Domain:
         if not number and exponent < 0:
             raise UndefinedValue("division by zero", "", at.start, at.end)
         if _bits(number) * abs(exponent) > MAX_BITS:
-            _bounded(None, at)
+            raise _too_long(at)
         return number**exponent
 
     def _rational_root(self, root: Root) -> Number | None:
         """The value of a root that is rational because its radicand is a perfect power; else
         None.
         """
-        if any(inner not in self._values for inner in roots_in(root.radicand)):
+        if not self._has_rational_radicand(root):
             if not self._are_real:
                 _check_sign(root)
             return None
         radicand = self._rational_value(root.radicand)
         if radicand < 0 and root.index % 2 == 0:
             raise _even_root(root)
-        sign = -1 if radicand < 0 else 1
         p, q = abs(radicand.p).root(root.index), radicand.q.root(root.index)
-        return fmpq(sign * p, q) if fmpq(p, q) ** root.index == abs(radicand) else None
+        candidate = fmpq(-p if radicand < 0 else p, q)
+        return candidate if candidate**root.index == radicand else None
+
+    def _has_rational_radicand(self, root: Root) -> bool:
+        """Whether the roots inside of it are all among the rational ones."""
+        return all(inner in self._values for inner in roots_in(root.radicand))
 
     def _rational_value(self, expression: Expression) -> fmpq:
         value = self.evaluate(expression)
@@ -136,66 +139,57 @@ class Domain:
 
     def _quadratic(self, roots: list[Root]) -> bool:
         """ℚ(√d), when every root is a square root of a rational number of one square class."""
-        if any(
-            root.index != 2
-            or any(r not in self._values for r in roots_in(root.radicand))
-            for root in roots
-        ):
-            return False
+        for root in roots:
+            if root.index != 2 or not self._has_rational_radicand(root):
+                return False
         radicands = [self._rational_value(root.radicand) for root in roots]
         d = square_free(radicands[0])
-        scales = [
-            scale
-            for scale in (_square_root(radicand / d) for radicand in radicands)
-            if scale
-        ]
-        if len(scales) < len(roots):
-            return False
+        scales: list[fmpq] = []
+        for radicand in radicands:
+            scale = _square_root(radicand / d)
+            if not scale:
+                return False
+            scales.append(scale)
         theta = fmpq_poly([0, 1])
-        self.field = NumberField(fmpq_poly([-d, 0, 1]), [(Root(Literal(d), 2), theta)])
+        modulus = fmpq_poly([-d, 0, 1])
+        self.field = NumberField(modulus, [(Root(Literal(d), 2), theta)])
         for root, scale in zip(roots, scales, strict=True):
             self._values[root] = self.field.element(theta * scale)
         return True
 
     def _generated(self, roots: list[Root]) -> None:
         """ℚ(all roots), adjoined one after the other, the inner ones first."""
-        tower, kept = RATIONALS, list[Root]()
+        tower = RATIONALS
+        kept: list[Root] = []
         for root in roots:
             radicand = self._within(tower, kept, root.radicand)
             if not radicand:
                 self._values[root] = ZERO
                 continue
-            if tower.degree * root.index > MAX_DEGREE:
-                raise LimitExceeded(
-                    f"radicals of degree {tower.degree * root.index} together (limit {MAX_DEGREE})",
-                    "write the coefficients in fewer or simpler radicals",
-                    root.start,
-                    root.end,
-                )
+            degree = tower.degree * root.index
+            if degree > MAX_DEGREE:
+                message = f"radicals of degree {degree} together (limit {MAX_DEGREE})"
+                cure = "write the coefficients in fewer or simpler radicals"
+                raise LimitExceeded(message, cure, root.start, root.end)
             kept.append(root)
             # the list grows with the loop, so its present state is bound here
-            tower = tower.adjoin(
-                root.index, radicand, partial(_enclosures, tuple(kept))
-            )
+            enclosures = partial(_enclosures, tuple(kept))
+            tower = tower.adjoin(root.index, radicand, enclosures)
+        elements = list(zip(kept, tower.elements, strict=True))
         if tower.degree > 1:
-            self.field = NumberField(
-                tower.modulus, list(zip(kept, tower.elements, strict=True))
-            )
-        for root, poly in zip(kept, tower.elements, strict=True):
-            self._values[root] = (
-                poly[0] if self.field is None else self.field.element(poly)
-            )
+            self.field = NumberField(tower.modulus, elements)
+        for root, poly in elements:
+            self._values[root] = self.field.element(poly) if self.field else poly[0]
 
     def _within(
         self, tower: Tower, roots: list[Root], expression: Expression
     ) -> fmpq_poly:
         """The value of an expression in the roots adjoined so far, as a polynomial in θ."""
         field = NumberField(tower.modulus, ())
-        known = {
-            root: field.element(poly)
-            for root, poly in zip(roots, tower.elements, strict=True)
-        }
-        outer, self._values = self._values, {**self._values, **known}
+        outer = self._values
+        self._values = dict(outer)
+        for root, poly in zip(roots, tower.elements, strict=True):
+            self._values[root] = field.element(poly)
         try:
             value = self.evaluate(expression)
         finally:
@@ -241,29 +235,22 @@ def _sign(expression: Expression) -> int:
     # the roots inside were checked before this one; to check them again, each with those inside of
     # it, doubles the work with every level
     if Domain([expression], are_real=True).evaluate(expression):
-        raise LimitExceeded(
-            "a radicand too close to zero",
-            "write it simpler",
-            expression.start,
-            expression.end,
-        )
+        message = "a radicand too close to zero"
+        start, end = expression.start, expression.end
+        raise LimitExceeded(message, "write it simpler", start, end)
     return 0
 
 
 def _even_root(root: Root) -> UndefinedValue:
-    return UndefinedValue(
-        "an even root of a negative number",
-        "coefficients are real numbers",
-        root.start,
-        root.end,
-    )
+    message = "an even root of a negative number"
+    cure = "coefficients are real numbers"
+    return UndefinedValue(message, cure, root.start, root.end)
 
 
 def _apply(sign: str, left: Number, right: Number, at: Expression) -> Number:
     if sign == "/" and not right:
-        raise UndefinedValue(
-            "division by zero", "the divisor is exactly zero", at.start, at.end
-        )
+        cure = "the divisor is exactly zero"
+        raise UndefinedValue("division by zero", cure, at.start, at.end)
     result: Number = OPERATIONS[sign](left, right)
     return result
 
@@ -274,17 +261,18 @@ def _bits(number: Number) -> int:
     return int(number.height_bits())
 
 
-def _bounded(number: Number | None, at: Expression) -> Number:
-    if number is None or _bits(number) > MAX_BITS:
-        raise LimitExceeded(
-            f"a number of more than {MAX_BITS} bits",
-            "write it smaller",
-            at.start,
-            at.end,
-        )
+def _bounded(number: Number, at: Expression) -> Number:
+    if _bits(number) > MAX_BITS:
+        raise _too_long(at)
     return number
+
+
+def _too_long(at: Expression) -> LimitExceeded:
+    message = f"a number of more than {MAX_BITS} bits"
+    return LimitExceeded(message, "write it smaller", at.start, at.end)
 
 
 def _square_root(number: fmpq) -> fmpq | None:
     p, q = number.p.isqrt(), number.q.isqrt()
-    return fmpq(p, q) if p * p == number.p and q * q == number.q else None
+    is_square = p * p == number.p and q * q == number.q
+    return fmpq(p, q) if is_square else None

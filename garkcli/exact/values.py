@@ -71,23 +71,23 @@ def value_of(expression: Expression, names: Mapping[str, Value]) -> Value:
         case Chain(signs=signs, operands=operands):
             total: Value = fmpq(0 if signs[0] in "+-" else 1)
             for sign, operand in zip(signs, operands, strict=True):
-                total = _bounded(
-                    _applied(sign, total, value_of(operand, names), operand), expression
-                )
+                right = value_of(operand, names)
+                total = _applied(sign, total, right, operand)
+                total = _bounded(total, expression)
             return total
         case Power(base=base, exponent=exponent):
-            return _power(value_of(base, names), fmpq(exponent), expression, base)
+            x = value_of(base, names)
+            return _power(x, fmpq(exponent), expression, base)
         case RealPower(base=base, exponent=exponent):
-            return _power(
-                value_of(base, names), exponent_of(exponent, names), expression, base
-            )
+            x = value_of(base, names)
+            return _power(x, exponent_of(exponent, names), expression, base)
         case Root(radicand=radicand, index=index):
-            return _root(value_of(radicand, names), index, expression, radicand)
+            x = value_of(radicand, names)
+            return _root(x, index, expression, radicand)
         case Call(function=function, argument=argument):
             x = value_of(argument, names)
-            return _finite(
-                _FUNCTIONS[function](arb(x)), expression, function, argument, x
-            )
+            result = _FUNCTIONS[function](arb(x))
+            return _finite(result, expression, function, argument, x)
     raise TypeError(f"no expression: {expression!r}")
 
 
@@ -99,19 +99,15 @@ def exponent_of(expression: Expression, names: Mapping[str, Value]) -> fmpq:
         LimitExceeded: it is too large, or its denominator is.
     """
     value = value_of(expression, names)
+    start, end = expression.start, expression.end
     if isinstance(value, arb):
         message = f"the exponent {format_expression(expression)} is no rational number"
-        raise UndefinedValue(
-            message,
-            "write a fraction or a decimal, such as 3/2",
-            expression.start,
-            expression.end,
-        )
+        cure = "write a fraction or a decimal, such as 3/2"
+        raise UndefinedValue(message, cure, start, end)
     if abs(value) > MAX_EXPONENT or value.q > MAX_DENOMINATOR:
-        message = f"the exponent {shown(value)} is beyond {MAX_EXPONENT} or has more than four decimals"
-        raise LimitExceeded(
-            message, "use a smaller or simpler one", expression.start, expression.end
-        )
+        fault = f"is beyond {MAX_EXPONENT} or has more than four decimals"
+        message = f"the exponent {shown(value)} {fault}"
+        raise LimitExceeded(message, "use a smaller or simpler one", start, end)
     return value
 
 
@@ -135,17 +131,19 @@ def _applied(sign: str, left: Value, right: Value, at: Expression) -> Value:
         return left + right
     if sign == "-":
         return left - right
-    return left * right if sign == "*" else left / right
+    if sign == "*":
+        return left * right
+    return left / right
 
 
 def _check_divisor(number: Value, at: Expression) -> None:
-    if number.contains(0) if isinstance(number, arb) else not number:
-        what = (
-            ""
-            if isinstance(at, Literal)
-            else f"{_cut(format_expression(at))} is 0 here"
-        )
-        raise UndefinedValue("division by zero", what, at.start, at.end)
+    may_be_zero = number.contains(0) if isinstance(number, arb) else not number
+    if not may_be_zero:
+        return
+    what = ""
+    if not isinstance(at, Literal):
+        what = f"{_cut(format_expression(at))} is 0 here"
+    raise UndefinedValue("division by zero", what, at.start, at.end)
 
 
 def _cut(text: str) -> str:
@@ -157,35 +155,33 @@ def _power(base: Value, exponent: fmpq, at: Expression, of: Expression) -> Value
     if exponent < 0:
         _check_divisor(base, of)
     if exponent.q == 1:
+        n = int(exponent.p)
         if isinstance(base, fmpq):
-            _bounded(
-                fmpq(1) if base.height_bits() * abs(exponent) <= MAX_BITS else None, at
-            )
-            return base ** int(exponent.p)
-        return _bounded(base ** int(exponent.p), at)
+            if base.height_bits() * abs(n) > MAX_BITS:
+                raise _too_long(at)
+            return base**n
+        return _bounded(base**n, at)
     if isinstance(base, fmpq) and not base:
         return fmpq(0)
     if not arb(base) > 0:
         message = f"a power with the exponent {exponent} of {shown(base)}"
-        raise UndefinedValue(
-            message, "such powers are of positive numbers", at.start, at.end
-        )
+        cure = "such powers are of positive numbers"
+        raise UndefinedValue(message, cure, at.start, at.end)
     return _bounded(arb(base) ** arb(exponent), at)
 
 
 def _root(radicand: Value, index: int, at: Expression, of: Expression) -> Value:
-    if isinstance(radicand, fmpq):
-        size, sign = abs(radicand), -1 if radicand < 0 else 1
-        if sign > 0 or index % 2:
-            p, q = size.p.root(index), size.q.root(index)
-            if fmpq(p, q) ** index == size:
-                return fmpq(sign * p, q)
+    is_odd = index % 2 == 1
+    if isinstance(radicand, fmpq) and (is_odd or radicand >= 0):
+        size = abs(radicand)
+        p, q = size.p.root(index), size.q.root(index)
+        if fmpq(p, q) ** index == size:
+            return fmpq(-p if radicand < 0 else p, q)
     x = arb(radicand)
-    if index % 2 and x < 0:
+    if is_odd and x < 0:
         return -((-x).root(index))
-    return _finite(
-        x.root(index), at, "an even root" if index % 2 == 0 else "a root", of, radicand
-    )
+    kind = "a root" if is_odd else "an even root"
+    return _finite(x.root(index), at, kind, of, radicand)
 
 
 def _finite(
@@ -194,25 +190,26 @@ def _finite(
     if not result.is_finite():
         inner = _cut(format_expression(of))
         what = f"{inner} = {shown(x)}" if inner != str(x) else inner
-        raise UndefinedValue(
-            f"{function} of {what} is no real number", "", at.start, at.end
-        )
+        message = f"{function} of {what} is no real number"
+        raise UndefinedValue(message, "", at.start, at.end)
     return _bounded(result, at)
 
 
-def _bounded(number: Value | None, at: Expression) -> Value:
-    if number is None or (isinstance(number, fmpq) and number.height_bits() > MAX_BITS):
-        raise LimitExceeded(
-            f"a number of more than {MAX_BITS} bits",
-            "write it smaller",
-            at.start,
-            at.end,
-        )
+def _bounded(number: Value, at: Expression) -> Value:
+    if isinstance(number, fmpq) and number.height_bits() > MAX_BITS:
+        raise _too_long(at)
     size = abs(arb(number))
-    if not (size < _MOST and (size > _LEAST or size.contains(0))):
-        message = f"a number {'below 2^-' if size < 1 else 'above 2^'}{MAX_BITS if size < 1 else FLOAT_BITS}"
-        raise LimitExceeded(message, "choose other units", at.start, at.end)
+    is_within = size < _MOST and (size > _LEAST or size.contains(0))
+    if not is_within:
+        bound = f"below 2^-{MAX_BITS}" if size < 1 else f"above 2^{FLOAT_BITS}"
+        cure = "choose other units"
+        raise LimitExceeded(f"a number {bound}", cure, at.start, at.end)
     return number
+
+
+def _too_long(at: Expression) -> LimitExceeded:
+    message = f"a number of more than {MAX_BITS} bits"
+    return LimitExceeded(message, "write it smaller", at.start, at.end)
 
 
 _MOST = arb(2) ** FLOAT_BITS
