@@ -13,14 +13,8 @@ from typing import TypeAlias
 
 from flint import arb, fmpq
 
-from garkcli.exact.polynomial import (
-    FIRST_BITS,
-    Polynomial,
-    RealRoot,
-    real_roots,
-    sign,
-    sign_at,
-)
+from garkcli.exact.polynomial import Polynomial
+from garkcli.exact.roots import FIRST_BITS, RealRoot, real_roots, sign, sign_at
 
 Point: TypeAlias = fmpq | RealRoot
 """A number at which polynomials have signs."""
@@ -70,21 +64,21 @@ def where(
     if left is not None:
         roots = [left, *(root for root in roots if root > left)]
     found: list[Interval] = []
-    open_since: Interval | None = None
+    grown: Interval | None = None
     for cell in _cells(roots, left is not None):
-        if not holds(_sample(cell)):
-            if open_since is not None:
-                found.append(open_since)
-            open_since = None
-        elif open_since is None:
-            open_since = cell
-        else:
-            open_since = Interval(
-                open_since.start, cell.end, open_since.has_start, cell.has_end
-            )
-    if open_since is not None:
-        found.append(open_since)
+        if holds(_sample(cell)):
+            grown = cell if grown is None else _joined(grown, cell)
+        elif grown is not None:
+            found.append(grown)
+            grown = None
+    if grown is not None:
+        found.append(grown)
     return tuple(found)
+
+
+def _joined(left: Interval, right: Interval) -> Interval:
+    """The union of two neighbours."""
+    return Interval(left.start, right.end, left.has_start, right.has_end)
 
 
 def _roots_of(polynomials: Iterable[Polynomial]) -> list[RealRoot]:
@@ -97,11 +91,12 @@ def _roots_of(polynomials: Iterable[Polynomial]) -> list[RealRoot]:
 
 def _cells(roots: Sequence[RealRoot], is_bounded: bool) -> Iterator[Interval]:
     """Open intervals and points in turn, from the left."""
+    ends: list[RealRoot | None] = [*roots, None]
     if not is_bounded:
-        yield Interval(None, roots[0] if roots else None)
-    for k, root in enumerate(roots):
+        yield Interval(None, ends[0])
+    for root, following in zip(roots, ends[1:], strict=True):
         yield Interval(root, root, has_start=True, has_end=True)
-        yield Interval(root, roots[k + 1] if k + 1 < len(roots) else None)
+        yield Interval(root, following)
 
 
 def _sample(cell: Interval) -> Point:

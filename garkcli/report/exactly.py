@@ -10,7 +10,8 @@ from flint import arb, fmpq, fmpz
 from garkcli.exact.display import to_latex, to_text
 from garkcli.exact.domain import square_free
 from garkcli.exact.field import Number
-from garkcli.exact.polynomial import Polynomial, RealRoot
+from garkcli.exact.polynomial import Polynomial
+from garkcli.exact.roots import RealRoot
 
 BITS_A_DIGIT = 3.33
 

@@ -10,7 +10,8 @@ from flint import arb, ctx
 
 from garkcli.exact.cells import Interval
 from garkcli.exact.display import decimal, to_text
-from garkcli.exact.polynomial import Polynomial, RealRoot
+from garkcli.exact.polynomial import Polynomial
+from garkcli.exact.roots import RealRoot
 from garkcli.report.exactly import (
     BITS_A_DIGIT,
     ball_decimal,

@@ -17,7 +17,8 @@ from itertools import pairwise
 
 from garkcli.exact.cells import Interval, Point, sign_of, where
 from garkcli.exact.field import ONE, ZERO, Number
-from garkcli.exact.polynomial import Polynomial, gcd, sign
+from garkcli.exact.polynomial import Polynomial, gcd
+from garkcli.exact.roots import sign
 from garkcli.stability.step_function import stage_system, step_function
 from garkcli.tableau.tableau import Tableau
 

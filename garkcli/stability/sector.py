@@ -17,14 +17,8 @@ from flint import fmpq
 
 from garkcli.exact.cells import between
 from garkcli.exact.field import ONE, ZERO, Number
-from garkcli.exact.polynomial import (
-    Polynomial,
-    RealRoot,
-    interpolated,
-    real_roots,
-    resultant,
-    sign,
-)
+from garkcli.exact.polynomial import Polynomial, interpolated, resultant
+from garkcli.exact.roots import RealRoot, real_roots, sign
 from garkcli.stability.linear import StabilityFunction, is_a_stable
 
 MOST_POINTS = 400

@@ -18,7 +18,8 @@ from dataclasses import dataclass
 from garkcli.exact.characteristic import reciprocal_characteristic
 from garkcli.exact.field import ONE, ZERO, Number
 from garkcli.exact.matrix import Matrix, apply
-from garkcli.exact.polynomial import Polynomial, RealRoot, real_roots, sign
+from garkcli.exact.polynomial import Polynomial
+from garkcli.exact.roots import RealRoot, real_roots, sign
 from garkcli.tableau.pointwise import in_points
 from garkcli.tableau.tableau import Tableau
 

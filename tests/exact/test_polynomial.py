@@ -10,17 +10,8 @@ from garkcli.exact.cells import between, sign_of, where
 from garkcli.exact.domain import Domain
 from garkcli.exact.expression import parse
 from garkcli.exact.field import Number
-from garkcli.exact.polynomial import (
-    Polynomial,
-    RealRoot,
-    gcd,
-    interpolated,
-    multiplicity_at,
-    real_roots,
-    resultant,
-    sign,
-    sign_at,
-)
+from garkcli.exact.polynomial import Polynomial, gcd, interpolated, resultant
+from garkcli.exact.roots import RealRoot, multiplicity_at, real_roots, sign, sign_at
 
 SMALL = st.fractions(min_value=-5, max_value=5, max_denominator=12).map(
     lambda x: fmpq(x.numerator, x.denominator)

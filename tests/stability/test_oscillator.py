@@ -11,7 +11,8 @@ from hypothesis import given, settings
 from hypothesis import strategies as st
 
 from garkcli.exact.field import ONE
-from garkcli.exact.polynomial import Polynomial, RealRoot
+from garkcli.exact.polynomial import Polynomial
+from garkcli.exact.roots import RealRoot
 from garkcli.families.registry import diagonal_method
 from garkcli.longtime.stability import stability as fate_of
 from garkcli.methodfile.load import load, loads

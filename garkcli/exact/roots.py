@@ -1,0 +1,193 @@
+"""Real roots of polynomials over ℚ or a number field, and signs at them.
+
+A real root is kept as an irreducible polynomial over ℚ with the number of the root, so that roots
+are equal exactly when they are the same number. Enclosures only tell apart what is known to differ.
+"""
+
+from __future__ import annotations
+
+from dataclasses import dataclass
+from functools import lru_cache, total_ordering
+from typing import Any
+
+from flint import arb, ctx, fmpq, fmpz_poly
+
+from garkcli.exact.display import to_ball
+from garkcli.exact.field import Algebraic, Number
+from garkcli.exact.polynomial import Polynomial, gcd
+
+FIRST_BITS = 64
+"""The precision at which signs are tried first; it doubles until they are decided."""
+
+
+def sign(number: Number) -> int:
+    """The sign of an exact number, −1, 0 or 1: zero is known exactly, the rest by enclosures."""
+    if not isinstance(number, Algebraic):
+        return (number > 0) - (number < 0)
+    digits = FIRST_BITS * 3 // 10
+    while True:
+        ball = to_ball(number, digits)
+        if ball > 0 or ball < 0:
+            return 1 if ball > 0 else -1
+        digits *= 2
+
+
+@total_ordering
+@dataclass(frozen=True)
+class RealRoot:
+    """A real algebraic number.
+
+    Attributes:
+        polynomial: its minimal polynomial over ℤ, primitive with a positive leading coefficient.
+        number: which of the real roots of that it is, counted from 0 in ascending order.
+    """
+
+    polynomial: fmpz_poly
+    number: int
+
+    def __hash__(self) -> int:
+        return hash((_integers(self.polynomial), self.number))
+
+    @classmethod
+    def rational(cls, value: fmpq) -> RealRoot:
+        """A rational number as a root."""
+        return cls(fmpz_poly([-value.p, value.q]), 0)
+
+    @property
+    def exact(self) -> fmpq | None:
+        """The number itself where it is rational."""
+        if self.polynomial.degree() > 1:
+            return None
+        constant, slope = _integers(self.polynomial)
+        return fmpq(-constant, slope)
+
+    def ball(self, bits: int) -> arb:
+        """An enclosure with about ``bits`` correct bits."""
+        value = self.exact
+        if value is not None:
+            with _precision(bits):
+                return arb(value)
+        balls = _real_roots(_integers(self.polynomial), bits)
+        return balls[self.number]
+
+    def __lt__(self, other: RealRoot) -> bool:
+        if self.polynomial == other.polynomial:
+            return self.number < other.number
+        bits = FIRST_BITS
+        while True:
+            mine, theirs = self.ball(bits), other.ball(bits)
+            if mine < theirs or mine > theirs:
+                return bool(mine < theirs)
+            bits *= 2
+
+    def __repr__(self) -> str:
+        return f"RealRoot({self.polynomial}, {self.number})"
+
+
+class _precision:  # noqa: N801 -- used as a function
+    """``flint.ctx.prec`` for a while."""
+
+    def __init__(self, bits: int) -> None:
+        self.bits = bits
+
+    def __enter__(self) -> None:
+        self.before = ctx.prec
+        ctx.prec = self.bits
+
+    def __exit__(self, *_: object) -> None:
+        ctx.prec = self.before
+
+
+def _integers(polynomial: fmpz_poly) -> tuple[int, ...]:
+    """The coefficients, the lowest first."""
+    return tuple(int(a) for a in polynomial.coeffs())
+
+
+@lru_cache(maxsize=512)
+def _real_roots(coefficients: tuple[int, ...], bits: int) -> tuple[arb, ...]:
+    """The real roots of an irreducible polynomial in ascending order.
+
+    python-flint isolates all roots and gives real ones an imaginary part that is exactly zero.
+    """
+    with _precision(bits):
+        found: list[Any] = fmpz_poly(list(coefficients)).complex_roots()
+        real = [root.real for root, _ in found if root.imag == 0]
+        real.sort(key=lambda ball: ball.mid())
+        return tuple(real)
+
+
+def real_roots(p: Polynomial) -> list[tuple[RealRoot, int]]:
+    """The distinct real roots in ascending order, with their multiplicities.
+
+    Over a number field they are among the roots of the norm; which ones is decided by gcds.
+
+    Raises:
+        ValueError: p is zero.
+
+    >>> real_roots(Polynomial([2, -3, 0, 1]))
+    [(RealRoot(x + 2, 0), 1), (RealRoot(x + (-1), 0), 2)]
+    """
+    if not p:
+        raise ValueError("every number is a root of the zero polynomial")
+    found: list[tuple[RealRoot, int]] = []
+    _, factors = p.norm().factor()
+    for factor, power in factors:
+        primitive = factor if factor[factor.degree()] > 0 else -factor
+        balls = _real_roots(_integers(primitive), FIRST_BITS)
+        for number in range(len(balls)):
+            root = RealRoot(primitive, number)
+            multiplicity = power
+            if not p.is_rational:
+                multiplicity = multiplicity_at(p, root)
+            if multiplicity:
+                found.append((root, multiplicity))
+    return sorted(found, key=lambda pair: pair[0])
+
+
+def multiplicity_at(p: Polynomial, root: RealRoot) -> int:
+    """How often ``root`` is a root of p ≠ 0, decided exactly."""
+    multiplicity = 0
+    while p and sign_at(p, root) == 0:
+        multiplicity += 1
+        p = p.derivative()
+    return multiplicity
+
+
+def sign_at(p: Polynomial, root: RealRoot) -> int:
+    """The sign of p at a real algebraic number, decided exactly."""
+    value = root.exact
+    if value is not None:
+        return sign(p(value))
+    if not p or vanishes_at(p, root):
+        return 0
+    bits = FIRST_BITS
+    while True:
+        with _precision(bits):
+            ball = p.enclosed_at(root.ball(bits))
+        if ball > 0 or ball < 0:
+            return 1 if ball > 0 else -1
+        bits *= 2
+
+
+def vanishes_at(p: Polynomial, root: RealRoot) -> bool:
+    """Whether p is zero at a real algebraic number.
+
+    With q the minimal polynomial and g = gcd(p, q), q = g · (q/g) has no multiple root, so that
+    the number is a root of exactly one of the two factors; an enclosure shows of which it is none.
+    """
+    q = Polynomial.from_flint(root.polynomial)
+    g = gcd(p, q)
+    if g.degree == 0:
+        return False
+    if g.degree == q.degree:
+        return True
+    other = q // g
+    bits = FIRST_BITS
+    while True:
+        with _precision(bits):
+            ball = root.ball(bits)
+            if not g.enclosed_at(ball).contains(0):
+                return False
+            if not other.enclosed_at(ball).contains(0):
+                return True
+        bits *= 2
