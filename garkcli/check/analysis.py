@@ -58,7 +58,8 @@ class Analysis:
             that has no meaning.
         suggestion: the tolerance that the residuals speak for: of a method that is exact by its
             word, or where the tolerance of the file is too tight for its own rounding.
-        misprint: why no tolerance is proposed though residuals are tiny: digits do not explain them.
+        misprint: why no tolerance is proposed though residuals are tiny: digits do not explain
+            them.
     """
 
     tableau: Tableau
@@ -115,11 +116,8 @@ def inconsistent_blocks(
     """The blocks with A^{l,m} 𝟙 ≠ c^{l} within a tolerance; none of what does not exist."""
     if tableau is None:
         return ()
-    return tuple(
-        edge
-        for edge, holds in consistent_blocks(tableau, tolerance).items()
-        if not holds
-    )
+    consistent = consistent_blocks(tableau, tolerance)
+    return tuple(edge for edge, holds in consistent.items() if not holds)
 
 
 def nonautonomous(

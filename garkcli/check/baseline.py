@@ -76,12 +76,15 @@ def _is_whole(file: object) -> bool:
     if "errors" in file:
         return True
     claims = file.get("claims")
-    return isinstance(claims, list) and all(
-        isinstance(claim, dict)
-        and isinstance(claim.get("claim"), str)
-        and isinstance(claim.get("holds"), bool)
-        for claim in claims
-    )
+    return isinstance(claims, list) and all(map(_is_whole_claim, claims))
+
+
+def _is_whole_claim(claim: object) -> bool:
+    if not isinstance(claim, dict):
+        return False
+    has_name = isinstance(claim.get("claim"), str)
+    has_verdict = isinstance(claim.get("holds"), bool)
+    return has_name and has_verdict
 
 
 def regressions(
@@ -98,38 +101,32 @@ def regressions(
 
 
 def _new_file(now: Mapping[str, Any]) -> list[Regression]:
+    file = now["file"]
     if "errors" in now:
-        return [Regression(now["file"], "new file", "none", "unreadable")]
-    failing = [claim for claim in now["claims"] if not claim["holds"]]
-    return [
-        Regression(
-            now["file"], x["claim"], f"new, expected {x['expected']}", x["found"]
-        )
-        for x in failing
-    ]
+        return [Regression(file, "new file", "none", "unreadable")]
+    found: list[Regression] = []
+    for claim in now["claims"]:
+        if not claim["holds"]:
+            before = f"new, expected {claim['expected']}"
+            found.append(Regression(file, claim["claim"], before, claim["found"]))
+    return found
 
 
 def _changed(now: Mapping[str, Any], before: Mapping[str, Any]) -> list[Regression]:
     file = now["file"]
-    if "errors" in now:
-        return (
-            []
-            if "errors" in before
-            else [Regression(file, "file", "a method", "unreadable")]
-        )
     if "errors" in before:
-        return []  # it can be read now: better, whatever its claims say
-    held = {x["claim"]: x["holds"] for x in before["claims"]}
-    found = [
-        Regression(
-            file,
-            x["claim"],
-            "held" if held.get(x["claim"]) else "not claimed",
-            f"found {x['found']}",
-        )
-        for x in now["claims"]
-        if not x["holds"] and held.get(x["claim"], True)
-    ]
+        return []  # no worse; where it can be read now better, whatever its claims say
+    if "errors" in now:
+        return [Regression(file, "file", "a method", "unreadable")]
+    held = {claim["claim"]: claim["holds"] for claim in before["claims"]}
+    found: list[Regression] = []
+    for claim in now["claims"]:
+        name = claim["claim"]
+        failed_before = name in held and not held[name]
+        if claim["holds"] or failed_before:
+            continue
+        earlier = "held" if name in held else "not claimed"
+        found.append(Regression(file, name, earlier, f"found {claim['found']}"))
     for order in ORDERS:
         old, new = before.get(order), now[order]
         if type(old) is int and (new is None or new < old):

@@ -42,9 +42,10 @@ def check_file(
         method = load(path)
     except MethodFileError as error:
         return Outcome(error.source, error.source, faults=error.faults, text=error.text)
+    reach = max(limit, highest_order(method.claims) + 1)
     analysis = analyse(
         method.tableau,
-        max(limit, highest_order(method.claims) + 1),
+        reach,
         method.tolerance,
         lambda: printed_units(method.printed),
     )
@@ -77,14 +78,12 @@ def _blame(method: MethodFile, analysis: Analysis) -> Blame | None:
         ("pair-order", analysis.pair_order, pair),
     )
     for key, found, derive in parts:
-        claimed = highest_order(
-            tuple(claim for claim in method.claims if claim.key == key)
-        )
+        claims = tuple(claim for claim in method.claims if claim.key == key)
+        claimed = highest_order(claims)
         if found is None or found.order >= claimed:
             continue
-        if found.is_lower_bound or (
-            analysis.suggestion and method.tolerance is not None
-        ):
+        is_explained = method.tolerance is not None and analysis.suggestion is not None
+        if found.is_lower_bound or is_explained:
             return None
         from garkcli.order.blame import Missed, blame_of  # paid for by failures alone
 

@@ -2,6 +2,8 @@
 
 from __future__ import annotations
 
+from collections.abc import Sequence
+
 from garkcli.check.analysis import Analysis, AnyOrder
 from garkcli.check.outcome import Claim
 from garkcli.methodfile.description import ClaimText
@@ -23,9 +25,9 @@ def _found(key: str, analysis: Analysis) -> object:
         "pair-order": _order(analysis.pair_order),
         "bound": analysis.bound,
         "pair-bound": analysis.pair_bound,
-        "B": [_capped(x, limit) for x in table.B],
-        "C": [[_capped(x, limit) for x in row] for row in table.C],
-        "D": [[_capped(x, limit) for x in row] for row in table.D],
+        "B": _capped_row(table.B, limit),
+        "C": [_capped_row(row, limit) for row in table.C],
+        "D": [_capped_row(row, limit) for row in table.D],
         "symplectic": analysis.symplectic,
     }[key]
 
@@ -37,17 +39,24 @@ def _order(found: AnyOrder | None) -> object:
     return AtLeast(found.order) if found.is_lower_bound else found.order
 
 
+def _capped_row(numbers: Sequence[int | None], limit: int) -> list[object]:
+    return [_capped(number, limit) for number in numbers]
+
+
 def _capped(number: int | None, limit: int) -> object:
     """A number at which the search stopped is known to be at least that large, no more."""
-    return AtLeast(number) if number is not None and number >= limit else number
+    if number is None or number < limit:
+        return number
+    return AtLeast(number)
 
 
 def _verified(claim: ClaimText, found: object) -> Claim:
     mark = claim.node.start_mark
+    shown = "none: a weight is zero" if found is None else _text(found)
     return Claim(
         claim=claim.key,
         expected=_text(claim.value),
-        found="none: a weight is zero" if found is None else _text(found),
+        found=shown,
         holds=_agrees(claim.value, found),
         line=mark.line + 1,
         column=mark.column + 1,
@@ -55,9 +64,11 @@ def _verified(claim: ClaimText, found: object) -> Claim:
 
 
 def _agrees(wanted: object, found: object) -> bool:
+    """Whether a value of a file, a number or a list of numbers or lists, is what was found."""
     if isinstance(wanted, list):
-        same = isinstance(found, list) and len(found) == len(wanted)
-        return same and all(_agrees(x, y) for x, y in zip(wanted, found, strict=True))  # type: ignore[call-overload]
+        if not isinstance(found, list) or len(found) != len(wanted):
+            return False
+        return all(_agrees(x, y) for x, y in zip(wanted, found, strict=True))
     if isinstance(wanted, AtLeast):
         known = found.least if isinstance(found, AtLeast) else found
         return isinstance(known, int) and known >= wanted.least
@@ -65,8 +76,12 @@ def _agrees(wanted: object, found: object) -> bool:
 
 
 def _text(value: object) -> str:
+    """A value as it is written in YAML."""
     if isinstance(value, list):
-        return f"[{', '.join(_text(x) for x in value)}]"
+        inside = ", ".join(_text(x) for x in value)
+        return f"[{inside}]"
     if value is None:
         return "null"
-    return str(value).lower() if isinstance(value, bool) else str(value)
+    if isinstance(value, bool):
+        return str(value).lower()
+    return str(value)

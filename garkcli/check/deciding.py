@@ -41,19 +41,20 @@ def analyse(
             where residuals look like rounding.
     """
     if tolerance is not None:
-        from garkcli.check.within import (
-            analyse_within,
-        )  # balls, which exact methods do without
+        # balls, which exact methods do without
+        from garkcli.check.within import analyse_within
 
         return analyse_within(tableau, tolerance, limit)
     conjugated, both, obstacle = conjugate_and_pair(tableau)
-    order, conditions = find_order(tableau, limit), simplifying(tableau, limit)
+    order = find_order(tableau, limit)
+    conditions = simplifying(tableau, limit)
     conjugate_order = None if conjugated is None else find_order(conjugated, limit)
     pair_order, pair_conditions = None, None
     if both is not None and is_pair_of_itself(tableau, both):
         pair_order, pair_conditions = order, conditions
     elif both is not None:
-        pair_order, pair_conditions = find_order(both, limit), simplifying(both, limit)
+        pair_order = find_order(both, limit)
+        pair_conditions = simplifying(both, limit)
     inconsistent = inconsistent_blocks(tableau)
     suggestion = _suggestion(tableau, order, limit)
     misprint = None
@@ -88,11 +89,9 @@ def analyse(
 def _suggestion(tableau: Tableau, order: Order, limit: int) -> Suggestion | None:
     """What to write into a file that looks rounded; only tiny residuals are looked at further."""
     spelled_out = any(isinstance(space, PointSpace) for space in tableau.spaces)
-    if (
-        not spelled_out
-        or order.witness is None
-        or not within(order.witness.residual, TINY)
-    ):
+    if not spelled_out or order.witness is None:
+        return None
+    if not within(order.witness.residual, TINY):
         return None
     from garkcli.order.suggestion import suggest_tolerance
 

@@ -28,10 +28,8 @@ def witness_text(witness: Witness, colours: bool) -> str:
         value, residual = to_decimal(witness.value, 8), to_decimal(witness.residual, 4)
         value = f"about {value}"
     tree = format_tree(witness.tree, colours)
-    return (
-        f"fails at order {witness.tree.order}: {tree}: {value} instead of {witness.required}, "
-        f"off by {residual}"
-    )
+    where = f"fails at order {witness.tree.order}: {tree}"
+    return f"{where}: {value} instead of {witness.required}, off by {residual}"
 
 
 def claim_witness(outcome: Outcome, claim: str) -> str:
@@ -56,30 +54,33 @@ def claim_hint(outcome: Outcome, claim: str) -> str:
     if analysis is None or claim not in {"order", "conjugate-order", "pair-order"}:
         return ""
     names = [colour.name for colour in analysis.tableau.colours]
-    if analysis.suggestion is not None:
-        found = analysis.suggestion
+    found = analysis.suggestion
+    if found is not None:
         return f"with the line {found.line} the order is {found.order}"
     if analysis.misprint is not None and analysis.misprint.repairs:
         (repair, *_) = analysis.misprint.repairs
         return f"an entry looks misprinted: {repair_text(repair, names)}"
     if blame is not None and blame.of == claim and blame.repairs:
-        return (
-            f"the claimed order would hold with {repair_text(blame.repairs[0], names)}"
-        )
+        repair = blame.repairs[0]
+        return f"the claimed order would hold with {repair_text(repair, names)}"
     return ""
 
 
 def repair_text(repair: Repair, names: Sequence[str]) -> str:
     """An entry, as it should be and as it is."""
-    return f"{place_text(repair, names)} = {value_text(repair.new)} instead of {value_text(repair.old)}"
+    place = place_text(repair, names)
+    new, old = value_text(repair.new), value_text(repair.old)
+    return f"{place} = {new} instead of {old}"
 
 
 def place_text(repair: Repair, names: Sequence[str]) -> str:
     """Where an entry stands, counted from 1; ``names`` of the colours."""
+    entry = f"entry {repair.j + 1},"
+    seer = names[repair.l]
     if repair.m is None or repair.i is None:
-        return f"b{{{names[repair.l]}}}, entry {repair.j + 1},"
-    block = f"A{{{names[repair.l]},{names[repair.m]}}}"
-    return f"{block}, row {repair.i + 1}, entry {repair.j + 1},"
+        return f"b{{{seer}}}, {entry}"
+    block = f"A{{{seer},{names[repair.m]}}}"
+    return f"{block}, row {repair.i + 1}, {entry}"
 
 
 def value_text(number: Number, digits: int = 17) -> str:

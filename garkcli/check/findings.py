@@ -71,13 +71,8 @@ def _failed_claims(outcome: Outcome) -> Iterator[Part]:
         witness = claim_witness(outcome, claim.claim)
         if witness:
             message = f"{message}; {witness}"
-        yield Part(
-            message,
-            claim_hint(outcome, claim.claim),
-            claim.claim,
-            claim.line,
-            claim.column,
-        )
+        hint = claim_hint(outcome, claim.claim)
+        yield Part(message, hint, claim.claim, claim.line, claim.column)
 
 
 def _missing_claims(outcome: Outcome) -> Iterator[Part]:

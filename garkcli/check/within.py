@@ -31,7 +31,7 @@ from garkcli.order.conditions import elementary_weight, is_admissible
 from garkcli.order.defects import Defects, is_symplectic_within
 from garkcli.order.propagation import ConjugateRounding, Propagation, conjugate_rounding
 from garkcli.order.rounded import Effect, RoundedOrder, find_order_within
-from garkcli.order.simplifying import Simplifying, simplifying
+from garkcli.order.simplifying import Simplifying, Table, simplifying
 from garkcli.order.suggestion import suggest_wider
 from garkcli.order.tolerance import TINY, form_entries, rounded_up, within
 from garkcli.tableau.conjugate import symplectic_defect
@@ -54,21 +54,19 @@ def analyse_within(tableau: Tableau, tolerance: fmpq, limit: int) -> Analysis:
     inconsistent = inconsistent_blocks(tableau, tolerance)
     conditions = simplifying(tableau, limit, tolerance)
     if not inconsistent:
-        conditions = replace(
-            conditions, B=_implied(tableau, conditions.B, order.order, tolerance)
-        )
-    symplectic = is_symplectic_within(tableau, tolerance) and _explained(
-        tableau, rounding
-    )
+        B = _implied(tableau, conditions.B, order.order, tolerance)
+        conditions = replace(conditions, B=B)
+    symplectic = is_symplectic_within(tableau, tolerance)
+    symplectic = symplectic and _explained(tableau, rounding)
     hat = _conjugate_part(conjugated, rounding, tolerance, limit)
     both_parts = _pair_part(tableau, both, rounding, order, limit)
     hat, both_parts = _agreeing(tableau, order, symplectic, hat, both_parts)
-    pair_conditions = None
-    if both_parts is not None:
-        pair_conditions = simplifying(both_parts.tableau, limit, both_parts.tolerance)
-        if not tableau.is_partitioned:
-            pair_conditions = _with_own(pair_conditions, conditions)
+    pair_conditions = _pair_conditions(tableau, both_parts, conditions, limit)
     pair_order = both_parts.order if both_parts else None
+
+    def find(timed: Tableau) -> RoundedOrder:
+        return find_order_within(timed, tolerance, limit)
+
     return Analysis(
         tableau=tableau,
         order=order,
@@ -86,12 +84,7 @@ def analyse_within(tableau: Tableau, tolerance: fmpq, limit: int) -> Analysis:
         obstacle=obstacle,
         limit=limit,
         tolerance=tolerance,
-        nonautonomous_order=nonautonomous(
-            tableau,
-            order,
-            inconsistent,
-            lambda timed: find_order_within(timed, tolerance, limit),
-        ),
+        nonautonomous_order=nonautonomous(tableau, order, inconsistent, find),
         suggestion=suggest_wider(tableau, order, limit),
     )
 
@@ -118,7 +111,9 @@ class _Derived:
         """Its order within what rounding explains; ``made`` is None where nothing is known."""
         effect: Effect = made.effect if made else _unknown
         order = find_order_within(tableau, tolerance, limit, effect)
-        wider = tolerance + rounded_up(made.largest_row_sum()) if made else tolerance
+        if made is None:
+            return _Derived(tableau, order, tolerance)
+        wider = tolerance + rounded_up(made.largest_row_sum())
         return _Derived(tableau, order, wider if wider <= TINY else tolerance)
 
 
@@ -147,6 +142,18 @@ def _pair_part(
         return _Derived(both, order, order.tolerance)
     made = rounding.of_pair(both) if rounding else None
     return _Derived.of(both, made, order.tolerance, limit)
+
+
+def _pair_conditions(
+    tableau: Tableau, both: _Derived | None, own: Simplifying, limit: int
+) -> Simplifying | None:
+    """B, C and D of the pair; those of the method, ``own``, are parts of them."""
+    if both is None:
+        return None
+    found = simplifying(both.tableau, limit, both.tolerance)
+    if tableau.is_partitioned:
+        return found
+    return _with_own(found, own)
 
 
 def _agreeing(
@@ -200,21 +207,18 @@ def _like(derived: _Derived | None, own: RoundedOrder) -> _Derived | None:
 
 def _at_most(pair_order: RoundedOrder, part: RoundedOrder, shift: int) -> RoundedOrder:
     """The order of the pair, no more than that of a part whose colours begin at ``shift``."""
-    fails_with_it = part.order == pair_order.order and pair_order.witness is None
-    if part.order > pair_order.order or (
-        part.order == pair_order.order and not fails_with_it
-    ):
+    if part.order > pair_order.order:
         return pair_order
-    sizes, means = pair_order.sizes[: part.order], pair_order.means[: part.order]
+    if part.order == pair_order.order and pair_order.witness is not None:
+        return pair_order
+    sizes = pair_order.sizes[: part.order]
+    means = pair_order.means[: part.order]
     witness = part.witness
     if witness is not None:
-        witness = Witness(
-            _shifted(witness.tree, shift), witness.value, witness.required
-        )
-        sizes, means = (
-            (*sizes, abs(to_ball(witness.residual))),
-            (*means, part.means[-1]),
-        )
+        tree = _shifted(witness.tree, shift)
+        witness = Witness(tree, witness.value, witness.required)
+        sizes = (*sizes, abs(to_ball(witness.residual)))
+        means = (*means, part.means[-1])
     return RoundedOrder(
         part.order,
         pair_order.tolerance,
@@ -247,19 +251,15 @@ def _no_earlier(
 
 
 def _shifted(tree: Tree, shift: int) -> Tree:
-    return Tree(
-        tree.root + shift, tuple(_shifted(branch, shift) for branch in tree.branches)
-    )
+    branches = tuple(_shifted(branch, shift) for branch in tree.branches)
+    return Tree(tree.root + shift, branches)
 
 
 def _with_own(both: Simplifying, own: Simplifying) -> Simplifying:
     """The conditions of the pair, where those of the method are as they were found for it."""
     N = len(own.B)
 
-    def mixed(
-        table: tuple[tuple[int | None, ...], ...],
-        part: tuple[tuple[int | None, ...], ...],
-    ) -> tuple[tuple[int | None, ...], ...]:
+    def mixed(table: Table, part: Table) -> Table:
         return tuple((*part[l % N], *row[N:]) for l, row in enumerate(table))
 
     return Simplifying(own.B * 2, mixed(both.C, own.C), mixed(both.D, own.D))
@@ -288,12 +288,14 @@ def _implied(
     defects = Defects(tableau)
     found = []
     for l, r in enumerate(B):
-        if isinstance(tableau.space(l), PointSpace):
-            while r < order and within(
-                defects.B(l, r + 1),
-                tolerance + _nodes_effect(tableau, l, r + 1, tolerance),
-            ):
-                r += 1
+        if not isinstance(tableau.space(l), PointSpace):
+            found.append(r)
+            continue
+        while r < order:
+            wider = tolerance + _nodes_effect(tableau, l, r + 1, tolerance)
+            if not within(defects.B(l, r + 1), wider):
+                break
+            r += 1
         found.append(r)
     return tuple(found)
 

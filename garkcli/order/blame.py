@@ -138,18 +138,20 @@ def blame_of(method: Tableau, missed: Missed) -> Blame | None:
     found = list(all_conditions(tableau, missed.order, missed.tolerance))
     failing = [condition for condition in found if not condition.holds]
     used = [_blocks_in(tableau, condition.tree) for condition in failing]
-    blocks = sorted({_canonical(tableau, edge) for edge in tableau.edges()})
-    in_every = tuple(
-        block for block in blocks if used and all(block in use for use in used)
-    )
+    in_every: list[tuple[int, int]] = []
+    in_none: list[tuple[int, int]] = []
+    for block in sorted({_canonical(tableau, edge) for edge in tableau.edges()}):
+        uses = sum(block in blocks for blocks in used)
+        if uses == 0:
+            in_none.append(block)
+        elif uses == len(used):
+            in_every.append(block)
     return Blame(
         order=missed.order,
         failing=len(failing),
         total=len(found),
-        in_every=in_every,
-        in_none=tuple(
-            block for block in blocks if not any(block in use for use in used)
-        ),
+        in_every=tuple(in_every),
+        in_none=tuple(in_none),
         culprit=_culprit(tableau, found, in_every),
         only_coupling=all(condition.is_coupling for condition in failing),
         repairs=tuple(_repairs(method, missed, failing)),
@@ -161,9 +163,9 @@ def blame_of(method: Tableau, missed: Missed) -> Blame | None:
 
 def _canonical(tableau: Tableau, edge: tuple[int, int]) -> tuple[int, int]:
     """The edge named after the first colour that has these stages: one name for each block."""
-    rows = tableau.colours[edge[0]].space
-    first = next(l for l, colour in enumerate(tableau.colours) if colour.space == rows)
-    return first, edge[1]
+    l, m = edge
+    spaces = [colour.space for colour in tableau.colours]
+    return spaces.index(spaces[l]), m
 
 
 def _blocks_in(tableau: Tableau, tree: Tree) -> Counter[tuple[int, int]]:
@@ -176,13 +178,15 @@ def _blocks_in(tableau: Tableau, tree: Tree) -> Counter[tuple[int, int]]:
 
 
 def _culprit(
-    tableau: Tableau, found: list[Condition], candidates: tuple[tuple[int, int], ...]
+    tableau: Tableau, found: list[Condition], candidates: Sequence[tuple[int, int]]
 ) -> tuple[int, int] | None:
+    """The candidate whose conditions fail most often; None where several do alike."""
     share: dict[tuple[int, int], float] = {}
     for block in candidates:
         with_block = [x for x in found if block in _blocks_in(tableau, x.tree)]
         share[block] = sum(not x.holds for x in with_block) / len(with_block)
-    best = [block for block in candidates if share[block] == max(share.values())]
+    most = max(share.values(), default=0.0)
+    best = [block for block in candidates if share[block] == most]
     return best[0] if len(best) == 1 else None
 
 
@@ -196,9 +200,7 @@ def _repairs(
     """
     solved = failing[:1]
     if missed.tolerance:
-        by_size = sorted(
-            failing, key=lambda x: float(abs(to_ball(x.residual, 20))), reverse=True
-        )
+        by_size = sorted(failing, key=lambda x: _size(x.residual), reverse=True)
         solved = by_size[:FEW_CONDITIONS]
     if not solved:
         return
@@ -215,6 +217,11 @@ def _repairs(
             yield Repair(place.l, place.m, place.i, place.j, place.old, new)
 
 
+def _size(number: Number) -> float:
+    """|number|, to compare by: what is chosen is then verified exactly."""
+    return float(abs(to_ball(number, 20)))
+
+
 def _holds(tableau: Tableau, failing: Sequence[Condition], near: fmpq) -> bool:
     """Whether some conditions hold that failed: that takes less than finding the order."""
     trees = [condition.tree for condition in failing]
@@ -226,9 +233,8 @@ def _is_restored(tableau: Tableau, missed: Missed) -> bool:
         return find_order(tableau, missed.claimed).order >= missed.claimed
     from garkcli.order.rounded import find_order_within
 
-    return (
-        find_order_within(tableau, missed.near, missed.claimed).order >= missed.claimed
-    )
+    found = find_order_within(tableau, missed.near, missed.claimed)
+    return found.order >= missed.claimed
 
 
 @dataclass(frozen=True)
@@ -252,15 +258,20 @@ class _Place:
 def _places(method: Tableau) -> Iterator[_Place]:
     """The entries that are entries of stages: those of stage spaces of points."""
     for l, m in sorted({_canonical(method, edge) for edge in method.edges()}):
-        spaces = method.space(l), method.space(m)
-        if all(isinstance(space, PointSpace) for space in spaces):
-            for i, row in enumerate(method.blocks[method.colours[l].space, m]):
-                for j, old in enumerate(row):
-                    yield _Place(l, m, i, j, old)
+        if not (_has_points(method, l) and _has_points(method, m)):
+            continue
+        for i, row in enumerate(method.blocks[method.colours[l].space, m]):
+            for j, old in enumerate(row):
+                yield _Place(l, m, i, j, old)
     for l, colour in enumerate(method.colours):
-        if isinstance(method.space(l), PointSpace):
-            for j, old in enumerate(colour.b):
-                yield _Place(l, None, None, j, old)
+        if not _has_points(method, l):
+            continue
+        for j, old in enumerate(colour.b):
+            yield _Place(l, None, None, j, old)
+
+
+def _has_points(method: Tableau, l: int) -> bool:
+    return isinstance(method.space(l), PointSpace)
 
 
 def _solution(
@@ -277,9 +288,10 @@ def _solution(
     beyond = _weights(missed, place.put(method, place.old + step), trees)
     if beyond is None:
         return None
-    pairs = zip(beyond, failing, strict=True)
-    slopes = [(x - condition.value) / step for x, condition in pairs]
-    sizes = [float(abs(to_ball(slope, 20))) for slope in slopes]
+    slopes: list[Number] = []
+    for moved, condition in zip(beyond, failing, strict=True):
+        slopes.append((moved - condition.value) / step)
+    sizes = [_size(slope) for slope in slopes]
     best = sizes.index(max(sizes))
     condition, slope = failing[best], slopes[best]
     if not slope:
@@ -287,8 +299,11 @@ def _solution(
     value = place.old - condition.residual / slope
     if missed.near:
         return _refined(method, missed, place, condition, value, slope)
-    twice = _weights(missed, place.put(method, place.old + 2 * ONE), [condition.tree])
-    return value if twice and twice[0] - beyond[best] == slope else None
+    further = place.put(method, place.old + 2 * ONE)
+    twice = _weights(missed, further, [condition.tree])
+    if twice is None or twice[0] - beyond[best] != slope:
+        return None  # not linear in the entry
+    return value
 
 
 def _refined(
@@ -299,7 +314,10 @@ def _refined(
     value: Number,
     slope: Number,
 ) -> Number:
-    """The root of a condition near ``value``, to a hundredth of what it is to be restored within."""
+    """The root of a condition near ``value``.
+
+    To a hundredth of what the condition is to be restored within.
+    """
     grid = missed.near / 100
     for _ in range(NEWTON_STEPS):
         if isinstance(value, fmpq):
@@ -314,8 +332,11 @@ def _refined(
 def _weights(
     missed: Missed, method: Tableau, trees: Sequence[Tree]
 ) -> list[Number] | None:
+    """The elementary weights of some trees; None where the changed method has none."""
     tableau = _derived(missed, method)
-    return None if tableau is None else [x.value for x in conditions(tableau, trees)]
+    if tableau is None:
+        return None
+    return [condition.value for condition in conditions(tableau, trees)]
 
 
 def _derived(missed: Missed, method: Tableau) -> Tableau | None:
@@ -341,8 +362,8 @@ def _with_weight(tableau: Tableau, l: int, j: int, value: Number) -> Tableau:
     """
     old = tableau.colours[l]
     b = (*old.b[:j], value, *old.b[j + 1 :])
-    colours = (
-        replace(x, b=b) if (x.space, x.b) == (old.space, old.b) else x
-        for x in tableau.colours
-    )
+    colours = []
+    for colour in tableau.colours:
+        is_same_row = colour.space == old.space and colour.b == old.b
+        colours.append(replace(colour, b=b) if is_same_row else colour)
     return replace(tableau, colours=tuple(colours))

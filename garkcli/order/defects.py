@@ -43,7 +43,7 @@ class Defects:
         (Aone).
         """
         (image,) = self._map(l, m).images([self.power(m, k - 1)])
-        return tuple(x - y / k for x, y in zip(image, self.power(l, k), strict=True))
+        return _minus_part(image, self.power(l, k), k)
 
     def D(self, l: int, m: int, k: int) -> Vector:  # noqa: N802
         """b_l(c_l^(k−1) A^{l,m} g) − b_m((1 − c_m^k) g) / k, eq. (D): a functional of g in the
@@ -53,15 +53,20 @@ class Defects:
         b_l, b_m = self.tableau.colours[l].b, self.tableau.colours[m].b
         weighted = here.times(b_l, self.power(l, k - 1))
         (left,) = self._map(l, m).pullbacks([weighted])
-        rest = tuple(x - y for x, y in zip(there.one, self.power(m, k), strict=True))
+        rest = _minus_part(there.one, self.power(m, k), 1)
         right = there.times(b_m, rest)
-        return tuple(x - y / k for x, y in zip(left, right, strict=True))
+        return _minus_part(left, right, k)
 
     def _map(self, l: int, m: int) -> LinearMap:
         key = self.tableau.colours[l].space, m
         if key not in self._maps:
             self._maps[key] = LinearMap(self.tableau.blocks[key], self.tableau.field)
         return self._maps[key]
+
+
+def _minus_part(u: Vector, v: Vector, k: int) -> Vector:
+    """The difference u − v/k."""
+    return tuple(x - y / k for x, y in zip(u, v, strict=True))
 
 
 def is_symplectic_within(tableau: Tableau, tolerance: fmpq) -> bool:
@@ -75,7 +80,7 @@ def is_symplectic_within(tableau: Tableau, tolerance: fmpq) -> bool:
         for m, other in enumerate(tableau.colours):
             parts = {one.part, other.part}
             if parts == {"q", "p"} and one.space == other.space:
-                difference = tuple(x - y for x, y in zip(one.b, other.b, strict=True))
+                difference = _minus_part(one.b, other.b, 1)
                 if not functional_within(tableau.space(l), difference, tolerance):
                     return False
             if parts not in ({"q", "p"}, {"y"}):

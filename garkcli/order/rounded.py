@@ -172,9 +172,9 @@ class _Decision:
         self.tableau = tableau
         self.tolerance = tolerance
         self.effect = effect
-        self.magnitude = (
-            int(tolerance.q.bit_length()) - int(tolerance.p.bit_length()) + 1
-        )
+        # the tolerance is at least 2 to the power of minus this
+        numerator, denominator = tolerance.p, tolerance.q
+        self.magnitude = int(denominator.bit_length()) - int(numerator.bit_length()) + 1
         self.bits = GUARD + max(self.magnitude, 0)
         self.admissible = Admissible.of(tableau.size, *coupling_graph(tableau))
 
@@ -210,14 +210,11 @@ class _Decision:
 
     @cached_property
     def spans(self) -> ApproximateSpans:
-        bits = GUARD + 6 * max(
-            self.magnitude, 8
-        )  # each member as short as the grain costs bits
-        return ApproximateSpans(
-            self.tableau,
-            enclose_tableau(self.tableau, bits),
-            arb(self.tolerance) / GRAIN,
-        )
+        # each member as short as the grain costs bits
+        bits = GUARD + 6 * max(self.magnitude, 8)
+        enclosure = enclose_tableau(self.tableau, bits)
+        grain = arb(self.tolerance) / GRAIN
+        return ApproximateSpans(self.tableau, enclosure, grain)
 
     def _decided(self, order: int, tolerance: fmpq) -> _Verdict:
         """One order within any tolerance that is not smaller than the one asked for."""
@@ -255,9 +252,8 @@ class _Decision:
         return _Verdict("trees", sizes.bound)
 
     def _witness(self, tree: Tree) -> Witness:
-        return Witness(
-            tree, elementary_weight(self.tableau, tree), fmpq(1, tree.density)
-        )
+        weight = elementary_weight(self.tableau, tree)
+        return Witness(tree, weight, fmpq(1, tree.density))
 
 
 def _failed(means: Means, witness: Witness) -> _Verdict:

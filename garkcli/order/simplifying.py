@@ -8,6 +8,7 @@ from __future__ import annotations
 
 from collections.abc import Callable
 from dataclasses import dataclass
+from typing import TypeAlias
 
 from flint import fmpq
 
@@ -16,6 +17,9 @@ from garkcli.order.certificate import DEFAULT_LIMIT
 from garkcli.order.defects import Defects
 from garkcli.order.tolerance import functional_within, vector_within, within
 from garkcli.tableau.tableau import Tableau
+
+Table: TypeAlias = "tuple[tuple[int | None, ...], ...]"
+"""A number for each block; None where the block does not exist."""
 
 
 @dataclass(frozen=True)
@@ -29,8 +33,8 @@ class Simplifying:
     """
 
     B: tuple[int, ...]
-    C: tuple[tuple[int | None, ...], ...]
-    D: tuple[tuple[int | None, ...], ...]
+    C: Table
+    D: Table
 
     @property
     def r(self) -> int:
@@ -40,22 +44,21 @@ class Simplifying:
     @property
     def eta(self) -> int:
         """η = min η^{l,m}, over the blocks that exist; r where there are none."""
-        return min((x for row in self.C for x in row if x is not None), default=self.r)
+        return min(_existing(self.C), default=self.r)
 
     @property
     def zeta(self) -> int:
         """ζ = min ζ^{l,m}, over the blocks that exist; r where there are none."""
-        return min((x for row in self.D for x in row if x is not None), default=self.r)
+        return min(_existing(self.D), default=self.r)
 
     @property
     def xi(self) -> int:
         """ξ = min (η^{l,m} + ζ^{l,m})."""
-        sums = (
-            x + y
-            for row, other in zip(self.C, self.D, strict=True)
-            for x, y in zip(row, other, strict=True)
-            if x is not None and y is not None
-        )
+        sums: list[int] = []
+        for etas, zetas in zip(self.C, self.D, strict=True):
+            for eta, zeta in zip(etas, zetas, strict=True):
+                if eta is not None and zeta is not None:
+                    sums.append(eta + zeta)
         return min(sums, default=self.r)
 
     @property
@@ -69,13 +72,11 @@ class Simplifying:
     @property
     def chi(self) -> int:
         """χ = min (ζ^{l,m} + η^{m,n}) over pairs of blocks l ← m ← n; r where there are none."""
-        sums = (
-            zeta + eta
-            for row in self.D
-            for m, zeta in enumerate(row)
-            for eta in self.C[m]
-            if zeta is not None and eta is not None
-        )
+        sums: list[int] = []
+        for row in self.D:
+            for zeta, etas in zip(row, self.C, strict=True):
+                if zeta is not None:
+                    sums += [zeta + eta for eta in etas if eta is not None]
         return min(sums, default=self.r)
 
     @property
@@ -85,6 +86,11 @@ class Simplifying:
         return min(self.r, 2 * self.eta + 2, by_blocks)
 
 
+def _existing(table: Table) -> list[int]:
+    """The numbers of the blocks that exist, row by row."""
+    return [number for row in table for number in row if number is not None]
+
+
 def simplifying(
     tableau: Tableau, limit: int = DEFAULT_LIMIT, tolerance: fmpq = ZERO
 ) -> Simplifying:
@@ -92,46 +98,72 @@ def simplifying(
 
     With a ``tolerance`` every entry of every condition is met within it, otherwise exactly.
     """
-    defects, colours = Defects(tableau), range(tableau.size)
-    alike = _Alike.of(tableau)
-    B: dict[int, int] = {}
-    C: dict[tuple[int, int], int] = {}
-    D: dict[tuple[int, int], int] = {}
+    found = _Search(tableau, limit, tolerance)
+    colours = range(tableau.size)
+    B = tuple(found.r(l) for l in colours)
+    C = tuple(tuple(found.eta(l, m) for m in colours) for l in colours)
+    D = tuple(tuple(found.zeta(l, m) for m in colours) for l in colours)
+    return Simplifying(B, C, D)
 
-    def largest(is_met: Callable[[int], bool]) -> int:
-        return next((k - 1 for k in range(1, limit + 1) if not is_met(k)), limit)
 
-    def r(l: int) -> int:
-        key = alike.weights[l]
-        if key not in B:
-            B[key] = largest(lambda k: within(defects.B(l, k), tolerance))
-        return B[key]
+class _Search:
+    """The largest r, η and ζ of one tableau; colours that are alike are looked at once."""
 
-    def eta(l: int, m: int) -> int | None:
-        if tableau.block(l, m) is None:
+    def __init__(self, tableau: Tableau, limit: int, tolerance: fmpq) -> None:
+        self.tableau = tableau
+        self.limit = limit
+        self.tolerance = tolerance
+        self.defects = Defects(tableau)
+        self.alike = _Alike.of(tableau)
+        self._r: dict[int, int] = {}
+        self._eta: dict[tuple[int, int], int] = {}
+        self._zeta: dict[tuple[int, int], int] = {}
+
+    def r(self, l: int) -> int:
+        """The largest r for which B^{l}(r) holds."""
+
+        def is_met(k: int) -> bool:
+            return within(self.defects.B(l, k), self.tolerance)
+
+        key = self.alike.weights[l]
+        if key not in self._r:
+            self._r[key] = self._largest(is_met)
+        return self._r[key]
+
+    def eta(self, l: int, m: int) -> int | None:
+        """The largest η for which C^{l,m}(η) holds."""
+        if self.tableau.block(l, m) is None:
             return None
-        key, space = (alike.nodes[l], m), tableau.space(l)
-        if key not in C:
-            C[key] = largest(
-                lambda k: vector_within(space, defects.C(l, m, k), tolerance)
-            )
-        return C[key]
+        space = self.tableau.space(l)
 
-    def zeta(l: int, m: int) -> int | None:
-        if tableau.block(l, m) is None:
+        def is_met(k: int) -> bool:
+            return vector_within(space, self.defects.C(l, m, k), self.tolerance)
+
+        key = self.alike.nodes[l], m
+        if key not in self._eta:
+            self._eta[key] = self._largest(is_met)
+        return self._eta[key]
+
+    def zeta(self, l: int, m: int) -> int | None:
+        """The largest ζ for which D^{l,m}(ζ) holds."""
+        if self.tableau.block(l, m) is None:
             return None
-        key, space = (alike.weights[l], m), tableau.space(m)
-        if key not in D:
-            D[key] = largest(
-                lambda k: functional_within(space, defects.D(l, m, k), tolerance)
-            )
-        return D[key]
+        space = self.tableau.space(m)
 
-    return Simplifying(
-        tuple(r(l) for l in colours),
-        tuple(tuple(eta(l, m) for m in colours) for l in colours),
-        tuple(tuple(zeta(l, m) for m in colours) for l in colours),
-    )
+        def is_met(k: int) -> bool:
+            return functional_within(space, self.defects.D(l, m, k), self.tolerance)
+
+        key = self.alike.weights[l], m
+        if key not in self._zeta:
+            self._zeta[key] = self._largest(is_met)
+        return self._zeta[key]
+
+    def _largest(self, is_met: Callable[[int], bool]) -> int:
+        """The largest k, up to the limit, before the first that is not met."""
+        for k in range(1, self.limit + 1):
+            if not is_met(k):
+                return k - 1
+        return self.limit
 
 
 @dataclass(frozen=True)
@@ -146,16 +178,13 @@ class _Alike:
 
     @staticmethod
     def of(tableau: Tableau) -> _Alike:
-        nodes: dict[object, int] = {}
-        weights: dict[object, int] = {}
-        firsts = [
-            (
-                nodes.setdefault((x.space, x.c), l),
-                weights.setdefault((x.space, x.c, x.b), l),
-            )
-            for l, x in enumerate(tableau.colours)
-        ]
-        return _Alike(tuple(x for x, _ in firsts), tuple(x for _, x in firsts))
+        first_nodes: dict[object, int] = {}
+        first_weights: dict[object, int] = {}
+        nodes, weights = [], []
+        for l, x in enumerate(tableau.colours):
+            nodes.append(first_nodes.setdefault((x.space, x.c), l))
+            weights.append(first_weights.setdefault((x.space, x.c, x.b), l))
+        return _Alike(tuple(nodes), tuple(weights))
 
 
 def consistent_blocks(
@@ -170,6 +199,7 @@ def consistent_blocks(
     for l, m in tableau.edges():
         key = alike.nodes[l], m
         if key not in known:
-            known[key] = vector_within(tableau.space(l), defects.C(l, m, 1), tolerance)
+            defect = defects.C(l, m, 1)
+            known[key] = vector_within(tableau.space(l), defect, tolerance)
         found[l, m] = known[key]
     return found

@@ -105,11 +105,8 @@ def find_misprint(
         near = ZERO
     # where residuals are largest they depend on the entry most: earlier ones may be its squares
     looked_at = found.worst if near else exact.order + 1
-    repairs: tuple[Repair, ...] = ()
-    if count_conditions(tableau, looked_at) <= FEW_CONDITIONS:
-        missed = Missed(looked_at, found.order, tolerance=near, near=near)
-        blame = blame_of(tableau, missed)
-        repairs = () if blame is None else blame.repairs
+    missed = Missed(looked_at, found.order, tolerance=near, near=near)
+    repairs = _few_repairs(tableau, missed)
     largest = max(units.values(), default=ZERO)
     visible: list[Repair] = []
     for repair in repairs:
@@ -119,6 +116,14 @@ def find_misprint(
     if is_explained and not visible:
         return None
     return Misprint(found.order, found.rounding, explained, tuple(visible))
+
+
+def _few_repairs(tableau: Tableau, missed: Missed) -> tuple[Repair, ...]:
+    """The entries that restore an order; none where there are too many conditions to look at."""
+    if count_conditions(tableau, missed.order) > FEW_CONDITIONS:
+        return ()
+    blame = blame_of(tableau, missed)
+    return () if blame is None else blame.repairs
 
 
 def suggest_tolerance(
@@ -151,9 +156,8 @@ def suggest_tolerance(
     Returns:
         None where nothing speaks for rounding, or where it takes too many trees to tell.
     """
-    if exact.witness is None or not any(
-        isinstance(space, PointSpace) for space in tableau.spaces
-    ):
+    spelled_out = any(isinstance(space, PointSpace) for space in tableau.spaces)
+    if exact.witness is None or not spelled_out:
         return None
     first = abs(to_ball(exact.witness.residual))
     if not first <= unnatural(exact.order + 1):
@@ -164,9 +168,8 @@ def suggest_tolerance(
             if sizes.bound > rounding:
                 rounding, worst = sizes.bound, order
         elif order > exact.order + 1 and sizes.reached >= JUMP * rounding:
-            return Suggestion(
-                order - 1, _exponent(rounding), rounding, sizes.reached, worst
-            )
+            exponent = _exponent(rounding)
+            return Suggestion(order - 1, exponent, rounding, sizes.reached, worst)
         else:
             return None
     return None
@@ -211,7 +214,9 @@ def suggest_wider(
 
 def _sizes(tableau: Tableau, first: arb, orders: range) -> Iterator[tuple[int, Sizes]]:
     """The sizes of one order after the other, where the trees are many by spans."""
-    bits = 192 + 6 * max(0, -int(first.log().floor().unique_fmpz() or 0))
+    # six bits for each power of e by which residuals are small
+    smallness = -int(first.log().floor().unique_fmpz() or 0)
+    bits = 192 + 6 * max(0, smallness)
     enclosure = enclose_tableau(tableau, bits)
     with ctx.workprec(bits):
         spans = ApproximateSpans(tableau, enclosure, JUMP * first)

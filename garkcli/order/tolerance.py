@@ -131,18 +131,20 @@ def form_entries(space: StageSpace, other: StageSpace, matrix: Matrix) -> arb_ma
         return _at_nodes(space, other, matrix, dual=True)
 
 
+def _to_nodes(space: PolynomialSpace, dual: bool) -> arb_mat:
+    """From coordinates of functionals (``dual``), or of elements, to values at the nodes."""
+    if dual:
+        return coordinates_at_nodes(space).transpose()
+    return powers_of_nodes(space)
+
+
 def _at_nodes(
     space: StageSpace, other: StageSpace | None, matrix: Matrix, dual: bool
 ) -> arb_mat:
     digits = int(ctx.prec * 0.302)
     balls = arb_mat([[to_ball(x, digits) for x in row] for row in matrix])
     if isinstance(space, PolynomialSpace):
-        to_nodes = (
-            coordinates_at_nodes(space).transpose() if dual else powers_of_nodes(space)
-        )
-        balls = to_nodes * balls
-    return (
-        balls * coordinates_at_nodes(other)
-        if isinstance(other, PolynomialSpace)
-        else balls
-    )
+        balls = _to_nodes(space, dual) * balls
+    if isinstance(other, PolynomialSpace):
+        balls = balls * coordinates_at_nodes(other)
+    return balls
