@@ -3,7 +3,8 @@
 from __future__ import annotations
 
 from collections.abc import Sequence
-from itertools import pairwise
+from itertools import chain, pairwise
+from string import ascii_lowercase, ascii_uppercase
 from textwrap import wrap
 
 from garkcli.convergence.result import Convergence, Row
@@ -22,7 +23,7 @@ from garkcli.report.convergence import (
 from garkcli.report.convergence_data import Entry, csv_of_several, json_of_several
 from garkcli.report.costs import Tested, costs_of, curve
 from garkcli.report.figures import scientific
-from garkcli.report.paint import Paint, aligned, padded
+from garkcli.report.paint import Paint, aligned, indented, padded
 
 _LONGEST = 60  # characters of a Hamiltonian that are still shown
 _INDENT = 2
@@ -54,8 +55,8 @@ def render(
 
 def letters(count: int) -> list[str]:
     """A, B, …, Z, a, …, z, and numbers beyond: short names of methods."""
-    alphabet = [chr(ord(first) + k) for first in "Aa" for k in range(26)]
-    return [alphabet[k] if k < len(alphabet) else str(k + 1) for k in range(count)]
+    numbers = [str(k + 1) for k in range(count)]
+    return [*ascii_uppercase, *ascii_lowercase, *numbers[52:]][:count]
 
 
 def title(results: Sequence[Convergence]) -> str:
@@ -78,19 +79,18 @@ def _text(
     tested = [(letter, x.result) for letter, x in named if x.result is not None]
     lines = [paint("strong", f"{len(entries)} methods")]
     if tested:
-        lines += [
-            f"  {line}" for line in wrapped(title([result for _, result in tested]))
-        ]
+        results = [result for _, result in tested]
+        lines += indented(wrapped(title(results)))
     lines += ["", *_names(named, paint)]
     for block in _blocks(tested):
-        lines += ["", *(f"  {line}" for line in block)]
-    lines += ["", *(f"  {line}" for line in _verdicts(named, paint)), *_notes(tested)]
+        lines += ["", *indented(block)]
+    lines += ["", *indented(_verdicts(named, paint)), *_notes(tested)]
     if with_work and tested:
         lines += ["", *costs_of(tested)]
     curves = {letter: list(curve(result, against)) for letter, result in tested}
     if any(curves.values()):
         plot = terminal_curves(curves, against)
-        lines += ["", *(f"  {line}" for line in plot.splitlines())]
+        lines += ["", *indented(plot.splitlines())]
         if SEVERAL in plot:
             lines.append(f"  {SEVERAL} several methods")
     return lines
@@ -105,38 +105,43 @@ def _names(named: Sequence[tuple[str, Entry]], paint: Paint) -> list[str]:
         text = f"{entry.name} ({entry.file})" if is_twin else entry.name
         margin = " " * (_INDENT + len(letter) + _INDENT)
         first, *others = wrap(text, WIDTH - len(margin)) or [""]
-        lines.append(f"  {paint('strong', letter)}  {first}".rstrip())
-        lines += [f"{margin}{line}" for line in others]
+        head = f"  {paint('strong', letter)}  {first}"
+        lines += [head.rstrip(), *indented(others, margin)]
     return lines
 
 
 def _blocks(tested: Tested) -> list[list[str]]:
     """Errors and slopes side by side: as few tables as fit, with as many methods each."""
-    for count in range(1, len(tested) + 1):
-        bounds = [round(k * len(tested) / count) for k in range(count + 1)]
+    methods = len(tested)
+    for count in range(1, methods + 1):
+        bounds = [round(k * methods / count) for k in range(count + 1)]
         blocks = [_side_by_side(tested[a:b]) for a, b in pairwise(bounds)]
-        widest = max(len(line) for block in blocks for line in block)
-        if widest <= WIDTH - _INDENT or count == len(tested):
+        widest = max(map(len, chain(*blocks)))
+        if widest <= WIDTH - _INDENT or count == methods:
             return blocks
     return []
 
 
 def _side_by_side(tested: Tested) -> list[str]:
-    sizes = sorted({row.h for _, result in tested for row in result.rows}, reverse=True)
-    columns = [aligned([[""], ["h"], *([str(h)] for h in sizes)])]
+    found = {row.h for _, result in tested for row in result.rows}
+    sizes = sorted(found, reverse=True)
+    steps = ["", "h", *map(str, sizes)]
+    columns = [aligned([[step] for step in steps])]
     for letter, result in tested:
         rows = {row.h: row for row in result.rows}
-        cells = [["error", "slope"], *(_cells(rows.get(h)) for h in sizes)]
-        pair = aligned(cells)
+        pair = aligned([["error", "slope"], *(_cells(rows.get(h)) for h in sizes)])
         width = max(map(len, pair))
-        columns.append([letter.center(width), *(line.ljust(width) for line in pair)])
-    return [_GAP.join(parts).rstrip() for parts in zip(*columns, strict=True)]
+        cells = [line.ljust(width) for line in pair]
+        columns.append([letter.center(width), *cells])
+    lines = map(_GAP.join, zip(*columns, strict=True))
+    return [line.rstrip() for line in lines]
 
 
 def _cells(row: Row | None) -> list[str]:
     if row is None:
         return ["", ""]
-    return [scientific(row.error), "" if row.slope is None else f"{row.slope:.2f}"]
+    slope = "" if row.slope is None else f"{row.slope:.2f}"
+    return [scientific(row.error), slope]
 
 
 def _verdicts(named: Sequence[tuple[str, Entry]], paint: Paint) -> list[str]:
@@ -163,7 +168,8 @@ def _verdicts(named: Sequence[tuple[str, Entry]], paint: Paint) -> list[str]:
     width = max(map(len, table))
     lines = []
     for line, ending in zip(table, endings, strict=True):
-        lines.append(f"{line:{width}}{_GAP}{ending}".rstrip())
+        whole = line.ljust(width) + _GAP + ending
+        lines.append(whole.rstrip())
     for text in said:
         lines += wrapped(text)
     return lines
@@ -176,6 +182,8 @@ def _notes(tested: Tested) -> list[str]:
         said.setdefault(result.visible.trees, []).append(letter)
     lines = []
     for text, who in said.items():
-        whose = f"{', '.join(who)}: " if len(said) > 1 else ""
-        lines += [f"  {line}" for line in wrapped(f"{whose}{text}")]
+        note = text
+        if len(said) > 1:
+            note = f"{', '.join(who)}: {text}"
+        lines += indented(wrapped(note))
     return lines

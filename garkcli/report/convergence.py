@@ -13,7 +13,7 @@ from garkcli.problems.oscillator import Oscillator
 from garkcli.report.asciiplot import terminal_curves, terminal_plot
 from garkcli.report.convergence_data import csv_of, invariant_names, json_of
 from garkcli.report.figures import rounded, scientific
-from garkcli.report.paint import Paint, aligned
+from garkcli.report.paint import Paint, aligned, indented
 
 WIDTH = 80
 """Columns of a terminal."""
@@ -46,20 +46,20 @@ def render(
 def _text(result: Convergence, name: str, paint: Paint, with_work: bool) -> list[str]:
     about = f"{describe(result.problem)}; to t = {result.t_end}"
     lines = [paint("strong", line) for line in wrap(name, WIDTH)]
-    lines += [f"  {line}" for line in wrapped(about)]
+    lines += indented(wrapped(about))
     for block in _tables(result):
-        lines += ["", *(f"  {line}" for line in block)]
+        lines += ["", *indented(block)]
     lines += ["", *_orders(result, paint)]
     for text in (*remarks(result), result.visible.trees):
-        lines += [f"  {line}" for line in wrapped(text)]
+        lines += indented(wrapped(text))
     if with_work:
         return [*lines, *_work(result)]
     positive = [row for row in result.rows if row.error > 0]
     if len(positive) > 1:
-        plot = terminal_plot(
-            [row.h for row in positive], [row.error for row in positive]
-        )
-        lines += ["", *(f"  {line}" for line in plot.splitlines())]
+        sizes = [row.h for row in positive]
+        errors = [row.error for row in positive]
+        plot = terminal_plot(sizes, errors)
+        lines += ["", *indented(plot.splitlines())]
     return lines
 
 
@@ -67,10 +67,14 @@ def describe(problem: Oscillator | Hamiltonian) -> str:
     """A problem and its split in one line."""
     if isinstance(problem, Hamiltonian):
         return _described(problem)
-    terms = [
-        f"H{{{l}}}: {_energy(k, v)}" for l, (k, v) in enumerate(problem.shares, start=1)
-    ]
-    return f"q̈ = −ω²q, ω = {problem.omega}; {', '.join(terms)}"
+    energies = [_energy(k, v) for k, v in problem.shares]
+    return f"q̈ = −ω²q, ω = {problem.omega}; {_numbered(energies)}"
+
+
+def _numbered(energies: Sequence[str]) -> str:
+    """The terms of a Hamiltonian by the numbers of their colours."""
+    terms = [f"H{{{l}}}: {text}" for l, text in enumerate(energies, start=1)]
+    return ", ".join(terms)
 
 
 def _energy(k: object, v: object) -> str:
@@ -87,32 +91,37 @@ def _described(problem: Hamiltonian) -> str:
     texts = [str(term).replace("**", "^") for term in problem.terms]
     if sum(map(len, texts)) > _LONGEST:
         terms = f"{len(texts)} terms" if len(texts) > 1 else "one term"
-        return f"{problem.name}, H in {terms} of {', '.join(problem.variables)} and their momenta"
-    terms = ", ".join(f"H{{{l}}}: {text}" for l, text in enumerate(texts, start=1))
-    return f"{problem.name}; {terms}"
+        positions = ", ".join(problem.variables)
+        return f"{problem.name}, H in {terms} of {positions} and their momenta"
+    return f"{problem.name}; {_numbered(texts)}"
 
 
 def _tables(result: Convergence) -> list[list[str]]:
     """The columns side by side; those of invariants below each other where they are too wide."""
-    steps = ["h", *(str(row.h) for row in result.rows)]
+    rows = result.rows
+    steps = ["h", *(str(row.h) for row in rows)]
     columns = [
-        ["error", *(rounded(row.error) for row in result.rows)],
-        ["slope", *(_slope(row) for row in result.rows)],
-        ["energy error", *(rounded(row.energy_error) for row in result.rows)],
+        ["error", *(rounded(row.error) for row in rows)],
+        ["slope", *(_slope(row) for row in rows)],
+        ["energy error", *(rounded(row.energy_error) for row in rows)],
     ]
     for k, name in enumerate(invariant_names(result)):
-        cells = [rounded(row.invariant_errors[k]) for row in result.rows]
+        cells = [rounded(row.invariant_errors[k]) for row in rows]
         columns.append([f"{_short_name(name)} error", *cells])
-    if any(row.digits is not None for row in result.rows):
-        columns.append(["digits", *(_digits(row) for row in result.rows)])
+    if any(row.digits is not None for row in rows):
+        columns.append(["digits", *(_digits(row) for row in rows)])
+    return _fitting(steps, columns)
 
+
+def _fitting(steps: Sequence[str], columns: list[list[str]]) -> list[list[str]]:
+    """Tables with the step sizes on the left and as many of the columns as fit."""
     tables = []
     while columns:
         count = len(columns)
         while count > 1 and _width([steps, *columns[:count]]) > WIDTH - _INDENT:
             count -= 1
-        rows = list(zip(steps, *columns[:count], strict=True))
-        tables.append(aligned(rows, gap=_GAP))
+        table = list(zip(steps, *columns[:count], strict=True))
+        tables.append(aligned(table, gap=_GAP))
         columns = columns[count:]
     return tables
 
@@ -143,38 +152,43 @@ def _orders(result: Convergence, paint: Paint) -> list[str]:
     Where the problem hides the trees that fail, observed and visible order agree on what is no
     order of the method: then that is said apart.
     """
-    head = f"  order   observed {order_text(result.observed_order)}, "
-    head += f"on this problem {exactly(result)}"
+    observed = order_text(result.observed_order)
+    head = f"  order   observed {observed}, on this problem {exactly(result)}"
     last = verdict(result, paint)
     if result.hides_failure:
         return [f"{head}: {last}", f"          {hidden(result)}"]
     tail = f"of the method {predicted(result)}: "
-    if len(f"{head}, {tail}{verdict(result, Paint())}") > WIDTH:
+    unpainted = verdict(result, Paint())
+    if len(f"{head}, {tail}{unpainted}") > WIDTH:
         return [f"{head},", f"          {tail}{last}"]
     return [f"{head}, {tail}{last}"]
 
 
 def order_text(order: float | None) -> str:
     """An observed order; never −0.00."""
-    return "none" if order is None else f"{round(order, 2) + 0.0:.2f}"
+    if order is None:
+        return "none"
+    without_sign_of_zero = round(order, 2) + 0.0
+    return f"{without_sign_of_zero:.2f}"
 
 
 def exactly(result: Convergence) -> str:
     """The order to be observed, and whether a larger one would do."""
-    return (
-        f"{result.visible_order} {'exactly' if result.visible.is_sharp else 'or more'}"
-    )
+    how = "exactly" if result.visible.is_sharp else "or more"
+    return f"{result.visible_order} {how}"
 
 
 def predicted(result: Convergence) -> str:
     """The order of the method."""
-    return f"{result.predicted_order}{' or more' if result.predicted_order >= MAX_ORDER else ''}"
+    order = result.predicted_order
+    return f"{order} or more" if order >= MAX_ORDER else str(order)
 
 
 def hidden(result: Convergence) -> str:
     """Whose order the visible one is not."""
     order = result.predicted_order
-    return f"the method has order {order}: its failing trees of order {order + 1} are not seen here"
+    failing = f"its failing trees of order {order + 1}"
+    return f"the method has order {order}: {failing} are not seen here"
 
 
 def verdict(result: Convergence, paint: Paint) -> str:
@@ -230,19 +244,19 @@ def work_cells(cost: Cost | None) -> list[str]:
 
 def _work(result: Convergence) -> list[str]:
     """What the steps have cost, and a plot of it."""
-    cells = [
-        [str(row.h), rounded(row.error), *work_cells(row.cost)] for row in result.rows
-    ]
-    table = aligned([["h", "error", *WORK], *cells])
-    lines = ["", "  work", *(f"  {line}" for line in table)]
-    costs = [row.cost for row in result.rows]
-    if any(cost is None or cost.seconds is None for cost in costs):
-        lines.append(f"  {NO_TIME}")
-    points = [
-        (float(x.cost.evaluations), x.error) for x in result.rows if x.cost is not None
-    ]
+    cells = [["h", "error", *WORK]]
+    points = []
+    is_timed = True
+    for row in result.rows:
+        cells.append([str(row.h), rounded(row.error), *work_cells(row.cost)])
+        if row.cost is not None:
+            points.append((float(row.cost.evaluations), row.error))
+        is_timed &= row.cost is not None and row.cost.seconds is not None
+    lines = ["work", *aligned(cells)]
+    if not is_timed:
+        lines.append(NO_TIME)
     plot = terminal_curves({"•": points}, "evaluations")
-    return [*lines, "", *(f"  {line}" for line in plot.splitlines())]
+    return ["", *indented(lines), "", *indented(plot.splitlines())]
 
 
 def wrapped(text: str, width: int = 76) -> list[str]:

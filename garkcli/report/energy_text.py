@@ -14,7 +14,7 @@ from garkcli.problems.hamiltonian import FLOAT_DIGITS
 from garkcli.report.bandplot import terminal_band
 from garkcli.report.convergence import describe
 from garkcli.report.figures import measured
-from garkcli.report.paint import Paint
+from garkcli.report.paint import Paint, counted, indented
 
 FATES = {
     "elliptic": "the energy error is bounded for all time",
@@ -31,9 +31,10 @@ STYLES = {
     "unstable": "bad",
 }
 """How verdicts are painted; the others are neither good nor bad."""
-_NEARLY = (
-    2.0  # how many times round-off an uncertainty is that is nothing but round-off
-)
+_NEARLY = 2.0
+"""How many times round-off an uncertainty is that is nothing but round-off."""
+_HANGING = " " * 19
+"""The margin of what goes on below a verdict or below a word on symplecticity."""
 
 
 @dataclass(frozen=True)
@@ -66,11 +67,9 @@ def text_of(report: Report, paint: Paint, is_long: bool = True) -> list[str]:
     """The lines of the report; a long one ends with a plot of the energy error."""
     run = report.run
     lines = [paint("strong", report.name)]
-    lines += [f"  {line}" for line in _wrapped(describe(run.problem))]
-    lines += [
-        f"  {line}"
-        for line in _wrapped(f"step {run.step} to t = {run.t_end}: {_steps(run)}")
-    ]
+    lines += indented(_wrapped(describe(run.problem)))
+    steps = f"step {run.step} to t = {run.t_end}: {_steps(run)}"
+    lines += indented(_wrapped(steps))
     lines.append("")
     for history in run.invariants:
         lines += [*_history(history, run, paint), ""]
@@ -81,17 +80,17 @@ def text_of(report: Report, paint: Paint, is_long: bool = True) -> list[str]:
         lines += _claim(claim, paint)
     if is_long and run.energy.max_error > 0:
         plot = terminal_band(run.times, run.energy.errors, "H(t) − H(0)")
-        lines += ["", *(f"  {line}" for line in plot.splitlines())]
+        lines += ["", *indented(plot.splitlines())]
     return lines
 
 
 def _claim(claim: Claim, paint: Paint) -> list[str]:
-    verdict = (
-        paint("good", "claim holds") if claim.holds else paint("bad", "CLAIM FAILS")
-    )
-    text = claim.claim if claim.holds else f"{claim.claim}, found: {claim.found}"
+    verdict = paint.verdict(claim.holds, "claim holds", "CLAIM FAILS")
+    text = claim.claim
+    if not claim.holds:
+        text += f", found: {claim.found}"
     first, *rest = _wrapped(text, 59)
-    return [f"  {verdict}      {first}", *(f"  {'':<17}{line}" for line in rest)]
+    return [f"  {verdict}      {first}", *indented(rest, _HANGING)]
 
 
 def _steps(run: LongRun) -> str:
@@ -102,31 +101,43 @@ def _steps(run: LongRun) -> str:
 
 
 def _history(history: InvariantHistory, run: LongRun, paint: Paint) -> list[str]:
-    width = max(15, *(len(x.name) for x in run.invariants)) + 2
-    rows = [(history.name, f"{history.initial:.6g} at the start")]
-    if history.verdict != "exact":
-        rows.append(("  largest error", measured(history.max_error, history.round_off)))
-    if history.verdict not in ("exact", "round-off", "unstable"):
-        oscillation = measured(history.amplitude, history.round_off, 3)
-        rows.append(("  oscillation", f"± {oscillation}"))
-        if history.drift is not None:
-            rows.append(("  drift", _drift(history, run)))
+    """What became of one conserved quantity, in lines beside their labels."""
+    names = [x.name for x in run.invariants]
+    width = max(15, *map(len, names)) + 2
     word, reason = _verdict(history, run)
     paragraphs = [f"{word}{reason}", *_cure(history)]
-    rows.append(("  verdict", "; ".join(paragraphs)))
+    rows = [*_numbers(history, run), ("  verdict", "; ".join(paragraphs))]
     lines = []
-    for left, right in rows:
-        first, *rest = _wrapped(right, 76 - width)
-        lines.append(f"  {left:<{width}}{first}")
-        lines += [f"  {'':<{width}}{line}" for line in rest]
+    for label, text in rows:
+        first, *rest = _wrapped(text, 76 - width)
+        lines.append(f"  {label:<{width}}{first}")
+        lines += indented(rest, " " * (width + 2))
+    # lines are broken before they are painted: codes have no width
     style = STYLES.get(history.verdict, "strong")
-    return [line.replace(f" {word}", f" {paint(style, word)}", 1) for line in lines]
+    plain, painted = f" {word}", f" {paint(style, word)}"
+    return [line.replace(plain, painted, 1) for line in lines]
+
+
+def _numbers(history: InvariantHistory, run: LongRun) -> list[tuple[str, str]]:
+    """The value at the start, and what of the errors says something, each with its label."""
+    verdict, round_off = history.verdict, history.round_off
+    rows = [(history.name, f"{history.initial:.6g} at the start")]
+    if verdict == "exact":
+        return rows
+    rows.append(("  largest error", measured(history.max_error, round_off)))
+    if verdict in ("round-off", "unstable"):
+        return rows
+    oscillation = measured(history.amplitude, round_off, 3)
+    rows.append(("  oscillation", f"± {oscillation}"))
+    if history.drift is not None:
+        rows.append(("  drift", _drift(history, run)))
+    return rows
 
 
 def _drift(history: InvariantHistory, run: LongRun) -> str:
     """Per unit of time and in all; digits below the uncertainty say nothing."""
     drift, uncertainty = history.drift or 0.0, history.uncertainty or 0.0
-    time = run.end
+    in_all, uncertain_in_all = drift * run.end, uncertainty * run.end
     is_seen = abs(drift) > uncertainty
     if run.stability is not None:
         if run.stability.fate == "elliptic":
@@ -134,13 +145,15 @@ def _drift(history: InvariantHistory, run: LongRun) -> str:
         if not is_seen:
             return "not at one rate in this run"
         rate = measured(drift, uncertainty, 3)
-        return f"{rate} per unit of time, {measured(drift * time, uncertainty * time, 3)} in all"
+        total = measured(in_all, uncertain_in_all, 3)
+        return f"{rate} per unit of time, {total} in all"
     if is_seen or history.verdict == "drifts":
         rate = f"{drift:.2e} ± {uncertainty:.0e}"
-        return f"{rate} per unit of time, {drift * time:.2e} in all"
-    if uncertainty * time <= _NEARLY * history.round_off:
+        return f"{rate} per unit of time, {in_all:.2e} in all"
+    if uncertain_in_all <= _NEARLY * history.round_off:
         return f"none above round-off, at most {history.round_off:.0e} in all"
-    return f"none within {uncertainty:.0e} per unit of time, {uncertainty * time:.0e} in all"
+    rate = f"{uncertainty:.0e} per unit of time"
+    return f"none within {rate}, {uncertain_in_all:.0e} in all"
 
 
 def _verdict(history: InvariantHistory, run: LongRun) -> tuple[str, str]:
@@ -162,31 +175,28 @@ def _verdict(history: InvariantHistory, run: LongRun) -> tuple[str, str]:
 def _round_off(history: InvariantHistory, run: LongRun) -> str:
     if not history.round_off:
         return " at all"
-    shows = (
-        f"; --digits {2 * run.digits} shows more"
-        if run.digits and run.digits <= 100
-        else ""
-    )
-    return f" above round-off, at most {history.round_off:.0e} here{shows}"
+    text = f" above round-off, at most {history.round_off:.0e} here"
+    if run.digits and run.digits <= 100:
+        text += f"; --digits {2 * run.digits} shows more"
+    return text
 
 
 def _unstable(history: InvariantHistory, run: LongRun) -> str:
     if run.escaped is None:
         return f": blown up after {run.steps} steps, at t = {run.end:g}"
+    time = to_float(run.escaped)
     error = measured(history.errors[-1], history.round_off, 2)
-    return f": the orbit escapes after t = {to_float(run.escaped):g}, where the error is {error}"
+    return f": the orbit escapes after t = {time:g}, where the error is {error}"
 
 
 def _undecided(history: InvariantHistory, run: LongRun) -> str:
     if run.steps < LEAST:
         return f"fewer than {LEAST} steps"
     if history.shape == "line":
-        ratio = _times(history)
-        return (
-            f"the slope is {ratio} times its uncertainty; a slow modulation may do that"
-        )
+        slope = f"the slope is {_times(history)} times its uncertainty"
+        return f"{slope}; a slow modulation may do that"
     if history.shape == "none":
-        return f"the motion turns back {run.turns} time{'s' * (run.turns != 1)} only"
+        return f"the motion turns back {counted(run.turns, 'time')} only"
     return "it moves to another level; that may happen once, or again and again"
 
 
@@ -215,17 +225,17 @@ def _reason(history: InvariantHistory, run: LongRun) -> str:
     if history.shape == "line":
         return f"the slope is {_times(history)} times its uncertainty"
     if history.shape == "curve":
-        rises = bool(history.drift and history.drift > 0)
-        return (
-            f"it {'rises' if rises else 'falls'} all along, by more than it oscillates"
-        )
+        is_rising = bool(history.drift and history.drift > 0)
+        verb = "rises" if is_rising else "falls"
+        return f"it {verb} all along, by more than it oscillates"
     return "it moves to another level and stays there"
 
 
 def _times(history: InvariantHistory) -> str:
     """How many times its uncertainty the drift is, to one digit."""
-    ratio = abs(history.drift or 0.0) / (history.uncertainty or 1.0)
-    return f"{float(f'{ratio:.1g}'):g}"
+    drift, uncertainty = history.drift or 0.0, history.uncertainty or 1.0
+    digit = float(f"{abs(drift) / uncertainty:.1g}")
+    return f"{digit:g}"
 
 
 def _determinant(stability: Stability) -> str:
@@ -234,24 +244,23 @@ def _determinant(stability: Stability) -> str:
 
 def _symplectic(report: Report, paint: Paint) -> list[str]:
     found, stability = report.symplecticity, report.run.stability
+    is_refuted = any(x.is_seen for x in found.defects)
+    if stability is not None and not stability.is_symplectic:
+        is_refuted = True
     if found.is_proved:
         word = f"{paint('good', 'yes')}, by its coefficients"
-    elif any(x.is_seen for x in found.defects) or (
-        stability is not None and not stability.is_symplectic
-    ):
+    elif is_refuted:
         word = paint("strong", "no")
     else:
-        is_hinted = stability is None and not found.defects
-        word = (
-            "not proved by its coefficients" + "; --symplecticity measures" * is_hinted
-        )
-    lines = [f"  symplectic       {word}"]
+        word = "not proved by its coefficients"
+        if stability is None and not found.defects:
+            word += "; --symplecticity measures"
+    texts = []
     if stability is not None:
-        lines.append(
-            f"  {'':<17}det R(h) − 1 = {_determinant(stability)}"
-            + ", exactly" * stability.is_symplectic
-        )
-    return [*lines, *(f"  {'':<17}{line}" for line in _measured(found))]
+        ending = ", exactly" if stability.is_symplectic else ""
+        texts.append(f"det R(h) − 1 = {_determinant(stability)}{ending}")
+    texts += _measured(found)
+    return [f"  symplectic       {word}", *indented(texts, _HANGING)]
 
 
 def _measured(found: Symplecticity) -> list[str]:
@@ -264,10 +273,8 @@ def _measured(found: Symplecticity) -> list[str]:
     else:
         bound = power_of_ten(max(x.error for x in found.defects))
         size = f"MᵀJM − J is below {bound:.0e}, what it is measured to,"
-    return [
-        size,
-        *_wrapped("at t = " + ", ".join(str(x.time) for x in found.defects), 59),
-    ]
+    times = ", ".join(str(x.time) for x in found.defects)
+    return [size, *_wrapped(f"at t = {times}", 59)]
 
 
 def _wrapped(text: str, width: int = 76) -> list[str]:
