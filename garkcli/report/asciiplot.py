@@ -53,9 +53,11 @@ def terminal_plot(
          └┬─────────┬─────────┬
         0.01       0.1        1  h
     """
-    points = sorted(
-        (log10(h), log10(e)) for h, e in zip(hs, errors, strict=True) if e > 0
-    )
+    points = []
+    for h, error in zip(hs, errors, strict=True):
+        if error > 0:
+            points.append((log10(h), log10(error)))
+    points.sort()
     line = None
     if order is not None and points:
         line = (*points[0], order)
@@ -77,7 +79,8 @@ def terminal_curves(
         width: columns inside the frame, so many that the lines have at most ``COLUMNS`` by default.
         height: lines inside the frame.
 
-    >>> print(terminal_curves({"A": [(10, 1), (100, 0.1)], "B": [(100, 1)]}, "steps", width=13, height=3))
+    >>> curves = {"A": [(10, 1), (100, 0.1)], "B": [(100, 1)]}
+    >>> print(terminal_curves(curves, "steps", width=13, height=3))
          error
     1e+0 ┤A           B
          │
@@ -106,10 +109,11 @@ def _plot(
     """Marks at decimal logarithms, over a dotted line through the point (x, y) with a slope."""
     if not points:
         return "no positive errors to plot"
-    xs, ys = [x for x, _, _ in points], [y for _, y, _ in points]
-    left, right = min(xs), max(max(xs), min(xs) + 0.1)
-    bottom, top = floor(min(ys)), ceil(max(ys))
-    top = max(top, bottom + 1)
+    xs, ys, _ = zip(*points, strict=True)
+    left = min(xs)
+    right = max(*xs, left + 0.1)
+    bottom = floor(min(ys))
+    top = max(ceil(max(ys)), bottom + 1)
     frame = [[" "] * width for _ in range(height)]
 
     def put(x: float, y: float, mark: str) -> None:
@@ -130,15 +134,20 @@ def _plot(
 
     rows = {}
     for k in _decades(bottom, top, (height + 1) // 2):
-        rows[_cell(top - k, top - bottom, height)] = f"1e{k:+d}"
+        row = _cell(top - k, top - bottom, height)
+        rows[row] = f"1e{k:+d}"
     columns = {}
-    for x in (*range(ceil(left), floor(right) + 1), left, right):
-        columns[_cell(x - left, right - left, width)] = _short(x)
+    whole = range(ceil(left), floor(right) + 1)
+    # the ends come last: they replace a whole power that shares their column
+    for x in (*whole, left, right):
+        column = _cell(x - left, right - left, width)
+        columns[column] = _short(x)
     return "\n".join(_framed(frame, rows, columns, label))
 
 
 def _cell(distance: float, extent: float, cells: int) -> int:
-    return round(distance / extent * (cells - 1))
+    part = distance / extent
+    return round(part * (cells - 1))
 
 
 def _decades(bottom: int, top: int, most: int) -> range:
@@ -153,9 +162,11 @@ def _short(exponent: float) -> str:
         return f"1e{exponent:+.1f}"
     if not 2 <= exponent < 15:
         return f"{10**exponent:.2g}"
-    whole = f"{10**exponent:.1e}"
-    mantissa, power = float(whole[:3]), int(whole[4:])
-    return f"{mantissa:g}e{power}" if power >= 5 else f"{round(mantissa * 10**power)}"
+    digits, _, ending = f"{10**exponent:.1e}".partition("e")
+    mantissa, power = float(digits), int(ending)
+    if power >= 5:
+        return f"{mantissa:g}e{power}"
+    return str(round(mantissa * 10**power))
 
 
 def _framed(
@@ -167,12 +178,14 @@ def _framed(
     """The frame with its axes; ``rows`` and ``columns`` say where they have a mark, and its
     label.
     """
-    margin = max(len(text) for text in rows.values())
+    margin = max(map(len, rows.values()))
     blank = " " * margin
     lines = [f"{blank} error"]
     for i, row in enumerate(frame):
+        number = rows.get(i, "").rjust(margin)
         axis = "┤" if i in rows else "│"
-        lines.append(f"{rows.get(i, ''):>{margin}} {axis}{''.join(row)}".rstrip())
+        line = f"{number} {axis}{''.join(row)}"
+        lines.append(line.rstrip())
     width = len(frame[0])
     ticks = ["┬" if j in columns else "─" for j in range(width)]
     lines.append(f"{blank} └{''.join(ticks)}")
@@ -187,6 +200,8 @@ def _placed(columns: Mapping[int, str], margin: int, width: int) -> str:
     for j in inner_last:
         text = columns[j]
         start = margin + 2 + j - len(text) // 2
-        if all(x == " " for x in cells[start - 1 : start + len(text) + 1]):
-            cells[start : start + len(text)] = text
+        end = start + len(text)
+        around = cells[start - 1 : end + 1]
+        if all(x == " " for x in around):
+            cells[start:end] = text
     return "".join(cells).rstrip()

@@ -50,7 +50,8 @@ def terminal_band(
         high = 1.0
 
     def line(value: float) -> int:
-        return round((high - value) / (high - low) * (height - 1))
+        part = (high - value) / (high - low)
+        return round(part * (height - 1))
 
     marks = {0: high, height - 1: low, line(0.0): 0.0}
     texts = {i: f"{x:.3g}" for i, x in marks.items()}
@@ -73,21 +74,22 @@ def _bands(
     scale = (width - 1) / ((times[-1] - times[0]) or 1.0)
     columns: list[list[float]] = [[] for _ in range(width)]
     columns[0].append(values[0])
-    points = [
-        ((t - times[0]) * scale, value) for t, value in zip(times, values, strict=True)
-    ]
+    places = [(t - times[0]) * scale for t in times]
+    points = zip(places, values, strict=True)
     for (x, v), (y, w) in pairwise(points):
         columns[round(y)].append(w)
-        for j in range(
-            round(x), round(y)
-        ):  # where the line goes from column j to the next
-            value = v + (w - v) * min(max((j + 0.5 - x) / (y - x), 0.0), 1.0)
+        for j in range(round(x), round(y)):
+            # where the line goes from column j to the next
+            part = (j + 0.5 - x) / (y - x)
+            value = v + (w - v) * min(max(part, 0.0), 1.0)
             columns[j].append(value)
             columns[j + 1].append(value)
-    filled = [
-        column or [values[-1]] for column in columns
-    ]  # a single point has one column
-    return [(min(column), max(column)) for column in filled]
+    bands = []
+    for column in columns:
+        # a single point has one column
+        filled = column or [values[-1]]
+        bands.append((min(filled), max(filled)))
+    return bands
 
 
 def _framed(
@@ -98,12 +100,14 @@ def _framed(
     end: float,
 ) -> list[str]:
     margin, width = max(map(len, marks.values())), len(field[0])
-    lines = [f"{'':{margin}} {label}"]
+    blank = " " * margin
+    lines = [f"{blank} {label}"]
     for i, row in enumerate(field):
-        lines.append(
-            f"{marks.get(i, ''):>{margin}} {'┤' if i in marks else '│'}{''.join(row)}".rstrip()
-        )
-    lines.append(f"{'':{margin}} └┬{'─' * (width - 2)}┬")
+        number = marks.get(i, "").rjust(margin)
+        axis = "┤" if i in marks else "│"
+        line = f"{number} {axis}{''.join(row)}"
+        lines.append(line.rstrip())
+    rule = "─" * (width - 2)
     first, last = f"{start:g}", f"{end:g}"
-    lines.append(f"{'':{margin}}  {first}{last:>{max(width - len(first), 0)}}  t")
-    return lines
+    last = last.rjust(width - len(first))
+    return [*lines, f"{blank} └┬{rule}┬", f"{blank}  {first}{last}  t"]

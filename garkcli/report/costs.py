@@ -14,7 +14,7 @@ from garkcli.convergence.result import Convergence, Cost
 from garkcli.report.asciiplot import log10
 from garkcli.report.convergence import NO_TIME, WORK, work_cells
 from garkcli.report.figures import scientific
-from garkcli.report.paint import padded
+from garkcli.report.paint import indented, padded
 
 Tested: TypeAlias = Sequence[tuple[str, Convergence]]
 """The results by the letters of their methods."""
@@ -24,20 +24,21 @@ _GOALS = 6  # errors at which costs are compared
 def costs_of(tested: Tested) -> list[str]:
     """What the rows have cost, and what errors of the same size have."""
     rows = [["work", "h", "error", *WORK]]
+    is_timed = True
     for letter, result in tested:
-        for i, row in enumerate(result.rows):
-            first = letter if i == 0 else ""
-            rows.append(
-                [first, str(row.h), scientific(row.error), *work_cells(row.cost)]
-            )
-    lines = [f"  {line}" for line in padded(rows, "  ")]
-    costs = [row.cost for _, result in tested for row in result.rows]
-    if any(cost is None or cost.seconds is None for cost in costs):
+        first = letter
+        for row in result.rows:
+            error = scientific(row.error)
+            rows.append([first, str(row.h), error, *work_cells(row.cost)])
+            is_timed &= row.cost is not None and row.cost.seconds is not None
+            first = ""
+    lines = indented(padded(rows, "  "))
+    if not is_timed:
         lines.append(f"  {NO_TIME}")
     tables = [_at_equal_errors(tested, what) for what in ("evaluations", "seconds")]
     for table in tables:
         if table:
-            lines += ["", *(f"  {line}" for line in table)]
+            lines += ["", *indented(table)]
     if any(tables):
         lines.append("  read off between the rows, on logarithmic scales")
     return lines
@@ -63,21 +64,26 @@ def curve(result: Convergence, against: str) -> Iterator[tuple[float | fmpq, arb
 def _at_equal_errors(tested: Tested, what: str) -> list[str]:
     """A line a method: what errors of 10^k cost, where it has larger and smaller ones."""
     curves = {}
+    errors = []
     for letter, result in tested:
-        curves[letter] = [(log10(error), log10(x)) for x, error in curve(result, what)]
-    goals = _goals([[y for y, _ in points] for points in curves.values() if points])
+        points = [(log10(error), log10(x)) for x, error in curve(result, what)]
+        curves[letter] = points
+        errors.append([error for error, _ in points])
+    goals = _goals(errors)
     if not goals:
         return []
     rows = [[f"{what} for an error of", *(f"1e{k}" for k in goals)]]
     for letter, points in curves.items():
-        found = [_between(points, k) for k in goals]
-        rows.append(
-            [letter, *("" if x is None else _amount(10**x, what) for x in found)]
-        )
+        cells = [_amount(_between(points, k), what) for k in goals]
+        rows.append([letter, *cells])
     return padded(rows, "  ")
 
 
-def _amount(x: float, what: str) -> str:
+def _amount(decades: float | None, what: str) -> str:
+    """What an error costs, by its decimal logarithm; empty where that is not known."""
+    if decades is None:
+        return ""
+    x = 10**decades
     return str(round(x)) if what == "evaluations" else scientific(arb(x), 2)
 
 
@@ -98,6 +104,7 @@ def _goals(errors: Sequence[Sequence[float]]) -> list[int]:
 def _between(points: Sequence[tuple[float, float]], goal: float) -> float | None:
     """The second coordinate where the first is ``goal``, on the line between two neighbours."""
     for (a, x), (b, y) in pairwise(points):
-        if min(a, b) <= goal <= max(a, b) and a != b:
+        is_between = min(a, b) <= goal <= max(a, b)
+        if is_between and a != b:
             return x + (y - x) * (goal - a) / (b - a)
     return None

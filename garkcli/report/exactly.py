@@ -44,14 +44,15 @@ def polynomial_text(p: Polynomial, variable: str) -> str:
     """
     text = ""
     for k in reversed(range(len(p.coefficients))):
-        if p.coefficients[k]:
-            is_negative, factor = _factor_text(p.coefficients[k])
-            text += " - " if is_negative else " + "
-            text += _term(factor, _power(variable, k))
-    return (
-        text.removeprefix(" + ").replace(" - ", "-", 1 if text.startswith(" - ") else 0)
-        or "0"
-    )
+        a = p.coefficients[k]
+        if not a:
+            continue
+        is_negative, factor = _factor_text(a)
+        text += " - " if is_negative else " + "
+        text += _term(factor, _power(variable, k))
+    if text.startswith(" - "):
+        return "-" + text.removeprefix(" - ")
+    return text.removeprefix(" + ") or "0"
 
 
 def _factor_text(a: Number) -> tuple[bool, str]:
@@ -62,10 +63,10 @@ def _factor_text(a: Number) -> tuple[bool, str]:
     return False, text if is_single else f"({text})"
 
 
-def _power(variable: str, k: int) -> str:
+def _power(variable: str, k: int, exponent: str = "") -> str:
     if k == 0:
         return ""
-    return variable if k == 1 else f"{variable}^{k}"
+    return variable if k == 1 else f"{variable}^{exponent or k}"
 
 
 def _term(factor: str, power: str) -> str:
@@ -91,7 +92,7 @@ def polynomial_latex(p: Polynomial, variable: str) -> str:
         factor = factor.removeprefix("-") if is_negative else factor
         if is_sum:
             factor = rf"\left({factor}\right)"
-        power = "" if k == 0 else variable if k == 1 else f"{variable}^{{{k}}}"
+        power = _power(variable, k, f"{{{k}}}")
         text += "-" if is_negative else "+"
         text += power if factor == "1" and power else factor + power
     return text.removeprefix("+") or "0"
@@ -113,12 +114,16 @@ def root_text(root: RealRoot) -> str | None:
     radicand = middle * middle - c / a
     d = square_free(radicand)
     scale = (radicand / d).sqrt()
-    radical = f"sqrt({d})" if scale.p == 1 else f"{scale.p}*sqrt({d})"
-    radical += f"/{scale.q}" if scale.q != 1 else ""
+    radical = f"sqrt({d})"
+    if scale.p != 1:
+        radical = f"{scale.p}*{radical}"
+    if scale.q != 1:
+        radical += f"/{scale.q}"
     is_lower = root.number == 0
     if not middle:
         return f"-{radical}" if is_lower else radical
-    return f"{middle} {'-' if is_lower else '+'} {radical}"
+    sign = "-" if is_lower else "+"
+    return f"{middle} {sign} {radical}"
 
 
 def root_data(root: RealRoot, digits: int = 17) -> Any:

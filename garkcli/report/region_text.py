@@ -37,24 +37,24 @@ def terminal_region(
          └┬───┬───┬
          -2   0   2
     """
-    rows = []
+    middle = height // 2
+    extent = right - left
+    axis = round(-left / extent * (width - 1))
+    labels = {0: f"{top:.3g}", middle: "0", height - 1: f"{-top:.3g}"}
+    margin = max(map(len, labels.values()))
+    lines = []
     for i in range(height):
         y = top * (1 - 2 * i / (height - 1))
         cells = []
         for j in range(width):
-            x = left + (right - left) * j / (width - 1)
-            cells.append(_cell(is_inside(complex(x, y)), i == height // 2))
-        rows.append(cells)
-    axis = round(-left / (right - left) * (width - 1))
-    if 0 <= axis < width:
-        for cells in rows:
+            x = left + extent * j / (width - 1)
+            cells.append(_cell(is_inside(complex(x, y)), i == middle))
+        if 0 <= axis < width:
             cells[axis] = "│"
-    labels = {0: f"{top:.3g}", height // 2: "0", height - 1: f"{-top:.3g}"}
-    margin = max(map(len, labels.values()))
-    lines = [
-        f"{labels.get(i, '').rjust(margin)} {'┤' if i in labels else '│'}{''.join(cells)}".rstrip()
-        for i, cells in enumerate(rows)
-    ]
+        number = labels.get(i, "").rjust(margin)
+        edge = "┤" if i in labels else "│"
+        line = f"{number} {edge}{''.join(cells)}"
+        lines.append(line.rstrip())
     return "\n".join([*lines, *_scale(left, right, axis, width, margin)])
 
 

@@ -10,7 +10,7 @@ from garkcli.exact.display import decimal, to_float, to_text
 from garkcli.exact.polynomial import Polynomial
 from garkcli.exact.roots import RealRoot
 from garkcli.report.exactly import integral, polynomial_text, root_decimal, root_text
-from garkcli.report.paint import Paint
+from garkcli.report.paint import Paint, indented
 from garkcli.report.plain import printable
 from garkcli.report.region_text import terminal_region
 from garkcli.report.stability_data import StabilityReport, degrees, factors, square_root
@@ -41,7 +41,8 @@ def text_of(report: StabilityReport, paint: Paint) -> Iterator[str]:
     if within is None:
         yield "  decided exactly"
     else:
-        yield f"  coefficients rounded: decided for all methods within {decimal(within)}, or not"
+        methods = f"all methods within {decimal(within)}"
+        yield f"  coefficients rounded: decided for {methods}, or not"
     if report.springs is not None:
         yield from _springs_text(report.springs, report.digits)
         return
@@ -63,17 +64,16 @@ def text_of(report: StabilityReport, paint: Paint) -> Iterator[str]:
 
 def _line(label: str, text: str) -> list[str]:
     """A label and its text, which goes on in the same column."""
-    pieces = wrap(
-        text, WIDTH - LABEL - 4, break_long_words=False, break_on_hyphens=False
-    ) or [""]
-    first = f"    {label.ljust(LABEL)}{pieces[0]}".rstrip()
-    return [first, *(" " * (LABEL + 4) + piece for piece in pieces[1:])]
+    width = WIDTH - LABEL - 4
+    pieces = wrap(text, width, break_long_words=False, break_on_hyphens=False)
+    first, *others = pieces or [""]
+    head = f"    {label.ljust(LABEL)}{first}"
+    return [head.rstrip(), *indented(others, " " * (LABEL + 4))]
 
 
 def _quotient(numerator: Polynomial, denominator: Polynomial, variable: str) -> str:
-    over, under = (
-        polynomial_text(p, variable) for p in integral([numerator, denominator])
-    )
+    p, q = integral([numerator, denominator])
+    over, under = polynomial_text(p, variable), polynomial_text(q, variable)
     if under == "1":
         return over
     return f"({over}) / ({under})" if " " in under else f"({over}) / {under}"
@@ -83,12 +83,10 @@ def _linear_text(
     found: LinearStability, is_one_of_many: bool, digits: int, paint: Paint
 ) -> Iterator[str]:
     whose = ""
-    if is_one_of_many:
-        whose = (
-            ", all colours alike"
-            if found.name == "all"
-            else f", colour {found.name} alone"
-        )
+    if is_one_of_many and found.name == "all":
+        whose = ", all colours alike"
+    elif is_one_of_many:
+        whose = f", colour {found.name} alone"
     yield f"  {paint('strong', 'linear test equation')}{whose}, z = hλ"
     if found.real is None or found.imaginary is None:
         yield from _line("A-stable", _decided(found.a_stable, paint))
@@ -113,24 +111,26 @@ def _region_lines(R: StabilityFunction) -> Iterator[str]:
     Q = [to_float(a) for a in R.denominator.coefficients]
 
     def is_inside(z: complex) -> bool:
+        over, under = abs(_horner(P, z)), abs(_horner(Q, z))
         # the margin keeps points on the very edge inside on every machine
-        return abs(_horner(P, z)) <= abs(_horner(Q, z)) * (1 + 1e-9)
+        return over <= under * (1 + 1e-9)
 
     reach = _reach([P, Q])
     right = reach / 3 if len(Q) == 1 else reach
     picture = terminal_region(is_inside, -reach, right, reach, width=52, height=15)
     yield "    |R(z)| ≤ 1, roughly"
-    yield from (f"    {line}" for line in picture.splitlines())
+    yield from indented(picture.splitlines(), " " * 4)
 
 
 def _reach(polynomials: Sequence[Sequence[float]]) -> float:
     """A radius that holds all zeros and poles, by Fujiwara's bound, with some room."""
     reach = 2.0
-    for p in polynomials:
-        n = len(p) - 1
-        sizes = [abs(p[n - k] / p[n]) ** (1 / k) for k in range(1, n + 1)]
-        reach = max([reach, *sizes])
-    return float(f"{1.6 * reach:.1g}")
+    for *others, leading in polynomials:
+        for k, a in enumerate(reversed(others), start=1):
+            size = abs(a / leading)
+            reach = max(reach, size ** (1 / k))
+    with_room = 1.6 * reach
+    return float(f"{with_room:.1g}")
 
 
 def _horner(coefficients: Sequence[float], z: complex) -> complex:
@@ -150,9 +150,8 @@ def _why_not_a_stable(found: LinearStability) -> str:
         return "R is unbounded"
     if not poles_are_right(R.denominator):
         return "a pole is not in the right half plane"
-    return (
-        f"|R(iy)| > 1 where E(y²) < 0, E = {polynomial_text(found.e_polynomial, 'x')}"
-    )
+    E = polynomial_text(found.e_polynomial, "x")
+    return f"|R(iy)| > 1 where E(y²) < 0, E = {E}"
 
 
 def _sector_text(sector: Sector | None, digits: int) -> str:
@@ -172,17 +171,22 @@ def _equation(root: RealRoot, variable: str, digits: int) -> str:
     simple = root_text(root)
     if simple is not None:
         return f"= {simple}"
-    polynomial = polynomial_text(Polynomial.from_flint(root.polynomial), variable)
+    polynomial = _minimal_text(root, variable)
     return f"= {root_decimal(root, digits)}…, a root of {polynomial}"
+
+
+def _minimal_text(root: RealRoot, variable: str) -> str:
+    """The polynomial that a number is told by."""
+    polynomial = Polynomial.from_flint(root.polynomial)
+    return polynomial_text(polynomial, variable)
 
 
 def _number(root: RealRoot, digits: int) -> str:
     simple = root_text(root)
-    if simple is None:
-        return root_decimal(root, digits)
-    return (
-        simple if root.exact is not None else f"{simple} = {root_decimal(root, digits)}"
-    )
+    if simple is not None and root.exact is not None:
+        return simple
+    decimals = root_decimal(root, digits)
+    return decimals if simple is None else f"{simple} = {decimals}"
 
 
 def _real_text(intervals: Sequence[Interval], digits: int) -> str:
@@ -195,9 +199,8 @@ def _real_text(intervals: Sequence[Interval], digits: int) -> str:
         return "z = 0 only"
     text = f"−z ≤ {_number(first.end, digits)}"
     if root_text(first.end) is None:
-        polynomial = polynomial_text(Polynomial.from_flint(first.end.polynomial), "x")
-        text += f", a root of {polynomial}"
-    return text + (" and further intervals" if len(intervals) > 1 else "")
+        text += f", a root of {_minimal_text(first.end, 'x')}"
+    return text + _further(intervals)
 
 
 def _imaginary_text(intervals: Sequence[Interval], digits: int) -> str:
@@ -206,8 +209,13 @@ def _imaginary_text(intervals: Sequence[Interval], digits: int) -> str:
         return "y = 0 only"
     if first.end is None:
         return "all y"
-    text = f"|y| ≤ {square_root(first.end, digits)}, y² {_equation(first.end, 'x', digits)}"
-    return text + (" and further intervals" if len(intervals) > 1 else "")
+    end = square_root(first.end, digits)
+    text = f"|y| ≤ {end}, y² {_equation(first.end, 'x', digits)}"
+    return text + _further(intervals)
+
+
+def _further(intervals: Sequence[Interval]) -> str:
+    return " and further intervals" if len(intervals) > 1 else ""
 
 
 def _ssp_text(found: SspCoefficient | None, digits: int) -> str:
@@ -215,12 +223,9 @@ def _ssp_text(found: SspCoefficient | None, digits: int) -> str:
         return "not decided: the nodes have no simple radicals"
     if found.value is None:
         return "∞"
-    simple = root_text(found.value)
-    return (
-        _number(found.value, digits)
-        if simple
-        else _equation(found.value, "x", digits)[2:]
-    )
+    if root_text(found.value):
+        return _number(found.value, digits)
+    return _equation(found.value, "x", digits).removeprefix("= ")
 
 
 def _oscillator_text(
@@ -229,9 +234,8 @@ def _oscillator_text(
     yield f"  {paint('strong', 'oscillator')}, z = hω, x = z²"
     yield from _line("trace", _ratio(found.trace))
     yield from _line("determinant", _ratio(found.determinant))
-    yield from _line(
-        "4D² − N²", polynomial_text(integral([found.discriminant])[0], "x")
-    )
+    [discriminant] = integral([found.discriminant])
+    yield from _line("4D² − N²", polynomial_text(discriminant, "x"))
     yield from _stable_text(found.stable, digits)
     reason = "" if found.is_p_stable else f": {_why_not_p_stable(found, digits)}"
     yield from _line("P-stable", paint.verdict(found.is_p_stable) + reason)
@@ -246,9 +250,10 @@ def _ratio(ratio: Ratio) -> str:
 def _stable_text(intervals: Sequence[Interval], digits: int) -> Iterator[str]:
     if not intervals:
         yield from _line("stable", "for no x")
-    for number, interval in enumerate(intervals):
-        text = _interval_text(interval, digits)
-        yield from _line("stable" if number == 0 else "", text)
+    label = "stable"
+    for interval in intervals:
+        yield from _line(label, _interval_text(interval, digits))
+        label = ""
 
 
 def _interval_text(interval: Interval, digits: int) -> str:
@@ -257,36 +262,34 @@ def _interval_text(interval: Interval, digits: int) -> str:
     if interval.is_point:
         return f"x = {start}"
     left = "≤" if interval.has_start else "<"
-    if interval.end is None:
-        text = f"{start} {left} x"
-        ends: list[RealRoot] = [interval.start]
-    else:
-        right = "≤" if interval.has_end else "<"
-        text = f"{start} {left} x {right} {_number(interval.end, digits)}"
-        ends = [interval.start, interval.end]
+    text = f"{start} {left} x"
+    ends = [interval.start]
     if interval.end is not None:
-        text += f", z to {square_root(interval.end, digits)}"
-    roots = [x for x in ends if root_text(x) is None]
-    for x in roots:
-        text += (
-            f"; a root of {polynomial_text(Polynomial.from_flint(x.polynomial), 'x')}"
-        )
+        right = "≤" if interval.has_end else "<"
+        end, end_of_z = _number(interval.end, digits), square_root(interval.end, digits)
+        text += f" {right} {end}, z to {end_of_z}"
+        ends.append(interval.end)
+    for x in ends:
+        if root_text(x) is None:
+            text += f"; a root of {_minimal_text(x, 'x')}"
     return text
 
 
 def _why_not_p_stable(found: OscillatorStability, digits: int) -> str:
-    if not found.stable or not found.stable[0].has_start or found.stable[0].is_point:
+    first = found.stable[0] if found.stable else None
+    if first is None or not first.has_start or first.is_point:
         return "unstable for small step sizes"
-    end = found.stable[0].end
-    assert end is not None
-    beyond = "at" if not found.stable[0].has_end else "beyond"
-    return f"not stable {beyond} x = {_number(end, digits)}"
+    assert first.end is not None
+    end = _number(first.end, digits)
+    where = "beyond" if first.has_end else "at"
+    return f"not stable {where} x = {end}"
 
 
 def _phase_text(found: OscillatorStability) -> str:
-    if found.phase.order is None:
+    order = found.phase.order
+    if order is None:
         return "none: the frequency is exact"
-    return f"order {found.phase.order}: {to_text(found.phase.constant)} z^{found.phase.order + 1}"
+    return f"order {order}: {to_text(found.phase.constant)} z^{order + 1}"
 
 
 def _conserved_text(found: OscillatorStability) -> str:
@@ -296,32 +299,32 @@ def _conserved_text(found: OscillatorStability) -> str:
     if form is None:
         return "every one: the step is a multiple of the identity"
     names = ("(ωq)²", "ωq p", "p²")
-    parts = [
-        f"({polynomial_text(p, 'z')}) {name}"
-        if len(p.coefficients) > 1
-        else (name if p == Polynomial([1]) else f"{polynomial_text(p, 'z')} {name}")
-        for p, name in zip(integral(form), names, strict=True)
-        if p
-    ]
+    parts = []
+    for p, name in zip(integral(form), names, strict=True):
+        factor = polynomial_text(p, "z")
+        if len(p.coefficients) > 1:
+            parts.append(f"({factor}) {name}")
+        elif p:
+            parts.append(name if p == Polynomial([1]) else f"{factor} {name}")
     return " + ".join(parts)
 
 
 def _nonlinear_text(found: Stability, paint: Paint) -> Iterator[str]:
     yield f"  {paint('strong', 'nonlinear')}"
+    label = "algebraically stable"
     if found.algebraic is None:
-        yield from _line(
-            "algebraically stable", "has no meaning: colours do not see one another"
-        )
+        meaning = "has no meaning: colours do not see one another"
+        yield from _line(label, meaning)
         return
     reasons = []
     if not found.algebraic.weights_are_positive:
         reasons.append("a weight is negative")
     if not found.algebraic.form_is_positive:
         reasons.append("B A + Aᵀ B − b bᵀ is not positive semidefinite")
-    reason = f": {', '.join(reasons)}" if reasons else ""
-    yield from _line(
-        "algebraically stable", paint.verdict(found.algebraic.holds) + reason
-    )
+    verdict = paint.verdict(found.algebraic.holds)
+    if reasons:
+        verdict += f": {', '.join(reasons)}"
+    yield from _line(label, verdict)
 
 
 def _springs_text(found: TwoFrequencies, digits: int) -> Iterator[str]:
@@ -329,7 +332,11 @@ def _springs_text(found: TwoFrequencies, digits: int) -> Iterator[str]:
     yield f"  two springs, a = (hω_slow)² = {found.slow}, x = (hω_fast)²"
     yield from _line("trace", _ratio(found.trace))
     yield from _line("determinant", _ratio(found.determinant))
-    for number, (factor, power) in enumerate(factors(found.discriminant)):
-        text = polynomial_text(factor, "x") + (f", {power} times" if power > 1 else "")
-        yield from _line("factors of 4D² − N²" if number == 0 else "", text)
+    label = "factors of 4D² − N²"
+    for factor, power in factors(found.discriminant):
+        text = polynomial_text(factor, "x")
+        if power > 1:
+            text += f", {power} times"
+        yield from _line(label, text)
+        label = ""
     yield from _stable_text(found.stable, digits)

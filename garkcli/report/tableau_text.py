@@ -2,10 +2,12 @@
 
 from __future__ import annotations
 
+from itertools import chain
+
 from flint import arb
 
 from garkcli.exact.display import to_ball, to_text
-from garkcli.report.paint import Paint, aligned
+from garkcli.report.paint import Paint, aligned, indented
 from garkcli.tableau.pointwise import Cell, Entries
 from garkcli.tableau.tableau import Tableau
 
@@ -14,7 +16,10 @@ def cell_text(cell: Cell, digits: int) -> str:
     """An entry as text: exact, or rounded to ``digits`` significant digits."""
     if not isinstance(cell, arb):
         return to_text(cell)
-    return "0" if cell.contains(0) else without_zeros(cell.str(digits, radius=False))
+    if cell.contains(0):
+        return "0"
+    decimal = cell.str(digits, radius=False)
+    return without_zeros(decimal)
 
 
 def without_zeros(decimal: str) -> str:
@@ -49,19 +54,12 @@ def remark(entries: Entries) -> str:
         return f"the nodes have no simple radicals: decimals, {entries.digits} digits"
     if not entries.is_exact:
         return f"decimals, {entries.digits} digits"
-    blocks = [
-        row
-        for blocks in entries.A
-        for block in blocks
-        if block is not None
-        for row in block
-    ]
-    if any(
-        isinstance(x, arb) for row in (*entries.c, *blocks, *entries.b) for x in row
-    ):
-        return (
-            f"rounded coefficients: long fractions as decimals, {entries.digits} digits"
-        )
+    rows = [*entries.c, *entries.b]
+    for block in chain(*entries.A):
+        rows += block or []
+    if any(isinstance(x, arb) for x in chain(*rows)):
+        how = f"long fractions as decimals, {entries.digits} digits"
+        return f"rounded coefficients: {how}"
     return ""
 
 
@@ -94,7 +92,7 @@ def _grid(tableau: Tableau, entries: Entries) -> list[str]:
     widths = [max(map(len, column)) for column in columns]
     lines = []
     for cells in zip(*columns, strict=True):
-        padded = [cell.rjust(width) for cell, width in zip(cells, widths, strict=True)]
+        padded = map(str.rjust, cells, widths)
         lines.append(" | ".join(padded))
     rule = "-+-".join("-" * width for width in widths)
     out = [lines[0], rule]
@@ -143,16 +141,15 @@ def _listing(tableau: Tableau, entries: Entries) -> list[str]:
     """Each block on its own."""
     digits, names = entries.digits, [colour.name for colour in tableau.colours]
     lines: list[str] = []
-    for l in range(tableau.size):
-        c = ", ".join(cell_text(x, digits) for x in entries.c[l])
-        b = ", ".join(cell_text(x, digits) for x in entries.b[l])
-        lines += [f"c{{{names[l]}}} = {c}", f"b{{{names[l]}}} = {b}", ""]
+    for name, nodes, weights in zip(names, entries.c, entries.b, strict=True):
+        c = ", ".join(cell_text(x, digits) for x in nodes)
+        b = ", ".join(cell_text(x, digits) for x in weights)
+        lines += [f"c{{{name}}} = {c}", f"b{{{name}}} = {b}", ""]
     for l in distinct_rows(tableau):
-        for m in range(tableau.size):
-            block = entries.A[l][m]
-            if block is not None:
-                lines += [f"A{{{names[l]},{names[m]}}} ="]
-                cells = [[cell_text(x, digits) for x in row] for row in block]
-                lines += [f"    {line}" for line in aligned(cells, right=False)]
-                lines.append("")
+        for name, block in zip(names, entries.A[l], strict=True):
+            if block is None:
+                continue
+            cells = [[cell_text(x, digits) for x in row] for row in block]
+            rows = aligned(cells, right=False)
+            lines += [f"A{{{names[l]},{name}}} =", *indented(rows, " " * 4), ""]
     return lines[:-1]
