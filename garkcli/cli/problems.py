@@ -48,7 +48,7 @@ class ProblemType(click.ParamType):  # type: ignore[type-arg]
         if value not in PROBLEMS and not is_path(value):
             cure = did_you_mean(value, tuple(PROBLEMS))
             self.fail(
-                f"no problem {value!r}; {cure}; a problem file ends in .yaml",
+                f"no problem {value!r} (a problem file ends in .yaml); {cure}",
                 param,
                 ctx,
             )

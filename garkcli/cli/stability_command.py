@@ -20,7 +20,7 @@ if TYPE_CHECKING:
 @click.option(
     "--slow",
     metavar="A",
-    help="Two springs: (hω)² of the slow one, a rational number; with --fast.",
+    help="The slow one of two springs: its (hω)², a rational number; with --fast.",
 )
 @click.option(
     "--fast", metavar="COLOUR", help="Two springs: the colour of the fast one."

@@ -12,10 +12,11 @@ from garkcli.order.blame import Blame, Repair
 from garkcli.order.constants import ErrorConstants, Norms
 from garkcli.order.suggestion import Misprint
 from garkcli.report.check_orders import size
-from garkcli.report.paint import Paint
+from garkcli.report.paint import Paint, folded
 from garkcli.tableau.tableau import Tableau
 from garkcli.trees.notation import format_tree
 
+WIDTH = 80
 _MARGIN = " " * 8
 _CULPRIT = "takes part in every one of them: look there first"
 _SHOWN_REPAIRS = 3
@@ -38,8 +39,7 @@ def blame_lines(blame: Blame, tableau: Tableau, paint: Paint) -> list[str]:
         blocks = _blocks(blame.in_none, names, letter)
         lines.append(f"{_MARGIN}in none of them: {blocks}")
     for repair in blame.repairs[:_SHOWN_REPAIRS]:
-        text = repair_text(repair, own)
-        lines.append(f"{_MARGIN}the claimed order would hold with {text}")
+        lines += _repair_lines("the claimed order", repair_text(repair, own))
     return lines
 
 
@@ -63,12 +63,21 @@ def misprint_lines(found: Misprint, tableau: Tableau, paint: Paint) -> list[str]
     residual, explained = size(found.residual), size(found.explained)
     hint = f"  {paint('note', 'hint')}:"
     small = f"up to order {found.order} the residuals are at most {residual}"
-    lines = [f"{hint} {small}: an entry looks misprinted"]
-    lines.append(f"{_MARGIN}the digits in the file explain {explained}")
+    known = f"the digits in the file explain {explained}"
+    lines = [f"{hint} {small},", f"{_MARGIN}{known}: an entry looks misprinted"]
     for repair in found.repairs[:_SHOWN_REPAIRS]:
         text = repair_text(repair, names)
-        lines.append(f"{_MARGIN}order {found.order} would hold with {text}")
+        lines += _repair_lines(f"order {found.order}", text)
     return lines
+
+
+def _repair_lines(order: str, repair: str) -> list[str]:
+    """What would mend the method, in one line where it fits and in two otherwise."""
+    start = f"{_MARGIN}{order} would hold with"
+    line = f"{start} {repair}"
+    if len(line) <= WIDTH:
+        return [line]
+    return [start, f"{_MARGIN}  {repair}"]
 
 
 def _blocks(
@@ -89,9 +98,16 @@ def constants_lines(constants: ErrorConstants, colours: bool) -> list[str]:
     for label, norms in kinds:
         trees = f"{norms.trees:>8} trees"
         sizes = f"2-norm {norms.two:.6g}   largest {norms.largest:.6g}"
-        if norms.worst is not None:
-            sizes += f" at {format_tree(norms.worst, colours)}"
-        lines.append(f"    {label:<15}{trees}   {sizes}")
+        line = f"    {label:<15}{trees}   {sizes}"
+        if norms.worst is None:
+            lines.append(line)
+            continue
+        worst = f"at {format_tree(norms.worst, colours)}"
+        if len(line) + 1 + len(worst) <= WIDTH:
+            lines.append(f"{line} {worst}")
+        else:
+            lines.append(line)
+            lines += folded(f"{_MARGIN}{worst}", WIDTH, f"{_MARGIN}   ")
     return lines
 
 

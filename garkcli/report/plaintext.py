@@ -121,6 +121,11 @@ def plain_line(line: str, encoding: str = "ascii") -> str:
 
     >>> plain_line("10¹² trees, σ = 2      ●1 ●1")
     '10^12 trees, sigma = 2 o1 o1'
+
+    A letter that is spelled, and an exponent, stand apart from the letters beside them.
+
+    >>> plain_line("z = hω, ω²q"), plain_line("bᵀA")
+    ('z = h omega, omega^2 q', 'b^T A')
     """
     for phrase, form in PHRASES.items():
         if not _has(encoding, phrase):
@@ -129,6 +134,7 @@ def plain_line(line: str, encoding: str = "ascii") -> str:
     column = 0  # in the line as it is meant
     width = 0  # in the line as it is made
     raised = ""  # the sign of a running exponent or index, which is written once
+    ended = False  # whether a spelled letter or an exponent ends here, so that a letter needs a gap
     for at, sign in enumerate(line):
         form = sign if _has(encoding, sign) else ascii_form(sign)
         mark = (
@@ -137,6 +143,11 @@ def plain_line(line: str, encoding: str = "ascii") -> str:
         if mark and mark == raised:
             form = form[1:]
         raised = mark
+        is_spelled = form != sign and _is_greek(sign)
+        follows_letter = bool(made) and made[-1][-1:].isalpha()
+        if form[:1].isalpha() and (ended or (is_spelled and follows_letter)):
+            form = f" {form}"
+        ended = is_spelled or bool(mark) or form == "^T"
         column += not unicodedata.combining(sign)
         is_gap = sign == " " and line[at - 1 : at] == " "
         if is_gap and width >= column:
@@ -151,6 +162,10 @@ def plain_text(text: str, encoding: str) -> str:
     if text.isascii() or _has(encoding, EVERYTHING):
         return text
     return "\n".join(plain_line(line, encoding) for line in text.split("\n"))
+
+
+def _is_greek(sign: str) -> bool:
+    return _GREEK.match(unicodedata.name(sign, "")) is not None
 
 
 @lru_cache(4096)

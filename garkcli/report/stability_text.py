@@ -117,7 +117,7 @@ def _region_lines(R: StabilityFunction) -> Iterator[str]:
 
     reach = _reach([P, Q])
     right = reach / 3 if len(Q) == 1 else reach
-    picture = terminal_region(is_inside, -reach, right, reach, width=52, height=15)
+    picture = terminal_region(is_inside, -reach, right, reach, width=51, height=15)
     yield "    |R(z)| ≤ 1, roughly"
     yield from indented(picture.splitlines(), " " * 4)
 

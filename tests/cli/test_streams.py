@@ -309,3 +309,11 @@ def test_colour_as_the_environment_asks(
     assert ("\x1b[" in gark("tableau", invalid, **variables).err) is coloured
     assert "\x1b[" in gark("check", file, "--color", "always", **variables).out
     assert "\x1b[" not in gark("check", file, "--color", "never", **variables).out
+
+
+@given(st.sampled_from("ωαΩ²⁴ᵀ"), st.sampled_from("hqM"))
+def test_words_of_two_letters_do_not_run_together(sign: str, letter: str) -> None:
+    """A spelled letter beside a letter, and a letter after an exponent, have a gap between them."""
+    assert plain_line(f"{sign}{letter}") == f"{ascii_form(sign)} {letter}"
+    gap = "" if ascii_form(sign).startswith("^") else " "
+    assert plain_line(f"{letter}{sign}") == f"{letter}{gap}{ascii_form(sign)}"

@@ -87,3 +87,46 @@ def test_names_in_csv_are_no_formulas(tmp_path: Path) -> None:
     heads, *rows = csv.reader(io.StringIO(run.out))
     assert {row[heads.index("method")] for row in rows} == {"'=1+1", "'@SUM(A1)"}
     assert all(float(row[heads.index("h")]) > 0 for row in rows)
+
+
+RK4 = """
+A: [[0, 0, 0, 0], [1/2, 0, 0, 0], [0, 1/2, 0, 0], [0, 0, 1, 0]]
+b: [1/6, 1/3, 1/3, 1/6]
+expect: {order: 4}
+"""
+COUPLED = """
+methods: [{family: gauss, stages: 2}, {family: lobatto-iiia, stages: 3}]
+transfer: collocation
+"""
+
+WIDE = [
+    ("check", "--error-constants", "coupled.yaml"),
+    ("check", "broken.yaml"),
+    ("stability", "--help"),
+]
+
+
+@pytest.mark.parametrize("encoding", ["utf-8", "ascii"])
+@pytest.mark.parametrize("run", [("list",), *WIDE], ids=lambda run: run[0])
+def test_a_text_fits_80_columns_in_ascii_too(
+    run: tuple[str, ...], encoding: str, tmp_path: Path
+) -> None:
+    """Hints, error constants and helps leave room for the longer ASCII forms of their signs."""
+    broken = RK4.replace("1/2, 0, 0]", "1/3, 0, 0]")
+    assert broken != RK4
+    (tmp_path / "broken.yaml").write_text(broken, encoding="utf-8")
+    (tmp_path / "coupled.yaml").write_text(COUPLED, encoding="utf-8")
+    found = gark(*run, cwd=tmp_path, encoding=encoding)
+    lines = found.out.splitlines()
+    too_wide = [line for line in lines if len(line) > 80]
+    # the formula of the bound has a name for each letter
+    assert [line for line in too_wide if "bound  " not in line] == []
+
+
+def test_a_repair_too_wide_for_its_line_has_one_of_its_own(tmp_path: Path) -> None:
+    """The wrong entry is named whole, in a line that is searched for as it stands."""
+    broken = RK4.replace("1/2, 0, 0]", "1/3, 0, 0]")
+    (tmp_path / "m.yaml").write_text(broken, encoding="utf-8")
+    lines = gark("check", "m.yaml", cwd=tmp_path).out.splitlines()
+    at = lines.index("        the claimed order would hold with")
+    assert lines[at + 1] == "          A{1,1}, row 3, entry 2, = 1/2 instead of 1/3"
