@@ -74,7 +74,8 @@ def check_seed(name: str, seed: int | None) -> None:
     """
     takers = [x.name for x in PROBLEMS.values() if x.takes_seed]
     if seed is not None and name not in takers:
-        whose = f"problem{'s' * (len(takers) > 1)} {', '.join(takers)}"
+        plural = "s" if len(takers) > 1 else ""
+        whose = f"problem{plural} {', '.join(takers)}"
         raise UsageProblem(f"--seed is for the {whose}, not for {name}", "leave it out")
 
 
@@ -103,8 +104,12 @@ def _springs(*q: Any) -> tuple[Any, ...]:
     """Springs between walls with quadratic and cubic forces, α = 1/4, β = 1/2: V = Σ r²/2 + αr³/3 +
     βr⁴/4.
     """
-    stretched = [b - a for a, b in zip((0, *q), (*q, 0), strict=True)]
-    return (sum(r**2 / 2 + r**3 / 12 + r**4 / 8 for r in stretched),)
+    left, right = (0, *q), (*q, 0)
+    V = 0
+    for a, b in zip(left, right, strict=True):
+        r = b - a
+        V += r**2 / 2 + r**3 / 12 + r**4 / 8
+    return (V,)
 
 
 def _rods(q: tuple[Any, ...], _: tuple[Any, ...]) -> Any:

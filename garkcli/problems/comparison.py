@@ -14,5 +14,6 @@ def merge_terms(problem: Hamiltonian, terms: int) -> Hamiltonian:
     >>> [str(x) for x in merge_terms(hamiltonian("pendulum", 2), 1).terms]
     ['px**2/2 - cos(x) + 1']
     """
-    first, rest = problem.terms[: terms - 1], problem.terms[terms - 1 :]
+    kept = terms - 1
+    first, rest = problem.terms[:kept], problem.terms[kept:]
     return replace(problem, terms=(*first, sum(rest)))

@@ -90,15 +90,18 @@ def polynomial(draw: Draw, variables: Sequence[Any], terms: int) -> Any:
 
     total = sympy.Integer(0)
     for _ in range(_FORMS):
-        slopes = [
-            sympy.Rational(draw.sign() * draw.between(3, 12), 20) for _ in variables
-        ]
+        slopes = []
+        for _variable in variables:
+            numerator = draw.sign() * draw.between(3, 12)
+            slopes.append(sympy.Rational(numerator, 20))
         form = 1 + sum(a * x for a, x in zip(slopes, variables, strict=True))
-        factor = sympy.Rational(draw.sign() * draw.between(5, 20), 1600 * terms)
+        numerator = draw.sign() * draw.between(5, 20)
+        factor = sympy.Rational(numerator, 1600 * terms)
         total += factor * form**DEGREE
     return total
 
 
 def start(draw: Draw) -> tuple[fmpq, ...]:
     """q(0), then p(0), each at most 1/5 from zero."""
-    return tuple(fmpq(draw.between(-10, 10), 50) for _ in range(2 * len(VARIABLES)))
+    count = 2 * len(VARIABLES)
+    return tuple(fmpq(draw.between(-10, 10), 50) for _ in range(count))

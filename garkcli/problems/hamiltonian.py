@@ -140,15 +140,17 @@ def vector_field(problem: Hamiltonian, term: int, drives: Group) -> VectorField:
     import sympy
 
     H = problem.terms[term]
-    if drives == "q":
-        components = tuple(sympy.diff(H, x) for x in symbols(problem.variables, "p"))
-    else:
-        components = tuple(-sympy.diff(H, x) for x in symbols(problem.variables, "q"))
-    free = set().union(*(f.free_symbols for f in components))
-    depends = tuple(
-        g for g in GROUPS if not free.isdisjoint(symbols(problem.variables, g))
-    )
-    return VectorField(components, problem.variables, depends)
+    q, p = (symbols(problem.variables, group) for group in GROUPS)
+    sign, by = (1, p) if drives == "q" else (-1, q)
+    components = tuple(sign * sympy.diff(H, x) for x in by)
+    free: set[Any] = set()
+    for component in components:
+        free |= component.free_symbols
+    depends = []
+    for group, names in zip(GROUPS, (q, p), strict=True):
+        if not free.isdisjoint(names):
+            depends.append(group)
+    return VectorField(components, problem.variables, tuple(depends))
 
 
 def energy_function(problem: Hamiltonian, digits: int) -> Callable[..., list[Any]]:

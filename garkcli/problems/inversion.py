@@ -61,14 +61,19 @@ class _Equations:
     def are_linear(self) -> bool:
         """Whether they are linear in the velocities."""
         moving = set(self.v)
-        return not any(x.free_symbols & moving for row in self.M for x in row)
+        entries = [x for row in self.M for x in row]
+        return not any(x.free_symbols & moving for x in entries)
 
     def momenta(self, at: Mapping[Any, arb]) -> dict[Any, arb]:
         """∂L/∂v where the velocities are known and the momenta are not."""
-        needed = set().union(*(g.free_symbols for g in self.gradient))
-        if all(x in at for x in self.p) or not needed <= set(at):
+        needed: set[Any] = set()
+        for slope in self.gradient:
+            needed |= slope.free_symbols
+        are_known = all(x in at for x in self.p)
+        if are_known or not needed <= set(at):
             return {}
-        return dict(zip(self.p, enclosed(self.gradient, at), strict=True))
+        values = enclosed(self.gradient, at)
+        return dict(zip(self.p, values, strict=True))
 
 
 def by_solving(
@@ -93,7 +98,8 @@ def by_solving(
         replaced |= {**solved.velocities, **solved.forms}
     work = sum(a * replaced[x] for a, x in zip(p, v, strict=True))
     H = work - L.xreplace(replaced)
-    derivatives = (H.diff(x) for x in (*symbols(variables, "q"), *p))
+    arguments = (*symbols(variables, "q"), *p)
+    derivatives = (H.diff(x) for x in arguments)
     if not is_smooth(H) or not all(map(is_smooth, derivatives)):
         raise NoLegendreTransform(
             "the Hamiltonian was not found without kinks", WRITE_HAMILTONIAN
@@ -110,18 +116,21 @@ def _solution(L: Any, equations: _Equations, p: Sequence[Any]) -> _Solved:
     right: list[_Solved] = []
     for candidate in _candidates(L, equations):
         smooth = _smooth(candidate, p)
-        right += [
-            solved for solved in smooth if _is_right(solved.velocities, equations)
-        ]
+        right += [x for x in smooth if _is_right(x.velocities, equations)]
     if not right:
         whose = ", ".join(map(str, equations.v))
         raise NoLegendreTransform(
             f"p = ∂L/∂v was not solved for {whose}", WRITE_HAMILTONIAN
         )
     known = {**equations.start, **equations.momenta(equations.start)}
-    first, *others = (enclosed(list(x.velocities.values()), known) for x in right)
+    found = []
+    for solved in right:
+        expressions = list(solved.velocities.values())
+        found.append(enclosed(expressions, known))
+    first, *others = found
     for other in others:
-        if not all(x.overlaps(y) for x, y in zip(first, other, strict=True)):
+        pairs = zip(first, other, strict=True)
+        if not all(x.overlaps(y) for x, y in pairs):
             raise NoLegendreTransform(
                 "several velocities have these momenta at the start",
                 "give the initial velocities instead of momenta",
@@ -135,7 +144,8 @@ def _candidates(L: Any, equations: _Equations) -> list[_Solved]:
         return [_by_elimination(equations)]
     found = _by_form(L, equations)
     if len(equations.v) == 1:
-        (v,), (p,), (slope,) = equations.v, equations.p, equations.gradient
+        (v,), (p,) = equations.v, equations.p
+        (slope,) = equations.gradient
         found += [_Solved({v: x}, {}) for x in solutions(slope, v, p)]
     return found
 
@@ -147,13 +157,18 @@ def _by_elimination(equations: _Equations) -> _Solved:
     pairs = zip(equations.p, equations.gradient, strict=True)
     shifted = [p - slope.xreplace(at_rest) for p, slope in pairs]
     products = _times(inverse, shifted)
-    return _Solved(
-        {v: x / divisor for v, x in zip(equations.v, products, strict=True)}, {}
-    )
+    made = {}
+    for v, x in zip(equations.v, products, strict=True):
+        made[v] = x / divisor
+    return _Solved(made, {})
 
 
 def _times(matrix: Sequence[Sequence[Any]], vector: Sequence[Any]) -> list[Any]:
-    return [sum(a * x for a, x in zip(row, vector, strict=True)) for row in matrix]
+    return [_dot(row, vector) for row in matrix]
+
+
+def _dot(left: Sequence[Any], right: Sequence[Any]) -> Any:
+    return sum(a * x for a, x in zip(left, right, strict=True))
 
 
 @dataclass(frozen=True)
@@ -194,19 +209,32 @@ def _by_form(L: Any, equations: _Equations) -> list[_Solved]:
             inverse, divisor = inverse_of(form.G, equations.v, equations.start)
         except NoLegendreTransform:
             continue
-        shifted = [p - b for p, b in zip(equations.p, form.b, strict=True)]
+        pairs = zip(equations.p, form.b, strict=True)
+        shifted = [p - b for p, b in pairs]
         raised = [x / divisor for x in _times(inverse, shifted)]
-        # a symbol for the square of the momenta keeps sympy from mixing it up with the rest
-        square = sympy.Dummy("n", positive=True)
-        norm = {square: sum(x * y for x, y in zip(shifted, raised, strict=True))}
-        equation = 2 * form.slope**2 * (form.symbol - form.at_rest)
-        found = []
-        for value in solutions(equation, form.symbol, square):
-            slope = form.slope.xreplace({form.symbol: value}).xreplace(norm)
-            made = {v: x / slope for v, x in zip(equations.v, raised, strict=True)}
-            found.append(_Solved(made, {form.a: value.xreplace(norm)}))
-        return found
+        return _of_form(form, equations.v, shifted, raised)
     return []
+
+
+def _of_form(
+    form: _Form, v: Sequence[Any], shifted: Sequence[Any], raised: Sequence[Any]
+) -> list[_Solved]:
+    """The velocities G⁻¹(p − b)/φ'(a) for the values of a, from p − b and G⁻¹(p − b)."""
+    import sympy
+
+    # a symbol for the square of the momenta keeps sympy from mixing it up with the rest
+    square = sympy.Dummy("n", positive=True)
+    norm = {square: _dot(shifted, raised)}
+    equation = 2 * form.slope**2 * (form.symbol - form.at_rest)
+    found = []
+    for value in solutions(equation, form.symbol, square):
+        slope = form.slope.xreplace({form.symbol: value})
+        slope = slope.xreplace(norm)
+        made = {}
+        for velocity, x in zip(v, raised, strict=True):
+            made[velocity] = x / slope
+        found.append(_Solved(made, {form.a: value.xreplace(norm)}))
+    return found
 
 
 def _form(L: Any, a: Any, v: Sequence[Any]) -> _Form | None:
@@ -215,12 +243,14 @@ def _form(L: Any, a: Any, v: Sequence[Any]) -> _Form | None:
     """
     import sympy
 
-    moving, at_rest = set(v), dict.fromkeys(v, 0)
+    moving = set(v)
+    at_rest = dict.fromkeys(v, 0)
     if not moving <= a.free_symbols:
         return None
     slopes = [a.diff(x) for x in v]
     G = [[slope.diff(y) for y in v] for slope in slopes]
-    is_quadratic = not any(x.free_symbols & moving for row in G for x in row)
+    entries = [x for row in G for x in row]
+    is_quadratic = not any(x.free_symbols & moving for x in entries)
     is_even = all(slope.xreplace(at_rest) == 0 for slope in slopes)
     symbol = sympy.Dummy("a", real=True)
     phi = L.xreplace({a: symbol})
@@ -244,10 +274,13 @@ def _smooth(solved: _Solved, p: Sequence[Any]) -> list[_Solved]:
     made = (*solved.velocities.values(), *solved.forms.values())
     if any(x.has(sympy.I, sympy.zoo, sympy.nan) for x in made):
         return []
-    kinks = set().union(*(x.atoms(sympy.Abs) for x in made))
+    kinks: set[Any] = set()
+    for x in made:
+        kinks |= x.atoms(sympy.Abs)
     if not kinks:
         return [solved]
-    if any(x.free_symbols - set(p) for x in kinks):
+    momenta = set(p)
+    if any(x.free_symbols - momenta for x in kinks):
         return []
     return [_with_sign(solved, sign) for sign in (1, -1)]
 
@@ -256,8 +289,11 @@ def _with_sign(solved: _Solved, sign: int) -> _Solved:
     """The same with ``sign`` · y for |y|."""
     import sympy
 
+    def without_kinks(y: Any) -> Any:
+        return y.replace(sympy.Abs, lambda u: sign * u)
+
     def signed(of: Mapping[Any, Any]) -> dict[Any, Any]:
-        return {x: y.replace(sympy.Abs, lambda u: sign * u) for x, y in of.items()}
+        return {x: without_kinks(y) for x, y in of.items()}
 
     return _Solved(signed(solved.velocities), signed(solved.forms))
 
@@ -271,11 +307,11 @@ def _is_right(solved: Mapping[Any, Any], equations: _Equations) -> bool:
         return False
     tested = 1
     for _ in range(_TRIES - 1):
+        near = {}
         with ctx.workprec(BITS):
-            near = {
-                x: y + arb(fmpq(draw.between(-_NEAR, _NEAR), 1000))
-                for x, y in equations.start.items()
-            }
+            for x, y in equations.start.items():
+                moved = fmpq(draw.between(-_NEAR, _NEAR), 1000)
+                near[x] = y + arb(moved)
         found = _agrees(solved, equations, near)
         if found is False:
             return False
@@ -290,10 +326,19 @@ def _agrees(
     at = {**place, **equations.momenta(place)}
     if not all(x in at for x in equations.p):
         return False
-    found = dict(zip(solved, enclosed(list(solved.values()), at), strict=True))
+    values = enclosed(list(solved.values()), at)
+    found = dict(zip(solved, values, strict=True))
     back = enclosed(equations.gradient, {**at, **found})
-    pairs = [(y, at[x]) for x, y in zip(equations.p, back, strict=True)]
-    pairs += [(found[x], at[x]) for x in solved if x in at]
+    pairs = []
+    for p, value in zip(equations.p, back, strict=True):
+        pairs.append((value, at[p]))
+    pairs += [(found[v], at[v]) for v in solved if v in at]
     if not all(x.is_finite() for pair in pairs for x in pair):
         return None
-    return all(x.overlaps(y) and x.rad() + y.rad() < _GOOD for x, y in pairs)
+    return all(_are_one(x, y) for x, y in pairs)
+
+
+def _are_one(x: arb, y: arb) -> bool:
+    """Whether two enclosures, both good, may be those of one number."""
+    is_good = x.rad() + y.rad() < _GOOD
+    return bool(is_good and x.overlaps(y))

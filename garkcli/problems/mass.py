@@ -4,7 +4,7 @@ from __future__ import annotations
 
 from collections.abc import Mapping, Sequence
 from functools import cache
-from typing import Any
+from typing import Any, TypeAlias
 
 from flint import arb, ctx, fmpq, fmpq_mat
 
@@ -31,7 +31,10 @@ def coupled(M: Sequence[Sequence[Any]]) -> list[list[int]]:
     """The sets of velocities that entries of M couple, each in order."""
     after: dict[int, list[int]] = {}
     for i, row in enumerate(M):
-        after[i] = [j for j, x in enumerate(row) if x != 0 or M[j][i] != 0]
+        after[i] = []
+        for j, x in enumerate(row):
+            if x != 0 or M[j][i] != 0:
+                after[i].append(j)
     return sorted(sorted(block) for block in components(after))
 
 
@@ -51,13 +54,10 @@ def inverse_of(
         "each velocity needs a kinetic energy of its own in this term",
     )
     if all(x.is_Rational for row in M for x in row):
-        matrix = fmpq_mat([[fmpq(int(x.p), int(x.q)) for x in row] for row in M])
-        if not matrix.det():
+        inverse = _inverse_of_numbers(M)
+        if inverse is None:
             raise singular
-        rows = matrix.inv().tolist()
-        return [
-            [sympy.Rational(int(x.p), int(x.q)) for x in row] for row in rows
-        ], sympy.Integer(1)
+        return inverse, sympy.Integer(1)
     if len(M) > MAX_COUPLED:
         raise NoLegendreTransform(
             f"a mass matrix of {len(M)} coupled velocities that is not constant "
@@ -71,13 +71,31 @@ def inverse_of(
     return minors.adjugate(), det
 
 
+def _inverse_of_numbers(M: Sequence[Sequence[Any]]) -> list[list[Any]] | None:
+    """The inverse of a matrix of rational numbers; None where it is singular."""
+    import sympy
+
+    n = len(M)
+    entries = [x for row in M for x in row]
+    matrix = fmpq_mat(n, n, [fmpq(int(x.p), int(x.q)) for x in entries])
+    if not matrix.det():
+        return None
+    numbers = matrix.inv().entries()
+    inverse = [sympy.Rational(int(x.p), int(x.q)) for x in numbers]
+    return [inverse[i : i + n] for i in range(0, n * n, n)]
+
+
+_Places: TypeAlias = tuple[int, ...]
+"""Numbers of rows or columns, in order."""
+
+
 class _Minors:
     """The minors of a symmetric matrix, each computed once."""
 
     def __init__(self, M: Sequence[Sequence[Any]]) -> None:
         self._M = M
         self._every = tuple(range(len(M)))
-        self._known: dict[tuple[tuple[int, ...], tuple[int, ...]], Any] = {}
+        self._known: dict[tuple[_Places, _Places], Any] = {}
 
     def determinant(self) -> Any:
         """That of the matrix."""
@@ -89,12 +107,14 @@ class _Minors:
         for i in self._every:
             row = []
             for j in self._every:
-                minor = self._of(self._without(min(i, j)), self._without(max(i, j)))
-                row.append((-1) ** (i + j) * minor)
+                low, high = min(i, j), max(i, j)
+                minor = self._of(self._without(low), self._without(high))
+                sign = (-1) ** (i + j)
+                row.append(sign * minor)
             rows.append(row)
         return rows
 
-    def _of(self, rows: tuple[int, ...], columns: tuple[int, ...]) -> Any:
+    def _of(self, rows: _Places, columns: _Places) -> Any:
         """The determinant of some rows and columns, by its first row."""
         import sympy
 
@@ -104,12 +124,13 @@ class _Minors:
             first, *others = rows
             total = 0
             for k, j in enumerate(columns):
-                rest = self._of(tuple(others), columns[:k] + columns[k + 1 :])
+                remaining = columns[:k] + columns[k + 1 :]
+                rest = self._of(tuple(others), remaining)
                 total += (-1) ** k * self._M[first][j] * rest
             self._known[rows, columns] = total
         return self._known[rows, columns]
 
-    def _without(self, i: int) -> tuple[int, ...]:
+    def _without(self, i: int) -> _Places:
         return self._every[:i] + self._every[i + 1 :]
 
 
@@ -122,7 +143,8 @@ def enclosed(expressions: Sequence[Any], at: Mapping[Any, arb]) -> list[arb]:
         return [arb("nan")] * len(made)
     with ctx.workprec(BITS):
         try:
-            return [arb(x) for x in function(made, tuple(at), True)(*at.values())]
+            values = function(made, tuple(at), True)(*at.values())
+            return [arb(x) for x in values]
         except (ArithmeticError, ValueError):
             return [arb("nan")] * len(made)
 

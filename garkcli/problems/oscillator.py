@@ -57,12 +57,18 @@ class Oscillator:
         """One term: unsplit. More: ½p² to the first, ½ω²q² in equal parts to the others."""
         if terms == 1:
             return cls(omega, ((ONE, ONE),))
-        return cls(omega, ((ONE, ZERO), *((ZERO, fmpq(1, terms - 1)),) * (terms - 1)))
+        others = terms - 1
+        potential = (ZERO, fmpq(1, others))
+        return cls(omega, ((ONE, ZERO), *(potential,) * others))
 
     def drives(self, colour: Colour) -> tuple[fmpq, fmpq]:
         """(k, v): how much of q̇ = p and of ṗ = −ω²q the vector field of ``colour`` is."""
         k, v = self.shares[colour.term]
-        return (ZERO if colour.part == "p" else k, ZERO if colour.part == "q" else v)
+        if colour.part == "p":
+            return ZERO, v
+        if colour.part == "q":
+            return k, ZERO
+        return k, v
 
     def matrix(self, colour: Colour) -> Matrix:
         """L with (q, p)˙ = L (q, p) for the vector field of ``colour``, shape (2, 2)."""
@@ -105,7 +111,8 @@ def example_shares(terms: int) -> str:
     >>> example_shares(2)
     '1:0,0:1'
     """
-    return ",".join(f"{k}:{v}" for k, v in Oscillator.default(terms, ONE).shares)
+    shares = Oscillator.default(terms, ONE).shares
+    return ",".join(f"{k}:{v}" for k, v in shares)
 
 
 def _share(text: str) -> fmpq:
@@ -162,7 +169,8 @@ def check_structure(tableau: Tableau, problem: Oscillator) -> None:
 
 def _check_colour(tableau: Tableau, term: int, part: str, energy: str) -> None:
     """Refuse a share of a term that no colour drives."""
-    if not any(x.term == term and x.part in {"y", part} for x in tableau.colours):
+    parts = {x.part for x in tableau.colours if x.term == term}
+    if parts.isdisjoint({"y", part}):
         raise UsageProblem(
             f"term {term + 1} has {energy} energy, but the method has no colour for it",
             f"move the {energy} share to another term with --split",

@@ -33,8 +33,10 @@ def solutions(f: Any, u: Any, c: Any) -> list[Any]:
         return [c]
     if f.is_Add or f.is_Mul:
         free, rest = f.as_independent(u, as_Add=f.is_Add)
-        if free != (0 if f.is_Add else 1):
-            return solutions(rest, u, c - free if f.is_Add else c / free)
+        if f.is_Add and free != 0:
+            return solutions(rest, u, c - free)
+        if f.is_Mul and free != 1:
+            return solutions(rest, u, c / free)
     found: list[Any] = []
     inner = [x for x in f.args if u in x.free_symbols]
     if len(inner) == 1:
@@ -55,11 +57,13 @@ def _undone(f: Any, inner: Any, c: Any) -> list[Any]:
         return [sympy.log(c) / sympy.log(f.base)]
     name = type(f).__name__
     if name in _INVERSES:
-        return [getattr(sympy, _INVERSES[name])(c)]
+        inverse = getattr(sympy, _INVERSES[name])
+        return [inverse(c)]
     if name == "cos":
         return [sympy.acos(c), -sympy.acos(c)]
     if name == "sinh":
-        return [sympy.log(c + sympy.sqrt(c**2 + 1))]
+        root = sympy.sqrt(c**2 + 1)
+        return [sympy.log(c + root)]
     if name == "cosh":
         root = sympy.sqrt(c**2 - 1)
         return [sympy.log(c + root), sympy.log(c - root)]
@@ -85,7 +89,8 @@ def _root(exponent: Any, c: Any) -> list[Any]:
     if exponent.p % 2 == 0:
         return [root, -root]
     if exponent.q % 2:  # an odd root: of a negative number too
-        return [root, -((-c) ** (1 / exponent))]
+        of_negative = -((-c) ** (1 / exponent))
+        return [root, of_negative]
     return [root]
 
 
@@ -95,25 +100,24 @@ def _by_polynomial(f: Any, u: Any) -> list[Any]:
     """
     import sympy
 
-    numerator = _without_root(f.as_numer_denom()[0], u)
+    numerator, _ = f.as_numer_denom()
+    numerator = _without_root(numerator, u)
     if numerator is None:
         return []
     try:
         polynomial = sympy.Poly(sympy.expand(numerator), u)
     except sympy.PolynomialError:
         return []
-    coefficients = dict(polynomial.terms())
+    coefficients = {n: x for (n,), x in polynomial.terms()}
     if any(u in x.free_symbols for x in coefficients.values()):
         return []
-
-    def coefficient(n: int) -> Any:
-        return coefficients.get((n,), sympy.Integer(0))
-
-    degrees = {n for (n,) in coefficients}
+    degrees = set(coefficients)
+    zero = sympy.Integer(0)
+    c0, c1, c2, _, c4 = (coefficients.get(n, zero) for n in range(5))
     if degrees <= {0, 1, 2}:
-        return _quadratic(coefficient(2), coefficient(1), coefficient(0))
+        return _quadratic(c2, c1, c0)
     if degrees <= {0, 2, 4}:
-        squares = _quadratic(coefficient(4), coefficient(2), coefficient(0))
+        squares = _quadratic(c4, c2, c0)
         return [sign * sympy.sqrt(x) for x in squares for sign in (1, -1)]
     return []
 
@@ -124,10 +128,8 @@ def _without_root(f: Any, u: Any) -> Any:
     """
     import sympy
 
-    powers = [
-        x for x in f.atoms(sympy.Pow) if u in x.free_symbols and x.exp.is_Rational
-    ]
-    roots = [x for x in powers if x.exp.q == 2]
+    powers = [x for x in f.atoms(sympy.Pow) if u in x.free_symbols]
+    roots = [x for x in powers if x.exp.is_Rational and x.exp.q == 2]
     if not roots:
         return f
     square = roots[0].base
@@ -142,7 +144,8 @@ def _without_root(f: Any, u: Any) -> Any:
         return None
     parts: tuple[list[Any], list[Any]] = ([], [])  # of P and of Q
     for (n,), coefficient in terms:
-        parts[n % 2].append(coefficient * square ** (n // 2))
+        term = coefficient * square ** (n // 2)
+        parts[n % 2].append(term)
     P, Q = (sympy.Add(*x) for x in parts)
     return P**2 - square * Q**2
 
@@ -153,4 +156,6 @@ def _quadratic(a: Any, b: Any, c: Any) -> list[Any]:
     if a == 0:
         return [-c / b] if b != 0 else []
     root = sympy.sqrt(b**2 - 4 * a * c)
-    return [(-b + root) / (2 * a), (-b - root) / (2 * a)]
+    first = (-b + root) / (2 * a)
+    second = (-b - root) / (2 * a)
+    return [first, second]

@@ -40,7 +40,7 @@ def initial_momenta(
         return enclosed([moving[0].diff(x) for x in v], start)
     H = sum(hamiltonians)
     gradient = [H.diff(x) for x in p]
-    hessian = [x for g in gradient for x in (g.diff(y) for y in p)]
+    hessian = [g.diff(y) for g in gradient for y in p]
     if any(x.free_symbols & set(p) for x in hessian):
         raise NoLegendreTransform(
             "several terms have velocities, and the momenta that belong to their sum were not "
@@ -50,10 +50,12 @@ def initial_momenta(
     d = len(p)
     places = {x: y for x, y in start.items() if x not in v}
     values = enclosed(hessian, places)
-    offsets = enclosed([g.xreplace(dict.fromkeys(p, 0)) for g in gradient], places)
+    at_rest = dict.fromkeys(p, 0)
+    offsets = enclosed([g.xreplace(at_rest) for g in gradient], places)
     with ctx.workprec(BITS):
         matrix = arb_mat(d, d, values)
-        right = arb_mat(d, 1, [start[x] - y for x, y in zip(v, offsets, strict=True)])
+        pairs = zip(v, offsets, strict=True)
+        right = arb_mat(d, 1, [start[x] - y for x, y in pairs])
         try:
             return [arb(x) for x in matrix.solve(right).entries()]
         except ZeroDivisionError:

@@ -108,7 +108,8 @@ def _is_one_name(text: str) -> bool:
     """Whether this is zero, or a single argument, temporary or constant."""
     if text == "0":
         return True
-    return text.startswith("{") and text.endswith("}") and text.count("{") == 1
+    is_enclosed = text.startswith("{") and text.endswith("}")
+    return is_enclosed and text.count("{") == 1
 
 
 def _float(x: fmpq) -> str:
@@ -121,7 +122,8 @@ def _float(x: fmpq) -> str:
 def constant_name(x: fmpq) -> str:
     """The name that the texts for balls have for a rational constant."""
     sign = "m" if x < 0 else ""
-    return f"k{sign}{abs(int(x.p))}_{x.q}"
+    numerator = abs(int(x.p))
+    return f"k{sign}{numerator}_{x.q}"
 
 
 @cache
@@ -172,9 +174,9 @@ class _Writer:
         long one.
         """
         text = self._text(x)
-        return (
-            text if len(text) < _LONG else self.named(text)
-        )  # Python nests no more than 200 deep
+        if len(text) < _LONG:
+            return text
+        return self.named(text)  # Python nests no more than 200 deep
 
     def _text(self, x: Any) -> str:
         import sympy
@@ -188,7 +190,8 @@ class _Writer:
         if x is sympy.pi:
             return self._constant(None)
         if x is sympy.E:
-            return f"{self._name('exp')}({self._constant(fmpq(1))})"
+            one = self._constant(fmpq(1))
+            return f"{self._name('exp')}({one})"
         if x.is_Add:
             return "(" + self._sum(x.as_ordered_terms()) + ")"
         if x.is_Mul:
@@ -197,7 +200,8 @@ class _Writer:
             return self._power(x.base, x.exp)
         name = type(x).__name__
         if name in FUNCTIONS and len(x.args) == 1:
-            return f"{self._name(name)}({self.text(x.args[0])})"
+            argument = self.text(x.args[0])
+            return f"{self._name(name)}({argument})"
         raise TypeError(f"no code for {name}")
 
     def _name(self, function: str) -> str:
@@ -222,8 +226,9 @@ class _Writer:
         """Factors over factors, so that a negative power costs one division."""
         above, below = [], []
         for factor in x.as_ordered_factors():
-            if factor.is_Pow and factor.exp.is_Rational and factor.exp.is_negative:
-                below.append(self._power(factor.base, -factor.exp))
+            exponent = factor.exp if factor.is_Pow else None
+            if exponent is not None and exponent.is_Rational and exponent.is_negative:
+                below.append(self._power(factor.base, -exponent))
             else:
                 above.append(factor)
         sign = ""
@@ -240,15 +245,18 @@ class _Writer:
             return f"({one}/{self._power(base, -exponent)})"
         text = self.text(base)
         if not exponent.is_Rational or exponent.q > 2:
-            return f"{self._name('power')}({text}, {self.text(exponent)})"
+            raised_to = self.text(exponent)
+            return f"{self._name('power')}({text}, {raised_to})"
         if exponent.q == 1:
             return self._integer_power(self.named(text), int(exponent.p))
         # x^(n + 1/2) is x^n √x
         whole = int(exponent.p) // 2
+        sqrt = self._name("sqrt")
         if not whole:
-            return f"{self._name('sqrt')}({text})"
+            return f"{sqrt}({text})"
         name = self.named(text)
-        return f"({self._integer_power(name, whole)}*{self._name('sqrt')}({name}))"
+        power = self._integer_power(name, whole)
+        return f"({power}*{sqrt}({name}))"
 
     def _integer_power(self, text: str, n: int) -> str:
         """For balls by products: the power of a ball around zero is a ball around zero."""
@@ -260,7 +268,9 @@ class _Writer:
         if not self.is_for_balls:
             return f"({text}**{n})"
         half = self.named(self._integer_power(text, n // 2))
-        return f"({half}*{half}*{text})" if n % 2 else f"({half}*{half})"
+        if n % 2:
+            return f"({half}*{half}*{text})"
+        return f"({half}*{half})"
 
 
 def function(
@@ -275,7 +285,8 @@ def function(
     lines, results = code.lines(names, "r")
     zero = "ball_zero" if is_for_balls else "0.0"
     returned = ", ".join(zero if x == "0" else x for x in results)
-    body = [f"def evaluate({', '.join(names)}):", *lines, f"return [{returned}]"]
+    taken = ", ".join(names)
+    body = [f"def evaluate({taken}):", *lines, f"return [{returned}]"]
     source = "\n ".join(body) + "\n"
     constants = enclosed([code]) if is_for_balls else {}
     program: Callable[..., list[Any]] = define(source, "evaluate", constants)

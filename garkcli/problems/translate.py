@@ -49,20 +49,24 @@ class Translator:
             UndefinedValue: a part without variables has no value.
             LimitExceeded: it is too large or too small.
         """
-        if all(
-            x.name in self.values or x.name in CONSTANTS for x in names_in(expression)
-        ):
+        if all(map(self._is_constant, names_in(expression))):
             value_of(expression, self.values)
             return
         if isinstance(expression, RealPower):
-            for name in names_in(expression.exponent):
-                if name.name not in self.values and name.name not in CONSTANTS:
-                    message = f"the exponent depends on {name.name}"
-                    raise UndefinedValue(
-                        message, "exponents are constants", name.start, name.end
-                    )
+            self._check_exponent(expression.exponent)
         for part in parts(expression):
             self.check_constants(part)
+
+    def _is_constant(self, name: Name) -> bool:
+        return name.name in self.values or name.name in CONSTANTS
+
+    def _check_exponent(self, exponent: Expression) -> None:
+        """Refuse an exponent with variables."""
+        for name in names_in(exponent):
+            if not self._is_constant(name):
+                message = f"the exponent depends on {name.name}"
+                cure = "exponents are constants"
+                raise UndefinedValue(message, cure, name.start, name.end)
 
     def translate(self, expression: Expression) -> Any:
         """The sympy expression of a formula whose names are all known.
@@ -79,7 +83,8 @@ class Translator:
             raise UndefinedValue(
                 "this is no real number", "", expression.start, expression.end
             )
-        if any(abs(x) > 1 << FLOAT_BITS for x in made.atoms(sympy.Rational)):
+        numbers = made.atoms(sympy.Rational)
+        if any(abs(x) > 1 << FLOAT_BITS for x in numbers):
             message = f"the constants together make a number above 2^{FLOAT_BITS}"
             raise LimitExceeded(
                 message, "choose other units", expression.start, expression.end
@@ -100,20 +105,17 @@ class Translator:
                 made = [self._node(x) for x in operands]
                 if signs[0] not in "+-":
                     return self._product(signs, made, expression)
-                terms = [
-                    -x if sign == "-" else x
-                    for sign, x in zip(signs, made, strict=True)
-                ]
+                terms = []
+                for sign, x in zip(signs, made, strict=True):
+                    terms.append(-x if sign == "-" else x)
                 return sympy.Add(*terms)
             case Power(base=base, exponent=exponent):
-                return self._power(
-                    self._node(base), sympy.Integer(exponent), expression
-                )
+                whole = sympy.Integer(exponent)
+                return self._power(self._node(base), whole, expression)
             case RealPower(base=base, exponent=exponent):
                 e = exponent_of(exponent, self.values)
-                return self._power(
-                    self._node(base), sympy.Rational(int(e.p), int(e.q)), expression
-                )
+                fraction = sympy.Rational(int(e.p), int(e.q))
+                return self._power(self._node(base), fraction, expression)
             case Root(radicand=radicand, index=index):
                 return self._root(self._node(radicand), index, expression)
             case Call(function=function, argument=argument):
@@ -149,13 +151,15 @@ class Translator:
         if index == 2:
             return _without_kinks(sympy.sqrt(radicand), at)
         if radicand.free_symbols:
-            inner = format_expression(at.radicand)
-            cure = f"where it is positive, write ({inner if len(inner) < 30 else '…'})**(1/{index})"
+            inner = _shortened(format_expression(at.radicand))
+            cure = f"where it is positive, write ({inner})**(1/{index})"
             raise UndefinedValue(
                 "only square roots are taken of variables", cure, at.start, at.end
             )
         power = sympy.Rational(1, index)
-        return -((-radicand) ** power) if radicand.is_negative else radicand**power
+        if radicand.is_negative:
+            return -((-radicand) ** power)
+        return radicand**power
 
 
 def _too_many_bits(at: Expression) -> LimitExceeded:
@@ -168,8 +172,8 @@ def _without_kinks(made: Any, at: Expression) -> Any:
     import sympy
 
     if made.has(sympy.Abs):
-        inner = str(next(iter(made.atoms(sympy.Abs))).args[0])
-        inner = inner if len(inner) < 30 else "…"
+        kink = next(iter(made.atoms(sympy.Abs)))
+        inner = _shortened(str(kink.args[0]))
         raise UndefinedValue(
             f"this has |{inner}|, which has no derivative at 0",
             "write it without the root where the sign is known, or add a number under the root",
@@ -177,6 +181,11 @@ def _without_kinks(made: Any, at: Expression) -> Any:
             at.end,
         )
     return made
+
+
+def _shortened(text: str) -> str:
+    """A part of a formula as a message shows it."""
+    return text if len(text) < 30 else "…"
 
 
 def _bits(x: Any) -> int:
@@ -232,18 +241,19 @@ def _sizes_of(x: Any, known: dict[Any, _Sizes]) -> _Sizes:
     if not n:
         return _Sizes(1, 0, first=0, second=0)
     parts = [_sizes(y, known) for y in x.args]
-    if x.is_Add:
-        size = 1 + sum(y.own for y in parts)
-        first, second = sum(y.first for y in parts), sum(y.second for y in parts)
-        return _Sizes(size, n, first, second)
     if x.is_Mul:
         return _sizes_of_product(n, parts)
-    # f(u): f'' u_a u_b + f' u_ab, with f' and f'' three operations longer than u
-    outer = 3 + sum(y.own for y in parts)
+    own = sum(y.own for y in parts)
     k = sum(y.symbols for y in parts)
     slopes = sum(y.first for y in parts)
-    second = sum(y.second for y in parts) + 2 * k * k * outer + 2 * k * slopes
-    return _Sizes(outer - 2, n, slopes + k * outer, second)
+    curvatures = sum(y.second for y in parts)
+    if x.is_Add:
+        return _Sizes(1 + own, n, slopes, curvatures)
+    # f(u): f'' u_a u_b + f' u_ab, with f' and f'' three operations longer than u
+    outer = 3 + own
+    first = slopes + k * outer
+    second = curvatures + 2 * k * k * outer + 2 * k * slopes
+    return _Sizes(1 + own, n, first, second)
 
 
 def _sizes_of_product(n: int, factors: list[_Sizes]) -> _Sizes:
@@ -251,14 +261,16 @@ def _sizes_of_product(n: int, factors: list[_Sizes]) -> _Sizes:
     are differentiated, or one factor twice.
     """
     size = 1 + sum(y.own for y in factors)
-    symbols, slopes = sum(y.symbols for y in factors), sum(y.first for y in factors)
+    symbols = sum(y.symbols for y in factors)
+    slopes = sum(y.first for y in factors)
     first = second = 0
     for y in factors:
         k, others = y.symbols, symbols - y.symbols
+        rest = size - y.own
         if k:
-            first += y.first + k * (size - y.own)
+            first += y.first + k * rest
         if y.second:
-            second += y.second + k * k * (size - y.own)
+            second += y.second + k * k * rest
         second += 2 * y.first * others
-        second += k * others * max(size - 2 * y.own, 0)
+        second += k * others * max(rest - y.own, 0)
     return _Sizes(size, n, first, second if slopes else 0)
