@@ -9,6 +9,7 @@ s_m).
 from __future__ import annotations
 
 from collections.abc import Callable, Mapping, Sequence
+from dataclasses import dataclass
 from typing import TypeAlias
 
 from flint import fmpq
@@ -88,30 +89,65 @@ def conjugate_rule(rule: Rule) -> Rule:
     return conjugated
 
 
+@dataclass(frozen=True)
+class _Entry:
+    """A rule of the method file.
+
+    Attributes:
+        rule: what makes a block; where both blocks of a pair are made, the first of them.
+        summary: one line for people.
+        makes_both: whether the opposite block is made with it, as its symplectic conjugate.
+    """
+
+    rule: Rule
+    summary: str
+    makes_both: bool = False
+
+
+_OF_CONJUGATE = "the block of the symplectic conjugate of the {} construction"
+_OF_PAIR = "{} on the lower-order method; the opposite block its conjugate"
+_ENTRIES: Mapping[str, _Entry] = {
+    "collocation": _Entry(
+        collocation,
+        "a_ij = ∫_0^{c_i} L_j, with the Lagrange polynomials of the nodes of m",
+    ),
+    "interpolation": _Entry(
+        interpolation,
+        "the stages of method m, interpolated at the nodes of l",
+    ),
+    "conjugate-collocation": _Entry(
+        conjugate_rule(collocation),
+        _OF_CONJUGATE.format("collocation"),
+    ),
+    "conjugate-interpolation": _Entry(
+        conjugate_rule(interpolation),
+        _OF_CONJUGATE.format("interpolation"),
+    ),
+    "symplectic-collocation": _Entry(
+        collocation,
+        _OF_PAIR.format("collocation"),
+        makes_both=True,
+    ),
+    "symplectic-interpolation": _Entry(
+        interpolation,
+        _OF_PAIR.format("interpolation"),
+        makes_both=True,
+    ),
+}
+
 RULES: Mapping[str, Rule] = {
-    "collocation": collocation,
-    "interpolation": interpolation,
-    "conjugate-collocation": conjugate_rule(collocation),
-    "conjugate-interpolation": conjugate_rule(interpolation),
+    name: entry.rule for name, entry in _ENTRIES.items() if not entry.makes_both
 }
 """The rules that make one block from two methods."""
 
 PAIR_RULES: Mapping[str, Rule] = {
-    "symplectic-collocation": collocation,
-    "symplectic-interpolation": interpolation,
+    name: entry.rule for name, entry in _ENTRIES.items() if entry.makes_both
 }
 """The rules that make both blocks of a pair of colours, each with the rule for the first of
 them.
 """
 
-SUMMARIES: Mapping[str, str] = {
-    "collocation": "a_ij = ∫_0^{c_i} L_j, with the Lagrange polynomials of the nodes of m",
-    "interpolation": "the stages of method m, interpolated at the nodes of l",
-    "conjugate-collocation": "the block of the symplectic conjugate of the collocation construction",
-    "conjugate-interpolation": "the block of the symplectic conjugate of the interpolation construction",
-    "symplectic-collocation": "collocation on the lower-order method; the opposite block its conjugate",
-    "symplectic-interpolation": "interpolation on the lower-order method; the opposite block its conjugate",
-}
+SUMMARIES: Mapping[str, str] = {name: entry.summary for name, entry in _ENTRIES.items()}
 """One line a rule, for people."""
 
 

@@ -125,4 +125,20 @@ def explained(error: ExpressionError, text: str) -> tuple[ExpressionError, str]:
             cure = better.format(**found.groupdict())
             explanation = ExpressionError(message, cure, found.start(), found.end())
             return explanation, pattern.pattern
+    if _is_symbol(error, text):
+        return error, _SYMBOLS.pattern
     return error, ""
+
+
+_SYMBOLS = re.compile(r"[A-Za-z]+_?[0-9]+(_[0-9]+)*", re.ASCII)
+"""Names as a11, b_2, x1_2: the symbols of a tableau in general, all without values."""
+
+
+def _is_symbol(error: ExpressionError, text: str) -> bool:
+    """Whether a tableau was copied with its symbols; a slip in the name of a parameter is another
+    matter.
+    """
+    if not isinstance(error, UndefinedValue) or error.help.startswith("did you mean"):
+        return False
+    word = text[error.start : error.end]
+    return _SYMBOLS.fullmatch(word) is not None

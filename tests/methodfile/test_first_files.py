@@ -254,6 +254,12 @@ ONE_FAULT = {
         "'sqrt3' is not a parameter (also at 1:34)",
         "write sqrt(3)",
     ),
+    "symbols without values": (
+        "A: [[a11, a_12], [a21, a22]]\nb: [b1, b2]",
+        "a11",
+        "'a11' is not a parameter (also at 1:11, 1:19, 1:24 and in 2 more places)",
+        "define it",
+    ),
     "Fortran's exponents": (
         f"{TWO}b: [0.0d0, 1.0d0]",
         "0.0d0",
@@ -352,7 +358,7 @@ def test_a_misspelt_key_hides_no_other_fault() -> None:
 
 def test_many_faults_end_the_reading() -> None:
     """A thousand faults are enough: the file is read no further, and two hundred are told."""
-    entries = ", ".join(f"x{i}" for i in range(5000))
+    entries = ", ".join(f"x{i}y" for i in range(5000))
     found = faults(f"A: [[{entries}]]\nb: [1]")
     assert len(found) == 201
     assert found[-1].message == "and 800 more faults"
