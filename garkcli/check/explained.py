@@ -19,14 +19,17 @@ if TYPE_CHECKING:
 
 _SHORT = 20
 """Characters beyond which an exact entry is shown in decimals."""
+_LONG = 60
+"""Characters of value and residual beyond which a witness is shown in decimals."""
 
 
 def witness_text(witness: Witness, colours: bool) -> str:
     """Which condition fails, and by how much; ``colours`` where there are several."""
-    value, residual = to_text(witness.value), to_text(witness.residual)
-    if len(value) + len(residual) > 60:
-        value, residual = to_decimal(witness.value, 8), to_decimal(witness.residual, 4)
-        value = f"about {value}"
+    value = to_text(witness.value)
+    residual = to_text(witness.residual)
+    if len(value) + len(residual) > _LONG:
+        value = f"about {to_decimal(witness.value, 8)}"
+        residual = to_decimal(witness.residual, 4)
     tree = format_tree(witness.tree, colours)
     where = f"fails at order {witness.tree.order}: {tree}"
     return f"{where}: {value} instead of {witness.required}, off by {residual}"
@@ -89,6 +92,7 @@ def value_text(number: Number, digits: int = 17) -> str:
     if len(text) <= _SHORT:
         return text
     shown = to_decimal(number, 60)
-    if isinstance(number, fmpq) and read_decimal(shown.lstrip("-")) == abs(number):
+    magnitude = shown.lstrip("-")
+    if isinstance(number, fmpq) and read_decimal(magnitude) == abs(number):
         return shown
     return to_decimal(number, digits)

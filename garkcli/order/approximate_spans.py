@@ -23,6 +23,7 @@ from collections.abc import Iterator, Sequence
 from dataclasses import dataclass
 from functools import reduce
 from operator import add
+from typing import TypeAlias
 
 from flint import arb, arb_mat, ctx
 
@@ -52,6 +53,10 @@ class _Hull:
     size: Entries
 
 
+_Hulls: TypeAlias = "list[list[_Hull | None]]"
+"""For each stage space the hulls of its branches or forests, order after order."""
+
+
 class ApproximateSpans:
     """Members and bounds for the branches and forests of each stage space, made on demand.
 
@@ -66,8 +71,8 @@ class ApproximateSpans:
         self.enclosure = enclosure
         self.grain = grain
         self._absolute = {key: _absolute_matrix(A) for key, A in enclosure.A.items()}
-        self._branches: list[list[_Hull | None]] = [[None] for _ in enclosure.stages]
-        self._forests: list[list[_Hull | None]] = [[_unit(s)] for s in enclosure.stages]
+        self._branches: _Hulls = [[None] for _ in enclosure.stages]
+        self._forests: _Hulls = [[_unit(s)] for s in enclosure.stages]
 
     def sizes(self, order: int) -> Sizes:
         """A bound on all |residuals| of an order, and the largest among those of members."""
@@ -142,8 +147,10 @@ class ApproximateSpans:
 
 
 def _unit(stages: int) -> _Hull:
+    """What the single vertex has: its vector is 𝟙, and nothing is beyond it."""
     one = [arb(1)] * stages
-    return _Hull([_Member(one, ())], arb(1), [arb(0)] * stages, one)
+    zero = [arb(0)] * stages
+    return _Hull([_Member(one, ())], arb(1), zero, one)
 
 
 def _product(x: _Hull, y: _Hull) -> _Hull:
@@ -241,11 +248,12 @@ def _pivots(points: arb_mat, grain: arb) -> tuple[list[int], list[int]]:
         if len(rows) == min(rest.nrows(), rest.ncols()):
             return rows, columns
         sizes = [float(abs(x)) for x in rest.entries()]
-        where = max(range(len(sizes)), key=sizes.__getitem__)
-        if sizes[where] <= float(grain):
+        largest = max(sizes)
+        if largest <= float(grain):
             return rows, columns
-        rows.append(where // rest.ncols())
-        columns.append(where % rest.ncols())
+        i, j = divmod(sizes.index(largest), rest.ncols())
+        rows.append(i)
+        columns.append(j)
 
 
 def _absolute(row: Sequence[arb]) -> Entries:

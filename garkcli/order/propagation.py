@@ -22,7 +22,6 @@ from __future__ import annotations
 
 from collections.abc import Mapping, Sequence
 from dataclasses import dataclass
-from functools import reduce
 
 from flint import arb, arb_mat, ctx, fmpq
 
@@ -76,6 +75,7 @@ class Propagation:
             self._A = {key: _upper_rows(A) for key, A in enclosure.A.items()}
             self._off = {key: self._radii_of(key, radii) for key in enclosure.A}
             self._off_b = weights or [[self._rounding] * len(b) for b in self._b]
+        # a vertex has the vector 𝟙, which rounding does not move
         self._forests = [[_Range([arb(1)] * s, [arb(0)] * s)] for s in self._stages]
         self._branches: list[list[_Range | None]] = [[None] for _ in self._stages]
 
@@ -101,8 +101,11 @@ class Propagation:
     def largest_row_sum(self) -> arb:
         """The largest Σ_j δA_ij of any block: what rounding does to A f where |f| ≤ 1."""
         with ctx.workprec(BITS):
-            sums = [_total(row) for rows in self._off.values() for row in rows]
-            return reduce(arb.max, sums, arb(0)).abs_upper()
+            largest = arb(0)
+            for rows in self._off.values():
+                for row in rows:
+                    largest = largest.max(_total(row))
+            return largest.abs_upper()
 
     def _stage_vectors(self, l: int, order: int) -> _Range | None:
         """All 𝒜^[u] of an order with root colour l; None where there is no such tree."""
@@ -182,10 +185,11 @@ class ConjugateRounding:
 
     def of_conjugate(self, conjugated: Tableau) -> Propagation:
         """For the conditions of the conjugate."""
-        index = {l: l for l in range(self.tableau.size)}
+        # blocks are named by the stages of l: a space for each colour, unless some share theirs
+        rows = list(range(self.tableau.size))
         if self.tableau.is_partitioned:
-            index = {l: x.space for l, x in enumerate(self.tableau.colours)}
-        radii = {(index[l], m): off for (l, m), off in self.hats.items()}
+            rows = [colour.space for colour in self.tableau.colours]
+        radii = {(rows[l], m): off for (l, m), off in self.hats.items()}
         return Propagation(conjugated, radii, self.tolerance)
 
     def of_pair(self, both: Tableau) -> Propagation:
@@ -252,7 +256,8 @@ def _hat(
                 a = block[j][i]
                 product = t * (abs(a) + abs(b_j) + t)
                 quotient = t * abs(b_j * a / b_i)
-                row.append((t + (product + quotient) / rest).abs_upper())
+                radius = t + (product + quotient) / rest
+                row.append(radius.abs_upper())
             rows.append(row)
     return arb_mat(rows)
 

@@ -71,6 +71,7 @@ def layout(tree: Tree) -> list[Vertex]:
         here = len(placed)
         placed.append(Vertex(0, y, u.root, parent))
         columns = [place(branch, y + 1, here) for branch in written_order(u)]
+        # a leaf takes the next place; a vertex with branches the middle of theirs
         if columns:
             x = (columns[0] + columns[-1]) / 2
         else:
