@@ -56,11 +56,13 @@ def _change(
         start = [arb(x) for x in problem.initial]
         at_start = dict(zip(names, start, strict=True))
         at_end = dict(zip(names, end, strict=True))
-        change = enclosed([made], at_end)[0] - enclosed([made], at_start)[0]
+        (before,) = enclosed([made], at_start)
+        (after,) = enclosed([made], at_end)
+        change = after - before
         slopes = enclosed([made.diff(x) for x in names], at_end)
         each = arb(0)
-        for slope, before, after in zip(slopes, start, end, strict=True):
-            each += abs(slope * (after - before))
+        for slope, first, last in zip(slopes, start, end, strict=True):
+            each += abs(slope * (last - first))
         is_finite = change.is_finite() and each.is_finite()
         is_change = is_finite and abs(change) > _LEAST * each
     return float(change.mid()) if is_change else 0.0

@@ -173,9 +173,11 @@ def _solver(
 def _given_rows(solver: Solver, steps: Sequence[fmpq]) -> list[Row]:
     rows: list[Row] = []
     for h in sorted(set(steps), reverse=True):
-        rows.append(solver.row(h, rows[-1] if rows else None))
-        if rows[-1].error.is_zero():
-            return rows[-1:]
+        before = rows[-1] if rows else None
+        row = solver.row(h, before)
+        if row.error.is_zero():
+            return [row]
+        rows.append(row)
     return rows
 
 
@@ -202,7 +204,9 @@ def _order_over(solver: Solver) -> float | None:
     """The order up to the final time; None where the problem or the method has no error there."""
     rows: list[Row] = []
     for n in _SHORT_STEPS:
-        rows.append(solver.row(solver.t_end / n, rows[-1] if rows else None))
-        if rows[-1].error.is_zero():
+        before = rows[-1] if rows else None
+        row = solver.row(solver.t_end / n, before)
+        if row.error.is_zero():
             return None
+        rows.append(row)
     return observed_order(rows)

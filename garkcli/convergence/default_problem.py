@@ -36,9 +36,8 @@ def seeing_problem(tableaux: Sequence[Tableau], seed: int = 1) -> str:
         counts[name] = sum(map(_fits, tableaux, problems))
         if counts[name] == len(tableaux):
             return name
-    most = max(
-        counts, key=lambda name: counts[name]
-    )  # the first of those that are equal
+    # the first of those that are equal
+    most = max(counts, key=lambda name: counts[name])
     if counts[most] == 0:
         raise UsageProblem(
             "no problem with random coefficients is of the form that the structure is for",

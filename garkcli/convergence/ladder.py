@@ -107,9 +107,11 @@ def is_complete(rows: Sequence[Row], is_small: Sequence[bool]) -> bool:
         rows: all so far, from the largest step down.
         is_small: for each whether its error is at most ``LARGEST`` of the solution.
     """
-    if len(rows) - _first_small(is_small) >= MAX_ROWS:
+    small = len(rows) - _first_small(is_small)
+    if small >= MAX_ROWS:
         return True
-    return len(rows) - _start(rows, is_small) >= ROWS and has_settled(rows)
+    belonging = len(rows) - _start(rows, is_small)
+    return belonging >= ROWS and has_settled(rows)
 
 
 def _first_small(is_small: Sequence[bool]) -> int:
@@ -122,7 +124,8 @@ def _first_small(is_small: Sequence[bool]) -> int:
 
 def _start(rows: Sequence[Row], is_small: Sequence[bool]) -> int:
     """The first row of those with small errors and slopes near the last extrapolated order."""
-    observed, start = observed_order(rows), _first_small(is_small)
+    observed = observed_order(rows)
+    start = _first_small(is_small)
     if observed is None:
         return start
     allowed = max(_NEAR * observed, _FLAT)
@@ -139,14 +142,17 @@ def has_settled(rows: Sequence[Row]) -> bool:
     The order of a method is a whole number, so something else has not settled yet.
     """
     before, last = rows[-2].slope, rows[-1].slope
-    estimated, observed = observed_order(rows[:-1]), observed_order(rows)
+    estimated = observed_order(rows[:-1])
+    observed = observed_order(rows)
     if before is None or last is None or estimated is None or observed is None:
         return False
     if abs(observed - round(observed)) > CLOSE / 2:
         return False
     change = abs(observed - estimated)
+    if change < _SURE:
+        return True
     is_steady = abs(last - before) < _STEADY or change < _EXTRAPOLATED
-    return change < _SURE or (is_steady and abs(last - observed) < CLOSE)
+    return is_steady and abs(last - observed) < CLOSE
 
 
 def trimmed(
@@ -165,7 +171,8 @@ def trimmed(
     start = _first_small(is_small[:end])
     if not may_be_off:
         start = _start(rows[:end], is_small[:end])
-    kept = list(rows[max(0, min(start, len(rows) - ROWS)) :])
+    latest = max(0, len(rows) - ROWS)
+    kept = list(rows[min(start, latest) :])
     if kept:
         kept[0] = replace(kept[0], slope=None)
     return kept
@@ -183,13 +190,19 @@ def plateau(rows: Sequence[Row], order: int, rounding: arb) -> int:
         rounding: about the error that the rounding of the coefficients makes; 0 for exact ones.
     """
     limit = rounding * _ABOVE
-    flat = [
-        i for i, row in enumerate(rows) if _is_flat(row, order) and row.error < limit
-    ]
-    if not flat:
+    flat = 0  # the first flat row
+    while flat < len(rows):
+        row = rows[flat]
+        if _is_flat(row, order) and row.error < limit:
+            break
+        flat += 1
+    if flat == len(rows):
         return 0
-    level = min((row.error for row in rows[flat[0] :]), key=float) * _ABOVE
-    spoilt = next(i for i, row in enumerate(rows) if i == flat[0] or row.error < level)
+    least = min((row.error for row in rows[flat:]), key=float)
+    level = least * _ABOVE
+    spoilt = 0
+    while spoilt < flat and not rows[spoilt].error < level:
+        spoilt += 1
     return len(rows) - spoilt
 
 

@@ -43,15 +43,8 @@ LINEAR_ONLY = (
 )
 """What every report of this test has to say."""
 _FIRST_BITS = 128
-_DECADES = (
-    6,
-    12,
-    24,
-    48,
-    96,
-    192,
-    384,
-)  # balls are as exact as the smallest errors need
+# balls are as exact as the smallest errors need
+_DECADES = (6, 12, 24, 48, 96, 192, 384)
 _AGREEING = 8  # digits of an error by which steps and the step map have to agree
 
 
@@ -105,12 +98,15 @@ class LinearSolver:
 
     def size(self) -> arb:
         """|q| + |p/ω| at the start and at the end."""
-        q, p = _solution(self.problem.omega, self.t_end)
-        return arb(fmpq(3, 2)) + abs(q) + abs(p / self.problem.omega)
+        omega = self.problem.omega
+        q, p = _solution(omega, self.t_end)
+        at_start = arb(fmpq(3, 2))
+        return at_start + abs(q) + abs(p / omega)
 
     def rounding(self) -> arb:
         """About the error that the rounding of the coefficients makes."""
-        return self.size() * self.spoilt * max(arb(1), arb(self.t_end / self.unit))
+        time = arb(self.t_end / self.unit)
+        return self.size() * self.spoilt * max(arb(1), time)
 
     def over(self, t_end: fmpq) -> LinearSolver:
         """The same up to another time."""
@@ -150,7 +146,9 @@ class LinearSolver:
         omega = self.problem.omega
         with ctx.workprec(_FIRST_BITS):
             q, p = _solution(omega, self.t_end)
-            return arb((y[0] - q) ** 2 + ((y[1] - p) / omega) ** 2).sqrt()
+            dq = y[0] - q
+            dp = (y[1] - p) / omega
+            return arb(dq**2 + dp**2).sqrt()
 
 
 def linear_solver(
@@ -176,9 +174,12 @@ def linear_solver(
     met = visible_order(step, tolerance)
     order = max(met, predicted)
     # where the next condition itself is below the tolerance nothing is known of it
-    is_sharp = tolerance is None or fmpq(1, factorial(order + 1)) > tolerance
+    is_sharp = True
+    spoilt = arb(0)
+    if tolerance is not None:
+        is_sharp = fmpq(1, factorial(order + 1)) > tolerance
+        spoilt = sum(islice(deviations(step), met), arb(0))
     visible = Visible(order, is_sharp, LINEAR_ONLY)
-    spoilt = arb(0) if tolerance is None else sum(islice(deviations(step), met), arb(0))
     return LinearSolver(tableau, step, t_end, visible, spoilt)
 
 
@@ -221,7 +222,9 @@ def _errors_of(power: arb_mat, omega: fmpq, t: fmpq) -> tuple[arb, arb]:
     dq, dp = q - exact_q, (p - exact_p) / omega
     kinetic = p * p - p0 * p0
     potential = arb(omega) ** 2 * (q * q - q0 * q0)
-    return (dq * dq + dp * dp).sqrt(), absolute((kinetic + potential) / 2)
+    error = (dq * dq + dp * dp).sqrt()
+    energy_error = (kinetic + potential) / 2
+    return error, absolute(energy_error)
 
 
 def hamiltonian_of(oscillator: Oscillator, t_end: fmpq) -> Hamiltonian:

@@ -28,10 +28,8 @@ _STAGES = 60  # beyond, a step costs more than fewer of them save
 _SPARE = 10  # digits that round-off may grow by
 _CREDIT = 1e-6
 _FAR = 0.01  # part of the solution by which runs differ that have found none
-_LEAST_FACTOR, _LARGEST_FACTOR = (
-    1.3,
-    8,
-)  # of the number of steps, from one run to the next
+# of the number of steps, from one run to the next
+_LEAST_FACTOR, _LARGEST_FACTOR = 1.3, 8
 _REFINED = 64  # times the first number of steps with which they should have
 
 
@@ -81,7 +79,9 @@ class Reference:
         """
         if digits > self.digits:
             # more digits have more stages: about as many steps are enough again
-            first = 2 * self.steps // 3 or ceil(4 * to_float(self.t_end))
+            first = 2 * self.steps // 3
+            if not first:
+                first = ceil(4 * to_float(self.t_end))
             self.y, self.steps = _solved(
                 self.problem, self.t_end, digits, max(4, first), watch
             )
@@ -137,9 +137,8 @@ def _solved(
             continue
         with ctx.workprec(method.bits):
             size = magnitude(y, problem)
-            change = max(
-                (abs(a - b) for a, b in zip(y, before, strict=True)), key=float
-            )
+            pairs = zip(y, before, strict=True)
+            change = max((abs(a - b) for a, b in pairs), key=float)
             goal = arb(10) ** -digits * size
             ratio = arb(fewer) / steps
             left = change * max(ratio**stages, arb(_CREDIT))
@@ -155,7 +154,8 @@ def _solved(
             excess = float((change * ratio ** (2 * stages) / goal).mid())
         before, fewer = y, steps
         factor = 1.1 * excess ** (1 / stages) if excess > 0 else _LEAST_FACTOR
-        steps = ceil(steps * min(max(factor, _LEAST_FACTOR), _LARGEST_FACTOR))
+        factor = min(max(factor, _LEAST_FACTOR), _LARGEST_FACTOR)
+        steps = ceil(steps * factor)
 
 
 def _no_solution(t_end: fmpq, failure: StepFailed) -> UsageProblem:
@@ -171,4 +171,7 @@ def _no_solution(t_end: fmpq, failure: StepFailed) -> UsageProblem:
 
 def magnitude(y: Sequence[Any], problem: Hamiltonian) -> arb:
     """How large the numbers of a solution are that starts as ``problem`` does and ends at ``y``."""
-    return sum((abs(arb(x)) for x in (*y, *problem.initial)), arb(0))
+    total = arb(0)
+    for x in (*y, *problem.initial):
+        total += abs(arb(x))
+    return total

@@ -150,12 +150,11 @@ class Convergence:
             if self._is_visible(self.observed_order):
                 return "agree"
             return "disagree" if self.has_settled else "undecided"
-        is_shown = (
-            not self.are_given or abs(self.observed_order - self.short_order) <= CLOSE
-        )
-        return (
-            "agree" if is_shown and self._is_visible(self.short_order) else "disagree"
-        )
+        apart = abs(self.observed_order - self.short_order)
+        is_shown = not self.are_given or apart <= CLOSE
+        if is_shown and self._is_visible(self.short_order):
+            return "agree"
+        return "disagree"
 
     def _is_visible(self, order: float) -> bool:
         if self.visible.order < self.predicted_order:
@@ -200,7 +199,8 @@ def observed_order(rows: Sequence[Row]) -> float | None:
         equations = []
         for row in last:
             ratio = arb(row.h / last[0].h)
-            terms = [arb(1), arb(row.h).log(), ratio, ratio * ratio]
+            log_h = arb(row.h).log()
+            terms = [arb(1), log_h, ratio, ratio * ratio]
             equations.append(terms[: len(last)])
         logarithms = [[row.error.mid().log()] for row in last]
         unknowns = arb_mat(equations).solve(arb_mat(logarithms))

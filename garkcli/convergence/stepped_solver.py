@@ -105,7 +105,8 @@ class SteppedSolver:
         while True:
             state = run(self._integrator(digits), h, steps, self.watch, f"h = {h}")
             error = self._distance(state.y, digits)
-            if error > self.size() * arb(10) ** (_SPARE - 1 - digits):
+            shown = arb(10) ** (_SPARE - 1 - digits)
+            if error > self.size() * shown:
                 break
             if self._shows_no_error(error, digits):
                 error = arb(0)
@@ -120,15 +121,17 @@ class SteppedSolver:
         """About the error that coefficients rounded to the tolerance make."""
         if self.tolerance is None:
             return arb(0)
-        return self.size() * arb(self.tolerance) * max(arb(1), arb(self.t_end))
+        time = max(arb(1), arb(self.t_end))
+        return self.size() * arb(self.tolerance) * time
 
     def timed(self, row: Row) -> Row:
         """The row with the cost of its steps in floats, where these reach its error to a tenth."""
-        y, cost = work_of(
-            self._integrator(FLOAT_DIGITS), row.h, whole_steps(self.t_end, row.h)
-        )
+        steps = whole_steps(self.t_end, row.h)
+        y, cost = work_of(self._integrator(FLOAT_DIGITS), row.h, steps)
         difference = abs(self._distance(y, FLOAT_DIGITS) - row.error)
-        return replace(row, cost=cost) if difference < REACHED * row.error else row
+        if difference < REACHED * row.error:
+            return replace(row, cost=cost)
+        return row
 
     def _shows_no_error(self, error: arb, digits: int) -> bool:
         """Whether an error within round-off is taken for none.
@@ -147,8 +150,10 @@ class SteppedSolver:
         """‖(Δq, Δp)‖₂ of ``y`` from the reference solution, the middle of its ball."""
         exact = self.reference.to(self._digits_of_reference(digits), self.watch)
         with ctx.workprec(self._integrator(digits).bits + _GUARD):
-            squares = [(arb(a) - b) ** 2 for a, b in zip(y, exact, strict=True)]
-            return sum(squares, arb(0)).sqrt().mid()
+            total = arb(0)
+            for a, b in zip(y, exact, strict=True):
+                total += (arb(a) - b) ** 2
+            return total.sqrt().mid()
 
     def _round_off(self, digits: int) -> arb:
         """What the digits leave open of a state at ``t_end``.
@@ -156,16 +161,18 @@ class SteppedSolver:
         Steps sum with compensation, so that their number does not count; the increments are
         rounded, and they add up to the way that the solution goes. The flow makes more of it.
         """
-        precision = (
-            arb(FLOAT_PRECISION) if digits <= FLOAT_DIGITS else arb(10) ** -digits
-        )
-        return self.size() * precision * max(arb(1), arb(self.t_end)) * GROWTH
+        precision = arb(10) ** -digits
+        if digits <= FLOAT_DIGITS:
+            precision = arb(FLOAT_PRECISION)
+        time = max(arb(1), arb(self.t_end))
+        return self.size() * precision * time * GROWTH
 
     def _digits_of_reference(self, digits: int) -> int:
         """Enough for the row, and beyond floats for the next ones as well."""
         if digits <= FLOAT_DIGITS or self.reference.digits >= digits + _SPARE:
             return digits + _SPARE
-        return digits + _SPARE + ceil(_AHEAD * self.visible.order * log10(2))
+        gained = _AHEAD * self.visible.order * log10(2)
+        return digits + _SPARE + ceil(gained)
 
     def _digits(self, h: fmpq, before: Row | None) -> int:
         """Digits for the error that the row before and the order let expect."""
@@ -196,7 +203,8 @@ class SteppedSolver:
             possible = [_with_radius(arb(x), round_off) for x in y]
             now = measure(*possible)
             then = measure(*map(arb, self.problem.initial))
-            changes = [arb(a) - arb(b) for a, b in zip(now, then, strict=True)]
+            pairs = zip(now, then, strict=True)
+            changes = [arb(a) - arb(b) for a, b in pairs]
         return [absolute(change) for change in changes]
 
 
