@@ -3,12 +3,14 @@
 from __future__ import annotations
 
 from collections.abc import Callable, Hashable, Iterable, Mapping
-from typing import TypeVar
+from typing import TypeAlias, TypeVar
 
 T = TypeVar("T", bound=Hashable)
+Edges: TypeAlias = Mapping[T, Iterable[T]]
+"""The successors of each vertex."""
 
 
-def components(after: Mapping[T, Iterable[T]]) -> list[list[T]]:
+def components(after: Edges[T]) -> list[list[T]]:
     """The strongly connected components of a graph, each before those that can be reached from it
     (Kosaraju).
 
@@ -27,15 +29,14 @@ def components(after: Mapping[T, Iterable[T]]) -> list[list[T]]:
     seen.clear()
     for root in reversed(finished):
         if root not in seen:
-            found.append([])
-            _visit(root, before, seen, found[-1].append)
-            found[-1].reverse()
+            component: list[T] = []
+            _visit(root, before, seen, component.append)
+            component.reverse()
+            found.append(component)
     return found
 
 
-def _visit(
-    root: T, after: Mapping[T, Iterable[T]], seen: set[T], finish: Callable[[T], None]
-) -> None:
+def _visit(root: T, after: Edges[T], seen: set[T], finish: Callable[[T], None]) -> None:
     """Depth first from ``root``, without recursion; ``finish`` is called with each vertex after its
     successors.
     """

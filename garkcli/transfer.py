@@ -66,15 +66,17 @@ def _refuse_large(l: Method, m: Method) -> None:
         return
     entries = l.stages * m.stages
     bits = m.space.interpolation_bits(enough=MAX_WORK // entries)
-    if entries * bits > MAX_WORK:
-        digits = int(bits * LOG10_2)
-        unit = 10 ** (len(str(digits)) - 1)
-        raise BlockTooLarge(
-            f"interpolation through {counted(m.stages, 'node')} makes {l.stages} by {m.stages}"
-            f" entries with a common denominator of about {digits // unit * unit} digits:"
-            " too large to be exact",
-            "choose nodes that share small denominators, or fewer; or spell the block out",
-        )
+    if entries * bits <= MAX_WORK:
+        return
+    digits = int(bits * LOG10_2)
+    unit = 10 ** (len(str(digits)) - 1)
+    about = digits // unit * unit  # one digit of it
+    nodes = counted(m.stages, "node")
+    raise BlockTooLarge(
+        f"interpolation through {nodes} makes {l.stages} by {m.stages} entries with a"
+        f" common denominator of about {about} digits: too large to be exact",
+        "choose nodes that share small denominators, or fewer; or spell the block out",
+    )
 
 
 def conjugate_rule(rule: Rule) -> Rule:
@@ -164,7 +166,11 @@ def build_on(methods: Sequence[Method], orders: Sequence[int], l: int, m: int) -
     """Which of two colours a ``symplectic-`` rule builds on: smaller order, fewer stages, lower
     number.
     """
-    return min((l, m), key=lambda k: (orders[k], methods[k].stages, k))
+
+    def size(k: int) -> tuple[int, int, int]:
+        return orders[k], methods[k].stages, k
+
+    return min(l, m, key=size)
 
 
 def symplectic_blocks(

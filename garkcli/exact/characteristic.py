@@ -25,11 +25,13 @@ def reciprocal_characteristic(W: Matrix) -> Polynomial:
     >>> reciprocal_characteristic(((half, half), (half, half)))
     Polynomial([1, -1])
     """
-    n = len(W)
-    neighbours = {i: [j for j in range(n) if W[i][j]] for i in range(n)}
+    neighbours: dict[int, list[int]] = {}
+    for i, row in enumerate(W):
+        neighbours[i] = [j for j, w in enumerate(row) if w]
     result = Polynomial([1])
     for component in components(neighbours):
-        block = tuple(tuple(W[i][j] for j in component) for i in component)
+        rows = [W[i] for i in component]
+        block = tuple(tuple(row[j] for j in component) for row in rows)
         result = result * _dense(block)
     return result
 

@@ -77,12 +77,11 @@ def decimal(number: fmpq) -> str:
     """
     exponent = 0
     while number.q != 1 and exponent < 400:
-        number, exponent = number * 10, exponent + 1
-    return (
-        f"{number}e-{exponent}"
-        if number.q == 1 and exponent
-        else str(number / fmpq(10) ** exponent)
-    )
+        number *= 10
+        exponent += 1
+    if number.q == 1 and exponent:
+        return f"{number}e-{exponent}"
+    return str(number / fmpq(10) ** exponent)
 
 
 def plain_decimal(number: fmpq) -> str:
@@ -98,10 +97,13 @@ def plain_decimal(number: fmpq) -> str:
         places += 1
     if shifted.q != 1:
         return str(number)
-    digits = str(shifted.p).rjust(places + 1, "0")
     sign = "-" if number < 0 else ""
-    whole, fraction = digits[: len(digits) - places], digits[len(digits) - places :]
-    return sign + (f"{whole}.{fraction}" if fraction else whole)
+    digits = str(shifted.p).rjust(places + 1, "0")
+    point = len(digits) - places
+    whole, fraction = digits[:point], digits[point:]
+    if not fraction:
+        return sign + whole
+    return f"{sign}{whole}.{fraction}"
 
 
 def to_float(number: Number) -> float:

@@ -123,7 +123,8 @@ class Domain:
         radicand = self._rational_value(root.radicand)
         if radicand < 0 and root.index % 2 == 0:
             raise _even_root(root)
-        p, q = abs(radicand.p).root(root.index), radicand.q.root(root.index)
+        p = abs(radicand.p).root(root.index)
+        q = radicand.q.root(root.index)
         candidate = fmpq(-p if radicand < 0 else p, q)
         return candidate if candidate**root.index == radicand else None
 

@@ -40,8 +40,7 @@ def enclose(expression: Expression) -> arb:
             return enclose(base) ** exponent
         case Root(radicand=radicand, index=index):
             inside = enclose(radicand)
-            is_odd_of_negative = index % 2 and inside < 0
-            return (
-                -((-inside).root(index)) if is_odd_of_negative else inside.root(index)
-            )
+            if index % 2 and inside < 0:
+                return -((-inside).root(index))
+            return inside.root(index)
     raise TypeError(f"no value: {expression!r}")

@@ -196,11 +196,8 @@ class Parser:
             self._fail(f"no {self.value_noun} here", self.example)
         result = self._sum()
         if self.kind != "end":
-            cure = (
-                "write products with *"
-                if self.kind in {"name", "number"} or self.value == "("
-                else ""
-            )
+            is_factor = self.kind in {"name", "number"} or self.value == "("
+            cure = "write products with *" if is_factor else ""
             self._fail(f"{self.value!r} is not expected here", cure)
         return result
 
@@ -216,36 +213,32 @@ class Parser:
         while self.kind == "op" and self.value in {signs[0], signs[1]}:
             joined += self._advance()
             operands.append(operand())
-        return (
-            operands[0]
-            if len(operands) == 1
-            else Chain(joined, tuple(operands), start=start, end=self.last_end)
-        )
+        if len(operands) == 1:
+            return operands[0]
+        return Chain(joined, tuple(operands), start=start, end=self.last_end)
 
     def _factor(self) -> Expression:
         self.depth += 1
         if self.depth > MAX_DEPTH:
-            raise LimitExceeded(
-                f"nested more than {MAX_DEPTH} deep",
-                "write it flatter",
-                self.start,
-                self.start + 1,
-            )
+            message = f"nested more than {MAX_DEPTH} deep"
+            raise LimitExceeded(message, "write it flatter", self.start, self.start + 1)
         try:
-            start = self.start
             if self.kind == "op" and self.value in {"+", "-"}:
-                sign = self._advance()
-                inner = self._factor()
-                if sign == "+":
-                    return inner
-                if isinstance(inner, Literal):
-                    return Literal(
-                        -inner.value, start=start, end=self.last_end, text=inner.text
-                    )
-                return Chain("-", (inner,), start=start, end=self.last_end)
+                return self._signed()
             return self._power()
         finally:
             self.depth -= 1
+
+    def _signed(self) -> Expression:
+        start = self.start
+        sign = self._advance()
+        inner = self._factor()
+        if sign == "+":
+            return inner
+        end = self.last_end
+        if isinstance(inner, Literal):
+            return Literal(-inner.value, start=start, end=end, text=inner.text)
+        return Chain("-", (inner,), start=start, end=end)
 
     def _power(self) -> Expression:
         start = self.start
@@ -264,9 +257,9 @@ class Parser:
     def _raised(self, base: Expression, is_negative: bool, start: int) -> Expression:
         """``base`` to the exponent that comes next, without its sign."""
         exponent = self._integer("an exponent", MAX_EXPONENT)
-        return Power(
-            base, -exponent if is_negative else exponent, start=start, end=self.last_end
-        )
+        if is_negative:
+            exponent = -exponent
+        return Power(base, exponent, start=start, end=self.last_end)
 
     def _integer(self, what: str, limit: int) -> int:
         if self.kind != "number" or not self.value.isdigit():
@@ -299,12 +292,9 @@ class Parser:
             inner = self._sum()
             self._expect(")", start)
             return inner
-        at_end = self.kind == "end"
-        return self._fail(
-            f"the text ends where a {self.value_noun} is due"
-            if at_end
-            else f"a {self.value_noun} is expected here"
-        )
+        if self.kind == "end":
+            self._fail(f"the text ends where a {self.value_noun} is due")
+        return self._fail(f"a {self.value_noun} is expected here")
 
     def _function(self, name: str, start: int) -> Expression:
         if name not in FUNCTIONS:
@@ -335,17 +325,15 @@ def read_decimal(text: str, start: int = 0) -> fmpq:
     """
     mantissa, _, exponent = text.lower().partition("e")
     whole, _, fraction = mantissa.partition(".")
-    shift = (
-        int(exponent)
-        if exponent and len(exponent) < 8
-        else (MAX_DIGITS + 1 if exponent else 0)
-    )
+    shift = 0
+    if exponent:
+        # An exponent of eight signs is beyond the limit and not read.
+        shift = int(exponent) if len(exponent) < 8 else MAX_DIGITS + 1
     if len(whole) + len(fraction) + abs(shift) > MAX_DIGITS:
-        raise LimitExceeded(
-            f"a number of more than {MAX_DIGITS} digits",
-            "write fewer digits",
-            start,
-            start + len(text),
-        )
+        message = f"a number of more than {MAX_DIGITS} digits"
+        raise LimitExceeded(message, "write fewer digits", start, start + len(text))
+    digits = int(whole + fraction)
     scale = shift - len(fraction)
-    return fmpq(int(whole + fraction) * 10 ** max(scale, 0), 10 ** max(-scale, 0))
+    if scale >= 0:
+        return fmpq(digits * 10**scale)
+    return fmpq(digits, 10**-scale)

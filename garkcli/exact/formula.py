@@ -107,14 +107,21 @@ class _FormulaParser(Parser):
         if name in ROOTS:
             return super()._function(name, start)
         if name not in FUNCTIONS:
-            near = did_you_mean(name, (*FUNCTIONS, "sqrt"))
-            product = f"write products with *, as in {name}*(x); functions: {', '.join(FUNCTIONS)}, sqrt"
-            cure = _CURES.get(name) or (near if near.startswith("did") else product)
-            raise ExpressionError(
-                f"{name!r} is not a function of formulas", cure, start, self.last_end
-            )
+            message = f"{name!r} is not a function of formulas"
+            raise ExpressionError(message, _cure_of(name), start, self.last_end)
         opened = self.start
         self._advance()
         argument = self._sum()
         self._expect(")", opened)
         return Call(name, argument, start=start, end=self.last_end)
+
+
+def _cure_of(name: str) -> str:
+    """What to write instead of a function that is not known."""
+    if name in _CURES:
+        return _CURES[name]
+    known = (*FUNCTIONS, "sqrt")
+    near = did_you_mean(name, known)
+    if near.startswith("did"):
+        return near
+    return f"write products with *, as in {name}*(x); functions: {', '.join(known)}"

@@ -56,7 +56,8 @@ def add(a: Matrix, b: Matrix) -> Matrix:
     """The sum a + b."""
     total = []
     for row, other in zip(a, b, strict=True):
-        total.append(tuple(x + y for x, y in zip(row, other, strict=True)))
+        pairs = zip(row, other, strict=True)
+        total.append(tuple(x + y for x, y in pairs))
     return tuple(total)
 
 
@@ -64,7 +65,8 @@ def subtract(a: Matrix, b: Matrix) -> Matrix:
     """The difference a − b."""
     difference = []
     for row, other in zip(a, b, strict=True):
-        difference.append(tuple(x - y for x, y in zip(row, other, strict=True)))
+        pairs = zip(row, other, strict=True)
+        difference.append(tuple(x - y for x, y in pairs))
     return tuple(difference)
 
 
@@ -106,7 +108,8 @@ def apply_left(u: Sequence[Number], a: Matrix) -> Vector:
 def multiply(a: Matrix, b: Matrix) -> Matrix:
     """The product A B."""
     if is_rational(a) and is_rational(b):
-        left, right = to_flint(a, len(b)), to_flint(b, len(b[0]))
+        left = to_flint(a, len(b))
+        right = to_flint(b, len(b[0]))
         return from_flint(left * right)
     columns = transpose(b)
     return tuple(tuple(dot(row, column) for column in columns) for row in a)
@@ -122,7 +125,8 @@ def solve(a: Matrix, b: Matrix) -> Matrix:
     ((1/2,), (1/4,))
     """
     if is_rational(a) and is_rational(b):
-        left, right = to_flint(a, len(a)), to_flint(b, len(b[0]))
+        left = to_flint(a, len(a))
+        right = to_flint(b, len(b[0]))
         try:
             return from_flint(left.solve(right))
         except ZeroDivisionError:

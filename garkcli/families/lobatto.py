@@ -17,9 +17,8 @@ from garkcli.tableau.method import Method
 
 def lobatto_iiia(s: int) -> Method:
     """Lobatto IIIA: collocation, C(s)."""
-    return collocation_method(
-        f"Lobatto IIIA {s}", X * (X - 1) * legendre(s - 1).derivative()
-    )
+    inner_nodes = legendre(s - 1).derivative()
+    return collocation_method(f"Lobatto IIIA {s}", X * (X - 1) * inner_nodes)
 
 
 def lobatto_iiib(s: int) -> Method:

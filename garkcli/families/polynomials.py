@@ -47,13 +47,15 @@ def collocation_method(name: str, modulus: fmpq_poly) -> Method:
 def conjugate_method(name: str, method: Method) -> Method:
     """The method (Â, b, c); D(s) holds for it where C(s) holds for ``method``."""
     space, b = method.space, method.b
-    A = subtract(outer(space.one, b), space.adjoint(method.A, b, space, b))
+    adjoint = space.adjoint(method.A, b, space, b)
+    A = subtract(outer(space.one, b), adjoint)
     return Method(name, space, A, b)
 
 
 def average(name: str, one: Method, other: Method) -> Method:
     """The method with the mean of both matrices; space and weights are those of ``one``."""
-    return Method(name, one.space, scale(fmpq(1, 2), add(one.A, other.A)), one.b)
+    A = scale(fmpq(1, 2), add(one.A, other.A))
+    return Method(name, one.space, A, one.b)
 
 
 def lagrange_at(space: PolynomialSpace, node: int) -> Vector:
@@ -74,7 +76,12 @@ def with_first_column(name: str, base: Method) -> Method:
     s = space.stages
     first = lagrange_at(space, 0)
     leading = (ZERO,) * (s - 1) + (ONE,)
-    wanted = tuple(dot(base.b, first) * x for x in space.one)
+    b_1 = dot(base.b, first)
+    wanted = tuple(b_1 * x for x in space.one)
     found = apply(base.A, first)
-    missing = tuple((x - y) / first[s - 1] for x, y in zip(wanted, found, strict=True))
-    return Method(name, space, add(base.A, outer(missing, leading)), base.b)
+    scale_of_first = first[s - 1]
+    missing = []
+    for x, y in zip(wanted, found, strict=True):
+        missing.append((x - y) / scale_of_first)
+    correction = outer(tuple(missing), leading)
+    return Method(name, space, add(base.A, correction), base.b)

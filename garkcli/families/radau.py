@@ -8,9 +8,8 @@ from garkcli.tableau.method import Method
 
 def radau_ia(s: int) -> Method:
     """Radau IA: the first node is 0 and D(s) holds."""
-    return conjugate_method(
-        f"Radau IA {s}", collocation_method("", legendre(s) + legendre(s - 1))
-    )
+    collocation = collocation_method("", legendre(s) + legendre(s - 1))
+    return conjugate_method(f"Radau IA {s}", collocation)
 
 
 def radau_iia(s: int) -> Method:

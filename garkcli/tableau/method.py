@@ -4,7 +4,6 @@ from __future__ import annotations
 
 from dataclasses import dataclass
 
-from garkcli.exact.field import Number
 from garkcli.exact.matrix import Matrix, Vector, apply
 from garkcli.tableau.point_space import PointSpace
 from garkcli.tableau.stages import StageSpace
@@ -39,5 +38,7 @@ class Method:
 
 def butcher(A: Matrix, b: Vector, c: Vector | None = None, name: str = "") -> Method:
     """The method with a spelled-out Butcher tableau; ``c`` defaults to the row sums of ``A``."""
-    one: tuple[Number, ...] = PointSpace(b).one
-    return Method(name, PointSpace(c if c is not None else apply(A, one)), A, b)
+    nodes = c
+    if nodes is None:
+        nodes = apply(A, PointSpace(b).one)
+    return Method(name, PointSpace(nodes), A, b)

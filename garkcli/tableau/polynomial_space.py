@@ -162,7 +162,8 @@ def _has_long_denominators(row: Vector) -> bool:
 
 
 def _convolution(u: Sequence[Number], v: Sequence[Number]) -> Vector:
-    out: list[Number] = [fmpq(0)] * (len(u) + len(v) - 1)
+    length = len(u) + len(v) - 1
+    out: list[Number] = [ZERO] * length
     for i, x in enumerate(u):
         for j, y in enumerate(v):
             if x and y:
