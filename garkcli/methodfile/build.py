@@ -279,7 +279,7 @@ def _pair_rule(text: MethodsText, l: int, m: int) -> RuleText | None:
 
 
 def families_of(description: Description) -> dict[int, Method]:
-    """The methods of a file that are members of families, by their number from 0, each made once."""
+    """The methods of a file that are members of families, by number from 0, each made once."""
     content = description.content
     if not isinstance(content, MethodsText):
         return {}

@@ -370,7 +370,8 @@ class Reader:
             l, m = (int(place[1]) - 1, int(place[2]) - 1) if place else (0, 0)
             if l == m or max(l, m) >= colours:
                 shown = shortened(key)
-                message = f"transfer, blocks: {shown} names no off-diagonal block of {colours} colours"
+                wanted = f"off-diagonal block of {colours} colours"
+                message = f"transfer, blocks: {shown} names no {wanted}"
                 cure = 'write for instance "1,2" for the block A^{1,2}'
                 self.source.fault(keys[key], message, cure)
                 continue
@@ -397,7 +398,8 @@ class Reader:
             return RuleText(node, ((rule, None),)) if rule else None
         mixed = sorted(keys_of(node) & set(PAIR_RULES))
         if mixed:
-            message = f"{where}: {mixed[0]} makes both blocks of a pair of colours and cannot be combined"
+            what = "makes both blocks of a pair of colours and cannot be combined"
+            message = f"{where}: {mixed[0]} {what}"
             self.source.fault(node, message, f"write {mixed[0]} on its own")
             return None
         form = "write one of the rules, for instance transfer: collocation"

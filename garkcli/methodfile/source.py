@@ -2,9 +2,8 @@
 
 from __future__ import annotations
 
-from collections import Counter
 from collections.abc import Iterable, Mapping, Sequence
-from dataclasses import dataclass, replace
+from dataclasses import dataclass
 
 import yaml
 from yaml.nodes import MappingNode, Node, ScalarNode, SequenceNode
@@ -13,11 +12,11 @@ from garkcli.errors import (
     ExpressionError,
     Fault,
     MethodFileError,
-    counted,
     did_you_mean,
     nearest,
     printable,
 )
+from garkcli.methodfile.causes import MAX_PLACES, Found, place_of, told_once
 from garkcli.methodfile.composing import (
     TooLargeError,
     compose,
@@ -32,8 +31,6 @@ MAX_FAULTS = 200
 """Most faults of one file that are reported one by one."""
 MAX_FAULTS_READ = 1_000
 """After so many faults a file is read no further."""
-MAX_PLACES = 3
-"""Most further places that are named where one cause shows in many."""
 
 
 _NO_CURES: Mapping[str, str] = {}
@@ -70,21 +67,6 @@ PROBLEM_FILE = FileKind(
 )
 
 
-@dataclass(frozen=True)
-class _Found:
-    """A fault as it was noted.
-
-    Attributes:
-        fault: what is told.
-        cause: what it has in common with others; empty for a fault on its own.
-        is_one: whether faults of this cause are told once, however few there are.
-    """
-
-    fault: Fault
-    cause: str = ""
-    is_one: bool = False
-
-
 class Source:
     """One file being read: its name, its text, its kind, and the faults found so far."""
 
@@ -92,7 +74,7 @@ class Source:
         self.name = name
         self.text = text
         self.kind = kind
-        self._found: list[_Found] = []
+        self._found: list[Found] = []
 
     @property
     def faults(self) -> list[Fault]:
@@ -131,7 +113,7 @@ class Source:
         self._note(fault, cause, is_one)
 
     def _note(self, fault: Fault, cause: str = "", is_one: bool = False) -> None:
-        self._found.append(_Found(fault, cause, is_one))
+        self._found.append(Found(fault, cause, is_one))
         if len(self._found) >= MAX_FAULTS_READ:
             raise self.error()
 
@@ -165,7 +147,7 @@ class Source:
         """
         if not self._found:
             self.fault(None, f"this is not a {self.kind.name}", f"see {self.kind.page}")
-        faults = _told_once(sorted(dict.fromkeys(self._found), key=_place_of))
+        faults = told_once(sorted(dict.fromkeys(self._found), key=place_of))
         if len(faults) > MAX_FAULTS:
             last = faults[MAX_FAULTS]
             more = f"and {len(faults) - MAX_FAULTS} more faults"
@@ -354,37 +336,6 @@ def _meant(key: str, known: Sequence[str]) -> str:
     """The key that an unknown one stands for; empty where it is none of them."""
     other = _OTHER_WORDS.get(key.lower(), "")
     return other if other in known else nearest(key, known)
-
-
-def _place_of(found: _Found) -> tuple[int, int]:
-    return found.fault.line, found.fault.column
-
-
-def _told_once(found: Sequence[_Found]) -> list[Fault]:
-    """The faults in file order; those of one cause at their first place, which names the others."""
-    causes = Counter(one.cause for one in found)
-    first: dict[object, Fault] = {}
-    places: dict[object, dict[tuple[int, int], None]] = {}
-    for number, one in enumerate(found):
-        together = one.cause and (one.is_one or causes[one.cause] > MAX_PLACES)
-        key: object = one.cause if together else number
-        first.setdefault(key, one.fault)
-        places.setdefault(key, {})[_place_of(one)] = None
-    return [
-        replace(fault, message=f"{fault.message}{_elsewhere(list(places[key])[1:])}")
-        for key, fault in first.items()
-    ]
-
-
-def _elsewhere(others: Sequence[tuple[int, int]]) -> str:
-    """Where else a cause shows: ``(also at 4:12 and in 3 more places)``."""
-    if not others:
-        return ""
-    places = ", ".join(f"{line}:{column}" for line, column in others[:MAX_PLACES])
-    left = len(others) - MAX_PLACES
-    if left > 0:
-        return f" (also at {places} and in {counted(left, 'more place')})"
-    return f" (also at {places})"
 
 
 def keys_of(node: Node) -> set[str]:

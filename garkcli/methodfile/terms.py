@@ -139,10 +139,10 @@ class Maker:
         missing = [str(x) for x in (*self.q, *motion) if str(x) not in given]
         if missing:
             more = ", …" if len(missing) > _SHOWN else ""
-            message = f"initial: no value for {', '.join(missing[:_SHOWN])}{more}"
-            self.source.fault(
-                node, message, f"give each a number, such as {missing[0]}: 1/2"
-            )
+            names = ", ".join(missing[:_SHOWN])
+            message = f"initial: no value for {names}{more}"
+            cure = f"give each a number, such as {missing[0]}: 1/2"
+            self.source.fault(node, message, cure)
 
     def _names(
         self, motion: Sequence[Any], other: Sequence[Any], cure: str
@@ -180,11 +180,11 @@ class Maker:
             if expression is None or not self.text.are_named:
                 continue
             try:
-                found.append(
-                    _Term(node, where, expression, translator.translate(expression))
-                )
+                made = translator.translate(expression)
             except ExpressionError as error:
                 self.source.expression_fault(node, where, error)
+            else:
+                found.append(_Term(node, where, expression, made))
         return found
 
     def _check_values(self, terms: Sequence[_Term], start: dict[str, fmpq]) -> None:
@@ -207,10 +207,10 @@ class Maker:
         sizes = [size_of_derivatives(x.made) for x in terms]
         if sum(sizes) > MAX_SIZE:
             largest = terms[sizes.index(max(sizes))]
-            message = f"{largest.where}: second derivatives of {sum(sizes)} operations (limit {MAX_SIZE})"
-            self.source.fault(
-                largest.node, message, "write it shorter, or with fewer variables"
-            )
+            found = f"second derivatives of {sum(sizes)} operations"
+            message = f"{largest.where}: {found} (limit {MAX_SIZE})"
+            cure = "write it shorter, or with fewer variables"
+            self.source.fault(largest.node, message, cure)
 
     def _transformed(
         self, lagrangians: list[_Term], start: dict[str, fmpq]
@@ -218,10 +218,10 @@ class Maker:
         """The Hamiltonian terms, and the start with momenta."""
         moving = [x for x in lagrangians if x.made.free_symbols & set(self.v)]
         if not moving:
-            cure = f"the kinetic energy has {', '.join(map(str, self.v[:3]))}"
-            self.source.fault(
-                lagrangians[0].node, "the Lagrangian has no velocities", cure
-            )
+            names = ", ".join(map(str, self.v[:3]))
+            message = "the Lagrangian has no velocities"
+            cure = f"the kinetic energy has {names}"
+            self.source.fault(lagrangians[0].node, message, cure)
         has_velocities = str(self.v[0]) in start
         with ctx.workprec(BITS):
             at = {
