@@ -1,7 +1,7 @@
 """An oscillator with a slow and a fast spring, driven by different colours.
 
-q̈ = −(ω_s² + ω_f²) q. With a = (hω_s)² given and x = (hω_f)² the step matrix is rational in x; where the
-two colours do not fit together it has resonances, intervals of x in which |tr M| > 2. A determinant
+q̈ = −(ω_s² + ω_f²) q. With a = (hω_s)² given and x = (hω_f)² the step matrix is rational in x;
+where the two colours do not fit together it has resonances, intervals of x in which |tr M| > 2. A determinant
 is a polynomial in x of degree at most the number of unknown stage values, so it is interpolated.
 """
 
@@ -83,24 +83,28 @@ def springs(tableau: Tableau, fast: int) -> SplitSprings:
             "a method of one term has no two colours for two springs",
             "take a method with at least two terms",
         )
-    has_force = [
-        any(x.term == l and x.part in "yp" for x in tableau.colours)
-        for l in range(terms)
-    ]
-    others = [l for l in range(terms) if l != fast and has_force[l]]
-    later = [l for l in others if l > 0]
-    slow_terms = later or others
-    if not has_force[fast] or not slow_terms:
+    with_force = {x.term for x in tableau.colours if x.part in "yp"}
+    slow_terms = _slow_terms(terms, fast, with_force)
+    if fast not in with_force or not slow_terms:
         raise UsageProblem(
             f"term {fast + 1} leaves no term for the other spring",
             "give another colour with --fast",
         )
     share = fmpq(1, len(slow_terms))
-    return SplitSprings(
-        kinetic=tuple(ONE if l == 0 else ZERO for l in range(terms)),
-        slow=tuple(share if l in slow_terms else ZERO for l in range(terms)),
-        fast=tuple(ONE if l == fast else ZERO for l in range(terms)),
-    )
+    nothing = [ZERO] * terms
+    kinetic, slow, strong = list(nothing), list(nothing), list(nothing)
+    kinetic[0] = ONE
+    for l in slow_terms:
+        slow[l] = share
+    strong[fast] = ONE
+    return SplitSprings(tuple(kinetic), tuple(slow), tuple(strong))
+
+
+def _slow_terms(terms: int, fast: int, with_force: set[int]) -> list[int]:
+    """The terms that share the slow spring: not the kinetic one, where others are left."""
+    others = [l for l in range(terms) if l != fast and l in with_force]
+    later = [l for l in others if l > 0]
+    return later or others
 
 
 def two_frequencies(

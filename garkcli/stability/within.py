@@ -1,7 +1,7 @@
 """Stability of methods with rounded coefficients: what is true of all methods within a tolerance.
 
-Every coefficient that is not zero in the file is a ball of the radius of the tolerance. What follows
-for all numbers in the balls is decided; the rest is not, and is never guessed. One thing more is
+Every coefficient that is not zero in the file is a ball of the radius of the tolerance. What
+follows for all numbers in the balls is decided; the rest is not, and is never guessed. One thing more is
 used: the order p that the method has within its tolerance is taken for its order, so that
 |R(iy)|² = 1 + O(y^(p+1)) and the first coefficients of the E-polynomial are zero and not noise.
 """
@@ -57,6 +57,8 @@ def stability_within(
         stiff = is_stiffly_accurate(system)
         bounded = _is_bounded(P, Q, order, stiff)
         right = _poles_are_right(Q)
+        if right is False and not _are_coprime(P, Q):
+            right = None  # the root on the left may cancel and be no pole
         a_stable = _both(bounded, right)
         return StabilityWithin(
             a_stable, _both(a_stable, _vanishes_at_infinity(P, Q, stiff))
@@ -204,8 +206,29 @@ def _poles_are_right(Q: list[arb]) -> bool | None:
     return None if any(x.contains(0) for x in signs) else False
 
 
+def _are_coprime(P: list[arb], Q: list[arb]) -> bool:
+    """Whether P and Q have no common root for any of the numbers in the balls.
+
+    That is what a resultant without zero says: the determinant of the Sylvester matrix.
+    """
+    p, q = len(P) - 1, len(Q) - 1
+    size = p + q
+    if size == 0:
+        return True
+    zero = arb(0)
+    rows = []
+    for k in range(q):
+        after = size - p - 1 - k
+        rows.append([zero] * k + P + [zero] * after)
+    for k in range(p):
+        after = size - q - 1 - k
+        rows.append([zero] * k + Q + [zero] * after)
+    return not arb_mat(rows).det().contains(0)
+
+
 def _vanishes_at_infinity(P: list[arb], Q: list[arb], stiff: bool) -> bool | None:
-    if stiff and not Q[-1].contains(0):
+    is_regular = len(Q) == len(P) and not Q[-1].contains(0)
+    if stiff and is_regular:
         return True
     top = P[len(Q) - 1] if len(P) >= len(Q) else arb(0)
     if top.is_zero():

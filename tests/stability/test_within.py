@@ -79,3 +79,29 @@ def test_explicit_methods_are_decided(name: str) -> None:
     """A polynomial is unbounded, rounded or not."""
     tableau = gark([diagonal_method(name, None)], {})
     assert stability_within(tableau, [fmpq(1)], fmpq(1, 10**12), 1).a_stable is False
+
+
+@pytest.mark.parametrize(
+    ("A", "b"),
+    [
+        ("[[1, 0], [0, -1]]", "[1, 0]"),
+        ("[[-3, 2], [0, 1]]", "[0, 1]"),
+        ("[[0, 1], [3, -2]]", "[1/2, 1/2]"),
+        ("[[-6]]", "[0]"),
+    ],
+)
+def test_a_root_that_cancels_is_no_pole(A: str, b: str) -> None:
+    """Stages without influence, or equal ones, put a root of det(I − zA) on the left: R is A-stable."""
+    tableau = loads(f"methods: [{{A: {A}, b: {b}}}]").tableau
+    R = stability_function(tableau)
+    assert is_a_stable(R)
+    found = stability_within(tableau, [fmpq(1)], TOLERANCE, 0)
+    assert found.a_stable is not False
+    assert found.l_stable in {None, is_l_stable(R)}
+
+
+def test_a_pole_on_the_left_that_stays_decides() -> None:
+    """R = 1/(1 + z) has |R(iy)| ≤ 1 for all y, and a pole at −1 for all neighbours."""
+    tableau = loads("methods: [{A: [[-1]], b: [-1]}]").tableau
+    found = stability_within(tableau, [fmpq(1)], TOLERANCE, 0)
+    assert found.a_stable is False
