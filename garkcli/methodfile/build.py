@@ -25,6 +25,7 @@ from garkcli.methodfile.description import (
     RuleText,
     Structure,
     TableauText,
+    block_name,
 )
 from garkcli.methodfile.numbers import Entry, Numbers, Row, Values
 from garkcli.methodfile.printed import Printed
@@ -165,9 +166,9 @@ class Builder:
         tableau = gark(methods, self._transfer(text, methods, structure))
         if structure == "general":
             return tableau
-        velocities, forces = (
-            ([0], [0, 1]) if structure == "semi-separable" else ([0], [1])
-        )
+        velocities, forces = [0], [1]
+        if structure == "semi-separable":
+            forces = [0, 1]
         both = self._at(
             text.methods[0].node, lambda: symplectic_pair(tableau, velocities, forces)
         )
@@ -214,24 +215,22 @@ class Builder:
                     blocks[l, m] = self._by_rule(block, methods, orders, l, m)
             except GarkError as error:
                 node = block.node if block is not None else text.methods[0].node
-                self.source.fault(
-                    node, f"A^{{{l + 1},{m + 1}}}: {error.message}", error.help
-                )
+                message = f"{block_name(l, m)}: {error.message}"
+                self.source.fault(node, message, error.help)
         self.source.close()
         return blocks
 
     def _matrix(
         self, block: MatrixText, methods: list[Method], l: int, m: int
     ) -> Matrix:
-        shape, found = (
-            (methods[l].stages, methods[m].stages),
-            (len(block.rows), len(block.rows[0])),
-        )
-        if found != shape:
-            raise ShapeMismatch(
-                f"a matrix of {found[0]} by {found[1]} should be {shape[0]} by {shape[1]}",
-                f"a row for each stage of method {l + 1}, a column for each of method {m + 1}",
-            )
+        rows, columns = methods[l].stages, methods[m].stages
+        found_rows, found_columns = len(block.rows), len(block.rows[0])
+        if (found_rows, found_columns) != (rows, columns):
+            found = f"a matrix of {found_rows} by {found_columns}"
+            message = f"{found} should be {rows} by {columns}"
+            cure = f"a row for each stage of method {l + 1},"
+            cure += f" a column for each of method {m + 1}"
+            raise ShapeMismatch(message, cure)
         return self.values.matrix(block.rows)
 
     def _by_rule(

@@ -1,9 +1,9 @@
 """YAML text to nodes with positions, by PyYAML's parser in Python, within limits.
 
 Composing keeps what ``safe_load`` loses: where each value stands, keys that occur twice, and the
-text of a number as it was written. PyYAML's loader in Python is used whatever there is in C: the two
-word their faults differently and count columns differently, and a file has to be met with the same
-answer on every machine.
+text of a number as it was written. PyYAML's loader in Python is used whatever there is in C: the
+two word their faults differently and count columns differently, and a file has to be met with the
+same answer on every machine.
 """
 
 from __future__ import annotations

@@ -34,6 +34,8 @@ from garkcli.methodfile.description import (
     Structure,
     TableauText,
     TransferText,
+    block_name,
+    of_colour,
 )
 from garkcli.methodfile.expectations import NUMBERS
 from garkcli.methodfile.numbers import Numbers, read_parameters
@@ -105,9 +107,8 @@ class Reader:
         root = source.compose()
         if root is None:
             return None
-        if keys_of(root) & {"hamiltonian", "lagrangian"} and not keys_of(root) & set(
-            FORMS
-        ):
+        keys = keys_of(root)
+        if keys & {"hamiltonian", "lagrangian"} and not keys & set(FORMS):
             cure = "give it beside a method file: gark converge METHOD --problem FILE"
             source.fault(root, "this is a problem file, not a method file", cure)
             return None
@@ -193,17 +194,13 @@ class Reader:
 
     def _structure(self, form: Form, entries: dict[str, Node]) -> Structure:
         node = entries.get("structure")
-        word = (
-            self.source.choice(node, "structure", STRUCTURES)
-            if node is not None
-            else None
-        )
+        word = None
+        if node is not None:
+            word = self.source.choice(node, "structure", STRUCTURES)
         if node is not None and form in {"tableau", "ark"} and word != "general":
-            cure = (
-                "write absent blocks as null"
-                if form == "tableau"
-                else "use methods, tableau or prk"
-            )
+            cure = "use methods, tableau or prk"
+            if form == "tableau":
+                cure = "write absent blocks as null"
             self.source.fault(node, f"structure does not go with {form}", cure)
         if node is not None and form == "prk" and word == "semi-separable":
             self.source.fault(
@@ -302,7 +299,8 @@ class Reader:
             )
             return None
         if "family" not in keys and isinstance(node, MappingNode):
-            names = (f"A^{{{l},{l}}}", f"b^{{{l}}}", f"c^{{{l}}}")
+            k = l - 1
+            names = (block_name(k, k), of_colour("b", k), of_colour("c", k))
             return self.spelled_out.butcher(node, where, names)
         before = len(self.source.faults)
         form = "write for instance {family: gauss, stages: 2}"
@@ -375,7 +373,7 @@ class Reader:
                 cure = 'write for instance "1,2" for the block A^{1,2}'
                 self.source.fault(keys[key], message, cure)
                 continue
-            where = f"A^{{{l + 1},{m + 1}}}"
+            where = block_name(l, m)
             if (l, m) in blocks:
                 message = f"transfer, blocks: {where} is given twice"
                 self.source.fault(keys[key], message, "keep one of them")

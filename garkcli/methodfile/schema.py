@@ -18,7 +18,8 @@ from garkcli.transfer import RULES, SUMMARIES
 Schema: TypeAlias = dict[str, Any]
 
 _NUMBER: Schema = {
-    "description": "A coefficient: a number, or text such as 1/2 - sqrt(3)/6, read exactly as written.",
+    "description": "A coefficient: a number, or text such as 1/2 - sqrt(3)/6,"
+    " read exactly as written.",
     "type": ["number", "string"],
     "pattern": r"^[-+*/^(),.\sA-Za-z0-9_]+$",
 }
