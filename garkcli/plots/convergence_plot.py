@@ -46,11 +46,8 @@ _STYLES: Sequence[Mapping[str, Any]] = (
     },
     {"marker": "*", "linestyle": (0, (3, 1, 3, 3)), "color": "#2aa0a8"},
 )
-_THIN: Mapping[str, Any] = {
-    "color": "0.3",
-    "linewidth": 0.8,
-    "zorder": 1.5,
-}  # below all curves
+_THIN: Mapping[str, Any] = {"color": "0.3", "linewidth": 0.8, "zorder": 1.5}
+"""Of lines that are below all curves."""
 _AXES = {
     "h": "step size h",
     "evaluations": "evaluations of vector fields",
@@ -133,9 +130,10 @@ def _curve(
 def _add_legend_below(figure: Figure, curves: Sequence[Curve]) -> None:
     """The names of all curves below the axes, where no curve can be."""
     drawn = figure.axes[0].get_lines()[: len(curves)]
+    placeholders = ["method"] * len(drawn)
     legend = figure.legend(
         drawn,
-        ["method"] * len(drawn),
+        placeholders,
         loc="outside lower left",
         frameon=False,
         handlelength=3.5,
@@ -155,12 +153,8 @@ def _style(k: int) -> dict[str, Any]:
     """Of the k-th curve: marks and dashes are combined anew once all have been used."""
     count = len(_STYLES)
     dashes = _STYLES[(k + k // count) % count]["linestyle"]
-    return {
-        **_STYLES[k % count],
-        "linestyle": dashes,
-        "linewidth": 1.4,
-        "markersize": 5.5,
-    }
+    sizes = {"linewidth": 1.4, "markersize": 5.5}
+    return {**_STYLES[k % count], "linestyle": dashes, **sizes}
 
 
 def _log_log(
@@ -181,21 +175,17 @@ def _log_log(
     place = _power if has_floats else _itself
     draw = axes.loglog if has_floats else axes.plot
     for drawn in curves:
-        draw(
-            _placed(drawn.xs, place),
-            _placed(drawn.ys, place),
-            label=drawn.label,
-            **drawn.style,
-        )
+        xs, ys = _placed(drawn.xs, place), _placed(drawn.ys, place)
+        draw(xs, ys, label=drawn.label, **drawn.style)
     for line in lines:
-        draw(
-            _placed(line.xs, place), _placed(line.ys, place), label=line.label, **_THIN
-        )
+        xs, ys = _placed(line.xs, place), _placed(line.ys, place)
+        draw(xs, ys, label=line.label, **_THIN)
         _annotate(axes, line, place)
     if not has_floats:
         _label_powers(axes)
     elif curves:
-        _label_decades(axes, [z for drawn in curves for z in drawn.xs])
+        decades = [z for drawn in curves for z in drawn.xs]
+        _label_decades(axes, decades)
     axes.set_title(title, fontsize=11, parse_math=False)
     axes.set_xlabel(label)
     axes.set_ylabel("error")
@@ -228,14 +218,15 @@ def _placed(decades: Iterable[float], place: Callable[[float], float]) -> list[f
 def _annotate(axes: Axes, line: Line, place: Callable[[float], float]) -> None:
     """The label of a line beside its middle, on its far side from the curve."""
     middle = place(sum(line.xs) / 2), place(sum(line.ys) / 2)
-    right, up = (3 if line.is_right else -3), (-3 if line.is_below else 3)
+    right, horizontal = (3, "left") if line.is_right else (-3, "right")
+    up, vertical = (-3, "top") if line.is_below else (3, "bottom")
     axes.annotate(
         line.label,
         middle,
         (right, up),
         textcoords="offset points",
-        ha="left" if line.is_right else "right",
-        va="top" if line.is_below else "bottom",
+        ha=horizontal,
+        va=vertical,
         zorder=1.6,
         fontsize=9,
         color="0.3",
@@ -245,8 +236,12 @@ def _annotate(axes: Axes, line: Line, place: Callable[[float], float]) -> None:
 
 def _label_powers(axes: Axes) -> None:
     """Powers of ten on linear axes of logarithms."""
+
+    def text(exponent: float, _: object) -> str:
+        return f"$10^{{{exponent:g}}}$"
+
     for axis in (axes.xaxis, axes.yaxis):
-        axis.set_major_formatter(FuncFormatter(lambda x, _: f"$10^{{{x:g}}}$"))
+        axis.set_major_formatter(FuncFormatter(text))
         axis.set_major_locator(MaxNLocator(8))
 
 
@@ -257,13 +252,15 @@ def _label_decades(axes: Axes, decades: Sequence[float]) -> None:
     digits = _digits_between(max(decades) - min(decades))
 
     def text(x: float, _: object) -> str:
+        # powers of ten that rounding has made a little smaller are meant too
         power = floor(log10(x) + 1e-9)
         digit = round(x / 10.0**power)
         if not digits or digit not in (1, *digits):
             return ""
         if -3 <= power <= 3:
             return f"{x:g}"
-        return f"$10^{{{power}}}$" if digit == 1 else f"${digit}\\times10^{{{power}}}$"
+        factor = "" if digit == 1 else f"{digit}\\times"
+        return f"${factor}10^{{{power}}}$"
 
     if digits:
         axes.xaxis.set_major_formatter(FuncFormatter(text))
@@ -316,4 +313,6 @@ def save(figure: Figure, path: Path) -> None:
 
 
 def _undated(kind: str) -> dict[str, None]:
-    return {"svg": {"Date": None}, "pdf": {"CreationDate": None}}.get(kind, {})
+    if kind == "svg":
+        return {"Date": None}
+    return {"CreationDate": None} if kind == "pdf" else {}

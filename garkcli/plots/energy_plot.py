@@ -19,14 +19,14 @@ def energy_figure(run: LongRun) -> Figure:
     histories = run.invariants
     heights = [3.0, *(2.0 for _ in histories[1:])]
     figure = Figure(figsize=(7.2, 0.9 + sum(heights)), layout="constrained")
-    panels = figure.subplots(
-        len(histories), 1, sharex=True, squeeze=False, height_ratios=heights
-    )[:, 0]
+    rows = len(histories)
+    grid = figure.subplots(rows, 1, sharex=True, squeeze=False, height_ratios=heights)
+    panels = grid[:, 0]
     name = run.problem.name if isinstance(run.problem, Hamiltonian) else "oscillator"
-    title = f"{name[:1].upper() + name[1:]}, h = {run.step}, {run.steps} steps"
-    figure.suptitle(
-        title, fontsize=11, parse_math=False
-    )  # names of files are no formulas
+    capitalized = name[:1].upper() + name[1:]
+    title = f"{capitalized}, h = {run.step}, {run.steps} steps"
+    # names of files are no formulas
+    figure.suptitle(title, fontsize=11, parse_math=False)
     for axes, history in zip(panels, histories, strict=True):
         draw_history(axes, run, history)
     panels[-1].set_xlabel("time t")
@@ -39,32 +39,35 @@ def draw_history(axes: Axes, run: LongRun, history: InvariantHistory) -> None:
         run.times, history.errors, color=_PALE, linewidth=1.1, solid_joinstyle="round"
     )
     axes.axhline(0.0, color="0.1", linewidth=0.9)
-    if (
-        history.verdict == "drifts"
-        and history.shape == "line"
-        and history.drift is not None
-    ):
-        left = [
-            e - history.drift * t
-            for t, e in zip(run.times, history.errors, strict=True)
-        ]
-        middle = (max(left) + min(left)) / 2
-        ends = [run.times[0], run.times[-1]]
-        axes.plot(
-            ends,
-            [middle + history.drift * t for t in ends],
-            color=_RED,
-            linestyle=(0, (5, 4)),  # the errors show between the dashes
-            linewidth=1.4,
-            label=f"drift {history.drift:.2e} per unit of time",
-        )
-        axes.legend(frameon=False, fontsize=9)
+    if history.verdict == "drifts" and history.shape == "line":
+        _draw_drift(axes, run, history)
     title = f"{history.name}: largest error {history.max_error:.2e}, {_words(history)}"
     axes.set_title(title, fontsize=10, loc="left", parse_math=False)
     axes.set_ylabel("H(t) − H(0)" if history.name == "energy" else "error")
     axes.ticklabel_format(axis="y", style="sci", scilimits=(-2, 3), useMathText=True)
     axes.grid(True, color="0.9", linewidth=0.6)
     axes.margins(x=0)
+
+
+def _draw_drift(axes: Axes, run: LongRun, history: InvariantHistory) -> None:
+    """The line of the drift, in the middle of what the errors do besides."""
+    drift = history.drift
+    if drift is None:
+        return
+    points = zip(run.times, history.errors, strict=True)
+    left = [error - drift * t for t, error in points]
+    middle = (max(left) + min(left)) / 2
+    ends = [run.times[0], run.times[-1]]
+    heights = [middle + drift * t for t in ends]
+    axes.plot(
+        ends,
+        heights,
+        color=_RED,
+        linestyle=(0, (5, 4)),  # the errors show between the dashes
+        linewidth=1.4,
+        label=f"drift {drift:.2e} per unit of time",
+    )
+    axes.legend(frameon=False, fontsize=9)
 
 
 def _words(history: InvariantHistory) -> str:

@@ -4,7 +4,7 @@ from __future__ import annotations
 
 from collections.abc import Mapping, Sequence
 from dataclasses import dataclass
-from itertools import pairwise
+from itertools import pairwise, product
 from typing import Any
 
 _GAPS = (0.05, 0.08, 0.12, 0.18, 0.26)
@@ -72,17 +72,17 @@ def place_line(
     for curve in curves:
         points = sorted(zip(curve.xs, curve.ys, strict=True))
         scaled.append([(x / wide, y / high) for x, y in points])
+    parts = [part for curve in beside for part in _parts(curve, is_whole)]
+    sides = (not is_whole, is_whole)
     best, clearest = None, -1.0
-    for gap in _GAPS:
-        for curve in beside:
-            for part in _parts(curve, is_whole):
-                for is_below in (not is_whole, is_whole):
-                    line = _beside(part, slope, gap * high, is_below)
-                    clear = _clearance(line, scaled, wide, high, not is_whole)
-                    if clear > clearest:
-                        best, clearest = line, clear
-                    if clear >= _CLEAR:
-                        return line
+    # the nearest places first
+    for gap, part, is_below in product(_GAPS, parts, sides):
+        line = _beside(part, slope, gap * high, is_below)
+        clear = _clearance(line, scaled, wide, high, not is_whole)
+        if clear > clearest:
+            best, clearest = line, clear
+        if clear >= _CLEAR:
+            return line
     assert best is not None
     return best
 
@@ -109,9 +109,8 @@ def _beside(
         left, right = left - 0.2, right + 0.2
     offsets = [b - slope * a for a, b in points]
     offset = min(offsets) - gap if is_below else max(offsets) + gap
-    return Line(
-        (left, right), (offset + slope * left, offset + slope * right), slope, is_below
-    )
+    start, end = offset + slope * left, offset + slope * right
+    return Line((left, right), (start, end), slope, is_below)
 
 
 def _clearance(
@@ -128,10 +127,12 @@ def _clearance(
     points = []
     for k in range(_SAMPLES + 1):
         part = k / _SAMPLES
-        x, y = left + (right - left) * part, start + (end - start) * part
+        x = left + (right - left) * part
+        y = start + (end - start) * part
         points.append((x / wide, y / high))
     if has_label:
-        x, y = (left + right) / 2 / wide, (start + end) / 2 / high
+        x = (left + right) / 2 / wide
+        y = (start + end) / 2 / high
         away = 1 if line.is_right else -1
         up = -1 if line.is_below else 1
         points += [(x + away * u, y + up * v) for u, v in _LABEL]
@@ -145,5 +146,6 @@ def _heights(scaled: Sequence[Sequence[tuple[float, float]]], x: float) -> list[
     for points in scaled:
         for (a, c), (b, d) in pairwise(points):
             if a <= x <= b:
-                found.append(c + (d - c) * (x - a) / ((b - a) or 1.0))
+                width = (b - a) or 1.0
+                found.append(c + (d - c) * (x - a) / width)
     return found

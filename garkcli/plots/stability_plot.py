@@ -18,6 +18,7 @@ from numpy.typing import NDArray
 
 from garkcli.exact.display import to_float
 from garkcli.exact.polynomial import Polynomial
+from garkcli.exact.roots import RealRoot
 from garkcli.report.stability_data import StabilityReport
 from garkcli.stability.linear import StabilityFunction
 from garkcli.stability.oscillator import OscillatorStability
@@ -34,6 +35,10 @@ DASHES: tuple[Any, ...] = (
 )
 POINTS = 401
 """Points a side of a region."""
+_AT_POLES = 1e9
+"""What is drawn in place of infinity."""
+_ABOVE_ALL = 2e9
+"""A level that nothing reaches."""
 
 
 @dataclass(frozen=True)
@@ -55,29 +60,36 @@ class Window:
 
 def values(p: Polynomial, z: NDArray[Any]) -> NDArray[Any]:
     """The values of p at many points, in floats."""
-    coefficients = [to_float(a) for a in reversed(p.coefficients)]
-    found: NDArray[Any] = np.polyval(coefficients, z)
+    found: NDArray[Any] = np.polyval(_coefficients(p), z)
     return found
+
+
+def _coefficients(p: Polynomial) -> list[float]:
+    """In floats, the leading one first."""
+    return [to_float(a) for a in reversed(p.coefficients)]
 
 
 def modulus(R: StabilityFunction, z: NDArray[Any]) -> NDArray[Any]:
     """|R| at many points; infinite at poles."""
     with np.errstate(divide="ignore", invalid="ignore"):
-        size: NDArray[Any] = np.abs(values(R.numerator, z) / values(R.denominator, z))
+        ratio = values(R.numerator, z) / values(R.denominator, z)
+        size: NDArray[Any] = np.abs(ratio)
     return size
 
 
 def window_of(functions: Sequence[StabilityFunction], is_symmetric: bool) -> Window:
-    """A part of the plane with all that happens: zeros of P, poles, and where |R| = 1 on the axis."""
+    """A part of the plane with all that happens: zeros of P, poles, where |R| = 1 on the axis."""
     reach = 2.0
     for R in functions:
         for p in (R.numerator, R.denominator):
             if p.degree > 0:
-                roots = np.roots([to_float(a) for a in reversed(p.coefficients)])
-                reach = max(reach, float(np.max(np.abs(roots))))
+                sizes = np.abs(np.roots(_coefficients(p)))
+                reach = max(reach, float(np.max(sizes)))
     reach *= 1.6
-    is_left = not is_symmetric and all(R.denominator.degree == 0 for R in functions)
-    return Window(-reach, reach / 4 if is_left else reach, reach)
+    have_no_poles = all(R.denominator.degree == 0 for R in functions)
+    # regions of polynomials are on the left
+    right = reach / 4 if have_no_poles and not is_symmetric else reach
+    return Window(-reach, right, reach)
 
 
 def stability_figure(
@@ -126,11 +138,12 @@ def _draw_regions(
     handles = []
     for k, (name, R) in enumerate(named):
         colour, dashes = COLOURS[k % len(COLOURS)], DASHES[k % len(DASHES)]
-        size = modulus(R, z)
-        level = size / np.exp(z.real) if order_star else size
-        inside = [1.0, np.inf] if order_star else [0.0, 1.0]
-        finite = np.nan_to_num(level, nan=1e9, posinf=1e9)
-        bounds = [inside[0], min(inside[1], 2e9)]
+        level = modulus(R, z)
+        bounds = [0.0, 1.0]
+        if order_star:
+            level = level / np.exp(z.real)
+            bounds = [1.0, _ABOVE_ALL]
+        finite = np.nan_to_num(level, nan=_AT_POLES, posinf=_AT_POLES)
         axes.contourf(x, y, finite, levels=bounds, colors=[colour], alpha=0.18)
         axes.contour(
             x,
@@ -167,19 +180,11 @@ def trace_figure(reports: Sequence[StabilityReport]) -> Figure:
     end = max(_last_end(oscillator) for _, oscillator in found) * 1.25
     z = np.linspace(0.0, end, 1200)
     for k, (name, oscillator) in enumerate(found):
-        ratio = oscillator.trace
-        with np.errstate(divide="ignore", invalid="ignore"):
-            trace = values(ratio.numerator, z**2) / values(ratio.denominator, z**2)
-        half = np.abs(trace) / 2
-        style = DASHES[k % len(DASHES)]
-        axes.plot(z, half, color=COLOURS[k % len(COLOURS)], linestyle=style, label=name)
+        half = _half_trace(oscillator, z)
+        colour, dashes = COLOURS[k % len(COLOURS)], DASHES[k % len(DASHES)]
+        axes.plot(z, half, color=colour, linestyle=dashes, label=name)
     if len(found) == 1:
-        for interval in found[0][1].stable:
-            low = (
-                0.0 if interval.start is None else float(interval.start.ball(64)) ** 0.5
-            )
-            high = end if interval.end is None else float(interval.end.ball(64)) ** 0.5
-            axes.axvspan(low, min(high, end), color="0.9", linewidth=0)
+        _shade_stable(axes, found[0][1], end)
     axes.axhline(1.0, color="0.1", linewidth=0.9)
     axes.set_ylim(0.0, 2.0)
     axes.set_xlim(0.0, end)
@@ -193,31 +198,45 @@ def trace_figure(reports: Sequence[StabilityReport]) -> Figure:
     return figure
 
 
+def _half_trace(oscillator: OscillatorStability, z: NDArray[Any]) -> NDArray[Any]:
+    """|tr M|/2 at many points."""
+    x, ratio = z**2, oscillator.trace
+    with np.errstate(divide="ignore", invalid="ignore"):
+        trace = values(ratio.numerator, x) / values(ratio.denominator, x)
+    half: NDArray[Any] = np.abs(trace) / 2
+    return half
+
+
+def _shade_stable(axes: Axes, oscillator: OscillatorStability, end: float) -> None:
+    for interval in oscillator.stable:
+        low = 0.0 if interval.start is None else _root(interval.start)
+        high = end if interval.end is None else _root(interval.end)
+        axes.axvspan(low, min(high, end), color="0.9", linewidth=0)
+
+
+def _root(x: RealRoot) -> float:
+    """The z of x = z²."""
+    z: float = float(x.ball(64)) ** 0.5
+    return z
+
+
 def _last_end(oscillator: OscillatorStability) -> float:
     ends = [i.end for i in oscillator.stable if i.end is not None]
-    return float(ends[-1].ball(64)) ** 0.5 if ends else 8.0
+    return _root(ends[-1]) if ends else 8.0
 
 
 def springs_figure(plane: SpringsPlane, name: str) -> Figure:
     """The plane of the two frequencies: where |tr M| > 2, the resonances, is filled."""
     figure = Figure(figsize=(6.4, 5.2), layout="constrained")
     axes = figure.subplots()
-    levels = [0.0, 1.0, np.inf]
-    shown = np.nan_to_num(plane.half_trace, nan=1e9, posinf=1e9)
-    axes.contourf(
-        plane.fast,
-        plane.slow,
-        shown,
-        levels=[levels[1], 2e9],
-        colors=["#a02417"],
-        alpha=0.35,
-    )
-    axes.contour(
-        plane.fast, plane.slow, shown, levels=[1.0], colors=["#a02417"], linewidths=1.2
-    )
+    fast, slow = plane.fast, plane.slow
+    shown = np.nan_to_num(plane.half_trace, nan=_AT_POLES, posinf=_AT_POLES)
+    red = ["#a02417"]
+    unstable = [1.0, _ABOVE_ALL]
+    axes.contourf(fast, slow, shown, levels=unstable, colors=red, alpha=0.35)
+    axes.contour(fast, slow, shown, levels=[1.0], colors=red, linewidths=1.2)
     axes.set_xlabel("hω of the fast spring")
     axes.set_ylabel("hω of the slow spring")
-    axes.set_title(
-        f"{name}: filled where unstable", fontsize=11, loc="left", parse_math=False
-    )
+    title = f"{name}: filled where unstable"
+    axes.set_title(title, fontsize=11, loc="left", parse_math=False)
     return figure

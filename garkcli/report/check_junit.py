@@ -19,13 +19,11 @@ def render(outcomes: Sequence[Outcome]) -> str:
     for outcome in outcomes:
         root.append(_suite(outcome))
     for count in ("tests", "failures", "errors"):
-        root.set(count, str(sum(int(suite.get(count, "0")) for suite in root)))
+        total = sum(int(suite.get(count, "0")) for suite in root)
+        root.set(count, str(total))
     ET.indent(root)
-    return (
-        '<?xml version="1.0" encoding="UTF-8"?>\n'
-        + ET.tostring(root, encoding="unicode")
-        + "\n"
-    )
+    text = ET.tostring(root, encoding="unicode")
+    return f'<?xml version="1.0" encoding="UTF-8"?>\n{text}\n'
 
 
 def _suite(outcome: Outcome) -> ET.Element:
@@ -51,11 +49,10 @@ def _suite(outcome: Outcome) -> ET.Element:
             failure = ET.SubElement(
                 case, "failure", message=_clean(message), type="claim"
             )
-            details = (
-                claim_witness(outcome, claim.claim),
-                claim_hint(outcome, claim.claim),
-            )
-            failure.text = _clean("\n".join(text for text in details if text)) or None
+            witness = claim_witness(outcome, claim.claim)
+            hint = claim_hint(outcome, claim.claim)
+            details = "\n".join(text for text in (witness, hint) if text)
+            failure.text = _clean(details) or None
     missing = outcome.needs_claims and outcome.makes_no_claim
     if missing:
         case = ET.SubElement(suite, "testcase", classname=name, name="makes a claim")
@@ -69,6 +66,6 @@ def _suite(outcome: Outcome) -> ET.Element:
 
 
 def _clean(text: str) -> str:
-    """``text`` without the characters that XML has no way to write; signs that turn text by name."""
+    """``text`` without characters that XML has no way to write; signs that turn text by name."""
     lines = _NOT_XML.sub("\N{REPLACEMENT CHARACTER}", text).split("\n")
     return "\n".join(printable(line) for line in lines)

@@ -13,7 +13,7 @@ from garkcli.exact.display import decimal, to_decimal, to_latex, to_text
 from garkcli.exact.field import Number
 from garkcli.order.conditions import Condition
 from garkcli.report.latex import fragment, number
-from garkcli.report.paint import Paint, folded
+from garkcli.report.paint import Paint, counted, folded, indented
 from garkcli.report.symplectic import Subject, legend_lines, member_lines, summary_lines
 from garkcli.report.trees import picture
 from garkcli.tableau.tableau import Tableau
@@ -28,6 +28,8 @@ from garkcli.trees.tree import Tree
 
 MOST_DIGITS = 60
 """Longer values are shown in decimals."""
+_MARK_WIDTH = 9
+"""Columns of the margin and of the word that tells whether a condition holds."""
 _VALUED = [
     "tree",
     "root",
@@ -67,16 +69,17 @@ class ConditionRow:
     @property
     def formula(self) -> str:
         """The condition in the paper's notation, in plain text."""
-        return condition_text(
-            self.tree, vertex_letters(self.tree) if self.is_shape else None
-        )
+        return condition_text(self.tree, self._letters)
 
     @property
     def latex(self) -> str:
         """The condition in the paper's notation, in LaTeX."""
-        return condition_latex(
-            self.tree, vertex_letters(self.tree) if self.is_shape else None
-        )
+        return condition_latex(self.tree, self._letters)
+
+    @property
+    def _letters(self) -> tuple[str, ...] | None:
+        """A letter for the colour of each vertex, where the row is for all colours."""
+        return vertex_letters(self.tree) if self.is_shape else None
 
 
 @dataclass(frozen=True)
@@ -103,7 +106,8 @@ class Valued:
 
     def shows(self, row: ConditionRow) -> bool:
         """Whether a row is in the table."""
-        return not self.only_failing or row.condition is None or not row.condition.holds
+        fails = row.condition is not None and not row.condition.holds
+        return fails or row.condition is None or not self.only_failing
 
 
 def render(
@@ -132,9 +136,8 @@ def render(
         fields = {} if valued is None else valued.data()
         if subject is not None:
             fields["symplectic"] = subject.data()
-        about = "".join(
-            f'"{key}": {json.dumps(value)}, ' for key, value in fields.items()
-        )
+        members = [f'"{key}": {json.dumps(value)}, ' for key, value in fields.items()]
+        about = "".join(members)
         yield f'{{"schema": "gark/conditions/1", {about}"conditions": ['
         separator = "\n"
         for row in rows:
@@ -142,9 +145,8 @@ def render(
             separator = ",\n"
         yield "\n]}\n"
     elif format == "csv":
-        yield from _csv(
-            rows, [*_VALUED, "multiplicity" if subject is None else "stands_for"]
-        )
+        count = "multiplicity" if subject is None else "stands_for"
+        yield from _csv(rows, [*_VALUED, count])
     elif format == "latex":
         yield from fragment(_latex(rows, subject), is_document)
     else:
@@ -196,15 +198,14 @@ def _csv(rows: Iterable[ConditionRow], heading: Sequence[str]) -> Iterator[str]:
 
 
 def _quoted(value: object) -> str:
-    value = " ".join(value) if isinstance(value, list) else value
-    text = (
-        ""
-        if value is None
-        else str(value).lower()
-        if isinstance(value, bool)
-        else str(value)
-    )
-    return f'"{text}"' if any(sign in text for sign in ", ") else text
+    """A value as the cell of a CSV file."""
+    if value is None:
+        return ""
+    text = " ".join(value) if isinstance(value, list) else str(value)
+    if isinstance(value, bool):
+        text = text.lower()
+    needs_quotes = "," in text or " " in text
+    return f'"{text}"' if needs_quotes else text
 
 
 def _text(
@@ -230,76 +231,84 @@ def _text(
         yield from _lines(row, paint, width)
     verdict = "" if valued is None or not count else _verdict(failed, valued)
     if subject is not None:
-        yield from summary_lines(subject, verdict and f"; {verdict}", width)
+        ending = f"; {verdict}" if verdict else ""
+        yield from summary_lines(subject, ending, width)
     else:
-        yield f"{count} condition{'s' * (count != 1)}{verdict and f', {verdict}'}\n"
+        ending = f", {verdict}" if verdict else ""
+        yield f"{counted(count, 'condition')}{ending}\n"
 
 
 def _names(valued: Valued) -> Iterator[str]:
     """The names of the colours, where their numbers are not their names."""
     names = [colour.name for colour in valued.tableau.colours]
-    if names != [str(l) for l in range(1, len(names) + 1)]:
-        yield f"colours: {', '.join(f'{l} {name}' for l, name in enumerate(names, start=1))}\n"
+    numbers = [str(l) for l in range(1, len(names) + 1)]
+    if names != numbers:
+        pairs = map(" ".join, zip(numbers, names, strict=True))
+        yield f"colours: {', '.join(pairs)}\n"
 
 
 def _verdict(failed: int, valued: Valued) -> str:
     if failed:
-        return f"{failed} fail{'s' * (failed == 1)}"
-    return (
-        "all hold"
-        if valued.tolerance is None
-        else f"all hold within {decimal(valued.tolerance)}"
-    )
+        return f"{failed} fails" if failed == 1 else f"{failed} fail"
+    if valued.tolerance is None:
+        return "all hold"
+    return f"all hold within {decimal(valued.tolerance)}"
 
 
 def _lines(row: ConditionRow, paint: Paint, width: int) -> Iterator[str]:
+    """One row: on one line where there is no value and it fits, below each other otherwise."""
     tree = format_tree(row.tree, not row.is_shape)
-    mark = ""
-    after = f"∀ {','.join(vertex_letters(row.tree))}" if row.is_shape else ""
-    if row.condition is not None:
-        mark = paint.verdict(
-            row.condition.holds,
-            "holds  " if row.condition.is_exact else "within ",
-            "FAILS  ",
-        )
-        after = f"({len(row.condition.trees)} times)" if row.condition.twins else ""
-    if row.stands_for:
-        after = f"stands for {row.stands_for}"
     sizes = f"σ = {row.tree.symmetry}  γ = {row.tree.density}"
-    one = f"  {tree:<22} {sizes:<17} {row.formula}   {after}".rstrip()
-    if row.condition is None and len(one) <= width:
-        yield one + "\n"
+    formula = f"{row.formula}   {_multiplicity(row)}".rstrip()
+    one = f"  {tree:<22} {sizes:<17} {formula}"
+    condition = row.condition
+    if condition is None and len(one) <= width:
+        lines = [one]
     else:
-        head = f"{tree:<22} {sizes}".rstrip()
-        lines = (
-            [head]
-            if len(head) + 9 <= width
-            else [*folded(tree, width - 9), f"  {sizes}"]
-        )
-        yield f"  {mark}{lines[0]}\n"
-        yield from (f"      {line}\n" for line in lines[1:])
-        whole = f"{row.formula}   {after}".rstrip()
-        yield from (f"      {line}\n" for line in folded(whole, width - 6, "    "))
-    if row.condition is not None and not row.condition.is_exact:
-        miss = f"      {_miss(row.condition, row.digits)}"
-        yield from (f"{line}\n" for line in folded(miss, width, "        "))
-    yield from (
-        line + "\n" for line in member_lines(map(format_tree, row.members), width)
-    )
+        head = [f"{tree:<22} {sizes}"]
+        if len(head[0]) + _MARK_WIDTH > width:
+            head = [*folded(tree, width - _MARK_WIDTH), f"  {sizes}"]
+        lines = [f"  {_mark(condition, paint)}{head[0]}"]
+        formulas = folded(formula, width - 6, " " * 4)
+        lines += indented([*head[1:], *formulas], " " * 6)
+    if condition is not None and not condition.is_exact:
+        miss = f"      {_miss(condition, row.digits)}"
+        lines += folded(miss, width, " " * 8)
+    members = map(format_tree, row.members)
+    lines += member_lines(members, width)
+    for line in lines:
+        yield line + "\n"
+
+
+def _mark(condition: Condition | None, paint: Paint) -> str:
+    """Whether a condition holds, exactly or within the tolerance."""
+    if condition is None:
+        return ""
+    holds = "holds  " if condition.is_exact else "within "
+    return paint.verdict(condition.holds, holds, "FAILS  ")
+
+
+def _multiplicity(row: ConditionRow) -> str:
+    """How many conditions the row is, or for which colours it is one."""
+    if row.stands_for:
+        return f"stands for {row.stands_for}"
+    if row.condition is not None:
+        trees = len(row.condition.trees)
+        return f"({trees} times)" if row.condition.twins else ""
+    if row.is_shape:
+        return f"∀ {','.join(vertex_letters(row.tree))}"
+    return ""
 
 
 def _miss(condition: Condition, digits: int | None) -> str:
     """The value and the residual, in decimals where they are long or ``digits`` are asked for."""
     kind = "coupling" if condition.is_coupling else "diagonal"
-    value, residual = (
-        _number(condition.value, digits),
-        _number(condition.residual, digits),
-    )
-    if digits is None and max(len(value), len(residual)) > MOST_DIGITS:
-        value, residual = (
-            f"about {to_decimal(condition.value, 8)}",
-            to_decimal(condition.residual, 4),
-        )
+    value = _number(condition.value, digits)
+    residual = _number(condition.residual, digits)
+    longest = max(len(value), len(residual))
+    if digits is None and longest > MOST_DIGITS:
+        value = f"about {to_decimal(condition.value, 8)}"
+        residual = to_decimal(condition.residual, 4)
     return f"is {value}, off by {residual}  ({kind} condition)"
 
 
@@ -312,42 +321,61 @@ def _latex_values(condition: Condition, digits: int | None) -> tuple[str, str]:
     """The value and the residual, in decimals where they are long or ``digits`` are asked for."""
     value, residual = condition.value, condition.residual
     if digits is not None:
-        return (number(to_decimal(value, digits)), number(to_decimal(residual, digits)))
-    if max(len(to_text(value)), len(to_text(residual))) > MOST_DIGITS:
-        return rf"\approx {number(to_decimal(value, 8))}", number(
-            to_decimal(residual, 4)
-        )
+        return _latex_decimal(value, digits), _latex_decimal(residual, digits)
+    longest = max(len(to_text(value)), len(to_text(residual)))
+    if longest > MOST_DIGITS:
+        return rf"\approx {_latex_decimal(value, 8)}", _latex_decimal(residual, 4)
     return to_latex(value), to_latex(residual)
+
+
+def _latex_decimal(value: Number, digits: int) -> str:
+    return number(to_decimal(value, digits))
 
 
 def _latex(
     rows: Iterable[ConditionRow], subject: Subject | None = None
 ) -> Iterator[str]:
-    first = True
     if subject is not None:
         yield from (f"% {line}" for line in legend_lines(subject))
+    is_begun = False
     for row in rows:
-        valued = row.condition is not None
-        if first:
-            head = ["", "$u$", r"$\rho(u)$", r"$\gamma(u)$", "order condition"]
-            head += ["value", "residual"] if valued else []
-            head += ["stands for"] if row.stands_for else [] if valued else ["for all"]
-            yield f"\\begin{{longtable}}{{{'l' * len(head)}}}\n  \\hline\n  {' & '.join(head)} \\\\ \\hline\n"
-            first = False
-        cells = [
-            picture(row.tree, colours=not row.is_shape),
-            f"${format_latex(row.tree, not row.is_shape)}$",
-            str(row.tree.order),
-            str(row.tree.density),
-        ]
-        cells.append(f"${row.latex}$")
-        if row.condition is not None:
-            cells += [f"${cell}$" for cell in _latex_values(row.condition, row.digits)]
-        if row.stands_for:
-            cells.append(str(row.stands_for))
-        elif not valued:
-            letters = ",".join(vertex_letters(row.tree)) if row.is_shape else ""
-            cells.append(rf"$\forall\, {letters}$" if letters else "")
-        yield "  " + " & ".join(cells) + " \\\\[4pt]\n"
-    if not first:
+        if not is_begun:
+            yield _latex_head(row)
+            is_begun = True
+        yield f"  {' & '.join(_latex_cells(row))} \\\\[4pt]\n"
+    if is_begun:
         yield "  \\hline\n\\end{longtable}\n"
+
+
+def _latex_head(row: ConditionRow) -> str:
+    """The beginning of a table whose rows have the columns of this one."""
+    head = ["", "$u$", r"$\rho(u)$", r"$\gamma(u)$", "order condition"]
+    if row.condition is not None:
+        head += ["value", "residual"]
+    if row.stands_for:
+        head.append("stands for")
+    elif row.condition is None:
+        head.append("for all")
+    columns = "l" * len(head)
+    titles = " & ".join(head)
+    begin = f"\\begin{{longtable}}{{{columns}}}\n  \\hline\n"
+    return f"{begin}  {titles} \\\\ \\hline\n"
+
+
+def _latex_cells(row: ConditionRow) -> list[str]:
+    has_colours = not row.is_shape
+    cells = [
+        picture(row.tree, colours=has_colours),
+        f"${format_latex(row.tree, has_colours)}$",
+        str(row.tree.order),
+        str(row.tree.density),
+        f"${row.latex}$",
+    ]
+    if row.condition is not None:
+        cells += [f"${cell}$" for cell in _latex_values(row.condition, row.digits)]
+    if row.stands_for:
+        cells.append(str(row.stands_for))
+    elif row.condition is None:
+        letters = ",".join(vertex_letters(row.tree)) if row.is_shape else ""
+        cells.append(rf"$\forall\, {letters}$" if letters else "")
+    return cells

@@ -34,8 +34,10 @@ def rounded(ball: Any, digits: int = 4) -> str:
 def scientific(ball: Any, digits: int = 3) -> str:
     """The same with an exponent always, so that columns are read by their ends.
 
-    >>> scientific(arb(2) / 300), scientific(arb("9.999e-400")), scientific(arb(12)), scientific(arb(0))
-    ('6.67e-3', '1.00e-399', '1.20e1', '0')
+    >>> scientific(arb(2) / 300), scientific(arb(12)), scientific(arb(0))
+    ('6.67e-3', '1.20e1', '0')
+    >>> scientific(arb("9.999e-400"))
+    '1.00e-399'
     >>> scientific(arb(12, 0.5), 6)
     '1e1'
     """
@@ -45,8 +47,10 @@ def scientific(ball: Any, digits: int = 3) -> str:
     if ball.contains(0):
         return f"< 1e{bound(ball)}"
     digits = min(digits, certain_digits(ball))
-    exponent = floor(decades_of(ball.mid()))
-    mantissa = f"{float(ball.mid() / arb(10) ** exponent):.{digits - 1}f}"
+    middle = ball.mid()
+    exponent = floor(decades_of(middle))
+    scaled = middle / arb(10) ** exponent
+    mantissa = f"{float(scaled):.{digits - 1}f}"
     if float(mantissa) >= 10:
         exponent += 1
         mantissa = f"{1:.{digits - 1}f}"

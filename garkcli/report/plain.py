@@ -1,4 +1,4 @@
-"""Text from strangers made harmless: for terminals, for the log of GitHub Actions, for spreadsheets.
+"""Text from strangers made harmless: for terminals, the log of GitHub Actions, spreadsheets.
 
 Names of files and methods, and lines of files that are shown, are not ours. Every report writes
 them through here.

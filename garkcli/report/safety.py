@@ -21,7 +21,8 @@ def written_out(text: str, format: str = "text", coloured: bool = False) -> str:
     r"""A whole report in which every sign that does not print is written out.
 
     Control characters would command a terminal, bidirectional ones would show another text than
-    there is, halves of pairs cannot be encoded. The colours of ``Paint`` stay where it is ``coloured``.
+    there is, halves of pairs cannot be encoded. The colours of ``Paint`` stay where it is
+    ``coloured``.
 
     >>> print(written_out("a\x1b[2Jb \u202ec\n"), end="")
     a\x1b[2Jb \u202ec
@@ -52,8 +53,10 @@ def escaped(sign: str, format: str = "text") -> str:
     """
     if format in JSON:
         units = sign.encode("utf-16-be", "surrogatepass")
-        return "".join(f"\\u{units[i : i + 2].hex()}" for i in range(0, len(units), 2))
-    if format in XML and not sign.isascii() and not "\ud800" <= sign <= "\udfff":
+        pairs = range(0, len(units), 2)
+        return "".join(f"\\u{units[i : i + 2].hex()}" for i in pairs)
+    is_half = "\ud800" <= sign <= "\udfff"
+    if format in XML and not sign.isascii() and not is_half:
         return f"&#{ord(sign)};"
     if format in YAML:
         return f"\\U{ord(sign):08x}"

@@ -14,7 +14,7 @@ from typing import TYPE_CHECKING, Any
 
 from garkcli.errors import UsageProblem
 from garkcli.report.latex import fragment
-from garkcli.report.paint import Paint
+from garkcli.report.paint import Paint, counted
 from garkcli.report.trees import DRAWN_ORDER, picture
 from garkcli.trees.count import Admissible, counts_upto
 from garkcli.trees.drawing import draw_text
@@ -70,10 +70,8 @@ class Subject:
             independent = [count_classes(self.structure, n) for n in self.orders]
         else:  # a tableau that lacks blocks
             independent = [sum(1 for _ in self._of_order(n)) for n in self.orders]
-        return tuple(
-            (n, k, sum(every[n - 1]))
-            for n, k in zip(self.orders, independent, strict=True)
-        )
+        totals = [sum(every[n - 1]) for n in self.orders]
+        return tuple(zip(self.orders, independent, totals, strict=True))
 
     @property
     def _admissible(self) -> Admissible:
@@ -119,29 +117,32 @@ class Subject:
     @property
     def legend(self) -> str:
         """What the numbers of the colours mean; empty where there is one colour."""
-        return (
-            f"colours: {', '.join(f'{l} {x}' for l, x in enumerate(self.names, 1))}"
-            if self.has_colours
-            else ""
-        )
+        if not self.has_colours:
+            return ""
+        pairs = [f"{l} {name}" for l, name in enumerate(self.names, 1)]
+        return f"colours: {', '.join(pairs)}"
 
     @property
     def summary(self) -> str:
         """How many conditions are left, in words."""
-        few, many = self.independent, sum(k for _, _, k in self.counts)
-        what = "independent condition" if few == 1 else "independent conditions"
+        few, many = self.independent, self._all_conditions
+        conditions = counted(few, "independent condition")
         which = "of order" if len(self.orders) == 1 else "up to order"
         instead = "" if few == many else f", instead of {many}"
-        return f"{few} {what} {which} {self.orders[-1]} for {self._problem}{instead}"
+        return f"{conditions} {which} {self.orders[-1]} for {self._problem}{instead}"
+
+    @property
+    def _all_conditions(self) -> int:
+        """The conditions of all orders, were the method not symplectic."""
+        return sum(k for _, _, k in self.counts)
 
     @property
     def _problem(self) -> str:
         terms = len(self.structure.leaders)
-        ending = "" if terms == 1 else "s"
         if self.kind == "pair":
-            return f"a symplectic pair of {terms} Hamiltonian{ending}"
+            return f"a symplectic pair of {counted(terms, 'Hamiltonian')}"
         if self.kind == "self-conjugate":
-            return f"a self-conjugate method of {terms} vector field{ending}"
+            return f"a self-conjugate method of {counted(terms, 'vector field')}"
         return _PROBLEMS[self.kind]
 
     def data(self) -> dict[str, Any]:
@@ -151,7 +152,7 @@ class Subject:
             "terms": len(self.structure.leaders),
             "colours": list(self.names),
             "count": self.independent,
-            "instead_of": sum(k for _, _, k in self.counts),
+            "instead_of": self._all_conditions,
         }
 
 
@@ -198,11 +199,8 @@ def subject_of_method(tableau: Tableau, orders: range) -> Subject:
     quadratic = frozenset(term for (term, _), x in natures if x.is_linear)
     for (term, _), x in natures:
         if term in quadratic and not x.is_linear:
-            message = (
-                f"colour {x.name} is not linear, as the other colour of its stages is"
-            )
             raise UsageProblem(
-                message,
+                f"colour {x.name} is not linear, as the other colour of its stages is",
                 "such a term of the Hamiltonian has no classes; make both linear or none",
             )
     structure = Structure(colours, quadratic)
@@ -213,14 +211,10 @@ def subject_of_method(tableau: Tableau, orders: range) -> Subject:
 def _kind(structure: Structure) -> Kind:
     if not structure.is_directed:
         return "self-conjugate"
-    return next(
-        (
-            kind
-            for kind in KINDS
-            if kind in _PROBLEMS and structure_of(kind) == structure
-        ),
-        "pair",
-    )
+    for kind in KINDS:
+        if kind in _PROBLEMS and structure_of(kind) == structure:
+            return kind
+    return "pair"
 
 
 def _not_symplectic(tableau: Tableau) -> UsageProblem:
@@ -249,24 +243,32 @@ def render_classes(
     if format == "json":
         yield json.dumps(_head(subject))[:-1] + ', "classes": ['
         for k, tree in enumerate(classes):
-            yield f"{',' * (k > 0)}\n{json.dumps(_data(subject, tree, with_members))}"
+            separator = ",\n" if k else "\n"
+            yield separator + json.dumps(_data(subject, tree, with_members))
         yield "\n]}\n"
     elif format == "ndjson":
-        yield from (
-            json.dumps(_data(subject, tree, with_members)) + "\n" for tree in classes
-        )
-    elif format == "csv":
-        yield f"kind,representative,root,order,sigma,gamma,stands_for{',members' * with_members}\n"
         for tree in classes:
-            data = _data(subject, tree, with_members)
-            data["representative"] = f'"{data["representative"]}"'
-            if with_members:
-                data["members"] = f'"{" ".join(data["members"])}"'
-            yield ",".join(map(str, data.values())) + "\n"
+            yield json.dumps(_data(subject, tree, with_members)) + "\n"
+    elif format == "csv":
+        yield from _csv(subject, classes, with_members)
     elif format == "latex":
         yield from fragment(_latex(subject, classes), is_document)
     else:
         yield from _text(subject, classes, paint, with_members)
+
+
+def _csv(
+    subject: Subject, classes: Iterable[ConditionClass], with_members: bool
+) -> Iterator[str]:
+    ending = ",members" if with_members else ""
+    yield f"kind,representative,root,order,sigma,gamma,stands_for{ending}\n"
+    for tree in classes:
+        data = _data(subject, tree, with_members)
+        data["representative"] = f'"{data["representative"]}"'
+        if with_members:
+            members = " ".join(data["members"])
+            data["members"] = f'"{members}"'
+        yield ",".join(map(str, data.values())) + "\n"
 
 
 def render_class_counts(subject: Subject, format: str, paint: Paint) -> Iterator[str]:
@@ -279,11 +281,11 @@ def render_class_counts(subject: Subject, format: str, paint: Paint) -> Iterator
         return
     if format == "csv":
         yield "kind,order,count,instead_of\n"
-        yield from (
-            f"{subject.kind},{n},{few},{many}\n" for n, few, many in subject.counts
-        )
+        for n, few, many in subject.counts:
+            yield f"{subject.kind},{n},{few},{many}\n"
     elif format == "latex":
-        yield from (f"{n} & {few} & {many} \\\\\n" for n, few, many in subject.counts)
+        for n, few, many in subject.counts:
+            yield f"{n} & {few} & {many} \\\\\n"
     else:
         for n, few, many in subject.counts:
             yield f"order {n}: {paint('strong', str(few))} instead of {many}\n"
@@ -361,17 +363,19 @@ def _text(
 
 
 def _entry(subject: Subject, tree: ConditionClass, with_members: bool) -> Iterator[str]:
-    here, many = tree.representative, len(tree.members)
+    here = tree.representative
     sizes = f"σ = {here.symmetry:<4} γ = {here.density:<5}"
-    lines = [f"  {subject.text(tree):<28} {sizes} {many} tree{'s' * (many != 1)}"]
-    is_drawn = tree.order <= DRAWN_ORDER
+    trees = counted(len(tree.members), "tree")
+    lines = [f"  {subject.text(tree):<28} {sizes} {trees}"]
+    width, drawing = WIDTH, []
+    if tree.order <= DRAWN_ORDER:
+        width = _DRAWING - 2
+        drawing = draw_text(here, subject.has_colours)
     if with_members:
-        lines += member_lines(
-            subject.members(tree), _DRAWING - 2 if is_drawn else WIDTH
-        )
-    drawing = draw_text(here, subject.has_colours) if is_drawn else []
+        lines += member_lines(subject.members(tree), width)
     for left, right in zip_longest(lines, drawing, fillvalue=""):
-        yield f"{left:<{_DRAWING}}{right}".rstrip() + "\n"
+        line = left.ljust(_DRAWING) + right
+        yield line.rstrip() + "\n"
 
 
 def _latex(subject: Subject, classes: Iterable[ConditionClass]) -> Iterator[str]:
@@ -380,6 +384,7 @@ def _latex(subject: Subject, classes: Iterable[ConditionClass]) -> Iterator[str]
     yield "  & $u$ & $\\rho(u)$ & $\\sigma(u)$ & $\\gamma(u)$ & stands for \\\\ \\hline\n"
     for tree in classes:
         u = tree.representative
+        formula = format_latex(u, subject.has_colours)
         sizes = f"{u.order} & {u.symmetry} & {u.density} & {len(tree.members)}"
-        yield f"  {picture(u)} &\n  ${format_latex(u, subject.has_colours)}$ & {sizes} \\\\\n"
+        yield f"  {picture(u)} &\n  ${formula}$ & {sizes} \\\\\n"
     yield "  \\hline\n\\end{longtable}\n"
