@@ -233,7 +233,7 @@ class SpelledOutReader:
         return tuple(blocks)
 
     def _block(self, node: Node, l: int, m: int, b: tuple[Row, ...]) -> Rows | None:
-        """The block A^{l,m}, a row for each weight of l and a column for each of m; None for null."""
+        """The block A^{l,m}, a row for each weight of l, a column for each of m; None for null."""
         if is_null(node):
             return None
         where = block_name(l, m)
