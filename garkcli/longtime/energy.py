@@ -178,7 +178,9 @@ def _powers(omega: fmpq, energy: float, time: float) -> tuple[float, float]:
     """What ``garkcli.longtime.rounding.Exchange`` finds along the exact solution: q̇p̈ and ṗq̈ are
     −ω²p² and ω⁴q², whose sizes sum to 2ω²H, and q̇ṗ = −d/dt ½ω²q² has a mean of at most H/t.
     """
-    return energy / max(time, 1e-300), 2 * to_float(omega) ** 2 * energy
+    first = energy / max(time, 1e-300)
+    second = 2 * to_float(omega) ** 2 * energy
+    return first, second
 
 
 def _scaled(R: Matrix, omega: fmpq, bits: int) -> arb_mat:
@@ -228,9 +230,10 @@ def _forms(step: arb_mat, length: int) -> tuple[list[tuple[arb, arb, arb]], arb_
         largest = max(abs(x).mid() for x in (a, b, c, d))
         if forms and largest > 1e50:
             break
-        of_squares = (a * a + c * c - 1) / 2, (b * b + d * d - 1) / 2
+        of_first = (a * a + c * c - 1) / 2
         of_product = a * b + c * d
-        forms.append((of_squares[0], of_product, of_squares[1]))
+        of_second = (b * b + d * d - 1) / 2
+        forms.append((of_first, of_product, of_second))
         power = step * power
     return forms, power
 
@@ -256,7 +259,8 @@ def _starts(
 def _are_sharp(balls: list[arb]) -> bool:
     """Whether all radii are far below the largest of the numbers."""
     largest = max(abs(x).mid() for x in balls)
-    allowed = max(largest * arb(2) ** -_GOAL, arb(2) ** -_FLOOR)
+    relative = largest * arb(2) ** -_GOAL
+    allowed = max(relative, arb(2) ** -_FLOOR)
     return all(x.rad() <= allowed for x in balls)
 
 

@@ -77,7 +77,8 @@ class Excursions:
         sizes = np.abs(states[:, :d])
         either = turned[:, :d] | turned[:, d:]
         for i in range(d):
-            self._add_position(i, first, sizes[:, i], np.flatnonzero(either[:, i]))
+            turns = np.flatnonzero(either[:, i])
+            self._add_position(i, first, sizes[:, i], turns)
 
     def _add_position(
         self, i: int, first: int, sizes: Floats, turns: NDArray[np.int64]

@@ -138,11 +138,11 @@ def _noise(record: Record, bound: Binding, step: fmpq, digits: int) -> Floats:
     """
     import numpy as np
 
-    is_at_rest = all(y == record.states[0] for y in record.states.values())
+    states = list(record.states.values())
+    is_at_rest = all(y == record.states[0] for y in states)
     if record.blew_up or (is_at_rest and not record.largest.any()):
         return np.zeros(len(record.largest))
-    measure = record.measure
-    sizes = np.max([measure.sizes(y) for y in record.states.values()], axis=0)
+    sizes = np.max([record.measure.sizes(y) for y in states], axis=0)
     derived = unit_round_off(digits) * sizes * (1 + record.done)
 
     compared = len(record.first) - 1
@@ -236,7 +236,9 @@ class _Judge:
 
     def _size(self, k: int) -> float:
         """Of the summands of an invariant at the start; 1 where all are zero."""
-        return float(self.record.measure.sizes(self.record.states[0])[k]) or 1.0
+        start = self.record.states[0]
+        sizes = self.record.measure.sizes(start)
+        return float(sizes[k]) or 1.0
 
     def _longer(self, trend: Trend | None) -> fmpq | None:
         """A time that would decide; None if that is too many steps."""

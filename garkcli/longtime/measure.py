@@ -86,7 +86,11 @@ class Measure:
             values = [self._values_of(y) for y in states]
             return np.array(values, dtype=np.float64) - first
         with ctx.workprec(self._bits):
-            return np.array([[float(x) for x in self._differences(y)] for y in states])
+            rows = []
+            for y in states:
+                differences = self._differences(y)
+                rows.append([float(x) for x in differences])
+            return np.array(rows)
 
     def sizes(self, y: Sequence[Any]) -> Floats:
         """The sums of the sizes of the summands of each invariant at the state y, in floats.

@@ -177,7 +177,8 @@ def identity_minus(J: Sequence[Slope]) -> list[list[str]]:
     """I − J, all n² entries."""
     rows = []
     for i, slope in enumerate(J):
-        row = ["1.0" if i == k else "0.0" for k in range(len(J))]
+        row = ["0.0"] * len(J)
+        row[i] = "1.0"
         for k, text in slope.items():
             row[k] += f" - ({text})"
         rows.append(row)

@@ -154,8 +154,9 @@ class NewtonWriter:
             summed = self._stages.graph.sums[stage]
             total = self._stages.total(stage, summed)
             for i, text in enumerate(total.texts):
-                z = f"z{self._stages.component(stage, i)}"
-                self._lines.write(f"r{k} = {z} - ({text or '0.0'})")
+                c = self._stages.component(stage, i)
+                image = text or "0.0"
+                self._lines.write(f"r{k} = z{c} - ({image})")
                 k += 1
 
     def _directly(self, J: Sequence[Slope]) -> None:
