@@ -4,7 +4,6 @@ docs/json.md.
 
 from __future__ import annotations
 
-import json
 from collections.abc import Sequence
 from typing import TYPE_CHECKING, Any
 
@@ -14,6 +13,7 @@ from garkcli.exact.display import decimal, to_text
 from garkcli.order.certificate import Order
 from garkcli.order.simplifying import Simplifying
 from garkcli.report.hints import hints_data
+from garkcli.report.json_text import to_json
 from garkcli.tableau.tableau import Tableau
 from garkcli.trees.notation import format_tree
 
@@ -25,7 +25,7 @@ SCHEMA = "gark/check/1"
 
 def render(outcomes: Sequence[Outcome]) -> str:
     """The report as JSON text."""
-    return json.dumps(as_data(outcomes), indent=2, ensure_ascii=False) + "\n"
+    return to_json(as_data(outcomes)) + "\n"
 
 
 def as_data(outcomes: Sequence[Outcome]) -> dict[str, Any]:

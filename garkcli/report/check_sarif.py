@@ -2,13 +2,13 @@
 
 from __future__ import annotations
 
-import json
 from collections.abc import Sequence
 from typing import Any
 
 from garkcli import __version__
 from garkcli.check.findings import KINDS, Finding, findings
 from garkcli.check.outcome import Outcome
+from garkcli.report.json_text import to_json
 from garkcli.report.plain import printable
 
 
@@ -32,7 +32,7 @@ def render(outcomes: Sequence[Outcome]) -> str:
             }
         ],
     }
-    return json.dumps(log, indent=2, ensure_ascii=False) + "\n"
+    return to_json(log) + "\n"
 
 
 def _result(finding: Finding) -> dict[str, Any]:

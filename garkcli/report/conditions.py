@@ -2,7 +2,6 @@
 
 from __future__ import annotations
 
-import json
 from collections.abc import Iterable, Iterator, Sequence
 from dataclasses import dataclass
 from typing import Any
@@ -12,6 +11,7 @@ from flint import fmpq
 from garkcli.exact.display import decimal, to_decimal, to_latex, to_text
 from garkcli.exact.field import Number
 from garkcli.order.conditions import Condition
+from garkcli.report.json_text import to_json
 from garkcli.report.latex import fragment, number
 from garkcli.report.paint import Paint, counted, folded, indented
 from garkcli.report.symplectic import Subject, legend_lines, member_lines, summary_lines
@@ -136,12 +136,15 @@ def render(
         fields = {} if valued is None else valued.data()
         if subject is not None:
             fields["symplectic"] = subject.data()
-        members = [f'"{key}": {json.dumps(value)}, ' for key, value in fields.items()]
+        members = [
+            f'"{key}": {to_json(value, indent=None, ascii_only=True)}, '
+            for key, value in fields.items()
+        ]
         about = "".join(members)
         yield f'{{"schema": "gark/conditions/1", {about}"conditions": ['
         separator = "\n"
         for row in rows:
-            yield separator + json.dumps(_data(row), ensure_ascii=False)
+            yield separator + to_json(_data(row), indent=None)
             separator = ",\n"
         yield "\n]}\n"
     elif format == "csv":

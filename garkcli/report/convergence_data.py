@@ -4,7 +4,6 @@ from __future__ import annotations
 
 import csv
 import io
-import json
 from collections.abc import Sequence
 from dataclasses import dataclass
 from typing import Any
@@ -14,6 +13,7 @@ from garkcli.errors import Fault
 from garkcli.exact.display import to_float
 from garkcli.problems.oscillator import Oscillator
 from garkcli.report.figures import for_programs
+from garkcli.report.json_text import to_json
 from garkcli.report.plain import csv_cell
 
 _DIGITS = 6  # of errors
@@ -82,7 +82,7 @@ def json_of_several(entries: Sequence[Entry], with_work: bool) -> str:
 
 
 def _dumped(data: dict[str, Any]) -> str:
-    return json.dumps(data, indent=2, ensure_ascii=False) + "\n"
+    return to_json(data) + "\n"
 
 
 def _errors(faults: Sequence[Fault]) -> list[dict[str, Any]]:

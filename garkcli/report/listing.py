@@ -2,10 +2,10 @@
 
 from __future__ import annotations
 
-import json
 from collections.abc import Mapping
 
 from garkcli.families.registry import Family
+from garkcli.report.json_text import to_json
 from garkcli.report.paint import Paint
 
 
@@ -36,7 +36,7 @@ def render(
                 {"name": name, "summary": summary} for name, summary in problems.items()
             ],
         }
-        return json.dumps(data, indent=2, ensure_ascii=False) + "\n"
+        return to_json(data) + "\n"
     lines = [paint("strong", f"{'families':<20} {'stages':<8} {'order':<7}")]
     lines += [
         f"  {x.name:<18} {_stages(x):<8} {x.order:<7} {x.summary}"

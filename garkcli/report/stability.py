@@ -2,11 +2,11 @@
 
 from __future__ import annotations
 
-import json
 from collections.abc import Sequence
 
 from garkcli.exact.polynomial import Polynomial
 from garkcli.report.exactly import integral, polynomial_latex
+from garkcli.report.json_text import to_json
 from garkcli.report.paint import Paint
 from garkcli.report.stability_data import StabilityReport, as_data
 from garkcli.report.stability_text import text_of
@@ -19,7 +19,7 @@ def render(reports: Sequence[StabilityReport], format: str, paint: Paint) -> str
             "schema": "gark/stability/1",
             "files": [as_data(report) for report in reports],
         }
-        return json.dumps(data, indent=2, ensure_ascii=False) + "\n"
+        return to_json(data) + "\n"
     if format == "latex":
         return "\n".join(_latex(report) for report in reports)
     return "\n".join("\n".join(text_of(report, paint)) + "\n" for report in reports)

@@ -4,7 +4,6 @@ their trees.
 
 from __future__ import annotations
 
-import json
 from collections.abc import Iterable, Iterator
 from dataclasses import dataclass
 from functools import cached_property
@@ -13,6 +12,7 @@ from textwrap import wrap
 from typing import TYPE_CHECKING, Any
 
 from garkcli.errors import UsageProblem
+from garkcli.report.json_text import to_json
 from garkcli.report.latex import fragment
 from garkcli.report.paint import Paint, counted
 from garkcli.report.trees import DRAWN_ORDER, picture
@@ -241,14 +241,24 @@ def render_classes(
 ) -> Iterator[str]:
     """The classes as pieces of text, each a whole line or more."""
     if format == "json":
-        yield json.dumps(_head(subject))[:-1] + ', "classes": ['
+        yield (
+            to_json(_head(subject), indent=None, ascii_only=True)[:-1]
+            + ', "classes": ['
+        )
         for k, tree in enumerate(classes):
             separator = ",\n" if k else "\n"
-            yield separator + json.dumps(_data(subject, tree, with_members))
+            yield separator + to_json(
+                _data(subject, tree, with_members), indent=None, ascii_only=True
+            )
         yield "\n]}\n"
     elif format == "ndjson":
         for tree in classes:
-            yield json.dumps(_data(subject, tree, with_members)) + "\n"
+            yield (
+                to_json(
+                    _data(subject, tree, with_members), indent=None, ascii_only=True
+                )
+                + "\n"
+            )
     elif format == "csv":
         yield from _csv(subject, classes, with_members)
     elif format == "latex":
@@ -277,7 +287,10 @@ def render_class_counts(subject: Subject, format: str, paint: Paint) -> Iterator
         head = _head(subject)
         if len(subject.orders) > 1:
             head["by_order"] = {str(n): few for n, few, _ in subject.counts}
-        yield json.dumps(head, indent=None if format == "ndjson" else 2) + "\n"
+        yield (
+            to_json(head, indent=None if format == "ndjson" else 2, ascii_only=True)
+            + "\n"
+        )
         return
     if format == "csv":
         yield "kind,order,count,instead_of\n"

@@ -4,7 +4,6 @@ beside them.
 
 from __future__ import annotations
 
-import json
 from collections.abc import Callable
 from typing import Any
 
@@ -12,6 +11,7 @@ from flint import arb
 
 from garkcli.exact.display import to_float
 from garkcli.report.check_json import colours_data
+from garkcli.report.json_text import to_json
 from garkcli.report.tableau_text import cell_text
 from garkcli.tableau.pointwise import Cell, Entries
 from garkcli.tableau.tableau import Tableau
@@ -27,7 +27,7 @@ def render(tableau: Tableau, entries: Entries, name: str) -> str:
         **_mapped(entries, lambda cell: cell_text(cell, entries.digits)),
         "float": _mapped(entries, _float),
     }
-    return json.dumps(data, indent=2, ensure_ascii=False) + "\n"
+    return to_json(data) + "\n"
 
 
 def _float(cell: Cell) -> float:

@@ -2,12 +2,12 @@
 
 from __future__ import annotations
 
-import json
 from collections.abc import Iterable, Iterator, Sequence
 from dataclasses import dataclass
 from itertools import groupby
 from typing import NamedTuple, TypeAlias
 
+from garkcli.report.json_text import to_json
 from garkcli.report.latex import fragment
 from garkcli.report.paint import Paint, folded
 from garkcli.trees.drawing import draw_text, tikz
@@ -56,7 +56,7 @@ def render(
         yield from _json(query, rows, counts)
     elif format == "ndjson":
         for row in rows:
-            yield json.dumps(_data(row)) + "\n"
+            yield to_json(_data(row), indent=None, ascii_only=True) + "\n"
     elif format == "csv":
         yield "tree,root,order,sigma,gamma\n"
         for row in rows:
@@ -77,7 +77,10 @@ def render_counts(
             head["by_order"] = {
                 str(n): sum(kept(query, by_root)) for n, by_root in counts
             }
-        yield json.dumps(head, indent=None if format == "ndjson" else 2) + "\n"
+        yield (
+            to_json(head, indent=None if format == "ndjson" else 2, ascii_only=True)
+            + "\n"
+        )
         return
     if format == "csv":
         yield "order,root,count\n"
@@ -138,11 +141,11 @@ def _json(
     if counts is None:
         rows = list(rows)
         counts = _counted(query, rows)
-    head = json.dumps(_head(query, counts))
+    head = to_json(_head(query, counts), indent=None, ascii_only=True)
     yield head[:-1] + ', "trees": ['
     separator = "\n"
     for row in rows:
-        yield f"{separator}{json.dumps(_data(row))}"
+        yield f"{separator}{to_json(_data(row), indent=None, ascii_only=True)}"
         separator = ",\n"
     yield "\n]}\n"
 

@@ -567,3 +567,22 @@ def test_the_schema_of_reports_allows_reports() -> None:
     )
     assert [error.message for error in Draft7Validator(schema).iter_errors(found)] == []
     assert not Draft7Validator(schema).is_valid({"schema": "gark/check/1"})
+
+
+@pytest.mark.parametrize(
+    "command",
+    ["check", "tableau", "conjugate", "conditions", "stability"],
+)
+def test_numbers_beyond_floats_are_no_infinity(command: str, tmp_path: Path) -> None:
+    """JSON has no Infinity: a coefficient of 400 digits is null as a float, and exact as text."""
+    path = tmp_path / "huge.yaml"
+    path.write_text('methods: [{A: [["1e400"]], b: [1]}]\n', encoding="utf-8")
+    more = ["--error-constants"] if command == "check" else []
+    more += ["--order", "2"] if command == "conditions" else []
+    run = gark(command, str(path), *more, "--format", "json")
+
+    def refused(name: str) -> None:
+        pytest.fail(name)
+
+    json.loads(run.out, parse_constant=refused)
+    assert "000000" in run.out

@@ -1,0 +1,30 @@
+"""JSON as its standard has it: no Infinity, no NaN."""
+
+from __future__ import annotations
+
+import json
+from math import isfinite
+from typing import Any
+
+
+def to_json(data: Any, indent: int | None = 2, ascii_only: bool = False) -> str:
+    """Plain data as JSON text, without a final newline.
+
+    A number beyond the range of floats is null: its exact form stands beside it as text.
+
+    >>> to_json({"float": float("inf"), "exact": "10**400"}, indent=None)
+    '{"float": null, "exact": "10**400"}'
+    """
+    finite = _finite(data)
+    return json.dumps(finite, indent=indent, ensure_ascii=ascii_only, allow_nan=False)
+
+
+def _finite(data: Any) -> Any:
+    """The same data with null in place of floats that are no numbers."""
+    if isinstance(data, float):
+        return data if isfinite(data) else None
+    if isinstance(data, dict):
+        return {key: _finite(value) for key, value in data.items()}
+    if isinstance(data, (list, tuple)):
+        return [_finite(value) for value in data]
+    return data
