@@ -141,7 +141,9 @@ def analysed(tableau: Tableau, fields: Sequence[Matrix]) -> OscillatorStability:
         trace=trace,
         determinant=determinant,
         discriminant=D * D * 4 - N * N,
-        stable=stable_set(trace, determinant, _off_diagonal(step)),
+        stable=stable_set(
+            trace, determinant, _off_diagonal(step), _even(step.denominator)
+        ),
         phase=phase_error(trace, determinant),
     )
 
@@ -157,7 +159,10 @@ def _even(p: Polynomial) -> Polynomial:
 
 
 def stable_set(
-    trace: Ratio, determinant: Ratio, off_diagonal: Sequence[Polynomial]
+    trace: Ratio,
+    determinant: Ratio,
+    off_diagonal: Sequence[Polynomial],
+    poles: Polynomial,
 ) -> tuple[Interval, ...]:
     """The x ≥ 0 for which all powers of M are bounded.
 
@@ -167,6 +172,8 @@ def stable_set(
         off_diagonal: two polynomials with the roots of the entries off the diagonal. With a double
             eigenvalue ±1 and det M = 1 the diagonal of M ∓ I is (e, −e) with e² = −bc: M = ±I where
             both are zero.
+        poles: the denominator of M in lowest terms. An entry off the diagonal can have a pole where
+            the trace and the determinant have none: there is no step there.
     """
     N, D = trace.numerator, trace.denominator
     P, Q = determinant.numerator, determinant.denominator
@@ -178,7 +185,7 @@ def stable_set(
     defect = gcd(*off_diagonal)
 
     def is_stable(x: Point) -> bool:
-        if sign_of(scale, x) == 0:
+        if sign_of(scale, x) == 0 or sign_of(poles, x) == 0:
             return False
         signs = [sign_of(p, x) for p in (area, right, left)]
         if min(signs) < 0:
@@ -186,7 +193,8 @@ def stable_set(
         is_double = signs[0] == 0 and 0 in signs[1:]
         return not is_double or sign_of(defect, x) == 0
 
-    return where(is_stable, [scale, area, right, left, defect], start=ZERO)
+    deciding = [scale, area, right, left, defect, poles]
+    return where(is_stable, deciding, start=ZERO)
 
 
 def _off_diagonal(step: StepFunction) -> tuple[Polynomial, Polynomial]:
@@ -200,8 +208,8 @@ def _off_diagonal(step: StepFunction) -> tuple[Polynomial, Polynomial]:
 def phase_error(trace: Ratio, determinant: Ratio) -> PhaseError:
     """The leading error of the frequency, by power series in x.
 
-    With cos θ = tr M / (2 √det M), cos² θ − cos² z = −2 sin z cos z (θ − z) + …, and the left-hand side
-    is a series with exact coefficients: no root is taken.
+    With cos θ = tr M / (2 √det M), cos² θ − cos² z = −2 sin z cos z (θ − z) + …, and the left-hand
+    side is a series with exact coefficients: no root is taken.
     """
     N, D = trace.numerator, trace.denominator
     P, Q = determinant.numerator, determinant.denominator

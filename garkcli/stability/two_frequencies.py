@@ -17,7 +17,7 @@ from garkcli.exact.cells import Interval
 from garkcli.exact.characteristic import reciprocal_characteristic
 from garkcli.exact.field import ONE, ZERO, Number
 from garkcli.exact.matrix import Matrix
-from garkcli.exact.polynomial import Polynomial, interpolated
+from garkcli.exact.polynomial import Polynomial, gcd, interpolated
 from garkcli.problems.oscillator import Oscillator, check_structure, terms_of
 from garkcli.stability.oscillator import Ratio, stable_set
 from garkcli.stability.step_function import StageSystem, stage_system
@@ -119,7 +119,8 @@ def two_frequencies(
     count = len(_system(tableau, split, slow, ZERO).W) + 1
     points = [fmpq(k) for k in range(count)]
     rows = [_determinants(_system(tableau, split, slow, x)) for x in points]
-    D, a, b, c, d = (interpolated(points, column) for column in zip(*rows, strict=True))
+    columns = zip(*rows, strict=True)
+    D, a, b, c, d = _reduced([interpolated(points, column) for column in columns])
     trace = Ratio.of(a + d, D)
     determinant = Ratio.of(a * d - b * c, D * D)
     N = trace.numerator
@@ -128,8 +129,16 @@ def two_frequencies(
         trace=trace,
         determinant=determinant,
         discriminant=trace.denominator * trace.denominator * 4 - N * N,
-        stable=stable_set(trace, determinant, (b, c)),
+        stable=stable_set(trace, determinant, (b, c), D),
     )
+
+
+def _reduced(polynomials: Sequence[Polynomial]) -> list[Polynomial]:
+    """Polynomials without their common factor: roots of it are no poles of M."""
+    common = polynomials[0]
+    for p in polynomials:
+        common = gcd(common, p)
+    return [p // common for p in polynomials]
 
 
 def _like_an_oscillator(split: SplitSprings) -> Oscillator:

@@ -17,7 +17,12 @@ from garkcli.families.registry import diagonal_method
 from garkcli.longtime.stability import stability as fate_of
 from garkcli.methodfile.load import load, loads
 from garkcli.problems.oscillator import Oscillator, terms_of
-from garkcli.stability.oscillator import OscillatorStability, oscillator_stability
+from garkcli.stability.oscillator import (
+    OscillatorStability,
+    Ratio,
+    oscillator_stability,
+    stable_set,
+)
 from garkcli.stability.two_frequencies import springs, two_frequencies
 from garkcli.stepping.linear import linear_step
 from garkcli.tableau.forms import gark
@@ -164,3 +169,14 @@ def test_one_spring_is_two_without_the_slow_one() -> None:
         (x.start, x.end, x.has_end) for x in alone
     ]
     assert not found[0].has_start
+
+
+def test_where_an_entry_has_a_pole_there_is_no_step() -> None:
+    """M = (0, 1 − x; −1/(1 − x), 0) has trace 0 and determinant 1, and does not exist at x = 1."""
+    zero, one = Polynomial([]), Polynomial([1])
+    pole = Polynomial([1, -1])
+    found = stable_set(Ratio(zero, one), Ratio(one, one), (pole * pole, -one), pole)
+    before, after = found
+    assert before.end is not None
+    assert before.end.exact == 1
+    assert (before.has_end, after.has_start) == (False, False)
