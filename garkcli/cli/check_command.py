@@ -46,6 +46,12 @@ from garkcli.report.check_formats import FORMATS
     metavar="N",
     help="Check N files at a time; 0 for as many as there are processors.",
 )
+@click.option(
+    "--digits",
+    type=click.IntRange(1, 1000),
+    metavar="N",
+    help="In the text N significant digits instead of exact values and residuals.",
+)
 @common(["auto", *FORMATS])
 def command(
     files: tuple[str, ...],
@@ -54,6 +60,7 @@ def command(
     baseline: str | None,
     require_claims: bool,
     jobs: int,
+    digits: int | None,
     output: Output,
 ) -> int:
     """Everything known about each method, and its claims.
@@ -93,7 +100,9 @@ def command(
         output.write(check_baseline.render(worse, len(outcomes)))
         return int(bool(worse))
     chosen = _format(output)
-    output.write(FORMATS[chosen](outcomes, output.paint, output.verbosity), chosen)
+    output.write(
+        FORMATS[chosen](outcomes, output.paint, output.verbosity, digits), chosen
+    )
     return max(outcome.exit_code for outcome in outcomes)
 
 

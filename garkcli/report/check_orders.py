@@ -2,6 +2,7 @@
 
 from __future__ import annotations
 
+from dataclasses import dataclass, field
 from typing import TYPE_CHECKING
 
 from flint import arb, fmpq
@@ -31,10 +32,31 @@ _ONE_LINE = 50
 """Value and residual that are shorter together share a line."""
 
 
-def order_lines(analysis: Analysis, paint: Paint) -> list[str]:
-    """The order of the method, of its conjugate, of their pair, and with time."""
+@dataclass(frozen=True)
+class _Shown:
+    """How failures are shown, and which were.
+
+    Attributes:
+        digits: significant digits of numbers; None for exact ones.
+        witnesses: those that were shown.
+    """
+
+    digits: int | None
+    witnesses: list[Witness] = field(default_factory=list)
+
+
+def order_lines(
+    analysis: Analysis, paint: Paint, digits: int | None = None
+) -> list[str]:
+    """The order of the method, of its conjugate, of their pair, and with time.
+
+    Args:
+        analysis: what was found.
+        paint: colour or none.
+        digits: significant digits of values and residuals; None for exact numbers.
+    """
     lines: list[str] = []
-    shown: list[Witness] = []
+    shown = _Shown(digits)
     for label, order, tableau in (
         ("order", analysis.order, analysis.tableau),
         ("conjugate order", analysis.conjugate_order, analysis.conjugate),
@@ -57,7 +79,7 @@ def order_number(order: AnyOrder) -> str:
 
 
 def _nonautonomous(
-    analysis: Analysis, order: AnyOrder, paint: Paint, shown: list[Witness]
+    analysis: Analysis, order: AnyOrder, paint: Paint, shown: _Shown
 ) -> list[str]:
     """The order on y' = f(t, y), as the nodes are not the row sums."""
     timed = with_time(analysis.tableau)
@@ -70,7 +92,7 @@ def _nonautonomous(
 
 
 def _order(
-    label: str, order: AnyOrder, tableau: Tableau, paint: Paint, shown: list[Witness]
+    label: str, order: AnyOrder, tableau: Tableau, paint: Paint, shown: _Shown
 ) -> list[str]:
     """An order with its witness, drawn unless the same failure was shown before."""
     number = paint("strong", order_number(order))
@@ -85,19 +107,25 @@ def _order(
         every = f"every condition up to order {order.order} holds"
         return [f"{head}   {every}; no further was looked"]
     failed = f"fails at order {witness.tree.order}"
-    if witness in shown:
+    if witness in shown.witnesses:
         return [f"{head}   {failed}, as above"]
-    shown.append(witness)
-    text = _failure(failed, witness, tableau)
+    shown.witnesses.append(witness)
+    text = _failure(failed, witness, tableau, shown.digits)
     lines = [paint.dots(line) for line in indented(text, " " * 6)]
     return [head, *lines]
 
 
-def _failure(failed: str, witness: Witness, tableau: Tableau) -> list[str]:
+def _failure(
+    failed: str, witness: Witness, tableau: Tableau, digits: int | None
+) -> list[str]:
     """The tree that fails, how far off its condition is, and its drawing where it fits."""
     has_colours = tableau.size > 1
     tree = format_tree(witness.tree, has_colours)
-    text = [f"{failed}: {tree}", *_residual(witness), *_legend(witness, tableau)]
+    text = [
+        f"{failed}: {tree}",
+        *_residual(witness, digits),
+        *_legend(witness, tableau),
+    ]
     picture = draw_text(witness.tree, has_colours, width=_TREE_WIDTH)
     widths = [max(map(len, lines)) for lines in (text, picture)]
     return beside(text, picture) if sum(widths) < _BESIDE_WIDTH else text
@@ -148,8 +176,12 @@ def _legend(witness: Witness, tableau: Tableau) -> list[str]:
     return [f"colour {', '.join(meanings)}"]
 
 
-def _residual(witness: Witness) -> list[str]:
+def _residual(witness: Witness, digits: int | None) -> list[str]:
     """The value, what it should be, and the difference; long ones in decimals."""
+    if digits is not None:
+        numbers = (witness.value, witness.required, witness.residual)
+        value, required, residual = (to_decimal(x, digits) for x in numbers)
+        return [f"{value} instead of {required}, off by {residual}"]
     value, residual = to_text(witness.value), to_text(witness.residual)
     required = str(witness.required)
     if max(len(value), len(residual)) > _LONGEST:

@@ -26,7 +26,12 @@ _NAMED_BLOCKS = 4
 """How many blocks with wrong row sums are named; the others are counted."""
 
 
-def render(outcomes: Sequence[Outcome], paint: Paint, verbosity: int = 0) -> str:
+def render(
+    outcomes: Sequence[Outcome],
+    paint: Paint,
+    verbosity: int = 0,
+    digits: int | None = None,
+) -> str:
     """The report on some files.
 
     Args:
@@ -34,10 +39,11 @@ def render(outcomes: Sequence[Outcome], paint: Paint, verbosity: int = 0) -> str
         paint: colour or none.
         verbosity: −1 shows faults and failed claims only; 0 one file in full, several a line each;
             1 all in full.
+        digits: significant digits of values and residuals; None for exact numbers.
     """
     full = verbosity > 0 or (len(outcomes) == 1 and verbosity == 0)
     quiet = verbosity < 0
-    blocks = [_outcome(outcome, paint, full, quiet) for outcome in outcomes]
+    blocks = [_outcome(outcome, paint, full, quiet, digits) for outcome in outcomes]
     between = "\n\n" if full else "\n"
     text = between.join(filter(None, blocks))
     if len(outcomes) > 1 and verbosity >= 0:
@@ -45,12 +51,14 @@ def render(outcomes: Sequence[Outcome], paint: Paint, verbosity: int = 0) -> str
     return inert(text) + "\n" if text else ""
 
 
-def _outcome(outcome: Outcome, paint: Paint, full: bool, quiet: bool) -> str:
+def _outcome(
+    outcome: Outcome, paint: Paint, full: bool, quiet: bool, digits: int | None
+) -> str:
     analysis = outcome.analysis
     if analysis is None:
         return faults_text(outcome, paint)
     if full:
-        return "\n".join(_full(outcome, analysis, paint))
+        return "\n".join(_full(outcome, analysis, paint, digits))
     lines = []
     if not (quiet and outcome.ok):
         lines.append(_line(outcome, analysis, paint))
@@ -107,14 +115,16 @@ def _line(outcome: Outcome, analysis: Analysis, paint: Paint) -> str:
     return f"{mark} {file}: {found}  ({claims})"
 
 
-def _full(outcome: Outcome, analysis: Analysis, paint: Paint) -> list[str]:
+def _full(
+    outcome: Outcome, analysis: Analysis, paint: Paint, digits: int | None
+) -> list[str]:
     tableau = analysis.tableau
     title = printable(outcome.file)
     if outcome.name != outcome.file:
         title += f": {printable(outcome.name)}"
     kind = _kind(tableau, outcome.structure, analysis.tolerance)
     lines = [paint("strong", title), *indented(wrap(kind, 78)), ""]
-    lines += order_lines(analysis, paint)
+    lines += order_lines(analysis, paint, digits)
     if analysis.suggestion is not None:
         lines += suggestion_lines(analysis.suggestion, analysis.tolerance, paint)
     if analysis.misprint is not None:

@@ -586,3 +586,10 @@ def test_numbers_beyond_floats_are_no_infinity(command: str, tmp_path: Path) -> 
 
     json.loads(run.out, parse_constant=refused)
     assert "000000" in run.out
+
+
+def test_digits_of_a_check() -> None:
+    """Values and residuals in decimals where they are asked for."""
+    run = gark("check", COLLOCATION, "--digits", "4")
+    assert "0.006944 instead of 0.008333, off by -0.001389" in run.out
+    assert "1/144" not in run.out
