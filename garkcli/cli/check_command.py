@@ -24,7 +24,7 @@ from garkcli.report.check_formats import FORMATS
 @click.option(
     "--error-constants",
     is_flag=True,
-    help="The norms of the principal error coefficients, over all trees of the first failing order.",
+    help="The norms of the principal error coefficients, over the trees of the order that fails.",
 )
 @click.option(
     "--baseline",

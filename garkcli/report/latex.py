@@ -8,7 +8,8 @@ from collections.abc import Iterable, Iterator
 
 PREAMBLE = (
     r"\usepackage{amsmath,longtable,tikz}",
-    r"\providecommand{\mathbbm}[1]{\mathbf{#1}} % or \usepackage{bbm} for the paper's vector of ones",
+    r"\providecommand{\mathbbm}[1]{\mathbf{#1}} "
+    r"% or \usepackage{bbm} for the paper's vector of ones",
 )
 """What a document needs that includes a report."""
 

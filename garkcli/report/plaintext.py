@@ -5,6 +5,7 @@ from __future__ import annotations
 import codecs
 import re
 import unicodedata
+from collections.abc import Iterator
 from functools import lru_cache
 
 HANDLER = "garkcli.plaintext"
@@ -133,28 +134,44 @@ def plain_line(line: str, encoding: str = "ascii") -> str:
     made: list[str] = []
     column = 0  # in the line as it is meant
     width = 0  # in the line as it is made
-    raised = ""  # the sign of a running exponent or index, which is written once
-    ended = False  # whether a spelled letter or an exponent ends here, so that a letter needs a gap
-    for at, sign in enumerate(line):
-        form = sign if _has(encoding, sign) else ascii_form(sign)
-        mark = (
-            form[0] if len(form) == 2 and form[0] in "^_" and sign not in SIGNS else ""
-        )
-        if mark and mark == raised:
-            form = form[1:]
-        raised = mark
-        is_spelled = form != sign and _is_greek(sign)
-        follows_letter = bool(made) and made[-1][-1:].isalpha()
-        if form[:1].isalpha() and (ended or (is_spelled and follows_letter)):
-            form = f" {form}"
-        ended = is_spelled or bool(mark) or form == "^T"
+    before = ""
+    for sign, form in _forms(line, encoding):
         column += not unicodedata.combining(sign)
-        is_gap = sign == " " and line[at - 1 : at] == " "
+        is_gap = sign == " " and before == " "
+        before = sign
         if is_gap and width >= column:
             continue
         made.append(form)
         width += len(form)
     return "".join(made)
+
+
+def _forms(line: str, encoding: str) -> Iterator[tuple[str, str]]:
+    """Each sign of a line with its form, spelled letters and exponents apart from letters."""
+    raised = ""  # the sign of a running exponent or index, which is written once
+    ended = (
+        False  # whether a spelled letter or an exponent ends here: a letter needs a gap
+    )
+    last = ""
+    for sign in line:
+        form = sign if _has(encoding, sign) else ascii_form(sign)
+        mark = _script_mark(sign, form)
+        if mark and mark == raised:
+            form = form[1:]
+        raised = mark
+        is_spelled = form != sign and _is_greek(sign)
+        needs_gap = ended or (is_spelled and last.isalpha())
+        if needs_gap and form[:1].isalpha():
+            form = f" {form}"
+        ended = is_spelled or bool(mark) or form == "^T"
+        yield sign, form
+        last = form[-1:]
+
+
+def _script_mark(sign: str, form: str) -> str:
+    """What raises or lowers a sign, ``^`` or ``_``; empty for others."""
+    is_script = len(form) == 2 and form[0] in "^_" and sign not in SIGNS
+    return form[0] if is_script else ""
 
 
 def plain_text(text: str, encoding: str) -> str:

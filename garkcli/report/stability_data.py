@@ -150,6 +150,7 @@ def _oscillator_data(found: OscillatorStability, digits: int) -> dict[str, Any]:
     if form is not None:
         texts = [polynomial_text(p, "z") for p in integral(form)]
         conserved = {"qq": texts[0], "qp": texts[1], "pp": texts[2]}
+    constant = found.phase.constant
     return {
         "trace": _ratio_data(found.trace.numerator, found.trace.denominator, "x"),
         "determinant": _ratio_data(
@@ -159,7 +160,7 @@ def _oscillator_data(found: OscillatorStability, digits: int) -> dict[str, Any]:
         "stable": intervals_data(found.stable, digits),
         "p_stable": found.is_p_stable,
         "phase_order": found.phase.order,
-        "phase_constant": to_text(found.phase.constant),
+        "phase_constant": None if constant is None else to_text(constant),
         "conserved": conserved,
     }
 

@@ -289,7 +289,10 @@ def _phase_text(found: OscillatorStability) -> str:
     order = found.phase.order
     if order is None:
         return "none: the frequency is exact"
-    return f"order {order}: {to_text(found.phase.constant)} z^{order + 1}"
+    if found.phase.constant is None:
+        return "order 0: the frequency is wrong for small step sizes"
+    constant = to_text(found.phase.constant)
+    return f"order {order}: {constant} z^{order + 1}"
 
 
 def _conserved_text(found: OscillatorStability) -> str:

@@ -57,11 +57,12 @@ class PhaseError:
 
     Attributes:
         order: the phase-lag order; None where the frequency is exact.
-        constant: its constant, 0 where the frequency is exact.
+        constant: its constant, 0 where the frequency is exact; None at order 0, where it may be
+            irrational.
     """
 
     order: int | None
-    constant: Number
+    constant: Number | None
 
 
 @dataclass(frozen=True)
@@ -220,6 +221,8 @@ def phase_error(trace: Ratio, determinant: Ratio) -> PhaseError:
         difference = (over - under * _cosine_squared(terms)).coefficients[:terms]
         leading = next((k for k, a in enumerate(difference) if a), None)
         if leading is not None:
+            if leading == 1:  # θ − z is no small part of z
+                return PhaseError(0, None)
             # −2 z · c z^(order+1) = leading term; under is 4 at x = 0
             constant = difference[leading] / (under[0] * -2)
             return PhaseError(2 * leading - 2, constant)

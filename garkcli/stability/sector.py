@@ -82,7 +82,8 @@ def _critical_cosines(R: StabilityFunction) -> list[RealRoot] | None:
 def _resultant_with_derivative(p: Polynomial, degree: int) -> Number:
     """Res(p, p′) for p taken as of ``degree``; 0 where its leading coefficient is zero.
 
-    That keeps the values those of one polynomial in c, of which the leading coefficient is a factor.
+    That keeps the values those of one polynomial in c, of which the leading coefficient is a
+    factor.
     """
     if p.degree < degree:
         return ZERO

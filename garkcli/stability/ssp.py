@@ -96,8 +96,8 @@ def _stacked(tableau: Tableau, ratios: Sequence[Number]) -> tuple[Matrix, list[M
 def _conditions(whole: Matrix, parts: Sequence[Matrix]) -> Iterator[Polynomial]:
     """Polynomials in r that must not be negative from 0 to the radius.
 
-    (I + rK)⁻¹ = Σ (−r)^k K^k. With the denominator d(r) = det(I + rK), d · (I + rK)⁻¹ is a polynomial of
-    degree at most n: finitely many terms of the product of the series determine it.
+    (I + rK)⁻¹ = Σ (−r)^k K^k. With the denominator d(r) = det(I + rK), d · (I + rK)⁻¹ is a
+    polynomial of degree at most n: finitely many terms of the product of the series determine it.
     """
     n = len(whole)
     minus_whole = tuple(tuple(-x for x in row) for row in whole)

@@ -1,8 +1,9 @@
 """An oscillator with a slow and a fast spring, driven by different colours.
 
 q̈ = −(ω_s² + ω_f²) q. With a = (hω_s)² given and x = (hω_f)² the step matrix is rational in x;
-where the two colours do not fit together it has resonances, intervals of x in which |tr M| > 2. A determinant
-is a polynomial in x of degree at most the number of unknown stage values, so it is interpolated.
+where the two colours do not fit together it has resonances, intervals of x in which |tr M| > 2. A
+determinant is a polynomial in x of degree at most the number of unknown stage values, so it is
+interpolated.
 """
 
 from __future__ import annotations

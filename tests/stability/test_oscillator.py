@@ -180,3 +180,10 @@ def test_where_an_entry_has_a_pole_there_is_no_step() -> None:
     assert before.end is not None
     assert before.end.exact == 1
     assert (before.has_end, after.has_start) == (False, False)
+
+
+def test_a_method_that_does_nothing_has_order_zero() -> None:
+    """With weights 0 the step is the identity, and no constant is made up."""
+    tableau = loads("methods: [{A: [[0]], b: [0]}]").tableau
+    found = oscillator_stability(tableau, Oscillator.default(1, ONE))
+    assert (found.phase.order, found.phase.constant) == (0, None)
