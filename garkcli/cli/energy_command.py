@@ -66,7 +66,7 @@ if TYPE_CHECKING:
 @click.option(
     "--symplecticity",
     is_flag=True,
-    help="Measure MᵀJM − J of single steps, M = ∂y₁/∂y₀.",
+    help="Measure MᵀJM − J of steps, M = ∂y₁/∂y₀.",
 )
 @click.option(
     "--bounded",

@@ -103,6 +103,7 @@ WIDE = [
     ("check", "--error-constants", "coupled.yaml"),
     ("check", "broken.yaml"),
     ("stability", "--help"),
+    ("energy", "--help"),
 ]
 
 
