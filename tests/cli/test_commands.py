@@ -147,7 +147,7 @@ def test_a_file_is_replaced_only_by_a_whole_report(tmp_path: Path) -> None:
     assert gark("tableau", INVALID, "-o", str(target)).code == 2
     assert target.read_text() == "old"
     assert gark("tableau", VERLET, "-o", str(target)).code == 0
-    assert target.read_text().startswith("Störmer-Verlet")
+    assert target.read_text(encoding="utf-8").startswith("Störmer-Verlet")
 
 
 @pytest.mark.parametrize("command", COMMANDS)

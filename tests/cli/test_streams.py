@@ -252,7 +252,10 @@ def test_a_file_name_gives_no_orders(
         "methods: [{family: gauss, stages: 2}]\n",
         f'methods: [{{family: "{HOSTILE}"}}]',
     ):
-        (tmp_path / file).write_text(text, encoding="utf-8")
+        try:
+            (tmp_path / file).write_text(text, encoding="utf-8")
+        except UnicodeEncodeError:
+            pytest.skip("names of files are ASCII here")
         run = gark(
             arguments[0], file, *arguments[1:], cwd=tmp_path, GITHUB_ACTIONS="true"
         )

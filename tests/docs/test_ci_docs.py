@@ -189,6 +189,6 @@ def test_the_distribution_has_the_name_that_is_installed() -> None:
     """What the page installs with pip is called so in pyproject.toml."""
     names = set(re.findall(r"pip install (\S+)", PAGE))
     assert {f'name = "{name}"' for name in names} <= set(
-        (ROOT / "pyproject.toml").read_text().splitlines()
+        (ROOT / "pyproject.toml").read_text(encoding="utf-8").splitlines()
     )
     assert names

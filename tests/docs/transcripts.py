@@ -2,6 +2,7 @@
 
 from __future__ import annotations
 
+import os
 import re
 import shlex
 import shutil
@@ -91,6 +92,12 @@ def run(command: str, folder: Path) -> tuple[int, list[str]]:
     if words[0] == "gark":
         words = [sys.executable, "-m", "garkcli", *words[1:]]
     done = subprocess.run(
-        words, cwd=folder, capture_output=True, text=True, encoding="utf-8", check=False
+        words,
+        cwd=folder,
+        env={**os.environ, "PYTHONUTF8": "1", "PYTHONIOENCODING": "utf-8"},
+        capture_output=True,
+        text=True,
+        encoding="utf-8",
+        check=False,
     )
     return done.returncode, (done.stderr + done.stdout).splitlines()
