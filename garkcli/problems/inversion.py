@@ -16,6 +16,7 @@ from garkcli.problems.hamiltonian import symbols
 from garkcli.problems.mass import (
     BITS,
     WRITE_HAMILTONIAN,
+    Lagrangian,
     coupled,
     enclosed,
     inverse_of,
@@ -76,14 +77,10 @@ class _Equations:
         return dict(zip(self.p, values, strict=True))
 
 
-def by_solving(
-    L: Any,
-    gradient: Sequence[Any],
-    M: Sequence[Sequence[Any]],
-    variables: tuple[str, ...],
-    start: Mapping[Any, arb],
-) -> Any:
+def by_solving(lagrangian: Lagrangian) -> Any:
     """The transform of a Lagrangian that is not quadratic; see ``legendre_transform``."""
+    L, gradient, M = lagrangian.L, lagrangian.gradient, lagrangian.M
+    variables = lagrangian.variables
     v, p = velocities(variables), symbols(variables, "p")
     replaced: dict[Any, Any] = {}
     for block in coupled(M):
@@ -92,7 +89,7 @@ def by_solving(
             [p[i] for i in block],
             [gradient[i] for i in block],
             [[M[i][j] for j in block] for i in block],
-            start,
+            lagrangian.start,
         )
         solved = _solution(L, equations, p)
         replaced |= {**solved.velocities, **solved.forms}

@@ -9,7 +9,7 @@ semi-separable and separable cases).
 
 from __future__ import annotations
 
-from collections.abc import Mapping, Sequence
+from collections.abc import Mapping
 from typing import Any
 
 from flint import arb
@@ -17,7 +17,13 @@ from flint import arb
 from garkcli.errors import NoLegendreTransform
 from garkcli.problems.hamiltonian import symbols
 from garkcli.problems.inversion import by_solving
-from garkcli.problems.mass import coupled, inverse_of, velocities
+from garkcli.problems.mass import (
+    Lagrangian,
+    coupled,
+    differentiated,
+    inverse_of,
+    velocities,
+)
 
 
 def legendre_transform(
@@ -57,37 +63,29 @@ def legendre_transform(
             f"each term has all velocities or none; move {missing} into this term, "
             f"or write the Hamiltonian",
         )
-    gradient = [L.diff(x) for x in v]
-    M = [[g.diff(x) for x in v] for g in gradient]
-    moving = set(v)
-    if any(entry.free_symbols & moving for row in M for entry in row):
-        return by_solving(L, gradient, M, variables, start)
-    return _of_quadratic(L, gradient, M, variables, start)
+    lagrangian = differentiated(L, variables, start)
+    if lagrangian.is_quadratic:
+        return _of_quadratic(lagrangian)
+    return by_solving(lagrangian)
 
 
-def _of_quadratic(
-    L: Any,
-    gradient: Sequence[Any],
-    M: Sequence[Sequence[Any]],
-    variables: tuple[str, ...],
-    start: Mapping[Any, arb],
-) -> Any:
+def _of_quadratic(lagrangian: Lagrangian) -> Any:
     """H = ½ (p − b)·M⁻¹(p − b) − c, block by block of M."""
     import sympy
 
+    M, variables = lagrangian.M, lagrangian.variables
     v, p = velocities(variables), symbols(variables, "p")
     at_rest = dict.fromkeys(v, 0)
-    shifted = [
-        x - slope.xreplace(at_rest) for x, slope in zip(p, gradient, strict=True)
-    ]
-    H = [-L.xreplace(at_rest)]
+    shifted = []  # p - b
+    for x, slope in zip(p, lagrangian.gradient, strict=True):
+        shifted.append(x - slope.xreplace(at_rest))
+    H = [-lagrangian.L.xreplace(at_rest)]
     for block in coupled(M):
         own = [[M[i][j] for j in block] for i in block]
-        inverse, divisor = inverse_of(own, [v[i] for i in block], start)
-        products = [
-            inverse[a][b] * shifted[i] * shifted[j]
-            for a, i in enumerate(block)
-            for b, j in enumerate(block)
-        ]
+        inverse, divisor = inverse_of(own, [v[i] for i in block], lagrangian.start)
+        products = []
+        for a, i in enumerate(block):
+            for b, j in enumerate(block):
+                products.append(inverse[a][b] * shifted[i] * shifted[j])
         H.append(sympy.Add(*products) / (2 * divisor))
     return sympy.Add(*H)

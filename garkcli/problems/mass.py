@@ -3,6 +3,7 @@
 from __future__ import annotations
 
 from collections.abc import Mapping, Sequence
+from dataclasses import dataclass
 from functools import cache
 from typing import Any, TypeAlias
 
@@ -25,6 +26,42 @@ def velocities(variables: tuple[str, ...]) -> tuple[Any, ...]:
     import sympy
 
     return tuple(sympy.Symbol(f"v{x}", real=True) for x in variables)
+
+
+@dataclass(frozen=True)
+class Lagrangian:
+    """A Lagrangian L of d velocities v, with its derivatives; sympy expressions all of them.
+
+    Attributes:
+        L: the Lagrangian.
+        gradient: ∂L/∂v, shape (d,).
+        M: ∂²L/∂v², shape (d, d).
+        variables: d names.
+        start: what is known at the start.
+    """
+
+    L: Any
+    gradient: Sequence[Any]
+    M: Sequence[Sequence[Any]]
+    variables: tuple[str, ...]
+    start: Mapping[Any, arb]
+
+    @property
+    def is_quadratic(self) -> bool:
+        """Whether it is quadratic in the velocities: M does not depend on them."""
+        moving = set(velocities(self.variables))
+        entries = [x for row in self.M for x in row]
+        return not any(x.free_symbols & moving for x in entries)
+
+
+def differentiated(
+    L: Any, variables: tuple[str, ...], start: Mapping[Any, arb]
+) -> Lagrangian:
+    """``L`` with its derivatives by the velocities."""
+    v = velocities(variables)
+    gradient = [L.diff(x) for x in v]
+    M = [[slope.diff(x) for x in v] for slope in gradient]
+    return Lagrangian(L, gradient, M, variables, start)
 
 
 def coupled(M: Sequence[Sequence[Any]]) -> list[list[int]]:

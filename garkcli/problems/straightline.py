@@ -17,22 +17,11 @@ from typing import Any
 
 from flint import arb, fmpq
 
+from garkcli.exact import formula
+
 _LONG = 300  # characters from which a part of an expression is given a name
 _WRITTEN = 3  # powers up to the third are products, which cost less than **
-_NAMES = (
-    "sin",
-    "cos",
-    "tan",
-    "asin",
-    "acos",
-    "atan",
-    "sinh",
-    "cosh",
-    "tanh",
-    "exp",
-    "log",
-    "sqrt",
-)
+_NAMES = (*formula.FUNCTIONS, "sqrt")
 FUNCTIONS = frozenset(_NAMES)
 """The functions an expression may have, besides powers."""
 FLOATS: Mapping[str, Any] = {

@@ -5,6 +5,7 @@ from __future__ import annotations
 from collections.abc import Callable, Sequence
 from random import Random
 
+from garkcli.exact.formula import FUNCTIONS
 from tests.fuzz.inputs import ROOT, damaged, replaced, soup
 
 WORDS = (
@@ -102,21 +103,8 @@ class _Writer:
         if kind == 3:
             return f"({first})**{self.exponent()}"
         if kind == 4:
-            functions = (
-                "sin",
-                "cos",
-                "tan",
-                "asin",
-                "acos",
-                "atan",
-                "sinh",
-                "cosh",
-                "tanh",
-                "exp",
-                "log",
-                "sqrt",
-            )
-            return f"{random.choice(functions)}({first})"
+            function = random.choice((*FUNCTIONS, "sqrt"))
+            return f"{function}({first})"
         return f"(1 + {first}**2)"
 
     def kinetic(self) -> str:
