@@ -3,6 +3,7 @@
 from __future__ import annotations
 
 import json
+from typing import Any
 
 import click
 
@@ -13,30 +14,37 @@ from garkcli.errors import UsageProblem
 @click.command("schema", context_settings=CONTEXT)
 @click.option("--problem", is_flag=True, help="Of problem files, instead.")
 @click.option(
-    "--report", is_flag=True, help="Of the JSON that gark check writes, instead."
+    "--report",
+    is_flag=False,
+    flag_value="check",
+    metavar="[COMMAND]",
+    help="Of the JSON that a command writes, instead; gark check where none is named.",
 )
 @common(["json"])
-def command(problem: bool, report: bool, output: Output) -> int:
+def command(problem: bool, report: str | None, output: Output) -> int:
     """The JSON Schema (draft-07) of method files, for editors.
 
     With the YAML extension of an editor, name it in the first line of a method file:
     # yaml-language-server: $schema=gark.schema.json
     """
-    from garkcli.methodfile.problem_schema import problem_file_schema
-    from garkcli.methodfile.schema import method_file_schema
-    from garkcli.report.check_schema import check_report_schema
-
-    if problem and report:
+    if problem and report is not None:
         raise UsageProblem(
             "--problem and --report are two schemas", "ask for one at a time"
         )
-    make = (
-        problem_file_schema
-        if problem
-        else check_report_schema
-        if report
-        else method_file_schema
-    )
-    schema = make()
+    schema = _schema(problem, report)
     output.write(json.dumps(schema, indent=2, ensure_ascii=False) + "\n")
     return 0
+
+
+def _schema(of_problems: bool, report: str | None) -> dict[str, Any]:
+    if report is not None:
+        from garkcli.report.schemas import report_schema
+
+        return report_schema(report)
+    if of_problems:
+        from garkcli.methodfile.problem_schema import problem_file_schema
+
+        return problem_file_schema()
+    from garkcli.methodfile.schema import method_file_schema
+
+    return method_file_schema()

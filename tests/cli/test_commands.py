@@ -567,6 +567,14 @@ def test_the_schema_of_reports_allows_reports() -> None:
     )
     assert [error.message for error in Draft7Validator(schema).iter_errors(found)] == []
     assert not Draft7Validator(schema).is_valid({"schema": "gark/check/1"})
+    assert data("schema", "--report", "check") == schema
+
+
+def test_a_report_without_a_schema_is_named() -> None:
+    """``gark schema --report WORD`` of no report: exit code 2 and the nearest command."""
+    run = gark("schema", "--report", "chek")
+    assert run.code == 2
+    assert "did you mean 'check'?" in run.err
 
 
 @pytest.mark.parametrize(

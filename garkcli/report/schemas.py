@@ -1,0 +1,31 @@
+"""The JSON Schemas of what the commands write: one function a command.
+
+A command with a JSON report adds itself to ``REPORTS``.
+"""
+
+from __future__ import annotations
+
+from importlib import import_module
+from typing import Any
+
+from garkcli.errors import UsageProblem, did_you_mean
+
+REPORTS = {
+    "check": "garkcli.report.check_schema:check_report_schema",
+}
+"""Where the function is that makes the schema of a command's report."""
+
+
+def report_schema(command: str) -> dict[str, Any]:
+    """The JSON Schema of what ``gark COMMAND --format json`` writes.
+
+    Raises:
+        UsageProblem: no schema is had for the command.
+    """
+    if command not in REPORTS:
+        raise UsageProblem(
+            f"no schema of a report of {command!r}", did_you_mean(command, REPORTS)
+        )
+    module, function = REPORTS[command].split(":")
+    schema: dict[str, Any] = getattr(import_module(module), function)()
+    return schema
