@@ -14,8 +14,8 @@ from flint import arb, ctx, fmpq, fmpq_poly
 
 from garkcli.errors import LimitExceeded, UndefinedValue
 from garkcli.exact.enclosing import OPERATIONS, enclose
-from garkcli.exact.expression import Chain, Expression, Literal, Name, Power, Root
 from garkcli.exact.field import ONE, ZERO, Algebraic, Number, NumberField
+from garkcli.exact.nodes import Chain, Expression, Literal, Name, Power, Root
 from garkcli.exact.rewriting import roots_in
 from garkcli.exact.tower import RATIONALS, Tower
 

@@ -8,7 +8,7 @@ from typing import Any
 
 from flint import arb
 
-from garkcli.exact.expression import Chain, Expression, Literal, Power, Root
+from garkcli.exact.nodes import Chain, Expression, Literal, Power, Root
 
 OPERATIONS: Mapping[str, Callable[[Any, Any], Any]] = {
     "+": operator.add,

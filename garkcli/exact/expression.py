@@ -17,12 +17,12 @@ from __future__ import annotations
 
 import re
 from collections.abc import Callable, Iterator
-from dataclasses import dataclass, field
 from typing import ClassVar, NoReturn
 
 from flint import fmpq
 
 from garkcli.errors import ExpressionError, LimitExceeded
+from garkcli.exact.nodes import Chain, Expression, Literal, Name, Power, Root
 
 MAX_LENGTH = 20_000
 """Longest text of one coefficient, in characters."""
@@ -34,59 +34,6 @@ MAX_EXPONENT = 64
 """Largest exponent after ``**``."""
 MAX_ROOT = 12
 """Largest index of a root."""
-
-
-@dataclass(frozen=True)
-class Expression:
-    """A node; ``start`` and ``end`` are its offsets in the text and do not take part in
-    comparisons.
-    """
-
-    start: int = field(default=0, compare=False, kw_only=True)
-    end: int = field(default=0, compare=False, kw_only=True)
-
-
-@dataclass(frozen=True)
-class Literal(Expression):
-    """A rational number; ``text`` is how it is printed, where it was read."""
-
-    value: fmpq
-    text: str = field(default="", compare=False, kw_only=True)
-
-
-@dataclass(frozen=True)
-class Name(Expression):
-    """A parameter."""
-
-    name: str
-
-
-@dataclass(frozen=True)
-class Chain(Expression):
-    """Operands joined from left to right by ``+ -`` or by ``* /``; ``signs`` stand before each
-    operand.
-
-    Kept flat, so that the depth of an expression is that of its parentheses.
-    """
-
-    signs: str
-    operands: tuple[Expression, ...]
-
-
-@dataclass(frozen=True)
-class Power(Expression):
-    """An integer power."""
-
-    base: Expression
-    exponent: int
-
-
-@dataclass(frozen=True)
-class Root(Expression):
-    """The real root of ``radicand`` of index ``index`` ≥ 2."""
-
-    radicand: Expression
-    index: int
 
 
 _TOKEN = re.compile(

@@ -14,7 +14,7 @@ from typing import TypeAlias
 from flint import fmpq, fmpq_mat, fmpq_poly, fmpz
 
 from garkcli.exact.echelon import pivot_columns
-from garkcli.exact.expression import Expression
+from garkcli.exact.nodes import Expression
 from garkcli.exact.rewriting import format_expression
 
 ZERO = fmpq(0)

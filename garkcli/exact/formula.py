@@ -15,14 +15,8 @@ from typing import ClassVar
 
 from garkcli.errors import ExpressionError, LimitExceeded, did_you_mean
 from garkcli.exact.expression import FUNCTIONS as ROOTS
-from garkcli.exact.expression import (
-    MAX_EXPONENT,
-    Chain,
-    Expression,
-    Literal,
-    Parser,
-    Power,
-)
+from garkcli.exact.expression import MAX_EXPONENT, Parser
+from garkcli.exact.nodes import Chain, Expression, Literal, Power
 
 FUNCTIONS = (
     "sin",

@@ -8,16 +8,9 @@ from dataclasses import replace
 from flint import fmpq
 
 from garkcli.errors import UndefinedValue, did_you_mean
-from garkcli.exact.expression import (
-    INDEX_OF_ROOT,
-    Chain,
-    Expression,
-    Literal,
-    Name,
-    Power,
-    Root,
-)
+from garkcli.exact.expression import INDEX_OF_ROOT
 from garkcli.exact.formula import Call, RealPower
+from garkcli.exact.nodes import Chain, Expression, Literal, Name, Power, Root
 
 
 def size_of(expression: Expression, sizes: Mapping[str, int]) -> int:

@@ -11,16 +11,10 @@ from flint import arb, fmpq
 
 from garkcli.errors import LimitExceeded, UndefinedValue
 from garkcli.exact.domain import MAX_BITS
-from garkcli.exact.expression import (
-    MAX_EXPONENT,
-    Chain,
-    Expression,
-    Literal,
-    Name,
-    Power,
-    Root,
-)
-from garkcli.exact.formula import Call, RealPower
+from garkcli.exact.enclosing import OPERATIONS
+from garkcli.exact.expression import MAX_EXPONENT
+from garkcli.exact.formula import FUNCTIONS, Call, RealPower
+from garkcli.exact.nodes import Chain, Expression, Literal, Name, Power, Root
 from garkcli.exact.rewriting import format_expression
 
 Value: TypeAlias = fmpq | arb
@@ -30,17 +24,7 @@ MAX_DENOMINATOR = 10_000
 FLOAT_BITS = 1000
 """Largest numbers are 2^``FLOAT_BITS``: floats can still be multiplied by them."""
 _FUNCTIONS: Mapping[str, Callable[[arb], arb]] = {
-    "sin": arb.sin,
-    "cos": arb.cos,
-    "tan": arb.tan,
-    "asin": arb.asin,
-    "acos": arb.acos,
-    "atan": arb.atan,
-    "sinh": arb.sinh,
-    "cosh": arb.cosh,
-    "tanh": arb.tanh,
-    "exp": arb.exp,
-    "log": arb.log,
+    name: getattr(arb, name) for name in FUNCTIONS
 }
 
 
@@ -127,13 +111,8 @@ def _applied(sign: str, left: Value, right: Value, at: Expression) -> Value:
         _check_divisor(right, at)
     if isinstance(left, arb) or isinstance(right, arb):
         left, right = arb(left), arb(right)
-    if sign == "+":
-        return left + right
-    if sign == "-":
-        return left - right
-    if sign == "*":
-        return left * right
-    return left / right
+    found: Value = OPERATIONS[sign](left, right)
+    return found
 
 
 def _check_divisor(number: Value, at: Expression) -> None:
@@ -158,7 +137,7 @@ def _power(base: Value, exponent: fmpq, at: Expression, of: Expression) -> Value
         n = int(exponent.p)
         if isinstance(base, fmpq):
             if base.height_bits() * abs(n) > MAX_BITS:
-                raise _too_long(at)
+                raise too_many_bits(at)
             return base**n
         return _bounded(base**n, at)
     if isinstance(base, fmpq) and not base:
@@ -197,7 +176,7 @@ def _finite(
 
 def _bounded(number: Value, at: Expression) -> Value:
     if isinstance(number, fmpq) and number.height_bits() > MAX_BITS:
-        raise _too_long(at)
+        raise too_many_bits(at)
     size = abs(arb(number))
     is_within = size < _MOST and (size > _LEAST or size.contains(0))
     if not is_within:
@@ -207,7 +186,8 @@ def _bounded(number: Value, at: Expression) -> Value:
     return number
 
 
-def _too_long(at: Expression) -> LimitExceeded:
+def too_many_bits(at: Expression) -> LimitExceeded:
+    """The fault of a number that is too long to compute with."""
     message = f"a number of more than {MAX_BITS} bits"
     return LimitExceeded(message, "write it smaller", at.start, at.end)
 

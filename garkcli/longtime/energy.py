@@ -13,7 +13,7 @@ from __future__ import annotations
 
 from dataclasses import dataclass
 from math import isqrt
-from typing import TYPE_CHECKING, TypeAlias
+from typing import TYPE_CHECKING
 
 from flint import arb, arb_mat, ctx, fmpq
 
@@ -42,10 +42,8 @@ from garkcli.stepping.linear import (
 from garkcli.tableau.tableau import Tableau
 
 if TYPE_CHECKING:
-    import numpy as np
-    from numpy.typing import NDArray
+    from garkcli.arrays import Floats
 
-    Floats: TypeAlias = NDArray[np.float64]
 
 _GOAL = 60  # bits of the largest energy error that balls have to get right
 _CHUNK = 65536  # steps that a fit looks at at a time

@@ -2,13 +2,11 @@
 
 from __future__ import annotations
 
-from typing import TYPE_CHECKING, TypeAlias
+from typing import TYPE_CHECKING
 
 if TYPE_CHECKING:
-    import numpy as np
-    from numpy.typing import NDArray
+    from garkcli.arrays import Floats, Integers
 
-    Floats: TypeAlias = NDArray[np.float64]
 
 # least part of its size that a coordinate moves in a step to have a direction
 _MOVES = 2.0**-40
@@ -38,8 +36,8 @@ class Excursions:
         import numpy as np
 
         # turns of each coordinate, and the step of the last turn of each pair (q, p)
-        self._turned: NDArray[np.int64] = np.zeros(2 * d, dtype=np.int64)
-        self._last_turns: NDArray[np.int64] = np.zeros(d, dtype=np.int64)
+        self._turned: Integers = np.zeros(2 * d, dtype=np.int64)
+        self._last_turns: Integers = np.zeros(d, dtype=np.int64)
         self._bounds: Floats = np.zeros(d)  # largest |q| up to the last turn
         self._beyond: Floats = np.zeros(d)  # and after it
 
@@ -80,9 +78,7 @@ class Excursions:
             turns = np.flatnonzero(either[:, i])
             self._add_position(i, first, sizes[:, i], turns)
 
-    def _add_position(
-        self, i: int, first: int, sizes: Floats, turns: NDArray[np.int64]
-    ) -> None:
+    def _add_position(self, i: int, first: int, sizes: Floats, turns: Integers) -> None:
         """Of position i: |q| in the steps from ``first`` on, and where it or its momentum turned.
 
         The turn number n is about the state n + 1.

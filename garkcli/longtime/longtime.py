@@ -36,10 +36,8 @@ from garkcli.stepping.step import trajectory
 from garkcli.tableau.tableau import Tableau
 
 if TYPE_CHECKING:
-    import numpy as np
-    from numpy.typing import NDArray
+    from garkcli.arrays import Floats
 
-    Floats: TypeAlias = NDArray[np.float64]
 
 Watch: TypeAlias = Callable[[Iterator[Any], int], Iterator[Any]]
 """Passes on a number of things, one a step, and may count them."""

@@ -5,7 +5,7 @@ from __future__ import annotations
 from collections.abc import Callable, Iterable, Sequence
 from itertools import islice
 from math import ceil, inf
-from typing import TYPE_CHECKING, Any, TypeAlias
+from typing import TYPE_CHECKING, Any
 
 from flint import arb, ctx
 
@@ -21,10 +21,7 @@ from garkcli.problems.hamiltonian import (
 from garkcli.problems.straightline import function
 
 if TYPE_CHECKING:
-    import numpy as np
-    from numpy.typing import NDArray
-
-    Floats: TypeAlias = NDArray[np.float64]
+    from garkcli.arrays import Floats
 
 
 class Measure:

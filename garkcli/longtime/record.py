@@ -5,7 +5,7 @@ from __future__ import annotations
 from collections.abc import Iterator, Sequence
 from itertools import islice
 from math import ceil
-from typing import TYPE_CHECKING, Any, TypeAlias
+from typing import TYPE_CHECKING, Any
 
 from garkcli.longtime.escape import Excursions
 from garkcli.longtime.history import BLOW_UP
@@ -15,10 +15,8 @@ from garkcli.longtime.trend import Trends
 from garkcli.stepping.step import StepFailed
 
 if TYPE_CHECKING:
-    import numpy as np
-    from numpy.typing import NDArray
+    from garkcli.arrays import Floats, Integers
 
-    Floats: TypeAlias = NDArray[np.float64]
 
 COMPARED = 128
 """How many steps the first errors are kept of, all of them."""
@@ -71,7 +69,7 @@ class Record:
         self.exchange = Exchange()
 
     @property
-    def kept_numbers(self) -> NDArray[np.int64]:
+    def kept_numbers(self) -> Integers:
         """The steps whose errors are kept: where one is extreme in a span of equal length, and both
         ends.
         """
@@ -160,7 +158,7 @@ class Record:
         self.excursions.add(first, states)
 
 
-def extremes(errors: Floats, points: int) -> NDArray[np.int64]:
+def extremes(errors: Floats, points: int) -> Integers:
     """Indices of the least and the greatest value of equal spans, so that a wave keeps its height
     in a plot.
     """

@@ -7,7 +7,7 @@ Both are derived in docs/energy.md.
 from __future__ import annotations
 
 from math import ceil, log10
-from typing import TYPE_CHECKING, Any, TypeAlias
+from typing import TYPE_CHECKING, Any
 
 from flint import arb, fmpq
 
@@ -17,10 +17,8 @@ from garkcli.tableau.pointwise import entries
 from garkcli.tableau.tableau import Tableau
 
 if TYPE_CHECKING:
-    import numpy as np
-    from numpy.typing import NDArray
+    from garkcli.arrays import Floats
 
-    Floats: TypeAlias = NDArray[np.float64]
 
 _UNIT = 2.0**-53  # of floats
 _HIGHER = 2.0  # for the terms of higher order in h and in the tolerance

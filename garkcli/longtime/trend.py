@@ -29,10 +29,8 @@ from math import ceil, floor, sqrt
 from typing import TYPE_CHECKING, Literal, TypeAlias
 
 if TYPE_CHECKING:
-    import numpy as np
-    from numpy.typing import NDArray
+    from garkcli.arrays import Floats
 
-    Floats: TypeAlias = NDArray[np.float64]
 
 Shape: TypeAlias = Literal["none", "line", "curve", "step"]
 """What a trend looks like: a line, something that rises or falls all along, or a move to another

@@ -10,8 +10,8 @@ from flint import arb, ctx, fmpq
 from yaml.nodes import Node
 
 from garkcli.errors import ExpressionError, LimitExceeded, did_you_mean
-from garkcli.exact.expression import Expression
 from garkcli.exact.formula import CONSTANTS, RESERVED, parse_formula
+from garkcli.exact.nodes import Expression
 from garkcli.exact.rewriting import names_in, size_of
 from garkcli.exact.values import Value, value_of
 from garkcli.methodfile.numbers import MAX_SIZE, is_misread

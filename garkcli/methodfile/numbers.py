@@ -11,9 +11,10 @@ from yaml.nodes import Node, ScalarNode, SequenceNode
 
 from garkcli.errors import ExpressionError, LimitExceeded, UndefinedValue, counted
 from garkcli.exact.domain import Domain
-from garkcli.exact.expression import FUNCTIONS, Expression, Literal, parse
+from garkcli.exact.expression import FUNCTIONS, parse
 from garkcli.exact.field import ZERO, Number
 from garkcli.exact.matrix import Matrix, Vector
+from garkcli.exact.nodes import Expression, Literal
 from garkcli.exact.rewriting import depth_of, roots_in, size_of, substitute
 from garkcli.methodfile.source import Source, key_nodes, shortened
 from garkcli.methodfile.spellings import (

@@ -7,8 +7,9 @@ from typing import TypeAlias
 
 from flint import arb, ctx, fmpq
 
-from garkcli.exact.expression import Chain, Expression, Literal, Power, Root
+from garkcli.exact.enclosing import OPERATIONS
 from garkcli.exact.field import Number
+from garkcli.exact.nodes import Chain, Expression, Literal, Power, Root
 from garkcli.order.tolerance import rounded_up
 
 Printed: TypeAlias = Sequence[tuple[Expression, Number]]
@@ -83,7 +84,7 @@ def _enclosed(expression: Expression, fewest: int) -> arb:
         case Chain(signs=signs, operands=operands):
             total = arb(0) if signs[0] in "+-" else arb(1)
             for sign, operand in zip(signs, operands, strict=True):
-                total = _joined(sign, total, _enclosed(operand, fewest))
+                total = OPERATIONS[sign](total, _enclosed(operand, fewest))
             return total
         case Power(base=base, exponent=exponent):
             return _enclosed(base, fewest) ** exponent
@@ -93,16 +94,6 @@ def _enclosed(expression: Expression, fewest: int) -> arb:
                 return -(-inner).root(index)
             return inner.root(index)
     return arb(0)
-
-
-def _joined(sign: str, total: arb, operand: arb) -> arb:
-    if sign == "+":
-        return total + operand
-    if sign == "-":
-        return total - operand
-    if sign == "*":
-        return total * operand
-    return total / operand
 
 
 def _radius(ball: arb) -> fmpq:

@@ -12,7 +12,7 @@ from flint import arb, ctx, fmpq
 from yaml.nodes import Node
 
 from garkcli.errors import ExpressionError, NoLegendreTransform
-from garkcli.exact.expression import Expression
+from garkcli.exact.nodes import Expression
 from garkcli.methodfile.expansion import too_long
 from garkcli.methodfile.formulas import BITS, PLACES, Formulas, nearby
 from garkcli.methodfile.source import Source, shortened

@@ -8,13 +8,12 @@ from __future__ import annotations
 
 from collections.abc import Sequence
 from dataclasses import dataclass
-from typing import Any
+from typing import TYPE_CHECKING, Any
 
 import numpy as np
 from matplotlib.axes import Axes
 from matplotlib.figure import Figure
 from matplotlib.lines import Line2D
-from numpy.typing import NDArray
 
 from garkcli.exact.display import to_float
 from garkcli.exact.polynomial import Polynomial
@@ -23,6 +22,9 @@ from garkcli.report.stability_data import StabilityReport
 from garkcli.stability.linear import StabilityFunction
 from garkcli.stability.oscillator import OscillatorStability
 from garkcli.stability.springs_plane import SpringsPlane
+
+if TYPE_CHECKING:
+    from garkcli.arrays import Array, Complexes, Floats
 
 COLOURS = ("#24558f", "#a02417", "#3f7f3f", "#7a4f9a", "#8a6d1a", "#30777a")
 DASHES: tuple[Any, ...] = (
@@ -51,16 +53,16 @@ class Window:
 
     def grid(
         self,
-    ) -> tuple[NDArray[np.float64], NDArray[np.float64], NDArray[np.complex128]]:
+    ) -> tuple[Floats, Floats, Complexes]:
         """The real parts, the imaginary parts, and all points, shape (POINTS, POINTS)."""
         x = np.linspace(self.left, self.right, POINTS)
         y = np.linspace(-self.top, self.top, POINTS)
         return x, y, x[np.newaxis, :] + 1j * y[:, np.newaxis]
 
 
-def values(p: Polynomial, z: NDArray[Any]) -> NDArray[Any]:
+def values(p: Polynomial, z: Array) -> Array:
     """The values of p at many points, in floats."""
-    found: NDArray[Any] = np.polyval(_coefficients(p), z)
+    found: Array = np.polyval(_coefficients(p), z)
     return found
 
 
@@ -69,11 +71,11 @@ def _coefficients(p: Polynomial) -> list[float]:
     return [to_float(a) for a in reversed(p.coefficients)]
 
 
-def modulus(R: StabilityFunction, z: NDArray[Any]) -> NDArray[Any]:
+def modulus(R: StabilityFunction, z: Array) -> Array:
     """|R| at many points; infinite at poles."""
     with np.errstate(divide="ignore", invalid="ignore"):
         ratio = values(R.numerator, z) / values(R.denominator, z)
-        size: NDArray[Any] = np.abs(ratio)
+        size: Array = np.abs(ratio)
     return size
 
 
@@ -198,12 +200,12 @@ def trace_figure(reports: Sequence[StabilityReport]) -> Figure:
     return figure
 
 
-def _half_trace(oscillator: OscillatorStability, z: NDArray[Any]) -> NDArray[Any]:
+def _half_trace(oscillator: OscillatorStability, z: Array) -> Array:
     """|tr M|/2 at many points."""
     x, ratio = z**2, oscillator.trace
     with np.errstate(divide="ignore", invalid="ignore"):
         trace = values(ratio.numerator, x) / values(ratio.denominator, x)
-    half: NDArray[Any] = np.abs(trace) / 2
+    half: Array = np.abs(trace) / 2
     return half
 
 

@@ -12,18 +12,11 @@ from typing import Any
 
 from garkcli.errors import LimitExceeded, UndefinedValue
 from garkcli.exact.domain import MAX_BITS
-from garkcli.exact.expression import (
-    MAX_EXPONENT,
-    Chain,
-    Expression,
-    Literal,
-    Name,
-    Power,
-    Root,
-)
+from garkcli.exact.expression import MAX_EXPONENT
 from garkcli.exact.formula import CONSTANTS, Call, RealPower
+from garkcli.exact.nodes import Chain, Expression, Literal, Name, Power, Root
 from garkcli.exact.rewriting import format_expression, names_in, parts
-from garkcli.exact.values import FLOAT_BITS, Value, exponent_of, value_of
+from garkcli.exact.values import FLOAT_BITS, Value, exponent_of, too_many_bits, value_of
 
 MAX_SIZE = 100_000
 """Most operations of all second derivatives of a problem together, as they are written out."""
@@ -130,7 +123,7 @@ class Translator:
         import sympy
 
         if sum(map(_bits, factors)) > 2 * MAX_BITS:
-            raise _too_many_bits(at)
+            raise too_many_bits(at)
         made = []
         for sign, factor in zip(signs, factors, strict=True):
             made.append(1 / factor if sign == "/" else factor)
@@ -138,7 +131,7 @@ class Translator:
 
     def _power(self, base: Any, exponent: Any, at: Expression) -> Any:
         if _bits(base) * abs(exponent) > 2 * MAX_BITS:
-            raise _too_many_bits(at)
+            raise too_many_bits(at)
         made = base**exponent
         if made.is_Pow and made.exp.is_Rational and abs(made.exp) > MAX_EXPONENT:
             message = f"the exponents are {made.exp} together (limit {MAX_EXPONENT})"
@@ -160,11 +153,6 @@ class Translator:
         if radicand.is_negative:
             return -((-radicand) ** power)
         return radicand**power
-
-
-def _too_many_bits(at: Expression) -> LimitExceeded:
-    message = f"a number of more than {MAX_BITS} bits"
-    return LimitExceeded(message, "write it smaller", at.start, at.end)
 
 
 def _without_kinks(made: Any, at: Expression) -> Any:

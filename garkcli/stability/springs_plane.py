@@ -6,15 +6,18 @@ Nothing is decided here; ``two_frequencies`` does that for one slow frequency.
 from __future__ import annotations
 
 from dataclasses import dataclass
+from typing import TYPE_CHECKING
 
 import numpy as np
 from flint import fmpq
-from numpy.typing import NDArray
 
 from garkcli.exact.display import to_float
 from garkcli.stability.step_function import stage_system
 from garkcli.stability.two_frequencies import SplitSprings, TwoFrequencies
 from garkcli.tableau.tableau import Tableau
+
+if TYPE_CHECKING:
+    from garkcli.arrays import Floats
 
 
 @dataclass(frozen=True)
@@ -27,9 +30,9 @@ class SpringsPlane:
         half_trace: shape (slow, fast).
     """
 
-    fast: NDArray[np.float64]
-    slow: NDArray[np.float64]
-    half_trace: NDArray[np.float64]
+    fast: Floats
+    slow: Floats
+    half_trace: Floats
 
 
 def springs_plane(
@@ -84,7 +87,7 @@ def plane_with_ends_of(
 
 def _floats(
     tableau: Tableau, split: SplitSprings, a: fmpq, x: fmpq
-) -> tuple[NDArray[np.float64], NDArray[np.float64], NDArray[np.float64]]:
+) -> tuple[Floats, Floats, Floats]:
     """W, B and E of the stage system for one strength of each spring."""
     fields = [split.matrix(colour, a, x) for colour in tableau.colours]
     one = fmpq(1)

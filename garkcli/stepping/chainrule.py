@@ -20,10 +20,8 @@ from garkcli.stepping.dependency import (
 )
 
 if TYPE_CHECKING:
-    import numpy as np
-    from numpy.typing import NDArray
+    from garkcli.arrays import Floats
 
-    Floats: TypeAlias = NDArray[np.float64]
 
 _Entry: TypeAlias = tuple[int, int, int]
 """Row, column and place of the number w of one entry of a matrix W of weights."""

@@ -31,10 +31,8 @@ from garkcli.tableau.pointwise import numeric_entries
 from garkcli.tableau.tableau import Tableau
 
 if TYPE_CHECKING:
-    import numpy as np
-    from numpy.typing import NDArray
+    from garkcli.arrays import Floats
 
-    Floats: TypeAlias = NDArray[np.float64]
 
 FLOAT_PRECISION = 2.0**-52
 """The distance from 1 to the next float."""

@@ -18,9 +18,9 @@ from garkcli.errors import LimitExceeded
 from garkcli.exact.display import to_ball
 from garkcli.exact.domain import Domain, square_free
 from garkcli.exact.enclosing import enclose
-from garkcli.exact.expression import Chain, Expression, Literal, Root
 from garkcli.exact.field import ONE, ZERO, Algebraic, Number
 from garkcli.exact.matrix import Matrix, Vector, apply, apply_left, identity, multiply
+from garkcli.exact.nodes import Chain, Expression, Literal, Root
 from garkcli.tableau.method import Method
 from garkcli.tableau.point_space import PointSpace
 from garkcli.tableau.polynomial_space import PolynomialSpace

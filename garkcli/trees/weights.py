@@ -2,17 +2,16 @@
 
 from __future__ import annotations
 
-from typing import TYPE_CHECKING, Any, TypeAlias
+from typing import TYPE_CHECKING
 
 import numpy as np
 
 if TYPE_CHECKING:
     from collections.abc import Mapping, Sequence
 
+    from garkcli.arrays import Floats
     from garkcli.trees.columns import Segment
     from garkcli.trees.table import TreeTable
-
-Floats: TypeAlias = "np.ndarray[Any, np.dtype[np.float64]]"
 
 CHUNK = 1 << 16
 """Trees whose stage vectors are gathered at once: bounds the memory of the highest order."""

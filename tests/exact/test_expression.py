@@ -13,17 +13,9 @@ from hypothesis import strategies as st
 from garkcli.errors import ExpressionError, LimitExceeded, UndefinedValue
 from garkcli.exact.display import to_ball, to_decimal, to_float, to_latex, to_text
 from garkcli.exact.domain import Domain
-from garkcli.exact.expression import (
-    Chain,
-    Expression,
-    Literal,
-    Name,
-    Power,
-    Root,
-    parse,
-    read_decimal,
-)
+from garkcli.exact.expression import parse, read_decimal
 from garkcli.exact.field import Number
+from garkcli.exact.nodes import Chain, Expression, Literal, Name, Power, Root
 from garkcli.exact.rewriting import format_expression, roots_in, substitute
 
 literals = st.fractions(0, 50, max_denominator=30).map(

@@ -10,16 +10,9 @@ from hypothesis import assume, given
 from hypothesis import strategies as st
 
 from garkcli.errors import ExpressionError, LimitExceeded, UndefinedValue
-from garkcli.exact.expression import (
-    Chain,
-    Expression,
-    Literal,
-    Name,
-    Power,
-    Root,
-    parse,
-)
+from garkcli.exact.expression import parse
 from garkcli.exact.formula import FUNCTIONS, Call, RealPower, parse_formula
+from garkcli.exact.nodes import Chain, Expression, Literal, Name, Power, Root
 from garkcli.exact.rewriting import (
     format_expression,
     names_in,

@@ -1,5 +1,9 @@
 """Elementary weights of all trees in floating point."""
 
+from __future__ import annotations
+
+from typing import TYPE_CHECKING
+
 import numpy as np
 import pytest
 from hypothesis import given
@@ -8,9 +12,14 @@ from hypothesis import strategies as st
 from garkcli.trees import weights as module
 from garkcli.trees.table import TreeTable
 from garkcli.trees.tree import Tree
-from garkcli.trees.weights import Floats, elementary_weights
+from garkcli.trees.weights import elementary_weights
 
-Blocks = dict[tuple[int, int], Floats]
+if TYPE_CHECKING:
+    from typing import TypeAlias
+
+    from garkcli.arrays import Floats
+
+    Blocks: TypeAlias = dict[tuple[int, int], Floats]
 
 
 def stages(u: Tree, rows: list[int], blocks: Blocks, sizes: list[int]) -> Floats:

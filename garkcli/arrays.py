@@ -1,0 +1,17 @@
+"""Names of arrays by what is in them: no file that only hands arrays on has to import numpy."""
+
+from __future__ import annotations
+
+from typing import TYPE_CHECKING
+
+if TYPE_CHECKING:
+    from typing import Any, TypeAlias
+
+    import numpy as np
+    from numpy.typing import NDArray
+
+    Array: TypeAlias = NDArray[Any]
+    """Numbers of any type; of any shape, as all below."""
+    Floats: TypeAlias = NDArray[np.float64]
+    Complexes: TypeAlias = NDArray[np.complex128]
+    Integers: TypeAlias = NDArray[np.int64]

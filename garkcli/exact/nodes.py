@@ -1,0 +1,60 @@
+"""What expressions are made of; ``garkcli.exact.formula`` adds the nodes of problems."""
+
+from __future__ import annotations
+
+from dataclasses import dataclass, field
+
+from flint import fmpq
+
+
+@dataclass(frozen=True)
+class Expression:
+    """A node; ``start`` and ``end`` are its offsets in the text and do not take part in
+    comparisons.
+    """
+
+    start: int = field(default=0, compare=False, kw_only=True)
+    end: int = field(default=0, compare=False, kw_only=True)
+
+
+@dataclass(frozen=True)
+class Literal(Expression):
+    """A rational number; ``text`` is how it is printed, where it was read."""
+
+    value: fmpq
+    text: str = field(default="", compare=False, kw_only=True)
+
+
+@dataclass(frozen=True)
+class Name(Expression):
+    """A parameter."""
+
+    name: str
+
+
+@dataclass(frozen=True)
+class Chain(Expression):
+    """Operands joined from left to right by ``+ -`` or by ``* /``; ``signs`` stand before each
+    operand.
+
+    Kept flat, so that the depth of an expression is that of its parentheses.
+    """
+
+    signs: str
+    operands: tuple[Expression, ...]
+
+
+@dataclass(frozen=True)
+class Power(Expression):
+    """An integer power."""
+
+    base: Expression
+    exponent: int
+
+
+@dataclass(frozen=True)
+class Root(Expression):
+    """The real root of ``radicand`` of index ``index`` ≥ 2."""
+
+    radicand: Expression
+    index: int
