@@ -1,5 +1,8 @@
-"""``gark check --format json``: exact numbers as strings, colours and stages from 1; see
-docs/json.md.
+"""``gark check --format json`` and its JSON Schema: exact numbers as strings, colours and stages
+from 1; see docs/json.md.
+
+Each field is declared once, with its schema and how it is computed; those of orders and of hints
+in files of their own.
 """
 
 from __future__ import annotations
@@ -7,18 +10,28 @@ from __future__ import annotations
 from collections.abc import Sequence
 from typing import TYPE_CHECKING, Any
 
-from garkcli.check.analysis import Analysis, AnyOrder
-from garkcli.check.outcome import Outcome
-from garkcli.exact.display import decimal, to_text
-from garkcli.order.certificate import Order
-from garkcli.order.simplifying import Simplifying
-from garkcli.report.hints import hints_data
+from garkcli.exact.display import decimal
+from garkcli.report.hints_json import BLOCK, HINTS, blocks
 from garkcli.report.json_text import to_json
-from garkcli.tableau.tableau import Tableau
-from garkcli.trees.notation import format_tree
+from garkcli.report.order_json import SIMPLIFYING, order_fields
+from garkcli.report.record import (
+    COUNT,
+    FLAG,
+    POSITION,
+    TEXT,
+    Field,
+    Record,
+    Schema,
+    array,
+    inside,
+    nullable,
+)
 
 if TYPE_CHECKING:
-    from garkcli.order.suggestion import Suggestion
+    from garkcli.check.analysis import Analysis
+    from garkcli.check.outcome import Claim, Outcome
+    from garkcli.errors import Fault
+    from garkcli.tableau.tableau import Colour, Tableau
 
 SCHEMA = "gark/check/1"
 
@@ -30,125 +43,127 @@ def render(outcomes: Sequence[Outcome]) -> str:
 
 def as_data(outcomes: Sequence[Outcome]) -> dict[str, Any]:
     """The report as plain data."""
-    failed = sum(not outcome.ok for outcome in outcomes)
+    return _REPORT.data(outcomes)
+
+
+def check_report_schema() -> Schema:
+    """The schema as plain data. Fields may be added to reports; those here never change their
+    meaning.
+    """
     return {
-        "schema": SCHEMA,
-        "files": [_outcome(outcome) for outcome in outcomes],
-        "summary": {
-            "files": len(outcomes),
-            "failed": failed,
-            "without_claims": sum(outcome.makes_no_claim for outcome in outcomes),
-        },
+        "$schema": "http://json-schema.org/draft-07/schema#",
+        "title": "report of gark check",
+        **_REPORT.schema,
     }
 
 
 def colours_data(tableau: Tableau) -> list[dict[str, Any]]:
     """The colours with their stages."""
-    return [
-        {"name": x.name, "stages": tableau.spaces[x.space].stages}
-        for x in tableau.colours
-    ]
+    return [_COLOUR.data((tableau, colour)) for colour in tableau.colours]
 
 
-def _outcome(outcome: Outcome) -> dict[str, Any]:
-    head: dict[str, Any] = {
-        "file": outcome.file,
-        "name": outcome.name,
-        "ok": outcome.ok,
-    }
-    if outcome.analysis is None:
-        errors = [
-            {
-                "line": x.line or None,
-                "column": x.column or None,
-                "message": x.message,
-                "help": x.help,
-            }
-            for x in outcome.faults
-        ]
-        return {**head, "errors": errors}
-    claims = [
-        {
-            "claim": x.claim,
-            "expected": x.expected,
-            "found": x.found,
-            "holds": x.holds,
-            "line": x.line,
-        }
-        for x in outcome.claims
-    ]
-    return {
-        **head,
-        "structure": outcome.structure,
-        **_analysis(outcome, outcome.analysis),
-        "claims": claims,
-    }
+def _stages(found: tuple[Tableau, Colour]) -> int:
+    tableau, colour = found
+    return tableau.spaces[colour.space].stages
 
 
-def _analysis(outcome: Outcome, analysis: Analysis) -> dict[str, Any]:
-    return {
-        "exact": analysis.tolerance is None,
-        "tolerance": None
-        if analysis.tolerance is None
-        else decimal(analysis.tolerance),
-        "colours": colours_data(analysis.tableau),
-        "consistent": not analysis.inconsistent,
-        "inconsistent_blocks": [[l + 1, m + 1] for l, m in analysis.inconsistent],
-        "conjugate_consistent": None
-        if analysis.conjugate is None
-        else not analysis.conjugate_inconsistent,
-        "symplectic": analysis.symplectic,
-        **_order("", analysis.order),
-        **_order("conjugate_", analysis.conjugate_order),
-        **_order("pair_", analysis.pair_order),
-        **_order("nonautonomous_", analysis.nonautonomous_order),
-        "simplifying": _simplifying(analysis.simplifying, analysis.bound),
-        "pair_bound": analysis.pair_bound,
-        **hints_data(outcome),
-        **_suggested(analysis.suggestion),
-    }
+def _tolerance(found: Analysis) -> str | None:
+    return None if found.tolerance is None else decimal(found.tolerance)
 
 
-def _order(prefix: str, order: AnyOrder | None) -> dict[str, Any]:
-    if order is None:
-        return {f"{prefix}order": None, f"{prefix}witness": None}
-    found: dict[str, Any] = {f"{prefix}order": order.order, f"{prefix}witness": None}
-    if order.is_lower_bound:
-        found[f"{prefix}order_is_lower_bound"] = True
-    if not isinstance(order, Order):
-        found[f"{prefix}order_largest_residual"] = float(order.largest_residual.upper())
-        found[f"{prefix}order_tolerance"] = decimal(order.tolerance)
-        if order.undecided:
-            found[f"{prefix}order_undecided"] = True
-    if order.witness is not None:
-        found[f"{prefix}witness"] = {
-            "order": order.witness.tree.order,
-            "tree": format_tree(order.witness.tree),
-            "value": to_text(order.witness.value),
-            "required": to_text(order.witness.required),
-            "residual": to_text(order.witness.residual),
-        }
+def _conjugate_consistent(found: Analysis) -> bool | None:
+    return None if found.conjugate is None else not found.conjugate_inconsistent
+
+
+_COLOUR: Record[tuple[Tableau, Colour]] = Record(
+    Field("name", TEXT, lambda x: x[1].name),
+    Field("stages", POSITION, _stages),
+)
+_ANALYSIS: tuple[Field[Analysis], ...] = (
+    Field("exact", FLAG, lambda x: x.tolerance is None),
+    Field("tolerance", nullable(TEXT), _tolerance),
+    Field("colours", array(_COLOUR.schema), lambda x: colours_data(x.tableau)),
+    Field("consistent", FLAG, lambda x: not x.inconsistent),
+    Field("inconsistent_blocks", array(BLOCK), lambda x: blocks(x.inconsistent)),
+    Field("conjugate_consistent", nullable(FLAG), _conjugate_consistent),
+    Field("symplectic", FLAG, lambda x: x.symplectic),
+    *inside(lambda x: x.order, order_fields()),
+    *inside(lambda x: x.conjugate_order, order_fields("conjugate_")),
+    *inside(lambda x: x.pair_order, order_fields("pair_")),
+    *inside(lambda x: x.nonautonomous_order, order_fields("nonautonomous_")),
+    Field("simplifying", SIMPLIFYING.schema, SIMPLIFYING.data),
+    Field("pair_bound", nullable(COUNT), lambda x: x.pair_bound),
+)
+"""What was found of a method."""
+
+_CLAIM: Record[Claim] = Record(
+    Field("claim", TEXT, lambda x: x.claim),
+    Field("expected", TEXT, lambda x: x.expected),
+    Field("found", TEXT, lambda x: x.found),
+    Field("holds", FLAG, lambda x: x.holds),
+    Field("line", POSITION, lambda x: x.line),
+)
+_ERROR: Record[Fault] = Record(
+    Field("line", nullable(POSITION), lambda x: x.line or None),
+    Field("column", nullable(POSITION), lambda x: x.column or None),
+    Field("message", TEXT, lambda x: x.message),
+    Field("help", TEXT, lambda x: x.help),
+)
+
+
+def _claims(outcome: Outcome) -> list[dict[str, Any]]:
+    return [_CLAIM.data(claim) for claim in outcome.claims]
+
+
+def _errors(outcome: Outcome) -> list[dict[str, Any]]:
+    return [_ERROR.data(fault) for fault in outcome.faults]
+
+
+_STRUCTURE: Schema = {"enum": ["general", "semi-separable", "separable", "nystrom"]}
+_HEAD: tuple[Field[Outcome], ...] = (
+    Field("file", TEXT, lambda x: x.file),
+    Field("name", TEXT, lambda x: x.name),
+)
+_CHECKED: Record[Outcome] = Record(
+    *_HEAD,
+    Field("ok", FLAG, lambda x: x.ok),
+    Field("structure", _STRUCTURE, lambda x: x.structure),
+    *inside(lambda x: x.analysis, _ANALYSIS),
+    *HINTS,
+    Field("claims", array(_CLAIM.schema), _claims),
+)
+_UNREADABLE: Record[Outcome] = Record(
+    *_HEAD,
+    Field("ok", {"const": False}, lambda x: x.ok),
+    Field("errors", {**array(_ERROR.schema), "minItems": 1}, _errors),
+)
+
+
+def _files(outcomes: Sequence[Outcome]) -> list[dict[str, Any]]:
+    found = []
+    for outcome in outcomes:
+        record = _UNREADABLE if outcome.analysis is None else _CHECKED
+        found.append(record.data(outcome))
     return found
 
 
-def _suggested(found: Suggestion | None) -> dict[str, Any]:
-    if found is None:
-        return {}
-    sizes = {
-        "rounding": float(found.rounding.upper()),
-        "genuine": float(found.genuine.upper()),
-    }
-    return {"suggestion": {"line": found.line, "order": found.order, **sizes}}
+def _failed(outcomes: Sequence[Outcome]) -> int:
+    return sum(not outcome.ok for outcome in outcomes)
 
 
-def _simplifying(found: Simplifying, bound: int) -> dict[str, Any]:
-    return {
-        "B": list(found.B),
-        "C": [list(row) for row in found.C],
-        "D": [list(row) for row in found.D],
-        "r": found.r,
-        "eta": found.eta,
-        "zeta": found.zeta,
-        "xi": found.xi,
-        "bound": bound,
-    }
+def _without_claims(outcomes: Sequence[Outcome]) -> int:
+    return sum(outcome.makes_no_claim for outcome in outcomes)
+
+
+_SUMMARY: Record[Sequence[Outcome]] = Record(
+    Field("files", COUNT, len),
+    Field("failed", COUNT, _failed),
+    Field("without_claims", COUNT, _without_claims),
+)
+_FILE: Schema = {"oneOf": [_UNREADABLE.schema, _CHECKED.schema]}
+_REPORT: Record[Sequence[Outcome]] = Record(
+    Field("schema", {"const": SCHEMA}, lambda _: SCHEMA),
+    Field("files", array(_FILE), _files),
+    Field("summary", _SUMMARY.schema, _SUMMARY.data),
+    is_open=True,
+)

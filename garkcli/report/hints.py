@@ -3,13 +3,10 @@
 from __future__ import annotations
 
 from collections.abc import Sequence
-from typing import Any
 
 from garkcli.check.explained import repair_text
-from garkcli.check.outcome import Outcome
-from garkcli.exact.display import to_text
-from garkcli.order.blame import Blame, Repair
-from garkcli.order.constants import ErrorConstants, Norms
+from garkcli.order.blame import Blame
+from garkcli.order.constants import ErrorConstants
 from garkcli.order.suggestion import Misprint
 from garkcli.report.check_orders import size
 from garkcli.report.paint import Paint, folded
@@ -109,68 +106,3 @@ def constants_lines(constants: ErrorConstants, colours: bool) -> list[str]:
             lines.append(line)
             lines += folded(f"{_MARGIN}{worst}", WIDTH, f"{_MARGIN}   ")
     return lines
-
-
-def hints_data(outcome: Outcome) -> dict[str, Any]:
-    """Blame and error constants for machines; only what there is."""
-    data: dict[str, Any] = {}
-    blame, constants = outcome.blame, outcome.constants
-    if blame is not None:
-        data["blame"] = {
-            "of": blame.of,
-            "order": blame.order,
-            "failing": blame.failing,
-            "conditions": blame.total,
-            "only_coupling": blame.only_coupling,
-            "culprit": None
-            if blame.culprit is None
-            else [k + 1 for k in blame.culprit],
-            "in_every": [[l + 1, m + 1] for l, m in blame.in_every],
-            "in_none": [[l + 1, m + 1] for l, m in blame.in_none],
-            "repairs": [_repair(repair) for repair in blame.repairs],
-        }
-    misprint = outcome.analysis.misprint if outcome.analysis else None
-    if misprint is not None:
-        data["misprint"] = {
-            "order": misprint.order,
-            "residual": float(misprint.residual.upper()),
-            "explained": float(misprint.explained.upper()),
-            "repairs": [_repair(repair) for repair in misprint.repairs],
-        }
-    if constants is not None:
-        data["error_constants"] = {
-            "order": constants.order,
-            "exact": constants.is_exact,
-            "all": _norms(constants.all),
-            "coupling": _norms(constants.coupling),
-        }
-    return data
-
-
-def _repair(repair: Repair) -> dict[str, Any]:
-    is_weight = repair.m is None or repair.i is None
-    colours = [repair.l + 1]
-    if repair.m is not None:
-        colours.append(repair.m + 1)
-    return {
-        "b" if is_weight else "A": colours,
-        "row": None if repair.i is None else repair.i + 1,
-        "entry": repair.j + 1,
-        "old": to_text(repair.old),
-        "new": to_text(repair.new),
-    }
-
-
-def _norms(norms: Norms) -> dict[str, Any]:
-    return {
-        "trees": norms.trees,
-        "two_norm_squared": None
-        if norms.two_squared is None
-        else to_text(norms.two_squared),
-        "two_norm": norms.two,
-        "inf_norm": norms.largest,
-        "worst": None if norms.worst is None else format_tree(norms.worst),
-        "worst_value": None
-        if norms.worst_value is None
-        else to_text(norms.worst_value),
-    }

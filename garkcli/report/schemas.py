@@ -11,7 +11,7 @@ from typing import Any
 from garkcli.errors import UsageProblem, did_you_mean
 
 REPORTS = {
-    "check": "garkcli.report.check_schema:check_report_schema",
+    "check": "garkcli.report.check_json:check_report_schema",
 }
 """Where the function is that makes the schema of a command's report."""
 

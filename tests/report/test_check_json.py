@@ -13,8 +13,7 @@ import pytest
 from jsonschema import Draft7Validator
 
 from garkcli.check.check_file import check_file
-from garkcli.report.check_json import render
-from garkcli.report.check_schema import check_report_schema
+from garkcli.report.check_json import check_report_schema, render
 
 ROOT = Path(__file__).parents[2]
 SCHEMA = check_report_schema()

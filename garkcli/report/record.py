@@ -1,0 +1,129 @@
+"""JSON objects declared field by field: a document and its JSON Schema from one place."""
+
+from __future__ import annotations
+
+from collections.abc import Callable, Iterable
+from dataclasses import dataclass
+from typing import Any, Generic, TypeAlias, TypeVar
+
+Whole = TypeVar("Whole")
+Owner = TypeVar("Owner")
+Schema: TypeAlias = dict[str, Any]
+
+TEXT: Schema = {"type": "string"}
+EXACT: Schema = {
+    "type": "string",
+    "description": "An exact number, such as 1/2 - sqrt(3)/6.",
+}
+INTEGER: Schema = {"type": "integer"}
+FLAG: Schema = {"type": "boolean"}
+TRUE: Schema = {"const": True}
+COUNT: Schema = {"type": "integer", "minimum": 0}
+POSITION: Schema = {"type": "integer", "minimum": 1}
+"""A number of a line, a stage or an order, from 1."""
+SIZE: Schema = {"type": "number", "minimum": 0}
+
+
+def nullable(schema: Schema) -> Schema:
+    """The same, or null."""
+    kind = schema.get("type")
+    if kind in ("string", "boolean", "integer", "number"):
+        return {**schema, "type": [kind, "null"]}
+    return {"oneOf": [{"type": "null"}, schema]}
+
+
+def array(items: Schema) -> Schema:
+    """A list of these."""
+    return {"type": "array", "items": items}
+
+
+@dataclass(frozen=True)
+class Field(Generic[Whole]):
+    """A field of a JSON object that describes a ``Whole``.
+
+    Attributes:
+        name: its key.
+        schema: the JSON Schema of its values.
+        value: how it is computed, as plain data.
+        is_optional: whether it is left out where its value is None; otherwise that is null.
+    """
+
+    name: str
+    schema: Schema
+    value: Callable[[Whole], object]
+    is_optional: bool = False
+
+
+class Record(Generic[Whole]):
+    """A JSON object that describes a ``Whole``: its fields in order.
+
+    >>> complex_number: Record[complex] = Record(
+    ...     Field("re", {"type": "number"}, lambda z: z.real),
+    ...     Field("im", {"type": "number"}, lambda z: z.imag or None, is_optional=True),
+    ... )
+    >>> complex_number.data(2 + 0j)
+    {'re': 2.0}
+    >>> complex_number.schema["required"]
+    ['re']
+    """
+
+    def __init__(self, *fields: Field[Whole], is_open: bool = False) -> None:
+        """The fields; ``is_open`` where the schema allows others."""
+        self.fields = fields
+        self.is_open = is_open
+
+    def data(self, whole: Whole) -> dict[str, Any]:
+        """The object as plain data."""
+        found = {}
+        for field in self.fields:
+            value = field.value(whole)
+            if value is not None or not field.is_optional:
+                found[field.name] = value
+        return found
+
+    @property
+    def schema(self) -> Schema:
+        """The JSON Schema (draft-07) of such objects."""
+        required = [field.name for field in self.fields if not field.is_optional]
+        schema: Schema = {
+            "type": "object",
+            "required": required,
+            "properties": {field.name: field.schema for field in self.fields},
+        }
+        return schema if self.is_open else {**schema, "additionalProperties": False}
+
+    def or_null(self, name: str, part: Callable[[Owner], Whole | None]) -> Field[Owner]:
+        """A field with this object of a part; null where there is no such part."""
+        return Field(name, nullable(self.schema), self._of(part))
+
+    def optional(
+        self, name: str, part: Callable[[Owner], Whole | None]
+    ) -> Field[Owner]:
+        """A field with this object of a part; left out where there is no such part."""
+        return Field(name, self.schema, self._of(part), is_optional=True)
+
+    def _of(self, part: Callable[[Owner], Whole | None]) -> Callable[[Owner], object]:
+        return _of_part(part, self.data)
+
+
+def inside(
+    part: Callable[[Owner], Whole | None], fields: Iterable[Field[Whole]]
+) -> tuple[Field[Owner], ...]:
+    """Fields of a part as fields of its owner; None where there is no such part."""
+    found = []
+    for field in fields:
+        value = _of_part(part, field.value)
+        found.append(Field(field.name, field.schema, value, field.is_optional))
+    return tuple(found)
+
+
+def _of_part(
+    part: Callable[[Owner], Whole | None], value: Callable[[Whole], object]
+) -> Callable[[Owner], object]:
+    """The value of a part, as a function of its owner."""
+
+    def found(owner: Owner) -> object:
+        whole = part(owner)
+        return None if whole is None else value(whole)
+
+    return found
