@@ -7,7 +7,7 @@ from dataclasses import replace
 
 import click
 
-from garkcli.cli.options import CONTEXT, PATH, Output, common
+from garkcli.cli.options import CONTEXT, PATH, Output, common, digits_option
 from garkcli.report.check_formats import FORMATS
 
 
@@ -46,11 +46,8 @@ from garkcli.report.check_formats import FORMATS
     metavar="N",
     help="Check N files at a time; 0 for as many as there are processors.",
 )
-@click.option(
-    "--digits",
-    type=click.IntRange(1, 1000),
-    metavar="N",
-    help="In the text N significant digits instead of exact values and residuals.",
+@digits_option(
+    "In the text N significant digits instead of exact values and residuals."
 )
 @common(["auto", *FORMATS])
 def command(

@@ -3,30 +3,33 @@
 from __future__ import annotations
 
 from collections.abc import Iterator, Mapping
-from dataclasses import replace
-from typing import TYPE_CHECKING
+from dataclasses import dataclass, replace
+from typing import TYPE_CHECKING, Any
 
 import click
 
-from garkcli.cli.options import CONTEXT, PATH, Output, common
-from garkcli.cli.trees_command import kind_asked, symplectic_options
+from garkcli.cli.options import (
+    CONTEXT,
+    PATH,
+    Output,
+    common,
+    digits_option,
+    document_option,
+)
+from garkcli.cli.tree_options import colours_option, kind_asked, symplectic_options
 from garkcli.errors import UsageProblem
 
 if TYPE_CHECKING:
-    from garkcli.report.conditions import ConditionRow, Valued
-    from garkcli.report.symplectic import Subject
+    from garkcli.order.conditions import Condition
+    from garkcli.report.conditions_data import ConditionRow, Valued
+    from garkcli.report.symplectic_subject import Subject
     from garkcli.trees.symplectic import Kind
+    from garkcli.trees.tree import Tree
 
 
 @click.command("conditions", context_settings=CONTEXT)
 @click.argument("file", required=False, type=PATH, metavar="[FILE]")
-@click.option(
-    "--colours",
-    "-N",
-    type=click.IntRange(1, 1000),
-    metavar="N",
-    help="How many colours, without FILE.",
-)
+@colours_option("How many colours, without FILE.")
 @click.option(
     "--order",
     "-n",
@@ -62,35 +65,11 @@ if TYPE_CHECKING:
     show_default=True,
     help="Order of the rows; worst: the largest residual first.",
 )
-@click.option(
-    "--digits",
-    type=click.IntRange(1, 1000),
-    metavar="N",
-    help="Values and residuals in decimals of N digits; by default exact.",
-)
-@click.option(
-    "--document",
-    is_flag=True,
-    help="With --format latex: a document that compiles as it stands.",
-)
+@digits_option("Values and residuals in decimals of N digits; by default exact.")
+@document_option
 @symplectic_options
 @common(["text", "json", "csv", "latex"])
-def command(
-    file: str | None,
-    colours: int | None,
-    order: int,
-    only: bool,
-    coloured: bool | None,
-    which: str | None,
-    failing: bool,
-    sort: str,
-    digits: int | None,
-    document: bool,
-    symplectic: bool,
-    kind: str | None,
-    members: bool,
-    output: Output,
-) -> int:
+def command(output: Output, **options: Any) -> int:
     """The order-condition table.
 
     Without FILE the paper's Table 1 for any order: a row for each tree shape, to hold for all
@@ -104,39 +83,97 @@ def command(
     from garkcli.report import conditions as report
     from garkcli.report.progress import tracked
 
-    asked = kind_asked(symplectic, kind, members, output.format)
-    orders = range(order, order + 1) if only else range(1, order + 1)
-    if file is None:
-        _refuse(
-            {"--conjugate or --pair": which, "--failing": failing, "--digits": digits}
-        )
-        _refuse({"--sort": sort != "tree"})
-    elif colours is not None or coloured is not None:
-        raise UsageProblem(
-            "the colours are those of FILE", "leave out --colours, --coloured, --shapes"
-        )
-    if asked is not None and coloured is not None:
-        raise UsageProblem(
-            "free trees have colours", "leave out --coloured and --shapes"
-        )
-    valued = None if file is None else _chosen(file, which, failing)
-    subject = None if asked is None else _subject(asked, kind, colours, orders, valued)
+    wanted = Wanted(**options)
+    asked = kind_asked(wanted.symplectic, wanted.kind, wanted.members, output.format)
+    _check(wanted, asked)
+    valued = None
+    if wanted.file is not None:
+        valued = _chosen(wanted.file, wanted.which, wanted.failing)
+    subject = None
+    if asked is not None:
+        subject = _subject(asked, wanted, valued)
     if valued is not None and subject is not None and subject.tableau is not None:
         valued = replace(valued, tableau=subject.tableau)
     if subject is not None:
-        rows = _independent(subject, members, valued)
+        rows = _independent(subject, wanted.members, valued)
     elif valued is not None:
-        rows = _with_values(valued, orders)
+        rows = _with_values(valued, wanted.orders)
     else:
-        rows = _table(colours, orders, coloured, output.format)
-    rows = _arranged(rows, sort, digits)
+        rows = _table(wanted, output.format)
+    rows = _arranged(rows, wanted.sort, wanted.digits)
     rows = tracked(rows, None, "conditions", output.may_show_progress)
-    output.write(
-        report.render(
-            rows, output.format, output.paint, output.width, document, subject, valued
-        )
+    pieces = report.render(
+        rows,
+        output.format,
+        output.paint,
+        output.width,
+        wanted.document,
+        subject,
+        valued,
     )
+    output.write(pieces)
     return 0
+
+
+@dataclass(frozen=True)
+class Wanted:
+    """What is asked for, by the names of the options.
+
+    Attributes:
+        file: the method, or None for the conditions themselves.
+        colours: how many, without a method.
+        order, only: every order up to that one, or it alone.
+        coloured: whether each colouring has a row, or None for what suits the format.
+        which: of what the values are, "conjugate" or "pair"; None for the method as it stands.
+        failing: whether conditions that hold are left out.
+        sort: "tree" or "worst".
+        digits: of decimals, or None for exact values.
+        document: whether LaTeX gets a preamble.
+        symplectic, kind, members: of the independent conditions.
+    """
+
+    file: str | None
+    colours: int | None
+    order: int
+    only: bool
+    coloured: bool | None
+    which: str | None
+    failing: bool
+    sort: str
+    digits: int | None
+    document: bool
+    symplectic: bool
+    kind: str | None
+    members: bool
+
+    @property
+    def orders(self) -> range:
+        """The orders asked for."""
+        first = self.order if self.only else 1
+        return range(first, self.order + 1)
+
+
+def _check(wanted: Wanted, asked: Kind | None) -> None:
+    """Refuse options that do not go together.
+
+    Raises:
+        UsageProblem: two of them do not.
+    """
+    if wanted.file is None:
+        _refuse(
+            {
+                "--conjugate or --pair": wanted.which,
+                "--failing": wanted.failing,
+                "--digits": wanted.digits,
+                "--sort": wanted.sort != "tree",
+            }
+        )
+    elif wanted.colours is not None or wanted.coloured is not None:
+        cure = "leave out --colours, --coloured, --shapes"
+        raise UsageProblem("the colours are those of FILE", cure)
+    if asked is not None and wanted.coloured is not None:
+        cure = "leave out --coloured and --shapes"
+        raise UsageProblem("free trees have colours", cure)
 
 
 def _refuse(given: Mapping[str, object]) -> None:
@@ -162,7 +199,7 @@ def _arranged(
 
 def _chosen(file: str, which: str | None, only_failing: bool) -> Valued:
     from garkcli.methodfile.load import load
-    from garkcli.report.conditions import Valued
+    from garkcli.report.conditions_data import Valued
     from garkcli.tableau.conjugate import conjugate
     from garkcli.tableau.forms import pair
 
@@ -175,45 +212,29 @@ def _chosen(file: str, which: str | None, only_failing: bool) -> Valued:
     return Valued(tableau, method.tolerance, only_failing)
 
 
-def _subject(
-    asked: Kind,
-    kind: str | None,
-    terms: int | None,
-    orders: range,
-    valued: Valued | None,
-) -> Subject:
+def _subject(asked: Kind, wanted: Wanted, valued: Valued | None) -> Subject:
     """What the conditions are independent for: a kind of methods, or the one of a file."""
-    from garkcli.report.symplectic import subject_of_kind, subject_of_method
+    from garkcli.report.symplectic_subject import subject_of_kind, subject_of_method
 
     if valued is None:
-        return subject_of_kind(asked, terms, orders)
-    if kind is not None:
-        raise UsageProblem(
-            "the kind is that of FILE", "leave out --kind; --pair asks for the pair"
-        )
-    return subject_of_method(valued.tableau, orders)
+        return subject_of_kind(asked, wanted.colours, wanted.orders)
+    if wanted.kind is not None:
+        cure = "leave out --kind; --pair asks for the pair"
+        raise UsageProblem("the kind is that of FILE", cure)
+    return subject_of_method(valued.tableau, wanted.orders)
 
 
 def _independent(
     subject: Subject, members: bool, valued: Valued | None
 ) -> Iterator[ConditionRow]:
     """A row for each class, with its value where there is a method."""
-    from itertools import repeat, tee
+    from itertools import tee
 
-    from garkcli.exact.field import ZERO
-    from garkcli.order.conditions import conditions
-    from garkcli.report.conditions import ConditionRow
+    from garkcli.report.conditions_data import ConditionRow
 
     classes, again = tee(subject.classes())
     trees = (found.representative for found in again)
-    values = (
-        zip(trees, repeat(None))
-        if valued is None
-        else (
-            (x.tree, x)
-            for x in conditions(valued.tableau, trees, valued.tolerance or ZERO)
-        )
-    )
+    values = _values_at(trees, valued)
     for found, (tree, condition) in zip(classes, values, strict=True):
         shown = found.members if members else ()
         yield ConditionRow(
@@ -221,24 +242,35 @@ def _independent(
         )
 
 
-def _table(
-    colours: int | None,
-    orders: range,
-    coloured: bool | None,
-    format: str,
-) -> Iterator[ConditionRow]:
+def _values_at(
+    trees: Iterator[Tree], valued: Valued | None
+) -> Iterator[tuple[Tree, Condition | None]]:
+    """Each tree with its condition for the method; with None where there is no method."""
+    from garkcli.exact.field import ZERO
+    from garkcli.order.conditions import conditions
+
+    if valued is None:
+        for tree in trees:
+            yield tree, None
+        return
+    tolerance = valued.tolerance or ZERO
+    for condition in conditions(valued.tableau, trees, tolerance):
+        yield condition.tree, condition
+
+
+def _table(wanted: Wanted, format: str) -> Iterator[ConditionRow]:
     """A row for each tree: of each shape for people, of each colouring for programs that say how
     many colours there are.
     """
-    from garkcli.report.conditions import ConditionRow
+    from garkcli.report.conditions_data import ConditionRow
     from garkcli.trees.blocks import iter_blocks
 
+    coloured = wanted.coloured
     if coloured is None:
-        coloured = format in {"json", "csv"} and colours is not None
-    for n in orders:
-        for block in iter_blocks(
-            (colours or 1) if coloured else 1, n, block_size=1 << 14
-        ):
+        coloured = format in {"json", "csv"} and wanted.colours is not None
+    colours = (wanted.colours or 1) if coloured else 1
+    for n in wanted.orders:
+        for block in iter_blocks(colours, n, block_size=1 << 14):
             for tree in block.trees():
                 yield ConditionRow(tree, is_shape=not coloured)
 
@@ -246,14 +278,17 @@ def _table(
 def _with_values(valued: Valued, orders: range) -> Iterator[ConditionRow]:
     from garkcli.exact.field import ZERO
     from garkcli.order.listing import all_conditions
-    from garkcli.report.conditions import ConditionRow
+    from garkcli.report.conditions_data import ConditionRow
 
+    tolerance = valued.tolerance or ZERO
     for n in orders:
-        for condition in all_conditions(valued.tableau, n, valued.tolerance or ZERO):
+        for condition in all_conditions(valued.tableau, n, tolerance):
             yield ConditionRow(condition.tree, False, condition)
 
 
 def _badness(row: ConditionRow) -> float:
     from garkcli.exact.display import to_float
 
-    return abs(to_float(row.condition.residual)) if row.condition is not None else 0.0
+    if row.condition is None:
+        return 0.0
+    return abs(to_float(row.condition.residual))

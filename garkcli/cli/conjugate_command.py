@@ -4,7 +4,14 @@ from __future__ import annotations
 
 import click
 
-from garkcli.cli.options import CONTEXT, PATH, Output, common
+from garkcli.cli.options import (
+    CONTEXT,
+    PATH,
+    Output,
+    common,
+    digits_option,
+    document_option,
+)
 
 
 @click.command("conjugate", context_settings=CONTEXT)
@@ -12,17 +19,8 @@ from garkcli.cli.options import CONTEXT, PATH, Output, common
 @click.option(
     "--pair", "is_pair", is_flag=True, help="The symplectic pair, 2N colours, instead."
 )
-@click.option(
-    "--digits",
-    type=click.IntRange(1, 1000),
-    metavar="N",
-    help="Decimals of N digits; by default exact, or 17 digits.",
-)
-@click.option(
-    "--document",
-    is_flag=True,
-    help="With --format latex: a document that compiles as it stands.",
-)
+@digits_option("Decimals of N digits; by default exact, or 17 digits.")
+@document_option
 @common(["text", "yaml", "json", "latex"])
 def command(
     file: str, is_pair: bool, digits: int | None, document: bool, output: Output

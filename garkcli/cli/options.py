@@ -36,6 +36,21 @@ help_option: Callable[[F], F] = click.option(
 """The option that shows the help of its command."""
 
 
+def digits_option(help: str) -> Callable[[F], F]:
+    """``--digits`` of a command that shows numbers exactly without it."""
+    return click.option(
+        "--digits", type=click.IntRange(1, 1000), metavar="N", help=help
+    )
+
+
+document_option: Callable[[F], F] = click.option(
+    "--document",
+    is_flag=True,
+    help="With --format latex: a document that compiles as it stands.",
+)
+"""The option of commands that write LaTeX."""
+
+
 def common(formats: Sequence[str]) -> Callable[[F], F]:
     """``--format``, ``-o``, ``-q``, ``-v``, ``--color``; they arrive as one ``Output``."""
 
@@ -48,43 +63,47 @@ def common(formats: Sequence[str]) -> Callable[[F], F]:
             color: str,
             **rest: Any,
         ) -> Any:
-            return function(
-                output=Output(format, output, verbose - quiet, color), **rest
-            )
+            verbosity = verbose - quiet
+            chosen = Output(format, output, verbosity, color)
+            return function(output=chosen, **rest)
 
         run.__doc__ = function.__doc__
         run.__name__ = function.__name__
         run.__click_params__ = getattr(function, "__click_params__", [])  # type: ignore[attr-defined]
-        options = [
-            click.option(
-                "--format",
-                type=click.Choice(formats),
-                default=formats[0],
-                show_default=True,
-            ),
-            click.option(
-                "-o",
-                "--output",
-                type=PATH,
-                metavar="FILE",
-                help="Write the report to FILE.",
-            ),
-            click.option("-q", "--quiet", is_flag=True, help="Say less."),
-            click.option("-v", "--verbose", is_flag=True, help="Say more."),
-            click.option(
-                "--color",
-                type=click.Choice(["auto", "always", "never"]),
-                default="auto",
-                show_default=True,
-            ),
-            help_option,
-        ]
         decorated: Any = run
-        for option in reversed(options):
+        for option in reversed(_common_options(formats)):
             decorated = option(decorated)
         return decorated  # type: ignore[no-any-return]
 
     return decorate
+
+
+def _common_options(formats: Sequence[str]) -> list[Callable[[Any], Any]]:
+    """The options of every command that writes a report, in the order of the help."""
+    return [
+        click.option(
+            "--format",
+            type=click.Choice(formats),
+            default=formats[0],
+            show_default=True,
+        ),
+        click.option(
+            "-o",
+            "--output",
+            type=PATH,
+            metavar="FILE",
+            help="Write the report to FILE.",
+        ),
+        click.option("-q", "--quiet", is_flag=True, help="Say less."),
+        click.option("-v", "--verbose", is_flag=True, help="Say more."),
+        click.option(
+            "--color",
+            type=click.Choice(["auto", "always", "never"]),
+            default="auto",
+            show_default=True,
+        ),
+        help_option,
+    ]
 
 
 class Output:

@@ -4,22 +4,20 @@ from __future__ import annotations
 
 import click
 
-from garkcli.cli.options import CONTEXT, PATH, Output, common
+from garkcli.cli.options import (
+    CONTEXT,
+    PATH,
+    Output,
+    common,
+    digits_option,
+    document_option,
+)
 
 
 @click.command("tableau", context_settings=CONTEXT)
 @click.argument("file", type=PATH, metavar="FILE")
-@click.option(
-    "--digits",
-    type=click.IntRange(1, 1000),
-    metavar="N",
-    help="Decimals of N digits; by default exact, or 17 digits.",
-)
-@click.option(
-    "--document",
-    is_flag=True,
-    help="With --format latex: a document that compiles as it stands.",
-)
+@digits_option("Decimals of N digits; by default exact, or 17 digits.")
+@document_option
 @common(["text", "yaml", "json", "latex"])
 def command(file: str, digits: int | None, document: bool, output: Output) -> int:
     """The assembled tableau, all blocks.

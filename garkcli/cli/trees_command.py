@@ -3,81 +3,32 @@
 from __future__ import annotations
 
 import sys
-from collections.abc import Callable, Iterable, Iterator
+from collections.abc import Iterable, Iterator
 from contextlib import contextmanager
-from typing import TYPE_CHECKING, Any, TypeVar, cast
+from dataclasses import dataclass
+from typing import TYPE_CHECKING, Any
 
 import click
 
-from garkcli.cli.options import CONTEXT, PATH, Output, common
+from garkcli.cli.options import CONTEXT, PATH, Output, common, document_option
 from garkcli.cli.streams import is_terminal, say
+from garkcli.cli.tree_options import colours_option, kind_asked, symplectic_options
 from garkcli.errors import UsageProblem
-from garkcli.trees.symplectic import KINDS, Kind
 
 if TYPE_CHECKING:
     from garkcli.report.trees import Query, TreeRow
+    from garkcli.trees.symplectic import Kind
     from garkcli.trees.tree import Tree
 
-F = TypeVar("F", bound=Callable[..., Any])
 MANY = 1_000_000
 """So many lines are asked for twice."""
 MAX_PICTURES = 2000
 """Most trees on one sheet of pictures."""
 
 
-def symplectic_options(function: F) -> F:
-    """``--symplectic``, ``--kind`` and ``--members``."""
-    options = [
-        click.option(
-            "--symplectic",
-            is_flag=True,
-            help="Independent conditions of symplectic methods: free trees.",
-        ),
-        click.option(
-            "--kind",
-            type=click.Choice(KINDS),
-            help="With --symplectic: which methods, the pair (A, Â) unless given.",
-        ),
-        click.option(
-            "--members",
-            is_flag=True,
-            help="With --symplectic: all rooted trees of each free tree.",
-        ),
-    ]
-    for option in reversed(options):
-        function = option(function)
-    return function
-
-
-def kind_asked(
-    symplectic: bool, kind: str | None, members: bool, format: str
-) -> Kind | None:
-    """The kind of symplectic methods; None where all trees are meant.
-
-    Raises:
-        UsageProblem: options of ``--symplectic`` without it, or members in a LaTeX table.
-    """
-    if members and format == "latex":
-        raise UsageProblem(
-            "--members do not fit into a LaTeX table", "choose another --format"
-        )
-    if symplectic:
-        return cast("Kind", kind or "pair")
-    if kind is not None or members:
-        raise UsageProblem(
-            f"{'--members' if kind is None else '--kind'} is about free trees",
-            "add --symplectic",
-        )
-    return None
-
-
 @click.command("trees", context_settings=CONTEXT)
-@click.option(
-    "--colours",
-    "-N",
-    type=click.IntRange(1, 1000),
-    metavar="N",
-    help="How many colours, 1 unless given; with --symplectic, terms of the split.",
+@colours_option(
+    "How many colours, 1 unless given; with --symplectic, terms of the split."
 )
 @click.option(
     "--order",
@@ -109,29 +60,10 @@ def kind_asked(
 @click.option(
     "--svg", type=PATH, metavar="FILE", help="Draw a sheet of all the trees into FILE."
 )
-@click.option(
-    "--document",
-    is_flag=True,
-    help="With --format latex: a document that compiles as it stands.",
-)
+@document_option
 @symplectic_options
 @common(["text", "json", "ndjson", "csv", "latex"])
-def command(
-    colours: int | None,
-    order: int | None,
-    upto: bool,
-    root: int | None,
-    colours_used: str | None,
-    count: bool,
-    yes: bool,
-    svg: str | None,
-    one: str | None,
-    document: bool,
-    symplectic: bool,
-    kind: str | None,
-    members: bool,
-    output: Output,
-) -> int:
+def command(output: Output, **options: Any) -> int:
     """Enumerate the N-trees of an order, by root colour, with order, symmetry and density.
 
     A tree is its root's colour after its bracketed branches: []_1 is a single vertex of colour 1.
@@ -139,79 +71,112 @@ def command(
     --symplectic the rooted trees that differ in the place of their root are one row: their
     conditions are equivalent for symplectic methods.
     """
-    from garkcli.report import trees as report
-
-    asked = kind_asked(symplectic, kind, members, output.format)
+    wanted = Wanted(**options)
+    asked = kind_asked(wanted.symplectic, wanted.kind, wanted.members, output.format)
     if asked is not None:
-        if root is not None or colours_used is not None or one is not None:
-            raise UsageProblem(
-                "free trees have no root", "leave out --root, --colours-used and --tree"
-            )
-        return _free_trees(
-            asked,
-            colours,
-            _orders(order, upto),
-            count,
-            yes,
-            members,
-            svg,
-            document,
-            output,
-        )
-    colours = colours or 1
-    used = _colours(colours_used, colours)
-    if root is not None and root > colours:
-        raise UsageProblem(
-            f"there is no colour {root}", f"--colours {colours} numbers them from 1"
-        )
-    if one is not None:
-        return _single(one, svg, document, output)
-    orders = _orders(order, upto)
-    query = report.Query(colours, orders[-1], upto, root, used)
-    if count:
-        if used:
-            raise UsageProblem(
-                "--count knows no --colours-used", "leave one of them out"
-            )
-        with _any_digits():
-            output.write(
-                report.render_counts(query, _counts(query), output.format, output.paint)
-            )
-        return 0
-    if svg is not None:
-        from garkcli.trees.notation import parse_tree
-
-        _draw(svg, (parse_tree(row.tree) for row in _rows(query, orders)), colours > 1)
-        output.note(f"wrote {svg}")
-        return 0
-    _list(query, orders, yes, document, output)
+        _free_trees(asked, wanted, output)
+    else:
+        _rooted_trees(wanted, output)
     return 0
 
 
-def _orders(order: int | None, upto: bool) -> range:
-    if order is None:
-        raise UsageProblem("which order?", "give --order n, or --tree for one tree")
-    return range(1, order + 1) if upto else range(order, order + 1)
+@dataclass(frozen=True)
+class Wanted:
+    """What is asked for, by the names of the options.
+
+    Attributes:
+        colours: how many, or None for as many as usual.
+        order, upto: the order, and whether those below it are meant too.
+        root: the colour of the root, from 1, or None for any.
+        colours_used: the colours that have to occur, as they were written.
+        count: whether the trees are counted only.
+        yes: whether millions of lines are meant.
+        one: a single tree instead of an order.
+        svg: the file of a sheet of pictures.
+        document: whether LaTeX gets a preamble.
+        symplectic, kind, members: of free trees.
+    """
+
+    colours: int | None
+    order: int | None
+    upto: bool
+    root: int | None
+    colours_used: str | None
+    count: bool
+    yes: bool
+    one: str | None
+    svg: str | None
+    document: bool
+    symplectic: bool
+    kind: str | None
+    members: bool
+
+    @property
+    def orders(self) -> range:
+        """The orders asked for.
+
+        Raises:
+            UsageProblem: none is.
+        """
+        if self.order is None:
+            raise UsageProblem("which order?", "give --order n, or --tree for one tree")
+        first = 1 if self.upto else self.order
+        return range(first, self.order + 1)
 
 
-def _list(
-    query: Query, orders: range, yes: bool, document: bool, output: Output
-) -> None:
+def _rooted_trees(wanted: Wanted, output: Output) -> None:
+    """A row for each tree, their number, their pictures, or one tree."""
+    from garkcli.report import trees as report
+
+    colours = wanted.colours or 1
+    used = _colours(wanted.colours_used, colours)
+    if wanted.root is not None and wanted.root > colours:
+        message = f"there is no colour {wanted.root}"
+        raise UsageProblem(message, f"--colours {colours} numbers them from 1")
+    if wanted.one is not None:
+        _single(wanted.one, wanted.svg, wanted.document, output)
+        return
+    orders = wanted.orders
+    query = report.Query(colours, orders[-1], wanted.upto, wanted.root, used)
+    if wanted.count:
+        _count(query, output)
+    elif wanted.svg is not None:
+        from garkcli.trees.notation import parse_tree
+
+        trees = (parse_tree(row.tree) for row in _rows(query, orders))
+        _draw(wanted.svg, trees, colours > 1)
+        output.note(f"wrote {wanted.svg}")
+    else:
+        _list(query, orders, wanted, output)
+
+
+def _count(query: Query, output: Output) -> None:
+    """The numbers of trees alone."""
+    from garkcli.report import trees as report
+
+    if query.used:
+        raise UsageProblem("--count knows no --colours-used", "leave one of them out")
+    counts = _counts(query)
+    with _any_digits():
+        output.write(report.render_counts(query, counts, output.format, output.paint))
+
+
+def _list(query: Query, orders: range, wanted: Wanted, output: Output) -> None:
     """A row for each tree."""
     from garkcli.report import trees as report
     from garkcli.report.progress import tracked
 
     totals = _totals(query)
-    count_all = (
-        None
-        if totals is None
-        else sum(map(sum, (report.kept(query, by_root) for _, by_root in totals)))
-    )
-    _refuse_millions(count_all, yes)
+    count_all = None
+    if totals is not None:
+        kept = [report.kept(query, by_root) for _, by_root in totals]
+        count_all = sum(map(sum, kept))
+    _refuse_millions(count_all, wanted.yes)
     rows = tracked(_rows(query, orders), count_all, "trees", output.may_show_progress)
-    output.write(
-        report.render(query, rows, totals, output.format, output.paint, document)
+    pieces = report.render(
+        query, rows, totals, output.format, output.paint, wanted.document
     )
+    output.write(pieces)
 
 
 def _refuse_millions(lines: int | None, yes: bool) -> None:
@@ -229,44 +194,36 @@ def _refuse_millions(lines: int | None, yes: bool) -> None:
     raise UsageProblem(f"{lines} trees", "--yes lists them, --count counts them")
 
 
-def _free_trees(
-    kind: Kind,
-    terms: int | None,
-    orders: range,
-    count: bool,
-    yes: bool,
-    members: bool,
-    svg: str | None,
-    document: bool,
-    output: Output,
-) -> int:
+def _free_trees(kind: Kind, wanted: Wanted, output: Output) -> None:
     """A row for each class of equivalent conditions of symplectic methods."""
     from garkcli.report import symplectic as report
     from garkcli.report.progress import tracked
+    from garkcli.report.symplectic_subject import subject_of_kind
 
-    subject = report.subject_of_kind(kind, terms, orders)
-    if count:
+    of_rooted = (wanted.root, wanted.colours_used, wanted.one)
+    if any(option is not None for option in of_rooted):
+        cure = "leave out --root, --colours-used and --tree"
+        raise UsageProblem("free trees have no root", cure)
+    subject = subject_of_kind(kind, wanted.colours, wanted.orders)
+    format, paint = output.format, output.paint
+    if wanted.count:
         with _any_digits():
-            output.write(
-                report.render_class_counts(subject, output.format, output.paint)
-            )
-    elif svg is not None:
+            output.write(report.render_class_counts(subject, format, paint))
+    elif wanted.svg is not None:
         trees = (found.representative for found in subject.classes())
-        _draw(svg, trees, subject.has_colours)
-        output.note(f"wrote {svg}")
+        _draw(wanted.svg, trees, subject.has_colours)
+        output.note(f"wrote {wanted.svg}")
     else:
-        _refuse_millions(subject.independent, yes)
-        classes = tracked(
-            subject.classes(), subject.independent, "trees", output.may_show_progress
-        )
+        lines = subject.independent
+        _refuse_millions(lines, wanted.yes)
+        classes = tracked(subject.classes(), lines, "trees", output.may_show_progress)
         pieces = report.render_classes(
-            subject, classes, output.format, output.paint, members, document
+            subject, classes, format, paint, wanted.members, wanted.document
         )
         output.write(pieces)
-    return 0
 
 
-def _single(text: str, svg: str | None, document: bool, output: Output) -> int:
+def _single(text: str, svg: str | None, is_document: bool, output: Output) -> None:
     """One tree, given in bracket text."""
     from garkcli.report import trees as report
     from garkcli.report.writing import write_whole
@@ -276,22 +233,22 @@ def _single(text: str, svg: str | None, document: bool, output: Output) -> int:
     try:
         tree = parse_tree(text)
     except NotationError as error:
-        raise UsageProblem(
-            f"--tree, column {error.offset + 1}: {error.message}", error.help
-        ) from None
+        message = f"--tree, column {error.offset + 1}: {error.message}"
+        raise UsageProblem(message, error.help) from None
     colours = 1 + max(tree.colours)
     written = format_tree(tree, colours > 1)
     if svg is not None:
         write_whole(svg, [draw_svg_sheet([tree], [written])])
         output.note(f"wrote {svg}")
-        return 0
+        return
     row = report.TreeRow(written, tree.root, tree.order, tree.symmetry, tree.density)
-    counts = [(tree.order, tuple(int(l == tree.root) for l in range(colours)))]
+    by_root = tuple(int(l == tree.root) for l in range(colours))
+    counts = [(tree.order, by_root)]
     query = report.Query(colours, tree.order, False, tree.root + 1)
-    output.write(
-        report.render(query, [row], counts, output.format, output.paint, document)
+    pieces = report.render(
+        query, [row], counts, output.format, output.paint, is_document
     )
-    return 0
+    output.write(pieces)
 
 
 @contextmanager
@@ -310,16 +267,15 @@ def _any_digits() -> Iterator[None]:
 def _colours(text: str | None, colours: int) -> tuple[int, ...]:
     if text is None:
         return ()
-    words = [word.strip() for word in text.split(",")]
-    if not all(
-        word.isascii() and word.isdigit() and 1 <= int(word[:6]) <= colours
-        for word in words
-    ):
-        raise UsageProblem(
-            f"--colours-used {text}: colours are numbers from 1 to {colours}",
-            "write 1,2",
-        )
-    return tuple(sorted({int(word) - 1 for word in words}))
+    used = set()
+    for word in text.split(","):
+        number = word.strip()
+        is_number = number.isascii() and number.isdigit()
+        if not is_number or not 1 <= int(number[:6]) <= colours:
+            wanted = f"colours are numbers from 1 to {colours}"
+            raise UsageProblem(f"--colours-used {text}: {wanted}", "write 1,2")
+        used.add(int(number) - 1)
+    return tuple(sorted(used))
 
 
 def _counts(query: Query) -> list[tuple[int, tuple[int, ...]]]:
@@ -339,11 +295,12 @@ def _rows(query: Query, orders: range) -> Iterator[TreeRow]:
     from garkcli.report.trees import TreeRow
     from garkcli.trees.blocks import select
 
+    root = None if query.root is None else query.root - 1
     for n in orders:
-        root = None if query.root is None else query.root - 1
-        for block in select(
+        blocks = select(
             query.colours, n, root=root, using=query.used, block_size=1 << 14
-        ):
+        )
+        for block in blocks:
             columns = block.columns
             yield from map(
                 TreeRow,
@@ -364,10 +321,7 @@ def _draw(path: str, listed: Iterable[Tree], coloured: bool) -> None:
 
     trees = list(islice(listed, MAX_PICTURES + 1))
     if len(trees) > MAX_PICTURES:
-        raise UsageProblem(
-            f"more than {MAX_PICTURES} trees do not fit on a sheet",
-            "draw one order or one root",
-        )
-    write_whole(
-        path, [draw_svg_sheet(trees, [format_tree(tree, coloured) for tree in trees])]
-    )
+        message = f"more than {MAX_PICTURES} trees do not fit on a sheet"
+        raise UsageProblem(message, "draw one order or one root")
+    labels = [format_tree(tree, coloured) for tree in trees]
+    write_whole(path, [draw_svg_sheet(trees, labels)])

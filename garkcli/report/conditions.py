@@ -3,28 +3,23 @@
 from __future__ import annotations
 
 from collections.abc import Iterable, Iterator, Sequence
-from dataclasses import dataclass
 from typing import Any
-
-from flint import fmpq
 
 from garkcli.exact.display import decimal, to_decimal, to_latex, to_text
 from garkcli.exact.field import Number
 from garkcli.order.conditions import Condition
+from garkcli.report.conditions_data import ConditionRow, Valued
 from garkcli.report.json_text import to_json
 from garkcli.report.latex import fragment, number
 from garkcli.report.paint import Paint, counted, folded, indented
-from garkcli.report.symplectic import Subject, legend_lines, member_lines, summary_lines
+from garkcli.report.symplectic import legend_lines, member_lines, summary_lines
+from garkcli.report.symplectic_subject import Subject
 from garkcli.report.trees import picture
-from garkcli.tableau.tableau import Tableau
 from garkcli.trees.notation import (
-    condition_latex,
-    condition_text,
     format_latex,
     format_tree,
     vertex_letters,
 )
-from garkcli.trees.tree import Tree
 
 MOST_DIGITS = 60
 """Longer values are shown in decimals."""
@@ -43,71 +38,6 @@ _VALUED = [
     "holds",
     "kind",
 ]
-
-
-@dataclass(frozen=True)
-class ConditionRow:
-    """One line of the table.
-
-    Attributes:
-        tree: the tree; its colours mean nothing where ``is_shape``.
-        is_shape: whether the row stands for all colourings of the tree.
-        condition: its value for a method, where there is one.
-        stands_for: how many conditions are equivalent to it in a symplectic method; 0 where nobody
-            asked.
-        members: the trees of these conditions, where asked for.
-        digits: of values in decimals; None for exact ones.
-    """
-
-    tree: Tree
-    is_shape: bool
-    condition: Condition | None = None
-    stands_for: int = 0
-    members: tuple[Tree, ...] = ()
-    digits: int | None = None
-
-    @property
-    def formula(self) -> str:
-        """The condition in the paper's notation, in plain text."""
-        return condition_text(self.tree, self._letters)
-
-    @property
-    def latex(self) -> str:
-        """The condition in the paper's notation, in LaTeX."""
-        return condition_latex(self.tree, self._letters)
-
-    @property
-    def _letters(self) -> tuple[str, ...] | None:
-        """A letter for the colour of each vertex, where the row is for all colours."""
-        return vertex_letters(self.tree) if self.is_shape else None
-
-
-@dataclass(frozen=True)
-class Valued:
-    """What a table with values is about.
-
-    Attributes:
-        tableau: the method.
-        tolerance: the rounding of its coefficients, or None.
-        only_failing: whether conditions that hold are counted but not shown.
-    """
-
-    tableau: Tableau
-    tolerance: fmpq | None = None
-    only_failing: bool = False
-
-    def data(self) -> dict[str, Any]:
-        """The fields of the JSON report."""
-        tolerance = None if self.tolerance is None else decimal(self.tolerance)
-        return {
-            "colours": [colour.name for colour in self.tableau.colours],
-            "tolerance": tolerance,
-        }
-
-    def shows(self, row: ConditionRow) -> bool:
-        """Whether a row is in the table."""
-        fails = row.condition is not None and not row.condition.holds
-        return fails or row.condition is None or not self.only_failing
 
 
 def render(

@@ -13,7 +13,7 @@ from flint import fmpq
 
 from garkcli.errors import UsageProblem
 from garkcli.methodfile.load import load
-from garkcli.report.symplectic import subject_of_method
+from garkcli.report.symplectic_subject import subject_of_method
 from garkcli.tableau.forms import pair, with_linear
 from garkcli.trees.count import count_trees
 from garkcli.trees.notation import parse_tree

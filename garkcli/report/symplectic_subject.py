@@ -1,0 +1,220 @@
+"""The independent conditions of symplectic methods: which they are, and how many."""
+
+from __future__ import annotations
+
+from collections.abc import Iterator
+from dataclasses import dataclass
+from functools import cached_property
+from typing import TYPE_CHECKING, Any
+
+from garkcli.errors import UsageProblem
+from garkcli.report.paint import counted
+from garkcli.trees.count import Admissible, counts_upto
+from garkcli.trees.free import Structure
+from garkcli.trees.notation import format_tree
+from garkcli.trees.symplectic import (
+    KINDS,
+    ConditionClass,
+    Kind,
+    count_classes,
+    independent_classes,
+    structure_of,
+)
+
+if TYPE_CHECKING:
+    from garkcli.tableau.tableau import Tableau
+
+_LETTERS = {"q": "V", "p": "F", "y": "f"}
+_PROBLEMS = {
+    "semi-separable": "H = H1(q, p) + H2(q)",
+    "separable": "H = H1(p) + H2(q)",
+    "nystrom": "H = H1(p) + H2(q) with H1 quadratic",
+}
+
+
+@dataclass(frozen=True)
+class Subject:
+    """What the report is about: the symplectic methods of a kind, or one of them.
+
+    Attributes:
+        kind: the kind; ``pair`` also where a method's structure has no name.
+        structure: its colours, and how roots move among them.
+        names: the names of the colours.
+        orders: the orders asked for.
+        tableau: the method, where there is one.
+    """
+
+    kind: Kind
+    structure: Structure
+    names: tuple[str, ...]
+    orders: range
+    tableau: Tableau | None = None
+
+    @cached_property
+    def counts(self) -> tuple[tuple[int, int, int], ...]:
+        """For each order the independent conditions and all conditions."""
+        admissible = self._admissible
+        every = counts_upto(admissible, self.orders[-1])
+        if admissible == self.structure.admissible:
+            independent = [count_classes(self.structure, n) for n in self.orders]
+        else:  # a tableau that lacks blocks
+            independent = [sum(1 for _ in self._of_order(n)) for n in self.orders]
+        totals = [sum(every[n - 1]) for n in self.orders]
+        return tuple(zip(self.orders, independent, totals, strict=True))
+
+    @property
+    def _admissible(self) -> Admissible:
+        """The trees that have a condition."""
+        if self.tableau is None:
+            return self.structure.admissible
+        from garkcli.order.conditions import coupling_graph
+
+        return Admissible.of(self.tableau.size, *coupling_graph(self.tableau))
+
+    def classes(self) -> Iterator[ConditionClass]:
+        """The classes of all orders."""
+        for n in self.orders:
+            yield from self._of_order(n)
+
+    def _of_order(self, order: int) -> Iterator[ConditionClass]:
+        classes = independent_classes(self.structure, order)
+        if self.tableau is None:
+            return classes
+        from garkcli.order.conditions import is_admissible
+
+        tableau = self.tableau
+        return (c for c in classes if is_admissible(tableau, c.representative))
+
+    @property
+    def independent(self) -> int:
+        """The independent conditions of all orders."""
+        return sum(k for _, k, _ in self.counts)
+
+    @property
+    def has_colours(self) -> bool:
+        """Whether trees are written with their colours."""
+        return len(self.names) > 1
+
+    def text(self, tree: ConditionClass) -> str:
+        """The representative of a class in bracket text."""
+        return format_tree(tree.representative, self.has_colours)
+
+    def members(self, tree: ConditionClass) -> list[str]:
+        """The rooted trees of a class in bracket text."""
+        return [format_tree(u, self.has_colours) for u in tree.members]
+
+    @property
+    def legend(self) -> str:
+        """What the numbers of the colours mean; empty where there is one colour."""
+        if not self.has_colours:
+            return ""
+        pairs = [f"{l} {name}" for l, name in enumerate(self.names, 1)]
+        return f"colours: {', '.join(pairs)}"
+
+    @property
+    def summary(self) -> str:
+        """How many conditions are left, in words."""
+        few, many = self.independent, self._all_conditions
+        conditions = counted(few, "independent condition")
+        which = "of order" if len(self.orders) == 1 else "up to order"
+        instead = "" if few == many else f", instead of {many}"
+        return f"{conditions} {which} {self.orders[-1]} for {self._problem}{instead}"
+
+    @property
+    def _all_conditions(self) -> int:
+        """The conditions of all orders, were the method not symplectic."""
+        return sum(k for _, _, k in self.counts)
+
+    @property
+    def _problem(self) -> str:
+        terms = len(self.structure.leaders)
+        if self.kind == "pair":
+            return f"a symplectic pair of {counted(terms, 'Hamiltonian')}"
+        if self.kind == "self-conjugate":
+            return f"a self-conjugate method of {counted(terms, 'vector field')}"
+        return _PROBLEMS[self.kind]
+
+    def data(self) -> dict[str, Any]:
+        """The same for JSON."""
+        return {
+            "kind": self.kind,
+            "terms": len(self.structure.leaders),
+            "colours": list(self.names),
+            "count": self.independent,
+            "instead_of": self._all_conditions,
+        }
+
+
+def subject_of_kind(kind: Kind, terms: int | None, orders: range) -> Subject:
+    """The symplectic methods of a kind.
+
+    Raises:
+        UsageProblem: the kind does not exist with so many terms.
+    """
+    if terms is None:
+        terms = 2 if kind in _PROBLEMS else 1
+    try:
+        structure = structure_of(kind, terms)
+    except ValueError as error:
+        cure = "leave out --colours, or choose another --kind"
+        raise UsageProblem(f"--colours {terms}: {error}", cure) from None
+    names = []
+    for term, part in structure.colours:
+        letter = _LETTERS[part]
+        names.append(f"{letter}{term + 1}")
+    return Subject(kind, structure, tuple(names), orders)
+
+
+def subject_of_method(tableau: Tableau, orders: range) -> Subject:
+    """One method: a partitioned one or its own conjugate as it stands, of any other the symplectic
+    pair.
+
+    Raises:
+        UsageProblem: a partitioned method that is not symplectic, or linear in positions or in
+            momenta only.
+        ZeroWeight: the pair would divide by zero.
+    """
+    from garkcli.tableau.conjugate import is_symplectic
+    from garkcli.tableau.forms import pair
+
+    if not is_symplectic(tableau):
+        if tableau.is_partitioned:
+            raise _not_symplectic(tableau)
+        tableau = pair(tableau)
+    terms = list(range(tableau.size))
+    if tableau.is_partitioned:
+        terms = [x.space for x in tableau.colours]
+    natures = list(zip(terms, tableau.colours, strict=True))
+    quadratic = frozenset(term for term, x in natures if x.is_linear)
+    for term, x in natures:
+        if term in quadratic and not x.is_linear:
+            message = (
+                f"colour {x.name} is not linear, as the other colour of its stages is"
+            )
+            cure = "such a term of the Hamiltonian has no classes; make both linear or none"
+            raise UsageProblem(message, cure)
+    colours = tuple((term, x.part) for term, x in natures)
+    structure = Structure(colours, quadratic)
+    names = tuple(x.name for x in tableau.colours)
+    return Subject(_kind(structure), structure, names, orders, tableau)
+
+
+def _kind(structure: Structure) -> Kind:
+    if not structure.is_directed:
+        return "self-conjugate"
+    for kind in KINDS:
+        if kind in _PROBLEMS and structure_of(kind) == structure:
+            return kind
+    return "pair"
+
+
+def _not_symplectic(tableau: Tableau) -> UsageProblem:
+    weights = {(x.space, x.b) for x in tableau.colours}
+    spaces = {space for space, _ in weights}
+    if len(weights) > len(spaces):
+        reason = "positions and momenta have different weights at the same stages"
+        cure = "give both the same weights"
+    else:
+        reason = "its momentum blocks are not the conjugates of its position blocks"
+        cure = "with --pair they become the conjugates"
+    return UsageProblem(f"the method is not symplectic: {reason}", cure)
