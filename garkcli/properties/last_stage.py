@@ -2,62 +2,153 @@
 
 from __future__ import annotations
 
-from garkcli.exact.field import Number
-from garkcli.tableau.pointwise import in_points
+from collections.abc import Sequence
+from dataclasses import dataclass
+
+from flint import fmpq
+
+from garkcli.exact.field import ZERO, Number
+from garkcli.exact.matrix import Vector
+from garkcli.exact.polynomial import Polynomial, gcd
+from garkcli.exact.roots import vanishes_at
+from garkcli.order.tolerance import within
+from garkcli.properties.pattern import nodes_of
+from garkcli.tableau.polynomial_space import PolynomialSpace
 from garkcli.tableau.tableau import Tableau
 
 
-def is_stiffly_accurate(tableau: Tableau) -> bool | None:
+@dataclass(frozen=True)
+class FirstSameAsLast:
+    """Why a method is not FSAL.
+
+    Attributes:
+        not_first: the first stage space whose first stage is not the old value; None for none.
+        not_last: the first one whose last stage is not the new value; None for none.
+    """
+
+    not_first: int | None
+    not_last: int | None
+
+    @property
+    def holds(self) -> bool:
+        """Whether the last evaluation of a step is the first of the next."""
+        return self.not_first is None and self.not_last is None
+
+
+def is_stiffly_accurate(tableau: Tableau, tolerance: fmpq = ZERO) -> bool:
     """Whether a stage value is the new value: a_ij^{k,m} = b_j^{m} for all m and one stage i.
 
     For a GARK method that is meant globally (A. Sandu, M. Günther 2015): one stage of one method
-    sees all vector fields with their weights. None where the nodes have no simple radicals.
+    sees all vector fields with their weights.
+
+    Args:
+        tableau: the method.
+        tolerance: the rounding of its coefficients.
 
     >>> from garkcli.families.registry import diagonal_method
     >>> from garkcli.tableau.forms import gark
-    >>> is_stiffly_accurate(gark([diagonal_method("radau-iia", 2)], {}))
+    >>> is_stiffly_accurate(gark([diagonal_method("radau-iia", 30)], {}))
     True
     """
-    exact = in_points(tableau)
-    if exact is None:
-        return None
-    return any(
-        _is_new_value(exact, k, i)
-        for k, space in enumerate(exact.spaces)
-        for i in range(space.stages)
-    )
+    wanted = new_value(tableau)
+    for k, space in enumerate(tableau.spaces):
+        if isinstance(space, PolynomialSpace):
+            if _common_nodes(tableau, k, wanted).degree > 0:
+                return True
+        elif any(
+            not missed_entries(tableau, k, i, wanted, tolerance)
+            for i in range(space.stages)
+        ):
+            return True
+    return False
 
 
-def is_first_same_as_last(tableau: Tableau) -> bool | None:
+def first_same_as_last(tableau: Tableau, tolerance: fmpq = ZERO) -> FirstSameAsLast:
     """Whether the first stage is the old value and the last one the new value: FSAL.
 
     Then the last evaluation of a step is the first of the next. It is asked of every stage space.
     """
-    exact = in_points(tableau)
-    if exact is None:
-        return None
-    spaces = range(len(exact.spaces))
-    return all(
-        exact.spaces[k].stages > 1
-        and _is_old_value(exact, k)
-        and _is_new_value(exact, k, exact.spaces[k].stages - 1)
+    spaces = range(len(tableau.spaces))
+    not_first = [k for k in spaces if not _is_stage(tableau, k, 0, old_value(tableau))]
+    not_last = [
+        k
         for k in spaces
+        if tableau.spaces[k].stages == 1
+        or not _is_stage(tableau, k, -1, new_value(tableau), tolerance)
+    ]
+    return FirstSameAsLast(
+        not_first[0] if not_first else None, not_last[0] if not_last else None
     )
 
 
-def _row(
-    tableau: Tableau, space: int, stage: int, colour: int
-) -> tuple[Number, ...] | None:
-    block = tableau.blocks.get((space, colour))
-    return None if block is None else block[stage]
+def is_first_same_as_last(tableau: Tableau, tolerance: fmpq = ZERO) -> bool:
+    """Whether a method is FSAL."""
+    return first_same_as_last(tableau, tolerance).holds
 
 
-def _is_new_value(tableau: Tableau, space: int, stage: int) -> bool:
-    rows = [_row(tableau, space, stage, m) for m in range(tableau.size)]
-    weights = [colour.b for colour in tableau.colours]
-    return all(row == b for row, b in zip(rows, weights, strict=True))
+def new_value(tableau: Tableau) -> list[Vector]:
+    """The rows, one a colour, of a stage that is the new value: the weights."""
+    return [tuple(colour.b) for colour in tableau.colours]
 
 
-def _is_old_value(tableau: Tableau, space: int) -> bool:
-    rows = [_row(tableau, space, 0, m) for m in range(tableau.size)]
-    return not any(entry for row in rows if row is not None for entry in row)
+def old_value(tableau: Tableau) -> list[Vector]:
+    """The rows of a stage that is the old value: zeros."""
+    return [(ZERO,) * tableau.space(m).stages for m in range(tableau.size)]
+
+
+def missed_entries(
+    tableau: Tableau, k: int, i: int, wanted: Sequence[Vector], tolerance: fmpq = ZERO
+) -> list[tuple[int, int]]:
+    """Where stage i of a space of points differs from the rows wanted, as (colour, stage).
+
+    A difference of two rounded coefficients may be twice their rounding. What a space does not see
+    it sees with zeros.
+    """
+    missed = []
+    for m, row in enumerate(wanted):
+        block = tableau.blocks.get((k, m))
+        found = (ZERO,) * len(row) if block is None else block[i]
+        for j, (a, b) in enumerate(zip(found, row, strict=True)):
+            if not _is_close(a, b, 2 * tolerance):
+                missed.append((m, j))
+    return missed
+
+
+def _is_close(a: Number, b: Number, allowed: fmpq) -> bool:
+    """Whether two coefficients are equal; zeros are no rounded numbers."""
+    if a == b or not allowed or not a or not b:
+        return a == b
+    return within(a - b, allowed)
+
+
+def _is_stage(
+    tableau: Tableau, k: int, i: int, wanted: Sequence[Vector], tolerance: fmpq = ZERO
+) -> bool:
+    """Whether stage i of a space, in the order of its nodes, has the rows wanted."""
+    space = tableau.spaces[k]
+    if not isinstance(space, PolynomialSpace):
+        return not missed_entries(tableau, k, i, wanted, tolerance)
+    common = _common_nodes(tableau, k, wanted)
+    if common.degree == 0:
+        return False
+    return vanishes_at(common, nodes_of(space)[i])
+
+
+def _common_nodes(tableau: Tableau, k: int, wanted: Sequence[Vector]) -> Polynomial:
+    """The polynomial whose roots are the nodes of a family at which a stage has the rows wanted.
+
+    In the stage algebra ℚ[x]/(M) the rows at a node ξ are the functionals f ↦ (A f)(ξ). They are
+    those wanted where all polynomials A e − wanted(e)·𝟙 vanish, e in a basis: at the roots of their
+    common divisor with M.
+    """
+    space = tableau.spaces[k]
+    assert isinstance(space, PolynomialSpace)
+    found = Polynomial.from_flint(space.modulus)
+    for m, row in enumerate(wanted):
+        block = tableau.blocks.get((k, m))
+        for j, value in enumerate(row):
+            column = [] if block is None else [entries[j] for entries in block]
+            found = gcd(found, Polynomial(column) - value)
+            if found.degree == 0:
+                return found
+    return found

@@ -9,13 +9,19 @@ from __future__ import annotations
 
 from collections.abc import Iterable, Mapping
 from dataclasses import dataclass
+from functools import lru_cache
 from typing import TypeAlias
 
-from flint import arb
+from flint import arb, fmpq, fmpq_poly
 
-from garkcli.exact.field import Number
+from garkcli.exact.field import ZERO, Number
+from garkcli.exact.matrix import apply, apply_left
+from garkcli.exact.polynomial import Polynomial
+from garkcli.exact.roots import RealRoot, real_roots, vanishes_at
 from garkcli.graph import components
+from garkcli.order.tolerance import within
 from garkcli.tableau.pointwise import Cell, entries
+from garkcli.tableau.polynomial_space import PolynomialSpace
 from garkcli.tableau.tableau import Tableau
 
 Vertex: TypeAlias = tuple[int, int]
@@ -31,12 +37,15 @@ class StageGraph:
 
     Attributes:
         successors: for each stage value those that it depends on.
-        is_certain: whether all zeros are proved; entries known by an enclosure that holds zero are
-            no edges, and make it false.
+        is_certain: whether all zeros are proved; entries that may be zero are no edges, and make it
+            false.
+        loops: for each stage value that depends on itself directly the entries ≠ 0 by which it
+            does, one a colour; None for one that is not known exactly.
     """
 
     successors: Mapping[Vertex, frozenset[Vertex]]
     is_certain: bool
+    loops: Mapping[Vertex, tuple[Number | None, ...]]
 
     @property
     def systems(self) -> list[list[Vertex]]:
@@ -48,38 +57,118 @@ class StageGraph:
         return vertex in self.successors[vertex]
 
 
-def stage_graph(tableau: Tableau, colours: Iterable[int] | None = None) -> StageGraph:
+def stage_graph(
+    tableau: Tableau, colours: Iterable[int] | None = None, tolerance: fmpq = ZERO
+) -> StageGraph:
     """The graph of all stages, or that of some colours alone.
 
     Args:
         tableau: the method.
         colours: only the vector fields of these are there; None for all.
+        tolerance: the rounding of its coefficients; those that are 0 in the file are 0.
     """
     chosen = list(range(tableau.size) if colours is None else colours)
-    listed = entries(tableau, DIGITS)
-    successors: dict[Vertex, set[Vertex]] = {}
-    is_certain = True
+    graph = _Graph(tableau, tolerance)
     for l in chosen:
         space = tableau.colours[l].space
-        for i in range(tableau.spaces[space].stages):
-            successors.setdefault((space, i), set())
+        graph.add_stages(space)
         for m in chosen:
-            block = listed.A[l][m]
-            if block is None:
-                continue
-            for i, row in enumerate(block):
-                for j, entry in enumerate(row):
-                    nonzero = is_nonzero(entry)
-                    is_certain = is_certain and nonzero is not None
-                    if nonzero:
-                        successors[space, i].add((tableau.colours[m].space, j))
-    frozen = {vertex: frozenset(found) for vertex, found in successors.items()}
-    return StageGraph(frozen, is_certain)
+            graph.add_block(l, m)
+    return graph.finished()
 
 
-def is_nonzero(entry: Cell) -> bool | None:
-    """Whether an entry is not zero; None where an enclosure cannot tell."""
+class _Graph:
+    """A stage graph that grows; colours that share stages are looked at once."""
+
+    def __init__(self, tableau: Tableau, tolerance: fmpq) -> None:
+        self.tableau = tableau
+        self.tolerance = tolerance
+        self.blocks = entries(tableau, DIGITS).A
+        self.successors: dict[Vertex, set[Vertex]] = {}
+        self.loops: dict[Vertex, list[Number | None]] = {}
+        self.is_certain = True
+        self.added: set[tuple[int, int]] = set()
+
+    def add_stages(self, space: int) -> None:
+        for i in range(self.tableau.spaces[space].stages):
+            self.successors.setdefault((space, i), set())
+
+    def add_block(self, l: int, m: int) -> None:
+        space, other = self.tableau.colours[l].space, self.tableau.colours[m].space
+        if (space, m) in self.added:
+            return
+        self.added.add((space, m))
+        for i, row in enumerate(self.blocks[l][m] or ()):
+            for j, entry in enumerate(row):
+                self._add_entry(entry, (space, i), (other, j), m)
+
+    def _add_entry(self, entry: Cell, seer: Vertex, seen: Vertex, m: int) -> None:
+        nonzero = is_nonzero(entry, self.tolerance)
+        if nonzero is None and isinstance(entry, arb):
+            nonzero = _is_nonzero_at(self.tableau, (seer[0], m), seer[1], seen[1])
+        if nonzero is None:
+            self.is_certain = False
+        if not nonzero:
+            return
+        self.successors[seer].add(seen)
+        if seer == seen:
+            exact = None if isinstance(entry, arb) else entry
+            self.loops.setdefault(seen, []).append(exact)
+
+    def finished(self) -> StageGraph:
+        successors = {x: frozenset(found) for x, found in self.successors.items()}
+        loops = {x: tuple(found) for x, found in self.loops.items()}
+        return StageGraph(successors, self.is_certain, loops)
+
+
+def is_nonzero(entry: Cell, tolerance: fmpq = ZERO) -> bool | None:
+    """Whether an entry is not zero; None where an enclosure or its rounding cannot tell."""
     if isinstance(entry, arb):
         return None if entry.contains(0) else True
     number: Number = entry
-    return bool(number)
+    if not number or not tolerance:
+        return bool(number)
+    return None if within(number, tolerance) else True
+
+
+def _is_nonzero_at(
+    tableau: Tableau, place: tuple[int, int], i: int, j: int
+) -> bool | None:
+    """Whether an entry between stages of families is not zero, where one node is rational.
+
+    With M the node polynomial of the columns, L_j is a multiple of M/(x − x_j); the entry is the
+    value of A L_j at x_i. For a rational x_i that is a polynomial in x_j.
+    """
+    k, m = place
+    here, there = tableau.spaces[k], tableau.space(m)
+    if not isinstance(here, PolynomialSpace) or not isinstance(there, PolynomialSpace):
+        return None
+    row_node, column_node = nodes_of(here)[i], nodes_of(there)[j]
+    block = tableau.blocks[place]
+    if column_node.exact is not None:
+        others = there.modulus // fmpq_poly([-column_node.exact, 1])
+        column = apply(block, [others[n] for n in range(there.stages)])
+        return not vanishes_at(Polynomial(column), row_node)
+    if row_node.exact is not None:
+        powers = [row_node.exact**n for n in range(here.stages)]
+        values = apply_left(powers, block)
+        return not vanishes_at(_divided(there.modulus, values), column_node)
+    return None
+
+
+@lru_cache(maxsize=32)
+def nodes_of(space: PolynomialSpace) -> list[RealRoot]:
+    """The nodes in ascending order."""
+    return [node for node, _ in real_roots(Polynomial.from_flint(space.modulus))]
+
+
+def _divided(M: fmpq_poly, values: Iterable[Number]) -> Polynomial:
+    """The functional applied to (M(x) − M(y))/(x − y), in x, as a polynomial in y.
+
+    x^n turns into Σ x^i y^(n−1−i), and x^i into its value.
+    """
+    known = list(values)
+    total = Polynomial([])
+    for n in range(1, M.degree() + 1):
+        total = total + Polynomial(known[:n][::-1]) * M[n]
+    return total

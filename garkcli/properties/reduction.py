@@ -9,9 +9,13 @@ from __future__ import annotations
 
 from collections.abc import Sequence
 from dataclasses import replace
+from itertools import combinations
+
+from flint import fmpq
 
 from garkcli.exact.field import ZERO, Number
-from garkcli.exact.matrix import Vector
+from garkcli.exact.matrix import Matrix, SingularMatrixError, Vector, apply, solve
+from garkcli.properties.pattern import is_nonzero
 from garkcli.tableau.point_space import PointSpace
 from garkcli.tableau.pointwise import in_points
 from garkcli.tableau.tableau import Tableau
@@ -50,9 +54,65 @@ def _sizes(tableau: Tableau) -> list[int]:
 
 
 def is_reducible(tableau: Tableau) -> bool | None:
-    """Whether fewer stages do the same; None where the nodes have no simple radicals."""
+    """Whether fewer stages do the same; None where the nodes have no simple radicals and more than
+    row sums would have to be looked at.
+    """
+    if is_plainly_irreducible(tableau):
+        return False
     smaller = reduced(tableau)
     return None if smaller is None else smaller is not tableau
+
+
+def is_plainly_irreducible(tableau: Tableau, tolerance: fmpq = ZERO) -> bool:
+    """Whether every stage has a weight, and all stages of a space have different row sums.
+
+    Then every stage matters and no two are equal. The stages of a family have different row sums
+    where a block keeps its nodes apart: A𝟙 = c.
+
+    Args:
+        tableau: the method.
+        tolerance: the rounding of its coefficients, which must not be able to change the answer.
+    """
+    spaces = range(len(tableau.spaces))
+    return all(
+        _has_weights(tableau, k, tolerance) and _tells_apart(tableau, k, tolerance)
+        for k in spaces
+    )
+
+
+def _has_weights(tableau: Tableau, k: int, tolerance: fmpq) -> bool:
+    space = tableau.spaces[k]
+    rows = [colour.b for colour in tableau.colours if colour.space == k]
+    if isinstance(space, PointSpace):
+        stages = range(space.stages)
+        return all(any(is_nonzero(b[i], tolerance) for b in rows) for i in stages)
+    return not tolerance and any(_is_regular(space.gram(b)) for b in rows)
+
+
+def _is_regular(form: Matrix) -> bool:
+    try:
+        solve(form, tuple((ZERO,) for _ in form))
+    except SingularMatrixError:
+        return False
+    return True
+
+
+def _tells_apart(tableau: Tableau, k: int, tolerance: fmpq) -> bool:
+    space = tableau.spaces[k]
+    for m, colour in enumerate(tableau.colours):
+        block = tableau.blocks.get((k, m))
+        if block is None:
+            continue
+        sums = apply(block, tableau.spaces[colour.space].one)
+        if not isinstance(space, PointSpace):
+            if not tolerance and sums == tuple(space.nodes):
+                return True
+            continue
+        apart = 2 * len(block[0]) * tolerance
+        pairs = combinations(sums, 2)
+        if all(is_nonzero(x - y, apart) for x, y in pairs):
+            return True
+    return False
 
 
 def _that_matter(tableau: Tableau) -> list[list[int]]:

@@ -2,12 +2,15 @@
 
 from __future__ import annotations
 
+from collections.abc import Sequence
 from dataclasses import dataclass
 from typing import Literal
 
-from garkcli.exact.field import Number
+from flint import fmpq
+
+from garkcli.exact.field import ZERO, Number
+from garkcli.order.tolerance import within
 from garkcli.properties.pattern import StageGraph, Vertex, stage_graph
-from garkcli.tableau.pointwise import in_points
 from garkcli.tableau.tableau import Tableau
 
 Kind = Literal["explicit", "diagonally implicit", "fully implicit"]
@@ -21,8 +24,10 @@ class Shape:
         kind: the kind of the stages; None where zeros are not decided.
         implicit_stages: how many stage values are solved for; None where zeros are not decided.
         systems: the stages that are solved together, two or more, as (space, stage) from 0.
-        gamma: γ, where all implicit stages have the same a_ii; None otherwise.
-        starts_explicit: whether the first stage is explicit: with γ an ESDIRK method.
+        gamma: γ, where all entries a_ii^{l,l} ≠ 0 by which stages depend on themselves are γ; None
+            otherwise.
+        starts_explicit: whether the first stage of each colour sees nothing: with γ an ESDIRK
+            method.
     """
 
     kind: Kind | None
@@ -41,57 +46,53 @@ class Shape:
         return "ESDIRK" if self.starts_explicit else "SDIRK"
 
 
-def shape(tableau: Tableau, colour: int | None = None) -> Shape:
+def shape(tableau: Tableau, colour: int | None = None, tolerance: fmpq = ZERO) -> Shape:
     """The shape of the whole tableau, or of the diagonal method of one colour.
 
     Args:
         tableau: the method.
         colour: counted from 0; None for the whole method.
+        tolerance: the rounding of its coefficients; those that are 0 in the file are 0.
 
     >>> from garkcli.families.registry import diagonal_method
     >>> from garkcli.tableau.forms import gark
     >>> shape(gark([diagonal_method("rk4", None)], {})).name
     'explicit'
     """
-    graph = stage_graph(tableau, None if colour is None else [colour])
+    graph = stage_graph(tableau, None if colour is None else [colour], tolerance)
     together = [tuple(sorted(found)) for found in graph.systems if len(found) > 1]
-    loops = [
+    alone = [
         found[0]
         for found in graph.systems
         if len(found) == 1 and graph.is_loop(found[0])
     ]
-    implicit = sum(map(len, together)) + len(loops)
-    starts_explicit = _starts_explicit(graph)
+    count = sum(map(len, together)) + len(alone)
+    implicit = count if graph.is_certain else None
+    kind: Kind | None = None
     if together:
-        return Shape(
-            "fully implicit",
-            implicit if graph.is_certain else None,
-            tuple(together),
-            None,
-            starts_explicit,
-        )
-    if not graph.is_certain:
-        return Shape(None, None, (), None, starts_explicit)
-    if not loops:
-        return Shape("explicit", 0, (), None, starts_explicit)
-    gamma = (
-        None
-        if colour is None and tableau.size > 1
-        else _gamma(tableau, colour or 0, loops)
+        kind = "fully implicit"
+    elif graph.is_certain:
+        kind = "diagonally implicit" if alone else "explicit"
+    gamma = None
+    if kind == "diagonally implicit":
+        gamma = _gamma(graph, alone, tolerance)
+    starts_explicit = all(
+        not seen for (_, i), seen in graph.successors.items() if not i
     )
-    return Shape("diagonally implicit", implicit, (), gamma, starts_explicit)
+    return Shape(kind, implicit, tuple(together), gamma, starts_explicit)
 
 
-def _starts_explicit(graph: StageGraph) -> bool:
-    first = [vertex for vertex in graph.successors if vertex[1] == 0]
-    return all(not graph.successors[vertex] for vertex in first)
-
-
-def _gamma(tableau: Tableau, colour: int, loops: list[Vertex]) -> Number | None:
-    """The entry on the diagonal that all implicit stages of a colour share."""
-    exact = in_points(tableau)
-    block = None if exact is None else exact.block(colour, colour)
-    if block is None:
+def _gamma(
+    graph: StageGraph, alone: Sequence[Vertex], tolerance: fmpq
+) -> Number | None:
+    """The number by which every implicit stage depends on itself; the first one where they are
+    equal within what rounding of two coefficients explains.
+    """
+    found = [entry for vertex in alone for entry in graph.loops[vertex]]
+    first = found[0]
+    if first is None:
         return None
-    found = {block[i][i] for _, i in loops}
-    return found.pop() if len(found) == 1 else None
+    for entry in found:
+        if entry is None or not within(entry - first, 2 * tolerance):
+            return None
+    return first

@@ -14,11 +14,16 @@ from garkcli.families.registry import diagonal_method
 from garkcli.methodfile.load import load, loads
 from garkcli.order.certificate import find_order
 from garkcli.properties.last_stage import is_first_same_as_last, is_stiffly_accurate
-from garkcli.properties.reduction import is_reducible, reduced
+from garkcli.properties.reduction import (
+    is_plainly_irreducible,
+    is_reducible,
+    reduced,
+)
 from garkcli.properties.shape import shape
-from garkcli.properties.symmetry import is_symmetric
+from garkcli.properties.symmetry import is_symmetric, symmetry
 from garkcli.stability.linear import stability_function
 from garkcli.tableau.forms import gark
+from garkcli.tableau.pointwise import in_points
 from garkcli.tableau.tableau import Tableau
 
 Rows = list[list[Fraction]]
@@ -193,7 +198,8 @@ def test_an_imex_pair_by_colour_and_as_a_whole() -> None:
     tableau = load("methods/ark-ars222.gark.yaml").tableau
     assert [shape(tableau, l).name for l in (0, 1)] == ["explicit", "ESDIRK"]
     whole = shape(tableau)
-    assert (whole.name, whole.implicit_stages) == ("diagonally implicit", 2)
+    assert (whole.kind, whole.implicit_stages) == ("diagonally implicit", 2)
+    assert str(whole.gamma) == "1 - sqrt(2)/2"
 
 
 def test_stages_that_are_solved_together() -> None:
@@ -235,9 +241,68 @@ def test_a_stiffly_accurate_regular_method_is_damped(
         assert R.at_infinity() == 0
 
 
-def test_what_has_no_simple_nodes_is_left_open() -> None:
-    """Gauss 6: nothing is claimed of entries that are known by enclosures only."""
-    tableau = family("gauss", 6)
-    assert is_stiffly_accurate(tableau) is None
-    assert is_reducible(tableau) is None
-    assert shape(tableau).kind == "fully implicit"
+@pytest.mark.parametrize(
+    ("name", "implicit", "stiff", "fsal"),
+    [
+        ("gauss", 7, False, False),
+        ("radau-ia", 7, False, False),
+        ("radau-iia", 7, True, False),
+        ("lobatto-iiia", 6, True, True),
+        ("lobatto-iiib", 6, False, False),
+        ("lobatto-iiic", 7, True, False),
+    ],
+)
+def test_what_has_no_simple_nodes_is_decided_too(
+    name: str, implicit: int, stiff: bool, fsal: bool
+) -> None:
+    """Families of seven stages: a row or a column of zeros at a rational node is proved."""
+    tableau = family(name, 7)
+    assert is_stiffly_accurate(tableau) is stiff
+    assert is_first_same_as_last(tableau) is fsal
+    assert is_reducible(tableau) is False
+    found = shape(tableau)
+    assert (found.kind, found.implicit_stages) == ("fully implicit", implicit)
+
+
+@pytest.mark.parametrize("name", ["gauss", "radau-iia", "lobatto-iiia", "lobatto-iiib"])
+def test_stage_algebras_agree_with_points(name: str) -> None:
+    """Without the nodes, and with them, the same is found."""
+    algebra = family(name, 3)
+    points = in_points(algebra)
+    assert points is not None
+    for decide in (is_stiffly_accurate, is_first_same_as_last, is_symmetric):
+        assert decide(algebra) == decide(points)
+    assert shape(algebra).implicit_stages == shape(points).implicit_stages
+    assert is_plainly_irreducible(algebra)
+    assert is_plainly_irreducible(points)
+
+
+@given(methods())
+def test_what_is_plainly_irreducible_is_not_reduced(
+    method: tuple[Rows, list[Fraction]],
+) -> None:
+    """The short way and the long one do not contradict each other."""
+    tableau = tableau_of(*method)
+    if is_plainly_irreducible(tableau):
+        assert reduced(tableau) is tableau
+
+
+def test_the_renumbering_of_a_symmetric_method() -> None:
+    """Lobatto IIIA 3 with its stages in another order: the reflection is shown in that order."""
+    text = "A: [[1/3, -1/24, 5/24], [2/3, 1/6, 1/6], [0, 0, 0]]\nb: [2/3, 1/6, 1/6]"
+    found = symmetry(loads(text).tableau)
+    assert found.reflections[0].images == (0, 2, 1)
+    assert symmetry(family("gauss", 3)).reflections[0].images is None
+    assert symmetry(family("rk4", None)).reflections == ()
+
+
+def test_symmetry_within_a_tolerance() -> None:
+    """Gauss 2 rounded: its own adjoint as far as rounding by t explains, not by a tenth of that."""
+    text = """
+A: [[0.25, -0.038675], [0.538675, 0.2500004]]
+b: [1/2, 1/2]
+"""
+    tableau = loads(text).tableau
+    assert symmetry(tableau).holds is False
+    assert symmetry(tableau, fmpq(1, 10**6)).holds is True
+    assert symmetry(tableau, fmpq(1, 10**8)).holds is False
