@@ -4,7 +4,7 @@ from __future__ import annotations
 
 from dataclasses import dataclass
 from pathlib import Path
-from typing import TYPE_CHECKING
+from typing import TYPE_CHECKING, Any
 
 import click
 
@@ -13,18 +13,23 @@ from garkcli.cli.options import CONTEXT, PATH, Output, common
 from garkcli.cli.problems import (
     ProblemType,
     note_changing,
-    omega_option,
     plot_option,
-    seed_option,
-    split_option,
-    t_end_option,
+    problem_options,
 )
-from garkcli.cli.stepping import positive, refuse_misplaced, stepped_tableau
+from garkcli.cli.stepping import (
+    check_plot,
+    given_positive,
+    positive,
+    refuse_misplaced,
+    stepped_tableau,
+)
 from garkcli.cli.streams import say_problem
 from garkcli.errors import UsageProblem
 
 if TYPE_CHECKING:
     from matplotlib.figure import Figure
+
+    from garkcli.report.convergence_data import Entry
 
 AXES = ("h", "evaluations", "seconds")
 """What plots of errors can have below."""
@@ -47,10 +52,7 @@ def _moved(_: click.Context, option: click.Parameter, value: object) -> None:
     help="What to solve: a name that gark list shows, or a problem file; by default a random "
     "polynomial that sees every tree of the methods.",
 )
-@omega_option
-@split_option
-@seed_option
-@t_end_option
+@problem_options
 @click.option(
     "--steps",
     metavar="H,...",
@@ -70,19 +72,7 @@ def _moved(_: click.Context, option: click.Parameter, value: object) -> None:
 @click.option("--step", hidden=True, expose_value=False, callback=_moved)
 @plot_option
 @common(["text", "json", "csv"])
-def command(
-    files: tuple[str, ...],
-    problem: str | None,
-    omega: str | None,
-    split: str | None,
-    seed: int | None,
-    t_end: str | None,
-    steps: str | None,
-    work: bool,
-    against: str | None,
-    plot: str | None,
-    output: Output,
-) -> int:
+def command(files: tuple[str, ...], output: Output, **options: Any) -> int:
     """The convergence test: errors over step sizes, observed against predicted order, energy error.
 
     Steps are taken with as many digits as the errors need, so that a method of order 12 shows slope
@@ -100,36 +90,64 @@ def command(
     from garkcli.methodfile.finding import find_files
 
     paths = list(find_files(files))
-    if problem is None and (omega or split):
-        problem = "oscillator"  # what these options are for
-    if problem is not None:
-        refuse_misplaced(problem, seed, {"--omega": omega, "--split": split})
-    if omega:
-        positive("--omega", omega)
-    if against not in (None, "h") and not work:
-        raise UsageProblem(
-            f"--against {against} is not known without measuring it", "add --work"
-        )
-    if plot is not None:
-        from garkcli.plots.convergence_plot import check_suffix
+    asked = Asked(**options)
+    _check(asked)
+    wanted = _wanted(asked)
+    against = asked.against or ("evaluations" if asked.work else "h")
+    shown = Shown(asked.work, against, asked.plot)
+    if len(paths) == 1:
+        return _one(paths[0], wanted, shown, output)
+    return _several(paths, wanted, shown, output)
 
-        check_suffix(Path(plot))
-    wanted = Wanted(
-        problem,
-        omega,
-        split,
-        seed,
-        None if t_end is None else positive("--t-end", t_end),
-        None
-        if steps is None
-        else tuple(positive("--steps", h) for h in steps.split(",")),
-        work,
-    )
-    shown = Shown(work, against or ("evaluations" if work else "h"), plot)
-    return (
-        _one(paths[0], wanted, shown, output)
-        if len(paths) == 1
-        else _several(paths, wanted, shown, output)
+
+@dataclass(frozen=True)
+class Asked:
+    """What the options say, by their names; None where they were not given."""
+
+    problem: str | None
+    omega: str | None
+    split: str | None
+    seed: int | None
+    t_end: str | None
+    steps: str | None
+    work: bool
+    against: str | None
+    plot: str | None
+
+    @property
+    def named(self) -> str | None:
+        """The problem, also where an option says which one it is."""
+        is_oscillator = self.omega or self.split
+        if self.problem is None and is_oscillator:
+            return "oscillator"
+        return self.problem
+
+
+def _check(asked: Asked) -> None:
+    """Refuse options that do not go together, before anything is read.
+
+    Raises:
+        UsageProblem: two of them do not.
+    """
+    if asked.named is not None:
+        of_oscillator = {"--omega": asked.omega, "--split": asked.split}
+        refuse_misplaced(asked.named, asked.seed, of_oscillator)
+    if asked.omega:
+        positive("--omega", asked.omega)
+    if asked.against not in (None, "h") and not asked.work:
+        message = f"--against {asked.against} is not known without measuring it"
+        raise UsageProblem(message, "add --work")
+    check_plot(asked.plot)
+
+
+def _wanted(asked: Asked) -> Wanted:
+    """What to test on."""
+    t_end = given_positive("--t-end", asked.t_end)
+    steps = None
+    if asked.steps is not None:
+        steps = tuple(positive("--steps", h) for h in asked.steps.split(","))
+    return Wanted(
+        asked.named, asked.omega, asked.split, asked.seed, t_end, steps, asked.work
     )
 
 
@@ -167,9 +185,8 @@ def _one(path: str, wanted: Wanted, shown: Shown, output: Output) -> int:
     except StepFailed as error:
         say_problem(error)
         return 1
-    output.write(
-        report.render(result, method.name, output.format, output.paint, shown.work)
-    )
+    format, paint = output.format, output.paint
+    output.write(report.render(result, method.name, format, paint, shown.work))
     hint_rounding(method, tableau, result, output)
     if shown.plot is not None:
         from garkcli.plots.convergence_plot import comparison_figure, convergence_figure
@@ -187,20 +204,22 @@ def _several(paths: list[str], wanted: Wanted, shown: Shown, output: Output) -> 
     from garkcli.report import comparison as report
 
     entries = compared(paths, wanted, output)
-    output.write(
-        report.render(entries, output.format, output.paint, shown.work, shown.against)
-    )
-    results = [
-        (entry.name, entry.result) for entry in entries if entry.result is not None
-    ]
+    format, paint = output.format, output.paint
+    output.write(report.render(entries, format, paint, shown.work, shown.against))
     if shown.plot is not None:
-        if results:
-            from garkcli.plots.convergence_plot import comparison_figure
-
-            _save(comparison_figure(results, shown.against), shown, output)
-        else:
-            output.note(f"nothing to draw into {shown.plot}")
+        _draw(entries, shown, output)
     return max(entry.exit_code for entry in entries)
+
+
+def _draw(entries: list[Entry], shown: Shown, output: Output) -> None:
+    """The results in one figure, unless every test failed."""
+    results = [(x.name, x.result) for x in entries if x.result is not None]
+    if not results:
+        output.note(f"nothing to draw into {shown.plot}")
+        return
+    from garkcli.plots.convergence_plot import comparison_figure
+
+    _save(comparison_figure(results, shown.against), shown, output)
 
 
 def _save(figure: Figure, shown: Shown, output: Output) -> None:

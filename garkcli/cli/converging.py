@@ -8,7 +8,7 @@ from typing import TYPE_CHECKING, TypeAlias
 
 from garkcli.cli.options import Output
 from garkcli.cli.problems import find_problem, is_path, note_changing
-from garkcli.cli.stepping import rational, stepped_tableau
+from garkcli.cli.stepping import oscillator, rational, stepped_tableau
 from garkcli.cli.streams import say_faults
 from garkcli.errors import Fault, GarkError, MethodFileError
 
@@ -125,7 +125,7 @@ class Problems:
         from garkcli.stepping.matching import split_into
 
         if self._name == "oscillator":
-            return oscillator(self._wanted, tableau)
+            return oscillator(tableau, self._wanted.omega, self._wanted.split)
         if self.read is not None:
             return split_into(self.read, terms_of(with_joined_terms(tableau)))
         assert self._name is not None
@@ -133,20 +133,6 @@ class Problems:
             return find_problem(self._name, tableau)
         first, *_ = in_common(self._name, [tableau, *self._tableaux], self._seed)
         return first
-
-
-def oscillator(wanted: Wanted, tableau: Tableau) -> Oscillator:
-    """The oscillator for one method.
-
-    Raises:
-        UsageProblem: the options do not make one.
-    """
-    from garkcli.problems.oscillator import Oscillator, parse_shares, terms_of
-
-    terms, frequency = terms_of(tableau), rational("--omega", wanted.omega or "1")
-    if wanted.split:
-        return Oscillator(frequency, parse_shares(wanted.split, terms))
-    return Oscillator.default(terms, frequency)
 
 
 def tested(

@@ -2,8 +2,9 @@
 
 from __future__ import annotations
 
+from dataclasses import dataclass
 from pathlib import Path
-from typing import TYPE_CHECKING
+from typing import TYPE_CHECKING, Any
 
 import click
 
@@ -13,13 +14,16 @@ from garkcli.cli.problems import (
     find_problem,
     is_path,
     note_changing,
-    omega_option,
     plot_option,
-    seed_option,
-    split_option,
-    t_end_option,
+    problem_options,
 )
-from garkcli.cli.stepping import positive, refuse_misplaced, stepped_tableau
+from garkcli.cli.stepping import (
+    check_plot,
+    given_positive,
+    oscillator,
+    refuse_misplaced,
+    stepped_tableau,
+)
 from garkcli.cli.streams import say_problem
 from garkcli.errors import UsageProblem
 
@@ -35,6 +39,10 @@ if TYPE_CHECKING:
     from garkcli.tableau.tableau import Tableau
 
 
+NOT_BOUNDED = frozenset({"drifts", "unstable", "undecided"})
+"""Verdicts that do not meet ``--bounded``."""
+
+
 @click.command("energy", context_settings=CONTEXT)
 @click.argument("file", type=PATH, metavar="FILE")
 @click.option(
@@ -44,10 +52,7 @@ if TYPE_CHECKING:
     show_default=True,
     help="What to follow: a name that gark list shows, or a problem file.",
 )
-@omega_option
-@split_option
-@seed_option
-@t_end_option
+@problem_options
 @click.option("--step", metavar="H", help="The step size; each problem has its own.")
 @click.option(
     "--digits",
@@ -78,22 +83,7 @@ if TYPE_CHECKING:
 )
 @plot_option
 @common(["text", "json", "csv"])
-def command(
-    file: str,
-    problem: str,
-    omega: str | None,
-    split: str | None,
-    seed: int | None,
-    t_end: str | None,
-    step: str | None,
-    digits: int | None,
-    points: int,
-    symplecticity: bool,
-    bounded: bool,
-    max_error: str | None,
-    plot: str | None,
-    output: Output,
-) -> int:
+def command(output: Output, **options: Any) -> int:
     """The energy error over a long time, and that of every other invariant: does it drift?
 
     A drift is told from the oscillation around it by a fit, and has an uncertainty. The step map of
@@ -107,76 +97,131 @@ def command(
     Exit code 1 when the claim of --bounded or --max-error fails, a step fails, or the energy blows
     up or the orbit escapes. What is undecided does not meet --bounded.
     """
-    from garkcli.longtime.history import whole_run
-    from garkcli.longtime.longtime import long_run, usual
     from garkcli.methodfile.load import load
-    from garkcli.problems.hamiltonian import FLOAT_DIGITS
     from garkcli.report import energy as report
     from garkcli.report.energy_text import Report
-    from garkcli.report.progress import tracked
-    from garkcli.stepping.dependency import with_joined_terms
     from garkcli.stepping.step import StepFailed
 
-    refuse_misplaced(problem, seed, {"--omega": omega, "--split": split})
-    if problem == "oscillator" and digits is not None:
-        raise UsageProblem(
-            "--digits is not for the oscillator: its steps are exact", "leave it out"
-        )
-    if plot is not None:
-        from garkcli.plots.convergence_plot import check_suffix
-
-        check_suffix(Path(plot))
-    limit = None if max_error is None else positive("--max-error", max_error)
-    time = None if t_end is None else positive("--t-end", t_end)
-    size = None if step is None else positive("--step", step)
-    method = load(file)
-    tableau = stepped_tableau(method, output)
-    if problem == "oscillator":
-        solved: Oscillator | Hamiltonian = _oscillator(tableau, omega, split)
-    else:
-        tableau = with_joined_terms(tableau)
-        solved = find_problem(problem, tableau, seed)
-        if is_path(problem):
-            note_changing(solved, output)
-    h, end = whole_run(size, time, *usual(solved))
+    wanted = Wanted(**options)
+    _check(wanted)
+    limit = given_positive("--max-error", wanted.max_error)
+    time = given_positive("--t-end", wanted.t_end)
+    step = given_positive("--step", wanted.step)
+    method = load(wanted.file)
+    tableau, problem = _at_work(method, wanted, output)
     try:
-        run = long_run(
-            tableau,
-            solved,
-            end,
-            h,
-            digits or FLOAT_DIGITS,
-            points,
-            method.tolerance,
-            lambda path, total: tracked(path, total, "steps", output.verbosity >= 0),
-        )
-        steps = _symplecticity(tableau, method, run, symplecticity)
+        run = _run(method, tableau, problem, time, step, wanted, output)
+        steps = _symplecticity(tableau, method, run, wanted.symplecticity)
     except StepFailed as error:
         say_problem(error)
         return 1
-    claims = _claims(run, bounded, limit)
+    claims = _claims(run, wanted.bounded, limit)
     made = Report(method.name, run, steps, claims)
-    output.write(
-        report.render(made, output.format, output.paint, output.verbosity >= 0)
-    )
-    if plot is not None:
+    says_all = output.verbosity >= 0
+    output.write(report.render(made, output.format, output.paint, says_all))
+    if wanted.plot is not None:
         from garkcli.plots.convergence_plot import save
         from garkcli.plots.energy_plot import energy_figure
 
-        save(energy_figure(run), Path(plot))
-        output.note(f"wrote {plot}")
-    return 0 if all(claim.holds for claim in claims) and not run.is_unstable else 1
+        save(energy_figure(run), Path(wanted.plot))
+        output.note(f"wrote {wanted.plot}")
+    is_met = all(claim.holds for claim in claims)
+    return 0 if is_met and not run.is_unstable else 1
 
 
-def _oscillator(tableau: Tableau, omega: str | None, split: str | None) -> Oscillator:
-    """The oscillator of --omega and --split."""
-    from garkcli.problems.oscillator import Oscillator, parse_shares, terms_of
+@dataclass(frozen=True)
+class Wanted:
+    """What is asked for, by the names of the options.
 
-    terms = terms_of(tableau)
-    frequency = positive("--omega", omega or "1")
-    if split:
-        return Oscillator(frequency, parse_shares(split, terms))
-    return Oscillator.default(terms, frequency)
+    Attributes:
+        file: the method.
+        problem: a name or the path of a problem file.
+        omega, split, seed: of the problems that take them.
+        t_end, step: the time and the step size, as they were written; None for those of the
+            problem.
+        digits: of the steps, or None for floats.
+        points: about how many times are kept.
+        symplecticity: whether that of the steps is measured.
+        bounded, max_error: what is claimed.
+        plot: the file to draw into, if any.
+    """
+
+    file: str
+    problem: str
+    omega: str | None
+    split: str | None
+    seed: int | None
+    t_end: str | None
+    step: str | None
+    digits: int | None
+    points: int
+    symplecticity: bool
+    bounded: bool
+    max_error: str | None
+    plot: str | None
+
+
+def _check(wanted: Wanted) -> None:
+    """Refuse options that do not go together, before anything is read.
+
+    Raises:
+        UsageProblem: two of them do not.
+    """
+    of_oscillator = {"--omega": wanted.omega, "--split": wanted.split}
+    refuse_misplaced(wanted.problem, wanted.seed, of_oscillator)
+    if wanted.problem == "oscillator" and wanted.digits is not None:
+        message = "--digits is not for the oscillator: its steps are exact"
+        raise UsageProblem(message, "leave it out")
+    check_plot(wanted.plot)
+
+
+def _at_work(
+    method: MethodFile, wanted: Wanted, output: Output
+) -> tuple[Tableau, Oscillator | Hamiltonian]:
+    """The tableau that steps, and the problem in as many terms as it is for."""
+    from garkcli.stepping.dependency import with_joined_terms
+
+    tableau = stepped_tableau(method, output)
+    if wanted.problem == "oscillator":
+        return tableau, oscillator(tableau, wanted.omega, wanted.split)
+    tableau = with_joined_terms(tableau)
+    problem = find_problem(wanted.problem, tableau, wanted.seed)
+    if is_path(wanted.problem):
+        note_changing(problem, output)
+    return tableau, problem
+
+
+def _run(
+    method: MethodFile,
+    tableau: Tableau,
+    problem: Oscillator | Hamiltonian,
+    time: fmpq | None,
+    step: fmpq | None,
+    wanted: Wanted,
+    output: Output,
+) -> LongRun:
+    """The long run, with a bar on a terminal.
+
+    Raises:
+        StepFailed: the stage equations of a step were not solved.
+    """
+    from garkcli.longtime.history import whole_run
+    from garkcli.longtime.longtime import long_run, usual
+    from garkcli.problems.hamiltonian import FLOAT_DIGITS
+    from garkcli.report.progress import tracked
+
+    h, t_end = whole_run(step, time, *usual(problem))
+    shows_bar = output.verbosity >= 0
+    return long_run(
+        tableau,
+        problem,
+        t_end,
+        h,
+        wanted.digits or FLOAT_DIGITS,
+        wanted.points,
+        method.tolerance,
+        lambda path, total: tracked(path, total, "steps", shows_bar),
+    )
 
 
 def _symplecticity(
@@ -196,9 +241,8 @@ def _symplecticity(
     proved = is_proved(tableau, run.problem, method.tolerance)
     if not is_measured:
         return Symplecticity(proved)
-    return Symplecticity(
-        proved, symplecticity_defects(tableau, run.problem, run.step, run.states)
-    )
+    defects = symplecticity_defects(tableau, run.problem, run.step, run.states)
+    return Symplecticity(proved, defects)
 
 
 def _claims(run: LongRun, bounded: bool, limit: fmpq | None) -> tuple[Claim, ...]:
@@ -209,12 +253,9 @@ def _claims(run: LongRun, bounded: bool, limit: fmpq | None) -> tuple[Claim, ...
 
     claims = []
     if bounded:
-        found = [
-            f"{x.name} {x.verdict}"
-            for x in run.invariants
-            if x.verdict in ("drifts", "unstable", "undecided")
-        ]
-        claims.append(Claim("bounded", ", ".join(found) or "bounded", not found))
+        wrong = [x for x in run.invariants if x.verdict in NOT_BOUNDED]
+        found = ", ".join(f"{x.name} {x.verdict}" for x in wrong)
+        claims.append(Claim("bounded", found or "bounded", not wrong))
     if limit is not None:
         energy = run.energy
         holds = not run.is_unstable and energy.max_error <= to_float(limit)

@@ -99,6 +99,13 @@ plot_option: Callable[[F], F] = click.option(
 )
 
 
+def problem_options(function: F) -> F:
+    """``--omega``, ``--split``, ``--seed`` and ``--t-end``."""
+    for option in (t_end_option, seed_option, split_option, omega_option):
+        function = option(function)
+    return function
+
+
 def find_problem(
     name_or_path: str, tableau: Tableau, seed: int | None = None
 ) -> Hamiltonian:

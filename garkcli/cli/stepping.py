@@ -5,6 +5,7 @@ options.
 from __future__ import annotations
 
 from collections.abc import Mapping
+from pathlib import Path
 from typing import TYPE_CHECKING
 
 from garkcli.cli.options import Output
@@ -14,6 +15,7 @@ if TYPE_CHECKING:
     from flint import fmpq
 
     from garkcli.methodfile.build import MethodFile
+    from garkcli.problems.oscillator import Oscillator
     from garkcli.tableau.tableau import Tableau
 
 DECADES = 50
@@ -61,6 +63,38 @@ def refuse_misplaced(
             f"{given} is for the oscillator, not for {problem}", "leave it out"
         )
     check_seed(problem, seed)
+
+
+def given_positive(option: str, text: str | None) -> fmpq | None:
+    """The ``positive`` number that was given for ``option``, if any was."""
+    return None if text is None else positive(option, text)
+
+
+def check_plot(path: str | None) -> None:
+    """Refuse a picture of another kind, before the work.
+
+    Raises:
+        UsageProblem: its suffix is none of those that can be drawn.
+    """
+    if path is not None:
+        from garkcli.plots.convergence_plot import check_suffix
+
+        check_suffix(Path(path))
+
+
+def oscillator(tableau: Tableau, omega: str | None, split: str | None) -> Oscillator:
+    """The oscillator of ``--omega`` and ``--split``, for one method.
+
+    Raises:
+        UsageProblem: the options do not make one.
+    """
+    from garkcli.problems.oscillator import Oscillator, parse_shares, terms_of
+
+    terms = terms_of(tableau)
+    frequency = positive("--omega", omega or "1")
+    if split:
+        return Oscillator(frequency, parse_shares(split, terms))
+    return Oscillator.default(terms, frequency)
 
 
 def positive(option: str, text: str | None) -> fmpq:
