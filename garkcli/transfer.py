@@ -21,6 +21,7 @@ from garkcli.tableau.conjugate import conjugate_block
 from garkcli.tableau.method import Method
 from garkcli.tableau.point_space import PointSpace
 from garkcli.tableau.polynomial_space import antiderivative
+from garkcli.tableau.tableau import Edge
 
 LOG10_2 = fmpq(30103, 100000)
 """Decimal digits of a bit."""
@@ -175,7 +176,7 @@ def build_on(methods: Sequence[Method], orders: Sequence[int], l: int, m: int) -
 
 def symplectic_blocks(
     rule: Rule, methods: Sequence[Method], base: int, other: int
-) -> dict[tuple[int, int], Matrix]:
+) -> dict[Edge, Matrix]:
     """A^{other,base} by ``rule``, and A^{base,other} as its symplectic conjugate.
 
     The off-diagonal blocks are then conjugate to each other, so Â^{l,m} = A^{l,m} for l ≠ m.

@@ -11,7 +11,7 @@ from garkcli.families import registry
 from garkcli.tableau import forms
 from garkcli.tableau.garkmethod import GarkMethod
 from garkcli.tableau.method import Method
-from garkcli.tableau.tableau import Tableau
+from garkcli.tableau.tableau import Edge, Tableau
 from garkcli.transfer import RULES
 
 
@@ -33,7 +33,7 @@ def diagonal_method(name: str, stages: int | None = None) -> GarkMethod:
 
 def gark(
     methods: Sequence[GarkMethod | Method],
-    transfer: str | Mapping[tuple[int, int], Matrix] = "collocation",
+    transfer: str | Mapping[Edge, Matrix] = "collocation",
 ) -> Tableau:
     """The tableau with diagonal ``methods`` and the blocks between them, eq. (GARK).
 

@@ -6,7 +6,8 @@ method's file unless another is given.
 
 from __future__ import annotations
 
-from typing import overload
+from collections.abc import Callable
+from typing import Protocol, cast, overload
 
 from garkcli.api.arguments import AnyMethod, tableau_of, tolerance_of
 from garkcli.check import deciding
@@ -81,10 +82,21 @@ def is_symplectic(method: AnyMethod, tolerance: object = None) -> bool:
     return deciding.analyse(tableau_of(method), 1, near).symplectic
 
 
-@overload
-def conjugate(method: Tableau) -> Tableau: ...
-@overload
-def conjugate(method: GarkMethod | Method) -> GarkMethod: ...
+class _OfSameKind(Protocol):
+    """A function that makes a tableau of a tableau, and a loaded method of any other method."""
+
+    @overload
+    def __call__(self, method: Tableau) -> Tableau: ...
+    @overload
+    def __call__(self, method: GarkMethod | Method) -> GarkMethod: ...
+
+
+def _of_same_kind(make: Callable[[AnyMethod], Tableau | GarkMethod]) -> _OfSameKind:
+    """The function itself; its type says what it returns for what."""
+    return cast(_OfSameKind, make)
+
+
+@_of_same_kind
 def conjugate(method: AnyMethod) -> Tableau | GarkMethod:
     """The symplectic conjugate; that of a loaded method keeps its name and tolerance.
 
@@ -93,19 +105,16 @@ def conjugate(method: AnyMethod) -> Tableau | GarkMethod:
     """
     if isinstance(method, Tableau):
         return conjugation.conjugate(method)
-    if (
-        isinstance(method, GarkMethod)
-        and method.derivation == "conjugate"
-        and method.base
-    ):
-        return method.base
-    return _derived(method, conjugation.conjugate(tableau_of(method)), "conjugate")
+    if isinstance(method, GarkMethod):
+        is_conjugate = method.derivation == "conjugate"
+        # the conjugate twice is the method itself
+        if is_conjugate and method.base is not None:
+            return method.base
+    made = conjugation.conjugate(tableau_of(method))
+    return _derived(method, made, "conjugate")
 
 
-@overload
-def pair(method: Tableau) -> Tableau: ...
-@overload
-def pair(method: GarkMethod | Method) -> GarkMethod: ...
+@_of_same_kind
 def pair(method: AnyMethod) -> Tableau | GarkMethod:
     """The symplectic pair (Q, P) of a method and its conjugate: 2N colours V¹…Vᴺ, F¹…Fᴺ.
 

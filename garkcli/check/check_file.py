@@ -85,7 +85,8 @@ def _blame(method: MethodFile, analysis: Analysis) -> Blame | None:
         is_explained = method.tolerance is not None and analysis.suggestion is not None
         if found.is_lower_bound or is_explained:
             return None
-        from garkcli.order.blame import Missed, blame_of  # paid for by failures alone
+        from garkcli.order.blame import blame_of  # paid for by failures alone
+        from garkcli.order.repairs import Missed
 
         missed = Missed(found.order + 1, claimed, key, derive)
         if not isinstance(found, Order):

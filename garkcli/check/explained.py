@@ -15,7 +15,7 @@ from garkcli.order.certificate import Witness
 from garkcli.trees.notation import format_tree
 
 if TYPE_CHECKING:
-    from garkcli.order.blame import Repair
+    from garkcli.order.repairs import Repair
 
 _SHORT = 20
 """Characters beyond which an exact entry is shown in decimals."""

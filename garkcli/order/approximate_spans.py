@@ -19,20 +19,22 @@ balls, so the bounds are proved; the choice of members only makes them good or b
 
 from __future__ import annotations
 
-from collections.abc import Iterator, Sequence
+from collections.abc import Sequence
 from dataclasses import dataclass
 from functools import reduce
 from operator import add
-from typing import TypeAlias
 
 from flint import arb, arb_mat, ctx
 
+from garkcli.order.entries import Entries, entrywise_max, plus, scalar_product, times
+from garkcli.order.recursion import OrderByOrder
 from garkcli.order.residuals import Sizes
 from garkcli.tableau.enclosing import Enclosure
-from garkcli.tableau.tableau import Tableau
+from garkcli.tableau.tableau import Edge, Tableau
 from garkcli.trees.tree import Tree
 
-Entries = list[arb]
+Rows = list[Entries]
+Places = list[int]
 
 
 @dataclass(frozen=True, eq=False)
@@ -53,11 +55,7 @@ class _Hull:
     size: Entries
 
 
-_Hulls: TypeAlias = "list[list[_Hull | None]]"
-"""For each stage space the hulls of its branches or forests, order after order."""
-
-
-class ApproximateSpans:
+class ApproximateSpans(OrderByOrder[_Hull]):
     """Members and bounds for the branches and forests of each stage space, made on demand.
 
     Args:
@@ -67,12 +65,13 @@ class ApproximateSpans:
     """
 
     def __init__(self, tableau: Tableau, enclosure: Enclosure, grain: arb) -> None:
-        self.tableau = tableau
         self.enclosure = enclosure
         self.grain = grain
-        self._absolute = {key: _absolute_matrix(A) for key, A in enclosure.A.items()}
-        self._branches: _Hulls = [[None] for _ in enclosure.stages]
-        self._forests: _Hulls = [[_unit(s)] for s in enclosure.stages]
+        self._absolute: dict[Edge, arb_mat] = {}
+        for key, A in enclosure.A.items():
+            self._absolute[key] = _absolute_matrix(A)
+        single_vertices = [_unit(s) for s in enclosure.stages]
+        super().__init__(tableau, single_vertices)
 
     def sizes(self, order: int) -> Sizes:
         """A bound on all |residuals| of an order, and the largest among those of members."""
@@ -80,115 +79,115 @@ class ApproximateSpans:
         largest: Tree | None = None
         with ctx.workprec(self.enclosure.bits):
             for l, b in enumerate(self.enclosure.b):
-                hull = self._stage_vectors(l, order)
+                hull = self.of_trees(l, order)
                 if hull is None:
                     continue
-                worst = arb(0)
                 weights = b.entries()
                 required = arb(1) / order
+                worst = arb(0)
                 for member in hull.members:
-                    tree = Tree(l, member.branches)
-                    defect = abs(_dot(weights, member.vector) - required)
-                    size = defect * order / tree.density
+                    defect = abs(scalar_product(weights, member.vector) - required)
                     worst = worst.max(defect)
+                    tree = Tree(l, member.branches)
+                    size = defect * order / tree.density
                     if largest is None or size > reached:
-                        reached, largest = size, tree
-                beyond = _dot(_absolute(weights), hull.error)
-                bound = bound.max(hull.weight * worst + beyond)
+                        reached = size
+                        largest = tree
+                beyond = scalar_product(_absolute(weights), hull.error)
+                here = hull.weight * worst + beyond
+                bound = bound.max(here)
         return Sizes(bound.abs_upper(), reached, largest)
 
-    def _stage_vectors(self, l: int, order: int) -> _Hull | None:
-        """The trees of an order with root colour l; None where there is none."""
-        colour = self.tableau.colours[l]
-        self._extend(colour.space, order - 1)
-        if colour.is_linear and order > 1:
-            return self._branches[colour.space][order - 1]
-        return self._forests[colour.space][order - 1]
-
-    def _extend(self, k: int, order: int) -> None:
-        while len(self._forests[k]) <= order:
-            n = len(self._forests[k])
-            branches = list(self._new_branches(k, n))
-            self._branches[k].append(_reduced(branches, self.grain))
-            forests = list(self._new_forests(k, n))
-            self._forests[k].append(_reduced(forests, self.grain))
-
-    def _new_branches(self, k: int, order: int) -> Iterator[_Hull]:
+    def _new_branches(self, k: int, order: int) -> _Hull | None:
         """Order · A ψ over the colours that the stages of space k see."""
+        hulls: list[_Hull] = []
         for m in range(self.tableau.size):
             if (k, m) not in self.enclosure.A:
                 continue
-            hull = self._stage_vectors(m, order)
-            if hull is None:
-                continue
-            A = self.enclosure.A[k, m] * order
-            members = []
-            for x in hull.members:
-                branch = Tree(m, x.branches)
-                members.append(_Member(_image(A, x.vector), (branch,)))
-            absolute = self._absolute[k, m]
-            error = _image(absolute, hull.error)
-            size = _image(absolute, hull.size)
-            yield _Hull(members, hull.weight / order, error, size)
+            hull = self.of_trees(m, order)
+            if hull is not None:
+                hulls.append(self._branch(k, m, order, hull))
+        return _reduced(hulls, self.grain)
 
-    def _new_forests(self, k: int, order: int) -> Iterator[_Hull]:
+    def _branch(self, k: int, m: int, order: int, hull: _Hull) -> _Hull:
+        """What A^{k,m} makes of the trees with root colour m."""
+        A = self.enclosure.A[k, m] * order
+        members = []
+        for x in hull.members:
+            branch = Tree(m, x.branches)
+            vector = _image(A, x.vector)
+            members.append(_Member(vector, (branch,)))
+        absolute = self._absolute[k, m]
+        error = _image(absolute, hull.error)
+        size = _image(absolute, hull.size)
+        weight = hull.weight / order
+        return _Hull(members, weight, error, size)
+
+    def _new_forests(self, k: int, order: int) -> _Hull | None:
         """The smallest branch times the forest of the others, or one branch.
 
         The bush comes first: its density is the least, so that where an order fails it often shows
         it.
         """
-        for j in range(1, order // 2 + 1):
-            branch, rest = self._branches[k][j], self._forests[k][order - j]
-            if branch is not None and rest is not None:
-                yield _product(branch, rest)
+        hulls: list[_Hull] = []
+        for branch, rest in self._split_forests(k, order):
+            hulls.append(_product(branch, rest))
         single = self._branches[k][order]
         if single is not None:
-            yield single
+            hulls.append(single)
+        return _reduced(hulls, self.grain)
 
 
 def _unit(stages: int) -> _Hull:
     """What the single vertex has: its vector is 𝟙, and nothing is beyond it."""
     one = [arb(1)] * stages
     zero = [arb(0)] * stages
-    return _Hull([_Member(one, ())], arb(1), zero, one)
+    vertex = _Member(one, ())
+    return _Hull([vertex], arb(1), zero, one)
 
 
 def _product(x: _Hull, y: _Hull) -> _Hull:
     members = []
     for v in x.members:
         for w in y.members:
-            vector = [a * b for a, b in zip(v.vector, w.vector, strict=True)]
-            members.append(_Member(vector, (*v.branches, *w.branches)))
-    error, size = [], []
-    for p, e, q, f in zip(x.size, x.error, y.size, y.error, strict=True):
-        error.append(p * f + e * q + e * f)
-        size.append(p * q)
-    return _Hull(members, x.weight * y.weight, error, size)
+            vector = times(v.vector, w.vector)
+            branches = v.branches + w.branches
+            members.append(_Member(vector, branches))
+    weight = x.weight * y.weight
+    size = times(x.size, y.size)
+    one_side = plus(times(x.size, y.error), times(x.error, y.size))
+    both_sides = times(x.error, y.error)
+    error = plus(one_side, both_sides)
+    return _Hull(members, weight, error, size)
 
 
 def _reduced(hulls: Sequence[_Hull], grain: arb) -> _Hull | None:
     """Few of the members of all hulls, and bounds that hold for everything in any of them."""
     if not hulls:
         return None
-    members = [member for hull in hulls for member in hull.members]
-    points = [[arb(1), *member.vector] for member in members]
+    members: list[_Member] = []
+    for hull in hulls:
+        members += hull.members
+    points: Rows = [[arb(1), *member.vector] for member in members]
     chosen, weights = _affine_weights(points, grain)
     kept = [members[i] for i in chosen]
     corners = arb_mat([points[i] for i in chosen])
-    misses = (arb_mat(points) - weights * corners).tolist()
-    rows = weights.tolist()
+    misses = arb_mat(points) - weights * corners
+    weight_rows = weights.tolist()
+    miss_rows = misses.tolist()
     found: _Hull | None = None
     start = 0
     for hull in hulls:
-        part = slice(start, start + len(hull.members))
-        start = part.stop
-        found = _joined(found, _around(kept, hull, rows[part], misses[part]))
+        end = start + len(hull.members)
+        own_weights = weight_rows[start:end]
+        own_misses = miss_rows[start:end]
+        around = _around(kept, hull, own_weights, own_misses)
+        found = _joined(found, around)
+        start = end
     return found
 
 
-def _around(
-    kept: Sequence[_Member], hull: _Hull, weights: list[Entries], misses: list[Entries]
-) -> _Hull:
+def _around(kept: Sequence[_Member], hull: _Hull, weights: Rows, misses: Rows) -> _Hull:
     """The bounds of one hull around the members that are kept.
 
     ``weights`` and ``misses`` have a row for each member of the hull: its λ in the members kept,
@@ -196,25 +195,27 @@ def _around(
     """
     amount = arb(0)
     for row in weights:
-        amount = amount.max(reduce(add, _absolute(row)))
-    miss = reduce(_entrywise, [_absolute(row[1:]) for row in misses])
-    error = [e + hull.weight * d for e, d in zip(hull.error, miss, strict=True)]
-    return _Hull(kept, hull.weight * amount, error, hull.size)
+        total = reduce(add, _absolute(row))
+        amount = amount.max(total)
+    distances = [_absolute(row[1:]) for row in misses]
+    farthest = reduce(entrywise_max, distances)
+    beyond = [hull.weight * d for d in farthest]
+    error = plus(hull.error, beyond)
+    weight = hull.weight * amount
+    return _Hull(kept, weight, error, hull.size)
 
 
 def _joined(one: _Hull | None, other: _Hull) -> _Hull:
     """Bounds that hold in both of two hulls with the same members."""
     if one is None:
         return other
-    return _Hull(
-        other.members,
-        one.weight.max(other.weight),
-        _entrywise(one.error, other.error),
-        _entrywise(one.size, other.size),
-    )
+    weight = one.weight.max(other.weight)
+    error = entrywise_max(one.error, other.error)
+    size = entrywise_max(one.size, other.size)
+    return _Hull(other.members, weight, error, size)
 
 
-def _affine_weights(points: Sequence[Entries], grain: arb) -> tuple[list[int], arb_mat]:
+def _affine_weights(points: Rows, grain: arb) -> tuple[Places, arb_mat]:
     """Which of the points (1, ψ) become members, and λ of each point in them: a row that sums to 1.
 
     The true λ solve the equations of as many coordinates as there are members, that of the ones
@@ -225,33 +226,41 @@ def _affine_weights(points: Sequence[Entries], grain: arb) -> tuple[list[int], a
         rows = [[point[j] for j in columns] for point in points]
         corner = arb_mat([rows[i] for i in chosen])
         try:
-            return chosen, arb_mat(rows) * corner.inv()
+            inverse = corner.inv()
         except ZeroDivisionError:
             # too flat for the precision: fewer members, larger errors
-            chosen, columns = chosen[:-1], columns[:-1]
+            chosen.pop()
+            columns.pop()
+        else:
+            return chosen, arb_mat(rows) * inverse
 
 
-def _pivots(points: arb_mat, grain: arb) -> tuple[list[int], list[int]]:
+def _pivots(points: arb_mat, grain: arb) -> tuple[Places, Places]:
     """Rows far from each other's affine hull, and as many columns, by elimination with the largest
     pivots.
 
     The first column, of ones, comes first: combinations of rows that agree in it are affine.
     """
     rest = points.mid()
-    rows, columns = [0], [0]
+    rows = [0]
+    columns = [0]
     while True:
-        i, j = rows[-1], columns[-1]
+        i = rows[-1]
+        j = columns[-1]
         entries = rest.tolist()
         column = arb_mat([[row[j]] for row in entries])
-        pivot_row = arb_mat([entries[i]]) / rest[i, j]
+        pivot = rest[i, j]
+        pivot_row = arb_mat([entries[i]]) / pivot
         rest = (rest - column * pivot_row).mid()
-        if len(rows) == min(rest.nrows(), rest.ncols()):
+        most = min(rest.nrows(), rest.ncols())
+        if len(rows) == most:
             return rows, columns
-        sizes = [float(abs(x)) for x in rest.entries()]
+        sizes = [float(x) for x in _absolute(rest.entries())]
         largest = max(sizes)
         if largest <= float(grain):
             return rows, columns
-        i, j = divmod(sizes.index(largest), rest.ncols())
+        place = sizes.index(largest)
+        i, j = divmod(place, rest.ncols())
         rows.append(i)
         columns.append(j)
 
@@ -262,16 +271,10 @@ def _absolute(row: Sequence[arb]) -> Entries:
 
 def _absolute_matrix(A: arb_mat) -> arb_mat:
     """|A|, entry by entry."""
-    return arb_mat([_absolute(row) for row in A.tolist()])
+    rows = [_absolute(row) for row in A.tolist()]
+    return arb_mat(rows)
 
 
 def _image(A: arb_mat, vector: Sequence[arb]) -> Entries:
-    return (A * arb_mat([[x] for x in vector])).entries()
-
-
-def _dot(u: Sequence[arb], v: Sequence[arb]) -> arb:
-    return reduce(add, (x * y for x, y in zip(u, v, strict=True)), arb(0))
-
-
-def _entrywise(u: Sequence[arb], v: Sequence[arb]) -> Entries:
-    return [x.max(y) for x, y in zip(u, v, strict=True)]
+    column = arb_mat([[x] for x in vector])
+    return (A * column).entries()

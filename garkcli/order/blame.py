@@ -1,57 +1,25 @@
-"""Which block is to blame for a failing order, and which single entry, changed, would restore it.
+"""Which block is to blame for a failing order.
 
-Both are hints drawn from the failing conditions, never facts about what a source meant to print.
+It is a hint drawn from the failing conditions, never a fact about what a source meant to print.
 """
 
 from __future__ import annotations
 
 from collections import Counter
-from collections.abc import Callable, Iterator, Sequence
-from dataclasses import dataclass, replace
-from typing import TypeAlias
+from collections.abc import Sequence
+from dataclasses import dataclass
 
 from flint import fmpq
 
-from garkcli.errors import ZeroWeight
-from garkcli.exact.display import to_ball
-from garkcli.exact.field import ONE, ZERO, Number
-from garkcli.exact.matrix import Matrix
-from garkcli.order.certificate import find_order
-from garkcli.order.conditions import Condition, conditions
+from garkcli.exact.field import ZERO
+from garkcli.order.conditions import Condition
 from garkcli.order.listing import all_conditions, count_conditions
-from garkcli.order.tolerance import within
-from garkcli.tableau.point_space import PointSpace
-from garkcli.tableau.tableau import Tableau
+from garkcli.order.repairs import Missed, Repair, named_block, repairs
+from garkcli.tableau.tableau import Edge, Tableau
 from garkcli.trees.tree import Tree
 
 MAX_CONDITIONS = 20_000
 """Most conditions that are evaluated to find a culprit."""
-MAX_ENTRIES = 2_000
-"""Most entries that are tried."""
-FEW_CONDITIONS = 4
-"""So many failing conditions are solved for an entry of rounded coefficients; the best is kept."""
-FEW_CHECKED = 20
-"""So many failing conditions are looked at before the order is found."""
-NEWTON_STEPS = 3
-"""Steps of the simplified Newton's method; each squares a small misprint, nearly."""
-Derive: TypeAlias = Callable[[Tableau], Tableau]
-"""What is made of a method, such as its conjugate."""
-
-
-@dataclass(frozen=True)
-class Repair:
-    """An entry that restores the claimed order when it is changed alone.
-
-    ``l, m`` are the block's colours, or ``m`` is None for the weights b^{l}; ``i, j`` the entry
-    (``j`` of the weights; then ``i`` is None). All count from 0.
-    """
-
-    l: int
-    m: int | None
-    i: int | None
-    j: int
-    old: Number
-    new: Number
 
 
 @dataclass(frozen=True)
@@ -77,35 +45,14 @@ class Blame:
     order: int
     failing: int
     total: int
-    in_every: tuple[tuple[int, int], ...]
-    in_none: tuple[tuple[int, int], ...]
-    culprit: tuple[int, int] | None
+    in_every: tuple[Edge, ...]
+    in_none: tuple[Edge, ...]
+    culprit: Edge | None
     only_coupling: bool
     repairs: tuple[Repair, ...]
     of: str = "order"
     names: tuple[str, ...] = ()
     tolerance: fmpq = ZERO
-
-
-@dataclass(frozen=True)
-class Missed:
-    """A claimed order that is missed, and how conditions are judged.
-
-    Attributes:
-        order: the first failing order.
-        claimed: the order that was meant.
-        of: what claims it, as it is called in a file.
-        derive: from the method to the tableau that it is claimed of.
-        tolerance: conditions fail beyond it.
-        near: within it they are restored: more than ``tolerance`` where coefficients are rounded.
-    """
-
-    order: int
-    claimed: int
-    of: str = "order"
-    derive: Derive = lambda tableau: tableau
-    tolerance: fmpq = ZERO
-    near: fmpq = ZERO
 
 
 def find_blame(tableau: Tableau, order: int, claimed: int) -> Blame | None:
@@ -138,9 +85,9 @@ def blame_of(method: Tableau, missed: Missed) -> Blame | None:
     found = list(all_conditions(tableau, missed.order, missed.tolerance))
     failing = [condition for condition in found if not condition.holds]
     used = [_blocks_in(tableau, condition.tree) for condition in failing]
-    in_every: list[tuple[int, int]] = []
-    in_none: list[tuple[int, int]] = []
-    for block in sorted({_canonical(tableau, edge) for edge in tableau.edges()}):
+    in_every: list[Edge] = []
+    in_none: list[Edge] = []
+    for block in sorted({named_block(tableau, edge) for edge in tableau.edges()}):
         uses = sum(block in blocks for blocks in used)
         if uses == 0:
             in_none.append(block)
@@ -154,216 +101,30 @@ def blame_of(method: Tableau, missed: Missed) -> Blame | None:
         in_none=tuple(in_none),
         culprit=_culprit(tableau, found, in_every),
         only_coupling=all(condition.is_coupling for condition in failing),
-        repairs=tuple(_repairs(method, missed, failing)),
+        repairs=tuple(repairs(method, missed, failing)),
         of=missed.of,
         names=tuple(colour.name for colour in tableau.colours),
         tolerance=missed.tolerance,
     )
 
 
-def _canonical(tableau: Tableau, edge: tuple[int, int]) -> tuple[int, int]:
-    """The edge named after the first colour that has these stages: one name for each block."""
-    l, m = edge
-    spaces = [colour.space for colour in tableau.colours]
-    return spaces.index(spaces[l]), m
-
-
-def _blocks_in(tableau: Tableau, tree: Tree) -> Counter[tuple[int, int]]:
+def _blocks_in(tableau: Tableau, tree: Tree) -> Counter[Edge]:
     """The blocks that the elementary weight of ``tree`` multiplies by, with how often."""
     return Counter(
-        _canonical(tableau, (vertex.root, branch.root))
+        named_block(tableau, (vertex.root, branch.root))
         for vertex in tree.vertices()
         for branch in vertex.branches
     )
 
 
 def _culprit(
-    tableau: Tableau, found: list[Condition], candidates: Sequence[tuple[int, int]]
-) -> tuple[int, int] | None:
+    tableau: Tableau, found: list[Condition], candidates: Sequence[Edge]
+) -> Edge | None:
     """The candidate whose conditions fail most often; None where several do alike."""
-    share: dict[tuple[int, int], float] = {}
+    share: dict[Edge, float] = {}
     for block in candidates:
         with_block = [x for x in found if block in _blocks_in(tableau, x.tree)]
         share[block] = sum(not x.holds for x in with_block) / len(with_block)
     most = max(share.values(), default=0.0)
     best = [block for block in candidates if share[block] == most]
     return best[0] if len(best) == 1 else None
-
-
-def _repairs(
-    method: Tableau, missed: Missed, failing: list[Condition]
-) -> Iterator[Repair]:
-    """Entries whose change restores what is claimed: each must solve a failing condition.
-
-    Of exact coefficients one condition tells as much as all; of rounded ones the entry that solves
-    it carries their rounding, so that the condition that depends on it most is solved.
-    """
-    solved = failing[:1]
-    if missed.tolerance:
-        by_size = sorted(failing, key=lambda x: _size(x.residual), reverse=True)
-        solved = by_size[:FEW_CONDITIONS]
-    if not solved:
-        return
-    for tried, place in enumerate(_places(method)):
-        if tried >= MAX_ENTRIES:
-            return
-        new = _solution(method, missed, place, solved)
-        if new is None:
-            continue
-        changed = _derived(missed, place.put(method, new))
-        if changed is None or not _holds(changed, failing[:FEW_CHECKED], missed.near):
-            continue
-        if _is_restored(changed, missed):
-            yield Repair(place.l, place.m, place.i, place.j, place.old, new)
-
-
-def _size(number: Number) -> float:
-    """|number|, to compare by: what is chosen is then verified exactly."""
-    return float(abs(to_ball(number, 20)))
-
-
-def _holds(tableau: Tableau, failing: Sequence[Condition], near: fmpq) -> bool:
-    """Whether some conditions hold that failed: that takes less than finding the order."""
-    trees = [condition.tree for condition in failing]
-    return all(within(x.residual, near) for x in conditions(tableau, trees))
-
-
-def _is_restored(tableau: Tableau, missed: Missed) -> bool:
-    if not missed.near:
-        return find_order(tableau, missed.claimed).order >= missed.claimed
-    from garkcli.order.rounded import find_order_within
-
-    found = find_order_within(tableau, missed.near, missed.claimed)
-    return found.order >= missed.claimed
-
-
-@dataclass(frozen=True)
-class _Place:
-    """One entry of a method: of the block (l, m), or of the weights of l, where m is None."""
-
-    l: int
-    m: int | None
-    i: int | None
-    j: int
-    old: Number
-
-    def put(self, method: Tableau, value: Number) -> Tableau:
-        """The method with another value there."""
-        if self.m is None or self.i is None:
-            return _with_weight(method, self.l, self.j, value)
-        key = method.colours[self.l].space, self.m
-        return _with_entry(method, key, self.i, self.j, value)
-
-
-def _places(method: Tableau) -> Iterator[_Place]:
-    """The entries that are entries of stages: those of stage spaces of points."""
-    for l, m in sorted({_canonical(method, edge) for edge in method.edges()}):
-        if not (_has_points(method, l) and _has_points(method, m)):
-            continue
-        for i, row in enumerate(method.blocks[method.colours[l].space, m]):
-            for j, old in enumerate(row):
-                yield _Place(l, m, i, j, old)
-    for l, colour in enumerate(method.colours):
-        if not _has_points(method, l):
-            continue
-        for j, old in enumerate(colour.b):
-            yield _Place(l, None, None, j, old)
-
-
-def _has_points(method: Tableau, l: int) -> bool:
-    return isinstance(method.space(l), PointSpace)
-
-
-def _solution(
-    method: Tableau, missed: Missed, place: _Place, failing: Sequence[Condition]
-) -> Number | None:
-    """The value with which a failing condition holds; None where none depends on the entry.
-
-    Of exact coefficients only conditions that are linear in the entry are solved, by their values
-    at the entry and one beyond; of rounded ones all by a few steps of a simplified Newton's method,
-    as a misprint is a small change.
-    """
-    step = missed.near if missed.near else ONE
-    trees = [condition.tree for condition in failing]
-    beyond = _weights(missed, place.put(method, place.old + step), trees)
-    if beyond is None:
-        return None
-    slopes: list[Number] = []
-    for moved, condition in zip(beyond, failing, strict=True):
-        slopes.append((moved - condition.value) / step)
-    sizes = [_size(slope) for slope in slopes]
-    best = sizes.index(max(sizes))
-    condition, slope = failing[best], slopes[best]
-    if not slope:
-        return None
-    value = place.old - condition.residual / slope
-    if missed.near:
-        return _refined(method, missed, place, condition, value, slope)
-    further = place.put(method, place.old + 2 * ONE)
-    twice = _weights(missed, further, [condition.tree])
-    if twice is None or twice[0] - beyond[best] != slope:
-        return None  # not linear in the entry
-    return value
-
-
-def _refined(
-    method: Tableau,
-    missed: Missed,
-    place: _Place,
-    condition: Condition,
-    value: Number,
-    slope: Number,
-) -> Number:
-    """The root of a condition near ``value``.
-
-    To a hundredth of what the condition is to be restored within.
-    """
-    grid = missed.near / 100
-    for _ in range(NEWTON_STEPS):
-        if isinstance(value, fmpq):
-            value = (value / grid).floor() * grid
-        found = _weights(missed, place.put(method, value), [condition.tree])
-        if found is None:
-            break
-        value = value - (found[0] - condition.required) / slope
-    return value
-
-
-def _weights(
-    missed: Missed, method: Tableau, trees: Sequence[Tree]
-) -> list[Number] | None:
-    """The elementary weights of some trees; None where the changed method has none."""
-    tableau = _derived(missed, method)
-    if tableau is None:
-        return None
-    return [condition.value for condition in conditions(tableau, trees)]
-
-
-def _derived(missed: Missed, method: Tableau) -> Tableau | None:
-    """What is claimed of; None where the changed method has none."""
-    try:
-        return missed.derive(method)
-    except ZeroWeight:
-        return None
-
-
-def _with_entry(
-    tableau: Tableau, key: tuple[int, int], i: int, j: int, value: Number
-) -> Tableau:
-    block: list[list[Number]] = [list(row) for row in tableau.blocks[key]]
-    block[i][j] = value
-    changed: Matrix = tuple(tuple(row) for row in block)
-    return replace(tableau, blocks={**tableau.blocks, key: changed})
-
-
-def _with_weight(tableau: Tableau, l: int, j: int, value: Number) -> Tableau:
-    """b^{l} changed, together with the weights that are the same row: those of colours with these
-    stages.
-    """
-    old = tableau.colours[l]
-    b = (*old.b[:j], value, *old.b[j + 1 :])
-    colours = []
-    for colour in tableau.colours:
-        is_same_row = colour.space == old.space and colour.b == old.b
-        colours.append(replace(colour, b=b) if is_same_row else colour)
-    return replace(tableau, colours=tuple(colours))

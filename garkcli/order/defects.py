@@ -13,7 +13,7 @@ from garkcli.exact.linear_map import LinearMap
 from garkcli.exact.matrix import Vector, dot
 from garkcli.order.tolerance import form_within, functional_within
 from garkcli.tableau.conjugate import symplectic_defect
-from garkcli.tableau.tableau import Tableau
+from garkcli.tableau.tableau import Edge, Tableau
 
 
 class Defects:
@@ -24,7 +24,7 @@ class Defects:
     def __init__(self, tableau: Tableau) -> None:
         self.tableau = tableau
         self._powers = [[tableau.space(l).one] for l in range(tableau.size)]
-        self._maps: dict[tuple[int, int], LinearMap] = {}
+        self._maps: dict[Edge, LinearMap] = {}
 
     def power(self, l: int, exponent: int) -> Vector:
         """c^l to a power."""

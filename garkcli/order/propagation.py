@@ -26,14 +26,16 @@ from dataclasses import dataclass
 from flint import arb, arb_mat, ctx, fmpq
 
 from garkcli.exact.field import Number
+from garkcli.order.entries import Entries, entrywise_max, plus, scalar_product, times
+from garkcli.order.recursion import OrderByOrder
 from garkcli.tableau.conjugate import are_opposite
 from garkcli.tableau.enclosing import Enclosure, enclose_tableau
-from garkcli.tableau.tableau import Tableau
+from garkcli.tableau.tableau import Edge, Tableau
 
 BITS = 128
 """Precision of the bounds; they are wanted to a digit or two."""
-Entries = list[arb]
-Radii = Mapping[tuple[int, int], arb_mat]
+Rows = Sequence[Entries]
+Radii = Mapping[Edge, arb_mat]
 
 
 @dataclass(frozen=True, eq=False)
@@ -45,10 +47,10 @@ class _Range:
 
     def moved(self) -> Entries:
         """Bounds on the entries once rounding has moved them: S + D."""
-        return [s + d for s, d in zip(self.size, self.change, strict=True)]
+        return plus(self.size, self.change)
 
 
-class Propagation:
+class Propagation(OrderByOrder[_Range]):
     """Bounds on what rounding does to the residuals of one tableau, order after order.
 
     Args:
@@ -64,37 +66,40 @@ class Propagation:
         tableau: Tableau,
         radii: Radii,
         tolerance: fmpq,
-        weights: Sequence[Entries] | None = None,
+        weights: Rows | None = None,
     ) -> None:
-        self.tableau = tableau
         with ctx.workprec(BITS):
             self._rounding = arb(tolerance)
             enclosure = enclose_tableau(tableau, BITS)
             self._stages = enclosure.stages
             self._b = [_upper(b.entries()) for b in enclosure.b]
-            self._A = {key: _upper_rows(A) for key, A in enclosure.A.items()}
-            self._off = {key: self._radii_of(key, radii) for key in enclosure.A}
-            self._off_b = weights or [[self._rounding] * len(b) for b in self._b]
-        # a vertex has the vector 𝟙, which rounding does not move
-        self._forests = [[_Range([arb(1)] * s, [arb(0)] * s)] for s in self._stages]
-        self._branches: list[list[_Range | None]] = [[None] for _ in self._stages]
+            self._A: dict[Edge, Rows] = {}
+            self._off: dict[Edge, Rows] = {}
+            for key, A in enclosure.A.items():
+                rows = _upper_rows(A)
+                self._A[key] = rows
+                self._off[key] = self._all_alike(rows)
+                if key in radii:
+                    self._off[key] = _upper_rows(radii[key])
+            self._off_b = weights or self._all_alike(self._b)
+        single_vertices = [_unit(s) for s in self._stages]
+        super().__init__(tableau, single_vertices)
 
-    def _radii_of(self, key: tuple[int, int], radii: Radii) -> list[Entries]:
-        if key in radii:
-            return _upper_rows(radii[key])
-        rows = self._A[key]
+    def _all_alike(self, rows: Rows) -> Rows:
+        """The rounding of all coefficients, in the shape of ``rows``."""
         return [[self._rounding] * len(row) for row in rows]
 
     def effect(self, order: int) -> arb:
         """No residual of ``order`` changes by more."""
         found = arb(0)
         with ctx.workprec(BITS):
-            for l, (b, off) in enumerate(zip(self._b, self._off_b, strict=True)):
-                vectors = self._stage_vectors(l, order)
+            for l, b in enumerate(self._b):
+                vectors = self.of_trees(l, order)
                 if vectors is None:
                     continue
-                kept = _dot(b, vectors.change)
-                added = _dot(off, vectors.moved())
+                kept = scalar_product(b, vectors.change)
+                moved = vectors.moved()
+                added = scalar_product(self._off_b[l], moved)
                 found = found.max(kept + added)
         return found.abs_upper()
 
@@ -107,43 +112,32 @@ class Propagation:
                     largest = largest.max(_total(row))
             return largest.abs_upper()
 
-    def _stage_vectors(self, l: int, order: int) -> _Range | None:
-        """All 𝒜^[u] of an order with root colour l; None where there is no such tree."""
-        colour = self.tableau.colours[l]
-        self._extend(colour.space, order - 1)
-        if colour.is_linear and order > 1:
-            return self._branches[colour.space][order - 1]
-        return self._forests[colour.space][order - 1]
-
-    def _extend(self, k: int, order: int) -> None:
-        while len(self._forests[k]) <= order:
-            n = len(self._forests[k])
-            self._branches[k].append(self._new_branches(k, n))
-            self._forests[k].append(self._new_forests(k, n))
-
     def _new_branches(self, k: int, order: int) -> _Range | None:
         found: _Range | None = None
         for m in range(self.tableau.size):
-            vectors = self._stage_vectors(m, order) if (k, m) in self._A else None
-            if vectors is None:
+            if (k, m) not in self._A:
                 continue
-            A = self._A[k, m]
-            size = _image(A, vectors.size)
-            kept = _image(A, vectors.change)
-            added = _image(self._off[k, m], vectors.moved())
-            change = [x + y for x, y in zip(kept, added, strict=True)]
-            found = _either(found, _Range(size, change))
+            vectors = self.of_trees(m, order)
+            if vectors is not None:
+                found = _either(found, self._branch(k, m, vectors))
         return found
+
+    def _branch(self, k: int, m: int, vectors: _Range) -> _Range:
+        """What A^{k,m} makes of vectors, and what its own rounding adds."""
+        A = self._A[k, m]
+        size = _image(A, vectors.size)
+        kept = _image(A, vectors.change)
+        off = self._off[k, m]
+        added = _image(off, vectors.moved())
+        return _Range(size, plus(kept, added))
 
     def _new_forests(self, k: int, order: int) -> _Range:
         """One branch, or the smallest branch times the forest of the others."""
-        zero = [arb(0)] * self._stages[k]
         found = self._branches[k][order]
-        for j in range(1, order // 2 + 1):
-            branch, rest = self._branches[k][j], self._forests[k][order - j]
-            if branch is not None:
-                found = _either(found, _product(branch, rest))
+        for branch, rest in self._split_forests(k, order):
+            found = _either(found, _product(branch, rest))
         if found is None:
+            zero = [arb(0)] * self._stages[k]
             return _Range(zero, zero)
         return found
 
@@ -159,13 +153,19 @@ def printed_rounding(tableau: Tableau, units: Mapping[Number, fmpq]) -> Propagat
     largest = max(units.values(), default=fmpq(0))
 
     def unit(value: Number) -> arb:
-        return arb(units.get(value, largest if value else fmpq(0)))
+        if value in units:
+            return arb(units[value])
+        return arb(largest) if value else arb(0)
 
     with ctx.workprec(BITS):
-        radii: dict[tuple[int, int], arb_mat] = {}
+        radii: dict[Edge, arb_mat] = {}
         for key, block in tableau.blocks.items():
-            radii[key] = arb_mat([[unit(x) for x in row] for row in block])
-        weights = [[unit(x) for x in colour.b] for colour in tableau.colours]
+            rows = [[unit(x) for x in row] for row in block]
+            radii[key] = arb_mat(rows)
+        weights = []
+        for colour in tableau.colours:
+            row = [unit(x) for x in colour.b]
+            weights.append(row)
     return Propagation(tableau, radii, largest, weights)
 
 
@@ -189,14 +189,16 @@ class ConjugateRounding:
         rows = list(range(self.tableau.size))
         if self.tableau.is_partitioned:
             rows = [colour.space for colour in self.tableau.colours]
-        radii = {(rows[l], m): off for (l, m), off in self.hats.items()}
+        radii: dict[Edge, arb_mat] = {}
+        for (l, m), off in self.hats.items():
+            radii[rows[l], m] = off
         return Propagation(conjugated, radii, self.tolerance)
 
     def of_pair(self, both: Tableau) -> Propagation:
         """For the conditions of the pair: half of its blocks are those of the method."""
         N = self.tableau.size
         colours = self.tableau.colours
-        radii: dict[tuple[int, int], arb_mat] = {}
+        radii: dict[Edge, arb_mat] = {}
         for (l, m), off in self.hats.items():
             if not self.tableau.is_partitioned:
                 radii[l, N + m] = off
@@ -208,12 +210,15 @@ class ConjugateRounding:
         """Whether rounding explains b_i a_ij + b_j a_ji − b_i b_j = b_i (a_ij − Â_ij), entry by
         entry.
         """
-        b = enclose_tableau(self.tableau, BITS).b[l].entries()
+        enclosure = enclose_tableau(self.tableau, BITS)
+        b = enclosure.b[l].entries()
         radii = self.hats[l, m].tolist()
+        defects = defect.tolist()
         with ctx.workprec(BITS):
-            for row, offs, b_i in zip(defect.tolist(), radii, b, strict=True):
+            for row, offs, b_i in zip(defects, radii, b, strict=True):
                 for x, off in zip(row, offs, strict=True):
-                    if abs(x) > abs(b_i) * off:
+                    explained = abs(b_i) * off
+                    if abs(x) > explained:
                         return False
         return True
 
@@ -229,7 +234,7 @@ def conjugate_rounding(tableau: Tableau, tolerance: fmpq) -> ConjugateRounding |
     '[0.00300]'
     """
     enclosure = enclose_tableau(tableau, BITS)
-    hats: dict[tuple[int, int], arb_mat] = {}
+    hats: dict[Edge, arb_mat] = {}
     for m, l in tableau.edges():
         if are_opposite(tableau.colours[l], tableau.colours[m]):
             radii = _hat(tableau, enclosure, l, m, tolerance)
@@ -243,18 +248,22 @@ def _hat(
     tableau: Tableau, enclosure: Enclosure, l: int, m: int, tolerance: fmpq
 ) -> arb_mat | None:
     """The radii of Â^{l,m}, made from A^{m,l}."""
-    block = enclosure.A[tableau.colours[m].space, l].tolist()
+    space = tableau.colours[m].space
+    block = enclosure.A[space, l].tolist()
+    weights = enclosure.b[m].entries()
     rows: list[Entries] = []
     with ctx.workprec(BITS):
         t = arb(tolerance)
-        for i, b_i in enumerate(enclosure.b[l].entries()):
+        divisors = enclosure.b[l].entries()
+        for i, b_i in enumerate(divisors):
             rest = abs(b_i) - t
             if not rest > 0:
                 return None
             row: Entries = []
-            for j, b_j in enumerate(enclosure.b[m].entries()):
+            for j, b_j in enumerate(weights):
                 a = block[j][i]
-                product = t * (abs(a) + abs(b_j) + t)
+                factors = abs(a) + abs(b_j)
+                product = t * (factors + t)
                 quotient = t * abs(b_j * a / b_i)
                 radius = t + (product + quotient) / rest
                 row.append(radius.abs_upper())
@@ -262,30 +271,31 @@ def _hat(
     return arb_mat(rows)
 
 
+def _unit(stages: int) -> _Range:
+    """A vertex has the vector 𝟙, which rounding does not move."""
+    one = [arb(1)] * stages
+    zero = [arb(0)] * stages
+    return _Range(one, zero)
+
+
 def _either(x: _Range | None, y: _Range) -> _Range:
     if x is None:
         return y
-    return _Range(_entrywise(x.size, y.size), _entrywise(x.change, y.change))
-
-
-def _product(x: _Range, y: _Range) -> _Range:
-    size, change = [], []
-    for s, d, other_s, other_d in zip(x.size, x.change, y.size, y.change, strict=True):
-        size.append(s * other_s)
-        change.append(s * other_d + d * other_s + d * other_d)
+    size = entrywise_max(x.size, y.size)
+    change = entrywise_max(x.change, y.change)
     return _Range(size, change)
 
 
-def _entrywise(u: Sequence[arb], v: Sequence[arb]) -> Entries:
-    return [x.max(y) for x, y in zip(u, v, strict=True)]
+def _product(x: _Range, y: _Range) -> _Range:
+    size = times(x.size, y.size)
+    one_factor = plus(times(x.size, y.change), times(x.change, y.size))
+    both_factors = times(x.change, y.change)
+    change = plus(one_factor, both_factors)
+    return _Range(size, change)
 
 
-def _dot(u: Sequence[arb], v: Sequence[arb]) -> arb:
-    return sum((x * y for x, y in zip(u, v, strict=True)), arb(0))
-
-
-def _image(rows: Sequence[Entries], vector: Sequence[arb]) -> Entries:
-    return [_dot(row, vector) for row in rows]
+def _image(rows: Rows, vector: Entries) -> Entries:
+    return [scalar_product(row, vector) for row in rows]
 
 
 def _total(values: Sequence[arb]) -> arb:
@@ -296,5 +306,5 @@ def _upper(row: Sequence[arb]) -> Entries:
     return [x.abs_upper() for x in row]
 
 
-def _upper_rows(matrix: arb_mat) -> list[Entries]:
+def _upper_rows(matrix: arb_mat) -> Rows:
     return [_upper(row) for row in matrix.tolist()]

@@ -16,7 +16,7 @@ from garkcli.exact.field import ZERO
 from garkcli.order.certificate import DEFAULT_LIMIT
 from garkcli.order.defects import Defects
 from garkcli.order.tolerance import functional_within, vector_within, within
-from garkcli.tableau.tableau import Tableau
+from garkcli.tableau.tableau import Edge, Tableau
 
 Table: TypeAlias = "tuple[tuple[int | None, ...], ...]"
 """A number for each block; None where the block does not exist."""
@@ -116,8 +116,8 @@ class _Search:
         self.defects = Defects(tableau)
         self.alike = _Alike.of(tableau)
         self._r: dict[int, int] = {}
-        self._eta: dict[tuple[int, int], int] = {}
-        self._zeta: dict[tuple[int, int], int] = {}
+        self._eta: dict[Edge, int] = {}
+        self._zeta: dict[Edge, int] = {}
 
     def r(self, l: int) -> int:
         """The largest r for which B^{l}(r) holds."""
@@ -187,15 +187,13 @@ class _Alike:
         return _Alike(tuple(nodes), tuple(weights))
 
 
-def consistent_blocks(
-    tableau: Tableau, tolerance: fmpq = ZERO
-) -> dict[tuple[int, int], bool]:
+def consistent_blocks(tableau: Tableau, tolerance: fmpq = ZERO) -> dict[Edge, bool]:
     """For each block that exists whether A^{l,m} 𝟙 = c^{l}, eq. (Aone), within ``tolerance`` at
     every stage.
     """
     defects, alike = Defects(tableau), _Alike.of(tableau)
-    known: dict[tuple[int, int], bool] = {}
-    found: dict[tuple[int, int], bool] = {}
+    known: dict[Edge, bool] = {}
+    found: dict[Edge, bool] = {}
     for l, m in tableau.edges():
         key = alike.nodes[l], m
         if key not in known:

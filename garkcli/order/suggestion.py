@@ -10,11 +10,12 @@ from flint import arb, ctx, fmpq
 from garkcli.exact.display import to_ball
 from garkcli.exact.field import ZERO, Number
 from garkcli.order.approximate_spans import ApproximateSpans
-from garkcli.order.blame import Missed, Repair, blame_of
+from garkcli.order.blame import blame_of
 from garkcli.order.certificate import DEFAULT_LIMIT, Order
 from garkcli.order.conditions import coupling_graph
 from garkcli.order.listing import count_conditions
 from garkcli.order.propagation import Propagation, printed_rounding
+from garkcli.order.repairs import Missed, Repair
 from garkcli.order.residuals import Sizes, TreeResiduals
 from garkcli.order.rounded import FEW_TREES, RoundedOrder, find_order_within
 from garkcli.order.tolerance import rounded_up, unnatural, within

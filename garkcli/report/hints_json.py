@@ -27,8 +27,9 @@ if TYPE_CHECKING:
     from garkcli.check.analysis import Analysis
     from garkcli.check.outcome import Outcome
     from garkcli.exact.field import Number
-    from garkcli.order.blame import Blame, Repair
+    from garkcli.order.blame import Blame
     from garkcli.order.constants import ErrorConstants, Norms
+    from garkcli.order.repairs import Repair
     from garkcli.order.suggestion import Misprint, Suggestion
 
 BLOCK: Schema = {**array(POSITION), "minItems": 1, "maxItems": 2}

@@ -18,7 +18,7 @@ from garkcli.exact.matrix import (
     transpose,
 )
 from garkcli.tableau.stages import StageSpace
-from garkcli.tableau.tableau import Colour, Tableau
+from garkcli.tableau.tableau import Colour, Edge, Tableau
 
 
 def conjugate_block(
@@ -82,9 +82,9 @@ def conjugate_of(tableau: Tableau, l: int, m: int) -> Matrix:
         raise ZeroWeight(f"colour {here.name}: {error.message}", error.help) from None
 
 
-def _exchanged(tableau: Tableau) -> dict[tuple[int, int], Matrix]:
+def _exchanged(tableau: Tableau) -> dict[Edge, Matrix]:
     """The blocks of positions made from those of momenta, and the other way round."""
-    blocks: dict[tuple[int, int], Matrix] = {}
+    blocks: dict[Edge, Matrix] = {}
     for m, l in tableau.edges():
         here, other = tableau.colours[l], tableau.colours[m]
         if are_opposite(here, other):

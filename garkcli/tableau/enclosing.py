@@ -14,7 +14,7 @@ from garkcli.exact.display import to_ball
 from garkcli.exact.field import Number
 from garkcli.tableau.point_space import PointSpace
 from garkcli.tableau.pointwise import Cell, numeric_entries
-from garkcli.tableau.tableau import Tableau
+from garkcli.tableau.tableau import Edge, Tableau
 
 MAX_DIGITS = 300
 """Digits to which entries of polynomial stage spaces are enclosed at most; the exponents of floats
@@ -26,7 +26,7 @@ GUARD = 32
 
 DIGITS_OF_A_BIT = 0.302
 """Decimal digits of a bit, log10(2) rounded up."""
-_Blocks: TypeAlias = dict[tuple[int, int], arb_mat]
+_Blocks: TypeAlias = dict[Edge, arb_mat]
 
 
 @dataclass(frozen=True)
@@ -43,7 +43,7 @@ class Enclosure:
 
     bits: int
     stages: tuple[int, ...]
-    A: Mapping[tuple[int, int], arb_mat]
+    A: Mapping[Edge, arb_mat]
     b: tuple[arb_mat, ...]
 
 

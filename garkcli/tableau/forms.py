@@ -14,13 +14,13 @@ from garkcli.exact.matrix import Matrix, Vector, apply
 from garkcli.tableau.conjugate import conjugate_of
 from garkcli.tableau.method import Method
 from garkcli.tableau.point_space import PointSpace
-from garkcli.tableau.tableau import Colour, Part, Tableau
+from garkcli.tableau.tableau import Colour, Edge, Part, Tableau
 
-Blocks: TypeAlias = Mapping[tuple[int, int], Matrix]
+Blocks: TypeAlias = Mapping[Edge, Matrix]
 """Blocks by stage space and colour, as in ``Tableau.blocks``."""
 Coefficients: TypeAlias = tuple[Matrix, Vector, Vector | None]
 """(A, b, c); nodes that are None are the row sums of A."""
-_NewBlocks: TypeAlias = dict[tuple[int, int], Matrix]
+_NewBlocks: TypeAlias = dict[Edge, Matrix]
 
 
 def gark(methods: Sequence[Method], transfer: Blocks) -> Tableau:

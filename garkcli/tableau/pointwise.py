@@ -25,7 +25,7 @@ from garkcli.tableau.method import Method
 from garkcli.tableau.point_space import PointSpace
 from garkcli.tableau.polynomial_space import PolynomialSpace
 from garkcli.tableau.stages import StageSpace
-from garkcli.tableau.tableau import Tableau
+from garkcli.tableau.tableau import Edge, Tableau
 
 Cell: TypeAlias = Number | arb
 Row: TypeAlias = tuple[Cell, ...]
@@ -205,7 +205,7 @@ def _at_points(
             space = PointSpace(tuple(map(embed, old.nodes)))
             unit = identity(space.stages)
             frames.append(_Frame(space, unit, unit))
-    blocks: dict[tuple[int, int], Matrix] = {}
+    blocks: dict[Edge, Matrix] = {}
     for (k, m), block in tableau.blocks.items():
         into = frames[k].into
         back = frames[tableau.colours[m].space].back

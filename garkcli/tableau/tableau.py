@@ -16,6 +16,8 @@ Part: TypeAlias = Literal["y", "q", "p"]
 """The part of the unknowns that a colour's vector field drives: all of them, positions, or
 momenta.
 """
+Edge: TypeAlias = tuple[int, int]
+"""Who sees whom: two colours (l, m); or (k, m), where the stages of space k see colour m."""
 
 
 @dataclass(frozen=True)
@@ -58,7 +60,7 @@ class Tableau:
 
     spaces: tuple[StageSpace, ...]
     colours: tuple[Colour, ...]
-    blocks: Mapping[tuple[int, int], Matrix]
+    blocks: Mapping[Edge, Matrix]
 
     def __post_init__(self) -> None:
         for number, colour in enumerate(self.colours, start=1):
@@ -92,7 +94,7 @@ class Tableau:
         """A^{l,m}, or None where the stages of colour l do not see colour m."""
         return self.blocks.get((self.colours[l].space, m))
 
-    def edges(self) -> Iterator[tuple[int, int]]:
+    def edges(self) -> Iterator[Edge]:
         """All (l, m) for which A^{l,m} exists."""
         for l in range(self.size):
             for m in range(self.size):
