@@ -5,7 +5,8 @@ from __future__ import annotations
 from collections.abc import Sequence
 
 from garkcli.exact.polynomial import Polynomial
-from garkcli.report.exactly import integral, polynomial_latex
+from garkcli.exact.polynomial_text import integral
+from garkcli.report.exactly import polynomial_latex
 from garkcli.report.json_text import to_json
 from garkcli.report.paint import Paint
 from garkcli.report.stability_data import StabilityReport, as_data

@@ -11,14 +11,14 @@ from flint import arb, ctx
 from garkcli.exact.cells import Interval
 from garkcli.exact.display import decimal, to_text
 from garkcli.exact.polynomial import Polynomial
-from garkcli.exact.roots import RealRoot
-from garkcli.report.exactly import (
+from garkcli.exact.polynomial_text import (
     BITS_A_DIGIT,
     ball_decimal,
     integral,
     polynomial_text,
-    root_data,
 )
+from garkcli.exact.roots import RealRoot
+from garkcli.report.exactly import root_data
 from garkcli.stability.linear import StabilityFunction
 from garkcli.stability.oscillator import OscillatorStability
 from garkcli.stability.sector import Sector

@@ -8,8 +8,13 @@ from textwrap import wrap
 from garkcli.exact.cells import Interval
 from garkcli.exact.display import decimal, to_float, to_text
 from garkcli.exact.polynomial import Polynomial
+from garkcli.exact.polynomial_text import (
+    integral,
+    polynomial_text,
+    root_decimal,
+    root_text,
+)
 from garkcli.exact.roots import RealRoot
-from garkcli.report.exactly import integral, polynomial_text, root_decimal, root_text
 from garkcli.report.paint import Paint, indented
 from garkcli.report.plain import printable
 from garkcli.report.region_text import terminal_region

@@ -1,0 +1,120 @@
+"""Polynomials and real algebraic numbers as text."""
+
+from __future__ import annotations
+
+from collections.abc import Sequence
+
+from flint import arb, fmpq, fmpz
+
+from garkcli.exact.display import to_text
+from garkcli.exact.domain import square_free
+from garkcli.exact.field import Number
+from garkcli.exact.polynomial import Polynomial
+from garkcli.exact.roots import RealRoot
+
+BITS_A_DIGIT = 3.33
+"""Bits of a decimal digit, log2(10) rounded up."""
+
+
+def integral(polynomials: Sequence[Polynomial]) -> list[Polynomial]:
+    """The same polynomials times one positive number that makes all coefficients integers without
+    a common factor; unchanged where a coefficient is irrational.
+
+    >>> integral([Polynomial([2, fmpq(-11, 12)]), Polynomial([1, fmpq(1, 24)])])
+    [Polynomial([48, -22]), Polynomial([24, 1])]
+    """
+    if not all(p.is_rational for p in polynomials):
+        return list(polynomials)
+    numbers = [a for p in polynomials for a in p.coefficients if isinstance(a, fmpq)]
+    if not numbers:
+        return list(polynomials)
+    denominator, content = fmpz(1), fmpz(0)
+    for a in numbers:
+        denominator = denominator.lcm(a.q)
+    for a in numbers:
+        content = content.gcd((a * denominator).p)
+    return [p * (fmpq(denominator) / content) for p in polynomials]
+
+
+def polynomial_text(p: Polynomial, variable: str) -> str:
+    """A polynomial, highest power first.
+
+    >>> polynomial_text(Polynomial([48, -22, 1]), "x")
+    'x^2 - 22*x + 48'
+    """
+    text = ""
+    for k in reversed(range(len(p.coefficients))):
+        a = p.coefficients[k]
+        if not a:
+            continue
+        is_negative, factor = _factor_text(a)
+        text += " - " if is_negative else " + "
+        text += _term(factor, power_text(variable, k))
+    if text.startswith(" - "):
+        return "-" + text.removeprefix(" - ")
+    return text.removeprefix(" + ") or "0"
+
+
+def _factor_text(a: Number) -> tuple[bool, str]:
+    text = to_text(a)
+    is_single = " " not in text
+    if is_single and text.startswith("-"):
+        return True, text[1:]
+    return False, text if is_single else f"({text})"
+
+
+def power_text(variable: str, k: int, exponent: str = "") -> str:
+    if k == 0:
+        return ""
+    return variable if k == 1 else f"{variable}^{exponent or k}"
+
+
+def _term(factor: str, power: str) -> str:
+    if not power:
+        return factor
+    return power if factor == "1" else f"{factor}*{power}"
+
+
+def root_text(root: RealRoot) -> str | None:
+    """A root in radicals where it has simple ones: a rational or a quadratic number.
+
+    >>> from flint import fmpz_poly
+    >>> root_text(RealRoot(fmpz_poly([-1, -1, 1]), 1))
+    '1/2 + sqrt(5)/2'
+    """
+    if root.exact is not None:
+        return str(root.exact)
+    if root.polynomial.degree() != 2:
+        return None
+    c, b, a = (fmpq(x) for x in root.polynomial.coeffs())
+    middle = -b / (2 * a)
+    radicand = middle * middle - c / a
+    d = square_free(radicand)
+    scale = (radicand / d).sqrt()
+    radical = f"sqrt({d})"
+    if scale.p != 1:
+        radical = f"{scale.p}*{radical}"
+    if scale.q != 1:
+        radical += f"/{scale.q}"
+    is_lower = root.number == 0
+    if not middle:
+        return f"-{radical}" if is_lower else radical
+    sign = "-" if is_lower else "+"
+    return f"{middle} {sign} {radical}"
+
+
+def root_decimal(root: RealRoot, digits: int) -> str:
+    """A root rounded to significant digits, zeros at the end left out."""
+    return ball_decimal(root.ball(int(digits * BITS_A_DIGIT) + 40), digits)
+
+
+def ball_decimal(ball: arb, digits: int) -> str:
+    """An enclosed number rounded to significant digits.
+
+    >>> ball_decimal(arb(8), 12)
+    '8'
+    """
+    text = str(ball.str(digits, radius=False))
+    if "e" in text or "." not in text:
+        return text
+    return text.rstrip("0").rstrip(".")
