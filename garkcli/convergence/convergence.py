@@ -74,11 +74,7 @@ def converge(
         check_steps(problem, t_end, steps)  # before any work is done
     predicted = order_of(tableau, tolerance)
     solver = _solver(tableau, problem, t_end, tolerance, predicted, watch)
-    if steps is None:
-        rows, plateau = ladder.default_rows(solver, is_timed)
-    else:
-        rows = _given_rows(solver, steps)
-        plateau = ladder.plateau(rows, solver.visible.order, solver.rounding())
+    rows, plateau = _rows(solver, steps, is_timed)
     fitted = rows[: len(rows) - plateau]
     observed = observed_order(fitted)
     has_settled = len(fitted) >= ladder.ROWS and ladder.has_settled(fitted)
@@ -102,6 +98,18 @@ def converge(
         has_settled or tolerance is None,
         steps is not None,
     )
+
+
+def _rows(
+    solver: Solver, steps: Sequence[fmpq] | None, is_timed: bool
+) -> tuple[list[Row], int]:
+    """The errors over the given steps or those of the ladder, and how many rows of these end on a
+    plateau.
+    """
+    if steps is None:
+        return ladder.default_rows(solver, is_timed)
+    rows = _given_rows(solver, steps)
+    return rows, ladder.plateau(rows, solver.visible.order, solver.rounding())
 
 
 def usual_time(problem: Oscillator | Hamiltonian) -> fmpq:

@@ -17,32 +17,30 @@ from typing import TYPE_CHECKING
 
 from flint import arb, arb_mat, ctx, fmpq
 
-from garkcli.errors import UsageProblem
 from garkcli.exact.display import to_float
 from garkcli.exact.matrix import Matrix
 from garkcli.longtime.history import (
     BLOW_UP,
-    MAX_STEPS,
     SERIES,
     InvariantHistory,
     LongRun,
     Verdict,
+    count_steps,
 )
 from garkcli.longtime.record import extremes
 from garkcli.longtime.rounding import energy_rate, power_of_ten
-from garkcli.longtime.stability import stability
+from garkcli.longtime.stability import Stability, stability
 from garkcli.longtime.trend import Shape
 from garkcli.problems.oscillator import Oscillator
 from garkcli.stepping.linear import (
     conserves_energy,
     enclosure,
     linear_step,
-    whole_steps,
 )
 from garkcli.tableau.tableau import Tableau
 
 if TYPE_CHECKING:
-    from garkcli.arrays import Floats
+    from garkcli.arrays import Floats, Integers
 
 
 _GOAL = 60  # bits of the largest energy error that balls have to get right
@@ -96,12 +94,7 @@ def oscillator_run(
     """
     import numpy as np
 
-    count = whole_steps(t_end, step)
-    if count > MAX_STEPS:
-        raise UsageProblem(
-            f"{count} steps (limit {MAX_STEPS})",
-            "choose a shorter time or a larger step",
-        )
+    count = count_steps(t_end, step)
     R = linear_step(tableau, problem).at(step)
     fate = stability(R)
     energy = to_float(5 * problem.omega**2 / 8)
@@ -112,32 +105,55 @@ def oscillator_run(
     line = _drift(errors.values, _angle(R, problem.omega))
     if errors.is_exact or fate.fate == "elliptic":
         line = _Line(0.0, 0.0)
-    largest = float(np.abs(errors.values).max())
     powers = _powers(problem.omega, energy, done * h)
-    excused = energy_rate(tableau, tolerance, h, powers) * done * h
-    is_bounded = fate.fate == "elliptic" or abs(line.slope) * done <= excused
-    verdict = _verdict(errors, is_bounded)
-
+    rate = energy_rate(tableau, tolerance, h, powers)
+    excused = rate * done * h
     kept = np.union1d(extremes(errors.values, points - 2), [0, done])
+    history = _history(errors, energy, fate, line, excused, kept, h)
+    times = tuple((kept * h).tolist())
+    return LongRun(problem, step, t_end, done, None, (history,), times, stability=fate)
+
+
+def _history(
+    errors: _Errors,
+    energy: float,
+    fate: Stability,
+    line: _Line,
+    excused: float,
+    kept: Integers,
+    h: float,
+) -> InvariantHistory:
+    """What becomes of the energy; ``excused`` is what rounded coefficients can cause in all, and
+    ``kept`` has the numbers of the errors that are kept.
+    """
+    import numpy as np
+
+    done = len(errors.values) - 1
+    moved = abs(line.slope) * done
+    is_bounded = fate.fate == "elliptic" or moved <= excused
+    verdict = _verdict(errors, is_bounded)
+    drift, uncertainty = None, None
+    if not errors.blew_up:
+        drift = line.slope / h
+        uncertainty = line.uncertainty / h
+
+    largest = float(np.abs(errors.values).max())
     kept_errors = errors.values[kept]
     left = kept_errors - line.slope * kept
-    drift = None if errors.blew_up else line.slope / h
-    uncertainty = None if errors.blew_up else line.uncertainty / h
-    history = InvariantHistory(
+    height = float(left.max() - left.min())
+    return InvariantHistory(
         name="energy",
         initial=energy,
         max_error=largest,
         drift=drift,
         uncertainty=uncertainty,
-        amplitude=float(left.max() - left.min()) / 2,
+        amplitude=height / 2,
         round_off=power_of_ten(_ROUNDING * largest),
         coefficients=excused,
         verdict=verdict,
         shape=_shape(verdict, line),
         errors=tuple(kept_errors.tolist()),
     )
-    times = tuple((kept * h).tolist())
-    return LongRun(problem, step, t_end, done, None, (history,), times, stability=fate)
 
 
 def _errors(R: Matrix, omega: fmpq, energy: float, count: int) -> _Errors:
@@ -198,8 +214,6 @@ def _energy_errors(R: Matrix, omega: fmpq, count: int) -> Floats:
 
 def _at_precision(R: Matrix, omega: fmpq, count: int, bits: int) -> Floats | None:
     """The same with balls of ``bits`` bits; None where these are too few."""
-    import numpy as np
-
     with ctx.workprec(bits):
         step = _scaled(R, omega, bits)
         forms, block = _forms(step, isqrt(count) + 1)
@@ -208,13 +222,21 @@ def _at_precision(R: Matrix, omega: fmpq, count: int, bits: int) -> Floats | Non
         entries = [x for form in forms for x in form]
         if not (_are_sharp(entries) and _are_sharp(energies)):
             return None
-        Q = np.array([float(x) for x in entries]).reshape(-1, 3)
-        squares = [(x * x, x * y, y * y) for x, y in starts]
-        z = np.array([[float(x) for x in row] for row in squares])
-        first = np.array([float(x) for x in energies])
+        products = []
+        for x, y in starts:
+            products += [x * x, x * y, y * y]
+        Q = _in_floats(entries).reshape(-1, 3)
+        z = _in_floats(products).reshape(-1, 3)
+        first = _in_floats(energies)
     by_blocks = first[:, None] + z @ Q.T
     errors: Floats = by_blocks.ravel()[: count + 1]
     return errors
+
+
+def _in_floats(balls: list[arb]) -> Floats:
+    import numpy as np
+
+    return np.array([float(x) for x in balls])
 
 
 def _forms(step: arb_mat, length: int) -> tuple[list[tuple[arb, arb, arb]], arb_mat]:
@@ -225,7 +247,8 @@ def _forms(step: arb_mat, length: int) -> tuple[list[tuple[arb, arb, arb]], arb_
     forms: list[tuple[arb, arb, arb]] = []
     while len(forms) < length:
         (a, b), (c, d) = power.tolist()
-        largest = max(abs(x).mid() for x in (a, b, c, d))
+        sizes = [abs(x).mid() for x in (a, b, c, d)]
+        largest = max(sizes)
         if forms and largest > 1e50:
             break
         of_first = (a * a + c * c - 1) / 2
@@ -274,7 +297,8 @@ def _angle(R: Matrix, omega: fmpq) -> float | None:
     if discriminant >= 0:
         return None
     imaginary = np.sqrt(-discriminant)
-    return float(2 * np.arctan2(imaginary, real) % (2 * np.pi))
+    theta = np.arctan2(imaginary, real)
+    return float(2 * theta % (2 * np.pi))
 
 
 def _drift(errors: Floats, angle: float | None) -> _Line:

@@ -7,11 +7,13 @@ from typing import Any, Literal, TypeAlias
 
 from flint import fmpq
 
+from garkcli.errors import UsageProblem
 from garkcli.exact.display import to_float
 from garkcli.longtime.stability import Stability
 from garkcli.longtime.trend import Shape
 from garkcli.problems.hamiltonian import Hamiltonian
 from garkcli.problems.oscillator import Oscillator
+from garkcli.stepping.linear import whole_steps
 
 MAX_STEPS = 10_000_000
 """Most steps of a run."""
@@ -117,6 +119,19 @@ class LongRun:
     def drifts(self) -> bool:
         """Whether a quantity drifts, has blown up or escaped."""
         return any(x.verdict in ("drifts", "unstable") for x in self.invariants)
+
+
+def count_steps(t_end: fmpq, step: fmpq) -> int:
+    """How many steps there are to the time ``t_end``.
+
+    Raises:
+        UsageProblem: they do not divide it, or are more than ``MAX_STEPS``.
+    """
+    count = whole_steps(t_end, step)
+    if count > MAX_STEPS:
+        message = f"{count} steps (limit {MAX_STEPS})"
+        raise UsageProblem(message, "choose a shorter time or a larger step")
+    return count
 
 
 def whole_run(

@@ -14,7 +14,6 @@ from typing import TYPE_CHECKING, Any, TypeAlias
 
 from flint import fmpq
 
-from garkcli.errors import UsageProblem
 from garkcli.exact.display import to_float
 from garkcli.longtime.energy import oscillator_run
 from garkcli.longtime.history import (
@@ -23,6 +22,7 @@ from garkcli.longtime.history import (
     InvariantHistory,
     LongRun,
     Verdict,
+    count_steps,
 )
 from garkcli.longtime.measure import Measure
 from garkcli.longtime.record import Record
@@ -31,7 +31,6 @@ from garkcli.longtime.trend import CERTAIN, LEAST, Shape, Trend
 from garkcli.problems.hamiltonian import FLOAT_DIGITS, Hamiltonian
 from garkcli.problems.oscillator import Oscillator
 from garkcli.stepping.integrator import Binding, bind
-from garkcli.stepping.linear import whole_steps
 from garkcli.stepping.step import trajectory
 from garkcli.tableau.tableau import Tableau
 
@@ -97,25 +96,25 @@ def long_run(
         return oscillator_run(tableau, problem, t_end, step, points, tolerance)
     bound = bind(tableau, problem)
     problem = bound.problem
-    count = whole_steps(t_end, step)
-    if count > MAX_STEPS:
-        raise UsageProblem(
-            f"{count} steps (limit {MAX_STEPS})",
-            "choose a shorter time or a larger step",
-        )
+    count = count_steps(t_end, step)
     method = bound.at(digits)
-    record = Record(Measure(problem, method.digits), count, points)
+    measure = Measure(problem, method.digits)
+    record = Record(measure, count, points)
     path = trajectory(method, step, count)
     record.take(watch(path, count + 1))
 
     h = to_float(step)
     noise = _noise(record, bound, step, method.digits)
     rate = energy_rate(tableau, tolerance, h, record.exchange.powers(h))
-    judge = _Judge(record, step, rate * record.done * h)
+    excused = rate * record.done * h
+    judge = _Judge(record, step, excused)
     histories = [judge.history(k, float(x)) for k, x in enumerate(noise)]
-    numbered = sorted(record.states.items())
-    states = [(number * step, y) for number, y in numbered]
+    states = []
+    for number, y in sorted(record.states.items()):
+        states.append((number * step, y))
+    times = record.kept_numbers * h
     escape = judge.escape
+    escaped = None if escape is None else escape * step
     return LongRun(
         problem,
         step,
@@ -123,10 +122,10 @@ def long_run(
         record.done,
         method.digits,
         tuple(histories),
-        tuple((record.kept_numbers * h).tolist()),
+        tuple(times.tolist()),
         tuple(states),
         record.excursions.turns,
-        None if escape is None else escape * step,
+        escaped,
     )
 
 
@@ -137,18 +136,24 @@ def _noise(record: Record, bound: Binding, step: fmpq, digits: int) -> Floats:
     import numpy as np
 
     states = list(record.states.values())
-    is_at_rest = all(y == record.states[0] for y in states)
-    if record.blew_up or (is_at_rest and not record.largest.any()):
+    is_at_rest = all(y == states[0] for y in states)
+    is_exact = is_at_rest and not record.largest.any()
+    if record.blew_up or is_exact:
         return np.zeros(len(record.largest))
-    sizes = np.max([record.measure.sizes(y) for y in states], axis=0)
-    derived = unit_round_off(digits) * sizes * (1 + record.done)
+    by_state = [record.measure.sizes(y) for y in states]
+    sizes = np.max(by_state, axis=0)
+    roundings = 1 + record.done
+    derived = unit_round_off(digits) * sizes * roundings
 
     compared = len(record.first) - 1
     finer = bound.at(digits + _SPARE)
     finer_measure = Measure(bound.problem, finer.digits)
-    exact = finer_measure.errors(trajectory(finer, step, compared))
+    path = trajectory(finer, step, compared)
+    exact = finer_measure.errors(path)
     found = np.abs(record.first - exact).max(axis=0)
-    expected = found * (1 + record.done / max(compared, 1))
+    # rounding errors of all steps are taken to add up like those of the first
+    times_as_many = record.done / max(compared, 1)
+    expected = found * (1 + times_as_many)
     noise = np.maximum(derived, expected)
     return np.array([power_of_ten(float(x)) for x in noise])
 
@@ -196,19 +201,21 @@ class _Judge:
             uncertainty = trend.uncertainty / h
         errors = record.kept_errors[:, k]
         left = errors - slope * record.kept_numbers
+        height = float(left.max() - left.min())
+        longer = self._longer(trend) if verdict == "undecided" else None
         return InvariantHistory(
             name=record.measure.names[k],
             initial=record.measure.initial[k],
             max_error=float(record.largest[k]),
             drift=drift,
             uncertainty=uncertainty,
-            amplitude=float(left.max() - left.min()) / 2,
+            amplitude=height / 2,
             round_off=noise,
             coefficients=excused,
             verdict=verdict,
             shape=shape,
             errors=tuple(errors.tolist()),
-            longer=self._longer(trend) if verdict == "undecided" else None,
+            longer=longer,
         )
 
     def _verdict(
@@ -222,8 +229,10 @@ class _Judge:
         if trend is None:
             return "undecided", "none"
         # an error of that size leaves no doubt about the shortness of the run
-        is_large = float(record.largest[0]) >= _LARGE * record.measure.scale
-        if record.excursions.turns < _TURNS and not is_large:
+        error = float(record.largest[0])
+        is_large = error >= _LARGE * record.measure.scale
+        is_short = record.excursions.turns < _TURNS
+        if is_short and not is_large:
             return "undecided", "none"
         if trend.finding == "none":
             return "bounded", "none"

@@ -37,34 +37,38 @@ _FORMULA: Schema = {
 
 def problem_file_schema() -> Schema:
     """The schema as plain data."""
+    properties = _properties()
+    return {
+        "$schema": "http://json-schema.org/draft-07/schema#",
+        "title": "gark problem file",
+        "description": "A Hamiltonian or Lagrangian problem with its initial values.",
+        "type": "object",
+        "additionalProperties": False,
+        "required": ["variables", "initial"],
+        "oneOf": [{"required": ["hamiltonian"]}, {"required": ["lagrangian"]}],
+        "properties": {key: properties[key] for key in KEYS},
+        "definitions": {"formula": _FORMULA, "constant": _CONSTANT},
+    }
+
+
+def _properties() -> Schema:
+    """What each key of the file may have."""
     formula: Schema = {"$ref": "#/definitions/formula"}
-    terms = {
-        "anyOf": [
-            formula,
-            {"type": "array", "items": formula, "minItems": 1, "maxItems": MAX_TERMS},
-        ]
-    }
-    name: Schema = {"type": "string", "pattern": _VARIABLE}
-    variables = {
-        "type": "array",
-        "items": name,
-        "minItems": 1,
-        "maxItems": MAX_VARIABLES,
-        "uniqueItems": True,
-    }
+    terms = _one_or_list(formula, MAX_TERMS)
     constants: Schema = {
         "type": "object",
         "additionalProperties": {"$ref": "#/definitions/constant"},
     }
-    properties: Schema = {
+    name: Schema = {"type": "string", "pattern": _VARIABLE}
+    variables = _one_or_list(name, MAX_VARIABLES)
+    _, several = variables["anyOf"]
+    several["uniqueItems"] = True
+    return {
         "gark": {"description": "Version of the format.", "enum": [1, "1"]},
         "name": {**_TEXT, "description": "What people call the problem."},
         "description": {**_TEXT, "description": "What it is."},
         "reference": {**_TEXT, "description": "Where it was published."},
-        "variables": {
-            "description": "Names of the positions.",
-            "anyOf": [name, variables],
-        },
+        "variables": {"description": "Names of the positions.", **variables},
         "parameters": {
             **constants,
             "propertyNames": {"pattern": _NAME},
@@ -90,14 +94,9 @@ def problem_file_schema() -> Schema:
             "maxProperties": MAX_INVARIANTS,
         },
     }
-    return {
-        "$schema": "http://json-schema.org/draft-07/schema#",
-        "title": "gark problem file",
-        "description": "A Hamiltonian or Lagrangian problem with its initial values.",
-        "type": "object",
-        "additionalProperties": False,
-        "required": ["variables", "initial"],
-        "oneOf": [{"required": ["hamiltonian"]}, {"required": ["lagrangian"]}],
-        "properties": {key: properties[key] for key in KEYS},
-        "definitions": {"formula": _FORMULA, "constant": _CONSTANT},
-    }
+
+
+def _one_or_list(item: Schema, most: int) -> Schema:
+    """One value, or a list of up to ``most``."""
+    several = {"type": "array", "items": item, "minItems": 1, "maxItems": most}
+    return {"anyOf": [item, several]}
