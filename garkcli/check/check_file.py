@@ -13,13 +13,17 @@ from garkcli.errors import MethodFileError
 from garkcli.methodfile.build import MethodFile
 from garkcli.methodfile.expectations import highest_order
 from garkcli.methodfile.load import load
-from garkcli.methodfile.printed import printed_units
 from garkcli.order.certificate import DEFAULT_LIMIT, Order
 from garkcli.tableau.conjugate import conjugate
 from garkcli.tableau.forms import pair
 from garkcli.tableau.tableau import Tableau
 
 if TYPE_CHECKING:
+    from collections.abc import Mapping
+
+    from flint import fmpq
+
+    from garkcli.exact.field import Number
     from garkcli.order.blame import Blame
 
 NEAR = 10
@@ -42,13 +46,14 @@ def check_file(
         method = load(path)
     except MethodFileError as error:
         return Outcome(error.source, error.source, faults=error.faults, text=error.text)
+
+    def units() -> Mapping[Number, fmpq]:
+        from garkcli.methodfile.printed import printed_units  # few methods are asked
+
+        return printed_units(method.printed)
+
     reach = max(limit, highest_order(method.claims) + 1)
-    analysis = analyse(
-        method.tableau,
-        reach,
-        method.tolerance,
-        lambda: printed_units(method.printed),
-    )
+    analysis = analyse(method.tableau, reach, method.tolerance, units)
     first_failing = None if analysis.order.is_lower_bound else analysis.order.order + 1
     constants = None
     if want_constants and first_failing is not None:

@@ -2,6 +2,7 @@
 
 from __future__ import annotations
 
+import gc
 import os
 import sys
 from collections.abc import Sequence
@@ -30,6 +31,7 @@ from garkcli.report.plain import printable
 REPORT_TO = "the issue tracker of the project"
 COMPLETION = "_GARK_COMPLETE"
 """The variable in which shells ask for completions."""
+OBJECTS_BETWEEN_COLLECTIONS = 50_000
 COMMANDS = {
     "check": "orders, B/C/D, symplecticity and the claims of method files",
     "trees": "enumerate or count the N-trees of an order",
@@ -131,6 +133,8 @@ def main(arguments: Sequence[str] | None = None) -> NoReturn:
     """
     arguments = sys.argv[1:] if arguments is None else list(arguments)
     prepare()
+    # few objects are in circles: to look for them as often as Python does costs a twentieth
+    gc.set_threshold(OBJECTS_BETWEEN_COLLECTIONS, 10, 10)
     if COMPLETION in os.environ:
         gark.main(arguments, prog_name="gark", complete_var=COMPLETION)
     sys.exit(_exit_code(arguments))

@@ -9,6 +9,7 @@ from __future__ import annotations
 
 from collections.abc import Iterable
 from functools import partial
+from typing import TYPE_CHECKING
 
 from flint import arb, ctx, fmpq, fmpq_poly
 
@@ -17,7 +18,9 @@ from garkcli.exact.enclosing import OPERATIONS, enclose
 from garkcli.exact.field import ONE, ZERO, Algebraic, Number, NumberField
 from garkcli.exact.nodes import Chain, Expression, Literal, Name, Power, Root
 from garkcli.exact.rewriting import roots_in
-from garkcli.exact.tower import RATIONALS, Tower
+
+if TYPE_CHECKING:
+    from garkcli.exact.tower import Tower
 
 MAX_BITS = 60_000
 """Largest numerator or denominator a coefficient may grow to, in bits."""
@@ -160,6 +163,8 @@ class Domain:
 
     def _generated(self, roots: list[Root]) -> None:
         """ℚ(all roots), adjoined one after the other, the inner ones first."""
+        from garkcli.exact.tower import RATIONALS  # few methods have such roots
+
         tower = RATIONALS
         kept: list[Root] = []
         for root in roots:

@@ -174,7 +174,8 @@ class Algebraic:
         return False
 
     def __hash__(self) -> int:
-        return hash(tuple(self.poly.coeffs()))
+        # of integers: flint hashes fractions by Python's, a slow import
+        return hash((tuple(self.poly.numer()), self.poly.denom()))
 
     def terms(self) -> Iterator[tuple[fmpq, Word]]:
         """The number as a sum of radicals: each coefficient with its word, see

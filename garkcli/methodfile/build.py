@@ -4,7 +4,7 @@ from __future__ import annotations
 
 from collections.abc import Callable, Mapping
 from dataclasses import dataclass, field
-from typing import TypeAlias, TypeVar
+from typing import TYPE_CHECKING, TypeAlias, TypeVar
 
 from yaml.nodes import Node
 
@@ -28,7 +28,6 @@ from garkcli.methodfile.description import (
     block_name,
 )
 from garkcli.methodfile.numbers import Entry, Numbers, Row, Values
-from garkcli.methodfile.printed import Printed
 from garkcli.methodfile.source import Source
 from garkcli.order.certificate import find_order
 from garkcli.tableau.conjugate import conjugate
@@ -54,6 +53,9 @@ from garkcli.transfer import (
     combination,
     symplectic_blocks,
 )
+
+if TYPE_CHECKING:
+    from garkcli.methodfile.printed import Printed
 
 T = TypeVar("T")
 Blocks: TypeAlias = dict[tuple[int, int], Matrix]

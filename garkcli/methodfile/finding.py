@@ -8,7 +8,6 @@ from __future__ import annotations
 import os
 from collections.abc import Iterable, Iterator, Sequence
 from fnmatch import fnmatchcase
-from pathlib import Path
 
 SUFFIX = ".gark.yaml"
 """How method files end."""
@@ -44,6 +43,8 @@ def _below(folder: str) -> list[str]:
     for place, _, names in os.walk(folder, onerror=keep):
         methods = [name for name in names if name.endswith(SUFFIX)]
         found += [os.path.join(place, name) for name in methods]
+    from pathlib import Path  # slow to import, and of no use to a check of one file
+
     # as pathlib writes them: without ./ before
     return sorted(str(Path(path)) for path in found)
 
@@ -52,6 +53,8 @@ def _matching(pattern: str) -> list[str]:
     """What a pattern matches, where ``**`` stands for folders of any depth; a folder stands for
     what is below it.
     """
+    from pathlib import Path
+
     path = Path(pattern)
     start = path.anchor
     parts = path.parts[1:] if start else path.parts

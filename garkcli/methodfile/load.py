@@ -5,7 +5,6 @@ from __future__ import annotations
 import os
 import stat
 import sys
-from pathlib import Path
 
 from garkcli.errors import Fault, MethodFileError
 from garkcli.methodfile.build import (
@@ -59,9 +58,8 @@ def read_text(path: str, kind: FileKind) -> tuple[str, str]:
                 "<stdin>", [Fault("standard input is closed", "name a file")]
             )
         return _decoded("<stdin>", sys.stdin.buffer.read(MAX_BYTES + 1)), "<stdin>"
-    file = Path(path)
     try:
-        status = file.stat()
+        status = os.stat(path)
     except FileNotFoundError:
         raise MethodFileError(path, [Fault("no such file")]) from None
     except (
@@ -75,7 +73,7 @@ def read_text(path: str, kind: FileKind) -> tuple[str, str]:
             path, [Fault("not a regular file", f"give a {kind.name}")]
         )
     try:
-        with file.open("rb") as stream:
+        with open(path, "rb") as stream:
             data = stream.read(MAX_BYTES + 1)
     except OSError as error:
         raise MethodFileError(

@@ -15,7 +15,6 @@ from garkcli.errors import LimitExceeded, UnknownFamily, nearest
 from garkcli.exact.expression import read_decimal
 from garkcli.families.registry import FAMILIES, require_member
 from garkcli.methodfile import expectations
-from garkcli.methodfile.ark_prk import ArkReader, PrkReader
 from garkcli.methodfile.description import (
     FORMS,
     MAX_ENTRIES,
@@ -235,6 +234,8 @@ class Reader:
             return self._methods(node, structure, entries.get("transfer"))
         if form == "tableau":
             return self.spelled_out.tableau(node, entries.get("linear"))
+        from garkcli.methodfile.ark_prk import ArkReader, PrkReader  # rare forms
+
         if form == "ark":
             return ArkReader(self.source, self.numbers).read(node)
         return PrkReader(self.source, self.numbers).read(node, structure)

@@ -178,13 +178,12 @@ class _Alike:
 
     @staticmethod
     def of(tableau: Tableau) -> _Alike:
-        first_nodes: dict[object, int] = {}
-        first_weights: dict[object, int] = {}
-        nodes, weights = [], []
-        for l, x in enumerate(tableau.colours):
-            nodes.append(first_nodes.setdefault((x.space, x.c), l))
-            weights.append(first_weights.setdefault((x.space, x.c, x.b), l))
-        return _Alike(tuple(nodes), tuple(weights))
+        nodes = [(x.space, x.c) for x in tableau.colours]
+        weights = [(x.space, x.c, x.b) for x in tableau.colours]
+        # compared, not hashed: flint hashes fractions by Python's, which takes longer
+        return _Alike(
+            tuple(map(nodes.index, nodes)), tuple(map(weights.index, weights))
+        )
 
 
 def consistent_blocks(tableau: Tableau, tolerance: fmpq = ZERO) -> dict[Edge, bool]:

@@ -15,9 +15,9 @@ from flint import arb, arb_mat, ctx, fmpq
 from garkcli.exact.display import to_ball
 from garkcli.exact.field import Algebraic, Number
 from garkcli.exact.matrix import Matrix, Vector
-from garkcli.tableau.pointwise import coordinates_at_nodes, powers_of_nodes
 from garkcli.tableau.polynomial_space import PolynomialSpace
 from garkcli.tableau.stages import StageSpace
+from garkcli.tableau.vandermonde import coordinates_at_nodes, powers_of_nodes
 
 FIRST_BITS = 128
 """Precision at which values at irrational nodes are compared first; doubled until they tell."""

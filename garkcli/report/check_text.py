@@ -3,7 +3,6 @@
 from __future__ import annotations
 
 from collections.abc import Sequence
-from textwrap import wrap
 
 from flint import fmpq
 
@@ -115,6 +114,14 @@ def _line(outcome: Outcome, analysis: Analysis, paint: Paint) -> str:
     return f"{mark} {file}: {found}  ({claims})"
 
 
+def _wrapped(text: str, width: int = 78) -> list[str]:
+    if len(text) <= width:
+        return [text]
+    from textwrap import wrap  # slow to import, and most texts fit
+
+    return wrap(text, width)
+
+
 def _full(
     outcome: Outcome, analysis: Analysis, paint: Paint, digits: int | None
 ) -> list[str]:
@@ -123,7 +130,7 @@ def _full(
     if outcome.name != outcome.file:
         title += f": {printable(outcome.name)}"
     kind = _kind(tableau, outcome.structure, analysis.tolerance)
-    lines = [paint("strong", title), *indented(wrap(kind, 78)), ""]
+    lines = [paint("strong", title), *indented(_wrapped(kind)), ""]
     lines += order_lines(analysis, paint, digits)
     if analysis.suggestion is not None:
         lines += suggestion_lines(analysis.suggestion, analysis.tolerance, paint)

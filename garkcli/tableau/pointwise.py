@@ -9,8 +9,7 @@ from __future__ import annotations
 
 from collections.abc import Callable, Mapping, Sequence
 from dataclasses import dataclass, replace
-from functools import lru_cache
-from typing import Any, TypeAlias
+from typing import TypeAlias
 
 from flint import arb, arb_mat, ctx, fmpq_poly
 
@@ -26,6 +25,7 @@ from garkcli.tableau.point_space import PointSpace
 from garkcli.tableau.polynomial_space import PolynomialSpace
 from garkcli.tableau.stages import StageSpace
 from garkcli.tableau.tableau import Edge, Tableau
+from garkcli.tableau.vandermonde import coordinates_at_nodes, powers_of_nodes
 
 Cell: TypeAlias = Number | arb
 Row: TypeAlias = tuple[Cell, ...]
@@ -314,42 +314,6 @@ def _numeric_frame(space: StageSpace) -> tuple[arb_mat, arb_mat]:
         unit = arb_mat([[int(i == j) for j in range(s)] for i in range(s)])
         return unit, unit
     return powers_of_nodes(space), coordinates_at_nodes(space)
-
-
-def powers_of_nodes(space: PolynomialSpace) -> arb_mat:
-    """The Vandermonde matrix of the nodes, a row for each in ascending order, at the current
-    precision.
-    """
-    return _powers_of_nodes(space, ctx.prec)
-
-
-def coordinates_at_nodes(space: PolynomialSpace) -> arb_mat:
-    """The inverse of the Vandermonde matrix: values at the nodes to coordinates, at the current
-    precision.
-
-    Raises:
-        ZeroDivisionError: the precision is too small.
-    """
-    found = _coordinates_at_nodes(space, ctx.prec)
-    if found is None:
-        raise ZeroDivisionError
-    return found
-
-
-@lru_cache(maxsize=32)
-def _powers_of_nodes(space: PolynomialSpace, _: int) -> arb_mat:
-    roots: list[tuple[Any, int]] = space.modulus.numer().complex_roots()  # type: ignore[assignment]
-    nodes = sorted((root.real for root, _ in roots), key=float)
-    exponents = range(space.stages)
-    return arb_mat([[node**k for k in exponents] for node in nodes])
-
-
-@lru_cache(maxsize=32)
-def _coordinates_at_nodes(space: PolynomialSpace, bits: int) -> arb_mat | None:
-    try:
-        return _powers_of_nodes(space, bits).inv()
-    except ZeroDivisionError:
-        return None
 
 
 def _to_arb(rows: Sequence[Sequence[Number]]) -> arb_mat:

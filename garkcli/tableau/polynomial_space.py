@@ -39,7 +39,8 @@ class PolynomialSpace(StageSpace):
     modulus: fmpq_poly
 
     def __hash__(self) -> int:
-        return hash(tuple(self.modulus.coeffs()))
+        # of integers: flint hashes fractions by Python's, a slow import
+        return hash((tuple(self.modulus.numer()), self.modulus.denom()))
 
     @property
     def stages(self) -> int:
@@ -86,15 +87,20 @@ class PolynomialSpace(StageSpace):
 
     def _moments(self, functional: Vector) -> Vector:
         """The functional on 1, x, …, x^(2s−2); kept for weights, which are asked for again."""
-        if functional not in self._known_moments:
-            if len(self._known_moments) >= MAX_MOMENTS:
-                self._known_moments.clear()
-            self._known_moments[functional] = self._new_moments(functional)
-        return self._known_moments[functional]
+        known = self._known_moments
+        # compared, not hashed: flint hashes fractions by Python's, which takes longer
+        for kept, moments in known:
+            if kept == functional:
+                return moments
+        if len(known) >= MAX_MOMENTS:
+            known.clear()
+        moments = self._new_moments(functional)
+        known.append((functional, moments))
+        return moments
 
     @cached_property
-    def _known_moments(self) -> dict[Vector, Vector]:
-        return {}
+    def _known_moments(self) -> list[tuple[Vector, Vector]]:
+        return []
 
     def _new_moments(self, functional: Vector) -> Vector:
         if is_rational((functional,)):
