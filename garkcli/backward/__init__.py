@@ -1,0 +1,1 @@
+"""Backward error analysis: what a method solves exactly (docs/modified-equation.md)."""

@@ -1,0 +1,158 @@
+"""All trees that a tableau sees up to an order, numbered, with what is left when one edge is cut.
+
+A tree is a number here, and a function on trees a list: the recursions of this room visit each edge
+of each tree, and looking trees up by their shape would take most of the time.
+"""
+
+from __future__ import annotations
+
+from collections import Counter
+from collections.abc import Iterator
+from dataclasses import dataclass, field
+
+from garkcli.errors import UsageProblem
+from garkcli.order.conditions import coupling_graph
+from garkcli.tableau.tableau import Tableau
+from garkcli.trees.count import Admissible, counts_upto
+from garkcli.trees.tree import Tree
+
+MAX_TREES = 40_000
+"""The most trees that are held at once, all orders together."""
+
+
+@dataclass(frozen=True)
+class Cut:
+    """An edge of a tree: what stays on the root, what hangs below the edge, and how many edges of
+    the tree are alike.
+    """
+
+    rest: int
+    branch: int
+    times: int
+
+
+@dataclass(frozen=True)
+class Forest:
+    """The admissible trees of a coupling graph up to an order, in the order of :class:`Tree`.
+
+    Attributes:
+        admissible: which trees are meant.
+        max_order: ρ of the largest of them.
+        trees: all of them; a tree's number is its position.
+        cuts: for each tree its edges.
+
+    >>> forest = Forest.of(Admissible.of(1), 4)
+    >>> [len(forest.of_order(n)) for n in range(1, 5)]
+    [1, 1, 2, 4]
+    >>> forest.cuts[2]
+    (Cut(rest=1, branch=0, times=2),)
+    """
+
+    admissible: Admissible
+    max_order: int
+    trees: tuple[Tree, ...]
+    cuts: tuple[tuple[Cut, ...], ...]
+    # by root and the numbers of the branches
+    _numbers: dict[tuple[int, tuple[int, ...]], int] = field(repr=False, compare=False)
+    _starts: tuple[int, ...] = field(repr=False, compare=False)
+
+    @classmethod
+    def of(cls, admissible: Admissible, order: int) -> Forest:
+        """Generate the trees.
+
+        Raises:
+            UsageProblem: there are more than ``MAX_TREES`` of them.
+        """
+        from garkcli.trees.table import TreeTable  # numpy is paid for here
+
+        _check_size(admissible, order)
+        table = TreeTable.of(admissible, order)
+        stems, lasts = table.stem.tolist(), table.branch.tolist()
+        roots = table.root.tolist()
+        branches: list[tuple[int, ...]] = []
+        trees: list[Tree] = []
+        numbers: dict[tuple[int, tuple[int, ...]], int] = {}
+        for number, (stem, last) in enumerate(zip(stems, lasts, strict=True)):
+            below = () if last < 0 else tuple(sorted((*branches[stem], last)))
+            branches.append(below)
+            numbers[roots[number], below] = number
+            trees.append(Tree(roots[number], [trees[k] for k in below]))
+        cutter = _Cutter(roots, branches, numbers)
+        cuts = tuple(cutter.cuts_of(number) for number in range(len(trees)))
+        starts = tuple(row[0] for row in table.starts)
+        starts += (len(trees),)
+        return cls(admissible, order, tuple(trees), cuts, numbers, starts)
+
+    @classmethod
+    def seen_by(cls, tableau: Tableau, order: int) -> Forest:
+        """The trees that have an order condition for ``tableau``.
+
+        Raises:
+            UsageProblem: there are too many of them.
+        """
+        return cls.of(Admissible.of(tableau.size, *coupling_graph(tableau)), order)
+
+    def of_order(self, order: int) -> range:
+        """The numbers of the trees with ``order`` vertices."""
+        return range(self._starts[order - 1], self._starts[order])
+
+    def number(self, tree: Tree) -> int | None:
+        """The number of a tree; None where it is not admissible or too large."""
+        below = []
+        for branch in tree.branches:
+            number = self.number(branch)
+            if number is None:
+                return None
+            below.append(number)
+        return self._numbers.get((tree.root, tuple(sorted(below))))
+
+    def order(self, number: int) -> int:
+        """ρ of the tree of this number."""
+        return self.trees[number].order
+
+    def branches(self) -> Iterator[tuple[int, tuple[int, ...]]]:
+        """For each tree its root colour and the numbers of its branches."""
+        yield from self._numbers
+
+    def grafted(self, root: int, branch: int) -> int | None:
+        """The tree of one vertex of colour ``root`` with one branch; None where there is none."""
+        return self._numbers.get((root, (branch,)))
+
+
+@dataclass
+class _Cutter:
+    """Finds the edges of trees, smaller trees first."""
+
+    roots: list[int]
+    branches: list[tuple[int, ...]]
+    numbers: dict[tuple[int, tuple[int, ...]], int]
+    known: list[tuple[Cut, ...]] = field(default_factory=list)
+
+    def cuts_of(self, number: int) -> tuple[Cut, ...]:
+        """The edges of a tree; those of all trees before it have been found."""
+        root, below = self.roots[number], self.branches[number]
+        found: Counter[tuple[int, int]] = Counter()
+        for branch, alike in Counter(below).items():
+            others = list(below)
+            others.remove(branch)
+            rest = self.numbers[root, tuple(others)]
+            found[rest, branch] += alike
+            for cut in self.known[branch]:
+                kept = tuple(sorted((*others, cut.rest)))
+                rest = self.numbers[root, kept]
+                found[rest, cut.branch] += alike * cut.times
+        cuts = tuple(Cut(rest, cut, times) for (rest, cut), times in found.items())
+        self.known.append(cuts)
+        return cuts
+
+
+def _check_size(admissible: Admissible, order: int) -> None:
+    """Refuse a number of trees that would take too long."""
+    total = 0
+    for n, counts in enumerate(counts_upto(admissible, order), start=1):
+        total += sum(counts)
+        if total > MAX_TREES:
+            raise UsageProblem(
+                f"{total} trees of order up to {n} (limit {MAX_TREES})",
+                f"ask for --order {n - 1} at most",
+            )

@@ -1,0 +1,93 @@
+"""The modified equation of a method, in trees.
+
+A method with elementary weights a(u) = b_lᵀ 𝒜^[u] is, as a power series in h, the exact flow of
+
+    ẏ = Σ_u h^(ρ(u)−1)/σ(u) b(u) F(u)(y) = f(y) + h f₂(y) + h² f₃(y) + …
+
+with b(u) = 1 for single vertices where the method is consistent, and b(u) = 0 for 2 ≤ ρ(u) ≤ p
+exactly where it has order p.
+"""
+
+from __future__ import annotations
+
+from collections.abc import Iterator
+from dataclasses import dataclass
+from functools import cached_property
+
+from garkcli.backward.forest import Forest
+from garkcli.backward.series import elementary_weights, logarithm
+from garkcli.exact.field import ONE, ZERO, Number
+from garkcli.tableau.tableau import Tableau
+from garkcli.trees.tree import Tree
+
+
+@dataclass(frozen=True)
+class ModifiedEquation:
+    """The coefficients b(u) of a method up to an order.
+
+    Attributes:
+        tableau: the method.
+        forest: the trees that it sees.
+        coefficients: b(u), by the numbers of the trees.
+    """
+
+    tableau: Tableau
+    forest: Forest
+    coefficients: tuple[Number, ...]
+
+    @property
+    def max_order(self) -> int:
+        """The order of the largest trees."""
+        return self.forest.max_order
+
+    def __getitem__(self, tree: Tree) -> Number:
+        """b(u); 0 for a tree that the method does not see.
+
+        Raises:
+            KeyError: it has more vertices than the trees that were asked for.
+        """
+        if tree.order > self.max_order:
+            raise KeyError(tree)
+        number = self.forest.number(tree)
+        return ZERO if number is None else self.coefficients[number]
+
+    def terms(self, order: int) -> Iterator[tuple[Tree, Number]]:
+        """The trees of one order with the coefficients that are not zero."""
+        for number in self.forest.of_order(order):
+            if self.coefficients[number]:
+                yield self.forest.trees[number], self.coefficients[number]
+
+    def residuals(self, order: int) -> Iterator[tuple[Tree, Number]]:
+        """Where the modified equation of this order differs from the equation, and by how much."""
+        if order > 1:
+            yield from self.terms(order)
+            return
+        for number in self.forest.of_order(1):
+            difference = self.coefficients[number] - ONE
+            if difference:
+                yield self.forest.trees[number], difference
+
+    @cached_property
+    def order(self) -> int:
+        """The order of the method; ``max_order`` where it is that or more."""
+        for n in range(1, self.max_order + 1):
+            if any(True for _ in self.residuals(n)):
+                return n - 1
+        return self.max_order
+
+
+def modified_equation(tableau: Tableau, order: int) -> ModifiedEquation:
+    """The modified equation of ``tableau`` in trees of up to ``order`` vertices.
+
+    Raises:
+        UsageProblem: there are too many trees.
+
+    >>> from garkcli import loads
+    >>> midpoint = loads("methods: [{family: gauss, stages: 1}]").tableau
+    >>> equation = modified_equation(midpoint, 3)
+    >>> [(str(u), str(b)) for u, b in equation.terms(3)]
+    [('Tree(0, [Tree(0), Tree(0)])', '-1/12'), ('Tree(0, [Tree(0, [Tree(0)])])', '1/12')]
+    """
+    forest = Forest.seen_by(tableau, order)
+    weights = elementary_weights(tableau, forest)
+    return ModifiedEquation(tableau, forest, tuple(logarithm(forest, weights)))

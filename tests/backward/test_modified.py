@@ -1,0 +1,258 @@
+"""The modified equation, against flows and steps on random polynomial fields, without trees."""
+
+from __future__ import annotations
+
+from collections.abc import Sequence
+from math import factorial, prod
+from random import Random
+from typing import TypeAlias
+
+import pytest
+from flint import Ordering, fmpq, fmpq_mpoly, fmpq_mpoly_ctx
+from hypothesis import given, settings
+from hypothesis import strategies as st
+
+from garkcli import find_order, load, loads
+from garkcli.backward.forest import Forest
+from garkcli.backward.modified import ModifiedEquation, modified_equation
+from garkcli.backward.series import (
+    bracket,
+    elementary_weights,
+    exact_weights,
+    exponential,
+    logarithm,
+    product,
+    transported,
+)
+from garkcli.errors import UsageProblem
+from garkcli.tableau.forms import pair
+from garkcli.tableau.tableau import Tableau
+from garkcli.transfer import interpolation
+from garkcli.trees.count import Admissible
+from garkcli.trees.notation import parse_tree
+from garkcli.trees.tree import Tree
+from tests.oracles import series
+from tests.oracles.brute import Weights, plain
+from tests.oracles.samples import everywhere
+
+Field: TypeAlias = dict[series.Component, fmpq_mpoly]
+"""A polynomial for each component."""
+
+
+class _Polynomials:
+    """The vector fields of a random problem, written out."""
+
+    def __init__(self, problem: series.Problem) -> None:
+        self.components = list(problem.fields)
+        names = [f"x{m}_{i}" for m, i in self.components]
+        self.ring = fmpq_mpoly_ctx.get(names, Ordering.lex)
+        self.x = dict(zip(self.components, self.ring.gens(), strict=True))
+        self.fields = {
+            key: prod(map(self._form, forms), start=self.ring.constant(1))
+            for key, forms in problem.fields.items()
+        }
+
+    def _form(self, form: series.Affine) -> fmpq_mpoly:
+        total = self.ring.constant(form.constant)
+        for component, weight in form.weights.items():
+            total += weight * self.x[component]
+        return total
+
+    def elementary(self, tree: Tree) -> Field:
+        """F(u) by its definition, f^l differentiated once for each branch."""
+        along = [self.elementary(u) for u in tree.branches]
+        field = {}
+        for key in self.components:
+            if key[0] == tree.root:
+                field[key] = self._derivative(self.fields[key], along)
+        return field
+
+    def _derivative(self, f: fmpq_mpoly, along: Sequence[Field]) -> fmpq_mpoly:
+        """The k-th derivative along k fields, which are not differentiated."""
+        if not along:
+            return f
+        first, *rest = along
+        total = self.ring.constant(0)
+        for key, component in first.items():
+            slope = f.derivative(self.components.index(key))
+            if slope:
+                total += component * self._derivative(slope, rest)
+        return total
+
+    def modified(self, equation: ModifiedEquation, order: int) -> Field:
+        """The coefficient of h^order in h f̃."""
+        total = dict.fromkeys(self.components, self.ring.constant(0))
+        for tree, b in equation.terms(order):
+            for key, value in self.elementary(tree).items():
+                total[key] += value * (b / tree.symmetry)
+        return total
+
+    def flow(self, fields: Sequence[Field]) -> dict[series.Component, list[fmpq]]:
+        """x(h) from 0 for h f̃ = Σ h^n fields[n − 1]: Σ_j 1/j! (Σ h^n L_n)^j x."""
+        order = len(fields)
+        origin = [fmpq(0)] * len(self.components)
+        found = {}
+        for key in self.components:
+            levels = [self.x[key], *[self.ring.constant(0)] * order]
+            values = [fmpq(0)] * (order + 1)
+            for j in range(order + 1):
+                for k, value in enumerate(levels):
+                    values[k] += value(*origin) / factorial(j)
+                levels = [self._lie(fields, levels, k) for k in range(order + 1)]
+            found[key] = values
+        return found
+
+    def _lie(
+        self, fields: Sequence[Field], levels: Sequence[fmpq_mpoly], k: int
+    ) -> fmpq_mpoly:
+        """The coefficient of h^k after one more derivative along the field."""
+        total = self.ring.constant(0)
+        for n in range(1, k + 1):
+            for i, key in enumerate(self.components):
+                slope = levels[k - n].derivative(i)
+                if slope:
+                    total += slope * fields[n - 1][key]
+        return total
+
+
+SAMPLES = {
+    "rk4": ("methods/rk4.gark.yaml", 5),
+    "Störmer-Verlet": ("methods/stoermer-verlet.gark.yaml", 5),
+    "Lobatto IIIA-IIIB": ("methods/prk-lobatto-iiia-iiib.gark.yaml", 4),
+}
+
+
+def _check_on_a_random_field(tableau: Tableau, order: int) -> None:
+    problem = series.random_problem(tableau, order - 1, Random(7))
+    equation = modified_equation(tableau, order)
+    polynomials = _Polynomials(problem)
+    fields = [polynomials.modified(equation, n) for n in range(1, order + 1)]
+    found = polynomials.flow(fields)
+    assert found == series.step(tableau, problem, order)
+
+
+@pytest.mark.parametrize("name", SAMPLES)
+def test_its_flow_is_the_step(name: str) -> None:
+    """On a random polynomial field the flow of the modified equation is the step, power by power,
+    in rational arithmetic.
+    """
+    path, order = SAMPLES[name]
+    _check_on_a_random_field(load(path).tableau, order)
+
+
+def test_its_flow_is_the_step_of_other_forms() -> None:
+    """The same for two vector fields coupled by blocks, for a pair of four colours, and for an
+    additive method of order 1.
+    """
+    coupled = everywhere(interpolation, "gauss 1", "lobatto-iiia 2")
+    _check_on_a_random_field(coupled, 4)
+    _check_on_a_random_field(pair(coupled), 3)
+    ark = "{ark: {A: [[[0, 0], [1, 0]], [[0, 0], [0, 1]]], b: [[0, 1], [0, 1]]}}"
+    _check_on_a_random_field(loads(ark).tableau, 4)
+
+
+def test_known_coefficients() -> None:
+    """The explicit Euler and the implicit midpoint method, as Hairer, Lubich and Wanner print
+    them in examples IX.7.1 and IX.7.2 of their second edition.
+    """
+    euler = modified_equation(loads("{A: [[0]], b: [1]}").tableau, 4)
+    printed = {
+        "[[]]": "-1/2",
+        "[[],[]]": "1/6",
+        "[[[]]]": "1/3",
+        "[[],[],[]]": "0",
+        "[[[]],[]]": "-1/12",
+        "[[[],[]]]": "-1/6",
+        "[[[[]]]]": "-1/4",
+    }
+    for text, value in printed.items():
+        assert str(euler[parse_tree(text)]) == value
+    midpoint = modified_equation(loads("{A: [[1/2]], b: [1]}").tableau, 4)
+    assert str(midpoint[parse_tree("[[],[]]")]) == "-1/12"
+    assert str(midpoint[parse_tree("[[[]]]")]) == "1/12"
+    assert not list(midpoint.terms(4))  # a symmetric method has odd orders alone
+
+
+@pytest.mark.parametrize("path", ["rk4", "collocation", "rectangular", "ark-ars222"])
+def test_the_order_is_that_of_the_certificate(path: str) -> None:
+    """The first order with a coefficient is one above the order of the method."""
+    tableau = load(f"methods/{path}.gark.yaml").tableau
+    equation = modified_equation(tableau, 5)
+    assert equation.order == min(5, find_order(tableau).order)
+
+
+def test_elementary_weights() -> None:
+    """By numbers of trees they are those of the brute force, in a number field too."""
+    tableau = load("methods/rectangular.gark.yaml").tableau
+    forest = Forest.seen_by(tableau, 5)
+    weights = Weights(tableau)
+    for tree, weight in zip(
+        forest.trees, elementary_weights(tableau, forest), strict=True
+    ):
+        assert weight == weights.weight(plain(tree))
+
+
+FOREST = Forest.of(Admissible.of(2, [[True, True], [True, False]]), 4)
+
+
+def _random_coefficients(seed: int) -> list[fmpq]:
+    dice = Random(seed)
+    return [fmpq(dice.randint(-4, 4), dice.choice([1, 2, 3])) for _ in FOREST.trees]
+
+
+COEFFICIENTS = st.integers(0, 10**9).map(_random_coefficients)
+
+
+@given(COEFFICIENTS)
+@settings(max_examples=20, deadline=None)
+def test_logarithm_and_exponential(b: list[fmpq]) -> None:
+    """They undo each other."""
+    assert logarithm(FOREST, exponential(FOREST, b)) == b
+    assert exponential(FOREST, logarithm(FOREST, b)) == b
+
+
+@given(COEFFICIENTS, COEFFICIENTS, COEFFICIENTS)
+@settings(max_examples=20, deadline=None)
+def test_the_product_is_pre_lie(a: list[fmpq], b: list[fmpq], c: list[fmpq]) -> None:
+    """(a ◁ b) ◁ c − a ◁ (b ◁ c) is symmetric in b and c: the second derivative of a field along two
+    others.
+    """
+
+    def associator(x: list[fmpq], y: list[fmpq]) -> list[fmpq]:
+        left = product(FOREST, product(FOREST, a, x), y)
+        right = product(FOREST, a, product(FOREST, x, y))
+        return [u - v for u, v in zip(left, right, strict=True)]
+
+    assert associator(b, c) == associator(c, b)
+
+
+@given(COEFFICIENTS, COEFFICIENTS)
+@settings(max_examples=10, deadline=None)
+def test_transport_and_back(b: list[fmpq], c: list[fmpq]) -> None:
+    """A change of coordinates and its inverse cancel, and it keeps brackets."""
+    back = [-x for x in c]
+    there = transported(FOREST, b, c, 1)
+    assert transported(FOREST, there, back, 1) == b
+    whole = transported(FOREST, bracket(FOREST, b, c), c, 1)
+    assert whole == bracket(FOREST, there, c)  # a field keeps itself
+
+
+def test_the_exact_flow_has_no_modified_terms() -> None:
+    """The logarithm of 1/γ is 1 at vertices alone."""
+    values = logarithm(FOREST, exact_weights(FOREST))
+    assert values == [fmpq(int(tree.order == 1)) for tree in FOREST.trees]
+
+
+def test_too_many_trees() -> None:
+    """What would take too long is refused with the order that is possible."""
+    with pytest.raises(UsageProblem, match="limit 40000") as caught:
+        modified_equation(load("methods/three-colours.gark.yaml").tableau, 9)
+    assert "--order" in caught.value.help
+
+
+def test_trees_that_are_not_there() -> None:
+    """A tree that the method does not see has no coefficient, one that is too large no answer."""
+    equation = modified_equation(load("methods/stoermer-verlet.gark.yaml").tableau, 3)
+    assert not equation[Tree(0, [Tree(0)])]
+    with pytest.raises(KeyError):
+        equation[Tree(0, [Tree(1), Tree(1), Tree(1)])]
