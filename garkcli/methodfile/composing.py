@@ -25,7 +25,9 @@ class TooLargeError(Exception):
     def __init__(self, at: Node | yaml.Event, message: str, cure: str) -> None:
         super().__init__(message)
         mark = at.start_mark
-        self.line, self.column = (mark.line + 1, mark.column + 1) if mark else (1, 1)
+        self.line, self.column = 1, 1
+        if mark:
+            self.line, self.column = mark.line + 1, mark.column + 1
         self.message, self.cure = message, cure
 
 
@@ -90,6 +92,30 @@ def yaml_fault(error: yaml.MarkedYAMLError) -> Fault:
     return Fault(printable(f"this is not YAML: {problem}"), printable(cure), *place)
 
 
+def composed(text: str) -> Node | Fault | None:
+    """The one document of a text, or what is wrong with it; None where there is nothing in it."""
+    try:
+        return compose(text)
+    except TooLargeError as error:
+        return Fault(error.message, error.cure, error.line, error.column)
+    except yaml.MarkedYAMLError as error:
+        return yaml_fault(error)
+    except yaml.YAMLError as error:
+        return _fault_of_sign(text, error)
+
+
+def _fault_of_sign(text: str, error: yaml.YAMLError) -> Fault:
+    """A sign that YAML refuses, or one that is none."""
+    sign = getattr(error, "character", "")
+    if isinstance(sign, int) and 0xD800 <= sign <= 0xDFFF:
+        message = "half a sign, which no text has"
+        cure = "write the text as Unicode"
+    else:
+        message = f"this is not YAML: {str(error).splitlines()[0]}"
+        cure = "leave the control character out"
+    return Fault(message, cure, *place_of_sign(text, sign))
+
+
 def compose(text: str) -> Node | None:
     """The one document of a text, within the limits; None where there is nothing in it."""
     composer = _Composer(text)
@@ -112,10 +138,10 @@ def _walk(root: Node) -> None:
         if count > MAX_NODES:
             raise TooLargeError(root, _TOO_MANY, "aliases count each time")
         if depth > MAX_NESTING:
-            raise TooLargeError(
-                node, _TOO_DEEP, "no file needs that; or an anchor contains itself"
-            )
-        pending += ((child, depth + 1) for child in _children(node))
+            cure = "no file needs that; or an anchor contains itself"
+            raise TooLargeError(node, _TOO_DEEP, cure)
+        below = depth + 1
+        pending += [(child, below) for child in _children(node)]
 
 
 def _children(node: Node) -> Iterator[Node]:
@@ -144,14 +170,22 @@ def folded_place(text: str, node: ScalarNode, offset: int) -> tuple[int, int]:
         position = found
     while position < len(text) and text[position].isspace():
         position += 1
-    line = text.count("\n", 0, position)
-    return line + 1, position - text.rfind("\n", 0, position)
+    return _line_and_column(text, position)
 
 
 def place_of_sign(text: str, sign: object) -> tuple[int, int]:
     """Where a sign that YAML refuses stands first; one at the start of the text marks its bytes."""
-    code = ord(sign) if isinstance(sign, str) and len(sign) == 1 else sign
-    start = 1 if text.startswith("\ufeff") else 0
-    position = text.find(chr(code), start) if isinstance(code, int) else 0
-    position = max(position, 0)
-    return text.count("\n", 0, position) + 1, position - text.rfind("\n", 0, position)
+    code = sign
+    if isinstance(sign, str) and len(sign) == 1:
+        code = ord(sign)
+    position = 0
+    if isinstance(code, int):
+        start = 1 if text.startswith("\ufeff") else 0
+        position = max(text.find(chr(code), start), 0)
+    return _line_and_column(text, position)
+
+
+def _line_and_column(text: str, position: int) -> tuple[int, int]:
+    line = text.count("\n", 0, position) + 1
+    line_end = text.rfind("\n", 0, position)
+    return line, position - line_end

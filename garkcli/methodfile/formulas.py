@@ -14,9 +14,9 @@ from garkcli.exact.formula import CONSTANTS, RESERVED, parse_formula
 from garkcli.exact.nodes import Expression
 from garkcli.exact.rewriting import names_in, size_of
 from garkcli.exact.values import Value, value_of
-from garkcli.methodfile.numbers import MAX_SIZE, is_misread
+from garkcli.methodfile.numbers import MAX_SIZE
 from garkcli.methodfile.source import Source, is_null, shortened
-from garkcli.methodfile.spellings import explained
+from garkcli.methodfile.spellings import explained, is_misread
 from garkcli.problems.translate import Translator
 
 BITS = 320

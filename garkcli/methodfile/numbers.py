@@ -2,7 +2,6 @@
 
 from __future__ import annotations
 
-import re
 from collections.abc import Iterable, Sequence
 from dataclasses import dataclass, field
 from typing import TypeAlias
@@ -18,29 +17,19 @@ from garkcli.exact.nodes import Expression, Literal
 from garkcli.exact.rewriting import depth_of, roots_in, size_of, substitute
 from garkcli.methodfile.source import Source, key_nodes, shortened
 from garkcli.methodfile.spellings import (
-    bracketed,
     explained,
     first_list_in_rows,
-    holds_several,
+    is_misread,
     is_triangle,
-    only_text,
     opens,
+    printed_row,
 )
 
-_READ_DIFFERENTLY = re.compile(
-    r"[-+]?(0[0-9_]+|0[xob][0-9a-f_]+|[0-9][0-9_]*(:[0-5]?[0-9])+(\.[0-9_]*)?|[0-9]*_[0-9_.]*)",
-    re.IGNORECASE,
-)
-"""Plain scalars that YAML 1.1 reads as another number than they look: octal, hexadecimal, base 60,
-with _.
-"""
 MAX_SIZE = 2_000
 """Most operations of one coefficient, those of the parameters in it written out."""
 MAX_DEPTH = 200
 """How deep one coefficient may be nested, the parameters in it written out."""
 _SHOWN_ROWS = 5  # most further rows of another length that are told
-_WORDS = {"bool", "null", "timestamp", "merge"}
-_NO_FINITE_NUMBERS = {".inf", ".nan", "nan", "inf", "infinity"}
 
 
 @dataclass(frozen=True)
@@ -173,16 +162,14 @@ class Numbers:
 
     def _is_text(self, rows: Sequence[Node], where: str, what: str) -> bool:
         """Note, once, rows that are a text of several numbers, as other programs print them."""
-        texts = [only_text(row) for row in rows]
-        several = [i for i, text in enumerate(texts) if holds_several(text)]
-        if not several:
-            return False
-        first = several[0]
-        message = f"{what} is a list, not the text {shortened(texts[first])}"
         example = "[0, 1/2]" if what == "a row" else "[[0, 0], [1/2, 0]]"
-        as_list = bracketed(";".join(texts)) or example
+        found = printed_row(rows, example)
+        if found is None:
+            return False
+        first, text, as_list = found
+        message = f"{what} is a list, not the text {shortened(text)}"
         cure = f"put it in brackets, with commas: {as_list}"
-        self.source.fault(rows[first], message, cure, where=where)
+        self.source.fault(first, message, cure, where=where)
         return True
 
     def fitted(
@@ -260,29 +247,6 @@ class Numbers:
                 self.entries.append(zero)
             whole.append(row + (zero,) * missing)
         return tuple(whole)
-
-
-def is_misread(source: Source, node: Node, text: str, where: str) -> bool:
-    """Note a plain scalar that YAML itself takes for something else than the number it looks
-    like.
-    """
-    if not isinstance(node, ScalarNode) or node.style in {"'", '"'}:
-        return False
-    kind = str(node.tag).rpartition(":")[2]
-    message, cure = "", ""
-    if kind in _WORDS:
-        message = f"{text or 'nothing'!r} is no number: YAML reads it as {kind}"
-        cure = "write a number, such as 1/2"
-    elif _READ_DIFFERENTLY.fullmatch(text):
-        message = f"{text} means different numbers to different readers of YAML"
-        cure = "write the number in plain decimal digits"
-        if "_" in text:
-            cure = "leave out the _"
-    elif text.lower().lstrip("+-") in _NO_FINITE_NUMBERS:
-        message, cure = f"{text} is not a number", "coefficients are finite"
-    if message:
-        source.fault(node, message, cure, where=where)
-    return bool(message)
 
 
 class Values:

@@ -21,15 +21,12 @@ from garkcli.methodfile.description import (
     PLAIN,
     STRUCTURES,
     ArkText,
-    BlockText,
     ButcherText,
     Description,
     FamilyText,
     Form,
-    MatrixText,
     MethodsText,
     PrkText,
-    RuleText,
     Structure,
     TableauText,
     TransferText,
@@ -38,9 +35,9 @@ from garkcli.methodfile.description import (
 )
 from garkcli.methodfile.expectations import NUMBERS
 from garkcli.methodfile.numbers import Numbers, read_parameters
-from garkcli.methodfile.source import Source, key_nodes, keys_of, shortened
+from garkcli.methodfile.source import Source, keys_of, shortened
 from garkcli.methodfile.spelled_out import SpelledOutReader, are_too_many
-from garkcli.transfer import PAIR_RULES, RULES
+from garkcli.transfer import RULES
 
 KEYS = (
     "gark",
@@ -74,10 +71,7 @@ _CURES = (
     | dict.fromkeys(RULES, "write it under transfer")
 )
 """Keys that are expected elsewhere than at the top of the file, and where."""
-ALL_RULES = (*RULES, *PAIR_RULES)
 _DECIMAL = re.compile(r"([0-9]+(\.[0-9]*)?|\.[0-9]+)([eE][+-]?[0-9]+)?", re.ASCII)
-_BLOCK_OR_COLOUR = re.compile(r"[1-9][0-9 ,]*")
-_BLOCK = re.compile(r"\s*([1-9][0-9]{0,3})\s*,\s*([1-9][0-9]{0,3})\s*")
 
 
 _METHODS = "write a list: [{family: gauss, stages: 2}, …]"
@@ -113,11 +107,10 @@ class Reader:
             return None
         entries = source.mapping(root, "the file", KEYS, _CURES)
         self._version(entries.get("gark"))
-        text = {
-            key: source.scalar(entries[key], key) or ""
-            for key in ("name", "description", "reference")
-            if key in entries
-        }
+        text = {}
+        for key in ("name", "description", "reference"):
+            if key in entries:
+                text[key] = source.scalar(entries[key], key) or ""
         tolerance = self._tolerance(entries.get("tolerance"))
         is_conjugate = self._is_conjugate(entries.get("conjugate"))
         claims = expectations.read(source, entries.get("expect"))
@@ -172,9 +165,8 @@ class Reader:
             present.append(plain[0])
         for key in present[1:]:
             message = f"{key}: the coefficients are given by {present[0]} already"
-            self.source.fault(
-                entries[key], message, f"keep one of {', '.join(present)}"
-            )
+            cure = f"keep one of {', '.join(present)}"
+            self.source.fault(entries[key], message, cure)
         if not present:
             # a key that belongs elsewhere was noted with its cure, which is where to begin
             if not keys_of(root) & set(_CURES):
@@ -202,27 +194,20 @@ class Reader:
                 cure = "write absent blocks as null"
             self.source.fault(node, f"structure does not go with {form}", cure)
         if node is not None and form == "prk" and word == "semi-separable":
-            self.source.fault(
-                node,
-                "a prk cannot be semi-separable: that takes two Hamiltonians",
-                "use methods",
-            )
+            message = "a prk cannot be semi-separable: that takes two Hamiltonians"
+            self.source.fault(node, message, "use methods")
         return cast("Structure", word or "general")
 
     def _is_conjugate(self, node: Node | None) -> bool:
-        return (
-            node is not None
-            and self.source.choice(node, "conjugate", ("true", "false")) == "true"
-        )
+        if node is None:
+            return False
+        return self.source.choice(node, "conjugate", ("true", "false")) == "true"
 
     def _refuse_misplaced(self, form: Form, entries: dict[str, Node]) -> None:
         for key, home in (("transfer", "methods"), ("linear", "tableau")):
             if key in entries and form != home:
-                self.source.fault(
-                    entries[key],
-                    f"{key} goes with {home}, not with {form}",
-                    "leave it out",
-                )
+                message = f"{key} goes with {home}, not with {form}"
+                self.source.fault(entries[key], message, "leave it out")
 
     def _content(
         self, form: Form, structure: Structure, entries: dict[str, Node]
@@ -243,29 +228,33 @@ class Reader:
     def _methods(
         self, node: Node, structure: Structure, transfer: Node | None
     ) -> MethodsText | None:
-        keys = keys_of(node)
-        is_one = bool(keys & {"A", "b", "family", "stages"})
-        # one method needs no brackets around it
-        items = [node] if is_one else self.source.items(node, "methods", _METHODS)
-        if are_too_many(self.source, items, node):
+        source = self.source
+        if keys_of(node) & {"A", "b", "family", "stages"}:
+            items = [node]  # one method needs no brackets around it
+        else:
+            items = source.items(node, "methods", _METHODS)
+        if are_too_many(source, items, node):
             return None
         methods = [self._method(item, l) for l, item in enumerate(items, start=1)]
         if not items and isinstance(node, SequenceNode):
-            self.source.fault(
-                node, "methods is empty", "list at least one diagonal method"
-            )
+            cure = "list at least one diagonal method"
+            source.fault(node, "methods is empty", cure)
         if structure != "general" and len(items) != 2:
-            self.source.fault(
-                node, f"structure: {structure} is for two colours, not {len(items)}"
-            )
+            message = f"structure: {structure} is for two colours, not {len(items)}"
+            source.fault(node, message)
         if len(items) > 1 and transfer is None:
             cure = "write transfer: collocation (or interpolation)"
-            self.source.fault(node, "two colours or more need a transfer rule", cure)
+            source.fault(node, "two colours or more need a transfer rule", cure)
         rules = TransferText(None, {})
         if transfer is not None:
-            rules = self._transfer(transfer, len(items))
+            from garkcli.methodfile.transfers import TransferReader
+
+            reader = TransferReader(source, self.numbers)
+            rules = reader.read(transfer, len(items))
         found = tuple(method for method in methods if method is not None)
-        if not found or len(found) < len(methods) or self._is_too_large(found, node):
+        if not found or len(found) < len(methods):
+            return None
+        if self._is_too_large(found, node):
             return None
         return MethodsText(found, rules)
 
@@ -274,30 +263,25 @@ class Reader:
     ) -> bool:
         """Note blocks between the methods that together have too many entries to be made."""
         stages = [x.stages if isinstance(x, FamilyText) else len(x.b) for x in methods]
-        entries = sum(stages) ** 2 - sum(s * s for s in stages)
+        inside = sum(s * s for s in stages)
+        entries = sum(stages) ** 2 - inside
         if entries <= MAX_ENTRIES:
             return False
-        message = (
-            f"{entries} entries in the blocks between the methods (limit {MAX_ENTRIES})"
-        )
+        where = "in the blocks between the methods"
+        message = f"{entries} entries {where} (limit {MAX_ENTRIES})"
         self.source.fault(node, message, "use fewer methods, or fewer stages")
         return True
 
     def _method(self, node: Node, l: int) -> FamilyText | ButcherText | None:
         keys, where = keys_of(node), f"method {l}"
         if isinstance(node, ScalarNode):
-            self.source.fault(
-                node, f"{where}: a mapping is expected here", _written_out(node)
-            )
+            message = f"{where}: a mapping is expected here"
+            self.source.fault(node, message, _written_out(node))
             return None
-        if (
-            isinstance(node, MappingNode)
-            and keys & {"stages"}
-            and not keys & {"family", "A", "b"}
-        ):
-            self.source.fault(
-                node, f"{where}: family missing", "write for instance family: gauss"
-            )
+        # of anything but a mapping there are no keys
+        if "stages" in keys and not keys & {"family", "A", "b"}:
+            cure = "write for instance family: gauss"
+            self.source.fault(node, f"{where}: family missing", cure)
             return None
         if "family" not in keys and isinstance(node, MappingNode):
             k = l - 1
@@ -305,9 +289,8 @@ class Reader:
             return self.spelled_out.butcher(node, where, names)
         before = len(self.source.faults)
         form = "write for instance {family: gauss, stages: 2}"
-        entries = self.source.mapping(
-            node, where, ("family", "stages", "name"), form=form
-        )
+        keys_of_family = ("family", "stages", "name")
+        entries = self.source.mapping(node, where, keys_of_family, form=form)
         if "family" not in entries or len(self.source.faults) > before:
             return None
         return self._family(node, where, entries)
@@ -320,9 +303,8 @@ class Reader:
         has_stages = "stages" in entries
         stages = None
         if has_stages:
-            stages = self.source.whole(
-                entries["stages"], f"{where}, stages", smallest=1
-            )
+            node_of_stages = entries["stages"]
+            stages = self.source.whole(node_of_stages, f"{where}, stages", smallest=1)
         if name is None or (name in FAMILIES and has_stages and stages is None):
             return None
         try:
@@ -332,85 +314,3 @@ class Reader:
             place = entries["stages" if at_stages else "family"]
             self.source.fault(place, error.message, error.help)
             return None
-
-    def _transfer(self, node: Node, colours: int) -> TransferText:
-        keys = keys_of(node)
-        if not keys & {"default", "blocks"}:
-            # without quotes {1,2: rule} has the keys 1 and 2
-            numbered = [
-                x
-                for x in key_nodes(node).values()
-                if _BLOCK_OR_COLOUR.fullmatch(x.value)
-            ]
-            if numbered:
-                message = "transfer: single blocks stand under blocks"
-                cure = 'write transfer: {default: …, blocks: {"1,2": …}}'
-                self.source.fault(numbered[0], message, cure)
-                return TransferText(None, {})
-            return TransferText(self._rule(node, "transfer"), {})
-        entries = self.source.mapping(node, "transfer", ("default", "blocks"))
-        default = None
-        if "default" in entries:
-            default = self._rule(entries["default"], "transfer, default")
-        blocks: dict[tuple[int, int], BlockText] = {}
-        if "blocks" in entries:
-            blocks = self._blocks(entries["blocks"], colours)
-        return TransferText(default, blocks)
-
-    def _blocks(self, node: Node, colours: int) -> dict[tuple[int, int], BlockText]:
-        """The blocks that are given one by one; keys such as ``1,2`` count colours from 1."""
-        blocks: dict[tuple[int, int], BlockText] = {}
-        keys = key_nodes(node)
-        form = 'write for instance {"1,2": interpolation}'
-        for key, value in self.source.mapping(
-            node, "transfer, blocks", (), form=form
-        ).items():
-            place = _BLOCK.fullmatch(key)
-            l, m = (int(place[1]) - 1, int(place[2]) - 1) if place else (0, 0)
-            if l == m or max(l, m) >= colours:
-                shown = shortened(key)
-                wanted = f"off-diagonal block of {colours} colours"
-                message = f"transfer, blocks: {shown} names no {wanted}"
-                cure = 'write for instance "1,2" for the block A^{1,2}'
-                self.source.fault(keys[key], message, cure)
-                continue
-            where = block_name(l, m)
-            if (l, m) in blocks:
-                message = f"transfer, blocks: {where} is given twice"
-                self.source.fault(keys[key], message, "keep one of them")
-            block = self._block(value, where)
-            if block is not None:
-                blocks[l, m] = block
-        return blocks
-
-    def _block(self, node: Node, where: str) -> BlockText | None:
-        """A block as a matrix or as a rule."""
-        if not isinstance(node, SequenceNode):
-            return self._rule(node, where)
-        rows = self.numbers.matrix(node, where)
-        self.numbers.rectangular(rows, node, where)
-        return MatrixText(node, rows) if rows else None
-
-    def _rule(self, node: Node, where: str) -> RuleText | None:
-        if isinstance(node, ScalarNode):
-            rule = self.source.choice(node, where, ALL_RULES)
-            return RuleText(node, ((rule, None),)) if rule else None
-        mixed = sorted(keys_of(node) & set(PAIR_RULES))
-        if mixed:
-            what = "makes both blocks of a pair of colours and cannot be combined"
-            message = f"{where}: {mixed[0]} {what}"
-            self.source.fault(node, message, f"write {mixed[0]} on its own")
-            return None
-        form = "write one of the rules, for instance transfer: collocation"
-        entries = self.source.mapping(node, where, RULES, form=form)
-        if not entries:
-            if isinstance(node, MappingNode) and not node.value:
-                self.source.fault(
-                    node, f"{where}: no rule", f"one of: {', '.join(ALL_RULES)}"
-                )
-            return None
-        terms = (
-            (rule, self.numbers.entry(x, f"{where}, weight of {rule}"))
-            for rule, x in entries.items()
-        )
-        return RuleText(node, tuple(terms))

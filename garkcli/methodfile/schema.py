@@ -12,7 +12,7 @@ from typing import Any, TypeAlias
 from garkcli.families.registry import FAMILIES, MAX_STAGES
 from garkcli.methodfile.description import FORMS, STRUCTURES
 from garkcli.methodfile.expectations import NUMBERS, TABLES
-from garkcli.methodfile.reader import ALL_RULES
+from garkcli.methodfile.transfers import ALL_RULES
 from garkcli.transfer import RULES, SUMMARIES
 
 Schema: TypeAlias = dict[str, Any]

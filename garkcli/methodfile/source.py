@@ -5,7 +5,6 @@ from __future__ import annotations
 from collections.abc import Iterable, Mapping, Sequence
 from dataclasses import dataclass
 
-import yaml
 from yaml.nodes import MappingNode, Node, ScalarNode, SequenceNode
 
 from garkcli.errors import (
@@ -17,13 +16,7 @@ from garkcli.errors import (
     printable,
 )
 from garkcli.methodfile.causes import MAX_PLACES, Found, place_of, told_once
-from garkcli.methodfile.composing import (
-    TooLargeError,
-    compose,
-    folded_place,
-    place_of_sign,
-    yaml_fault,
-)
+from garkcli.methodfile.composing import composed, folded_place
 
 MAX_BYTES = 1_000_000
 """Largest file that is read."""
@@ -147,7 +140,8 @@ class Source:
         """
         if not self._found:
             self.fault(None, f"this is not a {self.kind.name}", f"see {self.kind.page}")
-        faults = told_once(sorted(dict.fromkeys(self._found), key=place_of))
+        once = dict.fromkeys(self._found)
+        faults = told_once(sorted(once, key=place_of))
         if len(faults) > MAX_FAULTS:
             last = faults[MAX_FAULTS]
             more = f"and {len(faults) - MAX_FAULTS} more faults"
@@ -160,36 +154,16 @@ class Source:
         if len(self.text) > MAX_BYTES:
             self.fault(None, f"a file of more than {MAX_BYTES} characters", "split it")
             return None
-        try:
-            root = compose(self.text)
-        except TooLargeError as error:
-            self._note(Fault(error.message, error.cure, error.line, error.column))
-            return None
-        except yaml.MarkedYAMLError as error:
-            self._note(yaml_fault(error))
-            return None
-        except yaml.YAMLError as error:
-            sign = getattr(error, "character", "")
-            place = place_of_sign(self.text, sign)
-            if isinstance(sign, int) and 0xD800 <= sign <= 0xDFFF:
-                message, cure = (
-                    "half a sign, which no text has",
-                    "write the text as Unicode",
-                )
-            else:
-                message = f"this is not YAML: {str(error).splitlines()[0]}"
-                cure = "leave the control character out"
-            self._note(Fault(message, cure, *place))
+        root = composed(self.text)
+        if isinstance(root, Fault):
+            self._note(root)
             return None
         if root is None:
             self.fault(None, "the file is empty", self.kind.smallest)
             return None
         if not isinstance(root, MappingNode):
-            self.fault(
-                root,
-                f"a {self.kind.name} is a mapping of keys to values",
-                self.kind.start,
-            )
+            message = f"a {self.kind.name} is a mapping of keys to values"
+            self.fault(root, message, self.kind.start)
             return None
         return root
 
@@ -214,9 +188,8 @@ class Source:
             form: the cure where there is no mapping at all.
         """
         if not isinstance(node, MappingNode):
-            self.fault(
-                node, f"{where}: a mapping of keys to values is expected here", form
-            )
+            message = f"{where}: a mapping of keys to values is expected here"
+            self.fault(node, message, form)
             return {}
         known = list(allowed)
         given = keys_of(node)
@@ -255,12 +228,13 @@ class Source:
         for cure, nodes in together.items():
             first = nodes[0].value
             names = ", ".join(shortened(x.value) for x in nodes[:MAX_PLACES])
-            message = f"{where}: unknown key{'s' * (len(nodes) > 1)} {names}"
+            noun = "key" if len(nodes) == 1 else "keys"
+            message = f"{where}: unknown {noun} {names}"
             if first not in cures:
+                cure = did_you_mean(first, known)
                 meant = _meant(first, known)
-                cure = (
-                    f"did you mean {meant!r}?" if meant else did_you_mean(first, known)
-                )
+                if meant:
+                    cure = f"did you mean {meant!r}?"
             self.fault(nodes[0], message, cure)
         if len(unknown) > MAX_FAULTS:
             count = len(unknown) - MAX_FAULTS
@@ -292,12 +266,10 @@ class Source:
         text = self.scalar(node, where)
         if text is None:
             return None
-        plain = (
-            text.isascii()
-            and text.isdigit()
-            and (text == "0" or not text.startswith("0"))
-        )
-        if not plain or len(text) > 6 or int(text) < smallest:
+        is_number = text.isascii() and text.isdigit()
+        is_padded = text.startswith("0") and text != "0"
+        is_plain = is_number and not is_padded
+        if not is_plain or len(text) > 6 or int(text) < smallest:
             wanted = f"a whole number of at least {smallest} is expected"
             self.fault(node, f"{where}: {wanted}, not {shortened(text)}")
             return None
@@ -306,11 +278,11 @@ class Source:
     def choice(self, node: Node, where: str, known: Iterable[str]) -> str | None:
         """One of a few words."""
         text = self.scalar(node, where)
-        if text is None or text in (known := list(known)):
+        words = list(known)
+        if text is None or text in words:
             return text
-        self.fault(
-            node, f"{where}: {shortened(text)} is not known", did_you_mean(text, known)
-        )
+        message = f"{where}: {shortened(text)} is not known"
+        self.fault(node, message, did_you_mean(text, words))
         return None
 
 
@@ -361,12 +333,16 @@ def one_line(text: str) -> str:
     >>> one_line("Gauss 2\n  and \x1b more")
     'Gauss 2 and more'
     """
-    return " ".join("".join(x if x.isprintable() else " " for x in text).split())
+    signs = [x if x.isprintable() else " " for x in text]
+    words = "".join(signs).split()
+    return " ".join(words)
 
 
 def shortened(text: str, length: int = 60) -> str:
     """``text`` in quotes, cut where it is long."""
-    return repr(text if len(text) <= length else text[:length] + "…")
+    if len(text) > length:
+        text = text[:length] + "…"
+    return repr(text)
 
 
 def is_null(node: Node) -> bool:

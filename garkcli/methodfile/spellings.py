@@ -10,7 +10,7 @@ from collections.abc import Sequence
 from yaml.nodes import Node, ScalarNode, SequenceNode
 
 from garkcli.errors import ExpressionError, UndefinedValue
-from garkcli.methodfile.source import shortened
+from garkcli.methodfile.source import Source, shortened
 
 
 def is_triangle(lengths: Sequence[int]) -> bool:
@@ -74,14 +74,25 @@ def bracketed(text: str) -> str:
     >>> bracketed("0 0; 1/2 0"), bracketed("1/6, 2/3, 1/6")
     ('[[0, 0], [1/2, 0]]', '[1/6, 2/3, 1/6]')
     """
-    rows = [
-        row.split() for row in re.split("[;\n]", text.replace(",", " ")) if row.split()
-    ]
+    lines = re.split("[;\n]", text.replace(",", " "))
+    rows = [line.split() for line in lines if line.split()]
     words = [word for row in rows for word in row]
     if len(words) > 16 or not all(_PLAIN.fullmatch(word) for word in words):
         return ""
     texts = [f"[{', '.join(row)}]" for row in rows]
     return texts[0] if len(texts) == 1 else f"[{', '.join(texts)}]"
+
+
+def printed_row(rows: Sequence[Node], example: str) -> tuple[Node, str, str] | None:
+    """The first row that is a text of several numbers, as other programs print them; that text; and
+    all rows in brackets, or ``example`` where they are no plain numbers. None where there is none.
+    """
+    texts = [only_text(row) for row in rows]
+    for row, text in zip(rows, texts, strict=True):
+        if holds_several(text):
+            as_list = bracketed(";".join(texts)) or example
+            return row, text, as_list
+    return None
 
 
 _PLAIN = re.compile(r"[-+]?[0-9][0-9./]*", re.ASCII)
@@ -119,9 +130,8 @@ def explained(error: ExpressionError, text: str) -> tuple[ExpressionError, str]:
         if found and found.start() <= start <= found.end():
             message = error.message
             if not isinstance(error, UndefinedValue):
-                message = (
-                    f"{shortened(found.group())} is not how a number is written here"
-                )
+                what = shortened(found.group())
+                message = f"{what} is not how a number is written here"
             cure = better.format(**found.groupdict())
             explanation = ExpressionError(message, cure, found.start(), found.end())
             return explanation, pattern.pattern
@@ -142,3 +152,37 @@ def _is_symbol(error: ExpressionError, text: str) -> bool:
         return False
     word = text[error.start : error.end]
     return _SYMBOLS.fullmatch(word) is not None
+
+
+_READ_DIFFERENTLY = re.compile(
+    r"[-+]?(0[0-9_]+|0[xob][0-9a-f_]+|[0-9][0-9_]*(:[0-5]?[0-9])+(\.[0-9_]*)?|[0-9]*_[0-9_.]*)",
+    re.IGNORECASE,
+)
+"""Plain scalars that YAML 1.1 reads as another number than they look: octal, hexadecimal, base 60,
+with _.
+"""
+_WORDS = {"bool", "null", "timestamp", "merge"}
+_NO_FINITE_NUMBERS = {".inf", ".nan", "nan", "inf", "infinity"}
+
+
+def is_misread(source: Source, node: Node, text: str, where: str) -> bool:
+    """Note a plain scalar that YAML itself takes for something else than the number it looks
+    like.
+    """
+    if not isinstance(node, ScalarNode) or node.style in {"'", '"'}:
+        return False
+    kind = str(node.tag).rpartition(":")[2]
+    message, cure = "", ""
+    if kind in _WORDS:
+        message = f"{text or 'nothing'!r} is no number: YAML reads it as {kind}"
+        cure = "write a number, such as 1/2"
+    elif _READ_DIFFERENTLY.fullmatch(text):
+        message = f"{text} means different numbers to different readers of YAML"
+        cure = "write the number in plain decimal digits"
+        if "_" in text:
+            cure = "leave out the _"
+    elif text.lower().lstrip("+-") in _NO_FINITE_NUMBERS:
+        message, cure = f"{text} is not a number", "coefficients are finite"
+    if message:
+        source.fault(node, message, cure, where=where)
+    return bool(message)

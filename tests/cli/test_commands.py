@@ -492,7 +492,7 @@ def test_json_of_converge() -> None:
 def test_json_of_list() -> None:
     """Families, transfer rules and problems are those that files and options accept."""
     from garkcli.families.registry import FAMILIES
-    from garkcli.methodfile.reader import ALL_RULES
+    from garkcli.methodfile.transfers import ALL_RULES
     from garkcli.problems.builtin import PROBLEMS
 
     report = data("list")

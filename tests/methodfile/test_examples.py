@@ -14,7 +14,8 @@ from garkcli.families.registry import FAMILIES
 from garkcli.methodfile.description import FORMS, STRUCTURES
 from garkcli.methodfile.expectations import CLAIMS
 from garkcli.methodfile.load import load
-from garkcli.methodfile.reader import ALL_RULES, KEYS
+from garkcli.methodfile.reader import KEYS
+from garkcli.methodfile.transfers import ALL_RULES
 from garkcli.report.check_text import faults_text
 from garkcli.report.paint import Paint
 from tests.examples.snapshots import assert_recorded

@@ -15,8 +15,9 @@ from garkcli.families.registry import FAMILIES, MAX_STAGES
 from garkcli.methodfile.description import FORMS, PLAIN, STRUCTURES
 from garkcli.methodfile.expectations import CLAIMS
 from garkcli.methodfile.load import load
-from garkcli.methodfile.reader import ALL_RULES, KEYS
+from garkcli.methodfile.reader import KEYS
 from garkcli.methodfile.schema import method_file_schema
+from garkcli.methodfile.transfers import ALL_RULES
 from garkcli.transfer import RULES
 
 ROOT = Path(__file__).parents[2]

@@ -1,0 +1,111 @@
+"""The rules of a method file that make the blocks between its methods, and the blocks it gives."""
+
+from __future__ import annotations
+
+import re
+
+from yaml.nodes import MappingNode, Node, ScalarNode, SequenceNode
+
+from garkcli.methodfile.description import (
+    BlockText,
+    MatrixText,
+    RuleText,
+    TransferText,
+    block_name,
+)
+from garkcli.methodfile.numbers import Numbers
+from garkcli.methodfile.source import Source, key_nodes, keys_of, shortened
+from garkcli.transfer import PAIR_RULES, RULES
+
+ALL_RULES = (*RULES, *PAIR_RULES)
+"""The words for rules."""
+_BLOCK_OR_COLOUR = re.compile(r"[1-9][0-9 ,]*")
+_BLOCK = re.compile(r"\s*([1-9][0-9]{0,3})\s*,\s*([1-9][0-9]{0,3})\s*")
+
+
+class TransferReader:
+    """Reads ``transfer``."""
+
+    def __init__(self, source: Source, numbers: Numbers) -> None:
+        self.source = source
+        self.numbers = numbers
+
+    def read(self, node: Node, colours: int) -> TransferText:
+        """The rules, and the blocks given one by one, of so many colours."""
+        keys = keys_of(node)
+        if not keys & {"default", "blocks"}:
+            # without quotes {1,2: rule} has the keys 1 and 2
+            keys_in_order = key_nodes(node).values()
+            numbered = [x for x in keys_in_order if _BLOCK_OR_COLOUR.fullmatch(x.value)]
+            if numbered:
+                message = "transfer: single blocks stand under blocks"
+                cure = 'write transfer: {default: …, blocks: {"1,2": …}}'
+                self.source.fault(numbered[0], message, cure)
+                return TransferText(None, {})
+            return TransferText(self._rule(node, "transfer"), {})
+        entries = self.source.mapping(node, "transfer", ("default", "blocks"))
+        default = None
+        if "default" in entries:
+            default = self._rule(entries["default"], "transfer, default")
+        blocks: dict[tuple[int, int], BlockText] = {}
+        if "blocks" in entries:
+            blocks = self._blocks(entries["blocks"], colours)
+        return TransferText(default, blocks)
+
+    def _blocks(self, node: Node, colours: int) -> dict[tuple[int, int], BlockText]:
+        """The blocks that are given one by one; keys such as ``1,2`` count colours from 1."""
+        blocks: dict[tuple[int, int], BlockText] = {}
+        keys = key_nodes(node)
+        form = 'write for instance {"1,2": interpolation}'
+        entries = self.source.mapping(node, "transfer, blocks", (), form=form)
+        for key, value in entries.items():
+            place = _BLOCK.fullmatch(key)
+            l, m = 0, 0
+            if place:
+                l, m = int(place[1]) - 1, int(place[2]) - 1
+            if l == m or max(l, m) >= colours:
+                shown = shortened(key)
+                wanted = f"off-diagonal block of {colours} colours"
+                message = f"transfer, blocks: {shown} names no {wanted}"
+                cure = 'write for instance "1,2" for the block A^{1,2}'
+                self.source.fault(keys[key], message, cure)
+                continue
+            where = block_name(l, m)
+            if (l, m) in blocks:
+                message = f"transfer, blocks: {where} is given twice"
+                self.source.fault(keys[key], message, "keep one of them")
+            block = self._block(value, where)
+            if block is not None:
+                blocks[l, m] = block
+        return blocks
+
+    def _block(self, node: Node, where: str) -> BlockText | None:
+        """A block as a matrix or as a rule."""
+        if not isinstance(node, SequenceNode):
+            return self._rule(node, where)
+        rows = self.numbers.matrix(node, where)
+        self.numbers.rectangular(rows, node, where)
+        return MatrixText(node, rows) if rows else None
+
+    def _rule(self, node: Node, where: str) -> RuleText | None:
+        if isinstance(node, ScalarNode):
+            rule = self.source.choice(node, where, ALL_RULES)
+            return RuleText(node, ((rule, None),)) if rule else None
+        mixed = sorted(keys_of(node) & set(PAIR_RULES))
+        if mixed:
+            what = "makes both blocks of a pair of colours and cannot be combined"
+            message = f"{where}: {mixed[0]} {what}"
+            self.source.fault(node, message, f"write {mixed[0]} on its own")
+            return None
+        form = "write one of the rules, for instance transfer: collocation"
+        entries = self.source.mapping(node, where, RULES, form=form)
+        if not entries:
+            if isinstance(node, MappingNode) and not node.value:
+                cure = f"one of: {', '.join(ALL_RULES)}"
+                self.source.fault(node, f"{where}: no rule", cure)
+            return None
+        terms = []
+        for rule, weight in entries.items():
+            place = f"{where}, weight of {rule}"
+            terms.append((rule, self.numbers.entry(weight, place)))
+        return RuleText(node, tuple(terms))
