@@ -19,8 +19,8 @@ from matplotlib.figure import Figure
 
 from garkcli import converge, load, long_run
 from garkcli.longtime.history import LongRun
-from garkcli.plots.convergence_plot import save
 from garkcli.plots.energy_plot import draw_history
+from garkcli.plots.saving import save
 from garkcli.problems.oscillator import Oscillator
 
 HERE = Path(__file__).resolve().parent

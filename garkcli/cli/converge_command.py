@@ -223,7 +223,7 @@ def _draw(entries: list[Entry], shown: Shown, output: Output) -> None:
 
 
 def _save(figure: Figure, shown: Shown, output: Output) -> None:
-    from garkcli.plots.convergence_plot import save
+    from garkcli.plots.saving import save
 
     save(figure, Path(shown.plot or ""))
     output.note(f"wrote {shown.plot}")

@@ -120,8 +120,8 @@ def command(output: Output, **options: Any) -> int:
     says_all = output.verbosity >= 0
     output.write(report.render(made, output.format, output.paint, says_all))
     if wanted.plot is not None:
-        from garkcli.plots.convergence_plot import save
         from garkcli.plots.energy_plot import energy_figure
+        from garkcli.plots.saving import save
 
         save(energy_figure(run), Path(wanted.plot))
         output.note(f"wrote {wanted.plot}")

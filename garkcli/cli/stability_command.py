@@ -78,7 +78,7 @@ def command(
             )
     output.write(render(reports, output.format, output.paint))
     if plot is not None:
-        from garkcli.plots.convergence_plot import save
+        from garkcli.plots.saving import save
         from garkcli.plots.stability_plot import stability_figure
 
         save(stability_figure(reports, order_star), Path(plot))
@@ -88,7 +88,7 @@ def command(
 
 def _check_plot(plot: str) -> None:
     """Refuse a picture that could not be written, before the work."""
-    from garkcli.plots.convergence_plot import check_suffix
+    from garkcli.plots.saving import check_suffix
 
     check_suffix(Path(plot))
     if not Path(plot).parent.is_dir():

@@ -77,7 +77,7 @@ def check_plot(path: str | None) -> None:
         UsageProblem: its suffix is none of those that can be drawn.
     """
     if path is not None:
-        from garkcli.plots.convergence_plot import check_suffix
+        from garkcli.plots.saving import check_suffix
 
         check_suffix(Path(path))
 

@@ -1,4 +1,4 @@
-"""The figures of the convergence test, and how figures become files.
+"""The figures of the convergence test.
 
 Everything is told apart by marks and dashes as well as by colour, so that the figures can be
 printed in grey.
@@ -6,32 +6,29 @@ printed in grey.
 
 from __future__ import annotations
 
-import warnings
 from collections.abc import Callable, Iterable, Mapping, Sequence
-from io import BytesIO
 from math import floor
-from pathlib import Path
 from textwrap import wrap
-from typing import Any
+from typing import Any, TypeAlias
 
-from matplotlib import rc_context
 from matplotlib.axes import Axes
 from matplotlib.figure import Figure
 from matplotlib.ticker import FuncFormatter, MaxNLocator
 
 from garkcli.convergence.result import Convergence
-from garkcli.errors import UsageProblem
-from garkcli.plots.slopes import Curve, Line, place_line
+from garkcli.plots.slopes import Curve, Decades, Line, place_line
 from garkcli.report.asciiplot import log10
 from garkcli.report.convergence import order_text
 from garkcli.report.convergence_data import problem_name
 from garkcli.report.costs import curve
-from garkcli.report.writing import refuse_unwritable, write_whole
 
-SUFFIXES = (".png", ".svg", ".pdf")
-"""The kinds of file that figures can be saved as."""
+Style: TypeAlias = Mapping[str, Any]
+"""How matplotlib draws a line."""
+_Points: TypeAlias = Iterable[tuple[Any, Any]]
+_Place: TypeAlias = Callable[[float], float]
+"""From decades to where they are on an axis."""
 _BLUE, _RED = "#1f4e9e", "#c0392b"  # of clearly different lightness in grey
-_STYLES: Sequence[Mapping[str, Any]] = (
+_STYLES: Sequence[Style] = (
     {"marker": "o", "linestyle": "-", "color": "black"},
     {"marker": "s", "linestyle": "--", "color": "#c0392b", "markerfacecolor": "white"},
     {"marker": "^", "linestyle": "-.", "color": "#1f4e9e"},
@@ -46,21 +43,21 @@ _STYLES: Sequence[Mapping[str, Any]] = (
     },
     {"marker": "*", "linestyle": (0, (3, 1, 3, 3)), "color": "#2aa0a8"},
 )
-_THIN: Mapping[str, Any] = {"color": "0.3", "linewidth": 0.8, "zorder": 1.5}
+_THIN: Style = {"color": "0.3", "linewidth": 0.8, "zorder": 1.5}
 """Of lines that are below all curves."""
 _AXES = {
     "h": "step size h",
     "evaluations": "evaluations of vector fields",
     "seconds": "seconds of processor time",
 }
-_ERROR: Mapping[str, Any] = {"marker": "o", "color": _BLUE, "linewidth": 1.6}
-_ENERGY_ERROR: Mapping[str, Any] = {
+_ERROR: Style = {"marker": "o", "color": _BLUE, "linewidth": 1.6}
+_ENERGY_ERROR: Style = {
     "marker": "s",
     "color": "0.45",
     "linewidth": 1.0,
     "markerfacecolor": "white",
 }
-_REFERENCE: Mapping[str, Any] = {"color": _RED, "linestyle": "--", "linewidth": 1.4}
+_REFERENCE: Style = {"color": _RED, "linestyle": "--", "linewidth": 1.4}
 _LONGEST = 72  # characters of a name in a legend
 _TITLE_WIDTH = 60  # characters of a line of a title
 _FLOATS = 290  # decades: beyond, logarithms are drawn on a linear axis
@@ -70,17 +67,22 @@ def convergence_figure(result: Convergence, name: str) -> Figure:
     """Error and energy error of the method called ``name`` against h, log–log, with a line whose
     slope is the visible order.
     """
-    errors = _curve(curve(result, "h"), "error", _ERROR)
-    kept = [(row.h, row.energy_error) for row in result.rows if row.energy_error > 0]
+    order = result.visible_order
+    points = curve(result, "h")
+    errors = _curve(points, "error", _ERROR)
+    steps = [row for row in result.rows if row.energy_error > 0]
+    kept = [(row.h, row.energy_error) for row in steps]
     energy_errors = _curve(kept, "energy error", _ENERGY_ERROR)
     curves = [found for found in (errors, energy_errors) if found is not None]
     if errors is not None:
-        line = place_line([errors], result.visible_order, curves, is_whole=True)
-        label = f"reference, slope {result.visible_order}"
-        curves.append(Curve(line.xs, line.ys, label, _REFERENCE))
-    heading = "\n".join(wrap(_shortened(name), _TITLE_WIDTH))
+        line = place_line([errors], order, curves, is_whole=True)
+        label = f"reference, slope {order}"
+        reference = Curve(line.xs, line.ys, label, _REFERENCE)
+        curves.append(reference)
+    heading = wrap(_shortened(name), _TITLE_WIDTH)
     observed = order_text(result.observed_order)
-    title = f"{heading}\n{_title(result)}: observed order {observed}"
+    last = f"{_title(result)}: observed order {observed}"
+    title = "\n".join([*heading, last])
     figure = _log_log(curves, [], title, "step size h", 4.8)
     if curves:
         figure.axes[0].legend(frameon=False)
@@ -99,37 +101,45 @@ def comparison_figure(
     curves: list[Curve] = []
     of_order: dict[int, list[Curve]] = {}
     for k, (name, result) in enumerate(named):
-        errors = _curve(curve(result, against), _shortened(name), _style(k))
+        points = curve(result, against)
+        errors = _curve(points, _shortened(name), _style(k))
         if errors is None:
             continue
         curves.append(errors)
-        if result.visible_order > 0:
-            of_order.setdefault(result.visible_order, []).append(errors)
+        order = result.visible_order
+        if order > 0:
+            beside = of_order.setdefault(order, [])
+            beside.append(errors)
     lines = []
     for order, beside in of_order.items():
         # errors rise with h, and fall with what they cost
         slope = order if against == "h" else -order
-        lines.append(place_line(beside, slope, curves))
+        line = place_line(beside, slope, curves)
+        lines.append(line)
     size = 4.6 + 0.23 * len(curves)
-    figure = _log_log(curves, lines, _title(named[0][1]), _AXES[against], size)
+    _, first = named[0]
+    label = _AXES[against]
+    figure = _log_log(curves, lines, _title(first), label, size)
     _add_legend_below(figure, curves)
     return figure
 
 
-def _curve(
-    points: Iterable[tuple[Any, Any]], label: str, style: Mapping[str, Any]
-) -> Curve | None:
+def _curve(points: _Points, label: str, style: Style) -> Curve | None:
     """The curve through positive points; None where there are none."""
-    logarithms = [(log10(x), log10(y)) for x, y in points]
-    if not logarithms:
+    xs: list[float] = []
+    ys: list[float] = []
+    for x, y in points:
+        xs.append(log10(x))
+        ys.append(log10(y))
+    if not xs:
         return None
-    xs, ys = zip(*logarithms, strict=True)
     return Curve(xs, ys, label, style)
 
 
 def _add_legend_below(figure: Figure, curves: Sequence[Curve]) -> None:
     """The names of all curves below the axes, where no curve can be."""
-    drawn = figure.axes[0].get_lines()[: len(curves)]
+    lines = figure.axes[0].get_lines()
+    drawn = lines[: len(curves)]
     placeholders = ["method"] * len(drawn)
     legend = figure.legend(
         drawn,
@@ -139,22 +149,28 @@ def _add_legend_below(figure: Figure, curves: Sequence[Curve]) -> None:
         handlelength=3.5,
     )
     # names are no formulas, and may begin with _, which would hide them
-    for text, named in zip(legend.get_texts(), curves, strict=True):
+    texts = legend.get_texts()
+    for text, named in zip(texts, curves, strict=True):
         text.set_parse_math(False)
         text.set_text(named.label)
 
 
 def _title(result: Convergence) -> str:
     name = problem_name(result)
-    return f"{name[:1].upper()}{name[1:]} to t = {result.t_end}"
+    capitalized = name[:1].upper() + name[1:]
+    return f"{capitalized} to t = {result.t_end}"
 
 
 def _style(k: int) -> dict[str, Any]:
     """Of the k-th curve: marks and dashes are combined anew once all have been used."""
     count = len(_STYLES)
-    dashes = _STYLES[(k + k // count) % count]["linestyle"]
-    sizes = {"linewidth": 1.4, "markersize": 5.5}
-    return {**_STYLES[k % count], "linestyle": dashes, **sizes}
+    rounds, place = divmod(k, count)
+    marks = _STYLES[place]
+    dashes = _STYLES[(k + rounds) % count]
+    style = {**marks, "linestyle": dashes["linestyle"]}
+    style["linewidth"] = 1.4
+    style["markersize"] = 5.5
+    return style
 
 
 def _log_log(
@@ -171,20 +187,25 @@ def _log_log(
     """
     figure = Figure(figsize=(6.4, size), layout="constrained")
     axes = figure.add_subplot()
-    has_floats = _largest([*curves, *lines]) < _FLOATS
+    largest = _largest([*curves, *lines])
+    has_floats = largest < _FLOATS
     place = _power if has_floats else _itself
     draw = axes.loglog if has_floats else axes.plot
     for drawn in curves:
-        xs, ys = _placed(drawn.xs, place), _placed(drawn.ys, place)
+        xs = _placed(drawn.xs, place)
+        ys = _placed(drawn.ys, place)
         draw(xs, ys, label=drawn.label, **drawn.style)
     for line in lines:
-        xs, ys = _placed(line.xs, place), _placed(line.ys, place)
+        xs = _placed(line.xs, place)
+        ys = _placed(line.ys, place)
         draw(xs, ys, label=line.label, **_THIN)
         _annotate(axes, line, place)
     if not has_floats:
         _label_powers(axes)
     elif curves:
-        decades = [z for drawn in curves for z in drawn.xs]
+        decades: list[float] = []
+        for drawn in curves:
+            decades += drawn.xs
         _label_decades(axes, decades)
     axes.set_title(title, fontsize=11, parse_math=False)
     axes.set_xlabel(label)
@@ -197,7 +218,8 @@ def _largest(drawn: Sequence[Curve | Line]) -> float:
     """The decades that are farthest from 1."""
     decades = [0.0]
     for x in drawn:
-        decades += [abs(z) for z in (*x.xs, *x.ys)]
+        decades += map(abs, x.xs)
+        decades += map(abs, x.ys)
     return max(decades)
 
 
@@ -211,18 +233,23 @@ def _itself(decades: float) -> float:
     return decades
 
 
-def _placed(decades: Iterable[float], place: Callable[[float], float]) -> list[float]:
+def _placed(decades: Decades, place: _Place) -> list[float]:
     return [place(z) for z in decades]
 
 
-def _annotate(axes: Axes, line: Line, place: Callable[[float], float]) -> None:
+def _annotate(axes: Axes, line: Line, place: _Place) -> None:
     """The label of a line beside its middle, on its far side from the curve."""
-    middle = place(sum(line.xs) / 2), place(sum(line.ys) / 2)
-    right, horizontal = (3, "left") if line.is_right else (-3, "right")
-    up, vertical = (-3, "top") if line.is_below else (3, "bottom")
+    x = place(sum(line.xs) / 2)
+    y = place(sum(line.ys) / 2)
+    right, horizontal = 3, "left"
+    up, vertical = 3, "bottom"
+    if not line.is_right:
+        right, horizontal = -3, "right"
+    if line.is_below:
+        up, vertical = -3, "top"
     axes.annotate(
         line.label,
-        middle,
+        (x, y),
         (right, up),
         textcoords="offset points",
         ha=horizontal,
@@ -245,22 +272,25 @@ def _label_powers(axes: Axes) -> None:
         axis.set_major_locator(MaxNLocator(8))
 
 
-def _label_decades(axes: Axes, decades: Sequence[float]) -> None:
+def _label_decades(axes: Axes, decades: Decades) -> None:
     """Numbers below a logarithmic axis, between the powers of ten too: as many as there is space
     for.
     """
-    digits = _digits_between(max(decades) - min(decades))
+    span = max(decades) - min(decades)
+    digits = _digits_between(span)
 
     def text(x: float, _: object) -> str:
         # powers of ten that rounding has made a little smaller are meant too
         power = floor(log10(x) + 1e-9)
         digit = round(x / 10.0**power)
-        if not digits or digit not in (1, *digits):
+        is_labelled = digit == 1 or digit in digits
+        if not digits or not is_labelled:
             return ""
         if -3 <= power <= 3:
             return f"{x:g}"
-        factor = "" if digit == 1 else f"{digit}\\times"
-        return f"${factor}10^{{{power}}}$"
+        if digit == 1:
+            return f"$10^{{{power}}}$"
+        return f"${digit}\\times10^{{{power}}}$"
 
     if digits:
         axes.xaxis.set_major_formatter(FuncFormatter(text))
@@ -277,42 +307,7 @@ def _digits_between(span: float) -> tuple[int, ...]:
 
 
 def _shortened(name: str) -> str:
-    return name if len(name) <= _LONGEST else f"{name[: _LONGEST - 1]}…"
-
-
-def check_suffix(path: Path) -> None:
-    """Refuse a file name that ``save`` has no format or no folder for, before the work is done.
-
-    Raises:
-        UsageProblem: the suffix is none of ``SUFFIXES``, or there is no such folder.
-    """
-    if path.suffix.lower() not in SUFFIXES:
-        kind = f"of kind {path.suffix!r}" if path.suffix else "without a suffix"
-        raise UsageProblem(
-            f"no figure can be saved to {path.name!r}, {kind}",
-            f"end it in {', '.join(SUFFIXES)}",
-        )
-    refuse_unwritable(str(path))
-
-
-def save(figure: Figure, path: Path) -> None:
-    """Write ``figure`` in the format of the suffix of ``path``: whole or not at all.
-
-    Raises:
-        UsageProblem: the suffix is none of ``SUFFIXES``, or the file cannot be written.
-    """
-    check_suffix(path)
-    kind = path.suffix.lower().removeprefix(".")
-    drawn = BytesIO()
-    # no date, and no names drawn by lot: the same result gives the same file
-    with rc_context({"svg.hashsalt": "gark"}), warnings.catch_warnings():
-        # of a name in letters that the font has not
-        warnings.filterwarnings("ignore", "Glyph .* missing")
-        figure.savefig(drawn, format=kind, dpi=150, metadata=_undated(kind))
-    write_whole(str(path), [drawn.getvalue()])
-
-
-def _undated(kind: str) -> dict[str, None]:
-    if kind == "svg":
-        return {"Date": None}
-    return {"CreationDate": None} if kind == "pdf" else {}
+    if len(name) <= _LONGEST:
+        return name
+    start = name[: _LONGEST - 1]
+    return f"{start}…"

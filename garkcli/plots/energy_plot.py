@@ -5,6 +5,9 @@ Lines differ in dashes as well as in colour, so that the figures can be printed 
 
 from __future__ import annotations
 
+from collections.abc import Mapping
+from typing import Any
+
 from matplotlib.axes import Axes
 from matplotlib.figure import Figure
 
@@ -12,19 +15,35 @@ from garkcli.longtime.history import InvariantHistory, LongRun
 from garkcli.problems.hamiltonian import Hamiltonian
 
 _PALE, _RED = "#7fa1d6", "#a02417"  # of clearly different lightness in grey
+_ERRORS: Mapping[str, Any] = {
+    "color": _PALE,
+    "linewidth": 1.1,
+    "solid_joinstyle": "round",
+}
+_PANEL_TITLE: Mapping[str, Any] = {"fontsize": 10, "loc": "left", "parse_math": False}
+_POWERS: Mapping[str, Any] = {
+    "style": "sci",
+    "scilimits": (-2, 3),
+    "useMathText": True,
+}
 
 
 def energy_figure(run: LongRun) -> Figure:
     """The energy error against time, and below it a panel for the error of each other invariant."""
     histories = run.invariants
-    heights = [3.0, *(2.0 for _ in histories[1:])]
-    figure = Figure(figsize=(7.2, 0.9 + sum(heights)), layout="constrained")
     rows = len(histories)
+    heights = [2.0] * rows
+    heights[0] = 3.0  # the energy
+    height = 0.9 + sum(heights)
+    figure = Figure(figsize=(7.2, height), layout="constrained")
     grid = figure.subplots(rows, 1, sharex=True, squeeze=False, height_ratios=heights)
     panels = grid[:, 0]
-    name = run.problem.name if isinstance(run.problem, Hamiltonian) else "oscillator"
+    name = "oscillator"
+    if isinstance(run.problem, Hamiltonian):
+        name = run.problem.name
     capitalized = name[:1].upper() + name[1:]
-    title = f"{capitalized}, h = {run.step}, {run.steps} steps"
+    steps = f"h = {run.step}, {run.steps} steps"
+    title = f"{capitalized}, {steps}"
     # names of files are no formulas
     figure.suptitle(title, fontsize=11, parse_math=False)
     for axes, history in zip(panels, histories, strict=True):
@@ -35,16 +54,17 @@ def energy_figure(run: LongRun) -> Figure:
 
 def draw_history(axes: Axes, run: LongRun, history: InvariantHistory) -> None:
     """One quantity against time on ``axes``, with the line of its drift where it has one."""
-    axes.plot(
-        run.times, history.errors, color=_PALE, linewidth=1.1, solid_joinstyle="round"
-    )
+    axes.plot(run.times, history.errors, **_ERRORS)
     axes.axhline(0.0, color="0.1", linewidth=0.9)
     if history.verdict == "drifts" and history.shape == "line":
         _draw_drift(axes, run, history)
-    title = f"{history.name}: largest error {history.max_error:.2e}, {_words(history)}"
-    axes.set_title(title, fontsize=10, loc="left", parse_math=False)
-    axes.set_ylabel("H(t) − H(0)" if history.name == "energy" else "error")
-    axes.ticklabel_format(axis="y", style="sci", scilimits=(-2, 3), useMathText=True)
+    largest = f"largest error {history.max_error:.2e}"
+    title = f"{history.name}: {largest}, {_words(history)}"
+    axes.set_title(title, **_PANEL_TITLE)
+    is_energy = history.name == "energy"
+    label = "H(t) − H(0)" if is_energy else "error"
+    axes.set_ylabel(label)
+    axes.ticklabel_format(axis="y", **_POWERS)
     axes.grid(True, color="0.9", linewidth=0.6)
     axes.margins(x=0)
 
@@ -56,8 +76,11 @@ def _draw_drift(axes: Axes, run: LongRun, history: InvariantHistory) -> None:
         return
     points = zip(run.times, history.errors, strict=True)
     left = [error - drift * t for t, error in points]
-    middle = (max(left) + min(left)) / 2
-    ends = [run.times[0], run.times[-1]]
+    extent = max(left) + min(left)
+    middle = extent / 2
+    start = run.times[0]
+    end = run.times[-1]
+    ends = [start, end]
     heights = [middle + drift * t for t in ends]
     axes.plot(
         ends,

@@ -5,7 +5,7 @@ from __future__ import annotations
 from collections.abc import Mapping, Sequence
 from dataclasses import dataclass
 from itertools import pairwise, product
-from typing import Any
+from typing import Any, TypeAlias
 
 _GAPS = (0.05, 0.08, 0.12, 0.18, 0.26)
 """Distances from the curve that a line is for, in heights of the figure."""
@@ -14,14 +14,18 @@ _CLEAR = 0.035
 _LABEL = ((0.02, 0.02), (0.06, 0.03), (0.11, 0.035))
 """Where a label is, from the middle of its line, in widths and heights of the figure."""
 _SAMPLES = 8
+Decades: TypeAlias = Sequence[float]
+"""Decimal logarithms."""
+Point: TypeAlias = tuple[float, float]
+_Points: TypeAlias = Sequence[Point]
 
 
 @dataclass(frozen=True)
 class Curve:
     """Points in decimal logarithms, and how to draw them."""
 
-    xs: Sequence[float]
-    ys: Sequence[float]
+    xs: Decades
+    ys: Decades
     label: str
     style: Mapping[str, Any]
 
@@ -36,8 +40,8 @@ class Line:
         is_below: whether it is below the curve that it is for; its label is on its far side.
     """
 
-    xs: tuple[float, float]
-    ys: tuple[float, float]
+    xs: Point
+    ys: Point
     slope: int
     is_below: bool
 
@@ -66,19 +70,19 @@ def place_line(
 
     The first place that is clear of all curves is taken; where none is, the clearest.
     """
-    wide = _extent([x for curve in curves for x in curve.xs])
-    high = _extent([y for curve in curves for y in curve.ys])
-    scaled = []
-    for curve in curves:
-        points = sorted(zip(curve.xs, curve.ys, strict=True))
-        scaled.append([(x / wide, y / high) for x, y in points])
-    parts = [part for curve in beside for part in _parts(curve, is_whole)]
+    figure = _Figure.of(curves)
+    parts: list[_Points] = []
+    for curve in beside:
+        parts += _parts(curve, is_whole)
+    has_label = not is_whole
     sides = (not is_whole, is_whole)
-    best, clearest = None, -1.0
+    best = None
+    clearest = -1.0
     # the nearest places first
     for gap, part, is_below in product(_GAPS, parts, sides):
-        line = _beside(part, slope, gap * high, is_below)
-        clear = _clearance(line, scaled, wide, high, not is_whole)
+        distance = gap * figure.high
+        line = _beside(part, slope, distance, is_below)
+        clear = _clearance(line, figure, has_label)
         if clear > clearest:
             best, clearest = line, clear
         if clear >= _CLEAR:
@@ -87,12 +91,58 @@ def place_line(
     return best
 
 
-def _extent(numbers: Sequence[float]) -> float:
+@dataclass(frozen=True)
+class _Figure:
+    """All curves, in widths and heights of the figure.
+
+    Attributes:
+        wide, high: the figure's own, in decades.
+        curves: the points of each, from left to right.
+    """
+
+    wide: float
+    high: float
+    curves: Sequence[_Points]
+
+    @staticmethod
+    def of(curves: Sequence[Curve]) -> _Figure:
+        """The figure that holds some curves."""
+        xs: list[float] = []
+        ys: list[float] = []
+        for curve in curves:
+            xs += curve.xs
+            ys += curve.ys
+        wide = _extent(xs)
+        high = _extent(ys)
+        empty = _Figure(wide, high, [])
+        scaled: list[_Points] = []
+        for curve in curves:
+            points = sorted(zip(curve.xs, curve.ys, strict=True))
+            scaled.append([empty.place(x, y) for x, y in points])
+        return _Figure(wide, high, scaled)
+
+    def place(self, x: float, y: float) -> Point:
+        """Where a point in decades is."""
+        return x / self.wide, y / self.high
+
+    def heights(self, x: float) -> list[float]:
+        """Of the curves that pass x, at x."""
+        found = []
+        for points in self.curves:
+            for (a, c), (b, d) in pairwise(points):
+                if a <= x <= b:
+                    width = (b - a) or 1.0
+                    part = (x - a) / width
+                    found.append(c + (d - c) * part)
+        return found
+
+
+def _extent(numbers: Decades) -> float:
     """From the least to the greatest; 1 where they are one."""
     return max(numbers) - min(numbers) or 1.0
 
 
-def _parts(curve: Curve, is_whole: bool) -> list[list[tuple[float, float]]]:
+def _parts(curve: Curve, is_whole: bool) -> list[_Points]:
     """The points beside which a line can be: those of the smallest errors, or of the largest."""
     points = list(zip(curve.xs, curve.ys, strict=True))
     if is_whole or len(points) <= 3:
@@ -100,52 +150,42 @@ def _parts(curve: Curve, is_whole: bool) -> list[list[tuple[float, float]]]:
     return [points[-3:], points[:3]]
 
 
-def _beside(
-    points: Sequence[tuple[float, float]], slope: int, gap: float, is_below: bool
-) -> Line:
+def _beside(points: _Points, slope: int, gap: float, is_below: bool) -> Line:
     """The line through no point, with this distance from the nearest."""
-    left, right = points[0][0], points[-1][0]
+    left, _ = points[0]
+    right, _ = points[-1]
     if len(points) == 1:
-        left, right = left - 0.2, right + 0.2
+        left -= 0.2
+        right += 0.2
     offsets = [b - slope * a for a, b in points]
     offset = min(offsets) - gap if is_below else max(offsets) + gap
-    start, end = offset + slope * left, offset + slope * right
+    start = offset + slope * left
+    end = offset + slope * right
     return Line((left, right), (start, end), slope, is_below)
 
 
-def _clearance(
-    line: Line,
-    scaled: Sequence[Sequence[tuple[float, float]]],
-    wide: float,
-    high: float,
-    has_label: bool,
-) -> float:
+def _clearance(line: Line, figure: _Figure, has_label: bool) -> float:
     """The least vertical distance of the line and its label from the curves, in heights of the
     figure.
     """
-    (left, right), (start, end) = line.xs, line.ys
-    points = []
+    left, right = line.xs
+    start, end = line.ys
+    points: list[Point] = []
     for k in range(_SAMPLES + 1):
         part = k / _SAMPLES
         x = left + (right - left) * part
         y = start + (end - start) * part
-        points.append((x / wide, y / high))
+        points.append(figure.place(x, y))
     if has_label:
-        x = (left + right) / 2 / wide
-        y = (start + end) / 2 / high
+        middle = (left + right) / 2
+        height = (start + end) / 2
+        x, y = figure.place(middle, height)
         away = 1 if line.is_right else -1
         up = -1 if line.is_below else 1
-        points += [(x + away * u, y + up * v) for u, v in _LABEL]
-    distances = [abs(y - height) for x, y in points for height in _heights(scaled, x)]
+        for u, v in _LABEL:
+            corner = x + away * u, y + up * v
+            points.append(corner)
+    distances: list[float] = []
+    for x, y in points:
+        distances += [abs(y - height) for height in figure.heights(x)]
     return min(distances, default=1.0)
-
-
-def _heights(scaled: Sequence[Sequence[tuple[float, float]]], x: float) -> list[float]:
-    """Of the curves that pass x, at x."""
-    found = []
-    for points in scaled:
-        for (a, c), (b, d) in pairwise(points):
-            if a <= x <= b:
-                width = (b - a) or 1.0
-                found.append(c + (d - c) * (x - a) / width)
-    return found

@@ -8,11 +8,12 @@ from __future__ import annotations
 
 from collections.abc import Sequence
 from dataclasses import dataclass
-from typing import TYPE_CHECKING, Any
+from typing import TYPE_CHECKING, Any, TypeAlias
 
 import numpy as np
 from matplotlib.axes import Axes
 from matplotlib.figure import Figure
+from matplotlib.legend import Legend
 from matplotlib.lines import Line2D
 
 from garkcli.exact.display import to_float
@@ -35,6 +36,8 @@ DASHES: tuple[Any, ...] = (
     (0, (1, 2)),
     (0, (4, 1, 1, 1)),
 )
+Named: TypeAlias = tuple[str, StabilityFunction]
+"""A stability function and what the legend calls it."""
 POINTS = 401
 """Points a side of a region."""
 _AT_POLES = 1e9
@@ -57,7 +60,9 @@ class Window:
         """The real parts, the imaginary parts, and all points, shape (POINTS, POINTS)."""
         x = np.linspace(self.left, self.right, POINTS)
         y = np.linspace(-self.top, self.top, POINTS)
-        return x, y, x[np.newaxis, :] + 1j * y[:, np.newaxis]
+        rows = 1j * y[:, np.newaxis]
+        points = x[np.newaxis, :] + rows
+        return x, y, points
 
 
 def values(p: Polynomial, z: Array) -> Array:
@@ -74,7 +79,8 @@ def _coefficients(p: Polynomial) -> list[float]:
 def modulus(R: StabilityFunction, z: Array) -> Array:
     """|R| at many points; infinite at poles."""
     with np.errstate(divide="ignore", invalid="ignore"):
-        ratio = values(R.numerator, z) / values(R.denominator, z)
+        numerators = values(R.numerator, z)
+        ratio = numerators / values(R.denominator, z)
         size: Array = np.abs(ratio)
     return size
 
@@ -85,12 +91,15 @@ def window_of(functions: Sequence[StabilityFunction], is_symmetric: bool) -> Win
     for R in functions:
         for p in (R.numerator, R.denominator):
             if p.degree > 0:
-                sizes = np.abs(np.roots(_coefficients(p)))
-                reach = max(reach, float(np.max(sizes)))
+                roots = np.roots(_coefficients(p))
+                largest = np.max(np.abs(roots))
+                reach = max(reach, float(largest))
     reach *= 1.6
     have_no_poles = all(R.denominator.degree == 0 for R in functions)
     # regions of polynomials are on the left
-    right = reach / 4 if have_no_poles and not is_symmetric else reach
+    right = reach
+    if have_no_poles and not is_symmetric:
+        right = reach / 4
     return Window(-reach, right, reach)
 
 
@@ -115,14 +124,15 @@ def region_figure(reports: Sequence[StabilityReport], order_star: bool) -> Figur
     """The regions |R(z)| ≤ 1, a panel a direction where there is one method of several colours."""
     figure = Figure(figsize=(6.4, 5.6), layout="constrained")
     axes = figure.subplots()
-    named: list[tuple[str, StabilityFunction]] = []
+    named: list[Named] = []
     for report in reports:
         linear = report.found.linear
         if len(reports) == 1 and len(linear) > 1:
             named += [(_direction(one.name), one.R) for one in linear]
         else:
-            named.append((report.name, linear[0].R))
-    title = reports[0].name if len(reports) == 1 else f"{len(reports)} methods"
+            first = linear[0]
+            named.append((report.name, first.R))
+    title = _title([report.name for report in reports])
     figure.suptitle(title, fontsize=11, parse_math=False)
     _draw_regions(axes, named, order_star)
     return figure
@@ -132,31 +142,38 @@ def _direction(name: str) -> str:
     return "all colours alike" if name == "all" else f"colour {name} alone"
 
 
-def _draw_regions(
-    axes: Axes, named: Sequence[tuple[str, StabilityFunction]], order_star: bool
-) -> None:
-    window = window_of([R for _, R in named], order_star)
+def _title(names: Sequence[str]) -> str:
+    if len(names) == 1:
+        return names[0]
+    return f"{len(names)} methods"
+
+
+def _line(k: int) -> tuple[str, Any]:
+    """The colour and the dashes of the k-th line."""
+    colour = COLOURS[k % len(COLOURS)]
+    dashes = DASHES[k % len(DASHES)]
+    return colour, dashes
+
+
+def _draw_regions(axes: Axes, named: Sequence[Named], order_star: bool) -> None:
+    functions = [R for _, R in named]
+    window = window_of(functions, order_star)
     x, y, z = window.grid()
     handles = []
     for k, (name, R) in enumerate(named):
-        colour, dashes = COLOURS[k % len(COLOURS)], DASHES[k % len(DASHES)]
+        colour, dashes = _line(k)
+        colours = [colour]
         level = modulus(R, z)
         bounds = [0.0, 1.0]
         if order_star:
             level = level / np.exp(z.real)
             bounds = [1.0, _ABOVE_ALL]
         finite = np.nan_to_num(level, nan=_AT_POLES, posinf=_AT_POLES)
-        axes.contourf(x, y, finite, levels=bounds, colors=[colour], alpha=0.18)
-        axes.contour(
-            x,
-            y,
-            finite,
-            levels=[1.0],
-            colors=[colour],
-            linestyles=[dashes],
-            linewidths=1.4,
-        )
-        handles.append(Line2D([], [], color=colour, linestyle=dashes, label=name))
+        axes.contourf(x, y, finite, levels=bounds, colors=colours, alpha=0.18)
+        edge: dict[str, Any] = {"linestyles": [dashes], "linewidths": 1.4}
+        axes.contour(x, y, finite, levels=[1.0], colors=colours, **edge)
+        handle = Line2D([], [], color=colour, linestyle=dashes, label=name)
+        handles.append(handle)
     axes.axhline(0.0, color="0.1", linewidth=0.8)
     axes.axvline(0.0, color="0.1", linewidth=0.8)
     axes.set_aspect("equal")
@@ -166,65 +183,81 @@ def _draw_regions(
     axes.set_title(what, fontsize=10, loc="left")
     if len(named) > 1:
         legend = axes.legend(handles=handles, fontsize=9, loc="upper left")
-        for text in legend.get_texts():
-            text.set_parse_math(False)
+        _write_literally(legend)
+
+
+def _write_literally(legend: Legend) -> None:
+    """Names are no formulas."""
+    for text in legend.get_texts():
+        text.set_parse_math(False)
 
 
 def trace_figure(reports: Sequence[StabilityReport]) -> Figure:
     """|tr M|/2 against z, with the stable step sizes shaded where there is one method."""
     figure = Figure(figsize=(7.2, 3.9), layout="constrained")
     axes = figure.subplots()
-    found = [
-        (report.name, report.found.oscillator)
-        for report in reports
-        if report.found.oscillator is not None
-    ]
-    end = max(_last_end(oscillator) for _, oscillator in found) * 1.25
+    found: list[tuple[str, OscillatorStability]] = []
+    for report in reports:
+        oscillator = report.found.oscillator
+        if oscillator is not None:
+            found.append((report.name, oscillator))
+    last = max(_last_end(oscillator) for _, oscillator in found)
+    end = last * 1.25
     z = np.linspace(0.0, end, 1200)
     for k, (name, oscillator) in enumerate(found):
         half = _half_trace(oscillator, z)
-        colour, dashes = COLOURS[k % len(COLOURS)], DASHES[k % len(DASHES)]
+        colour, dashes = _line(k)
         axes.plot(z, half, color=colour, linestyle=dashes, label=name)
     if len(found) == 1:
-        _shade_stable(axes, found[0][1], end)
+        _, only = found[0]
+        _shade_stable(axes, only, end)
     axes.axhline(1.0, color="0.1", linewidth=0.9)
     axes.set_ylim(0.0, 2.0)
     axes.set_xlim(0.0, end)
     axes.set_xlabel("z = hω")
     axes.set_ylabel("|tr M(z)| / 2")
-    title = found[0][0] if len(found) == 1 else f"{len(found)} methods"
+    title = _title([name for name, _ in found])
     axes.set_title(title, fontsize=11, loc="left", parse_math=False)
     if len(found) > 1:
-        for text in axes.legend(frameon=False, fontsize=9).get_texts():
-            text.set_parse_math(False)
+        legend = axes.legend(frameon=False, fontsize=9)
+        _write_literally(legend)
     return figure
 
 
 def _half_trace(oscillator: OscillatorStability, z: Array) -> Array:
     """|tr M|/2 at many points."""
-    x, ratio = z**2, oscillator.trace
+    x = z**2
+    ratio = oscillator.trace
     with np.errstate(divide="ignore", invalid="ignore"):
-        trace = values(ratio.numerator, x) / values(ratio.denominator, x)
+        numerators = values(ratio.numerator, x)
+        trace = numerators / values(ratio.denominator, x)
     half: Array = np.abs(trace) / 2
     return half
 
 
 def _shade_stable(axes: Axes, oscillator: OscillatorStability, end: float) -> None:
     for interval in oscillator.stable:
-        low = 0.0 if interval.start is None else _root(interval.start)
-        high = end if interval.end is None else _root(interval.end)
-        axes.axvspan(low, min(high, end), color="0.9", linewidth=0)
+        low = 0.0
+        high = end
+        if interval.start is not None:
+            low = _root(interval.start)
+        if interval.end is not None:
+            high = min(_root(interval.end), end)
+        axes.axvspan(low, high, color="0.9", linewidth=0)
 
 
 def _root(x: RealRoot) -> float:
     """The z of x = z²."""
-    z: float = float(x.ball(64)) ** 0.5
+    square = float(x.ball(64))
+    z: float = square**0.5
     return z
 
 
 def _last_end(oscillator: OscillatorStability) -> float:
     ends = [i.end for i in oscillator.stable if i.end is not None]
-    return _root(ends[-1]) if ends else 8.0
+    if not ends:
+        return 8.0
+    return _root(ends[-1])
 
 
 def springs_figure(plane: SpringsPlane, name: str) -> Figure:
@@ -232,7 +265,8 @@ def springs_figure(plane: SpringsPlane, name: str) -> Figure:
     figure = Figure(figsize=(6.4, 5.2), layout="constrained")
     axes = figure.subplots()
     fast, slow = plane.fast, plane.slow
-    shown = np.nan_to_num(plane.half_trace, nan=_AT_POLES, posinf=_AT_POLES)
+    half = plane.half_trace
+    shown = np.nan_to_num(half, nan=_AT_POLES, posinf=_AT_POLES)
     red = ["#a02417"]
     unstable = [1.0, _ABOVE_ALL]
     axes.contourf(fast, slow, shown, levels=unstable, colors=red, alpha=0.35)

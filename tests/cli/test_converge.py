@@ -9,7 +9,7 @@ from pathlib import Path
 
 import pytest
 
-from garkcli.plots.convergence_plot import SUFFIXES
+from garkcli.plots.saving import SUFFIXES
 from tests.cli.harness import ROOT, gark
 
 COLLOCATION = "methods/collocation.gark.yaml"

@@ -17,8 +17,8 @@ from garkcli.longtime.history import LongRun
 from garkcli.longtime.longtime import long_run
 from garkcli.longtime.symplecticity import Defect, Symplecticity
 from garkcli.methodfile.load import load
-from garkcli.plots.convergence_plot import save
 from garkcli.plots.energy_plot import energy_figure
+from garkcli.plots.saving import save
 from garkcli.problems.builtin import hamiltonian
 from garkcli.problems.oscillator import Oscillator, terms_of
 from garkcli.report.bandplot import INSIDE, SINGLE, terminal_band

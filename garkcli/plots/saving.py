@@ -1,0 +1,58 @@
+"""How figures become files: in the format of the suffix, the same bytes every time."""
+
+from __future__ import annotations
+
+import warnings
+from io import BytesIO
+from pathlib import Path
+
+from matplotlib import rc_context
+from matplotlib.figure import Figure
+
+from garkcli.errors import UsageProblem
+from garkcli.report.writing import refuse_unwritable, write_whole
+
+SUFFIXES = (".png", ".svg", ".pdf")
+"""The kinds of file that figures can be saved as."""
+
+
+def check_suffix(path: Path) -> None:
+    """Refuse a file name that ``save`` has no format or no folder for, before the work is done.
+
+    Raises:
+        UsageProblem: the suffix is none of ``SUFFIXES``, or there is no such folder.
+    """
+    suffix = path.suffix
+    if suffix.lower() not in SUFFIXES:
+        kind = f"of kind {suffix!r}" if suffix else "without a suffix"
+        message = f"no figure can be saved to {path.name!r}, {kind}"
+        endings = ", ".join(SUFFIXES)
+        raise UsageProblem(message, f"end it in {endings}")
+    refuse_unwritable(str(path))
+
+
+def save(figure: Figure, path: Path) -> None:
+    """Write ``figure`` in the format of the suffix of ``path``: whole or not at all.
+
+    Raises:
+        UsageProblem: the suffix is none of ``SUFFIXES``, or the file cannot be written.
+    """
+    check_suffix(path)
+    suffix = path.suffix.lower()
+    kind = suffix.removeprefix(".")
+    undated = _undated(kind)
+    drawn = BytesIO()
+    # no date, and no names drawn by lot: the same result gives the same file
+    with rc_context({"svg.hashsalt": "gark"}), warnings.catch_warnings():
+        # of a name in letters that the font has not
+        warnings.filterwarnings("ignore", "Glyph .* missing")
+        figure.savefig(drawn, format=kind, dpi=150, metadata=undated)
+    write_whole(str(path), [drawn.getvalue()])
+
+
+def _undated(kind: str) -> dict[str, None]:
+    if kind == "svg":
+        return {"Date": None}
+    if kind == "pdf":
+        return {"CreationDate": None}
+    return {}
