@@ -21,6 +21,7 @@ if TYPE_CHECKING:
         pair,
     )
     from garkcli.check.check_file import check_file
+    from garkcli.check.proof import prove_method
     from garkcli.convergence import convergence as _convergence
     from garkcli.errors import GarkError, MethodFileError
     from garkcli.longtime import longtime as _longtime
@@ -80,6 +81,7 @@ _HOMES = {
     "Oscillator": "problems.oscillator",
     "pair": "api.methods",
     "parse_tree": "trees.notation",
+    "prove_method": "check.proof",
     "simplifying": "order.simplifying",
     "symplectic_pair": "tableau.forms",
     "symplecticity_defects": "longtime.symplecticity",
@@ -134,6 +136,7 @@ __all__ = [
     "method_of",
     "pair",
     "parse_tree",
+    "prove_method",
     "simplifying",
     "symplectic_pair",
     "symplecticity_defects",

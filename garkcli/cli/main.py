@@ -41,6 +41,7 @@ COMMANDS = {
     "stability": "A-, L-, P-stability, intervals, SSP coefficient, exactly",
     "converge": "the convergence test on a problem",
     "energy": "energy and other invariants over a long time: do they drift?",
+    "certificate": "what proves the orders, to be checked without gark",
     "list": "families, transfer rules, problems",
     "schema": "the JSON Schemas of method and problem files, for editors",
 }

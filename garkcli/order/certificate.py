@@ -12,7 +12,7 @@ for a set of trees whose ψ span, and there are at most s + 1 of those a colour.
 
 from __future__ import annotations
 
-from collections.abc import Iterator, Sequence
+from collections.abc import Iterable, Iterator, Sequence
 from dataclasses import dataclass
 from typing import cast
 
@@ -176,3 +176,23 @@ class _Spans:
         if self.degree == 1:
             return cast("list[fmpq]", list(vector))
         return [x for number in vector for x in coordinates(number, self.degree)]
+
+
+def all_spanning_trees(
+    tableau: Tableau, orders: Iterable[int]
+) -> Iterator[tuple[tuple[Tree, ...], ...]]:
+    """Trees whose ψ span those of all trees of an order, one order after the other.
+
+    Args:
+        tableau: any tableau.
+        orders: ascending, from 1 on.
+
+    Yields:
+        For each colour the trees with that root; over ℚ at most s + 1 of them.
+    """
+    spans = _Spans(tableau)
+    for order in orders:
+        yield tuple(
+            tuple(Tree(l, forest.branches) for forest in spans.stage_vectors(l, order))
+            for l in range(tableau.size)
+        )

@@ -9,7 +9,12 @@ import pytest
 
 from tests.docs.transcripts import ROOT, agrees, brought_up_to_date, prepare, run, steps
 
-PAGES = [ROOT / "README.md", ROOT / "docs" / "tour.md", ROOT / "docs" / "stability.md"]
+PAGES = [
+    ROOT / "README.md",
+    ROOT / "docs" / "tour.md",
+    ROOT / "docs" / "stability.md",
+    ROOT / "docs" / "certificate.md",
+]
 
 
 @pytest.mark.skipif(os.name == "nt", reason="the pages are for a shell with sed")

@@ -13,7 +13,7 @@ from dataclasses import dataclass
 from pathlib import Path
 
 ROOT = Path(__file__).parents[2]
-FOLDERS = ("methods", "problems", "tests/examples")
+FOLDERS = ("methods", "problems", "tests/examples", "tools")
 """What a page may use from the checkout."""
 
 
@@ -91,6 +91,8 @@ def run(command: str, folder: Path) -> tuple[int, list[str]]:
     words = shlex.split(command)
     if words[0] == "gark":
         words = [sys.executable, "-m", "garkcli", *words[1:]]
+    elif words[0] == "python3":
+        words[0] = sys.executable
     done = subprocess.run(
         words,
         cwd=folder,

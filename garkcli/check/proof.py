@@ -1,0 +1,61 @@
+"""The orders of a method, of its conjugate and of its pair with what decides them."""
+
+from __future__ import annotations
+
+from dataclasses import dataclass
+
+from garkcli.check.analysis import conjugate_and_pair, is_pair_of_itself
+from garkcli.errors import MethodError
+from garkcli.order.certificate import DEFAULT_LIMIT
+from garkcli.order.proof import Proof, prove
+from garkcli.tableau.garkmethod import GarkMethod
+
+
+@dataclass(frozen=True)
+class MethodProof:
+    """What decides the orders of a method.
+
+    Attributes:
+        name: of the method.
+        method: its order.
+        conjugate: that of its symplectic conjugate, or None where a weight is zero.
+        pair: that of the symplectic pair, or None likewise.
+        obstacle: why there is no conjugate; empty where there is one.
+    """
+
+    name: str
+    method: Proof
+    conjugate: Proof | None
+    pair: Proof | None
+    obstacle: str
+
+    @property
+    def is_own_pair(self) -> bool:
+        """Whether the method is partitioned and the pair that is made of it."""
+        both = self.pair
+        return both is not None and is_pair_of_itself(self.method.tableau, both.tableau)
+
+
+def prove_method(method: GarkMethod, limit: int = DEFAULT_LIMIT) -> MethodProof:
+    """The orders of a method, its conjugate and its pair, with spanning trees and witnesses.
+
+    Args:
+        method: as it was loaded; its coefficients are exact.
+        limit: the order at which to stop.
+
+    Raises:
+        MethodError: the coefficients are rounded.
+    """
+    if method.tolerance is not None:
+        raise MethodError(
+            "the coefficients are rounded: an order within a tolerance has no exact proof",
+            "give them exactly, without a tolerance",
+        )
+    conjugated, both, obstacle = conjugate_and_pair(method.tableau)
+    return MethodProof(
+        name=method.name,
+        method=prove(method.tableau, limit),
+        conjugate=None if conjugated is None else prove(conjugated, limit),
+        pair=None if both is None else prove(both, limit),
+        obstacle=obstacle,
+    )

@@ -1,0 +1,25 @@
+"""``gark certificate``."""
+
+from __future__ import annotations
+
+import click
+
+from garkcli.cli.options import CONTEXT, PATH, Output, common
+
+
+@click.command("certificate", context_settings=CONTEXT)
+@click.argument("file", type=PATH, metavar="FILE")
+@common(["json"])
+def command(file: str, output: Output) -> int:
+    """What proves the orders of a method, to be checked without gark.
+
+    The exact tableau, its conjugate and pair, the trees that span all trees of each order, and a
+    tree that fails. tools/referee.py of the source distribution, one short file of plain Python,
+    decides the orders again from it.
+    """
+    from garkcli.check.proof import prove_method
+    from garkcli.methodfile.load import load
+    from garkcli.report.proof_json import render
+
+    output.write(render(prove_method(load(file))))
+    return 0

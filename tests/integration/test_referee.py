@@ -1,0 +1,236 @@
+"""``gark certificate`` and ``tools/referee.py``: what is proved, and what is found out."""
+
+from __future__ import annotations
+
+import ast
+import importlib.util
+import json
+import subprocess
+import sys
+from collections.abc import Callable
+from pathlib import Path
+from types import ModuleType
+from typing import Any
+
+import pytest
+from hypothesis import given, settings
+from hypothesis import strategies as st
+
+from garkcli import find_order, load, loads
+from garkcli.check.deciding import analyse
+from garkcli.check.proof import prove_method
+from garkcli.report.proof_json import render
+
+ROOT = Path(__file__).resolve().parents[2]
+SCRIPT = ROOT / "tools" / "referee.py"
+METHODS = sorted((ROOT / "methods").glob("*.yaml"))
+
+
+def _referee() -> ModuleType:
+    spec = importlib.util.spec_from_file_location("referee", SCRIPT)
+    assert spec is not None
+    assert spec.loader is not None
+    module = importlib.util.module_from_spec(spec)
+    spec.loader.exec_module(module)
+    return module
+
+
+REFEREE = _referee()
+
+
+def certificate(text: str) -> dict[str, Any]:
+    """The proof of a method file."""
+    data = json.loads(render(prove_method(loads(text))))
+    assert isinstance(data, dict)
+    return data
+
+
+def judged(data: dict[str, Any], folder: Path) -> int:
+    """The exit code of the referee on a proof."""
+    path = folder / "proof.json"
+    path.write_text(json.dumps(data), encoding="utf-8")
+    code = REFEREE.main([str(path)])
+    assert isinstance(code, int)
+    return code
+
+
+COLLOCATION = (ROOT / "methods" / "collocation.gark.yaml").read_text(encoding="utf-8")
+RADICALS = (ROOT / "methods" / "collocation-conjugate.gark.yaml").read_text("utf-8")
+
+
+def test_the_referee_shares_no_code() -> None:
+    """It imports the standard library alone and is short."""
+    text = SCRIPT.read_text(encoding="utf-8")
+    imported = set()
+    for node in ast.walk(ast.parse(text)):
+        if isinstance(node, ast.Import):
+            imported |= {alias.name for alias in node.names}
+        if isinstance(node, ast.ImportFrom):
+            imported.add(str(node.module))
+    assert imported == {"fractions", "itertools", "json", "re", "sys"}
+    assert sum(bool(line.strip()) for line in text.splitlines()) < 300
+
+
+@pytest.mark.parametrize("path", METHODS, ids=lambda path: path.name.split(".")[0])
+def test_every_method_is_proved(
+    path: Path, tmp_path: Path, capsys: pytest.CaptureFixture[str]
+) -> None:
+    """The orders that the referee proves are those of ``gark check``."""
+    method = load(path)
+    data = json.loads(render(prove_method(method)))
+    assert judged(data, tmp_path) == 0
+    found = analyse(method.tableau)
+    orders = [found.order, found.conjugate_order, found.pair_order]
+    names = ["method", "conjugate", "pair"]
+    shown = capsys.readouterr().out.splitlines()[1:]
+    assert [line.split(",")[0].strip() for line in shown] == [
+        f"{name}: order {order.order}"
+        for name, order in zip(names, orders, strict=True)
+        if order is not None
+    ]
+
+
+def test_as_a_program(tmp_path: Path) -> None:
+    """Run as people run it: several files, the worst exit code; no file is no proof."""
+    good, bad = tmp_path / "good.json", tmp_path / "bad.json"
+    data = certificate(COLLOCATION)
+    good.write_text(json.dumps(data), encoding="utf-8")
+    data["pair"]["order"] = 5
+    bad.write_text(json.dumps(data), encoding="utf-8")
+
+    def run(*paths: Path) -> subprocess.CompletedProcess[str]:
+        command = [sys.executable, "-I", str(SCRIPT), *map(str, paths)]
+        return subprocess.run(command, capture_output=True, text=True, check=False)
+
+    assert run(good).returncode == 0
+    assert run(good, bad).returncode == 1
+    assert "not proved" in run(bad).stdout
+    assert run(tmp_path / "none.json", good).returncode == 2
+    assert run(SCRIPT).returncode == 2
+    assert run().returncode == 2
+
+
+def _drop_a_tree(data: dict[str, Any]) -> None:
+    data["method"]["spanning"][3][1].pop()
+
+
+def _repeat_a_tree(data: dict[str, Any]) -> None:
+    lists = [trees for row in data["method"]["spanning"] for trees in row]
+    trees = max(lists, key=len)
+    assert len(trees) > 1
+    trees[-1] = trees[0]
+
+
+def _claim_more(data: dict[str, Any]) -> None:
+    data["method"]["order"] = 5
+    data["method"]["spanning"].append(
+        [["[[[[[]_1]_1]_1]_1]_1"], ["[[[[[]_1]_1]_1]_1]_2"]]
+    )
+
+
+def _claim_less(data: dict[str, Any]) -> None:
+    data["method"]["order"] = 3
+    data["method"]["spanning"].pop()
+
+
+def _true_witness(data: dict[str, Any]) -> None:
+    data["method"]["order"] = 3
+    tree = data["method"]["spanning"].pop()[0][0]
+    data["method"]["witness"]["tree"] = tree
+
+
+def _other_value(data: dict[str, Any]) -> None:
+    data["method"]["witness"]["value"] = "1/7"
+
+
+def _other_weight(data: dict[str, Any]) -> None:
+    data["pair"]["colours"][0]["b"][0] = "2/3"
+
+
+def _other_block(name: str) -> Callable[[dict[str, Any]], None]:
+    def change(data: dict[str, Any]) -> None:
+        row = data[name]["blocks"][0]["A"][0]
+        row[0] = "1/3"
+
+    return change
+
+
+def _missing_block(data: dict[str, Any]) -> None:
+    data["pair"]["blocks"].pop()
+
+
+def _coinciding_nodes(data: dict[str, Any]) -> None:
+    data["method"]["spaces"][0]["modulus"] = ["1/4", "-1", "1"]
+
+
+@pytest.mark.parametrize(
+    "change",
+    [
+        _drop_a_tree,
+        _repeat_a_tree,
+        _claim_more,
+        _claim_less,
+        _true_witness,
+        _other_value,
+        _other_weight,
+        _other_block("method"),
+        _other_block("conjugate"),
+        _other_block("pair"),
+        _missing_block,
+        _coinciding_nodes,
+    ],
+)
+@pytest.mark.parametrize("text", [COLLOCATION, RADICALS], ids=["rational", "radicals"])
+def test_a_false_proof_is_found_out(
+    text: str, change: Callable[[dict[str, Any]], None], tmp_path: Path
+) -> None:
+    """Trees that do not span, orders too high or too low, other blocks, other nodes."""
+    data = certificate(text)
+    if change is _coinciding_nodes and "modulus" not in data["method"]["spaces"][0]:
+        pytest.skip("no node polynomial")
+    change(data)
+    assert judged(data, tmp_path) == 1
+
+
+@pytest.mark.parametrize("ends", [("2", "3"), ("-10", "10")])
+def test_theta_is_one_root(ends: tuple[str, str], tmp_path: Path) -> None:
+    """The interval of θ holds exactly one root of the modulus."""
+    data = certificate(RADICALS)
+    data["field"]["theta_between"] = list(ends)
+    assert judged(data, tmp_path) == 1
+
+
+def test_rounded_coefficients_have_no_proof() -> None:
+    """A tolerance is refused with the cure."""
+    method = loads("A: [[0]]\nb: [0.9999999]\ntolerance: 1e-6\n")
+    with pytest.raises(Exception, match="rounded") as caught:
+        prove_method(method)
+    assert "without a tolerance" in str(caught.value)
+
+
+_ENTRIES = st.sampled_from(["0", "1/2", "1/3", "1", "-1/4", "sqrt(2)/2", "1/6"])
+
+
+@st.composite
+def _additive(draw: st.DrawFn) -> str:
+    """A random additive method file of two stages, of one colour or two."""
+    colours = draw(st.integers(1, 2))
+    blocks, weights = [], []
+    for _ in range(colours):
+        first = draw(_ENTRIES.filter(lambda x: x != "0"))
+        weights.append(f'["{first}", "1 - {first}"]')
+        rows = [[draw(_ENTRIES) for _ in range(2)] for _ in range(2)]
+        blocks.append(json.dumps(rows))
+    return f"ark: {{A: [{', '.join(blocks)}], b: [{', '.join(weights)}]}}\n"
+
+
+@settings(max_examples=30)
+@given(_additive())
+def test_random_methods_are_proved(
+    tmp_path_factory: pytest.TempPathFactory, text: str
+) -> None:
+    """Whatever the method is, the referee agrees with its order, conjugate and pair."""
+    method = loads(text)
+    data = json.loads(render(prove_method(method)))
+    assert data["method"]["order"] == find_order(method).order
+    assert judged(data, tmp_path_factory.mktemp("proof")) == 0
