@@ -23,7 +23,8 @@ def log10(x: Positive) -> float:
     >>> log10(fmpq(1, 10**400))
     -400.0
     """
-    return float(arb(x).log() / arb(10).log())
+    natural = arb(x).log()
+    return float(natural / arb(10).log())
 
 
 def terminal_plot(
@@ -90,7 +91,9 @@ def terminal_curves(
     """
     points = []
     for mark, pairs in curves.items():
-        points += [(log10(x), log10(y), mark) for x, y in pairs if x > 0 and y > 0]
+        for x, y in pairs:
+            if x > 0 and y > 0:
+                points.append((log10(x), log10(y), mark))
     return _plot(points, label, width or _inside(label), height, None)
 
 
@@ -126,9 +129,11 @@ def _plot(
 
     if line is not None:
         start, level, slope = line
+        apart = (right - left) / (width - 1)
         for column in range(width):
-            x = left + (right - left) * column / (width - 1)
-            put(x, level + slope * (x - start), LINE)
+            x = left + apart * column
+            y = level + slope * (x - start)
+            put(x, y, LINE)
     for x, y, mark in points:
         put(x, y, mark)
 
@@ -160,10 +165,12 @@ def _decades(bottom: int, top: int, most: int) -> range:
 def _short(exponent: float) -> str:
     if abs(exponent) >= 300:
         return f"1e{exponent:+.1f}"
+    number = 10**exponent
     if not 2 <= exponent < 15:
-        return f"{10**exponent:.2g}"
-    digits, _, ending = f"{10**exponent:.1e}".partition("e")
-    mantissa, power = float(digits), int(ending)
+        return f"{number:.2g}"
+    digits, _, ending = f"{number:.1e}".partition("e")
+    mantissa = float(digits)
+    power = int(ending)
     if power >= 5:
         return f"{mantissa:g}e{power}"
     return str(round(mantissa * 10**power))
@@ -179,27 +186,50 @@ def _framed(
     label.
     """
     margin = max(map(len, rows.values()))
-    blank = " " * margin
-    lines = [f"{blank} error"]
-    for i, row in enumerate(frame):
-        number = rows.get(i, "").rjust(margin)
-        axis = "┤" if i in rows else "│"
-        line = f"{number} {axis}{''.join(row)}"
-        lines.append(line.rstrip())
     width = len(frame[0])
-    ticks = ["┬" if j in columns else "─" for j in range(width)]
-    lines.append(f"{blank} └{''.join(ticks)}")
+    blank = " " * margin
     numbers = _placed(columns, margin, width)
-    return [*lines, f"{numbers}  {label}"]
+    lines = [f"{blank} error"]
+    lines += beside_axis(frame, rows, margin)
+    lines.append(f"{blank} {ruled(columns, width)}")
+    lines.append(f"{numbers}  {label}")
+    return lines
+
+
+def beside_axis(
+    frame: Sequence[Sequence[str]], marks: Mapping[int, str], margin: int
+) -> list[str]:
+    """The lines of a frame right of their axis; ``marks`` has the numbers of some of them, and
+    ``margin`` their width.
+    """
+    lines = []
+    for i, cells in enumerate(frame):
+        number = marks.get(i, "").rjust(margin)
+        axis = "┤" if i in marks else "│"
+        inside = "".join(cells)
+        line = f"{number} {axis}{inside}"
+        lines.append(line.rstrip())
+    return lines
+
+
+def ruled(marks: Iterable[int], width: int) -> str:
+    """A horizontal axis with marks at some columns."""
+    cells = ["─"] * width
+    for j in marks:
+        if 0 <= j < width:
+            cells[j] = "┬"
+    return "└" + "".join(cells)
 
 
 def _placed(columns: Mapping[int, str], margin: int, width: int) -> str:
     """The numbers below their marks: those at the ends first, then what still fits."""
     cells = [" "] * (margin + width + 8)
-    inner_last = sorted(columns, key=lambda j: (0 < j < width - 1, j))
-    for j in inner_last:
+    last = width - 1
+    ends_first = sorted(columns, key=lambda j: (0 < j < last, j))
+    for j in ends_first:
         text = columns[j]
-        start = margin + 2 + j - len(text) // 2
+        half = len(text) // 2
+        start = margin + 2 + j - half
         end = start + len(text)
         around = cells[start - 1 : end + 1]
         if all(x == " " for x in around):

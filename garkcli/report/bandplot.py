@@ -7,6 +7,8 @@ from __future__ import annotations
 from collections.abc import Mapping, Sequence
 from itertools import pairwise
 
+from garkcli.report.asciiplot import beside_axis
+
 INSIDE = "│"
 """From the least to the greatest value of a column."""
 SINGLE = "•"
@@ -45,43 +47,57 @@ def terminal_band(
        └┬─────┬
         0     6  t
     """
-    low, high = min(0.0, *values), max(0.0, *values)
+    low = min(0.0, *values)
+    high = max(0.0, *values)
     if high == low:
         high = 1.0
+    extent = high - low
+    last = height - 1
 
     def line(value: float) -> int:
-        part = (high - value) / (high - low)
-        return round(part * (height - 1))
+        part = (high - value) / extent
+        return round(part * last)
 
-    marks = {0: high, height - 1: low, line(0.0): 0.0}
+    # zero comes last: it replaces an end that shares its line
+    marks = {0: high, last: low}
+    marks[line(0.0)] = 0.0
     texts = {i: f"{x:.3g}" for i, x in marks.items()}
     margin = max(map(len, texts.values()))
     width = max(columns - margin - _FRAME, 2)
-    bands = _bands(times, values, width)
+
     field = [[" "] * width for _ in range(height)]
     field[line(0.0)] = [ZERO] * width
+    bands = _bands(times, values, width)
     for j, (least, greatest) in enumerate(bands):
-        top, bottom = line(greatest), line(least)
+        top = line(greatest)
+        bottom = line(least)
+        sign = SINGLE if top == bottom else INSIDE
         for i in range(top, bottom + 1):
-            field[i][j] = SINGLE if top == bottom else INSIDE
-    return "\n".join(_framed(field, texts, label, times[0], times[-1]))
+            field[i][j] = sign
+    lines = _framed(field, texts, label, times[0], times[-1])
+    return "\n".join(lines)
 
 
 def _bands(
     times: Sequence[float], values: Sequence[float], width: int
 ) -> list[tuple[float, float]]:
     """The least and the greatest value of each column, of the line through all points."""
-    scale = (width - 1) / ((times[-1] - times[0]) or 1.0)
+    start = times[0]
+    span = times[-1] - start
+    scale = (width - 1) / (span or 1.0)
     columns: list[list[float]] = [[] for _ in range(width)]
     columns[0].append(values[0])
-    places = [(t - times[0]) * scale for t in times]
+    places = [(t - start) * scale for t in times]
     points = zip(places, values, strict=True)
     for (x, v), (y, w) in pairwise(points):
-        columns[round(y)].append(w)
-        for j in range(round(x), round(y)):
+        first, last = round(x), round(y)
+        columns[last].append(w)
+        for j in range(first, last):
             # where the line goes from column j to the next
-            part = (j + 0.5 - x) / (y - x)
-            value = v + (w - v) * min(max(part, 0.0), 1.0)
+            edge = j + 0.5
+            part = (edge - x) / (y - x)
+            part = min(max(part, 0.0), 1.0)
+            value = v + (w - v) * part
             columns[j].append(value)
             columns[j + 1].append(value)
     bands = []
@@ -99,15 +115,15 @@ def _framed(
     start: float,
     end: float,
 ) -> list[str]:
-    margin, width = max(map(len, marks.values())), len(field[0])
+    margin = max(map(len, marks.values()))
+    width = len(field[0])
     blank = " " * margin
-    lines = [f"{blank} {label}"]
-    for i, row in enumerate(field):
-        number = marks.get(i, "").rjust(margin)
-        axis = "┤" if i in marks else "│"
-        line = f"{number} {axis}{''.join(row)}"
-        lines.append(line.rstrip())
     rule = "─" * (width - 2)
-    first, last = f"{start:g}", f"{end:g}"
+    first = f"{start:g}"
+    last = f"{end:g}"
     last = last.rjust(width - len(first))
-    return [*lines, f"{blank} └┬{rule}┬", f"{blank}  {first}{last}  t"]
+    lines = [f"{blank} {label}"]
+    lines += beside_axis(field, marks, margin)
+    lines.append(f"{blank} └┬{rule}┬")
+    lines.append(f"{blank}  {first}{last}  t")
+    return lines

@@ -4,6 +4,8 @@ from __future__ import annotations
 
 from collections.abc import Callable
 
+from garkcli.report.asciiplot import beside_axis, ruled
+
 FULL = "█"
 """Inside."""
 EMPTY = " "
@@ -40,22 +42,25 @@ def terminal_region(
     middle = height // 2
     extent = right - left
     axis = round(-left / extent * (width - 1))
-    labels = {0: f"{top:.3g}", middle: "0", height - 1: f"{-top:.3g}"}
+    labels = {0: f"{top:.3g}", middle: "0"}
+    labels[height - 1] = f"{-top:.3g}"
     margin = max(map(len, labels.values()))
-    lines = []
+    field = []
     for i in range(height):
-        y = top * (1 - 2 * i / (height - 1))
+        part = 2 * i / (height - 1)  # 0 at the top, 2 at the bottom
+        y = top * (1 - part)
+        is_axis = i == middle
         cells = []
         for j in range(width):
             x = left + extent * j / (width - 1)
-            cells.append(_cell(is_inside(complex(x, y)), i == middle))
+            inside = is_inside(complex(x, y))
+            cells.append(_cell(inside, is_axis))
         if 0 <= axis < width:
             cells[axis] = "│"
-        number = labels.get(i, "").rjust(margin)
-        edge = "┤" if i in labels else "│"
-        line = f"{number} {edge}{''.join(cells)}"
-        lines.append(line.rstrip())
-    return "\n".join([*lines, *_scale(left, right, axis, width, margin)])
+        field.append(cells)
+    lines = beside_axis(field, labels, margin)
+    lines += _scale(left, right, axis, width, margin)
+    return "\n".join(lines)
 
 
 def _cell(inside: bool, is_axis: bool) -> str:
@@ -66,10 +71,15 @@ def _cell(inside: bool, is_axis: bool) -> str:
 
 def _scale(left: float, right: float, axis: int, width: int, margin: int) -> list[str]:
     """The horizontal axis with its marks."""
-    marks = {0: f"{left:.3g}", axis: "0", width - 1: f"{right:.3g}"}
-    line = "".join("┬" if j in marks else "─" for j in range(width))
-    words = [" "] * (margin + 2 + width + 6)
+    marks = {0: f"{left:.3g}", axis: "0"}
+    marks[width - 1] = f"{right:.3g}"
+    inner = margin + 2  # columns left of what is inside
+    words = [" "] * (inner + width + 6)
     for j, text in marks.items():
-        start = margin + 2 + j - len(text) // 2
-        words[start : start + len(text)] = text
-    return [" " * (margin + 1) + "└" + line, "".join(words).rstrip()]
+        half = len(text) // 2
+        start = inner + j - half
+        end = start + len(text)
+        words[start:end] = text
+    blank = " " * (margin + 1)
+    numbers = "".join(words)
+    return [blank + ruled(marks, width), numbers.rstrip()]

@@ -31,9 +31,13 @@ def render(
         name: one line.
         is_document: whether the text is a document that compiles as it stands.
     """
-    lines = [f"% {line}\n" for line in (name, remark(entries)) if line]
-    lines += (f"{line}\n" for line in _displays(tableau, entries))
-    return "".join(fragment(lines, is_document) if is_document else lines)
+    comments = (name, remark(entries))
+    lines = [f"% {comment}\n" for comment in comments if comment]
+    displays = _displays(tableau, entries)
+    lines += [f"{line}\n" for line in displays]
+    if is_document:
+        return "".join(fragment(lines, is_document))
+    return "".join(lines)
 
 
 def _displays(tableau: Tableau, entries: Entries) -> Iterator[str]:
@@ -49,7 +53,8 @@ def _displays(tableau: Tableau, entries: Entries) -> Iterator[str]:
         arrays.append([f"{letter}: \\quad", *array])
         columns += sum(len(entries.b[m]) for m in driven)
     if columns <= MAX_BESIDE:
-        yield from _display([*arrays[0], "\\qquad", *arrays[1]])
+        positions, momenta = arrays
+        yield from _display([*positions, "\\qquad", *momenta])
     else:
         for array in arrays:
             yield from _display(array)
@@ -57,11 +62,12 @@ def _displays(tableau: Tableau, entries: Entries) -> Iterator[str]:
 
 def _stages_of(tableau: Tableau, driven: Sequence[int]) -> list[int]:
     """A colour for each stage space whose stages see one of the colours ``driven``."""
-    return [
-        l
-        for l in distinct_rows(tableau)
-        if any(tableau.block(l, m) is not None for m in driven)
-    ]
+    seeing = []
+    for l in distinct_rows(tableau):
+        blocks = [tableau.block(l, m) for m in driven]
+        if any(block is not None for block in blocks):
+            seeing.append(l)
+    return seeing
 
 
 def _display(lines: Sequence[str]) -> Iterator[str]:
@@ -80,14 +86,19 @@ def _array(entries: Entries, shown: Sequence[int], colours: Sequence[int]) -> li
             cells = [_cell(node, entries)]
             for m in colours:
                 block = entries.A[l][m]
-                absent = [""] * len(entries.b[m])
-                cells += (
-                    absent if block is None else [_cell(x, entries) for x in block[i]]
-                )
-            lines.append("  " + " & ".join(cells) + r" \\")
+                if block is None:
+                    cells += [""] * len(entries.b[m])
+                else:
+                    cells += [_cell(x, entries) for x in block[i]]
+            row = " & ".join(cells)
+            lines.append(f"  {row} \\\\")
         lines.append(r"  \hline")
-    weights = [_cell(x, entries) for m in colours for x in entries.b[m]]
-    return [*lines, "  & " + " & ".join(weights), "\\end{array}"]
+    weights = []
+    for m in colours:
+        weights += [_cell(x, entries) for x in entries.b[m]]
+    lines.append("  & " + " & ".join(weights))
+    lines.append("\\end{array}")
+    return lines
 
 
 def _cell(cell: Cell, entries: Entries) -> str:

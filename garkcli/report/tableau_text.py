@@ -2,6 +2,7 @@
 
 from __future__ import annotations
 
+from collections.abc import Sequence
 from itertools import chain
 
 from flint import arb
@@ -41,7 +42,9 @@ def readable(entries: Entries) -> Entries:
     widest = entries.digits + len("-0.")
 
     def short(cell: Cell) -> Cell:
-        if isinstance(cell, arb) or len(to_text(cell)) <= widest:
+        if isinstance(cell, arb):
+            return cell
+        if len(to_text(cell)) <= widest:
             return cell
         return to_ball(cell, entries.digits)
 
@@ -50,16 +53,17 @@ def readable(entries: Entries) -> Entries:
 
 def remark(entries: Entries) -> str:
     """That entries are decimals, and why; empty where none is."""
+    decimals = f"decimals, {entries.digits} digits"
     if not entries.have_radicals:
-        return f"the nodes have no simple radicals: decimals, {entries.digits} digits"
+        return f"the nodes have no simple radicals: {decimals}"
     if not entries.is_exact:
-        return f"decimals, {entries.digits} digits"
+        return decimals
     rows = [*entries.c, *entries.b]
     for block in chain(*entries.A):
         rows += block or []
-    if any(isinstance(x, arb) for x in chain(*rows)):
-        how = f"long fractions as decimals, {entries.digits} digits"
-        return f"rounded coefficients: {how}"
+    cells = chain(*rows)
+    if any(isinstance(x, arb) for x in cells):
+        return f"rounded coefficients: long fractions as {decimals}"
     return ""
 
 
@@ -78,9 +82,13 @@ def render(
     lines = [paint("strong", title)]
     if about := remark(entries):
         lines.append(about)
+    lines.append("")
     grid = _grid(tableau, entries)
-    fits = max(len(line) for line in grid) <= width
-    lines += ["", *(grid if fits else _listing(tableau, entries))]
+    widest = max(len(line) for line in grid)
+    if widest <= width:
+        lines += grid
+    else:
+        lines += _listing(tableau, entries)
     return "\n".join(lines) + "\n"
 
 
@@ -88,7 +96,9 @@ def _grid(tableau: Tableau, entries: Entries) -> list[str]:
     """C | A^{1,1} | A^{1,2} | …, one colour under the other, b below."""
     shown = distinct_rows(tableau)
     columns = [_node_column(entries, shown)]
-    columns += [_colour_column(tableau, entries, shown, m) for m in range(tableau.size)]
+    for m in range(tableau.size):
+        column = _colour_column(tableau, entries, shown, m)
+        columns.append(column)
     widths = [max(map(len, column)) for column in columns]
     lines = []
     for cells in zip(*columns, strict=True):
@@ -107,26 +117,36 @@ def _grid(tableau: Tableau, entries: Entries) -> list[str]:
 
 def _node_column(entries: Entries, shown: list[int]) -> list[str]:
     """The nodes of the stage spaces shown, between an empty head and an empty foot."""
-    nodes = [cell_text(x, entries.digits) for l in shown for x in entries.c[l]]
-    return aligned([[text] for text in ["", *nodes, ""]])
+    cells = [""]
+    for l in shown:
+        cells += _texts(entries.c[l], entries.digits)
+    cells.append("")
+    return aligned([[text] for text in cells])
 
 
 def _colour_column(
     tableau: Tableau, entries: Entries, shown: list[int], m: int
 ) -> list[str]:
     """The name of a colour, its blocks under each other, and its weights."""
-    digits, stages = entries.digits, len(entries.b[m])
-    rows: list[list[str]] = [[""] * stages]
+    digits = entries.digits
+    weights = _texts(entries.b[m], digits)
+    absent = ["."] * len(weights)
+    rows = [[""] * len(weights)]
     for l in shown:
         block = entries.A[l][m]
         if block is None:
-            rows += [["."] * stages] * len(entries.c[l])
+            rows += [absent] * len(entries.c[l])
         else:
-            rows += [[cell_text(x, digits) for x in row] for row in block]
-    rows.append([cell_text(x, digits) for x in entries.b[m]])
+            rows += [_texts(row, digits) for row in block]
+    rows.append(weights)
     lines = aligned(rows)
     lines[0] = tableau.colours[m].name
     return lines
+
+
+def _texts(cells: Sequence[Cell], digits: int) -> list[str]:
+    """Entries as texts."""
+    return [cell_text(x, digits) for x in cells]
 
 
 def distinct_rows(tableau: Tableau) -> list[int]:
@@ -139,17 +159,23 @@ def distinct_rows(tableau: Tableau) -> list[int]:
 
 def _listing(tableau: Tableau, entries: Entries) -> list[str]:
     """Each block on its own."""
-    digits, names = entries.digits, [colour.name for colour in tableau.colours]
+    digits = entries.digits
+    names = [colour.name for colour in tableau.colours]
     lines: list[str] = []
     for name, nodes, weights in zip(names, entries.c, entries.b, strict=True):
-        c = ", ".join(cell_text(x, digits) for x in nodes)
-        b = ", ".join(cell_text(x, digits) for x in weights)
-        lines += [f"c{{{name}}} = {c}", f"b{{{name}}} = {b}", ""]
+        c = ", ".join(_texts(nodes, digits))
+        b = ", ".join(_texts(weights, digits))
+        lines.append(f"c{{{name}}} = {c}")
+        lines.append(f"b{{{name}}} = {b}")
+        lines.append("")
     for l in distinct_rows(tableau):
+        row_name = names[l]
         for name, block in zip(names, entries.A[l], strict=True):
             if block is None:
                 continue
-            cells = [[cell_text(x, digits) for x in row] for row in block]
+            cells = [_texts(row, digits) for row in block]
             rows = aligned(cells, right=False)
-            lines += [f"A{{{names[l]},{name}}} =", *indented(rows, " " * 4), ""]
+            lines.append(f"A{{{row_name},{name}}} =")
+            lines += indented(rows, " " * 4)
+            lines.append("")
     return lines[:-1]
