@@ -38,7 +38,7 @@ class Analysis:
     Attributes:
         tableau: the method.
         order: its exact order with a witness.
-        simplifying: B, C, D and the paper's bound.
+        simplifying: B, C, D and the bounds they give.
         inconsistent: the blocks with A^{l,m} 𝟙 ≠ c^{l}, as (l, m) counted from 0.
         symplectic: whether it is its own conjugate; for a partitioned tableau, whether its two
             parts are.
@@ -47,10 +47,12 @@ class Analysis:
         conjugate_inconsistent: the blocks with Â^{l,m} 𝟙 ≠ c^{l}.
         pair: the symplectic pair with 2N colours, or None.
         pair_order: the exact order of the pair.
-        pair_simplifying: B, C, D and the bound for the pair.
+        pair_simplifying: B, C, D and the bounds for the pair.
         bound: the paper's lower bound of the order; within a tolerance as far as the order bears it
             out.
         pair_bound: the same for the pair.
+        sharp_bound: the sharper bound of docs/sharper-bound.md, in the same way.
+        pair_sharp_bound: the same for the pair.
         obstacle: why there is no conjugate; empty where there is one.
         limit: where the search for orders stopped.
         tolerance: the rounding within which all of this holds; None where it holds exactly.
@@ -75,6 +77,8 @@ class Analysis:
     pair_simplifying: Simplifying | None
     bound: int
     pair_bound: int | None
+    sharp_bound: int
+    pair_sharp_bound: int | None
     obstacle: str
     limit: int
     tolerance: fmpq | None = None

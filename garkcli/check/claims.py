@@ -25,6 +25,8 @@ def _found(key: str, analysis: Analysis) -> object:
         "pair-order": _order(analysis.pair_order),
         "bound": analysis.bound,
         "pair-bound": analysis.pair_bound,
+        "sharp-bound": analysis.sharp_bound,
+        "pair-sharp-bound": analysis.pair_sharp_bound,
         "B": _capped_row(table.B, limit),
         "C": [_capped_row(row, limit) for row in table.C],
         "D": [_capped_row(row, limit) for row in table.D],

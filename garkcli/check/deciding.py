@@ -50,11 +50,15 @@ def analyse(
     conditions = simplifying(tableau, limit)
     conjugate_order = None if conjugated is None else find_order(conjugated, limit)
     pair_order, pair_conditions = None, None
+    pair_bound, pair_sharp_bound = None, None
     if both is not None and is_pair_of_itself(tableau, both):
         pair_order, pair_conditions = order, conditions
     elif both is not None:
         pair_order = find_order(both, limit)
         pair_conditions = simplifying(both, limit)
+    if pair_conditions is not None:
+        pair_bound = pair_conditions.bound
+        pair_sharp_bound = pair_conditions.sharp_bound
     inconsistent = inconsistent_blocks(tableau)
     suggestion = _suggestion(tableau, order, limit)
     misprint = None
@@ -75,7 +79,9 @@ def analyse(
         pair_order=pair_order,
         pair_simplifying=pair_conditions,
         bound=conditions.bound,
-        pair_bound=None if pair_conditions is None else pair_conditions.bound,
+        pair_bound=pair_bound,
+        sharp_bound=conditions.sharp_bound,
+        pair_sharp_bound=pair_sharp_bound,
         obstacle=obstacle,
         limit=limit,
         nonautonomous_order=nonautonomous(

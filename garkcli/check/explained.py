@@ -15,8 +15,14 @@ from garkcli.order.certificate import Witness
 from garkcli.trees.notation import format_tree
 
 if TYPE_CHECKING:
+    from garkcli.check.analysis import Analysis
     from garkcli.order.repairs import Repair
+    from garkcli.order.simplifying import Simplifying
 
+BOUND = "min{r, 2η+2, ξ+1, η+ζ+1}"
+"""The bound of ``Simplifying.bound``."""
+SHARP_BOUND = "min{r, 2η+2, ξ+1, χ+2, η+ζ+3}"
+"""The bound of ``Simplifying.sharp_bound``."""
 _SHORT = 20
 """Characters beyond which an exact entry is shown in decimals."""
 _LONG = 60
@@ -35,11 +41,22 @@ def witness_text(witness: Witness, colours: bool) -> str:
     return f"{where}: {value} instead of {witness.required}, off by {residual}"
 
 
+def bound_numbers(found: Simplifying) -> str:
+    """What the bounds of the order are made of."""
+    r, eta, zeta = found.r, found.eta, found.zeta
+    xi, chi = found.xi, found.chi
+    return f"r = {r}, η = {eta}, ζ = {zeta}, ξ = {xi}, χ = {chi}"
+
+
 def claim_witness(outcome: Outcome, claim: str) -> str:
-    """The witness against a failed claim on an order; empty where there is none."""
+    """The witness against a failed claim on an order, or what a bound is made of; empty where there
+    is neither.
+    """
     analysis = outcome.analysis
     if analysis is None:
         return ""
+    if claim.endswith("bound"):
+        return _bound_witness(analysis, claim)
     found = {
         "order": (analysis.order, analysis.tableau),
         "conjugate-order": (analysis.conjugate_order, analysis.conjugate),
@@ -49,6 +66,19 @@ def claim_witness(outcome: Outcome, claim: str) -> str:
     if order is None or tableau is None or order.witness is None:
         return ""
     return witness_text(order.witness, tableau.size > 1)
+
+
+def _bound_witness(analysis: Analysis, claim: str) -> str:
+    """How a bound comes about; empty where there is no pair."""
+    found = analysis.simplifying
+    if claim.startswith("pair-"):
+        if analysis.pair_simplifying is None:
+            return ""
+        found = analysis.pair_simplifying
+    equation = f"{found.bound} = {BOUND}"
+    if claim.endswith("sharp-bound"):
+        equation = f"{found.sharp_bound} = {SHARP_BOUND}"
+    return f"{equation} with {bound_numbers(found)}"
 
 
 def claim_hint(outcome: Outcome, claim: str) -> str:

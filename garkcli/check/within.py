@@ -62,7 +62,11 @@ def analyse_within(tableau: Tableau, tolerance: fmpq, limit: int) -> Analysis:
     both_parts = _pair_part(tableau, both, rounding, order, limit)
     hat, both_parts = _agreeing(tableau, order, symplectic, hat, both_parts)
     pair_conditions = _pair_conditions(tableau, both_parts, conditions, limit)
-    pair_order = both_parts.order if both_parts else None
+    pair_order, pair_bound, pair_sharp_bound = None, None, None
+    if both_parts is not None and pair_conditions is not None:
+        pair_order = both_parts.order
+        pair_bound = _capped(pair_conditions.bound, pair_order)
+        pair_sharp_bound = _capped(pair_conditions.sharp_bound, pair_order)
 
     def find(timed: Tableau) -> RoundedOrder:
         return find_order_within(timed, tolerance, limit)
@@ -79,8 +83,10 @@ def analyse_within(tableau: Tableau, tolerance: fmpq, limit: int) -> Analysis:
         pair=both,
         pair_order=pair_order,
         pair_simplifying=pair_conditions,
-        bound=min(conditions.bound, order.order),
-        pair_bound=_capped(pair_conditions, pair_order),
+        bound=_capped(conditions.bound, order),
+        pair_bound=pair_bound,
+        sharp_bound=_capped(conditions.sharp_bound, order),
+        pair_sharp_bound=pair_sharp_bound,
         obstacle=obstacle,
         limit=limit,
         tolerance=tolerance,
@@ -89,11 +95,9 @@ def analyse_within(tableau: Tableau, tolerance: fmpq, limit: int) -> Analysis:
     )
 
 
-def _capped(conditions: Simplifying | None, order: RoundedOrder | None) -> int | None:
+def _capped(bound: int, order: RoundedOrder) -> int:
     """A bound, as far as the order bears it out."""
-    if conditions is None or order is None:
-        return None
-    return min(conditions.bound, order.order)
+    return min(bound, order.order)
 
 
 @dataclass(frozen=True)

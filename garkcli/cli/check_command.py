@@ -66,7 +66,7 @@ def command(
     directories), or - for standard input.
 
     The exact order of the tableau, of its symplectic conjugate and of their pair, each with a tree
-    whose condition fails next; B, C and D of every block and the bound they give; consistency and
+    whose condition fails next; B, C and D of every block and the bounds they give; consistency and
     symplecticity; the claims under `expect`. The format auto is github in GitHub Actions and text
     elsewhere.
 

@@ -11,7 +11,15 @@ from yaml.nodes import Node, ScalarNode, SequenceNode
 from garkcli.methodfile.description import ClaimText
 from garkcli.methodfile.source import Source, is_null, shortened
 
-NUMBERS = ("order", "conjugate-order", "pair-order", "bound", "pair-bound")
+NUMBERS = (
+    "order",
+    "conjugate-order",
+    "pair-order",
+    "bound",
+    "pair-bound",
+    "sharp-bound",
+    "pair-sharp-bound",
+)
 TABLES = ("B", "C", "D")
 CLAIMS = (*NUMBERS, *TABLES, "symplectic")
 """Everything a file may claim."""

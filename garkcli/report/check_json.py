@@ -93,6 +93,8 @@ _ANALYSIS: tuple[Field[Analysis], ...] = (
     *inside(lambda x: x.nonautonomous_order, order_fields("nonautonomous_")),
     Field("simplifying", SIMPLIFYING.schema, SIMPLIFYING.data),
     Field("pair_bound", nullable(COUNT), lambda x: x.pair_bound),
+    Field("sharp_bound", COUNT, lambda x: x.sharp_bound),
+    Field("pair_sharp_bound", nullable(COUNT), lambda x: x.pair_sharp_bound),
 )
 """What was found of a method."""
 

@@ -7,10 +7,10 @@ from collections.abc import Sequence
 from flint import fmpq
 
 from garkcli.check.analysis import Analysis
+from garkcli.check.explained import BOUND, SHARP_BOUND, bound_numbers
 from garkcli.check.outcome import Claim, Outcome
 from garkcli.errors import excerpt
 from garkcli.exact.display import decimal
-from garkcli.order.simplifying import Simplifying
 from garkcli.report.check_orders import (
     LABEL,
     order_lines,
@@ -187,11 +187,17 @@ def _conditions(analysis: Analysis) -> list[str]:
     for label, table in (("C(eta)", found.C), ("D(zeta)", found.D)):
         cells = [_capped(row, limit) for row in table]
         rows += _labelled(label, aligned(cells))
-    rows += _bound("bound", found, analysis.bound)
+    rows += _bound("bound", found.bound, BOUND, analysis.bound)
+    sharper = analysis.sharp_bound
+    rows += _bound("sharper bound", found.sharp_bound, SHARP_BOUND, sharper)
+    rows += _labelled("", [bound_numbers(found)])
     both = analysis.pair_simplifying
-    if both is not None and both is not found and analysis.pair_bound is not None:
-        rows += _bound("pair bound", both, analysis.pair_bound)
-    return rows
+    bound, sharper_of_pair = analysis.pair_bound, analysis.pair_sharp_bound
+    if both is None or both is found or bound is None or sharper_of_pair is None:
+        return rows
+    rows += _bound("pair bound", both.bound, BOUND, bound)
+    rows += _bound("pair, sharper", both.sharp_bound, SHARP_BOUND, sharper_of_pair)
+    return rows + _labelled("", [bound_numbers(both)])
 
 
 def _labelled(label: str, texts: Sequence[str]) -> list[str]:
@@ -214,14 +220,19 @@ def _capped(numbers: Sequence[int | None], limit: int) -> list[str]:
     return cells
 
 
-def _bound(label: str, found: Simplifying, bound: int) -> list[str]:
-    """The bound with its formula; within a tolerance residuals may not bear out what that gives."""
-    r, eta, zeta, xi = found.r, found.eta, found.zeta, found.xi
-    numbers = f"r = {r}, η = {eta}, ζ = {zeta}, ξ = {xi}"
-    equation = f"{found.bound} = min{{r, 2η+2, ξ+1, η+ζ+1}}   {numbers}"
-    if bound == found.bound:
+def _bound(label: str, computed: int, formula: str, bound: int) -> list[str]:
+    """A bound with its formula.
+
+    Args:
+        label: which bound.
+        computed: what the formula gives.
+        formula: it, in letters.
+        bound: as far as the order bears it out, within a tolerance.
+    """
+    equation = f"{computed} = {formula}"
+    if bound == computed:
         return _labelled(label, [equation])
-    doubt = f"{bound}   {found.bound} is not decided within the tolerance,"
+    doubt = f"{bound}   {computed} is not decided within the tolerance,"
     return _labelled(label, [doubt, equation])
 
 

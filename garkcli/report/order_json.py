@@ -79,6 +79,7 @@ SIMPLIFYING: Record[Analysis] = Record(
     Field("eta", COUNT, lambda x: x.simplifying.eta),
     Field("zeta", COUNT, lambda x: x.simplifying.zeta),
     Field("xi", COUNT, lambda x: x.simplifying.xi),
+    Field("chi", COUNT, lambda x: x.simplifying.chi),
     Field("bound", COUNT, lambda x: x.bound),
 )
 """B, C and D of a method, and the order they guarantee."""

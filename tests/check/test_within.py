@@ -36,7 +36,7 @@ LIMIT = 9
 def assert_no_contradiction(found: Analysis) -> None:
     """What follows from each other holds together."""
     own, conjugate, both = found.order, found.conjugate_order, found.pair_order
-    assert found.bound <= own.order
+    assert found.bound <= found.sharp_bound <= own.order
     assert bool(found.inconsistent) == any(0 in row for row in found.simplifying.C)
     if not found.inconsistent:
         assert min(found.simplifying.B) >= own.order
@@ -45,10 +45,13 @@ def assert_no_contradiction(found: Analysis) -> None:
         or conjugate is None
         or both is None
         or found.pair_bound is None
+        or found.pair_sharp_bound is None
     ):
         return
-    assert found.pair_bound <= both.order <= min(own.order, conjugate.order)
+    assert found.pair_bound <= found.pair_sharp_bound <= both.order
+    assert both.order <= min(own.order, conjugate.order)
     assert found.pair_bound <= found.bound
+    assert found.pair_sharp_bound <= found.sharp_bound
     if not own.is_lower_bound and own.order < 2:
         assert conjugate.order <= own.order
     if found.symplectic:
@@ -149,3 +152,18 @@ def test_much_finer_tolerances_say_what_is_exactly_so(name: str) -> None:
         exact.pair_bound,
         exact.symplectic,
     )
+    bounds = [(a.sharp_bound, a.pair_sharp_bound) for a in (near, exact)]
+    assert bounds[0] == bounds[1]
+
+
+def test_bounds_that_residuals_do_not_bear_out_say_so() -> None:
+    """Gauss 3 with three digits: B, C and D within 3e-3 make 8 of both bounds, the order is 7."""
+    tolerance = fmpq(3, 1000)
+    method = in_decimals(samples.NAMED["gauss 3"](), 3)
+    found = analyse(method, LIMIT, tolerance)
+    assert (found.bound, found.sharp_bound, found.order.order) == (7, 7, 7)
+    assert (found.pair_bound, found.pair_sharp_bound) == (7, 7)
+    text = render([Outcome("m", "m", analysis=found)], Paint())
+    open_bound = "7   8 is not decided within the tolerance,\n"
+    for label in ("bound", "sharper bound", "pair bound", "pair, sharper"):
+        assert f"  {label:17}{open_bound}" in text

@@ -44,6 +44,7 @@ INVALID = "tests/examples/invalid/many-faults.gark.yaml"
 GOOD = "methods/stoermer-verlet.gark.yaml"
 FILES = (GOOD, FAILING, INVALID)
 MIDPOINT = "methods: [{A: [[1/2]], b: [1]}]\n"
+HEUN = "methods: [{family: heun}]\n"
 WRONG = f"{MIDPOINT}expect: {{order: 3, symplectic: false, bound: 2, B: [5]}}\n"
 AWKWARD = "a%,b:c`d|e\nf.gark.yaml"
 
@@ -789,6 +790,24 @@ def test_each_finding_is_an_annotation_in_its_place() -> None:
         "symplectic: expected false, found true",
         "B: expected [5], found [2]",
     ]
+
+
+def test_a_failed_claim_on_a_bound_says_what_it_is_made_of() -> None:
+    """The message has the formula and its numbers, of the pair for the pair; nothing where a zero
+    weight leaves no pair.
+    """
+    claims = "bound: 3, sharp-bound: 3, pair-sharp-bound: 3"
+    found = annotations(outcome(f"{HEUN}expect: {{{claims}}}\n"))
+    numbers = "r = 2, η = 1, ζ = 1, ξ = 2, χ = 2"
+    printed, sharper = "min{r, 2η+2, ξ+1, η+ζ+1}", "min{r, 2η+2, ξ+1, χ+2, η+ζ+3}"
+    assert [text for _, text in found] == [
+        f"bound: expected 3, found 2; 2 = {printed} with {numbers}",
+        f"sharp-bound: expected 3, found 2; 2 = {sharper} with {numbers}",
+        f"pair-sharp-bound: expected 3, found 2; 2 = {sharper} with {numbers}",
+    ]
+    midpoint = "methods: [{family: explicit-midpoint}]\nexpect: {pair-sharp-bound: 2}\n"
+    ((_, text),) = annotations(outcome(midpoint))
+    assert text == "pair-sharp-bound: expected 2, found none: a weight is zero"
 
 
 @pytest.mark.parametrize(
