@@ -24,6 +24,10 @@ if TYPE_CHECKING:
     from garkcli.check.outcome import Outcome
 
 
+TERMINAL = 80
+"""Columns that texts for people fit, in the longer forms of ASCII too."""
+
+
 class NoStandardOutput(Exception):
     """The report has nowhere to go."""
 
@@ -70,7 +74,8 @@ def put(text: str, format: str = "text", coloured: bool = False) -> None:
         raise NoStandardOutput
     text = safe(text, format, coloured)
     try:
-        sys.stdout.write(_for(sys.stdout.encoding, text, format))
+        width = TERMINAL if format == "text" else None
+        sys.stdout.write(_for(sys.stdout.encoding, text, format, width))
     except BrokenPipeError:
         raise ReaderGone from None
 
@@ -138,14 +143,14 @@ def safe_pieces(pieces: Iterable[str], format: str, coloured: bool) -> Iterable[
     return (safe(piece, format, coloured) for piece in pieces)
 
 
-def _for(encoding: str | None, text: str, format: str) -> str:
+def _for(encoding: str | None, text: str, format: str, width: int | None = None) -> str:
     """A text for a stream of this encoding: in formats that have escapes nothing is lost."""
     encoding = encoding or "utf-8"
     if text.isascii() or encoding.lower().replace("_", "-").startswith("utf"):
         return text
     if format in JSON | YAML | XML:
         return "".join(x if x.isascii() else escaped(x, format) for x in text)
-    return plain_text(text, encoding)
+    return plain_text(text, encoding, width)
 
 
 def is_terminal(stream: object) -> bool:

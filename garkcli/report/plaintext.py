@@ -83,9 +83,15 @@ SIGNS = {
     "╰": "`",
 }
 """The ASCII form of each sign that is not a letter with an accent."""
+DRAWN = frozenset("●○─│└┘┌┐├┤┬┴┼╯╰")
+"""What trees and plots are drawn with: lines of these stand below each other."""
 EVERYTHING = "¹⁴γ𝟙●"
 """An encoding that has these has every sign: it is one of Unicode."""
 _GREEK = re.compile(r"GREEK (SMALL|CAPITAL) LETTER (FINAL )?(?P<name>[A-Z]+)( |$)")
+_BLANKS = re.compile(" +")
+_COLOURS = re.compile(r"\x1b\[[0-9;]*m")
+HANGING = 4
+"""How far the rest of a broken line is indented, beside its beginning."""
 _SCRIPT = re.compile(r"(SUPERSCRIPT|SUBSCRIPT) ")
 
 
@@ -117,11 +123,11 @@ def ascii_form(sign: str) -> str:
 def plain_line(line: str, encoding: str = "ascii") -> str:
     """A line with an ASCII form for every sign that ``encoding`` lacks.
 
-    What the longer forms take is given back at the next gap of two blanks or more, so that columns
-    and drawings further right stay where they are.
+    What the longer forms take is given back at the next gap of more than two blanks, so that
+    columns further right stay where they are. A drawing does so at the cost of the second blank.
 
-    >>> plain_line("10¹² trees, σ = 2      ●1 ●1")
-    '10^12 trees, sigma = 2 o1 o1'
+    >>> plain_line("10¹² trees, σ = 2   in all"), plain_line("10¹² trees, σ = 2      ●1 ●1")
+    ('10^12 trees, sigma = 2  in all', '10^12 trees, sigma = 2 o1 o1')
 
     A letter that is spelled, and an exponent, stand apart from the letters beside them.
 
@@ -134,16 +140,21 @@ def plain_line(line: str, encoding: str = "ascii") -> str:
     made: list[str] = []
     column = 0  # in the line as it is meant
     width = 0  # in the line as it is made
-    before = ""
-    for sign, form in _forms(line, encoding):
+    spare = set(_spare_blanks(line))
+    for place, (sign, form) in enumerate(_forms(line, encoding)):
         column += not unicodedata.combining(sign)
-        is_gap = sign == " " and before == " "
-        before = sign
-        if is_gap and width >= column:
+        if place in spare and width >= column:
             continue
         made.append(form)
         width += len(form)
     return "".join(made)
+
+
+def _spare_blanks(line: str) -> Iterator[int]:
+    """Where blanks can be left out: all but two of a gap, and all but one before a drawing."""
+    for gap in _BLANKS.finditer(line):
+        needed = 1 if line[gap.end() : gap.end() + 1] in DRAWN else 2
+        yield from range(gap.start() + needed, gap.end())
 
 
 def _forms(line: str, encoding: str) -> Iterator[tuple[str, str]]:
@@ -174,11 +185,52 @@ def _script_mark(sign: str, form: str) -> str:
     return form[0] if is_script else ""
 
 
-def plain_text(text: str, encoding: str) -> str:
-    """A text of any number of lines for a stream of this encoding."""
+def plain_text(text: str, encoding: str, width: int | None = None) -> str:
+    """A text of any number of lines for a stream of this encoding.
+
+    A line that fits ``width`` columns, and in its longer forms no more, goes on in the next.
+    """
     if text.isascii() or _has(encoding, EVERYTHING):
         return text
-    return "\n".join(plain_line(line, encoding) for line in text.split("\n"))
+    made: list[str] = []
+    for line in text.split("\n"):
+        plain = plain_line(line, encoding)
+        has_grown = width is not None and _columns(line) <= width < _columns(plain)
+        made += broken(plain, width) if width and has_grown else [plain]
+    return "\n".join(made)
+
+
+def broken(line: str, width: int) -> list[str]:
+    r"""A line in lines of ``width`` columns: broken at a gap of two blanks in the right half, or
+    else at any blank; whole where there is none.
+
+    >>> print("\n".join(broken("  bound  4 = min{r, 2eta+2}  r = 4, eta = 1", 34)))
+      bound  4 = min{r, 2eta+2}
+          r = 4, eta = 1
+    """
+    indent = len(line) - len(line.lstrip(" "))
+    hanging = " " * (indent + HANGING)
+    lines: list[str] = []
+    while _columns(line) > width:
+        place = _last_place(line, width, len(hanging) if lines else indent)
+        if place is None:
+            break
+        lines.append(line[: place.start()])
+        line = hanging + line[place.end() :]
+    return [*lines, line]
+
+
+def _last_place(line: str, width: int, start: int) -> re.Match[str] | None:
+    """The blanks after ``start`` at which to break a line; None where it has none."""
+    blanks = _BLANKS.finditer(line, start)
+    fitting = [m for m in blanks if _columns(line[: m.start()]) <= width]
+    gaps = [m for m in fitting if len(m[0]) > 1 and m.start() > width // 2]
+    return max(gaps or fitting, key=re.Match.start, default=None)
+
+
+def _columns(line: str) -> int:
+    """How many columns a line takes; its colours take none."""
+    return len(_COLOURS.sub("", line))
 
 
 def _is_greek(sign: str) -> bool:

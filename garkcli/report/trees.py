@@ -20,6 +20,8 @@ WIDTH = 80
 """Columns of a terminal that nobody has made wider."""
 DRAWN_ORDER = 4
 """Up to this order the text shows the drawn trees too."""
+DRAWING = 54
+"""The column of the drawings, with room for sigma and gamma in letters."""
 
 
 @dataclass(frozen=True)
@@ -188,9 +190,9 @@ def _entry(row: TreeRow, many: bool) -> Iterator[str]:
         yield from (f"{line.rstrip()}\n" for line in lines)
         return
     first, *rest = draw_text(parse_tree(row.tree), many)
-    yield f"{text:<52}{first}".rstrip() + "\n"
+    yield f"{text:<{DRAWING}}{first}".rstrip() + "\n"
     for line in rest:
-        yield f"{'':<52}{line}\n"
+        yield f"{'':<{DRAWING}}{line}\n"
 
 
 def _latex(rows: Iterable[TreeRow], many: bool) -> Iterator[str]:

@@ -9,8 +9,12 @@ import re
 from pathlib import Path
 
 import pytest
+from hypothesis import given
+from hypothesis import strategies as st
 
+from garkcli.cli.main import COMMANDS
 from garkcli.report.paint import folded
+from garkcli.report.plaintext import broken, plain_line, plain_text
 from tests.cli.harness import gark
 
 RUNS = [
@@ -23,14 +27,70 @@ RUNS = [
     ("conditions", "-N", "2", "-n", "4", "--coloured"),
     ("conditions", "methods/rectangular.gark.yaml", "-n", "5"),
     ("conditions", "methods/collocation.gark.yaml", "-n", "5", "--pair", "--failing"),
+    *((command, "--help") for command in COMMANDS),
+]
+OF_FILES = [
+    ("check", "methods/collocation.gark.yaml"),
+    ("check", "methods/ark-ars222.gark.yaml", "--error-constants"),
+    ("check", "tests/examples/failing/collocation-misprinted.gark.yaml"),
+    ("tableau", "methods/collocation-conjugate.gark.yaml"),
+    ("conjugate", "methods/collocation.gark.yaml", "--pair"),
+    ("stability", "methods/ark-ars222.gark.yaml"),
+    ("stability", "methods/rectangular.gark.yaml"),
+    ("converge", "methods/stoermer-verlet.gark.yaml"),
+    ("converge", "methods/rk4.gark.yaml", "methods/ark-ars222.gark.yaml"),
+    ("energy", "methods/rectangular.gark.yaml"),
 ]
 
 
+@pytest.mark.parametrize("encoding", ["utf-8", "ascii"])
 @pytest.mark.parametrize("run", RUNS, ids=lambda run: " ".join(run)[:40])
-def test_a_text_fits_80_columns(run: tuple[str, ...]) -> None:
+def test_a_text_fits_80_columns(run: tuple[str, ...], encoding: str) -> None:
     """No line is wider than the terminal, however long its formula or tree is."""
-    lines = gark(*run).out.splitlines()
+    lines = gark(*run, encoding=encoding).out.splitlines()
     assert [line for line in lines if len(line) > 80] == []
+
+
+@pytest.mark.parametrize("run", OF_FILES, ids=lambda run: " ".join(run)[:40])
+def test_a_report_of_a_file_fits_80_columns_in_ascii(run: tuple[str, ...]) -> None:
+    """So does every line of a report that does not name a file, whose path may be long."""
+    lines = gark(*run, encoding="ascii").out.splitlines()
+    assert len(lines) > 3
+    wide = [line for line in lines if len(line) > 80]
+    assert [line for line in wide if ".gark.yaml" not in line] == []
+
+
+def test_a_line_is_broken_in_ascii_alone() -> None:
+    """What ASCII makes too wide goes on in the next line with every word; other lines stay."""
+    meant = (
+        "  bound            4 = min{r, 2η+2, ξ+1, η+ζ+1}   r = 4, η = 2, ζ = 1, ξ = 4"
+    )
+    wide = f"{meant} and more, which is wide anyway"
+    assert len(meant) <= 80 < len(wide)
+    first, second = plain_text(meant, "ascii", 80).split("\n")
+    assert first == "  bound            4 = min{r, 2eta+2, xi+1, eta+zeta+1}"
+    assert second == "      r = 4, eta = 2, zeta = 1, xi = 4"
+    assert "\n" not in plain_text(meant, "utf-8", 80)
+    assert "\n" not in plain_text(wide, "ascii", 80)
+    assert "\n" not in plain_text(meant, "ascii")
+
+
+@given(st.text(alphabet="ab ηζ𝟙", max_size=60), st.integers(12, 30))
+def test_breaking_loses_no_word(text: str, width: int) -> None:
+    """A broken line has the words of the line, and is too wide only in a word that is."""
+    line = f"  {plain_line(text)}"
+    lines = broken(line, width)
+    assert " ".join(lines).split() == line.split()
+    for one in lines:
+        assert len(one) <= width or len(one.split()) == 1
+
+
+def test_gaps_between_columns_keep_two_blanks() -> None:
+    """What longer forms take is given back by gaps, but for two blanks that part the columns."""
+    row = "[[]]   σ = 1  γ = 2      b{l}ᵀA{l,m}𝟙 = 1/2"
+    plain = plain_line(row)
+    assert plain == "[[]]   sigma = 1  gamma = 2  b{l}^T A{l,m} 1 = 1/2"
+    assert re.split("  +", plain) == [plain_line(x) for x in re.split("  +", row)]
 
 
 def test_folding_loses_nothing() -> None:
