@@ -227,8 +227,8 @@ def _single(text: str, svg: str | None, is_document: bool, output: Output) -> No
     """One tree, given in bracket text."""
     from garkcli.report import trees as report
     from garkcli.report.writing import write_whole
-    from garkcli.trees.drawing import draw_svg_sheet
     from garkcli.trees.notation import NotationError, format_tree, parse_tree
+    from garkcli.trees.svg import draw_svg_sheet
 
     try:
         tree = parse_tree(text)
@@ -316,8 +316,8 @@ def _draw(path: str, listed: Iterable[Tree], coloured: bool) -> None:
     from itertools import islice
 
     from garkcli.report.writing import write_whole
-    from garkcli.trees.drawing import draw_svg_sheet
     from garkcli.trees.notation import format_tree
+    from garkcli.trees.svg import draw_svg_sheet
 
     trees = list(islice(listed, MAX_PICTURES + 1))
     if len(trees) > MAX_PICTURES:

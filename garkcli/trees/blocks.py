@@ -46,13 +46,10 @@ class Block:
 
     def trees(self) -> Iterator[Tree]:
         """The trees, one after the other."""
-        rows = zip(
-            self.columns.stem.tolist(),
-            self.columns.branch.tolist(),
-            self.columns.root.tolist(),
-            strict=True,
-        )
-        for stem, branch, root in rows:
+        stems = self.columns.stem.tolist()
+        branches = self.columns.branch.tolist()
+        roots = self.columns.root.tolist()
+        for stem, branch, root in zip(stems, branches, roots, strict=True):
             if branch < 0:
                 yield Tree(root)
                 continue
@@ -85,13 +82,16 @@ def iter_blocks(
     lower = TreeTable.of(admissible, max(order - 1, 1))
     if order == 1:
         for root in wanted:
-            yield Block(Columns.vertices(range(root, root + 1)), lower)
+            vertex = Columns.vertices(range(root, root + 1))
+            yield Block(vertex, lower)
         return
     starts = first_ids(admissible, order)
     for root in wanted:
-        for _, growth in segments_of(admissible, starts, order, lower.columns, root):
-            for start in range(0, len(growth), block_size):
-                stop = min(start + block_size, len(growth))
+        made = segments_of(admissible, starts, order, lower.columns, root)
+        for _, growth in made:
+            size = len(growth)
+            for start in range(0, size, block_size):
+                stop = min(start + block_size, size)
                 yield Block(growth.make(start, stop), lower)
 
 
@@ -124,8 +124,12 @@ def select(
             raise ValueError(
                 f"there is no colour {colour} among the {colours} colours 0, 1, …"
             )
-    within = set(range(colours) if only is None else only)
-    roots = within if root is None else {root} & within
+    within = set(range(colours))
+    if only is not None:
+        within = set(only)
+    roots = within
+    if root is not None:
+        roots = within & {root}
     narrowed = _narrowed(colours, edges, within)
     wanted = sorted(set(using))
     if len(wanted) > min(order, MAX_USING):
@@ -137,11 +141,13 @@ def select(
     for block in iter_blocks(colours, order, block_size, narrowed, linear, roots):
         if used is None:
             used = _used_by_all(block.lower, bits)
-        keep = _used(block.columns, bits, used) == bits.sum()
+        occurring = _used(block.columns, bits, used)
+        keep = occurring == bits.sum()
         if keep.all():
             yield block
         elif keep.any():
-            yield Block(block.columns.part(keep), block.lower)
+            kept = block.columns.part(keep)
+            yield Block(kept, block.lower)
 
 
 def _narrowed(
@@ -168,5 +174,6 @@ def _used_by_all(table: TreeTable, bits: Column) -> Column:
     for order in range(1, table.max_order + 1):
         ids = table.ids(order)
         here = slice(ids.start, ids.stop)
-        used[here] = _used(table.columns.part(here), bits, used)
+        trees = table.columns.part(here)
+        used[here] = _used(trees, bits, used)
     return used

@@ -53,16 +53,20 @@ class Columns:
         """Columns to be filled; ``exact`` is the type of σ and γ."""
         ids = [np.empty(length, np.int64) for _ in range(2)]
         small = [np.empty(length, np.int16) for _ in range(3)]
-        return cls(*ids, *small, *[np.empty(length, exact) for _ in range(2)])
+        large = [np.empty(length, exact) for _ in range(2)]
+        return cls(*ids, *small, *large)
 
     @classmethod
     def vertices(cls, roots: range) -> Columns:
         """The trees of order 1 with these root colours."""
         made = cls.empty(len(roots), np.int64)
-        made.stem[:] = made.branch[:] = -1
+        made.stem[:] = -1
+        made.branch[:] = -1
         made.root[:] = roots
         made.multiplicity[:] = 0
-        made.order[:] = made.sigma[:] = made.gamma[:] = 1
+        made.order[:] = 1
+        made.sigma[:] = 1
+        made.gamma[:] = 1
         return made
 
     def __len__(self) -> int:
@@ -86,8 +90,9 @@ class Columns:
 
     def write(self, start: int, trees: Columns) -> None:
         """Put trees at position ``start`` and following."""
+        stop = start + len(trees)
         for column, values in zip(self.all(), trees.all(), strict=True):
-            column[start : start + len(trees)] = values
+            column[start:stop] = values
 
     def freeze(self) -> Columns:
         """Make the columns read-only."""
@@ -132,41 +137,56 @@ class Growth:
         self._end = np.cumsum(self._count)
 
     def __len__(self) -> int:
-        return int(self._end[-1]) if len(self._end) else 0
+        if not len(self._end):
+            return 0
+        return int(self._end[-1])
 
     def make(self, start: int, stop: int) -> Columns:
         """The trees at positions start, …, stop - 1 of the segment, with 0 ≤ start < stop ≤ len."""
-        lower, order = self.lower, self.order
-        i = int(np.searchsorted(self._end, start, side="right"))
-        j = int(np.searchsorted(self._end, stop, side="left")) + 1
-        begin, count = self._begin[i:j].copy(), self._count[i:j].copy()
+        lower = self.lower
+        order = self.order
+        length = stop - start
+        first = np.searchsorted(self._end, start, side="right")
+        last = np.searchsorted(self._end, stop, side="left")
+        i = int(first)
+        j = int(last) + 1
+        begin = self._begin[i:j].copy()
+        count = self._count[i:j].copy()
+        # the first and the last stem may have trees outside of the piece
         skipped = start - int(self._end[i] - self._count[i])
+        left_over = int(self._end[j - 1]) - stop
         begin[0] += skipped
         count[0] -= skipped
-        count[-1] -= int(self._end[j - 1]) - stop
+        count[-1] -= left_over
         heads = np.cumsum(count) - count
 
-        stems = slice(self.stems.start + i, self.stems.start + j)
+        first_stem = self.stems.start
+        stems = slice(first_stem + i, first_stem + j)
         branch = np.repeat(begin - heads, count)
-        branch += np.arange(stop - start)
+        branch += np.arange(length)
         # where the branch is the stem's last one once more
-        again = np.flatnonzero((begin == self._last[i:j]) & (count > 0))
+        is_again = begin == self._last[i:j]
+        again = np.flatnonzero(is_again & (count > 0))
         repeated = heads[again]
         exact = exact_dtype(order)
-        multiplicity = np.ones(stop - start, np.int16)
+        multiplicity = np.ones(length, np.int16)
         multiplicity[repeated] += lower.multiplicity[stems][again]
         stem_sigma = lower.sigma[stems].astype(exact, copy=False)
         sigma = np.repeat(stem_sigma, count) * lower.sigma[branch]
         sigma[repeated] *= multiplicity[repeated]
         # γ of the stem with the order of the new tree in the place of its own
         stem_order = int(lower.order[stems.start])
-        stem_gamma = lower.gamma[stems].astype(exact, copy=False) // stem_order * order
+        stem_gamma = lower.gamma[stems].astype(exact, copy=False)
+        with_order = stem_gamma // stem_order * order
+        gamma = np.repeat(with_order, count) * lower.gamma[branch]
+        stem_ids = np.arange(stems.start, stems.stop)
+        root = lower.root[stems.start]
         return Columns(
-            stem=np.repeat(np.arange(stems.start, stems.stop), count),
+            stem=np.repeat(stem_ids, count),
             branch=branch,
-            root=np.full(stop - start, lower.root[stems.start], np.int16),
-            order=np.full(stop - start, order, np.int16),
+            root=np.full(length, root, np.int16),
+            order=np.full(length, order, np.int16),
             multiplicity=multiplicity,
             sigma=sigma,
-            gamma=np.repeat(stem_gamma, count) * lower.gamma[branch],
+            gamma=gamma,
         )

@@ -32,6 +32,9 @@ Edges: TypeAlias = "Sequence[Sequence[bool]]"
 """
 
 
+Colours: TypeAlias = tuple[int, ...]
+
+
 @dataclass(frozen=True)
 class Admissible:
     """Which N-trees are meant: the colours, the edges between them, and the linear colours.
@@ -42,7 +45,7 @@ class Admissible:
     """
 
     colours: int
-    branches: tuple[tuple[int, ...], ...]
+    branches: tuple[Colours, ...]
     linear: frozenset[int]
 
     @classmethod
@@ -56,39 +59,42 @@ class Admissible:
         """
         if colours < 1:
             raise ValueError(f"an N-tree needs at least one colour, not {colours}")
-        everything = tuple(range(colours))
-        if edges is None:
-            rows = (everything,) * colours
-        else:
-            if len(edges) != colours or any(len(row) != colours for row in edges):
-                raise ValueError(
-                    f"edges must be a {colours} by {colours} matrix, one row for each colour"
-                )
-            rows = tuple(tuple(m for m in everything if row[m]) for row in edges)
-        strangers = [colour for colour in linear if not 0 <= colour < colours]
-        if strangers:
-            raise ValueError(
-                f"linear colour {strangers[0]} is not one of the {colours} colours 0, 1, …"
-            )
-        return cls(colours, rows, frozenset(linear))
+        everything = range(colours)
+        rows: list[Colours] = [tuple(everything)] * colours
+        if edges is not None:
+            lengths = {len(edges), *map(len, edges)}
+            if lengths != {colours}:
+                shape = f"a {colours} by {colours} matrix"
+                raise ValueError(f"edges must be {shape}, one row for each colour")
+            rows = [tuple(m for m in everything if row[m]) for row in edges]
+        for colour in linear:
+            if colour not in everything:
+                what = f"linear colour {colour}"
+                raise ValueError(f"{what} is not one of the {colours} colours 0, 1, …")
+        return cls(colours, tuple(rows), frozenset(linear))
 
     def is_linear(self, colour: int) -> bool:
         """Whether a vertex of this colour carries one branch at most."""
         return colour in self.linear
 
     @property
-    def leaders(self) -> tuple[int, ...]:
+    def leaders(self) -> Colours:
         """For each colour the first on which the same branches may stand: the trees differ in their
         roots only.
         """
-        first: dict[tuple[tuple[int, ...], bool], int] = {}
-        return tuple(
-            first.setdefault((row, colour in self.linear), colour)
-            for colour, row in enumerate(self.branches)
-        )
+        first: dict[tuple[Colours, bool], int] = {}
+        leaders = []
+        for colour, row in enumerate(self.branches):
+            nature = row, colour in self.linear
+            leaders.append(first.setdefault(nature, colour))
+        return tuple(leaders)
 
 
-def counts_upto(admissible: Admissible, order: int) -> list[tuple[int, ...]]:
+Counts: TypeAlias = tuple[int, ...]
+"""Numbers of trees, one for each root colour."""
+
+
+def counts_upto(admissible: Admissible, order: int) -> list[Counts]:
     """``counts[n - 1][l]``: the number of admissible trees of order n with root colour l, n = 1, …,
     order.
 
@@ -97,14 +103,16 @@ def counts_upto(admissible: Admissible, order: int) -> list[tuple[int, ...]]:
     """
     leaders = admissible.leaders
     forests = _forests(admissible, leaders, order)
-    of_leader = {leader: [*map(int, f)] for leader, f in forests.items()}
+    of_leader: dict[int, list[int]] = {}
+    for leader, f in forests.items():
+        of_leader[leader] = [*map(int, f)]
     by_root = [of_leader[leader] for leader in leaders]
     return [*zip(*by_root, strict=True)]
 
 
 def count_by_root(
     colours: int, order: int, edges: Edges | None = None, linear: Collection[int] = ()
-) -> tuple[int, ...]:
+) -> Counts:
     """The number of N-trees of one order for each root colour.
 
     ``edges`` and ``linear`` as in :class:`Admissible`; raises ``ValueError`` for an order below 1.
@@ -115,7 +123,8 @@ def count_by_root(
     admissible = Admissible.of(colours, edges, linear)
     leaders = admissible.leaders
     forests = _forests(admissible, leaders, order)
-    return tuple(int(forests[leader][-1]) for leader in leaders)
+    last = [forests[leader][-1] for leader in leaders]
+    return tuple(map(int, last))
 
 
 def _forests(
@@ -126,7 +135,8 @@ def _forests(
         raise ValueError(f"the order of a tree is at least 1, not {order}")
     growing: dict[int, _Growing] = {}
     for leader in dict.fromkeys(leaders):
-        branches = Counter(leaders[m] for m in admissible.branches[leader])
+        below = admissible.branches[leader]
+        branches = Counter(leaders[m] for m in below)
         is_linear = admissible.is_linear(leader)
         growing[leader] = _Growing(order, branches, is_linear)
     block = order
@@ -162,7 +172,8 @@ class _Growing:
         """Note the trees of order n, each a root on a forest of n - 1 vertices."""
         t = fmpz(0)
         for leader, many in self.branches.items():
-            t += many * growing[leader].f[n - 1]
+            forests = growing[leader].f
+            t += many * forests[n - 1]
         self.t.append(t)
         if not self.is_linear:
             for multiple in range(n, len(self.c), n):
@@ -198,16 +209,20 @@ class _Growing:
         stop = min(end + half, len(self.c))
         if self.is_linear or stop <= end:
             return
-        f, c = self.f, self.c
+        f = self.f
+        c = self.c
         if start:
             near = stop - start
-            product = fmpz_poly(f[start:end]) * fmpz_poly(c[:near])
-            product += fmpz_poly(c[start:end]) * fmpz_poly(f[:near])
+            late_f = fmpz_poly(f[start:end])
+            late_c = fmpz_poly(c[start:end])
+            product = late_f * fmpz_poly(c[:near])
+            product += late_c * fmpz_poly(f[:near])
         else:
             product = fmpz_poly(f) * fmpz_poly(c[:end])
         later = product.coeffs()[half:]
         # what reaches beyond ``stop`` belongs to larger intervals
-        for n, coefficient in zip(range(end, stop), later, strict=False):
+        orders = range(end, stop)
+        for n, coefficient in zip(orders, later, strict=False):
             self.sums[n] += coefficient
 
 

@@ -17,7 +17,11 @@ from garkcli.trees.tree import Tree
 
 Part: TypeAlias = Literal["y", "q", "p"]
 """What a colour drives: all unknowns (a GARK method), positions or momenta (a symplectic pair)."""
-
+Nature: TypeAlias = tuple[int, Part]
+"""The term of a colour, and what it drives."""
+Forest: TypeAlias = tuple[Tree, ...]
+_Kind: TypeAlias = tuple[int, int]
+"""The order and the colour of a branch."""
 _PARTNER: dict[Part, Part] = {"y": "y", "q": "p", "p": "q"}
 
 
@@ -40,7 +44,7 @@ class Structure:
     ((1,), (0,))
     """
 
-    colours: tuple[tuple[int, Part], ...]
+    colours: tuple[Nature, ...]
     quadratic: frozenset[int] = frozenset()
 
     def __post_init__(self) -> None:
@@ -48,7 +52,8 @@ class Structure:
             raise ValueError("a symplectic tableau needs at least one colour")
         if len(set(self.colours)) < len(self.colours):
             raise ValueError("two colours are the same part of the same term")
-        if self.is_directed == any(part == "y" for _, part in self.colours):
+        parts = {part for _, part in self.colours}
+        if "y" in parts and len(parts) > 1:
             raise ValueError(
                 "colours drive positions and momenta, or all of them everything"
             )
@@ -63,14 +68,15 @@ class Structure:
         """The pair (A, Â) with V^l for l in ``velocities`` and F^l for l in ``forces``, in this
         order.
         """
-        V: list[tuple[int, Part]] = [(l, "q") for l in velocities]
-        F: list[tuple[int, Part]] = [(l, "p") for l in forces]
+        V: list[Nature] = [(l, "q") for l in velocities]
+        F: list[Nature] = [(l, "p") for l in forces]
         return cls((*V, *F), frozenset(quadratic))
 
     @classmethod
     def self_conjugate(cls, colours: int) -> Structure:
         """A symplectic GARK tableau: b^l_i b^m_j = b^l_i a^{l,m}_{ij} + b^m_j a^{m,l}_{ji}."""
-        return cls(tuple((l, "y") for l in range(colours)))
+        natures: list[Nature] = [(l, "y") for l in range(colours)]
+        return cls(tuple(natures))
 
     @property
     def is_directed(self) -> bool:
@@ -88,7 +94,7 @@ class Structure:
         return first
 
     @cached_property
-    def _number(self) -> dict[tuple[int, Part], int]:
+    def _number(self) -> dict[Nature, int]:
         return {nature: colour for colour, nature in enumerate(self.colours)}
 
     @cached_property
@@ -110,24 +116,29 @@ class Structure:
         """
         term, _ = self.colours[above]
         _, part = self.colours[below]
-        return self._number.get((term, _PARTNER[part]))
+        turned = term, _PARTNER[part]
+        return self._number.get(turned)
 
     def is_forward(self, colour: int) -> bool:
         """Whether an edge down to this colour points down: through A, not through the conjugate
         Â.
         """
-        return self.colours[colour][1] != "p"
+        _, part = self.colours[colour]
+        return part != "p"
 
     def lead(self, tree: Tree) -> Tree:
         """The same tree with the first of the colours that its root may have."""
-        leader = self.leaders[self.colours[tree.root][0]]
-        return tree if leader == tree.root else Tree(leader, tree.branches)
+        term, _ = self.colours[tree.root]
+        leader = self.leaders[term]
+        if leader == tree.root:
+            return tree
+        return Tree(leader, tree.branches)
 
     def twins(self, tree: Tree) -> Iterator[Tree]:
         """The tree with every colour that its root may have: V^l and F^l share stages and
         weights.
         """
-        term = self.colours[tree.root][0]
+        term, _ = self.colours[tree.root]
         for colour, (other, _) in enumerate(self.colours):
             if other == term:
                 yield Tree(colour, tree.branches)
@@ -143,25 +154,30 @@ class Structure:
             raise ValueError(
                 f"colour {tree.root + 1} does not see colour {branch.root + 1}"
             )
-        rest = Tree(colour, tree.branches[:index] + tree.branches[index + 1 :])
-        return self.lead(Tree(branch.root, (*branch.branches, rest)))
+        others = list(tree.branches)
+        del others[index]
+        rest = Tree(colour, others)
+        moved = Tree(branch.root, (*branch.branches, rest))
+        return self.lead(moved)
 
     def rootings(self, tree: Tree) -> Iterator[Tree]:
         """The rooting at every vertex, with repeats where vertices are alike."""
         start = self.lead(tree)
         # each rooting with the branches that lead away from where the root came from
-        waiting: list[tuple[Tree, tuple[Tree, ...]]] = [(start, tree.branches)]
+        waiting: list[tuple[Tree, Forest]] = [(start, tree.branches)]
         while waiting:
             here, onward = waiting.pop()
             yield here
             for u in onward:
-                moved = self.move_root(here, here.branches.index(u))
+                index = here.branches.index(u)
+                moved = self.move_root(here, index)
                 waiting.append((moved, u.branches))
 
     def is_admissible(self, tree: Tree) -> bool:
         """Whether every edge exists and no linear vector field has two branches."""
         below = self.admissible.branches[tree.root]
-        if len(tree.branches) > 1 and self.admissible.is_linear(tree.root):
+        is_linear = self.admissible.is_linear(tree.root)
+        if is_linear and len(tree.branches) > 1:
             return False
         return all(u.root in below and self.is_admissible(u) for u in tree.branches)
 
@@ -172,15 +188,19 @@ class Structure:
         """
         here = self.lead(tree)
         while _twice_largest(here) > here.order:
-            here = self.move_root(here, len(here.branches) - 1)
+            last = len(here.branches) - 1
+            here = self.move_root(here, last)
         if _twice_largest(here) < here.order:
             return here
         *rest, half = here.branches
         if self.is_directed:
             is_first = self.is_forward(half.root)
         else:
-            is_first = Tree(here.root, rest).sort_key() <= half.sort_key()
-        return here if is_first else self.move_root(here, len(rest))
+            other = Tree(here.root, rest)
+            is_first = other.sort_key() <= half.sort_key()
+        if is_first:
+            return here
+        return self.move_root(here, len(rest))
 
 
 def _twice_largest(tree: Tree) -> int:
@@ -188,7 +208,9 @@ def _twice_largest(tree: Tree) -> int:
 
     0 for a single vertex.
     """
-    return 2 * tree.branches[-1].order if tree.branches else 0
+    if not tree.branches:
+        return 0
+    return 2 * tree.branches[-1].order
 
 
 @dataclass(frozen=True)
@@ -198,14 +220,17 @@ class Grower:
     """
 
     structure: Structure
-    _planted: dict[tuple[int, int], tuple[Tree, ...]] = field(
+    _planted: dict[_Kind, Forest] = field(
         default_factory=dict, repr=False, compare=False
     )
 
     def one_centroid(self, root: int, order: int) -> Iterator[Tree]:
         """The free trees with one centroid, rooted there, in the order of trees."""
-        edges = 2 if self.structure.admissible.is_linear(root) else order
-        for branches in self._forests(root, order - 1, (order - 1) // 2, edges):
+        is_linear = self.structure.admissible.is_linear(root)
+        edges = 2 if is_linear else order
+        total = order - 1
+        largest = total // 2
+        for branches in self._forests(root, total, largest, edges):
             yield Tree(root, branches)
 
     def two_centroids(self, root: int, order: int) -> Iterator[Tree]:
@@ -223,24 +248,27 @@ class Grower:
             is_mirrored = colour == root and not is_directed
             halves = self.planted(colour, order // 2)
             for position, u in enumerate(self.planted(root, order // 2)):
-                others = halves[position + 1 :] if is_mirrored else halves
-                for v in others:
+                first = position + 1 if is_mirrored else 0
+                for v in halves[first:]:
                     yield Tree(root, (*u.branches, v))
 
-    def planted(self, root: int, order: int) -> tuple[Tree, ...]:
+    def planted(self, root: int, order: int) -> Forest:
         """The rooted trees that may hang below a vertex, or be half of a tree, in the order of
         trees.
         """
         key = (order, root)
         if key not in self._planted:
-            edges = 1 if self.structure.admissible.is_linear(root) else order
-            forests = self._forests(root, order - 1, order - 1, edges)
-            self._planted[key] = tuple(Tree(root, branches) for branches in forests)
+            is_linear = self.structure.admissible.is_linear(root)
+            edges = 1 if is_linear else order
+            total = order - 1
+            forests = self._forests(root, total, total, edges)
+            trees = [Tree(root, branches) for branches in forests]
+            self._planted[key] = tuple(trees)
         return self._planted[key]
 
     def _forests(
         self, root: int, total: int, largest: int, edges: int
-    ) -> Iterator[tuple[Tree, ...]]:
+    ) -> Iterator[Forest]:
         """The branches that a root may have: ``total`` vertices, ``largest`` and ``edges`` at
         most.
         """
@@ -248,7 +276,8 @@ class Grower:
         bound = largest, max(colours, default=0)
         for outline in _outlines(total, bound, colours, edges):
             choices = []
-            for (order, colour), alike in groupby(reversed(outline)):
+            for kind, alike in groupby(reversed(outline)):
+                order, colour = kind
                 trees = self.planted(colour, order)
                 times = len(list(alike))
                 choices.append(combinations_with_replacement(trees, times))
@@ -257,8 +286,8 @@ class Grower:
 
 
 def _outlines(
-    total: int, bound: tuple[int, int], colours: Sequence[int], edges: int
-) -> Iterator[tuple[tuple[int, int], ...]]:
+    total: int, bound: _Kind, colours: Sequence[int], edges: int
+) -> Iterator[tuple[_Kind, ...]]:
     """Orders and colours of the branches, the last branch first, each at most ``bound``, in
     lexicographic order.
     """
@@ -273,5 +302,6 @@ def _outlines(
             kind = order, colour
             if kind > bound:
                 continue
-            for rest in _outlines(total - order, kind, colours, edges - 1):
+            others = _outlines(total - order, kind, colours, edges - 1)
+            for rest in others:
                 yield (kind, *rest)

@@ -41,7 +41,8 @@ class NotationError(ValueError):
     """
 
     def __init__(self, message: str, help: str, offset: int) -> None:
-        super().__init__(f"{message} at character {offset + 1}; {help}")
+        place = f"character {offset + 1}"
+        super().__init__(f"{message} at {place}; {help}")
         self.message = message
         self.help = help
         self.offset = offset
@@ -79,7 +80,8 @@ class _Reader:
         self._take("[", "a tree begins with '['", "write a tree as [[]_2,[]_2]_1")
         stack: list[list[Tree]] = [[]]  # for each open bracket the branches read so far
         while True:
-            if self._next() == "[" and not stack[-1]:
+            opens = self._next() == "["
+            if opens and not stack[-1]:
                 self._open(stack)
                 continue
             cure = "branches are separated by commas and closed by ']'"
@@ -113,8 +115,10 @@ class _Reader:
     def _next(self) -> str:
         """The next character that is not blank, which becomes the position; empty at the end."""
         blank = _BLANK.match(self.text, self.position)
-        self.position = blank.end() if blank else self.position
-        return self.text[self.position : self.position + 1]
+        if blank:
+            self.position = blank.end()
+        start = self.position
+        return self.text[start : start + 1]
 
     def _take(self, sign: str, message: str, cure: str) -> None:
         if self._next() != sign:
@@ -142,7 +146,8 @@ class _Reader:
             message = "a colour is missing after '_'"
             raise NotationError(message, "colours are numbers from 1", self.position)
         # the length comes first: Python reads no integer of many thousands of digits
-        is_short = len(number) <= len(str(MAX_COLOUR))
+        longest = len(str(MAX_COLOUR))
+        is_short = len(number) <= longest
         if not is_short or not 1 <= int(number) <= MAX_COLOUR:
             cure = f"colours are numbers from 1 to {MAX_COLOUR}"
             raise NotationError("no such colour", cure, self.position)
@@ -167,8 +172,12 @@ def format_tree(tree: Tree, colours: bool = True) -> str:
     >>> format_tree(Tree(0, [Tree(0), Tree(0)]), colours=False)
     '[[],[]]'
     """
-    inside = ",".join([format_tree(u, colours) for u in written_order(tree)])
-    return f"[{inside}]_{tree.root + 1}" if colours else f"[{inside}]"
+    branches = [format_tree(u, colours) for u in written_order(tree)]
+    inside = ",".join(branches)
+    if not colours:
+        return f"[{inside}]"
+    number = tree.root + 1
+    return f"[{inside}]_{number}"
 
 
 def format_latex(tree: Tree, colours: bool = True) -> str:
@@ -178,9 +187,15 @@ def format_latex(tree: Tree, colours: bool = True) -> str:
     >>> print(format_latex(Tree(0, [Tree(0), Tree(1)])))
     [\tau^{[1]},\tau^{[2]}]^{[1]}
     """
-    inside = ",".join([format_latex(u, colours) for u in written_order(tree)])
-    colour = f"^{{[{tree.root + 1}]}}" if colours else ""
-    return (f"[{inside}]" if inside else r"\tau") + colour
+    branches = [format_latex(u, colours) for u in written_order(tree)]
+    text = r"\tau"
+    if branches:
+        inside = ",".join(branches)
+        text = f"[{inside}]"
+    if not colours:
+        return text
+    number = tree.root + 1
+    return f"{text}^{{[{number}]}}"
 
 
 def vertex_letters(tree: Tree) -> tuple[str, ...]:
@@ -192,7 +207,8 @@ def vertex_letters(tree: Tree) -> tuple[str, ...]:
     letters = []
     for i in range(tree.order):
         primes, which = divmod(i, len(LETTERS))
-        letters.append(LETTERS[which] + "'" * primes)
+        letter = LETTERS[which]
+        letters.append(letter + "'" * primes)
     return tuple(letters)
 
 
@@ -209,8 +225,10 @@ def condition_text(tree: Tree, letters: Sequence[str] | None = None) -> str:
     >>> condition_text(u, vertex_letters(u))
     'b{l}ᵀ((A{l,m}A{m,n}𝟙) ⊙ (A{l,u}𝟙)) = 1/8'
     """
-    root, weight = _Formula("A{%s,%s}", "𝟙", " ⊙ ", letters).of(tree)
-    required = "1" if tree.density == 1 else f"1/{tree.density}"
+    formula = _Formula("A{%s,%s}", "𝟙", " ⊙ ", letters)
+    root, weight = formula.of(tree)
+    density = tree.density
+    required = "1" if density == 1 else f"1/{density}"
     return f"b{{{root}}}ᵀ{weight} = {required}"
 
 
@@ -227,7 +245,8 @@ def condition_latex(tree: Tree, letters: Sequence[str] | None = None) -> str:
     formula = _Formula(r"A^{\{%s,%s\}} ", r"\mathbbm{1}^{\{%s\}}", r" \odot ", letters)
     root, weight = formula.of(tree)
     required = _latex_inverse(tree.density)
-    return rf"{{b^{{\{{{root}\}}}}}}^T {weight} = {required}"
+    weights = rf"{{b^{{\{{{root}\}}}}}}^T"
+    return f"{weights} {weight} = {required}"
 
 
 def _latex_inverse(density: int) -> str:
@@ -250,23 +269,31 @@ class _Formula:
         self.block = block
         self.one = one
         self.times = times
-        self.names: Iterator[str] | None = None if letters is None else iter(letters)
+        self.names: Iterator[str] | None = None
+        if letters is not None:
+            self.names = iter(letters)
 
     def of(self, tree: Tree) -> tuple[str, str]:
         """The name of the root, and 𝒜^[u]; raises ``ValueError`` when there are too few letters."""
-        name = str(tree.root + 1) if self.names is None else next(self.names, "")
+        name = str(tree.root + 1)
+        if self.names is not None:
+            name = next(self.names, "")
         if not name:
             raise ValueError(
                 "each vertex needs a letter; vertex_letters gives as many as there are vertices"
             )
         if not tree.branches:
-            has_name = "%" in self.one
-            return name, self.one % name if has_name else self.one
+            one = self.one
+            if "%" in one:
+                one = one % name
+            return name, one
         factors: list[str] = []
         for u in written_order(tree):
             below, vector = self.of(u)
-            factors.append(self.block % (name, below) + vector)
+            block = self.block % (name, below)
+            factors.append(block + vector)
         if len(factors) == 1:
             return name, factors[0]
-        product = self.times.join([f"({factor})" for factor in factors])
+        bracketed = [f"({factor})" for factor in factors]
+        product = self.times.join(bracketed)
         return name, f"({product})"

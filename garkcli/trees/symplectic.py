@@ -89,7 +89,8 @@ def structure_of(kind: Kind, colours: int = 2) -> Structure:
         raise ValueError(f"{kind} problems have 2 terms, not {colours}")
     if kind == "semi-separable":
         return Structure.pair([0], [0, 1])
-    return Structure.pair([0], [1], quadratic=[0] if kind == "nystrom" else [])
+    quadratic = [0] if kind == "nystrom" else []
+    return Structure.pair([0], [1], quadratic)
 
 
 @dataclass(frozen=True)
@@ -137,9 +138,9 @@ class ConditionClass:
         """Whether the condition follows from those of lower order: the tree is u∘u with Â = A."""
         if self.structure.is_directed or self.order % 2:
             return False
-        if 2 * self.centred.branches[-1].order < self.order:
-            return False  # one centroid: there are no halves
         *rest, half = self.centred.branches
+        if 2 * half.order < self.order:
+            return False  # one centroid: there are no halves
         return Tree(self.centred.root, rest) == half
 
 
@@ -175,7 +176,8 @@ def superfluous_classes(structure: Structure, order: int) -> Iterator[ConditionC
     grower = Grower(structure)
     for root in structure.leaders.values():
         for u in grower.planted(root, order // 2):
-            yield ConditionClass(Tree(root, (*u.branches, u)), structure)
+            doubled = Tree(root, (*u.branches, u))
+            yield ConditionClass(doubled, structure)
 
 
 def class_of(structure: Structure, tree: Tree) -> ConditionClass:
@@ -185,7 +187,8 @@ def class_of(structure: Structure, tree: Tree) -> ConditionClass:
         ValueError: the structure has no such tree.
     """
     known = set(range(len(structure.colours)))
-    if not tree.colours <= known or not structure.is_admissible(tree):
+    is_known = tree.colours <= known
+    if not is_known or not structure.is_admissible(tree):
         raise ValueError("the method has no order condition for this tree")
     return ConditionClass(structure.centred(tree), structure)
 
@@ -212,13 +215,18 @@ def count_classes(structure: Structure, order: int) -> int:
         upper = [row[leader] for row in halves]
         vertices += upper[order - 1]
         if admissible.is_linear(leader):
-            branches = [sum(row[m] for m in below) for row in halves]
+            branches = []
+            for row in halves:
+                hanging = [row[m] for m in below]
+                branches.append(sum(hanging))
             vertices += _pairs(branches, branches, order - 1, same=True)
         for m in below:
-            if structure.is_forward(m) and (structure.is_directed or m >= leader):
-                same = m == leader and not structure.is_directed
-                lower = [row[m] for row in halves]
-                edges += _pairs(upper, lower, order, same)
+            is_from_here = structure.is_directed or m >= leader
+            if not (is_from_here and structure.is_forward(m)):
+                continue
+            same = m == leader and not structure.is_directed
+            lower = [row[m] for row in halves]
+            edges += _pairs(upper, lower, order, same)
     return vertices - edges
 
 
@@ -226,7 +234,10 @@ def _pairs(ones: list[int], others: list[int], total: int, same: bool) -> int:
     """How many pairs of trees have ``total`` vertices together; ``same``: without regard to their
     order.
     """
-    ordered = sum(ones[k - 1] * others[total - k - 1] for k in range(1, total))
+    ordered = 0
+    for k in range(1, total):
+        rest = total - k
+        ordered += ones[k - 1] * others[rest - 1]
     if not same:
         return ordered
     twice = 0  # pairs of a tree with itself

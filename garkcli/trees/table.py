@@ -136,31 +136,39 @@ class TreeTable:
         """The tree with an id; raises ``IndexError`` when there is none."""
         if not 0 <= tree_id < len(self):
             raise IndexError(f"no tree {tree_id} in a table of {len(self)} trees")
-        stem, branch = self.columns.stem, self.columns.branch
+        stem = self.columns.stem
+        branch = self.columns.branch
         branches = []
         u = tree_id
         while (last := int(branch[u])) >= 0:
             branches.append(self.tree(last))
             u = int(stem[u])
-        return Tree(int(self.columns.root[u]), branches)
+        root = int(self.columns.root[u])
+        return Tree(root, branches)
 
     def notation(self, ids: Iterable[int] | Column, colours: bool = True) -> list[str]:
         """Bracket text of many trees, the same as ``format_tree``, built from the texts of their
         parents.
         """
-        which = ids if isinstance(ids, np.ndarray) else np.fromiter(ids, np.int64)
-        return self.texts(self.columns.part(which), colours)
+        which = ids
+        if not isinstance(which, np.ndarray):
+            which = np.fromiter(which, np.int64)
+        trees = self.columns.part(which)
+        return self.texts(trees, colours)
 
     def texts(self, trees: Columns, colours: bool = True) -> list[str]:
         """Bracket text of trees whose parents are in this table, such as those of a block."""
-        return self._texts.setdefault(colours, Texts(self.columns, colours)).of(trees)
+        if colours not in self._texts:
+            self._texts[colours] = Texts(self.columns, colours)
+        return self._texts[colours].of(trees)
 
 
 def _too_large(size: int, colours: int, order: int) -> TableTooLarge:
     about = str(size)
     if size >= 10**15:
         # log10(2) = 0.30103 rounded down: "more than" stays true
-        about = f"more than 10^{int((size.bit_length() - 1) * 0.30102)}"
+        decades = (size.bit_length() - 1) * 0.30102
+        about = f"more than 10^{int(decades)}"
     which = f"of order up to {order} with {counted(colours, 'colour')}"
     return TableTooLarge(
         f"{about} trees {which} (limit {MAX_TREES})",
@@ -192,7 +200,8 @@ def segments_of(
         rest = order - branch_order
         if rest > 1 and admissible.is_linear(root):
             continue
-        stems = range(starts[rest - 1][root], starts[rest - 1][root + 1])
+        of_rest = starts[rest - 1]
+        stems = range(of_rest[root], of_rest[root + 1])
         firsts = starts[branch_order - 1]
         for colour in admissible.branches[root]:
             branches = range(firsts[colour], firsts[colour + 1])
@@ -215,7 +224,9 @@ def _fill(
     """Write the trees of one order into the table; the lower orders are there already."""
     segments = []
     for root in range(admissible.colours):
-        for segment, growth in segments_of(admissible, starts, order, columns, root):
-            columns.write(segment.ids.start, growth.make(0, len(growth)))
+        made = segments_of(admissible, starts, order, columns, root)
+        for segment, growth in made:
+            trees = growth.make(0, len(growth))
+            columns.write(segment.ids.start, trees)
             segments.append(segment)
     return segments

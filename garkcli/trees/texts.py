@@ -15,6 +15,7 @@ Inside = tuple[str, int, int]
 """The text between a root's brackets, the offset where its largest branches end, and their
 order.
 """
+_VERTEX: Inside = ("", 0, 0)
 
 
 class Texts:
@@ -33,9 +34,11 @@ class Texts:
         parents = np.concatenate([trees.stem, trees.branch])
         self._remember(parents[parents >= 0])
         insides = self._of_children(trees)
+        roots = trees.root.tolist()
         texts = []
-        for inside, root in zip(insides, trees.root.tolist(), strict=True):
-            texts.append(self._closed(inside[0], root))
+        for (inside, _, _), root in zip(insides, roots, strict=True):
+            text = self._closed(inside, root)
+            texts.append(text)
         return texts
 
     def _remember(self, ids: Column) -> None:
@@ -54,7 +57,8 @@ class Texts:
         for order in np.unique(orders):
             ids = missing[orders == order]
             made = self._of_children(columns.part(ids))
-            self._insides.update(zip(ids.tolist(), made, strict=True))
+            named = zip(ids.tolist(), made, strict=True)
+            self._insides.update(named)
 
     def _of_children(self, trees: Columns) -> list[Inside]:
         """The insides of trees whose parents' insides are known."""
@@ -66,14 +70,18 @@ class Texts:
         made = []
         for stem, branch in zip(stems, branches, strict=True):
             if branch < 0:
-                made.append(("", 0, 0))
-            else:
-                text = self._closed(insides[branch][0], int(root[branch]))
-                made.append(_inserted(insides[stem], text, int(order[branch])))
+                made.append(_VERTEX)
+                continue
+            inside, _, _ = insides[branch]
+            text = self._closed(inside, int(root[branch]))
+            size = int(order[branch])
+            made.append(_inserted(insides[stem], text, size))
         return made
 
     def _closed(self, inside: str, root: int) -> str:
-        return f"[{inside}]_{root + 1}" if self.colours else f"[{inside}]"
+        if not self.colours:
+            return f"[{inside}]"
+        return f"[{inside}]_{root + 1}"
 
 
 def _inserted(stem: Inside, text: str, order: int) -> Inside:
@@ -82,8 +90,12 @@ def _inserted(stem: Inside, text: str, order: int) -> Inside:
     A last branch is never smaller than the others, so that there are these two cases only.
     """
     inside, end, largest = stem
+    length = len(text)
     if not inside:
-        return text, len(text), order
+        return text, length, order
     if order > largest:
-        return f"{text},{inside}", len(text), order
-    return f"{inside[:end]},{text}{inside[end:]}", end + 1 + len(text), largest
+        return f"{text},{inside}", length, order
+    larger = inside[:end]
+    smaller = inside[end:]
+    joined = f"{larger},{text}{smaller}"
+    return joined, end + 1 + length, largest

@@ -32,8 +32,9 @@ class Tree:
 
     def __init__(self, root: int, branches: Iterable[Tree] = ()) -> None:
         self.root = root
-        self.branches: tuple[Tree, ...] = tuple(sorted(branches, key=Tree.sort_key))
-        self.order: int = 1 + sum(u.order for u in self.branches)
+        ordered = sorted(branches, key=Tree.sort_key)
+        self.branches: tuple[Tree, ...] = tuple(ordered)
+        self.order: int = 1 + sum(u.order for u in ordered)
 
     def sort_key(self) -> tuple[object, ...]:
         """A total order on trees, the one of the tree table's ids.
@@ -46,19 +47,22 @@ class Tree:
     @cached_property
     def _key(self) -> tuple[object, ...]:
         outline = tuple((u.order, u.root) for u in reversed(self.branches))
-        return (self.order, self.root, outline, tuple(u._key for u in self.branches))
+        keys = tuple(u._key for u in self.branches)
+        return self.order, self.root, outline, keys
 
     @cached_property
     def density(self) -> int:
         """γ(u) = ρ(u) γ(u_1) … γ(u_m)."""
-        return self.order * prod(u.density for u in self.branches)
+        densities = [u.density for u in self.branches]
+        return self.order * prod(densities)
 
     @cached_property
     def symmetry(self) -> int:
         """σ(u): the number of automorphisms that keep the root and every colour."""
-        repeats = (len(list(group)) for _, group in groupby(self.branches))
-        swaps = prod(factorial(k) for k in repeats)
-        return swaps * prod(u.symmetry for u in self.branches)
+        repeats = [len(list(alike)) for _, alike in groupby(self.branches)]
+        swaps = prod(map(factorial, repeats))
+        symmetries = [u.symmetry for u in self.branches]
+        return swaps * prod(symmetries)
 
     def vertices(self) -> Iterator[Tree]:
         """Every vertex, as the subtree hanging from it, the root first."""
@@ -82,4 +86,5 @@ class Tree:
     def __repr__(self) -> str:
         if not self.branches:
             return f"Tree({self.root})"
-        return f"Tree({self.root}, {list(self.branches)!r})"
+        branches = list(self.branches)
+        return f"Tree({self.root}, {branches!r})"

@@ -2,7 +2,7 @@
 
 from __future__ import annotations
 
-from typing import TYPE_CHECKING
+from typing import TYPE_CHECKING, TypeAlias
 
 import numpy as np
 
@@ -13,6 +13,8 @@ if TYPE_CHECKING:
     from garkcli.trees.columns import Segment
     from garkcli.trees.table import TreeTable
 
+Blocks: TypeAlias = "Mapping[tuple[int, int], Floats]"
+"""Matrices by stage space and colour."""
 CHUNK = 1 << 16
 """Trees whose stage vectors are gathered at once: bounds the memory of the highest order."""
 
@@ -20,7 +22,7 @@ CHUNK = 1 << 16
 def elementary_weights(
     table: TreeTable,
     rows: Sequence[int],
-    blocks: Mapping[tuple[int, int], Floats],
+    blocks: Blocks,
     weights: Sequence[Floats],
 ) -> Floats:
     """b_l^T 𝒜^[u] for every tree u of the table, in the order of its ids (the paper's eqs. Au and
@@ -44,15 +46,16 @@ def elementary_weights(
 def _check(
     table: TreeTable,
     rows: Sequence[int],
-    blocks: Mapping[tuple[int, int], Floats],
+    blocks: Blocks,
     weights: Sequence[Floats],
 ) -> None:
-    if len(rows) != table.colours or len(weights) != table.colours:
+    if not len(rows) == len(weights) == table.colours:
         raise ValueError(
             f"a table of {table.colours} colours needs as many stage spaces and weights"
         )
     for l, branches in enumerate(table.admissible.branches):
-        b, space = weights[l], rows[l]
+        b = weights[l]
+        space = rows[l]
         first = weights[rows.index(space)]
         if b.shape != first.shape or b.ndim != 1:
             raise ValueError(
@@ -69,9 +72,8 @@ def _check(
                 )
             shape = len(b), len(weights[m])
             if block.shape != shape:
-                raise ValueError(
-                    f"the block of {which} has shape {block.shape}, not {shape}"
-                )
+                found = f"has shape {block.shape}, not {shape}"
+                raise ValueError(f"the block of {which} {found}")
 
 
 class _Evaluation:
@@ -86,7 +88,7 @@ class _Evaluation:
         self,
         table: TreeTable,
         rows: Sequence[int],
-        blocks: Mapping[tuple[int, int], Floats],
+        blocks: Blocks,
         weights: Sequence[Floats],
     ) -> None:
         self.table = table
@@ -100,15 +102,17 @@ class _Evaluation:
 
     def run(self) -> Floats:
         for colour, b in enumerate(self.weights):
-            self.vectors[1, colour] = np.ones((1, len(b)), self.dtype)
+            ones = np.ones((1, len(b)), self.dtype)
+            self.vectors[1, colour] = ones
             self.values[colour] = b.sum()
         for order in range(2, self.table.max_order + 1):
             self._apply(order - 1)
             last = order == self.table.max_order
             if not last:
                 for colour, b in enumerate(self.weights):
-                    shape = len(self.table.ids(order, colour)), len(b)
-                    self.vectors[order, colour] = np.empty(shape, self.dtype)
+                    ids = self.table.ids(order, colour)
+                    vectors = np.empty((len(ids), len(b)), self.dtype)
+                    self.vectors[order, colour] = vectors
             for segment in self.table.segments:
                 if segment.order == order:
                     self._evaluate(segment, keep=not last)
@@ -119,22 +123,31 @@ class _Evaluation:
         for colour, branches in enumerate(self.table.admissible.branches):
             space = self.rows[colour]
             for m in branches:
-                if (space, order, m) not in self.applied:
+                key = space, order, m
+                if key not in self.applied:
                     A = self.blocks[space, m]
-                    self.applied[space, order, m] = self.vectors[order, m] @ A.T
+                    vectors = self.vectors[order, m]
+                    self.applied[key] = vectors @ A.T
 
     def _evaluate(self, segment: Segment, keep: bool) -> None:
         """Values, and if wanted the vectors, of the trees of a segment."""
-        table, root = self.table, segment.root
+        table = self.table
+        root = segment.root
         space = self.rows[root]
-        stems = self.vectors[segment.order - segment.branch_order, root]
+        b = self.weights[root]
+        stem_order = segment.order - segment.branch_order
+        stems = self.vectors[stem_order, root]
         branches = self.applied[space, segment.branch_order, segment.branch_root]
+        first_stem = segment.stems.start
+        first_branch = segment.branches.start
+        ids = segment.ids
         first = table.ids(segment.order, root).start
-        for start in range(segment.ids.start, segment.ids.stop, CHUNK):
-            here = slice(start, min(start + CHUNK, segment.ids.stop))
-            product = stems[table.stem[here] - segment.stems.start]
-            product *= branches[table.branch[here] - segment.branches.start]
-            self.values[here] = product @ self.weights[root]
+        for start in range(ids.start, ids.stop, CHUNK):
+            stop = min(start + CHUNK, ids.stop)
+            here = slice(start, stop)
+            product = stems[table.stem[here] - first_stem]
+            product *= branches[table.branch[here] - first_branch]
+            self.values[here] = product @ b
             if keep:
-                among_order = slice(here.start - first, here.stop - first)
-                self.vectors[segment.order, root][among_order] = product
+                vectors = self.vectors[segment.order, root]
+                vectors[start - first : stop - first] = product
