@@ -31,7 +31,7 @@ from garkcli.backward.series import transported
 from garkcli.exact.echelon import pivot_columns
 from garkcli.exact.field import ZERO, Number, NumberField, coordinates
 
-MAX_ENTRIES = 250_000
+MAX_ENTRIES = 1_000_000
 """The largest linear system that is solved, rows times columns."""
 
 

@@ -39,6 +39,7 @@ COMMANDS = {
     "tableau": "the assembled tableau, all blocks",
     "conjugate": "the symplectic conjugate tableau, or the pair",
     "stability": "A-, L-, P-stability, intervals, SSP coefficient, exactly",
+    "modified": "the modified equation or Hamiltonian, effective order",
     "converge": "the convergence test on a problem",
     "energy": "energy and other invariants over a long time: do they drift?",
     "certificate": "what proves the orders, to be checked without gark",

@@ -71,6 +71,7 @@ RUNS = {
         "200",
         "--bounded",
     ),
+    "modified": ("modified", VERLET),
     "list": ("list",),
     "help": ("--help",),
     "help-check": ("check", "--help"),

@@ -32,6 +32,10 @@ REPORTS = {
         ["stability", "methods/rectangular.gark.yaml"],
         ["stability", METHOD, "--slow", "1/100", "--fast", "2"],
     ],
+    "modified": [
+        ["modified", METHOD],
+        ["modified", "methods/rectangular.gark.yaml"],
+    ],
     "converge": [
         ["converge", METHOD, "--problem", "oscillator"],
         ["converge", METHOD, "--problem", "kepler", "--steps", "1/8,1/16", "--work"],

@@ -1,0 +1,124 @@
+"""Everything that backward error analysis says of one method, as one value."""
+
+from __future__ import annotations
+
+from dataclasses import dataclass
+from typing import TYPE_CHECKING
+
+from garkcli.backward.effective import effective_order
+from garkcli.backward.free_trees import hamiltonian_structure
+from garkcli.backward.hamiltonian import (
+    HamiltonianTerm,
+    energy_order,
+    modified_hamiltonian,
+    symplectic_order,
+)
+from garkcli.backward.modified import ModifiedEquation, modified_equation
+from garkcli.tableau.conjugate import is_symplectic
+from garkcli.tableau.tableau import Tableau
+
+if TYPE_CHECKING:
+    from flint import fmpq
+
+    from garkcli.trees.free import Structure
+
+
+@dataclass(frozen=True)
+class Reached:
+    """An order that was found.
+
+    Attributes:
+        order: the order.
+        is_lower_bound: whether nothing is known of the next one.
+    """
+
+    order: int
+    is_lower_bound: bool = False
+
+
+@dataclass(frozen=True)
+class BackwardAnalysis:
+    """The modified equation of a method and the orders that it tells.
+
+    Attributes:
+        equation: the coefficients.
+        order: of the method.
+        structure: of the Hamiltonian problems that it is for, or None.
+        is_symplectic: whether it is by its coefficients; within the tolerance where it has one.
+        symplectic: the order of symplecticity; None without a structure or with a tolerance.
+        energy: the order to which steps conserve energy; None as there.
+        effective: the order up to a change of coordinates; None with a tolerance.
+        hamiltonian: the terms of the modified Hamiltonian; None where there is none, or with a
+            tolerance.
+        tolerance: the rounding of the coefficients.
+    """
+
+    equation: ModifiedEquation
+    order: Reached
+    structure: Structure | None
+    is_symplectic: bool
+    symplectic: Reached | None = None
+    energy: Reached | None = None
+    effective: Reached | None = None
+    hamiltonian: tuple[HamiltonianTerm, ...] | None = None
+    tolerance: fmpq | None = None
+
+
+def backward_analysis(
+    tableau: Tableau, max_order: int, tolerance: fmpq | None = None
+) -> BackwardAnalysis:
+    """Decide what trees of up to ``max_order`` vertices tell of ``tableau``.
+
+    With a ``tolerance`` the coefficients are those of the digits as they are given, and the order
+    is the one within it; nothing is decided about the other orders, which are about exact zeros.
+
+    Raises:
+        UsageProblem: there are too many trees.
+
+    >>> from garkcli import loads
+    >>> found = backward_analysis(loads("methods: [{family: rk4}]").tableau, 6)
+    >>> found.symplectic, found.energy
+    (Reached(order=4, is_lower_bound=False), Reached(order=4, is_lower_bound=False))
+    """
+    equation = modified_equation(tableau, max_order)
+    structure = hamiltonian_structure(tableau)
+    if tolerance is not None:
+        return _of_rounded(equation, structure, tolerance)
+    shift = effective_order(equation)
+    effective = Reached(shift.order, not shift.is_proved)
+    order = _reached(equation.order, max_order)
+    if structure is None:
+        return BackwardAnalysis(equation, order, None, False, effective=effective)
+    proved = is_symplectic(tableau)
+    found = symplectic_order(equation, structure)
+    terms = None
+    if proved:
+        terms = tuple(modified_hamiltonian(equation, structure))
+    return BackwardAnalysis(
+        equation,
+        order,
+        structure,
+        proved,
+        _reached(found, max_order),
+        _reached(energy_order(equation, structure), max_order),
+        effective,
+        terms,
+    )
+
+
+def _reached(order: int, largest: int) -> Reached:
+    return Reached(order, order == largest)
+
+
+def _of_rounded(
+    equation: ModifiedEquation, structure: Structure | None, tolerance: fmpq
+) -> BackwardAnalysis:
+    """What is said of rounded coefficients."""
+    from garkcli.order.defects import is_symplectic_within
+    from garkcli.order.rounded import find_order_within
+
+    tableau = equation.tableau
+    within = find_order_within(tableau, tolerance, equation.max_order)
+    order = Reached(within.order, within.is_lower_bound)
+    symplectic = is_symplectic_within(tableau, tolerance)
+    return BackwardAnalysis(equation, order, structure, symplectic, tolerance=tolerance)

@@ -1,0 +1,100 @@
+"""``gark modified``."""
+
+from __future__ import annotations
+
+from typing import TYPE_CHECKING
+
+import click
+
+from garkcli.cli.options import (
+    CONTEXT,
+    PATH,
+    Output,
+    common,
+    digits_option,
+    document_option,
+)
+from garkcli.errors import UsageProblem
+
+if TYPE_CHECKING:
+    from garkcli.methodfile.build import MethodFile
+    from garkcli.tableau.tableau import Tableau
+
+
+@click.command("modified", context_settings=CONTEXT)
+@click.argument("file", type=PATH, metavar="FILE")
+@click.option(
+    "--order",
+    "-n",
+    type=click.IntRange(1, 100),
+    default=5,
+    show_default=True,
+    metavar="n",
+    help="Trees of up to n vertices: powers of h up to n - 1.",
+)
+@click.option(
+    "--conjugate",
+    "which",
+    flag_value="conjugate",
+    help="Of the symplectic conjugate of FILE.",
+)
+@click.option(
+    "--pair", "which", flag_value="pair", help="Of the symplectic pair of FILE."
+)
+@click.option(
+    "--equation",
+    is_flag=True,
+    help="Rooted trees too, where there is a modified Hamiltonian.",
+)
+@digits_option("Coefficients in decimals of N digits; by default exact.")
+@document_option
+@common(["text", "json", "latex"])
+def command(
+    file: str,
+    order: int,
+    which: str | None,
+    equation: bool,
+    digits: int | None,
+    document: bool,
+    output: Output,
+) -> int:
+    """The modified equation of a method, in trees, exactly.
+
+    A step is a step along the exact solution of another equation, whose coefficients are listed:
+    of a symplectic method those of its modified Hamiltonian in free trees. They tell the order
+    to which the method is symplectic and conserves energy, and its effective order: the order in
+    the best coordinates.
+    """
+    from garkcli.backward.summary import backward_analysis
+    from garkcli.methodfile.load import load
+    from garkcli.report.modified import render
+    from garkcli.report.modified_data import ModifiedReport
+
+    if document and output.format != "latex":
+        raise UsageProblem("--document goes with --format latex", "add --format latex")
+    method = load(file)
+    tableau = _chosen(method, which)
+    found = backward_analysis(tableau, order, method.tolerance)
+    report = ModifiedReport(file, method.name, found, which or "", digits, equation)
+    is_long = output.verbosity >= 0
+    output.write(render(report, output.format, output.paint, is_long, document))
+    return 0
+
+
+def _chosen(method: MethodFile, which: str | None) -> Tableau:
+    """The tableau that is meant.
+
+    Raises:
+        UsageProblem: the pair or the conjugate of rounded coefficients.
+    """
+    from garkcli.tableau.conjugate import conjugate
+    from garkcli.tableau.forms import pair
+
+    if which is None:
+        return method.tableau
+    if method.tolerance is not None:
+        raise UsageProblem(
+            f"--{which}: rounding goes on into the coefficients of it",
+            "give exact coefficients, without tolerance",
+        )
+    return conjugate(method.tableau) if which == "conjugate" else pair(method.tableau)

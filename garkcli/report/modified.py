@@ -1,0 +1,208 @@
+"""``gark modified`` as text, JSON or LaTeX."""
+
+from __future__ import annotations
+
+from collections.abc import Iterable, Iterator
+from itertools import groupby
+
+from garkcli.backward.summary import Reached
+from garkcli.exact.display import decimal, to_decimal, to_latex, to_text
+from garkcli.exact.field import Number
+from garkcli.report.latex import fragment, number
+from garkcli.report.modified_data import ModifiedReport, TreeTerm, render_json
+from garkcli.report.paint import Paint, counted, folded, indented
+from garkcli.report.trees import picture
+from garkcli.trees.notation import format_latex, format_tree
+
+MOST_CHARACTERS = 24
+"""Longer numbers are shown in decimals."""
+_WIDTH = 80
+_TREE = 30  # columns of a tree beside its numbers
+_DIGITS = 10
+_DERIVED = {"pair": "the symplectic pair", "conjugate": "the symplectic conjugate"}
+
+
+def render(
+    report: ModifiedReport,
+    format: str,
+    paint: Paint,
+    is_long: bool = True,
+    is_document: bool = False,
+) -> Iterator[str]:
+    """The report as pieces of text.
+
+    Args:
+        report: what was found.
+        format: text, json or latex.
+        paint: colour or none.
+        is_long: whether text has the coefficients too.
+        is_document: whether LaTeX gets a preamble.
+    """
+    if format == "json":
+        yield render_json(report)
+    elif format == "latex":
+        yield from fragment(_latex(report), is_document)
+    else:
+        for line in text_of(report, paint, is_long):
+            yield line + "\n"
+
+
+def text_of(report: ModifiedReport, paint: Paint, is_long: bool = True) -> list[str]:
+    """The lines of the report."""
+    lines = [paint("strong", report.name or report.file)]
+    lines += indented(_head(report))
+    lines.append("")
+    for label, text in _orders(report):
+        first, *rest = folded(text, _WIDTH - 21, "")
+        lines.append(f"  {label:<19}{first}")
+        lines += indented(rest, " " * 21)
+    if not is_long:
+        return lines
+    hamiltonian = report.hamiltonian
+    if hamiltonian is not None:
+        title = "modified Hamiltonian: Σ h^(ρ−1) b(u)/|Aut| H(u)"
+        lines += ["", *_table(report, title, hamiltonian, "|Aut|", paint)]
+    if hamiltonian is None or report.with_equation:
+        title = "modified equation: Σ h^(ρ−1) b(u)/σ F(u)"
+        lines += ["", *_table(report, title, report.equation, "σ", paint)]
+    return lines
+
+
+def _head(report: ModifiedReport) -> list[str]:
+    """What the report is about."""
+    equation = report.found.equation
+    parts = []
+    if report.derivation:
+        parts.append(_DERIVED[report.derivation])
+    parts.append(counted(len(report.names), "colour"))
+    parts.append(f"trees of up to {counted_vertices(equation.max_order)}")
+    lines = ["; ".join(parts)]
+    numbers = [str(l) for l, _ in enumerate(report.names, start=1)]
+    if list(report.names) != numbers:
+        pairs = map(" ".join, zip(numbers, report.names, strict=True))
+        lines.append(f"colours: {', '.join(pairs)}")
+    if report.found.tolerance is not None:
+        near = decimal(report.found.tolerance)
+        lines.append(f"rounded to {near}: coefficients of the digits as they are given")
+    return lines
+
+
+def counted_vertices(count: int) -> str:
+    """A number of vertices in words."""
+    return "1 vertex" if count == 1 else f"{count} vertices"
+
+
+def _orders(report: ModifiedReport) -> Iterator[tuple[str, str]]:
+    """Each order with its label."""
+    found = report.found
+    is_rounded = found.tolerance is not None
+    order = _order(found.order)
+    if is_rounded:
+        order += f", within {decimal(found.tolerance)}" if found.tolerance else ""
+    yield "order", order
+    yield "symplectic", _symplectic(report)
+    missing = "not decided" if is_rounded else "no Hamiltonian problem has its form"
+    yield "energy order", missing if found.energy is None else _order(found.energy)
+    effective = found.effective
+    yield "effective order", "not decided" if effective is None else _order(effective)
+
+
+def _symplectic(report: ModifiedReport) -> str:
+    found = report.found
+    if found.is_symplectic and found.tolerance is not None:
+        return f"within {decimal(found.tolerance)}"
+    if found.is_symplectic:
+        return "yes, by its coefficients"
+    if found.tolerance is not None:
+        return f"not within {decimal(found.tolerance)}"
+    if found.symplectic is None:
+        return "no Hamiltonian problem has its form"
+    return f"to order {_order(found.symplectic)}"
+
+
+def _order(reached: Reached) -> str:
+    return f"at least {reached.order}" if reached.is_lower_bound else str(reached.order)
+
+
+def _table(
+    report: ModifiedReport,
+    title: str,
+    terms: Iterable[TreeTerm],
+    symmetry: str,
+    paint: Paint,
+) -> list[str]:
+    """The terms below their powers of h."""
+    heading = _row("u", symmetry, "b(u)", f"b(u)/{symmetry}")
+    lines = [f"  {title}", heading.rstrip()]
+    for order, group in groupby(terms, key=lambda term: term.tree.order):
+        lines.append(paint("strong", f"  h^{order - 1}"))
+        for term in group:
+            lines += _entry(report, term)
+    return lines
+
+
+def _row(tree: str, symmetry: str, coefficient: str, factor: str) -> str:
+    return f"    {tree:<{_TREE}} {symmetry:>6} {coefficient:>18} {factor:>18}"
+
+
+def _entry(report: ModifiedReport, term: TreeTerm) -> list[str]:
+    """One term: on a line, or a long tree above its numbers."""
+    has_colours = len(report.names) > 1
+    tree = format_tree(term.tree, has_colours)
+    coefficient = _short(report, term.coefficient)
+    factor = _short(report, term.factor)
+    symmetry = str(term.symmetry)
+    above = []
+    if len(tree) > _TREE:
+        above = indented(folded(tree, _WIDTH - 4, "  "), "    ")
+        tree = ""
+    row = _row(tree, symmetry, coefficient, factor)
+    if len(row) > _WIDTH:
+        numbers = f"{symmetry}   {coefficient}   {factor}"
+        above = above or [f"    {tree}"]
+        return [*above, numbers.rjust(_WIDTH - 1)]
+    return [*above, row]
+
+
+def _short(report: ModifiedReport, value: Number) -> str:
+    """A coefficient, in decimals where its exact form is long."""
+    if report.digits is not None:
+        return to_decimal(value, report.digits)
+    text = to_text(value)
+    if len(text) > MOST_CHARACTERS:
+        return f"~ {to_decimal(value, _DIGITS)}"
+    return text
+
+
+def _latex(report: ModifiedReport) -> Iterator[str]:
+    hamiltonian = report.hamiltonian
+    if hamiltonian is not None:
+        yield from _latex_table(report, hamiltonian, r"|\mathrm{Aut}|")
+    if hamiltonian is None or report.with_equation:
+        yield from _latex_table(report, report.equation, r"\sigma(u)")
+
+
+def _latex_table(
+    report: ModifiedReport, terms: Iterable[TreeTerm], symmetry: str
+) -> Iterator[str]:
+    head = ["", "$u$", r"$\rho(u)$", f"${symmetry}$", "$b(u)$", f"$b(u)/{symmetry}$"]
+    yield "\\begin{longtable}{clcccc}\n  \\hline\n"
+    yield f"  {' & '.join(head)} \\\\ \\hline\n"
+    has_colours = len(report.names) > 1
+    for term in terms:
+        cells = [
+            picture(term.tree, colours=has_colours),
+            f"${format_latex(term.tree, has_colours)}$",
+            str(term.tree.order),
+            str(term.symmetry),
+            f"${_latex_number(report, term.coefficient)}$",
+            f"${_latex_number(report, term.factor)}$",
+        ]
+        yield f"  {' & '.join(cells)} \\\\[4pt]\n"
+    yield "  \\hline\n\\end{longtable}\n"
+
+
+def _latex_number(report: ModifiedReport, value: Number) -> str:
+    if report.digits is None:
+        return to_latex(value)
+    return number(to_decimal(value, report.digits))

@@ -1,0 +1,122 @@
+"""``gark modified``: what it prints, in every format, and what it refuses."""
+
+from __future__ import annotations
+
+import json
+from pathlib import Path
+
+import pytest
+from jsonschema import Draft7Validator
+
+from garkcli.report.modified_data import modified_report_schema
+from garkcli.trees.notation import parse_tree
+from tests.cli.harness import gark
+
+VERLET = "methods/stoermer-verlet.gark.yaml"
+RECTANGULAR = "methods/rectangular.gark.yaml"
+COLLOCATION = "methods/collocation.gark.yaml"
+ROUNDED = """
+A: [[0, 0, 0], [0.333333333333333, 0, 0], [0, 0.666666666666667, 0]]
+b: [0.25, 0, 0.75]
+tolerance: 1e-14
+"""
+ONE_WAY = "tableau: {A: [[[[1/2]], [[1/2]]], [null, [[1/2]]]], b: [[1], [1]]}"
+
+
+@pytest.mark.parametrize(
+    "arguments",
+    [
+        (VERLET, "-n", "7"),
+        (RECTANGULAR, "-n", "6", "--equation"),
+        (COLLOCATION,),
+        (COLLOCATION, "--pair", "-n", "4"),
+        (COLLOCATION, "--conjugate", "--digits", "30"),
+    ],
+)
+def test_a_text_fits_80_columns(arguments: tuple[str, ...]) -> None:
+    """However long the trees and the numbers."""
+    lines = gark("modified", *arguments).out.splitlines()
+    assert [line for line in lines if len(line) > 80] == []
+
+
+@pytest.mark.parametrize(
+    "arguments",
+    [(VERLET,), ("methods/rk4.gark.yaml",), (COLLOCATION, "--pair", "-n", "3")],
+)
+def test_json_is_of_its_schema(arguments: tuple[str, ...]) -> None:
+    """Reports have the schema, a damaged one has not, and trees can be read."""
+    report = json.loads(gark("modified", *arguments, "--format", "json").out)
+    schema = modified_report_schema()
+    Draft7Validator.check_schema(schema)
+    validator = Draft7Validator(schema)
+    assert not list(validator.iter_errors(report))
+    assert list(validator.iter_errors({**report, "order": "4"}))
+    for term in report["equation"]:
+        tree = parse_tree(term["tree"])
+        assert (tree.order, tree.symmetry) == (term["order"], term["symmetry"])
+    asked = json.loads(gark("schema", "--report", "modified").out)
+    assert asked == schema
+
+
+def test_the_modified_hamiltonian_of_stoermer_verlet() -> None:
+    """H + h² (U''(T', T')/12 − T''(U', U')/24) + O(h⁴), as is well known."""
+    report = json.loads(gark("modified", VERLET, "-n", "3", "--format", "json").out)
+    found = {term["tree"]: term["factor"] for term in report["hamiltonian"]}
+    assert found == {
+        "[]_1": "1",
+        "[]_2": "1",
+        "[[]_2,[]_2]_1": "-1/24",
+        "[[]_1,[]_1]_2": "1/12",
+    }
+    assert report["symplectic"]
+    assert report["symplectic_order_is_lower_bound"]
+
+
+def test_rounded_coefficients(tmp_path: Path) -> None:
+    """The order is the one within the tolerance, the rounding is not listed as coefficients, and
+    nothing is said of orders that are about exact zeros.
+    """
+    path = tmp_path / "rounded.gark.yaml"
+    path.write_text(ROUNDED, encoding="utf-8")
+    text = gark("modified", str(path), "-n", "4").out
+    assert "order              3, within 1e-14" in text
+    assert "effective order    not decided" in text
+    assert "h^1\n" not in text
+    assert "h^3\n" in text
+    report = json.loads(gark("modified", str(path), "--format", "json").out)
+    assert report["order"] == 3
+    assert report["effective_order"] is None
+    assert not list(Draft7Validator(modified_report_schema()).iter_errors(report))
+    refused = gark("modified", str(path), "--pair")
+    assert refused.code == 2
+    assert "help: give exact coefficients" in refused.err
+
+
+def test_a_tableau_without_hamiltonian_problems(tmp_path: Path) -> None:
+    """Where no Hamiltonian problem has the form of a tableau, that is said."""
+    path = tmp_path / "one-way.gark.yaml"
+    path.write_text(ONE_WAY, encoding="utf-8")
+    text = gark("modified", str(path), "-n", "3").out
+    assert text.count("no Hamiltonian problem has its form") == 2
+    report = json.loads(gark("modified", str(path), "--format", "json").out)
+    assert report["energy_order"] is None
+
+
+def test_latex_and_quiet() -> None:
+    """LaTeX has a row for each term and a document on request; --quiet has the orders alone."""
+    latex = gark("modified", VERLET, "-n", "3", "--format", "latex").out
+    assert latex.count(r"\\[4pt]") == 4
+    assert r"$-\frac{1}{24}$" in latex
+    whole = gark("modified", VERLET, "--format", "latex", "--document").out
+    assert whole.startswith(r"\documentclass")
+    assert gark("modified", VERLET, "--document").code == 2
+    quiet = gark("modified", VERLET, "--quiet").out
+    assert "effective order    2" in quiet
+    assert "h^2" not in quiet
+
+
+def test_too_many_trees_are_refused() -> None:
+    """With the largest order that is possible."""
+    run = gark("modified", COLLOCATION, "--pair", "-n", "9")
+    assert run.code == 2
+    assert "help: ask for --order 5 at most" in run.err
