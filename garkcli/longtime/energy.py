@@ -200,8 +200,9 @@ def _powers(omega: fmpq, energy: float, time: float) -> tuple[float, float]:
 def _scaled(R: Matrix, omega: fmpq, bits: int) -> arb_mat:
     """R in the variables (ωq, p)."""
     (a, b), (c, d) = R
-    scaled = ((a, b * omega), (c * (1 / omega), d))
-    return enclosure(scaled, bits)
+    first = (a, b * omega)
+    second = (c * (1 / omega), d)
+    return enclosure((first, second), bits)
 
 
 def _energy_errors(R: Matrix, omega: fmpq, count: int) -> Floats:
@@ -267,8 +268,9 @@ def _starts(
     energy = 5 * omega**2 / 8
     starts, errors = [], []
     for _ in range(count):
-        x, y = z[0, 0], z[1, 0]
-        error = (x * x + y * y) / 2 - energy
+        x, y = z.entries()
+        square = x * x + y * y
+        error = square / 2 - energy
         starts.append((x, y))
         errors.append(error)
         if error.mid() > BLOW_UP * energy:
@@ -290,10 +292,11 @@ def _angle(R: Matrix, omega: fmpq) -> float | None:
     import numpy as np
 
     entries = _scaled(R, omega, 128).entries()
-    a, b, c, d = (float(x) for x in entries)
+    a, b, c, d = map(float, entries)
     # the eigenvalues are those of λ² − (a + d) λ + (ad − bc)
     real = (a + d) / 2
-    discriminant = ((a - d) / 2) ** 2 + b * c
+    apart = (a - d) / 2
+    discriminant = apart**2 + b * c
     if discriminant >= 0:
         return None
     imaginary = np.sqrt(-discriminant)
@@ -321,27 +324,33 @@ def _slope(errors: Floats, angle: float | None) -> float:
     """
     import numpy as np
 
-    largest = float(np.abs(errors).max())
+    sizes = np.abs(errors)
+    largest = float(sizes.max())
     last = len(errors) - 1
     if last < 1 or largest == 0:
         return 0.0
     # two turns within the run: the least for which a wave is no line
     if angle is not None:
-        turned = min(angle, 2 * np.pi - angle) * last
-        if turned < 4 * np.pi:
+        a_step = min(angle, 2 * np.pi - angle)
+        if a_step * last < 4 * np.pi:
             angle = None
     size = 2 if angle is None else 4
     gram = np.zeros((size, size))
     moments = np.zeros(size)
     for start in range(0, len(errors), _CHUNK):
-        part = errors[start : start + _CHUNK] / largest
+        chunk = errors[start : start + _CHUNK]
+        part = chunk / largest
         n = np.arange(start, start + len(part), dtype=np.float64)
-        columns = [np.ones_like(n), n / last - 0.5]
+        level = np.ones_like(n)
+        line = n / last - 0.5
+        columns = [level, line]
         if angle is not None:
             phase = angle * n
-            columns += [np.cos(phase), np.sin(phase)]
+            columns.append(np.cos(phase))
+            columns.append(np.sin(phase))
         A = np.stack(columns, axis=1)
         gram += A.T @ A
         moments += A.T @ part
     fitted = np.linalg.solve(gram, moments)
-    return float(fitted[1]) * largest / last
+    in_all = float(fitted[1]) * largest
+    return in_all / last

@@ -54,8 +54,11 @@ class Excursions:
         d = len(self._positions)
         is_often = self._turned[:d] >= _OFTEN
         is_far = abs(self._positions) > _FAR * self._bounds
-        steps = self._last_turns[is_often & is_far]
-        return int(steps.max()) if steps.size else None
+        has_escaped = is_often & is_far
+        steps = self._last_turns[has_escaped]
+        if not steps.size:
+            return None
+        return int(steps.max())
 
     def add(self, first: int, states: Floats) -> None:
         """The states of the steps ``first``, ``first`` + 1, …, shape (m, 2d); pieces overlap in two
@@ -67,13 +70,17 @@ class Excursions:
         if not self._turned.size:
             self._shape_for(d)
         moves = np.diff(states, axis=0)
-        is_move = np.abs(moves) > _MOVES * np.abs(states[1:])
+        ends = np.abs(states[1:])
+        is_move = np.abs(moves) > _MOVES * ends
         directions = np.sign(moves) * is_move
-        turned = directions[1:] * directions[:-1] < 0
+        products = directions[1:] * directions[:-1]
+        turned = products < 0
         self._turned += turned.sum(axis=0)
         self._positions = states[-1, :d]
         sizes = np.abs(states[:, :d])
-        either = turned[:, :d] | turned[:, d:]
+        of_positions = turned[:, :d]
+        of_momenta = turned[:, d:]
+        either = of_positions | of_momenta
         for i in range(d):
             turns = np.flatnonzero(either[:, i])
             self._add_position(i, first, sizes[:, i], turns)
@@ -83,11 +90,13 @@ class Excursions:
 
         The turn number n is about the state n + 1.
         """
+        beyond = self._beyond[i]
         if not turns.size:
-            self._beyond[i] = max(self._beyond[i], sizes.max())
+            self._beyond[i] = max(beyond, sizes.max())
             return
         last = int(turns[-1]) + 1
-        before = sizes[: last + 1].max()
-        self._bounds[i] = max(self._bounds[i], self._beyond[i], before)
-        self._beyond[i] = sizes[last:].max()
+        up_to_it = sizes[: last + 1]
+        after_it = sizes[last:]
+        self._bounds[i] = max(self._bounds[i], beyond, up_to_it.max())
+        self._beyond[i] = after_it.max()
         self._last_turns[i] = first + last

@@ -50,19 +50,22 @@ class Measure:
         )
         number = arb if self._bits else to_float
         start: list[Any] = self._precisely(lambda: [number(x) for x in problem.initial])
-        measured = [problem.energy, *(x for _, x in problem.invariants)]
+        measured = [problem.energy]
+        measured += [x for _, x in problem.invariants]
         summands: list[Any] = []
         self._lengths = []
         for expression in measured:
             own = _summands(expression)
             summands += own
             self._lengths.append(len(own))
-        arguments = tuple(x for g in GROUPS for x in symbols(problem.variables, g))
+        q, p = (symbols(problem.variables, group) for group in GROUPS)
+        arguments = (*q, *p)
         self._summands = function(tuple(summands), arguments, False)
         terms_of = function(tuple(problem.terms), arguments, False)
         try:
             self._first = self._precisely(lambda: self._function(*start))
-            terms = terms_of(*map(to_float, problem.initial))
+            initial = map(to_float, problem.initial)
+            terms = terms_of(*initial)
             self.sizes([float(x) for x in start])
         except (ArithmeticError, ValueError):
             raise UsageProblem(
@@ -97,7 +100,8 @@ class Measure:
         """
         import numpy as np
 
-        values = iter(self._summands(*(float(x) for x in y)))
+        arguments = map(float, y)
+        values = iter(self._summands(*arguments))
         sizes = []
         for length in self._lengths:
             own = islice(values, length)

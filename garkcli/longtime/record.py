@@ -50,7 +50,8 @@ class Record:
         import numpy as np
 
         signals = len(measure.names)
-        self.measure, self.count = measure, count
+        self.measure = measure
+        self.count = count
         self.trends = Trends(count, signals)
         self.largest: Floats = np.zeros(signals)
         self.first: Floats = np.zeros((0, signals))
@@ -117,21 +118,24 @@ class Record:
         if outside.size:
             self.blew_up = True
             errors = errors[: outside[0]]
-        if not len(errors):
+        count = len(errors)
+        if not count:
             return
         if start == 0:
-            self.first = errors[: COMPARED + 1].copy()
+            compared = errors[: COMPARED + 1]
+            self.first = compared.copy()
         self.trends.add(start, errors)
         largest = np.abs(errors).max(axis=0)
         np.maximum(self.largest, largest, out=self.largest)
-        self.done += len(errors)
+        self.done += count
         chosen = self._chosen(errors, start)
         self._numbers += [start + i for i in chosen]
         self._errors.append(errors[chosen])
         for number in self._wanted:
             if start <= number <= self.done:
                 self.states[number] = tuple(states[number - start])
-        self._watch(np.array(states[: len(errors)], dtype=np.float64))
+        inside = states[:count]
+        self._watch(np.array(inside, dtype=np.float64))
 
     def _chosen(self, errors: Floats, start: int) -> list[int]:
         if self._span == 1:
@@ -166,10 +170,13 @@ def extremes(errors: Floats, points: int) -> Integers:
 
     if len(errors) <= points:
         return np.arange(len(errors))
-    spans = np.array_split(np.arange(len(errors)), points // 2)
+    numbers = np.arange(len(errors))
+    spans = np.array_split(numbers, points // 2)
     chosen: set[int] = set()
     for span in spans:
         values = errors[span]
-        chosen.add(int(span[np.argmin(values)]))
-        chosen.add(int(span[np.argmax(values)]))
+        least = span[np.argmin(values)]
+        greatest = span[np.argmax(values)]
+        chosen.add(int(least))
+        chosen.add(int(greatest))
     return np.array(sorted(chosen))

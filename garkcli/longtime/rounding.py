@@ -6,6 +6,7 @@ Both are derived in docs/energy.md.
 
 from __future__ import annotations
 
+from collections.abc import Iterable
 from math import ceil, log10
 from typing import TYPE_CHECKING, Any
 
@@ -70,12 +71,12 @@ class Exchange:
         bends = np.diff(states, 2, axis=0)
         q, p = moves[:, :d], moves[:, d:]
         q_bends, p_bends = bends[:, :d], bends[:, d:]
-        by_forces = (q * p_bends).sum(axis=1)
-        by_velocities = (p * q_bends).sum(axis=1)
+        products = q * p
         self.steps += len(moves)
-        self.first += float((q * p).sum())
-        self.second += float(np.abs(by_forces).sum())
-        self.second += float(np.abs(by_velocities).sum())
+        self.first += float(products.sum())
+        for crossed in (q * p_bends, p * q_bends):
+            of_steps = crossed.sum(axis=1)
+            self.second += float(np.abs(of_steps).sum())
 
     def powers(self, h: float) -> tuple[float, float]:
         """Per unit of time: |mean of q̇·ṗ|, an energy per time, and the mean of |q̇·p̈| + |ṗ·q̈|,
@@ -116,10 +117,15 @@ def sensitivity(tableau: Tableau) -> tuple[float, float]:
     stages = max(len(row) for row in printed.b)
     is_split = any(colour.part != "y" for colour in tableau.colours)
     of_order_1 = 2.0 * stages if is_split else 0.0
-    nodes = sum(_size(x) for row in printed.c for x in row)
-    weights = sum(_size(x) for row in printed.b for x in row)
+    nodes = _sum_of_sizes(printed.c)
+    weights = _sum_of_sizes(printed.b)
     of_order_2 = nodes + stages * weights
     return of_order_1, of_order_2
+
+
+def _sum_of_sizes(rows: Iterable[Iterable[Any]]) -> float:
+    """Σ |x| over all entries."""
+    return sum(_size(x) for row in rows for x in row)
 
 
 def _size(x: Any) -> float:

@@ -58,12 +58,13 @@ def stability(R: Matrix) -> Stability:
 def _fate(R: Matrix, determinant: Number, trace: Number) -> Fate:
     if determinant == ONE:
         room = _sign(4 - trace * trace)
-        is_diagonal = not (
-            R[0][1] or R[1][0]
-        )  # then R is the identity, or its negative
-        return "elliptic" if room > 0 or (room == 0 and is_diagonal) else "unstable"
+        (_, b), (c, _) = R
+        # of trace ±2 a diagonal R is the identity, or its negative
+        is_identity = room == 0 and not (b or c)
+        return "elliptic" if room > 0 or is_identity else "unstable"
     area = _sign(1 - determinant * determinant)
-    room = _sign((1 + determinant) * (1 + determinant) - trace * trace)
+    most = 1 + determinant
+    room = _sign(most * most - trace * trace)
     if area > 0 and room > 0:
         return "contractive"
     if area < 0 or room < 0:

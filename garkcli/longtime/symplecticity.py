@@ -97,16 +97,19 @@ def _defect(method: Integrator, step: fmpq, time: fmpq, y: Sequence[Any]) -> Def
     with ctx.workprec(method.bits):
         M = _jacobian(method, step, y, delta)
         coarse = _jacobian(method, step, y, 2 * delta)
-        changes = []
-        for fine_row, coarse_row in zip(M, coarse, strict=True):
-            pairs = zip(fine_row, coarse_row, strict=True)
-            changes += [abs(a - b) for a, b in pairs]
-        change = max(changes)
-        largest = max(abs(a) for row in M for a in row)
+        entries = [a for row in M for a in row]
+        coarse_entries = [b for row in coarse for b in row]
+        pairs = zip(entries, coarse_entries, strict=True)
+        change = max(abs(a - b) for a, b in pairs)
+        largest = max(map(abs, entries))
         size = sum((abs(arb(x)) for x in y), arb(1))
-        solved = arb(10) ** (_DECADES - method.digits) * size
-        error = _SAFETY * len(M) * largest * (change + solved)
-        return Defect(time, float(_deviation(M)), float(error))
+        # what the last digits of a step make of a difference of 10^-_DECADES
+        last_digit = arb(10) ** (_DECADES - method.digits)
+        solved = last_digit * size
+        terms = _SAFETY * len(M)
+        error = terms * largest * (change + solved)
+        deviation = _deviation(M)
+        return Defect(time, float(deviation), float(error))
 
 
 def _jacobian(
@@ -120,9 +123,11 @@ def _jacobian(
 
     columns = []
     for i in range(len(y)):
-        after, before = moved(i, delta), moved(i, -delta)
+        after = moved(i, delta)
+        before = moved(i, -delta)
         pairs = zip(after, before, strict=True)
-        columns.append([((a - b) / (2 * delta)).mid() for a, b in pairs])
+        slopes = [(a - b) / (2 * delta) for a, b in pairs]
+        columns.append([slope.mid() for slope in slopes])
     return [list(row) for row in zip(*columns, strict=True)]
 
 
@@ -134,7 +139,8 @@ def _deviation(M: Jacobian) -> arb:
         for j in range(i):
             form = arb(0)  # entry (i, j) of MᵀJM
             for k in range(d):
-                q, p = M[k], M[k + d]
+                q = M[k]
+                p = M[k + d]
                 form += q[i] * p[j] - p[i] * q[j]
             exact = -1 if i == j + d else 0
             largest = largest.max(abs(form - exact))
@@ -165,6 +171,9 @@ def is_proved(
     tableau, fields = bound.tableau, bound.fields
     drives: dict[int, set[str]] = {}
     for l, group in fields:
-        drives.setdefault(tableau.colours[l].term, set()).add(group)
+        term = tableau.colours[l].term
+        drives.setdefault(term, set()).add(group)
     is_separable = all(len(groups) == 1 for groups in drives.values())
-    return is_separable and holds(visible_tableau(tableau, fields), tolerance)
+    if not is_separable:
+        return False
+    return holds(visible_tableau(tableau, fields), tolerance)

@@ -47,9 +47,9 @@ Of 480 runs of symplectic methods on systems of two planets none comes to that, 
 docs/energy.md.
 """
 _WHOLE = ((0.0, 1.0),)
-_HALVES = tuple((k / 4, k / 4 + 1 / 2) for k in range(3))
-_QUARTERS = tuple((k / 8, k / 8 + 1 / 4) for k in range(7))
-_EIGHTHS = tuple((k / 8, k / 8 + 1 / 8) for k in range(8))
+_HALVES = tuple((k / 4, (k + 2) / 4) for k in range(3))
+_QUARTERS = tuple((k / 8, (k + 2) / 8) for k in range(7))
+_EIGHTHS = tuple((k / 8, (k + 1) / 8) for k in range(8))
 _WINDOWS = (*_WHOLE, *_HALVES, *_QUARTERS, *_EIGHTHS)
 _OF_HALVES, _OF_QUARTERS, _OF_EIGHTHS = slice(1, 4), slice(4, 11), slice(11, 19)
 # (length / quarter)^(3/2): how much less noise there is in the slope of all than of a quarter
@@ -116,7 +116,8 @@ class Trends:
         # numbers of the first step inside each window, and of the step after the last
         self._bounds: list[tuple[int, int]] = []
         for a, b in _WINDOWS:
-            begin, stop = floor(a * count) + 1, ceil(b * count)
+            begin = floor(a * count) + 1
+            stop = ceil(b * count)
             self._bounds.append((begin, stop))
         # Σ w, Σ w u, Σ w u² with u = s − ½
         self._weights = np.zeros((windows, 3))
@@ -143,16 +144,19 @@ class Trends:
         import numpy as np
 
         middle = self.count // 2
-        halves = ((0, middle + 1), (middle, self.count + 1))
-        for half, (start, end) in enumerate(halves):
-            begin = max(start - first, 0)
-            stop = max(end - first, 0)
+        starts = (0, middle)
+        ends = (middle + 1, self.count + 1)
+        for half in range(2):
+            begin = max(starts[half] - first, 0)
+            stop = max(ends[half] - first, 0)
             part = errors[begin:stop]
             if not len(part):
                 continue
             least, greatest = self._ranges[half]
-            np.minimum(least, part.min(axis=0), out=least)
-            np.maximum(greatest, part.max(axis=0), out=greatest)
+            low = part.min(axis=0)
+            high = part.max(axis=0)
+            np.minimum(least, low, out=least)
+            np.maximum(greatest, high, out=greatest)
 
     def _add_to_window(self, k: int, first: int, errors: Floats) -> None:
         import numpy as np
@@ -167,15 +171,19 @@ class Trends:
         if start == begin:
             self._starts[k] = part[0]
         x = part - self._starts[k]
-        n = np.arange(start, end)
-        s = (n / self.count - a) / (b - a)
+        place = np.arange(start, end) / self.count
+        s = (place - a) / (b - a)
         u = s - 0.5
         # the weight w(s) of this module's heading, scaled to 1 in the middle
-        w = np.exp(4.0 - 1.0 / (s * (1.0 - s)))
-        weighted = np.stack([w, w * u])
-        weights, sums = self._weights[k], self._sums[k]
-        weights += w.sum(), w @ u, w @ (u * u)
-        sums[:2] += weighted @ x
+        product = s * (1.0 - s)
+        w = np.exp(4.0 - 1.0 / product)
+        wu = w * u
+        weights = self._weights[k]
+        weights[0] += w.sum()
+        weights[1] += w @ u
+        weights[2] += w @ (u * u)
+        sums = self._sums[k]
+        sums[:2] += np.stack([w, wu]) @ x
         sums[2] += w @ (x * x)
 
     def of(self, signal: int, noise: float = 0.0) -> Trend:
@@ -212,24 +220,28 @@ class Trends:
         X, Xu, Xx = self._sums[:, :, signal].T
         # the normal equations of level + slope · u, by Cramer's rule
         determinants = W * Wuu - Wu * Wu
-        slopes = (W * Xu - Wu * X) / determinants
+        numerators = W * Xu - Wu * X
+        slopes = numerators / determinants
         levels = (X - slopes * Wu) / W
         squares = Xx / W
-        explained = (levels * X + slopes * Xu) / W
+        products = levels * X + slopes * Xu
+        explained = products / W
         left = squares - explained
         is_rounding = left < _FLOAT_SQUARED * squares
         left[is_rounding] = 0.0
         lengths = np.array([b - a for a, b in _WINDOWS])
-        starts = self._starts[:, signal]
-        return _Windows(slopes / lengths, levels + starts, np.sqrt(left))
+        levels += self._starts[:, signal]
+        return _Windows(slopes / lengths, levels, np.sqrt(left))
 
     def _move(self, signal: int, found: _Windows, least: float) -> float:
         """How far the first or last eighth lies apart, or one half of the run leaves the range of
         the other; 0 where neither does.
         """
         move = _move_of_an_end(found, least)
-        ranges = self._ranges[:, :, signal].tolist()
-        for (low, high), (lowest, highest) in (ranges, ranges[::-1]):
+        first, second = self._ranges[:, :, signal].tolist()
+        for one, other in ((first, second), (second, first)):
+            low, high = one
+            lowest, highest = other
             away = max(highest - high, low - lowest)
             usual = high - low
             if away > usual + least:
@@ -244,9 +256,10 @@ def _move_of_an_end(found: _Windows, least: float) -> float:
     first, last = levels[0], levels[-1]
     move = 0.0
     for one, others in ((first, levels[1:]), (last, levels[:-1])):
-        low, high = others.min(), others.max()
+        low = float(others.min())
+        high = float(others.max())
         away = float(max(one - high, low - one))
-        usual = _APART * float(high - low) + height
+        usual = _APART * (high - low) + height
         if away > usual + least:
             move = max(move, away)
     return move
@@ -259,7 +272,8 @@ def _uncertainty(found: _Windows) -> float:
     slope = found.slopes[0]
     of_halves = found.slopes[_OF_HALVES] - slope
     of_quarters = found.slopes[_OF_QUARTERS] - slope
-    halves = float(np.abs(of_halves).max())
+    farthest = np.abs(of_halves).max()
+    halves = float(farthest)
     variance = float(np.mean(of_quarters**2))
     noise = _SIGMAS * sqrt(variance) / _SHORTENING
     heights = found.heights[_OF_QUARTERS]
@@ -279,17 +293,22 @@ def _climbs(found: _Windows, least: float) -> bool:
     around = heights[1:] + heights[:-1]
     if _goes_on(moves, _CLEAR * around + least):
         return True
-    in_all = abs(float(levels[-1] - levels[0]))
-    if in_all <= CERTAIN * float(heights.max()):
+    net = float(levels[-1] - levels[0])
+    height = float(heights.max())
+    if abs(net) <= CERTAIN * height:
         return False
     return _goes_on(moves, around / 2 + least)
 
 
 def _goes_on(moves: Floats, clear: Floats) -> bool:
     """Whether many of the moves are clear, all in one direction."""
-    rises = int((moves > clear).sum())
-    falls = int((moves < -clear).sum())
-    return max(rises, falls) >= _CLIMBS and min(rises, falls) == 0
+    is_rise = moves > clear
+    is_fall = moves < -clear
+    rises = int(is_rise.sum())
+    falls = int(is_fall.sum())
+    if min(rises, falls) > 0:
+        return False
+    return max(rises, falls) >= _CLIMBS
 
 
 def _net(found: _Windows, least: float) -> float:
@@ -300,7 +319,9 @@ def _net(found: _Windows, least: float) -> float:
     heights = found.heights[_OF_EIGHTHS]
     net = abs(float(levels[-1] - levels[0]))
     around = float(heights[-1] + heights[0])
-    spread = float(levels.max() - levels.min())
+    low, high = float(levels.min()), float(levels.max())
     is_clear = net > _CLEAR * around + least
-    is_most = net > spread / 2
-    return net if is_clear and is_most else 0.0
+    is_most = net > (high - low) / 2
+    if is_clear and is_most:
+        return net
+    return 0.0
