@@ -10,9 +10,9 @@ from __future__ import annotations
 from dataclasses import dataclass
 from typing import TYPE_CHECKING, TypeAlias
 
-from flint import arb
+from flint import arb, ctx
 
-from garkcli.exact.display import to_float
+from garkcli.exact.display import to_ball, to_float
 from garkcli.exact.field import ZERO, Number
 from garkcli.order.conditions import coupling_graph
 from garkcli.order.listing import all_conditions, count_conditions
@@ -30,6 +30,8 @@ if TYPE_CHECKING:
 
 EXACT_CONDITIONS = 3_000
 """Most conditions that are evaluated exactly; beyond them floats do."""
+_BITS = 128
+"""Precision of norms on their way to floats."""
 MAX_TREES = 10_000_000
 """Most trees up to the order in question; beyond them there are no error constants."""
 Mask: TypeAlias = "np.ndarray[tuple[int], np.dtype[np.bool_]]"
@@ -106,18 +108,21 @@ def _exact_norms(coefficients: Sequence[_Coefficient]) -> Norms:
     for e, same in coefficients:
         trees += len(same)
         squared = squared + len(same) * (e * e)
-    sizes = [abs(to_float(e)) for e, _ in coefficients]
-    largest = max(sizes, default=0.0)
+    # in balls, whose exponents have no bound: floats of tiny coefficients would all be 0
+    with ctx.workprec(_BITS):
+        sizes = [abs(to_ball(e)).mid() for e, _ in coefficients]
+        largest = max(sizes, default=arb(0))
+        two = to_ball(squared).sqrt()
     worst: Tree | None = None
     worst_value: Number | None = None
-    if largest:
+    if largest > 0:
         worst_value, same = coefficients[sizes.index(largest)]
         worst = same[0]
     return Norms(
         trees=trees,
         two_squared=squared,
-        two=to_float(squared) ** 0.5,
-        largest=largest,
+        two=float(two),
+        largest=float(largest),
         worst=worst,
         worst_value=worst_value,
     )

@@ -4,13 +4,13 @@ from __future__ import annotations
 
 import csv
 import io
-import json
 from typing import Any
 
 from garkcli.exact.display import to_decimal, to_float
 from garkcli.longtime.history import InvariantHistory, LongRun
 from garkcli.problems.hamiltonian import Hamiltonian
 from garkcli.report.energy_text import Report, text_of
+from garkcli.report.json_text import to_json
 from garkcli.report.paint import Paint
 from garkcli.report.plain import csv_cell
 
@@ -18,10 +18,7 @@ from garkcli.report.plain import csv_cell
 def render(report: Report, format: str, paint: Paint, is_long: bool = True) -> str:
     """The report as text, JSON or CSV; see ``text_of``."""
     if format == "json":
-        return (
-            json.dumps(_data(report), indent=2, ensure_ascii=False, allow_nan=False)
-            + "\n"
-        )
+        return to_json(_data(report)) + "\n"
     if format == "csv":
         return _csv(report.run)
     return "\n".join(text_of(report, paint, is_long)) + "\n"

@@ -21,7 +21,11 @@ TRUE: Schema = {"const": True}
 COUNT: Schema = {"type": "integer", "minimum": 0}
 POSITION: Schema = {"type": "integer", "minimum": 1}
 """A number of a line, a stage or an order, from 1."""
-SIZE: Schema = {"type": "number", "minimum": 0}
+SIZE: Schema = {
+    "type": ["number", "null"],
+    "minimum": 0,
+    "description": "A float; null beyond the range of floats.",
+}
 
 
 def nullable(schema: Schema) -> Schema:

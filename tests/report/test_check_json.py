@@ -141,6 +141,20 @@ def test_error_constants_are_of_the_first_failing_order() -> None:
     assert file["error_constants"]["all"]["two_norm"] > 0
 
 
+def test_numbers_beyond_floats(tmp_path: Path) -> None:
+    """Norms too large for floats are null, those too small 0.0, as the schema allows; the exact value
+    and the tree of the largest coefficient stand beside them.
+    """
+    big = "A: [[0, 0], [1e400, 0]]\nb: [1/2, 1/2]\n"
+    norms = one(tmp_path, big, constants=True)["error_constants"]["all"]
+    assert (norms["two_norm"], norms["inf_norm"]) == (None, None)
+    assert (norms["worst"], norms["worst_value"]) == ("[[]_1]_1", f"{10**400 - 1}/2")
+    small = "A: [[1/2 + 1e-400]]\nb: [1]\n"
+    norms = one(tmp_path, small, constants=True)["error_constants"]["all"]
+    assert (norms["two_norm"], norms["inf_norm"]) == (0.0, 0.0)
+    assert (norms["worst"], norms["worst_value"]) == ("[[]_1]_1", f"1/{10**400}")
+
+
 def test_a_rounded_method_says_so(tmp_path: Path) -> None:
     """A tolerance is repeated as text, ``exact`` is false, and the largest residual is within the
     tolerance.
