@@ -155,7 +155,9 @@ def _product(x: _Hull, y: _Hull) -> _Hull:
             members.append(_Member(vector, branches))
     weight = x.weight * y.weight
     size = times(x.size, y.size)
-    one_side = plus(times(x.size, y.error), times(x.error, y.size))
+    of_second = times(x.size, y.error)
+    of_first = times(x.error, y.size)
+    one_side = plus(of_second, of_first)
     both_sides = times(x.error, y.error)
     error = plus(one_side, both_sides)
     return _Hull(members, weight, error, size)
@@ -255,7 +257,7 @@ def _pivots(points: arb_mat, grain: arb) -> tuple[Places, Places]:
         most = min(rest.nrows(), rest.ncols())
         if len(rows) == most:
             return rows, columns
-        sizes = [float(x) for x in _absolute(rest.entries())]
+        sizes = [*map(float, _absolute(rest.entries()))]
         largest = max(sizes)
         if largest <= float(grain):
             return rows, columns

@@ -14,7 +14,7 @@ from flint import fmpq
 from garkcli.exact.field import ZERO
 from garkcli.order.conditions import Condition
 from garkcli.order.listing import all_conditions, count_conditions
-from garkcli.order.repairs import Missed, Repair, named_block, repairs
+from garkcli.order.repairs import Missed, Repair, named_block, named_blocks, repairs
 from garkcli.tableau.tableau import Edge, Tableau
 from garkcli.trees.tree import Tree
 
@@ -87,7 +87,7 @@ def blame_of(method: Tableau, missed: Missed) -> Blame | None:
     used = [_blocks_in(tableau, condition.tree) for condition in failing]
     in_every: list[Edge] = []
     in_none: list[Edge] = []
-    for block in sorted({named_block(tableau, edge) for edge in tableau.edges()}):
+    for block in named_blocks(tableau):
         uses = sum(block in blocks for blocks in used)
         if uses == 0:
             in_none.append(block)
@@ -124,7 +124,10 @@ def _culprit(
     share: dict[Edge, float] = {}
     for block in candidates:
         with_block = [x for x in found if block in _blocks_in(tableau, x.tree)]
-        share[block] = sum(not x.holds for x in with_block) / len(with_block)
+        failing = [x for x in with_block if not x.holds]
+        share[block] = len(failing) / len(with_block)
     most = max(share.values(), default=0.0)
     best = [block for block in candidates if share[block] == most]
-    return best[0] if len(best) == 1 else None
+    if len(best) != 1:
+        return None
+    return best[0]

@@ -14,7 +14,7 @@ from __future__ import annotations
 
 from collections.abc import Iterable, Iterator, Sequence
 from dataclasses import dataclass
-from typing import cast
+from typing import TypeAlias, cast
 
 from flint import fmpq
 
@@ -102,6 +102,10 @@ def _witness(tree: Tree, normalised: Number) -> Witness:
     return Witness(tree, weight, fmpq(1, density))
 
 
+_Forests: TypeAlias = list[_Forest]
+_ByOrder: TypeAlias = list[_Forests]
+
+
 class _Spans:
     """Spanning members of Θ (branches) and Φ (forests) for each stage space, made on demand."""
 
@@ -112,10 +116,12 @@ class _Spans:
             key: LinearMap(block, tableau.field)
             for key, block in tableau.blocks.items()
         }
-        self.forests: list[list[list[_Forest]]] = [
-            [[_Forest(space.one, ())]] for space in tableau.spaces
-        ]
-        self.branches: list[list[list[_Forest]]] = [[[]] for _ in tableau.spaces]
+        self.forests: list[_ByOrder] = []
+        self.branches: list[_ByOrder] = []
+        for space in tableau.spaces:
+            vertex = _Forest(space.one, ())
+            self.forests.append([[vertex]])
+            self.branches.append([[]])
 
     def stage_vectors(self, colour: int, order: int) -> Sequence[_Forest]:
         """Members that span Ψ_order of a colour."""
@@ -128,12 +134,12 @@ class _Spans:
     def _extend(self, rows: int, size: int) -> None:
         while len(self.forests[rows]) <= size:
             k = len(self.forests[rows])
-            branches = self._spanning(rows, self._new_branches(rows, k))
-            self.branches[rows].append(branches)
-            forests = self._spanning(rows, self._new_forests(rows, k))
-            self.forests[rows].append(forests)
+            new = self._new_branches(rows, k)
+            self.branches[rows].append(self._spanning(rows, new))
+            new = self._new_forests(rows, k)
+            self.forests[rows].append(self._spanning(rows, new))
 
-    def _new_branches(self, rows: int, order: int) -> Iterator[list[_Forest]]:
+    def _new_branches(self, rows: int, order: int) -> Iterator[_Forests]:
         """Θ_order: order · A ψ over the colours that the stages see."""
         for m in range(self.tableau.size):
             if (rows, m) not in self.maps:
@@ -141,12 +147,13 @@ class _Spans:
             members = self.stage_vectors(m, order)
             scaled = [tuple(order * y for y in x.vector) for x in members]
             images = self.maps[rows, m].images(scaled)
-            yield [
-                _Forest(image, (Tree(m, x.branches),))
-                for image, x in zip(images, members, strict=True)
-            ]
+            batch = []
+            for image, x in zip(images, members, strict=True):
+                branch = Tree(m, x.branches)
+                batch.append(_Forest(image, (branch,)))
+            yield batch
 
-    def _new_forests(self, rows: int, order: int) -> Iterator[list[_Forest]]:
+    def _new_forests(self, rows: int, order: int) -> Iterator[_Forests]:
         """Φ_order: one branch, or the smallest branch times the forest of the others."""
         space = self.tableau.spaces[rows]
         branches = self.branches[rows]
@@ -161,11 +168,13 @@ class _Spans:
                     batch.append(_Forest(vector, trees))
                 yield batch
 
-    def _spanning(self, rows: int, batches: Iterator[list[_Forest]]) -> list[_Forest]:
-        span = AffineSpan(self.tableau.spaces[rows].stages * self.degree)
-        members: list[_Forest] = []
+    def _spanning(self, rows: int, batches: Iterator[_Forests]) -> _Forests:
+        stages = self.tableau.spaces[rows].stages
+        span = AffineSpan(stages * self.degree)
+        members: _Forests = []
         for batch in batches:
-            new = span.insert([self._flat(x.vector) for x in batch])
+            vectors = [self._flat(x.vector) for x in batch]
+            new = span.insert(vectors)
             members += [batch[i] for i in new]
             if span.is_full:
                 break

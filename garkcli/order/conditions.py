@@ -57,7 +57,8 @@ class Condition:
     @property
     def trees(self) -> tuple[Tree, ...]:
         """The tree with its own root colour and with those of its twins."""
-        return (self.tree, *(Tree(l, self.tree.branches) for l in self.twins))
+        others = [Tree(l, self.tree.branches) for l in self.twins]
+        return (self.tree, *others)
 
     @property
     def is_coupling(self) -> bool:
@@ -78,7 +79,8 @@ def conditions(
     """
     memo: dict[Tree, Vector] = {}
     for tree in trees:
-        value = dot(tableau.colours[tree.root].b, _stage_vector(tableau, tree, memo))
+        b = tableau.colours[tree.root].b
+        value = dot(b, _stage_vector(tableau, tree, memo))
         yield Condition(tree, value, tolerance)
 
 
@@ -123,7 +125,8 @@ def _stage_vector(tableau: Tableau, tree: Tree, memo: dict[Tree, Vector]) -> Vec
             )
         if branch not in memo:
             memo[branch] = _stage_vector(tableau, branch, memo)
-        vector = space.product(vector, apply(block, memo[branch]))
+        image = apply(block, memo[branch])
+        vector = space.product(vector, image)
     return vector
 
 

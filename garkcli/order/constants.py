@@ -141,7 +141,8 @@ def _in_floats(tableau: Tableau, order: int) -> ErrorConstants:
     blocks = {}
     for l, m in tableau.edges():
         A = entries.A[l][m] or ()
-        blocks[rows[l], m] = np.array([_floats(row) for row in A])
+        matrix = [_floats(row) for row in A]
+        blocks[rows[l], m] = np.array(matrix)
     weights = [np.array(_floats(row)) for row in entries.b]
     ids = table.ids(order)
     last = slice(ids.start, ids.stop)
@@ -153,13 +154,15 @@ def _in_floats(tableau: Tableau, order: int) -> ErrorConstants:
 
     def norms(chosen: Mask) -> Norms:
         sizes = np.where(chosen, np.abs(e), 0.0)
-        worst = int(sizes.argmax()) if sizes.any() else None
+        worst = None
+        if sizes.any():
+            worst = table.tree(ids.start + int(sizes.argmax()))
         return Norms(
             trees=int(chosen.sum()),
             two_squared=None,
             two=float(np.sqrt((sizes**2).sum())),
             largest=float(sizes.max(initial=0.0)),
-            worst=None if worst is None else table.tree(ids.start + worst),
+            worst=worst,
             worst_value=None,
         )
 
@@ -168,7 +171,13 @@ def _in_floats(tableau: Tableau, order: int) -> ErrorConstants:
 
 
 def _floats(row: Iterable[Cell]) -> list[float]:
-    return [float(x) if isinstance(x, arb) else to_float(x) for x in row]
+    return [_float(x) for x in row]
+
+
+def _float(x: Cell) -> float:
+    if isinstance(x, arb):
+        return float(x)
+    return to_float(x)
 
 
 def _mixes(table: TreeTable) -> Mask:
@@ -176,9 +185,13 @@ def _mixes(table: TreeTable) -> Mask:
     import numpy as np
 
     mixes = np.zeros(len(table), dtype=bool)
-    for n in range(2, int(table.order[-1]) + 1):
-        ids = slice(table.ids(n).start, table.ids(n).stop)
-        stem, branch = table.stem[ids], table.branch[ids]
+    last = int(table.order[-1])
+    for n in range(2, last + 1):
+        of_order = table.ids(n)
+        ids = slice(of_order.start, of_order.stop)
+        stem = table.stem[ids]
+        branch = table.branch[ids]
         differs = table.root[stem] != table.root[branch]
-        mixes[ids] = mixes[stem] | mixes[branch] | differs
+        inherited = mixes[stem] | mixes[branch]
+        mixes[ids] = inherited | differs
     return mixes

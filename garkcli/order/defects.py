@@ -23,50 +23,66 @@ class Defects:
 
     def __init__(self, tableau: Tableau) -> None:
         self.tableau = tableau
-        self._powers = [[tableau.space(l).one] for l in range(tableau.size)]
         self._maps: dict[Edge, LinearMap] = {}
+        # for each colour the powers c⁰, c¹, … of its nodes
+        self._powers: list[list[Vector]] = []
+        for l in range(tableau.size):
+            one = tableau.space(l).one
+            self._powers.append([one])
 
     def power(self, l: int, exponent: int) -> Vector:
         """c^l to a power."""
-        space, c = self.tableau.space(l), self.tableau.colours[l].c
+        space = self.tableau.space(l)
+        c = self.tableau.colours[l].c
         powers = self._powers[l]
         while len(powers) <= exponent:
-            powers.append(space.product(powers[-1], c))
+            last = powers[-1]
+            following = space.product(last, c)
+            powers.append(following)
         return powers[exponent]
 
     def B(self, l: int, k: int) -> Number:  # noqa: N802 -- the paper's letter
         """b_l(c_l^(k−1)) − 1/k, eq. (B)."""
-        return dot(self.tableau.colours[l].b, self.power(l, k - 1)) - fmpq(1, k)
+        b = self.tableau.colours[l].b
+        mean = dot(b, self.power(l, k - 1))
+        return mean - fmpq(1, k)
 
     def C(self, l: int, m: int, k: int) -> Vector:  # noqa: N802
         """A^{l,m} c_m^(k−1) − c_l^k / k, eq. (C): an element of the space of l; with k = 1 eq.
         (Aone).
         """
-        (image,) = self._map(l, m).images([self.power(m, k - 1)])
+        power = self.power(m, k - 1)
+        (image,) = self._map(l, m).images([power])
         return _minus_part(image, self.power(l, k), k)
 
     def D(self, l: int, m: int, k: int) -> Vector:  # noqa: N802
         """b_l(c_l^(k−1) A^{l,m} g) − b_m((1 − c_m^k) g) / k, eq. (D): a functional of g in the
         space of m.
         """
-        here, there = self.tableau.space(l), self.tableau.space(m)
-        b_l, b_m = self.tableau.colours[l].b, self.tableau.colours[m].b
-        weighted = here.times(b_l, self.power(l, k - 1))
+        here = self.tableau.space(l)
+        there = self.tableau.space(m)
+        b_l = self.tableau.colours[l].b
+        b_m = self.tableau.colours[m].b
+        power = self.power(l, k - 1)
+        weighted = here.times(b_l, power)
         (left,) = self._map(l, m).pullbacks([weighted])
-        rest = _minus_part(there.one, self.power(m, k), 1)
+        power = self.power(m, k)
+        rest = _minus_part(there.one, power, 1)
         right = there.times(b_m, rest)
         return _minus_part(left, right, k)
 
     def _map(self, l: int, m: int) -> LinearMap:
         key = self.tableau.colours[l].space, m
         if key not in self._maps:
-            self._maps[key] = LinearMap(self.tableau.blocks[key], self.tableau.field)
+            block = self.tableau.blocks[key]
+            self._maps[key] = LinearMap(block, self.tableau.field)
         return self._maps[key]
 
 
 def _minus_part(u: Vector, v: Vector, k: int) -> Vector:
     """The difference u − v/k."""
-    return tuple(x - y / k for x, y in zip(u, v, strict=True))
+    difference = [x - y / k for x, y in zip(u, v, strict=True)]
+    return tuple(difference)
 
 
 def is_symplectic_within(tableau: Tableau, tolerance: fmpq) -> bool:
@@ -79,17 +95,19 @@ def is_symplectic_within(tableau: Tableau, tolerance: fmpq) -> bool:
     for l, one in enumerate(tableau.colours):
         for m, other in enumerate(tableau.colours):
             parts = {one.part, other.part}
-            if parts == {"q", "p"} and one.space == other.space:
+            is_canonical = parts == {"q", "p"}
+            if is_canonical and one.space == other.space:
                 difference = _minus_part(one.b, other.b, 1)
                 if not functional_within(tableau.space(l), difference, tolerance):
                     return False
-            if parts not in ({"q", "p"}, {"y"}):
+            if not is_canonical and parts != {"y"}:
                 continue  # velocities among each other, or forces: the form pairs none
-            forth, back = tableau.block(l, m), tableau.block(m, l)
-            if (forth is None) != (back is None):
-                return False
-            if forth is None:
+            forth = tableau.block(l, m)
+            back = tableau.block(m, l)
+            if forth is None and back is None:
                 continue
+            if forth is None or back is None:
+                return False
             defect = symplectic_defect(tableau, l, m)
             spaces = tableau.space(l), tableau.space(m)
             if not form_within(*spaces, defect, tolerance):

@@ -29,7 +29,8 @@ def all_conditions(
     """
     twins = twin_roots(tableau)
     for condition in conditions(tableau, admissible_trees(tableau, order), tolerance):
-        yield replace(condition, twins=twins[condition.tree.root][1:])
+        others = twins[condition.tree.root][1:]
+        yield replace(condition, twins=others)
 
 
 def admissible_trees(tableau: Tableau, order: int) -> Iterator[Tree]:

@@ -34,9 +34,11 @@ def with_time(tableau: Tableau) -> Tableau | None:
     """
     nodes: dict[int, Vector] = {}
     for colour in tableau.colours:
-        if colour.is_linear or nodes.setdefault(colour.space, colour.c) != colour.c:
+        first = nodes.setdefault(colour.space, colour.c)
+        if colour.is_linear or first != colour.c:
             return None
-    space, time = len(tableau.spaces), tableau.size
+    space = len(tableau.spaces)
+    time = tableau.size
     blocks = dict(tableau.blocks)
     for k, c in nodes.items():
         column: Matrix = tuple((c_i,) for c_i in c)

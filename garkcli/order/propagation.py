@@ -288,7 +288,9 @@ def _either(x: _Range | None, y: _Range) -> _Range:
 
 def _product(x: _Range, y: _Range) -> _Range:
     size = times(x.size, y.size)
-    one_factor = plus(times(x.size, y.change), times(x.change, y.size))
+    of_second = times(x.size, y.change)
+    of_first = times(x.change, y.size)
+    one_factor = plus(of_second, of_first)
     both_factors = times(x.change, y.change)
     change = plus(one_factor, both_factors)
     return _Range(size, change)

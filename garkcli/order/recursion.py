@@ -27,8 +27,11 @@ class OrderByOrder(ABC, Generic[Found]):
     def __init__(self, tableau: Tableau, empty: Sequence[Found]) -> None:
         self.tableau = tableau
         # for each stage space one order after the other
-        self._forests: list[list[Found | None]] = [[value] for value in empty]
-        self._branches: list[list[Found | None]] = [[None] for _ in empty]
+        self._forests: list[list[Found | None]] = []
+        self._branches: list[list[Found | None]] = []
+        for value in empty:
+            self._forests.append([value])
+            self._branches.append([None])
 
     def of_trees(self, l: int, order: int) -> Found | None:
         """What all trees of an order with root colour l have; None where there is none."""
@@ -43,8 +46,10 @@ class OrderByOrder(ABC, Generic[Found]):
         """Make all values of stage space k up to an order."""
         while len(self._forests[k]) <= order:
             n = len(self._forests[k])
-            self._branches[k].append(self._new_branches(k, n))
-            self._forests[k].append(self._new_forests(k, n))
+            branches = self._new_branches(k, n)
+            self._branches[k].append(branches)
+            forests = self._new_forests(k, n)
+            self._forests[k].append(forests)
 
     def _split_forests(self, k: int, order: int) -> Iterator[tuple[Found, Found]]:
         """The smallest branch, and the forest of the others, of all forests of two branches at

@@ -15,7 +15,7 @@ from flint import fmpq
 from garkcli.errors import ZeroWeight
 from garkcli.exact.display import to_ball
 from garkcli.exact.field import ONE, ZERO, Number
-from garkcli.exact.matrix import Matrix
+from garkcli.exact.matrix import Vector
 from garkcli.order.certificate import find_order
 from garkcli.order.conditions import Condition, conditions
 from garkcli.order.tolerance import within
@@ -82,7 +82,7 @@ def repairs(
     """
     solved = failing[:1]
     if missed.tolerance:
-        by_size = sorted(failing, key=lambda x: _size(x.residual), reverse=True)
+        by_size = sorted(failing, key=_size_of_residual, reverse=True)
         solved = by_size[:FEW_CONDITIONS]
     if not solved:
         return
@@ -93,10 +93,13 @@ def repairs(
         if new is None:
             continue
         changed = _derived(missed, place.put(method, new))
-        if changed is None or not _holds(changed, failing[:FEW_CHECKED], missed.near):
+        if changed is None:
             continue
-        if _is_restored(changed, missed):
-            yield Repair(place.l, place.m, place.i, place.j, place.old, new)
+        few = failing[:FEW_CHECKED]
+        if _holds(changed, few, missed.near) and _is_restored(changed, missed):
+            l, m = place.l, place.m
+            i, j = place.i, place.j
+            yield Repair(l, m, i, j, place.old, new)
 
 
 def named_block(tableau: Tableau, edge: Edge) -> Edge:
@@ -104,6 +107,16 @@ def named_block(tableau: Tableau, edge: Edge) -> Edge:
     l, m = edge
     spaces = [colour.space for colour in tableau.colours]
     return spaces.index(spaces[l]), m
+
+
+def named_blocks(tableau: Tableau) -> list[Edge]:
+    """The names of all blocks, in order."""
+    names = {named_block(tableau, edge) for edge in tableau.edges()}
+    return sorted(names)
+
+
+def _size_of_residual(condition: Condition) -> float:
+    return _size(condition.residual)
 
 
 def _size(number: Number) -> float:
@@ -114,7 +127,8 @@ def _size(number: Number) -> float:
 def _holds(tableau: Tableau, failing: Sequence[Condition], near: fmpq) -> bool:
     """Whether some conditions hold that failed: that takes less than finding the order."""
     trees = [condition.tree for condition in failing]
-    return all(within(x.residual, near) for x in conditions(tableau, trees))
+    found = conditions(tableau, trees)
+    return all(within(condition.residual, near) for condition in found)
 
 
 def _is_restored(tableau: Tableau, missed: Missed) -> bool:
@@ -146,10 +160,11 @@ class _Place:
 
 def _places(method: Tableau) -> Iterator[_Place]:
     """The entries that are entries of stages: those of stage spaces of points."""
-    for l, m in sorted({named_block(method, edge) for edge in method.edges()}):
+    for l, m in named_blocks(method):
         if not (_has_points(method, l) and _has_points(method, m)):
             continue
-        for i, row in enumerate(method.blocks[method.colours[l].space, m]):
+        space = method.colours[l].space
+        for i, row in enumerate(method.blocks[space, m]):
             for j, old in enumerate(row):
                 yield _Place(l, m, i, j, old)
     for l, colour in enumerate(method.colours):
@@ -174,7 +189,8 @@ def _solution(
     """
     step = missed.near if missed.near else ONE
     trees = [condition.tree for condition in failing]
-    beyond = _weights(missed, place.put(method, place.old + step), trees)
+    changed = place.put(method, place.old + step)
+    beyond = _weights(missed, changed, trees)
     if beyond is None:
         return None
     slopes: list[Number] = []
@@ -188,11 +204,13 @@ def _solution(
     value = place.old - condition.residual / slope
     if missed.near:
         return _refined(method, missed, place, condition, value, slope)
-    further = place.put(method, place.old + 2 * ONE)
+    further = place.put(method, place.old + step + step)
     twice = _weights(missed, further, [condition.tree])
-    if twice is None or twice[0] - beyond[best] != slope:
-        return None  # not linear in the entry
-    return value
+    if twice is None:
+        return None
+    second_slope = twice[0] - beyond[best]
+    is_linear = second_slope == slope
+    return value if is_linear else None
 
 
 def _refined(
@@ -211,10 +229,12 @@ def _refined(
     for _ in range(NEWTON_STEPS):
         if isinstance(value, fmpq):
             value = (value / grid).floor() * grid
-        found = _weights(missed, place.put(method, value), [condition.tree])
+        changed = place.put(method, value)
+        found = _weights(missed, changed, [condition.tree])
         if found is None:
             break
-        value = value - (found[0] - condition.required) / slope
+        residual = found[0] - condition.required
+        value = value - residual / slope
     return value
 
 
@@ -237,10 +257,16 @@ def _derived(missed: Missed, method: Tableau) -> Tableau | None:
 
 
 def _with_entry(tableau: Tableau, key: Edge, i: int, j: int, value: Number) -> Tableau:
-    block: list[list[Number]] = [list(row) for row in tableau.blocks[key]]
-    block[i][j] = value
-    changed: Matrix = tuple(tuple(row) for row in block)
-    return replace(tableau, blocks={**tableau.blocks, key: changed})
+    block = list(tableau.blocks[key])
+    block[i] = _with_value(block[i], j, value)
+    blocks = {**tableau.blocks, key: tuple(block)}
+    return replace(tableau, blocks=blocks)
+
+
+def _with_value(row: Vector, j: int, value: Number) -> Vector:
+    changed = list(row)
+    changed[j] = value
+    return tuple(changed)
 
 
 def _with_weight(tableau: Tableau, l: int, j: int, value: Number) -> Tableau:
@@ -248,9 +274,11 @@ def _with_weight(tableau: Tableau, l: int, j: int, value: Number) -> Tableau:
     stages.
     """
     old = tableau.colours[l]
-    b = (*old.b[:j], value, *old.b[j + 1 :])
+    b = _with_value(old.b, j, value)
     colours = []
     for colour in tableau.colours:
-        is_same_row = colour.space == old.space and colour.b == old.b
-        colours.append(replace(colour, b=b) if is_same_row else colour)
+        has_stages = colour.space == old.space
+        if has_stages and colour.b == old.b:
+            colour = replace(colour, b=b)
+        colours.append(colour)
     return replace(tableau, colours=tuple(colours))

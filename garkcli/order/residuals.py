@@ -14,16 +14,22 @@ from __future__ import annotations
 
 from collections.abc import Iterator
 from dataclasses import dataclass
+from typing import TypeAlias
 
 from flint import arb, arb_mat, ctx
 
 from garkcli.order.conditions import coupling_graph, twin_roots
+from garkcli.order.entries import times
 from garkcli.tableau.enclosing import Enclosure
 from garkcli.tableau.tableau import Tableau
 from garkcli.trees.columns import Segment
 from garkcli.trees.count import Admissible
 from garkcli.trees.table import TreeTable
 from garkcli.trees.tree import Tree
+
+Row: TypeAlias = list[arb]
+_Nature: TypeAlias = tuple[int, bool]
+"""Stage space of a colour, and whether it is linear."""
 
 
 @dataclass(frozen=True, eq=False)
@@ -56,14 +62,18 @@ class TreeResiduals:
     def __init__(self, tableau: Tableau, enclosure: Enclosure) -> None:
         self.enclosure = enclosure
         self._rows = [colour.space for colour in tableau.colours]
-        self._natures = [(colour.space, colour.is_linear) for colour in tableau.colours]
+        self._natures: list[_Nature] = []
+        for colour in tableau.colours:
+            nature = colour.space, colour.is_linear
+            self._natures.append(nature)
         self._roots = tuple(twin_roots(tableau))
         edges, linear = coupling_graph(tableau)
         self._admissible = Admissible.of(tableau.size, edges, linear)
-        self._vectors: dict[tuple[int, tuple[int, bool]], list[list[arb]]] = {}
-        for space, is_linear in self._natures:
+        self._vectors: dict[tuple[int, _Nature], list[Row]] = {}
+        for nature in self._natures:
+            space, _ = nature
             one = [arb(1)] * enclosure.stages[space]
-            self._vectors[1, (space, is_linear)] = [one]
+            self._vectors[1, nature] = [one]
         self._applied: dict[tuple[int, int, int], arb_mat] = {}
 
     def sizes(self, order: int, tolerance: arb | None = None) -> Sizes:
@@ -78,9 +88,15 @@ class TreeResiduals:
                 if not size < reached:
                     bound = bound.max(size)
                 fails = tolerance is not None and size > tolerance
-                if (fails and not failed) or (size > reached and fails == failed):
-                    reached, largest, failed = size, tree_id, fails
-                if tolerance is not None and not fails and not size <= tolerance:
+                is_first_failure = fails and not failed
+                is_larger = size > reached and fails == failed
+                if is_first_failure or is_larger:
+                    reached = size
+                    largest = tree_id
+                    failed = fails
+                if tolerance is None or fails:
+                    continue
+                if not size <= tolerance:
                     doubtful.append(tree_id)
             worst = None if largest is None else table.tree(largest)
             trees = tuple(table.tree(u) for u in doubtful)
@@ -90,7 +106,9 @@ class TreeResiduals:
         """|b_lᵀ 𝒜^[u] − 1/γ(u)| and the id, for the roots that differ in more than their colour."""
         if order == 1:
             for l in self._roots:
-                yield abs(sum(self.enclosure.b[l].entries(), arb(-1))), l
+                weights = self.enclosure.b[l].entries()
+                residual = sum(weights, arb(-1))
+                yield abs(residual), l
             return
         required: dict[int, arb] = {}
         for segment in table.segments:
@@ -98,55 +116,60 @@ class TreeResiduals:
                 continue
             values = self._values(table, segment)
             ids = slice(segment.ids.start, segment.ids.stop)
-            where = (table.stem[ids] - segment.stems.start) * len(segment.branches)
-            where += table.branch[ids] - segment.branches.start
+            stems = table.stem[ids] - segment.stems.start
+            branches = table.branch[ids] - segment.branches.start
+            where = stems * len(segment.branches) + branches
             densities = table.gamma[ids].tolist()
-            rows = zip(where.tolist(), segment.ids, densities, strict=True)
-            for i, u, gamma in rows:
+            trees = zip(where.tolist(), segment.ids, densities, strict=True)
+            for i, u, gamma in trees:
                 if gamma not in required:
                     required[gamma] = 1 / arb(gamma)
-                yield abs(values[i] - required[gamma]), u
+                residual = values[i] - required[gamma]
+                yield abs(residual), u
 
-    def _values(self, table: TreeTable, segment: Segment) -> list[arb]:
+    def _values(self, table: TreeTable, segment: Segment) -> Row:
         """b_lᵀ 𝒜^[u] for every stem with every branch, stem by stem."""
         l = segment.root
         b = self.enclosure.b[l].entries()
-        stems = self._stage_vectors(table, segment.order - segment.branch_order, l)
-        entries = [x * w for row in stems for x, w in zip(row, b, strict=True)]
-        weighted = arb_mat(len(stems), len(b), entries)
-        return (weighted * self._branches(table, segment)).entries()
+        stem_order = segment.order - segment.branch_order
+        stems = self._stage_vectors(table, stem_order, l)
+        weighted = arb_mat([times(row, b) for row in stems])
+        branches = self._branches(table, segment)
+        return (weighted * branches).entries()
 
     def _branches(self, table: TreeTable, segment: Segment) -> arb_mat:
         """A 𝒜^[branch] of all branches that a segment chooses from, one column each."""
         space = self._rows[segment.root]
-        order, m = segment.branch_order, segment.branch_root
+        order = segment.branch_order
+        m = segment.branch_root
         key = space, order, m
         if key not in self._applied:
-            vectors = arb_mat(self._stage_vectors(table, order, m))
+            vectors = self._stage_vectors(table, order, m)
+            columns = arb_mat(vectors).transpose()
             A = self.enclosure.A[space, m]
-            self._applied[key] = A * vectors.transpose()
+            self._applied[key] = A * columns
         return self._applied[key]
 
-    def _stage_vectors(self, table: TreeTable, order: int, l: int) -> list[list[arb]]:
+    def _stage_vectors(self, table: TreeTable, order: int, l: int) -> list[Row]:
         """𝒜^[u] of the trees with root colour l, in the order of the table; there is one at
         least.
         """
         key = order, self._natures[l]
         if key not in self._vectors:
-            vectors: list[list[arb]] = []
+            vectors: list[Row] = []
             for segment in table.segments:
-                if (segment.order, segment.root) == (order, l):
+                if segment.order == order and segment.root == l:
                     vectors += self._products(table, segment)
             self._vectors[key] = vectors
         return self._vectors[key]
 
-    def _products(self, table: TreeTable, segment: Segment) -> Iterator[list[arb]]:
+    def _products(self, table: TreeTable, segment: Segment) -> Iterator[Row]:
         """𝒜^[stem] ⊙ A 𝒜^[branch] for the trees of a segment, in their order."""
         stem_order = segment.order - segment.branch_order
         stems = self._stage_vectors(table, stem_order, segment.root)
         branches = self._branches(table, segment).transpose().tolist()
         ids = slice(segment.ids.start, segment.ids.stop)
-        of_stem = (table.stem[ids] - segment.stems.start).tolist()
-        of_branch = (table.branch[ids] - segment.branches.start).tolist()
-        for i, j in zip(of_stem, of_branch, strict=True):
-            yield [x * y for x, y in zip(stems[i], branches[j], strict=True)]
+        of_stem = table.stem[ids] - segment.stems.start
+        of_branch = table.branch[ids] - segment.branches.start
+        for i, j in zip(of_stem.tolist(), of_branch.tolist(), strict=True):
+            yield times(stems[i], branches[j])

@@ -88,7 +88,8 @@ class RoundedOrder:
 
     def __repr__(self) -> str:
         least = "at least " if self.is_lower_bound else ""
-        return f"<RoundedOrder {least}{self.order} within {decimal(self.tolerance)}>"
+        tolerance = decimal(self.tolerance)
+        return f"<RoundedOrder {least}{self.order} within {tolerance}>"
 
     @property
     def is_lower_bound(self) -> bool:
@@ -128,7 +129,8 @@ def find_order_within(
         decision = _Decision(tableau, tolerance, effect)
         verdicts.append(decision.first(exact.witness))
         while verdicts[-1].is_met and len(verdicts) < limit:
-            verdicts.append(decision.of(len(verdicts) + 1))
+            order = len(verdicts) + 1
+            verdicts.append(decision.of(order))
     decided = [verdict for verdict in verdicts if verdict.size is not None]
     met = [verdict for verdict in verdicts if verdict.is_met]
     wider = [verdict.tolerance for verdict in met if verdict.tolerance is not None]

@@ -67,7 +67,9 @@ class Simplifying:
 
         A valid lower bound of the order, seldom sharp; ξ + 1 is never the smallest.
         """
-        return min(self.r, 2 * self.eta + 2, self.xi + 1, self.eta + self.zeta + 1)
+        by_stages = 2 * self.eta + 2
+        by_blocks = self.eta + self.zeta + 1
+        return min(self.r, by_stages, self.xi + 1, by_blocks)
 
     @property
     def chi(self) -> int:
@@ -82,8 +84,10 @@ class Simplifying:
     @property
     def sharp_bound(self) -> int:
         """min{r, 2η+2, ξ+1, χ+2, η+ζ+3}, the project's own, proved in docs/sharper-bound.md."""
-        by_blocks = min(self.xi + 1, self.chi + 2, self.eta + self.zeta + 3)
-        return min(self.r, 2 * self.eta + 2, by_blocks)
+        by_stages = 2 * self.eta + 2
+        by_blocks = self.eta + self.zeta + 3
+        by_pairs = self.chi + 2
+        return min(self.r, by_stages, self.xi + 1, by_pairs, by_blocks)
 
 
 def _existing(table: Table) -> list[int]:
@@ -100,10 +104,10 @@ def simplifying(
     """
     found = _Search(tableau, limit, tolerance)
     colours = range(tableau.size)
-    B = tuple(found.r(l) for l in colours)
-    C = tuple(tuple(found.eta(l, m) for m in colours) for l in colours)
-    D = tuple(tuple(found.zeta(l, m) for m in colours) for l in colours)
-    return Simplifying(B, C, D)
+    B = [found.r(l) for l in colours]
+    C = [tuple(found.eta(l, m) for m in colours) for l in colours]
+    D = [tuple(found.zeta(l, m) for m in colours) for l in colours]
+    return Simplifying(tuple(B), tuple(C), tuple(D))
 
 
 class _Search:
@@ -137,7 +141,8 @@ class _Search:
         space = self.tableau.space(l)
 
         def is_met(k: int) -> bool:
-            return vector_within(space, self.defects.C(l, m, k), self.tolerance)
+            defect = self.defects.C(l, m, k)
+            return vector_within(space, defect, self.tolerance)
 
         key = self.alike.nodes[l], m
         if key not in self._eta:
@@ -151,7 +156,8 @@ class _Search:
         space = self.tableau.space(m)
 
         def is_met(k: int) -> bool:
-            return functional_within(space, self.defects.D(l, m, k), self.tolerance)
+            defect = self.defects.D(l, m, k)
+            return functional_within(space, defect, self.tolerance)
 
         key = self.alike.weights[l], m
         if key not in self._zeta:
@@ -190,13 +196,15 @@ def consistent_blocks(tableau: Tableau, tolerance: fmpq = ZERO) -> dict[Edge, bo
     """For each block that exists whether A^{l,m} 𝟙 = c^{l}, eq. (Aone), within ``tolerance`` at
     every stage.
     """
-    defects, alike = Defects(tableau), _Alike.of(tableau)
+    defects = Defects(tableau)
+    alike = _Alike.of(tableau)
     known: dict[Edge, bool] = {}
     found: dict[Edge, bool] = {}
     for l, m in tableau.edges():
         key = alike.nodes[l], m
         if key not in known:
             defect = defects.C(l, m, 1)
-            known[key] = vector_within(tableau.space(l), defect, tolerance)
+            space = tableau.space(l)
+            known[key] = vector_within(space, defect, tolerance)
         found[l, m] = known[key]
     return found

@@ -112,7 +112,8 @@ def find_misprint(
     visible: list[Repair] = []
     for repair in repairs:
         unit = largest if is_explained else units.get(repair.old, ZERO)
-        if not within(repair.new - repair.old, SLACK * unit):
+        change = repair.new - repair.old
+        if not within(change, SLACK * unit):
             visible.append(repair)
     if is_explained and not visible:
         return None
@@ -164,11 +165,13 @@ def suggest_tolerance(
     if not first <= unnatural(exact.order + 1):
         return None
     rounding, worst = first, exact.order + 1
-    for order, sizes in _sizes(tableau, first, range(exact.order + 1, limit + 1)):
+    failing = exact.order + 1
+    orders = range(failing, limit + 1)
+    for order, sizes in _sizes(tableau, first, orders):
         if sizes.bound <= unnatural(order):
             if sizes.bound > rounding:
                 rounding, worst = sizes.bound, order
-        elif order > exact.order + 1 and sizes.reached >= JUMP * rounding:
+        elif order > failing and sizes.reached >= JUMP * rounding:
             exponent = _exponent(rounding)
             return Suggestion(order - 1, exponent, rounding, sizes.reached, worst)
         else:

@@ -38,7 +38,8 @@ def unnatural(order: int) -> fmpq:
     (s!)⁴ / ((2s+1) ((2s)!)²), and 10⁻⁶ at most.
     """
     s = order // 2
-    best = fmpq(factorial(s) ** 4, (2 * s + 1) * factorial(2 * s) ** 2)
+    squares = (2 * s + 1) * factorial(2 * s) ** 2
+    best = fmpq(factorial(s) ** 4, squares)
     return min(TINY, best * UNNATURAL)
 
 
@@ -51,9 +52,11 @@ def rounded_up(size: arb) -> fmpq:
     upper = size.abs_upper()
     if upper == 0:
         return fmpq(0)
-    exponent = _whole((upper.log() / arb(10).log()).mid().floor())
+    decades = upper.log() / arb(10).log()
+    exponent = _whole(decades.mid().floor())
     step = fmpq(10) ** (exponent - 1)
-    return _whole((upper / arb(step)).abs_upper().ceil()) * step
+    steps = (upper / arb(step)).abs_upper()
+    return _whole(steps.ceil()) * step
 
 
 def _whole(number: arb) -> int:
@@ -83,12 +86,14 @@ def within(number: Number, tolerance: fmpq) -> bool:
 
 def vector_within(space: StageSpace, vector: Vector, tolerance: fmpq) -> bool:
     """Whether an element of a stage space is within the tolerance of zero at every node."""
-    return form_within(space, None, tuple((x,) for x in vector), tolerance, dual=False)
+    column = tuple((x,) for x in vector)
+    return form_within(space, None, column, tolerance, dual=False)
 
 
 def functional_within(space: StageSpace, functional: Vector, tolerance: fmpq) -> bool:
     """Whether a functional, Σ w_i f(c_i), has all |w_i| ≤ tolerance."""
-    return form_within(space, None, tuple((x,) for x in functional), tolerance)
+    column = tuple((x,) for x in functional)
+    return form_within(space, None, column, tolerance)
 
 
 def form_within(
@@ -116,7 +121,8 @@ def form_within(
     while bits <= MOST_BITS:
         # a Vandermonde matrix may be too ill-conditioned for the precision
         with ctx.workprec(bits), suppress(ZeroDivisionError):
-            sizes = [abs(x) for x in _at_nodes(space, other, matrix, dual).entries()]
+            values = _at_nodes(space, other, matrix, dual)
+            sizes = [abs(x) for x in values.entries()]
             if any(size > tolerance for size in sizes):
                 return False
             if all(size <= tolerance for size in sizes):
@@ -142,7 +148,8 @@ def _at_nodes(
     space: StageSpace, other: StageSpace | None, matrix: Matrix, dual: bool
 ) -> arb_mat:
     digits = int(ctx.prec * 0.302)
-    balls = arb_mat([[to_ball(x, digits) for x in row] for row in matrix])
+    rows = [[to_ball(x, digits) for x in row] for row in matrix]
+    balls = arb_mat(rows)
     if isinstance(space, PolynomialSpace):
         balls = _to_nodes(space, dual) * balls
     if isinstance(other, PolynomialSpace):
