@@ -11,6 +11,10 @@ from garkcli.cli.options import CONTEXT, PATH, Output, common
 from garkcli.errors import UsageProblem, did_you_mean
 
 if TYPE_CHECKING:
+    from collections.abc import Sequence
+
+    from flint import fmpq
+
     from garkcli.methodfile.build import MethodFile
     from garkcli.report.stability_data import StabilityReport
 
@@ -24,6 +28,12 @@ if TYPE_CHECKING:
 )
 @click.option(
     "--fast", metavar="COLOUR", help="Two springs: the colour of the fast one."
+)
+@click.option(
+    "--ratio",
+    metavar="Q",
+    multiple=True,
+    help="Two colours: the additive SSP radius for r2 = Q r1 too; repeatable.",
 )
 @click.option(
     "--digits",
@@ -47,6 +57,7 @@ def command(
     files: tuple[str, ...],
     slow: str | None,
     fast: str | None,
+    ratio: tuple[str, ...],
     digits: int,
     plot: str | None,
     order_star: bool,
@@ -67,11 +78,12 @@ def command(
         raise UsageProblem("--order-star is for the picture", "give --plot FILE too")
     if plot is not None:
         _check_plot(plot)
+    ratios = [_ratio(text) for text in ratio]
     reports = []
     for file in find_files(files):
         method = load(file)
         if slow is None or fast is None:
-            reports.append(_whole_report(file, method, digits))
+            reports.append(_whole_report(file, method, digits, ratios))
         else:
             reports.append(
                 _springs_report(file, method, digits, slow, fast, plot is not None)
@@ -97,12 +109,30 @@ def _check_plot(plot: str) -> None:
         )
 
 
-def _whole_report(file: str, method: MethodFile, digits: int) -> StabilityReport:
+def _ratio(text: str) -> fmpq:
+    """One --ratio."""
+    from garkcli.cli.stepping import rational
+
+    ratio = rational("--ratio", text)
+    if ratio <= 0:
+        raise UsageProblem(
+            f"--ratio {text}: radii are positive", "the axes are always there"
+        )
+    return ratio
+
+
+def _whole_report(
+    file: str, method: MethodFile, digits: int, ratios: Sequence[fmpq]
+) -> StabilityReport:
     from garkcli.report.stability_data import StabilityReport
     from garkcli.stability.summary import stability, stability_of_rounded
 
     if method.tolerance is None:
-        found = stability(method.tableau)
+        if ratios and method.tableau.size != 2:
+            raise UsageProblem(
+                f"{file}: --ratio is for methods of two colours", "leave it out"
+            )
+        found = stability(method.tableau, ratios=ratios)
     else:
         found = stability_of_rounded(method.tableau, method.tolerance)
     return StabilityReport(file, method.name, found, digits=digits)

@@ -230,21 +230,36 @@ def interpolated(points: Sequence[fmpq], values: Sequence[Number]) -> Polynomial
 
 
 def resultant(a: Polynomial, b: Polynomial) -> Number:
-    """The resultant of two polynomials ≠ 0, by Euclid's algorithm.
+    """The resultant of two polynomials ≠ 0.
 
     >>> resultant(Polynomial([-1, 1]), Polynomial([-3, 1]))
     -2
     """
+    return subresultant(a, b, 0)
+
+
+def subresultant(a: Polynomial, b: Polynomial, k: int) -> Number:
+    """The principal subresultant coefficient of index k of a and b, deg a ≥ deg b, by Euclid.
+
+    The first of them that is not zero is that of the degree of the greatest common divisor; the
+    one of index 0 is the resultant (S. Basu, R. Pollack, M.-F. Roy, section 8.3).
+
+    >>> x = Polynomial([0, 1])
+    >>> subresultant(x * (x - 1), x * (x - 3), 0), subresultant(x * (x - 1), x * (x - 3), 1)
+    (0, -2)
+    """
     result: Number = ONE
-    while b.degree > 0:
+    while b.degree > k:
         rest = a % b
         if not rest:
             return ZERO
-        if a.degree % 2 and b.degree % 2:
+        if (a.degree - k) % 2 and (b.degree - k) % 2:
             result = -result
         result = result * b.leading ** (a.degree - rest.degree)
         a, b = b, rest
-    return result * b.leading**a.degree
+    if b.degree < k:
+        return ZERO
+    return result * b.leading ** (a.degree - k)
 
 
 def gcd(a: Polynomial, b: Polynomial) -> Polynomial:

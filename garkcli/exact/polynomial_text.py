@@ -2,13 +2,14 @@
 
 from __future__ import annotations
 
-from collections.abc import Sequence
+from collections.abc import Iterable, Sequence
 
 from flint import arb, fmpq, fmpz
 
 from garkcli.exact.display import to_text
 from garkcli.exact.domain import square_free
 from garkcli.exact.field import Number
+from garkcli.exact.multivariate import Multivariate
 from garkcli.exact.polynomial import Polynomial
 from garkcli.exact.roots import RealRoot
 
@@ -23,17 +24,21 @@ def integral(polynomials: Sequence[Polynomial]) -> list[Polynomial]:
     >>> integral([Polynomial([2, fmpq(-11, 12)]), Polynomial([1, fmpq(1, 24)])])
     [Polynomial([48, -22]), Polynomial([24, 1])]
     """
-    if not all(p.is_rational for p in polynomials):
-        return list(polynomials)
-    numbers = [a for p in polynomials for a in p.coefficients if isinstance(a, fmpq)]
-    if not numbers:
-        return list(polynomials)
+    scale = integral_scale(a for p in polynomials for a in p.coefficients)
+    return [p * scale for p in polynomials]
+
+
+def integral_scale(numbers: Iterable[Number]) -> fmpq:
+    """The positive factor that makes rational numbers integers without a common divisor; 1 where
+    one is irrational.
+    """
     denominator, content = fmpz(1), fmpz(0)
     for a in numbers:
-        denominator = denominator.lcm(a.q)
-    for a in numbers:
-        content = content.gcd((a * denominator).p)
-    return [p * (fmpq(denominator) / content) for p in polynomials]
+        if not isinstance(a, fmpq):
+            return fmpq(1)
+        # gcd(a, p/q) = gcd(...)/lcm(q) for numbers in lowest terms
+        denominator, content = denominator.lcm(a.q), content.gcd(a.p)
+    return fmpq(denominator, content) if content else fmpq(1)
 
 
 def polynomial_text(p: Polynomial, variable: str) -> str:
@@ -42,14 +47,32 @@ def polynomial_text(p: Polynomial, variable: str) -> str:
     >>> polynomial_text(Polynomial([48, -22, 1]), "x")
     'x^2 - 22*x + 48'
     """
+    descending = reversed(list(enumerate(p.coefficients)))
+    return _sum_text((a, power_text(variable, k)) for k, a in descending)
+
+
+def multivariate_text(p: Multivariate, variables: Sequence[str]) -> str:
+    """A polynomial in several variables, highest total degree first.
+
+    >>> multivariate_text(Multivariate.of(2, {(1, 1): fmpq(-3), (0, 0): fmpq(1)}), ["x", "y"])
+    '-3*x*y + 1'
+    """
+    terms = []
+    for exponents, a in p.terms:
+        named = zip(variables, exponents, strict=True)
+        terms.append((a, "*".join(power_text(x, k) for x, k in named if k)))
+    return _sum_text(terms)
+
+
+def _sum_text(terms: Iterable[tuple[Number, str]]) -> str:
+    """Coefficients with what they are multiplied by; zeros are left out."""
     text = ""
-    for k in reversed(range(len(p.coefficients))):
-        a = p.coefficients[k]
+    for a, power in terms:
         if not a:
             continue
         is_negative, factor = _factor_text(a)
         text += " - " if is_negative else " + "
-        text += _term(factor, power_text(variable, k))
+        text += _term(factor, power)
     if text.startswith(" - "):
         return "-" + text.removeprefix(" - ")
     return text.removeprefix(" + ") or "0"

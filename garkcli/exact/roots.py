@@ -65,7 +65,7 @@ class RealRoot:
         """An enclosure with about ``bits`` correct bits."""
         value = self.exact
         if value is not None:
-            with _precision(bits):
+            with precision(bits):
                 return arb(value)
         balls = _real_roots(_integers(self.polynomial), bits)
         return balls[self.number]
@@ -84,7 +84,7 @@ class RealRoot:
         return f"RealRoot({self.polynomial}, {self.number})"
 
 
-class _precision:  # noqa: N801 -- used as a function
+class precision:  # noqa: N801 -- used as a function
     """``flint.ctx.prec`` for a while."""
 
     def __init__(self, bits: int) -> None:
@@ -109,7 +109,7 @@ def _real_roots(coefficients: tuple[int, ...], bits: int) -> tuple[arb, ...]:
 
     python-flint isolates all roots and gives real ones an imaginary part that is exactly zero.
     """
-    with _precision(bits):
+    with precision(bits):
         found: list[Any] = fmpz_poly(list(coefficients)).complex_roots()
         real = [root.real for root, _ in found if root.imag == 0]
         real.sort(key=lambda ball: ball.mid())
@@ -162,7 +162,7 @@ def sign_at(p: Polynomial, root: RealRoot) -> int:
         return 0
     bits = FIRST_BITS
     while True:
-        with _precision(bits):
+        with precision(bits):
             ball = p.enclosed_at(root.ball(bits))
         if ball > 0 or ball < 0:
             return 1 if ball > 0 else -1
@@ -184,7 +184,7 @@ def vanishes_at(p: Polynomial, root: RealRoot) -> bool:
     other = q // g
     bits = FIRST_BITS
     while True:
-        with _precision(bits):
+        with precision(bits):
             ball = root.ball(bits)
             if not g.enclosed_at(ball).contains(0):
                 return False

@@ -11,7 +11,9 @@ from dataclasses import dataclass
 from typing import TYPE_CHECKING, Any, TypeAlias
 
 import numpy as np
+from flint import fmpq
 from matplotlib.axes import Axes
+from matplotlib.colors import ListedColormap
 from matplotlib.figure import Figure
 from matplotlib.legend import Legend
 from matplotlib.lines import Line2D
@@ -20,6 +22,7 @@ from garkcli.exact.display import to_float
 from garkcli.exact.polynomial import Polynomial
 from garkcli.exact.roots import RealRoot
 from garkcli.report.stability_data import StabilityReport
+from garkcli.stability.damping import ImexPair
 from garkcli.stability.linear import StabilityFunction
 from garkcli.stability.oscillator import OscillatorStability
 from garkcli.stability.springs_plane import SpringsPlane
@@ -40,6 +43,8 @@ Named: TypeAlias = tuple[str, StabilityFunction]
 """A stability function and what the legend calls it."""
 POINTS = 401
 """Points a side of a region."""
+SQUARES = 121
+"""Squares a side of a region whose squares are decided one by one, odd so that one row is real."""
 _AT_POLES = 1e9
 """What is drawn in place of infinity."""
 _ABOVE_ALL = 2e9
@@ -122,8 +127,13 @@ def stability_figure(
 
 def region_figure(reports: Sequence[StabilityReport], order_star: bool) -> Figure:
     """The regions |R(z)| ≤ 1, a panel a direction where there is one method of several colours."""
-    figure = Figure(figsize=(6.4, 5.6), layout="constrained")
-    axes = figure.subplots()
+    pair = None
+    if len(reports) == 1 and not order_star and reports[0].found.colours is not None:
+        pair = reports[0].found.colours.pair
+    columns = 1 if pair is None else 2
+    figure = Figure(figsize=(6.4 * columns, 5.6), layout="constrained")
+    panels = figure.subplots(1, columns, squeeze=False)[0]
+    axes = panels[0]
     named: list[Named] = []
     for report in reports:
         linear = report.found.linear
@@ -135,7 +145,41 @@ def region_figure(reports: Sequence[StabilityReport], order_star: bool) -> Figur
     title = _title([report.name for report in reports])
     figure.suptitle(title, fontsize=11, parse_math=False)
     _draw_regions(axes, named, order_star)
+    if pair is not None:
+        _draw_damped(panels[1], pair, dict(named)[_direction_of(reports[0], pair)])
     return figure
+
+
+def _direction_of(report: StabilityReport, pair: ImexPair) -> str:
+    """The label of the explicit colour."""
+    return _direction(report.found.tableau.colours[pair.explicit].name)
+
+
+def _draw_damped(axes: Axes, pair: ImexPair, explicit: StabilityFunction) -> None:
+    """The z_E with all z_I damped, each square decided at its centre, and the outline without."""
+    window = window_of([explicit], is_symmetric=False)
+    x = np.linspace(window.left, window.right, SQUARES)
+    y = np.linspace(0.0, window.top, SQUARES // 2 + 1)
+    upper = np.array([[pair.is_damped(_exact(a), _exact(b)) for a in x] for b in y])
+    whole = np.vstack([upper[:0:-1], upper])
+    both = np.concatenate([-y[:0:-1], y])
+    shades = ListedColormap(["#ffffff", COLOURS[0]])
+    axes.pcolormesh(x, both, whole, cmap=shades, alpha=0.35, shading="nearest")
+    u, v, z = window.grid()
+    level = np.nan_to_num(modulus(explicit, z), nan=_AT_POLES, posinf=_AT_POLES)
+    axes.contour(u, v, level, levels=[1.0], colors=[COLOURS[1]], linestyles=[DASHES[1]])
+    axes.axhline(0.0, color="0.1", linewidth=0.8)
+    axes.axvline(0.0, color="0.1", linewidth=0.8)
+    axes.set_aspect("equal")
+    e, i = pair.explicit + 1, pair.implicit + 1
+    axes.set_xlabel(f"Re z{e}")
+    axes.set_ylabel(f"Im z{e}")
+    title = f"filled: z{e} with every z{i} damped; dashed: with z{i} = 0"
+    axes.set_title(title, fontsize=10, loc="left")
+
+
+def _exact(x: float) -> fmpq:
+    return fmpq(*float(x).as_integer_ratio())
 
 
 def _direction(name: str) -> str:

@@ -2,9 +2,12 @@
 
 from __future__ import annotations
 
+from collections.abc import Iterable, Sequence
 from typing import Any
 
 from garkcli.exact.display import to_latex, to_text
+from garkcli.exact.field import Number
+from garkcli.exact.multivariate import Multivariate
 from garkcli.exact.polynomial import Polynomial
 from garkcli.exact.polynomial_text import (
     polynomial_text,
@@ -21,9 +24,27 @@ def polynomial_latex(p: Polynomial, variable: str) -> str:
     >>> print(polynomial_latex(Polynomial([48, -22, 1]), "x"))
     x^{2}-22x+48
     """
+    descending = reversed(list(enumerate(p.coefficients)))
+    return _sum_latex((a, power_text(variable, k, f"{{{k}}}")) for k, a in descending)
+
+
+def multivariate_latex(p: Multivariate, variables: Sequence[str]) -> str:
+    r"""A polynomial in several variables in LaTeX.
+
+    >>> from flint import fmpq
+    >>> print(multivariate_latex(Multivariate.of(2, {(1, 2): fmpq(1)}), ["z_{1}", "z_{2}"]))
+    z_{1}z_{2}^{2}
+    """
+    terms = []
+    for exponents, a in p.terms:
+        named = zip(variables, exponents, strict=True)
+        terms.append((a, "".join(power_text(x, k, f"{{{k}}}") for x, k in named)))
+    return _sum_latex(terms)
+
+
+def _sum_latex(terms: Iterable[tuple[Number, str]]) -> str:
     text = ""
-    for k in reversed(range(len(p.coefficients))):
-        a = p.coefficients[k]
+    for a, power in terms:
         if not a:
             continue
         factor = to_latex(a)
@@ -32,7 +53,6 @@ def polynomial_latex(p: Polynomial, variable: str) -> str:
         factor = factor.removeprefix("-") if is_negative else factor
         if is_sum:
             factor = rf"\left({factor}\right)"
-        power = power_text(variable, k, f"{{{k}}}")
         text += "-" if is_negative else "+"
         text += power if factor == "1" and power else factor + power
     return text.removeprefix("+") or "0"

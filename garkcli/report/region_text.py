@@ -8,6 +8,8 @@ from garkcli.report.asciiplot import beside_axis, ruled
 
 FULL = "█"
 """Inside."""
+SHADED = ":"
+"""Outside, but inside of a second region."""
 EMPTY = " "
 """Outside."""
 
@@ -19,6 +21,7 @@ def terminal_region(
     top: float,
     width: int = 60,
     height: int = 21,
+    is_shaded: Callable[[complex], bool] | None = None,
 ) -> str:
     """The points of a part of the plane for which something holds, as lines of text.
 
@@ -29,6 +32,7 @@ def terminal_region(
         top: the greatest imaginary part, and minus the least.
         width: columns inside the frame.
         height: lines inside the frame, odd so that one is the real axis.
+        is_shaded: decides whether a point outside belongs to a second region; None for no such.
 
     >>> print(terminal_region(lambda z: abs(z) <= 1, -2, 2, 1.5, width=9, height=5))
      1.5 ┤    │
@@ -53,20 +57,16 @@ def terminal_region(
         cells = []
         for j in range(width):
             x = left + extent * j / (width - 1)
-            inside = is_inside(complex(x, y))
-            cells.append(_cell(inside, is_axis))
+            z = complex(x, y)
+            empty = "─" if is_axis else EMPTY
+            shaded = SHADED if is_shaded is not None and is_shaded(z) else empty
+            cells.append(FULL if is_inside(z) else shaded)
         if 0 <= axis < width:
             cells[axis] = "│"
         field.append(cells)
     lines = beside_axis(field, labels, margin)
     lines += _scale(left, right, axis, width, margin)
     return "\n".join(lines)
-
-
-def _cell(inside: bool, is_axis: bool) -> str:
-    if inside:
-        return FULL
-    return "─" if is_axis else EMPTY
 
 
 def _scale(left: float, right: float, axis: int, width: int, margin: int) -> list[str]:

@@ -101,7 +101,7 @@ def _linear_data(found: LinearStability, digits: int) -> dict[str, Any]:
         "A_alpha": _sector_data(found.sector, digits),
         "real_interval": _end_data(found.real, digits),
         "imaginary_interval": _end_data(found.imaginary, digits),
-        "ssp": _ssp_data(found.ssp, digits),
+        "ssp": ssp_data(found.ssp, digits),
     }
 
 
@@ -125,7 +125,8 @@ def _end_data(intervals: Sequence[Interval] | None, digits: int) -> Any:
     return {"to": root_data(intervals[0].end, digits)}
 
 
-def _ssp_data(found: SspCoefficient | None, digits: int) -> Any:
+def ssp_data(found: SspCoefficient | None, digits: int) -> Any:
+    """A radius of absolute monotonicity for programs."""
     if found is None:
         return None
     return "infinity" if found.value is None else root_data(found.value, digits)

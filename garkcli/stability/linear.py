@@ -129,11 +129,11 @@ def poles_are_right(Q: Polynomial) -> bool:
         return False
     # one of u, v has the degree of Q, the other less: the index is that of lower/higher
     if u.degree > v.degree:
-        return _cauchy_index(u, v) == Q.degree
-    return _cauchy_index(v, -u) == Q.degree
+        return exact_cauchy_index(u, v) == Q.degree
+    return exact_cauchy_index(v, -u) == Q.degree
 
 
-def _cauchy_index(f: Polynomial, g: Polynomial) -> int:
+def exact_cauchy_index(f: Polynomial, g: Polynomial) -> int:
     """The Cauchy index of g/f over the real line, by Sturm's chain f, g, −rem, …"""
     chain = [f, g]
     while chain[-1]:

@@ -17,12 +17,10 @@ from flint import fmpq
 
 from garkcli.exact.cells import between
 from garkcli.exact.field import ONE, ZERO, Number
-from garkcli.exact.polynomial import Polynomial, interpolated, resultant
+from garkcli.exact.polynomial import Polynomial
 from garkcli.exact.roots import RealRoot, real_roots, sign
+from garkcli.stability.critical import MOST_POINTS, critical_polynomials, roots_between
 from garkcli.stability.linear import StabilityFunction, is_a_stable
-
-MOST_POINTS = 400
-"""Values of a resultant that are computed at most: enough for ten stages."""
 
 
 @dataclass(frozen=True)
@@ -64,30 +62,9 @@ def _critical_cosines(R: StabilityFunction) -> list[RealRoot] | None:
     if count > MOST_POINTS:
         return None
     points = [fmpq(k, count + 1) for k in range(1, count + 1)]
-    rays = [_on_ray(R, c) for c in points]
-    degree = max(ray.degree for ray in rays)
-    leading = interpolated(points, [ray[degree] for ray in rays])
-    double = interpolated(
-        points, [_resultant_with_derivative(ray, degree) for ray in rays]
-    )
-    if not double:
-        return None  # a double root on every ray: nothing is read off the resultant
+    critical = critical_polynomials(lambda c: _on_ray(R, c), points)
     zero, one = RealRoot.rational(ZERO), RealRoot.rational(ONE)
-    found: set[RealRoot] = set()
-    for p in (leading, double):
-        found |= {root for root, _ in real_roots(p.square_free()) if zero < root < one}
-    return sorted(found)
-
-
-def _resultant_with_derivative(p: Polynomial, degree: int) -> Number:
-    """Res(p, p′) for p taken as of ``degree``; 0 where its leading coefficient is zero.
-
-    That keeps the values those of one polynomial in c, of which the leading coefficient is a
-    factor.
-    """
-    if p.degree < degree:
-        return ZERO
-    return resultant(p, p.derivative())
+    return roots_between(critical, zero, one)
 
 
 def _on_ray(R: StabilityFunction, c: Number) -> Polynomial:

@@ -4,10 +4,13 @@ With K = (A 0; bᵀ 0), it is the largest r for which I + rK is regular and
 
     (I + rK)⁻¹ K ≥ 0,    (I + rK)⁻¹ 𝟙 ≥ 0
 
-entry by entry (J. F. B. M. Kraaijevanger 1991). In the additive case rK is r₁K₁ + r₂K₂ + … and the
-first condition holds for each K_l (I. Higueras 2006). All entries are rational in r with the one
-denominator det(I + rA), which is 1 at r = 0; so each condition fails first at a root of its
-numerator, or at once.
+entry by entry (J. F. B. M. Kraaijevanger 1991). With a K_l for each colour, a point (r_1, …, r_N)
+belongs to the region of absolute monotonicity of an additive method when, with I + Σ r_l K_l in
+place of I + rK, the second condition holds and the first one for each K_l in place of K, also for
+those with r_l = 0 (I. Higueras 2006). With a point all smaller ones belong to it, so along a line
+through the origin one number tells. All entries are rational in r with the one denominator
+det(I + rA), which is 1 at r = 0; so each condition fails first at a root of its numerator, or at
+once.
 """
 
 from __future__ import annotations
@@ -35,14 +38,28 @@ class SspCoefficient:
     value: RealRoot | None
 
 
+@dataclass(frozen=True)
+class AdditiveRadius:
+    """Where a line through the origin leaves the region of absolute monotonicity.
+
+    Attributes:
+        ratios: the direction (q_1, …, q_N), numbers that are not negative.
+        radius: the largest r with (r q_1, …, r q_N) in the region; None where it is not decided.
+    """
+
+    ratios: tuple[Number, ...]
+    radius: SspCoefficient | None
+
+
 def ssp_coefficient(
-    tableau: Tableau, ratios: Sequence[Number] | None = None
+    tableau: Tableau, shares: Sequence[Number] | None = None
 ) -> SspCoefficient | None:
     """The SSP coefficient; None where the stages have no simple nodes or a block is missing.
 
     Args:
         tableau: the method.
-        ratios: r_l / r for each colour, for the additive radius in one direction; None for 1 each.
+        shares: r_l / r for each colour; None for 1 each. Colours with 0 have the vector field 0, so
+            that nothing is asked of their coefficients.
 
     >>> from garkcli.families.registry import diagonal_method
     >>> from garkcli.tableau.forms import gark
@@ -50,16 +67,36 @@ def ssp_coefficient(
     >>> found.value.exact
     1
     """
+    ratios = [ONE] * tableau.size if shares is None else list(shares)
+    driven = [l for l, ratio in enumerate(ratios) if ratio]
+    return _radius(tableau, ratios, driven)
+
+
+def additive_radius(tableau: Tableau, ratios: Sequence[Number]) -> AdditiveRadius:
+    """How far the region of absolute monotonicity reaches in one direction.
+
+    Args:
+        tableau: the method.
+        ratios: the direction, one number a colour; colours with 0 have a vector field all the same,
+            for which no step size is admitted by itself.
+    """
+    found = _radius(tableau, ratios, range(tableau.size))
+    return AdditiveRadius(tuple(ratios), found)
+
+
+def _radius(
+    tableau: Tableau, ratios: Sequence[Number], driven: Sequence[int]
+) -> SspCoefficient | None:
+    """The largest r in a direction, with the conditions of the ``driven`` colours."""
     exact = in_points(tableau)
     if exact is None:
         return None
     colours = range(exact.size)
     if any(exact.block(l, m) is None for l in colours for m in colours):
         return None
-    directions = [ONE] * exact.size if ratios is None else list(ratios)
-    whole, parts = _stacked(exact, directions)
+    whole, parts = _stacked(exact, ratios)
     smallest: RealRoot | None = None
-    for condition in _conditions(whole, parts):
+    for condition in _conditions(whole, [parts[l] for l in driven]):
         failing = _first_failure(condition)
         if failing is not None and (smallest is None or failing < smallest):
             smallest = failing

@@ -109,22 +109,21 @@ def _add(
 
 def step_function(system: StageSystem) -> StepFunction:
     """M(z) in lowest terms."""
+    return _reduced(unreduced(system))
+
+
+def unreduced(system: StageSystem) -> StepFunction:
+    """M(z) with the denominator det(I − zW), whatever could be cancelled."""
     n, d = len(system.W), len(system.B)
     denominator = reciprocal_characteristic(system.W)
-    columns = transpose(system.E) if system.E else ()
-    series = [_series(system, columns[j], n) for j in range(d)] if n else []
-    numerators = tuple(
-        tuple(_numerator(denominator, series[j][i], i == j, n) for j in range(d))
-        if n
-        else ()
-        for i in range(d)
-    )
-    if not n:
-        one, zero = Polynomial([1]), Polynomial([])
-        numerators = tuple(
-            tuple(one if i == j else zero for j in range(d)) for i in range(d)
-        )
-    return _reduced(denominator, numerators)
+    # without a stage the step does nothing
+    columns = transpose(system.E) if n else ((),) * d
+    series = [_series(system, column, n) for column in columns]
+    numerators = []
+    for i in range(d):
+        entries = (_numerator(denominator, series[j][i], i == j, n) for j in range(d))
+        numerators.append(tuple(entries))
+    return StepFunction(denominator, tuple(numerators))
 
 
 def _series(system: StageSystem, column: Vector, terms: int) -> list[list[Number]]:
@@ -147,15 +146,14 @@ def _numerator(
     return Polynomial(product.coefficients[: degree + 1])
 
 
-def _reduced(
-    denominator: Polynomial, numerators: tuple[tuple[Polynomial, ...], ...]
-) -> StepFunction:
-    common = denominator
-    for row in numerators:
+def _reduced(step: StepFunction) -> StepFunction:
+    common = step.denominator
+    for row in step.numerators:
         for p in row:
             common = gcd(common, p)
-    scale = ONE / (denominator // common)[0]
-    return StepFunction(
-        denominator // common * scale,
-        tuple(tuple(p // common * scale for p in row) for row in numerators),
+    lowest = step.denominator // common
+    scale = ONE / lowest[0]
+    numerators = tuple(
+        tuple(p // common * scale for p in row) for row in step.numerators
     )
+    return StepFunction(lowest * scale, numerators)

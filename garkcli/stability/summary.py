@@ -13,6 +13,7 @@ from garkcli.exact.field import ONE, ZERO, Number
 from garkcli.exact.polynomial import Polynomial
 from garkcli.problems.oscillator import Oscillator, terms_of
 from garkcli.stability.algebraic import AlgebraicStability, algebraic_stability
+from garkcli.stability.colours import Colours, several_colours
 from garkcli.stability.linear import (
     StabilityFunction,
     e_polynomial,
@@ -42,7 +43,8 @@ class LinearStability:
         sector: the sector of A(α)-stability; None where it is not decided.
         real: the x ≥ 0 with |R(−x)| ≤ 1.
         imaginary: the x = y² ≥ 0 with |R(iy)| ≤ 1.
-        ssp: the SSP coefficient in the direction of these colours; None where it is not decided.
+        ssp: the SSP coefficient, the vector fields of the others being 0; None where it is not
+            decided.
     """
 
     name: str
@@ -67,6 +69,7 @@ class Stability:
         oscillator: the method on the harmonic oscillator; None where it has no split for it.
         algebraic: algebraic stability; None where it has no meaning.
         tolerance: the rounding within which it holds; None where it holds exactly.
+        colours: the colours, each with a z of its own; None for one colour or rounded ones.
     """
 
     tableau: Tableau
@@ -74,6 +77,7 @@ class Stability:
     oscillator: OscillatorStability | None
     algebraic: AlgebraicStability | None
     tolerance: fmpq | None = None
+    colours: Colours | None = None
 
     @property
     def kind(self) -> str:
@@ -81,23 +85,29 @@ class Stability:
         return "linear" if self.linear else "oscillator"
 
 
-def stability(tableau: Tableau, problem: Oscillator | None = None) -> Stability:
+def stability(
+    tableau: Tableau, problem: Oscillator | None = None, ratios: Sequence[fmpq] = ()
+) -> Stability:
     """Decide everything that ``gark stability`` reports.
 
     Args:
         tableau: the method, with coefficients that are meant exactly.
         problem: the split of the oscillator; None for the usual one.
+        ratios: r_2/r_1 of further additive SSP radii of methods of two colours.
 
     >>> from garkcli.families.registry import diagonal_method
     >>> from garkcli.tableau.forms import gark
     >>> stability(gark([diagonal_method("radau-iia", 2)], {})).linear[0].l_stable
     True
     """
+    linear = _linear(tableau)
+    has_several = bool(linear) and tableau.size > 1
     return Stability(
         tableau=tableau,
-        linear=_linear(tableau),
+        linear=linear,
         oscillator=_oscillator(tableau, problem),
         algebraic=algebraic_stability(tableau),
+        colours=several_colours(tableau, ratios) if has_several else None,
     )
 
 

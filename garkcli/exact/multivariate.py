@@ -1,0 +1,172 @@
+"""Polynomials in several variables over ℚ or a number field, and how lines determine them.
+
+Along the line t ↦ t v through the origin a polynomial in N variables is one in t, and its
+coefficient of t^k is the homogeneous part of degree k at v. With v = (1, x_2, …, x_N) that is a
+polynomial of degree at most k in the x, which its values on the lattice of the integers
+x_m = o_m + i_m, i_m ≥ 0, Σ i_m ≤ k, determine: Newton's interpolation, axis by axis.
+"""
+
+from __future__ import annotations
+
+from collections.abc import Iterator, Mapping, Sequence
+from dataclasses import dataclass
+from itertools import product
+from math import prod
+from typing import TypeAlias
+
+from flint import fmpq
+
+from garkcli.exact.field import ONE, ZERO, Number
+from garkcli.exact.polynomial import Polynomial
+
+Exponents: TypeAlias = tuple[int, ...]
+"""The powers of the variables in a term, or a point of a lattice."""
+
+
+@dataclass(frozen=True)
+class Multivariate:
+    """Σ a_e z^e.
+
+    Attributes:
+        variables: how many variables there are.
+        terms: the coefficients that are not zero by their exponents, in descending order: first by
+            the total degree, then by the exponents.
+    """
+
+    variables: int
+    terms: tuple[tuple[Exponents, Number], ...]
+
+    @classmethod
+    def of(cls, variables: int, terms: Mapping[Exponents, Number]) -> Multivariate:
+        """The polynomial with these terms; zeros are dropped.
+
+        >>> Multivariate.of(2, {(0, 1): fmpq(3), (1, 0): fmpq(0), (1, 1): fmpq(2)}).terms
+        (((1, 1), 2), ((0, 1), 3))
+        """
+        kept = [(e, a) for e, a in terms.items() if a]
+        kept.sort(key=lambda term: (sum(term[0]), term[0]), reverse=True)
+        return cls(variables, tuple(kept))
+
+    @property
+    def degree(self) -> int:
+        """The total degree; −1 of the zero polynomial."""
+        return sum(self.terms[0][0]) if self.terms else -1
+
+    def __add__(self, other: Multivariate) -> Multivariate:
+        sums = dict(self.terms)
+        for exponents, a in other.terms:
+            sums[exponents] = sums.get(exponents, ZERO) + a
+        return Multivariate.of(self.variables, sums)
+
+    def __neg__(self) -> Multivariate:
+        negated = tuple((exponents, -a) for exponents, a in self.terms)
+        return Multivariate(self.variables, negated)
+
+    def __sub__(self, other: Multivariate) -> Multivariate:
+        return self + -other
+
+    def __mul__(self, other: Multivariate) -> Multivariate:
+        products: dict[Exponents, Number] = {}
+        for (e, a), (f, b) in product(self.terms, other.terms):
+            power = tuple(i + j for i, j in zip(e, f, strict=True))
+            products[power] = products.get(power, ZERO) + a * b
+        return Multivariate.of(self.variables, products)
+
+    def __call__(self, point: Sequence[Number]) -> Number:
+        """The value at an exact point."""
+        total: Number = ZERO
+        for exponents, a in self.terms:
+            powers = zip(point, exponents, strict=True)
+            total = total + a * prod((x**k for x, k in powers if k), start=ONE)
+        return total
+
+    def by_last(self) -> list[Multivariate]:
+        """The coefficients of 1, x, x², … in the last variable x."""
+        powers: list[dict[Exponents, Number]] = []
+        for (*others, last), a in self.terms:
+            powers += [{} for _ in range(last + 1 - len(powers))]
+            powers[last][tuple(others)] = a
+        return [Multivariate.of(self.variables - 1, terms) for terms in powers]
+
+    def along(self, direction: Sequence[Number]) -> Polynomial:
+        """The polynomial t ↦ p(t v) for the direction v."""
+        coefficients: list[Number] = [ZERO] * (self.degree + 1)
+        for exponents, a in self.terms:
+            single = Multivariate(self.variables, ((exponents, a),))
+            k = sum(exponents)
+            coefficients[k] = coefficients[k] + single(direction)
+        return Polynomial(coefficients)
+
+
+def lattice(axes: int, degree: int) -> Iterator[Exponents]:
+    """The points i ≥ 0 of ℤ^axes with Σ i ≤ degree.
+
+    >>> list(lattice(2, 1))
+    [(0, 0), (0, 1), (1, 0)]
+    """
+    if axes == 0:
+        yield ()
+        return
+    for i in range(degree + 1):
+        for rest in lattice(axes - 1, degree - i):
+            yield (i, *rest)
+
+
+def from_lines(
+    lines: Mapping[Exponents, Polynomial], offset: int, degree: int
+) -> Multivariate:
+    """The polynomial with given restrictions to lines.
+
+    Args:
+        lines: for each point i of the lattice of ``degree`` the polynomial t ↦ p(t v) with
+            v = (1, o + i_2, …, o + i_N).
+        offset: o.
+        degree: the total degree of p, or more.
+    """
+    axes = len(next(iter(lines)))
+    terms: dict[Exponents, Number] = {}
+    for k in range(degree + 1):
+        values = {point: lines[point][k] for point in lattice(axes, k)}
+        for exponents, a in _interpolated(values, axes, offset, k).items():
+            first = k - sum(exponents)
+            terms[first, *exponents] = a
+    return Multivariate.of(axes + 1, terms)
+
+
+def _interpolated(
+    values: Mapping[Exponents, Number], axes: int, offset: int, degree: int
+) -> dict[Exponents, Number]:
+    """The polynomial of total degree ≤ ``degree`` through values on a lattice."""
+    table = dict(values)
+    for axis in range(axes):
+        _take_differences(table, axis, degree)
+    basis = _newton_basis(offset, degree)
+    terms: dict[Exponents, Number] = {}
+    for point, difference in table.items():
+        if not difference:
+            continue
+        factors = [enumerate(basis[i].coefficients) for i in point]
+        for chosen in product(*factors):
+            exponents = tuple(power for power, _ in chosen)
+            a = prod((x for _, x in chosen), start=difference)
+            terms[exponents] = terms.get(exponents, ZERO) + a
+    return terms
+
+
+def _take_differences(table: dict[Exponents, Number], axis: int, degree: int) -> None:
+    """Replace the values along an axis by their forward differences at its first point."""
+    descending = sorted(table, key=lambda point: point[axis], reverse=True)
+    for rank in range(1, degree + 1):
+        for point in descending:
+            if point[axis] >= rank:
+                before = (*point[:axis], point[axis] - 1, *point[axis + 1 :])
+                table[point] = table[point] - table[before]
+
+
+def _newton_basis(offset: int, degree: int) -> list[Polynomial]:
+    """The polynomials (x − o)(x − o − 1) … / i!, of degree i."""
+    basis = [Polynomial([1])]
+    for i in range(degree):
+        factor = Polynomial([-(offset + i), 1])
+        basis.append(basis[-1] * factor * fmpq(1, i + 1))
+    return basis

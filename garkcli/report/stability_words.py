@@ -1,0 +1,138 @@
+"""The words of ``gark stability`` for numbers, intervals and fractions."""
+
+from __future__ import annotations
+
+from collections.abc import Sequence
+from textwrap import wrap
+
+from garkcli.exact.cells import Interval
+from garkcli.exact.polynomial import Polynomial
+from garkcli.exact.polynomial_text import (
+    integral,
+    polynomial_text,
+    root_decimal,
+    root_text,
+)
+from garkcli.exact.roots import RealRoot
+from garkcli.report.paint import Paint, indented
+from garkcli.report.stability_data import square_root
+from garkcli.stability.ssp import SspCoefficient
+
+LABEL = 22
+"""Columns of a label."""
+WIDTH = 80
+"""Columns of a terminal."""
+
+
+def line(label: str, text: str) -> list[str]:
+    """A label and its text, which goes on in the same column."""
+    width = WIDTH - LABEL - 4
+    pieces = wrap(text, width, break_long_words=False, break_on_hyphens=False)
+    first, *others = pieces or [""]
+    head = f"    {label.ljust(LABEL)}{first}"
+    return [head.rstrip(), *indented(others, " " * (LABEL + 4))]
+
+
+def quotient(numerator: Polynomial, denominator: Polynomial, variable: str) -> str:
+    """A fraction of two polynomials."""
+    p, q = integral([numerator, denominator])
+    return over(polynomial_text(p, variable), polynomial_text(q, variable))
+
+
+def over(numerator: str, denominator: str) -> str:
+    """A fraction of two texts."""
+    if denominator == "1":
+        return numerator
+    bottom = f"({denominator})" if " " in denominator else denominator
+    return f"({numerator}) / {bottom}"
+
+
+def equation(root: RealRoot, variable: str, digits: int) -> str:
+    """How a number is told: ``= 1/2``, ``= sqrt(2)/2``, or the polynomial it is a root of."""
+    simple = root_text(root)
+    if simple is not None:
+        return f"= {simple}"
+    polynomial = minimal_text(root, variable)
+    return f"= {root_decimal(root, digits)}…, a root of {polynomial}"
+
+
+def minimal_text(root: RealRoot, variable: str) -> str:
+    """The polynomial that a number is told by."""
+    polynomial = Polynomial.from_flint(root.polynomial)
+    return polynomial_text(polynomial, variable)
+
+
+def number(root: RealRoot, digits: int) -> str:
+    """A root as a fraction, or in radicals and decimals."""
+    simple = root_text(root)
+    if simple is not None and root.exact is not None:
+        return simple
+    decimals = root_decimal(root, digits)
+    return decimals if simple is None else f"{simple} = {decimals}"
+
+
+def real_text(intervals: Sequence[Interval], digits: int) -> str:
+    """The interval of the negative real axis that begins at 0."""
+    first = intervals[0] if intervals else None
+    if first is None or first.start is None or first.start.exact != 0:
+        return "z = 0 only"
+    if first.end is None:
+        return "z ≤ 0"
+    if first.is_point:
+        return "z = 0 only"
+    text = f"−z ≤ {number(first.end, digits)}"
+    if root_text(first.end) is None:
+        text += f", a root of {minimal_text(first.end, 'x')}"
+    return text + _further(intervals)
+
+
+def imaginary_text(intervals: Sequence[Interval], digits: int) -> str:
+    """The interval of the imaginary axis around 0, from intervals of y²."""
+    first = intervals[0] if intervals else None
+    if first is None or first.is_point or first.start is None or first.start.exact != 0:
+        return "y = 0 only"
+    if first.end is None:
+        return "all y"
+    end = square_root(first.end, digits)
+    text = f"|y| ≤ {end}, y² {equation(first.end, 'x', digits)}"
+    return text + _further(intervals)
+
+
+def _further(intervals: Sequence[Interval]) -> str:
+    return " and further intervals" if len(intervals) > 1 else ""
+
+
+def ssp_text(found: SspCoefficient | None, digits: int) -> str:
+    """A radius of absolute monotonicity."""
+    if found is None:
+        return "not decided: the nodes have no simple radicals"
+    if found.value is None:
+        return "∞"
+    if root_text(found.value):
+        return number(found.value, digits)
+    return equation(found.value, "x", digits).removeprefix("= ")
+
+
+def interval_text(interval: Interval, digits: int) -> str:
+    """An interval of x = z²."""
+    assert interval.start is not None
+    start = number(interval.start, digits)
+    if interval.is_point:
+        return f"x = {start}"
+    left = "≤" if interval.has_start else "<"
+    text = f"{start} {left} x"
+    ends = [interval.start]
+    if interval.end is not None:
+        right = "≤" if interval.has_end else "<"
+        end, end_of_z = number(interval.end, digits), square_root(interval.end, digits)
+        text += f" {right} {end}, z to {end_of_z}"
+        ends.append(interval.end)
+    for x in ends:
+        if root_text(x) is None:
+            text += f"; a root of {minimal_text(x, 'x')}"
+    return text
+
+
+def decided(holds: bool | None, paint: Paint) -> str:
+    """A verdict, or that there is none."""
+    return "not decided" if holds is None else paint.verdict(holds)

@@ -1,0 +1,305 @@
+"""Implicit-explicit pairs: for which z_E all z_I of the left half plane are damped.
+
+For a fixed z_E = a + ib, |R(z_E, z_I)| ≤ 1 holds for all Re z_I ≤ 0 when all poles of z_I ↦
+R(z_E, z_I) lie in the right half plane and |R(z_E, iy)| ≤ 1 for all real y, by the maximum
+principle. With R = P/Q the latter says
+
+    E(a, b, y) = |Q(z_E, iy)|² − |P(z_E, iy)|² ≥ 0   for all real y,
+
+E a polynomial with exact coefficients. A single z_E is decided by Sturm's chain in balls, and
+exactly where balls do not tell. On the real axis E is even in y, and the end of the interval of
+z_E from 0 on is a root of a discriminant: an algebraic number.
+"""
+
+from __future__ import annotations
+
+from collections.abc import Sequence
+from dataclasses import dataclass
+from functools import cached_property
+from math import comb
+from typing import Any, TypeAlias
+
+from flint import arb, fmpq
+
+from garkcli.exact.ball_polynomial import cauchy_index, root_count
+from garkcli.exact.cells import between
+from garkcli.exact.display import to_ball
+from garkcli.exact.field import ONE, ZERO, Number
+from garkcli.exact.multivariate import Exponents, Multivariate
+from garkcli.exact.polynomial import Polynomial, gcd
+from garkcli.exact.roots import RealRoot, precision, real_roots, sign
+from garkcli.graph import components
+from garkcli.stability.critical import MOST_POINTS, critical_polynomials, roots_between
+from garkcli.stability.fraction import Fraction
+from garkcli.stability.linear import exact_cauchy_index, poles_are_right
+from garkcli.tableau.tableau import Tableau
+
+BITS_A_DIGIT = 3.33
+BITS = 192
+"""Precision of the balls; where it is not enough, a point is decided exactly."""
+
+
+@dataclass(frozen=True)
+class Ray:
+    """The z_E on half of an axis, from 0 on, for which all z_I are damped.
+
+    Attributes:
+        end: the largest of them, in −z_E or in |Im z_E|; None for ∞.
+    """
+
+    end: RealRoot | None
+
+
+@dataclass(frozen=True)
+class ImexPair:
+    """A method of one explicit and one implicit colour.
+
+    Attributes:
+        explicit: the index of the explicit colour.
+        implicit: that of the other one.
+        R: R(z_1, z_2).
+    """
+
+    explicit: int
+    implicit: int
+    R: Fraction
+
+    @cached_property
+    def parts(self) -> tuple[tuple[Multivariate, Multivariate], ...]:
+        """The real and imaginary parts of P(z_E, iy) and of Q(z_E, iy), in (a, b, y)."""
+        over, under = self.R.numerator, self.R.denominator
+        return _split(over, self.explicit), _split(under, self.explicit)
+
+    @cached_property
+    def margin(self) -> Multivariate:
+        """The polynomial E in (a, b, y)."""
+        (p, q), (u, v) = self.parts
+        return (u * u + v * v) - (p * p + q * q)
+
+    @cached_property
+    def has_fixed_poles(self) -> bool:
+        """Whether the poles in z_I do not depend on z_E."""
+        powers = (exponents[self.explicit] for exponents, _ in self.R.denominator.terms)
+        return not any(powers)
+
+    @cached_property
+    def fixed_poles_are_right(self) -> bool:
+        """Whether they lie to the right, where they do not depend on z_E."""
+        _, Q = self.R.with_fixed(self.explicit, ZERO)
+        return poles_are_right(Q)
+
+    @cached_property
+    def _enclosed(self) -> _Enclosed:
+        _, (u, v) = self.parts
+        return _Enclosed(_in_balls(self.margin), _in_balls(u), _in_balls(v))
+
+    def is_damped(self, a: fmpq, b: fmpq) -> bool:
+        """Whether |R(a + ib, z_I)| ≤ 1 for all z_I in the closed left half plane, decided.
+
+        A root of Q(z_E, ·) in that half plane counts as a pole, also if P vanishes there for this
+        one z_E.
+        """
+        return self._poles_are_right(a, b) and self._is_bounded(a, b)
+
+    def _is_bounded(self, a: fmpq, b: fmpq) -> bool:
+        """Whether E(a, b, ·) ≥ 0."""
+        with precision(BITS):
+            x, y = arb(a), arb(b)
+            E = [_value(terms, x, y) for terms in self._enclosed.E]
+            roots = root_count(E) if len(E) > 1 else None
+        if roots is not None:
+            return roots == 0 and bool(E[-1] > 0)
+        return is_nonnegative(_at(self.margin, a, b))
+
+    def _poles_are_right(self, a: fmpq, b: fmpq) -> bool:
+        if self.has_fixed_poles:
+            return self.fixed_poles_are_right
+        with precision(BITS):
+            x, y = arb(a), arb(b)
+            u = [_value(terms, x, y) for terms in self._enclosed.u]
+            v = [_value(terms, x, y) for terms in self._enclosed.v]
+            found = _ball_poles_are_right(u, v)
+        if found is not None:
+            return found
+        _, (real, imaginary) = self.parts
+        return _exact_poles_are_right(_at(real, a, b), _at(imaginary, a, b))
+
+    def real_ray(self) -> Ray | None:
+        """The z_E ≤ 0 from 0 on with all z_I damped; None where that is not decided."""
+        # R has real coefficients: E is even in y, and a polynomial in y²
+        by_y = [_on_axis(p, axis=0) for p in self.margin.by_last()]
+        return self._ray(by_y[::2], is_in_squares=True)
+
+    def imaginary_ray(self) -> Ray | None:
+        """The same for z_E = ib, b ≥ 0; b < 0 is its mirror image."""
+        by_y = [_on_axis(p, axis=1) for p in self.margin.by_last()]
+        return self._ray(by_y, is_in_squares=False)
+
+    def _ray(self, E: Sequence[Polynomial], is_in_squares: bool) -> Ray | None:
+        """The largest x so that all numbers from 0 to x are damped.
+
+        Args:
+            E: the coefficients of E by powers of y, or of y², as polynomials in x.
+            is_in_squares: whether they are of y²; then numbers t < 0 do not matter.
+        """
+        zero = RealRoot.rational(ZERO)
+        if not self.has_fixed_poles:
+            return None
+        if not self.fixed_poles_are_right:
+            return Ray(zero)
+        critical = _critical(E)
+        if critical is None:
+            return None
+        critical += E[:1]  # where it is zero, a root passes through 0
+        start = zero
+        for end in [*roots_between(critical, zero, None), None]:
+            member = _member(E, between(start, end))
+            if not is_nonnegative(member, from_zero=is_in_squares):
+                return Ray(start)
+            if end is not None:
+                start = end
+        return Ray(None)
+
+
+def imex_pair(tableau: Tableau, R: Fraction | None) -> ImexPair | None:
+    """The explicit and the implicit colour of a method of two; None for other methods.
+
+    Args:
+        tableau: the method.
+        R: its stability function; None where it is too large.
+    """
+    if tableau.size != 2 or R is None:
+        return None
+    first, second = (_is_explicit(tableau, l) for l in (0, 1))
+    if first == second:
+        return None
+    explicit = 0 if first else 1
+    return ImexPair(explicit, 1 - explicit, R)
+
+
+def _is_explicit(tableau: Tableau, l: int) -> bool:
+    """Whether the stages of a colour can be taken one after the other."""
+    block = tableau.block(l, l)
+    assert block is not None
+    neighbours = {i: [j for j, x in enumerate(row) if x] for i, row in enumerate(block)}
+    has_loop = any(i in others for i, others in neighbours.items())
+    return not has_loop and all(len(found) == 1 for found in components(neighbours))
+
+
+def is_nonnegative(p: Polynomial, from_zero: bool = False) -> bool:
+    """Whether p(y) ≥ 0 for all real y, or for all y ≥ 0, decided exactly.
+
+    >>> is_nonnegative(Polynomial([1, -2, 1])), is_nonnegative(Polynomial([1, -3, 1]))
+    (True, False)
+    """
+    if not p:
+        return True
+    if sign(p.leading) < 0 or (not from_zero and p.degree % 2):
+        return False
+    origin = RealRoot.rational(ZERO)
+    changes = [root for root, power in real_roots(p) if power % 2]
+    return not any(not from_zero or root > origin for root in changes)
+
+
+def _critical(E: Sequence[Polynomial]) -> list[Polynomial] | None:
+    """Where the roots of E in y can change; None where that would take too long."""
+    degree = len(E) - 1
+    if degree < 1:
+        return []
+    highest = max(coefficient.degree for coefficient in E)
+    count = (2 * degree - 1) * highest + 1
+    if count > MOST_POINTS:
+        return None
+    points = [fmpq(k - count // 2, 4) for k in range(count)]
+    return critical_polynomials(lambda x: _member(E, x), points)
+
+
+def _member(E: Sequence[Polynomial], x: fmpq) -> Polynomial:
+    return Polynomial([coefficient(x) for coefficient in E])
+
+
+def _on_axis(p: Multivariate, axis: int) -> Polynomial:
+    """A polynomial in (a, b) on half of an axis: a = −x, b = 0, or a = 0, b = x."""
+    direction = [ZERO, ZERO]
+    direction[axis] = ONE if axis else -ONE
+    return p.along(direction)
+
+
+def _split(p: Multivariate, explicit: int) -> tuple[Multivariate, Multivariate]:
+    """The real and imaginary parts of p(a + ib, iy) as polynomials in (a, b, y)."""
+    parts: tuple[dict[Exponents, Number], dict[Exponents, Number]] = ({}, {})
+    for exponents, coefficient in p.terms:
+        j, k = exponents[explicit], exponents[1 - explicit]
+        for m in range(j + 1):
+            # the term of (a + ib)^j (iy)^k with b^m: i^(m+k) times real numbers
+            turns = (m + k) % 4
+            amount = coefficient * (comb(j, m) * (-1 if turns >= 2 else 1))
+            terms = parts[turns % 2]
+            power = (j - m, m, k)
+            terms[power] = terms.get(power, ZERO) + amount
+    real, imaginary = parts
+    return Multivariate.of(3, real), Multivariate.of(3, imaginary)
+
+
+_Terms: TypeAlias = list[tuple[int, int, arb]]
+"""The terms of a polynomial in (a, b): both exponents and the coefficient in a ball."""
+
+
+@dataclass(frozen=True)
+class _Enclosed:
+    """E and the parts of Q by powers of y, with coefficients in balls."""
+
+    E: list[_Terms]
+    u: list[_Terms]
+    v: list[_Terms]
+
+
+def _in_balls(p: Multivariate) -> list[_Terms]:
+    digits = int(BITS / BITS_A_DIGIT)
+    found = []
+    for coefficient in p.by_last():
+        terms = [(j, k, to_ball(x, digits)) for (j, k), x in coefficient.terms]
+        found.append(terms)
+    return found
+
+
+def _value(terms: _Terms, a: arb, b: arb) -> arb:
+    total = arb(0)
+    for j, k, coefficient in terms:
+        total += coefficient * a**j * b**k
+    return total
+
+
+def _at(p: Multivariate, a: fmpq, b: fmpq) -> Polynomial:
+    """A polynomial in (a, b, y) as one in y."""
+    return Polynomial([coefficient((a, b)) for coefficient in p.by_last()])
+
+
+def _ball_poles_are_right(u: Sequence[arb], v: Sequence[arb]) -> bool | None:
+    """Whether Q(iy) = u + iv has all its roots to the right, by Hermite and Biehler."""
+    degree = max(len(u), len(v)) - 1
+    real, imaginary = _turned(u, v, degree, arb(0))
+    index = cauchy_index(real, imaginary)
+    return None if index is None else index == degree
+
+
+def _exact_poles_are_right(u: Polynomial, v: Polynomial) -> bool:
+    """The same exactly."""
+    degree = max(u.degree, v.degree)
+    if degree < 1:
+        return True
+    real, imaginary = _turned(u.coefficients, v.coefficients, degree, ZERO)
+    f, g = Polynomial(real), Polynomial(imaginary)
+    return gcd(f, g).degree == 0 and exact_cauchy_index(f, g) == degree
+
+
+def _turned(
+    u: Sequence[Any], v: Sequence[Any], degree: int, zero: Any
+) -> tuple[list[Any], list[Any]]:
+    """U + iv times the conjugate of its leading coefficient, so that u alone has the degree."""
+    u = [*u, *[zero] * (degree + 1 - len(u))]
+    v = [*v, *[zero] * (degree + 1 - len(v))]
+    c, s = u[degree], v[degree]
+    real = [c * x + s * y for x, y in zip(u, v, strict=True)]
+    imaginary = [c * y - s * x for x, y in zip(u, v, strict=True)]
+    return real, imaginary[:degree]

@@ -1,0 +1,146 @@
+"""R(z_1, …, z_N), the stability function for ẏ = Σ λ_l y with z_l = hλ_l, as one exact fraction.
+
+With W(z) = Σ_l z_l W_l, the blocks of colour l in W_l, R(z) = 1 + Σ_l z_l b_lᵀ (I − W(z))⁻¹ 𝟙 has
+the denominator det(I − W(z)); for blocks that are not shared this is
+
+    R(z) = det(I − A Z + 𝟙 bᵀ Z) / det(I − A Z),    Z = diag(z_1 I, …, z_N I)
+
+(A. Sandu, M. Günther 2015, section 3). Both are polynomials of a total degree that is at most the
+number of stages, and so are interpolated from the lines through the origin.
+
+A common factor of both is one on every line; so lowest terms are proved by one line on which there
+is none, and where the degree of the denominator is not less than that of the whole.
+"""
+
+from __future__ import annotations
+
+from collections.abc import Sequence
+from dataclasses import dataclass
+from math import comb
+
+from flint import fmpq
+
+from garkcli.exact.field import ONE, Number
+from garkcli.exact.multivariate import Exponents, Multivariate, from_lines, lattice
+from garkcli.exact.polynomial import Polynomial, gcd
+from garkcli.stability.step_function import StepFunction, stage_system, unreduced
+from garkcli.tableau.tableau import Tableau
+
+MOST_LINES = 400
+"""Lines that are looked at: 27 stages of two colours, or 12 of three."""
+OFFSETS = (1, 3, 7, 13, 29)
+"""Where lattices of directions begin that are tried for common factors."""
+
+
+@dataclass(frozen=True)
+class Fraction:
+    """R = P/Q with Q(0) = 1.
+
+    Attributes:
+        numerator: P.
+        denominator: Q.
+        is_reduced: whether it is proved that P and Q have no common factor.
+    """
+
+    numerator: Multivariate
+    denominator: Multivariate
+    is_reduced: bool
+
+    def with_fixed(self, index: int, value: Number) -> tuple[Polynomial, Polynomial]:
+        """P and Q of two colours as polynomials in the other variable, for z_index = value."""
+        return _fixed(self.numerator, index, value), _fixed(
+            self.denominator, index, value
+        )
+
+
+def _fixed(p: Multivariate, index: int, value: Number) -> Polynomial:
+    """A polynomial in two variables, one of them fixed."""
+    coefficients: list[Number] = []
+    for exponents, a in p.terms:
+        power = exponents[1 - index]
+        coefficients += [fmpq(0)] * (power + 1 - len(coefficients))
+        coefficients[power] = coefficients[power] + a * value ** exponents[index]
+    return Polynomial(coefficients)
+
+
+def lines_needed(tableau: Tableau) -> int:
+    """How many lines determine the numerator and the denominator."""
+    axes = tableau.size - 1
+    stages = sum(space.stages for space in tableau.spaces)
+    return comb(stages + axes, axes)
+
+
+def stability_fraction(tableau: Tableau) -> Fraction | None:
+    """R(z_1, …, z_N); None where it has too many stages and colours for ``MOST_LINES``.
+
+    Args:
+        tableau: the method; every stage that is used sees every colour.
+
+    >>> from garkcli.families.registry import diagonal_method
+    >>> from garkcli.tableau.forms import gark
+    >>> midpoint = gark([diagonal_method("gauss", 1)], {})
+    >>> stability_fraction(midpoint).denominator.terms
+    (((1,), -1/2), ((0,), 1))
+    """
+    if lines_needed(tableau) > MOST_LINES:
+        return None
+    axes = tableau.size - 1
+    degree = sum(space.stages for space in tableau.spaces)
+    over, under = {}, {}
+    for point in lattice(axes, degree):
+        step = _on_line(tableau, point)
+        over[point], under[point] = step.numerators[0][0], step.denominator
+    P, Q = from_lines(over, 0, degree), from_lines(under, 0, degree)
+    return _in_lowest_terms(P, Q)
+
+
+def _on_line(tableau: Tableau, point: Exponents) -> StepFunction:
+    """The function t ↦ R(t v) for v = (1, i_2, …, i_N), nothing cancelled."""
+    shares = [ONE, *map(fmpq, point)]
+    # colours with share 0 are kept: numerators and denominators of all lines are those of one pair
+    fields = [((share,),) for share in shares]
+    kept = [((ONE,),) for _ in shares]
+    return unreduced(stage_system(tableau, fields, kept))
+
+
+def _in_lowest_terms(P: Multivariate, Q: Multivariate) -> Fraction:
+    axes = Q.variables - 1
+    for offset in OFFSETS:
+        direction = _direction([0] * axes, offset)
+        on_line = Q.along(direction)
+        common = gcd(P.along(direction), on_line)
+        if common.degree == 0 and on_line.degree == Q.degree:
+            return Fraction(P, Q, is_reduced=True)
+    for offset in OFFSETS:
+        reduced = _cancelled(P, Q, offset)
+        if reduced is not None:
+            return reduced
+    return Fraction(P, Q, is_reduced=False)
+
+
+def _direction(point: Sequence[int], offset: int) -> list[Number]:
+    return [ONE, *(fmpq(offset + i) for i in point)]
+
+
+def _cancelled(P: Multivariate, Q: Multivariate, offset: int) -> Fraction | None:
+    """P/Q in lowest terms from the quotients on lines; None where a line is special.
+
+    Lines with the fraction in lowest terms have denominators of one degree but for special ones.
+    What was interpolated is multiplied out: it is right, or it is not taken. It has the least
+    degree that a denominator can have, for that is no less than on a line.
+    """
+    axes = Q.variables - 1
+    over, under = {}, {}
+    degree = 0
+    for point in lattice(axes, max(P.degree, Q.degree)):
+        direction = _direction(point, offset)
+        top, bottom = P.along(direction), Q.along(direction)
+        common = gcd(top, bottom)
+        lowest = bottom // common
+        scale = ONE / lowest[0]
+        over[point], under[point] = top // common * scale, lowest * scale
+        degree = max(degree, over[point].degree, lowest.degree)
+    p, q = from_lines(over, offset, degree), from_lines(under, offset, degree)
+    is_equal = q * P == p * Q
+    is_lowest = q.degree == max(line.degree for line in under.values())
+    return Fraction(p, q, is_reduced=True) if is_equal and is_lowest else None

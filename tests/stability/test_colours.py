@@ -1,0 +1,325 @@
+"""Several colours: R(z1, …, zN) by a second way, implicit-explicit pairs, additive SSP radii."""
+
+from __future__ import annotations
+
+import numpy as np
+import pytest
+from flint import Ordering, fmpq, fmpq_mpoly_ctx
+from hypothesis import assume, given, settings
+from hypothesis import strategies as st
+
+from garkcli.exact.ball_polynomial import root_count
+from garkcli.exact.display import to_ball, to_float
+from garkcli.exact.field import ONE, ZERO, Number
+from garkcli.exact.matrix import SingularMatrixError, solve
+from garkcli.exact.multivariate import Multivariate
+from garkcli.exact.polynomial import Polynomial, gcd, resultant, subresultant
+from garkcli.exact.roots import real_roots
+from garkcli.methodfile.load import load, loads
+from garkcli.stability.colours import several_colours
+from garkcli.stability.damping import ImexPair, imex_pair
+from garkcli.stability.fraction import Fraction, stability_fraction
+from garkcli.stability.ssp import additive_radius, ssp_coefficient
+from garkcli.tableau.pointwise import in_points
+from garkcli.tableau.tableau import Tableau
+
+ENTRY = st.fractions(min_value=-2, max_value=2, max_denominator=4).map(str)
+IMEX_EULER = "ark: {A: [[[0, 0], [1, 0]], [[0, 0], [0, 1]]], b: [[1, 0], [0, 1]]}"
+SSP_222 = """
+parameters: {g: 1 - sqrt(2)/2}
+methods:
+  - {A: [[0, 0], [1, 0]], b: [1/2, 1/2]}
+  - {A: [[g, 0], [1 - 2*g, g]], b: [1/2, 1/2]}
+transfer: {blocks: {"1,2": [[g, 0], [1 - 2*g, g]], "2,1": [[0, 0], [1, 0]]}}
+"""
+"""L. Pareschi, G. Russo 2005, IMEX-SSP2(2,2,2): stages of both parts at one point."""
+
+
+def matrix(draw: st.DrawFn, rows: int, columns: int) -> list[list[str]]:
+    """Entries with small denominators."""
+    row = st.lists(ENTRY, min_size=columns, max_size=columns)
+    return [draw(row) for _ in range(rows)]
+
+
+@st.composite
+def coupled(draw: st.DrawFn) -> Tableau:
+    """Random methods of two or three colours with all blocks."""
+    stages = draw(st.lists(st.integers(1, 2), min_size=2, max_size=3))
+    A = [[matrix(draw, s, t) for t in stages] for s in stages]
+    b = [matrix(draw, 1, s)[0] for s in stages]
+    return loads(f"tableau: {{A: {A}, b: {b}}}").tableau
+
+
+@st.composite
+def pairs(draw: st.DrawFn) -> Tableau:
+    """Random pairs, the first part explicit, the second one diagonally implicit."""
+    s = draw(st.integers(1, 3))
+    gamma = draw(st.sampled_from(["1/4", "1/2", "1", "1/2 + sqrt(2)/4"]))
+    explicit = [[draw(ENTRY) if j < i else "0" for j in range(s)] for i in range(s)]
+    implicit = [
+        [gamma if j == i else (draw(ENTRY) if j < i else "0") for j in range(s)]
+        for i in range(s)
+    ]
+    b = matrix(draw, 2, s)
+    return loads(f"ark: {{A: [{explicit}, {implicit}], b: {b}}}").tableau
+
+
+def value_of_a_step(tableau: Tableau, z: list[fmpq]) -> Number:
+    """R(z) = 1 + Σ z_l b_lᵀ Y_l with the stage values Y_l from their linear equations."""
+    starts, size = [], 0
+    for space in tableau.spaces:
+        starts.append(size)
+        size += space.stages
+    rows: list[list[Number]] = [
+        [ONE if i == j else ZERO for j in range(size)] for i in range(size)
+    ]
+    for k, start in enumerate(starts):
+        for m, colour in enumerate(tableau.colours):
+            block = tableau.blocks[k, m]
+            for i, line in enumerate(block, start=start):
+                for j, a in enumerate(line, start=starts[colour.space]):
+                    rows[i][j] = rows[i][j] - z[m] * a
+    right = tuple((x,) for space in tableau.spaces for x in space.one)
+    stages = solve(tuple(map(tuple, rows)), right)
+    total: Number = ONE
+    for m, colour in enumerate(tableau.colours):
+        for i, b in enumerate(colour.b, start=starts[colour.space]):
+            total = total + z[m] * b * stages[i][0]
+    return total
+
+
+@settings(max_examples=20)
+@given(coupled() | pairs(), st.data())
+def test_the_fraction_is_what_a_step_gives(
+    tableau: Tableau, data: st.DataObject
+) -> None:
+    """P(z) = Q(z) R(z) at rational points where the stage equations are solved one by one."""
+    R = stability_fraction(tableau)
+    assert R is not None
+    for _ in range(3):
+        point = [fmpq(data.draw(st.integers(-9, 9)), 7) for _ in range(tableau.size)]
+        try:
+            expected = value_of_a_step(tableau, point)
+        except SingularMatrixError:
+            continue
+        assert R.numerator(point) == expected * R.denominator(point)
+
+
+def common_factor_degree(R: Fraction) -> int:
+    """The total degree of the greatest common divisor, by python-flint."""
+    names = [f"z{k}" for k in range(R.numerator.variables)]
+    ring = fmpq_mpoly_ctx.get(names, Ordering.degrevlex)
+    P, Q = (ring.from_dict(dict(p.terms)) for p in (R.numerator, R.denominator))
+    return int(P.gcd(Q).total_degree())
+
+
+@settings(max_examples=10)
+@given(coupled(), st.booleans())
+def test_lowest_terms(tableau: Tableau, is_doubled: bool) -> None:
+    """No common factor is left, also where each stage is there twice."""
+    if is_doubled:
+        tableau = doubled(tableau)
+    R = stability_fraction(tableau)
+    assert R is not None
+    assert R.is_reduced
+    assert common_factor_degree(R) == 0
+
+
+def doubled(tableau: Tableau) -> Tableau:
+    """The same method with two copies of each stage, which share its weight."""
+    exact = in_points(tableau)
+    assert exact is not None
+    N = range(exact.size)
+
+    def half(row: tuple[Number, ...]) -> list[str]:
+        return [str(x / 2) for x in row for _ in range(2)]
+
+    A = []
+    for l in N:
+        blocks = [exact.block(l, m) for m in N]
+        A.append([[half(row) for row in B or () for _ in range(2)] for B in blocks])
+    b = [half(colour.b) for colour in exact.colours]
+    return loads(f"tableau: {{A: {A}, b: {b}}}").tableau
+
+
+def test_a_common_factor_of_a_number_field_is_cancelled() -> None:
+    """Over ℚ(√2) too: the doubled method has the fraction of the method itself."""
+    tableau = loads(SSP_222).tableau
+    once, twice = stability_fraction(tableau), stability_fraction(doubled(tableau))
+    # each file has a number field of its own: numbers are compared as texts
+    assert str(once) == str(twice)
+
+
+def test_a_large_method_is_refused() -> None:
+    """Three times ten stages would take 496 lines."""
+    families = ["{family: gauss, stages: 10}"] * 3
+    text = f"methods: [{', '.join(families)}]\ntransfer: collocation"
+    assert stability_fraction(loads(text).tableau) is None
+
+
+def test_imex_euler() -> None:
+    """R = (1 + z1)/(1 − z2): damped for |1 + z1| ≤ 1; r ≤ (1, ∞) (I. Higueras 2006)."""
+    found = several_colours(loads(IMEX_EULER).tableau)
+    assert found.R is not None
+    assert found.R.numerator == Multivariate.of(2, {(0, 0): ONE, (1, 0): ONE})
+    assert found.R.denominator == Multivariate.of(2, {(0, 0): ONE, (0, 1): -ONE})
+    assert found.pair is not None
+    assert (found.pair.explicit, found.pair.implicit) == (0, 1)
+    assert found.real is not None
+    assert found.real.end is not None
+    assert found.real.end.exact == 2
+    assert found.imaginary is not None
+    assert found.imaginary.end is not None
+    assert found.imaginary.end.exact == 0
+    on_circle = [(fmpq(-1) + fmpq(3, 5), fmpq(4, 5)), (fmpq(-2), ZERO), (ZERO, ZERO)]
+    assert all(found.pair.is_damped(a, b) for a, b in on_circle)
+    assert not found.pair.is_damped(fmpq(-2, 5), fmpq(4, 5) + fmpq(1, 10**40))
+    radii = [radius.radius for radius in found.radii]
+    ends = [None if r is None or r.value is None else r.value.exact for r in radii]
+    assert ends == [fmpq(1), None, fmpq(1)]
+
+
+def largest_modulus(R: Fraction, pair: ImexPair, z: complex) -> float:
+    """The largest |R(z, iy)| over many y, in floats."""
+    y = np.concatenate(
+        [-np.geomspace(1e3, 1e-3, 400), [0], np.geomspace(1e-3, 1e3, 400)]
+    )
+    w = 1j * y
+
+    def at(p: Multivariate) -> np.ndarray:
+        total = np.zeros_like(w)
+        for e, a in p.terms:
+            total = total + to_float(a) * z ** e[pair.explicit] * w ** e[pair.implicit]
+        return total
+
+    with np.errstate(divide="ignore", invalid="ignore"):
+        return float(np.max(np.abs(at(R.numerator) / at(R.denominator))))
+
+
+@settings(max_examples=25)
+@given(pairs(), st.integers(-12, 4), st.integers(0, 8))
+def test_damped_points_against_many_samples(tableau: Tableau, a: int, b: int) -> None:
+    """A γ > 0 has its poles to the right: the imaginary axis decides, and a grid on it agrees."""
+    R = stability_fraction(tableau)
+    pair = imex_pair(tableau, R)
+    assert R is not None
+    assert pair is not None
+    point = fmpq(a, 4), fmpq(b, 4)
+    largest = largest_modulus(R, pair, complex(a / 4, b / 4))
+    assume(abs(largest - 1) > 1e-6)
+    assert pair.is_damped(*point) == (largest < 1)
+
+
+def test_poles_that_move() -> None:
+    """Couplings back and forth: Q = 1 − z2 − z1 z2, whose root in z2 is 1/(1 + z1)."""
+    text = "tableau: {A: [[[[0]], [[1]]], [[[1]], [[1]]]], b: [[0], [1]]}"
+    tableau = loads(text).tableau
+    pair = imex_pair(tableau, stability_fraction(tableau))
+    assert pair is not None
+    assert not pair.has_fixed_poles
+    assert pair.real_ray() is None
+    assert pair.is_damped(fmpq(-1, 2), ZERO)
+    assert not pair.is_damped(fmpq(-1, 2), fmpq(1, 3))
+    assert not pair.is_damped(fmpq(-3, 2), ZERO)
+
+
+@settings(max_examples=8)
+@given(pairs())
+def test_rays_end_where_points_end(tableau: Tableau) -> None:
+    """Points inside are damped, and points a little beyond the end are not, on both axes."""
+    pair = imex_pair(tableau, stability_fraction(tableau))
+    assert pair is not None
+    rays = [(pair.real_ray(), -1, 0), (pair.imaginary_ray(), 0, 1)]
+    for ray, u, v in rays:
+        assert ray is not None
+        end = fmpq(8)
+        if ray.end is not None:
+            mantissa, exponent = ray.end.ball(128).mid().man_exp()
+            end = fmpq(mantissa) * fmpq(2) ** int(exponent)
+            beyond = end + fmpq(1, 10**9)
+            assert not pair.is_damped(u * beyond, v * beyond)
+        for k in range(1, 8):
+            inside = end * fmpq(k, 8)
+            if inside > fmpq(1, 10**9):
+                assert pair.is_damped(u * inside, v * inside)
+
+
+def test_an_explicit_and_an_implicit_colour_are_told_apart() -> None:
+    """Which one is explicit follows from the diagonal blocks; two implicit ones are no pair."""
+    ars = load("methods/ark-ars222.gark.yaml").tableau
+    pair = imex_pair(ars, stability_fraction(ars))
+    assert pair is not None
+    assert pair.explicit == 0
+    both = load("methods/collocation.gark.yaml").tableau
+    assert imex_pair(both, stability_fraction(both)) is None
+
+
+@settings(max_examples=40)
+@given(pairs(), st.sampled_from([(1, 0), (0, 1), (1, 1), (1, 2)]))
+def test_additive_radii_by_floating_point(
+    tableau: Tableau, direction: tuple[int, int]
+) -> None:
+    """Below the radius all conditions of both colours hold; just above it one of them fails."""
+    found = additive_radius(tableau, [fmpq(q) for q in direction]).radius
+    assert found is not None
+    s = tableau.space(0).stages
+    parts = []
+    for l in (0, 1):
+        K = np.zeros((s + 1, s + 1))
+        K[:s, :s] = [[to_float(x) for x in row] for row in tableau.blocks[0, l]]
+        K[s, :s] = [to_float(x) for x in tableau.colours[l].b]
+        parts.append(K)
+    whole = direction[0] * parts[0] + direction[1] * parts[1]
+
+    def smallest(r: float) -> float:
+        inverse = np.linalg.inv(np.eye(s + 1) + r * whole)
+        products = [inverse @ K for K in parts]
+        return float(min(x.min() for x in (*products, inverse.sum(axis=1))))
+
+    radius = 5.0 if found.value is None else float(found.value.ball(64))
+    if radius > 0.01:
+        assert smallest(radius * 0.999) >= -1e-9
+    if found.value is not None:
+        assert min(smallest(radius + t) for t in (1e-3, 1e-2, 0.1, 0.5, 1.0)) < 0
+
+
+def test_the_region_of_ssp_222() -> None:
+    """Alone, the implicit part has 1 + √2 and the explicit one 1; together they are what they are."""
+    tableau = loads(SSP_222).tableau
+    explicit = ssp_coefficient(tableau, [ONE, ZERO])
+    implicit = ssp_coefficient(tableau, [ZERO, ONE])
+    assert explicit is not None
+    assert explicit.value is not None
+    assert explicit.value.exact == 1
+    assert implicit is not None
+    assert implicit.value is not None
+    both = additive_radius(tableau, [ONE, ONE]).radius
+    assert both is not None
+    assert both.value is not None
+    assert both.value <= min(explicit.value, implicit.value)
+
+
+@given(st.lists(st.integers(-6, 6), min_size=2, max_size=6), st.integers(0, 2))
+def test_roots_in_balls_are_counted_as_exactly(roots: list[int], extra: int) -> None:
+    """Sturm's chain in balls finds the distinct real roots, or says that it cannot."""
+    p = Polynomial([1])
+    for root in roots:
+        p = p * Polynomial([-root, 1])
+    p = p * Polynomial([1, 0, 1]) ** extra
+    found = root_count([to_ball(a, 40) for a in p.coefficients])
+    assert found in {None, len(real_roots(p))}
+    if len(set(roots)) == len(roots) and extra < 2:
+        assert found == len(roots)
+
+
+@pytest.mark.parametrize("k", range(4))
+def test_subresultants_tell_the_degree_of_the_gcd(k: int) -> None:
+    """With a common factor of degree k the first k of them are zero, and the next one is not."""
+    p, q = Polynomial([-7, 2, 0, 1]), Polynomial([3, 1, 5])
+    common = Polynomial([1])
+    for root in range(k):
+        common = common * Polynomial([-root, 1])
+    a, b = p * common, q * common
+    assert gcd(a, b).degree == k
+    assert [bool(subresultant(a, b, j)) for j in range(k + 1)] == [False] * k + [True]
+    assert resultant(a, b) == subresultant(a, b, 0)
