@@ -129,9 +129,10 @@ def _plot(
 
     if line is not None:
         start, level, slope = line
-        apart = (right - left) / (width - 1)
+        extent = right - left
+        last = width - 1
         for column in range(width):
-            x = left + apart * column
+            x = left + extent * column / last
             y = level + slope * (x - start)
             put(x, y, LINE)
     for x, y, mark in points:

@@ -56,12 +56,15 @@ def render(
 def letters(count: int) -> list[str]:
     """A, B, …, Z, a, …, z, and numbers beyond: short names of methods."""
     numbers = [str(k + 1) for k in range(count)]
-    return [*ascii_uppercase, *ascii_lowercase, *numbers[52:]][:count]
+    single = [*ascii_uppercase, *ascii_lowercase]
+    names = single + numbers[len(single) :]
+    return names[:count]
 
 
 def title(results: Sequence[Convergence]) -> str:
     """What all of them have solved, without its split."""
-    return f"{_about(results[0])}; to t = {results[0].t_end}"
+    first = results[0]
+    return f"{_about(first)}; to t = {first.t_end}"
 
 
 def _about(result: Convergence) -> str:
@@ -69,30 +72,47 @@ def _about(result: Convergence) -> str:
     if isinstance(problem, Oscillator):
         return f"oscillator; q̈ = −ω²q, ω = {problem.omega}"
     text = str(problem.energy).replace("**", "^")
-    return f"{problem.name}; H = {text}" if len(text) <= _LONGEST else problem.name
+    if len(text) > _LONGEST:
+        return problem.name
+    return f"{problem.name}; H = {text}"
 
 
 def _text(
     entries: Sequence[Entry], paint: Paint, with_work: bool, against: str
 ) -> list[str]:
-    named = list(zip(letters(len(entries)), entries, strict=True))
+    count = len(entries)
+    named = list(zip(letters(count), entries, strict=True))
     tested = [(letter, x.result) for letter, x in named if x.result is not None]
-    lines = [paint("strong", f"{len(entries)} methods")]
+    lines = [paint("strong", f"{count} methods")]
     if tested:
         results = [result for _, result in tested]
         lines += indented(wrapped(title(results)))
-    lines += ["", *_names(named, paint)]
+    lines.append("")
+    lines += _names(named, paint)
     for block in _blocks(tested):
-        lines += ["", *indented(block)]
-    lines += ["", *indented(_verdicts(named, paint)), *_notes(tested)]
+        lines.append("")
+        lines += indented(block)
+    lines.append("")
+    lines += indented(_verdicts(named, paint))
+    lines += _notes(tested)
     if with_work and tested:
-        lines += ["", *costs_of(tested)]
-    curves = {letter: list(curve(result, against)) for letter, result in tested}
-    if any(curves.values()):
-        plot = terminal_curves(curves, against)
-        lines += ["", *indented(plot.splitlines())]
-        if SEVERAL in plot:
-            lines.append(f"  {SEVERAL} several methods")
+        lines.append("")
+        lines += costs_of(tested)
+    return lines + _plot(tested, against)
+
+
+def _plot(tested: Tested, against: str) -> list[str]:
+    """All curves in one plot, after an empty line; none where there is nothing to draw."""
+    curves = {}
+    for letter, result in tested:
+        curves[letter] = list(curve(result, against))
+    if not any(curves.values()):
+        return []
+    plot = terminal_curves(curves, against)
+    lines = [""]
+    lines += indented(plot.splitlines())
+    if SEVERAL in plot:
+        lines.append(f"  {SEVERAL} several methods")
     return lines
 
 
@@ -101,12 +121,16 @@ def _names(named: Sequence[tuple[str, Entry]], paint: Paint) -> list[str]:
     names = [entry.name for _, entry in named]
     lines = []
     for letter, entry in named:
-        is_twin = names.count(entry.name) > 1 and entry.name != entry.file
-        text = f"{entry.name} ({entry.file})" if is_twin else entry.name
+        text = entry.name
+        is_twin = names.count(text) > 1
+        if is_twin and text != entry.file:
+            text = f"{text} ({entry.file})"
         margin = " " * (_INDENT + len(letter) + _INDENT)
-        first, *others = wrap(text, WIDTH - len(margin)) or [""]
+        left = WIDTH - len(margin)
+        first, *others = wrap(text, left) or [""]
         head = f"  {paint('strong', letter)}  {first}"
-        lines += [head.rstrip(), *indented(others, margin)]
+        lines.append(head.rstrip())
+        lines += indented(others, margin)
     return lines
 
 
@@ -115,8 +139,10 @@ def _blocks(tested: Tested) -> list[list[str]]:
     methods = len(tested)
     for count in range(1, methods + 1):
         bounds = [round(k * methods / count) for k in range(count + 1)]
-        blocks = [_side_by_side(tested[a:b]) for a, b in pairwise(bounds)]
-        widest = max(map(len, chain(*blocks)))
+        parts = [tested[a:b] for a, b in pairwise(bounds)]
+        blocks = [_side_by_side(part) for part in parts]
+        lines = chain(*blocks)
+        widest = max(map(len, lines))
         if widest <= WIDTH - _INDENT or count == methods:
             return blocks
     return []
@@ -129,18 +155,23 @@ def _side_by_side(tested: Tested) -> list[str]:
     columns = [aligned([[step] for step in steps])]
     for letter, result in tested:
         rows = {row.h: row for row in result.rows}
-        pair = aligned([["error", "slope"], *(_cells(rows.get(h)) for h in sizes)])
-        width = max(map(len, pair))
-        cells = [line.ljust(width) for line in pair]
-        columns.append([letter.center(width), *cells])
-    lines = map(_GAP.join, zip(*columns, strict=True))
-    return [line.rstrip() for line in lines]
+        pair = [["error", "slope"]]
+        pair += [_cells(rows.get(h)) for h in sizes]
+        lines = aligned(pair)
+        width = max(map(len, lines))
+        column = [letter.center(width)]
+        column += [line.ljust(width) for line in lines]
+        columns.append(column)
+    rows_of_cells = zip(*columns, strict=True)
+    return [_GAP.join(cells).rstrip() for cells in rows_of_cells]
 
 
 def _cells(row: Row | None) -> list[str]:
     if row is None:
         return ["", ""]
-    slope = "" if row.slope is None else f"{row.slope:.2f}"
+    slope = ""
+    if row.slope is not None:
+        slope = f"{row.slope:.2f}"
     return [scientific(row.error), slope]
 
 
@@ -156,14 +187,15 @@ def _verdicts(named: Sequence[tuple[str, Entry]], paint: Paint) -> list[str]:
         if result is None:
             rows.append([letter, "", "", ""])
             endings.append(paint("bad", "FAILED"))
-            said += [f"{letter}: {fault.message}" for fault in entry.faults]
-            continue
-        observed = order_text(result.observed_order)
-        rows.append([letter, observed, exactly(result), predicted(result)])
-        endings.append(verdict(result, paint))
-        if result.hides_failure:
-            said.append(f"{letter}: {hidden(result)}")
-        said += [f"{letter}: {text}" for text in remarks(result)]
+            texts = [fault.message for fault in entry.faults]
+        else:
+            observed = order_text(result.observed_order)
+            visible = exactly(result)
+            rows.append([letter, observed, visible, predicted(result)])
+            endings.append(verdict(result, paint))
+            texts = [hidden(result)] if result.hides_failure else []
+            texts += remarks(result)
+        said += [f"{letter}: {text}" for text in texts]
     table = padded(rows)
     width = max(map(len, table))
     lines = []
@@ -184,6 +216,7 @@ def _notes(tested: Tested) -> list[str]:
     for text, who in said.items():
         note = text
         if len(said) > 1:
-            note = f"{', '.join(who)}: {text}"
+            names = ", ".join(who)
+            note = f"{names}: {text}"
         lines += indented(wrapped(note))
     return lines

@@ -66,15 +66,15 @@ def render(
         fields = {} if valued is None else valued.data()
         if subject is not None:
             fields["symplectic"] = subject.data()
-        members = [
-            f'"{key}": {to_json(value, indent=None, ascii_only=True)}, '
-            for key, value in fields.items()
-        ]
-        about = "".join(members)
+        about = ""
+        for key, value in fields.items():
+            text = to_json(value, indent=None, ascii_only=True)
+            about += f'"{key}": {text}, '
         yield f'{{"schema": "gark/conditions/1", {about}"conditions": ['
         separator = "\n"
         for row in rows:
-            yield separator + to_json(_data(row), indent=None)
+            line = to_json(_data(row), indent=None)
+            yield separator + line
             separator = ",\n"
         yield "\n]}\n"
     elif format == "csv":
@@ -121,11 +121,13 @@ def _csv(rows: Iterable[ConditionRow], heading: Sequence[str]) -> Iterator[str]:
     """
     keys: list[str] = []
     for row in rows:
-        data = {k: x for k, x in _data(row).items() if k != "for_all"}
+        data = _data(row)
+        data.pop("for_all", None)
         if not keys:
             keys = list(data)
             yield ",".join(keys) + "\n"
-        yield ",".join(_quoted(data[key]) for key in keys) + "\n"
+        cells = [_quoted(data[key]) for key in keys]
+        yield ",".join(cells) + "\n"
     if not keys:
         yield ",".join(heading) + "\n"
 
@@ -134,7 +136,9 @@ def _quoted(value: object) -> str:
     """A value as the cell of a CSV file."""
     if value is None:
         return ""
-    text = " ".join(value) if isinstance(value, list) else str(value)
+    text = str(value)
+    if isinstance(value, list):
+        text = " ".join(value)
     if isinstance(value, bool):
         text = text.lower()
     needs_quotes = "," in text or " " in text
@@ -174,15 +178,19 @@ def _text(
 def _names(valued: Valued) -> Iterator[str]:
     """The names of the colours, where their numbers are not their names."""
     names = [colour.name for colour in valued.tableau.colours]
-    numbers = [str(l) for l in range(1, len(names) + 1)]
+    last = len(names)
+    numbers = [str(l) for l in range(1, last + 1)]
     if names != numbers:
         pairs = map(" ".join, zip(numbers, names, strict=True))
-        yield f"colours: {', '.join(pairs)}\n"
+        legend = ", ".join(pairs)
+        yield f"colours: {legend}\n"
 
 
 def _verdict(failed: int, valued: Valued) -> str:
+    if failed == 1:
+        return "1 fails"
     if failed:
-        return f"{failed} fails" if failed == 1 else f"{failed} fail"
+        return f"{failed} fail"
     if valued.tolerance is None:
         return "all hold"
     return f"all hold within {decimal(valued.tolerance)}"
@@ -192,18 +200,23 @@ def _lines(row: ConditionRow, paint: Paint, width: int) -> Iterator[str]:
     """One row: on one line where there is no value and it fits, below each other otherwise."""
     tree = format_tree(row.tree, not row.is_shape)
     sizes = f"σ = {row.tree.symmetry}  γ = {row.tree.density}"
-    formula = f"{row.formula}   {_multiplicity(row)}".rstrip()
+    formula = f"{row.formula}   {_multiplicity(row)}"
+    formula = formula.rstrip()
     one = f"  {tree:<22} {sizes:<17} {formula}"
     condition = row.condition
     if condition is None and len(one) <= width:
         lines = [one]
     else:
-        head = [f"{tree:<22} {sizes}"]
-        if len(head[0]) + _MARK_WIDTH > width:
-            head = [*folded(tree, width - _MARK_WIDTH), f"  {sizes}"]
-        lines = [f"  {_mark(condition, paint)}{head[0]}"]
-        formulas = folded(formula, width - 6, " " * 4)
-        lines += indented([*head[1:], *formulas], " " * 6)
+        head = f"{tree:<22} {sizes}"
+        below: list[str] = []
+        left = width - _MARK_WIDTH
+        if len(head) > left:
+            head, *below = folded(tree, left)
+            below.append(f"  {sizes}")
+        mark = _mark(condition, paint)
+        lines = [f"  {mark}{head}"]
+        below += folded(formula, width - 6, " " * 4)
+        lines += indented(below, " " * 6)
     if condition is not None and not condition.is_exact:
         miss = f"      {_miss(condition, row.digits)}"
         lines += folded(miss, width, " " * 8)
@@ -255,9 +268,10 @@ def _latex_values(condition: Condition, digits: int | None) -> tuple[str, str]:
     value, residual = condition.value, condition.residual
     if digits is not None:
         return _latex_decimal(value, digits), _latex_decimal(residual, digits)
-    longest = max(len(to_text(value)), len(to_text(residual)))
-    if longest > MOST_DIGITS:
-        return rf"\approx {_latex_decimal(value, 8)}", _latex_decimal(residual, 4)
+    lengths = (len(to_text(value)), len(to_text(residual)))
+    if max(lengths) > MOST_DIGITS:
+        about = _latex_decimal(value, 8)
+        return rf"\approx {about}", _latex_decimal(residual, 4)
     return to_latex(value), to_latex(residual)
 
 
@@ -269,13 +283,15 @@ def _latex(
     rows: Iterable[ConditionRow], subject: Subject | None = None
 ) -> Iterator[str]:
     if subject is not None:
-        yield from (f"% {line}" for line in legend_lines(subject))
+        for line in legend_lines(subject):
+            yield f"% {line}"
     is_begun = False
     for row in rows:
         if not is_begun:
             yield _latex_head(row)
             is_begun = True
-        yield f"  {' & '.join(_latex_cells(row))} \\\\[4pt]\n"
+        cells = " & ".join(_latex_cells(row))
+        yield f"  {cells} \\\\[4pt]\n"
     if is_begun:
         yield "  \\hline\n\\end{longtable}\n"
 
@@ -305,10 +321,14 @@ def _latex_cells(row: ConditionRow) -> list[str]:
         f"${row.latex}$",
     ]
     if row.condition is not None:
-        cells += [f"${cell}$" for cell in _latex_values(row.condition, row.digits)]
+        values = _latex_values(row.condition, row.digits)
+        cells += [f"${value}$" for value in values]
     if row.stands_for:
         cells.append(str(row.stands_for))
     elif row.condition is None:
-        letters = ",".join(vertex_letters(row.tree)) if row.is_shape else ""
-        cells.append(rf"$\forall\, {letters}$" if letters else "")
+        for_all = ""
+        if row.is_shape:
+            letters = ",".join(vertex_letters(row.tree))
+            for_all = rf"$\forall\, {letters}$"
+        cells.append(for_all)
     return cells

@@ -40,7 +40,8 @@ def render(
         return json_of(result, name, with_work)
     if format == "csv":
         return csv_of(result, with_work)
-    return "\n".join(_text(result, name, paint, with_work)) + "\n"
+    lines = _text(result, name, paint, with_work)
+    return "\n".join(lines) + "\n"
 
 
 def _text(result: Convergence, name: str, paint: Paint, with_work: bool) -> list[str]:
@@ -48,18 +49,21 @@ def _text(result: Convergence, name: str, paint: Paint, with_work: bool) -> list
     lines = [paint("strong", line) for line in wrap(name, WIDTH)]
     lines += indented(wrapped(about))
     for block in _tables(result):
-        lines += ["", *indented(block)]
-    lines += ["", *_orders(result, paint)]
+        lines.append("")
+        lines += indented(block)
+    lines.append("")
+    lines += _orders(result, paint)
     for text in (*remarks(result), result.visible.trees):
         lines += indented(wrapped(text))
     if with_work:
-        return [*lines, *_work(result)]
+        return lines + _work(result)
     positive = [row for row in result.rows if row.error > 0]
     if len(positive) > 1:
         sizes = [row.h for row in positive]
         errors = [row.error for row in positive]
         plot = terminal_plot(sizes, errors)
-        lines += ["", *indented(plot.splitlines())]
+        lines.append("")
+        lines += indented(plot.splitlines())
     return lines
 
 
@@ -73,7 +77,8 @@ def describe(problem: Oscillator | Hamiltonian) -> str:
 
 def _numbered(energies: Sequence[str]) -> str:
     """The terms of a Hamiltonian by the numbers of their colours."""
-    terms = [f"H{{{l}}}: {text}" for l, text in enumerate(energies, start=1)]
+    numbered = enumerate(energies, start=1)
+    terms = [f"H{{{l}}}: {text}" for l, text in numbered]
     return ", ".join(terms)
 
 
@@ -90,7 +95,8 @@ def _energy(k: object, v: object) -> str:
 def _described(problem: Hamiltonian) -> str:
     texts = [str(term).replace("**", "^") for term in problem.terms]
     if sum(map(len, texts)) > _LONGEST:
-        terms = f"{len(texts)} terms" if len(texts) > 1 else "one term"
+        count = len(texts)
+        terms = f"{count} terms" if count > 1 else "one term"
         positions = ", ".join(problem.variables)
         return f"{problem.name}, H in {terms} of {positions} and their momenta"
     return f"{problem.name}; {_numbered(texts)}"
@@ -99,17 +105,23 @@ def _described(problem: Hamiltonian) -> str:
 def _tables(result: Convergence) -> list[list[str]]:
     """The columns side by side; those of invariants below each other where they are too wide."""
     rows = result.rows
-    steps = ["h", *(str(row.h) for row in rows)]
-    columns = [
-        ["error", *(rounded(row.error) for row in rows)],
-        ["slope", *(_slope(row) for row in rows)],
-        ["energy error", *(rounded(row.energy_error) for row in rows)],
-    ]
+    steps = ["h"]
+    steps += [str(row.h) for row in rows]
+    errors = ["error"]
+    errors += [rounded(row.error) for row in rows]
+    slopes = ["slope"]
+    slopes += [_slope(row) for row in rows]
+    energies = ["energy error"]
+    energies += [rounded(row.energy_error) for row in rows]
+    columns = [errors, slopes, energies]
     for k, name in enumerate(invariant_names(result)):
-        cells = [rounded(row.invariant_errors[k]) for row in rows]
-        columns.append([f"{_short_name(name)} error", *cells])
+        column = [f"{_short_name(name)} error"]
+        column += [rounded(row.invariant_errors[k]) for row in rows]
+        columns.append(column)
     if any(row.digits is not None for row in rows):
-        columns.append(["digits", *(_digits(row) for row in rows)])
+        digits = ["digits"]
+        digits += [_digits(row) for row in rows]
+        columns.append(digits)
     return _fitting(steps, columns)
 
 
@@ -117,27 +129,32 @@ def _fitting(steps: Sequence[str], columns: list[list[str]]) -> list[list[str]]:
     """Tables with the step sizes on the left and as many of the columns as fit."""
     tables = []
     while columns:
-        count = len(columns)
-        while count > 1 and _width([steps, *columns[:count]]) > WIDTH - _INDENT:
-            count -= 1
-        table = list(zip(steps, *columns[:count], strict=True))
+        shown = [steps, *columns]
+        while len(shown) > 2 and _width(shown) > WIDTH - _INDENT:
+            shown.pop()
+        table = list(zip(*shown, strict=True))
         tables.append(aligned(table, gap=_GAP))
-        columns = columns[count:]
+        columns = columns[len(shown) - 1 :]
     return tables
 
 
 def _width(columns: Sequence[Sequence[str]]) -> int:
-    return sum(max(map(len, column)) for column in columns) + len(_GAP) * (
-        len(columns) - 1
-    )
+    widths = [max(map(len, column)) for column in columns]
+    gaps = len(_GAP) * (len(widths) - 1)
+    return sum(widths) + gaps
 
 
 def _short_name(name: str) -> str:
-    return name if len(name) <= _LONGEST_HEAD else f"{name[: _LONGEST_HEAD - 1]}…"
+    if len(name) <= _LONGEST_HEAD:
+        return name
+    beginning = name[: _LONGEST_HEAD - 1]
+    return f"{beginning}…"
 
 
 def _slope(row: Row) -> str:
-    return "" if row.slope is None else f"{row.slope:.3f}"
+    if row.slope is None:
+        return ""
+    return f"{row.slope:.3f}"
 
 
 def _digits(row: Row) -> str:
@@ -159,7 +176,8 @@ def _orders(result: Convergence, paint: Paint) -> list[str]:
         return [f"{head}: {last}", f"          {hidden(result)}"]
     tail = f"of the method {predicted(result)}: "
     unpainted = verdict(result, Paint())
-    if len(f"{head}, {tail}{unpainted}") > WIDTH:
+    whole = f"{head}, {tail}{unpainted}"
+    if len(whole) > WIDTH:
         return [f"{head},", f"          {tail}{last}"]
     return [f"{head}, {tail}{last}"]
 
@@ -227,8 +245,10 @@ def _of_short_time(result: Convergence) -> str:
         return f"at these step sizes the order has not settled; {tiny}"
     if abs(observed - short) <= CLOSE:
         return f"the problem hides the trees that fail, or their errors cancel: {tiny}"
-    if abs(observed - round(observed)) <= CLOSE and short < observed:
-        missed = f"conditions of order {round(short) + 1} are missed by little"
+    is_whole = abs(observed - round(observed)) <= CLOSE
+    if is_whole and short < observed:
+        failing = round(short) + 1
+        missed = f"conditions of order {failing} are missed by little"
         return f"{missed}, which these step sizes do not show; {tiny}"
     return f"at these step sizes the order has not settled; {tiny}"
 
@@ -238,8 +258,12 @@ def work_cells(cost: Cost | None) -> list[str]:
     if cost is None:
         return [""] * len(WORK)
     counts = (cost.steps, cost.evaluations, cost.iterations, cost.jacobians)
-    seconds = "" if cost.seconds is None else scientific(arb(cost.seconds))
-    return [*map(str, counts), seconds]
+    cells = [str(count) for count in counts]
+    seconds = ""
+    if cost.seconds is not None:
+        seconds = scientific(arb(cost.seconds))
+    cells.append(seconds)
+    return cells
 
 
 def _work(result: Convergence) -> list[str]:
@@ -248,15 +272,19 @@ def _work(result: Convergence) -> list[str]:
     points = []
     is_timed = True
     for row in result.rows:
-        cells.append([str(row.h), rounded(row.error), *work_cells(row.cost)])
+        error = rounded(row.error)
+        cells.append([str(row.h), error, *work_cells(row.cost)])
         if row.cost is not None:
-            points.append((float(row.cost.evaluations), row.error))
+            evaluations = float(row.cost.evaluations)
+            points.append((evaluations, row.error))
         is_timed &= row.cost is not None and row.cost.seconds is not None
     lines = ["work", *aligned(cells)]
     if not is_timed:
         lines.append(NO_TIME)
     plot = terminal_curves({"•": points}, "evaluations")
-    return ["", *indented(lines), "", *indented(plot.splitlines())]
+    table = indented(lines)
+    drawn = indented(plot.splitlines())
+    return ["", *table, "", *drawn]
 
 
 def wrapped(text: str, width: int = 76) -> list[str]:

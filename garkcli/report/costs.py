@@ -29,7 +29,8 @@ def costs_of(tested: Tested) -> list[str]:
         first = letter
         for row in result.rows:
             error = scientific(row.error)
-            rows.append([first, str(row.h), error, *work_cells(row.cost)])
+            work = work_cells(row.cost)
+            rows.append([first, str(row.h), error, *work])
             is_timed &= row.cost is not None and row.cost.seconds is not None
             first = ""
     lines = indented(padded(rows, "  "))
@@ -56,7 +57,9 @@ def curve(result: Convergence, against: str) -> Iterator[tuple[float | fmpq, arb
     positive.
     """
     for row in result.rows:
-        x = row.h if against == "h" else amount(row.cost, against)
+        x: float | fmpq | None = row.h
+        if against != "h":
+            x = amount(row.cost, against)
         if x is not None and row.error > 0:
             yield x, row.error
 
@@ -66,15 +69,19 @@ def _at_equal_errors(tested: Tested, what: str) -> list[str]:
     curves = {}
     errors = []
     for letter, result in tested:
-        points = [(log10(error), log10(x)) for x, error in curve(result, what)]
+        points = []
+        for x, error in curve(result, what):
+            points.append((log10(error), log10(x)))
         curves[letter] = points
         errors.append([error for error, _ in points])
     goals = _goals(errors)
     if not goals:
         return []
-    rows = [[f"{what} for an error of", *(f"1e{k}" for k in goals)]]
+    heads = [f"1e{k}" for k in goals]
+    rows = [[f"{what} for an error of", *heads]]
     for letter, points in curves.items():
-        cells = [_amount(_between(points, k), what) for k in goals]
+        decades = [_between(points, k) for k in goals]
+        cells = [_amount(x, what) for x in decades]
         rows.append([letter, *cells])
     return padded(rows, "  ")
 
@@ -84,7 +91,9 @@ def _amount(decades: float | None, what: str) -> str:
     if decades is None:
         return ""
     x = 10**decades
-    return str(round(x)) if what == "evaluations" else scientific(arb(x), 2)
+    if what == "evaluations":
+        return str(round(x))
+    return scientific(arb(x), 2)
 
 
 def _goals(errors: Sequence[Sequence[float]]) -> list[int]:
@@ -94,9 +103,11 @@ def _goals(errors: Sequence[Sequence[float]]) -> list[int]:
     reached: Counter[int] = Counter()
     for ys in errors:
         if len(ys) > 1:
-            reached.update(range(ceil(min(ys)), floor(max(ys)) + 1))
-    shared = [k for k, count in reached.items() if count > 1] or list(reached)
-    decades = sorted(shared, reverse=True)
+            first = ceil(min(ys))
+            last = floor(max(ys))
+            reached.update(range(first, last + 1))
+    shared = [k for k, count in reached.items() if count > 1]
+    decades = sorted(shared or reached, reverse=True)
     apart = max(1, ceil(len(decades) / _GOALS))
     return decades[::apart]
 
@@ -106,5 +117,6 @@ def _between(points: Sequence[tuple[float, float]], goal: float) -> float | None
     for (a, x), (b, y) in pairwise(points):
         is_between = min(a, b) <= goal <= max(a, b)
         if is_between and a != b:
-            return x + (y - x) * (goal - a) / (b - a)
+            rise = (y - x) * (goal - a)
+            return x + rise / (b - a)
     return None

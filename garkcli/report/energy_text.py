@@ -72,7 +72,8 @@ def text_of(report: Report, paint: Paint, is_long: bool = True) -> list[str]:
     lines += indented(_wrapped(steps))
     lines.append("")
     for history in run.invariants:
-        lines += [*_history(history, run, paint), ""]
+        lines += _history(history, run, paint)
+        lines.append("")
     lines += _symplectic(report, paint)
     if report.claims:
         lines.append("")
@@ -80,7 +81,8 @@ def text_of(report: Report, paint: Paint, is_long: bool = True) -> list[str]:
         lines += _claim(claim, paint)
     if is_long and run.energy.max_error > 0:
         plot = terminal_band(run.times, run.energy.errors, "H(t) − H(0)")
-        lines += ["", *indented(plot.splitlines())]
+        lines.append("")
+        lines += indented(plot.splitlines())
     return lines
 
 
@@ -90,13 +92,17 @@ def _claim(claim: Claim, paint: Paint) -> list[str]:
     if not claim.holds:
         text += f", found: {claim.found}"
     first, *rest = _wrapped(text, 59)
-    return [f"  {verdict}      {first}", *indented(rest, _HANGING)]
+    lines = [f"  {verdict}      {first}"]
+    lines += indented(rest, _HANGING)
+    return lines
 
 
 def _steps(run: LongRun) -> str:
     if run.digits is None:
         return f"{run.steps} steps, exact"
-    how = "in floats" if run.digits <= FLOAT_DIGITS else f"{run.digits} digits"
+    how = "in floats"
+    if run.digits > FLOAT_DIGITS:
+        how = f"{run.digits} digits"
     return f"{run.steps} steps, {how}"
 
 
@@ -106,7 +112,8 @@ def _history(history: InvariantHistory, run: LongRun, paint: Paint) -> list[str]
     width = max(15, *map(len, names)) + 2
     word, reason = _verdict(history, run)
     paragraphs = [f"{word}{reason}", *_cure(history)]
-    rows = [*_numbers(history, run), ("  verdict", "; ".join(paragraphs))]
+    rows = _numbers(history, run)
+    rows.append(("  verdict", "; ".join(paragraphs)))
     lines = []
     for label, text in rows:
         first, *rest = _wrapped(text, 76 - width)
@@ -114,7 +121,8 @@ def _history(history: InvariantHistory, run: LongRun, paint: Paint) -> list[str]
         lines += indented(rest, " " * (width + 2))
     # lines are broken before they are painted: codes have no width
     style = STYLES.get(history.verdict, "strong")
-    plain, painted = f" {word}", f" {paint(style, word)}"
+    plain = f" {word}"
+    painted = f" {paint(style, word)}"
     return [line.replace(plain, painted, 1) for line in lines]
 
 
@@ -136,8 +144,10 @@ def _numbers(history: InvariantHistory, run: LongRun) -> list[tuple[str, str]]:
 
 def _drift(history: InvariantHistory, run: LongRun) -> str:
     """Per unit of time and in all; digits below the uncertainty say nothing."""
-    drift, uncertainty = history.drift or 0.0, history.uncertainty or 0.0
-    in_all, uncertain_in_all = drift * run.end, uncertainty * run.end
+    drift = history.drift or 0.0
+    uncertainty = history.uncertainty or 0.0
+    in_all = drift * run.end
+    uncertain_in_all = uncertainty * run.end
     is_seen = abs(drift) > uncertainty
     if run.stability is not None:
         if run.stability.fate == "elliptic":
@@ -233,8 +243,10 @@ def _reason(history: InvariantHistory, run: LongRun) -> str:
 
 def _times(history: InvariantHistory) -> str:
     """How many times its uncertainty the drift is, to one digit."""
-    drift, uncertainty = history.drift or 0.0, history.uncertainty or 1.0
-    digit = float(f"{abs(drift) / uncertainty:.1g}")
+    drift = history.drift or 0.0
+    uncertainty = history.uncertainty or 1.0
+    times = abs(drift) / uncertainty
+    digit = float(f"{times:.1g}")
     return f"{digit:g}"
 
 
@@ -260,7 +272,9 @@ def _symplectic(report: Report, paint: Paint) -> list[str]:
         ending = ", exactly" if stability.is_symplectic else ""
         texts.append(f"det R(h) − 1 = {_determinant(stability)}{ending}")
     texts += _measured(found)
-    return [f"  symplectic       {word}", *indented(texts, _HANGING)]
+    lines = [f"  symplectic       {word}"]
+    lines += indented(texts, _HANGING)
+    return lines
 
 
 def _measured(found: Symplecticity) -> list[str]:
@@ -271,10 +285,12 @@ def _measured(found: Symplecticity) -> list[str]:
         good_to = power_of_ten(largest.error)
         size = f"MᵀJM − J has entries up to {largest.size:.3e}, good to {good_to:.0e},"
     else:
-        bound = power_of_ten(max(x.error for x in found.defects))
+        largest_error = max(x.error for x in found.defects)
+        bound = power_of_ten(largest_error)
         size = f"MᵀJM − J is below {bound:.0e}, what it is measured to,"
     times = ", ".join(str(x.time) for x in found.defects)
-    return [size, *_wrapped(f"at t = {times}", 59)]
+    where = _wrapped(f"at t = {times}", 59)
+    return [size, *where]
 
 
 def _wrapped(text: str, width: int = 76) -> list[str]:

@@ -49,11 +49,13 @@ def scientific(ball: Any, digits: int = 3) -> str:
     digits = min(digits, certain_digits(ball))
     middle = ball.mid()
     exponent = floor(decades_of(middle))
-    scaled = middle / arb(10) ** exponent
-    mantissa = f"{float(scaled):.{digits - 1}f}"
+    power = arb(10) ** exponent
+    scaled = float(middle / power)
+    decimals = digits - 1
+    mantissa = f"{scaled:.{decimals}f}"
     if float(mantissa) >= 10:
         exponent += 1
-        mantissa = f"{1:.{digits - 1}f}"
+        mantissa = f"{1:.{decimals}f}"
     return f"{mantissa}e{exponent}"
 
 
@@ -74,7 +76,8 @@ def bound(ball: Any) -> int:
 def certain_digits(ball: Any) -> int:
     """How many digits of a number its ball leaves no doubt about; at least one."""
     bits = min(arb(ball).rel_accuracy_bits(), 10**6)
-    return min(max(floor(bits * _DIGITS_PER_BIT), 1), _ALL)
+    digits = floor(bits * _DIGITS_PER_BIT)
+    return min(max(digits, 1), _ALL)
 
 
 def measured(value: float, good_to: float, most: int = 5) -> str:
@@ -85,6 +88,8 @@ def measured(value: float, good_to: float, most: int = 5) -> str:
     """
     if abs(value) <= good_to:
         return "below round-off"
-    above = log10(abs(value) / good_to) if good_to else most
-    digits = min(most, max(1, floor(above) + 1))
+    digits = most
+    if good_to:
+        above = log10(abs(value) / good_to)
+        digits = min(most, max(1, floor(above) + 1))
     return f"{value:.{digits - 1}e}"

@@ -23,7 +23,9 @@ class Paint:
 
     def __call__(self, style: str, text: str) -> str:
         """``text`` in one of the styles good, bad, strong, faint, note."""
-        return f"\x1b[{_CODES[style]}m{text}\x1b[0m" if self.color and text else text
+        if not self.color or not text:
+            return text
+        return _in_code(_CODES[style], text)
 
     def dots(self, line: str) -> str:
         """A line of a drawn tree, its dots in the colours of their numbers."""
@@ -39,7 +41,12 @@ class Paint:
 def _coloured_dot(dot: re.Match[str]) -> str:
     number = int(dot[1])
     code = _DOTS[(number - 1) % len(_DOTS)]
-    return f"\x1b[{code}m{dot[0]}\x1b[0m"
+    return _in_code(str(code), dot[0])
+
+
+def _in_code(code: str, text: str) -> str:
+    """A text between the sequence that starts a style and the one that ends it."""
+    return f"\x1b[{code}m{text}\x1b[0m"
 
 
 def counted(count: int, noun: str) -> str:
@@ -48,7 +55,9 @@ def counted(count: int, noun: str) -> str:
     >>> counted(1, "file"), counted(2, "file")
     ('1 file', '2 files')
     """
-    return f"{count} {noun}" if count == 1 else f"{count} {noun}s"
+    if count != 1:
+        noun += "s"
+    return f"{count} {noun}"
 
 
 def indented(lines: Iterable[str], indent: str = "  ") -> list[str]:

@@ -40,9 +40,11 @@ def written_out(text: str, format: str = "text", coloured: bool = False) -> str:
 def _written_out(text: str, format: str) -> str:
     if text.replace("\n", "").isprintable():
         return text
-    return "".join(
-        x if x == "\n" or x.isprintable() else escaped(x, format) for x in text
-    )
+    signs = []
+    for sign in text:
+        is_harmless = sign == "\n" or sign.isprintable()
+        signs.append(sign if is_harmless else escaped(sign, format))
+    return "".join(signs)
 
 
 def escaped(sign: str, format: str = "text") -> str:
@@ -53,14 +55,17 @@ def escaped(sign: str, format: str = "text") -> str:
     """
     if format in JSON:
         units = sign.encode("utf-16-be", "surrogatepass")
-        pairs = range(0, len(units), 2)
-        return "".join(f"\\u{units[i : i + 2].hex()}" for i in pairs)
+        starts = range(0, len(units), 2)
+        pairs = [units[i : i + 2] for i in starts]
+        return "".join(f"\\u{pair.hex()}" for pair in pairs)
     is_half = "\ud800" <= sign <= "\udfff"
     if format in XML and not sign.isascii() and not is_half:
         return f"&#{ord(sign)};"
     if format in YAML:
         return f"\\U{ord(sign):08x}"
-    return repr(sign)[1:-1] if not sign.isprintable() else f"\\x{ord(sign):02x}"
+    if sign.isprintable():
+        return f"\\x{ord(sign):02x}"
+    return repr(sign)[1:-1]
 
 
 def without_commands(text: str, format: str = "text") -> str:
@@ -73,5 +78,6 @@ def without_commands(text: str, format: str = "text") -> str:
     {"name": "#\u0023[group]"}
     """
     if format in JSON:  # where strings have no lines of their own
-        return text.replace("##[", f"#{escaped('#', format)}[")
+        hash_sign = escaped("#", format)
+        return text.replace("##[", f"#{hash_sign}[")
     return inert(text)

@@ -73,7 +73,8 @@ def render_class_counts(subject: Subject, format: str, paint: Paint) -> Iterator
     if format in {"json", "ndjson"}:
         head = _head(subject)
         if len(subject.orders) > 1:
-            head["by_order"] = {str(n): few for n, few, _ in subject.counts}
+            by_order = {str(n): few for n, few, _ in subject.counts}
+            head["by_order"] = by_order
         indent = None if format == "ndjson" else 2
         yield to_json(head, indent=indent, ascii_only=True) + "\n"
         return
@@ -86,7 +87,8 @@ def render_class_counts(subject: Subject, format: str, paint: Paint) -> Iterator
             yield f"{n} & {few} & {many} \\\\\n"
     else:
         for n, few, many in subject.counts:
-            yield f"order {n}: {paint('strong', str(few))} instead of {many}\n"
+            count = paint("strong", str(few))
+            yield f"order {n}: {count} instead of {many}\n"
         yield from summary_lines(subject)
 
 
@@ -119,8 +121,11 @@ def member_lines(members: Iterable[str], width: int = WIDTH) -> list[str]:
     """Trees of a class below its representative."""
     lines: list[str] = []
     for tree in members:
-        if lines and len(lines[-1]) + 2 + len(tree) <= width:
-            lines[-1] += f"  {tree}"
+        longer = ""
+        if lines:
+            longer = f"{lines[-1]}  {tree}"
+        if longer and len(longer) <= width:
+            lines[-1] = longer
         else:
             lines.append(f"      {tree}")
     return lines

@@ -54,13 +54,17 @@ class Subject:
     def counts(self) -> tuple[tuple[int, int, int], ...]:
         """For each order the independent conditions and all conditions."""
         admissible = self._admissible
+        lacks_blocks = admissible != self.structure.admissible
         every = counts_upto(admissible, self.orders[-1])
-        if admissible == self.structure.admissible:
-            independent = [count_classes(self.structure, n) for n in self.orders]
-        else:  # a tableau that lacks blocks
-            independent = [sum(1 for _ in self._of_order(n)) for n in self.orders]
-        totals = [sum(every[n - 1]) for n in self.orders]
-        return tuple(zip(self.orders, independent, totals, strict=True))
+        found = []
+        for n in self.orders:
+            if lacks_blocks:
+                independent = sum(1 for _ in self._of_order(n))
+            else:
+                independent = count_classes(self.structure, n)
+            total = sum(every[n - 1])
+            found.append((n, independent, total))
+        return tuple(found)
 
     @property
     def _admissible(self) -> Admissible:
@@ -108,7 +112,8 @@ class Subject:
         """What the numbers of the colours mean; empty where there is one colour."""
         if not self.has_colours:
             return ""
-        pairs = [f"{l} {name}" for l, name in enumerate(self.names, 1)]
+        numbered = enumerate(self.names, start=1)
+        pairs = [f"{l} {name}" for l, name in numbered]
         return f"colours: {', '.join(pairs)}"
 
     @property

@@ -9,7 +9,7 @@ from typing import NamedTuple, TypeAlias
 
 from garkcli.report.json_text import to_json
 from garkcli.report.latex import fragment
-from garkcli.report.paint import Paint, folded
+from garkcli.report.paint import Paint, counted, folded
 from garkcli.trees.drawing import draw_text, tikz
 from garkcli.trees.notation import format_latex, parse_tree
 from garkcli.trees.tree import Tree
@@ -76,13 +76,12 @@ def render_counts(
     if format in {"json", "ndjson"}:
         head = _head(query, counts)
         if query.upto:
-            head["by_order"] = {
-                str(n): sum(kept(query, by_root)) for n, by_root in counts
-            }
-        yield (
-            to_json(head, indent=None if format == "ndjson" else 2, ascii_only=True)
-            + "\n"
-        )
+            by_order = {}
+            for n, by_root in counts:
+                by_order[str(n)] = sum(kept(query, by_root))
+            head["by_order"] = by_order
+        indent = None if format == "ndjson" else 2
+        yield to_json(head, indent=indent, ascii_only=True) + "\n"
         return
     if format == "csv":
         yield "order,root,count\n"
@@ -97,14 +96,13 @@ def render_counts(
             continue
         yield f"order {n}: {paint('strong', total)}\n"
         if query.colours > 1:
-            yield from (
-                f"  root colour {root}: {count}\n"
-                for root, count in _roots(query, by_root)
-            )
+            for root, count in _roots(query, by_root):
+                yield f"  root colour {root}: {count}\n"
 
 
 def _roots(query: Query, by_root: Sequence[int]) -> list[tuple[int, int]]:
-    return [(l, k) for l, k in enumerate(by_root, start=1) if query.root in {None, l}]
+    numbered = enumerate(by_root, start=1)
+    return [(l, count) for l, count in numbered if query.root in {None, l}]
 
 
 def kept(query: Query, by_root: Sequence[int]) -> list[int]:
@@ -116,7 +114,9 @@ def _head(query: Query, counts: Counts) -> dict[str, object]:
     by_root: dict[str, int] = {}
     for _, row in counts:
         for root, count in _roots(query, row):
-            by_root[str(root)] = by_root.get(str(root), 0) + count
+            key = str(root)
+            by_root.setdefault(key, 0)
+            by_root[key] += count
     return {
         "schema": "gark/trees/1",
         "colours": query.colours,
@@ -147,20 +147,19 @@ def _json(
     yield head[:-1] + ', "trees": ['
     separator = "\n"
     for row in rows:
-        yield f"{separator}{to_json(_data(row), indent=None, ascii_only=True)}"
+        line = to_json(_data(row), indent=None, ascii_only=True)
+        yield separator + line
         separator = ",\n"
     yield "\n]}\n"
 
 
 def _counted(query: Query, rows: Sequence[TreeRow]) -> Counts:
-    found = {n: [0] * query.colours for n in range(1, query.order + 1)}
+    first = 1 if query.upto else query.order
+    orders = range(first, query.order + 1)
+    found = {n: [0] * query.colours for n in orders}
     for row in rows:
         found[row.order][row.root] += 1
-    return [
-        (n, tuple(by_root))
-        for n, by_root in found.items()
-        if query.upto or n == query.order
-    ]
+    return [(n, tuple(by_root)) for n, by_root in found.items()]
 
 
 def _text(
@@ -168,29 +167,33 @@ def _text(
 ) -> Iterator[str]:
     many = query.colours > 1
     for (n, root), group in groupby(rows, key=lambda row: (row.order, row.root)):
-        heading = f"order {n}" + (f", root colour {root + 1}" if many else "")
+        heading = f"order {n}"
+        if many:
+            heading += f", root colour {root + 1}"
         yield paint("strong", heading) + "\n"
         for row in group:
             yield from map(paint.dots, _entry(row, many))
     if counts is not None:
-        total = sum(sum(kept(query, by_root)) for _, by_root in counts)
-        yield f"{total} tree{'s' * (total != 1)}\n"
+        total = 0
+        for _, by_root in counts:
+            total += sum(kept(query, by_root))
+        yield counted(total, "tree") + "\n"
 
 
 def _entry(row: TreeRow, many: bool) -> Iterator[str]:
     text = f"  {row.tree:<28} σ = {row.sigma:<4} γ = {row.gamma}"
     if row.order > DRAWN_ORDER:
-        fits = len(text.rstrip()) <= WIDTH
-        sizes = text[len(row.tree) + 2 :]
-        lines = (
-            [text]
-            if fits
-            else [*folded(f"  {row.tree}", WIDTH, "    "), f"     {sizes}"]
-        )
-        yield from (f"{line.rstrip()}\n" for line in lines)
+        lines = [text]
+        if len(text.rstrip()) > WIDTH:
+            sizes = text[len(row.tree) + 2 :]
+            lines = folded(f"  {row.tree}", WIDTH, "    ")
+            lines.append(f"     {sizes}")
+        for line in lines:
+            yield line.rstrip() + "\n"
         return
     first, *rest = draw_text(parse_tree(row.tree), many)
-    yield f"{text:<{DRAWING}}{first}".rstrip() + "\n"
+    line = f"{text:<{DRAWING}}{first}"
+    yield line.rstrip() + "\n"
     for line in rest:
         yield f"{'':<{DRAWING}}{line}\n"
 
@@ -200,8 +203,10 @@ def _latex(rows: Iterable[TreeRow], many: bool) -> Iterator[str]:
     yield "  & $u$ & $\\rho(u)$ & $\\sigma(u)$ & $\\gamma(u)$ \\\\ \\hline\n"
     for row in rows:
         tree = parse_tree(row.tree)
+        formula = format_latex(tree, many)
         sizes = f"{row.order} & {row.sigma} & {row.gamma}"
-        yield f"  {picture(tree)} &\n  ${format_latex(tree, many)}$ & {sizes} \\\\\n"
+        yield f"  {picture(tree)} &\n"
+        yield f"  ${formula}$ & {sizes} \\\\\n"
     yield "  \\hline\n\\end{longtable}\n"
 
 
