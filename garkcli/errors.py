@@ -32,7 +32,9 @@ class GarkError(Exception):
         self.help = help
 
     def __str__(self) -> str:
-        return f"{self.message}; {self.help}" if self.help else self.message
+        if not self.help:
+            return self.message
+        return f"{self.message}; {self.help}"
 
 
 class ExpressionError(GarkError):
@@ -123,8 +125,11 @@ def did_you_mean(word: str, known: Iterable[str]) -> str:
         return f"did you mean {' or '.join(map(repr, begun[:WORDS_SHOWN]))}?"
     if not known:
         return ""
-    more = f", … ({len(known)} in all)" if len(known) > WORDS_SHOWN else ""
-    return f"one of: {', '.join(known[:WORDS_SHOWN])}{more}"
+    shown = ", ".join(known[:WORDS_SHOWN])
+    more = ""
+    if len(known) > WORDS_SHOWN:
+        more = f", … ({len(known)} in all)"
+    return f"one of: {shown}{more}"
 
 
 def nearest(word: str, known: Iterable[str]) -> str:
@@ -188,7 +193,10 @@ def counted(count: int, noun: str, plural: str = "") -> str:
     >>> counted(1, "entry", "entries"), counted(2, "stage")
     ('1 entry', '2 stages')
     """
-    return f"{count} {noun if count == 1 else plural or noun + 's'}"
+    if count == 1:
+        return f"{count} {noun}"
+    several = plural or noun + "s"
+    return f"{count} {several}"
 
 
 class MethodFileError(GarkError):
@@ -212,7 +220,8 @@ class MethodFileError(GarkError):
                 place += f":{fault.line}:{fault.column}"
             parts.append(f"{place}: {fault.message}")
             if 0 < fault.line <= len(lines):
-                parts += excerpt(lines[fault.line - 1], fault.line, fault.column)
+                line = lines[fault.line - 1]
+                parts += excerpt(line, fault.line, fault.column)
             if fault.help:
                 parts.append(f"      help: {fault.help}")
         return "\n".join(parts)
@@ -229,7 +238,10 @@ def excerpt(text: str, line: int, column: int, caret: str = "^") -> list[str]:
         3 | b: [0.5, O.5]
           |          ^
     """
-    start = max(0, min(column - 1 - EXCERPT_WIDTH // 2, len(text) - EXCERPT_WIDTH))
-    shown = text[start : start + EXCERPT_WIDTH].replace("\t", " ")
+    centred = column - 1 - EXCERPT_WIDTH // 2
+    last = len(text) - EXCERPT_WIDTH
+    start = max(0, min(centred, last))
+    part = text[start : start + EXCERPT_WIDTH]
+    shown = part.replace("\t", " ")
     before = printable(shown[: column - 1 - start])
     return [f"{line:5} | {printable(shown)}", f"      | {' ' * len(before)}{caret}"]

@@ -51,14 +51,17 @@ def number_text(x: Any, where: str, is_rounded: bool) -> str:
     package = kind.__module__.partition(".")[0]
     if package == "sympy":
         return _sympy_text(x, where)
-    raise MethodError(f"{where}: {_shown(x)} is no exact real number", _CURE)
+    message = f"{where}: {_shown(x)} is no exact real number"
+    raise MethodError(message, _CURE)
 
 
 _CURE = "give an int, a Fraction, a float, or its text, such as '1/2 - sqrt(3)/6'"
 
 
 def _fraction_text(p: int, q: int) -> str:
-    return str(p) if q == 1 else f"{p}/{q}"
+    if q == 1:
+        return str(p)
+    return f"{p}/{q}"
 
 
 def _shown(x: Any) -> str:
@@ -126,14 +129,16 @@ def _unreadable(x: Any, where: str) -> MethodError:
     """Why a SymPy expression is no coefficient."""
     if getattr(x, "is_Float", False):
         cure = "give it exactly, as a Rational or a text"
-        return MethodError(f"{where}: {_shown(x)} is a rounded number", cure)
+        message = f"{where}: {_shown(x)} is a rounded number"
+        return MethodError(message, cure)
     message = f"{where}: {_shown(x)} is made of more than rationals and real roots"
     return MethodError(message, _CURE)
 
 
 def _sympy_power(x: Any, where: str) -> str:
     """A rational power of SymPy, in parentheses where it is more than a root."""
-    p, q = int(x.exp.p), int(x.exp.q)
+    p = int(x.exp.p)
+    q = int(x.exp.q)
     if q == 1:
         base = _sympy_text(x.base, where, is_part=True)
         return f"({base}**{p})"
@@ -145,7 +150,9 @@ def _sympy_power(x: Any, where: str) -> str:
     root = f"root({inner}, {q})"
     if q in _ROOTS:
         root = f"{_ROOTS[q]}({inner})"
-    return root if p == 1 else f"({root}**{p})"
+    if p == 1:
+        return root
+    return f"({root}**{p})"
 
 
 _ROOTS = {2: "sqrt", 3: "cbrt"}

@@ -44,7 +44,9 @@ class Interval:
 
 def sign_of(p: Polynomial, point: Point) -> int:
     """The sign of p at a point, decided exactly."""
-    return sign_at(p, point) if isinstance(point, RealRoot) else sign(p(point))
+    if isinstance(point, RealRoot):
+        return sign_at(p, point)
+    return sign(p(point))
 
 
 def where(
@@ -117,8 +119,11 @@ def between(left: RealRoot | None, right: RealRoot | None) -> fmpq:
         return fmpq(0)
     bits = FIRST_BITS
     while True:
-        low = None if left is None else _upper(left.ball(bits))
-        high = None if right is None else _lower(right.ball(bits))
+        low = high = None
+        if left is not None:
+            low = _upper(left.ball(bits))
+        if right is not None:
+            high = _lower(right.ball(bits))
         if low is None:
             assert high is not None
             return high.floor() - fmpq(1)
@@ -148,4 +153,5 @@ def _simplest(low: fmpq, high: fmpq) -> fmpq:
     if low == whole:
         denominator = (1 / rest).floor() + 1
         return whole + fmpq(1) / denominator
-    return whole + 1 / _simplest(1 / rest, 1 / (low - whole))
+    farther = 1 / (low - whole)
+    return whole + 1 / _simplest(1 / rest, farther)

@@ -31,7 +31,8 @@ def reciprocal_characteristic(W: Matrix) -> Polynomial:
     result = Polynomial([1])
     for component in components(neighbours):
         rows = [W[i] for i in component]
-        block = tuple(tuple(row[j] for j in component) for row in rows)
+        entries = [tuple(row[j] for j in component) for row in rows]
+        block = tuple(entries)
         result = result * _dense(block)
     return result
 
@@ -64,6 +65,7 @@ def _from_traces(traces: Sequence[Number]) -> list[Number]:
     for k in range(1, len(traces) + 1):
         total: Number = ZERO
         for j in range(1, k + 1):
-            total = total + traces[j - 1] * coefficients[k - j]
+            trace = traces[j - 1]
+            total = total + trace * coefficients[k - j]
         coefficients.append(total * fmpq(-1, k))
     return coefficients

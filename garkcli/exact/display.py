@@ -100,7 +100,8 @@ def plain_decimal(number: fmpq) -> str:
     sign = "-" if number < 0 else ""
     digits = str(shifted.p).rjust(places + 1, "0")
     point = len(digits) - places
-    whole, fraction = digits[:point], digits[point:]
+    whole = digits[:point]
+    fraction = digits[point:]
     if not fraction:
         return sign + whole
     return f"{sign}{whole}.{fraction}"

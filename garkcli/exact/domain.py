@@ -200,7 +200,9 @@ class Domain:
             value = self.evaluate(expression)
         finally:
             self._values = outer
-        return value.poly if isinstance(value, Algebraic) else fmpq_poly([value])
+        if isinstance(value, Algebraic):
+            return value.poly
+        return fmpq_poly([value])
 
 
 def _enclosures(roots: tuple[Root, ...]) -> list[arb]:
@@ -263,7 +265,8 @@ def _apply(sign: str, left: Number, right: Number, at: Expression) -> Number:
 
 def _bits(number: Number) -> int:
     if isinstance(number, Algebraic):
-        return max(int(x.height_bits()) for x in number.poly.coeffs())
+        bits = [int(x.height_bits()) for x in number.poly.coeffs()]
+        return max(bits)
     return int(number.height_bits())
 
 
@@ -279,6 +282,7 @@ def _too_long(at: Expression) -> LimitExceeded:
 
 
 def _square_root(number: fmpq) -> fmpq | None:
-    p, q = number.p.isqrt(), number.q.isqrt()
-    is_square = p * p == number.p and q * q == number.q
+    p = number.p.isqrt()
+    q = number.q.isqrt()
+    is_square = fmpq(p, q) ** 2 == number
     return fmpq(p, q) if is_square else None

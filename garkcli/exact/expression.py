@@ -105,7 +105,8 @@ class Parser:
             match = _TOKEN.match(self.text, position)
             if match is None:
                 rest = self.text[position:]
-                offset = position + len(rest) - len(rest.lstrip(" \t\r\n"))
+                unread = rest.lstrip(" \t\r\n")
+                offset = position + len(rest) - len(unread)
                 sign = self.text[offset]
                 cure = _SIGN_CURES.get(sign, self.cure)
                 message = f"the sign {sign!r} has no place in a {self.value_noun}"
@@ -122,11 +123,12 @@ class Parser:
         return value
 
     def _fail(self, message: str, cure: str = "") -> NoReturn:
-        raise ExpressionError(message, cure, self.start, max(self.end, self.start + 1))
+        end = max(self.end, self.start + 1)
+        raise ExpressionError(message, cure, self.start, end)
 
     def _expect(self, sign: str, opened: int) -> None:
         if self.value != sign:
-            found = repr(self.value) if self.kind != "end" else "the end"
+            found = "the end" if self.kind == "end" else repr(self.value)
             self._fail(
                 f"{sign!r} expected, {found} found",
                 f"the parenthesis at column {opened + 1} is open",
@@ -276,7 +278,8 @@ def read_decimal(text: str, start: int = 0) -> fmpq:
     if exponent:
         # An exponent of eight signs is beyond the limit and not read.
         shift = int(exponent) if len(exponent) < 8 else MAX_DIGITS + 1
-    if len(whole) + len(fraction) + abs(shift) > MAX_DIGITS:
+    digits = len(whole) + len(fraction)
+    if digits + abs(shift) > MAX_DIGITS:
         message = f"a number of more than {MAX_DIGITS} digits"
         raise LimitExceeded(message, "write fewer digits", start, start + len(text))
     digits = int(whole + fraction)

@@ -41,7 +41,9 @@ class NumberField:
     def element(self, poly: fmpq_poly) -> Number:
         """The class of ``poly`` modulo the minimal polynomial; a plain rational where it is one."""
         poly %= self.modulus
-        return poly[0] if poly.degree() < 1 else Algebraic(self, poly)
+        if poly.degree() < 1:
+            return poly[0]
+        return Algebraic(self, poly)
 
     def from_coordinates(self, coordinates: Sequence[fmpq]) -> Number:
         """The element Σ coordinates[k] θ^k."""
@@ -65,15 +67,19 @@ class NumberField:
         while level:
             words = list(level)
             candidates = [self._column(level[word]) for word in words]
-            pivots = pivot_columns(fmpq_mat([*columns, *candidates]).transpose())
+            rows = fmpq_mat([*columns, *candidates])
+            pivots = pivot_columns(rows.transpose())
             known = len(columns)
             new = [j - known for j in pivots if j >= known]
-            chosen += [words[j] for j in new]
+            new_words = [words[j] for j in new]
+            chosen += new_words
             columns += [candidates[j] for j in new]
             if len(columns) == self.degree:
                 break
-            level = self._extended({words[j]: level[words[j]] for j in new})
-        return tuple(chosen), fmpq_mat(columns).transpose().inv()
+            kept = {word: level[word] for word in new_words}
+            level = self._extended(kept)
+        basis = fmpq_mat(columns).transpose()
+        return tuple(chosen), basis.inv()
 
     def _extended(self, level: Mapping[Word, fmpq_poly]) -> dict[Word, fmpq_poly]:
         """The products with one factor more; the indices of a word do not descend."""
@@ -82,7 +88,8 @@ class NumberField:
             last = word[-1] if word else 0
             for index in range(last, len(self.radicals)):
                 _, radical = self.radicals[index]
-                extended[(*word, index)] = product * radical % self.modulus
+                longer = (*word, index)
+                extended[longer] = product * radical % self.modulus
         return extended
 
     def _column(self, poly: fmpq_poly) -> list[fmpq]:
@@ -97,7 +104,8 @@ class NumberField:
     def in_radicals(self, number: Algebraic) -> list[fmpq]:
         """The coordinates of ``number`` in the basis ``monomials``."""
         _, inverse = self._basis
-        column = fmpq_mat(self.degree, 1, self._column(number.poly))
+        entries = self._column(number.poly)
+        column = fmpq_mat(self.degree, 1, entries)
         return (inverse * column).entries()
 
 
@@ -121,13 +129,17 @@ class Algebraic:
 
     def __add__(self, other: object) -> Number:
         poly = self._poly_of(other)
-        return NotImplemented if poly is None else self.field.element(self.poly + poly)
+        if poly is None:
+            return NotImplemented
+        return self.field.element(self.poly + poly)
 
     __radd__ = __add__
 
     def __sub__(self, other: object) -> Number:
         poly = self._poly_of(other)
-        return NotImplemented if poly is None else self.field.element(self.poly - poly)
+        if poly is None:
+            return NotImplemented
+        return self.field.element(self.poly - poly)
 
     def __rsub__(self, other: object) -> Number:
         return -(self - other)
@@ -137,7 +149,9 @@ class Algebraic:
 
     def __mul__(self, other: object) -> Number:
         poly = self._poly_of(other)
-        return NotImplemented if poly is None else self.field.element(self.poly * poly)
+        if poly is None:
+            return NotImplemented
+        return self.field.element(self.poly * poly)
 
     __rmul__ = __mul__
 
@@ -158,8 +172,11 @@ class Algebraic:
 
     def __pow__(self, exponent: int) -> Number:
         result: Number = ONE
-        base: Number = self if exponent >= 0 else self.inverse()
-        for bit in bin(abs(exponent))[2:]:
+        base: Number = self
+        if exponent < 0:
+            base = self.inverse()
+        bits = f"{abs(exponent):b}"
+        for bit in bits:
             result = result * result
             if bit == "1":
                 result = result * base
@@ -175,14 +192,16 @@ class Algebraic:
 
     def __hash__(self) -> int:
         # of integers: flint hashes fractions by Python's, a slow import
-        return hash((tuple(self.poly.numer()), self.poly.denom()))
+        numerators = tuple(self.poly.numer())
+        return hash((numerators, self.poly.denom()))
 
     def terms(self) -> Iterator[tuple[fmpq, Word]]:
         """The number as a sum of radicals: each coefficient with its word, see
         ``NumberField.monomials``.
         """
         coefficients = self.field.in_radicals(self)
-        for coefficient, word in zip(coefficients, self.field.monomials, strict=True):
+        words = self.field.monomials
+        for coefficient, word in zip(coefficients, words, strict=True):
             if coefficient:
                 yield coefficient, word
 
@@ -198,13 +217,18 @@ class Algebraic:
     def _term(self, coefficient: fmpq, word: Word) -> str:
         """A multiple of a product of radicals, without its sign: ``4*sqrt(3)/27``."""
         factors = []
-        for radical, power in self.field.powers(word):
-            factors.append(f"{radical}**{power}" if power > 1 else radical)
-        numerator, denominator = abs(coefficient.p), coefficient.q
+        for factor, power in self.field.powers(word):
+            if power > 1:
+                factor += f"**{power}"
+            factors.append(factor)
+        numerator = abs(coefficient.p)
+        denominator = coefficient.q
         if numerator != 1 or not factors:
             factors.insert(0, str(numerator))
         product = "*".join(factors)
-        return product if denominator == 1 else f"{product}/{denominator}"
+        if denominator == 1:
+            return product
+        return f"{product}/{denominator}"
 
 
 Number: TypeAlias = fmpq | Algebraic
@@ -220,7 +244,8 @@ def coordinates(number: Number, degree: int) -> list[fmpq]:
 
 def sum_of_products(pairs: Sequence[tuple[Number, Number]]) -> Number:
     """Σ x y over pairs with an irrational number each; reduced once instead of once a pair."""
-    field = next(x.field for x in pairs[0] if isinstance(x, Algebraic))
+    irrational = (x for x in pairs[0] if isinstance(x, Algebraic))
+    field = next(irrational).field
     total = fmpq_poly()
     for x, y in pairs:
         total += _in_theta(x, field) * _in_theta(y, field)

@@ -25,6 +25,7 @@ from garkcli.exact.matrix import Matrix, Vector, to_flint
 
 _Parts: TypeAlias = list[tuple[int, fmpq_mat]]
 """Pairs (k, A_k)."""
+_Rational: TypeAlias = Sequence[fmpq]
 MIN_BITS_APART = 20_000
 """Bits of all denominators of a row from which on it is looked at how much they share."""
 
@@ -44,12 +45,14 @@ class LinearMap:
         self.field = field
         self._parts = _parts(rows, field)
         self._transposed = [(k, part.transpose()) for k, part in self._parts]
-        self._rows_apart = _rational_rows_apart(rows) if field is None else None
+        self._rows_apart: Sequence[_Rational] | None = None
+        if field is None:
+            self._rows_apart = _rational_rows_apart(rows)
 
     def images(self, vectors: Sequence[Vector]) -> list[Vector]:
         """A v for each of the vectors."""
         if self._rows_apart is not None:
-            rational = cast("Sequence[Sequence[fmpq]]", vectors)
+            rational = cast("Sequence[_Rational]", vectors)
             return [_image(self._rows_apart, v) for v in rational]
         return _products(vectors, self._transposed, self.field)
 
@@ -58,24 +61,28 @@ class LinearMap:
         return _products(functionals, self._parts, self.field)
 
 
-def _rational_rows_apart(rows: Matrix) -> Sequence[Sequence[fmpq]] | None:
+def _rational_rows_apart(rows: Matrix) -> Sequence[_Rational] | None:
     """The rows, where one of them is better summed as fractions; else None."""
-    rational = cast("Sequence[Sequence[fmpq]]", rows)
-    return rational if any(map(_has_denominators_apart, rational)) else None
+    rational = cast("Sequence[_Rational]", rows)
+    for row in rational:
+        if _has_denominators_apart(row):
+            return rational
+    return None
 
 
-def _has_denominators_apart(row: Sequence[fmpq]) -> bool:
+def _has_denominators_apart(row: _Rational) -> bool:
     denominators = [int(x.q) for x in row]
     bits = sum(q.bit_length() for q in denominators)
     if bits < MIN_BITS_APART:
         return False
     # Over one denominator the row is len(row) numbers of its length, as fractions it is as long as
     # all denominators together; summing these is Python's work, the other python-flint's.
-    bits_together = len(row) * lcm(*denominators).bit_length()
+    common = lcm(*denominators)
+    bits_together = len(row) * common.bit_length()
     return bits_together > 4 * bits
 
 
-def _image(rows: Sequence[Sequence[fmpq]], vector: Sequence[fmpq]) -> Vector:
+def _image(rows: Sequence[_Rational], vector: _Rational) -> Vector:
     image = []
     for row in rows:
         products = [a * x for a, x in zip(row, vector, strict=True)]
@@ -83,7 +90,7 @@ def _image(rows: Sequence[Sequence[fmpq]], vector: Sequence[fmpq]) -> Vector:
     return tuple(image)
 
 
-def _sum(terms: Sequence[fmpq]) -> fmpq:
+def _sum(terms: _Rational) -> fmpq:
     """Terms added in pairs, and pairs in pairs, as fractions that are reduced once, at the end.
 
     Sums of neighbours are of equal length, which is what fast multiplication needs; a reduction of
@@ -93,8 +100,12 @@ def _sum(terms: Sequence[fmpq]) -> fmpq:
     while len(fractions) > 1:
         if len(fractions) % 2:
             fractions.append((fmpz(0), fmpz(1)))
-        pairs = zip(fractions[::2], fractions[1::2], strict=True)
-        fractions = [(p * s + r * q, q * s) for (p, q), (r, s) in pairs]
+        left = fractions[::2]
+        right = fractions[1::2]
+        fractions = []
+        for (p, q), (r, s) in zip(left, right, strict=True):
+            numerator = p * s + r * q
+            fractions.append((numerator, q * s))
     numerator, denominator = fractions[0]
     return fmpq(numerator, denominator)
 
@@ -108,10 +119,11 @@ def _products(
     for j, left in _parts(rows, field):
         for k, right in parts:
             product = left * right
-            if j + k in powers:
-                powers[j + k] += product
+            power = j + k
+            if power in powers:
+                powers[power] += product
             else:
-                powers[j + k] = product
+                powers[power] = product
     if field is None or len(powers) == 1:  # θ⁰ is always among them
         return [tuple(row) for row in powers[0].tolist()]
     return _reduced(powers, field)
@@ -119,26 +131,36 @@ def _products(
 
 def _reduced(powers: Mapping[int, fmpq_mat], field: NumberField) -> list[Vector]:
     """The rows of Σ θⁿ P_n, entry by entry; ``powers`` has P_0, and others that are not zero."""
-    zeros = fmpq_mat(powers[0].nrows(), powers[0].ncols())
-    by_power = [powers.get(n, zeros).tolist() for n in range(max(powers) + 1)]
+    constant = powers[0]
+    zeros = fmpq_mat(constant.nrows(), constant.ncols())
+    by_power = []
+    for n in range(max(powers) + 1):
+        matrix = powers.get(n, zeros)
+        by_power.append(matrix.tolist())
     found = []
     for rows in zip(*by_power, strict=True):
-        entries = zip(*rows, strict=True)
-        row = [field.element(fmpq_poly(list(entry))) for entry in entries]
+        row = []
+        for entry in zip(*rows, strict=True):
+            poly = fmpq_poly(list(entry))
+            row.append(field.element(poly))
         found.append(tuple(row))
     return found
 
 
 def _parts(rows: Sequence[Vector], field: NumberField | None) -> _Parts:
     """The rational matrices of Σ θᵏ A_k, those that are zero left out, but for A_0."""
-    height, width = len(rows), len(rows[0])
+    height = len(rows)
+    width = len(rows[0])
     if field is None:
         return [(0, to_flint(rows, width))]
-    entries = [x.poly if isinstance(x, Algebraic) else x for row in rows for x in row]
+    entries: list[fmpq | fmpq_poly] = []
+    for row in rows:
+        entries += [x.poly if isinstance(x, Algebraic) else x for x in row]
     constants = [x[0] if isinstance(x, fmpq_poly) else x for x in entries]
     parts = [(0, fmpq_mat(height, width, constants))]
     for k in range(1, field.degree):
         coordinates = [x[k] if isinstance(x, fmpq_poly) else ZERO for x in entries]
         if any(coordinates):
-            parts.append((k, fmpq_mat(height, width, coordinates)))
+            part = fmpq_mat(height, width, coordinates)
+            parts.append((k, part))
     return parts

@@ -33,7 +33,9 @@ def from_flint(matrix: fmpq_mat) -> Matrix:
 
 def to_flint(rows: Sequence[Sequence[Number]], columns: int) -> fmpq_mat:
     """A rational matrix for python-flint; ``columns`` tells the width when there are no rows."""
-    entries = [x for row in rows for x in row]
+    entries: list[Number] = []
+    for row in rows:
+        entries += row
     return fmpq_mat(len(rows), columns, cast("list[fmpq]", entries))
 
 
@@ -56,8 +58,8 @@ def add(a: Matrix, b: Matrix) -> Matrix:
     """The sum a + b."""
     total = []
     for row, other in zip(a, b, strict=True):
-        pairs = zip(row, other, strict=True)
-        total.append(tuple(x + y for x, y in pairs))
+        entries = [x + y for x, y in zip(row, other, strict=True)]
+        total.append(tuple(entries))
     return tuple(total)
 
 
@@ -65,19 +67,27 @@ def subtract(a: Matrix, b: Matrix) -> Matrix:
     """The difference a − b."""
     difference = []
     for row, other in zip(a, b, strict=True):
-        pairs = zip(row, other, strict=True)
-        difference.append(tuple(x - y for x, y in pairs))
+        entries = [x - y for x, y in zip(row, other, strict=True)]
+        difference.append(tuple(entries))
     return tuple(difference)
 
 
 def scale(factor: Number, a: Matrix) -> Matrix:
     """The multiple factor · a."""
-    return tuple(tuple(factor * x for x in row) for row in a)
+    multiple = []
+    for row in a:
+        entries = [factor * x for x in row]
+        multiple.append(tuple(entries))
+    return tuple(multiple)
 
 
 def outer(u: Vector, v: Vector) -> Matrix:
     """The product u vᵀ, shape (len(u), len(v))."""
-    return tuple(tuple(x * y for y in v) for x in u)
+    product = []
+    for x in u:
+        entries = [x * y for y in v]
+        product.append(tuple(entries))
+    return tuple(product)
 
 
 def dot(u: Sequence[Number], v: Sequence[Number]) -> Number:
@@ -102,7 +112,8 @@ def apply(a: Matrix, v: Sequence[Number]) -> Vector:
 
 def apply_left(u: Sequence[Number], a: Matrix) -> Vector:
     """uᵀ A."""
-    return tuple(dot(u, column) for column in zip(*a, strict=True))
+    columns = zip(*a, strict=True)
+    return tuple(dot(u, column) for column in columns)
 
 
 def multiply(a: Matrix, b: Matrix) -> Matrix:
@@ -112,7 +123,11 @@ def multiply(a: Matrix, b: Matrix) -> Matrix:
         right = to_flint(b, len(b[0]))
         return from_flint(left * right)
     columns = transpose(b)
-    return tuple(tuple(dot(row, column) for column in columns) for row in a)
+    product = []
+    for row in a:
+        entries = [dot(row, column) for column in columns]
+        product.append(tuple(entries))
+    return tuple(product)
 
 
 def solve(a: Matrix, b: Matrix) -> Matrix:
@@ -131,7 +146,8 @@ def solve(a: Matrix, b: Matrix) -> Matrix:
             return from_flint(left.solve(right))
         except ZeroDivisionError:
             raise SingularMatrixError from None
-    return _eliminated([[*r, *s] for r, s in zip(a, b, strict=True)])
+    pairs = zip(a, b, strict=True)
+    return _eliminated([[*row, *right_side] for row, right_side in pairs])
 
 
 def _eliminated(rows: list[list[Number]]) -> Matrix:
@@ -142,9 +158,10 @@ def _eliminated(rows: list[list[Number]]) -> Matrix:
         chosen = next(candidates, None)
         if chosen is None:
             raise SingularMatrixError
-        rows[k], rows[chosen] = rows[chosen], rows[k]
-        inverse = ONE / rows[k][k]
-        pivot_row = [x * inverse if x else x for x in rows[k]]
+        row = rows[chosen]
+        rows[chosen] = rows[k]
+        inverse = ONE / row[k]
+        pivot_row = [x * inverse if x else x for x in row]
         rows[k] = pivot_row
         for i, row in enumerate(rows):
             factor = row[k]
@@ -152,4 +169,5 @@ def _eliminated(rows: list[list[Number]]) -> Matrix:
                 continue
             pairs = zip(row, pivot_row, strict=True)
             rows[i] = [x - factor * y if y else x for x, y in pairs]
-    return tuple(tuple(row[n:]) for row in rows)
+    solutions = [tuple(row[n:]) for row in rows]
+    return tuple(solutions)

@@ -28,7 +28,9 @@ def _matrix(matrix: fmpq_mat) -> Made:
 
 
 def _ball(ball: arb) -> Made:
-    return _ball_of, (_dyadic(ball.mid()), _dyadic(ball.rad()))
+    middle = _dyadic(ball.mid())
+    radius = _dyadic(ball.rad())
+    return _ball_of, (middle, radius)
 
 
 def _dyadic(exact: arb) -> Dyadic:

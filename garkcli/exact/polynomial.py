@@ -43,7 +43,9 @@ class Polynomial:
     @property
     def leading(self) -> Number:
         """The leading coefficient; 0 of the zero polynomial."""
-        return self.coefficients[-1] if self.coefficients else ZERO
+        if not self.coefficients:
+            return ZERO
+        return self.coefficients[-1]
 
     @property
     def field(self) -> NumberField | None:
@@ -60,19 +62,22 @@ class Polynomial:
 
     def to_flint(self) -> fmpq_poly:
         """The same polynomial for python-flint; its coefficients are rational."""
-        return fmpq_poly([a for a in self.coefficients if isinstance(a, fmpq)])
+        rational = [a for a in self.coefficients if isinstance(a, fmpq)]
+        return fmpq_poly(rational)
 
     def __bool__(self) -> bool:
         return bool(self.coefficients)
 
     def __eq__(self, other: object) -> bool:
-        return isinstance(other, Polynomial) and self.coefficients == other.coefficients
+        if not isinstance(other, Polynomial):
+            return False
+        return self.coefficients == other.coefficients
 
     def __hash__(self) -> int:
         return hash(self.coefficients)
 
     def __repr__(self) -> str:
-        coefficients = ", ".join(str(a) for a in self.coefficients)
+        coefficients = ", ".join(map(str, self.coefficients))
         return f"Polynomial([{coefficients}])"
 
     def __neg__(self) -> Polynomial:
@@ -80,8 +85,9 @@ class Polynomial:
 
     def __add__(self, other: Polynomial | Number | int) -> Polynomial:
         right = _as_polynomial(other)
-        n = max(len(self.coefficients), len(right.coefficients))
-        return Polynomial([self[k] + right[k] for k in range(n)])
+        degree = max(self.degree, right.degree)
+        coefficients = [self[k] + right[k] for k in range(degree + 1)]
+        return Polynomial(coefficients)
 
     def __sub__(self, other: Polynomial | Number | int) -> Polynomial:
         return self + -_as_polynomial(other)
@@ -89,12 +95,13 @@ class Polynomial:
     def __mul__(self, other: Polynomial | Number | int) -> Polynomial:
         right = _as_polynomial(other)
         if self.is_rational and right.is_rational:
-            return Polynomial.from_flint(self.to_flint() * right.to_flint())
+            in_flint = self.to_flint() * right.to_flint()
+            return Polynomial.from_flint(in_flint)
         length = len(self.coefficients) + len(right.coefficients)
         product: list[Number] = [ZERO] * length
         for i, a in enumerate(self.coefficients):
-            for j, b in enumerate(right.coefficients):
-                product[i + j] = product[i + j] + a * b
+            for k, b in enumerate(right.coefficients, start=i):
+                product[k] = product[k] + a * b
         return Polynomial(product)
 
     def __pow__(self, exponent: int) -> Polynomial:
@@ -105,7 +112,9 @@ class Polynomial:
 
     def __getitem__(self, k: int) -> Number:
         """The coefficient of x^k, zero beyond the degree."""
-        return self.coefficients[k] if k < len(self.coefficients) else ZERO
+        if k >= len(self.coefficients):
+            return ZERO
+        return self.coefficients[k]
 
     def __divmod__(self, divisor: Polynomial) -> tuple[Polynomial, Polynomial]:
         """Quotient and remainder.
@@ -116,8 +125,9 @@ class Polynomial:
         if not divisor:
             raise ZeroDivisionError("division by the zero polynomial")
         if self.is_rational and divisor.is_rational:
-            quotient, remainder = divmod(self.to_flint(), divisor.to_flint())
-            return Polynomial.from_flint(quotient), Polynomial.from_flint(remainder)
+            in_flint = divmod(self.to_flint(), divisor.to_flint())
+            quotient, remainder = map(Polynomial.from_flint, in_flint)
+            return quotient, remainder
         inverse = ONE / divisor.leading
         rest = list(self.coefficients)
         length = max(self.degree - divisor.degree + 1, 0)
@@ -125,8 +135,8 @@ class Polynomial:
         for k in reversed(range(len(quotients))):
             factor = rest[k + divisor.degree] * inverse
             quotients[k] = factor
-            for j, b in enumerate(divisor.coefficients):
-                rest[k + j] = rest[k + j] - factor * b
+            for j, b in enumerate(divisor.coefficients, start=k):
+                rest[j] = rest[j] - factor * b
         return Polynomial(quotients), Polynomial(rest)
 
     def __floordiv__(self, divisor: Polynomial) -> Polynomial:
@@ -148,7 +158,8 @@ class Polynomial:
 
     def reversed(self, degree: int) -> Polynomial:
         """The polynomial x^degree p(1/x)."""
-        return Polynomial([self[degree - k] for k in range(degree + 1)])
+        coefficients = [self[k] for k in range(degree, -1, -1)]
+        return Polynomial(coefficients)
 
     def substituted(self, inner: Polynomial) -> Polynomial:
         """The composition p(inner(x)), by Horner's rule."""
@@ -187,13 +198,17 @@ class Polynomial:
         if field is None:
             return self.to_flint().numer()
         degree = field.degree * self.degree
-        points = [fmpq(k - degree // 2) for k in range(degree + 1)]
+        first = -(degree // 2)
+        points = [fmpq(first + k) for k in range(degree + 1)]
         values = [_norm_of(self(point), field) for point in points]
-        return interpolated(points, values).to_flint().numer()
+        norm = interpolated(points, values)
+        return norm.to_flint().numer()
 
 
 def _as_polynomial(value: Polynomial | Number | int) -> Polynomial:
-    return value if isinstance(value, Polynomial) else Polynomial([value])
+    if isinstance(value, Polynomial):
+        return value
+    return Polynomial([value])
 
 
 def _norm_of(number: Number, field: NumberField) -> fmpq:
@@ -221,7 +236,8 @@ def interpolated(points: Sequence[fmpq], values: Sequence[Number]) -> Polynomial
     for k in range(1, len(points)):
         for i in reversed(range(k, len(points))):
             distance = points[i] - points[i - k]
-            table[i] = (table[i] - table[i - 1]) / distance
+            difference = table[i] - table[i - 1]
+            table[i] = difference / distance
     result = Polynomial([])
     for point, difference in zip(reversed(points), reversed(table), strict=True):
         x_minus_point = Polynomial([-point, ONE])
@@ -255,7 +271,8 @@ def subresultant(a: Polynomial, b: Polynomial, k: int) -> Number:
             return ZERO
         if (a.degree - k) % 2 and (b.degree - k) % 2:
             result = -result
-        result = result * b.leading ** (a.degree - rest.degree)
+        drop = a.degree - rest.degree
+        result = result * b.leading**drop
         a, b = b, rest
     if b.degree < k:
         return ZERO

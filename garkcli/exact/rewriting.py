@@ -19,7 +19,8 @@ def size_of(expression: Expression, sizes: Mapping[str, int]) -> int:
     """
     if isinstance(expression, Name):
         return sizes.get(expression.name, 1)
-    return 1 + sum(size_of(x, sizes) for x in parts(expression))
+    of_parts = [size_of(x, sizes) for x in parts(expression)]
+    return 1 + sum(of_parts)
 
 
 def depth_of(expression: Expression, depths: Mapping[str, int]) -> int:
@@ -28,7 +29,8 @@ def depth_of(expression: Expression, depths: Mapping[str, int]) -> int:
     """
     if isinstance(expression, Name):
         return depths.get(expression.name, 1)
-    return 1 + max((depth_of(x, depths) for x in parts(expression)), default=0)
+    of_parts = [depth_of(x, depths) for x in parts(expression)]
+    return 1 + max(of_parts, default=0)
 
 
 def parts(expression: Expression) -> tuple[Expression, ...]:
@@ -110,7 +112,8 @@ def format_expression(expression: Expression, latex: bool = False) -> str:
     >>> format_expression(parse("1/2 - sqrt(3)/6"))
     '1/2-(sqrt(3)/6)'
     """
-    return _Latex().written(expression) if latex else _Text().written(expression)
+    writer = _Latex() if latex else _Text()
+    return writer.written(expression)
 
 
 class _Text:
@@ -185,7 +188,8 @@ class _Latex(_Text):
         if value.q == 1:
             return str(value)
         sign = "-" if value < 0 else ""
-        return f"{sign}\\frac{{{abs(value.p)}}}{{{value.q}}}"
+        numerator = abs(value.p)
+        return f"{sign}\\frac{{{numerator}}}{{{value.q}}}"
 
     def power(self, base: str, exponent: int) -> str:
         return f"{base}^{{{exponent}}}"

@@ -75,7 +75,8 @@ class RealRoot:
             return self.number < other.number
         bits = FIRST_BITS
         while True:
-            mine, theirs = self.ball(bits), other.ball(bits)
+            mine = self.ball(bits)
+            theirs = other.ball(bits)
             if mine < theirs or mine > theirs:
                 return bool(mine < theirs)
             bits *= 2

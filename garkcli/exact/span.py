@@ -64,5 +64,6 @@ class AffineSpan:
         if not self._pivots:
             return candidates
         rows = candidates.tolist()
-        along = fmpq_mat([[row[p] for p in self._pivots] for row in rows])
+        at_pivots = [[row[p] for p in self._pivots] for row in rows]
+        along = fmpq_mat(at_pivots)
         return candidates - along * self._echelon

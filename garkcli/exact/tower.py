@@ -54,7 +54,8 @@ class Tower:
             characteristic = fmpq_poly(generator.charpoly().coeffs())
             if characteristic.gcd(characteristic.derivative()).degree() == 0:
                 break
-        combination = (*(k * x for x in self.combination), 1)
+        multiples = [k * x for x in self.combination]
+        combination = (*multiples, 1)
         factor = _vanishing_factor(characteristic, combination, values)
         old_theta, y = _as_polynomials(generator, [multiply_theta, multiply_y])
         elements = tuple(f(old_theta) % factor for f in self.elements)
@@ -66,7 +67,8 @@ class Tower:
         """The matrices of multiplication by y and by θ, on the basis θ^i y^j, i running first."""
         d, n = self.degree, index
         size = d * n
-        y, theta = fmpq_mat(size, size), fmpq_mat(size, size)
+        y = fmpq_mat(size, size)
+        theta = fmpq_mat(size, size)
         for i in range(d):
             raised = _X ** (i + 1) % self.modulus  # θ · θ^i
             wrapped = _X**i * radicand % self.modulus  # y · θ^i y^(n−1) = a θ^i

@@ -53,7 +53,8 @@ def value_of(expression: Expression, names: Mapping[str, Value]) -> Value:
         case Name(name=name):
             return arb.pi() if name == "pi" else names[name]
         case Chain(signs=signs, operands=operands):
-            total: Value = fmpq(0 if signs[0] in "+-" else 1)
+            is_sum = signs[0] in "+-"
+            total: Value = fmpq(0) if is_sum else fmpq(1)
             for sign, operand in zip(signs, operands, strict=True):
                 right = value_of(operand, names)
                 total = _applied(sign, total, right, operand)
@@ -116,7 +117,9 @@ def _applied(sign: str, left: Value, right: Value, at: Expression) -> Value:
 
 
 def _check_divisor(number: Value, at: Expression) -> None:
-    may_be_zero = number.contains(0) if isinstance(number, arb) else not number
+    may_be_zero = not number
+    if isinstance(number, arb):
+        may_be_zero = number.contains(0)
     if not may_be_zero:
         return
     what = ""
@@ -126,7 +129,10 @@ def _check_divisor(number: Value, at: Expression) -> None:
 
 
 def _cut(text: str) -> str:
-    return text if len(text) <= 40 else f"{text[:39]}…"
+    if len(text) <= 40:
+        return text
+    start = text[:39]
+    return f"{start}…"
 
 
 def _power(base: Value, exponent: fmpq, at: Expression, of: Expression) -> Value:
@@ -153,9 +159,11 @@ def _root(radicand: Value, index: int, at: Expression, of: Expression) -> Value:
     is_odd = index % 2 == 1
     if isinstance(radicand, fmpq) and (is_odd or radicand >= 0):
         size = abs(radicand)
-        p, q = size.p.root(index), size.q.root(index)
-        if fmpq(p, q) ** index == size:
-            return fmpq(-p if radicand < 0 else p, q)
+        p = size.p.root(index)
+        q = size.q.root(index)
+        root = fmpq(p, q)
+        if root**index == size:
+            return -root if radicand < 0 else root
     x = arb(radicand)
     if is_odd and x < 0:
         return -((-x).root(index))
@@ -167,8 +175,9 @@ def _finite(
     result: arb, at: Expression, function: str, of: Expression, x: Value
 ) -> Value:
     if not result.is_finite():
-        inner = _cut(format_expression(of))
-        what = f"{inner} = {shown(x)}" if inner != str(x) else inner
+        what = _cut(format_expression(of))
+        if what != str(x):
+            what = f"{what} = {shown(x)}"
         message = f"{function} of {what} is no real number"
         raise UndefinedValue(message, "", at.start, at.end)
     return _bounded(result, at)
@@ -178,9 +187,12 @@ def _bounded(number: Value, at: Expression) -> Value:
     if isinstance(number, fmpq) and number.height_bits() > MAX_BITS:
         raise too_many_bits(at)
     size = abs(arb(number))
-    is_within = size < _MOST and (size > _LEAST or size.contains(0))
+    is_large_enough = size > _LEAST or size.contains(0)
+    is_within = size < _MOST and is_large_enough
     if not is_within:
-        bound = f"below 2^-{MAX_BITS}" if size < 1 else f"above 2^{FLOAT_BITS}"
+        bound = f"above 2^{FLOAT_BITS}"
+        if size < 1:
+            bound = f"below 2^-{MAX_BITS}"
         cure = "choose other units"
         raise LimitExceeded(f"a number {bound}", cure, at.start, at.end)
     return number

@@ -65,7 +65,9 @@ def conjugate(tableau: Tableau) -> Tableau:
     for l, colour in enumerate(tableau.colours):
         spaces.append(tableau.space(l))
         colours.append(replace(colour, space=l))
-    blocks = {(l, m): conjugate_of(tableau, l, m) for m, l in tableau.edges()}
+    blocks: dict[Edge, Matrix] = {}
+    for m, l in tableau.edges():
+        blocks[l, m] = conjugate_of(tableau, l, m)
     return Tableau(tuple(spaces), tuple(colours), blocks)
 
 
@@ -74,19 +76,23 @@ def conjugate_of(tableau: Tableau, l: int, m: int) -> Matrix:
     block = tableau.block(m, l)
     if block is None:
         raise KeyError((l, m))
-    here, other = tableau.colours[l], tableau.colours[m]
-    space, other_space = tableau.space(l), tableau.space(m)
+    here = tableau.colours[l]
+    other = tableau.colours[m]
+    space = tableau.space(l)
+    other_space = tableau.space(m)
     try:
         return conjugate_block(block, space, here.b, other_space, other.b)
     except ZeroWeight as error:
-        raise ZeroWeight(f"colour {here.name}: {error.message}", error.help) from None
+        message = f"colour {here.name}: {error.message}"
+        raise ZeroWeight(message, error.help) from None
 
 
 def _exchanged(tableau: Tableau) -> dict[Edge, Matrix]:
     """The blocks of positions made from those of momenta, and the other way round."""
     blocks: dict[Edge, Matrix] = {}
     for m, l in tableau.edges():
-        here, other = tableau.colours[l], tableau.colours[m]
+        here = tableau.colours[l]
+        other = tableau.colours[m]
         if are_opposite(here, other):
             blocks[here.space, m] = conjugate_of(tableau, l, m)
     return blocks
@@ -94,7 +100,8 @@ def _exchanged(tableau: Tableau) -> dict[Edge, Matrix]:
 
 def are_opposite(one: Colour, other: Colour) -> bool:
     """Whether the symplectic form pairs what the two vector fields drive."""
-    return {one.part, other.part} in ({"q", "p"}, {"y"})
+    parts = {one.part, other.part}
+    return parts in ({"q", "p"}, {"y"})
 
 
 def is_symplectic(tableau: Tableau) -> bool:
@@ -106,20 +113,24 @@ def is_symplectic(tableau: Tableau) -> bool:
     """
     for l, one in enumerate(tableau.colours):
         for m, other in enumerate(tableau.colours):
-            if are_opposite(one, other) and not _is_symplectic_between(tableau, l, m):
-                return False
             if _share_stages(one, other) and one.b != other.b:
+                return False
+            if not are_opposite(one, other):
+                continue
+            if not _is_symplectic_between(tableau, l, m):
                 return False
     return True
 
 
 def _share_stages(one: Colour, other: Colour) -> bool:
     """Whether a velocity and a force are evaluated at the same stages."""
-    return one.space == other.space and {one.part, other.part} == {"q", "p"}
+    parts = {one.part, other.part}
+    return one.space == other.space and parts == {"q", "p"}
 
 
 def _is_symplectic_between(tableau: Tableau, l: int, m: int) -> bool:
-    forth, back = tableau.block(l, m), tableau.block(m, l)
+    forth = tableau.block(l, m)
+    back = tableau.block(m, l)
     if forth is None or back is None:
         return forth is back
     defect = symplectic_defect(tableau, l, m)
@@ -130,10 +141,12 @@ def symplectic_defect(tableau: Tableau, l: int, m: int) -> Matrix:
     """B^l A^{l,m} + (A^{m,l})ᵀ B^m − b_l b_mᵀ as a bilinear form on the spaces of l and m; both
     blocks exist.
     """
-    forth, back = tableau.block(l, m), tableau.block(m, l)
+    forth = tableau.block(l, m)
+    back = tableau.block(m, l)
     if forth is None or back is None:
         raise KeyError((l, m))
-    b_l, b_m = tableau.colours[l].b, tableau.colours[m].b
+    b_l = tableau.colours[l].b
+    b_m = tableau.colours[m].b
     form_forth = tableau.space(l).form(b_l, forth)
     form_back = tableau.space(m).form(b_m, back)
     both = add(form_forth, transpose(form_back))

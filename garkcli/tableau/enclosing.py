@@ -27,6 +27,8 @@ GUARD = 32
 DIGITS_OF_A_BIT = 0.302
 """Decimal digits of a bit, log10(2) rounded up."""
 _Blocks: TypeAlias = dict[Edge, arb_mat]
+_Enclosed: TypeAlias = tuple[_Blocks, list[arb_mat]]
+"""A and b, see ``Enclosure``."""
 
 
 @dataclass(frozen=True)
@@ -64,28 +66,37 @@ def enclose_tableau(tableau: Tableau, bits: int) -> Enclosure:
     return Enclosure(bits, stages, A, tuple(b))
 
 
-def _spelled_out(tableau: Tableau, digits: int) -> tuple[_Blocks, list[arb_mat]]:
+def _spelled_out(tableau: Tableau, digits: int) -> _Enclosed:
     """A and b of coefficients that are given one by one."""
-    A = {key: _balls(block, digits) for key, block in tableau.blocks.items()}
-    b = [_balls([colour.b], digits).transpose() for colour in tableau.colours]
+    A: _Blocks = {}
+    for key, block in tableau.blocks.items():
+        A[key] = _balls(block, digits)
+    b = []
+    for colour in tableau.colours:
+        row = _balls([colour.b], digits)
+        b.append(row.transpose())
     return A, b
 
 
-def _at_nodes(tableau: Tableau, digits: int) -> tuple[_Blocks, list[arb_mat]]:
+def _at_nodes(tableau: Tableau, digits: int) -> _Enclosed:
     """A and b where stages of families are among them: coordinates become values at nodes."""
     found = numeric_entries(tableau, digits)
     # Colours that share a stage space have the same rows, so any of them will do.
-    colour_of = {colour.space: l for l, colour in enumerate(tableau.colours)}
+    colour_of: dict[int, int] = {}
+    for l, colour in enumerate(tableau.colours):
+        colour_of[colour.space] = l
     A: _Blocks = {}
     for k, m in tableau.blocks:
-        block = found.A[colour_of[k]][m] or ()
+        row = found.A[colour_of[k]]
+        block = row[m] or ()
         A[k, m] = _matrix(block)
     b = [_matrix([row]).transpose() for row in found.b]
     return A, b
 
 
 def _matrix(rows: Sequence[Sequence[Cell]]) -> arb_mat:
-    return arb_mat([[cast("arb", x) for x in row] for row in rows])
+    balls = [[cast("arb", x) for x in row] for row in rows]
+    return arb_mat(balls)
 
 
 def _balls(rows: Sequence[Sequence[Number]], digits: int) -> arb_mat:

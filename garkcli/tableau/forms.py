@@ -32,8 +32,9 @@ def gark(methods: Sequence[Method], transfer: Blocks) -> Tableau:
     blocks: _NewBlocks = {}
     for l, method in enumerate(methods):
         name = str(l + 1)
+        colour = Colour(name, l, method.b, method.c, l)
         spaces.append(method.space)
-        colours.append(Colour(name, l, method.b, method.c, l))
+        colours.append(colour)
         blocks[l, l] = method.A
     blocks.update(transfer)
     return Tableau(tuple(spaces), tuple(colours), blocks)
@@ -56,8 +57,10 @@ def spelled_out(
         if nodes is None:
             nodes = _row_sums(l, A[l], len(weights))
         name = str(l + 1)
+        is_linear = l in linear
+        colour = Colour(name, l, weights, nodes, l, is_linear=is_linear)
         spaces.append(PointSpace(nodes))
-        colours.append(Colour(name, l, weights, nodes, l, is_linear=l in linear))
+        colours.append(colour)
     blocks: _NewBlocks = {}
     for l, row in enumerate(A):
         for m, block in enumerate(row):
@@ -78,13 +81,19 @@ def _row_sums(l: int, row: Sequence[Matrix | None], stages: int) -> Vector:
 
 def additive(A: Sequence[Matrix], b: Sequence[Vector], c: Vector | None) -> Tableau:
     """An additive method: one set of stages, a matrix and a row of weights a colour."""
-    nodes = c if c is not None else _row_sums(0, A, len(A[0]))
+    nodes = c
+    if nodes is None:
+        nodes = _row_sums(0, A, len(A[0]))
     colours = []
     for l, weights in enumerate(b):
         name = str(l + 1)
-        colours.append(Colour(name, 0, weights, nodes, l))
-    blocks = {(0, m): block for m, block in enumerate(A)}
-    return Tableau((PointSpace(nodes),), tuple(colours), blocks)
+        colour = Colour(name, 0, weights, nodes, l)
+        colours.append(colour)
+    blocks: _NewBlocks = {}
+    for m, block in enumerate(A):
+        blocks[0, m] = block
+    space = PointSpace(nodes)
+    return Tableau((space,), tuple(colours), blocks)
 
 
 def partitioned(q: Method, p: Method) -> Tableau:
@@ -104,8 +113,12 @@ def separable_prk(q: Coefficients, p: Coefficients) -> Tableau:
     """
     A_q, b_q, c_q = q
     A_p, b_p, c_p = p
-    at_momenta = c_p if c_p is not None else _row_sums(0, [A_p], len(b_q))
-    at_positions = c_q if c_q is not None else _row_sums(0, [A_q], len(b_p))
+    at_momenta = c_p
+    at_positions = c_q
+    if at_momenta is None:
+        at_momenta = _row_sums(0, [A_p], len(b_q))
+    if at_positions is None:
+        at_positions = _row_sums(0, [A_q], len(b_p))
     spaces = (PointSpace(at_momenta), PointSpace(at_positions))
     velocity = Colour("q", 0, b_q, at_momenta, 0, "q")
     force = Colour("p", 1, b_p, at_positions, 1, "p")
@@ -150,11 +163,13 @@ def symplectic_pair(
         raise MethodError(
             "the method is partitioned already", "give the tableau of the positions"
         )
-    used = [l for l in range(tableau.size) if l in velocities or l in forces]
+    driven = {*velocities, *forces}
+    used = [l for l in range(tableau.size) if l in driven]
     spaces = tuple(tableau.space(l) for l in used)
     row = {l: k for k, l in enumerate(used)}
-    V = [_driving(tableau.colours[l], "V", row[l], "q") for l in velocities]
-    F = [_driving(tableau.colours[l], "F", row[l], "p") for l in forces]
+    colours = tableau.colours
+    V = [_driving(colours[l], "V", row[l], "q") for l in velocities]
+    F = [_driving(colours[l], "F", row[l], "p") for l in forces]
     blocks: _NewBlocks = {}
     for l in forces:
         for k, m in enumerate(velocities):
@@ -170,7 +185,8 @@ def symplectic_pair(
 
 def _driving(colour: Colour, letter: str, space: int, part: Part) -> Colour:
     """The colour V^l or F^l of a pair, with stages in ``space``."""
-    return replace(colour, name=f"{letter}{colour.name}", space=space, part=part)
+    name = letter + colour.name
+    return replace(colour, name=name, space=space, part=part)
 
 
 def pair(tableau: Tableau) -> Tableau:
@@ -183,9 +199,13 @@ def pair(tableau: Tableau) -> Tableau:
         ZeroWeight: a conjugate would divide by zero.
     """
     if not tableau.is_partitioned:
-        return symplectic_pair(tableau, range(tableau.size), range(tableau.size))
+        everything = range(tableau.size)
+        return symplectic_pair(tableau, everything, everything)
     is_q = [colour.part == "q" for colour in tableau.colours]
-    blocks = {(k, m): block for (k, m), block in tableau.blocks.items() if is_q[m]}
+    blocks: _NewBlocks = {}
+    for (k, m), block in tableau.blocks.items():
+        if is_q[m]:
+            blocks[k, m] = block
     for m, l in tableau.edges():
         if is_q[l] and not is_q[m]:
             k = tableau.colours[l].space

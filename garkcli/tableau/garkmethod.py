@@ -70,7 +70,8 @@ class GarkMethod:
     @property
     def stages(self) -> tuple[int, ...]:
         """The number of stages of each colour."""
-        return tuple(self.tableau.space(l).stages for l in range(self.tableau.size))
+        colours = range(self.tableau.size)
+        return tuple(self.tableau.space(l).stages for l in colours)
 
     def __repr__(self) -> str:
         name = f"{self.name}: " if self.name else ""

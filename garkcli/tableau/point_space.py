@@ -45,7 +45,8 @@ class PointSpace(StageSpace):
         return self.points
 
     def product(self, u: Vector, v: Vector) -> Vector:
-        return tuple(x * y for x, y in zip(u, v, strict=True))
+        product = [x * y for x, y in zip(u, v, strict=True)]
+        return tuple(product)
 
     def times(self, functional: Vector, v: Vector) -> Vector:
         return self.product(functional, v)
@@ -104,7 +105,8 @@ class PointSpace(StageSpace):
         return transpose(tuple(self.basis_polynomials()))
 
     def zero_weights(self, weights: Vector) -> str:
-        names = [f"b_{i}" for i, weight in enumerate(weights, start=1) if not weight]
+        numbered = enumerate(weights, start=1)
+        names = [f"b_{i}" for i, weight in numbered if not weight]
         if len(names) > 4:
             names = [*names[:3], "…"]
         return " = ".join([*names, "0"])
@@ -144,7 +146,8 @@ def _common_denominator(nodes: Sequence[fmpq]) -> fmpz:
 
 def _bits(number: Number) -> int:
     if isinstance(number, Algebraic):
-        return sum(int(x.height_bits()) for x in number.poly.coeffs())
+        bits = [int(x.height_bits()) for x in number.poly.coeffs()]
+        return sum(bits)
     return int(number.height_bits())
 
 

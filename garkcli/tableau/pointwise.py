@@ -67,17 +67,20 @@ class Entries:
             return tuple(map(row, rows))
 
         c = tuple(map(row, self.c))
-        A = tuple(tuple(map(block, blocks)) for blocks in self.A)
+        A = [tuple(map(block, blocks)) for blocks in self.A]
         b = tuple(map(row, self.b))
-        return replace(self, c=c, A=A, b=b)
+        return replace(self, c=c, A=tuple(A), b=b)
 
     def in_decimals(self, digits: int) -> Entries:
         """The entries as enclosures that are good for ``digits`` significant digits."""
 
         def enclosed(cell: Cell) -> Cell:
-            return cell if isinstance(cell, arb) else to_ball(cell, digits)
+            if isinstance(cell, arb):
+                return cell
+            return to_ball(cell, digits)
 
-        return replace(self.changed(enclosed), is_exact=False, digits=digits)
+        changed = self.changed(enclosed)
+        return replace(changed, is_exact=False, digits=digits)
 
 
 def entries(tableau: Tableau, digits: int = 17) -> Entries:
@@ -93,9 +96,9 @@ def entries(tableau: Tableau, digits: int = 17) -> Entries:
 def _listed(tableau: Tableau, digits: int) -> Entries:
     colours = range(tableau.size)
     c = tuple(colour.c for colour in tableau.colours)
-    A = tuple(tuple(tableau.block(l, m) for m in colours) for l in colours)
+    A = [tuple(tableau.block(l, m) for m in colours) for l in colours]
     b = tuple(colour.b for colour in tableau.colours)
-    return Entries(c, A, b, is_exact=True, digits=digits)
+    return Entries(c, tuple(A), b, is_exact=True, digits=digits)
 
 
 def simple_nodes(space: PolynomialSpace) -> tuple[Expression, ...] | None:
@@ -120,11 +123,13 @@ def _roots(factor: fmpq_poly) -> list[Expression]:
     """The roots of a linear factor, or of a quadratic one as m ± r√d with rational m, r and d."""
     if factor.degree() == 1:
         return [Literal(-factor[0] / factor[1])]
-    middle = -factor[1] / (2 * factor[2])
-    radicand = middle * middle - factor[0] / factor[2]
+    constant, linear, leading = factor.coeffs()
+    middle = -linear / (2 * leading)
+    radicand = middle * middle - constant / leading
     d = square_free(radicand)
     scale = Literal((radicand / d).sqrt())
-    half_width = Chain("**", (scale, Root(Literal(d), 2)))
+    root = Root(Literal(d), 2)
+    half_width = Chain("**", (scale, root))
     operands = (Literal(middle), half_width)
     return [Chain("+-", operands), Chain("++", operands)]
 
@@ -138,9 +143,11 @@ def method_in_points(method: Method, nodes: Vector) -> Method:
     order.
     """
     space = PointSpace(nodes)
-    V, inverse = space.reductions(space.stages), space.lifts()
+    V = space.reductions(space.stages)
+    inverse = space.lifts()
     A = multiply(V, multiply(method.A, inverse))
-    return replace(method, space=space, A=A, b=apply_left(method.b, inverse))
+    b = apply_left(method.b, inverse)
+    return replace(method, space=space, A=A, b=b)
 
 
 def in_points(tableau: Tableau) -> Tableau | None:
@@ -198,7 +205,8 @@ def _at_points(
     frames: list[_Frame] = []
     for k, old in enumerate(tableau.spaces):
         if k in radical_nodes:
-            space = PointSpace(tuple(map(domain.evaluate, radical_nodes[k])))
+            nodes = tuple(map(domain.evaluate, radical_nodes[k]))
+            space = PointSpace(nodes)
             V = space.reductions(space.stages)
             frames.append(_Frame(space, V, space.lifts()))
         else:
@@ -210,12 +218,15 @@ def _at_points(
         into = frames[k].into
         back = frames[tableau.colours[m].space].back
         in_domain = tuple(tuple(map(embed, row)) for row in block)
-        blocks[k, m] = multiply(into, multiply(in_domain, back))
+        in_coordinates = multiply(in_domain, back)
+        blocks[k, m] = multiply(into, in_coordinates)
     colours = []
     for colour in tableau.colours:
         frame = frames[colour.space]
-        b = apply_left(tuple(map(embed, colour.b)), frame.back)
-        c = apply(frame.into, tuple(map(embed, colour.c)))
+        weights = tuple(map(embed, colour.b))
+        nodes = tuple(map(embed, colour.c))
+        b = apply_left(weights, frame.back)
+        c = apply(frame.into, nodes)
         colours.append(replace(colour, b=b, c=c))
     spaces = tuple(frame.space for frame in frames)
     return Tableau(spaces, tuple(colours), blocks)
@@ -282,14 +293,18 @@ def _numeric(tableau: Tableau, digits: int) -> Entries | None:
     b: list[Row] = []
     for l, colour in enumerate(tableau.colours):
         V, inverse = frames[colour.space]
-        nodes = _to_arb([[x] for x in colour.c])
-        c.append(tuple((V * nodes).entries()))
-        b.append(tuple((_to_arb([colour.b]) * inverse).entries()))
+        nodes = V * _to_arb([[x] for x in colour.c])
+        weights = _to_arb([colour.b]) * inverse
+        c.append(tuple(nodes.entries()))
+        b.append(tuple(weights.entries()))
         blocks: list[Block] = []
         for m, other in enumerate(tableau.colours):
             exact = tableau.block(l, m)
+            if exact is None:
+                blocks.append(None)
+                continue
             _, back = frames[other.space]
-            blocks.append(None if exact is None else _in_values(V, exact, back))
+            blocks.append(_in_values(V, exact, back))
         A.append(tuple(blocks))
     return Entries(
         tuple(c),
@@ -303,19 +318,20 @@ def _numeric(tableau: Tableau, digits: int) -> Entries | None:
 
 def _in_values(V: arb_mat, block: Matrix, back: arb_mat) -> Block:
     """V A V_m⁻¹, ``back`` being V_m⁻¹."""
-    rows = (V * _to_arb(block) * back).tolist()
-    return tuple(tuple(row) for row in rows)
+    values = V * _to_arb(block) * back
+    return tuple(map(tuple, values.tolist()))
 
 
 def _numeric_frame(space: StageSpace) -> tuple[arb_mat, arb_mat]:
     """The maps of coordinates to stage values and back."""
     s = space.stages
     if not isinstance(space, PolynomialSpace):
-        unit = arb_mat([[int(i == j) for j in range(s)] for i in range(s)])
+        unit = _to_arb(identity(s))
         return unit, unit
     return powers_of_nodes(space), coordinates_at_nodes(space)
 
 
 def _to_arb(rows: Sequence[Sequence[Number]]) -> arb_mat:
     digits = int(ctx.prec / BITS_OF_A_DIGIT)
-    return arb_mat([[to_ball(x, digits) for x in row] for row in rows])
+    balls = [[to_ball(x, digits) for x in row] for row in rows]
+    return arb_mat(balls)

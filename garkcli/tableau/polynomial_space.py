@@ -40,7 +40,8 @@ class PolynomialSpace(StageSpace):
 
     def __hash__(self) -> int:
         # of integers: flint hashes fractions by Python's, a slow import
-        return hash((tuple(self.modulus.numer()), self.modulus.denom()))
+        numerators = tuple(self.modulus.numer())
+        return hash((numerators, self.modulus.denom()))
 
     @property
     def stages(self) -> int:
@@ -151,7 +152,8 @@ class PolynomialSpace(StageSpace):
         degree = to_flint(gram, self.stages).rank()
         rows = gram[:degree]
         square = to_flint([row[:degree] for row in rows], degree)
-        right = to_flint([(-row[degree],) for row in rows], 1)
+        last = [(-row[degree],) for row in rows]
+        right = to_flint(last, 1)
         lower = square.solve(right).entries()
         return fmpq_poly([*lower, fmpq(1)])
 

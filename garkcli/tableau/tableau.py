@@ -70,16 +70,22 @@ class Tableau:
         for (k, m), block in self.blocks.items():
             rows = self.spaces[k].stages
             columns = self.space(m).stages
-            if len(block) != rows or any(len(row) != columns for row in block):
-                seen, seeing = counted(columns, "stage"), counted(rows, "stage")
-                raise ShapeMismatch(
-                    f"the block {k + 1},{m + 1} is not {rows} by {columns}",
-                    f"it maps {seen} of colour {m + 1} to {seeing}",
-                )
+            if len(block) == rows and all(len(row) == columns for row in block):
+                continue
+            seen = counted(columns, "stage")
+            seeing = counted(rows, "stage")
+            space = k + 1
+            colour_seen = m + 1
+            raise ShapeMismatch(
+                f"the block {space},{colour_seen} is not {rows} by {columns}",
+                f"it maps {seen} of colour {colour_seen} to {seeing}",
+            )
 
     def __repr__(self) -> str:
-        stages = ", ".join(str(self.space(l).stages) for l in range(self.size))
-        return f"<Tableau {counted(self.size, 'colour')}, stages {stages}>"
+        numbers = [str(self.space(l).stages) for l in range(self.size)]
+        stages = ", ".join(numbers)
+        colours = counted(self.size, "colour")
+        return f"<Tableau {colours}, stages {stages}>"
 
     @property
     def size(self) -> int:
@@ -107,7 +113,8 @@ class Tableau:
         These are the rows of the paper's tableaus Q and P: in eq. (rectangular) three stages for q
         and two for p, although two velocities and three forces are evaluated.
         """
-        drivers = [m for m, colour in enumerate(self.colours) if colour.part == part]
+        numbered = enumerate(self.colours)
+        drivers = [m for m, colour in numbered if colour.part == part]
         stages = []
         for k, space in enumerate(self.spaces):
             if any((k, m) in self.blocks for m in drivers):
@@ -144,5 +151,6 @@ def _check_length(name: str, row: Vector, stages: int) -> None:
         return
     found = counted(len(row), "entry", "entries")
     due = counted(stages, "entry", "entries")
-    message = f"{name} has {found} for {counted(stages, 'stage')}"
+    of_stages = counted(stages, "stage")
+    message = f"{name} has {found} for {of_stages}"
     raise ShapeMismatch(message, f"give {due}")
