@@ -7,7 +7,7 @@ derivative by all n unknowns.
 
 from __future__ import annotations
 
-from collections.abc import Mapping, Sequence
+from collections.abc import Iterable, Mapping, Sequence
 from dataclasses import dataclass
 from itertools import groupby
 from typing import TYPE_CHECKING, TypeAlias
@@ -17,6 +17,7 @@ from garkcli.stepping.dependency import (
     FieldEvaluation,
     Stage,
     StageBlock,
+    Vertex,
 )
 
 if TYPE_CHECKING:
@@ -58,13 +59,14 @@ class ChainRule:
         dimension: int,
         weights: Mapping[tuple[Stage, FieldEvaluation], int],
     ) -> None:
-        self.d, self.unknowns = dimension, block.unknowns
-        self.evaluations = [x for x in block.order if isinstance(x, FieldEvaluation)]
+        self.d = dimension
+        self.unknowns = block.unknowns
+        stages, self.evaluations = _sorted_out(block.order)
         self._place = {x: i for i, x in enumerate(self.evaluations)}
-        self._graph, self._weights = graph, weights
+        self._graph = graph
+        self._weights = weights
 
-        inside = {x for x in block.order if isinstance(x, Stage)}
-        inside.update(self.unknowns)
+        inside = {*stages, *self.unknowns}
         arguments = []
         for evaluation in self.evaluations:
             seen = [stage for stage in graph.arguments[evaluation] if stage in inside]
@@ -72,11 +74,10 @@ class ChainRule:
         self.arguments = tuple(arguments)
 
         self._layers = []
-        for _, group in groupby(block.order, lambda x: isinstance(x, FieldEvaluation)):
-            vertices = list(group)
-            stages = [x for x in vertices if isinstance(x, Stage)]
-            evaluations = [x for x in vertices if isinstance(x, FieldEvaluation)]
-            self._layers.append(_Layer(stages, self._entries(stages), evaluations))
+        for _, group in groupby(block.order, type):
+            stages, evaluations = _sorted_out(group)
+            layer = _Layer(stages, self._entries(stages), evaluations)
+            self._layers.append(layer)
         self._image = self._entries(self.unknowns)
 
     def _entries(self, stages: Sequence[Stage]) -> list[_Entry]:
@@ -84,9 +85,10 @@ class ChainRule:
         found = []
         for row, stage in enumerate(stages):
             for evaluation in self._graph.sums[stage]:
-                if evaluation in self._place:
+                column = self._place.get(evaluation)
+                if column is not None:
                     place = self._weights[stage, evaluation]
-                    found.append((row, self._place[evaluation], place))
+                    found.append((row, column, place))
         return found
 
     def inverse(self, derivatives: Sequence[float], weights: Sequence[float]) -> Floats:
@@ -98,8 +100,10 @@ class ChainRule:
         """
         import numpy as np
 
-        d, n = self.d, self.d * len(self.unknowns)
-        matrices = np.array(derivatives).reshape(-1, d, d)
+        d = self.d
+        n = d * len(self.unknowns)
+        entries = np.array(derivatives)
+        matrices = entries.reshape(-1, d, d)
         fields = dict(zip(self.arguments, matrices, strict=True))
         stages: dict[Stage, Floats] = {}
         for i, stage in enumerate(self.unknowns):
@@ -114,12 +118,28 @@ class ChainRule:
                 total = np.zeros((d, n))
                 for stage in self._graph.arguments[x]:
                     if stage in stages:
-                        total = total + fields[x, stage] @ stages[stage]
+                        field = fields[x, stage]
+                        total = total + field @ stages[stage]
                 of_fields[self._place[x]] = total
         image = _combined(len(self.unknowns), self._image, w, of_fields)
         J = image.reshape(n, n)
-        inverse = np.linalg.inv(np.eye(n) - J)
+        unit = np.eye(n)
+        inverse = np.linalg.inv(unit - J)
         return np.asarray(inverse, dtype=np.float64)
+
+
+def _sorted_out(
+    vertices: Iterable[Vertex],
+) -> tuple[list[Stage], list[FieldEvaluation]]:
+    """Stage values, and field evaluations, each in their order."""
+    stages: list[Stage] = []
+    evaluations: list[FieldEvaluation] = []
+    for vertex in vertices:
+        if isinstance(vertex, Stage):
+            stages.append(vertex)
+        else:
+            evaluations.append(vertex)
+    return stages, evaluations
 
 
 def _combined(

@@ -92,8 +92,10 @@ class DependencyGraph:
             if len(component) == 1:
                 found.append(StageBlock((), tuple(component)))
                 continue
-            cut = self._cut([x for x in component if isinstance(x, Stage)])
-            rest = _within([x for x in component if x not in cut], after)
+            stages = [x for x in component if isinstance(x, Stage)]
+            cut = self._cut(stages)
+            known = [x for x in component if x not in cut]
+            rest = _within(known, after)
             order: list[Vertex] = []
             for single in components(rest):
                 order += single
@@ -134,7 +136,8 @@ class DependencyGraph:
                     into = before[s] & within
                     out = within.intersection(after[s])
                     ways[s] = len(into) * len(out)
-                cut.add(max(component, key=ways.__getitem__))
+                busiest = max(component, key=ways.__getitem__)
+                cut.add(busiest)
 
     def _predecessors(self, stages: Sequence[Stage]) -> dict[Stage, set[Stage]]:
         """Which of ``stages`` the evaluations look at that each of them sums."""
@@ -143,7 +146,8 @@ class DependencyGraph:
         for stage in stages:
             seen: set[Stage] = set()
             for evaluation in self.sums[stage]:
-                seen.update(inside.intersection(self.arguments[evaluation]))
+                looked_at = self.arguments[evaluation]
+                seen |= inside.intersection(looked_at)
             before[stage] = seen
         return before
 
@@ -153,7 +157,10 @@ def _within(
 ) -> dict[Vertex, list[Vertex]]:
     """The part of a graph that has these vertices only."""
     kept = set(vertices)
-    return {x: [y for y in after[x] if y in kept] for x in vertices}
+    part = {}
+    for x in vertices:
+        part[x] = [y for y in after[x] if y in kept]
+    return part
 
 
 def dependency_graph(tableau: Tableau, fields: Fields) -> DependencyGraph:
@@ -169,7 +176,9 @@ def dependency_graph(tableau: Tableau, fields: Fields) -> DependencyGraph:
             arguments[FieldEvaluation(m, j, group)] = seen
     sums: dict[Stage, tuple[FieldEvaluation, ...]] = {}
     coefficients: dict[tuple[Stage | None, FieldEvaluation], str] = {}
-    needed = dict.fromkeys(stage for stages in arguments.values() for stage in stages)
+    needed: dict[Stage, None] = {}  # in the order in which they are met
+    for stages in arguments.values():
+        needed |= dict.fromkeys(stages)
     for stage in needed:
         found = []
         for evaluation in arguments:
@@ -228,7 +237,9 @@ def fields_of(tableau: Tableau, problem: Hamiltonian) -> Fields:
     Raises:
         UsageProblem: the problem is not of the form that the structure of the method is for.
     """
-    driving = {(x.term, group) for x in tableau.colours for group in driven(x)}
+    driving = set()
+    for x in tableau.colours:
+        driving |= {(x.term, group) for group in driven(x)}
     for term in range(len(problem.terms)):
         for group in GROUPS:
             if (term, group) in driving:
@@ -246,12 +257,15 @@ def fields_of(tableau: Tableau, problem: Hamiltonian) -> Fields:
 
 
 def _no_colour(problem: Hamiltonian, term: int, group: Group) -> UsageProblem:
-    on, other = ("p", "q") if group == "q" else ("q", "p")
+    on, other = "q", "p"
+    if group == "q":
+        on, other = "p", "q"
     H = f"H{{{term + 1}}}"
-    return UsageProblem(
-        f"{H} of {problem.name} depends on {on}, but the method has no colour for that",
-        f"choose a problem whose {H} depends on {other} alone, or another structure",
+    message = (
+        f"{H} of {problem.name} depends on {on}, but the method has no colour for that"
     )
+    cure = f"choose a problem whose {H} depends on {other} alone, or another structure"
+    return UsageProblem(message, cure)
 
 
 def _check_edges(tableau: Tableau, fields: Fields) -> None:
@@ -301,7 +315,7 @@ def visible_trees(fields: Fields) -> str:
     if all(field.is_linear for field in fields.values()):
         return "a linear problem sees only the unbranched trees"
     if _is_separable(fields):
-        velocities = [field for (_, group), field in fields.items() if group == "q"]
+        velocities = [x for (_, group), x in fields.items() if group == "q"]
         if all(field.is_linear for field in velocities):
             return (
                 "with quadratic kinetic energy it sees the trees in which velocities and forces "

@@ -43,9 +43,11 @@ class JacobianWriter:
         for evaluation in chain.evaluations:
             seen = [stage for x, stage in chain.arguments if x == evaluation]
             entries += self._matrices(evaluation, seen)
-        numbers = ", ".join("0.0" if x == "0" else x for x in entries)
+        floats = ["0.0" if x == "0" else x for x in entries]
+        numbers = ", ".join(floats)
         weights = "v" if stages.is_for_balls else "w"
-        stages.lines.write(f"inverse = chain{index}([{numbers}], {weights})")
+        call = f"chain{index}([{numbers}], {weights})"
+        stages.lines.write(f"inverse = {call}")
 
     def _places_of_weights(self) -> dict[tuple[Stage, FieldEvaluation], int]:
         """Where among the numbers w that of each stage value and evaluation is."""
@@ -66,8 +68,9 @@ class JacobianWriter:
         rows = self._derivatives(evaluation, by)
         entries: list[str] = []
         for first in range(0, len(by), d):
+            end = first + d
             for row in rows:
-                entries += row[first : first + d]
+                entries += row[first:end]
         return entries
 
     def written_out(self, block: StageBlock) -> list[Slope]:
@@ -76,30 +79,38 @@ class JacobianWriter:
         """
         d = self._stages.d
         slopes: _Slopes = {}
-        for k, stage in enumerate(block.unknowns):
+        column = 0
+        for stage in block.unknowns:
             for i in range(d):
-                column = k * d + i
                 slopes[stage, i] = {column: "1.0"}
+                column += 1
         for vertex in block.order:
             if isinstance(vertex, FieldEvaluation):
                 rows = self._slopes_of_field(vertex, slopes)
             else:
-                rows = [self._slope_of_sum(vertex, i, slopes) for i in range(d)]
+                rows = self._slopes_of_sums(vertex, slopes)
+            number = self._stages.number[vertex]
             for i, row in enumerate(rows):
-                prefix = f"s{self._stages.number[vertex]}_{i}_"
+                prefix = f"s{number}_{i}_"
                 slopes[vertex, i] = self._named(row, prefix)
         image = []
         for stage in block.unknowns:
-            image += [self._slope_of_sum(stage, i, slopes) for i in range(d)]
+            image += self._slopes_of_sums(stage, slopes)
         return image
+
+    def _slopes_of_sums(self, stage: Stage, slopes: _Slopes) -> list[Slope]:
+        components = range(self._stages.d)
+        return [self._slope_of_sum(stage, i, slopes) for i in components]
 
     def _slope_of_sum(self, stage: Stage, i: int, slopes: _Slopes) -> Slope:
         terms = []
         for evaluation in self._stages.graph.sums[stage]:
             slope = slopes.get((evaluation, i))
-            if slope:
-                w = self._prefix + self._stages.weight(stage, evaluation)
-                terms.append((w, slope))
+            if not slope:
+                continue
+            name = self._stages.weight(stage, evaluation)
+            w = self._prefix + name
+            terms.append((w, slope))
         return _sums(terms)
 
     def _slopes_of_field(
@@ -113,8 +124,9 @@ class JacobianWriter:
         for row in self._derivatives(evaluation, by):
             terms = []
             for entry, x in zip(row, by, strict=True):
-                if entry != "0" and slopes[x]:
-                    terms.append((entry, slopes[x]))
+                slope = slopes[x]
+                if entry != "0" and slope:
+                    terms.append((entry, slope))
             found.append(_sums(terms))
         return found
 
@@ -127,26 +139,34 @@ class JacobianWriter:
         field = stages.fields[evaluation.colour, evaluation.group]
         arguments = stages.arguments(evaluation)
         if stages.is_for_balls:
-            floats = [f"X{number}_{k}" for k in range(len(arguments))]
-            for name, x in zip(floats, arguments, strict=True):
+            floats = []
+            for k, x in enumerate(arguments):
+                name = f"X{number}_{k}"
                 stages.lines.write(f"{name} = float({x})")
+                floats.append(name)
             arguments = floats
         columns = {group: field.derivative(group) for group in field.depends}
         flat: list[object] = []
         for i in range(stages.d):
-            flat += [columns[stage.group][i][k] for stage, k in by]
+            for stage, k in by:
+                derivative = columns[stage.group]
+                flat.append(derivative[i][k])
         code = stages.code(flat, evaluation, is_for_balls=False)
         entries = stages.emit(code, arguments, f"j{number}_")
         width = len(by)
-        starts = [i * width for i in range(stages.d)]
-        return [entries[start : start + width] for start in starts]
+        rows = []
+        for i in range(stages.d):
+            start = i * width
+            rows.append(entries[start : start + width])
+        return rows
 
     def _named(self, row: Slope, prefix: str) -> Slope:
         """The same with composite texts given names."""
         made = {}
         for column, text in row.items():
-            is_number = text.replace(".", "").isdigit()
-            if text.isidentifier() or is_number:
+            digits = text.replace(".", "")
+            is_short = text.isidentifier() or digits.isdigit()
+            if is_short:
                 made[column] = text
                 continue
             name = f"{prefix}{column}"

@@ -59,15 +59,14 @@ class LinearStep:
         unit = fmpq_mat(n, n)
         for i in range(n):
             unit[i, i] = ONE
+        system = unit - self.W * h
         try:
-            X = (unit - self.W * h).solve(self.E)
+            X = system.solve(self.E)
         except ZeroDivisionError:
-            raise UsageProblem(
-                f"the stage equations have no unique solution for h = {h}",
-                "choose another step size",
-            ) from None
-        increment = self._numbers(self.B * X * h)
-        (a, b), (c, d) = increment
+            message = f"the stage equations have no unique solution for h = {h}"
+            raise UsageProblem(message, "choose another step size") from None
+        increment = self.B * X * h
+        (a, b), (c, d) = self._numbers(increment)
         return (ONE + a, b), (c, ONE + d)
 
     def series(self) -> Iterator[Matrix]:
@@ -103,14 +102,18 @@ def linear_step(tableau: Tableau, problem: Oscillator) -> LinearStep:
     terms = _terms(tableau, problem)
     first, n = _first_unknowns(tableau, terms)
 
-    W, E, B = _zeros(n, n), _zeros(n, 2), _zeros(2, n)
+    W = _zeros(n, n)
+    E = _zeros(n, 2)
+    B = _zeros(2, n)
     for term in terms:
         colour = tableau.colours[term.colour]
         column = first[colour.space, term.seen]
         _add(B, term.driven, column, term.factor, (colour.b,))
         for (space, component), row in first.items():
+            if component != term.driven:
+                continue
             block = tableau.blocks.get((space, term.colour))
-            if component == term.driven and block is not None:
+            if block is not None:
                 _add(W, row, column, term.factor, block)
     for (space, component), row in first.items():
         ones = tuple((x,) for x in tableau.spaces[space].one)
@@ -186,14 +189,16 @@ def _over_rationals(rows: list[list[Number]], field: NumberField | None) -> fmpq
     d = field.degree
     powers = []  # 1, θ, … θ^{d−1}
     for k in range(d):
-        unit = [fmpq(int(i == k)) for i in range(d)]
+        unit = [fmpq(0)] * d
+        unit[k] = ONE
         powers.append(field.from_coordinates(unit))
     columns = []
     for entries in zip(*rows, strict=True):
         for power in powers:
             column: list[fmpq] = []
             for x in entries:
-                column += coordinates(x * power, d)
+                product = x * power
+                column += coordinates(product, d)
             columns.append(column)
     return fmpq_mat(columns).transpose()
 
@@ -204,17 +209,15 @@ def _columns(rows: list[list[Number]], field: NumberField | None) -> fmpq_mat:
     flat = []
     for entries in rows:
         columns = [coordinates(x, d) for x in entries]
-        flat += [list(row) for row in zip(*columns, strict=True)]
+        of_entries = zip(*columns, strict=True)
+        flat += [list(row) for row in of_entries]
     return fmpq_mat(flat)
 
 
 def enclosure(matrix: Matrix, bits: int) -> arb_mat:
     """An exact matrix as balls of about ``bits`` correct bits."""
-    return arb_mat([[_ball(x, bits) for x in row] for row in matrix])
-
-
-def _ball(x: Number, bits: int) -> arb:
-    return to_ball(x, bits * 3 // 10 + 1)
+    digits = bits * 3 // 10 + 1
+    return arb_mat([[to_ball(x, digits) for x in row] for row in matrix])
 
 
 def conserves_energy(R: Matrix, omega: fmpq) -> bool:
@@ -241,10 +244,12 @@ def deviations(step: LinearStep) -> Iterator[arb]:
         exact = scale(fmpq(1, k), multiply(L, exact))
         difference = subtract(R_k, exact)
         largest = arb(0)
+        power = omega**k
         for i in (0, 1):
             for j in (0, 1):
-                scaled = units[i][j] * difference[i][j] / omega**k
-                largest = largest.max(abs(to_ball(scaled)))
+                scaled = units[i][j] * difference[i][j] / power
+                size = abs(to_ball(scaled))
+                largest = largest.max(size)
         yield largest
 
 
@@ -277,18 +282,14 @@ def whole_steps(t_end: fmpq, h: fmpq) -> int:
         UsageProblem: it is not a positive whole number, or more than ``MAX_STEPS``.
     """
     if h <= 0 or t_end <= 0:
-        raise UsageProblem(
-            f"step {h} and end time {t_end} are not both positive",
-            "give positive numbers",
-        )
+        message = f"step {h} and end time {t_end} are not both positive"
+        raise UsageProblem(message, "give positive numbers")
     n = t_end / h
     if n.q != 1:
         near = h * max(int(n.floor()), 1)
-        raise UsageProblem(
-            f"the end time {t_end} is not a whole number of steps {h}", f"{near} is"
-        )
+        message = f"the end time {t_end} is not a whole number of steps {h}"
+        raise UsageProblem(message, f"{near} is")
     if n.p > MAX_STEPS:
-        raise UsageProblem(
-            f"{n} steps (limit {MAX_STEPS})", "choose a shorter time or larger steps"
-        )
+        message = f"{n} steps (limit {MAX_STEPS})"
+        raise UsageProblem(message, "choose a shorter time or larger steps")
     return int(n.p)

@@ -58,19 +58,24 @@ class NewtonWriter:
 
     def __init__(self, stages: StageWriter, jacobians: JacobianWriter) -> None:
         self.frozen: dict[tuple[int, Group], list[str]] = {}
-        self._stages, self._jacobians = stages, jacobians
+        self._stages = stages
+        self._jacobians = jacobians
         self._lines = stages.lines
         self._is_for_balls = stages.is_for_balls
 
     def solve(self, block: StageBlock, index: int) -> None:
         """Write Newton's method for the unknowns of ``block``, implicit block number ``index``."""
-        write, d = self._lines.write, self._stages.d
+        write = self._lines.write
+        d = self._stages.d
         unknowns = []
         for stage in block.unknowns:
-            unknowns += [f"z{self._stages.component(stage, i)}" for i in range(d)]
+            for i in range(d):
+                c = self._stages.component(stage, i)
+                unknowns.append(f"z{c}")
         is_direct = len(unknowns) <= _DIRECT and not self._is_for_balls
         self._start(block)
-        write(f"floor = {_size_of(names('y', 2 * d))}")
+        state = names("y", 2 * d)
+        write(f"floor = {_size_of(state)}")
         write("before = 0.0")
         write("done = False")
         if not is_direct:
@@ -88,11 +93,11 @@ class NewtonWriter:
             else:
                 self._by_inverse(block, len(unknowns), index)
             corrections = names("c", len(unknowns))
-            for z, c in zip(unknowns, corrections, strict=True):
+            for z, correction in zip(unknowns, corrections, strict=True):
                 if self._is_for_balls:
-                    write(f"{z} = ({z} - {c}).mid()")
+                    write(f"{z} = ({z} - {correction}).mid()")
                 else:
-                    write(f"{z} -= {c}")
+                    write(f"{z} -= {correction}")
             write(f"size = {_size_of(corrections)}")
             write(f"scale = {_size_of(unknowns)}")
             self._ending(is_direct)
@@ -120,7 +125,8 @@ class NewtonWriter:
         for stage in block.unknowns:
             for i in range(stages.d):
                 c = stages.component(stage, i)
-                self._lines.write(f"g{c} = {self._frozen_sum(stage, i)}")
+                frozen = self._frozen_sum(stage, i)
+                self._lines.write(f"g{c} = {frozen}")
                 guess = f"g{c} + m{c} + n{c}"
                 if self._is_for_balls:
                     guess = f"({guess}).mid()"
@@ -129,7 +135,8 @@ class NewtonWriter:
     def _frozen_sum(self, stage: Stage, i: int) -> str:
         terms = []
         for evaluation in self._stages.graph.sums[stage]:
-            f = self.frozen[evaluation.colour, evaluation.group][i]
+            field = self.frozen[evaluation.colour, evaluation.group]
+            f = field[i]
             if f != "0":
                 w = self._stages.weight(stage, evaluation)
                 terms.append(f"{w}*{f}")
@@ -165,7 +172,8 @@ class NewtonWriter:
         M = identity_minus(J)
         write("jacobians += 1")
         if len(J) == 1:
-            write(f"c0 = r0/({M[0][0]})")
+            ((slope,),) = M
+            write(f"c0 = r0/({slope})")
             return
         (a, b), (c, d) = M
         write(f"a, b, c, d = {a}, {b}, {c}, {d}")
@@ -182,7 +190,8 @@ class NewtonWriter:
                 self._jacobians.by_chain_rule(block, index)
             else:
                 J = self._jacobians.written_out(block)
-                entries = ", ".join(x for row in identity_minus(J) for x in row)
+                rows = identity_minus(J)
+                entries = ", ".join(x for row in rows for x in row)
                 self._lines.write(f"inverse = inverted([{entries}], {n})")
             self._lines.write("jacobians += 1")
         residuals = ", ".join(names("r", n))

@@ -62,8 +62,8 @@ class Program:
         """Evaluations of vector fields in one iteration of each implicit block."""
         counts = []
         for block in self.implicit:
-            evaluations = [x for x in block.order if isinstance(x, FieldEvaluation)]
-            counts.append(len(evaluations))
+            is_evaluation = [isinstance(x, FieldEvaluation) for x in block.order]
+            counts.append(sum(is_evaluation))
         return tuple(counts)
 
 
@@ -86,7 +86,9 @@ class _ProgramWriter:
         self.stages = StageWriter(graph, fields, dimension, is_for_balls, self.body)
         self.jacobians = JacobianWriter(self.stages)
         self.newton = NewtonWriter(self.stages, self.jacobians)
-        self.graph, self.d, self.is_for_balls = graph, dimension, is_for_balls
+        self.graph = graph
+        self.d = dimension
+        self.is_for_balls = is_for_balls
         self.blocks = graph.blocks()
         self.implicit = tuple(block for block in self.blocks if block.unknowns)
         self.unknowns = [stage for block in self.blocks for stage in block.unknowns]
@@ -94,7 +96,8 @@ class _ProgramWriter:
     def program(self) -> Program:
         """Write everything."""
         self._write_step()
-        text = "\n".join(self._around(self.body.texts)) + "\n"
+        lines = self._around(self.body.texts)
+        text = "\n".join(lines) + "\n"
         # (q, p) and what it lost; of each unknown what was missed, and how that changed
         size = 2 * (2 * self.d) + 2 * (self.d * len(self.unknowns))
         evaluations = len(self.graph.evaluations) + len(self.newton.frozen)
@@ -107,11 +110,13 @@ class _ProgramWriter:
             implicit=self.implicit,
             chains=self.jacobians.chains,
         )
-        return replace(made, evaluations=made.evaluations - sum(made.repeated))
+        in_newton = sum(made.repeated)
+        return replace(made, evaluations=evaluations - in_newton)
 
     def _around(self, body: list[str]) -> list[str]:
         """The function whose loop has this ``body``."""
-        y, lost = names("y", 2 * self.d), names("e", 2 * self.d)
+        y = names("y", 2 * self.d)
+        lost = names("e", 2 * self.d)
         components: list[str] = []
         for stage in self.unknowns:
             components += [self.stages.component(stage, i) for i in range(self.d)]
@@ -119,6 +124,7 @@ class _ProgramWriter:
         changed = [f"n{c}" for c in components]
         state = ", ".join((*y, *lost, *missed, *changed))
         counts = names("n", len(self.implicit))
+        numbers = ", ".join(counts)
         weights = list(self.stages.weights.values())
 
         lines = Lines()
@@ -126,11 +132,12 @@ class _ProgramWriter:
         with lines.nested():
             lines.write(f"{state}, = state")
             if weights:
-                lines.write(f"{', '.join(weights)}, = w")
+                every = ", ".join(weights)
+                lines.write(f"{every}, = w")
             if weights and self.is_for_balls:  # as floats for the Jacobians
-                floats = [f"v{x}" for x in weights]
+                floats = ", ".join(f"v{x}" for x in weights)
                 lines.write("v = list(map(float, w))")
-                lines.write(f"{', '.join(floats)}, = v")
+                lines.write(f"{floats}, = v")
             lines.write(" = ".join((*counts, "jacobians", "0")))
             lines.write("number = first")
             lines.write("try:")
@@ -140,7 +147,7 @@ class _ProgramWriter:
             # outside the domain of a field, or a singular matrix
             lines.write("except (ArithmeticError, ValueError):")
             lines.write(" raise NotSolved(number, nan) from None")
-            lines.write(f"return [{state}], [{', '.join(counts)}], jacobians")
+            lines.write(f"return [{state}], [{numbers}], jacobians")
         return lines.texts
 
     def _write_step(self) -> None:
@@ -160,7 +167,8 @@ class _ProgramWriter:
         for i in range(2 * self.d):
             self._add(i)
         y = names("y", 2 * self.d)
-        total_of_all = f"({' + '.join(y)})"
+        total = " + ".join(y)
+        total_of_all = f"({total})"
         if self.is_for_balls:
             write(f"if not {total_of_all}.is_finite():")
         else:
