@@ -87,6 +87,8 @@ def draw_order(axes: Axes) -> None:
     axes.set_title("Log-log order plot", fontsize=11)
     axes.set_xlabel("step size h")
     axes.set_ylabel("error")
+    axes.set_xticks(h, [str(row.h) for row in rows])
+    axes.set_xticks([], minor=True)
     axes.grid(True, which="major", color="0.85", linewidth=0.6)
     axes.legend(frameon=False)
 
