@@ -38,6 +38,16 @@ class _Composer(yaml.SafeLoader):
         super().__init__(text)
         self._depth = 0
         self._count = 0
+        self._settled = -1
+
+    def need_more_tokens(self) -> bool | None:
+        """Whether the scanner has to go on; the parser asks many times before it takes a token."""
+        if self.tokens_taken == self._settled:
+            return False
+        needed = super().need_more_tokens()
+        if not needed:
+            self._settled = self.tokens_taken
+        return needed
 
     def _next_event(self) -> yaml.Event:
         event: yaml.Event = self.peek_event()  # type: ignore[no-untyped-call]

@@ -74,7 +74,11 @@ def read_text(path: str, kind: FileKind) -> tuple[str, str]:
         )
     try:
         with open(path, "rb") as stream:
-            data = stream.read(MAX_BYTES + 1)
+            # no more than there is: to clear a megabyte takes longer than to read most files
+            size = min(status.st_size, MAX_BYTES)
+            data = stream.read(size + 1)
+            if len(data) > size:  # it has grown, or is one whose size no system knows
+                data += stream.read(MAX_BYTES - size)
     except OSError as error:
         raise MethodFileError(
             path, [Fault(f"cannot be read: {error.strerror}")]

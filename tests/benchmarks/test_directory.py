@@ -17,7 +17,7 @@ from garkcli.methodfile.load import load
 from garkcli.order.certificate import find_order
 from garkcli.tableau.tableau import Tableau
 from garkcli.transfer import PAIR_RULES, RULES
-from tests.benchmarks.measuring import GARK, process, report, seconds
+from tests.benchmarks.measuring import GARK, interleaved, process, report, seconds
 from tests.catalogue.catalogue import entries
 from tests.catalogue.method_files import method_file
 
@@ -95,6 +95,18 @@ def test_a_directory_costs_its_certificates(directory: Path) -> None:
         4.0,
         detail,
     )
+
+
+def test_two_workers_cost_little_more(tmp_path: Path) -> None:
+    """A thousand files by two workers: the processor time of one, and at most a fifth for what goes
+    between processes.
+    """
+    for k in range(1000):
+        (tmp_path / f"m{k:03}.gark.yaml").write_text(rational_file(k))
+    command = [*GARK, "check", "-q", str(tmp_path)]
+    two, one = interleaved(process([*command, "-j", "2"]), process(command), 4)
+    detail = f"{two:.2f} s, {one:.2f} s"
+    report("processor time of gark check -j 2 / -j 1", two / one, 1.2, detail)
 
 
 def test_the_catalogue_in_one_call(tmp_path: Path) -> None:
