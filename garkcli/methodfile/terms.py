@@ -16,10 +16,15 @@ from garkcli.exact.nodes import Expression
 from garkcli.methodfile.expansion import too_long
 from garkcli.methodfile.formulas import BITS, PLACES, Formulas, nearby
 from garkcli.methodfile.source import Source, shortened
+from garkcli.transfer import LOG10_2
 
 if TYPE_CHECKING:
     from garkcli.problems.hamiltonian import Hamiltonian
 
+MAX_BITS = 4_000
+"""Longest numerator or denominator: squared and cubed it is short of the 4300 digits that Python
+writes.
+"""
 _SHOWN = 8  # most missing names that are told
 
 
@@ -84,6 +89,7 @@ class Maker:
         if start is not None:
             self._check_values(terms, start)
         self._check_size(terms)
+        self._check_numbers([*terms, *invariants])
         self.source.close()
         assert start is not None
         if self.is_lagrangian:
@@ -212,6 +218,21 @@ class Maker:
             cure = "write it shorter, or with fewer variables"
             self.source.fault(largest.node, message, cure)
 
+    def _check_numbers(self, terms: Sequence[_Term]) -> None:
+        """Note terms with numbers too long to be written, once powers are multiplied out."""
+        import sympy
+
+        for term in terms:
+            longest = 0
+            for x in term.made.atoms(sympy.Rational):
+                bits = max(abs(int(x.p)), int(x.q)).bit_length()
+                longest = max(longest, bits)
+            if longest > MAX_BITS:
+                digits = int(longest * LOG10_2)
+                message = f"{term.where}: a coefficient of about {digits} digits"
+                cure = "choose units in which coefficients are shorter"
+                self.source.fault(term.node, message, cure)
+
     def _transformed(
         self, lagrangians: list[_Term], start: dict[str, fmpq]
     ) -> tuple[list[_Term], dict[str, fmpq]]:
@@ -236,6 +257,7 @@ class Maker:
         found = [term for term in transformed if term is not None]
         self.source.close()
         self._check_size(found)
+        self._check_numbers(found)
         self.source.close()
         if has_velocities:
             start = start | self._momenta(lagrangians, found, at, moving[0])

@@ -111,8 +111,8 @@ def _float(x: fmpq) -> str:
 def constant_name(x: fmpq) -> str:
     """The name that the texts for balls have for a rational constant."""
     sign = "m" if x < 0 else ""
-    numerator = abs(int(x.p))
-    return f"k{sign}{numerator}_{x.q}"
+    # hexadecimal: Python writes no more than 4300 decimal digits
+    return f"k{sign}{abs(int(x.p)):x}_{int(x.q):x}"
 
 
 @cache

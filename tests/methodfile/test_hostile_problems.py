@@ -107,6 +107,10 @@ REFUSED = {
         one("__import__('os').system('true')"),
         "'__import__' is not a function of formulas",
     ),
+    "long coefficient": (
+        one(f"({'7' * 150}*x/1e150)**60"),
+        "hamiltonian: a coefficient of about 9000 digits",
+    ),
     "attribute": (one("x.__class__"), "the sign '.' has no place"),
     "mass matrix": (
         problem(

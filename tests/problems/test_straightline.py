@@ -150,6 +150,9 @@ def test_constants_beyond_the_floats_are_infinite() -> None:
     assert function((huge * X[0],), X[:1], True)(arb(0.5))[0].overlaps(
         arb(10) ** 400 / 2
     )
+    longest = sympy.Integer(10) ** 6000  # more digits than Python writes
+    (found,) = function((longest * X[0],), X[:1], True)(arb(0.5))
+    assert found.overlaps(arb(10) ** 6000 / 2)
 
 
 def test_zero_is_a_number_of_the_kind_asked_for() -> None:
