@@ -14,9 +14,12 @@ from garkcli.cli.options import (
     digits_option,
     document_option,
 )
+from garkcli.cli.problems import ProblemType, find_problem, seed_option
+from garkcli.cli.stepping import refuse_misplaced, stepped_tableau
 from garkcli.errors import UsageProblem
 
 if TYPE_CHECKING:
+    from garkcli.backward.formulas import ModifiedFormula
     from garkcli.methodfile.build import MethodFile
     from garkcli.tableau.tableau import Tableau
 
@@ -46,6 +49,12 @@ if TYPE_CHECKING:
     is_flag=True,
     help="Rooted trees too, where there is a modified Hamiltonian.",
 )
+@click.option(
+    "--problem",
+    type=ProblemType(),
+    help="The formula on a problem: a name that gark list shows, or a file.",
+)
+@seed_option
 @digits_option("Coefficients in decimals of N digits; by default exact.")
 @document_option
 @common(["text", "json", "latex"])
@@ -54,6 +63,8 @@ def command(
     order: int,
     which: str | None,
     equation: bool,
+    problem: str | None,
+    seed: int | None,
     digits: int | None,
     document: bool,
     output: Output,
@@ -64,6 +75,9 @@ def command(
     of a symplectic method those of its modified Hamiltonian in free trees. They tell the order
     to which the method is symplectic and conserves energy, and its effective order: the order in
     the best coordinates.
+
+    With --problem the modified Hamiltonian itself, of a method that is not symplectic the modified
+    equation. There a file with `methods` is taken as its symplectic pair.
     """
     from garkcli.backward.summary import backward_analysis
     from garkcli.methodfile.load import load
@@ -74,11 +88,41 @@ def command(
         raise UsageProblem("--document goes with --format latex", "add --format latex")
     method = load(file)
     tableau = _chosen(method, which)
+    formula = None
+    if problem is not None:
+        refuse_misplaced(problem, seed, {})
+        if which is None:
+            tableau = stepped_tableau(method, output)
+            which = "pair" if tableau is not method.tableau else None
+        formula = _formula(method, tableau, problem, seed, order)
+    elif seed is not None:
+        raise UsageProblem("--seed is for the problem", "give --problem too")
     found = backward_analysis(tableau, order, method.tolerance)
-    report = ModifiedReport(file, method.name, found, which or "", digits, equation)
+    report = ModifiedReport(
+        file, method.name, found, which or "", digits, equation, formula
+    )
     is_long = output.verbosity >= 0
     output.write(render(report, output.format, output.paint, is_long, document))
     return 0
+
+
+def _formula(
+    method: MethodFile, tableau: Tableau, problem: str, seed: int | None, order: int
+) -> ModifiedFormula:
+    """The formula on the problem of --problem.
+
+    Raises:
+        UsageProblem: the coefficients are rounded.
+    """
+    from garkcli.backward.formulas import modified_formula
+
+    if method.tolerance is not None:
+        raise UsageProblem(
+            "--problem: a formula has exact coefficients, and those of the file are rounded",
+            "give exact coefficients, without tolerance",
+        )
+    solved = find_problem(problem, tableau, seed)
+    return modified_formula(tableau, solved, order).expanded()
 
 
 def _chosen(method: MethodFile, which: str | None) -> Tableau:

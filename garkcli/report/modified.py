@@ -10,6 +10,7 @@ from garkcli.exact.display import decimal, to_decimal, to_latex, to_text
 from garkcli.exact.field import Number
 from garkcli.report.latex import fragment, number
 from garkcli.report.modified_data import ModifiedReport, TreeTerm, render_json
+from garkcli.report.modified_formula import formula_latex, formula_lines
 from garkcli.report.paint import Paint, counted, folded, indented
 from garkcli.report.trees import picture
 from garkcli.trees.notation import format_latex, format_tree
@@ -58,6 +59,8 @@ def text_of(report: ModifiedReport, paint: Paint, is_long: bool = True) -> list[
         lines += indented(rest, " " * 21)
     if not is_long:
         return lines
+    if report.formula is not None:
+        return [*lines, "", *formula_lines(report.formula, paint)]
     hamiltonian = report.hamiltonian
     if hamiltonian is not None:
         title = "modified Hamiltonian: Σ h^(ρ−1) b(u)/|Aut| H(u)"
@@ -175,6 +178,9 @@ def _short(report: ModifiedReport, value: Number) -> str:
 
 
 def _latex(report: ModifiedReport) -> Iterator[str]:
+    if report.formula is not None:
+        yield formula_latex(report.formula)
+        return
     hamiltonian = report.hamiltonian
     if hamiltonian is not None:
         yield from _latex_table(report, hamiltonian, r"|\mathrm{Aut}|")

@@ -6,6 +6,7 @@ from collections.abc import Callable, Iterator
 from dataclasses import dataclass
 from typing import Any
 
+from garkcli.backward.formulas import ModifiedFormula, PowerTerm
 from garkcli.backward.hamiltonian import HamiltonianTerm
 from garkcli.backward.summary import BackwardAnalysis, Reached
 from garkcli.exact.display import decimal, to_decimal, to_text
@@ -59,6 +60,7 @@ class ModifiedReport:
         derivation: "pair" or "conjugate" where it was made of the file; else empty.
         digits: of decimals; None for exact numbers.
         with_equation: whether rooted trees are shown where there is a Hamiltonian.
+        formula: on a problem, where one was asked for; multiplied out.
     """
 
     file: str
@@ -67,6 +69,7 @@ class ModifiedReport:
     derivation: str = ""
     digits: int | None = None
     with_equation: bool = False
+    formula: ModifiedFormula | None = None
 
     @property
     def names(self) -> tuple[str, ...]:
@@ -102,6 +105,12 @@ class ModifiedReport:
 
 def _of_free_tree(term: HamiltonianTerm) -> TreeTerm:
     return TreeTerm(term.tree.representative, term.tree.symmetry, term.coefficient)
+
+
+def unknowns_of(formula: ModifiedFormula) -> list[str]:
+    """The names of positions and momenta."""
+    positions = list(formula.problem.variables)
+    return [*positions, *(f"p{name}" for name in positions)]
 
 
 def as_data(report: ModifiedReport) -> dict[str, Any]:
@@ -147,6 +156,15 @@ def _tolerance(report: ModifiedReport) -> str | None:
     return None if tolerance is None else decimal(tolerance)
 
 
+def _formulas(term: PowerTerm) -> list[str]:
+    return [formula_text(x) for x in term.formulas]
+
+
+def formula_text(formula: Any) -> str:
+    """A formula as problem files write it."""
+    return str(formula).replace("**", "^")
+
+
 def _equation(report: ModifiedReport) -> list[dict[str, Any]]:
     return [_TERM.data((report, term)) for term in report.equation]
 
@@ -166,6 +184,16 @@ _TERM: Record[tuple[ModifiedReport, TreeTerm]] = Record(
     Field("coefficient", EXACT, lambda x: x[0].number(x[1].coefficient)),
     Field("factor", EXACT, lambda x: x[0].number(x[1].factor)),
 )
+_POWER: Record[PowerTerm] = Record(
+    Field("power", {"type": "integer", "minimum": 0}, lambda x: x.power),
+    Field("formulas", array(TEXT), _formulas),
+)
+_FORMULA: Record[ModifiedFormula] = Record(
+    Field("problem", TEXT, lambda x: x.problem.name),
+    Field("of", {"enum": ["hamiltonian", "equation"]}, lambda x: x.of),
+    Field("unknowns", array(TEXT), unknowns_of),
+    Field("terms", array(_POWER.schema), lambda x: [_POWER.data(t) for t in x.terms]),
+)
 _REPORT: Record[ModifiedReport] = Record(
     Field("schema", {"const": SCHEMA}, lambda _: SCHEMA),
     Field("file", TEXT, lambda x: x.file),
@@ -181,4 +209,5 @@ _REPORT: Record[ModifiedReport] = Record(
     *_order_fields("effective_order", lambda x: x.effective),
     Field("equation", array(_TERM.schema), _equation),
     Field("hamiltonian", nullable(array(_TERM.schema)), _hamiltonian),
+    _FORMULA.or_null("formula", lambda x: x.formula),
 )

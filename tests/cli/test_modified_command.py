@@ -120,3 +120,56 @@ def test_too_many_trees_are_refused() -> None:
     run = gark("modified", COLLOCATION, "--pair", "-n", "9")
     assert run.code == 2
     assert "help: ask for --order 5 at most" in run.err
+
+
+PENDULUM = ("--problem", "pendulum")
+
+
+def test_the_formula_on_a_problem() -> None:
+    """The known modified Hamiltonian, as text within 80 columns, as JSON of the schema, as LaTeX."""
+    run = gark("modified", VERLET, *PENDULUM, "-n", "7")
+    assert "    h^2     px^2*cos(x)/12 - sin(x)^2/24\n" in run.out
+    assert [line for line in run.out.splitlines() if len(line) > 80] == []
+    report = json.loads(
+        gark("modified", VERLET, *PENDULUM, "-n", "3", "--format", "json").out
+    )
+    assert not list(Draft7Validator(modified_report_schema()).iter_errors(report))
+    assert report["formula"]["of"] == "hamiltonian"
+    assert [term["power"] for term in report["formula"]["terms"]] == [0, 2]
+    latex = gark("modified", VERLET, *PENDULUM, "-n", "3", "--format", "latex").out
+    assert r"\tilde H &=" in latex
+    assert r"\frac{\sin^{2}{\left(x \right)}}{24}" in latex
+
+
+def test_the_formula_of_a_method_that_is_not_symplectic(tmp_path: Path) -> None:
+    """The equation for each unknown, in a file of one tableau."""
+    path = tmp_path / "euler.gark.yaml"
+    path.write_text("{A: [[0]], b: [1]}\n", encoding="utf-8")
+    text = gark("modified", str(path), *PENDULUM, "-n", "2").out
+    assert "  h^1\n    x'      sin(x)/2\n    px'     px*cos(x)/2\n" in text
+    latex = gark("modified", str(path), *PENDULUM, "-n", "2", "--format", "latex").out
+    assert r"\dot{px} &=" in latex
+
+
+def test_a_problem_file_and_the_pair() -> None:
+    """A problem file works as a built-in problem does; methods are taken as their pair."""
+    text = gark(
+        "modified", COLLOCATION, "--problem", "problems/kepler.yaml", "-n", "2"
+    ).out
+    assert "  the symplectic pair; 4 colours" in text
+    assert "H       px^2/2 + py^2/2 - 1/sqrt(x^2 + y^2)" in text
+
+
+def test_problems_and_options_that_do_not_fit(tmp_path: Path) -> None:
+    """Each is refused with a cure."""
+    rounded = tmp_path / "rounded.gark.yaml"
+    rounded.write_text(ROUNDED, encoding="utf-8")
+    for arguments, cure in (
+        ((str(rounded), *PENDULUM), "exact coefficients"),
+        ((VERLET, *PENDULUM, "--seed", "2"), "leave it out"),
+        ((VERLET, "--seed", "2"), "give --problem"),
+        ((VERLET, "--problem", "generic-separable", "-n", "3"), "--order 2 at most"),
+    ):
+        run = gark("modified", *arguments)
+        assert run.code == 2, run.out
+        assert cure in run.err

@@ -34,7 +34,7 @@ REPORTS = {
     ],
     "modified": [
         ["modified", METHOD],
-        ["modified", "methods/rectangular.gark.yaml"],
+        ["modified", "methods/rectangular.gark.yaml", "--problem", "pendulum"],
     ],
     "converge": [
         ["converge", METHOD, "--problem", "oscillator"],

@@ -13,6 +13,7 @@ PAGES = [
     ROOT / "README.md",
     ROOT / "docs" / "tour.md",
     ROOT / "docs" / "stability.md",
+    ROOT / "docs" / "modified-equation.md",
     ROOT / "docs" / "certificate.md",
 ]
 

@@ -1,0 +1,207 @@
+"""The modified Hamiltonian or the modified equation of a method on one problem, as a formula."""
+
+from __future__ import annotations
+
+from collections.abc import Sequence
+from dataclasses import dataclass, replace
+from math import comb, prod
+from typing import TYPE_CHECKING, Any, Literal
+
+from garkcli.backward.differentials import Differentials, Formula, FormulaVector
+from garkcli.backward.free_trees import hamiltonian_structure
+from garkcli.backward.hamiltonian import modified_hamiltonian
+from garkcli.backward.modified import ModifiedEquation, modified_equation
+from garkcli.errors import UsageProblem
+from garkcli.exact.field import Algebraic, Number
+from garkcli.problems.hamiltonian import Hamiltonian
+from garkcli.stepping.integrator import bind
+from garkcli.tableau.conjugate import is_symplectic
+from garkcli.tableau.tableau import Tableau
+
+if TYPE_CHECKING:
+    from garkcli.stepping.dependency import Fields
+    from garkcli.trees.free import Structure
+
+MAX_OPERATIONS = 20_000
+"""The longest formula that is multiplied out, in operations as it is put together."""
+MAX_SUMMANDS = 100_000
+"""The most summands of a formula that is multiplied out, before like ones are collected."""
+
+
+@dataclass(frozen=True)
+class PowerTerm:
+    """What multiplies a power of h.
+
+    Attributes:
+        power: of h.
+        formulas: one for a Hamiltonian, 2d for an equation.
+    """
+
+    power: int
+    formulas: FormulaVector
+
+
+@dataclass(frozen=True)
+class ModifiedFormula:
+    """The modified Hamiltonian or the right-hand side of the modified equation.
+
+    Attributes:
+        problem: in as many terms as the method is for.
+        of: which of the two.
+        max_order: of the trees: powers of h up to one less.
+        terms: by ascending powers, without those whose trees all vanish.
+    """
+
+    problem: Hamiltonian
+    of: Literal["hamiltonian", "equation"]
+    max_order: int
+    terms: tuple[PowerTerm, ...]
+
+    def expanded(self) -> ModifiedFormula:
+        """The same multiplied out, with like summands collected, without powers that vanish.
+
+        Raises:
+            UsageProblem: a formula is too long.
+        """
+        terms = []
+        for term in self.terms:
+            formulas = tuple(_expanded(x, term.power) for x in term.formulas)
+            if any(x != 0 for x in formulas):
+                terms.append(PowerTerm(term.power, formulas))
+        return replace(self, terms=tuple(terms))
+
+
+def modified_formula(
+    tableau: Tableau, problem: Hamiltonian, max_order: int
+) -> ModifiedFormula:
+    """The modified Hamiltonian of a symplectic method, the modified equation of any other.
+
+    Args:
+        tableau: that steps; its coefficients are exact.
+        problem: in as many terms as the tableau is for, or in one that has a natural split.
+        max_order: of the trees.
+
+    Raises:
+        UsageProblem: the problem is not of the form of the structure, or there are too many trees.
+
+    >>> from garkcli import hamiltonian, load
+    >>> verlet = load("methods/stoermer-verlet.gark.yaml").tableau
+    >>> found = modified_formula(verlet, hamiltonian("pendulum", 2), 4)
+    >>> for term in found.expanded().terms:
+    ...     print(term.power, *term.formulas)
+    0 px**2/2 - cos(x) + 1
+    2 px**2*cos(x)/12 - sin(x)**2/24
+    """
+    bound = bind(tableau, problem)
+    seen = _with_linear_fields(bound.tableau, bound.fields)
+    equation = modified_equation(seen, max_order)
+    structure = hamiltonian_structure(seen)
+    differentials = Differentials(seen, bound.problem)
+    if structure is not None and is_symplectic(seen):
+        of: Literal["hamiltonian", "equation"] = "hamiltonian"
+        sums = _of_hamiltonian(differentials, equation, structure)
+    else:
+        of = "equation"
+        sums = _of_equation(differentials, equation)
+    terms = []
+    for power, formulas in enumerate(sums):
+        if any(x != 0 for x in formulas):
+            terms.append(PowerTerm(power, tuple(formulas)))
+    return ModifiedFormula(bound.problem, of, max_order, tuple(terms))
+
+
+def _with_linear_fields(tableau: Tableau, fields: Fields) -> Tableau:
+    """The tableau without the trees that vanish on the problem because H^{l} is quadratic."""
+    quadratic = {x.term for x in tableau.colours}
+    for (l, _), field in fields.items():
+        if not field.is_linear:
+            quadratic.discard(tableau.colours[l].term)
+    colours = []
+    for colour in tableau.colours:
+        is_linear = colour.is_linear or colour.term in quadratic
+        colours.append(replace(colour, is_linear=is_linear))
+    return replace(tableau, colours=tuple(colours))
+
+
+def _of_hamiltonian(
+    differentials: Differentials, equation: ModifiedEquation, structure: Structure
+) -> list[list[Formula]]:
+    """For each power of h one formula."""
+    sums: list[list[Formula]] = [[0] for _ in range(equation.max_order)]
+    for term in modified_hamiltonian(equation, structure):
+        value = differentials.hamiltonian(term.tree.representative)
+        power = term.tree.order - 1
+        sums[power][0] += in_sympy(term.factor) * value
+    return sums
+
+
+def _of_equation(
+    differentials: Differentials, equation: ModifiedEquation
+) -> list[list[Formula]]:
+    """For each power of h one formula for each unknown."""
+    size = len(differentials.unknowns)
+    sums: list[list[Formula]] = []
+    for n in range(1, equation.max_order + 1):
+        total: list[Formula] = [0] * size
+        for tree, coefficient in equation.terms(n):
+            factor = in_sympy(coefficient / tree.symmetry)
+            for i, component in enumerate(differentials.field(tree)):
+                total[i] += factor * component
+        sums.append(total)
+    return sums
+
+
+def _expanded(formula: Formula, power: int) -> Formula:
+    """A formula multiplied out.
+
+    Raises:
+        UsageProblem: it is too long.
+    """
+    import sympy
+
+    expression = sympy.sympify(formula)
+    cure = f"ask for --order {power} at most, or choose a simpler problem"
+    size = int(expression.count_ops())
+    if size > MAX_OPERATIONS:
+        raise UsageProblem(
+            f"the formula of h^{power} has {size} operations (limit {MAX_OPERATIONS})",
+            cure,
+        )
+    if _summands(expression) > MAX_SUMMANDS:
+        raise UsageProblem(
+            f"the formula of h^{power} has too many summands (limit {MAX_SUMMANDS})",
+            cure,
+        )
+    return sympy.expand(expression)
+
+
+def _summands(expression: Formula) -> int:
+    """A bound of the number of summands when a formula is multiplied out."""
+    if expression.is_Add:
+        return sum(map(_summands, expression.args))
+    if expression.is_Mul:
+        return prod(map(_summands, expression.args))
+    if expression.is_Pow and expression.exp.is_Integer and expression.exp > 0:
+        count, power = _summands(expression.base), int(expression.exp)
+        return comb(count + power - 1, power)
+    return 1
+
+
+def in_sympy(number: Number) -> Any:
+    """An exact number as a sympy expression."""
+    import sympy
+
+    if not isinstance(number, Algebraic):
+        return sympy.Rational(int(number.p), int(number.q))
+    from garkcli.problems.translate import Translator
+
+    translator = Translator({}, {})
+    total = sympy.Integer(0)
+    for coefficient, word in number.terms():
+        factors: Sequence[Any] = [
+            translator.translate(number.field.radicals[index][0]) for index in word
+        ]
+        total += sympy.Rational(int(coefficient.p), int(coefficient.q)) * sympy.Mul(
+            *factors
+        )
+    return total

@@ -1,0 +1,62 @@
+"""The modified Hamiltonian or equation of a problem as text and LaTeX."""
+
+from __future__ import annotations
+
+from collections.abc import Sequence
+
+from garkcli.backward.formulas import ModifiedFormula, PowerTerm
+from garkcli.report.convergence import describe
+from garkcli.report.modified_data import formula_text, unknowns_of
+from garkcli.report.paint import Paint, folded, indented
+
+_WIDTH = 80
+_LABEL = 8  # columns of what stands before a formula
+
+
+def formula_lines(formula: ModifiedFormula, paint: Paint) -> list[str]:
+    """The formula by powers of h."""
+    about = folded(describe(formula.problem), _WIDTH - 4, "  ")
+    rest = f"up to h^{formula.max_order - 1}"
+    if formula.of == "hamiltonian":
+        lines = [f"  modified Hamiltonian, {rest}, of", *indented(about, "    ")]
+        for term in formula.terms:
+            label = f"h^{term.power}" if term.power else "H"
+            lines += _labelled(label, formula_text(term.formulas[0]))
+        return lines
+    lines = [f"  modified equation, {rest}, of", *indented(about, "    ")]
+    unknowns = unknowns_of(formula)
+    for term in formula.terms:
+        lines.append(paint("strong", f"  h^{term.power}"))
+        for unknown, component in zip(unknowns, term.formulas, strict=True):
+            lines += _labelled(f"{unknown}'", formula_text(component))
+    return lines
+
+
+def _labelled(label: str, text: str) -> list[str]:
+    first, *rest = folded(text, _WIDTH - 4 - _LABEL, "")
+    return [f"    {label:<{_LABEL}}{first}", *indented(rest, " " * (4 + _LABEL))]
+
+
+def formula_latex(formula: ModifiedFormula) -> str:
+    """The formula as an ``align*``."""
+    if formula.of == "hamiltonian":
+        rows = [_latex_row(r"\tilde H", formula.terms, 0)]
+    else:
+        rows = []
+        for i, unknown in enumerate(unknowns_of(formula)):
+            rows.append(_latex_row(rf"\dot{{{unknown}}}", formula.terms, i))
+    return "\\begin{align*}\n" + " \\\\\n".join(rows) + "\n\\end{align*}\n"
+
+
+def _latex_row(left: str, terms: Sequence[PowerTerm], component: int) -> str:
+    import sympy
+
+    parts = []
+    for term in terms:
+        written = sympy.latex(term.formulas[component])
+        if written == "0":
+            continue
+        power = "" if term.power == 0 else f"h^{{{term.power}}} "
+        parts.append(rf"{power}\Bigl({written}\Bigr)" if power else written)
+    joined = " \\\\\n    &\\quad + ".join(parts) or "0"
+    return f"  {left} &= {joined}"
