@@ -22,7 +22,7 @@ from garkcli.tableau.point_space import PointSpace
 from garkcli.tableau.tableau import Tableau
 
 if TYPE_CHECKING:
-    from garkcli.order.suggestion import Suggestion
+    from garkcli.order.suggestion import Misprint, Suggestion
 
 
 def analyse(
@@ -40,11 +40,15 @@ def analyse(
         units: by how much each printed value may be off, where its digits are known; asked for only
             where residuals look like rounding.
     """
-    if tolerance is not None:
-        # balls, which exact methods do without
-        from garkcli.check.within import analyse_within
+    if tolerance is None:
+        return _analyse_exactly(tableau, limit, units)
+    # balls, which exact methods do without
+    from garkcli.check.within import analyse_within
 
-        return analyse_within(tableau, tolerance, limit)
+    return analyse_within(tableau, tolerance, limit)
+
+
+def _analyse_exactly(tableau: Tableau, limit: int, units: Units | None) -> Analysis:
     conjugated, both, obstacle = conjugate_and_pair(tableau)
     order = find_order(tableau, limit)
     conditions = simplifying(tableau, limit)
@@ -61,11 +65,10 @@ def analyse(
         pair_sharp_bound = pair_conditions.sharp_bound
     inconsistent = inconsistent_blocks(tableau)
     suggestion = _suggestion(tableau, order, limit)
-    misprint = None
-    if suggestion is not None and units is not None:
-        from garkcli.order.suggestion import find_misprint
-
-        misprint = find_misprint(tableau, order, suggestion, units())
+    misprint = _misprint(tableau, order, suggestion, units)
+    timed_order = nonautonomous(
+        tableau, order, inconsistent, lambda timed: find_order(timed, limit)
+    )
     return Analysis(
         tableau=tableau,
         order=order,
@@ -84,12 +87,21 @@ def analyse(
         pair_sharp_bound=pair_sharp_bound,
         obstacle=obstacle,
         limit=limit,
-        nonautonomous_order=nonautonomous(
-            tableau, order, inconsistent, lambda timed: find_order(timed, limit)
-        ),
+        nonautonomous_order=timed_order,
         suggestion=None if misprint else suggestion,
         misprint=misprint,
     )
+
+
+def _misprint(
+    tableau: Tableau, order: Order, suggestion: Suggestion | None, units: Units | None
+) -> Misprint | None:
+    """The one printed value that does not fit the others, where there is one."""
+    if suggestion is None or units is None:
+        return None
+    from garkcli.order.suggestion import find_misprint
+
+    return find_misprint(tableau, order, suggestion, units())
 
 
 def _suggestion(tableau: Tableau, order: Order, limit: int) -> Suggestion | None:

@@ -66,8 +66,7 @@ def converge(
     >>> round(result.observed_order, 1), result.verdict
     (4.0, 'agree')
     """
-    if problem is None:
-        problem = in_common(seeing_problem([tableau]), [tableau], 1)[0]
+    problem = problem or _seeing_every_tree(tableau)
     usual = usual_time(problem)
     t_end = usual if t_end is None else t_end
     if steps is not None:
@@ -77,11 +76,8 @@ def converge(
     rows, plateau = _rows(solver, steps, is_timed)
     fitted = rows[: len(rows) - plateau]
     observed = observed_order(fitted)
-    has_settled = len(fitted) >= ladder.ROWS and ladder.has_settled(fitted)
-
     short_time, short_order = None, None
-    is_off = observed is not None and abs(observed - solver.visible.order) > CLOSE
-    if is_off and tolerance is None:
+    if tolerance is None and _is_off(solver, observed):
         short_time, short_order = _over_short_times(solver, min(t_end, usual))
     if is_timed:
         rows = [solver.timed(row) for row in rows]
@@ -95,9 +91,14 @@ def converge(
         solver.visible,
         short_time,
         short_order,
-        has_settled or tolerance is None,
+        tolerance is None or _has_settled(fitted),
         steps is not None,
     )
+
+
+def _has_settled(rows: Sequence[Row]) -> bool:
+    """Whether there are as many rows as a slope takes, and it has stopped changing."""
+    return len(rows) >= ladder.ROWS and ladder.has_settled(rows)
 
 
 def _rows(
@@ -110,6 +111,13 @@ def _rows(
         return ladder.default_rows(solver, is_timed)
     rows = _given_rows(solver, steps)
     return rows, ladder.plateau(rows, solver.visible.order, solver.rounding())
+
+
+def _seeing_every_tree(tableau: Tableau) -> Hamiltonian:
+    """The problem with random coefficients for one method."""
+    name = seeing_problem([tableau])
+    (problem,) = in_common(name, [tableau], 1)
+    return problem
 
 
 def usual_time(problem: Oscillator | Hamiltonian) -> fmpq:
@@ -140,10 +148,8 @@ def check_steps(
     for h in steps:
         count = whole_steps(t_end, h)
         if count > limit:
-            raise UsageProblem(
-                f"{count} steps (limit {limit})",
-                "choose a shorter time or larger steps",
-            )
+            message = f"{count} steps (limit {limit})"
+            raise UsageProblem(message, "choose a shorter time or larger steps")
 
 
 def order_of(tableau: Tableau, tolerance: fmpq | None) -> int:
@@ -187,6 +193,13 @@ def _given_rows(solver: Solver, steps: Sequence[fmpq]) -> list[Row]:
             return [row]
         rows.append(row)
     return rows
+
+
+def _is_off(solver: Solver, observed: float | None) -> bool:
+    """Whether an order is observed that is not the one to be seen."""
+    if observed is None:
+        return False
+    return abs(observed - solver.visible.order) > CLOSE
 
 
 def _over_short_times(solver: Solver, usual: fmpq) -> tuple[fmpq, float | None]:

@@ -19,6 +19,7 @@ from flint import arb, arb_mat, ctx, fmpq
 
 from garkcli.exact.display import to_float
 from garkcli.exact.matrix import Matrix
+from garkcli.longtime.fit import ROUNDING, Line, drift_of
 from garkcli.longtime.history import (
     BLOW_UP,
     SERIES,
@@ -44,8 +45,6 @@ if TYPE_CHECKING:
 
 
 _GOAL = 60  # bits of the largest energy error that balls have to get right
-_CHUNK = 65536  # steps that a fit looks at at a time
-_ROUNDING = 2.0**-42  # of a slope in all, of the largest error: floats are summed
 _FLOOR = 1000  # energy errors below 2^-1000 count as zero: floats end there
 
 
@@ -62,14 +61,6 @@ class _Errors:
     values: Floats
     is_exact: bool
     blew_up: bool
-
-
-@dataclass(frozen=True)
-class _Line:
-    """A drift fitted to energy errors, per step, and how good it is."""
-
-    slope: float
-    uncertainty: float
 
 
 def oscillator_run(
@@ -102,9 +93,9 @@ def oscillator_run(
     done = len(errors.values) - 1
     h = to_float(step)
 
-    line = _drift(errors.values, _angle(R, problem.omega))
+    line = drift_of(errors.values, _angle(R, problem.omega))
     if errors.is_exact or fate.fate == "elliptic":
-        line = _Line(0.0, 0.0)
+        line = Line(0.0, 0.0)
     powers = _powers(problem.omega, energy, done * h)
     rate = energy_rate(tableau, tolerance, h, powers)
     excused = rate * done * h
@@ -118,7 +109,7 @@ def _history(
     errors: _Errors,
     energy: float,
     fate: Stability,
-    line: _Line,
+    line: Line,
     excused: float,
     kept: Integers,
     h: float,
@@ -148,7 +139,7 @@ def _history(
         drift=drift,
         uncertainty=uncertainty,
         amplitude=height / 2,
-        round_off=power_of_ten(_ROUNDING * largest),
+        round_off=power_of_ten(ROUNDING * largest),
         coefficients=excused,
         verdict=verdict,
         shape=_shape(verdict, line),
@@ -181,7 +172,7 @@ def _verdict(errors: _Errors, is_bounded: bool) -> Verdict:
     return "bounded" if is_bounded else "drifts"
 
 
-def _shape(verdict: Verdict, line: _Line) -> Shape:
+def _shape(verdict: Verdict, line: Line) -> Shape:
     """Of a drift: a line where its slope can be told from 0."""
     if verdict != "drifts":
         return "none"
@@ -302,55 +293,3 @@ def _angle(R: Matrix, omega: fmpq) -> float | None:
     imaginary = np.sqrt(-discriminant)
     theta = np.arctan2(imaginary, real)
     return float(2 * theta % (2 * np.pi))
-
-
-def _drift(errors: Floats, angle: float | None) -> _Line:
-    """The drift of ``oscillator_run`` and its uncertainty."""
-    import numpy as np
-
-    slope = _slope(errors, angle)
-    half = len(errors) // 2
-    largest = float(np.abs(errors).max())
-    rounding = _ROUNDING * largest / len(errors)
-    first = _slope(errors[: half + 1], angle)
-    second = _slope(errors[half:], angle)
-    apart = max(abs(first - slope), abs(second - slope))
-    return _Line(slope, apart + rounding)
-
-
-def _slope(errors: Floats, angle: float | None) -> float:
-    """The drift of ``oscillator_run``, per step; by normal equations, whose columns are nearly
-    orthogonal.
-    """
-    import numpy as np
-
-    sizes = np.abs(errors)
-    largest = float(sizes.max())
-    last = len(errors) - 1
-    if last < 1 or largest == 0:
-        return 0.0
-    # two turns within the run: the least for which a wave is no line
-    if angle is not None:
-        a_step = min(angle, 2 * np.pi - angle)
-        if a_step * last < 4 * np.pi:
-            angle = None
-    size = 2 if angle is None else 4
-    gram = np.zeros((size, size))
-    moments = np.zeros(size)
-    for start in range(0, len(errors), _CHUNK):
-        chunk = errors[start : start + _CHUNK]
-        part = chunk / largest
-        n = np.arange(start, start + len(part), dtype=np.float64)
-        level = np.ones_like(n)
-        line = n / last - 0.5
-        columns = [level, line]
-        if angle is not None:
-            phase = angle * n
-            columns.append(np.cos(phase))
-            columns.append(np.sin(phase))
-        A = np.stack(columns, axis=1)
-        gram += A.T @ A
-        moments += A.T @ part
-    fitted = np.linalg.solve(gram, moments)
-    in_all = float(fitted[1]) * largest
-    return in_all / last

@@ -102,10 +102,21 @@ def long_run(
     record = Record(measure, count, points)
     path = trajectory(method, step, count)
     record.take(watch(path, count + 1))
-
     h = to_float(step)
-    noise = _noise(record, bound, step, method.digits)
-    rate = energy_rate(tableau, tolerance, h, record.exchange.powers(h))
+    powers = record.exchange.powers(h)
+    rate = energy_rate(tableau, tolerance, h, powers)
+    return _judged(record, bound, rate, step, t_end)
+
+
+def _judged(
+    record: Record, bound: Binding, rate: float, step: fmpq, t_end: fmpq
+) -> LongRun:
+    """What has become of the invariants; ``rate`` is the energy per unit of time that rounded
+    coefficients can cause.
+    """
+    h = to_float(step)
+    digits = record.measure.digits
+    noise = _noise(record, bound, step, digits)
     excused = rate * record.done * h
     judge = _Judge(record, step, excused)
     histories = [judge.history(k, float(x)) for k, x in enumerate(noise)]
@@ -116,11 +127,11 @@ def long_run(
     escape = judge.escape
     escaped = None if escape is None else escape * step
     return LongRun(
-        problem,
+        bound.problem,
         step,
         t_end,
         record.done,
-        method.digits,
+        digits,
         tuple(histories),
         tuple(times.tolist()),
         tuple(states),
