@@ -3,6 +3,7 @@
 from __future__ import annotations
 
 from dataclasses import dataclass
+from functools import cached_property
 from typing import TYPE_CHECKING, TypeAlias, Union
 
 from flint import fmpq
@@ -22,6 +23,7 @@ if TYPE_CHECKING:
     from garkcli.exact.field import Number
     from garkcli.order.rounded import RoundedOrder
     from garkcli.order.suggestion import Misprint, Suggestion
+    from garkcli.properties.subject import Subject
 
 Units: TypeAlias = "Callable[[], Mapping[Number, fmpq]]"
 """By how much each printed value may be off in its last place."""
@@ -85,6 +87,16 @@ class Analysis:
     nonautonomous_order: AnyOrder | None = None
     suggestion: Suggestion | None = None
     misprint: Misprint | None = None
+
+    @cached_property
+    def subject(self) -> Subject:
+        """The method as its properties are decided, each when it is asked for."""
+        from garkcli.properties.subject import Subject
+
+        tolerance = ZERO if self.tolerance is None else self.tolerance
+        return Subject(
+            self.tableau, self.order.order, self.simplifying, self.limit, tolerance
+        )
 
     def __repr__(self) -> str:
         orders = [f"order {self.order.order}"]

@@ -4,16 +4,28 @@ from __future__ import annotations
 
 from collections.abc import Sequence
 
+from garkcli.check.agreement import agrees, claim_of, claimed_text
 from garkcli.check.analysis import Analysis, AnyOrder
 from garkcli.check.outcome import Claim
 from garkcli.methodfile.description import ClaimText
 from garkcli.methodfile.expectations import AtLeast
 from garkcli.order.simplifying import Simplifying
+from garkcli.properties.keys import KEYS
 
 
 def verify(claims: tuple[ClaimText, ...], analysis: Analysis) -> tuple[Claim, ...]:
     """Hold each claim against the truth."""
-    return tuple(_verified(claim, _found(claim.key, analysis)) for claim in claims)
+    return tuple(_held_against(claim, analysis) for claim in claims)
+
+
+def _held_against(claim: ClaimText, analysis: Analysis) -> Claim:
+    if claim.key in KEYS:
+        from garkcli.check.claimed_properties import verify_property
+
+        return verify_property(claim, analysis.subject)
+    found = _found(claim.key, analysis)
+    shown = "none: a weight is zero" if found is None else claimed_text(found)
+    return claim_of(claim, shown, agrees(claim.value, found))
 
 
 def _found(key: str, analysis: Analysis) -> object:
@@ -50,40 +62,3 @@ def _capped(number: int | None, limit: int) -> object:
     if number is None or number < limit:
         return number
     return AtLeast(number)
-
-
-def _verified(claim: ClaimText, found: object) -> Claim:
-    mark = claim.node.start_mark
-    shown = "none: a weight is zero" if found is None else _text(found)
-    return Claim(
-        claim=claim.key,
-        expected=_text(claim.value),
-        found=shown,
-        holds=_agrees(claim.value, found),
-        line=mark.line + 1,
-        column=mark.column + 1,
-    )
-
-
-def _agrees(wanted: object, found: object) -> bool:
-    """Whether a value of a file, a number or a list of numbers or lists, is what was found."""
-    if isinstance(wanted, list):
-        if not isinstance(found, list) or len(found) != len(wanted):
-            return False
-        return all(_agrees(x, y) for x, y in zip(wanted, found, strict=True))
-    if isinstance(wanted, AtLeast):
-        known = found.least if isinstance(found, AtLeast) else found
-        return isinstance(known, int) and known >= wanted.least
-    return type(wanted) is type(found) and wanted == found
-
-
-def _text(value: object) -> str:
-    """A value as it is written in YAML."""
-    if isinstance(value, list):
-        inside = ", ".join(_text(x) for x in value)
-        return f"[{inside}]"
-    if value is None:
-        return "null"
-    if isinstance(value, bool):
-        return str(value).lower()
-    return str(value)

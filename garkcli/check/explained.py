@@ -49,9 +49,12 @@ def bound_numbers(found: Simplifying) -> str:
 
 
 def claim_witness(outcome: Outcome, claim: str) -> str:
-    """The witness against a failed claim on an order, or what a bound is made of; empty where there
-    is neither.
+    """The witness against a failed claim on an order, what a bound is made of, or what speaks
+    against a property; empty where there is none of these.
     """
+    for failed in outcome.failed_claims:
+        if failed.claim == claim and failed.why:
+            return failed.why
     analysis = outcome.analysis
     if analysis is None:
         return ""

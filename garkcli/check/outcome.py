@@ -24,6 +24,7 @@ class Claim:
         holds: whether they agree.
         line: the line of the claim in the file, from 1.
         column: its column, from 1.
+        why: of a property that is claimed in vain, what speaks against it.
     """
 
     claim: str
@@ -32,6 +33,7 @@ class Claim:
     holds: bool
     line: int
     column: int
+    why: str = ""
 
 
 @dataclass(frozen=True)
@@ -51,6 +53,7 @@ class Outcome:
         constants: the error constants at the first failing order, where they were asked for.
         needs_claims: whether a file that makes no claim fails.
         is_crash: whether the program failed, not the file; ``faults`` say how.
+        wants_properties: whether all properties were asked for.
     """
 
     file: str
@@ -64,6 +67,7 @@ class Outcome:
     constants: ErrorConstants | None = None
     is_crash: bool = False
     needs_claims: bool = False
+    wants_properties: bool = False
 
     @property
     def failed_claims(self) -> tuple[Claim, ...]:

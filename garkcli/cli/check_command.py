@@ -12,7 +12,7 @@ from garkcli.report.check_formats import FORMATS
 
 
 @click.command("check", context_settings=CONTEXT)
-@click.argument("files", nargs=-1, required=True, type=PATH, metavar="FILE...")
+@click.argument("files", nargs=-1, type=PATH, metavar="FILE...")
 @click.option(
     "--max-order",
     type=click.IntRange(1, 400),
@@ -25,6 +25,17 @@ from garkcli.report.check_formats import FORMATS
     "--error-constants",
     is_flag=True,
     help="The norms of the principal error coefficients, over the trees of the order that fails.",
+)
+@click.option(
+    "--properties",
+    "wants_properties",
+    is_flag=True,
+    help="Every property that a file may claim, with what decides it.",
+)
+@click.option(
+    "--explain",
+    metavar="KEY",
+    help="What a claim means, with its source; no FILE is needed.",
 )
 @click.option(
     "--baseline",
@@ -54,6 +65,8 @@ def command(
     files: tuple[str, ...],
     max_order: int,
     error_constants: bool,
+    wants_properties: bool,
+    explain: str | None,
     baseline: str | None,
     require_claims: bool,
     jobs: int,
@@ -72,6 +85,13 @@ def command(
 
     Exit code: 0 every claim holds, 1 a claim fails, 2 a file cannot be read as a method.
     """
+    if explain is not None:
+        return _explain(explain, output)
+    if not files:
+        context = click.get_current_context()
+        raise click.MissingParameter(
+            ctx=context, param_hint="'FILE...'", param_type="argument"
+        )
     from garkcli.cli.parallel import check_files
     from garkcli.methodfile.finding import find_files
     from garkcli.report.progress import tracked
@@ -88,6 +108,8 @@ def command(
     outcomes = list(tracked(running, len(paths), "checking", output.verbosity >= 0))
     if require_claims:
         outcomes = [replace(outcome, needs_claims=True) for outcome in outcomes]
+    if wants_properties:
+        outcomes = [replace(outcome, wants_properties=True) for outcome in outcomes]
     if earlier is not None:
         from garkcli.check.baseline import regressions
         from garkcli.report import check_baseline
@@ -101,6 +123,15 @@ def command(
         FORMATS[chosen](outcomes, output.paint, output.verbosity, digits), chosen
     )
     return max(outcome.exit_code for outcome in outcomes)
+
+
+def _explain(key: str, output: Output) -> int:
+    """Write what a claim means."""
+    from garkcli.properties.definitions import definition
+    from garkcli.report.explanation import render
+
+    output.write(render(definition(key), output.format, output.paint))
+    return 0
 
 
 def _format(output: Output) -> str:

@@ -38,6 +38,7 @@ COMMANDS = {
     "conditions": "the order-condition table, of any method or of a file",
     "tableau": "the assembled tableau, all blocks",
     "conjugate": "the symplectic conjugate tableau, or the pair",
+    "reduce": "the smallest method that does the same, as a method file",
     "stability": "A-, L-, P-stability, intervals, SSP coefficient, exactly",
     "modified": "the modified equation or Hamiltonian, effective order",
     "converge": "the convergence test on a problem",

@@ -3,13 +3,19 @@
 from __future__ import annotations
 
 import re
+from collections.abc import Callable
 from dataclasses import dataclass
-from typing import TypeAlias
+from typing import TYPE_CHECKING, TypeAlias
 
 from yaml.nodes import Node, ScalarNode, SequenceNode
 
 from garkcli.methodfile.description import ClaimText
 from garkcli.methodfile.source import Source, is_null, shortened
+from garkcli.properties.keys import KEYS
+
+if TYPE_CHECKING:
+    from garkcli.methodfile.measures import Measure
+    from garkcli.properties.property import Kind
 
 NUMBERS = (
     "order",
@@ -21,7 +27,7 @@ NUMBERS = (
     "pair-sharp-bound",
 )
 TABLES = ("B", "C", "D")
-CLAIMS = (*NUMBERS, *TABLES, "symplectic")
+CLAIMS = (*NUMBERS, *TABLES, "symplectic", *KEYS)
 """Everything a file may claim."""
 _FORM = "write for instance expect: {order: 4}"
 _AT_LEAST = re.compile(r">=\s*([0-9]{1,4})")
@@ -37,7 +43,7 @@ class AtLeast:
         return f">= {self.least}"
 
 
-Wanted: TypeAlias = "int | AtLeast | bool | list[Wanted] | None"
+Wanted: TypeAlias = "int | AtLeast | bool | Measure | list[Wanted] | None"
 
 
 def read(source: Source, node: Node | None) -> tuple[ClaimText, ...]:
@@ -47,15 +53,34 @@ def read(source: Source, node: Node | None) -> tuple[ClaimText, ...]:
     claims = []
     for key, value_node in source.mapping(node, "expect", CLAIMS, form=_FORM).items():
         where = f"expect, {key}"
-        if key == "symplectic":
-            word = source.choice(value_node, where, ("true", "false"))
-            wanted: Wanted = word == "true"
-        elif key in TABLES:
+        wanted: Wanted
+        if key in TABLES:
             wanted = _table(source, value_node, where, depth=1 if key == "B" else 2)
         else:
-            wanted = _number(source, value_node, where)
+            wanted = _READERS[_kind(key)](source, value_node, where)
         claims.append(ClaimText(value_node, key, wanted))
     return tuple(claims)
+
+
+def _kind(key: str) -> Kind:
+    """What a claim is made with."""
+    if key in NUMBERS:
+        return "count"
+    if key not in KEYS:
+        return "truth"
+    from garkcli.properties.registry import find  # few files claim properties
+
+    return find(key).kind
+
+
+def _truth(source: Source, node: Node, where: str) -> Wanted:
+    return source.choice(node, where, ("true", "false")) == "true"
+
+
+def _measure(source: Source, node: Node, where: str) -> Wanted:
+    from garkcli.methodfile.measures import read_measure
+
+    return read_measure(source, node, where)
 
 
 def _number(source: Source, node: Node, where: str) -> Wanted:
@@ -69,6 +94,13 @@ def _number(source: Source, node: Node, where: str) -> Wanted:
         message = f'{where}: a number or ">= n" is expected, not {shortened(text)}'
         source.fault(node, message, 'for instance order: 4, or order: ">= 4"')
     return None
+
+
+_READERS: dict[Kind, Callable[[Source, Node, str], Wanted]] = {
+    "truth": _truth,
+    "count": _number,
+    "number": _measure,
+}
 
 
 def _table(source: Source, node: Node, where: str, depth: int) -> Wanted:
@@ -86,9 +118,14 @@ def _table(source: Source, node: Node, where: str, depth: int) -> Wanted:
     ]
 
 
+_OF_ORDERS = {*NUMBERS, *TABLES, "stage-order"}
+"""Claims for which orders must be looked for as far as their numbers, and one further."""
+
+
 def highest_order(claims: tuple[ClaimText, ...]) -> int:
-    """The largest number that occurs in the claims: so far must be looked, and one further."""
-    return max((_largest(claim.value) for claim in claims), default=0)
+    """The largest order that occurs in the claims."""
+    found = [_largest(claim.value) for claim in claims if claim.key in _OF_ORDERS]
+    return max(found, default=0)
 
 
 def _largest(wanted: object) -> int:

@@ -13,6 +13,8 @@ from garkcli.families.registry import FAMILIES, MAX_STAGES
 from garkcli.methodfile.description import FORMS, STRUCTURES
 from garkcli.methodfile.expectations import NUMBERS, TABLES
 from garkcli.methodfile.transfers import ALL_RULES
+from garkcli.properties.property import Kind
+from garkcli.properties.registry import every_property
 from garkcli.transfer import RULES, SUMMARIES
 
 Schema: TypeAlias = dict[str, Any]
@@ -22,6 +24,11 @@ _NUMBER: Schema = {
     " read exactly as written.",
     "type": ["number", "string"],
     "pattern": r"^[-+*/^(),.\sA-Za-z0-9_]+$",
+}
+_MEASURE: Schema = {
+    "description": "A number that is claimed: exact, a decimal, infinity, or >= a number.",
+    "type": ["number", "string"],
+    "pattern": r"^(>=\s*)?[-+*/^(),.\sA-Za-z0-9_]+$",
 }
 _ROW: Schema = {"anyOf": [{"type": "array", "items": _NUMBER, "minItems": 1}, _NUMBER]}
 _MATRIX: Schema = {
@@ -282,7 +289,10 @@ def _expect() -> Schema:
     properties |= {
         key: row if key == "B" else {"type": "array", "items": row} for key in TABLES
     }
-    properties["symplectic"] = {"type": "boolean"}
+    truth: Schema = {"type": "boolean"}
+    properties["symplectic"] = truth
+    by_kind: dict[Kind, Schema] = {"truth": truth, "count": number, "number": _MEASURE}
+    properties |= {x.key: by_kind[x.kind] for x in every_property()}
     return {
         "description": "Claims that gark check confirms.",
         "type": "object",

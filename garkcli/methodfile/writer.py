@@ -41,10 +41,21 @@ def write_tableau_file(
     """
     lines = [f"# {line}" for line in note.splitlines()]
     lines += ["gark: 1", f"name: {quoted(name)}"]
-    lines += _prk(tableau, text) if _is_prk(tableau) else _blocks(tableau, text)
+    if _is_prk(tableau):
+        lines += _prk(tableau, text)
+    elif _is_ark(tableau):
+        lines += _ark(tableau, text)
+    else:
+        lines += _blocks(tableau, text)
     if tolerance is not None:
         lines.append(f"tolerance: {decimal(tolerance)}")
     return "\n".join(lines) + "\n"
+
+
+def write_method(tableau: Tableau, name: str, tolerance: fmpq | None) -> str:
+    """The same with decimals where coefficients are rounded."""
+    text = to_text if tolerance is None else _decimal_text
+    return write_tableau_file(tableau, name, tolerance, text=text)
 
 
 def write_rounded(tableau: Tableau, entries: Entries, name: str) -> str:
@@ -124,6 +135,28 @@ def can_spell_out(tableau: Tableau) -> bool:
 def _is_prk(tableau: Tableau) -> bool:
     parts = [colour.part for colour in tableau.colours]
     return parts == ["q", "p"]
+
+
+def _is_ark(tableau: Tableau) -> bool:
+    """Whether several vector fields share all stages and nodes, and none is linear."""
+    colours = tableau.colours
+    is_shared = len(tableau.spaces) == 1 and len({colour.c for colour in colours}) == 1
+    is_plain = not any(colour.is_linear for colour in colours)
+    return len(colours) > 1 and is_shared and is_plain and _is_complete(tableau)
+
+
+def _is_complete(tableau: Tableau) -> bool:
+    return len(tableau.blocks) == len(tableau.spaces) * tableau.size
+
+
+def _ark(tableau: Tableau, text: Callable[[Number], str]) -> list[str]:
+    """The form ``ark``: one matrix a colour, all on the same stages."""
+    lines = ["ark:", f"  c: {_row(tableau.colours[0].c, text)}", "  A:"]
+    for m in range(tableau.size):
+        lines.append(f"    -  # A^{{{m + 1}}}")
+        lines += [f"      - {_row(row, text)}" for row in tableau.blocks[0, m]]
+    lines.append("  b:")
+    return lines + [f"    - {_row(colour.b, text)}" for colour in tableau.colours]
 
 
 def _blocks(tableau: Tableau, text: Callable[[Number], str]) -> list[str]:

@@ -26,24 +26,22 @@ class Shape:
         systems: the stages that are solved together, two or more, as (space, stage) from 0.
         gamma: γ, where all entries a_ii^{l,l} ≠ 0 by which stages depend on themselves are γ; None
             otherwise.
-        starts_explicit: whether the first stage of each colour sees nothing: with γ an ESDIRK
-            method.
+        singly: ``SDIRK`` where all stages are implicit with the same γ, ``ESDIRK`` where the first
+            one of each stage space is explicit and all others are; empty otherwise.
     """
 
     kind: Kind | None
     implicit_stages: int | None
     systems: tuple[tuple[Vertex, ...], ...]
     gamma: Number | None
-    starts_explicit: bool
+    singly: Literal["SDIRK", "ESDIRK", ""]
 
     @property
     def name(self) -> str:
         """The usual name: explicit, SDIRK, ESDIRK, diagonally implicit, fully implicit."""
         if self.kind is None:
             return "not decided"
-        if self.kind != "diagonally implicit" or self.gamma is None:
-            return self.kind
-        return "ESDIRK" if self.starts_explicit else "SDIRK"
+        return self.singly or self.kind
 
 
 def shape(tableau: Tableau, colour: int | None = None, tolerance: fmpq = ZERO) -> Shape:
@@ -59,7 +57,12 @@ def shape(tableau: Tableau, colour: int | None = None, tolerance: fmpq = ZERO) -
     >>> shape(gark([diagonal_method("rk4", None)], {})).name
     'explicit'
     """
-    graph = stage_graph(tableau, None if colour is None else [colour], tolerance)
+    colours = None if colour is None else [colour]
+    return shape_of(stage_graph(tableau, colours, tolerance), tolerance)
+
+
+def shape_of(graph: StageGraph, tolerance: fmpq = ZERO) -> Shape:
+    """The shape of the stages of a graph."""
     together = [tuple(sorted(found)) for found in graph.systems if len(found) > 1]
     alone = [
         found[0]
@@ -76,10 +79,19 @@ def shape(tableau: Tableau, colour: int | None = None, tolerance: fmpq = ZERO) -
     gamma = None
     if kind == "diagonally implicit":
         gamma = _gamma(graph, alone, tolerance)
-    starts_explicit = all(
-        not seen for (_, i), seen in graph.successors.items() if not i
-    )
-    return Shape(kind, implicit, tuple(together), gamma, starts_explicit)
+    singly = "" if gamma is None else _singly(graph, alone)
+    return Shape(kind, implicit, tuple(together), gamma, singly)
+
+
+def _singly(
+    graph: StageGraph, implicit: Sequence[Vertex]
+) -> Literal["SDIRK", "ESDIRK", ""]:
+    stages = set(graph.successors)
+    if set(implicit) == stages:
+        return "SDIRK"
+    first = {vertex for vertex in stages if vertex[1] == 0}
+    see_nothing = not any(graph.successors[vertex] for vertex in first)
+    return "ESDIRK" if see_nothing and set(implicit) == stages - first else ""
 
 
 def _gamma(

@@ -14,6 +14,7 @@ from garkcli.exact.display import decimal
 from garkcli.report.hints_json import BLOCK, HINTS, blocks
 from garkcli.report.json_text import to_json
 from garkcli.report.order_json import SIMPLIFYING, order_fields
+from garkcli.report.property_json import EVERY_PROPERTY, PROPERTIES
 from garkcli.report.record import (
     COUNT,
     FLAG,
@@ -95,6 +96,7 @@ _ANALYSIS: tuple[Field[Analysis], ...] = (
     Field("pair_bound", nullable(COUNT), lambda x: x.pair_bound),
     Field("sharp_bound", COUNT, lambda x: x.sharp_bound),
     Field("pair_sharp_bound", nullable(COUNT), lambda x: x.pair_sharp_bound),
+    Field("properties", PROPERTIES.schema, PROPERTIES.data),
 )
 """What was found of a method."""
 
@@ -104,6 +106,7 @@ _CLAIM: Record[Claim] = Record(
     Field("found", TEXT, lambda x: x.found),
     Field("holds", FLAG, lambda x: x.holds),
     Field("line", POSITION, lambda x: x.line),
+    Field("why", TEXT, lambda x: x.why or None, is_optional=True),
 )
 _ERROR: Record[Fault] = Record(
     Field("line", nullable(POSITION), lambda x: x.line or None),
@@ -131,6 +134,7 @@ _CHECKED: Record[Outcome] = Record(
     Field("ok", FLAG, lambda x: x.ok),
     Field("structure", _STRUCTURE, lambda x: x.structure),
     *inside(lambda x: x.analysis, _ANALYSIS),
+    EVERY_PROPERTY,
     *HINTS,
     Field("claims", array(_CLAIM.schema), _claims),
 )

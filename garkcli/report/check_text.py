@@ -17,10 +17,11 @@ from garkcli.report.check_orders import (
     order_number,
     suggestion_lines,
 )
-from garkcli.report.paint import Paint, aligned, counted, indented
+from garkcli.report.paint import Paint, aligned, counted, folded, indented
 from garkcli.report.plain import inert, printable
 from garkcli.tableau.tableau import Tableau
 
+_WIDTH = 80
 _NAMED_BLOCKS = 4
 """How many blocks with wrong row sums are named; the others are counted."""
 
@@ -139,7 +140,12 @@ def _full(
 
         lines += misprint_lines(analysis.misprint, tableau, paint)
     lines += ["", *_conditions(analysis)]
-    lines += ["", *_properties(analysis, paint)]
+    lines += [
+        "",
+        *_properties(analysis, paint),
+        "",
+        *_more_properties(outcome, analysis),
+    ]
     if outcome.constants is not None:
         from garkcli.report.hints import constants_lines
 
@@ -253,6 +259,18 @@ def _properties(analysis: Analysis, paint: Paint) -> list[str]:
     return lines + _labelled("symplectic", [symplectic])
 
 
+def _more_properties(outcome: Outcome, analysis: Analysis) -> list[str]:
+    """What the method is like: what is worth a word, or everything where that was asked for."""
+    from garkcli.report.check_properties import every_property_lines, property_lines
+
+    if outcome.wants_properties:
+        return every_property_lines(analysis.subject)
+    lines = []
+    for label, text in property_lines(analysis.subject):
+        lines += _labelled(label, folded(text, _WIDTH - 2 - LABEL, ""))
+    return lines
+
+
 def _consistent(
     wrong: Sequence[tuple[int, int]],
     names: Sequence[str],
@@ -288,4 +306,8 @@ def _claim(outcome: Outcome, claim: Claim, paint: Paint) -> str:
     verdict = paint("bad", "CLAIM FAILS")
     instead = f"expected {claim.expected}, found {claim.found}"
     place = f"{printable(outcome.file)}:{claim.line}:{claim.column}"
-    return f"  {verdict}      {claim.claim}: {instead}  ({place})"
+    line = f"  {verdict}      {claim.claim}: {instead}  ({place})"
+    if not claim.why:
+        return line
+    why = folded(claim.why, _WIDTH - 2 - LABEL, "")
+    return "\n".join([line, *indented(why, " " * (2 + LABEL))])

@@ -56,8 +56,13 @@ def algebraic_stability(tableau: Tableau) -> AlgebraicStability | None:
         is_positive_semidefinite(tableau.space(l).gram(tableau.colours[l].b))
         for l in colours
     )
-    blocks = [[_form(tableau, l, m) for m in colours] for l in colours]
-    return AlgebraicStability(weights, is_positive_semidefinite(_assembled(blocks)))
+    return AlgebraicStability(weights, is_positive_semidefinite(contractivity(tableau)))
+
+
+def contractivity(tableau: Tableau) -> Matrix:
+    """The matrix M, in the bases of the stage spaces; all blocks exist."""
+    colours = range(tableau.size)
+    return _assembled([[_form(tableau, l, m) for m in colours] for l in colours])
 
 
 def _form(tableau: Tableau, l: int, m: int) -> Matrix:
@@ -81,19 +86,34 @@ def _assembled(blocks: list[list[Matrix]]) -> Matrix:
 
 
 def is_positive_semidefinite(form: Matrix) -> bool:
-    """Whether a symmetric matrix has no negative eigenvalue, by exact symmetric elimination.
+    """Whether a symmetric matrix has no negative eigenvalue, by exact symmetric elimination."""
+    return negative_pivot(form) is None
+
+
+def negative_pivot(form: Matrix, is_definite: bool = False) -> Number | None:
+    """What symmetric elimination of a matrix meets that speaks against a positive form; None where
+    nothing does.
 
     A zero on the diagonal must have a zero row; a positive pivot is eliminated.
+
+    Args:
+        form: a symmetric matrix.
+        is_definite: whether zeros on the diagonal speak against it, too.
+
+    Returns:
+        A number on the diagonal that is negative, or 0 with a row that is not zero.
     """
     rows: list[list[Number]] = [list(row) for row in form]
     remaining = list(range(len(rows)))
     while remaining:
         signs = {i: sign(rows[i][i]) for i in remaining}
-        if -1 in signs.values():
-            return False
+        negative = next((i for i in remaining if signs[i] < 0), None)
+        if negative is not None:
+            return rows[negative][negative]
         pivot = next((i for i in remaining if signs[i]), None)
         if pivot is None:
-            return not any(rows[i][j] for i in remaining for j in remaining)
+            is_zero = not any(rows[i][j] for i in remaining for j in remaining)
+            return None if is_zero and not is_definite else ZERO
         remaining.remove(pivot)
         for i in remaining:
             factor = rows[i][pivot] / rows[pivot][pivot]
@@ -102,4 +122,4 @@ def is_positive_semidefinite(form: Matrix) -> bool:
                     rows[i][j] = rows[i][j] - factor * rows[pivot][j]
         for i in remaining:
             rows[i][pivot] = rows[pivot][i] = ZERO
-    return True
+    return None

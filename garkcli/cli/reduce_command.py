@@ -1,0 +1,82 @@
+"""``gark reduce``."""
+
+from __future__ import annotations
+
+from typing import TYPE_CHECKING
+
+import click
+
+from garkcli.cli.options import CONTEXT, PATH, Output, common
+from garkcli.errors import UsageProblem
+
+if TYPE_CHECKING:
+    from garkcli.methodfile.build import MethodFile
+    from garkcli.tableau.tableau import Tableau
+
+
+@click.command("reduce", context_settings=CONTEXT)
+@click.argument("file", type=PATH, metavar="FILE")
+@common(["yaml", "text", "json", "latex"])
+def command(file: str, output: Output) -> int:
+    """The smallest method that does the same, as a method file.
+
+    Stages that have no influence on the step are left out, and stages that are equal on every
+    problem become one. Where nothing is to be reduced the file is written as it is, and a note
+    says so. Claims are left behind: the orders stay, B, C and D may not.
+    """
+    from garkcli.methodfile.load import load
+
+    method = load(file)
+    smaller = smallest(file, method)
+    if smaller is method.tableau:
+        output.note(f"{file}: nothing to reduce")
+    else:
+        before, after = _stages(method.tableau), _stages(smaller)
+        output.note(f"{file}: stages {before} become {after}")
+    if output.format != "yaml":
+        from garkcli.cli.rendering import write_tableau
+
+        write_tableau(smaller, _name(method, smaller), None, output, method.tolerance)
+        return 0
+    output.write(_file(file, method, smaller))
+    return 0
+
+
+def smallest(file: str, method: MethodFile) -> Tableau:
+    """The smallest method; the same object where there is nothing to leave out."""
+    from garkcli.properties.reduction import is_plainly_irreducible, reduced
+
+    if is_plainly_irreducible(method.tableau):
+        return method.tableau
+    smaller = reduced(method.tableau)
+    if smaller is None:
+        raise UsageProblem(
+            f"{file}: the nodes have no simple radicals, so equal stages are not looked for",
+            "spell the method out",
+        )
+    return smaller
+
+
+def _file(file: str, method: MethodFile, smaller: Tableau) -> str:
+    """The method file of what is left."""
+    from garkcli.methodfile.writer import can_spell_out, write_method
+
+    if smaller is method.tableau:
+        return method.text
+    if not can_spell_out(smaller):
+        raise UsageProblem(
+            f"{file}: a method of this structure cannot be spelled out in a file",
+            "--format json has the entries of the smaller method",
+        )
+    return write_method(smaller, _name(method, smaller), method.tolerance)
+
+
+def _name(method: MethodFile, smaller: Tableau) -> str:
+    if smaller is method.tableau:
+        return method.name
+    is_named = method.name != method.source
+    return f"{method.name}, reduced" if is_named else "a reduced method"
+
+
+def _stages(tableau: Tableau) -> str:
+    return ", ".join(str(space.stages) for space in tableau.spaces)

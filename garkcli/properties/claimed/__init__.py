@@ -1,0 +1,1 @@
+"""One file a property: its definition, and how it is decided."""

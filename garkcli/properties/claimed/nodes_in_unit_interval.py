@@ -1,0 +1,48 @@
+"""Nodes within a step."""
+
+from garkcli.exact.field import ONE, Number
+from garkcli.exact.roots import RealRoot, sign
+from garkcli.properties.naming import number_text
+from garkcli.properties.pattern import nodes_of
+from garkcli.properties.property import Property, Verdict
+from garkcli.properties.subject import Subject
+from garkcli.tableau.polynomial_space import PolynomialSpace
+from garkcli.tableau.tableau import Tableau
+
+_ENDS = RealRoot.rational(ONE - ONE), RealRoot.rational(ONE)
+
+
+def _decide(subject: Subject) -> Verdict:
+    for l, colour in enumerate(subject.tableau.colours):
+        space = subject.tableau.space(l)
+        if isinstance(space, PolynomialSpace) and tuple(colour.c) == tuple(space.nodes):
+            nodes = nodes_of(space)
+            if not _ENDS[0] <= nodes[0] <= nodes[-1] <= _ENDS[1]:
+                return Verdict(False, f"a node of colour {colour.name} is outside")
+            continue
+        found = subject.points
+        if found is None:
+            return Verdict.undecided("the nodes have no simple radicals")
+        for i, c in enumerate(found.colours[l].c):
+            if sign(_beyond(c) - subject.tolerance) > 0:
+                return Verdict(False, _outside(found, l, i))
+    return Verdict(True)
+
+
+def _beyond(c: Number) -> Number:
+    """How far a node is outside of [0, 1]; not positive for one inside."""
+    return -c if sign(c) < 0 else c - ONE
+
+
+def _outside(tableau: Tableau, l: int, i: int) -> str:
+    colour = tableau.colours[l]
+    return f"c{{{colour.name}}}, entry {i + 1}, is {number_text(colour.c[i])}"
+
+
+PROPERTY = Property(
+    key="nodes-in-unit-interval",
+    text="All nodes c_i^{l} lie in [0, 1]: nothing is evaluated outside of the step.",
+    source="J. C. Butcher, Numerical Methods for ODEs, section 23",
+    kind="truth",
+    decide=_decide,
+)

@@ -1,0 +1,112 @@
+"""What every claim of a method file means, on orders and on properties."""
+
+from __future__ import annotations
+
+from garkcli.errors import UsageProblem, did_you_mean
+from garkcli.properties.keys import KEYS
+from garkcli.properties.property import KINDS, Definition
+from garkcli.properties.registry import find
+
+_PAPER = (
+    "A. Zanna, Discrete Variational Methods and Symplectic Generalized Additive Runge–Kutta"
+    " Methods"
+)
+_ORDER = KINDS["count"]
+_TABLE = "a list of such numbers by colour; `null` where there is no block"
+_OF_ORDERS = (
+    Definition(
+        "order",
+        "The largest p for which all order conditions of the tableau up to order p hold: one step"
+        " differs from the exact solution by O(h^(p+1)) on every problem of its structure.",
+        "E. Hairer, C. Lubich, G. Wanner, Geometric Numerical Integration, section III.1",
+        _ORDER,
+    ),
+    Definition(
+        "conjugate-order",
+        "The order of the symplectic conjugate Â^{l,m} = (𝟙 − (B^{l})⁻¹ (A^{m,l})ᵀ) B^{m}.",
+        _PAPER,
+        _ORDER,
+        "methods without zero weights",
+    ),
+    Definition(
+        "pair-order",
+        "The order of the symplectic method of 2N colours that the method and its conjugate form.",
+        _PAPER,
+        _ORDER,
+        "methods without zero weights",
+    ),
+    Definition(
+        "bound",
+        "The bound of the order that the simplifying conditions give, min{r, 2η+2, ξ+1, η+ζ+1}.",
+        _PAPER,
+        _ORDER,
+    ),
+    Definition(
+        "pair-bound",
+        "The same bound for the symplectic pair.",
+        _PAPER,
+        _ORDER,
+        "methods without zero weights",
+    ),
+    Definition(
+        "sharp-bound",
+        "The sharper bound that the same conditions give, min{r, 2η+2, ξ+1, χ+2, η+ζ+3}, with its"
+        " proof in docs/sharper-bound.md.",
+        "this project",
+        _ORDER,
+    ),
+    Definition(
+        "pair-sharp-bound",
+        "The sharper bound for the symplectic pair.",
+        "this project",
+        _ORDER,
+        "methods without zero weights",
+    ),
+    Definition(
+        "B",
+        "For each colour l the largest r with Σ b_i^{l} (c_i^{l})^(k−1) = 1/k for k = 1, …, r.",
+        _PAPER,
+        f"{_ORDER} for each colour, in a list",
+    ),
+    Definition(
+        "C",
+        "For each block the largest η with A^{l,m} (c^{m})^(k−1) = (c^{l})^k / k for k = 1, …, η.",
+        _PAPER,
+        _TABLE,
+    ),
+    Definition(
+        "D",
+        "For each block the largest ζ with (A^{l,m})ᵀ B^{l} (c^{l})^(k−1) = B^{m} (𝟙 − (c^{m})^k)"
+        " / k for k = 1, …, ζ.",
+        _PAPER,
+        _TABLE,
+    ),
+    Definition(
+        "symplectic",
+        "The method is its own symplectic conjugate: b_i^{l} a_ij^{l,m} + b_j^{m} a_ji^{m,l} ="
+        " b_i^{l} b_j^{m} for all l, m, i, j. Of a partitioned method: its two parts are conjugates"
+        " of each other.",
+        "J. M. Sanz-Serna, BIT 28 (1988)",
+        KINDS["truth"],
+    ),
+)
+
+
+def every_definition() -> list[Definition]:
+    """What every claim means, in the order of the documentation."""
+    return [*_OF_ORDERS, *(find(key).definition for key in KEYS)]
+
+
+def definition(key: str) -> Definition:
+    """What a claim means.
+
+    Raises:
+        UsageProblem: there is no such claim.
+    """
+    if key in KEYS:
+        return find(key).definition
+    for found in _OF_ORDERS:
+        if found.key == key:
+            return found
+    keys = [found.key for found in _OF_ORDERS]
+    raise UsageProblem(f"no claim {key!r}", did_you_mean(key, [*keys, *KEYS]))

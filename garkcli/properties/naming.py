@@ -1,0 +1,80 @@
+"""What sentences about a method call its stages and entries, counted from 1."""
+
+from __future__ import annotations
+
+from collections.abc import Iterable, Sequence
+from itertools import pairwise
+
+from garkcli.exact.display import to_decimal, to_text
+from garkcli.exact.field import Number
+from garkcli.properties.pattern import Vertex
+from garkcli.tableau.tableau import Tableau
+
+_SHORT = 24
+"""Longer numbers are shown in decimals."""
+
+
+def number_text(number: Number) -> str:
+    """A number as it is, or its first digits."""
+    text = to_text(number)
+    return text if len(text) <= _SHORT else f"about {to_decimal(number, 6)}"
+
+
+def entry_name(tableau: Tableau, space: int, m: int, i: int, j: int) -> str:
+    """An entry of a block.
+
+    >>> from garkcli.families.registry import diagonal_method
+    >>> from garkcli.tableau.forms import gark
+    >>> entry_name(gark([diagonal_method("heun", None)], {}), 0, 0, 1, 0)
+    'A{1,1}, row 2, entry 1,'
+    """
+    names = [colour.name for colour in tableau.colours]
+    seer = next(x.name for x in tableau.colours if x.space == space)
+    return f"A{{{seer},{names[m]}}}, row {i + 1}, entry {j + 1},"
+
+
+def weight_name(tableau: Tableau, m: int, j: int) -> str:
+    """A weight of a colour."""
+    return f"b{{{tableau.colours[m].name}}}, entry {j + 1},"
+
+
+def stages_name(tableau: Tableau, vertices: Iterable[Vertex]) -> str:
+    """Stages by colour.
+
+    >>> from garkcli.families.registry import diagonal_method
+    >>> from garkcli.tableau.forms import gark
+    >>> stages_name(gark([diagonal_method("gauss", 4)], {}), [(0, 0), (0, 1), (0, 3)])
+    'stages 1-2, 4'
+    """
+    by_space: dict[int, list[int]] = {}
+    for space, stage in sorted(vertices):
+        by_space.setdefault(space, []).append(stage + 1)
+    parts = []
+    for space, stages in by_space.items():
+        part = ("stage " if len(stages) == 1 else "stages ") + ranges(stages)
+        parts.append(part + _of_colours(tableau, space))
+    return " and ".join(parts)
+
+
+def _of_colours(tableau: Tableau, space: int) -> str:
+    if len(tableau.spaces) == 1:
+        return ""
+    names = [colour.name for colour in tableau.colours if colour.space == space]
+    word = "colour" if len(names) == 1 else "colours"
+    return f" of {word} {', '.join(names)}"
+
+
+def ranges(numbers: Sequence[int]) -> str:
+    """Ascending numbers with runs drawn together.
+
+    >>> ranges([1, 2, 3, 5, 7, 8])
+    '1-3, 5, 7-8'
+    """
+    runs = [[numbers[0]]]
+    for before, number in pairwise(numbers):
+        if number == before + 1:
+            runs[-1].append(number)
+        else:
+            runs.append([number])
+    texts = [str(run[0]) if len(run) == 1 else f"{run[0]}-{run[-1]}" for run in runs]
+    return ", ".join(texts)

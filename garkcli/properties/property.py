@@ -1,0 +1,139 @@
+"""What a property is: its name in method files, its definition, and how it is decided."""
+
+from __future__ import annotations
+
+from collections.abc import Callable
+from dataclasses import dataclass
+from typing import TYPE_CHECKING, Literal, TypeAlias
+
+from garkcli.exact.polynomial import Polynomial
+from garkcli.exact.polynomial_text import polynomial_text, root_decimal, root_text
+
+if TYPE_CHECKING:
+    from garkcli.exact.roots import RealRoot
+    from garkcli.properties.subject import Subject
+
+Kind: TypeAlias = Literal["truth", "count", "number"]
+"""What a property is: true or false, a whole number, or a real number that may be infinite."""
+KINDS: dict[Kind, str] = {
+    "truth": "`true` or `false`",
+    "count": 'a whole number, or `">= n"`',
+    "number": "an exact number such as `2*sqrt(2)`, a decimal that it is rounded to,"
+    ' `infinity`, or `">= x"`',
+}
+"""How a claim on each kind is written."""
+_DIGITS = 12
+_LONG = 60
+"""Longer polynomials are not shown."""
+
+
+@dataclass(frozen=True)
+class Definition:
+    """What a claim means.
+
+    Attributes:
+        key: the name of the claim, also in ``gark check --explain``.
+        text: the definition, in whole sentences.
+        source: where it comes from.
+        values: how the claim is written.
+        meaning: for which methods it has a meaning; empty for all.
+    """
+
+    key: str
+    text: str
+    source: str
+    values: str
+    meaning: str = ""
+
+
+@dataclass(frozen=True)
+class Size:
+    """A real number that may be infinite.
+
+    Attributes:
+        root: the number; None for ∞.
+    """
+
+    root: RealRoot | None
+
+    def __str__(self) -> str:
+        if self.root is None:
+            return "infinity"
+        simple = root_text(self.root)
+        if simple is not None:
+            return simple
+        decimal = root_decimal(self.root, _DIGITS)
+        polynomial = polynomial_text(Polynomial.from_flint(self.root.polynomial), "x")
+        if len(polynomial) > _LONG:
+            return decimal
+        return f"{decimal}, a root of {polynomial}"
+
+
+Value: TypeAlias = "bool | int | Size"
+
+
+@dataclass(frozen=True)
+class Verdict:
+    """What was found.
+
+    Attributes:
+        value: of the kind of the property; None where it has no meaning or is not decided.
+        why: the entry, the pole or the polynomial that decides; why there is no value.
+        is_undecided: whether it has a meaning, but is not decided.
+        is_at_least: whether a whole number may be larger.
+    """
+
+    value: Value | None
+    why: str = ""
+    is_undecided: bool = False
+    is_at_least: bool = False
+
+    @classmethod
+    def meaningless(cls, why: str) -> Verdict:
+        """The property has no meaning for the method."""
+        return cls(None, why)
+
+    @classmethod
+    def undecided(cls, why: str) -> Verdict:
+        """It has a meaning, and is left open."""
+        return cls(None, why, is_undecided=True)
+
+    @classmethod
+    def unless(cls, obstacle: str) -> Verdict:
+        """True, or false with what is in its way."""
+        return cls(not obstacle, obstacle)
+
+
+@dataclass(frozen=True)
+class Property:
+    """A property that a method file may claim.
+
+    Attributes:
+        key: its name in ``expect``.
+        text: its definition, in whole sentences.
+        source: where the definition comes from.
+        kind: what its values are.
+        decide: from a method to a verdict.
+        meaning: for which methods it has a meaning; empty for all.
+        is_cheap: whether every ``gark check`` decides it; the others are decided where they are
+            claimed or asked for.
+    """
+
+    key: str
+    text: str
+    source: str
+    kind: Kind
+    decide: Callable[[Subject], Verdict]
+    meaning: str = ""
+    is_cheap: bool = True
+
+    @property
+    def field(self) -> str:
+        """Its name in JSON."""
+        return self.key.replace("-", "_")
+
+    @property
+    def definition(self) -> Definition:
+        """What the claim means."""
+        values = KINDS[self.kind]
+        return Definition(self.key, self.text, self.source, values, self.meaning)

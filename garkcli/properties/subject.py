@@ -1,0 +1,126 @@
+"""A method as its properties are decided: what several of them need is found once."""
+
+from __future__ import annotations
+
+from dataclasses import dataclass
+from functools import cached_property
+from typing import TYPE_CHECKING
+
+from flint import fmpq
+
+from garkcli.exact.field import ONE, ZERO
+from garkcli.order.simplifying import Simplifying
+from garkcli.properties.pattern import StageGraph, stage_graph
+from garkcli.properties.registry import find
+from garkcli.properties.shape import Shape, shape_of
+from garkcli.properties.symmetry import Symmetry, symmetry
+from garkcli.tableau.pointwise import in_points
+from garkcli.tableau.tableau import Tableau
+
+if TYPE_CHECKING:
+    from garkcli.properties.property import Verdict
+    from garkcli.stability.linear import StabilityFunction
+    from garkcli.stability.within import StabilityWithin
+
+MISSING_BLOCKS = "some stages do not see every vector field"
+"""Why what is about all vector fields together has no meaning where blocks are missing."""
+
+
+@dataclass(frozen=True)
+class Subject:
+    """A method with what is known of it.
+
+    Attributes:
+        tableau: the method.
+        order: its order, or a lower bound of that.
+        simplifying: its B, C and D.
+        limit: where the search for these stopped.
+        tolerance: the rounding of its coefficients; 0 where they are meant exactly.
+    """
+
+    tableau: Tableau
+    order: int
+    simplifying: Simplifying
+    limit: int
+    tolerance: fmpq = ZERO
+
+    def verdict(self, key: str) -> Verdict:
+        """What is true of a property; each is decided once."""
+        if key not in self._verdicts:
+            self._verdicts[key] = find(key).decide(self)
+        return self._verdicts[key]
+
+    @cached_property
+    def _verdicts(self) -> dict[str, Verdict]:
+        return {}
+
+    @cached_property
+    def is_complete(self) -> bool:
+        """Whether every stage sees every vector field."""
+        colours, spaces = range(self.tableau.size), range(len(self.tableau.spaces))
+        return all((k, m) in self.tableau.blocks for k in spaces for m in colours)
+
+    @cached_property
+    def graph(self) -> StageGraph:
+        """Which stage values depend on which."""
+        return stage_graph(self._with_entries, None, self.tolerance)
+
+    @cached_property
+    def shape(self) -> Shape:
+        """The shape of the whole method."""
+        return shape_of(self.graph, self.tolerance)
+
+    @cached_property
+    def shapes(self) -> tuple[Shape | None, ...]:
+        """The shapes of the diagonal methods, one a colour; None where a colour does not see
+        itself.
+        """
+        if self.tableau.size == 1:
+            return (self.shape,)
+        found: list[Shape | None] = []
+        for l in range(self.tableau.size):
+            if self.tableau.block(l, l) is None:
+                found.append(None)
+                continue
+            graph = stage_graph(self._with_entries, [l], self.tolerance)
+            found.append(shape_of(graph, self.tolerance))
+        return tuple(found)
+
+    @cached_property
+    def points(self) -> Tableau | None:
+        """The method with one coordinate a stage; None where nodes have no simple radicals."""
+        return in_points(self.tableau)
+
+    @property
+    def _with_entries(self) -> Tableau:
+        return self.tableau if self.points is None else self.points
+
+    @cached_property
+    def symmetry(self) -> Symmetry:
+        """Whether it is its own adjoint."""
+        return symmetry(self.tableau, self.tolerance)
+
+    @cached_property
+    def stage_orders(self) -> tuple[int, ...]:
+        """For each colour the largest q with B(q) and C(q) for all its stages."""
+        found = []
+        for r, etas in zip(self.simplifying.B, self.simplifying.C, strict=True):
+            found.append(min([r, *(eta for eta in etas if eta is not None)]))
+        return tuple(found)
+
+    @cached_property
+    def linear(self) -> StabilityFunction | None:
+        """R(z) with all vector fields equal; None where blocks are missing."""
+        if not self.is_complete or self.tableau.is_partitioned:
+            return None
+        from garkcli.stability.linear import stability_function
+
+        return stability_function(self.tableau)
+
+    @cached_property
+    def linear_within(self) -> StabilityWithin:
+        """What holds of R(z) for all methods within the tolerance."""
+        from garkcli.stability.within import stability_within
+
+        shares = [ONE] * self.tableau.size
+        return stability_within(self.tableau, shares, self.tolerance, self.order)

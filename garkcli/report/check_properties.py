@@ -1,0 +1,142 @@
+"""The properties of a method for people."""
+
+from __future__ import annotations
+
+from collections.abc import Sequence
+from typing import TYPE_CHECKING
+
+from garkcli.properties.keys import KEYS
+from garkcli.properties.naming import number_text, stages_name
+from garkcli.report.paint import folded
+
+if TYPE_CHECKING:
+    from garkcli.properties.property import Verdict
+    from garkcli.properties.shape import Shape
+    from garkcli.properties.subject import Subject
+    from garkcli.properties.symmetry import Reflection
+    from garkcli.tableau.tableau import Tableau
+
+_WIDTH = 80
+_NAMES = {
+    "stiffly-accurate": "stiffly accurate",
+    "fsal": "first same as last",
+    "symmetric": "symmetric",
+    "algebraically-stable": "algebraically stable",
+}
+"""Properties that are told where they hold."""
+_ODDITIES = {
+    "reducible": (True, "reducible, see gark reduce"),
+    "positive-weights": (False, "not all weights positive"),
+    "nodes-in-unit-interval": (False, "nodes outside [0, 1]"),
+}
+"""Properties that are told where they are unusual."""
+
+
+def property_lines(subject: Subject) -> list[tuple[str, str]]:
+    """The block of a plain check, as labels with texts: only what has meaning and is not usual."""
+    lines = [("stages", _whole(subject))]
+    kinds = {shape.name for shape in subject.shapes if shape is not None}
+    if kinds - {subject.shape.name}:
+        lines.append(("by colour", _by_colour(subject)))
+    lines.append(("stage order", _stage_order(subject)))
+    told = [_told(subject, key) for key, x in _NAMES.items() if _is(subject, key, True)]
+    told += [text for key, (odd, text) in _ODDITIES.items() if _is(subject, key, odd)]
+    if told:
+        lines.append(("properties", ", ".join(told)))
+    keys = [*_NAMES, *_ODDITIES]
+    undecided = [key for key in keys if subject.verdict(key).is_undecided]
+    if undecided:
+        lines.append(("not decided", ", ".join(undecided)))
+    return lines
+
+
+def _is(subject: Subject, key: str, wanted: bool) -> bool:
+    return subject.verdict(key).value is wanted
+
+
+def _told(subject: Subject, key: str) -> str:
+    if key != "symmetric":
+        return _NAMES[key]
+    return f"symmetric ({_reflected(subject.tableau, subject.symmetry.reflections)})"
+
+
+def _reflected(tableau: Tableau, reflections: Sequence[Reflection]) -> str:
+    """How the stages of each space are renumbered; only those that move are named."""
+    if all(x.images is None for x in reflections):
+        return "x → 1 − x"
+    parts = []
+    for space, reflection in enumerate(reflections):
+        name = stages_name(tableau, [(space, 0)]).partition(" of ")[2]
+        moved = _moved(reflection)
+        parts.append(f"{name}: {moved}" if name else moved)
+    return "; ".join(parts)
+
+
+def _moved(reflection: Reflection) -> str:
+    if reflection.images is None:
+        return "x → 1 − x"
+    pairs = [f"{i + 1}↔{j + 1}" for i, j in enumerate(reflection.images) if i < j]
+    return "stages " + ", ".join(pairs) if pairs else "each stage its own"
+
+
+def _named(shape: Shape) -> str:
+    if shape.gamma is None:
+        return shape.name
+    return f"{shape.name}, γ = {number_text(shape.gamma)}"
+
+
+def _whole(subject: Subject) -> str:
+    """The kind of the whole method, and what is solved together."""
+    shape, tableau = subject.shape, subject.tableau
+    text = _named(shape)
+    total = sum(space.stages for space in tableau.spaces)
+    if shape.implicit_stages not in (None, 0, total):
+        text += f", {shape.implicit_stages} of {total} implicit"
+    if len(shape.systems) == 1 and len(shape.systems[0]) == total:
+        return text
+    for system in shape.systems:
+        text += f"; {stages_name(tableau, system)} together"
+    return text
+
+
+def _by_colour(subject: Subject) -> str:
+    names = [colour.name for colour in subject.tableau.colours]
+    by_kind: dict[str, list[str]] = {}
+    for name, shape in zip(names, subject.shapes, strict=True):
+        if shape is None:
+            continue
+        by_kind.setdefault(_named(shape), []).append(name)
+    return "; ".join(f"{', '.join(found)} {kind}" for kind, found in by_kind.items())
+
+
+def _stage_order(subject: Subject) -> str:
+    found = subject.stage_orders
+    verdict = subject.verdict("stage-order")
+    text = f"{'at least ' if verdict.is_at_least else ''}{verdict.value}"
+    if len(set(found)) > 1:
+        text += f"   by colour {', '.join(map(str, found))}"
+    return text
+
+
+def every_property_lines(subject: Subject) -> list[str]:
+    """All properties, a line each, with what decides them."""
+    longest = max(map(len, KEYS))
+    lines = []
+    for key in KEYS:
+        verdict = subject.verdict(key)
+        text = _value(verdict)
+        if verdict.why and verdict.value is not True:
+            text += f": {verdict.why}"
+        margin = longest + 4
+        first, *others = folded(text, _WIDTH - margin, "")
+        lines.append(f"  {key:{longest}}  {first}")
+        lines += [" " * margin + line for line in others]
+    return lines
+
+
+def _value(verdict: Verdict) -> str:
+    if verdict.value is None:
+        return "not decided" if verdict.is_undecided else "no meaning"
+    if isinstance(verdict.value, bool):
+        return "yes" if verdict.value else "no"
+    return f"{'at least ' if verdict.is_at_least else ''}{verdict.value}"

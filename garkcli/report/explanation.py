@@ -1,0 +1,65 @@
+"""What a claim means, for people and for programs."""
+
+from __future__ import annotations
+
+from typing import Any
+
+from garkcli.properties.property import Definition
+from garkcli.report.json_text import to_json
+from garkcli.report.paint import Paint, folded
+from garkcli.report.record import TEXT, Field, Record, Schema
+
+SCHEMA = "gark/explain/1"
+_WIDTH = 80
+_MARGIN = 11
+
+_REPORT: Record[Definition] = Record(
+    Field("schema", {"const": SCHEMA}, lambda _: SCHEMA),
+    Field("key", TEXT, lambda x: x.key),
+    Field("definition", TEXT, lambda x: x.text),
+    Field("values", TEXT, lambda x: x.values.replace("`", "")),
+    Field("for", TEXT, lambda x: x.meaning or "all methods"),
+    Field("source", TEXT, lambda x: x.source),
+    is_open=True,
+)
+
+
+def explanation_schema() -> Schema:
+    """The JSON Schema of ``gark check --explain KEY --format json``."""
+    return {
+        "$schema": "http://json-schema.org/draft-07/schema#",
+        "title": "report of gark check --explain",
+        **_REPORT.schema,
+    }
+
+
+def as_data(found: Definition) -> dict[str, Any]:
+    """The explanation as plain data."""
+    return _REPORT.data(found)
+
+
+def render(found: Definition, format: str, paint: Paint) -> str:
+    """The explanation as text, or as JSON."""
+    if format == "json":
+        return to_json(as_data(found)) + "\n"
+    lines = [paint("strong", found.key)]
+    lines += ["  " + line for line in folded(found.text, _WIDTH - 2, "")]
+    parts = [
+        ("claim", found.values.replace("`", "")),
+        ("for", found.meaning),
+        ("source", found.source),
+    ]
+    for label, text in parts:
+        for line in folded(text, _WIDTH - _MARGIN, "") if text else ():
+            lines.append(f"  {label:{_MARGIN - 2}}{line}")
+            label = ""
+    return "\n".join(lines) + "\n"
+
+
+def as_markdown(found: Definition) -> str:
+    """The explanation as a section of a page."""
+    lines = [f"### {found.key}", "", found.text, "", f"Claim: {found.values}."]
+    if found.meaning:
+        lines[-1] += f" For {found.meaning}."
+    lines += ["", f"Source: {found.source}."]
+    return "\n".join(lines) + "\n"

@@ -1,0 +1,23 @@
+"""docs/properties.md is made from the definitions that ``gark check --explain`` shows."""
+
+from __future__ import annotations
+
+import os
+from pathlib import Path
+
+from garkcli.properties.definitions import every_definition
+from garkcli.report.explanation import as_markdown
+
+PAGE = Path(__file__).resolve().parents[2] / "docs" / "properties.md"
+MARK = "<!-- definitions -->\n"
+
+
+def test_the_page_has_the_definitions() -> None:
+    """Every claim has its section, with the words of the registry."""
+    head, mark, found = PAGE.read_text(encoding="utf-8").partition(MARK)
+    assert mark
+    wanted = "\n" + "\n".join(map(as_markdown, every_definition()))
+    if os.environ.get("GARK_UPDATE_SNAPSHOTS"):
+        PAGE.write_text(head + mark + wanted, encoding="utf-8")
+        return
+    assert found == wanted
