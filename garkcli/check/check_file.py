@@ -8,7 +8,7 @@ from typing import TYPE_CHECKING
 from garkcli.check.analysis import Analysis
 from garkcli.check.claims import verify
 from garkcli.check.deciding import analyse
-from garkcli.check.outcome import Outcome
+from garkcli.check.outcome import Claim, Outcome
 from garkcli.errors import MethodFileError
 from garkcli.methodfile.build import MethodFile
 from garkcli.methodfile.expectations import highest_order
@@ -26,6 +26,8 @@ if TYPE_CHECKING:
     from garkcli.exact.field import Number
     from garkcli.order.blame import Blame
 
+WITHOUT_NODES = {"order", "conjugate-order", "pair-order", "symplectic"}
+"""The claims that do not depend on nodes: without ``c`` in the file these follow the entries."""
 NEAR = 10
 """An entry is a repair when it brings residuals within so many tolerances: the entry that is
 solved for carries the rounding of all others.
@@ -60,14 +62,15 @@ def check_file(
         from garkcli.order.constants import error_constants
 
         constants = error_constants(method.tableau, first_failing)
+    claims = verify(method.claims, analysis)
     return Outcome(
         file=method.source,
         name=method.name,
         structure=method.structure,
         analysis=analysis,
-        claims=verify(method.claims, analysis),
+        claims=claims,
         text=method.text,
-        blame=_blame(method, analysis),
+        blame=_with_consequences(method, claims, _blame(method, analysis), reach),
         constants=constants,
     )
 
@@ -99,6 +102,25 @@ def _blame(method: MethodFile, analysis: Analysis) -> Blame | None:
             missed = replace(missed, tolerance=found.tolerance, near=near)
         return blame_of(method.tableau, missed)
     return None
+
+
+def _with_consequences(
+    method: MethodFile, claims: tuple[Claim, ...], blame: Blame | None, limit: int
+) -> Blame | None:
+    """The same, with the other claims that fail for the reason that its first repair removes."""
+    if blame is None or not blame.repairs:
+        return blame
+    others = set()
+    for claim in claims:
+        if not claim.holds and claim.claim in WITHOUT_NODES and claim.claim != blame.of:
+            others.add(claim.claim)
+    if not others:
+        return blame
+    changed = blame.repairs[0].carried_out(method.tableau)
+    analysis = analyse(changed, limit, method.tolerance)
+    texts = tuple(claim for claim in method.claims if claim.key in others)
+    restored = [claim.claim for claim in verify(texts, analysis) if claim.holds]
+    return replace(blame, restores=tuple(restored))
 
 
 def _itself(tableau: Tableau) -> Tableau:

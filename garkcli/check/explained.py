@@ -85,11 +85,18 @@ def _bound_witness(analysis: Analysis, claim: str) -> str:
 
 
 def claim_hint(outcome: Outcome, claim: str) -> str:
-    """What would mend a failed claim on an order; empty where nothing is known."""
+    """What would mend a failed claim on an order, or one that fails with it; empty where nothing is
+    known.
+    """
     analysis, blame = outcome.analysis, outcome.blame
-    if analysis is None or claim not in {"order", "conjugate-order", "pair-order"}:
+    if analysis is None:
         return ""
     names = [colour.name for colour in analysis.tableau.colours]
+    if blame is not None and claim in blame.restores:
+        first = repair_text(blame.repairs[0], names)
+        return f"it fails with {blame.of}, and would hold with {first}"
+    if claim not in {"order", "conjugate-order", "pair-order"}:
+        return ""
     found = analysis.suggestion
     if found is not None:
         return f"with the line {found.line} the order is {found.order}"

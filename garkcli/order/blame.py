@@ -40,6 +40,8 @@ class Blame:
         of: the claim that is missed, as it is called in a file.
         names: the colours of the tableau whose conditions fail.
         tolerance: what coefficients are rounded by; 0 where they are exact.
+        restores: other claims that fail, and hold with the first of ``repairs``: consequences of
+            the same fault.
     """
 
     order: int
@@ -53,6 +55,7 @@ class Blame:
     of: str = "order"
     names: tuple[str, ...] = ()
     tolerance: fmpq = ZERO
+    restores: tuple[str, ...] = ()
 
 
 def find_blame(tableau: Tableau, order: int, claimed: int) -> Blame | None:

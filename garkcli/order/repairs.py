@@ -50,6 +50,11 @@ class Repair:
     old: Number
     new: Number
 
+    def carried_out(self, method: Tableau) -> Tableau:
+        """The method with this entry changed."""
+        place = _Place(self.l, self.m, self.i, self.j, self.old)
+        return place.put(method, self.new)
+
 
 @dataclass(frozen=True)
 class Missed:

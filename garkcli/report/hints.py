@@ -37,6 +37,9 @@ def blame_lines(blame: Blame, tableau: Tableau, paint: Paint) -> list[str]:
         lines.append(f"{_MARGIN}in none of them: {blocks}")
     for repair in blame.repairs[:_SHOWN_REPAIRS]:
         lines += _repair_lines("the claimed order", repair_text(repair, own))
+        if repair == blame.repairs[0] and blame.restores:
+            claims = ", ".join(blame.restores)
+            lines.append(f"{_MARGIN}and so would {claims}")
     return lines
 
 

@@ -90,6 +90,7 @@ _BLAME: Record[Blame] = Record(
     Field("in_every", array(BLOCK), lambda x: blocks(x.in_every)),
     Field("in_none", array(BLOCK), lambda x: blocks(x.in_none)),
     Field("repairs", array(_REPAIR.schema), _repairs),
+    Field("restores", array(TEXT), lambda x: list(x.restores)),
 )
 _MISPRINT: Record[Misprint] = Record(
     Field("order", COUNT, lambda x: x.order),

@@ -792,6 +792,32 @@ def test_each_finding_is_an_annotation_in_its_place() -> None:
     ]
 
 
+def test_claims_that_fail_for_one_reason_say_so(tmp_path: Path) -> None:
+    """One wrong entry of Gauss 2 fails its orders and symplecticity: each finding names that entry,
+    which restores them; a claim that stays wrong is not among them.
+    """
+    claims = "order: 4, conjugate-order: 4, pair-order: 5, symplectic: true, B: [4]"
+    rows = "A: [[1/4, 1/4 - sqrt(3)/6], [1/4 + sqrt(3)/6, 1/3]]\nb: [1/2, 1/2]\n"
+    file = tmp_path / "gauss.gark.yaml"
+    file.write_text(f"{rows}expect: {{{claims}}}\n")
+    found = check_file(str(file))
+    assert found.blame is not None
+    assert found.blame.restores == ("conjugate-order", "symplectic")
+    repair = "A{1,1}, row 2, entry 2, = 1/4 instead of 1/3"
+    consequence = f"it fails with order, and would hold with {repair}"
+    assert [(x.message.partition(":")[0], x.help) for x in findings(found)] == [
+        ("order", f"the claimed order would hold with {repair}"),
+        ("conjugate-order", consequence),
+        ("pair-order", ""),
+        ("symplectic", consequence),
+        ("B", ""),
+    ]
+    text = check_text.render([found], Paint())
+    assert "and so would conjugate-order, symplectic\n" in text
+    (data,) = as_data([found])["files"]
+    assert data["blame"]["restores"] == ["conjugate-order", "symplectic"]
+
+
 def test_a_failed_claim_on_a_bound_says_what_it_is_made_of() -> None:
     """The message has the formula and its numbers, of the pair for the pair; nothing where a zero
     weight leaves no pair.
