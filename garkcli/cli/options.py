@@ -69,8 +69,8 @@ def common(formats: Sequence[str]) -> Callable[[F], F]:
 
         run.__doc__ = function.__doc__
         run.__name__ = function.__name__
-        run.__click_params__ = getattr(function, "__click_params__", [])  # type: ignore[attr-defined]
         decorated: Any = run
+        decorated.__click_params__ = getattr(function, "__click_params__", [])
         for option in reversed(_common_options(formats)):
             decorated = option(decorated)
         return decorated  # type: ignore[no-any-return]

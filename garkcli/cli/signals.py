@@ -45,8 +45,7 @@ def ending() -> Iterator[None]:
             signal.signal(number, signal.SIG_DFL)
 
 
-def _end(number: int, frame: FrameType | None) -> NoReturn:  # noqa: ARG001 -- the handler's signature
-    signal.signal(
-        number, signal.SIG_IGN
-    )  # once is enough: the next one would stop the cleaning up
+def _end(number: int, _frame: FrameType | None) -> NoReturn:
+    # once is enough: the next one would stop the cleaning up
+    signal.signal(number, signal.SIG_IGN)
     raise Ended(number)

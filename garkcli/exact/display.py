@@ -30,7 +30,9 @@ def _latex_term(coefficient: fmpq, factors: str) -> str:
     """A signed multiple of radicals, as one fraction."""
     sign = "-" if coefficient < 0 else "+"
     numerator = abs(coefficient.p)
-    top = factors if factors and numerator == 1 else f"{numerator}{factors}"
+    top = f"{numerator}{factors}"
+    if factors and numerator == 1:
+        top = factors
     if coefficient.q == 1:
         return sign + top
     return rf"{sign}\frac{{{top}}}{{{coefficient.q}}}"

@@ -85,7 +85,8 @@ def _has_denominators_apart(row: _Rational) -> bool:
 def _image(rows: Sequence[_Rational], vector: _Rational) -> Vector:
     image = []
     for row in rows:
-        products = [a * x for a, x in zip(row, vector, strict=True)]
+        pairs = zip(row, vector, strict=True)
+        products = [a * x for a, x in pairs]
         image.append(_sum(products))
     return tuple(image)
 

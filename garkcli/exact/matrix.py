@@ -58,7 +58,8 @@ def add(a: Matrix, b: Matrix) -> Matrix:
     """The sum a + b."""
     total = []
     for row, other in zip(a, b, strict=True):
-        entries = [x + y for x, y in zip(row, other, strict=True)]
+        pairs = zip(row, other, strict=True)
+        entries = [x + y for x, y in pairs]
         total.append(tuple(entries))
     return tuple(total)
 
@@ -67,7 +68,8 @@ def subtract(a: Matrix, b: Matrix) -> Matrix:
     """The difference a − b."""
     difference = []
     for row, other in zip(a, b, strict=True):
-        entries = [x - y for x, y in zip(row, other, strict=True)]
+        pairs = zip(row, other, strict=True)
+        entries = [x - y for x, y in pairs]
         difference.append(tuple(entries))
     return tuple(difference)
 

@@ -81,7 +81,8 @@ class Defects:
 
 def _minus_part(u: Vector, v: Vector, k: int) -> Vector:
     """The difference u − v/k."""
-    difference = [x - y / k for x, y in zip(u, v, strict=True)]
+    pairs = zip(u, v, strict=True)
+    difference = [x - y / k for x, y in pairs]
     return tuple(difference)
 
 

@@ -28,6 +28,8 @@ from garkcli.trees.table import TreeTable
 from garkcli.trees.tree import Tree
 
 Row: TypeAlias = list[arb]
+_Residual: TypeAlias = tuple[arb, int]
+"""|b_lᵀ 𝒜^[u] − 1/γ(u)|, and the id of u."""
 _Nature: TypeAlias = tuple[int, bool]
 """Stage space of a colour, and whether it is linear."""
 
@@ -102,7 +104,7 @@ class TreeResiduals:
             trees = tuple(table.tree(u) for u in doubtful)
             return Sizes(bound.abs_upper(), reached, worst, trees)
 
-    def _residuals(self, table: TreeTable, order: int) -> Iterator[tuple[arb, int]]:
+    def _residuals(self, table: TreeTable, order: int) -> Iterator[_Residual]:
         """|b_lᵀ 𝒜^[u] − 1/γ(u)| and the id, for the roots that differ in more than their colour."""
         if order == 1:
             for l in self._roots:
@@ -171,5 +173,7 @@ class TreeResiduals:
         ids = slice(segment.ids.start, segment.ids.stop)
         of_stem = table.stem[ids] - segment.stems.start
         of_branch = table.branch[ids] - segment.branches.start
-        for i, j in zip(of_stem.tolist(), of_branch.tolist(), strict=True):
+        rows = of_stem.tolist()
+        columns = of_branch.tolist()
+        for i, j in zip(rows, columns, strict=True):
             yield times(stems[i], branches[j])

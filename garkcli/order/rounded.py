@@ -176,7 +176,9 @@ class _Decision:
         self.effect = effect
         # the tolerance is at least 2 to the power of minus this
         numerator, denominator = tolerance.p, tolerance.q
-        self.magnitude = int(denominator.bit_length()) - int(numerator.bit_length()) + 1
+        bits_above = int(numerator.bit_length())
+        bits_below = int(denominator.bit_length())
+        self.magnitude = bits_below - bits_above + 1
         self.bits = GUARD + max(self.magnitude, 0)
         self.admissible = Admissible.of(tableau.size, *coupling_graph(tableau))
 

@@ -157,7 +157,8 @@ def _add_legend_below(figure: Figure, curves: Sequence[Curve]) -> None:
 
 def _title(result: Convergence) -> str:
     name = problem_name(result)
-    capitalized = name[:1].upper() + name[1:]
+    initial = name[:1].upper()
+    capitalized = initial + name[1:]
     return f"{capitalized} to t = {result.t_end}"
 
 

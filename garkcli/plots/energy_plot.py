@@ -20,7 +20,6 @@ _ERRORS: Mapping[str, Any] = {
     "linewidth": 1.1,
     "solid_joinstyle": "round",
 }
-_PANEL_TITLE: Mapping[str, Any] = {"fontsize": 10, "loc": "left", "parse_math": False}
 _POWERS: Mapping[str, Any] = {
     "style": "sci",
     "scilimits": (-2, 3),
@@ -41,7 +40,8 @@ def energy_figure(run: LongRun) -> Figure:
     name = "oscillator"
     if isinstance(run.problem, Hamiltonian):
         name = run.problem.name
-    capitalized = name[:1].upper() + name[1:]
+    initial = name[:1].upper()
+    capitalized = initial + name[1:]
     steps = f"h = {run.step}, {run.steps} steps"
     title = f"{capitalized}, {steps}"
     # names of files are no formulas
@@ -60,7 +60,7 @@ def draw_history(axes: Axes, run: LongRun, history: InvariantHistory) -> None:
         _draw_drift(axes, run, history)
     largest = f"largest error {history.max_error:.2e}"
     title = f"{history.name}: {largest}, {_words(history)}"
-    axes.set_title(title, **_PANEL_TITLE)
+    axes.set_title(title, fontsize=10, loc="left", parse_math=False)
     is_energy = history.name == "energy"
     label = "H(t) − H(0)" if is_energy else "error"
     axes.set_ylabel(label)

@@ -118,7 +118,8 @@ class _Figure:
         scaled: list[_Points] = []
         for curve in curves:
             points = sorted(zip(curve.xs, curve.ys, strict=True))
-            scaled.append([empty.place(x, y) for x, y in points])
+            placed = [empty.place(x, y) for x, y in points]
+            scaled.append(placed)
         return _Figure(wide, high, scaled)
 
     def place(self, x: float, y: float) -> Point:
@@ -158,7 +159,9 @@ def _beside(points: _Points, slope: int, gap: float, is_below: bool) -> Line:
         left -= 0.2
         right += 0.2
     offsets = [b - slope * a for a, b in points]
-    offset = min(offsets) - gap if is_below else max(offsets) + gap
+    offset = max(offsets) + gap
+    if is_below:
+        offset = min(offsets) - gap
     start = offset + slope * left
     end = offset + slope * right
     return Line((left, right), (start, end), slope, is_below)
@@ -183,9 +186,11 @@ def _clearance(line: Line, figure: _Figure, has_label: bool) -> float:
         away = 1 if line.is_right else -1
         up = -1 if line.is_below else 1
         for u, v in _LABEL:
-            corner = x + away * u, y + up * v
-            points.append(corner)
+            right_of = x + away * u
+            above = y + up * v
+            points.append((right_of, above))
     distances: list[float] = []
     for x, y in points:
-        distances += [abs(y - height) for height in figure.heights(x)]
+        heights = figure.heights(x)
+        distances += [abs(y - height) for height in heights]
     return min(distances, default=1.0)

@@ -39,6 +39,7 @@ DASHES: tuple[Any, ...] = (
     (0, (1, 2)),
     (0, (4, 1, 1, 1)),
 )
+Style: TypeAlias = dict[str, Any]
 Named: TypeAlias = tuple[str, StabilityFunction]
 """A stability function and what the legend calls it."""
 POINTS = 401
@@ -90,6 +91,20 @@ def modulus(R: StabilityFunction, z: Array) -> Array:
     return size
 
 
+def _finite(level: Array) -> Array:
+    """Numbers to draw in place of infinity."""
+    drawn: Array = np.nan_to_num(level, nan=_AT_POLES, posinf=_AT_POLES)
+    return drawn
+
+
+def _draw_axes(axes: Axes) -> None:
+    """Both axes of the plane, and its scales alike."""
+    thin: Style = {"color": "0.1", "linewidth": 0.8}
+    axes.axhline(0.0, **thin)
+    axes.axvline(0.0, **thin)
+    axes.set_aspect("equal")
+
+
 def window_of(functions: Sequence[StabilityFunction], is_symmetric: bool) -> Window:
     """A part of the plane with all that happens: zeros of P, poles, where |R| = 1 on the axis."""
     reach = 2.0
@@ -128,50 +143,64 @@ def stability_figure(
 def region_figure(reports: Sequence[StabilityReport], order_star: bool) -> Figure:
     """The regions |R(z)| ≤ 1, a panel a direction where there is one method of several colours."""
     pair = None
-    if len(reports) == 1 and not order_star and reports[0].found.colours is not None:
-        pair = reports[0].found.colours.pair
+    first = reports[0]
+    if len(reports) == 1 and not order_star:
+        colours = first.found.colours
+        pair = None if colours is None else colours.pair
     columns = 1 if pair is None else 2
-    figure = Figure(figsize=(6.4 * columns, 5.6), layout="constrained")
-    panels = figure.subplots(1, columns, squeeze=False)[0]
-    axes = panels[0]
+    width = 6.4 * columns
+    figure = Figure(figsize=(width, 5.6), layout="constrained")
+    grid = figure.subplots(1, columns, squeeze=False)
+    panels = grid[0]
     named: list[Named] = []
     for report in reports:
         linear = report.found.linear
         if len(reports) == 1 and len(linear) > 1:
             named += [(_direction(one.name), one.R) for one in linear]
         else:
-            first = linear[0]
-            named.append((report.name, first.R))
+            whole = linear[0]
+            named.append((report.name, whole.R))
     title = _title([report.name for report in reports])
     figure.suptitle(title, fontsize=11, parse_math=False)
-    _draw_regions(axes, named, order_star)
+    _draw_regions(panels[0], named, order_star)
     if pair is not None:
-        _draw_damped(panels[1], pair, dict(named)[_direction_of(reports[0], pair)])
+        of_direction = dict(named)
+        explicit = of_direction[_direction_of(first, pair)]
+        _draw_damped(panels[1], pair, explicit)
     return figure
 
 
 def _direction_of(report: StabilityReport, pair: ImexPair) -> str:
     """The label of the explicit colour."""
-    return _direction(report.found.tableau.colours[pair.explicit].name)
+    colours = report.found.tableau.colours
+    explicit = colours[pair.explicit]
+    return _direction(explicit.name)
 
 
 def _draw_damped(axes: Axes, pair: ImexPair, explicit: StabilityFunction) -> None:
     """The z_E with all z_I damped, each square decided at its centre, and the outline without."""
     window = window_of([explicit], is_symmetric=False)
     x = np.linspace(window.left, window.right, SQUARES)
-    y = np.linspace(0.0, window.top, SQUARES // 2 + 1)
-    upper = np.array([[pair.is_damped(_exact(a), _exact(b)) for a in x] for b in y])
-    whole = np.vstack([upper[:0:-1], upper])
-    both = np.concatenate([-y[:0:-1], y])
+    rows = SQUARES // 2 + 1
+    y = np.linspace(0.0, window.top, rows)
+    upper = []
+    for b in map(_exact, y):
+        row = [pair.is_damped(_exact(a), b) for a in x]
+        upper.append(row)
+    # the picture is its own mirror image: all but the row on the axis once more, upside down
+    lower = upper[:0:-1]
+    below = -y[:0:-1]
+    both = np.concatenate([below, y])
     shades = ListedColormap(["#ffffff", COLOURS[0]])
-    axes.pcolormesh(x, both, whole, cmap=shades, alpha=0.35, shading="nearest")
+    axes.pcolormesh(x, both, lower + upper, cmap=shades, alpha=0.35, shading="nearest")
     u, v, z = window.grid()
-    level = np.nan_to_num(modulus(explicit, z), nan=_AT_POLES, posinf=_AT_POLES)
-    axes.contour(u, v, level, levels=[1.0], colors=[COLOURS[1]], linestyles=[DASHES[1]])
-    axes.axhline(0.0, color="0.1", linewidth=0.8)
-    axes.axvline(0.0, color="0.1", linewidth=0.8)
-    axes.set_aspect("equal")
-    e, i = pair.explicit + 1, pair.implicit + 1
+    level = _finite(modulus(explicit, z))
+    colour, dashes = _line(1)
+    edge: Style = {"colors": [colour], "linestyles": [dashes]}
+    axes.contour(u, v, level, levels=[1.0], **edge)
+    _draw_axes(axes)
+    e = pair.explicit + 1
+    i = pair.implicit + 1
     axes.set_xlabel(f"Re z{e}")
     axes.set_ylabel(f"Im z{e}")
     title = f"filled: z{e} with every z{i} damped; dashed: with z{i} = 0"
@@ -206,21 +235,19 @@ def _draw_regions(axes: Axes, named: Sequence[Named], order_star: bool) -> None:
     handles = []
     for k, (name, R) in enumerate(named):
         colour, dashes = _line(k)
-        colours = [colour]
         level = modulus(R, z)
         bounds = [0.0, 1.0]
         if order_star:
             level = level / np.exp(z.real)
             bounds = [1.0, _ABOVE_ALL]
-        finite = np.nan_to_num(level, nan=_AT_POLES, posinf=_AT_POLES)
-        axes.contourf(x, y, finite, levels=bounds, colors=colours, alpha=0.18)
-        edge: dict[str, Any] = {"linestyles": [dashes], "linewidths": 1.4}
-        axes.contour(x, y, finite, levels=[1.0], colors=colours, **edge)
+        finite = _finite(level)
+        inside: Style = {"colors": [colour], "alpha": 0.18}
+        axes.contourf(x, y, finite, levels=bounds, **inside)
+        edge: Style = {"colors": [colour], "linestyles": [dashes]}
+        axes.contour(x, y, finite, levels=[1.0], linewidths=1.4, **edge)
         handle = Line2D([], [], color=colour, linestyle=dashes, label=name)
         handles.append(handle)
-    axes.axhline(0.0, color="0.1", linewidth=0.8)
-    axes.axvline(0.0, color="0.1", linewidth=0.8)
-    axes.set_aspect("equal")
+    _draw_axes(axes)
     axes.set_xlabel("Re z")
     axes.set_ylabel("Im z")
     what = "order star: |R(z)| > |exp z|" if order_star else "filled: |R(z)| ≤ 1"
@@ -309,12 +336,13 @@ def springs_figure(plane: SpringsPlane, name: str) -> Figure:
     figure = Figure(figsize=(6.4, 5.2), layout="constrained")
     axes = figure.subplots()
     fast, slow = plane.fast, plane.slow
-    half = plane.half_trace
-    shown = np.nan_to_num(half, nan=_AT_POLES, posinf=_AT_POLES)
+    shown = _finite(plane.half_trace)
     red = ["#a02417"]
     unstable = [1.0, _ABOVE_ALL]
-    axes.contourf(fast, slow, shown, levels=unstable, colors=red, alpha=0.35)
-    axes.contour(fast, slow, shown, levels=[1.0], colors=red, linewidths=1.2)
+    inside: Style = {"colors": red, "alpha": 0.35}
+    edge: Style = {"colors": red, "linewidths": 1.2}
+    axes.contourf(fast, slow, shown, levels=unstable, **inside)
+    axes.contour(fast, slow, shown, levels=[1.0], **edge)
     axes.set_xlabel("hω of the fast spring")
     axes.set_ylabel("hω of the slow spring")
     title = f"{name}: filled where unstable"

@@ -157,7 +157,8 @@ def _narrowed(
     narrowed = [[False] * colours for _ in range(colours)]
     for above in within:
         for m in within:
-            narrowed[above][m] = edges is None or bool(edges[above][m])
+            if edges is None or edges[above][m]:
+                narrowed[above][m] = True
     return narrowed
 
 

@@ -66,7 +66,10 @@ class Admissible:
             if lengths != {colours}:
                 shape = f"a {colours} by {colours} matrix"
                 raise ValueError(f"edges must be {shape}, one row for each colour")
-            rows = [tuple(m for m in everything if row[m]) for row in edges]
+            rows = []
+            for row in edges:
+                below = [m for m in everything if row[m]]
+                rows.append(tuple(below))
         for colour in linear:
             if colour not in everything:
                 what = f"linear colour {colour}"
@@ -189,7 +192,8 @@ class _Growing:
         total = self.sums[n] + c[n]
         if start:
             for k in range(start, n):
-                total += c[k] * f[n - k] + f[k] * c[n - k]
+                total += c[k] * f[n - k]
+                total += f[k] * c[n - k]
         else:
             for k in range(1, n):
                 total += c[k] * f[n - k]

@@ -194,8 +194,9 @@ def tikz(tree: Tree, scale: float = 0.6, colours: bool = True) -> str:
         if colours:
             style = _tikz_style(v.colour)
             label = str(v.colour + 1)
+        node = rf"\node[{style}] (v{k})"
         place = f"({v.x:g},{v.y})"
-        lines.append(rf"  \node[{style}] (v{k}) at {place} {{{label}}};")
+        lines.append(f"  {node} at {place} {{{label}}};")
     for k, v in enumerate(vertices):
         if v.parent >= 0:
             lines.append(rf"  \draw (v{v.parent}) -- (v{k});")

@@ -179,7 +179,9 @@ class Structure:
         is_linear = self.admissible.is_linear(tree.root)
         if is_linear and len(tree.branches) > 1:
             return False
-        return all(u.root in below and self.is_admissible(u) for u in tree.branches)
+        if any(u.root not in below for u in tree.branches):
+            return False
+        return all(map(self.is_admissible, tree.branches))
 
     def centred(self, tree: Tree) -> Tree:
         """The rooting at the centroid, one for each free tree.
@@ -247,7 +249,8 @@ class Grower:
                 continue  # listed from the other half
             is_mirrored = colour == root and not is_directed
             halves = self.planted(colour, order // 2)
-            for position, u in enumerate(self.planted(root, order // 2)):
+            own = self.planted(root, order // 2)
+            for position, u in enumerate(own):
                 first = position + 1 if is_mirrored else 0
                 for v in halves[first:]:
                     yield Tree(root, (*u.branches, v))

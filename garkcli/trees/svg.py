@@ -16,6 +16,7 @@ if TYPE_CHECKING:
 STEP_X = 30
 STEP_Y = 36
 RADIUS = 11
+DIAMETER = 2 * RADIUS
 MARGIN = 16
 ROW_GAP = 24  # between the captions of one row and the highest tree of the next
 CAPTION_SIZE = 12  # type size of the captions, in pixels
@@ -51,8 +52,8 @@ def draw_svg_sheet(
         row, column = divmod(k, columns)
         left = sum(widths[:column])
         middle = left + widths[column] / 2
-        above = sum(heights[: row + 1]) + row * foot
-        base = MARGIN + above
+        rows = sum(heights[: row + 1])
+        base = MARGIN + rows + row * foot
         body += _svg_tree(vertices, middle, base - RADIUS)
         body += _svg_caption(lines[k], middle, base)
     feet = len(heights) * foot - ROW_GAP
@@ -78,10 +79,10 @@ def _grid(
         row, column = divmod(k, columns)
         right = max(v.x for v in vertices)
         top = max(v.y for v in vertices)
-        drawn = right * STEP_X + 2 * RADIUS
+        drawn = right * STEP_X + DIAMETER
         written = text_width(captions[k]) * CHARACTER
         wide = max(drawn, written) + 2 * MARGIN
-        high = top * STEP_Y + 2 * RADIUS
+        high = top * STEP_Y + DIAMETER
         widths[column] = max(widths[column], wide)
         heights[row] = max(heights[row], high)
     return widths, heights
@@ -110,7 +111,9 @@ def _svg_tree(vertices: Vertices, middle: float, ground: float) -> list[str]:
     dots: list[str] = []
     for v, x, y in zip(vertices, xs, ys, strict=True):
         if v.parent >= 0:
-            start = _pixels(x1=xs[v.parent], y1=ys[v.parent])
+            x0 = xs[v.parent]
+            y0 = ys[v.parent]
+            start = _pixels(x1=x0, y1=y0)
             end = _pixels(x2=x, y2=y)
             edges.append(f"<line {start} {end}/>")
         dots += _svg_dot(v.colour, x, y)
@@ -148,5 +151,8 @@ def _svg_caption(lines: Lines, middle: float, top: float) -> list[str]:
 
 def _pixels(**lengths: float) -> str:
     """Attributes of an element, to a tenth of a pixel."""
-    written = [f'{name}="{length:.1f}"' for name, length in lengths.items()]
+    written = []
+    for name, length in lengths.items():
+        tenths = f"{length:.1f}"
+        written.append(f'{name}="{tenths}"')
     return " ".join(written)

@@ -36,7 +36,8 @@ class Texts:
         insides = self._of_children(trees)
         roots = trees.root.tolist()
         texts = []
-        for (inside, _, _), root in zip(insides, roots, strict=True):
+        for made, root in zip(insides, roots, strict=True):
+            inside, _, _ = made
             text = self._closed(inside, root)
             texts.append(text)
         return texts
@@ -51,7 +52,8 @@ class Texts:
             parents = np.concatenate([stems, branches])
             generation = np.unique(parents[parents >= 0])
             wanted = np.union1d(wanted, generation)
-        unknown = [u for u in wanted.tolist() if u not in self._insides]
+        known = self._insides
+        unknown = [u for u in wanted.tolist() if u not in known]
         missing = np.array(unknown, np.int64)
         orders = columns.order[missing]
         for order in np.unique(orders):

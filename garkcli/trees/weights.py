@@ -97,7 +97,8 @@ class _Evaluation:
         self.weights = weights
         self.vectors: dict[tuple[int, int], Floats] = {}
         self.applied: dict[tuple[int, int, int], Floats] = {}
-        self.dtype = np.result_type(float, *weights, *blocks.values())
+        matrices = blocks.values()
+        self.dtype = np.result_type(float, *weights, *matrices)
         self.values = np.empty(len(table), self.dtype)
 
     def run(self) -> Floats:
@@ -111,7 +112,8 @@ class _Evaluation:
             if not last:
                 for colour, b in enumerate(self.weights):
                     ids = self.table.ids(order, colour)
-                    vectors = np.empty((len(ids), len(b)), self.dtype)
+                    shape = len(ids), len(b)
+                    vectors = np.empty(shape, self.dtype)
                     self.vectors[order, colour] = vectors
             for segment in self.table.segments:
                 if segment.order == order:
