@@ -20,7 +20,9 @@ def is_triangle(lengths: Sequence[int]) -> bool:
     (True, True, False)
     """
     stages = len(lengths)
-    return list(lengths) in (list(range(stages)), list(range(1, stages + 1)))
+    to_the_diagonal = [*range(1, stages + 1)]
+    before_it = [*range(stages)]
+    return list(lengths) in (before_it, to_the_diagonal)
 
 
 def opens(node: Node) -> bool:
@@ -79,8 +81,15 @@ def bracketed(text: str) -> str:
     words = [word for row in rows for word in row]
     if len(words) > 16 or not all(_PLAIN.fullmatch(word) for word in words):
         return ""
-    texts = [f"[{', '.join(row)}]" for row in rows]
-    return texts[0] if len(texts) == 1 else f"[{', '.join(texts)}]"
+    texts = [_in_brackets(row) for row in rows]
+    if len(texts) == 1:
+        return texts[0]
+    return _in_brackets(texts)
+
+
+def _in_brackets(items: Sequence[str]) -> str:
+    inside = ", ".join(items)
+    return f"[{inside}]"
 
 
 def printed_row(rows: Sequence[Node], example: str) -> tuple[Node, str, str] | None:

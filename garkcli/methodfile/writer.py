@@ -4,6 +4,7 @@ from __future__ import annotations
 
 from collections.abc import Callable, Iterator, Sequence
 from dataclasses import replace
+from typing import TypeAlias
 
 import yaml
 from flint import arb, fmpq
@@ -20,6 +21,8 @@ from garkcli.tableau.point_space import PointSpace
 from garkcli.tableau.pointwise import Cell, Entries
 from garkcli.tableau.tableau import Colour, Tableau
 
+NumberText: TypeAlias = Callable[[Number], str]
+"""How a coefficient is written."""
 _DROPPED = ("expect", "conjugate", "name", "description")
 
 
@@ -28,7 +31,7 @@ def write_tableau_file(
     name: str,
     tolerance: fmpq | None = None,
     note: str = "",
-    text: Callable[[Number], str] = to_text,
+    text: NumberText = to_text,
 ) -> str:
     """A method file with every block of ``tableau`` spelled out.
 
@@ -40,7 +43,8 @@ def write_tableau_file(
         text: how a coefficient is written.
     """
     lines = [f"# {line}" for line in note.splitlines()]
-    lines += ["gark: 1", f"name: {quoted(name)}"]
+    lines.append("gark: 1")
+    lines.append(f"name: {quoted(name)}")
     if _is_prk(tableau):
         lines += _prk(tableau, text)
     elif _is_ark(tableau):
@@ -72,7 +76,8 @@ def write_rounded(tableau: Tableau, entries: Entries, name: str) -> str:
     digits = entries.digits
     made = _rounded_tableau(tableau, entries)
     largest = max(abs(x) for x in _rationals(made))
-    digits_before_the_point = len(str(int(largest.floor())))
+    whole = int(largest.floor())
+    digits_before_the_point = len(str(whole))
     # a hundred units in the last digit
     exponent = 2 + digits_before_the_point - digits
     tolerance = fmpq(10) ** exponent
@@ -111,18 +116,23 @@ def _rounded(cell: Cell, digits: int) -> fmpq:
 
 
 def _decimal_text(number: Number) -> str:
-    return plain_decimal(number) if isinstance(number, fmpq) else to_text(number)
+    if isinstance(number, fmpq):
+        return plain_decimal(number)
+    return to_text(number)
 
 
 def _rationals(tableau: Tableau) -> Iterator[fmpq]:
     """Every coefficient of a tableau whose coefficients are rational."""
     rows: list[Vector] = []
     for colour in tableau.colours:
-        rows += [colour.b, colour.c]
+        rows.append(colour.b)
+        rows.append(colour.c)
     for block in tableau.blocks.values():
         rows += block
     for row in rows:
-        yield from (x for x in row if isinstance(x, fmpq))
+        for x in row:
+            if isinstance(x, fmpq):
+                yield x
 
 
 def can_spell_out(tableau: Tableau) -> bool:
@@ -149,17 +159,18 @@ def _is_complete(tableau: Tableau) -> bool:
     return len(tableau.blocks) == len(tableau.spaces) * tableau.size
 
 
-def _ark(tableau: Tableau, text: Callable[[Number], str]) -> list[str]:
+def _ark(tableau: Tableau, text: NumberText) -> list[str]:
     """The form ``ark``: one matrix a colour, all on the same stages."""
     lines = ["ark:", f"  c: {_row(tableau.colours[0].c, text)}", "  A:"]
     for m in range(tableau.size):
         lines.append(f"    -  # A^{{{m + 1}}}")
         lines += [f"      - {_row(row, text)}" for row in tableau.blocks[0, m]]
     lines.append("  b:")
-    return lines + [f"    - {_row(colour.b, text)}" for colour in tableau.colours]
+    lines += [f"    - {_row(colour.b, text)}" for colour in tableau.colours]
+    return lines
 
 
-def _blocks(tableau: Tableau, text: Callable[[Number], str]) -> list[str]:
+def _blocks(tableau: Tableau, text: NumberText) -> list[str]:
     """The form ``tableau``: nodes, blocks and weights, and which colours are linear."""
     colours = tableau.colours
     lines = ["tableau:", "  c:"]
@@ -170,15 +181,15 @@ def _blocks(tableau: Tableau, text: Callable[[Number], str]) -> list[str]:
             lines += _block(tableau, l, m, text)
     lines.append("  b:")
     lines += [f"    - {_row(colour.b, text)}" for colour in colours]
-    linear = [str(l) for l, colour in enumerate(colours, 1) if colour.is_linear]
+    numbered = enumerate(colours, start=1)
+    linear = [str(l) for l, colour in numbered if colour.is_linear]
     if linear:
-        lines.append(f"linear: [{', '.join(linear)}]")
+        numbers = ", ".join(linear)
+        lines.append(f"linear: [{numbers}]")
     return lines
 
 
-def _block(
-    tableau: Tableau, l: int, m: int, text: Callable[[Number], str]
-) -> Iterator[str]:
+def _block(tableau: Tableau, l: int, m: int, text: NumberText) -> Iterator[str]:
     """The lines of the block A^{l,m}, which is null where it does not exist."""
     block = tableau.block(l, m)
     dash = "    - -" if m == 0 else "      -"
@@ -191,7 +202,7 @@ def _block(
         yield f"        - {_row(row, text)}"
 
 
-def _prk(tableau: Tableau, text: Callable[[Number], str]) -> list[str]:
+def _prk(tableau: Tableau, text: NumberText) -> list[str]:
     """The form ``prk``: the rows of q.A are the positions at which the colour p evaluates its
     forces.
     """
@@ -200,7 +211,8 @@ def _prk(tableau: Tableau, text: Callable[[Number], str]) -> list[str]:
         block = tableau.block(seen_at, drives) or ()
         weights = tableau.colours[drives].b
         nodes = tableau.colours[seen_at].c
-        lines += [f"  {part}:", "    A:"]
+        lines.append(f"  {part}:")
+        lines.append("    A:")
         lines += [f"      - {_row(row, text)}" for row in block]
         lines.append(f"    b: {_row(weights, text)}")
         lines.append(f"    c: {_row(nodes, text)}")
@@ -209,12 +221,14 @@ def _prk(tableau: Tableau, text: Callable[[Number], str]) -> list[str]:
         structure = "general"
     elif tableau.colours[0].is_linear:
         structure = "nystrom"
-    return [*lines, f"structure: {structure}"]
+    lines.append(f"structure: {structure}")
+    return lines
 
 
-def _row(numbers: Sequence[Number], text: Callable[[Number], str]) -> str:
+def _row(numbers: Sequence[Number], text: NumberText) -> str:
     items = [_item(text(x)) for x in numbers]
-    return f"[{', '.join(items)}]"
+    inside = ", ".join(items)
+    return f"[{inside}]"
 
 
 def _item(text: str) -> str:
@@ -230,7 +244,9 @@ def quoted(text: str) -> str:
 
 
 def _printable(sign: str) -> str:
-    return sign if sign.isprintable() else f"\\U{ord(sign):08x}"
+    if sign.isprintable():
+        return sign
+    return f"\\U{ord(sign):08x}"
 
 
 def write_conjugate_of(method: MethodFile, name: str) -> str:

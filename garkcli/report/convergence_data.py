@@ -65,13 +65,14 @@ def json_of_several(entries: Sequence[Entry], with_work: bool) -> str:
     """Several tests as JSON."""
     results = []
     for entry in entries:
-        head: dict[str, Any] = {"file": entry.file, "ok": entry.exit_code == 0}
+        is_fine = entry.exit_code == 0
+        found: dict[str, Any] = {"file": entry.file, "ok": is_fine}
         if entry.result is None:
-            results.append(
-                {**head, "name": entry.name, "errors": _errors(entry.faults)}
-            )
+            found["name"] = entry.name
+            found["errors"] = [_error(fault) for fault in entry.faults]
         else:
-            results.append({**head, **_data(entry.result, entry.name, with_work)})
+            found |= _data(entry.result, entry.name, with_work)
+        results.append(found)
     failed = sum(entry.exit_code != 0 for entry in entries)
     comparison = {
         "schema": "gark/converge-comparison/1",
@@ -85,11 +86,13 @@ def _dumped(data: dict[str, Any]) -> str:
     return to_json(data) + "\n"
 
 
-def _errors(faults: Sequence[Fault]) -> list[dict[str, Any]]:
-    return [
-        {"line": x.line, "column": x.column, "message": x.message, "help": x.help}
-        for x in faults
-    ]
+def _error(fault: Fault) -> dict[str, Any]:
+    return {
+        "line": fault.line,
+        "column": fault.column,
+        "message": fault.message,
+        "help": fault.help,
+    }
 
 
 def _data(result: Convergence, name: str, with_work: bool) -> dict[str, Any]:
@@ -126,11 +129,14 @@ def _split(result: Convergence) -> dict[str, Any]:
 
 def _place(order: float | None) -> float | None:
     """An order or slope in as many decimal places as say something; never −0."""
-    return None if order is None else round(order, _SLOPE_DIGITS) + 0.0
+    if order is None:
+        return None
+    return round(order, _SLOPE_DIGITS) + 0.0
 
 
 def _step(row: Row, names: Sequence[str], with_work: bool) -> dict[str, Any]:
     errors = dict(zip(names, row.invariant_errors, strict=True))
+    in_numbers = {name: _number(error) for name, error in errors.items()}
     step: dict[str, Any] = {
         "h": to_float(row.h),
         "h_exact": str(row.h),
@@ -138,10 +144,13 @@ def _step(row: Row, names: Sequence[str], with_work: bool) -> dict[str, Any]:
         "slope": _place(row.slope),
         "energy_error": _number(row.energy_error),
         "digits": row.digits,
-        "invariant_errors": {name: _number(error) for name, error in errors.items()},
+        "invariant_errors": in_numbers,
     }
     measured = {"energy": row.energy_error, **errors}
-    below = [name for name, x in measured.items() if x.contains(0) and not x.is_zero()]
+    below = []
+    for name, x in measured.items():
+        if x.contains(0) and not x.is_zero():
+            below.append(name)
     if below:
         step["below_round_off"] = below
     if with_work:
@@ -173,11 +182,7 @@ def csv_of(result: Convergence, with_work: bool) -> str:
 
 def csv_of_several(entries: Sequence[Entry], with_work: bool) -> str:
     """Several tests as CSV, a row a method and step size; methods without a result have none."""
-    tests = [
-        ([entry.file, entry.name], entry.result)
-        for entry in entries
-        if entry.result is not None
-    ]
+    tests = [([x.file, x.name], x.result) for x in entries if x.result is not None]
     return _written(tests, ["file", "method"], with_work)
 
 
@@ -186,39 +191,58 @@ def _written(
 ) -> str:
     text = io.StringIO()
     writer = csv.writer(text, lineterminator="\n")
-    heads = [*first, *_columns(tests[0][1] if tests else None)]
-    heads = [csv_cell(head) for head in heads]
-    writer.writerow([*heads, *_WORK] if with_work else heads)
+    columns = _columns(None)
+    if tests:
+        _, example = tests[0]
+        columns = _columns(example)
+    heads = [csv_cell(head) for head in (*first, *columns)]
+    if with_work:
+        heads += _WORK
+    writer.writerow(heads)
     for cells, result in tests:
+        # names are of strangers, numbers are ours
+        names = [csv_cell(cell) for cell in cells]
         for row in result.rows:
-            # names are of strangers, numbers are ours
-            found = [*map(csv_cell, cells), *_cells(row)]
-            writer.writerow([*found, *_work_cells(row.cost)] if with_work else found)
+            found = names + _cells(row)
+            if with_work:
+                found += _work_cells(row.cost)
+            writer.writerow(found)
     return text.getvalue()
 
 
 def _columns(result: Convergence | None) -> list[str]:
     columns = ["h", "h_exact", "error", "slope", "energy_error"]
     if result is not None:
-        columns += [
-            f"{name.replace(' ', '_')}_error" for name in invariant_names(result)
-        ]
+        for name in invariant_names(result):
+            word = name.replace(" ", "_")
+            columns.append(f"{word}_error")
         if any(row.digits is not None for row in result.rows):
             columns.append("digits")
     return columns
 
 
 def _cells(row: Row) -> list[str]:
-    slope = "" if row.slope is None else f"{row.slope:.{_SLOPE_DIGITS}f}"
-    cells = [repr(to_float(row.h)), str(row.h), for_programs(row.error, _DIGITS), slope]
+    slope = ""
+    if row.slope is not None:
+        slope = f"{row.slope:.{_SLOPE_DIGITS}f}"
+    h = to_float(row.h)
+    cells = [repr(h), str(row.h)]
+    cells.append(for_programs(row.error, _DIGITS))
+    cells.append(slope)
     cells.append(for_programs(row.energy_error, _DIGITS))
     cells += [for_programs(x, _DIGITS) for x in row.invariant_errors]
-    return cells if row.digits is None else [*cells, str(row.digits)]
+    if row.digits is not None:
+        cells.append(str(row.digits))
+    return cells
 
 
 def _work_cells(cost: Cost | None) -> list[str]:
     if cost is None:
         return [""] * len(_WORK)
     counts = (cost.steps, cost.evaluations, cost.iterations, cost.jacobians)
-    seconds = "" if cost.seconds is None else f"{cost.seconds:.4g}"
-    return [*map(str, counts), seconds]
+    cells = [str(count) for count in counts]
+    seconds = ""
+    if cost.seconds is not None:
+        seconds = f"{cost.seconds:.4g}"
+    cells.append(seconds)
+    return cells

@@ -212,4 +212,8 @@ def try_one(text: str) -> None:
     else:
         return
     assert faults
-    assert all(fault.message for fault in faults)
+    lines = text.count("\n") + text.count("\r") + 1
+    for fault in faults:
+        assert fault.message
+        assert 1 <= fault.line <= lines + 1
+        assert fault.column >= 1
