@@ -54,6 +54,9 @@ RUNS = [
     ),
     (("energy", VERLET, "--t-end", "20", "--step", "1/10"), ("text", "json", "csv")),
     (("list",), ("text", "json")),
+    (("reduce", VERLET), ("yaml", "text", "json", "latex")),
+    (("modified", VERLET), ("text", "json", "latex")),
+    (("certificate", VERLET), ("json",)),
     (("schema",), ("json",)),
     (("schema", "--report"), ("json",)),
 ]
