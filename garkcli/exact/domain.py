@@ -9,19 +9,29 @@ from __future__ import annotations
 
 from collections.abc import Iterable
 from functools import partial
-from typing import TYPE_CHECKING
+from typing import TYPE_CHECKING, TypeAlias
 
 from flint import arb, ctx, fmpq, fmpq_poly
 
 from garkcli.errors import LimitExceeded, UndefinedValue
 from garkcli.exact.enclosing import OPERATIONS, enclose
 from garkcli.exact.field import ONE, ZERO, Algebraic, Number, NumberField
-from garkcli.exact.nodes import Chain, Expression, Literal, Name, Power, Root
+from garkcli.exact.nodes import (
+    AlgebraicRoot,
+    Chain,
+    Expression,
+    Literal,
+    Name,
+    Power,
+    Root,
+)
 from garkcli.exact.rewriting import roots_in
 
 if TYPE_CHECKING:
     from garkcli.exact.tower import Tower
 
+Radical: TypeAlias = Root | AlgebraicRoot
+"""What generates a number field."""
 MAX_BITS = 60_000
 """Largest numerator or denominator a coefficient may grow to, in bits."""
 MAX_RADICALS = 32
@@ -58,8 +68,8 @@ class Domain:
     ) -> None:
         self.field: NumberField | None = None
         self._are_real = are_real
-        self._values: dict[Root, Number] = {}
-        found: list[Root] = []
+        self._values: dict[Radical, Number] = {}
+        found: list[Radical] = []
         for expression in expressions:
             found += roots_in(expression)
         irrational = []
@@ -100,7 +110,7 @@ class Domain:
                 return total
             case Power(base=base, exponent=exponent):
                 return self._power(self.evaluate(base), exponent, expression)
-            case Root():
+            case Root() | AlgebraicRoot():
                 return self._values[expression]
             case Name(name=name):
                 message = f"{name!r} has no value"
@@ -115,10 +125,12 @@ class Domain:
             raise _too_long(at)
         return number**exponent
 
-    def _rational_root(self, root: Root) -> Number | None:
+    def _rational_root(self, root: Radical) -> Number | None:
         """The value of a root that is rational because its radicand is a perfect power; else
         None.
         """
+        if isinstance(root, AlgebraicRoot):
+            return None
         if not self._has_rational_radicand(root):
             if not self._are_real:
                 _check_sign(root)
@@ -141,12 +153,15 @@ class Domain:
             raise TypeError("an irrational value where a rational one is due")
         return value
 
-    def _quadratic(self, roots: list[Root]) -> bool:
+    def _quadratic(self, roots: list[Radical]) -> bool:
         """ℚ(√d), when every root is a square root of a rational number of one square class."""
+        radicands = []
         for root in roots:
-            if root.index != 2 or not self._has_rational_radicand(root):
+            if isinstance(root, AlgebraicRoot) or root.index != 2:
                 return False
-        radicands = [self._rational_value(root.radicand) for root in roots]
+            if not self._has_rational_radicand(root):
+                return False
+            radicands.append(self._rational_value(root.radicand))
         d = square_free(radicands[0])
         scales: list[fmpq] = []
         for radicand in radicands:
@@ -161,18 +176,18 @@ class Domain:
             self._values[root] = self.field.element(theta * scale)
         return True
 
-    def _generated(self, roots: list[Root]) -> None:
+    def _generated(self, roots: list[Radical]) -> None:
         """ℚ(all roots), adjoined one after the other, the inner ones first."""
         from garkcli.exact.tower import RATIONALS  # few methods have such roots
 
         tower = RATIONALS
-        kept: list[Root] = []
+        kept: list[Radical] = []
         for root in roots:
-            radicand = self._within(tower, kept, root.radicand)
-            if not radicand:
+            relation = self._relation(tower, kept, root)
+            if not any(relation):
                 self._values[root] = ZERO
                 continue
-            degree = tower.degree * root.index
+            degree = tower.degree * len(relation)
             if degree > MAX_DEGREE:
                 message = f"radicals of degree {degree} together (limit {MAX_DEGREE})"
                 cure = "write the coefficients in fewer or simpler radicals"
@@ -180,15 +195,25 @@ class Domain:
             kept.append(root)
             # the list grows with the loop, so its present state is bound here
             enclosures = partial(_enclosures, tuple(kept))
-            tower = tower.adjoin(root.index, radicand, enclosures)
+            tower = tower.adjoin(relation, enclosures)
         elements = list(zip(kept, tower.elements, strict=True))
         if tower.degree > 1:
             self.field = NumberField(tower.modulus, elements)
         for root, poly in elements:
             self._values[root] = self.field.element(poly) if self.field else poly[0]
 
+    def _relation(
+        self, tower: Tower, kept: list[Radical], root: Radical
+    ) -> list[fmpq_poly]:
+        """The r_j of yⁿ = r_0 + r_1 y + … for a root y, as polynomials in θ."""
+        if isinstance(root, AlgebraicRoot):
+            *lower, leading = root.coefficients
+            return [fmpq_poly([fmpq(-a, leading)]) for a in lower]
+        radicand = self._within(tower, kept, root.radicand)
+        return [radicand] + [fmpq_poly()] * (root.index - 1)
+
     def _within(
-        self, tower: Tower, roots: list[Root], expression: Expression
+        self, tower: Tower, roots: list[Radical], expression: Expression
     ) -> fmpq_poly:
         """The value of an expression in the roots adjoined so far, as a polynomial in θ."""
         field = NumberField(tower.modulus, ())
@@ -205,7 +230,7 @@ class Domain:
         return fmpq_poly([value])
 
 
-def _enclosures(roots: tuple[Root, ...]) -> list[arb]:
+def _enclosures(roots: tuple[Radical, ...]) -> list[arb]:
     return [enclose(root) for root in roots]
 
 

@@ -6,9 +6,17 @@ import operator
 from collections.abc import Callable, Mapping
 from typing import Any
 
-from flint import arb
+from flint import arb, ctx
 
-from garkcli.exact.nodes import Chain, Expression, Literal, Power, Root
+from garkcli.exact.isolating import isolated
+from garkcli.exact.nodes import (
+    AlgebraicRoot,
+    Chain,
+    Expression,
+    Literal,
+    Power,
+    Root,
+)
 
 OPERATIONS: Mapping[str, Callable[[Any, Any], Any]] = {
     "+": operator.add,
@@ -43,4 +51,6 @@ def enclose(expression: Expression) -> arb:
             if index % 2 and inside < 0:
                 return -((-inside).root(index))
             return inside.root(index)
+        case AlgebraicRoot(coefficients=coefficients, number=number):
+            return isolated(coefficients, ctx.prec)[number]
     raise TypeError(f"no value: {expression!r}")

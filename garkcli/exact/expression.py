@@ -7,6 +7,7 @@ The grammar, with ``^`` meaning ``**``::
     factor   = ("+" | "-") factor | power
     power    = atom [ "**" ["+" | "-"] integer ]
     atom     = number | name | function "(" sum [ "," integer ] ")" | "(" sum ")"
+             | "root_of" "(" sum "," sum ")"
     function = "sqrt" | "cbrt" | "root"
 
 Numbers are read as written: ``0.1`` is one tenth. ``garkcli.exact.formula`` extends the grammar for
@@ -49,7 +50,7 @@ _SIGN_CURES = dict.fromkeys("−–—", "use the sign - (hyphen)") | {
     "·": "use the sign *",
     "×": "use the sign *",
 }
-FUNCTIONS = frozenset({*INDEX_OF_ROOT, "root"})
+FUNCTIONS = frozenset({*INDEX_OF_ROOT, "root", "root_of"})
 """Names with a meaning of their own: no parameter may be called so."""
 
 
@@ -81,9 +82,11 @@ class Parser:
     value_noun: ClassVar[str] = "number"
     example: ClassVar[str] = "write a number, such as 1/2"
     cure: ClassVar[str] = (
-        "write digits 0-9, + - * / ** ( ), sqrt(x), cbrt(x), root(x, n)"
+        "write digits 0-9, + - * / ** ( ), sqrt(x), cbrt(x), root(x, n), root_of(p, r)"
     )
-    functions: ClassVar[str] = "there are sqrt(x), cbrt(x) and root(x, n)"
+    functions: ClassVar[str] = (
+        "there are sqrt(x), cbrt(x), root(x, n) and root_of(p, r)"
+    )
 
     def __init__(self, text: str) -> None:
         if len(text) > MAX_LENGTH:
@@ -256,6 +259,8 @@ class Parser:
         opened = self.start
         self._advance()
         radicand = self._sum()
+        if name == "root_of":
+            return self._root_of(radicand, start, opened)
         index = INDEX_OF_ROOT.get(name, 0)
         if not index:
             self._expect(",", opened)
@@ -264,6 +269,15 @@ class Parser:
                 self._fail("the index of a root is 2 or more")
         self._expect(")", opened)
         return Root(radicand, index, start=start, end=self.last_end)
+
+    def _root_of(self, polynomial: Expression, start: int, opened: int) -> Expression:
+        """What follows the polynomial of a root."""
+        from garkcli.exact.root_of import root_nearest  # few methods have such roots
+
+        self._expect(",", opened)
+        near = self._sum()
+        self._expect(")", opened)
+        return root_nearest(polynomial, near, start, self.last_end)
 
 
 def read_decimal(text: str, start: int = 0) -> fmpq:

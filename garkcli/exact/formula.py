@@ -98,6 +98,9 @@ class _FormulaParser(Parser):
         return RealPower(base, exponent, start=start, end=self.last_end)
 
     def _function(self, name: str, start: int) -> Expression:
+        if name == "root_of":
+            message = "root_of is for coefficients of methods, not for formulas"
+            raise ExpressionError(message, "write radicals", start, self.last_end)
         if name in ROOTS:
             return super()._function(name, start)
         if name not in FUNCTIONS:

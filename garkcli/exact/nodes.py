@@ -58,3 +58,16 @@ class Root(Expression):
 
     radicand: Expression
     index: int
+
+
+@dataclass(frozen=True)
+class AlgebraicRoot(Expression):
+    """A real root of an irreducible polynomial over ℤ of degree 3 or more.
+
+    Attributes:
+        coefficients: of the polynomial, the lowest first, the leading one positive.
+        number: which of the real roots it is, counted from 0 in ascending order.
+    """
+
+    coefficients: tuple[int, ...]
+    number: int

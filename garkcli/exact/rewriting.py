@@ -10,7 +10,15 @@ from flint import fmpq
 from garkcli.errors import UndefinedValue, did_you_mean
 from garkcli.exact.expression import INDEX_OF_ROOT
 from garkcli.exact.formula import Call, RealPower
-from garkcli.exact.nodes import Chain, Expression, Literal, Name, Power, Root
+from garkcli.exact.nodes import (
+    AlgebraicRoot,
+    Chain,
+    Expression,
+    Literal,
+    Name,
+    Power,
+    Root,
+)
 
 
 def size_of(expression: Expression, sizes: Mapping[str, int]) -> int:
@@ -96,11 +104,11 @@ def _unknown_name(name: Name, values: Mapping[str, Expression]) -> UndefinedValu
     )
 
 
-def roots_in(expression: Expression) -> Iterator[Root]:
+def roots_in(expression: Expression) -> Iterator[Root | AlgebraicRoot]:
     """Every root in ``expression``, the inner ones first."""
     for part in parts(expression):
         yield from roots_in(part)
-    if isinstance(expression, Root):
+    if isinstance(expression, (Root, AlgebraicRoot)):
         yield expression
 
 
@@ -136,6 +144,8 @@ class _Text:
                 return self.call(function, self.written(argument))
             case Root(radicand=radicand, index=index):
                 return self.root(self.written(radicand), index)
+            case AlgebraicRoot():
+                return self.algebraic(expression)
         raise TypeError(f"no expression: {expression!r}")
 
     def chain(self, chain: Chain) -> str:
@@ -153,7 +163,7 @@ class _Text:
         """The text in parentheses, unless it is one sign or one call."""
         text = self.written(expression)
         is_whole_number = isinstance(expression, Literal) and text.isdigit()
-        if is_whole_number or isinstance(expression, (Name, Root, Call)):
+        if is_whole_number or isinstance(expression, (Name, Root, AlgebraicRoot, Call)):
             return text
         return f"({text})"
 
@@ -180,6 +190,32 @@ class _Text:
                 return f"{name}({radicand})"
         return f"root({radicand}, {index})"
 
+    def algebraic(self, root: AlgebraicRoot) -> str:
+        """A root by its polynomial and its first digits."""
+        from garkcli.exact.root_of import approximate
+
+        return f"root_of({self.polynomial(root)}, {approximate(root)})"
+
+    def polynomial(self, root: AlgebraicRoot) -> str:
+        """The polynomial of a root, highest power first."""
+        text = ""
+        for k, a in reversed(list(enumerate(root.coefficients))):
+            if a:
+                sign = "-" if a < 0 else "+"
+                text += sign + self.monomial(abs(a), k)
+        return text.removeprefix("+")
+
+    def monomial(self, a: int, k: int) -> str:
+        """The term a x^k."""
+        if k == 0:
+            return str(a)
+        power = "x" if k == 1 else self.power("x", k)
+        return power if a == 1 else self.multiple(a, power)
+
+    def multiple(self, a: int, power: str) -> str:
+        """A multiple of a power."""
+        return f"{a}*{power}"
+
 
 class _Latex(_Text):
     """The same in LaTeX."""
@@ -203,3 +239,12 @@ class _Latex(_Text):
     def root(self, radicand: str, index: int) -> str:
         degree = "" if index == 2 else f"[{index}]"
         return f"\\sqrt{degree}{{{radicand}}}"
+
+    def algebraic(self, root: AlgebraicRoot) -> str:
+        from garkcli.exact.root_of import approximate
+
+        shown = f"{self.polynomial(root)}, x\\approx {approximate(root)}"
+        return f"\\operatorname{{root}}\\left({shown}\\right)"
+
+    def multiple(self, a: int, power: str) -> str:
+        return f"{a}{power}"

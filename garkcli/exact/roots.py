@@ -7,13 +7,13 @@ are equal exactly when they are the same number. Enclosures only tell apart what
 from __future__ import annotations
 
 from dataclasses import dataclass
-from functools import lru_cache, total_ordering
-from typing import Any
+from functools import total_ordering
 
-from flint import arb, ctx, fmpq, fmpz_poly
+from flint import arb, fmpq, fmpz_poly
 
 from garkcli.exact.display import to_ball
 from garkcli.exact.field import Algebraic, Number
+from garkcli.exact.isolating import isolated, precision
 from garkcli.exact.polynomial import Polynomial, gcd
 
 FIRST_BITS = 64
@@ -67,7 +67,7 @@ class RealRoot:
         if value is not None:
             with precision(bits):
                 return arb(value)
-        balls = _real_roots(_integers(self.polynomial), bits)
+        balls = isolated(_integers(self.polynomial), bits)
         return balls[self.number]
 
     def __lt__(self, other: RealRoot) -> bool:
@@ -85,36 +85,9 @@ class RealRoot:
         return f"RealRoot({self.polynomial}, {self.number})"
 
 
-class precision:  # noqa: N801 -- used as a function
-    """``flint.ctx.prec`` for a while."""
-
-    def __init__(self, bits: int) -> None:
-        self.bits = bits
-
-    def __enter__(self) -> None:
-        self.before = ctx.prec
-        ctx.prec = self.bits
-
-    def __exit__(self, *_: object) -> None:
-        ctx.prec = self.before
-
-
 def _integers(polynomial: fmpz_poly) -> tuple[int, ...]:
     """The coefficients, the lowest first."""
     return tuple(int(a) for a in polynomial.coeffs())
-
-
-@lru_cache(maxsize=512)
-def _real_roots(coefficients: tuple[int, ...], bits: int) -> tuple[arb, ...]:
-    """The real roots of an irreducible polynomial in ascending order.
-
-    python-flint isolates all roots and gives real ones an imaginary part that is exactly zero.
-    """
-    with precision(bits):
-        found: list[Any] = fmpz_poly(list(coefficients)).complex_roots()
-        real = [root.real for root, _ in found if root.imag == 0]
-        real.sort(key=lambda ball: ball.mid())
-        return tuple(real)
 
 
 def real_roots(p: Polynomial) -> list[tuple[RealRoot, int]]:
@@ -134,7 +107,7 @@ def real_roots(p: Polynomial) -> list[tuple[RealRoot, int]]:
     _, factors = p.norm().factor()
     for factor, power in factors:
         primitive = factor if factor[factor.degree()] > 0 else -factor
-        balls = _real_roots(_integers(primitive), FIRST_BITS)
+        balls = isolated(_integers(primitive), FIRST_BITS)
         for number in range(len(balls)):
             root = RealRoot(primitive, number)
             multiplicity = power

@@ -1,16 +1,16 @@
 """Number fields one root at a time: ℚ ⊂ ℚ(θ₁) ⊂ ℚ(θ₂) ⊂ …, each with a primitive element.
 
-To adjoin a root y of yⁿ = a to K = ℚ(θ), look at the algebra K[y]/(yⁿ − a), of dimension n·deg K
-over ℚ. Its element η = y + kθ generates it as soon as its characteristic polynomial c is
-squarefree, and then θ and y are polynomials in η. If c is irreducible the algebra is the new field
-ℚ(η); if not, it is a product of fields, one for each factor of c, and the right one is that whose
-factor vanishes at the real number y + kθ. (Cohen, *A Course in Computational Algebraic Number
-Theory*, sections 2.1 and 3.6.)
+To adjoin a root y of a polynomial f over K = ℚ(θ), such as yⁿ − a, look at the algebra K[y]/(f), of
+dimension n·deg K over ℚ. Its element η = y + kθ generates it as soon as its characteristic
+polynomial c is squarefree, and then θ and y are polynomials in η. If c is irreducible the algebra
+is the new field ℚ(η); if not, it is a product of fields, one for each factor of c, and the right
+one is that whose factor vanishes at the real number y + kθ. (Cohen, *A Course in Computational
+Algebraic Number Theory*, sections 2.1 and 3.6.)
 """
 
 from __future__ import annotations
 
-from collections.abc import Callable
+from collections.abc import Callable, Sequence
 from dataclasses import dataclass
 from itertools import count
 
@@ -39,16 +39,15 @@ class Tower:
         return int(self.modulus.degree())
 
     def adjoin(
-        self, index: int, radicand: fmpq_poly, values: Callable[[], list[arb]]
+        self, relation: Sequence[fmpq_poly], values: Callable[[], list[arb]]
     ) -> Tower:
-        """The field with the real root y of y^index = radicand as a further element.
+        """The field with a real root y of yⁿ = r_0 + r_1 y + … as a further element.
 
         Args:
-            index: n ≥ 2.
-            radicand: a as a polynomial in θ; not zero.
+            relation: the r_j as polynomials in θ, n ≥ 2 of them; the equation has no double root.
             values: enclosures of all elements and of y last, at the current precision of flint.
         """
-        multiply_y, multiply_theta = self._multiplications(index, radicand)
+        multiply_y, multiply_theta = self._multiplications(relation)
         for k in count():
             generator = multiply_y + multiply_theta * k
             characteristic = fmpq_poly(generator.charpoly().coeffs())
@@ -62,24 +61,25 @@ class Tower:
         return Tower(factor, (*elements, y % factor), combination)
 
     def _multiplications(
-        self, index: int, radicand: fmpq_poly
+        self, relation: Sequence[fmpq_poly]
     ) -> tuple[fmpq_mat, fmpq_mat]:
         """The matrices of multiplication by y and by θ, on the basis θ^i y^j, i running first."""
-        d, n = self.degree, index
+        d, n = self.degree, len(relation)
         size = d * n
         y = fmpq_mat(size, size)
         theta = fmpq_mat(size, size)
         for i in range(d):
             raised = _X ** (i + 1) % self.modulus  # θ · θ^i
-            wrapped = _X**i * radicand % self.modulus  # y · θ^i y^(n−1) = a θ^i
             for j in range(n):
+                # y · θ^i y^(n−1) = Σ θ^i r_j y^j
+                wrapped = _X**i * relation[j] % self.modulus
+                for row in range(d):
+                    y[row + d * j, i + d * (n - 1)] = wrapped[row]
                 column = i + d * j
                 for row in range(d):
                     theta[row + d * j, column] = raised[row]
                 if j + 1 < n:
                     y[column + d, column] = fmpq(1)
-            for row in range(d):
-                y[row, i + d * (n - 1)] = wrapped[row]
         return y, theta
 
 

@@ -7,9 +7,9 @@ from typing import TypeAlias
 
 from flint import arb, ctx, fmpq
 
-from garkcli.exact.enclosing import OPERATIONS
+from garkcli.exact.enclosing import OPERATIONS, enclose
 from garkcli.exact.field import Number
-from garkcli.exact.nodes import Chain, Expression, Literal, Power, Root
+from garkcli.exact.nodes import AlgebraicRoot, Chain, Expression, Literal, Power, Root
 from garkcli.order.tolerance import rounded_up
 
 Printed: TypeAlias = Sequence[tuple[Expression, Number]]
@@ -93,6 +93,8 @@ def _enclosed(expression: Expression, fewest: int) -> arb:
             if inner < 0:
                 return -(-inner).root(index)
             return inner.root(index)
+        case AlgebraicRoot():
+            return enclose(expression)
     return arb(0)
 
 

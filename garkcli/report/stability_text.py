@@ -23,6 +23,7 @@ from garkcli.report.stability_words import (
     number,
     quotient,
     real_text,
+    root_meanings,
     ssp_text,
 )
 from garkcli.stability.linear import poles_are_right
@@ -48,6 +49,7 @@ def text_of(report: StabilityReport, paint: Paint) -> Iterator[str]:
     else:
         methods = f"all methods within {decimal(within)}"
         yield f"  coefficients rounded: decided for {methods}, or not"
+    yield from root_meanings(report.found.tableau)
     if report.springs is not None:
         yield from _springs_text(report.springs, report.digits)
         return

@@ -2,10 +2,13 @@
 
 from __future__ import annotations
 
+import re
 from collections.abc import Sequence
 from textwrap import wrap
 
 from garkcli.exact.cells import Interval
+from garkcli.exact.field import Algebraic
+from garkcli.exact.nodes import AlgebraicRoot, Expression
 from garkcli.exact.polynomial import Polynomial
 from garkcli.exact.polynomial_text import (
     integral,
@@ -13,10 +16,12 @@ from garkcli.exact.polynomial_text import (
     root_decimal,
     root_text,
 )
+from garkcli.exact.rewriting import format_expression
 from garkcli.exact.roots import RealRoot
 from garkcli.report.paint import Paint, indented
 from garkcli.report.stability_data import square_root
 from garkcli.stability.ssp import SspCoefficient
+from garkcli.tableau.tableau import Tableau
 
 LABEL = 22
 """Columns of a label."""
@@ -24,8 +29,43 @@ WIDTH = 80
 """Columns of a terminal."""
 
 
+_ROOT_OF = re.compile(r"root_of\([^,()]*, ([-+0-9.e]+)\)")
+"""A root of a polynomial, as exact numbers are written."""
+
+
+def short_roots(text: str) -> str:
+    """A text with r(0.4358) in place of root_of(6*x**3-18*x**2+9*x-1, 0.4358).
+
+    >>> short_roots("1 + 3*root_of(x**3-2, 1.259921050)**2")
+    '1 + 3*r(1.259921050)**2'
+    """
+    return _ROOT_OF.sub(r"r(\1)", text)
+
+
+def root_meanings(tableau: Tableau) -> list[str]:
+    """What the short forms of roots stand for, a line each."""
+    meanings = []
+    for radical in _radicals(tableau):
+        text = format_expression(radical)
+        if isinstance(radical, AlgebraicRoot):
+            meanings.append(f"  {short_roots(text)} = {text}")
+    return meanings
+
+
+def _radicals(tableau: Tableau) -> list[Expression]:
+    """What generates the field of the coefficients."""
+    rows = [row for block in tableau.blocks.values() for row in block]
+    rows += [colour.b for colour in tableau.colours]
+    for row in rows:
+        for x in row:
+            if isinstance(x, Algebraic):
+                return [radical for radical, _ in x.field.radicals]
+    return []
+
+
 def line(label: str, text: str) -> list[str]:
     """A label and its text, which goes on in the same column."""
+    text = short_roots(text)
     width = WIDTH - LABEL - 4
     pieces = wrap(text, width, break_long_words=False, break_on_hyphens=False)
     first, *others = pieces or [""]

@@ -25,9 +25,10 @@ from garkcli.exact.ball_polynomial import cauchy_index, root_count
 from garkcli.exact.cells import between
 from garkcli.exact.display import to_ball
 from garkcli.exact.field import ONE, ZERO, Number
+from garkcli.exact.isolating import precision
 from garkcli.exact.multivariate import Exponents, Multivariate
 from garkcli.exact.polynomial import Polynomial, gcd
-from garkcli.exact.roots import RealRoot, precision, real_roots, sign
+from garkcli.exact.roots import RealRoot, real_roots, sign
 from garkcli.graph import components
 from garkcli.stability.critical import MOST_POINTS, critical_polynomials, roots_between
 from garkcli.stability.fraction import Fraction

@@ -1,0 +1,189 @@
+"""Roots of polynomials as coefficients: ``root_of(6*x**3 - 18*x**2 + 9*x - 1, 0.4358665)``.
+
+The polynomial in x has rational coefficients; of its real roots the one nearest to the number after
+it is meant. What is kept is the irreducible factor with that root, so that a number has one form.
+"""
+
+from __future__ import annotations
+
+from flint import arb, fmpq, fmpq_poly, fmpz_poly
+
+from garkcli.errors import ExpressionError, LimitExceeded, UndefinedValue
+from garkcli.exact.isolating import isolated, precision
+from garkcli.exact.nodes import (
+    AlgebraicRoot,
+    Chain,
+    Expression,
+    Literal,
+    Name,
+    Power,
+    Root,
+)
+
+MAX_POLYNOMIAL_DEGREE = 12
+"""Largest degree of such a polynomial."""
+MAX_COEFFICIENT_BITS = 4_000
+"""Longest coefficient of such a polynomial."""
+BITS = 128
+"""Precision at which roots are compared with the number first; it doubles until they differ."""
+MOST_BITS = 1 << 16
+"""Beyond it two roots are taken to be equally near."""
+VARIABLE = "x"
+
+
+def root_nearest(
+    polynomial: Expression, near: Expression, start: int, end: int
+) -> Expression:
+    """The real root of a polynomial nearest to a number, as a number where it is rational.
+
+    Args:
+        polynomial: in the one name x.
+        near: a rational number.
+        start: the offset of the text of the root.
+        end: the offset behind it.
+
+    Raises:
+        ExpressionError: the polynomial is no such polynomial, or ``near`` no number.
+        UndefinedValue: it has no real root, or two are equally near.
+        LimitExceeded: its degree or its coefficients are beyond the limits of this module.
+    """
+    p = _polynomial(polynomial)
+    if p.degree() < 1:
+        raise _error("a polynomial in x is expected", polynomial)
+    target = _polynomial(near)
+    if target.degree() > 0:
+        raise _error("a number near the root is expected", near)
+    factor, number = _nearest(p, target[0], polynomial, near)
+    if factor.degree() == 1:
+        return Literal(fmpq(-factor[0], factor[1]), start=start, end=end)
+    coefficients = tuple(int(a) for a in factor.coeffs())
+    if len(coefficients) == 3:
+        return _in_radicals(coefficients, number, start, end)
+    return AlgebraicRoot(coefficients, number, start=start, end=end)
+
+
+def _nearest(
+    p: fmpq_poly, target: fmpq, at: Expression, near: Expression
+) -> tuple[fmpz_poly, int]:
+    """The irreducible factor with the nearest root, and which of its real roots that is."""
+    _, factors = p.numer().factor()
+    bits = BITS
+    while bits <= MOST_BITS:
+        with precision(bits):
+            found = []
+            for factor, _ in factors:
+                roots = isolated(tuple(int(a) for a in factor.coeffs()), bits)
+                found += [(abs(x - target), factor, k) for k, x in enumerate(roots)]
+            if not found:
+                message = "the polynomial has no real root"
+                raise UndefinedValue(
+                    message, "coefficients are real numbers", at.start, at.end
+                )
+            found.sort(key=lambda entry: entry[0].mid())
+            if len(found) == 1 or found[0][0] < found[1][0]:
+                _, factor, number = found[0]
+                is_positive = factor[factor.degree()] > 0
+                return (factor if is_positive else -factor), number
+        bits *= 2
+    message = "two roots are equally near to this number"
+    raise UndefinedValue(message, "write more digits of the root", near.start, near.end)
+
+
+def _in_radicals(
+    coefficients: tuple[int, ...], number: int, start: int, end: int
+) -> Expression:
+    """A root of an irreducible quadratic polynomial, by its formula."""
+    c, b, a = (fmpq(x) for x in coefficients)
+    middle = -b / (2 * a)
+    radical = Root(Literal(middle * middle - c / a), 2)
+    sign = "-" if number == 0 else "+"
+    return Chain(f"+{sign}", (Literal(middle), radical), start=start, end=end)
+
+
+def _polynomial(expression: Expression) -> fmpq_poly:
+    """The value in ℚ[x]."""
+    match expression:
+        case Literal(value=value):
+            return fmpq_poly([value])
+        case Name(name=name) if name == VARIABLE:
+            return fmpq_poly([0, 1])
+        case Name():
+            raise _error("names other than x have no place in root_of", expression)
+        case Chain(signs=signs, operands=operands):
+            total = fmpq_poly([0 if signs[0] in "+-" else 1])
+            for sign, operand in zip(signs, operands, strict=True):
+                total = _joined(sign, total, _polynomial(operand), operand)
+                _check_size(total, expression)
+            return total
+        case Power(base=base, exponent=exponent):
+            return _power(_polynomial(base), exponent, expression)
+    raise _error("the polynomial has rational coefficients", expression)
+
+
+def _joined(sign: str, left: fmpq_poly, right: fmpq_poly, at: Expression) -> fmpq_poly:
+    if sign == "+":
+        return left + right
+    if sign == "-":
+        return left - right
+    if sign == "*":
+        return left * right
+    if right.degree() > 0:
+        raise _error("a polynomial is not divided by x", at)
+    if right.degree() < 0:
+        raise UndefinedValue("division by zero", "", at.start, at.end)
+    return left / right[0]
+
+
+def _power(base: fmpq_poly, exponent: int, at: Expression) -> fmpq_poly:
+    """A power, refused before it is computed where it would be too long."""
+    if exponent < 0:
+        if base.degree() > 0:
+            raise _error("a polynomial is not divided by x", at)
+        if base.degree() < 0:
+            raise UndefinedValue("division by zero", "", at.start, at.end)
+        base = fmpq_poly([1 / base[0]])
+    size = abs(exponent)
+    if base.degree() * size > MAX_POLYNOMIAL_DEGREE or _bits(base) * size > (
+        MAX_COEFFICIENT_BITS
+    ):
+        raise _too_large(at)
+    return base**size
+
+
+def _check_size(p: fmpq_poly, at: Expression) -> None:
+    if p.degree() > MAX_POLYNOMIAL_DEGREE or _bits(p) > MAX_COEFFICIENT_BITS:
+        raise _too_large(at)
+
+
+def _bits(p: fmpq_poly) -> int:
+    return max((int(a.height_bits()) for a in p.coeffs()), default=0)
+
+
+def _too_large(at: Expression) -> LimitExceeded:
+    limits = f"degree {MAX_POLYNOMIAL_DEGREE}, {MAX_COEFFICIENT_BITS} bits"
+    message = f"the polynomial of a root is too large (limits: {limits})"
+    return LimitExceeded(message, "write a smaller one", at.start, at.end)
+
+
+def _error(message: str, at: Expression) -> ExpressionError:
+    cure = "write root_of(p, r): p a polynomial in x, r a decimal near the root"
+    return ExpressionError(message, cure, at.start, max(at.end, at.start + 1))
+
+
+def approximate(root: AlgebraicRoot) -> str:
+    """Digits of a root that no other real root of its polynomial is as near to.
+
+    >>> approximate(AlgebraicRoot((-2, 0, 0, 1), 0))
+    '1.259921050'
+    """
+    digits = 10
+    while True:
+        bits = 4 * digits + BITS
+        roots = isolated(root.coefficients, bits)
+        text = str(roots[root.number].str(digits, radius=False))
+        with precision(bits):
+            distances = [abs(x - arb(text)) for x in roots]
+            mine = distances.pop(root.number)
+            if all(mine < other for other in distances):
+                return text
+        digits *= 2
