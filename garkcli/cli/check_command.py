@@ -88,10 +88,7 @@ def command(
     if explain is not None:
         return _explain(explain, output)
     if not files:
-        context = click.get_current_context()
-        raise click.MissingParameter(
-            ctx=context, param_hint="'FILE...'", param_type="argument"
-        )
+        raise _no_file()
     from garkcli.cli.parallel import check_files
     from garkcli.methodfile.finding import find_files
     from garkcli.report.progress import tracked
@@ -123,6 +120,15 @@ def command(
         FORMATS[chosen](outcomes, output.paint, output.verbosity, digits), chosen
     )
     return max(outcome.exit_code for outcome in outcomes)
+
+
+def _no_file() -> click.MissingParameter:
+    """What click says where a required argument is missing."""
+    return click.MissingParameter(
+        ctx=click.get_current_context(),
+        param_hint="'FILE...'",
+        param_type="argument",
+    )
 
 
 def _explain(key: str, output: Output) -> int:

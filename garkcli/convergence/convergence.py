@@ -79,12 +79,10 @@ def converge(
     short_time, short_order = None, None
     if tolerance is None and _is_off(solver, observed):
         short_time, short_order = _over_short_times(solver, min(t_end, usual))
-    if is_timed:
-        rows = [solver.timed(row) for row in rows]
     return Convergence(
         solver.problem,
         t_end,
-        tuple(rows),
+        _with_times(solver, rows) if is_timed else tuple(rows),
         plateau,
         observed,
         predicted,
@@ -94,6 +92,11 @@ def converge(
         tolerance is None or _has_settled(fitted),
         steps is not None,
     )
+
+
+def _with_times(solver: Solver, rows: Sequence[Row]) -> tuple[Row, ...]:
+    """The rows with the time of their steps in floats."""
+    return tuple(solver.timed(row) for row in rows)
 
 
 def _has_settled(rows: Sequence[Row]) -> bool:

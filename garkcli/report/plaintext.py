@@ -51,8 +51,11 @@ SIGNS = {
     "∨": "or",
     "¬": "not ",
     "→": "->",
+    "↦": "|->",
     "\N{COMBINING DIAERESIS}": "''",
     "\N{COMBINING DOT ABOVE}": "'",
+    # a letter that is no accented one
+    "ø": "o",
     # punctuation
     "–": "-",
     "—": "--",
