@@ -9,12 +9,14 @@ more is used: the order p that the method has within its tolerance is taken for 
 from __future__ import annotations
 
 from collections.abc import Sequence
-from dataclasses import dataclass
+from dataclasses import dataclass, replace
 
 from flint import arb, arb_mat, arb_poly, ctx, fmpq
 
 from garkcli.exact.display import to_ball
-from garkcli.exact.field import Number
+from garkcli.exact.field import ONE, ZERO, Number
+from garkcli.exact.matrix import Matrix, Vector
+from garkcli.exact.roots import sign
 from garkcli.graph import components
 from garkcli.stability.step_function import StageSystem, stage_system
 from garkcli.tableau.tableau import Tableau
@@ -53,7 +55,7 @@ def stability_within(
     try:
         ctx.prec = BITS
         system = stage_system(tableau, [((w,),) for w in shares])
-        P, Q = _fraction(system, tolerance)
+        P, Q = _fraction(system, _summands(tableau, shares), tolerance)
         stiff = is_stiffly_accurate(system)
         bounded = _is_bounded(P, Q, order, stiff)
         right = _poles_are_right(Q)
@@ -79,15 +81,36 @@ def is_stiffly_accurate(system: StageSystem) -> bool:
     return any(row == system.B[0] for row in system.W)
 
 
-def _fraction(system: StageSystem, tolerance: fmpq) -> tuple[list[arb], list[arb]]:
+def _summands(tableau: Tableau, shares: Sequence[Number]) -> StageSystem:
+    """How many coefficients each entry of the system is the sum of, each counted |w_l| times.
+
+    Coefficients of colours with the same stages are added. Zeros are structure and do not count.
+    """
+    blocks = {key: tuple(map(_ones, block)) for key, block in tableau.blocks.items()}
+    colours = tuple(replace(colour, b=_ones(colour.b)) for colour in tableau.colours)
+    sizes: list[Matrix] = []
+    for w in shares:
+        size = -w if w and sign(w) < 0 else w
+        sizes.append(((size,),))
+    return stage_system(replace(tableau, blocks=blocks, colours=colours), sizes)
+
+
+def _ones(row: Vector) -> Vector:
+    return tuple(ONE if x else ZERO for x in row)
+
+
+def _fraction(
+    system: StageSystem, summands: StageSystem, tolerance: fmpq
+) -> tuple[list[arb], list[arb]]:
     """The coefficients of P and Q as balls."""
-    W = [[_widened(x, tolerance) for x in row] for row in system.W]
-    b = [_widened(x, tolerance) for x in system.B[0]]
+    W = []
+    for row, counts in zip(system.W, summands.W, strict=True):
+        W.append(_widened(row, counts, tolerance))
+    b = _widened(system.B[0], summands.B[0], tolerance)
     n = len(W)
+    edges = {i: [j for j in range(n) if summands.W[i][j]] for i in range(n)}
     Q = arb_poly([1])
-    for component in components(
-        {i: [j for j in range(n) if system.W[i][j]] for i in range(n)}
-    ):
+    for component in components(edges):
         block = arb_mat([[W[i][j] for j in component] for i in component])
         Q = Q * arb_poly(_characteristic(block)[::-1])
     series = [arb(1)]
@@ -97,8 +120,7 @@ def _fraction(system: StageSystem, tolerance: fmpq) -> tuple[list[arb], list[arb
         series.append((weights * state)[0, 0])
         state = matrix * state
     product = Q * arb_poly(series)
-    degree = _numerator_degree(system)
-    return [product[k] for k in range(degree + 1)], [Q[k] for k in range(len(Q))]
+    return [product[k] for k in range(n + 1)], [Q[k] for k in range(len(Q))]
 
 
 def _characteristic(block: arb_mat) -> list[arb]:
@@ -108,14 +130,16 @@ def _characteristic(block: arb_mat) -> list[arb]:
     return list(block.charpoly().coeffs())
 
 
-def _numerator_degree(system: StageSystem) -> int:
-    return len(system.W)
-
-
-def _widened(x: Number, tolerance: fmpq) -> arb:
-    """A coefficient with its rounding; zeros are structure."""
-    ball = to_ball(x, BITS // 4)
-    return ball if not x else ball + arb(0, arb(tolerance).upper())
+def _widened(row: Vector, counts: Vector, tolerance: fmpq) -> list[arb]:
+    """Sums of ``counts`` coefficients with their rounding; what is a sum of none is zero."""
+    found = []
+    for x, count in zip(row, counts, strict=True):
+        ball = to_ball(x, BITS // 4)
+        if count:
+            radius = to_ball(count, BITS // 4) * arb(tolerance)
+            ball += arb(0, radius.upper())
+        found.append(ball)
+    return found
 
 
 def _is_bounded(P: list[arb], Q: list[arb], order: int, stiff: bool) -> bool | None:

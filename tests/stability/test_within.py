@@ -12,7 +12,7 @@ from garkcli.methodfile.load import loads
 from garkcli.stability.linear import is_a_stable, is_l_stable, stability_function
 from garkcli.stability.summary import stability_of_rounded
 from garkcli.stability.within import stability_within
-from garkcli.tableau.forms import gark
+from garkcli.tableau.forms import additive, gark
 
 TOLERANCE = fmpq(1, 10**9)
 
@@ -105,3 +105,17 @@ def test_a_pole_on_the_left_that_stays_decides() -> None:
     tableau = loads("methods: [{A: [[-1]], b: [-1]}]").tableau
     found = stability_within(tableau, [fmpq(1)], TOLERANCE, 0)
     assert found.a_stable is False
+
+
+@pytest.mark.parametrize(("units", "expected"), [(fmpq(9, 10), None), (fmpq(20), True)])
+def test_coefficients_that_are_added_add_their_rounding(
+    units: fmpq, expected: bool | None
+) -> None:
+    """Two matrices on one stage, a = 1/2 + u t each: A-stable where their sum is 1 or more. Each may
+    be off by t, so that u = 9/10 leaves it open, though the sum is 1.8 t above 1; u = 20 decides.
+    """
+    a = fmpq(1, 2) + units * TOLERANCE
+    one = fmpq(1)
+    both = additive([((a,),), ((a,),)], [(one,), (one,)], None)
+    assert is_a_stable(stability_function(both))
+    assert stability_of_rounded(both, TOLERANCE).linear[0].a_stable is expected
