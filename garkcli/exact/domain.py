@@ -122,7 +122,7 @@ class Domain:
         if not number and exponent < 0:
             raise UndefinedValue("division by zero", "", at.start, at.end)
         if _bits(number) * abs(exponent) > MAX_BITS:
-            raise _too_long(at)
+            raise too_many_bits(at)
         return number**exponent
 
     def _rational_root(self, root: Radical) -> Number | None:
@@ -297,11 +297,12 @@ def _bits(number: Number) -> int:
 
 def _bounded(number: Number, at: Expression) -> Number:
     if _bits(number) > MAX_BITS:
-        raise _too_long(at)
+        raise too_many_bits(at)
     return number
 
 
-def _too_long(at: Expression) -> LimitExceeded:
+def too_many_bits(at: Expression) -> LimitExceeded:
+    """The fault of a number that is too long to compute with."""
     message = f"a number of more than {MAX_BITS} bits"
     return LimitExceeded(message, "write it smaller", at.start, at.end)
 

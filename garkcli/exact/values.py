@@ -10,7 +10,7 @@ from typing import TypeAlias
 from flint import arb, fmpq
 
 from garkcli.errors import LimitExceeded, UndefinedValue
-from garkcli.exact.domain import MAX_BITS
+from garkcli.exact.domain import MAX_BITS, too_many_bits
 from garkcli.exact.enclosing import OPERATIONS
 from garkcli.exact.expression import MAX_EXPONENT
 from garkcli.exact.formula import FUNCTIONS, Call, RealPower
@@ -196,12 +196,6 @@ def _bounded(number: Value, at: Expression) -> Value:
         cure = "choose other units"
         raise LimitExceeded(f"a number {bound}", cure, at.start, at.end)
     return number
-
-
-def too_many_bits(at: Expression) -> LimitExceeded:
-    """The fault of a number that is too long to compute with."""
-    message = f"a number of more than {MAX_BITS} bits"
-    return LimitExceeded(message, "write it smaller", at.start, at.end)
 
 
 _MOST = arb(2) ** FLOAT_BITS

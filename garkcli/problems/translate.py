@@ -11,12 +11,12 @@ from dataclasses import dataclass
 from typing import Any
 
 from garkcli.errors import LimitExceeded, UndefinedValue
-from garkcli.exact.domain import MAX_BITS
+from garkcli.exact.domain import MAX_BITS, too_many_bits
 from garkcli.exact.expression import MAX_EXPONENT
 from garkcli.exact.formula import CONSTANTS, Call, RealPower
 from garkcli.exact.nodes import Chain, Expression, Literal, Name, Power, Root
 from garkcli.exact.rewriting import format_expression, names_in, parts
-from garkcli.exact.values import FLOAT_BITS, Value, exponent_of, too_many_bits, value_of
+from garkcli.exact.values import FLOAT_BITS, Value, exponent_of, value_of
 
 MAX_SIZE = 100_000
 """Most operations of all second derivatives of a problem together, as they are written out."""
