@@ -19,11 +19,20 @@ FormulaVector: TypeAlias = tuple[Formula, ...]
 
 
 class Differentials:
-    """F(u) and H(u) of a problem that is split as the colours of a tableau say."""
+    """F(u) and H(u) of a problem that is split as the colours of a tableau say.
 
-    def __init__(self, tableau: Tableau, problem: Hamiltonian) -> None:
+    Args:
+        tableau: the colours; their terms are numbers of ``energies``.
+        problem: whose unknowns they are.
+        energies: H^{l}, sympy expressions.
+    """
+
+    def __init__(
+        self, tableau: Tableau, problem: Hamiltonian, energies: Sequence[Formula]
+    ) -> None:
         self.tableau = tableau
         self.problem = problem
+        self.energies = energies
         q = symbols(problem.variables, "q")
         p = symbols(problem.variables, "p")
         self.unknowns = (*q, *p)
@@ -81,6 +90,6 @@ class Differentials:
             else:
                 import sympy
 
-                value = sympy.sympify(self.problem.terms[term])
+                value = sympy.sympify(self.energies[term])
             self._derivatives[key] = value
         return self._derivatives[key]

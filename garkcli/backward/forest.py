@@ -146,6 +146,17 @@ class _Cutter:
         return cuts
 
 
+def possible_order(tableau: Tableau, order: int) -> int:
+    """The largest order up to ``order`` with few enough trees."""
+    admissible = Admissible.of(tableau.size, *coupling_graph(tableau))
+    total = 0
+    for n, counts in enumerate(counts_upto(admissible, order), start=1):
+        total += sum(counts)
+        if total > MAX_TREES:
+            return n - 1
+    return order
+
+
 def _check_size(admissible: Admissible, order: int) -> None:
     """Refuse a number of trees that would take too long."""
     total = 0

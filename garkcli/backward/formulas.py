@@ -8,9 +8,9 @@ from math import comb, prod
 from typing import TYPE_CHECKING, Any, Literal
 
 from garkcli.backward.differentials import Differentials, Formula, FormulaVector
-from garkcli.backward.free_trees import hamiltonian_structure
 from garkcli.backward.hamiltonian import modified_hamiltonian
 from garkcli.backward.modified import ModifiedEquation, modified_equation
+from garkcli.backward.visible import visible
 from garkcli.errors import UsageProblem
 from garkcli.exact.field import Algebraic, Number
 from garkcli.problems.hamiltonian import Hamiltonian
@@ -19,7 +19,6 @@ from garkcli.tableau.conjugate import is_symplectic
 from garkcli.tableau.tableau import Tableau
 
 if TYPE_CHECKING:
-    from garkcli.stepping.dependency import Fields
     from garkcli.trees.free import Structure
 
 MAX_OPERATIONS = 20_000
@@ -50,12 +49,14 @@ class ModifiedFormula:
         of: which of the two.
         max_order: of the trees: powers of h up to one less.
         terms: by ascending powers, without those whose trees all vanish.
+        is_consistent: whether the term without h is the problem itself.
     """
 
     problem: Hamiltonian
     of: Literal["hamiltonian", "equation"]
     max_order: int
     terms: tuple[PowerTerm, ...]
+    is_consistent: bool
 
     def expanded(self) -> ModifiedFormula:
         """The same multiplied out, with like summands collected, without powers that vanish.
@@ -93,13 +94,12 @@ def modified_formula(
     2 px**2*cos(x)/12 - sin(x)**2/24
     """
     bound = bind(tableau, problem)
-    seen = _with_linear_fields(bound.tableau, bound.fields)
-    equation = modified_equation(seen, max_order)
-    structure = hamiltonian_structure(seen)
-    differentials = Differentials(seen, bound.problem)
-    if structure is not None and is_symplectic(seen):
+    seen = visible(bound)
+    equation = modified_equation(seen.tableau, max_order)
+    differentials = Differentials(seen.tableau, bound.problem, seen.energies)
+    if seen.structure is not None and is_symplectic(bound.tableau):
         of: Literal["hamiltonian", "equation"] = "hamiltonian"
-        sums = _of_hamiltonian(differentials, equation, structure)
+        sums = _of_hamiltonian(differentials, equation, seen.structure)
     else:
         of = "equation"
         sums = _of_equation(differentials, equation)
@@ -107,20 +107,9 @@ def modified_formula(
     for power, formulas in enumerate(sums):
         if any(x != 0 for x in formulas):
             terms.append(PowerTerm(power, tuple(formulas)))
-    return ModifiedFormula(bound.problem, of, max_order, tuple(terms))
-
-
-def _with_linear_fields(tableau: Tableau, fields: Fields) -> Tableau:
-    """The tableau without the trees that vanish on the problem because H^{l} is quadratic."""
-    quadratic = {x.term for x in tableau.colours}
-    for (l, _), field in fields.items():
-        if not field.is_linear:
-            quadratic.discard(tableau.colours[l].term)
-    colours = []
-    for colour in tableau.colours:
-        is_linear = colour.is_linear or colour.term in quadratic
-        colours.append(replace(colour, is_linear=is_linear))
-    return replace(tableau, colours=tuple(colours))
+    return ModifiedFormula(
+        bound.problem, of, max_order, tuple(terms), equation.order > 0
+    )
 
 
 def _of_hamiltonian(
@@ -128,7 +117,12 @@ def _of_hamiltonian(
 ) -> list[list[Formula]]:
     """For each power of h one formula."""
     sums: list[list[Formula]] = [[0] for _ in range(equation.max_order)]
+    is_consistent = equation.order > 0
+    if is_consistent:
+        sums[0] = [differentials.problem.energy]
     for term in modified_hamiltonian(equation, structure):
+        if is_consistent and term.tree.order == 1:
+            continue
         value = differentials.hamiltonian(term.tree.representative)
         power = term.tree.order - 1
         sums[power][0] += in_sympy(term.factor) * value

@@ -79,6 +79,7 @@ def command(
     With --problem the modified Hamiltonian itself, of a method that is not symplectic the modified
     equation. There a file with `methods` is taken as its symplectic pair.
     """
+    from garkcli.backward.forest import possible_order
     from garkcli.backward.summary import backward_analysis
     from garkcli.methodfile.load import load
     from garkcli.report.modified import render
@@ -97,6 +98,9 @@ def command(
         formula = _formula(method, tableau, problem, seed, order)
     elif seed is not None:
         raise UsageProblem("--seed is for the problem", "give --problem too")
+    if formula is not None:
+        # the problem sees fewer trees than the tableau has
+        order = possible_order(tableau, order)
     found = backward_analysis(tableau, order, method.tolerance)
     report = ModifiedReport(
         file, method.name, found, which or "", digits, equation, formula

@@ -192,6 +192,7 @@ _FORMULA: Record[ModifiedFormula] = Record(
     Field("problem", TEXT, lambda x: x.problem.name),
     Field("of", {"enum": ["hamiltonian", "equation"]}, lambda x: x.of),
     Field("unknowns", array(TEXT), unknowns_of),
+    Field("max_power", {"type": "integer", "minimum": 0}, lambda x: x.max_order - 1),
     Field("terms", array(_POWER.schema), lambda x: [_POWER.data(t) for t in x.terms]),
 )
 _REPORT: Record[ModifiedReport] = Record(

@@ -13,6 +13,7 @@ from garkcli.errors import UsageProblem, did_you_mean
 REPORTS = {
     "check": "garkcli.report.check_json:check_report_schema",
     "modified": "garkcli.report.modified_data:modified_report_schema",
+    "modified-energy": "garkcli.report.modified_energy:modified_energy_schema",
     "explain": "garkcli.report.explanation:explanation_schema",
 }
 """Where the function is that makes the schema of a command's report."""

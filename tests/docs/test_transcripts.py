@@ -14,6 +14,7 @@ PAGES = [
     ROOT / "docs" / "tour.md",
     ROOT / "docs" / "stability.md",
     ROOT / "docs" / "modified-equation.md",
+    ROOT / "docs" / "energy.md",
     ROOT / "docs" / "certificate.md",
 ]
 

@@ -1,0 +1,322 @@
+"""The energy error of a symplectic method, measured in its modified Hamiltonian.
+
+H̃ = H + h^k H_k + …, cut off after some power of h, changes along the numerical solution by
+h^m (H_m(y) − H_m(y_0)) + …, where h^m is the next power in it, up to times that grow exponentially
+with 1/h. Hence its error is of order m while that of H is of the order of the method. Both are
+measured over step sizes.
+
+Source: Hairer, Lubich and Wanner, *Geometric Numerical Integration*, 2nd ed. (2006), theorem
+IX.8.1.
+"""
+
+from __future__ import annotations
+
+from collections.abc import Callable, Iterator, Sequence
+from dataclasses import dataclass
+from math import log10
+from typing import Any, Literal, TypeAlias
+
+from flint import arb, ctx, fmpq
+
+from garkcli.backward.formulas import ModifiedFormula, modified_formula
+from garkcli.convergence.ladder import has_settled
+from garkcli.convergence.result import CLOSE, Row, observed_order, slope_between
+from garkcli.errors import UsageProblem
+from garkcli.problems.hamiltonian import Hamiltonian, is_constant, symbols
+from garkcli.problems.straightline import function
+from garkcli.stepping.integrator import Binding, bind
+from garkcli.stepping.linear import whole_steps
+from garkcli.stepping.step import trajectory
+from garkcli.tableau.tableau import Tableau
+
+Verdict: TypeAlias = Literal["agree", "disagree", "undecided"]
+Watch: TypeAlias = Callable[[Iterator[Any], int], Iterator[Any]]
+"""Passes on a number of states and may count them."""
+ROWS = 5
+"""Step sizes; more, up to ``MAX_ROWS``, while the slopes have not settled."""
+MAX_ROWS = 7
+MAX_STEPS = 20_000
+"""Most steps of a row."""
+_DIGITS = 30  # of the first look
+_MOST_DIGITS = 200
+_SPARE = 15  # digits of the smallest error
+_LOST = 4  # digits that steps and formulas lose, besides those of their number
+_BEYOND = 3  # further orders in which the next power of h is looked for
+
+
+@dataclass(frozen=True)
+class ModifiedEnergy:
+    """The error of the modified Hamiltonian up to some power of h.
+
+    Attributes:
+        power: up to which its terms are taken; 0 is H itself.
+        exact_order: the next power in it.
+        is_lower_bound: whether that power is the first one that was not looked at.
+        rows: step sizes and the root mean squares of H̃(y_n) − H̃(y_0) over time.
+        observed_order: extrapolated from the last rows; None where errors are below round-off.
+        uncertainty: how much the last row has changed it; None where there is no order.
+        has_settled: whether the slopes have, as in a convergence test.
+    """
+
+    power: int
+    exact_order: int
+    is_lower_bound: bool
+    rows: tuple[Row, ...]
+    observed_order: float | None
+    uncertainty: float | None
+    has_settled: bool
+
+    @property
+    def verdict(self) -> Verdict:
+        """Of observed and exact order. Undecided where slopes have not settled, or where the error
+        is smaller than it has to be, as by an orbit on which H_m is constant.
+        """
+        if self.observed_order is None or not self.has_settled:
+            return "undecided"
+        excess = self.observed_order - self.exact_order
+        if excess < -CLOSE:
+            return "disagree"
+        return "agree" if self.is_lower_bound or excess <= CLOSE else "undecided"
+
+
+@dataclass(frozen=True)
+class ModifiedRun:
+    """Energy errors in H and in its modifications.
+
+    Attributes:
+        problem: in as many terms as the method is for.
+        t_end: the final time.
+        max_order: of the trees in the modified Hamiltonian.
+        digits: of the steps.
+        energies: by ascending powers of h, that of H first.
+    """
+
+    problem: Hamiltonian
+    t_end: fmpq
+    max_order: int
+    digits: int
+    energies: tuple[ModifiedEnergy, ...]
+
+    @property
+    def is_refuted(self) -> bool:
+        """Whether an observed order is below the exact one."""
+        return any(x.verdict == "disagree" for x in self.energies)
+
+
+def modified_run(
+    tableau: Tableau,
+    problem: Hamiltonian,
+    max_order: int,
+    t_end: fmpq | None = None,
+    longest: fmpq | None = None,
+    watch: Watch = lambda path, _: path,
+) -> ModifiedRun:
+    """Measure the energy error of ``tableau`` on ``problem`` in its modified Hamiltonian.
+
+    Args:
+        tableau: symplectic by its coefficients, which are exact.
+        problem: in as many terms as the tableau is for, or in one that has a natural split.
+        max_order: of the trees: powers of h up to one less.
+        t_end: the problem's own by default.
+        longest: the largest step size is at most so long.
+        watch: is given the states of each row and their number.
+
+    Raises:
+        UsageProblem: the method is not symplectic or not consistent, there are too many trees or
+            steps.
+        StepFailed: the stage equations of a step were not solved.
+
+    >>> from garkcli import hamiltonian, load
+    >>> verlet = load("methods/stoermer-verlet.gark.yaml").tableau
+    >>> run = modified_run(verlet, hamiltonian("pendulum", 2), 3)
+    >>> [(x.power, x.exact_order, x.verdict) for x in run.energies]
+    [(0, 2, 'agree'), (2, 4, 'agree')]
+    """
+    formula = modified_formula(tableau, problem, max_order)
+    if formula.of != "hamiltonian":
+        raise UsageProblem(
+            "the method has no modified Hamiltonian: it is not symplectic by its coefficients",
+            "gark modified shows its modified equation",
+        )
+    if not formula.is_consistent:
+        raise UsageProblem(
+            "the method is not consistent", "it approximates no solution"
+        )
+    powers, formulas = _changing(formula)
+    following = [(power, False) for power in powers[1:]]
+    following.append(_next_power(tableau, formula))
+    bound = bind(tableau, problem)
+    t_end = problem.t_end if t_end is None else t_end
+    first = _first_count(problem, t_end, longest)
+    meter = _Meter(bound, formulas, powers, t_end, watch)
+    meter.choose_digits(first, following[-1][0])
+    table = meter.table(first)
+    energies = []
+    for k, (power, (order, is_lower_bound)) in enumerate(
+        zip(powers, following, strict=True)
+    ):
+        rows = tuple(row[k] for row in table)
+        energies.append(_energy(power, order, is_lower_bound, rows))
+    return ModifiedRun(bound.problem, t_end, max_order, meter.digits, tuple(energies))
+
+
+def _changing(formula: ModifiedFormula) -> tuple[list[int], list[Any]]:
+    """The powers of h with formulas that are no constants, H first."""
+    powers, formulas = [], []
+    for term in formula.terms:
+        (expression,) = term.formulas
+        if term.power == 0 or not is_constant(expression):
+            powers.append(term.power)
+            formulas.append(expression)
+    return powers, formulas
+
+
+def _next_power(tableau: Tableau, formula: ModifiedFormula) -> tuple[int, bool]:
+    """The power of h that follows, and whether nothing is known but that it is not less."""
+    for order in range(formula.max_order + 1, formula.max_order + _BEYOND + 1):
+        try:
+            longer = modified_formula(tableau, formula.problem, order)
+        except UsageProblem:  # too many trees
+            return order - 1, True
+        powers, _ = _changing(longer)
+        if powers[-1] == order - 1:
+            return order - 1, False
+    return formula.max_order + _BEYOND, True
+
+
+def _first_count(problem: Hamiltonian, t_end: fmpq, longest: fmpq | None) -> int:
+    """The steps of the first row.
+
+    Raises:
+        UsageProblem: there are too many of them.
+    """
+    if longest is None:
+        longest = problem.long_run[0] if problem.long_run else t_end / 40
+    whole_steps(t_end, t_end)  # refuses a time that is not positive
+    count = int((t_end / longest).ceil())
+    if count * 2 ** (ROWS - 1) > MAX_STEPS:
+        raise UsageProblem(
+            f"{count * 2 ** (ROWS - 1)} steps (limit {MAX_STEPS})",
+            "choose a shorter time or a larger step",
+        )
+    return max(count, 2)
+
+
+def _energy(
+    power: int, order: int, is_lower_bound: bool, rows: tuple[Row, ...]
+) -> ModifiedEnergy:
+    """The verdict on one column."""
+    are_seen = not any(row.error.contains(0) for row in rows)
+    observed = observed_order(rows) if are_seen else None
+    before = observed_order(rows[:-1]) if are_seen else None
+    uncertainty = None
+    if observed is not None and before is not None:
+        uncertainty = abs(observed - before)
+    settled = are_seen and len(rows) >= ROWS and has_settled(rows)
+    return ModifiedEnergy(
+        power, order, is_lower_bound, rows, observed, uncertainty, settled
+    )
+
+
+@dataclass
+class _Meter:
+    """Steps, and measures every truncation of the modified Hamiltonian at once.
+
+    Attributes:
+        bound: the method on the problem.
+        formulas: H, and what multiplies the powers.
+        powers: of h, 0 first.
+        t_end: the final time.
+        watch: as for ``modified_run``.
+        digits: of the steps.
+    """
+
+    bound: Binding
+    formulas: Sequence[Any]
+    powers: Sequence[int]
+    t_end: fmpq
+    watch: Watch
+    digits: int = _DIGITS
+
+    def choose_digits(self, first: int, order: int) -> None:
+        """So many that the smallest error, which falls with h^order, is far above rounding."""
+        while True:
+            smallest = self.errors(first)[-1]
+            is_seen = not smallest.contains(0)
+            if is_seen or self.digits >= _MOST_DIGITS:
+                break
+            self.digits = min(2 * self.digits, _MOST_DIGITS)
+        if is_seen:
+            fall = arb(2) ** (-order * (MAX_ROWS - 1))
+            needed = _places(smallest.mid() * fall) + _SPARE
+            self.digits = min(max(self.digits, needed), _MOST_DIGITS)
+
+    def table(self, first: int) -> list[list[Row]]:
+        """For each step size a row of each truncation."""
+        table: list[list[Row]] = []
+        for k in range(MAX_ROWS):
+            count = first * 2**k
+            h = self.t_end / count
+            if k >= ROWS and (count > MAX_STEPS or self._have_settled(table)):
+                break
+            row = []
+            for i, error in enumerate(self.errors(count)):
+                before = table[-1][i] if table else None
+                slope = slope_between(before, h, error)
+                row.append(Row(h, error, slope, error, digits=self.digits))
+            table.append(row)
+        return table
+
+    def _have_settled(self, table: Sequence[Sequence[Row]]) -> bool:
+        columns = zip(*table, strict=True)
+        return all(_energy(0, 0, True, tuple(rows)).has_settled for rows in columns)
+
+    def errors(self, count: int) -> list[arb]:
+        """The root mean square over time, by the trapezoidal rule, of H̃(y_n) − H̃(y_0) for each
+        truncation, in so many steps.
+        """
+        integrator = self.bound.at(self.digits)
+        h = self.t_end / count
+        problem = self.bound.problem
+        q, p = (symbols(problem.variables, group) for group in ("q", "p"))
+        path = self.watch(trajectory(integrator, h, count), count + 1)
+        with ctx.workprec(integrator.bits):
+            values_of = function(tuple(self.formulas), (*q, *p), True)
+            squares = [arb(0) for _ in self.powers]
+            scale = arb(0)
+            start: list[arb] = []
+            for n, y in enumerate(path):
+                values = self._truncations(values_of(*y), h)
+                if not start:
+                    start = values
+                    scale = sum((abs(x) for x in values), arb(1))
+                weight = fmpq(1, 2) if n in (0, count) else fmpq(1)
+                for k, (value, first) in enumerate(zip(values, start, strict=True)):
+                    squares[k] += (value - first).mid() ** 2 * arb(weight)
+            noise = scale * arb(10) ** (_LOST - self.digits) * count
+            return [_enclosed((x / count).sqrt(), noise) for x in squares]
+
+    def _truncations(self, values: Sequence[arb], h: fmpq) -> list[arb]:
+        """H̃ up to each of the powers."""
+        total = arb(0)
+        sums = []
+        for power, value in zip(self.powers, values, strict=True):
+            total += value * arb(h**power)
+            sums.append(total)
+        return sums
+
+
+def _enclosed(error: arb, noise: arb) -> arb:
+    """An error with what rounding can have done to it."""
+    return arb(error.mid(), noise.mid())
+
+
+def _places(x: arb) -> int:
+    """How many zeros a small positive number has behind the point, about.
+
+    >>> _places(arb("1e-30"))
+    30
+    """
+    _, exponent = x.mid().man_exp()
+    bits = x.mid().man_exp()[0].bit_length() + int(exponent)
+    return max(0, round(-bits * log10(2)))

@@ -1,0 +1,71 @@
+"""``gark energy --modified``: what the command does then."""
+
+from __future__ import annotations
+
+from collections.abc import Mapping
+
+from garkcli.cli.options import Output
+from garkcli.cli.problems import find_problem
+from garkcli.cli.stepping import given_positive, stepped_tableau
+from garkcli.cli.streams import say_problem
+from garkcli.errors import UsageProblem
+
+
+def measure_modified(
+    file: str,
+    problem: str,
+    seed: int | None,
+    times: tuple[str | None, str | None],
+    order: int,
+    others: Mapping[str, object],
+    output: Output,
+) -> int:
+    """Measure the energy error in the modified Hamiltonian, and return the exit code.
+
+    Args:
+        file: the method.
+        problem: a name or the path of a problem file.
+        seed: of random problems.
+        times: --t-end and --step, as they were written.
+        order: of the largest trees.
+        others: further options with their values, which do not go with --modified.
+        output: where the report goes.
+
+    Raises:
+        UsageProblem: an option does not go with --modified, or the coefficients are rounded.
+    """
+    from garkcli.backward.energy import modified_run
+    from garkcli.methodfile.load import load
+    from garkcli.report.modified_energy import ModifiedEnergyReport, render
+    from garkcli.report.progress import tracked
+    from garkcli.stepping.step import StepFailed
+
+    for option, value in others.items():
+        if value:
+            raise UsageProblem(f"{option} does not go with --modified", "leave it out")
+    t_end = given_positive("--t-end", times[0])
+    longest = given_positive("--step", times[1])
+    method = load(file)
+    if method.tolerance is not None:
+        raise UsageProblem(
+            "--modified: the order in it is shown for exact coefficients, not for rounded ones",
+            "give exact coefficients, without tolerance",
+        )
+    tableau = stepped_tableau(method, output)
+    solved = find_problem(problem, tableau, seed)
+    shows_bar = output.verbosity >= 0
+    try:
+        run = modified_run(
+            tableau,
+            solved,
+            order,
+            t_end,
+            longest,
+            lambda path, total: tracked(path, total, "steps", shows_bar),
+        )
+    except StepFailed as error:
+        say_problem(error)
+        return 1
+    made = ModifiedEnergyReport(method.name, run)
+    output.write(render(made, output.format, output.paint))
+    return 1 if run.is_refuted else 0

@@ -1,0 +1,165 @@
+"""``gark energy --modified``: the energy error in the modified Hamiltonian, over step sizes."""
+
+from __future__ import annotations
+
+import csv
+import io
+from collections.abc import Iterator, Sequence
+from dataclasses import dataclass
+from math import ceil
+from typing import Any
+
+from garkcli.backward.energy import ModifiedEnergy, ModifiedRun
+from garkcli.convergence.result import Row
+from garkcli.exact.display import to_float
+from garkcli.report.convergence import describe
+from garkcli.report.figures import scientific
+from garkcli.report.json_text import to_json
+from garkcli.report.paint import Paint, folded, indented
+from garkcli.report.record import (
+    COUNT,
+    EXACT,
+    FLAG,
+    POSITION,
+    TEXT,
+    Field,
+    Record,
+    Schema,
+    array,
+    nullable,
+)
+
+SCHEMA = "gark/modified-energy/1"
+_WIDTH = 80
+_COLUMNS = 4  # errors beside each other
+_STYLES = {"agree": "good", "disagree": "bad", "undecided": "strong"}
+_NUMBER: Schema = {"type": "number"}
+
+
+@dataclass(frozen=True)
+class ModifiedEnergyReport:
+    """A measurement with the name of the method."""
+
+    name: str
+    run: ModifiedRun
+
+
+def render(report: ModifiedEnergyReport, format: str, paint: Paint) -> str:
+    """The report as text, JSON or CSV."""
+    if format == "json":
+        return to_json(_REPORT.data(report)) + "\n"
+    if format == "csv":
+        return _csv(report.run)
+    return "\n".join(text_of(report, paint)) + "\n"
+
+
+def text_of(report: ModifiedEnergyReport, paint: Paint) -> list[str]:
+    """The lines of the report."""
+    run = report.run
+    lines = [paint("strong", report.name)]
+    lines += indented(folded(describe(run.problem), _WIDTH - 2, "  "))
+    lines.append(f"  to t = {run.t_end}, {run.digits} digits")
+    lines.append("  root mean square of H(t) - H(0), and with the modified terms of H")
+    for first in range(0, len(run.energies), _COLUMNS):
+        lines.append("")
+        lines += _block(run.energies[first : first + _COLUMNS])
+    lines.append("")
+    for energy in run.energies:
+        lines += _verdict(energy, paint)
+    return lines
+
+
+def _block(energies: Sequence[ModifiedEnergy]) -> list[str]:
+    """Some of the errors beside each other."""
+    titles = "".join(f"{_title(x):>10}{'slope':>7}" for x in energies)
+    lines = [f"  {'h':<8}{titles}"]
+    for rows in zip(*(x.rows for x in energies), strict=True):
+        cells = "".join(f"{scientific(x.error):>10}{_slope(x):>7}" for x in rows)
+        lines.append(f"  {rows[0].h!s:<8}{cells}".rstrip())
+    return lines
+
+
+def _title(energy: ModifiedEnergy) -> str:
+    return f"to h^{energy.power}" if energy.power else "H"
+
+
+def _slope(row: Row) -> str:
+    return "" if row.slope is None else f"{row.slope:.3f}"
+
+
+def _verdict(energy: ModifiedEnergy, paint: Paint) -> Iterator[str]:
+    """The exact order beside the observed one."""
+    least = "at least " if energy.is_lower_bound else ""
+    word = energy.verdict
+    painted = paint(_STYLES[word], word if word != "disagree" else "DISAGREE")
+    yield f"  {_title(energy):<8}{painted}: {_observed(energy)}, order {least}{energy.exact_order}"
+
+
+def _observed(energy: ModifiedEnergy) -> str:
+    if energy.observed_order is None:
+        return "no error above round-off"
+    found = f"observed {energy.observed_order:.3f}"
+    if energy.uncertainty is not None:
+        found += f" ± {max(1, ceil(1000 * energy.uncertainty)) / 1000:.3f}"
+    return found if energy.has_settled else f"{found}, slopes have not settled"
+
+
+def _csv(run: ModifiedRun) -> str:
+    stream = io.StringIO()
+    writer = csv.writer(stream, lineterminator="\n")
+    writer.writerow(["h", *(f"error_{x.power}" for x in run.energies)])
+    for rows in zip(*(x.rows for x in run.energies), strict=True):
+        errors = [repr(to_float_error(row)) for row in rows]
+        writer.writerow([repr(to_float(rows[0].h)), *errors])
+    return stream.getvalue()
+
+
+def to_float_error(row: Row) -> float:
+    """The middle of an error, as it is shown."""
+    return float(str(row.error.mid().str(6, radius=False)))
+
+
+def modified_energy_schema() -> Schema:
+    """The schema as plain data. Fields may be added; those here never change their meaning."""
+    return {
+        "$schema": "http://json-schema.org/draft-07/schema#",
+        "title": "report of gark energy --modified",
+        **_REPORT.schema,
+    }
+
+
+def _rows(energy: ModifiedEnergy) -> list[dict[str, Any]]:
+    return [_ROW.data(row) for row in energy.rows]
+
+
+def _energies(report: ModifiedEnergyReport) -> list[dict[str, Any]]:
+    return [_ENERGY.data(x) for x in report.run.energies]
+
+
+_ROW: Record[Row] = Record(
+    Field("h", EXACT, lambda x: str(x.h)),
+    Field("error", _NUMBER, to_float_error),
+    Field("slope", nullable(_NUMBER), lambda x: x.slope),
+)
+_ENERGY: Record[ModifiedEnergy] = Record(
+    Field("power", COUNT, lambda x: x.power),
+    Field("exact_order", COUNT, lambda x: x.exact_order),
+    Field("exact_order_is_lower_bound", FLAG, lambda x: x.is_lower_bound),
+    Field("observed_order", nullable(_NUMBER), lambda x: x.observed_order),
+    Field("uncertainty", nullable(_NUMBER), lambda x: x.uncertainty),
+    Field(
+        "verdict",
+        {"enum": ["agree", "disagree", "undecided"]},
+        lambda x: x.verdict,
+    ),
+    Field("rows", array(_ROW.schema), _rows),
+)
+_REPORT: Record[ModifiedEnergyReport] = Record(
+    Field("schema", {"const": SCHEMA}, lambda _: SCHEMA),
+    Field("name", TEXT, lambda x: x.name),
+    Field("problem", TEXT, lambda x: x.run.problem.name),
+    Field("t_end", EXACT, lambda x: str(x.run.t_end)),
+    Field("max_order", POSITION, lambda x: x.run.max_order),
+    Field("digits", POSITION, lambda x: x.run.digits),
+    Field("energies", array(_ENERGY.schema), _energies),
+)
