@@ -2,6 +2,7 @@
 
 from __future__ import annotations
 
+from dataclasses import replace
 from pathlib import Path
 from typing import TYPE_CHECKING
 
@@ -24,7 +25,7 @@ if TYPE_CHECKING:
 @click.option(
     "--slow",
     metavar="A",
-    help="The slow one of two springs: its (hω)², a rational number; with --fast.",
+    help="The slow one of two springs: its (hω)², or A..B for all of them; with --fast.",
 )
 @click.option(
     "--fast", metavar="COLOUR", help="Two springs: the colour of the fast one."
@@ -142,8 +143,8 @@ def _springs_report(
     file: str, method: MethodFile, digits: int, slow: str, fast: str, with_plane: bool
 ) -> StabilityReport:
     """The two springs that the options ask for."""
-    from garkcli.cli.stepping import rational
     from garkcli.report.stability_data import StabilityReport
+    from garkcli.stability.slow_interval import slow_interval
     from garkcli.stability.summary import Stability
     from garkcli.stability.two_frequencies import springs, two_frequencies
 
@@ -156,15 +157,35 @@ def _springs_report(
     names = [colour.name for colour in tableau.colours]
     if fast not in names:
         raise UsageProblem(f"--fast: no colour {fast!r}", did_you_mean(fast, names))
-    strength = rational("--slow", slow)
-    if strength < 0:
-        raise UsageProblem(f"--slow {slow}: a square is not negative", "give 0 or more")
     split = springs(tableau, tableau.colours[names.index(fast)].term)
-    found = two_frequencies(tableau, split, strength)
-    plane = None
+    low, high = _strengths(slow)
+    nothing = Stability(tableau, (), None, None)
+    report = StabilityReport(file, method.name, nothing, digits=digits)
+    if ".." in slow:
+        interval = slow_interval(tableau, split, low, high)
+        stable, report = interval.stable, replace(report, slow=interval)
+    else:
+        single = two_frequencies(tableau, split, low)
+        stable, report = single.stable, replace(report, springs=single)
     if with_plane:
         from garkcli.stability.springs_plane import plane_with_ends_of
 
-        plane = plane_with_ends_of(tableau, split, found)
-    nothing = Stability(tableau, (), None, None)
-    return StabilityReport(file, method.name, nothing, found, digits, plane)
+        plane = plane_with_ends_of(tableau, split, stable, high)
+        report = replace(report, plane=plane)
+    return report
+
+
+def _strengths(slow: str) -> tuple[fmpq, fmpq]:
+    """The ends of --slow, the same twice for one number."""
+    from garkcli.cli.stepping import rational
+
+    first, dots, last = slow.partition("..")
+    low = rational("--slow", first)
+    high = rational("--slow", last) if dots else low
+    if low < 0:
+        raise UsageProblem(f"--slow {slow}: a square is not negative", "give 0 or more")
+    if dots and not low < high:
+        raise UsageProblem(
+            f"--slow {slow}: the ends are not in ascending order", "give --slow A..B"
+        )
+    return low, high

@@ -133,6 +133,20 @@ def from_lines(
     return Multivariate.of(axes + 1, terms)
 
 
+def through_points(values: Mapping[Exponents, Number], degree: int) -> Multivariate:
+    """The polynomial with given values at the points of a lattice.
+
+    Args:
+        values: at every point of the lattice of ``degree``.
+        degree: the total degree of the polynomial, or more.
+
+    >>> through_points({(0, 0): fmpq(1), (0, 1): fmpq(1), (1, 0): fmpq(3)}, 1).terms
+    (((1, 0), 2), ((0, 0), 1))
+    """
+    axes = len(next(iter(values)))
+    return Multivariate.of(axes, _interpolated(values, axes, 0, degree))
+
+
 def _interpolated(
     values: Mapping[Exponents, Number], axes: int, offset: int, degree: int
 ) -> dict[Exponents, Number]:

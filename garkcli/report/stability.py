@@ -5,6 +5,7 @@ from __future__ import annotations
 from collections.abc import Sequence
 from typing import Any
 
+from garkcli.errors import UsageProblem
 from garkcli.exact.polynomial import Polynomial
 from garkcli.exact.polynomial_text import integral
 from garkcli.report.exactly import polynomial_latex
@@ -40,6 +41,10 @@ def _data(report: StabilityReport) -> dict[str, Any]:
 
 def _latex(report: StabilityReport) -> str:
     lines = []
+    if report.slow is not None:
+        raise UsageProblem(
+            "an interval of slow frequencies has no formula", "give --slow A for one"
+        )
     if report.springs is not None:
         trace = report.springs.trace
         lines.append(

@@ -22,6 +22,7 @@ from garkcli.report.exactly import root_data
 from garkcli.stability.linear import StabilityFunction
 from garkcli.stability.oscillator import OscillatorStability
 from garkcli.stability.sector import Sector
+from garkcli.stability.slow_interval import SlowInterval
 from garkcli.stability.ssp import SspCoefficient
 from garkcli.stability.summary import LinearStability, Stability
 from garkcli.stability.two_frequencies import TwoFrequencies
@@ -41,6 +42,7 @@ class StabilityReport:
         springs: the two-frequency problem where it was asked for.
         digits: decimals of algebraic numbers.
         plane: both frequencies in floats, for a picture.
+        slow: the two-frequency problem for an interval of slow frequencies.
     """
 
     file: str
@@ -49,6 +51,7 @@ class StabilityReport:
     springs: TwoFrequencies | None = None
     digits: int = 12
     plane: SpringsPlane | None = None
+    slow: SlowInterval | None = None
 
 
 def as_data(report: StabilityReport) -> dict[str, Any]:
@@ -60,6 +63,8 @@ def as_data(report: StabilityReport) -> dict[str, Any]:
         "kind": found.kind,
     }
     head["tolerance"] = None if found.tolerance is None else decimal(found.tolerance)
+    if report.slow is not None:
+        return {**head, "kind": "slow-interval", **_slow_data(report.slow, digits)}
     if report.springs is not None:
         return {
             **head,
@@ -178,6 +183,15 @@ def _springs_data(found: TwoFrequencies, digits: int) -> dict[str, Any]:
             {"factor": polynomial_text(p, "x"), "multiplicity": n} for p, n in listed
         ],
         "stable": intervals_data(found.stable, digits),
+    }
+
+
+def _slow_data(found: SlowInterval, digits: int) -> dict[str, Any]:
+    return {
+        "slow": {"from": str(found.low), "to": str(found.high)},
+        "stable": intervals_data(found.stable, digits),
+        "stable_for_every_fast": found.is_stable_for_all,
+        "open_points": [root_data(x, digits) for x in found.open_points],
     }
 
 

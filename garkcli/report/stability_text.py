@@ -20,6 +20,7 @@ from garkcli.report.stability_words import (
     imaginary_text,
     interval_text,
     line,
+    minimal_text,
     number,
     quotient,
     real_text,
@@ -29,6 +30,7 @@ from garkcli.report.stability_words import (
 from garkcli.stability.linear import poles_are_right
 from garkcli.stability.oscillator import OscillatorStability, Ratio
 from garkcli.stability.sector import Sector
+from garkcli.stability.slow_interval import SlowInterval
 from garkcli.stability.summary import LinearStability, Stability
 from garkcli.stability.two_frequencies import TwoFrequencies
 
@@ -50,6 +52,9 @@ def text_of(report: StabilityReport, paint: Paint) -> Iterator[str]:
         methods = f"all methods within {decimal(within)}"
         yield f"  coefficients rounded: decided for {methods}, or not"
     yield from root_meanings(report.found.tableau)
+    if report.slow is not None:
+        yield from _slow_text(report.slow, report.digits, paint)
+        return
     if report.springs is not None:
         yield from _springs_text(report.springs, report.digits)
         return
@@ -216,3 +221,14 @@ def _springs_text(found: TwoFrequencies, digits: int) -> Iterator[str]:
         yield from line(label, text)
         label = ""
     yield from _stable_text(found.stable, digits)
+
+
+def _slow_text(found: SlowInterval, digits: int, paint: Paint) -> Iterator[str]:
+    yield ""
+    yield "  two springs, x = (hω_fast)²"
+    yield f"  for every a = (hω_slow)² from {found.low} to {found.high}"
+    yield from _stable_text(found.stable, digits)
+    for x in found.open_points:
+        single = f"x = {number(x, digits)} alone, a root of {minimal_text(x, 'x')}"
+        yield from line("not decided", single)
+    yield from line("stable for all x > 0", decided(found.is_stable_for_all, paint))

@@ -11,12 +11,15 @@ from typing import TYPE_CHECKING
 import numpy as np
 from flint import fmpq
 
+from garkcli.exact.cells import Interval
 from garkcli.exact.display import to_float
 from garkcli.stability.step_function import stage_system
-from garkcli.stability.two_frequencies import SplitSprings, TwoFrequencies
+from garkcli.stability.two_frequencies import SplitSprings
 from garkcli.tableau.tableau import Tableau
 
 if TYPE_CHECKING:
+    from collections.abc import Sequence
+
     from garkcli.arrays import Floats
 
 
@@ -76,12 +79,19 @@ def springs_plane(
 
 
 def plane_with_ends_of(
-    tableau: Tableau, split: SplitSprings, found: TwoFrequencies
+    tableau: Tableau, split: SplitSprings, stable: Sequence[Interval], slow: fmpq
 ) -> SpringsPlane:
-    """The plane as far as something happens for the slow frequency that was decided."""
-    ends = [float(i.end.ball(64)) ** 0.5 for i in found.stable if i.end is not None]
+    """The plane as far as something happens for the slow frequency that was decided.
+
+    Args:
+        tableau: the method.
+        split: which term has which spring.
+        stable: the stable (hω)² of the fast spring.
+        slow: the largest (hω)² of the slow one that was decided.
+    """
+    ends = [float(i.end.ball(64)) ** 0.5 for i in stable if i.end is not None]
     fast_end = 1.3 * max([*ends, 4.0])
-    slow_end = 1.3 * max(to_float(found.slow) ** 0.5, 3.0)
+    slow_end = 1.3 * max(to_float(slow) ** 0.5, 3.0)
     return springs_plane(tableau, split, slow_end, fast_end)
 
 

@@ -18,6 +18,7 @@ from garkcli.exact.cells import Interval
 from garkcli.exact.characteristic import reciprocal_characteristic
 from garkcli.exact.field import ONE, ZERO, Number
 from garkcli.exact.matrix import Matrix
+from garkcli.exact.multivariate import Multivariate, lattice, through_points
 from garkcli.exact.polynomial import Polynomial, gcd, interpolated
 from garkcli.problems.oscillator import Oscillator, check_structure, terms_of
 from garkcli.stability.oscillator import Ratio, stable_set
@@ -132,6 +133,34 @@ def two_frequencies(
         discriminant=trace.denominator * trace.denominator * 4 - N * N,
         stable=stable_set(trace, determinant, (b, c), D),
     )
+
+
+def plane_of_determinants(
+    tableau: Tableau, split: SplitSprings
+) -> tuple[Multivariate, ...]:
+    """det(I − W) and, times it, the entries of M, as polynomials in (a, x).
+
+    W is linear in (a, x), so that its determinants have at most its size as total degree.
+
+    Raises:
+        UsageProblem: the split is not one that the structure of the tableau is for.
+    """
+    check_structure(tableau, _like_an_oscillator(split))
+    degree = len(_system(tableau, split, ZERO, ZERO).W)
+    points = list(lattice(2, degree))
+    rows = [_determinants(_system(tableau, split, fmpq(i), fmpq(j))) for i, j in points]
+    planes = []
+    for column in zip(*rows, strict=True):
+        values = dict(zip(points, column, strict=True))
+        planes.append(through_points(values, degree))
+    return tuple(planes)
+
+
+def stable_where(determinants: Sequence[Polynomial]) -> tuple[Interval, ...]:
+    """The x ≥ 0 with all powers of M bounded, from det(I − W) and the entries of M times it."""
+    D, a, b, c, d = _reduced(determinants)
+    trace, determinant = Ratio.of(a + d, D), Ratio.of(a * d - b * c, D * D)
+    return stable_set(trace, determinant, (b, c), D)
 
 
 def _reduced(polynomials: Sequence[Polynomial]) -> list[Polynomial]:

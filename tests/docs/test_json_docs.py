@@ -31,6 +31,8 @@ REPORTS = {
         ["stability", METHOD],
         ["stability", "methods/rectangular.gark.yaml"],
         ["stability", METHOD, "--slow", "1/100", "--fast", "2"],
+        ["stability", METHOD, "--slow", "0..1", "--fast", "2"],
+        ["stability", "methods/ark-ars222.gark.yaml"],
     ],
     "modified": [
         ["modified", METHOD],

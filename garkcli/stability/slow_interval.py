@@ -1,0 +1,216 @@
+"""Two springs: which fast frequencies are stable for every slow one of an interval.
+
+With a = (hω_s)² and x = (hω_f)² stability at (a, x) depends on the signs of polynomials in both:
+det(I − W) and those of the conditions on the eigenvalues. Their irreducible factors are curves in
+the plane. Seen from the x-axis nothing changes among the a of [A, B] but at an x where a curve has
+a vertical tangent or asymptote, where two curves cross, or where one meets a = A or a = B: at roots
+of discriminants, leading coefficients, resultants and restrictions (G. E. Collins 1975). Between
+two such x one of them decides, exactly, and each of them is decided by itself.
+"""
+
+from __future__ import annotations
+
+from collections.abc import Sequence
+from dataclasses import dataclass
+from itertools import combinations
+
+from flint import Ordering, fmpq, fmpq_mpoly, fmpq_mpoly_ctx
+
+from garkcli.errors import UsageProblem
+from garkcli.exact.cells import Interval, Point, where
+from garkcli.exact.domain import Domain
+from garkcli.exact.field import ZERO, Number
+from garkcli.exact.multivariate import Exponents, Multivariate
+from garkcli.exact.nodes import AlgebraicRoot
+from garkcli.exact.polynomial import Polynomial
+from garkcli.exact.roots import RealRoot
+from garkcli.stability.two_frequencies import (
+    SplitSprings,
+    plane_of_determinants,
+    stable_where,
+)
+from garkcli.tableau.tableau import Tableau
+
+MOST_DEGREE = 4
+"""Single algebraic x of a larger degree are left open."""
+WITNESSES = 8
+"""Parts of [A, B] whose ends are tried first: an unstable one decides."""
+_PLANE = fmpq_mpoly_ctx.get(["a", "x"], Ordering.lex)
+
+
+@dataclass(frozen=True)
+class SlowInterval:
+    """A method on the two springs, for all slow frequencies of an interval.
+
+    Attributes:
+        low: the least a.
+        high: the greatest a.
+        stable: the x ≥ 0 with all powers of M bounded for every a of them. Where one of
+            ``open_points`` is an end, it is left out; where it is inside, it is taken in.
+        open_points: single x for which it is not decided whether for some a an eigenvalue ±1 is
+            double, or M has a pole.
+    """
+
+    low: fmpq
+    high: fmpq
+    stable: tuple[Interval, ...]
+    open_points: tuple[RealRoot, ...]
+
+    @property
+    def is_stable_for_all(self) -> bool | None:
+        """Whether no fast frequency is unstable; None where single points are open.
+
+        Without any frequency, at a = x = 0, a free particle moves away: that is left out.
+        """
+        if len(self.stable) != 1:
+            return False
+        [interval] = self.stable
+        if interval.start != RealRoot.rational(ZERO) or interval.end is not None:
+            return False
+        if not interval.has_start and self.low > 0:
+            return False
+        return None if self.open_points else True
+
+
+def slow_interval(
+    tableau: Tableau, split: SplitSprings, low: fmpq, high: fmpq
+) -> SlowInterval:
+    """The fast frequencies that are stable for all slow ones of [low, high].
+
+    Raises:
+        UsageProblem: the coefficients are irrational, or the split is not one that the structure of
+            the tableau is for.
+    """
+    plane = plane_of_determinants(tableau, split)
+    if not all(_is_rational(p) for p in plane):
+        raise UsageProblem(
+            "an interval of slow frequencies needs rational coefficients",
+            "give --slow A for single ones, which are decided in number fields too",
+        )
+    critical = _critical(plane, low, high)
+    undecided: list[RealRoot] = []
+    ends = RealRoot.rational(low), RealRoot.rational(high)
+    witnesses = [low + (high - low) * fmpq(k, WITNESSES) for k in range(WITNESSES + 1)]
+    stable_at = [stable_where([_with_slow(p, a) for p in plane]) for a in witnesses]
+
+    def is_stable(x: Point) -> bool:
+        # one a that is unstable decides; that is cheap, as the polynomials in x are rational
+        root = x if isinstance(x, RealRoot) else RealRoot.rational(x)
+        if not all(_has(intervals, root) for intervals in stable_at):
+            return False
+        number = _number_of(x)
+        if number is None:
+            assert isinstance(x, RealRoot)
+            undecided.append(x)
+            return True
+        found = stable_where([_with_fast(p, number) for p in plane])
+        return any(_contains(interval, *ends) for interval in found)
+
+    found = where(is_stable, critical, start=ZERO)
+    kept = [x for x in found if not (x.is_point and x.start in undecided)]
+    stable = tuple(_trimmed(interval, undecided) for interval in kept)
+    return SlowInterval(low, high, stable, tuple(undecided))
+
+
+def _is_rational(p: Multivariate) -> bool:
+    return all(isinstance(a, fmpq) for _, a in p.terms)
+
+
+def _critical(plane: Sequence[Multivariate], low: fmpq, high: fmpq) -> list[Polynomial]:
+    """The polynomials in x between whose roots one x decides."""
+    curves = _curves(plane)
+    _, x = _PLANE.gens()
+    found: list[fmpq_mpoly] = []
+    for curve in curves:
+        degree = curve.degrees()[0]
+        if degree == 0:
+            found.append(curve)
+            continue
+        found.append(_leading(curve, degree))
+        found += [curve.compose(_PLANE.constant(end), x) for end in (low, high)]
+        if degree > 1:
+            found.append(curve.discriminant("a"))
+    crossing = [curve for curve in curves if curve.degrees()[0]]
+    found += [f.resultant(g, "a") for f, g in combinations(crossing, 2)]
+    return [_in_x(p) for p in found]
+
+
+def _curves(plane: Sequence[Multivariate]) -> list[fmpq_mpoly]:
+    """The irreducible factors of all polynomials whose signs tell what is stable."""
+    D, a, b, c, d = (_in_plane(p) for p in plane)
+    trace, area = (a + d) * D, a * d - b * c
+    whole = D * D
+    deciding = [D, b, c, whole - area, whole + area - trace, whole + area + trace]
+    curves: dict[str, fmpq_mpoly] = {}
+    for p in deciding:
+        if p:
+            for factor, _ in p.factor()[1]:
+                curves[str(factor)] = factor
+    return [curve for curve in curves.values() if not curve.is_constant()]
+
+
+def _in_plane(p: Multivariate) -> fmpq_mpoly:
+    terms = {exponents: c for exponents, c in p.terms if isinstance(c, fmpq)}
+    return _PLANE.from_dict(terms)
+
+
+def _leading(curve: fmpq_mpoly, degree: int) -> fmpq_mpoly:
+    """The coefficient of the highest power of a, a polynomial in x."""
+    terms: dict[tuple[int, ...], fmpq] = {}
+    for (j, k), c in curve.to_dict().items():
+        if j == degree:
+            terms[0, k] = c
+    return _PLANE.from_dict(terms)
+
+
+def _in_x(p: fmpq_mpoly) -> Polynomial:
+    powers = {k: c for (_, k), c in p.to_dict().items()}
+    highest = max(powers, default=-1)
+    return Polynomial([powers.get(k, 0) for k in range(highest + 1)])
+
+
+def _number_of(x: Point) -> Number | None:
+    """A point as an exact number; None where its field would be too large."""
+    if not isinstance(x, RealRoot):
+        return x
+    if x.exact is not None:
+        return x.exact
+    if x.polynomial.degree() > MOST_DEGREE:
+        return None
+    coefficients = tuple(int(c) for c in x.polynomial.coeffs())
+    root = AlgebraicRoot(coefficients, x.number)
+    return Domain([root]).evaluate(root)
+
+
+def _with_slow(p: Multivariate, a: Number) -> Polynomial:
+    """A polynomial in (a, x) as one in x."""
+    return Polynomial([coefficient((a,)) for coefficient in p.by_last()])
+
+
+def _with_fast(p: Multivariate, x: Number) -> Polynomial:
+    """A polynomial in (a, x) as one in a."""
+    exchanged: dict[Exponents, Number] = {(k, j): c for (j, k), c in p.terms}
+    return _with_slow(Multivariate.of(2, exchanged), x)
+
+
+def _has(intervals: Sequence[Interval], x: RealRoot) -> bool:
+    """Whether a number belongs to one of them."""
+    return any(_contains(interval, x, x) for interval in intervals)
+
+
+def _contains(interval: Interval, left: RealRoot, right: RealRoot) -> bool:
+    """Whether [left, right] is a part of it."""
+    start, end = interval.start, interval.end
+    is_behind = start is None or start < left or (interval.has_start and start == left)
+    is_before = end is None or right < end or (interval.has_end and end == right)
+    return is_behind and is_before
+
+
+def _trimmed(interval: Interval, undecided: Sequence[RealRoot]) -> Interval:
+    """An interval without those of its ends that are not decided."""
+    return Interval(
+        interval.start,
+        interval.end,
+        interval.has_start and interval.start not in undecided,
+        interval.has_end and interval.end not in undecided,
+    )
