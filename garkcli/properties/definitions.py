@@ -50,8 +50,11 @@ _OF_ORDERS = (
     ),
     Definition(
         "sharp-bound",
-        "The sharper bound that the same conditions give, min{r, 2η+2, ξ+1, χ+2, η+ζ+3}, with its"
-        " proof in docs/sharper-bound.md.",
+        "The sharper bound of the order that B, C and D give, min{r, 2η+2, ξ+1, χ+2, η+ζ+3}: r is"
+        " the least r^{l} with B^{l}(r^{l}), η and ζ are the least η^{l,m} and ζ^{l,m} with"
+        " C^{l,m}(η^{l,m}) and D^{l,m}(ζ^{l,m}) over the blocks A^{l,m} that exist, ξ is the least"
+        " η^{l,m} + ζ^{l,m}, and χ the least ζ^{l,m} + η^{m,n} of two blocks A^{l,m} and A^{m,n}."
+        " The order is never smaller; the proof is in docs/sharper-bound.md.",
         "this project",
         _ORDER,
     ),
