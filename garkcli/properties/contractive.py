@@ -9,6 +9,7 @@ from garkcli.exact.field import ZERO, Number
 from garkcli.exact.matrix import Matrix
 from garkcli.exact.roots import sign
 from garkcli.properties.naming import number_text, weight_name
+from garkcli.properties.reduction import are_positive
 from garkcli.stability.algebraic import contractivity, negative_pivot
 from garkcli.tableau.point_space import PointSpace
 from garkcli.tableau.tableau import Tableau
@@ -33,7 +34,8 @@ def _negative_weight(tableau: Tableau, tolerance: fmpq = ZERO) -> str:
     for m, colour in enumerate(tableau.colours):
         space = tableau.space(m)
         if not isinstance(space, PointSpace):
-            if negative_pivot(space.gram(colour.b)) is not None:
+            is_positive = are_positive(space, colour.b)
+            if not is_positive and negative_pivot(space.gram(colour.b)) is not None:
                 return f"b{{{colour.name}}} has a negative entry"
             continue
         for j, b in enumerate(colour.b):

@@ -12,22 +12,22 @@ from garkcli.exact.matrix import Vector
 from garkcli.exact.polynomial import Polynomial, gcd
 from garkcli.exact.roots import vanishes_at
 from garkcli.order.tolerance import within
-from garkcli.properties.pattern import nodes_of
+from garkcli.properties.pattern import nodes_below, nodes_of
 from garkcli.tableau.polynomial_space import PolynomialSpace
 from garkcli.tableau.tableau import Tableau
 
 
 @dataclass(frozen=True)
 class FirstSameAsLast:
-    """Why a method is not FSAL.
+    """Why a method is not FSAL: the first reason that is found.
 
     Attributes:
-        not_first: the first stage space whose first stage is not the old value; None for none.
-        not_last: the first one whose last stage is not the new value; None for none.
+        not_first: a stage space whose first stage is not the old value; None for none.
+        not_last: one whose last stage is not the new value; None for none.
     """
 
-    not_first: int | None
-    not_last: int | None
+    not_first: int | None = None
+    not_last: int | None = None
 
     @property
     def holds(self) -> bool:
@@ -69,16 +69,15 @@ def first_same_as_last(tableau: Tableau, tolerance: fmpq = ZERO) -> FirstSameAsL
     Then the last evaluation of a step is the first of the next. It is asked of every stage space.
     """
     spaces = range(len(tableau.spaces))
-    not_first = [k for k in spaces if not _is_stage(tableau, k, 0, old_value(tableau))]
-    not_last = [
-        k
-        for k in spaces
-        if tableau.spaces[k].stages == 1
-        or not _is_stage(tableau, k, -1, new_value(tableau), tolerance)
-    ]
-    return FirstSameAsLast(
-        not_first[0] if not_first else None, not_last[0] if not_last else None
-    )
+    old, new = old_value(tableau), new_value(tableau)
+    for k in spaces:
+        if not _is_stage(tableau, k, 0, old):
+            return FirstSameAsLast(not_first=k)
+    for k in spaces:
+        is_single = tableau.spaces[k].stages == 1
+        if is_single or not _is_stage(tableau, k, -1, new, tolerance):
+            return FirstSameAsLast(not_last=k)
+    return FirstSameAsLast()
 
 
 def is_first_same_as_last(tableau: Tableau, tolerance: fmpq = ZERO) -> bool:
@@ -131,6 +130,10 @@ def _is_stage(
     common = _common_nodes(tableau, k, wanted)
     if common.degree == 0:
         return False
+    node = -common[0] / common[1]
+    if common.degree == 1 and isinstance(node, fmpq):
+        before = nodes_below(space.modulus, node)
+        return before == range(space.stages)[i]
     return vanishes_at(common, nodes_of(space)[i])
 
 

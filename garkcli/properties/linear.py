@@ -118,6 +118,7 @@ def first_end(intervals: Sequence[Interval]) -> RealRoot | None:
 def square_root(x: RealRoot) -> RealRoot:
     """The square root of a number ≥ 0: squaring keeps the order of positive numbers.
 
+    >>> from flint import fmpq
     >>> square_root(RealRoot.rational(fmpq(9, 4))).exact
     3/2
     """

@@ -9,7 +9,8 @@ from __future__ import annotations
 
 from collections.abc import Iterable, Mapping
 from dataclasses import dataclass
-from functools import lru_cache
+from functools import cached_property, lru_cache
+from itertools import pairwise
 from typing import TypeAlias
 
 from flint import arb, fmpq, fmpq_poly
@@ -20,7 +21,8 @@ from garkcli.exact.polynomial import Polynomial
 from garkcli.exact.roots import RealRoot, real_roots, vanishes_at
 from garkcli.graph import components
 from garkcli.order.tolerance import within
-from garkcli.tableau.pointwise import Cell, entries
+from garkcli.tableau.point_space import PointSpace
+from garkcli.tableau.pointwise import Block, Cell, Row, entries
 from garkcli.tableau.polynomial_space import PolynomialSpace
 from garkcli.tableau.tableau import Tableau
 
@@ -83,7 +85,6 @@ class _Graph:
     def __init__(self, tableau: Tableau, tolerance: fmpq) -> None:
         self.tableau = tableau
         self.tolerance = tolerance
-        self.blocks = entries(tableau, DIGITS).A
         self.successors: dict[Vertex, set[Vertex]] = {}
         self.loops: dict[Vertex, list[Number | None]] = {}
         self.is_certain = True
@@ -98,9 +99,19 @@ class _Graph:
         if (space, m) in self.added:
             return
         self.added.add((space, m))
-        for i, row in enumerate(self.blocks[l][m] or ()):
+        for i, row in enumerate(self._entries(l, m)):
             for j, entry in enumerate(row):
                 self._add_entry(entry, (space, i), (other, j), m)
+
+    def _entries(self, l: int, m: int) -> tuple[Row, ...]:
+        block = self.tableau.block(l, m)
+        if block is None or all(isinstance(x, PointSpace) for x in self.tableau.spaces):
+            return block or ()
+        return self._listed[l][m] or ()
+
+    @cached_property
+    def _listed(self) -> tuple[tuple[Block, ...], ...]:
+        return entries(self.tableau, DIGITS).A
 
     def _add_entry(self, entry: Cell, seer: Vertex, seen: Vertex, m: int) -> None:
         nonzero = is_nonzero(entry, self.tolerance)
@@ -160,6 +171,18 @@ def _is_nonzero_at(
 def nodes_of(space: PolynomialSpace) -> list[RealRoot]:
     """The nodes in ascending order."""
     return [node for node, _ in real_roots(Polynomial.from_flint(space.modulus))]
+
+
+def nodes_below(M: fmpq_poly, x: fmpq) -> int:
+    """How many roots of a polynomial with real roots only are smaller than x, by Descartes' rule,
+    which is exact for these.
+
+    >>> nodes_below(fmpq_poly([0, 2, -3, 1]), fmpq(2))  # the roots 0, 1, 2
+    2
+    """
+    mirrored = M(fmpq_poly([x, -1]))
+    signs = [a > 0 for a in mirrored.coeffs() if a]
+    return sum(1 for a, b in pairwise(signs) if a != b)
 
 
 def _divided(M: fmpq_poly, values: Iterable[Number]) -> Polynomial:

@@ -11,13 +11,16 @@ from collections.abc import Sequence
 from dataclasses import replace
 from itertools import combinations
 
-from flint import fmpq
+from flint import fmpq, fmpq_poly
 
 from garkcli.exact.field import ZERO, Number
 from garkcli.exact.matrix import Matrix, SingularMatrixError, Vector, apply, solve
-from garkcli.properties.pattern import is_nonzero
+from garkcli.properties.pattern import is_nonzero, nodes_below
+from garkcli.stability.algebraic import negative_pivot
 from garkcli.tableau.point_space import PointSpace
 from garkcli.tableau.pointwise import in_points
+from garkcli.tableau.polynomial_space import PolynomialSpace
+from garkcli.tableau.stages import StageSpace
 from garkcli.tableau.tableau import Tableau
 
 
@@ -86,7 +89,9 @@ def _has_weights(tableau: Tableau, k: int, tolerance: fmpq) -> bool:
     if isinstance(space, PointSpace):
         stages = range(space.stages)
         return all(any(is_nonzero(b[i], tolerance) for b in rows) for i in stages)
-    return not tolerance and any(_is_regular(space.gram(b)) for b in rows)
+    return not tolerance and any(
+        _is_gaussian(space, b) or _is_regular(space.gram(b)) for b in rows
+    )
 
 
 def _is_regular(form: Matrix) -> bool:
@@ -95,6 +100,34 @@ def _is_regular(form: Matrix) -> bool:
     except SingularMatrixError:
         return False
     return True
+
+
+def are_positive(space: StageSpace, b: Vector) -> bool:
+    """Whether all weights are larger than 0: whether the form f ↦ b(f²) is positive definite."""
+    if _is_gaussian(space, b):
+        return True
+    return negative_pivot(space.gram(b), is_definite=True) is None
+
+
+def _is_gaussian(space: StageSpace, b: Vector) -> bool:
+    """Whether the weights integrate polynomials of so high a degree that they are positive.
+
+    With L_i the Lagrange polynomials of s nodes in ℝ, b_i = b(L_i²) = ∫ L_i² > 0 where b is exact
+    to degree 2s − 2. With the nodes 0 and 1 among them, degree 2s − 3 is enough: L_i² is replaced
+    by x(1 − x) g², x g² or (1 − x) g² with g zero at the other inner nodes.
+    """
+    s = space.stages
+    gram = space.gram(b)
+    moments = [*gram[0], *(row[-1] for row in gram[1:])]
+    known = [moment == fmpq(1, k) for k, moment in enumerate(moments, start=1)]
+    if all(known):
+        return True
+    if not all(known[:-1]) or not isinstance(space, PolynomialSpace):
+        return False
+    M = space.modulus
+    has_ends = s > 1 and not M(0) and not M(1)
+    reflected = M(fmpq_poly([1, -1]))
+    return has_ends and not nodes_below(M, ZERO) and not nodes_below(reflected, ZERO)
 
 
 def _tells_apart(tableau: Tableau, k: int, tolerance: fmpq) -> bool:

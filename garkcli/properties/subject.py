@@ -2,6 +2,7 @@
 
 from __future__ import annotations
 
+from collections.abc import Sequence
 from dataclasses import dataclass
 from functools import cached_property
 from typing import TYPE_CHECKING
@@ -10,6 +11,7 @@ from flint import fmpq
 
 from garkcli.exact.field import ONE, ZERO
 from garkcli.order.simplifying import Simplifying
+from garkcli.properties.algebra_shape import shape_of_families
 from garkcli.properties.pattern import StageGraph, stage_graph
 from garkcli.properties.registry import find
 from garkcli.properties.shape import Shape, shape_of
@@ -68,7 +70,15 @@ class Subject:
     @cached_property
     def shape(self) -> Shape:
         """The shape of the whole method."""
-        return shape_of(self.graph, self.tolerance)
+        return self._of_families(range(self.tableau.size)) or shape_of(
+            self.graph, self.tolerance
+        )
+
+    def _of_families(self, colours: Sequence[int]) -> Shape | None:
+        """The shape of some colours where no node is needed for it."""
+        if self.tolerance:
+            return None
+        return shape_of_families(self.tableau, colours)
 
     @cached_property
     def shapes(self) -> tuple[Shape | None, ...]:
@@ -82,9 +92,13 @@ class Subject:
             if self.tableau.block(l, l) is None:
                 found.append(None)
                 continue
-            graph = stage_graph(self._with_entries, [l], self.tolerance)
-            found.append(shape_of(graph, self.tolerance))
+            found.append(self._of_families([l]) or self._of_points(l))
         return tuple(found)
+
+    def _of_points(self, l: int) -> Shape:
+        """The shape of a colour by its entries."""
+        graph = stage_graph(self._with_entries, [l], self.tolerance)
+        return shape_of(graph, self.tolerance)
 
     @cached_property
     def points(self) -> Tableau | None:

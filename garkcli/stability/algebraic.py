@@ -110,10 +110,11 @@ def negative_pivot(form: Matrix, is_definite: bool = False) -> Number | None:
         negative = next((i for i in remaining if signs[i] < 0), None)
         if negative is not None:
             return rows[negative][negative]
+        if any(rows[i][j] for i in remaining if not signs[i] for j in remaining):
+            return ZERO
         pivot = next((i for i in remaining if signs[i]), None)
         if pivot is None:
-            is_zero = not any(rows[i][j] for i in remaining for j in remaining)
-            return None if is_zero and not is_definite else ZERO
+            return ZERO if is_definite else None
         remaining.remove(pivot)
         for i in remaining:
             factor = rows[i][pivot] / rows[pivot][pivot]

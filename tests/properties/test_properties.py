@@ -2,25 +2,32 @@
 
 from __future__ import annotations
 
+from dataclasses import replace
 from fractions import Fraction
 
 import pytest
-from flint import fmpq
+from flint import fmpq, fmpq_poly
 from hypothesis import given
 from hypothesis import strategies as st
 
+from garkcli.exact.field import ONE
+from garkcli.exact.matrix import identity
 from garkcli.exact.polynomial import Polynomial
 from garkcli.families.registry import diagonal_method
 from garkcli.methodfile.load import load, loads
 from garkcli.order.certificate import find_order
+from garkcli.properties.algebra_shape import shape_of_families
 from garkcli.properties.last_stage import is_first_same_as_last, is_stiffly_accurate
+from garkcli.properties.pattern import nodes_below
 from garkcli.properties.reduction import (
+    are_positive,
     is_plainly_irreducible,
     is_reducible,
     reduced,
 )
 from garkcli.properties.shape import shape
 from garkcli.properties.symmetry import is_symmetric, symmetry
+from garkcli.stability.algebraic import negative_pivot
 from garkcli.stability.linear import stability_function
 from garkcli.tableau.forms import gark
 from garkcli.tableau.pointwise import in_points
@@ -306,3 +313,85 @@ b: [1/2, 1/2]
     assert symmetry(tableau).holds is False
     assert symmetry(tableau, fmpq(1, 10**6)).holds is True
     assert symmetry(tableau, fmpq(1, 10**8)).holds is False
+
+
+# -- families without their nodes
+
+FAMILIES = (
+    "gauss",
+    "radau-ia",
+    "radau-iia",
+    "lobatto-iiia",
+    "lobatto-iiib",
+    "lobatto-iiic",
+)
+
+
+@pytest.mark.parametrize("stages", [2, 3, 5])
+@pytest.mark.parametrize("name", FAMILIES)
+def test_systems_of_families_are_those_of_their_entries(name: str, stages: int) -> None:
+    """Common divisors and a stage modulo a prime find the same systems as the entries, looked at
+    one by one in enclosures.
+    """
+    tableau = family(name, stages)
+    found = shape_of_families(tableau, [0])
+    wanted = shape(tableau)
+    if found is None:
+        assert wanted.kind != "fully implicit"
+    else:
+        assert found == wanted
+
+
+def test_systems_of_coupled_families() -> None:
+    """Lobatto IIIA 4 and Gauss 3 by collocation, together and apart."""
+    text = "methods: [{family: lobatto-iiia, stages: 4}, {family: gauss, stages: 3}]"
+    tableau = loads(f"{text}\ntransfer: collocation").tableau
+    assert shape_of_families(tableau, [0, 1]) == shape(tableau)
+    assert shape_of_families(tableau, [0]) == shape(tableau, 0)
+    assert shape_of_families(tableau, [1]) == shape(tableau, 1)
+
+
+def test_a_zero_between_irrational_nodes_is_no_proof() -> None:
+    """Gauss 4 with its block replaced by multiplication by 1 + x: every column has zeros, and
+    nothing is proved.
+    """
+    tableau = family("gauss", 4)
+    space = tableau.spaces[0]
+    columns = [space.product(space.of_polynomial((ONE, ONE)), e) for e in identity(4)]
+    block = tuple(zip(*columns, strict=True))
+    diagonal = replace(tableau, blocks={(0, 0): block})
+    assert shape_of_families(diagonal, [0]) is None
+
+
+@given(st.lists(ENTRY, min_size=1, max_size=5, unique=True), ENTRY)
+def test_counting_real_nodes(nodes: list[Fraction], x: Fraction) -> None:
+    """Descartes' rule counts the roots below a number, where all are real."""
+    M = fmpq_poly([1])
+    for c in nodes:
+        M *= fmpq_poly([-fmpq(c.numerator, c.denominator), 1])
+    wanted = sum(1 for c in nodes if c < x)
+    assert nodes_below(M, fmpq(x.numerator, x.denominator)) == wanted
+
+
+@pytest.mark.parametrize("stages", [2, 3, 6])
+@pytest.mark.parametrize("name", FAMILIES)
+def test_the_short_way_to_positive_weights(name: str, stages: int) -> None:
+    """What exactness says of the weights of families is what elimination says."""
+    tableau = family(name, stages)
+    space, b = tableau.spaces[0], tableau.colours[0].b
+    assert are_positive(space, b)
+    assert negative_pivot(space.gram(b), is_definite=True) is None
+    shifted = (b[0] - 1, *b[1:])
+    wanted = negative_pivot(space.gram(shifted), is_definite=True) is None
+    assert are_positive(space, shifted) is wanted
+
+
+def test_semidefinite_forms() -> None:
+    """A zero on the diagonal beside another entry is indefinite; a zero form is semidefinite and
+    not definite.
+    """
+    zero, one = fmpq(0), fmpq(1)
+    assert negative_pivot(((zero, one), (one, one))) == 0
+    assert negative_pivot(((zero, zero), (zero, one))) is None
+    assert negative_pivot(((zero, zero), (zero, one)), is_definite=True) == 0
+    assert negative_pivot(((one, 2 * one), (2 * one, one))) == -3

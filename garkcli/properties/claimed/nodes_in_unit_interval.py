@@ -1,23 +1,23 @@
 """Nodes within a step."""
 
-from garkcli.exact.field import ONE, Number
-from garkcli.exact.roots import RealRoot, sign
+from flint import fmpq_poly
+
+from garkcli.exact.field import ONE, ZERO, Number
+from garkcli.exact.roots import sign
 from garkcli.properties.naming import number_text
-from garkcli.properties.pattern import nodes_of
+from garkcli.properties.pattern import nodes_below
 from garkcli.properties.property import Property, Verdict
 from garkcli.properties.subject import Subject
 from garkcli.tableau.polynomial_space import PolynomialSpace
 from garkcli.tableau.tableau import Tableau
-
-_ENDS = RealRoot.rational(ONE - ONE), RealRoot.rational(ONE)
 
 
 def _decide(subject: Subject) -> Verdict:
     for l, colour in enumerate(subject.tableau.colours):
         space = subject.tableau.space(l)
         if isinstance(space, PolynomialSpace) and tuple(colour.c) == tuple(space.nodes):
-            nodes = nodes_of(space)
-            if not _ENDS[0] <= nodes[0] <= nodes[-1] <= _ENDS[1]:
+            reflected = space.modulus(fmpq_poly([1, -1]))
+            if nodes_below(space.modulus, ZERO) or nodes_below(reflected, ZERO):
                 return Verdict(False, f"a node of colour {colour.name} is outside")
             continue
         found = subject.points

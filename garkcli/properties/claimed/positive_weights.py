@@ -3,8 +3,8 @@
 from garkcli.exact.roots import sign
 from garkcli.properties.naming import number_text, weight_name
 from garkcli.properties.property import Property, Verdict
+from garkcli.properties.reduction import are_positive
 from garkcli.properties.subject import Subject
-from garkcli.stability.algebraic import negative_pivot
 from garkcli.tableau.point_space import PointSpace
 
 
@@ -14,8 +14,7 @@ def _decide(subject: Subject) -> Verdict:
     for m, colour in enumerate(tableau.colours):
         space = tableau.space(m)
         if not isinstance(space, PointSpace):
-            form = space.gram(colour.b)
-            if negative_pivot(form, is_definite=True) is not None:
+            if not are_positive(space, colour.b):
                 return Verdict(
                     False, f"b{{{colour.name}}} has an entry that is not positive"
                 )
