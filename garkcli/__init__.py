@@ -20,16 +20,15 @@ if TYPE_CHECKING:
         method_of,
         pair,
     )
-    from garkcli.backward import energy as _energy
-    from garkcli.backward import formulas as _formulas
-    from garkcli.backward import summary as _summary
     from garkcli.check.check_file import check_file
     from garkcli.check.proof import prove_method
     from garkcli.convergence import convergence as _convergence
+    from garkcli.design.design import find_parameters
     from garkcli.errors import GarkError, MethodFileError
     from garkcli.longtime import longtime as _longtime
     from garkcli.longtime import symplecticity as _symplecticity
     from garkcli.methodfile.build import MethodFile
+    from garkcli.methodfile.family import load_family, loads_family
     from garkcli.methodfile.load import load, loads
     from garkcli.methodfile.problem import load_problem, loads_problem
     from garkcli.order import conditions as _conditions
@@ -44,14 +43,11 @@ if TYPE_CHECKING:
     from garkcli.trees.notation import format_tree, parse_tree
     from garkcli.trees.tree import Tree
 
-    backward_analysis = of_methods(_summary.backward_analysis)
     bind = of_methods(_integrator.bind)
     conditions = of_methods(_conditions.conditions)
     converge = of_methods(_convergence.converge)
     elementary_weight = of_methods(_conditions.elementary_weight)
     long_run = of_methods(_longtime.long_run)
-    modified_formula = of_methods(_formulas.modified_formula)
-    modified_run = of_methods(_energy.modified_run)
     simplifying = of_methods(_simplifying.simplifying)
     symplectic_pair = of_methods(_forms.symplectic_pair)
     symplecticity_defects = of_methods(_symplecticity.symplecticity_defects)
@@ -60,7 +56,6 @@ __version__ = "0.1.0"
 
 _HOMES = {
     "analyse": "api.methods",
-    "backward_analysis": "backward.summary",
     "bind": "stepping.integrator",
     "check_file": "check.check_file",
     "conditions": "order.conditions",
@@ -69,6 +64,7 @@ _HOMES = {
     "diagonal_method": "api.construction",
     "elementary_weight": "order.conditions",
     "find_order": "api.methods",
+    "find_parameters": "design.design",
     "format_tree": "trees.notation",
     "from_arrays": "api.arrays",
     "gark": "api.construction",
@@ -78,15 +74,15 @@ _HOMES = {
     "integrate": "stepping.step",
     "is_symplectic": "api.methods",
     "load": "methodfile.load",
+    "load_family": "methodfile.family",
     "load_problem": "methodfile.problem",
     "loads": "methodfile.load",
+    "loads_family": "methodfile.family",
     "loads_problem": "methodfile.problem",
     "long_run": "longtime.longtime",
     "method_of": "api.methods",
     "MethodFile": "methodfile.build",
     "MethodFileError": "errors",
-    "modified_formula": "backward.formulas",
-    "modified_run": "backward.energy",
     "Oscillator": "problems.oscillator",
     "pair": "api.methods",
     "parse_tree": "trees.notation",
@@ -102,14 +98,11 @@ _HOMES = {
 
 _OF_METHODS = frozenset(
     {
-        "backward_analysis",
         "bind",
         "conditions",
         "converge",
         "elementary_weight",
         "long_run",
-        "modified_formula",
-        "modified_run",
         "simplifying",
         "symplectic_pair",
         "symplecticity_defects",
@@ -126,7 +119,6 @@ __all__ = [
     "Tableau",
     "Tree",
     "analyse",
-    "backward_analysis",
     "bind",
     "check_file",
     "conditions",
@@ -135,6 +127,7 @@ __all__ = [
     "diagonal_method",
     "elementary_weight",
     "find_order",
+    "find_parameters",
     "format_tree",
     "from_arrays",
     "gark",
@@ -142,13 +135,13 @@ __all__ = [
     "integrate",
     "is_symplectic",
     "load",
+    "load_family",
     "load_problem",
     "loads",
+    "loads_family",
     "loads_problem",
     "long_run",
     "method_of",
-    "modified_formula",
-    "modified_run",
     "pair",
     "parse_tree",
     "prove_method",

@@ -28,7 +28,7 @@ from flint import fmpq, fmpq_mat, fmpz_mat
 from garkcli.backward.forest import Forest
 from garkcli.backward.modified import ModifiedEquation
 from garkcli.backward.series import transported
-from garkcli.exact.echelon import leading_columns
+from garkcli.exact.echelon import pivot_columns
 from garkcli.exact.field import ZERO, Number, NumberField, coordinates
 
 MAX_ENTRIES = 1_000_000
@@ -65,8 +65,7 @@ def effective_order(equation: ModifiedEquation) -> EffectiveOrder:
     field = list(equation.coefficients)
     is_unique = True
     for k in range(1, equation.max_order):
-        rows = forest.of_order(k + 1)
-        columns = forest.of_order(k)
+        rows, columns = forest.of_order(k + 1), forest.of_order(k)
         residual = [field[u] for u in rows]
         is_large = len(rows) * len(columns) > MAX_ENTRIES
         if is_large and any(residual):
@@ -97,12 +96,10 @@ def _bracket_with_delta(forest: Forest, order: int) -> fmpz_mat:
         for cut in forest.cuts[number]:
             if forest.order(cut.branch) == 1:
                 j = cut.rest - columns.start
-                before = matrix[i, j]
-                matrix[i, j] = before + cut.times
+                matrix[i, j] = matrix[i, j] + cut.times
             if forest.order(cut.rest) == 1:
                 j = cut.branch - columns.start
-                before = matrix[i, j]
-                matrix[i, j] = before - cut.times
+                matrix[i, j] = matrix[i, j] - cut.times
     return matrix
 
 
@@ -114,16 +111,17 @@ def _solve(
     A right-hand side in a number field is one for each coordinate over ℚ.
     """
     degree = field.degree if field else 1
-    columns = matrix.ncols()
-    entries = matrix.tolist()
-    extended = []
-    for row, number in zip(entries, right, strict=True):
-        left = [fmpq(x) for x in row]
-        extended.append([*left, *coordinates(number, degree)])
-    reduced, _ = fmpq_mat(extended).rref()
-    pivots = leading_columns(reduced)
+    rows, columns = matrix.nrows(), matrix.ncols()
+    extended = fmpq_mat(rows, columns + degree)
+    for i in range(rows):
+        for j in range(columns):
+            extended[i, j] = fmpq(matrix[i, j])
+        for d, x in enumerate(coordinates(right[i], degree)):
+            extended[i, columns + d] = x
+    pivots = pivot_columns(extended)
     if pivots and pivots[-1] >= columns:
         return None
+    reduced, _ = extended.rref()
     solution: list[Number] = [ZERO] * columns
     for i, j in enumerate(pivots):
         values = [reduced[i, columns + d] for d in range(degree)]

@@ -43,6 +43,7 @@ COMMANDS = {
     "modified": "the modified equation or Hamiltonian, effective order",
     "converge": "the convergence test on a problem",
     "energy": "energy and other invariants over a long time: do they drift?",
+    "design": "for which values of its parameters a method has an order",
     "certificate": "what proves the orders, to be checked without gark",
     "list": "families, transfer rules, problems",
     "schema": "the JSON Schemas of method and problem files, for editors",

@@ -43,6 +43,34 @@ def digits_option(help: str) -> Callable[[F], F]:
     )
 
 
+def _settings(
+    context: click.Context, parameter: click.Parameter, given: tuple[str, ...]
+) -> dict[str, str]:
+    """``NAME=VALUE`` of ``--set``, each name once."""
+    settings: dict[str, str] = {}
+    for text in given:
+        name, sign, value = text.partition("=")
+        if not sign or not name.strip() or not value.strip():
+            raise click.BadParameter(f"{text!r} is not NAME=VALUE", context, parameter)
+        if name.strip() in settings:
+            raise click.BadParameter(
+                f"{name.strip()!r} is given twice", context, parameter
+            )
+        settings[name.strip()] = value.strip()
+    return settings
+
+
+settings_option: Callable[[F], F] = click.option(
+    "--set",
+    "settings",
+    multiple=True,
+    metavar="NAME=VALUE",
+    callback=_settings,
+    help="A value for a parameter of FILE, in place of the one in it.",
+)
+"""``--set``; it arrives as a mapping."""
+
+
 document_option: Callable[[F], F] = click.option(
     "--document",
     is_flag=True,

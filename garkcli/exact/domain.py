@@ -135,13 +135,7 @@ class Domain:
             if not self._are_real:
                 _check_sign(root)
             return None
-        radicand = self._rational_value(root.radicand)
-        if radicand < 0 and root.index % 2 == 0:
-            raise _even_root(root)
-        p = abs(radicand.p).root(root.index)
-        q = radicand.q.root(root.index)
-        candidate = fmpq(-p if radicand < 0 else p, q)
-        return candidate if candidate**root.index == radicand else None
+        return perfect_root(root, self._rational_value(root.radicand))
 
     def _has_rational_radicand(self, root: Root) -> bool:
         """Whether the roots inside of it are all among the rational ones."""
@@ -272,6 +266,20 @@ def _sign(expression: Expression) -> int:
         start, end = expression.start, expression.end
         raise LimitExceeded(message, "write it simpler", start, end)
     return 0
+
+
+def perfect_root(root: Root, radicand: fmpq) -> fmpq | None:
+    """The value of a root of a perfect power; None where the radicand is none.
+
+    Raises:
+        UndefinedValue: an even root of a negative number.
+    """
+    if radicand < 0 and root.index % 2 == 0:
+        raise _even_root(root)
+    p = abs(radicand.p).root(root.index)
+    q = radicand.q.root(root.index)
+    candidate = fmpq(-p if radicand < 0 else p, q)
+    return candidate if candidate**root.index == radicand else None
 
 
 def _even_root(root: Root) -> UndefinedValue:

@@ -22,8 +22,8 @@ class SingularMatrixError(ArithmeticError):
 
 
 def is_rational(rows: Iterable[Iterable[Number]]) -> bool:
-    """Whether no entry is irrational."""
-    return not any(isinstance(x, Algebraic) for row in rows for x in row)
+    """Whether all entries are rational numbers."""
+    return all(isinstance(x, fmpq) for row in rows for x in row)
 
 
 def from_flint(matrix: fmpq_mat) -> Matrix:

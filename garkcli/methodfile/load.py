@@ -5,6 +5,8 @@ from __future__ import annotations
 import os
 import stat
 import sys
+from collections.abc import Callable, Mapping
+from typing import TypeVar
 
 from garkcli.errors import Fault, MethodFileError
 from garkcli.methodfile.build import (
@@ -13,21 +15,40 @@ from garkcli.methodfile.build import (
     families_of,
     nodes_to_spell_out,
 )
+from garkcli.methodfile.description import Description
 from garkcli.methodfile.finding import STDIN, SUFFIX, find_files
-from garkcli.methodfile.numbers import Values
+from garkcli.methodfile.numbers import Numbers, Values
+from garkcli.methodfile.parameters import refuse_free
 from garkcli.methodfile.reader import Reader
 from garkcli.methodfile.source import MAX_BYTES, METHOD_FILE, FileKind, Source, one_line
+from garkcli.tableau.tableau import Tableau
+
+NO_SETTINGS: Mapping[str, str] = {}
+V = TypeVar("V", bound=Values)
 
 
-def load(path: str) -> MethodFile:
+def load(path: str, settings: Mapping[str, str] = NO_SETTINGS) -> MethodFile:
     """Read one method file, or standard input for ``-``.
+
+    Args:
+        path: of the file.
+        settings: values of its parameters, by name, in place of those in the file.
 
     Raises:
         MethodFileError: every fault of the file, with positions.
     """
+    return loads(*read_method_text(path), settings)
+
+
+def read_method_text(path: str) -> tuple[str, str]:
+    """The text of a method file, or of standard input for ``-``, and what to call it.
+
+    Raises:
+        MethodFileError: there is no such file, or no such text in it.
+    """
     if path != STDIN and os.path.isdir(path):
         raise MethodFileError(path, [_of_folder(path)])
-    return loads(*read_text(path, METHOD_FILE))
+    return read_text(path, METHOD_FILE)
 
 
 def _of_folder(path: str) -> Fault:
@@ -100,8 +121,15 @@ def _decoded(name: str, data: bytes) -> str:
         ) from None
 
 
-def loads(text: str, source: str = "<text>") -> MethodFile:
+def loads(
+    text: str, source: str = "<text>", settings: Mapping[str, str] = NO_SETTINGS
+) -> MethodFile:
     """Read a method file from its text.
+
+    Args:
+        text: of the file.
+        source: what to call it.
+        settings: values of its parameters, by name, in place of those in the file.
 
     Raises:
         MethodFileError: every fault of the text, with positions.
@@ -109,18 +137,9 @@ def loads(text: str, source: str = "<text>") -> MethodFile:
     >>> loads("methods: [{family: gauss, stages: 2}]").tableau.size
     1
     """
-    reading = Source(source, text)
-    reader = Reader(reading)
-    description = reader.read()
-    if description is None:
-        Values(reader.numbers)  # what is wrong with the numbers is told in the same run
-        raise reading.error()
-    families = families_of(description)
-    nodes = nodes_to_spell_out(description, families, reader.numbers)
-    values = Values(reader.numbers)
-    reading.close()
-    tableau = Builder(reading, values, families, nodes).tableau(description)
-    reading.close()
+    reader, description = described(text, source, settings)
+    refuse_free(reader.numbers)
+    tableau, values = built(reader, description, Values)
     return MethodFile(
         source=source,
         text=text,
@@ -135,3 +154,46 @@ def loads(text: str, source: str = "<text>") -> MethodFile:
         description=description.description,
         printed=values.printed,
     )
+
+
+def described(
+    text: str, source: str, settings: Mapping[str, str]
+) -> tuple[Reader, Description]:
+    """What a file says, with the reader that has its coefficients and its faults.
+
+    Raises:
+        MethodFileError: it says no method.
+    """
+    reading = Source(source, text)
+    reader = Reader(reading, settings)
+    description = reader.read()
+    if description is None:
+        if not reader.numbers.free:
+            Values(
+                reader.numbers
+            )  # what is wrong with the numbers is told in the same run
+        raise reading.error()
+    return reader, description
+
+
+def built(
+    reader: Reader, description: Description, values_of: Callable[[Numbers], V]
+) -> tuple[Tableau, V]:
+    """The tableau that a file describes, and the values of its coefficients.
+
+    Args:
+        reader: as it read the file.
+        description: what it read.
+        values_of: what gives coefficients their values.
+
+    Raises:
+        MethodFileError: the coefficients make no method.
+    """
+    families = families_of(description)
+    nodes = nodes_to_spell_out(description, families, reader.numbers)
+    reader.source.close()
+    values = values_of(reader.numbers)
+    reader.source.close()
+    tableau = Builder(reader.source, values, families, nodes).tableau(description)
+    reader.source.close()
+    return tableau, values

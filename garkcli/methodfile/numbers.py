@@ -2,7 +2,7 @@
 
 from __future__ import annotations
 
-from collections.abc import Iterable, Sequence
+from collections.abc import Iterable, Mapping, Sequence
 from dataclasses import dataclass, field
 from typing import TypeAlias
 
@@ -10,12 +10,12 @@ from yaml.nodes import Node, ScalarNode, SequenceNode
 
 from garkcli.errors import ExpressionError, LimitExceeded, UndefinedValue, counted
 from garkcli.exact.domain import Domain
-from garkcli.exact.expression import FUNCTIONS, parse
+from garkcli.exact.expression import parse
 from garkcli.exact.field import ZERO, Number
 from garkcli.exact.matrix import Matrix, Vector
 from garkcli.exact.nodes import Expression, Literal
 from garkcli.exact.rewriting import depth_of, roots_in, size_of, substitute
-from garkcli.methodfile.source import Source, key_nodes, shortened
+from garkcli.methodfile.source import Source, shortened
 from garkcli.methodfile.spellings import (
     explained,
     first_list_in_rows,
@@ -45,14 +45,32 @@ Row: TypeAlias = tuple[Entry, ...]
 Rows: TypeAlias = tuple[Row, ...]
 
 
+@dataclass(frozen=True)
+class Free:
+    """A parameter without a value, and where it may lie; None where there is no bound."""
+
+    node: Node
+    smallest: Entry | None = None
+    largest: Entry | None = None
+
+
 @dataclass
 class Numbers:
-    """Reads the coefficients of one file; ``parameters`` are substituted as they are read."""
+    """Reads the coefficients of one file; ``parameters`` are substituted as they are read.
+
+    Attributes:
+        settings: values of parameters that are given from outside of the file, as text.
+        free: the parameters that have none.
+        places: where the value of each parameter stands.
+    """
 
     source: Source
     parameters: dict[str, Expression] = field(default_factory=dict)
     entries: list[Entry] = field(default_factory=list)
     of_parameters: list[Entry] = field(default_factory=list)
+    settings: Mapping[str, str] = field(default_factory=dict)
+    free: dict[str, Free] = field(default_factory=dict)
+    places: dict[str, Node] = field(default_factory=dict)
     _sizes: dict[str, int] = field(default_factory=dict)
     _depths: dict[str, int] = field(default_factory=dict)
     _read: dict[str, Expression] = field(default_factory=dict)
@@ -318,32 +336,3 @@ def _note_faults(source: Source, entries: Iterable[Entry]) -> None:
                 domain.evaluate(entry.expression)
         except ExpressionError as own:
             source.expression_fault(entry.node, entry.where, own)
-
-
-def read_parameters(numbers: Numbers, node: Node | None) -> None:
-    """Read ``parameters`` into ``numbers``; each may use those before it.
-
-    The values are kept apart from the coefficients: one that no coefficient uses has no part in
-    their domain, but a faulty one is reported where it stands.
-    """
-    if node is None:
-        return
-    source = numbers.source
-    keys = key_nodes(node)
-    for name, value_node in source.mapping(node, "parameters", ()).items():
-        key = keys[name]
-        where = f"parameters: {name}"
-        value: Expression = Literal(ZERO)
-        if name in FUNCTIONS:
-            source.fault(key, f"{where} is a function already", "choose another name")
-        elif not name.isidentifier() or not name.isascii():
-            message = f"{where} cannot be the name of a parameter"
-            source.fault(key, message, "use letters, digits and _")
-        elif isinstance(value_node, ScalarNode) and value_node.value == "free":
-            message = f"{where} is free; orders are decided for given values"
-            cure = "give it a value, for instance 1/2"
-            source.fault(value_node, message, cure)
-        else:
-            value = numbers.entry(value_node, where).expression
-            numbers.of_parameters.append(numbers.entries.pop())
-        numbers.define(name, value)

@@ -5,7 +5,7 @@ met.
 from __future__ import annotations
 
 import re
-from collections.abc import Sequence
+from collections.abc import Mapping, Sequence
 from typing import cast
 
 from flint import fmpq
@@ -34,7 +34,8 @@ from garkcli.methodfile.description import (
     of_colour,
 )
 from garkcli.methodfile.expectations import NUMBERS
-from garkcli.methodfile.numbers import Numbers, read_parameters
+from garkcli.methodfile.numbers import Numbers
+from garkcli.methodfile.parameters import read_parameters, refuse_unknown_settings
 from garkcli.methodfile.source import Source, keys_of, shortened
 from garkcli.methodfile.spelled_out import SpelledOutReader, are_too_many
 from garkcli.transfer import RULES
@@ -89,9 +90,9 @@ def _written_out(node: ScalarNode) -> str:
 class Reader:
     """Reads one file."""
 
-    def __init__(self, source: Source) -> None:
+    def __init__(self, source: Source, settings: Mapping[str, str]) -> None:
         self.source = source
-        self.numbers = Numbers(source)
+        self.numbers = Numbers(source, settings=settings)
         self.spelled_out = SpelledOutReader(source, self.numbers)
 
     def read(self) -> Description | None:
@@ -115,6 +116,7 @@ class Reader:
         is_conjugate = self._is_conjugate(entries.get("conjugate"))
         claims = expectations.read(source, entries.get("expect"))
         read_parameters(self.numbers, entries.get("parameters"))
+        refuse_unknown_settings(self.numbers)
         form = self._form(root, entries)
         if form is None:
             return None

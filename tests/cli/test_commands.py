@@ -20,6 +20,7 @@ from tests.cli.harness import ROOT, gark
 
 COLLOCATION = "methods/collocation.gark.yaml"
 VERLET = "methods/stoermer-verlet.gark.yaml"
+FREE = "tests/examples/families/sdirk.gark.yaml"
 ARK = "methods/ark-ars222.gark.yaml"
 FAILING = "tests/examples/failing/collocation-misprinted.gark.yaml"
 INVALID = "tests/examples/invalid/many-faults.gark.yaml"
@@ -57,6 +58,7 @@ RUNS = [
     (("reduce", VERLET), ("yaml", "text", "json", "latex")),
     (("modified", VERLET), ("text", "json", "latex")),
     (("certificate", VERLET), ("json",)),
+    (("design", FREE), ("text", "json")),
     (("schema",), ("json",)),
     (("schema", "--report"), ("json",)),
 ]

@@ -16,6 +16,7 @@ PAGES = [
     ROOT / "docs" / "modified-equation.md",
     ROOT / "docs" / "energy.md",
     ROOT / "docs" / "certificate.md",
+    ROOT / "docs" / "design.md",
 ]
 
 

@@ -1,0 +1,119 @@
+"""``gark design``."""
+
+from __future__ import annotations
+
+from typing import TYPE_CHECKING
+
+import click
+
+from garkcli.cli.options import CONTEXT, PATH, Output, common, settings_option
+
+if TYPE_CHECKING:
+    from garkcli.design.design import Design, Whose
+    from garkcli.methodfile.family import FamilyFile
+
+
+@click.command("design", context_settings=CONTEXT)
+@click.argument("file", type=PATH, metavar="FILE")
+@click.option(
+    "--order",
+    type=click.IntRange(1, 60),
+    metavar="P",
+    help="The order wanted; by default as far as some value reaches.",
+)
+@click.option(
+    "--pair", "is_pair", is_flag=True, help="The order of the symplectic pair."
+)
+@click.option(
+    "--conjugate", "is_conjugate", is_flag=True, help="The order of the conjugate."
+)
+@click.option(
+    "--seconds",
+    type=click.FloatRange(min=0, min_open=True),
+    default=60,
+    show_default=True,
+    metavar="T",
+    help="After so many an order is left undecided.",
+)
+@click.option(
+    "--digits",
+    type=click.IntRange(1, 1000),
+    default=12,
+    show_default=True,
+    metavar="N",
+    help="Digits of numbers without simple radicals.",
+)
+@click.option(
+    "--emit",
+    "emitted",
+    type=PATH,
+    metavar="FILE",
+    help="Write the first method found as a method file with its claim.",
+)
+@settings_option
+@common(["text", "json"])
+def command(
+    file: str,
+    order: int | None,
+    is_pair: bool,
+    is_conjugate: bool,
+    seconds: float,
+    digits: int,
+    emitted: str | None,
+    settings: dict[str, str],
+    output: Output,
+) -> int:
+    """For which values of its free parameters a method has an order, exactly.
+
+    A parameter is free by parameters: {tau: free}. The answer is every value, these values, a
+    family of a dimension, or none, and then the tree whose condition cannot be met. Each value
+    found goes through the certificate of gark check. Exit code 1: no value has the order of
+    --order.
+    """
+    from garkcli.design.design import find_parameters
+    from garkcli.errors import UsageProblem
+    from garkcli.methodfile.family import load_family
+
+    if is_pair and is_conjugate:
+        raise UsageProblem("--pair and --conjugate are two methods", "ask for one")
+    whose: Whose = "pair" if is_pair else "conjugate" if is_conjugate else "method"
+    family = load_family(file, settings)
+    found = find_parameters(family, order, whose, seconds)
+    if output.format == "json":
+        from garkcli.report import design_data
+
+        output.write(design_data.render(file, found, digits))
+    else:
+        from garkcli.report import design_text
+
+        output.write(design_text.render(file, found, digits, output.width))
+    if emitted is not None:
+        _emit(family, found, emitted)
+    is_reached = order is None or found.reaches(order)
+    return _exit_code(found.last.kind == "undecided", is_reached)
+
+
+def _emit(family: FamilyFile, found: Design, path: str) -> None:
+    """Write the first method among the solutions."""
+    from garkcli.design.chosen import first_method
+    from garkcli.errors import UsageProblem
+    from garkcli.methodfile.family import with_values
+    from garkcli.report.writing import write_whole
+
+    chosen = first_method(found)
+    if chosen is None:
+        raise UsageProblem(
+            "there is no single method to be written: no order has finitely many",
+            "choose values with --set, or ask for a higher order",
+        )
+    key = {"method": "order", "conjugate": "conjugate-order", "pair": "pair-order"}
+    claim = f"{key[found.whose]}: {chosen.order}"
+    head = f"found by gark design {family.source}: {claim}"
+    write_whole(path, [with_values(family, chosen.values, head, claim)])
+
+
+def _exit_code(is_undecided: bool, is_reached: bool) -> int:
+    """What cannot be decided is no fault of the file: 3, as what could not be done."""
+    if is_undecided:
+        return 3
+    return 0 if is_reached else 1

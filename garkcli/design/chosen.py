@@ -1,0 +1,96 @@
+"""One method out of those found, its parameters as text of method files."""
+
+from __future__ import annotations
+
+from dataclasses import dataclass
+
+from flint import fmpq_mat, fmpq_poly
+
+from garkcli.design.design import Design, Found
+from garkcli.design.solutions import value_at
+from garkcli.errors import MethodError
+from garkcli.exact.field import Algebraic, Number, NumberField, coordinates
+from garkcli.exact.polynomial import Polynomial
+from garkcli.exact.polynomial_text import polynomial_text, root_decimal, root_text
+from garkcli.exact.roots import RealRoot
+
+MAX_DEGREE = 12
+"""Largest degree of root_of in method files."""
+DIGITS = 20
+"""Decimals that tell a root of a polynomial from the others."""
+
+
+@dataclass(frozen=True)
+class Chosen:
+    """A method of a family.
+
+    Attributes:
+        values: of the free parameters, as text.
+        order: its exact order, of whatever was asked for.
+    """
+
+    values: dict[str, str]
+    order: int
+
+
+def first_method(design: Design) -> Chosen | None:
+    """The first real solution within its ranges at the highest order that has one.
+
+    Raises:
+        MethodError: its values cannot be written in a method file.
+    """
+    for step in reversed(design.steps):
+        for found in step.found:
+            if found.order is not None and found.accepted:
+                root = found.solution.real[found.accepted[0]]
+                return Chosen(_values(design, found, root), found.order.order)
+    return None
+
+
+def _values(design: Design, found: Found, root: RealRoot) -> dict[str, str]:
+    """The parameters, in radicals where each has simple ones, else in one root of a polynomial."""
+    values = {name: found.solution.values[name] for name in design.family.parameters}
+    texts = {}
+    for name, value in values.items():
+        simple = root_text(value_at(value, root))
+        if simple is None:
+            return _in_one_root(values, root)
+        texts[name] = simple
+    return texts
+
+
+def _in_one_root(values: dict[str, Number], root: RealRoot) -> dict[str, str]:
+    """Values as polynomials in one of them that generates their field, written as root_of(p, r).
+
+    Raises:
+        MethodError: no value does, or its degree is beyond method files.
+    """
+    algebraic = [x for x in values.values() if isinstance(x, Algebraic)]
+    field = algebraic[0].field
+    candidates = [x for x in algebraic if _powers(x, field).rank() == field.degree]
+    if not candidates or field.degree > MAX_DEGREE:
+        raise MethodError(
+            f"the values are numbers of degree {field.degree} without simple radicals",
+            f"method files hold roots of polynomials up to degree {MAX_DEGREE}",
+        )
+    generator = min(candidates, key=lambda x: len(str(value_at(x, root).polynomial)))
+    number = value_at(generator, root)
+    polynomial = polynomial_text(Polynomial.from_flint(number.polynomial), "x")
+    name = f"root_of({polynomial}, {root_decimal(number, DIGITS)})"
+    powers = _powers(generator, field)
+    texts = {}
+    for key, value in values.items():
+        column = fmpq_mat([[a] for a in coordinates(value, field.degree)])
+        solved = powers.solve(column).entries()
+        texts[key] = polynomial_text(Polynomial(solved), name).replace("^", "**")
+    return texts
+
+
+def _powers(generator: Algebraic, field: NumberField) -> fmpq_mat:
+    """1, g, g², … as columns in the basis of the field."""
+    columns = []
+    power = fmpq_poly([1])
+    for _ in range(field.degree):
+        columns.append([power[k] for k in range(field.degree)])
+        power = power * generator.poly % field.modulus
+    return fmpq_mat(columns).transpose()

@@ -1,0 +1,201 @@
+"""For which values of its parameters a family of methods has an order: exactly, and all of them."""
+
+from __future__ import annotations
+
+from collections.abc import Callable
+from dataclasses import dataclass, replace
+from time import monotonic
+from typing import Literal, TypeAlias
+
+from garkcli.design.conditions import FamilyConditions
+from garkcli.design.groebner import NotDecided
+from garkcli.design.ideal import Ideal
+from garkcli.design.member import member
+from garkcli.design.solutions import Solution, solutions, value_at
+from garkcli.errors import ZeroWeight
+from garkcli.exact.field import Algebraic, Number
+from garkcli.exact.polynomial import Polynomial
+from garkcli.exact.roots import RealRoot, sign, sign_at
+from garkcli.order.certificate import DEFAULT_LIMIT, Order, find_order
+from garkcli.tableau.conjugate import conjugate
+from garkcli.tableau.family import Family
+from garkcli.tableau.forms import pair
+from garkcli.tableau.tableau import Tableau
+from garkcli.trees.tree import Tree
+
+Whose: TypeAlias = Literal["method", "conjugate", "pair"]
+Kind: TypeAlias = Literal["every-value", "solutions", "family", "none", "undecided"]
+
+
+@dataclass(frozen=True)
+class Found:
+    """A solution with what the ordinary certificate says of it.
+
+    Attributes:
+        solution: the values of the parameters, with their conjugates over ℚ.
+        order: the exact order of the method that they make; None where a weight or a denominator is
+            zero, and then there is no such method.
+        accepted: which of the real roots of the solution are within the ranges of the file.
+    """
+
+    solution: Solution
+    order: Order | None
+    accepted: tuple[int, ...]
+
+
+@dataclass(frozen=True)
+class Step:
+    """What an order asks of the parameters.
+
+    Attributes:
+        order: the order.
+        kind: for which values it is reached.
+        ideal: the ideal of its conditions and of all lower ones; None where it was not found.
+        witness: the first tree whose condition no value meets together with those before it.
+        found: the solutions, where there are finitely many.
+    """
+
+    order: int
+    kind: Kind
+    ideal: Ideal | None
+    witness: Tree | None = None
+    found: tuple[Found, ...] = ()
+
+    @property
+    def may_have_methods(self) -> bool:
+        """Whether there are values to go on with: of a family that is not looked into."""
+        if self.kind in {"every-value", "family"}:
+            return True
+        return any(x.accepted and x.order is not None for x in self.found)
+
+
+@dataclass(frozen=True)
+class Design:
+    """What each order asks of the parameters of a family.
+
+    Attributes:
+        family: as it was read.
+        whose: which order is meant.
+        tableau: the tableau of it, its entries rational functions.
+        steps: one an order, from 1 on.
+    """
+
+    family: Family
+    whose: Whose
+    tableau: Tableau
+    steps: tuple[Step, ...]
+
+    @property
+    def last(self) -> Step:
+        """The step of the highest order that was looked at."""
+        return self.steps[-1]
+
+    def reaches(self, order: int) -> bool:
+        """Whether some values have the order, of a family at least complex ones."""
+        return self.last.order >= order and self.last.may_have_methods
+
+
+_TABLEAUS: dict[Whose, Callable[[Tableau], Tableau]] = {
+    "method": lambda tableau: tableau,
+    "conjugate": conjugate,
+    "pair": pair,
+}
+
+
+def find_parameters(
+    family: Family,
+    order: int | None = None,
+    whose: Whose = "method",
+    seconds: float | None = None,
+) -> Design:
+    """For which values of its parameters the members of a family have an order.
+
+    Args:
+        family: of methods.
+        order: the order wanted; where it is not given, as far as some value reaches.
+        whose: of the method, its symplectic conjugate, or its symplectic pair.
+        seconds: after which what is not decided is left open; None for never.
+
+    Raises:
+        ZeroWeight: a weight is zero for every value, and there is no conjugate.
+    """
+    tableau = _TABLEAUS[whose](family.tableau)
+    conditions = FamilyConditions(tableau, family.ring)
+    relations = [radical.relation for radical in family.radicals]
+    deadline = None if seconds is None else monotonic() + seconds
+    start = Ideal(family.ring, conditions.denominators, deadline).with_zeros(relations)
+    steps: list[Step] = []
+    ideal = start
+    for k in range(1, (order or DEFAULT_LIMIT) + 1):
+        step = _step(conditions, ideal, k, start)
+        if step.kind == "solutions":
+            step = replace(step, found=_found(family, whose, step))
+        steps.append(step)
+        if step.ideal is None or not step.may_have_methods:
+            break
+        ideal = step.ideal
+    return Design(family, whose, tableau, tuple(steps))
+
+
+def _step(conditions: FamilyConditions, ideal: Ideal, order: int, start: Ideal) -> Step:
+    """What one order more asks of the parameters."""
+    try:
+        # one condition after the other: small steps from one Gröbner basis to the next, and the
+        # first condition that cannot be met is known
+        for condition in conditions.of_order(order):
+            ideal = ideal.with_zeros([condition.polynomial])
+            if ideal.is_everything:
+                return Step(order, "none", ideal, condition.tree)
+    except NotDecided:
+        return Step(order, "undecided", None)
+    if ideal is start:
+        return Step(order, "every-value", ideal)
+    if ideal.dimension > 0:
+        return Step(order, "family", ideal)
+    return Step(order, "solutions", ideal)
+
+
+def _found(family: Family, whose: Whose, step: Step) -> tuple[Found, ...]:
+    """The solutions of a step, each with its order by the ordinary certificate."""
+    assert step.ideal is not None
+    found = []
+    for solution in solutions(step.ideal):
+        accepted = []
+        for index, root in enumerate(solution.real):
+            if _is_admissible(family, solution, root):
+                accepted.append(index)
+        order = _order_of(family, whose, solution)
+        found.append(Found(solution, order, tuple(accepted)))
+    return tuple(found)
+
+
+def _order_of(family: Family, whose: Whose, solution: Solution) -> Order | None:
+    try:
+        tableau = member(family.tableau, family.ring, solution.values)
+        return find_order(_TABLEAUS[whose](tableau))
+    except (ZeroDivisionError, ZeroWeight):
+        return None
+
+
+def _is_admissible(family: Family, solution: Solution, root: RealRoot) -> bool:
+    """Whether even roots are positive there and parameters within their ranges."""
+    for radical in family.radicals:
+        value = solution.values[radical.name]
+        if radical.is_positive and _sign(value, root) <= 0:
+            return False
+        if radical.meant is not None and value_at(value, root) != radical.meant:
+            return False
+    for name, (least, greatest) in family.ranges.items():
+        value = solution.values[name]
+        if least is not None and _sign(value - least, root) < 0:
+            return False
+        if greatest is not None and _sign(value - greatest, root) > 0:
+            return False
+    return True
+
+
+def _sign(value: Number, root: RealRoot) -> int:
+    """The sign of an element of ℚ[u]/modulus where u is a real root of the modulus."""
+    if isinstance(value, Algebraic):
+        return sign_at(Polynomial.from_flint(value.poly), root)
+    return sign(value)

@@ -1,0 +1,226 @@
+"""Ideals of polynomials over ℚ by Gröbner bases, made in python-flint within limits."""
+
+from __future__ import annotations
+
+from collections.abc import Iterable, Sequence
+from copy import copy
+from itertools import combinations
+from typing import Any, TypeAlias
+
+from flint import (
+    Ordering,
+    fmpq,
+    fmpq_mat,
+    fmpq_mpoly,
+    fmpz,
+    fmpz_mpoly,
+    fmpz_mpoly_ctx,
+    fmpz_mpoly_vec,
+)
+
+from garkcli.design.groebner import groebner_basis
+from garkcli.exact.parametric import Parameters
+
+Exponents: TypeAlias = tuple[int, ...]
+UNIT = "_unit"
+"""The unknown that keeps a product from being zero: UNIT · product = 1."""
+
+
+class Ideal:
+    """An ideal of ℚ[t_1, …, t_k], with polynomials that are not to vanish.
+
+    Args:
+        ring: the parameters.
+        nonzero: polynomials whose zeros do not count.
+        deadline: the reading of ``time.monotonic`` at which bases are given up; None for never.
+
+    Attributes:
+        basis: a reduced Gröbner basis, primitive over ℤ; empty for the zero ideal.
+    """
+
+    def __init__(
+        self,
+        ring: Parameters,
+        nonzero: Sequence[fmpq_mpoly] = (),
+        deadline: float | None = None,
+    ) -> None:
+        self.ring = ring
+        self._deadline = deadline
+        self._has_unit = bool(nonzero)
+        names = [*ring.names, UNIT] if nonzero else list(ring.names)
+        self._context = fmpz_mpoly_ctx.get(names, Ordering.degrevlex)
+        self.basis: list[fmpz_mpoly] = []
+        if nonzero:
+            product = self._context.gen(len(names) - 1)
+            for polynomial in nonzero:
+                product *= self._integral(polynomial)
+            self.basis = [product - 1]
+
+    @property
+    def variables(self) -> int:
+        """How many unknowns the basis has, that of ``nonzero`` among them."""
+        return int(self._context.nvars())
+
+    def _integral(self, polynomial: fmpq_mpoly) -> fmpz_mpoly:
+        """A multiple of a polynomial over ℤ, in the context of the basis."""
+        terms = polynomial.to_dict()
+        denominator = fmpz(1)
+        for a in terms.values():
+            denominator = denominator.lcm(a.q)
+        tail = (0,) if self._has_unit else ()
+        whole = {(*e, *tail): (a * denominator).p for e, a in terms.items()}
+        return self._context.from_dict(whole)
+
+    def with_zeros(self, polynomials: Iterable[fmpq_mpoly]) -> Ideal:
+        """The ideal with further polynomials.
+
+        Raises:
+            NotDecided: its basis is beyond the limits.
+        """
+        new = []
+        for polynomial in polynomials:
+            rest = self._remainder(self._integral(polynomial))
+            if rest:
+                new.append(rest)
+        if not new or self.is_everything:
+            return self
+        grown = copy(self)
+        grown.basis = groebner_basis([*self.basis, *new], self._context, self._deadline)
+        return grown
+
+    def _remainder(self, polynomial: fmpz_mpoly) -> fmpz_mpoly:
+        if not self.basis or not polynomial:
+            return polynomial
+        vector = fmpz_mpoly_vec(self.basis, self._context)
+        dividend: Any = polynomial  # the types of python-flint lack the method
+        rest: fmpz_mpoly = dividend.reduction_primitive_part(vector)
+        return rest
+
+    def contains(self, polynomial: fmpq_mpoly) -> bool:
+        """Whether a polynomial vanishes wherever the ideal does, with multiplicity."""
+        return not self._remainder(self._integral(polynomial))
+
+    @property
+    def is_everything(self) -> bool:
+        """Whether the ideal has no zero, not even a complex one."""
+        return any(p.is_constant() for p in self.basis)
+
+    @property
+    def is_trivial(self) -> bool:
+        """Whether nothing is asked of the parameters."""
+        return len(self.basis) <= self._has_unit
+
+    @property
+    def polynomials(self) -> list[fmpz_mpoly]:
+        """The basis without what keeps denominators from vanishing."""
+        if not self._has_unit:
+            return self.basis
+        unit = self.variables - 1
+        return [p for p in self.basis if not p.degrees()[unit]]
+
+    @property
+    def dimension(self) -> int:
+        """The dimension of the set of its complex zeros; −1 where there are none.
+
+        It is the largest number of unknowns of which no monomial is a leading one.
+        """
+        if self.is_everything:
+            return -1
+        leading = [_support(p) for p in self.basis]
+        for size in range(self.variables, 0, -1):
+            for chosen in combinations(range(self.variables), size):
+                kept = set(chosen)
+                if not any(support <= kept for support in leading):
+                    return size
+        return 0
+
+    def quotient(self) -> list[fmpq_mat]:
+        """The algebra ℚ[t]/ideal: multiplication by each unknown as a matrix of its columns.
+
+        The ideal has dimension 0.
+        """
+        leading = [_leading(p) for p in self.basis]
+        monomials = _standard(leading, self.variables)
+        index = {e: k for k, e in enumerate(monomials)}
+        lower = [_monic(p) for p in self.basis]
+        matrices = []
+        for variable in range(self.variables):
+            columns = []
+            for e in monomials:
+                raised = (*e[:variable], e[variable] + 1, *e[variable + 1 :])
+                rest = _normal_form({raised: fmpq(1)}, lower)
+                column = [fmpq(0)] * len(monomials)
+                for exponents, a in rest.items():
+                    column[index[exponents]] = a
+                columns.append(column)
+            matrices.append(fmpq_mat(columns).transpose())
+        return matrices
+
+
+_Terms: TypeAlias = dict[Exponents, fmpq]
+
+
+def _leading(p: fmpz_mpoly) -> Exponents:
+    return tuple(int(x) for x in p.monoms()[0])
+
+
+def _support(p: fmpz_mpoly) -> set[int]:
+    """The unknowns in the leading monomial."""
+    return {i for i, exponent in enumerate(_leading(p)) if exponent}
+
+
+def _monic(p: fmpz_mpoly) -> tuple[Exponents, _Terms]:
+    """The leading monomial, and what it is equal to modulo p."""
+    first = _leading(p)
+    scale = fmpq(p.leading_coefficient())
+    rest = {}
+    for exponents, a in p.to_dict().items():
+        key = tuple(int(x) for x in exponents)
+        if key != first:
+            rest[key] = -fmpq(a) / scale
+    return first, rest
+
+
+def _standard(leading: Sequence[Exponents], variables: int) -> list[Exponents]:
+    """The monomials that no leading one divides, finitely many, the constant first."""
+    found: list[Exponents] = []
+    level = [(0,) * variables]
+    while level:
+        found += level
+        following: dict[Exponents, None] = {}
+        for e in level:
+            for i in range(variables):
+                raised = (*e[:i], e[i] + 1, *e[i + 1 :])
+                if not any(_divides(x, raised) for x in leading):
+                    following[raised] = None
+        level = list(following)
+    return found
+
+
+def _divides(a: Exponents, b: Exponents) -> bool:
+    return all(x <= y for x, y in zip(a, b, strict=True))
+
+
+def _normal_form(terms: _Terms, lower: Sequence[tuple[Exponents, _Terms]]) -> _Terms:
+    """The remainder of a polynomial on division by a monic Gröbner basis."""
+    rest: _Terms = {}
+    while terms:
+        exponents, a = terms.popitem()
+        for first, instead in lower:
+            if _divides(first, exponents):
+                shift = tuple(x - y for x, y in zip(exponents, first, strict=True))
+                for e, b in instead.items():
+                    place = tuple(x + y for x, y in zip(e, shift, strict=True))
+                    _accumulate(terms, place, a * b)
+                break
+        else:
+            _accumulate(rest, exponents, a)
+    return rest
+
+
+def _accumulate(terms: _Terms, place: Exponents, a: fmpq) -> None:
+    total = terms.get(place, fmpq(0)) + a
+    if total:
+        terms[place] = total
+    else:
+        terms.pop(place, None)

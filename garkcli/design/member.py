@@ -1,0 +1,73 @@
+"""One member of a family of methods: its tableau with values for the parameters."""
+
+from __future__ import annotations
+
+from collections.abc import Mapping
+from dataclasses import replace
+from typing import cast
+
+from flint import fmpq, fmpq_mpoly
+
+from garkcli.exact.field import ONE, ZERO, Number
+from garkcli.exact.matrix import Matrix, Vector
+from garkcli.exact.parametric import Parameters, Parametric
+from garkcli.tableau.point_space import PointSpace
+from garkcli.tableau.stages import StageSpace
+from garkcli.tableau.tableau import Tableau
+
+
+def member(tableau: Tableau, ring: Parameters, values: Mapping[str, Number]) -> Tableau:
+    """The tableau with every parameter replaced by its value.
+
+    Args:
+        tableau: entries are rational numbers and rational functions of the parameters.
+        ring: the parameters.
+        values: of each of them, all in one field.
+
+    Raises:
+        ZeroDivisionError: a denominator is zero there.
+    """
+    at = _At([values[name] for name in ring.names])
+    spaces = tuple(at.space(space) for space in tableau.spaces)
+    colours = tuple(
+        replace(colour, b=at.vector(colour.b), c=at.vector(colour.c))
+        for colour in tableau.colours
+    )
+    blocks = {key: at.matrix(block) for key, block in tableau.blocks.items()}
+    return Tableau(spaces, colours, blocks)
+
+
+class _At:
+    """Evaluates rational functions at one point."""
+
+    def __init__(self, values: list[Number]) -> None:
+        self.values = values
+
+    def space(self, space: StageSpace) -> StageSpace:
+        if isinstance(space, PointSpace):
+            return PointSpace(self.vector(space.points))
+        return space
+
+    def matrix(self, rows: Matrix) -> Matrix:
+        return tuple(self.vector(row) for row in rows)
+
+    def vector(self, row: Vector) -> Vector:
+        return tuple(self.number(x) for x in row)
+
+    def number(self, x: object) -> Number:
+        if not isinstance(x, Parametric):
+            return cast("fmpq", x)
+        denominator = self.polynomial(x.denominator)
+        if not denominator:
+            raise ZeroDivisionError(f"{x} has a pole there")
+        return self.polynomial(x.numerator) / denominator
+
+    def polynomial(self, polynomial: fmpq_mpoly) -> Number:
+        total: Number = ZERO
+        for exponents, a in polynomial.to_dict().items():
+            term: Number = ONE * fmpq(a)
+            for value, exponent in zip(self.values, exponents, strict=True):
+                for _ in range(int(exponent)):
+                    term = term * value
+            total = total + term
+        return total

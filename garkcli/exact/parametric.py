@@ -1,0 +1,167 @@
+"""Rational functions of parameters, as coefficients of a family of methods.
+
+A number here is a quotient of polynomials over ℚ in the parameters, in python-flint. What is
+rational is a plain ``fmpq``, so such numbers may stand wherever exact numbers do: zero is falsy,
+and a method with them goes through the same constructions as one with numbers.
+"""
+
+from __future__ import annotations
+
+from collections.abc import Sequence
+from typing import TypeAlias, cast
+
+from flint import Ordering, fmpq, fmpq_mpoly, fmpq_mpoly_ctx, fmpz
+
+Mixed: TypeAlias = "fmpq | Parametric"
+"""A rational number or a rational function."""
+
+
+class Parameters:
+    """The ring ℚ[t_1, …, t_k].
+
+    Args:
+        names: of the parameters.
+
+    >>> ring = Parameters(["t"])
+    >>> t = ring.parameter("t")
+    >>> (t * t - 1) / (t - 1) - t
+    1
+    """
+
+    def __init__(self, names: Sequence[str]) -> None:
+        self.names = tuple(names)
+        self.context = fmpq_mpoly_ctx.get(self.names, Ordering.lex)
+
+    def parameter(self, name: str) -> Parametric:
+        """A parameter as a number."""
+        index = self.names.index(name)
+        return Parametric(self, self.context.gen(index), self.constant(fmpq(1)))
+
+    def constant(self, number: fmpq) -> fmpq_mpoly:
+        """A number as a polynomial."""
+        return self.context.constant(number)
+
+    def quotient(self, numerator: fmpq_mpoly, denominator: fmpq_mpoly) -> Mixed:
+        """The quotient in lowest terms, its denominator with leading coefficient 1."""
+        common = numerator.gcd(denominator)
+        if not common.is_one():
+            numerator, denominator = numerator // common, denominator // common
+        leading = denominator.leading_coefficient()
+        if leading != 1:
+            numerator, denominator = numerator / leading, denominator / leading
+        if numerator.is_constant() and denominator.is_one():
+            return numerator.leading_coefficient() if numerator else fmpq(0)
+        return Parametric(self, numerator, denominator)
+
+
+class Parametric:
+    """A rational function that is not a plain number.
+
+    Attributes:
+        ring: of its parameters.
+        numerator: a polynomial.
+        denominator: a polynomial without common factor, with leading coefficient 1.
+    """
+
+    __slots__ = ("denominator", "numerator", "ring")
+
+    def __init__(
+        self, ring: Parameters, numerator: fmpq_mpoly, denominator: fmpq_mpoly
+    ) -> None:
+        self.ring = ring
+        self.numerator = numerator
+        self.denominator = denominator
+
+    def _parts(self, other: object) -> tuple[fmpq_mpoly, fmpq_mpoly] | None:
+        one = self.ring.constant(fmpq(1))
+        if isinstance(other, Parametric):
+            if other.ring is not self.ring:
+                raise TypeError("functions of different parameters")
+            return other.numerator, other.denominator
+        if isinstance(other, (fmpq, fmpz, int)):
+            return self.ring.constant(fmpq(other)), one
+        return None
+
+    def __add__(self, other: object) -> Mixed:
+        parts = self._parts(other)
+        if parts is None:
+            return NotImplemented
+        p, q = parts
+        if self.denominator == q:
+            return self.ring.quotient(self.numerator + p, q)
+        total = self.numerator * q + p * self.denominator
+        return self.ring.quotient(total, self.denominator * q)
+
+    __radd__ = __add__
+
+    def __neg__(self) -> Parametric:
+        return Parametric(self.ring, -self.numerator, self.denominator)
+
+    def __sub__(self, other: object) -> Mixed:
+        if self._parts(other) is None:
+            return NotImplemented
+        return self + (-cast("fmpq", other))
+
+    def __rsub__(self, other: object) -> Mixed:
+        return -self + other
+
+    def __mul__(self, other: object) -> Mixed:
+        parts = self._parts(other)
+        if parts is None:
+            return NotImplemented
+        p, q = parts
+        return self.ring.quotient(self.numerator * p, self.denominator * q)
+
+    __rmul__ = __mul__
+
+    def inverse(self) -> Mixed:
+        """1/self."""
+        return self.ring.quotient(self.denominator, self.numerator)
+
+    def __truediv__(self, other: object) -> Mixed:
+        parts = self._parts(other)
+        if parts is None:
+            return NotImplemented
+        p, q = parts
+        return self.ring.quotient(self.numerator * q, self.denominator * p)
+
+    def __rtruediv__(self, other: object) -> Mixed:
+        if self._parts(other) is None:
+            return NotImplemented
+        return self.inverse() * cast("fmpq", other)
+
+    def __pow__(self, exponent: int) -> Mixed:
+        base: Mixed = self if exponent >= 0 else self.inverse()
+        result: Mixed = fmpq(1)
+        for _ in range(abs(exponent)):
+            result = base * result
+        return result
+
+    def __bool__(self) -> bool:
+        return True  # zero is a plain number
+
+    def __eq__(self, other: object) -> bool:
+        if not isinstance(other, Parametric):
+            return False
+        same = self.numerator == other.numerator
+        return same and self.denominator == other.denominator
+
+    def __hash__(self) -> int:
+        return hash((str(self.numerator), str(self.denominator)))
+
+    def height_bits(self) -> int:
+        """Bits of its longest coefficient."""
+        coefficients = [*self.numerator.coeffs(), *self.denominator.coeffs()]
+        return max(int(a.height_bits()) for a in coefficients)
+
+    def __repr__(self) -> str:
+        if self.denominator.is_one():
+            return str(self.numerator)
+        return f"({self.numerator})/({self.denominator})"
+
+
+def fraction(number: object, ring: Parameters) -> tuple[fmpq_mpoly, fmpq_mpoly]:
+    """Numerator and denominator as polynomials, of a rational number too."""
+    if isinstance(number, Parametric):
+        return number.numerator, number.denominator
+    return ring.constant(cast("fmpq", number)), ring.constant(fmpq(1))

@@ -1,0 +1,235 @@
+"""Files with free parameters: families of methods, coefficients rational functions of them."""
+
+from __future__ import annotations
+
+from collections.abc import Mapping
+from dataclasses import dataclass
+from typing import Any, cast
+
+from flint import fmpq, fmpz_poly
+from yaml.nodes import Node
+
+from garkcli.errors import ExpressionError, LimitExceeded, MethodError
+from garkcli.exact.domain import Domain, perfect_root
+from garkcli.exact.field import Number
+from garkcli.exact.nodes import AlgebraicRoot, Expression, Name, Root
+from garkcli.exact.parametric import Parameters, Parametric, fraction
+from garkcli.exact.rewriting import roots_in
+from garkcli.exact.roots import RealRoot
+from garkcli.methodfile.load import NO_SETTINGS, built, described, read_method_text
+from garkcli.methodfile.numbers import Free, Numbers, Values
+from garkcli.methodfile.source import one_line
+from garkcli.tableau.family import Family, Radical
+
+MAX_DEGREE = 200
+"""Largest degree of a coefficient in the parameters."""
+ROOT = "_root"
+"""What the names of unknowns begin with that stand for radicals."""
+
+
+@dataclass(frozen=True, repr=False, kw_only=True)
+class FamilyFile(Family):
+    """One method file with free parameters, read.
+
+    Attributes:
+        source: the path as given.
+        text: the file as it was read.
+        settings: values that were given for other parameters.
+        places: where in the text the value of each parameter stands, from and to.
+    """
+
+    source: str
+    text: str
+    settings: Mapping[str, str]
+    places: Mapping[str, tuple[int, int]]
+
+
+def load_family(path: str, settings: Mapping[str, str] = NO_SETTINGS) -> FamilyFile:
+    """Read a method file with free parameters.
+
+    Raises:
+        MethodFileError: every fault of the file, with positions.
+        MethodError: it has no free parameter.
+    """
+    return loads_family(*read_method_text(path), settings)
+
+
+def loads_family(
+    text: str, source: str = "<text>", settings: Mapping[str, str] = NO_SETTINGS
+) -> FamilyFile:
+    r"""Read a method file with free parameters from its text.
+
+    Args:
+        text: of the file.
+        source: what to call it.
+        settings: values of parameters, by name, in place of those in the file.
+
+    Raises:
+        MethodFileError: every fault of the file, with positions.
+        MethodError: it has no free parameter.
+
+    >>> family = loads_family("parameters: {t: free}\nA: [[0, 0], [t, 0]]\nb: [0, 1]")
+    >>> family.tableau.block(0, 0)
+    ((0, 0), (t, 0))
+    """
+    reader, description = described(text, source, settings)
+    numbers = reader.numbers
+    if not numbers.free:
+        raise MethodError(
+            f"{source} has no free parameter",
+            "write parameters: {tau: free} in place of a value",
+        )
+    tableau, values = built(reader, description, FamilyValues)
+    ranges = {}
+    for name, free in numbers.free.items():
+        ranges[name] = _ends(free, values)
+    reader.source.close()
+    return FamilyFile(
+        source=source,
+        text=text,
+        name=one_line(description.name) or source,
+        tableau=tableau,
+        ring=values.domain.ring,
+        parameters=tuple(numbers.free),
+        ranges=ranges,
+        radicals=tuple(values.domain.radicals),
+        settings=settings,
+        places={name: _place(text, node) for name, node in numbers.places.items()},
+    )
+
+
+def _place(text: str, node: Node) -> tuple[int, int]:
+    """From where to where a value stands in the text of its file."""
+    start, end = node.start_mark.index, node.end_mark.index
+    return start, start + len(text[start:end].rstrip())
+
+
+def with_values(
+    family: FamilyFile, values: Mapping[str, str], head: str, claim: str
+) -> str:
+    """The text of a family's file with values for its parameters: that of a method.
+
+    Args:
+        family: as it was read.
+        values: of each free parameter, as text.
+        head: a comment to begin with, how the values were found.
+        claim: what the method is known to be, such as ``order: 4``; added where the file makes no
+            claims of its own.
+    """
+    text = family.text
+    given = {**family.settings, **values}
+    for name in sorted(given, key=lambda name: family.places[name], reverse=True):
+        start, end = family.places[name]
+        text = text[:start] + _scalar(given[name]) + text[end:]
+    lines = [f"# {line}" for line in head.splitlines()]
+    if "expect:" not in text:
+        text = f"{text.rstrip()}\nexpect: {{{claim}}}"
+    return "\n".join([*lines, text.rstrip()]) + "\n"
+
+
+def _scalar(value: str) -> str:
+    """A value as YAML has it in any place."""
+    is_plain = value.replace("/", "").replace("-", "").isdigit()
+    return value if is_plain else f'"{value}"'
+
+
+def _ends(free: Free, values: FamilyValues) -> tuple[fmpq | None, fmpq | None]:
+    ends = []
+    for entry in (free.smallest, free.largest):
+        value = None
+        if entry is not None:
+            value = values.plain(entry.expression)
+            if value is None:
+                message = f"{entry.where}: a rational number is expected"
+                values.numbers.source.fault(entry.node, message, "write [1/4, 1]")
+        ends.append(value)
+    smallest, largest = ends
+    return smallest, largest
+
+
+class FamilyValues(Values):
+    """The coefficients of a file as rational functions of its free parameters.
+
+    Radicals are unknowns of their own, with the relation that they satisfy.
+    """
+
+    def __init__(self, numbers: Numbers) -> None:
+        self.numbers = numbers
+        self.printed = ()
+        self._values: dict[int, Number] = {}
+        names = list(numbers.free)
+        self.domain = _FamilyDomain(names, [x.expression for x in numbers.entries])
+        known: dict[int, Number] = {}
+        for entry in numbers.entries:
+            key = id(entry.expression)
+            try:
+                if key not in known:
+                    known[key] = self.domain.evaluate(entry.expression)
+                self._values[id(entry)] = known[key]
+            except ExpressionError as error:
+                numbers.source.expression_fault(entry.node, entry.where, error)
+
+    def plain(self, expression: Expression) -> fmpq | None:
+        """The value of an expression where it is a rational number."""
+        if any(roots_in(expression)):
+            return None
+        try:
+            value = self.domain.evaluate(expression)
+        except ExpressionError:
+            return None
+        return value if isinstance(value, fmpq) else None
+
+
+class _FamilyDomain(Domain):
+    """Evaluates expressions to rational functions of parameters."""
+
+    def __init__(self, names: list[str], expressions: list[Expression]) -> None:
+        found: dict[Root | AlgebraicRoot, None] = {}
+        for expression in expressions:
+            found.update(dict.fromkeys(roots_in(expression)))
+        self._names = {root: f"{ROOT}{i}" for i, root in enumerate(found, start=1)}
+        self.ring = Parameters([*names, *self._names.values()])
+        self.radicals: list[Radical] = []
+        self._values = {}
+        self._are_real = True
+        self.field = None
+        for root in found:  # the inner ones first
+            self._values[root] = self._root(root)
+
+    def _root(self, root: Root | AlgebraicRoot) -> Number:
+        if isinstance(root, AlgebraicRoot):
+            return self._root_of_polynomial(root)
+        radicand = self.evaluate(root.radicand)
+        if isinstance(radicand, fmpq):
+            rational = perfect_root(root, radicand)
+            if rational is not None:
+                return rational
+        name = self._names[root]
+        unknown = self.ring.parameter(name)
+        relation = cast("Parametric", unknown**root.index - cast("Any", radicand))
+        is_even = root.index % 2 == 0
+        self.radicals.append(Radical(name, relation.numerator, is_positive=is_even))
+        return cast("Number", unknown)
+
+    def _root_of_polynomial(self, root: AlgebraicRoot) -> Number:
+        name = self._names[root]
+        unknown = self.ring.parameter(name).numerator
+        relation = self.ring.constant(fmpq(0))
+        for coefficient in reversed(root.coefficients):
+            relation = relation * unknown + coefficient
+        meant = RealRoot(fmpz_poly(list(root.coefficients)), root.number)
+        self.radicals.append(Radical(name, relation, meant=meant))
+        return cast("Number", self.ring.parameter(name))
+
+    def evaluate(self, expression: Expression) -> Number:
+        if isinstance(expression, Name):
+            return cast("Number", self.ring.parameter(expression.name))
+        return super().evaluate(expression)
+
+    def _power(self, number: Number, exponent: int, at: Expression) -> Number:
+        numerator, denominator = fraction(number, self.ring)
+        degree = numerator.total_degree() + denominator.total_degree()
+        if degree > 0 and degree * abs(exponent) > MAX_DEGREE:
+            message = f"a degree of more than {MAX_DEGREE} in the parameters"
+            raise LimitExceeded(message, "write it smaller", at.start, at.end)
+        return super()._power(number, exponent, at)

@@ -1,0 +1,104 @@
+"""``parameters`` of a method file: values, values given from outside, and those that are free."""
+
+from __future__ import annotations
+
+from yaml.nodes import MappingNode, Node, ScalarNode
+
+from garkcli.errors import ExpressionError, did_you_mean
+from garkcli.exact.expression import FUNCTIONS, parse
+from garkcli.exact.field import ZERO
+from garkcli.exact.nodes import Expression, Literal, Name
+from garkcli.methodfile.numbers import Entry, Free, Numbers
+from garkcli.methodfile.source import key_nodes, shortened
+
+
+def read_parameters(numbers: Numbers, node: Node | None) -> None:
+    """Read ``parameters`` into ``numbers``; each may use those before it.
+
+    The values are kept apart from the coefficients: one that no coefficient uses has no part in
+    their domain, but a faulty one is reported where it stands.
+    """
+    if node is None:
+        return
+    source = numbers.source
+    keys = key_nodes(node)
+    for name, value_node in source.mapping(node, "parameters", ()).items():
+        key = keys[name]
+        where = f"parameters: {name}"
+        value: Expression = Literal(ZERO)
+        if name in FUNCTIONS:
+            source.fault(key, f"{where} is a function already", "choose another name")
+        elif not name.isidentifier() or not name.isascii():
+            message = f"{where} cannot be the name of a parameter"
+            source.fault(key, message, "use letters, digits and _")
+        elif name in numbers.settings:
+            value = _given(numbers, name, value_node, where)
+        elif _is_free(value_node):
+            value = Name(name)
+            numbers.free[name] = _free(numbers, value_node, where)
+        else:
+            value = numbers.entry(value_node, where).expression
+            numbers.of_parameters.append(numbers.entries.pop())
+        numbers.define(name, value)
+        numbers.places[name] = value_node
+
+
+def _given(numbers: Numbers, name: str, node: Node, where: str) -> Expression:
+    """The value of a parameter that is given from outside of the file."""
+    text = numbers.settings[name]
+    try:
+        value = parse(text)
+    except ExpressionError as error:
+        message = f"{where} is set to {shortened(text)}: {error.message}"
+        numbers.source.fault(node, message, error.help)
+        return Literal(ZERO)
+    numbers.of_parameters.append(Entry(value, node, where))
+    return value
+
+
+def _is_free(node: Node) -> bool:
+    """Whether a parameter has no value: ``free``, or a mapping that says so."""
+    if isinstance(node, ScalarNode):
+        return bool(node.value == "free")
+    return isinstance(node, MappingNode)
+
+
+def _free(numbers: Numbers, node: Node, where: str) -> Free:
+    """A free parameter: ``free``, or ``{free: true, range: [1/4, 1]}``."""
+    if isinstance(node, ScalarNode):
+        return Free(node)
+    source = numbers.source
+    entries = source.mapping(node, where, ("free", "range"))
+    says_free = "free" in entries and source.scalar(entries["free"], where) == "true"
+    if not says_free:
+        cure = "write {free: true, range: [1/4, 1]}, or give it a value"
+        source.fault(node, f"{where} is a mapping that does not say free: true", cure)
+    if "range" not in entries:
+        return Free(node)
+    ends = source.items(entries["range"], f"{where}, range")
+    if len(ends) != 2:
+        message = f"{where}: a range has two ends"
+        source.fault(entries["range"], message, "write [1/4, 1]")
+        return Free(node)
+    smallest, largest = (numbers.entry(end, f"{where}, range") for end in ends)
+    del numbers.entries[-2:]  # they are no coefficients
+    return Free(node, smallest, largest)
+
+
+def refuse_free(numbers: Numbers) -> None:
+    """Note the parameters without a value: a method has one for each."""
+    for name, free in numbers.free.items():
+        message = f"parameters: {name} is free: the file describes a family of methods"
+        cure = f"gark design finds values; --set {name}=1/2 chooses one"
+        numbers.source.fault(free.node, message, cure)
+
+
+def refuse_unknown_settings(numbers: Numbers) -> None:
+    """Note values that are given for parameters that the file does not have."""
+    known = list(numbers.parameters)
+    for name in numbers.settings:
+        if name not in known:
+            cure = did_you_mean(name, known) if known else "it has no parameters"
+            numbers.source.fault(
+                None, f"no parameter {shortened(name)} to be set", cure
+            )

@@ -1,0 +1,145 @@
+"""``gark design`` for people."""
+
+from __future__ import annotations
+
+from collections.abc import Iterator, Sequence
+from itertools import groupby
+from textwrap import wrap
+
+from garkcli.design.design import Design, Found, Step
+from garkcli.design.solutions import value_at
+from garkcli.errors import counted
+from garkcli.exact.polynomial import Polynomial
+from garkcli.exact.polynomial_text import polynomial_text, root_decimal, root_text
+from garkcli.exact.roots import RealRoot
+from garkcli.report.plain import printable
+from garkcli.trees.notation import format_tree
+
+INDENT = " " * 17
+MAX_POLYNOMIALS = 12
+"""Most polynomials of a family that are shown; JSON has all."""
+_TIMES = {1: "", 2: "; a double solution", 3: "; a triple solution"}
+
+
+def render(source: str, design: Design, digits: int, width: int) -> str:
+    """The design as text.
+
+    Args:
+        source: the file.
+        design: what each order asks of the parameters.
+        digits: of numbers without simple radicals.
+        width: columns to fill.
+    """
+    family = design.family
+    lines = [printable(source), f"  {printable(family.name)}"]
+    unknowns = f"unknown {', '.join(family.parameters)}; order of the {design.whose}"
+    lines += wrap(unknowns, width, initial_indent="  ", subsequent_indent="  ")
+    lines.append("")
+    for _, group in groupby(design.steps, key=_kind_of):
+        steps = list(group)
+        lines += _of_steps(design, steps, digits, width)
+    return "\n".join(lines) + "\n"
+
+
+def _kind_of(step: Step) -> tuple[str, tuple[str, ...]]:
+    """What steps have in common that are shown as one."""
+    if step.ideal is None:
+        return step.kind, ()
+    return step.kind, tuple(map(str, step.ideal.polynomials))
+
+
+def _of_steps(
+    design: Design, steps: Sequence[Step], digits: int, width: int
+) -> Iterator[str]:
+    first, last = steps[0].order, steps[-1].order
+    orders = f"order {first}" if first == last else f"order {first} to {last}"
+    head = f"  {orders:<15}"
+    step = steps[-1]
+    match step.kind:
+        case "every-value":
+            yield f"{head}every value"
+        case "none":
+            yield f"{head}no value"
+            yield from _witness(design, step, width)
+        case "undecided":
+            yield f"{head}not decided in the time of --seconds"
+            yield f"{INDENT}values for some unknowns, by --set, make it decidable"
+        case "family":
+            yield f"{head}{_family(step)}"
+            yield from _polynomials(step, width)
+        case "solutions":
+            count = sum(x.solution.degree for x in step.found)
+            yield f"{head}{counted(count, 'solution')} of"
+            yield from _polynomials(step, width)
+            for found in step.found:
+                yield from _solutions(design, found, digits, width)
+
+
+def _witness(design: Design, step: Step, width: int) -> Iterator[str]:
+    assert step.witness is not None
+    text = "with the conditions before it, that of "
+    tree = format_tree(step.witness, colours=design.tableau.size > 1)
+    text += f"{tree} cannot be met, not even by complex values"
+    for line in wrap(text, width - len(INDENT)):
+        yield INDENT + line
+
+
+def _family(step: Step) -> str:
+    assert step.ideal is not None
+    dimension = step.ideal.dimension
+    return f"a family of dimension {dimension}: the zeros, real and complex, of"
+
+
+def _polynomials(step: Step, width: int) -> Iterator[str]:
+    assert step.ideal is not None
+    polynomials = step.ideal.polynomials
+    for p in polynomials[:MAX_POLYNOMIALS]:
+        indent = INDENT + "  "
+        yield from wrap(
+            str(p), width, initial_indent=indent, subsequent_indent=indent + "  "
+        )
+    more = len(polynomials) - MAX_POLYNOMIALS
+    if more > 0:
+        yield f"{INDENT}  and {counted(more, 'polynomial')} more, see --format json"
+
+
+def _solutions(design: Design, found: Found, digits: int, width: int) -> Iterator[str]:
+    solution = found.solution
+    times = _TIMES.get(solution.multiplicity, f"; {solution.multiplicity} times")
+    for index, root in enumerate(solution.real):
+        yield f"{INDENT}{_verdict(design, found, index)}{times}"
+        for name in design.family.parameters:
+            value = value_at(solution.values[name], root)
+            yield from _value(name, value, digits, width)
+    others = solution.degree - len(solution.real)
+    if others:
+        noun = "solution" if others == 1 else "solutions"
+        yield f"{INDENT}{others} {noun} not real{times}"
+
+
+def _verdict(design: Design, found: Found, index: int) -> str:
+    if found.order is None:
+        return "no method: a weight or a denominator is zero there"
+    if index not in found.accepted:
+        return "not of this file: outside of a range, or another sign of a root"
+    least = "at least " if found.order.is_lower_bound else ""
+    order = f"{least}{found.order.order}"
+    return f"order {order} of the {design.whose}, by a certificate of its own"
+
+
+def _value(name: str, value: RealRoot, digits: int, width: int) -> Iterator[str]:
+    indent = INDENT + "  "
+    text = f"{name} = {_number(value, digits)}"
+    yield from wrap(text, width, initial_indent=indent, subsequent_indent=indent + "  ")
+
+
+def _number(value: RealRoot, digits: int) -> str:
+    """Radicals where there are simple ones; else decimals and the polynomial."""
+    simple = root_text(value)
+    if value.exact is not None:
+        return str(simple)
+    decimals = root_decimal(value, digits)
+    if simple is not None:
+        return f"{simple} = {decimals}…"
+    polynomial = polynomial_text(Polynomial.from_flint(value.polynomial), "x")
+    return f"{decimals}…, a root of {polynomial}"

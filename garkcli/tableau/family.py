@@ -1,0 +1,53 @@
+"""Families of methods: tableaus whose entries are rational functions of parameters."""
+
+from __future__ import annotations
+
+from collections.abc import Mapping
+from dataclasses import dataclass
+
+from flint import fmpq, fmpq_mpoly
+
+from garkcli.exact.parametric import Parameters
+from garkcli.exact.roots import RealRoot
+from garkcli.tableau.tableau import Tableau
+
+
+@dataclass(frozen=True)
+class Radical:
+    """A root among the coefficients of a family: an unknown of its own.
+
+    Attributes:
+        name: of the unknown.
+        relation: a polynomial that is zero at it.
+        is_positive: whether only its positive zero is meant: that of an even root.
+        meant: the zero that is meant, where it is one of several real ones.
+    """
+
+    name: str
+    relation: fmpq_mpoly
+    is_positive: bool = False
+    meant: RealRoot | None = None
+
+
+@dataclass(frozen=True, repr=False, kw_only=True)
+class Family:
+    """A family of methods.
+
+    Attributes:
+        name: what people call it.
+        tableau: its entries are rational numbers and ``Parametric`` ones.
+        ring: the parameters, after them unknowns for radicals.
+        parameters: the names of the free parameters.
+        ranges: for each the least and the greatest value it may have, None where there is none.
+        radicals: the roots among the coefficients.
+    """
+
+    name: str
+    tableau: Tableau
+    ring: Parameters
+    parameters: tuple[str, ...]
+    ranges: Mapping[str, tuple[fmpq | None, fmpq | None]]
+    radicals: tuple[Radical, ...]
+
+    def __repr__(self) -> str:
+        return f"<Family {self.name}: {', '.join(self.parameters)}>"

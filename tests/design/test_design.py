@@ -1,0 +1,296 @@
+"""``gark design``: for which values of its parameters a method has an order."""
+
+from __future__ import annotations
+
+import json
+from collections.abc import Mapping
+from fractions import Fraction
+from itertools import product
+from pathlib import Path
+
+import pytest
+from flint import fmpq
+from hypothesis import given, settings
+from hypothesis import strategies as st
+
+from garkcli import find_order, loads, pair
+from garkcli.design.chosen import first_method
+from garkcli.design.design import Design, find_parameters
+from garkcli.design.solutions import value_at
+from garkcli.methodfile.family import loads_family, with_values
+from garkcli.report import design_data
+from tests.cli.harness import gark
+
+TAU = """parameters: {{tau: free}}
+methods:
+  - {{family: {}, stages: {}}}
+  - {{family: {}, stages: {}}}
+transfer: {{interpolation: tau, collocation: 1 - tau}}
+"""
+SDIRK2 = "parameters: {g: free}\nA: [[g, 0], [1 - 2*g, g]]\nb: [1/2, 1/2]\n"
+SDIRK3 = """parameters: {g: free, a: free, b: free, c: free, u: free, v: free, w: free}
+A: [[g, 0, 0], [a, g, 0], [b, c, g]]
+b: [u, v, w]
+"""
+EXPLICIT3 = """parameters: {c2: free, c3: free, a32: free, b2: free, b3: free}
+A: [[0, 0, 0], [c2, 0, 0], [c3 - a32, a32, 0]]
+b: [1 - b2 - b3, b2, b3]
+"""
+FULL2 = """parameters: {a: free, b: free, c: free, d: free, u: free, v: free}
+A: [[a, b], [c, d]]
+b: [u, v]
+"""
+
+
+def kinds(found: Design) -> list[str]:
+    """The verdict of each order."""
+    return [step.kind for step in found.steps]
+
+
+def decimals(found: Design, order: int) -> list[dict[str, float]]:
+    """The real solutions of one order."""
+    (step,) = [x for x in found.steps if x.order == order]
+    made = []
+    for one in step.found:
+        for root in one.solution.real:
+            values = {
+                name: float(value_at(one.solution.values[name], root).ball(80))
+                for name in found.family.parameters
+            }
+            made.append(values)
+    return made
+
+
+@pytest.mark.parametrize(
+    ("families", "wanted"),
+    [
+        (("gauss", 2, "lobatto-iiia", 3), ["every-value"] * 4 + ["none"]),
+        (
+            ("gauss", 2, "lobatto-iiia", 4),
+            ["every-value"] * 2 + ["solutions"] * 2 + ["none"],
+        ),
+        (
+            ("gauss", 3, "lobatto-iiia", 5),
+            ["every-value"] * 4 + ["solutions"] * 2 + ["none"],
+        ),
+        (
+            ("radau-iia", 2, "lobatto-iiia", 3),
+            ["every-value"] * 2 + ["solutions", "none"],
+        ),
+    ],
+)
+def test_combinations(families: tuple[object, ...], wanted: list[str]) -> None:
+    """Which τ combine collocation and interpolation to a pair of an order; τ = 1 is a double
+    solution where one is needed, and orders at other τ are those of ``gark check``.
+    """
+    text = TAU.format(*families)
+    found = find_parameters(loads_family(text), whose="pair")
+    assert kinds(found) == wanted
+    for step in found.steps:
+        for one in step.found:
+            assert (one.solution.values, one.solution.multiplicity) == ({"tau": 1}, 2)
+    generic = wanted.count("every-value")
+    for tau in ("0", "1/3", "-2"):
+        method = loads(text, settings={"tau": tau})
+        assert find_order(pair(method)).order == generic
+    best = find_order(pair(loads(text, settings={"tau": "1"}))).order
+    assert best == len(wanted) - 1
+
+
+def test_sdirk_of_two_stages() -> None:
+    """Order 3 for both γ = 1/2 ± √3/6 and no other, order 4 for none (Nørsett)."""
+    found = find_parameters(loads_family(SDIRK2))
+    assert kinds(found) == ["every-value", "every-value", "solutions", "none"]
+    (one,) = found.steps[2].found
+    assert str(found.steps[2].ideal.polynomials) == "[6*g^2 - 6*g + 1]"  # type: ignore[union-attr]
+    assert (len(one.solution.real), one.accepted) == (2, (0, 1))
+    assert one.order is not None
+    assert one.order.order == 3
+
+
+def test_sdirk_of_three_stages() -> None:
+    """Order 4 for the three γ that solve 24γ³ − 36γ² + 12γ − 1 = 0, all coefficients unknown."""
+    found = find_parameters(loads_family(SDIRK3), 4)
+    gammas = [values["g"] for values in decimals(found, 4)]
+    for gamma, known in zip(
+        gammas, (0.128886400516, 0.302534578183, 1.068579021302), strict=True
+    ):
+        assert gamma == pytest.approx(known, abs=1e-11)
+    (one,) = found.last.found
+    assert str(one.solution.values["g"].field.modulus.degree()) == "3"  # type: ignore[union-attr]
+    assert one.order is not None
+    assert (one.order.order, one.solution.multiplicity) == (4, 1)
+
+
+def test_gauss_from_nothing() -> None:
+    """Two stages of order 4 are Gauss's method, in both orders of its stages."""
+    found = find_parameters(loads_family(FULL2), 4)
+    assert [x.solution.degree for x in found.last.found] == [2]
+    for values in decimals(found, 4):
+        nodes = sorted([values["a"] + values["b"], values["c"] + values["d"]])
+        assert nodes == pytest.approx([0.211324865405, 0.788675134595])
+        assert values["u"] == pytest.approx(0.5)
+
+
+def test_explicit_methods_of_three_stages() -> None:
+    """Order 3 is a family of dimension 2, order 4 is none; chosen nodes leave one method."""
+    found = find_parameters(loads_family(EXPLICIT3), 4)
+    assert kinds(found) == ["every-value", "family", "family", "none"]
+    assert [step.ideal.dimension for step in found.steps[:3] if step.ideal] == [5, 4, 2]
+    chosen = find_parameters(
+        loads_family(EXPLICIT3, settings={"c2": "1/3", "c3": "2/3"}), 3
+    )
+    (one,) = chosen.last.found
+    assert one.solution.values == {"a32": fmpq(2, 3), "b2": 0, "b3": fmpq(3, 4)}
+
+
+def test_splitting_of_four_stages() -> None:
+    """All real splittings of order 4 with four maps a part: Forest's and Ruth's, both ways."""
+    names = [f"{letter}{i}" for letter in "ab" for i in range(1, 5)]
+    rows_q = [[f"a{j}" if j < i else "0" for j in range(1, 5)] for i in range(1, 5)]
+    rows_p = [[f"b{j}" if j <= i else "0" for j in range(1, 5)] for i in range(1, 5)]
+
+    def text(rows: list[list[str]]) -> str:
+        return "[" + ", ".join(f"[{', '.join(row)}]" for row in rows) + "]"
+
+    method = f"""parameters: {{{", ".join(f"{x}: free" for x in names)}}}
+prk:
+  q: {{A: {text(rows_q)}, b: [a1, a2, a3, a4]}}
+  p: {{A: {text(rows_p)}, b: [b1, b2, b3, b4]}}
+structure: separable
+"""
+    found = find_parameters(loads_family(method), 4)
+    real = decimals(found, 4)
+    forest_ruth = 1 / (2 - 2 ** (1 / 3))
+    drifts = sorted(round(values["a1"], 10) for values in real)
+    assert drifts == [round(forest_ruth / 2, 10), round(forest_ruth, 10)]
+    assert sum(x.solution.degree for x in found.last.found) == 10
+
+
+def test_radicals_beside_unknowns() -> None:
+    """√3 is an unknown with its sign: one of both γ goes with it."""
+    found = find_parameters(
+        loads_family(
+            "parameters: {t: free}\nA: [[t, 0], [sqrt(3)/3, t]]\nb: [1/2, 1/2]\n"
+        )
+    )
+    (one,) = found.steps[2].found
+    assert (len(one.solution.real), one.accepted) == (2, (0,))
+    (value,) = [x["t"] for x in decimals(found, 3)][:1]
+    assert value == pytest.approx(0.211324865405)
+
+
+def test_ranges() -> None:
+    """Solutions outside of a range are told and not taken."""
+    ranged = SDIRK2.replace("g: free", "g: {free: true, range: [1/2, 1]}")
+    (one,) = find_parameters(loads_family(ranged), 3).last.found
+    assert one.accepted == (1,)
+    chosen = first_method(find_parameters(loads_family(ranged), 3))
+    assert chosen is not None
+    assert chosen.values == {"g": "1/2 + sqrt(3)/6"}
+
+
+@pytest.mark.parametrize(
+    "text", [SDIRK2, SDIRK3, TAU.format("gauss", 2, "lobatto-iiia", 4)]
+)
+def test_what_is_found_is_a_method_file(text: str) -> None:
+    """The file with the values filled in is read again and has its claim."""
+    family = loads_family(text)
+    order = 4 if text is SDIRK3 else 3
+    chosen = first_method(
+        find_parameters(family, order, "method" if "A:" in text else "pair")
+    )
+    assert chosen is not None
+    claim = f"order: {chosen.order}" if "A:" in text else f"pair-order: {chosen.order}"
+    method = loads(with_values(family, chosen.values, "found", claim))
+    assert [x.key for x in method.claims] == [claim.split(":")[0]]
+    whole = method if "A:" in text else pair(method)
+    assert find_order(whole).order == chosen.order
+
+
+_ENTRY = st.tuples(st.integers(-2, 2), st.integers(-2, 2))
+
+
+def _text(entries: list[tuple[int, int]], weight: Fraction) -> str:
+    parts = [f"{a}/2 + {b}/3*t" for a, b in entries]
+    return (
+        f"parameters: {{t: free}}\nA: [[{parts[0]}, {parts[1]}], [{parts[2]}, {parts[3]}]]\n"
+        f"b: [{weight}, 1 - {weight}]\n"
+    )
+
+
+@settings(max_examples=40)
+@given(
+    st.lists(_ENTRY, min_size=4, max_size=4),
+    st.fractions(Fraction(1, 4), Fraction(3, 4), max_denominator=4),
+    st.fractions(-2, 2, max_denominator=3),
+)
+def test_random_families(
+    entries: list[tuple[int, int]], weight: Fraction, t: Fraction
+) -> None:
+    """A member has the order exactly where the ideal vanishes: at a random value and at rational
+    solutions.
+    """
+    text = _text(entries, weight)
+    found = find_parameters(loads_family(text))
+    values: dict[str, Mapping[str, object]] = {
+        str(t): {"t": fmpq(t.numerator, t.denominator)}
+    }
+    for step, one in product(found.steps, [0]):
+        for solution in step.found[one:]:
+            if solution.solution.field is None:
+                value = solution.solution.values["t"]
+                values[str(value)] = {"t": value}
+    for text_of_t, value in values.items():
+        order = find_order(loads(text, settings={"t": text_of_t})).order
+        for step in found.steps:
+            if step.ideal is None:
+                continue
+            zero = all(not _at(p, value["t"]) for p in step.ideal.polynomials)
+            assert (order >= step.order) == zero
+
+
+def _at(polynomial: object, t: object) -> object:
+    total: object = fmpq(0)
+    for exponents, a in polynomial.to_dict().items():  # type: ignore[attr-defined]
+        total += fmpq(a) * t ** int(exponents[0])  # type: ignore[operator]
+    return total
+
+
+def test_too_little_time() -> None:
+    """Twelve unknowns without structure are left undecided, with what would help."""
+    names = [f"a{i}{j}" for i in range(3) for j in range(3)]
+    rows = [f"[{', '.join(names[3 * i : 3 * i + 3])}]" for i in range(3)]
+    text = (
+        f"parameters: {{{', '.join(f'{x}: free' for x in [*names, 'u', 'v', 'w'])}}}\n"
+    )
+    text += f"A: [{', '.join(rows)}]\nb: [u, v, w]\n"
+    found = find_parameters(loads_family(text), 6, seconds=0.5)
+    assert kinds(found)[-1] == "undecided"
+
+
+def test_as_a_command(tmp_path: Path) -> None:
+    """Text, JSON, exit codes, --set and --emit."""
+    path = tmp_path / "sdirk.yaml"
+    path.write_text(SDIRK2, encoding="utf-8")
+    run = gark("design", str(path))
+    assert run.code == 0
+    assert "g = 1/2 + sqrt(3)/6 = 0.788675134595…" in run.out
+    data = json.loads(gark("design", str(path), "--order", "3", "--format", "json").out)
+    assert (data["verdict"], data["ideal"]) == ("solutions", ["6*g^2 - 6*g + 1"])
+    assert [x["order"] for x in data["solutions"]] == [3, 3]
+    assert data["schema"] == design_data.SCHEMA
+    assert gark("design", str(path), "--order", "4").code == 1
+    made = tmp_path / "made.gark.yaml"
+    assert gark("design", str(path), "--emit", str(made)).code == 0
+    assert gark("check", str(made)).code == 0
+    fixed = gark("design", str(path), "--set", "g=1/2")
+    assert (fixed.code, "no free parameter" in fixed.err) == (2, True)
+    wrong = gark("design", str(path), "--set", "h=1/2")
+    assert (wrong.code, "no parameter 'h'" in wrong.err) == (2, True)
+    assert gark("design", str(path), "--set", "g").code == 2
+    refused = gark("check", str(path))
+    assert (refused.code, "gark design finds values" in refused.out + refused.err) == (
+        2,
+        True,
+    )
