@@ -6,10 +6,10 @@ from collections.abc import Sequence
 from dataclasses import dataclass
 from typing import TYPE_CHECKING, Any
 
-from flint import arb, ctx
+from flint import arb, ctx, fmpq
 
 from garkcli.exact.cells import Interval
-from garkcli.exact.display import decimal, to_text
+from garkcli.exact.display import decimal, plain_decimal, to_text
 from garkcli.exact.polynomial import Polynomial
 from garkcli.exact.polynomial_text import (
     BITS_A_DIGIT,
@@ -19,6 +19,7 @@ from garkcli.exact.polynomial_text import (
 )
 from garkcli.exact.roots import RealRoot
 from garkcli.report.exactly import root_data
+from garkcli.stability.bounds import Bounds
 from garkcli.stability.linear import StabilityFunction
 from garkcli.stability.oscillator import OscillatorStability
 from garkcli.stability.sector import Sector
@@ -29,6 +30,10 @@ from garkcli.stability.two_frequencies import TwoFrequencies
 
 if TYPE_CHECKING:
     from garkcli.stability.springs_plane import SpringsPlane
+
+
+PLACES = fmpq(10) ** 20
+"""Decimal places of bounds."""
 
 
 @dataclass(frozen=True)
@@ -80,7 +85,7 @@ def as_data(report: StabilityReport) -> dict[str, Any]:
     if found.oscillator is not None:
         data |= _oscillator_data(found.oscillator, digits)
     data["algebraically_stable"] = (
-        None if found.algebraic is None else found.algebraic.holds
+        found.algebraic_within if found.algebraic is None else found.algebraic.holds
     )
     return data
 
@@ -96,6 +101,29 @@ def _ratio_data(
 
 
 def _linear_data(found: LinearStability, digits: int) -> dict[str, Any]:
+    within = found.within
+    data = _exact_data(found, digits)
+    if within is not None:
+        data["real_interval"] = _bounds_data(within.real)
+        data["imaginary_interval"] = _bounds_data(within.imaginary)
+        data["ssp"] = _bounds_data(within.ssp)
+    return data
+
+
+def _bounds_data(found: Bounds) -> Any:
+    """Bounds, rounded outwards; null where none is known."""
+    low, high = found.low, found.high
+    if low is None:
+        return {"at_least": "infinity", "at_most": None}
+    down = fmpq((low * PLACES).floor()) / PLACES
+    up = None if high is None else fmpq((high * PLACES).ceil()) / PLACES
+    return {
+        "at_least": plain_decimal(down),
+        "at_most": None if up is None else plain_decimal(up),
+    }
+
+
+def _exact_data(found: LinearStability, digits: int) -> dict[str, Any]:
     R: StabilityFunction = found.R
     limit = R.at_infinity()
     return {

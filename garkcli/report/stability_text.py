@@ -15,6 +15,7 @@ from garkcli.report.stability_data import StabilityReport, degrees, factors
 from garkcli.report.stability_region import region_lines
 from garkcli.report.stability_words import (
     WIDTH,
+    bounds_text,
     decided,
     equation,
     imaginary_text,
@@ -33,6 +34,7 @@ from garkcli.stability.sector import Sector
 from garkcli.stability.slow_interval import SlowInterval
 from garkcli.stability.summary import LinearStability, Stability
 from garkcli.stability.two_frequencies import TwoFrequencies
+from garkcli.stability.within import StabilityWithin
 
 
 def text_of(report: StabilityReport, paint: Paint) -> Iterator[str]:
@@ -63,6 +65,7 @@ def text_of(report: StabilityReport, paint: Paint) -> Iterator[str]:
         yield ""
         yield from _linear_text(linear, len(found.linear) > 1, report.digits, paint)
     if within is not None:
+        yield from _rounded_text(found, paint)
         return
     if found.linear:
         yield ""
@@ -89,6 +92,8 @@ def _linear_text(
     if found.real is None or found.imaginary is None:
         yield from line("A-stable", decided(found.a_stable, paint))
         yield from line("L-stable", decided(found.l_stable, paint))
+        if found.within is not None:
+            yield from _within_text(found.within, digits)
         return
     R = found.R
     yield from line("R(z)", quotient(R.numerator, R.denominator, "z"))
@@ -232,3 +237,20 @@ def _slow_text(found: SlowInterval, digits: int, paint: Paint) -> Iterator[str]:
         single = f"x = {number(x, digits)} alone, a root of {minimal_text(x, 'x')}"
         yield from line("not decided", single)
     yield from line("stable for all x > 0", decided(found.is_stable_for_all, paint))
+
+
+def _within_text(found: StabilityWithin, digits: int) -> Iterator[str]:
+    """What is known of rounded coefficients besides A- and L-stability."""
+    yield from line("real axis", bounds_text(found.real, digits, "−z ≤ "))
+    yield from line("imaginary axis", bounds_text(found.imaginary, digits, "y² ≤ "))
+    yield from line("SSP coefficient", bounds_text(found.ssp, digits))
+
+
+def _rounded_text(found: Stability, paint: Paint) -> Iterator[str]:
+    """The rest for rounded coefficients."""
+    yield ""
+    if not found.linear:
+        yield "  oscillator: not decided for rounded coefficients"
+        return
+    yield f"  {paint('strong', 'nonlinear')}"
+    yield from line("algebraically stable", decided(found.algebraic_within, paint))

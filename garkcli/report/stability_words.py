@@ -6,6 +6,8 @@ import re
 from collections.abc import Sequence
 from textwrap import wrap
 
+from flint import arb
+
 from garkcli.exact.cells import Interval
 from garkcli.exact.field import Algebraic
 from garkcli.exact.nodes import AlgebraicRoot, Expression
@@ -20,6 +22,7 @@ from garkcli.exact.rewriting import format_expression
 from garkcli.exact.roots import RealRoot
 from garkcli.report.paint import Paint, indented
 from garkcli.report.stability_data import square_root
+from garkcli.stability.bounds import Bounds
 from garkcli.stability.ssp import SspCoefficient
 from garkcli.tableau.tableau import Tableau
 
@@ -176,3 +179,22 @@ def interval_text(interval: Interval, digits: int) -> str:
 def decided(holds: bool | None, paint: Paint) -> str:
     """A verdict, or that there is none."""
     return "not decided" if holds is None else paint.verdict(holds)
+
+
+def bounds_text(found: Bounds, digits: int, before: str = "") -> str:
+    """A number that is known between bounds: the digits that are certain."""
+    low, high = found.low, found.high
+    if low is None:
+        return "no limit"
+    if high is None:
+        beyond = f" beyond {before}{_digits(arb(low), digits)}" if low > 0 else ""
+        return f"not decided{beyond}"
+    if low == high:
+        return f"{before}{low}"
+    middle, radius = (low + high) / 2, (high - low) / 2
+    return before + _digits(arb(middle, radius), digits)
+
+
+def _digits(ball: arb, digits: int) -> str:
+    """Zeros at the end are kept: they say how much is known."""
+    return str(ball.str(digits, radius=False))

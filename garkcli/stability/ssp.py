@@ -94,7 +94,7 @@ def _radius(
     colours = range(exact.size)
     if any(exact.block(l, m) is None for l in colours for m in colours):
         return None
-    whole, parts = _stacked(exact, ratios)
+    whole, parts = stacked(exact, ratios)
     smallest: RealRoot | None = None
     for condition in _conditions(whole, [parts[l] for l in driven]):
         failing = _first_failure(condition)
@@ -103,7 +103,7 @@ def _radius(
     return SspCoefficient(smallest)
 
 
-def _stacked(tableau: Tableau, ratios: Sequence[Number]) -> tuple[Matrix, list[Matrix]]:
+def stacked(tableau: Tableau, ratios: Sequence[Number]) -> tuple[Matrix, list[Matrix]]:
     """Σ ratio_l K_l and the K_l, on all stages of all spaces and the new value after them.
 
     K_l has the columns of colour l only; stages that colours share are one row.

@@ -13,6 +13,7 @@ from garkcli.exact.field import ONE, ZERO, Number
 from garkcli.exact.polynomial import Polynomial
 from garkcli.problems.oscillator import Oscillator, terms_of
 from garkcli.stability.algebraic import AlgebraicStability, algebraic_stability
+from garkcli.stability.algebraic_within import algebraic_within
 from garkcli.stability.colours import Colours, several_colours
 from garkcli.stability.linear import (
     StabilityFunction,
@@ -26,7 +27,7 @@ from garkcli.stability.linear import (
 from garkcli.stability.oscillator import OscillatorStability, oscillator_stability
 from garkcli.stability.sector import Sector, largest_sector
 from garkcli.stability.ssp import SspCoefficient, ssp_coefficient
-from garkcli.stability.within import stability_within
+from garkcli.stability.within import StabilityWithin, stability_within
 from garkcli.tableau.tableau import Tableau
 
 
@@ -43,6 +44,7 @@ class LinearStability:
         sector: the sector of A(α)-stability; None where it is not decided.
         real: the x ≥ 0 with |R(−x)| ≤ 1.
         imaginary: the x = y² ≥ 0 with |R(iy)| ≤ 1.
+        within: what is known of rounded coefficients; None for exact ones.
         ssp: the SSP coefficient, the vector fields of the others being 0; None where it is not
             decided.
     """
@@ -56,6 +58,7 @@ class LinearStability:
     real: tuple[Interval, ...] | None
     imaginary: tuple[Interval, ...] | None
     ssp: SspCoefficient | None
+    within: StabilityWithin | None = None
 
 
 @dataclass(frozen=True)
@@ -70,6 +73,8 @@ class Stability:
         algebraic: algebraic stability; None where it has no meaning.
         tolerance: the rounding within which it holds; None where it holds exactly.
         colours: the colours, each with a z of its own; None for one colour or rounded ones.
+        algebraic_within: algebraic stability of all methods within the tolerance; None where that
+            is not decided.
     """
 
     tableau: Tableau
@@ -78,6 +83,7 @@ class Stability:
     algebraic: AlgebraicStability | None
     tolerance: fmpq | None = None
     colours: Colours | None = None
+    algebraic_within: bool | None = None
 
     @property
     def kind(self) -> str:
@@ -112,7 +118,7 @@ def stability(
 
 
 def stability_of_rounded(tableau: Tableau, tolerance: fmpq) -> Stability:
-    """What holds for all methods within a tolerance: A- and L-stability, where they are decided.
+    """What holds for all methods within a tolerance, where that is decided.
 
     Args:
         tableau: the method.
@@ -135,9 +141,13 @@ def stability_of_rounded(tableau: Tableau, tolerance: fmpq) -> Stability:
             real=None,
             imaginary=None,
             ssp=None,
+            within=decided,
         )
         found.append(one)
-    return Stability(tableau, tuple(found), None, None, tolerance)
+    algebraic = algebraic_within(tableau, tolerance) if found else None
+    return Stability(
+        tableau, tuple(found), None, None, tolerance, algebraic_within=algebraic
+    )
 
 
 def _linear(tableau: Tableau) -> tuple[LinearStability, ...]:

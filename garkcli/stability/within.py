@@ -18,6 +18,8 @@ from garkcli.exact.field import ONE, ZERO, Number
 from garkcli.exact.matrix import Matrix, Vector
 from garkcli.exact.roots import sign
 from garkcli.graph import components
+from garkcli.stability.bounds import OPEN, Bounds, first_failure
+from garkcli.stability.ssp_within import ssp_within
 from garkcli.stability.step_function import StageSystem, stage_system
 from garkcli.tableau.tableau import Tableau
 
@@ -34,16 +36,22 @@ class StabilityWithin:
     Attributes:
         a_stable: A-stability.
         l_stable: A-stability with R(∞) = 0.
+        real: the end of the interval of −z with |R(z)| ≤ 1 that begins at 0.
+        imaginary: the end of the interval of y² with |R(iy)| ≤ 1 that begins at 0.
+        ssp: the SSP coefficient.
     """
 
     a_stable: bool | None
     l_stable: bool | None
+    real: Bounds
+    imaginary: Bounds
+    ssp: Bounds
 
 
 def stability_within(
     tableau: Tableau, shares: Sequence[Number], tolerance: fmpq, order: int
 ) -> StabilityWithin:
-    """A- and L-stability of a method with rounded coefficients.
+    """What is decided of R and of the SSP coefficient of a method with rounded coefficients.
 
     Args:
         tableau: the method, one coordinate a stage.
@@ -63,7 +71,11 @@ def stability_within(
             right = None  # the root on the left may cancel and be no pole
         a_stable = _both(bounded, right)
         return StabilityWithin(
-            a_stable, _both(a_stable, _vanishes_at_infinity(P, Q, stiff))
+            a_stable=a_stable,
+            l_stable=_both(a_stable, _vanishes_at_infinity(P, Q, stiff)),
+            real=_real_end(P, Q),
+            imaginary=_imaginary_end(P, Q, order),
+            ssp=ssp_within(tableau, shares, tolerance),
         )
     finally:
         ctx.prec = before
@@ -144,10 +156,7 @@ def _widened(row: Vector, counts: Vector, tolerance: fmpq) -> list[arb]:
 
 def _is_bounded(P: list[arb], Q: list[arb], order: int, stiff: bool) -> bool | None:
     """Whether |R(iy)| ≤ 1 for all real y."""
-    E = _difference(_squared(Q), _squared(P))
-    for k in range(min(order // 2 + 1, len(E))):
-        if E[k].contains(0):
-            E[k] = arb(0)
+    E = _margin(P, Q, order)
     while E and E[-1].is_zero():
         E.pop()
     first = next((k for k, a in enumerate(E) if not a.is_zero()), None)
@@ -159,6 +168,31 @@ def _is_bounded(P: list[arb], Q: list[arb], order: int, stiff: bool) -> bool | N
     if stiff and rest[-1].contains(0):
         return None
     return _is_positive(rest)
+
+
+def _margin(P: list[arb], Q: list[arb], order: int) -> list[arb]:
+    """The coefficients of E in y²; those that are zero by the order are zero."""
+    E = _difference(_squared(Q), _squared(P))
+    for k in range(min(order // 2 + 1, len(E))):
+        if E[k].contains(0):
+            E[k] = arb(0)
+    return E
+
+
+def _real_end(P: list[arb], Q: list[arb]) -> Bounds:
+    """The end of the interval of −z on which |R| ≤ 1."""
+    p, q = (arb_poly([a * (-1) ** k for k, a in enumerate(f)]) for f in (P, Q))
+    margin = q * q - p * p
+    # the constants of P and Q are 1: that of the margin is zero
+    others = [margin[k] for k in range(1, len(margin))]
+    return first_failure([arb(0), *others])
+
+
+def _imaginary_end(P: list[arb], Q: list[arb], order: int) -> Bounds:
+    """The end of the interval of y² on which |R(iy)| ≤ 1."""
+    E = _margin(P, Q, order)
+    # rounding hides whether all coefficients are zero
+    return OPEN if all(a.is_zero() for a in E) else first_failure(E)
 
 
 def _squared(p: list[arb]) -> list[arb]:
