@@ -283,18 +283,18 @@ class _Meter:
         with ctx.workprec(integrator.bits):
             values_of = function(tuple(self.formulas), (*q, *p), True)
             squares = [arb(0) for _ in self.powers]
-            scale = arb(0)
             start: list[arb] = []
             for n, y in enumerate(path):
                 values = self._truncations(values_of(*y), h)
-                if not start:
-                    start = values
-                    scale = sum((abs(x) for x in values), arb(1))
-                weight = fmpq(1, 2) if n in (0, count) else fmpq(1)
-                for k, (value, first) in enumerate(zip(values, start, strict=True)):
-                    squares[k] += (value - first).mid() ** 2 * arb(weight)
-            noise = scale * arb(10) ** (_LOST - self.digits) * count
-            return [_enclosed((x / count).sqrt(), noise) for x in squares]
+                start = start or values
+                for k, first in enumerate(start):
+                    square = (values[k] - first).mid() ** 2
+                    # the trapezoidal rule; the change is 0 at the start
+                    squares[k] += square / 2 if n == count else square
+            sizes = [abs(x) for x in start]
+            noise = sum(sizes, arb(1)) * arb(10) ** (_LOST - self.digits) * count
+            means = [(x / count).sqrt() for x in squares]
+            return [_enclosed(x, noise) for x in means]
 
     def _truncations(self, values: Sequence[arb], h: fmpq) -> list[arb]:
         """H̃ up to each of the powers."""

@@ -2,7 +2,6 @@
 
 from __future__ import annotations
 
-from collections.abc import Sequence
 from dataclasses import dataclass, replace
 from math import comb, prod
 from typing import TYPE_CHECKING, Any, Literal
@@ -19,6 +18,9 @@ from garkcli.tableau.conjugate import is_symplectic
 from garkcli.tableau.tableau import Tableau
 
 if TYPE_CHECKING:
+    from flint import fmpq
+
+    from garkcli.exact.nodes import Expression
     from garkcli.trees.free import Structure
 
 MAX_OPERATIONS = 20_000
@@ -182,20 +184,40 @@ def _summands(expression: Formula) -> int:
 
 
 def in_sympy(number: Number) -> Any:
-    """An exact number as a sympy expression."""
+    """An exact number as a sympy expression.
+
+    Raises:
+        UsageProblem: it has no radicals.
+    """
     import sympy
 
     if not isinstance(number, Algebraic):
-        return sympy.Rational(int(number.p), int(number.q))
-    from garkcli.problems.translate import Translator
-
-    translator = Translator({}, {})
+        return _rational(number)
     total = sympy.Integer(0)
     for coefficient, word in number.terms():
-        factors: Sequence[Any] = [
-            translator.translate(number.field.radicals[index][0]) for index in word
-        ]
-        total += sympy.Rational(int(coefficient.p), int(coefficient.q)) * sympy.Mul(
-            *factors
-        )
+        term = _rational(coefficient)
+        for index in word:
+            radical, _ = number.field.radicals[index]
+            term *= _radical(radical)
+        total += term
     return total
+
+
+def _rational(number: fmpq) -> Any:
+    import sympy
+
+    return sympy.Rational(int(number.p), int(number.q))
+
+
+def _radical(radical: Expression) -> Any:
+    """A radical of a file in sympy."""
+    from garkcli.exact.nodes import AlgebraicRoot
+    from garkcli.exact.rewriting import roots_in
+    from garkcli.problems.translate import Translator
+
+    if any(isinstance(root, AlgebraicRoot) for root in roots_in(radical)):
+        raise UsageProblem(
+            "a formula is written in radicals, and a coefficient of the method is a root_of",
+            "gark modified without a problem lists the coefficients",
+        )
+    return Translator({}, {}).translate(radical)

@@ -31,7 +31,7 @@ from garkcli.report.record import (
 
 SCHEMA = "gark/modified-energy/1"
 _WIDTH = 80
-_COLUMNS = 4  # errors beside each other
+_ERROR = 17  # columns of an error with its slope
 _STYLES = {"agree": "good", "disagree": "bad", "undecided": "strong"}
 _NUMBER: Schema = {"type": "number"}
 
@@ -60,23 +60,36 @@ def text_of(report: ModifiedEnergyReport, paint: Paint) -> list[str]:
     lines += indented(folded(describe(run.problem), _WIDTH - 2, "  "))
     lines.append(f"  to t = {run.t_end}, {run.digits} digits")
     lines.append("  root mean square of H(t) - H(0), and with the modified terms of H")
-    for first in range(0, len(run.energies), _COLUMNS):
+    label = max(len(str(row.h)) for row in run.energies[0].rows) + 2
+    label = max(label, 8)
+    beside = max(1, (_WIDTH - 2 - label) // _ERROR)
+    for first in range(0, len(run.energies), beside):
         lines.append("")
-        lines += _block(run.energies[first : first + _COLUMNS])
+        lines += _block(run.energies[first : first + beside], label)
     lines.append("")
     for energy in run.energies:
         lines += _verdict(energy, paint)
     return lines
 
 
-def _block(energies: Sequence[ModifiedEnergy]) -> list[str]:
-    """Some of the errors beside each other."""
-    titles = "".join(f"{_title(x):>10}{'slope':>7}" for x in energies)
-    lines = [f"  {'h':<8}{titles}"]
-    for rows in zip(*(x.rows for x in energies), strict=True):
-        cells = "".join(f"{scientific(x.error):>10}{_slope(x):>7}" for x in rows)
-        lines.append(f"  {rows[0].h!s:<8}{cells}".rstrip())
+def _block(energies: Sequence[ModifiedEnergy], label: int) -> list[str]:
+    """Some of the errors beside each other, with so many columns for the step size."""
+    heading = _cell("h", -label)
+    for energy in energies:
+        heading += _cell(_title(energy), 10) + _cell("slope", 7)
+    lines = [f"  {heading}"]
+    columns = [energy.rows for energy in energies]
+    for rows in zip(*columns, strict=True):
+        line = _cell(str(rows[0].h), -label)
+        for row in rows:
+            line += _cell(scientific(row.error), 10) + _cell(_slope(row), 7)
+        lines.append(f"  {line.rstrip()}")
     return lines
+
+
+def _cell(text: str, width: int) -> str:
+    """A text to the right of its column, to the left for a negative width."""
+    return text.rjust(width) if width > 0 else text.ljust(-width)
 
 
 def _title(energy: ModifiedEnergy) -> str:
@@ -91,8 +104,10 @@ def _verdict(energy: ModifiedEnergy, paint: Paint) -> Iterator[str]:
     """The exact order beside the observed one."""
     least = "at least " if energy.is_lower_bound else ""
     word = energy.verdict
-    painted = paint(_STYLES[word], word if word != "disagree" else "DISAGREE")
-    yield f"  {_title(energy):<8}{painted}: {_observed(energy)}, order {least}{energy.exact_order}"
+    shown = "DISAGREE" if word == "disagree" else word
+    painted = paint(_STYLES[word], shown)
+    found = f"{painted}: {_observed(energy)}"
+    yield f"  {_title(energy):<8}{found}, order {least}{energy.exact_order}"
 
 
 def _observed(energy: ModifiedEnergy) -> str:

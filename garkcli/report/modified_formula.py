@@ -15,15 +15,15 @@ _LABEL = 8  # columns of what stands before a formula
 
 def formula_lines(formula: ModifiedFormula, paint: Paint) -> list[str]:
     """The formula by powers of h."""
+    noun = "Hamiltonian" if formula.of == "hamiltonian" else "equation"
+    lines = [f"  modified {noun}, up to h^{formula.max_order - 1}, of"]
     about = folded(describe(formula.problem), _WIDTH - 4, "  ")
-    rest = f"up to h^{formula.max_order - 1}"
+    lines += indented(about, "    ")
     if formula.of == "hamiltonian":
-        lines = [f"  modified Hamiltonian, {rest}, of", *indented(about, "    ")]
         for term in formula.terms:
             label = f"h^{term.power}" if term.power else "H"
             lines += _labelled(label, formula_text(term.formulas[0]))
         return lines
-    lines = [f"  modified equation, {rest}, of", *indented(about, "    ")]
     unknowns = unknowns_of(formula)
     for term in formula.terms:
         lines.append(paint("strong", f"  h^{term.power}"))
@@ -33,8 +33,11 @@ def formula_lines(formula: ModifiedFormula, paint: Paint) -> list[str]:
 
 
 def _labelled(label: str, text: str) -> list[str]:
-    first, *rest = folded(text, _WIDTH - 4 - _LABEL, "")
-    return [f"    {label:<{_LABEL}}{first}", *indented(rest, " " * (4 + _LABEL))]
+    margin = 4 + _LABEL
+    first, *rest = folded(text, _WIDTH - margin, "")
+    lines = [f"    {label:<{_LABEL}}{first}"]
+    lines += indented(rest, " " * margin)
+    return lines
 
 
 def formula_latex(formula: ModifiedFormula) -> str:

@@ -19,6 +19,7 @@ from garkcli.backward.energy import ModifiedRun, modified_run
 from garkcli.backward.formulas import ModifiedFormula, PowerTerm, modified_formula
 from garkcli.errors import UsageProblem
 from garkcli.report.modified_energy import modified_energy_schema
+from garkcli.stepping.step import StepFailed
 from garkcli.tableau.forms import pair
 from garkcli.tableau.tableau import Tableau
 from tests.cli.harness import gark
@@ -135,3 +136,22 @@ def test_the_command() -> None:
     refused = gark(*arguments, "--bounded", "--modified")
     assert refused.code == 2
     assert "--bounded does not go with --modified" in refused.err
+
+
+def test_long_step_sizes_fit_the_terminal() -> None:
+    """Step sizes with many digits take columns from the errors."""
+    time = ("--t-end", "1000/997", "--step", "1/30", "--modified", "7")
+    run = gark("energy", VERLET, "--problem", "pendulum", *time)
+    assert run.code == 0
+    assert all(len(line) <= 80 for line in run.out.splitlines())
+    assert "1000/495509" not in run.out
+    assert "order 8" in run.out
+
+
+def test_a_step_that_fails() -> None:
+    """Where a step leaves the domain of H that is told as of every run."""
+    start = (fmpq(2), fmpq(0), fmpq(0), fmpq(0))
+    kepler = replace(hamiltonian("kepler", 2), initial=start)
+    with pytest.raises(StepFailed, match="step 1 of size 4"):
+        # one kick and one drift of this size end in the centre
+        modified_run(_verlet(), kepler, 3, fmpq(8), fmpq(4))

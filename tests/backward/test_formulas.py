@@ -174,6 +174,14 @@ def test_coefficients_in_a_number_field() -> None:
     assert str(value) == str(sympy.sympify(value))
 
 
+def test_coefficients_without_radicals() -> None:
+    """A root of a polynomial that has none is refused in a formula."""
+    gamma = "root_of(6*x^3 - 18*x^2 + 9*x - 1, 0.4358665)"
+    text = f'{{parameters: {{g: "{gamma}"}}, A: [[g, 0], [1 - g, g]], b: [1 - g, g]}}'
+    with pytest.raises(UsageProblem, match="written in radicals"):
+        modified_formula(loads(text).tableau, hamiltonian("pendulum", 1), 3)
+
+
 def test_a_method_that_is_not_symplectic_has_an_equation() -> None:
     """The explicit Euler method: ẏ = f − h/2 f'f + …, on the pendulum."""
     found = modified_formula(
