@@ -11,25 +11,10 @@ from functools import total_ordering
 
 from flint import arb, fmpq, fmpz_poly
 
-from garkcli.exact.display import to_ball
-from garkcli.exact.field import Algebraic, Number
 from garkcli.exact.isolating import isolated, precision
 from garkcli.exact.polynomial import Polynomial, gcd
-
-FIRST_BITS = 64
-"""The precision at which signs are tried first; it doubles until they are decided."""
-
-
-def sign(number: Number) -> int:
-    """The sign of an exact number, −1, 0 or 1: zero is known exactly, the rest by enclosures."""
-    if not isinstance(number, Algebraic):
-        return (number > 0) - (number < 0)
-    digits = FIRST_BITS * 3 // 10
-    while True:
-        ball = to_ball(number, digits)
-        if ball > 0 or ball < 0:
-            return 1 if ball > 0 else -1
-        digits *= 2
+from garkcli.exact.signs import FIRST_BITS as FIRST_BITS
+from garkcli.exact.signs import sign as sign
 
 
 @total_ordering

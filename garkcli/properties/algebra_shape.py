@@ -17,7 +17,7 @@ from flint import fmpq, fmpq_poly, nmod_poly
 
 from garkcli.exact.field import Number
 from garkcli.exact.matrix import Matrix, Vector
-from garkcli.properties.pattern import nodes_below
+from garkcli.exact.signs import roots_below
 from garkcli.properties.shape import Shape
 from garkcli.tableau.polynomial_space import PolynomialSpace
 from garkcli.tableau.tableau import Tableau
@@ -100,7 +100,7 @@ def _space(
     for factor, _ in gone.factor()[1]:
         if factor.degree() > 1:
             return None
-        dropped.add(nodes_below(M, -factor[0] / factor[1]))
+        dropped.add(roots_below(M, -factor[0] / factor[1]))
     kept = tuple(i for i in range(M.degree()) if i not in dropped)
     left = M / gone
     return _Space(M, left / left[left.degree()], kept)

@@ -2,10 +2,32 @@
 
 from __future__ import annotations
 
+from dataclasses import dataclass
+
 from garkcli.errors import UsageProblem, did_you_mean
 from garkcli.properties.keys import KEYS
-from garkcli.properties.property import KINDS, Definition
+from garkcli.properties.property import KINDS, Property
 from garkcli.properties.registry import find
+
+
+@dataclass(frozen=True)
+class Definition:
+    """What a claim means.
+
+    Attributes:
+        key: the name of the claim, also in ``gark check --explain``.
+        text: the definition, in whole sentences.
+        source: where it comes from.
+        values: how the claim is written.
+        meaning: for which methods it has a meaning; empty for all.
+    """
+
+    key: str
+    text: str
+    source: str
+    values: str
+    meaning: str = ""
+
 
 _PAPER = (
     "A. Zanna, Discrete Variational Methods and Symplectic Generalized Additive Runge–Kutta"
@@ -95,9 +117,14 @@ _OF_ORDERS = (
 )
 
 
+def _of_property(found: Property) -> Definition:
+    values = KINDS[found.kind]
+    return Definition(found.key, found.text, found.source, values, found.meaning)
+
+
 def every_definition() -> list[Definition]:
     """What every claim means, in the order of the documentation."""
-    return [*_OF_ORDERS, *(find(key).definition for key in KEYS)]
+    return [*_OF_ORDERS, *(_of_property(find(key)) for key in KEYS)]
 
 
 def definition(key: str) -> Definition:
@@ -107,7 +134,7 @@ def definition(key: str) -> Definition:
         UsageProblem: there is no such claim.
     """
     if key in KEYS:
-        return find(key).definition
+        return _of_property(find(key))
     for found in _OF_ORDERS:
         if found.key == key:
             return found

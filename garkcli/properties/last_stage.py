@@ -9,10 +9,7 @@ from flint import fmpq
 
 from garkcli.exact.field import ZERO, Number
 from garkcli.exact.matrix import Vector
-from garkcli.exact.polynomial import Polynomial, gcd
-from garkcli.exact.roots import vanishes_at
 from garkcli.order.tolerance import within
-from garkcli.properties.pattern import nodes_below, nodes_of
 from garkcli.tableau.polynomial_space import PolynomialSpace
 from garkcli.tableau.tableau import Tableau
 
@@ -53,7 +50,9 @@ def is_stiffly_accurate(tableau: Tableau, tolerance: fmpq = ZERO) -> bool:
     wanted = new_value(tableau)
     for k, space in enumerate(tableau.spaces):
         if isinstance(space, PolynomialSpace):
-            if _common_nodes(tableau, k, wanted).degree > 0:
+            from garkcli.properties.family_entries import common_nodes
+
+            if common_nodes(tableau, k, wanted).degree > 0:
                 return True
         elif any(
             not missed_entries(tableau, k, i, wanted, tolerance)
@@ -127,31 +126,6 @@ def _is_stage(
     space = tableau.spaces[k]
     if not isinstance(space, PolynomialSpace):
         return not missed_entries(tableau, k, i, wanted, tolerance)
-    common = _common_nodes(tableau, k, wanted)
-    if common.degree == 0:
-        return False
-    node = -common[0] / common[1]
-    if common.degree == 1 and isinstance(node, fmpq):
-        before = nodes_below(space.modulus, node)
-        return before == range(space.stages)[i]
-    return vanishes_at(common, nodes_of(space)[i])
+    from garkcli.properties.family_entries import is_family_stage
 
-
-def _common_nodes(tableau: Tableau, k: int, wanted: Sequence[Vector]) -> Polynomial:
-    """The polynomial whose roots are the nodes of a family at which a stage has the rows wanted.
-
-    In the stage algebra ℚ[x]/(M) the rows at a node ξ are the functionals f ↦ (A f)(ξ). They are
-    those wanted where all polynomials A e − wanted(e)·𝟙 vanish, e in a basis: at the roots of their
-    common divisor with M.
-    """
-    space = tableau.spaces[k]
-    assert isinstance(space, PolynomialSpace)
-    found = Polynomial.from_flint(space.modulus)
-    for m, row in enumerate(wanted):
-        block = tableau.blocks.get((k, m))
-        for j, value in enumerate(row):
-            column = [] if block is None else [entries[j] for entries in block]
-            found = gcd(found, Polynomial(column) - value)
-            if found.degree == 0:
-                return found
-    return found
+    return is_family_stage(tableau, k, range(space.stages)[i], wanted)

@@ -9,22 +9,19 @@ from __future__ import annotations
 
 from collections.abc import Iterable, Mapping
 from dataclasses import dataclass
-from functools import cached_property, lru_cache
-from itertools import pairwise
-from typing import TypeAlias
+from functools import cached_property
+from typing import TYPE_CHECKING, TypeAlias
 
-from flint import arb, fmpq, fmpq_poly
+from flint import arb, fmpq
 
 from garkcli.exact.field import ZERO, Number
-from garkcli.exact.matrix import apply, apply_left
-from garkcli.exact.polynomial import Polynomial
-from garkcli.exact.roots import RealRoot, real_roots, vanishes_at
 from garkcli.graph import components
 from garkcli.order.tolerance import within
 from garkcli.tableau.point_space import PointSpace
-from garkcli.tableau.pointwise import Block, Cell, Row, entries
-from garkcli.tableau.polynomial_space import PolynomialSpace
 from garkcli.tableau.tableau import Tableau
+
+if TYPE_CHECKING:
+    from garkcli.tableau.pointwise import Block, Cell, Row
 
 Vertex: TypeAlias = tuple[int, int]
 """A stage value: the index of its stage space, and of its stage."""
@@ -111,12 +108,16 @@ class _Graph:
 
     @cached_property
     def _listed(self) -> tuple[tuple[Block, ...], ...]:
+        from garkcli.tableau.pointwise import entries  # for stages of families
+
         return entries(self.tableau, DIGITS).A
 
     def _add_entry(self, entry: Cell, seer: Vertex, seen: Vertex, m: int) -> None:
         nonzero = is_nonzero(entry, self.tolerance)
         if nonzero is None and isinstance(entry, arb):
-            nonzero = _is_nonzero_at(self.tableau, (seer[0], m), seer[1], seen[1])
+            from garkcli.properties.family_entries import is_nonzero_at
+
+            nonzero = is_nonzero_at(self.tableau, (seer[0], m), seer[1], seen[1])
         if nonzero is None:
             self.is_certain = False
         if not nonzero:
@@ -140,58 +141,3 @@ def is_nonzero(entry: Cell, tolerance: fmpq = ZERO) -> bool | None:
     if not number or not tolerance:
         return bool(number)
     return None if within(number, tolerance) else True
-
-
-def _is_nonzero_at(
-    tableau: Tableau, place: tuple[int, int], i: int, j: int
-) -> bool | None:
-    """Whether an entry between stages of families is not zero, where one node is rational.
-
-    With M the node polynomial of the columns, L_j is a multiple of M/(x − x_j); the entry is the
-    value of A L_j at x_i. For a rational x_i that is a polynomial in x_j.
-    """
-    k, m = place
-    here, there = tableau.spaces[k], tableau.space(m)
-    if not isinstance(here, PolynomialSpace) or not isinstance(there, PolynomialSpace):
-        return None
-    row_node, column_node = nodes_of(here)[i], nodes_of(there)[j]
-    block = tableau.blocks[place]
-    if column_node.exact is not None:
-        others = there.modulus // fmpq_poly([-column_node.exact, 1])
-        column = apply(block, [others[n] for n in range(there.stages)])
-        return not vanishes_at(Polynomial(column), row_node)
-    if row_node.exact is not None:
-        powers = [row_node.exact**n for n in range(here.stages)]
-        values = apply_left(powers, block)
-        return not vanishes_at(_divided(there.modulus, values), column_node)
-    return None
-
-
-@lru_cache(maxsize=32)
-def nodes_of(space: PolynomialSpace) -> list[RealRoot]:
-    """The nodes in ascending order."""
-    return [node for node, _ in real_roots(Polynomial.from_flint(space.modulus))]
-
-
-def nodes_below(M: fmpq_poly, x: fmpq) -> int:
-    """How many roots of a polynomial with real roots only are smaller than x, by Descartes' rule,
-    which is exact for these.
-
-    >>> nodes_below(fmpq_poly([0, 2, -3, 1]), fmpq(2))  # the roots 0, 1, 2
-    2
-    """
-    mirrored = M(fmpq_poly([x, -1]))
-    signs = [a > 0 for a in mirrored.coeffs() if a]
-    return sum(1 for a, b in pairwise(signs) if a != b)
-
-
-def _divided(M: fmpq_poly, values: Iterable[Number]) -> Polynomial:
-    """The functional applied to (M(x) − M(y))/(x − y), in x, as a polynomial in y.
-
-    x^n turns into Σ x^i y^(n−1−i), and x^i into its value.
-    """
-    known = list(values)
-    total = Polynomial([])
-    for n in range(1, M.degree() + 1):
-        total = total + Polynomial(known[:n][::-1]) * M[n]
-    return total

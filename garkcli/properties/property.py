@@ -6,9 +6,6 @@ from collections.abc import Callable
 from dataclasses import dataclass
 from typing import TYPE_CHECKING, Literal, TypeAlias
 
-from garkcli.exact.polynomial import Polynomial
-from garkcli.exact.polynomial_text import polynomial_text, root_decimal, root_text
-
 if TYPE_CHECKING:
     from garkcli.exact.roots import RealRoot
     from garkcli.properties.subject import Subject
@@ -28,25 +25,6 @@ _LONG = 60
 
 
 @dataclass(frozen=True)
-class Definition:
-    """What a claim means.
-
-    Attributes:
-        key: the name of the claim, also in ``gark check --explain``.
-        text: the definition, in whole sentences.
-        source: where it comes from.
-        values: how the claim is written.
-        meaning: for which methods it has a meaning; empty for all.
-    """
-
-    key: str
-    text: str
-    source: str
-    values: str
-    meaning: str = ""
-
-
-@dataclass(frozen=True)
 class Size:
     """A real number that may be infinite.
 
@@ -59,6 +37,13 @@ class Size:
     def __str__(self) -> str:
         if self.root is None:
             return "infinity"
+        from garkcli.exact.polynomial import Polynomial  # few checks show such numbers
+        from garkcli.exact.polynomial_text import (
+            polynomial_text,
+            root_decimal,
+            root_text,
+        )
+
         simple = root_text(self.root)
         if simple is not None:
             return simple
@@ -131,9 +116,3 @@ class Property:
     def field(self) -> str:
         """Its name in JSON."""
         return self.key.replace("-", "_")
-
-    @property
-    def definition(self) -> Definition:
-        """What the claim means."""
-        values = KINDS[self.kind]
-        return Definition(self.key, self.text, self.source, values, self.meaning)

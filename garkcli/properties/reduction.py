@@ -15,10 +15,10 @@ from flint import fmpq, fmpq_poly
 
 from garkcli.exact.field import ZERO, Number
 from garkcli.exact.matrix import Matrix, SingularMatrixError, Vector, apply, solve
-from garkcli.properties.pattern import is_nonzero, nodes_below
+from garkcli.exact.signs import roots_below
+from garkcli.properties.pattern import is_nonzero
 from garkcli.stability.algebraic import negative_pivot
 from garkcli.tableau.point_space import PointSpace
-from garkcli.tableau.pointwise import in_points
 from garkcli.tableau.polynomial_space import PolynomialSpace
 from garkcli.tableau.stages import StageSpace
 from garkcli.tableau.tableau import Tableau
@@ -35,7 +35,7 @@ def reduced(tableau: Tableau) -> Tableau | None:
     >>> reduced(twice).spaces[0].stages
     1
     """
-    exact = in_points(tableau)
+    exact = _at_points(tableau)
     if exact is None:
         return None
     smaller = _once(exact)
@@ -46,6 +46,14 @@ def reduced(tableau: Tableau) -> Tableau | None:
         smaller, before = _once(smaller), smaller
         if _sizes(smaller) == _sizes(before):
             return smaller
+
+
+def _at_points(tableau: Tableau) -> Tableau | None:
+    if all(isinstance(space, PointSpace) for space in tableau.spaces):
+        return tableau
+    from garkcli.tableau.pointwise import in_points  # nodes of families are radicals
+
+    return in_points(tableau)
 
 
 def _once(tableau: Tableau) -> Tableau:
@@ -127,7 +135,7 @@ def _is_gaussian(space: StageSpace, b: Vector) -> bool:
     M = space.modulus
     has_ends = s > 1 and not M(0) and not M(1)
     reflected = M(fmpq_poly([1, -1]))
-    return has_ends and not nodes_below(M, ZERO) and not nodes_below(reflected, ZERO)
+    return has_ends and not roots_below(M, ZERO) and not roots_below(reflected, ZERO)
 
 
 def _tells_apart(tableau: Tableau, k: int, tolerance: fmpq) -> bool:
@@ -244,13 +252,18 @@ def _split(tableau: Tableau, k: int, classes: list[list[list[int]]]) -> list[lis
     """The classes of one space, divided by what their stages see."""
     found: list[list[int]] = []
     for members in classes[k]:
-        by_sight: dict[tuple[object, ...], list[int]] = {}
+        by_sight: list[tuple[list[object], list[int]]] = []
         for i in members:
             sight: list[object] = [tableau.spaces[k].nodes[i]]
             for m, colour in enumerate(tableau.colours):
                 block = tableau.blocks.get((k, m))
                 if block is not None:
                     sight.append(_summed(block[i], classes[colour.space]))
-            by_sight.setdefault(tuple(sight), []).append(i)
-        found += by_sight.values()
+            # compared, not hashed: that of a fraction is slow to be had first
+            alike = next((x for seen, x in by_sight if seen == sight), None)
+            if alike is None:
+                by_sight.append((sight, [i]))
+            else:
+                alike.append(i)
+        found += [alike for _, alike in by_sight]
     return sorted(found)

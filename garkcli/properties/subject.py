@@ -11,12 +11,11 @@ from flint import fmpq
 
 from garkcli.exact.field import ONE, ZERO
 from garkcli.order.simplifying import Simplifying
-from garkcli.properties.algebra_shape import shape_of_families
 from garkcli.properties.pattern import StageGraph, stage_graph
 from garkcli.properties.registry import find
 from garkcli.properties.shape import Shape, shape_of
 from garkcli.properties.symmetry import Symmetry, symmetry
-from garkcli.tableau.pointwise import in_points
+from garkcli.tableau.point_space import PointSpace
 from garkcli.tableau.tableau import Tableau
 
 if TYPE_CHECKING:
@@ -76,8 +75,11 @@ class Subject:
 
     def _of_families(self, colours: Sequence[int]) -> Shape | None:
         """The shape of some colours where no node is needed for it."""
-        if self.tolerance:
+        spaces = self.tableau.spaces
+        if self.tolerance or any(isinstance(x, PointSpace) for x in spaces):
             return None
+        from garkcli.properties.algebra_shape import shape_of_families
+
         return shape_of_families(self.tableau, colours)
 
     @cached_property
@@ -103,6 +105,10 @@ class Subject:
     @cached_property
     def points(self) -> Tableau | None:
         """The method with one coordinate a stage; None where nodes have no simple radicals."""
+        if all(isinstance(space, PointSpace) for space in self.tableau.spaces):
+            return self.tableau
+        from garkcli.tableau.pointwise import in_points
+
         return in_points(self.tableau)
 
     @property

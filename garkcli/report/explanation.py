@@ -4,7 +4,7 @@ from __future__ import annotations
 
 from typing import Any
 
-from garkcli.properties.property import Definition
+from garkcli.properties.definitions import Definition
 from garkcli.report.json_text import to_json
 from garkcli.report.paint import Paint, folded
 from garkcli.report.record import TEXT, Field, Record, Schema

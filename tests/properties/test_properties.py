@@ -13,12 +13,12 @@ from hypothesis import strategies as st
 from garkcli.exact.field import ONE
 from garkcli.exact.matrix import identity
 from garkcli.exact.polynomial import Polynomial
+from garkcli.exact.signs import roots_below
 from garkcli.families.registry import diagonal_method
 from garkcli.methodfile.load import load, loads
 from garkcli.order.certificate import find_order
 from garkcli.properties.algebra_shape import shape_of_families
 from garkcli.properties.last_stage import is_first_same_as_last, is_stiffly_accurate
-from garkcli.properties.pattern import nodes_below
 from garkcli.properties.reduction import (
     are_positive,
     is_plainly_irreducible,
@@ -370,7 +370,7 @@ def test_counting_real_nodes(nodes: list[Fraction], x: Fraction) -> None:
     for c in nodes:
         M *= fmpq_poly([-fmpq(c.numerator, c.denominator), 1])
     wanted = sum(1 for c in nodes if c < x)
-    assert nodes_below(M, fmpq(x.numerator, x.denominator)) == wanted
+    assert roots_below(M, fmpq(x.numerator, x.denominator)) == wanted
 
 
 @pytest.mark.parametrize("stages", [2, 3, 6])

@@ -3,9 +3,8 @@
 from flint import fmpq_poly
 
 from garkcli.exact.field import ONE, ZERO, Number
-from garkcli.exact.roots import sign
+from garkcli.exact.signs import roots_below, sign
 from garkcli.properties.naming import number_text
-from garkcli.properties.pattern import nodes_below
 from garkcli.properties.property import Property, Verdict
 from garkcli.properties.subject import Subject
 from garkcli.tableau.polynomial_space import PolynomialSpace
@@ -17,7 +16,7 @@ def _decide(subject: Subject) -> Verdict:
         space = subject.tableau.space(l)
         if isinstance(space, PolynomialSpace) and tuple(colour.c) == tuple(space.nodes):
             reflected = space.modulus(fmpq_poly([1, -1]))
-            if nodes_below(space.modulus, ZERO) or nodes_below(reflected, ZERO):
+            if roots_below(space.modulus, ZERO) or roots_below(reflected, ZERO):
                 return Verdict(False, f"a node of colour {colour.name} is outside")
             continue
         found = subject.points

@@ -1,6 +1,6 @@
 """Positive weights."""
 
-from garkcli.exact.roots import sign
+from garkcli.exact.signs import sign
 from garkcli.properties.naming import number_text, weight_name
 from garkcli.properties.property import Property, Verdict
 from garkcli.properties.reduction import are_positive

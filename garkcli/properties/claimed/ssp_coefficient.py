@@ -3,7 +3,8 @@
 from flint import fmpq
 
 from garkcli.exact.field import ZERO
-from garkcli.exact.roots import RealRoot, sign
+from garkcli.exact.roots import RealRoot
+from garkcli.exact.signs import sign
 from garkcli.properties.linear import no_meaning
 from garkcli.properties.naming import entry_name, number_text, weight_name
 from garkcli.properties.property import Property, Size, Verdict
