@@ -76,6 +76,21 @@ def test_a_change_of_coordinates_changes_nothing(seed: int) -> None:
     assert effective_order(other) == EffectiveOrder(4, True)
 
 
+def test_a_change_of_coordinates_with_radicals() -> None:
+    """Linear systems with a right-hand side in a number field are solved there: the rectangular
+    method in other coordinates, with √3 in them.
+    """
+    tableau = load("methods/rectangular.gark.yaml").tableau
+    equation = modified_equation(tableau, 6)
+    assert tableau.field is not None
+    root = tableau.field.from_coordinates([fmpq(1, 2), fmpq(1, 3)])
+    change = [root if tree.order < 4 else fmpq(0) for tree in equation.forest.trees]
+    moved = transported(equation.forest, equation.coefficients, change, 1)
+    other = replace(equation, coefficients=tuple(moved))
+    assert other.order < 4
+    assert effective_order(other) == EffectiveOrder(4, True)
+
+
 def test_midpoint_and_trapezoidal_rule_are_conjugate() -> None:
     """The change of coordinates between them is half a step of the explicit Euler method."""
     midpoint = modified_equation(loads("{A: [[1/2]], b: [1]}").tableau, 7)

@@ -39,6 +39,11 @@ prk:
   q: {A: [[0, 0], [1, 0]], b: [1/2, 1/2]}
   p: {A: [[0, 0], [1, 0]], b: [1, 0]}
 """
+IMPLICIT_EXPLICIT = """
+ark:
+  A: [[[0, 0], [1/2, 0]], [[0, 0], [0, 1/2]]]
+  b: [[0, 1], [0, 1]]
+"""
 SPLIT = """
 tableau:
   A: [[[[0]], [[1/2]]], [[[1/2]], [[1/2]]]]
@@ -63,6 +68,8 @@ def test_names() -> None:
         (EULER_PAIR, 4),
         (NOT_A_PAIR, 4),
         (OTHER_WEIGHTS, 3),
+        (IMPLICIT_EXPLICIT, 3),
+        (SPLIT, 3),
     ],
 )
 def test_orders_of_symplecticity_and_energy(text: str, limit: int) -> None:
