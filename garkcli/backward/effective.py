@@ -22,17 +22,20 @@ from __future__ import annotations
 
 from collections.abc import Sequence
 from dataclasses import dataclass
+from math import lcm
 
 from flint import fmpq, fmpq_mat, fmpz_mat
 
 from garkcli.backward.forest import Forest
 from garkcli.backward.modified import ModifiedEquation
 from garkcli.backward.series import transported
-from garkcli.exact.echelon import pivot_columns
+from garkcli.exact.echelon import leading_columns
 from garkcli.exact.field import ZERO, Number, NumberField, coordinates
 
-MAX_ENTRIES = 1_000_000
-"""The largest linear system that is solved, rows times columns."""
+MAX_ENTRIES = 5_000_000
+"""The largest linear system that is looked at, rows times columns."""
+MAX_SOLVED = 1_000_000
+"""The largest that is solved; of larger ones it is decided whether there is a solution."""
 
 
 @dataclass(frozen=True)
@@ -74,13 +77,17 @@ def effective_order(equation: ModifiedEquation) -> EffectiveOrder:
             is_unique = False  # nobody has looked
             continue
         matrix = _bracket_with_delta(forest, k)
-        commuting = len(columns) - matrix.rank()
+        rank = matrix.rank()
+        commuting = len(columns) - rank
         is_unique &= commuting == (1 if k == 1 else 0)  # 1: δ itself
         if not any(residual):
             continue
-        solution = _solve(matrix, residual, equation.tableau.field)
-        if solution is None:
+        sides = _rational_sides(residual, equation.tableau.field)
+        if _with_columns(matrix, sides).rank() > rank:
             return EffectiveOrder(k, is_unique)
+        if len(rows) * len(columns) > MAX_SOLVED:
+            return EffectiveOrder(k + 1, False)
+        solution = _solve(matrix, sides, equation.tableau.field)
         change: list[Number] = [ZERO] * len(field)
         change[columns.start : columns.stop] = [-x for x in solution]
         field = transported(forest, field, change, k)
@@ -103,27 +110,40 @@ def _bracket_with_delta(forest: Forest, order: int) -> fmpz_mat:
     return matrix
 
 
-def _solve(
-    matrix: fmpz_mat, right: Sequence[Number], field: NumberField | None
-) -> list[Number] | None:
-    """One solution of a linear system with integer coefficients; None where there is none.
-
-    A right-hand side in a number field is one for each coordinate over ℚ.
-    """
+def _rational_sides(
+    right: Sequence[Number], field: NumberField | None
+) -> list[list[fmpq]]:
+    """The coordinates over ℚ of a right-hand side, one column for each."""
     degree = field.degree if field else 1
+    rows = [coordinates(number, degree) for number in right]
+    return [list(column) for column in zip(*rows, strict=True)]
+
+
+def _with_columns(matrix: fmpz_mat, sides: Sequence[Sequence[fmpq]]) -> fmpz_mat:
+    """A matrix with multiples of columns appended that have integer entries."""
     rows, columns = matrix.nrows(), matrix.ncols()
-    extended = fmpq_mat(rows, columns + degree)
-    for i in range(rows):
-        for j in range(columns):
-            extended[i, j] = fmpq(matrix[i, j])
-        for d, x in enumerate(coordinates(right[i], degree)):
-            extended[i, columns + d] = x
-    pivots = pivot_columns(extended)
-    if pivots and pivots[-1] >= columns:
-        return None
-    reduced, _ = extended.rref()
+    appended = []
+    for side in sides:
+        common = lcm(*(int(x.q) for x in side))
+        appended.append([(x * common).p for x in side])
+    entries = matrix.tolist()
+    for i, row in enumerate(entries):
+        row += [side[i] for side in appended]
+    return fmpz_mat(rows, columns + len(sides), [x for row in entries for x in row])
+
+
+def _solve(
+    matrix: fmpz_mat, sides: Sequence[Sequence[fmpq]], field: NumberField | None
+) -> list[Number]:
+    """One solution of a linear system that has one, its right-hand side given by coordinates."""
+    columns = matrix.ncols()
+    extended = []
+    for i, row in enumerate(matrix.tolist()):
+        left = [fmpq(x) for x in row]
+        extended.append([*left, *(side[i] for side in sides)])
+    reduced, _ = fmpq_mat(extended).rref()
     solution: list[Number] = [ZERO] * columns
-    for i, j in enumerate(pivots):
-        values = [reduced[i, columns + d] for d in range(degree)]
+    for i, j in enumerate(leading_columns(reduced)):
+        values = [reduced[i, columns + d] for d in range(len(sides))]
         solution[j] = field.from_coordinates(values) if field else values[0]
     return solution
