@@ -20,6 +20,9 @@ if TYPE_CHECKING:
         method_of,
         pair,
     )
+    from garkcli.backward import energy as _energy
+    from garkcli.backward import formulas as _formulas
+    from garkcli.backward import summary as _summary
     from garkcli.check.check_file import check_file
     from garkcli.check.proof import prove_method
     from garkcli.convergence import convergence as _convergence
@@ -43,11 +46,14 @@ if TYPE_CHECKING:
     from garkcli.trees.notation import format_tree, parse_tree
     from garkcli.trees.tree import Tree
 
+    backward_analysis = of_methods(_summary.backward_analysis)
     bind = of_methods(_integrator.bind)
     conditions = of_methods(_conditions.conditions)
     converge = of_methods(_convergence.converge)
     elementary_weight = of_methods(_conditions.elementary_weight)
     long_run = of_methods(_longtime.long_run)
+    modified_formula = of_methods(_formulas.modified_formula)
+    modified_run = of_methods(_energy.modified_run)
     simplifying = of_methods(_simplifying.simplifying)
     symplectic_pair = of_methods(_forms.symplectic_pair)
     symplecticity_defects = of_methods(_symplecticity.symplecticity_defects)
@@ -56,6 +62,7 @@ __version__ = "0.1.0"
 
 _HOMES = {
     "analyse": "api.methods",
+    "backward_analysis": "backward.summary",
     "bind": "stepping.integrator",
     "check_file": "check.check_file",
     "conditions": "order.conditions",
@@ -83,6 +90,8 @@ _HOMES = {
     "method_of": "api.methods",
     "MethodFile": "methodfile.build",
     "MethodFileError": "errors",
+    "modified_formula": "backward.formulas",
+    "modified_run": "backward.energy",
     "Oscillator": "problems.oscillator",
     "pair": "api.methods",
     "parse_tree": "trees.notation",
@@ -98,11 +107,14 @@ _HOMES = {
 
 _OF_METHODS = frozenset(
     {
+        "backward_analysis",
         "bind",
         "conditions",
         "converge",
         "elementary_weight",
         "long_run",
+        "modified_formula",
+        "modified_run",
         "simplifying",
         "symplectic_pair",
         "symplecticity_defects",
@@ -119,6 +131,7 @@ __all__ = [
     "Tableau",
     "Tree",
     "analyse",
+    "backward_analysis",
     "bind",
     "check_file",
     "conditions",
@@ -142,6 +155,8 @@ __all__ = [
     "loads_problem",
     "long_run",
     "method_of",
+    "modified_formula",
+    "modified_run",
     "pair",
     "parse_tree",
     "prove_method",

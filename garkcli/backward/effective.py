@@ -68,7 +68,8 @@ def effective_order(equation: ModifiedEquation) -> EffectiveOrder:
     field = list(equation.coefficients)
     is_unique = True
     for k in range(1, equation.max_order):
-        rows, columns = forest.of_order(k + 1), forest.of_order(k)
+        rows = forest.of_order(k + 1)
+        columns = forest.of_order(k)
         residual = [field[u] for u in rows]
         is_large = len(rows) * len(columns) > MAX_ENTRIES
         if is_large and any(residual):
@@ -103,10 +104,12 @@ def _bracket_with_delta(forest: Forest, order: int) -> fmpz_mat:
         for cut in forest.cuts[number]:
             if forest.order(cut.branch) == 1:
                 j = cut.rest - columns.start
-                matrix[i, j] = matrix[i, j] + cut.times
+                before = matrix[i, j]
+                matrix[i, j] = before + cut.times
             if forest.order(cut.rest) == 1:
                 j = cut.branch - columns.start
-                matrix[i, j] = matrix[i, j] - cut.times
+                before = matrix[i, j]
+                matrix[i, j] = before - cut.times
     return matrix
 
 

@@ -67,21 +67,26 @@ class Forest:
 
         _check_size(admissible, order)
         table = TreeTable.of(admissible, order)
-        stems, lasts = table.stem.tolist(), table.branch.tolist()
         roots = table.root.tolist()
+        stems = table.stem.tolist()
+        lasts = table.branch.tolist()
         branches: list[tuple[int, ...]] = []
         trees: list[Tree] = []
         numbers: dict[tuple[int, tuple[int, ...]], int] = {}
-        for number, (stem, last) in enumerate(zip(stems, lasts, strict=True)):
-            below = () if last < 0 else tuple(sorted((*branches[stem], last)))
+        for number, root in enumerate(roots):
+            below: tuple[int, ...] = ()
+            if lasts[number] >= 0:
+                # a tree is its stem with one branch more
+                with_last = [*branches[stems[number]], lasts[number]]
+                below = tuple(sorted(with_last))
             branches.append(below)
-            numbers[roots[number], below] = number
-            trees.append(Tree(roots[number], [trees[k] for k in below]))
+            numbers[root, below] = number
+            trees.append(Tree(root, [trees[k] for k in below]))
         cutter = _Cutter(roots, branches, numbers)
-        cuts = tuple(cutter.cuts_of(number) for number in range(len(trees)))
-        starts = tuple(row[0] for row in table.starts)
-        starts += (len(trees),)
-        return cls(admissible, order, tuple(trees), cuts, numbers, starts)
+        cuts = [cutter.cuts_of(number) for number in range(len(trees))]
+        starts = [row[0] for row in table.starts]
+        starts.append(len(trees))
+        return cls(admissible, order, tuple(trees), tuple(cuts), numbers, tuple(starts))
 
     @classmethod
     def seen_by(cls, tableau: Tableau, order: int) -> Forest:
@@ -113,10 +118,6 @@ class Forest:
     def branches(self) -> Iterator[tuple[int, tuple[int, ...]]]:
         """For each tree its root colour and the numbers of its branches."""
         yield from self._numbers
-
-    def grafted(self, root: int, branch: int) -> int | None:
-        """The tree of one vertex of colour ``root`` with one branch; None where there is none."""
-        return self._numbers.get((root, (branch,)))
 
 
 @dataclass

@@ -20,6 +20,8 @@ MOST_CHARACTERS = 24
 _WIDTH = 80
 _TREE = 30  # columns of a tree beside its numbers
 _DIGITS = 10
+_UNDECIDED = "not decided"
+_FORMLESS = "no Hamiltonian problem has its form"
 _DERIVED = {"pair": "the symplectic pair", "conjugate": "the symplectic conjugate"}
 
 
@@ -98,16 +100,15 @@ def counted_vertices(count: int) -> str:
 def _orders(report: ModifiedReport) -> Iterator[tuple[str, str]]:
     """Each order with its label."""
     found = report.found
-    is_rounded = found.tolerance is not None
     order = _order(found.order)
-    if is_rounded:
-        order += f", within {decimal(found.tolerance)}" if found.tolerance else ""
+    formless = _FORMLESS
+    if found.tolerance is not None:
+        order += f", within {decimal(found.tolerance)}"
+        formless = _UNDECIDED
     yield "order", order
     yield "symplectic", _symplectic(report)
-    missing = "not decided" if is_rounded else "no Hamiltonian problem has its form"
-    yield "energy order", missing if found.energy is None else _order(found.energy)
-    effective = found.effective
-    yield "effective order", "not decided" if effective is None else _order(effective)
+    yield "energy order", _order(found.energy, formless)
+    yield "effective order", _order(found.effective)
 
 
 def _symplectic(report: ModifiedReport) -> str:
@@ -119,12 +120,17 @@ def _symplectic(report: ModifiedReport) -> str:
     if found.tolerance is not None:
         return f"not within {decimal(found.tolerance)}"
     if found.symplectic is None:
-        return "no Hamiltonian problem has its form"
+        return _FORMLESS
     return f"to order {_order(found.symplectic)}"
 
 
-def _order(reached: Reached) -> str:
-    return f"at least {reached.order}" if reached.is_lower_bound else str(reached.order)
+def _order(reached: Reached | None, missing: str = _UNDECIDED) -> str:
+    """An order in words, or what is said where there is none."""
+    if reached is None:
+        return missing
+    if reached.is_lower_bound:
+        return f"at least {reached.order}"
+    return str(reached.order)
 
 
 def _table(
@@ -135,7 +141,7 @@ def _table(
     paint: Paint,
 ) -> list[str]:
     """The terms below their powers of h."""
-    heading = _row("u", symmetry, "b(u)", f"b(u)/{symmetry}")
+    heading = _row("u", symmetry, "b(u)", "factor")
     lines = [f"  {title}", heading.rstrip()]
     for order, group in groupby(terms, key=lambda term: term.tree.order):
         lines.append(paint("strong", f"  h^{order - 1}"))
@@ -152,19 +158,18 @@ def _entry(report: ModifiedReport, term: TreeTerm) -> list[str]:
     """One term: on a line, or a long tree above its numbers."""
     has_colours = len(report.names) > 1
     tree = format_tree(term.tree, has_colours)
+    symmetry = str(term.symmetry)
     coefficient = _short(report, term.coefficient)
     factor = _short(report, term.factor)
-    symmetry = str(term.symmetry)
-    above = []
-    if len(tree) > _TREE:
-        above = indented(folded(tree, _WIDTH - 4, "  "), "    ")
-        tree = ""
     row = _row(tree, symmetry, coefficient, factor)
-    if len(row) > _WIDTH:
+    if len(row) < _WIDTH:
+        return [row]
+    above = folded(tree, _WIDTH - 4, "  ")
+    below = _row("", symmetry, coefficient, factor)
+    if len(below) >= _WIDTH:
         numbers = f"{symmetry}   {coefficient}   {factor}"
-        above = above or [f"    {tree}"]
-        return [*above, numbers.rjust(_WIDTH - 1)]
-    return [*above, row]
+        below = numbers.rjust(_WIDTH - 1)
+    return [*indented(above, "    "), below]
 
 
 def _short(report: ModifiedReport, value: Number) -> str:

@@ -4,6 +4,8 @@ Hamiltonian problems as exact power series.
 
 from __future__ import annotations
 
+from random import Random
+
 import pytest
 from flint import fmpq, fmpq_poly
 
@@ -205,3 +207,30 @@ def test_no_structure() -> None:
     """Where roots cannot move there is no order of symplecticity."""
     one_way = "{tableau: {A: [[[[1/2]], [[1/2]]], [null, [[1/2]]]], b: [[1], [1]]}}"
     assert hamiltonian_structure(loads(one_way).tableau) is None
+
+
+@pytest.mark.parametrize("seed", range(4))
+def test_random_pairs_have_a_modified_hamiltonian(seed: int) -> None:
+    """The pair of a random tableau satisfies all conditions of symplecticity, for each free tree, and
+    leaves the modified Hamiltonian as it is, exactly, on a random problem.
+    """
+    dice = Random(seed)
+
+    def small() -> str:
+        return str(fmpq(dice.randint(-3, 3), dice.choice([2, 3])))
+
+    def block(rows: int, columns: int) -> str:
+        text = [", ".join(small() for _ in range(columns)) for _ in range(rows)]
+        return "[" + ", ".join(f"[{row}]" for row in text) + "]"
+
+    stages = [2, 1]
+    A = [[block(k, l) for l in stages] for k in stages]
+    rows = ", ".join(f"[{', '.join(row)}]" for row in A)
+    tableau = loads(f"tableau: {{A: [{rows}], b: [[1/3, 2/3], [1]]}}").tableau
+    both = pair(tableau)
+    equation = modified_equation(both, 4)
+    structure = hamiltonian_structure(both)
+    assert structure is not None
+    assert symplectic_order(equation, structure) == 4
+    assert energy_order(equation, structure) >= equation.order
+    _check_hamiltonian(both, 3)

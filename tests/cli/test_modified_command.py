@@ -9,6 +9,7 @@ import pytest
 from jsonschema import Draft7Validator
 
 from garkcli.report.modified_data import modified_report_schema
+from garkcli.report.plaintext import plain_text
 from garkcli.trees.notation import parse_tree
 from tests.cli.harness import gark
 
@@ -36,6 +37,13 @@ ONE_WAY = "tableau: {A: [[[[1/2]], [[1/2]]], [null, [[1/2]]]], b: [[1], [1]]}"
 def test_a_text_fits_80_columns(arguments: tuple[str, ...]) -> None:
     """However long the trees and the numbers."""
     lines = gark("modified", *arguments).out.splitlines()
+    assert [line for line in lines if len(line) > 80] == []
+
+
+def test_ascii_fits_80_columns() -> None:
+    """Signs that are spelled out take no further column at the end of a line."""
+    text = gark("modified", VERLET, "-n", "6", "--equation").out
+    lines = plain_text(text, "ascii").splitlines()
     assert [line for line in lines if len(line) > 80] == []
 
 
@@ -158,6 +166,16 @@ def test_a_problem_file_and_the_pair() -> None:
     ).out
     assert "  the symplectic pair; 4 colours" in text
     assert "H       px^2/2 + py^2/2 - 1/sqrt(x^2 + y^2)" in text
+
+
+def test_a_problem_sees_fewer_trees_than_the_pair_has() -> None:
+    """Four colours have too many trees of seven vertices, the pendulum sees few of them: the formula
+    goes further than the orders are looked for.
+    """
+    text = gark("modified", COLLOCATION, *PENDULUM, "-n", "7").out
+    assert "trees of up to 5 vertices" in text
+    assert "modified Hamiltonian, up to h^6, of" in text
+    assert "    h^6 " in text
 
 
 def test_problems_and_options_that_do_not_fit(tmp_path: Path) -> None:
