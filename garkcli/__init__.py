@@ -20,6 +20,7 @@ if TYPE_CHECKING:
         method_of,
         pair,
     )
+    from garkcli.api.properties import find_property, reduced
     from garkcli.backward import energy as _energy
     from garkcli.backward import formulas as _formulas
     from garkcli.backward import summary as _summary
@@ -72,6 +73,7 @@ _HOMES = {
     "elementary_weight": "order.conditions",
     "find_order": "api.methods",
     "find_parameters": "design.design",
+    "find_property": "api.properties",
     "format_tree": "trees.notation",
     "from_arrays": "api.arrays",
     "gark": "api.construction",
@@ -96,6 +98,7 @@ _HOMES = {
     "pair": "api.methods",
     "parse_tree": "trees.notation",
     "prove_method": "check.proof",
+    "reduced": "api.properties",
     "simplifying": "order.simplifying",
     "symplectic_pair": "tableau.forms",
     "symplecticity_defects": "longtime.symplecticity",
@@ -141,6 +144,7 @@ __all__ = [
     "elementary_weight",
     "find_order",
     "find_parameters",
+    "find_property",
     "format_tree",
     "from_arrays",
     "gark",
@@ -160,6 +164,7 @@ __all__ = [
     "pair",
     "parse_tree",
     "prove_method",
+    "reduced",
     "simplifying",
     "symplectic_pair",
     "symplecticity_defects",

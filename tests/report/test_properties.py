@@ -1,0 +1,134 @@
+"""Properties in the reports of gark check, and what a claim means."""
+
+from __future__ import annotations
+
+import json
+from pathlib import Path
+from typing import Any
+
+import pytest
+from jsonschema import Draft7Validator
+
+import garkcli
+from garkcli.errors import UsageProblem
+from garkcli.methodfile.expectations import CLAIMS
+from garkcli.properties.keys import KEYS
+from garkcli.report.check_json import check_report_schema
+from garkcli.report.explanation import explanation_schema
+from tests.cli.harness import ROOT, gark
+
+METHODS = sorted((ROOT / "methods").glob("*.yaml"))
+STAGES = "A: [[0, 0, 0], [1/4, 1/4, 0], [1/3, 1/3, 1/3]]\nb: [1/3, 1/3, 1/3]\n"
+
+
+def report(*arguments: str, stdin: str = "") -> dict[str, Any]:
+    """The only file of a JSON report, which its schema allows."""
+    run = gark("check", *arguments, "--format", "json", stdin=stdin)
+    data = json.loads(run.out)
+    assert list(Draft7Validator(check_report_schema()).iter_errors(data)) == []
+    (file,) = data["files"]
+    return dict(file)
+
+
+@pytest.mark.parametrize("path", METHODS, ids=lambda x: x.name)
+def test_every_property_of_every_method(path: Path) -> None:
+    """Text of 80 columns and JSON by its schema; both tell the same as the call in Python."""
+    text = gark("check", str(path), "--properties")
+    assert text.code == 0
+    block = text.out.partition("\n  explicit ")[2]
+    assert max(map(len, block.splitlines())) <= 80
+    found = report(str(path), "--properties")
+    listed = {x["property"]: x for x in found["every_property"]}
+    assert list(listed) == list(KEYS)
+    short = found["properties"]
+    for key in ("explicit", "fsal", "symmetric", "reducible", "implicit-stages"):
+        assert short[key.replace("-", "_")] == listed[key]["value"]
+    verdict = garkcli.find_property(garkcli.load(str(path)), "l-stable")
+    assert listed["l-stable"]["value"] == verdict.value
+    assert listed["l-stable"]["why"] == verdict.why
+
+
+def test_the_block_of_a_plain_check() -> None:
+    """What is worth a word, and no more: two γ are none, stages of their own kind are named."""
+    text = gark("check", "-", stdin=STAGES).out
+    assert "  stages           diagonally implicit, 2 of 3 implicit\n" in text
+    assert "  properties       stiffly accurate, first same as last\n" in text
+    assert "symmetric" not in text
+
+
+def test_systems_and_renumberings_in_json() -> None:
+    """Gauss 2 and Lobatto IIIA 3: who is solved with whom; x → 1 − x. Of the rectangular method
+    spelled out, the numbers of stages.
+    """
+    found = report("methods/collocation.gark.yaml")["properties"]
+    first, second = (
+        {"colours": ["1"], "stages": [1, 2]},
+        {"colours": ["2"], "stages": [2, 3]},
+    )
+    assert found["solved_together"] == [[first, second]]
+    assert [x["stages"] for x in found["renumbering"]] == ["1 - x", "1 - x"]
+    found = report("methods/rectangular.gark.yaml")["properties"]
+    assert [x["stages"] for x in found["renumbering"]] == [[2, 1], [3, 2, 1]]
+    assert [x["kind"] for x in found["by_colour"]] == [None, None]
+
+
+def test_a_failed_claim_says_why_in_every_format() -> None:
+    """The reason is in the text, the JSON and the formats for machines."""
+    text = f"{STAGES}expect: {{esdirk: true}}\n"
+    why = "stages depend on themselves by 1/4 and by 1/3"
+    (claim,) = report("-", stdin=text)["claims"]
+    assert claim["why"] == why
+    for format in ("text", "github", "sarif", "junit", "markdown"):
+        run = gark("check", "-", "--format", format, stdin=text)
+        assert run.code == 1
+        if format != "markdown":
+            assert why in run.out, format
+
+
+def test_a_stage_order_at_the_limit_is_a_lower_bound() -> None:
+    """With --max-order 1 no more is known; a claim on more raises the limit."""
+    text = "methods: {family: gauss, stages: 3}\n"
+    found = report("-", "--max-order", "1", stdin=text)["properties"]
+    assert (found["stage_order"], found["stage_order_is_lower_bound"]) == (1, True)
+    claimed = f"{text}expect: {{stage-order: 3}}\n"
+    run = gark("check", "-", "--max-order", "1", stdin=claimed)
+    assert run.code == 0
+
+
+@pytest.mark.parametrize("key", CLAIMS)
+def test_every_claim_is_explained(key: str) -> None:
+    """As text of 80 columns with its source, in ASCII too, and as JSON by its schema."""
+    run = gark("check", "--explain", key)
+    assert (run.code, run.err) == (0, "")
+    lines = run.out.splitlines()
+    assert lines[0] == key
+    assert max(map(len, lines)) <= 80
+    assert any(line.startswith("  source   ") for line in lines)
+    assert gark("check", "--explain", key, encoding="ascii").out.isascii()
+    data = json.loads(gark("check", "--explain", key, "--format", "json").out)
+    assert data["key"] == key
+    assert list(Draft7Validator(explanation_schema()).iter_errors(data)) == []
+
+
+def test_an_unknown_key_has_a_suggestion() -> None:
+    """Exit code 2, and the nearest key; so has a check of no file its usage."""
+    run = gark("check", "--explain", "stiffly-acurate")
+    assert (run.code, run.out) == (2, "")
+    assert "did you mean 'stiffly-accurate'?" in run.err
+    none = gark("check")
+    assert none.code == 2
+    assert "Missing argument 'FILE...'" in none.err
+
+
+def test_the_calls_in_python() -> None:
+    """A property by its name, within the tolerance of the method or without; a smaller method."""
+    method = garkcli.loads(f"name: a\n{STAGES}")
+    assert garkcli.find_property(method, "ssp-coefficient").value is not None
+    with pytest.raises(UsageProblem):
+        garkcli.find_property(method, "stable")
+    same = garkcli.reduced(method)
+    assert same is not None
+    assert same.tableau is method.tableau
+    rounded = garkcli.loads("A: [[0.333333]]\nb: [1]\ntolerance: 1e-6")
+    assert garkcli.find_property(rounded, "real-stability").is_undecided
+    assert not garkcli.find_property(rounded, "real-stability", 0).is_undecided
