@@ -22,8 +22,9 @@ from garkcli.backward.formulas import ModifiedFormula, modified_formula
 from garkcli.convergence.ladder import has_settled
 from garkcli.convergence.result import CLOSE, Row, observed_order, slope_between
 from garkcli.errors import UsageProblem
-from garkcli.problems.hamiltonian import Hamiltonian, is_constant, symbols
+from garkcli.problems.hamiltonian import Hamiltonian
 from garkcli.problems.straightline import function
+from garkcli.problems.vectorfield import is_constant, symbols
 from garkcli.stepping.integrator import Binding, bind
 from garkcli.stepping.linear import whole_steps
 from garkcli.stepping.step import trajectory
@@ -157,7 +158,7 @@ def modified_run(
     ):
         rows = tuple(row[k] for row in table)
         energies.append(_energy(power, order, is_lower_bound, rows))
-    return ModifiedRun(bound.problem, t_end, max_order, meter.digits, tuple(energies))
+    return ModifiedRun(formula.problem, t_end, max_order, meter.digits, tuple(energies))
 
 
 def _changing(formula: ModifiedFormula) -> tuple[list[int], list[Any]]:

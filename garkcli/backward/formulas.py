@@ -96,9 +96,11 @@ def modified_formula(
     2 px**2*cos(x)/12 - sin(x)**2/24
     """
     bound = bind(tableau, problem)
+    split = bound.problem
+    assert isinstance(split, Hamiltonian)
     seen = visible(bound)
     equation = modified_equation(seen.tableau, max_order)
-    differentials = Differentials(seen.tableau, bound.problem, seen.energies)
+    differentials = Differentials(seen.tableau, split, seen.energies)
     if seen.structure is not None and is_symplectic(bound.tableau):
         of: Literal["hamiltonian", "equation"] = "hamiltonian"
         sums = _of_hamiltonian(differentials, equation, seen.structure)
@@ -109,9 +111,8 @@ def modified_formula(
     for power, formulas in enumerate(sums):
         if any(x != 0 for x in formulas):
             terms.append(PowerTerm(power, tuple(formulas)))
-    return ModifiedFormula(
-        bound.problem, of, max_order, tuple(terms), equation.order > 0
-    )
+    is_consistent = equation.order > 0
+    return ModifiedFormula(split, of, max_order, tuple(terms), is_consistent)
 
 
 def _of_hamiltonian(

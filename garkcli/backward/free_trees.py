@@ -22,7 +22,7 @@ from collections.abc import Iterator
 from dataclasses import dataclass
 from functools import cached_property
 
-from garkcli.stepping.dependency import with_joined_terms
+from garkcli.stepping.fields import with_joined_terms
 from garkcli.tableau.tableau import Tableau
 from garkcli.trees.free import Structure
 from garkcli.trees.symplectic import (

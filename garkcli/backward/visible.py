@@ -7,7 +7,7 @@ from typing import TYPE_CHECKING, Any
 
 from garkcli.backward.free_trees import hamiltonian_structure
 from garkcli.order.conditions import elementary_weight
-from garkcli.stepping.dependency import visible_tableau
+from garkcli.stepping.fields import visible_tableau
 from garkcli.tableau.tableau import Tableau
 from garkcli.trees.tree import Tree
 

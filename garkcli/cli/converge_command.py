@@ -108,6 +108,7 @@ class Asked:
     omega: str | None
     split: str | None
     seed: int | None
+    stiffness: str | None
     t_end: str | None
     steps: str | None
     work: bool
@@ -131,7 +132,12 @@ def _check(asked: Asked) -> None:
     """
     if asked.named is not None:
         of_oscillator = {"--omega": asked.omega, "--split": asked.split}
-        refuse_misplaced(asked.named, asked.seed, of_oscillator)
+        refuse_misplaced(asked.named, asked.seed, asked.stiffness, of_oscillator)
+    elif asked.stiffness is not None:
+        raise UsageProblem(
+            "--stiffness is for a problem that has one",
+            "name it with --problem, such as --problem van-der-pol",
+        )
     if asked.omega:
         positive("--omega", asked.omega)
     if asked.against not in (None, "h") and not asked.work:
@@ -147,7 +153,14 @@ def _wanted(asked: Asked) -> Wanted:
     if asked.steps is not None:
         steps = tuple(positive("--steps", h) for h in asked.steps.split(","))
     return Wanted(
-        asked.named, asked.omega, asked.split, asked.seed, t_end, steps, asked.work
+        asked.named,
+        asked.omega,
+        asked.split,
+        asked.seed,
+        given_positive("--stiffness", asked.stiffness),
+        t_end,
+        steps,
+        asked.work,
     )
 
 
@@ -175,7 +188,7 @@ def _one(path: str, wanted: Wanted, shown: Shown, output: Output) -> int:
 
     problems = Problems(wanted)
     method = load(path)
-    tableau = stepped_tableau(method, output)
+    tableau = stepped_tableau(method, output, has_momenta=problems.is_hamiltonian)
     problems.prepare([tableau])
     if problems.read is not None:
         note_changing(problems.read, output)

@@ -7,7 +7,7 @@ from dataclasses import dataclass
 from typing import TYPE_CHECKING, TypeAlias
 
 from garkcli.cli.options import Output
-from garkcli.cli.problems import find_problem, is_path, note_changing
+from garkcli.cli.problems import find_problem, is_hamiltonian, is_path, note_changing
 from garkcli.cli.stepping import oscillator, rational, stepped_tableau
 from garkcli.cli.streams import say_faults
 from garkcli.errors import Fault, GarkError, MethodFileError
@@ -18,8 +18,8 @@ if TYPE_CHECKING:
     from garkcli.convergence.result import Convergence
     from garkcli.convergence.solver import Watch
     from garkcli.methodfile.build import MethodFile
-    from garkcli.problems.hamiltonian import Hamiltonian
     from garkcli.problems.oscillator import Oscillator
+    from garkcli.problems.problem import Problem
     from garkcli.report.convergence_data import Entry
     from garkcli.tableau.tableau import Tableau
 
@@ -32,7 +32,7 @@ class Wanted:
 
     Attributes:
         problem: a name or the path of a problem file, or None for one that sees every tree.
-        omega, split, seed: of the problems that take them.
+        omega, split, seed, stiffness: of the problems that take them.
         t_end: the final time, or None for that of the problem.
         steps: step sizes, or None for the default ladder.
         work: whether the cost of the steps is measured.
@@ -42,6 +42,7 @@ class Wanted:
     omega: str | None
     split: str | None
     seed: int | None
+    stiffness: fmpq | None
     t_end: fmpq | None
     steps: tuple[fmpq, ...] | None
     work: bool
@@ -68,11 +69,11 @@ class Problems:
         self._wanted = wanted
         self._name = wanted.problem
         self._tableaux: Sequence[Tableau] = ()
-        self.read: Hamiltonian | None = None
+        self.read: Problem | None = None
         if self._name is not None and is_path(self._name):
             from garkcli.methodfile.problem import load_problem
 
-            self.read = load_problem(self._name)
+            self.read = load_problem(self._name, wanted.stiffness)
         self._check_steps()
 
     def _check_steps(self) -> None:
@@ -85,16 +86,16 @@ class Problems:
         problem = self._unsplit()
         check_steps(problem, wanted.t_end or usual_time(problem), wanted.steps)
 
-    def _unsplit(self) -> Hamiltonian | Oscillator:
+    def _unsplit(self) -> Problem | Oscillator:
         """The problem in one term: its times are those of every split."""
-        from garkcli.problems.builtin import GENERIC, hamiltonian
+        from garkcli.problems.builtin import GENERIC, problem
         from garkcli.problems.oscillator import Oscillator
 
         if self.read is not None:
             return self.read
         if self._name == "oscillator":
             return Oscillator.default(1, rational("--omega", self._wanted.omega or "1"))
-        return hamiltonian(self._name or GENERIC[0], 1)
+        return problem(self._name or GENERIC[0], 1, stiffness=self._wanted.stiffness)
 
     def prepare(self, tableaux: Sequence[Tableau]) -> None:
         """Make the problem one for all of these methods.
@@ -109,10 +110,19 @@ class Problems:
             self._name = seeing_problem(tableaux, self._seed)
 
     @property
+    def is_hamiltonian(self) -> bool:
+        """Whether methods are to step positions and momenta: so they are where none is named."""
+        from garkcli.problems.hamiltonian import Hamiltonian
+
+        if self.read is not None:
+            return isinstance(self.read, Hamiltonian)
+        return self._name is None or is_hamiltonian(self._name)
+
+    @property
     def _seed(self) -> int:
         return 1 if self._wanted.seed is None else self._wanted.seed
 
-    def of(self, tableau: Tableau) -> Hamiltonian | Oscillator:
+    def of(self, tableau: Tableau) -> Problem | Oscillator:
         """The problem for one of the methods that it was prepared for.
 
         Raises:
@@ -121,7 +131,7 @@ class Problems:
         from garkcli.convergence.default_problem import in_common
         from garkcli.problems.builtin import built_in
         from garkcli.problems.oscillator import terms_of
-        from garkcli.stepping.dependency import with_joined_terms
+        from garkcli.stepping.fields import with_joined_terms
         from garkcli.stepping.matching import split_into
 
         if self._name == "oscillator":
@@ -130,7 +140,7 @@ class Problems:
             return split_into(self.read, terms_of(with_joined_terms(tableau)))
         assert self._name is not None
         if not built_in(self._name).takes_seed:
-            return find_problem(self._name, tableau)
+            return find_problem(self._name, tableau, stiffness=self._wanted.stiffness)
         first, *_ = in_common(self._name, [tableau, *self._tableaux], self._seed)
         return first
 
@@ -196,7 +206,7 @@ def compared(paths: Sequence[str], wanted: Wanted, output: Output) -> list[Entry
     from garkcli.report.progress import watching
 
     problems = Problems(wanted)
-    methods = [_loaded(path, output) for path in paths]
+    methods = [_loaded(path, problems, output) for path in paths]
     problems.prepare([found[1] for found in methods if isinstance(found, tuple)])
     if problems.read is not None:
         note_changing(problems.read, output)
@@ -214,13 +224,14 @@ def compared(paths: Sequence[str], wanted: Wanted, output: Output) -> list[Entry
     return entries
 
 
-def _loaded(path: str, output: Output) -> Loaded | Entry:
+def _loaded(path: str, problems: Problems, output: Output) -> Loaded | Entry:
     """A method with the tableau that steps, or what its failure leaves."""
     from garkcli.methodfile.load import load
 
     try:
         method = load(path)
-        return method, stepped_tableau(method, output, path)
+        tableau = stepped_tableau(method, output, path, problems.is_hamiltonian)
+        return method, tableau
     except GarkError as error:
         return _failed(path, path, error)
 

@@ -16,6 +16,7 @@ from garkcli.cli.problems import (
     note_changing,
     plot_option,
     problem_options,
+    unsplit_problem,
 )
 from garkcli.cli.stepping import (
     check_plot,
@@ -33,8 +34,8 @@ if TYPE_CHECKING:
     from garkcli.longtime.history import LongRun
     from garkcli.longtime.symplecticity import Symplecticity
     from garkcli.methodfile.build import MethodFile
-    from garkcli.problems.hamiltonian import Hamiltonian
     from garkcli.problems.oscillator import Oscillator
+    from garkcli.problems.problem import Problem
     from garkcli.report.energy_text import Claim
     from garkcli.tableau.tableau import Tableau
 
@@ -149,7 +150,7 @@ class Wanted:
     Attributes:
         file: the method.
         problem: a name or the path of a problem file.
-        omega, split, seed: of the problems that take them.
+        omega, split, seed, stiffness: of the problems that take them.
         t_end, step: the time and the step size, as they were written; None for those of the
             problem.
         digits: of the steps, or None for floats.
@@ -165,6 +166,7 @@ class Wanted:
     omega: str | None
     split: str | None
     seed: int | None
+    stiffness: str | None
     t_end: str | None
     step: str | None
     digits: int | None
@@ -183,6 +185,7 @@ def _in_modified(wanted: Wanted, order: int, output: Output) -> int:
     others = {
         "--omega": wanted.omega,
         "--split": wanted.split,
+        "--stiffness": wanted.stiffness,
         "--digits": wanted.digits,
         "--symplecticity": wanted.symplecticity,
         "--bounded": wanted.bounded,
@@ -202,7 +205,7 @@ def _check(wanted: Wanted) -> None:
         UsageProblem: two of them do not.
     """
     of_oscillator = {"--omega": wanted.omega, "--split": wanted.split}
-    refuse_misplaced(wanted.problem, wanted.seed, of_oscillator)
+    refuse_misplaced(wanted.problem, wanted.seed, wanted.stiffness, of_oscillator)
     if wanted.problem == "oscillator" and wanted.digits is not None:
         message = "--digits is not for the oscillator: its steps are exact"
         raise UsageProblem(message, "leave it out")
@@ -211,24 +214,54 @@ def _check(wanted: Wanted) -> None:
 
 def _at_work(
     method: MethodFile, wanted: Wanted, output: Output
-) -> tuple[Tableau, Oscillator | Hamiltonian]:
+) -> tuple[Tableau, Oscillator | Problem]:
     """The tableau that steps, and the problem in as many terms as it is for."""
-    from garkcli.stepping.dependency import with_joined_terms
+    from garkcli.problems.hamiltonian import Hamiltonian
+    from garkcli.problems.oscillator import terms_of
+    from garkcli.stepping.fields import with_joined_terms
+    from garkcli.stepping.matching import split_into
 
-    tableau = stepped_tableau(method, output)
     if wanted.problem == "oscillator":
+        tableau = stepped_tableau(method, output)
         return tableau, oscillator(tableau, wanted.omega, wanted.split)
+    stiffness = given_positive("--stiffness", wanted.stiffness)
+    read = unsplit_problem(wanted.problem, stiffness)
+    _check_quantities(read, wanted)
+    has_momenta = isinstance(read, Hamiltonian)
+    tableau = stepped_tableau(method, output, has_momenta=has_momenta)
     tableau = with_joined_terms(tableau)
-    problem = find_problem(wanted.problem, tableau, wanted.seed)
     if is_path(wanted.problem):
+        problem = split_into(read, terms_of(tableau))
         note_changing(problem, output)
-    return tableau, problem
+        return tableau, problem
+    return tableau, find_problem(wanted.problem, tableau, wanted.seed, stiffness)
+
+
+def _check_quantities(problem: Problem, wanted: Wanted) -> None:
+    """Refuse to follow what is not there.
+
+    Raises:
+        UsageProblem: nothing is conserved, or the problem is not Hamiltonian and its steps are to
+            be symplectic.
+    """
+    from garkcli.problems.hamiltonian import Hamiltonian
+
+    if not problem.quantities:
+        raise UsageProblem(
+            f"{problem.name} has no energy and no invariants to follow",
+            "give invariants in a problem file, or choose a Hamiltonian problem",
+        )
+    if wanted.symplecticity and not isinstance(problem, Hamiltonian):
+        raise UsageProblem(
+            f"--symplecticity is for Hamiltonian problems, and {problem.name} is none",
+            "leave it out",
+        )
 
 
 def _run(
     method: MethodFile,
     tableau: Tableau,
-    problem: Oscillator | Hamiltonian,
+    problem: Oscillator | Problem,
     time: fmpq | None,
     step: fmpq | None,
     wanted: Wanted,
@@ -260,8 +293,10 @@ def _run(
 
 def _symplecticity(
     tableau: Tableau, method: MethodFile, run: LongRun, is_measured: bool
-) -> Symplecticity:
-    """Of the steps of ``run``: by the coefficients, and measured where that was asked for."""
+) -> Symplecticity | None:
+    """Of the steps of ``run``: by the coefficients, and measured where that was asked for; None
+    where the problem is not Hamiltonian.
+    """
     from garkcli.longtime.symplecticity import (
         Symplecticity,
         holds,
@@ -269,7 +304,10 @@ def _symplecticity(
         symplecticity_defects,
     )
     from garkcli.problems.oscillator import Oscillator
+    from garkcli.problems.righthandside import RightHandSide
 
+    if isinstance(run.problem, RightHandSide):
+        return None
     if isinstance(run.problem, Oscillator):
         return Symplecticity(holds(tableau, method.tolerance))
     proved = is_proved(tableau, run.problem, method.tolerance)
@@ -291,7 +329,8 @@ def _claims(run: LongRun, bounded: bool, limit: fmpq | None) -> tuple[Claim, ...
         found = ", ".join(f"{x.name} {x.verdict}" for x in wrong)
         claims.append(Claim("bounded", found or "bounded", not wrong))
     if limit is not None:
-        energy = run.energy
+        # the energy, or of what else is conserved the one with the largest error
+        energy = run.energy or max(run.invariants, key=lambda x: x.max_error)
         holds = not run.is_unstable and energy.max_error <= to_float(limit)
         found_error = measured(energy.max_error, energy.round_off)
         claims.append(Claim(f"max-error: {decimal(limit)}", found_error, holds))

@@ -14,7 +14,7 @@ from garkcli.cli.options import (
     digits_option,
     document_option,
 )
-from garkcli.cli.problems import ProblemType, find_problem, seed_option
+from garkcli.cli.problems import ProblemType, find_hamiltonian, seed_option
 from garkcli.cli.stepping import refuse_misplaced, stepped_tableau
 from garkcli.errors import UsageProblem
 
@@ -91,7 +91,7 @@ def command(
     tableau = _chosen(method, which)
     formula = None
     if problem is not None:
-        refuse_misplaced(problem, seed, {})
+        refuse_misplaced(problem, seed, None, {})
         if which is None:
             tableau = stepped_tableau(method, output)
             which = "pair" if tableau is not method.tableau else None
@@ -116,7 +116,7 @@ def _formula(
     """The formula on the problem of --problem.
 
     Raises:
-        UsageProblem: the coefficients are rounded.
+        UsageProblem: the coefficients are rounded, or the problem is not Hamiltonian.
     """
     from garkcli.backward.formulas import modified_formula
 
@@ -125,7 +125,7 @@ def _formula(
             "--problem: a formula has exact coefficients, and those of the file are rounded",
             "give exact coefficients, without tolerance",
         )
-    solved = find_problem(problem, tableau, seed)
+    solved = find_hamiltonian(problem, tableau, seed)
     return modified_formula(tableau, solved, order).expanded()
 
 

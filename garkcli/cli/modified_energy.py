@@ -5,7 +5,7 @@ from __future__ import annotations
 from collections.abc import Mapping
 
 from garkcli.cli.options import Output
-from garkcli.cli.problems import find_problem
+from garkcli.cli.problems import find_hamiltonian
 from garkcli.cli.stepping import given_positive, stepped_tableau
 from garkcli.cli.streams import say_problem
 from garkcli.errors import UsageProblem
@@ -52,7 +52,7 @@ def measure_modified(
             "give exact coefficients, without tolerance",
         )
     tableau = stepped_tableau(method, output)
-    solved = find_problem(problem, tableau, seed)
+    solved = find_hamiltonian(problem, tableau, seed)
     shows_bar = output.verbosity >= 0
     try:
         run = modified_run(

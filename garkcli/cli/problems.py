@@ -11,11 +11,14 @@ import click
 from click.shell_completion import CompletionItem
 
 from garkcli.cli.options import PATH
-from garkcli.errors import did_you_mean
+from garkcli.errors import UsageProblem, did_you_mean
 
 if TYPE_CHECKING:
+    from flint import fmpq
+
     from garkcli.cli.options import Output
     from garkcli.problems.hamiltonian import Hamiltonian
+    from garkcli.problems.problem import Problem
     from garkcli.tableau.tableau import Tableau
 
 F = TypeVar("F", bound=Callable[..., Any])
@@ -99,16 +102,50 @@ plot_option: Callable[[F], F] = click.option(
 )
 
 
+stiffness_option: Callable[[F], F] = click.option(
+    "--stiffness",
+    metavar="S",
+    help="Of the stiff problems, and the parameter of this name in a problem file.",
+)
+
+
 def problem_options(function: F) -> F:
-    """``--omega``, ``--split``, ``--seed`` and ``--t-end``."""
-    for option in (t_end_option, seed_option, split_option, omega_option):
+    """``--omega``, ``--split``, ``--seed``, ``--stiffness`` and ``--t-end``."""
+    options = (t_end_option, stiffness_option, seed_option, split_option, omega_option)
+    for option in options:
         function = option(function)
     return function
 
 
+def is_hamiltonian(name: str) -> bool:
+    """Whether a built-in problem is."""
+    from garkcli.problems.builtin import built_in
+
+    return built_in(name).is_hamiltonian
+
+
+def unsplit_problem(name_or_path: str, stiffness: fmpq | None) -> Problem:
+    """The problem called so in one term, or as a file has it.
+
+    Raises:
+        UsageProblem: there is no such problem, or it has no stiffness.
+        MethodFileError: the file has faults.
+    """
+    if is_path(name_or_path):
+        from garkcli.methodfile.problem import load_problem
+
+        return load_problem(name_or_path, stiffness)
+    from garkcli.problems.builtin import problem
+
+    return problem(name_or_path, 1, stiffness=stiffness)
+
+
 def find_problem(
-    name_or_path: str, tableau: Tableau, seed: int | None = None
-) -> Hamiltonian:
+    name_or_path: str,
+    tableau: Tableau,
+    seed: int | None = None,
+    stiffness: fmpq | None = None,
+) -> Problem:
     """The problem called so or described in that file, split into the terms that ``tableau`` is
     for.
 
@@ -116,14 +153,16 @@ def find_problem(
         name_or_path: the name of a built-in problem, or the path of a problem file.
         tableau: of the method.
         seed: for problems with random coefficients; 1 by default.
+        stiffness: for those that have one.
 
     Raises:
-        UsageProblem: there is no such problem, it takes no seed, or it has another number of terms.
+        UsageProblem: there is no such problem, it takes no seed or no stiffness, or it has another
+            number of terms.
         MethodFileError: the file has faults.
     """
-    from garkcli.problems.builtin import check_seed, hamiltonian
+    from garkcli.problems.builtin import check_seed, problem
     from garkcli.problems.oscillator import terms_of
-    from garkcli.stepping.dependency import with_joined_terms
+    from garkcli.stepping.fields import with_joined_terms
 
     check_seed(name_or_path, seed)
     terms = terms_of(with_joined_terms(tableau))
@@ -131,11 +170,29 @@ def find_problem(
         from garkcli.methodfile.problem import load_problem
         from garkcli.stepping.matching import split_into
 
-        return split_into(load_problem(name_or_path), terms)
-    return hamiltonian(name_or_path, terms, 1 if seed is None else seed)
+        return split_into(load_problem(name_or_path, stiffness), terms)
+    return problem(name_or_path, terms, 1 if seed is None else seed, stiffness)
 
 
-def note_changing(problem: Hamiltonian, output: Output) -> None:
+def find_hamiltonian(
+    name_or_path: str, tableau: Tableau, seed: int | None = None
+) -> Hamiltonian:
+    """The same, where it has to be Hamiltonian.
+
+    Raises:
+        UsageProblem: it is not, or see ``find_problem``.
+        MethodFileError: the file has faults.
+    """
+    from garkcli.problems.hamiltonian import Hamiltonian
+
+    found = find_problem(name_or_path, tableau, seed)
+    if not isinstance(found, Hamiltonian):
+        message = f"--problem: {found.name} is not Hamiltonian"
+        raise UsageProblem(message, "choose one that is")
+    return found
+
+
+def note_changing(problem: Problem, output: Output) -> None:
     """Say which invariants of a problem file are none: their errors are not the method's."""
     from garkcli.convergence.conserved import changing
 

@@ -22,15 +22,19 @@ DECADES = 50
 """Times, frequencies and errors are numbers from 10^-50 to 10^50."""
 
 
-def stepped_tableau(method: MethodFile, output: Output, path: str = "") -> Tableau:
-    """The tableau that steps: the symplectic pair of ``methods``, else what the file gives.
+def stepped_tableau(
+    method: MethodFile, output: Output, path: str = "", has_momenta: bool = True
+) -> Tableau:
+    """The tableau that steps: the symplectic pair of ``methods`` where the problem has positions
+    and momenta, else what the file gives.
 
     A note on the latter names ``path``, where several files are at work.
     """
     from garkcli.errors import ZeroWeight
     from garkcli.tableau.forms import pair
 
-    if method.form != "methods" or method.tableau.is_partitioned:
+    is_diagonal = method.form == "methods" and not method.tableau.is_partitioned
+    if not (is_diagonal and has_momenta):
         return method.tableau
     try:
         return pair(method.tableau)
@@ -43,19 +47,23 @@ def stepped_tableau(method: MethodFile, output: Output, path: str = "") -> Table
 
 
 def refuse_misplaced(
-    problem: str, seed: int | None, of_oscillator: Mapping[str, object]
+    problem: str,
+    seed: int | None,
+    stiffness: str | None,
+    of_oscillator: Mapping[str, object],
 ) -> None:
     """Refuse options of another problem: they would change nothing.
 
     Args:
         problem: the one that was named.
         seed: the value of --seed, which is for problems with random coefficients.
+        stiffness: the value of --stiffness, which is for stiff problems and problem files.
         of_oscillator: the options that are for the oscillator alone, with their values.
 
     Raises:
         UsageProblem: one of them was given.
     """
-    from garkcli.problems.builtin import check_seed
+    from garkcli.problems.builtin import PROBLEMS, check_seed, check_stiffness
 
     given = next((option for option, value in of_oscillator.items() if value), None)
     if problem != "oscillator" and given:
@@ -63,6 +71,8 @@ def refuse_misplaced(
             f"{given} is for the oscillator, not for {problem}", "leave it out"
         )
     check_seed(problem, seed)
+    if stiffness is not None and problem in PROBLEMS:
+        check_stiffness(problem)
 
 
 def given_positive(option: str, text: str | None) -> fmpq | None:

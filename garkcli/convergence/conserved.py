@@ -9,8 +9,8 @@ from flint import arb, ctx, fmpq
 
 from garkcli.convergence.reference import reference
 from garkcli.errors import UsageProblem
-from garkcli.problems.hamiltonian import GROUPS, Hamiltonian, symbols
 from garkcli.problems.mass import enclosed
+from garkcli.problems.problem import Problem, unknowns
 from garkcli.stepping.step import StepFailed
 
 _PART = 64
@@ -24,7 +24,7 @@ the solution.
 _BITS = 4 * _DIGITS
 
 
-def changing(problem: Hamiltonian) -> tuple[tuple[str, float, fmpq], ...]:
+def changing(problem: Problem) -> tuple[tuple[str, float, fmpq], ...]:
     """The invariants of ``problem`` that its solution does not keep: name, change, and the time
     that it is over.
 
@@ -39,7 +39,7 @@ def changing(problem: Hamiltonian) -> tuple[tuple[str, float, fmpq], ...]:
         end = reference(problem, time).to(_DIGITS)
     except (StepFailed, UsageProblem):
         return ()
-    names = tuple(x for group in GROUPS for x in symbols(problem.variables, group))
+    names = unknowns(problem)
     found = []
     for name, made in problem.invariants:
         change = _change(made, names, problem, end)
@@ -49,7 +49,7 @@ def changing(problem: Hamiltonian) -> tuple[tuple[str, float, fmpq], ...]:
 
 
 def _change(
-    made: Any, names: Sequence[Any], problem: Hamiltonian, end: Sequence[arb]
+    made: Any, names: Sequence[Any], problem: Problem, end: Sequence[arb]
 ) -> float:
     """Of one invariant; 0 where it is no more than the errors of the solution."""
     with ctx.workprec(_BITS):

@@ -18,14 +18,17 @@ from garkcli.convergence.result import (
     MAX_ORDER,
     Convergence,
     Row,
+    Stiffness,
     Visible,
     observed_order,
+    stiff_order,
 )
 from garkcli.convergence.solver import Solver, Watch
 from garkcli.errors import UsageProblem
 from garkcli.order.certificate import find_order
-from garkcli.problems.hamiltonian import Hamiltonian
+from garkcli.order.simplifying import simplifying
 from garkcli.problems.oscillator import Oscillator
+from garkcli.problems.problem import Problem
 from garkcli.stepping.linear import whole_steps
 from garkcli.tableau.tableau import Tableau
 
@@ -34,7 +37,7 @@ _SHORT_STEPS = (4, 8, 16, 32)  # in which a short time is stepped through
 
 def converge(
     tableau: Tableau,
-    problem: Oscillator | Hamiltonian | None = None,
+    problem: Oscillator | Problem | None = None,
     t_end: fmpq | None = None,
     steps: Sequence[fmpq] | None = None,
     tolerance: fmpq | None = None,
@@ -71,11 +74,12 @@ def converge(
     t_end = usual if t_end is None else t_end
     if steps is not None:
         check_steps(problem, t_end, steps)  # before any work is done
-    predicted = order_of(tableau, tolerance)
+    predicted = order_of(_with_time(tableau, problem), tolerance)
     solver = _solver(tableau, problem, t_end, tolerance, predicted, watch)
     rows, plateau = _rows(solver, steps, is_timed)
     fitted = rows[: len(rows) - plateau]
-    observed = observed_order(fitted)
+    stiff = _stiffness(solver, tableau, rows, tolerance)
+    observed = observed_order(fitted) if stiff is None else stiff_order(fitted)
     short_time, short_order = None, None
     if tolerance is None and _is_off(solver, observed):
         short_time, short_order = _over_short_times(solver, min(t_end, usual))
@@ -91,6 +95,7 @@ def converge(
         short_order,
         tolerance is None or _has_settled(fitted),
         steps is not None,
+        stiff,
     )
 
 
@@ -113,22 +118,49 @@ def _rows(
     if steps is None:
         return ladder.default_rows(solver, is_timed)
     rows = _given_rows(solver, steps)
-    return rows, ladder.plateau(rows, solver.visible.order, solver.rounding())
+    order = ladder.unspoilt_order(solver, rows[-1].h)
+    return rows, ladder.plateau(rows, order, solver.rounding())
 
 
-def _seeing_every_tree(tableau: Tableau) -> Hamiltonian:
+def _seeing_every_tree(tableau: Tableau) -> Problem:
     """The problem with random coefficients for one method."""
     name = seeing_problem([tableau])
     (problem,) = in_common(name, [tableau], 1)
     return problem
 
 
-def usual_time(problem: Oscillator | Hamiltonian) -> fmpq:
+def _with_time(tableau: Tableau, problem: Oscillator | Problem) -> Tableau:
+    """The tableau whose order is the one on problems like this: with time as a colour where there
+    is time, because nodes need not be row sums.
+
+    Raises:
+        UsageProblem: its stages have no times.
+    """
+    if isinstance(problem, Oscillator):
+        return tableau
+    from garkcli.stepping.fields import with_clock
+
+    return with_clock(tableau, problem)
+
+
+def _stiffness(
+    solver: Solver, tableau: Tableau, rows: Sequence[Row], tolerance: fmpq | None
+) -> Stiffness | None:
+    """Where the steps of all rows are far too large for the problem."""
+    resolution = solver.resolution(rows[-1].h)
+    if resolution < ladder.STIFF:
+        return None
+    found = simplifying(tableau, tolerance=fmpq(0) if tolerance is None else tolerance)
+    is_stable = ladder.is_part(rows[-1], solver.size())
+    return Stiffness(resolution, found.eta, is_stable)
+
+
+def usual_time(problem: Oscillator | Problem) -> fmpq:
     """The final time of a test where none is given."""
     return 4 / problem.omega if isinstance(problem, Oscillator) else problem.t_end
 
 
-def most_steps(problem: Oscillator | Hamiltonian) -> int:
+def most_steps(problem: Oscillator | Problem) -> int:
     """Of one row."""
     if isinstance(problem, Oscillator):
         from garkcli.stepping.linear import MAX_STEPS
@@ -140,7 +172,7 @@ def most_steps(problem: Oscillator | Hamiltonian) -> int:
 
 
 def check_steps(
-    problem: Oscillator | Hamiltonian, t_end: fmpq, steps: Sequence[fmpq]
+    problem: Oscillator | Problem, t_end: fmpq, steps: Sequence[fmpq]
 ) -> None:
     """Whether step sizes can be taken, before any work is done.
 
@@ -166,7 +198,7 @@ def order_of(tableau: Tableau, tolerance: fmpq | None) -> int:
 
 def _solver(
     tableau: Tableau,
-    problem: Oscillator | Hamiltonian,
+    problem: Oscillator | Problem,
     t_end: fmpq,
     tolerance: fmpq | None,
     predicted: int,
@@ -177,7 +209,7 @@ def _solver(
 
         return linear_solver(tableau, problem, t_end, tolerance, predicted)
     from garkcli.convergence.stepped_solver import SteppedSolver
-    from garkcli.stepping.dependency import visible_tableau, visible_trees
+    from garkcli.stepping.fields import visible_tableau, visible_trees
     from garkcli.stepping.integrator import bind
 
     bound = bind(tableau, problem)

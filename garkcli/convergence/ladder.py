@@ -28,6 +28,8 @@ MAX_COARSE = 20_000
 """Steps from which on the default ladder takes a large error for what there is to see."""
 LARGEST = 1 / 32
 """The part of the solution that an error of the default ladder is at most."""
+STIFF = 30
+"""h ‖∂f/∂y‖ from which on steps do not resolve a problem."""
 _NEAR = 0.125  # how far, in parts of the order, the first slope of a ladder may be off
 _STEADY = 0.02  # change between two slopes at which they have settled
 _EXTRAPOLATED = 0.06  # change between two extrapolated orders at which they have
@@ -55,7 +57,9 @@ def default_rows(solver: Solver, is_timed: bool) -> tuple[list[Row], int]:
     flat = 0
     for h in halvings(solver.t_end, solver.unit, solver.longest):
         is_coarse = h * MAX_COARSE > solver.t_end
-        if rows and solver.t_end / h > solver.most_steps:
+        is_long = solver.t_end / h > solver.most_steps
+        is_shown = bool(is_small) and is_small[-1] and solver.is_too_short(h)
+        if rows and (is_long or is_shown):
             break
         try:
             row = solver.row(h, rows[-1] if rows else None)
@@ -70,7 +74,7 @@ def default_rows(solver: Solver, is_timed: bool) -> tuple[list[Row], int]:
             return [row], 0
         rows.append(row)
         is_small.append(not is_coarse or is_part(row, solver.size()))
-        flat = plateau(rows, solver.visible.order, solver.rounding())
+        flat = plateau(rows, unspoilt_order(solver, h), solver.rounding())
         if flat > 1 or is_complete(rows, is_small):
             break
     return trimmed(rows, is_small, flat, may_be_off=is_timed), flat
@@ -176,6 +180,14 @@ def trimmed(
     if kept:
         kept[0] = replace(kept[0], slope=None)
     return kept
+
+
+def unspoilt_order(solver: Solver, h: fmpq) -> int:
+    """The order below which slopes at steps of size ``h`` are taken to be those of rounding: that
+    of a stiff problem is reduced as well, but seldom below 1.
+    """
+    order = solver.visible.order
+    return min(order, 1) if solver.resolution(h) >= STIFF else order
 
 
 def plateau(rows: Sequence[Row], order: int, rounding: arb) -> int:

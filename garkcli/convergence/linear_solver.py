@@ -17,8 +17,9 @@ from garkcli.convergence.solver import NoUniqueStep
 from garkcli.convergence.work import MAX_DIGITS, REACHED, cost_of, work_of
 from garkcli.errors import UsageProblem
 from garkcli.exact.matrix import Matrix
-from garkcli.problems.hamiltonian import FLOAT_DIGITS, Hamiltonian, symbols
+from garkcli.problems.hamiltonian import FLOAT_DIGITS, Hamiltonian
 from garkcli.problems.oscillator import Oscillator
+from garkcli.problems.vectorfield import symbols
 from garkcli.stepping.integrator import Integrator, bind
 from garkcli.stepping.linear import (
     MAX_STEPS,
@@ -85,6 +86,14 @@ class LinearSolver:
     def longest(self) -> fmpq:
         """ωh = 1/2: the expansion of R(h) has begun to be one."""
         return self.unit / 2
+
+    def is_too_short(self, h: fmpq) -> bool:  # noqa: ARG002 -- none is
+        """Never: its frequency is its unit of time."""
+        return False
+
+    def resolution(self, h: fmpq) -> float:  # noqa: ARG002 -- of all steps
+        """0: it is no right-hand side."""
+        return 0.0
 
     def row(self, h: fmpq, before: Row | None) -> Row:
         """The errors of steps of size ``h``, exact to ``ERROR_BITS``; see ``Solver.row``."""

@@ -1,5 +1,5 @@
-"""Solutions that errors are measured against: Gauss methods with as many digits and steps as are
-asked for.
+"""Solutions that errors are measured against: known ones, or those of Gauss and Radau IIA methods
+with as many digits and steps as are asked for.
 """
 
 from __future__ import annotations
@@ -7,7 +7,7 @@ from __future__ import annotations
 from collections.abc import Sequence
 from dataclasses import dataclass, replace
 from functools import cache
-from math import ceil
+from math import ceil, log10
 from typing import Any
 
 from flint import arb, ctx, fmpq
@@ -16,8 +16,17 @@ from garkcli.convergence.solver import Watch
 from garkcli.errors import UsageProblem
 from garkcli.exact.display import to_float
 from garkcli.problems.hamiltonian import Hamiltonian
+from garkcli.problems.problem import Problem
+from garkcli.problems.righthandside import (
+    EXACT_DIGITS,
+    RightHandSide,
+    solution,
+    starts_exactly,
+    steepness,
+)
 from garkcli.stepping.integrator import Integrator, bind
 from garkcli.stepping.step import StepFailed, Stepper
+from garkcli.tableau.pointwise import BITS_OF_A_DIGIT
 
 MAX_TRIED = 10_000
 """Steps from which on a step that fails is the fault of the problem."""
@@ -63,7 +72,7 @@ class Reference:
         steps: that were enough for it.
     """
 
-    problem: Hamiltonian
+    problem: Problem
     t_end: fmpq
     digits: int = 0
     y: tuple[arb, ...] = ()
@@ -77,6 +86,9 @@ class Reference:
             UsageProblem: the problem has no solution up to there, or one too close to a
                 singularity, or one that depends on its start so much that round-off drowns it.
         """
+        if digits > self.digits and self._is_known(digits):
+            self.y = _exact(self.problem, self.t_end, digits)
+            self.digits = digits
         if digits > self.digits:
             # more digits have more stages: about as many steps are enough again
             first = 2 * self.steps // 3
@@ -88,22 +100,41 @@ class Reference:
             self.digits = digits
         return self.y
 
+    def _is_known(self, digits: int) -> bool:
+        """Whether the exact solution is at hand, and starts where the problem does to so many
+        digits.
+        """
+        if isinstance(self.problem, Hamiltonian) or self.problem.exact is None:
+            return False
+        return digits <= EXACT_DIGITS or starts_exactly(self.problem)
 
-def reference(problem: Hamiltonian, t_end: fmpq) -> Reference:
+
+def _exact(problem: Problem, t_end: fmpq, digits: int) -> tuple[arb, ...]:
+    """The known solution of a problem at one time."""
+    assert isinstance(problem, RightHandSide)
+    with ctx.workprec(ceil((digits + _SPARE) * BITS_OF_A_DIGIT) + 64):
+        found = solution(problem, arb(t_end))
+        return tuple(x.mid() for x in found)
+
+
+def reference(problem: Problem, t_end: fmpq) -> Reference:
     """The solution of ``problem`` at ``t_end``: the same one for all ways to split the problem."""
     return _kept(replace(problem.unsplit(), name="", invariants=()), t_end)
 
 
 @cache
-def _kept(problem: Hamiltonian, t_end: fmpq) -> Reference:
+def _kept(problem: Problem, t_end: fmpq) -> Reference:
     return Reference(problem, t_end)
 
 
 def _solved(
-    problem: Hamiltonian, t_end: fmpq, digits: int, steps: int, watch: Watch | None
+    problem: Problem, t_end: fmpq, digits: int, steps: int, watch: Watch | None
 ) -> tuple[tuple[arb, ...], int]:
-    """From ``steps`` on more and more of one Gauss method, until the last change says that the
+    """From ``steps`` on more and more of one method, until the last change says that the
     error is small.
+
+    Hamiltonian problems are solved by Gauss methods. Others may be stiff: there those of Radau IIA
+    are, which damp what is off the smooth solution.
 
     From n to m > n steps an error falls by (n/m)^2s when h is small enough, and by more than
     (n/m)^s long before. The change bounds the larger of the two errors, so the smaller one is taken
@@ -114,8 +145,14 @@ def _solved(
     from garkcli.tableau.forms import gark
 
     stages = min(_STAGES, max(6, 2 * digits // 5))
-    gauss = gark([diagonal_method("gauss", stages)], {})
-    method = bind(gauss, problem).at(digits + _SPARE)
+    spare = _SPARE
+    family = "gauss"
+    if isinstance(problem, RightHandSide):
+        family = "radau-iia"
+        largest = max(1.0, float(steepness(problem) * arb(t_end)))
+        spare += ceil(log10(largest))  # what a stiff field makes of round-off
+    method = gark([diagonal_method(family, stages)], {})
+    integrator = bind(method, problem).at(digits + spare)
     what = f"reference solution, {digits} digits"
     before: list[Any] = []
     fewer, enough = 0, max(MAX_TRIED // 2, _REFINED * steps)
@@ -126,7 +163,7 @@ def _solved(
                 "choose an earlier final time",
             )
         try:
-            y = run(method, t_end / steps, steps, watch, what).y
+            y = run(integrator, t_end / steps, steps, watch, what).y
         except StepFailed as failure:
             if steps > MAX_TRIED:
                 raise _no_solution(t_end, failure) from None
@@ -135,7 +172,7 @@ def _solved(
         if not before:
             before, fewer, steps = y, steps, ceil(1.5 * steps)
             continue
-        with ctx.workprec(method.bits):
+        with ctx.workprec(integrator.bits):
             size = magnitude(y, problem)
             pairs = zip(y, before, strict=True)
             change = max((abs(a - b) for a, b in pairs), key=float)
@@ -169,7 +206,7 @@ def _no_solution(t_end: fmpq, failure: StepFailed) -> UsageProblem:
     )
 
 
-def magnitude(y: Sequence[Any], problem: Hamiltonian) -> arb:
+def magnitude(y: Sequence[Any], problem: Problem) -> arb:
     """How large the numbers of a solution are that starts as ``problem`` does and ends at ``y``."""
     total = arb(0)
     for x in (*y, *problem.initial):

@@ -9,16 +9,19 @@ from typing import TYPE_CHECKING, Literal, TypeAlias
 from flint import arb, arb_mat, ctx, fmpq
 
 if TYPE_CHECKING:
-    from garkcli.problems.hamiltonian import Hamiltonian
     from garkcli.problems.oscillator import Oscillator
+    from garkcli.problems.problem import Problem
 
-Verdict: TypeAlias = Literal["agree", "disagree", "undecided"]
-"""Of observed and visible order; undecided where there is no order to be seen."""
+Verdict: TypeAlias = Literal["agree", "disagree", "undecided", "reduced"]
+"""Of observed and visible order; undecided where there is no order to be seen, reduced where steps
+that do not resolve a stiff problem show a smaller one.
+"""
 MAX_ORDER = 120
 """Where the certificate stops to look for a higher order."""
 CLOSE = 0.05
 """How near the observed order is to the order it agrees with."""
 _FITTED = 4  # rows that the order is extrapolated from
+_CROSSING = 0.25  # how far an order is extrapolated from stiff slopes
 _BITS = 256  # of the extrapolation: far more than any error has
 
 
@@ -55,7 +58,7 @@ class Row:
         error: the distance from the exact solution at t_end: ‖(Δq, Δp)‖₂, and ‖(Δq, Δp/ω)‖₂ on the
             oscillator. Its ball holds 0 only where it is 0: the method makes no error.
         slope: of log error over log h, between the row before and this one; None in the first row.
-        energy_error: |H(t_end) − H(0)|.
+        energy_error: |H(t_end) − H(0)|; None where the problem has no energy.
         invariant_errors: |I(t_end) − I(0)| for each invariant of the problem besides H.
         digits: that the row was computed with, 15 for floats; None where nothing was rounded.
         cost: of the steps; None where they were not taken one by one.
@@ -64,7 +67,7 @@ class Row:
     h: fmpq
     error: arb
     slope: float | None
-    energy_error: arb
+    energy_error: arb | None
     invariant_errors: tuple[arb, ...] = ()
     digits: int | None = None
     cost: Cost | None = None
@@ -84,6 +87,21 @@ class Visible:
     order: int
     is_sharp: bool
     trees: str
+
+
+@dataclass(frozen=True)
+class Stiffness:
+    """What tells a stiff run, whose steps do not resolve the fastest part of the problem.
+
+    Attributes:
+        resolution: h ‖∂f/∂y‖ of the smallest step, far above 1.
+        stage_order: the largest q for which C^{l,m}(q) holds for all blocks.
+        is_stable: whether the error of the smallest step is a small part of the solution.
+    """
+
+    resolution: float
+    stage_order: int
+    is_stable: bool
 
 
 @dataclass(frozen=True)
@@ -107,9 +125,10 @@ class Convergence:
         has_settled: whether the slopes before the plateau have.
         are_given: whether the step sizes were asked for: then it is these that have to show the
             order.
+        stiff: where no step size resolves the problem.
     """
 
-    problem: Oscillator | Hamiltonian
+    problem: Oscillator | Problem
     t_end: fmpq
     rows: tuple[Row, ...]
     plateau: int
@@ -120,6 +139,7 @@ class Convergence:
     short_order: float | None = None
     has_settled: bool = True
     are_given: bool = False
+    stiff: Stiffness | None = None
 
     @property
     def visible_order(self) -> int:
@@ -142,10 +162,13 @@ class Convergence:
         trees.
 
         Undecided where there is no order to be seen, or where the rounding of the coefficients
-        comes before the slopes have settled.
+        comes before the slopes have settled. Reduced where the steps are too large for a stiff
+        problem to show it, unless tiny ones show another one.
         """
         if self.observed_order is None:
             return "agree" if self.is_exact else "undecided"
+        if self.stiff is not None:
+            return self._stiff_verdict(self.observed_order)
         if self.short_order is None:
             if self._is_visible(self.observed_order):
                 return "agree"
@@ -155,6 +178,15 @@ class Convergence:
         if is_shown and self._is_visible(self.short_order):
             return "agree"
         return "disagree"
+
+    def _stiff_verdict(self, observed: float) -> Verdict:
+        assert self.stiff is not None
+        if not self.stiff.is_stable:
+            return "disagree"
+        if self.short_order is not None and not self._is_visible(self.short_order):
+            return "disagree"
+        is_reached = observed >= self.visible.order - CLOSE
+        return "agree" if is_reached else "reduced"
 
     def _is_visible(self, order: float) -> bool:
         if self.visible.order < self.predicted_order:
@@ -184,6 +216,19 @@ def slope_between(before: Row | None, h: fmpq, error: arb) -> float | None:
     rise = (before.error / error).log()
     run = (arb(before.h) / arb(h)).log()
     return float((rise / run).mid())
+
+
+def stiff_order(rows: Sequence[Row]) -> float | None:
+    """The order that slopes of a stiff problem show: extrapolated as well, but never far beyond the
+    last slope.
+
+    Errors of two kinds change places there, h^p and a smaller multiple of a lower power, and
+    where they do slopes fall so fast that the extrapolation goes on below both.
+    """
+    order, last = observed_order(rows), rows[-1].slope
+    if order is None or last is None or abs(order - last) <= _CROSSING:
+        return order
+    return last
 
 
 def observed_order(rows: Sequence[Row]) -> float | None:

@@ -11,8 +11,8 @@ from garkcli.convergence.result import Row, Visible
 from garkcli.errors import UsageProblem
 
 if TYPE_CHECKING:
-    from garkcli.problems.hamiltonian import Hamiltonian
     from garkcli.problems.oscillator import Oscillator
+    from garkcli.problems.problem import Problem
 
 Watch: TypeAlias = Callable[[str, int, int], None]
 """Is told what is being computed, how many steps of it are done, and of how many."""
@@ -26,7 +26,7 @@ class Solver(Protocol):
     """A method that solves a problem up to one time."""
 
     @property
-    def problem(self) -> Oscillator | Hamiltonian:
+    def problem(self) -> Oscillator | Problem:
         """What is solved, in as many terms as the method is for."""
         ...
 
@@ -48,6 +48,14 @@ class Solver(Protocol):
     @property
     def longest(self) -> fmpq:
         """The longest step that a ladder may begin with."""
+        ...
+
+    def is_too_short(self, h: fmpq) -> bool:
+        """Whether a ladder ends before ``h``, because a stiff problem would no longer look so."""
+        ...
+
+    def resolution(self, h: fmpq) -> float:
+        """H ‖∂f/∂y‖ of a right-hand side; 0 for other problems."""
         ...
 
     @property

@@ -8,17 +8,21 @@ from __future__ import annotations
 
 from collections.abc import Sequence
 from dataclasses import dataclass, field, replace
+from functools import cached_property
 from math import ceil, log10
 from typing import Any
 
 from flint import arb, ctx, fmpq
 
+from garkcli.convergence.ladder import ROWS
 from garkcli.convergence.reference import Reference, magnitude, reference, run
 from garkcli.convergence.result import MAX_ORDER, Row, Visible, absolute, slope_between
 from garkcli.convergence.solver import Watch
 from garkcli.convergence.work import MAX_DIGITS, REACHED, cost_of, work_of
 from garkcli.exact.display import to_float
-from garkcli.problems.hamiltonian import FLOAT_DIGITS, Hamiltonian, energy_function
+from garkcli.problems.hamiltonian import FLOAT_DIGITS, Hamiltonian
+from garkcli.problems.problem import Problem, quantities_function
+from garkcli.problems.righthandside import steepness
 from garkcli.stepping.integrator import FLOAT_PRECISION, Binding, Integrator
 from garkcli.stepping.linear import whole_steps
 
@@ -33,6 +37,7 @@ _MANY = 120  # digits that do not agree by chance
 _SPARE = 6  # correct digits of an error
 _AHEAD = 2  # halvings of the step for which a reference solution will do
 _GUARD = 32  # bits
+_STIFF = 1000
 _GENERIC_DECADES = (6, 12, 24, 48)
 _DECADES = (6, 12, 18)
 
@@ -62,7 +67,7 @@ class SteppedSolver:
         self.reference = reference(self.problem, self.t_end)
 
     @property
-    def problem(self) -> Hamiltonian:
+    def problem(self) -> Problem:
         """What is solved."""
         return self.bound.problem
 
@@ -80,6 +85,20 @@ class SteppedSolver:
     def longest(self) -> fmpq:
         """Eight units: problems may move slowly."""
         return fmpq(8)
+
+    def is_too_short(self, h: fmpq) -> bool:
+        """Whether h² ‖∂f/∂y‖ is below ``_STIFF``, where a ladder above is long enough.
+
+        There |R(h λ)| of a method with |R(∞)| = 1 is so far from 1 that it damps its errors, and
+        slopes are those of neither regime.
+        """
+        last = self.t_end / 2 ** (ROWS - 1)
+        is_stiff = self._slope * arb(last) ** 2 > _STIFF
+        return bool(is_stiff and self._slope * arb(h) ** 2 < _STIFF)
+
+    def resolution(self, h: fmpq) -> float:
+        """H ‖∂f/∂y‖."""
+        return float(self._slope * arb(h))
 
     @property
     def decades(self) -> tuple[int, ...]:
@@ -105,15 +124,15 @@ class SteppedSolver:
         while True:
             state = run(self._integrator(digits), h, steps, self.watch, f"h = {h}")
             error = self._distance(state.y, digits)
-            shown = arb(10) ** (_SPARE - 1 - digits)
+            shown = arb(10) ** (_SPARE - 1 - digits) * self._amplified(h)
             if error > self.size() * shown:
                 break
             if self._shows_no_error(error, digits):
                 error = arb(0)
                 break
             digits = min(MAX_DIGITS, 2 * digits)
-        error = _with_radius(error, self._round_off(digits))
-        energy, *others = self._invariant_errors(state.y, digits)
+        error = _with_radius(error, self._round_off(digits, h))
+        energy, others = self._invariant_errors(state.y, digits, h)
         slope = slope_between(before, h, error)
         return Row(h, error, slope, energy, tuple(others), digits, cost_of(state))
 
@@ -155,7 +174,7 @@ class SteppedSolver:
                 total += (arb(a) - b) ** 2
             return total.sqrt().mid()
 
-    def _round_off(self, digits: int) -> arb:
+    def _round_off(self, digits: int, h: fmpq) -> arb:
         """What the digits leave open of a state at ``t_end``.
 
         Steps sum with compensation, so that their number does not count; the increments are
@@ -165,7 +184,22 @@ class SteppedSolver:
         if digits <= FLOAT_DIGITS:
             precision = arb(FLOAT_PRECISION)
         time = max(arb(1), arb(self.t_end))
-        return self.size() * precision * time * GROWTH
+        return self.size() * precision * time * GROWTH * self._amplified(h)
+
+    @cached_property
+    def _slope(self) -> arb:
+        """‖∂f/∂y‖ at the start of a right-hand side; 0 for Hamiltonians, which come in units of
+        their own.
+        """
+        if isinstance(self.problem, Hamiltonian):
+            return arb(0)
+        return steepness(self.problem)
+
+    def _amplified(self, h: fmpq) -> arb:
+        """What a step makes of the round-off of its stages: increments h f of stiff right-hand
+        sides are h ‖∂f/∂y‖ times as wrong.
+        """
+        return max(arb(1), self._slope * arb(h))
 
     def _digits_of_reference(self, digits: int) -> int:
         """Enough for the row, and beyond floats for the next ones as well."""
@@ -181,7 +215,7 @@ class SteppedSolver:
         part = before.error.mid() / self.size()
         decades = float((part.log() / arb(10).log()).mid())
         decades -= self.visible.order * log10(to_float(before.h / h))
-        needed = ceil(-decades) + _SPARE
+        needed = ceil(-decades + log10(float(self._amplified(h)))) + _SPARE
         if needed <= FLOAT_DIGITS:
             return FLOAT_DIGITS
         # in whole tens, so that the same integrator serves several rows
@@ -193,19 +227,26 @@ class SteppedSolver:
             self.integrators[digits] = self.bound.at(digits)
         return self.integrators[digits]
 
-    def _invariant_errors(self, y: Sequence[Any], digits: int) -> list[arb]:
-        """|I(y) − I(y_0)| of the energy and of the other invariants, for all states that round-off
-        leaves possible.
+    def _invariant_errors(
+        self, y: Sequence[Any], digits: int, h: fmpq
+    ) -> tuple[arb | None, list[arb]]:
+        """|I(y) − I(y_0)| of the energy, where there is one, and of the other invariants, for all
+        states that round-off leaves possible.
         """
-        round_off = self._round_off(digits)
+        if not self.problem.quantities:
+            return None, []
+        round_off = self._round_off(digits, h)
         with ctx.workprec(self._integrator(digits).bits + _GUARD):
-            measure = energy_function(self.problem, digits + 10)
+            measure = quantities_function(self.problem, digits + 10)
             possible = [_with_radius(arb(x), round_off) for x in y]
             now = measure(*possible)
             then = measure(*map(arb, self.problem.initial))
             pairs = zip(now, then, strict=True)
             changes = [arb(a) - arb(b) for a, b in pairs]
-        return [absolute(change) for change in changes]
+        errors = [absolute(change) for change in changes]
+        if isinstance(self.problem, Hamiltonian):
+            return errors[0], errors[1:]
+        return None, errors
 
 
 def _with_radius(x: arb, radius: arb) -> arb:

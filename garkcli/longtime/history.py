@@ -11,8 +11,9 @@ from garkcli.errors import UsageProblem
 from garkcli.exact.display import to_float
 from garkcli.longtime.stability import Stability
 from garkcli.longtime.trend import Shape
-from garkcli.problems.hamiltonian import Hamiltonian
 from garkcli.problems.oscillator import Oscillator
+from garkcli.problems.problem import Problem
+from garkcli.problems.righthandside import RightHandSide
 from garkcli.stepping.linear import whole_steps
 
 MAX_STEPS = 10_000_000
@@ -78,7 +79,8 @@ class LongRun:
         t_end: the time asked for.
         steps: how many steps were done; fewer than t_end/h only in a run that has blown up.
         digits: that the steps were done with; None where they are exact.
-        invariants: what became of the energy, then of the other invariants.
+        invariants: what became of the energy, where there is one, then of the other invariants; one
+            at least.
         times: at which the errors are kept, ascending: those where one is extreme in equal spans.
         states: at the start and after each quarter of the run; none for the oscillator.
         turns: how often the coordinate that oscillates fastest has turned back; 0 for the
@@ -88,7 +90,7 @@ class LongRun:
         stability: of the step map of the oscillator, else None.
     """
 
-    problem: Oscillator | Hamiltonian
+    problem: Oscillator | Problem
     step: fmpq
     t_end: fmpq
     steps: int
@@ -101,8 +103,10 @@ class LongRun:
     stability: Stability | None = None
 
     @property
-    def energy(self) -> InvariantHistory:
-        """What became of the energy."""
+    def energy(self) -> InvariantHistory | None:
+        """What became of the energy, where the problem has one."""
+        if isinstance(self.problem, RightHandSide):
+            return None
         return self.invariants[0]
 
     @property
@@ -113,7 +117,7 @@ class LongRun:
     @property
     def is_unstable(self) -> bool:
         """Whether the run has blown up, or its orbit has escaped."""
-        return self.energy.verdict == "unstable"
+        return self.invariants[0].verdict == "unstable"
 
     @property
     def drifts(self) -> bool:

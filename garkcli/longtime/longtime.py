@@ -26,10 +26,16 @@ from garkcli.longtime.history import (
 )
 from garkcli.longtime.measure import Measure
 from garkcli.longtime.record import Record
-from garkcli.longtime.rounding import energy_rate, power_of_ten, unit_round_off
+from garkcli.longtime.rounding import (
+    energy_rate,
+    invariant_rate,
+    power_of_ten,
+    unit_round_off,
+)
 from garkcli.longtime.trend import CERTAIN, LEAST, Shape, Trend
 from garkcli.problems.hamiltonian import FLOAT_DIGITS, Hamiltonian
 from garkcli.problems.oscillator import Oscillator
+from garkcli.problems.problem import Problem
 from garkcli.stepping.integrator import Binding, bind
 from garkcli.stepping.step import trajectory
 from garkcli.tableau.tableau import Tableau
@@ -47,7 +53,7 @@ _LONGER = 4  # how many times as long a run is proposed at least where this one 
 _MARGIN = 2  # and how many times as long as would just do
 
 
-def usual(problem: Oscillator | Hamiltonian) -> tuple[fmpq, fmpq]:
+def usual(problem: Oscillator | Problem) -> tuple[fmpq, fmpq]:
     """A step size and a time that show the long run of ``problem``; 10 000 steps where nothing more
     is known.
     """
@@ -58,7 +64,7 @@ def usual(problem: Oscillator | Hamiltonian) -> tuple[fmpq, fmpq]:
 
 def long_run(
     tableau: Tableau,
-    problem: Oscillator | Hamiltonian,
+    problem: Oscillator | Problem,
     t_end: fmpq,
     step: fmpq,
     digits: int = FLOAT_DIGITS,
@@ -103,8 +109,12 @@ def long_run(
     path = trajectory(method, step, count)
     record.take(watch(path, count + 1))
     h = to_float(step)
-    powers = record.exchange.powers(h)
-    rate = energy_rate(tableau, tolerance, h, powers)
+    if isinstance(problem, Hamiltonian):
+        powers = record.exchange.powers(h)
+        rate = energy_rate(tableau, tolerance, h, powers)
+    else:
+        states = [(number * h, y) for number, y in record.states.items()]
+        rate = invariant_rate(tableau, tolerance, problem, states)
     return _judged(record, bound, rate, step, t_end)
 
 

@@ -11,13 +11,8 @@ from flint import arb, ctx
 
 from garkcli.errors import UsageProblem
 from garkcli.exact.display import to_float
-from garkcli.problems.hamiltonian import (
-    FLOAT_DIGITS,
-    GROUPS,
-    Hamiltonian,
-    energy_function,
-    symbols,
-)
+from garkcli.problems.hamiltonian import FLOAT_DIGITS, Hamiltonian
+from garkcli.problems.problem import Problem, quantities_function, unknowns
 from garkcli.problems.straightline import function
 
 if TYPE_CHECKING:
@@ -25,43 +20,43 @@ if TYPE_CHECKING:
 
 
 class Measure:
-    """The energy and the other invariants of states, against those of the start.
+    """What is conserved, at states against the start.
 
     Args:
-        problem: with at least one invariant, its energy.
+        problem: with at least one such quantity.
         digits: that the states have.
 
     Attributes:
-        names: "energy", then those of the problem.
+        names: of what is conserved; "energy" first where the problem has one.
         initial: the values at the start.
-        scale: the sum of the sizes of the terms of H at the start; 1 where all are zero.
+        scale: the sum of the sizes of the terms of H, or of the summands of the first invariant, at
+            the start; 1 where all are zero.
         digits: that the states have.
+        has_energy: whether the first of them is the energy.
 
     Errors:
         UsageProblem: one of them has no value at the start.
     """
 
-    def __init__(self, problem: Hamiltonian, digits: int) -> None:
-        self.names = ("energy", *(name for name, _ in problem.invariants))
+    def __init__(self, problem: Problem, digits: int) -> None:
+        self.names = tuple(name for name, _ in problem.quantities)
         self.digits = digits
+        self.has_energy = isinstance(problem, Hamiltonian)
         self._bits = 0 if digits <= FLOAT_DIGITS else ceil(3.33 * digits) + 48
         self._function: Callable[..., list[Any]] = self._precisely(
-            lambda: energy_function(problem, digits)
+            lambda: quantities_function(problem, digits)
         )
         number = arb if self._bits else to_float
         start: list[Any] = self._precisely(lambda: [number(x) for x in problem.initial])
-        measured = [problem.energy]
-        measured += [x for _, x in problem.invariants]
         summands: list[Any] = []
         self._lengths = []
-        for expression in measured:
+        for _, expression in problem.quantities:
             own = _summands(expression)
             summands += own
             self._lengths.append(len(own))
-        q, p = (symbols(problem.variables, group) for group in GROUPS)
-        arguments = (*q, *p)
+        arguments = unknowns(problem)
         self._summands = function(tuple(summands), arguments, False)
-        terms_of = function(tuple(problem.terms), arguments, False)
+        terms_of = function(_first_terms(problem), arguments, False)
         try:
             self._first = self._precisely(lambda: self._function(*start))
             initial = map(to_float, problem.initial)
@@ -123,6 +118,14 @@ class Measure:
             return compute()
         with ctx.workprec(self._bits):
             return compute()
+
+
+def _first_terms(problem: Problem) -> tuple[Any, ...]:
+    """The parts of the first quantity: H^{l}, or the summands of an invariant."""
+    if isinstance(problem, Hamiltonian):
+        return tuple(problem.terms)
+    _, first = problem.quantities[0]
+    return _summands(first)
 
 
 def _summands(expression: Any) -> tuple[Any, ...]:

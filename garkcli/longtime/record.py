@@ -158,7 +158,11 @@ class Record:
             first -= len(self._last)
             states = np.concatenate([self._last, states])
         self._last = states[-2:]
-        self.exchange.add(states)
+        if self.measure.has_energy:
+            self.exchange.add(states)
+        else:
+            # unknowns without momenta turn back by themselves
+            states = np.hstack([states, np.zeros_like(states)])
         self.excursions.add(first, states)
 
 

@@ -6,7 +6,7 @@ Both are derived in docs/energy.md.
 
 from __future__ import annotations
 
-from collections.abc import Iterable
+from collections.abc import Iterable, Sequence
 from math import ceil, log10
 from typing import TYPE_CHECKING, Any
 
@@ -14,6 +14,9 @@ from flint import arb, fmpq
 
 from garkcli.exact.display import to_float
 from garkcli.problems.hamiltonian import FLOAT_DIGITS
+from garkcli.problems.righthandside import RightHandSide
+from garkcli.problems.straightline import function
+from garkcli.problems.vectorfield import TIME, symbols
 from garkcli.tableau.pointwise import entries
 from garkcli.tableau.tableau import Tableau
 
@@ -105,6 +108,40 @@ def energy_rate(
     first, second = powers
     change = weights * first + sums * h * second
     return _HIGHER * to_float(tolerance) * change
+
+
+def invariant_rate(
+    tableau: Tableau,
+    tolerance: fmpq | None,
+    problem: RightHandSide,
+    states: Iterable[tuple[float, Sequence[Any]]],
+) -> float:
+    """What of the first invariant I the rounding of coefficients can cause per unit of time: a
+    stage that counts too much moves I by h ∂I/∂y·f^{l}, and these cancel in the sum alone.
+
+    Args:
+        tableau: with the coefficients as printed.
+        tolerance: what each coefficient is good to; None for exact ones.
+        problem: with an invariant.
+        states: times, and y then.
+    """
+    if tolerance is None:
+        return 0.0
+    y = symbols(problem.variables, "y")
+    _, first = problem.invariants[0]
+    gradient = [first.diff(x) for x in y]
+    moved = []
+    for term in problem.terms:
+        products = [g * f for g, f in zip(gradient, term, strict=True)]
+        moved.append(sum(products))
+    arguments = (*y, *symbols(problem.variables, TIME))
+    rates = function(tuple(moved), arguments, False)
+    largest = 0.0
+    for time, y_then in states:
+        found = rates(*map(float, y_then), time)
+        largest = max(largest, sum(map(abs, found)))
+    stages = max(len(row) for row in entries(tableau).b)
+    return _HIGHER * to_float(tolerance) * stages * largest
 
 
 def sensitivity(tableau: Tableau) -> tuple[float, float]:

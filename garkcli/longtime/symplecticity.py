@@ -17,7 +17,7 @@ from flint import arb, ctx, fmpq
 from garkcli.longtime.history import State
 from garkcli.order.defects import is_symplectic_within
 from garkcli.problems.hamiltonian import FLOAT_DIGITS, Hamiltonian
-from garkcli.stepping.dependency import visible_tableau
+from garkcli.stepping.fields import visible_tableau
 from garkcli.stepping.integrator import Integrator, bind
 from garkcli.stepping.step import integrate
 from garkcli.tableau.conjugate import is_symplectic

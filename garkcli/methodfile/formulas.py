@@ -11,7 +11,7 @@ from yaml.nodes import Node
 
 from garkcli.errors import ExpressionError, LimitExceeded, did_you_mean
 from garkcli.exact.formula import CONSTANTS, RESERVED, parse_formula
-from garkcli.exact.nodes import Expression
+from garkcli.exact.nodes import Expression, Literal
 from garkcli.exact.rewriting import names_in, size_of
 from garkcli.exact.values import Value, value_of
 from garkcli.methodfile.numbers import MAX_SIZE
@@ -31,11 +31,13 @@ class Formulas:
 
     Attributes:
         source: where faults are noted.
+        given: values of parameters that are not those of the file.
         values: the parameters read so far.
         made: their sympy expressions.
     """
 
     source: Source
+    given: Mapping[str, fmpq] = field(default_factory=dict)
     values: dict[str, Value] = field(default_factory=dict)
     made: dict[str, Any] = field(default_factory=dict)
     _sizes: dict[str, int] = field(default_factory=dict)
@@ -145,8 +147,13 @@ class Formulas:
                     value_node, f"{where} {message}", "choose another name"
                 )
             found = self.constant(value_node, where)
+            if name in self.given:
+                found = (Literal(self.given[name]), self.given[name])
             # a faulty parameter is 1, so that formulas with it are still read
-            expression, value = found or (None, fmpq(1))
+            expression: Expression | None = None
+            value: Value = fmpq(1)
+            if found is not None:
+                expression, value = found
             if isinstance(value, fmpq):
                 self.made[name] = sympy.Rational(int(value.p), int(value.q))
             else:

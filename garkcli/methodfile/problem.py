@@ -1,5 +1,5 @@
-"""Problem files: a Hamiltonian or a Lagrangian with its initial values, every fault of the text at
-once.
+"""Problem files: a Hamiltonian, a Lagrangian or right-hand sides with their initial values, every
+fault of the text at once.
 """
 
 from __future__ import annotations
@@ -14,11 +14,13 @@ from garkcli.exact.formula import RESERVED
 from garkcli.methodfile.description import FORMS as METHOD_FORMS
 from garkcli.methodfile.formulas import Formulas, bad_name
 from garkcli.methodfile.load import read_text
+from garkcli.methodfile.sides import STIFFNESS, SidesMaker
 from garkcli.methodfile.source import PROBLEM_FILE, Source, keys_of, one_line, shortened
 from garkcli.methodfile.terms import Maker, ProblemText
+from garkcli.problems.vectorfield import TIME
 
 if TYPE_CHECKING:
-    from garkcli.problems.hamiltonian import Hamiltonian
+    from garkcli.problems.problem import Problem
 
 KEYS = (
     "gark",
@@ -29,11 +31,20 @@ KEYS = (
     "parameters",
     "hamiltonian",
     "lagrangian",
+    "rhs",
     "initial",
+    "exact",
     "t_end",
     "invariants",
 )
 """The keys of a problem file."""
+FORMS = ("hamiltonian", "lagrangian", "rhs")
+"""Those of which a file has one."""
+_WITH_ARTICLE = {
+    "hamiltonian": "a hamiltonian",
+    "lagrangian": "a lagrangian",
+    "rhs": "an rhs",
+}
 DEFAULT_T_END = fmpq(2)
 """The final time of a convergence test where the file gives none."""
 MAX_VARIABLES = 64
@@ -44,17 +55,23 @@ MAX_INVARIANTS = 10
 """Most invariants."""
 
 
-def load_problem(path: str) -> Hamiltonian:
+def load_problem(path: str, stiffness: fmpq | None = None) -> Problem:
     """Read one problem file, or standard input for ``-``.
+
+    Args:
+        path: of the file.
+        stiffness: the value of its parameter of this name, in place of its own.
 
     Raises:
         MethodFileError: every fault of the file, with positions.
     """
-    return loads_problem(*read_text(path, PROBLEM_FILE))
+    return loads_problem(*read_text(path, PROBLEM_FILE), stiffness)
 
 
-def loads_problem(text: str, source: str = "<text>") -> Hamiltonian:
-    """Read a problem file from its text.
+def loads_problem(
+    text: str, source: str = "<text>", stiffness: fmpq | None = None
+) -> Problem:
+    """Read a problem file from its text; see ``load_problem``.
 
     Raises:
         MethodFileError: every fault of the text, with positions.
@@ -64,19 +81,22 @@ def loads_problem(text: str, source: str = "<text>") -> Hamiltonian:
     px**2/2 - cos(x)
     """
     reading = Source(source, text, PROBLEM_FILE)
-    reader = _Reader(reading)
+    reader = _Reader(reading, stiffness)
     read = reader.read()
     if read is None:
         raise reading.error()
+    if read.form == "rhs":
+        return SidesMaker(reading, reader.formulas, read).problem()
     return Maker(reading, reader.formulas, read).problem()
 
 
 class _Reader:
     """Reads what a file says, as far as no names but its own are needed."""
 
-    def __init__(self, source: Source) -> None:
-        self.source = source
-        self.formulas = Formulas(source)
+    def __init__(self, source: Source, stiffness: fmpq | None) -> None:
+        self.source, self.stiffness = source, stiffness
+        given = {} if stiffness is None else {STIFFNESS: stiffness}
+        self.formulas = Formulas(source, given)
 
     def read(self) -> ProblemText | None:
         """The text; None where it makes no sense to go on."""
@@ -84,10 +104,7 @@ class _Reader:
         root = source.compose()
         if root is None:
             return None
-        if keys_of(root) & set(METHOD_FORMS) and not keys_of(root) & {
-            "hamiltonian",
-            "lagrangian",
-        }:
+        if keys_of(root) & set(METHOD_FORMS) and not keys_of(root) & set(FORMS):
             source.fault(
                 root,
                 "this is a method file, not a problem file",
@@ -112,25 +129,41 @@ class _Reader:
         are_named = len(source.faults) == before
         self.formulas.read_parameters(entries.get("parameters"))
         self._refuse_taken(variables, form, entries.get("parameters"))
-        if "initial" not in entries:
-            cure = (
-                "write initial: {"
-                + ", ".join(f"{x}: 0, p{x}: 0" for x, _ in variables[:2])
-                + "}"
-            )
-            source.fault(root, "initial missing", cure)
+        if "initial" not in entries and not (form == "rhs" and "exact" in entries):
+            source.fault(root, "initial missing", _initial_cure(variables, form))
+        if "exact" in entries and form not in ("rhs", None):
+            message = f"exact is for rhs, and this is a {form}"
+            source.fault(entries["exact"], message, "leave it out")
+        self._check_stiffness(root, form)
         if form is None:
             return None
+        names = tuple(name for name, _ in variables)
         return ProblemText(
             name=self._name(entries.get("name")),
-            variables=tuple(name for name, _ in variables),
+            variables=names,
             are_named=are_named,
             form=form,
-            terms=tuple(self._items(entries[form], form)),
+            terms=() if form == "rhs" else tuple(self._items(entries[form], form)),
             initial=entries.get("initial"),
             t_end=self._t_end(entries.get("t_end")),
-            invariants=tuple(self._invariants(entries.get("invariants"))),
+            invariants=tuple(self._invariants(entries.get("invariants"), form)),
+            sides=self._sides(entries[form], names if are_named else ())
+            if form == "rhs"
+            else (),
+            exact=entries.get("exact"),
         )
+
+    def _check_stiffness(self, root: Node, form: str | None) -> None:
+        """Refuse a stiffness that would change nothing."""
+        if self.stiffness is None:
+            return
+        if form is not None and form != "rhs":
+            message = f"--stiffness is for rhs, and this is a {form}"
+            self.source.fault(root, message, "leave it out")
+        elif STIFFNESS not in self.formulas.values:
+            cure = f"write parameters: {{{STIFFNESS}: 1}} and use it in rhs"
+            message = f"--stiffness, but no parameter called {STIFFNESS}"
+            self.source.fault(root, message, cure)
 
     def _name(self, node: Node | None) -> str:
         text = None if node is None else self.source.scalar(node, "name")
@@ -177,7 +210,7 @@ class _Reader:
         """
         derived = _derived(variables, form)
         for name, node in variables:
-            if f"p{name}" in RESERVED:
+            if form != "rhs" and f"p{name}" in RESERVED:
                 self.source.fault(
                     node,
                     f"variables: the momentum of {name} would be p{name}, "
@@ -203,18 +236,51 @@ class _Reader:
                 self.source.fault(key, message, "choose another name")
 
     def _form(self, root: Node, entries: dict[str, Node]) -> str | None:
-        present = [key for key in ("hamiltonian", "lagrangian") if key in entries]
+        present = [key for key in FORMS if key in entries]
         if not present:
-            cure = "write hamiltonian: or lagrangian:, a formula or a list with one for each colour"
-            self.source.fault(root, "no hamiltonian and no lagrangian", cure)
+            cure = "write one of them, a formula or a list with one for each colour"
+            message = "no hamiltonian, no lagrangian and no rhs"
+            self.source.fault(root, message, cure)
             return None
         if len(present) > 1:
-            self.source.fault(
-                entries["lagrangian"],
-                "a hamiltonian and a lagrangian",
-                "keep one of them",
-            )
+            message = " and ".join(_WITH_ARTICLE[key] for key in present)
+            self.source.fault(entries[present[1]], message, "keep one of them")
         return present[0]
+
+    def _sides(
+        self, node: Node, names: tuple[str, ...]
+    ) -> tuple[tuple[tuple[str, Node, str], ...], ...]:
+        """The right-hand sides of each term: variables, formulas, and what these are called."""
+        if not isinstance(node, SequenceNode):
+            return (self._side(node, "rhs", names),)
+        items = self.source.items(node, "rhs")
+        if not items:
+            self.source.fault(
+                node, "rhs is empty", "give right-hand sides for each term"
+            )
+        if len(items) > MAX_TERMS:
+            self.source.fault(
+                node, f"rhs: {len(items)} terms (limit {MAX_TERMS})", "use fewer"
+            )
+            return ()
+        numbered = enumerate(items, start=1)
+        return tuple(self._side(item, f"f{{{l}}}", names) for l, item in numbered)
+
+    def _side(
+        self, node: Node, where: str, names: tuple[str, ...]
+    ) -> tuple[tuple[str, Node, str], ...]:
+        """Of one term; a formula alone is that of the only variable."""
+        if isinstance(node, ScalarNode) and len(names) == 1:
+            return ((names[0], node, where),)
+        if not isinstance(node, MappingNode):
+            example = ", ".join(f"{x}: …" for x in names[:2])
+            message = (
+                f"{where}: right-hand sides by the names of variables are expected"
+            )
+            self.source.fault(node, message, f"write {{{example}}}")
+            return ()
+        entries = self.source.mapping(node, where, names)
+        return tuple((name, x, f"{where} of {name}") for name, x in entries.items())
 
     def _items(self, node: Node, form: str) -> list[tuple[Node, str]]:
         if isinstance(node, ScalarNode):
@@ -245,7 +311,7 @@ class _Reader:
             return DEFAULT_T_END
         return found[1]
 
-    def _invariants(self, node: Node | None) -> list[tuple[str, Node]]:
+    def _invariants(self, node: Node | None, form: str) -> list[tuple[str, Node]]:
         entries = {} if node is None else self.source.mapping(node, "invariants", ())
         if len(entries) > MAX_INVARIANTS:
             self.source.fault(
@@ -253,15 +319,24 @@ class _Reader:
             )
             return []
         for name, value in entries.items():
-            if name.lower() in {"energy", "h"}:
+            if form != "rhs" and name.lower() in {"energy", "h"}:
                 self.source.fault(
                     value, f"invariants: {name} is reported always", "leave it out"
                 )
         return [(shown_name(name), value) for name, value in entries.items()]
 
 
+def _initial_cure(variables: list[tuple[str, Node]], form: str | None) -> str:
+    values = []
+    for name, _ in variables[:2]:
+        values.append(f"{name}: 0" if form == "rhs" else f"{name}: 0, p{name}: 0")
+    return f"write initial: {{{', '.join(values)}}}"
+
+
 def _derived(variables: list[tuple[str, Node]], form: str) -> dict[str, str]:
     """The names that variables bring with them, and what they are."""
+    if form == "rhs":
+        return {TIME: "time"}
     names = {f"p{name}": f"the momentum of {name}" for name, _ in variables}
     if form == "lagrangian":
         names |= {f"v{name}": f"the velocity of {name}" for name, _ in variables}

@@ -11,6 +11,7 @@ from collections.abc import Iterable
 from garkcli.exact.formula import RESERVED
 from garkcli.methodfile.problem import KEYS, MAX_INVARIANTS, MAX_TERMS, MAX_VARIABLES
 from garkcli.methodfile.schema import Schema
+from garkcli.problems.vectorfield import TIME
 
 _CLASHING = {name.removeprefix("p") for name in RESERVED if name.startswith("p")}
 
@@ -41,14 +42,43 @@ def problem_file_schema() -> Schema:
     return {
         "$schema": "http://json-schema.org/draft-07/schema#",
         "title": "gark problem file",
-        "description": "A Hamiltonian or Lagrangian problem with its initial values.",
+        "description": "A Hamiltonian, a Lagrangian or right-hand sides, with initial values.",
         "type": "object",
         "additionalProperties": False,
-        "required": ["variables", "initial"],
-        "oneOf": [{"required": ["hamiltonian"]}, {"required": ["lagrangian"]}],
+        "required": ["variables"],
+        "oneOf": [_of_momenta("hamiltonian"), _of_momenta("lagrangian"), _of_rhs()],
         "properties": {key: properties[key] for key in KEYS},
         "definitions": {"formula": _FORMULA, "constant": _CONSTANT},
     }
+
+
+def _of_momenta(form: str) -> Schema:
+    """What a file with a Hamiltonian or a Lagrangian has and has not."""
+    return {
+        "required": [form, "initial"],
+        "properties": {"variables": _names(_VARIABLE), "exact": False},
+    }
+
+
+def _of_rhs() -> Schema:
+    """What a file with right-hand sides has: a start, be it that of its solution."""
+    without_time: Schema = {"propertyNames": {"not": {"const": TIME}}}
+    return {
+        "required": ["rhs"],
+        "anyOf": [{"required": ["initial"]}, {"required": ["exact"]}],
+        "properties": {
+            "variables": _names(_name_but({*RESERVED, TIME})),
+            "parameters": without_time,
+        },
+    }
+
+
+def _names(pattern: str) -> Schema:
+    """One name, or a list of different ones."""
+    names = _one_or_list({"type": "string", "pattern": pattern}, MAX_VARIABLES)
+    _, several = names["anyOf"]
+    several["uniqueItems"] = True
+    return names
 
 
 def _properties() -> Schema:
@@ -59,16 +89,17 @@ def _properties() -> Schema:
         "type": "object",
         "additionalProperties": {"$ref": "#/definitions/constant"},
     }
-    name: Schema = {"type": "string", "pattern": _VARIABLE}
-    variables = _one_or_list(name, MAX_VARIABLES)
-    _, several = variables["anyOf"]
-    several["uniqueItems"] = True
+    by_name: Schema = {"type": "object", "additionalProperties": formula}
+    sides = _one_or_list({"anyOf": [formula, by_name]}, MAX_TERMS)
     return {
         "gark": {"description": "Version of the format.", "enum": [1, "1"]},
         "name": {**_TEXT, "description": "What people call the problem."},
         "description": {**_TEXT, "description": "What it is."},
         "reference": {**_TEXT, "description": "Where it was published."},
-        "variables": {"description": "Names of the positions.", **variables},
+        "variables": {
+            "description": "Names of the positions, or of the unknowns.",
+            **_names(_NAME),
+        },
         "parameters": {
             **constants,
             "propertyNames": {"pattern": _NAME},
@@ -82,13 +113,23 @@ def _properties() -> Schema:
             **terms,
             "description": "L in positions x and velocities vx; a list: one term a colour.",
         },
+        "rhs": {
+            **sides,
+            "description": "Derivatives of variables by their names, of variables and t; a list: "
+            "one term a colour.",
+        },
         "initial": {
             **constants,
-            "description": "Initial positions, and momenta (or velocities of a Lagrangian).",
+            "description": "Initial values of all variables, and of momenta (or velocities).",
+        },
+        "exact": {
+            **by_name,
+            "description": "The solution of rhs: a formula in t for each variable.",
         },
         "t_end": {"$ref": "#/definitions/constant"},
         "invariants": {
-            "description": "First integrals besides H, in positions and momenta.",
+            "description": "First integrals besides H, in positions and momenta, or in the "
+            "variables of rhs.",
             "type": "object",
             "additionalProperties": formula,
             "maxProperties": MAX_INVARIANTS,

@@ -11,20 +11,15 @@ from typing import TYPE_CHECKING, Any
 from flint import arb, ctx, fmpq
 from yaml.nodes import Node
 
-from garkcli.errors import ExpressionError, NoLegendreTransform
-from garkcli.exact.nodes import Expression
+from garkcli.errors import NoLegendreTransform
 from garkcli.methodfile.expansion import too_long
 from garkcli.methodfile.formulas import BITS, PLACES, Formulas, nearby
 from garkcli.methodfile.source import Source, shortened
-from garkcli.transfer import LOG10_2
+from garkcli.methodfile.termreader import Term, TermReader
 
 if TYPE_CHECKING:
     from garkcli.problems.hamiltonian import Hamiltonian
 
-MAX_BITS = 4_000
-"""Longest numerator or denominator: squared and cubed it is short of the 4300 digits that Python
-writes.
-"""
 _SHOWN = 8  # most missing names that are told
 
 
@@ -36,9 +31,12 @@ class ProblemText:
         name: what people call it.
         variables: names of the positions.
         are_named: whether these are all; if not, other names are not judged.
-        form: hamiltonian or lagrangian.
-        terms: one formula a term.
+        form: hamiltonian, lagrangian or rhs.
+        terms: one formula a term; none of rhs.
+        sides: the right-hand sides of a term by the names of variables, each with its formula;
+            empty for the other forms.
         initial: the mapping of initial values, where the file has one.
+        exact: the mapping of the exact solution, where the file has one.
         t_end: the final time.
         invariants: names, and formulas.
     """
@@ -51,26 +49,19 @@ class ProblemText:
     initial: Node | None
     t_end: fmpq
     invariants: tuple[tuple[str, Node], ...]
-
-
-@dataclass(frozen=True)
-class _Term:
-    """A formula of the file, and its sympy expression."""
-
-    node: Node
-    where: str
-    expression: Expression
-    made: Any
+    sides: tuple[tuple[tuple[str, Node, str], ...], ...] = ()
+    exact: Node | None = None
 
 
 class Maker:
     """Makes the problem of one file; faults are noted in its source."""
 
     def __init__(self, source: Source, formulas: Formulas, text: ProblemText) -> None:
-        from garkcli.problems.hamiltonian import symbols
         from garkcli.problems.mass import velocities
+        from garkcli.problems.vectorfield import symbols
 
         self.source, self.formulas, self.text = source, formulas, text
+        self.reader = TermReader(source, formulas)
         self.q, self.p = symbols(text.variables, "q"), symbols(text.variables, "p")
         self.v = velocities(text.variables)
         self.is_lagrangian = text.form == "lagrangian"
@@ -87,16 +78,16 @@ class Maker:
         terms = self._terms()
         invariants = self._invariants()
         if start is not None:
-            self._check_values(terms, start)
-        self._check_size(terms)
-        self._check_numbers([*terms, *invariants])
+            self.reader.check_values(terms, start)
+        self.reader.check_size(terms)
+        self.reader.check_numbers([*terms, *invariants])
         self.source.close()
         assert start is not None
         if self.is_lagrangian:
             terms, start = self._transformed(terms, start)
         at = {str(x): start[str(x)] for x in (*self.q, *self.p)}
         self._check_fields(terms, at)
-        self._check_values(invariants, at)
+        self.reader.check_values(invariants, at)
         self._refuse_constants(terms, invariants)
         self.source.close()
         return Hamiltonian(
@@ -157,7 +148,7 @@ class Maker:
         names = {str(y): cure.format(x) for x, y in zip(motion, other, strict=True)}
         return names | {str(x): "" for x in (*self.q, *motion)}
 
-    def _terms(self) -> list[_Term]:
+    def _terms(self) -> list[Term]:
         if self.is_lagrangian:
             names = self._names(self.v, self.p, "a Lagrangian has velocities: {}")
             noun = "variable, velocity or parameter"
@@ -166,76 +157,21 @@ class Maker:
             noun = "variable, momentum or parameter"
         return self._formulas(self.text.terms, names, noun)
 
-    def _invariants(self) -> list[_Term]:
+    def _invariants(self) -> list[Term]:
         names = self._names(self.p, self.v, "invariants have momenta: {}")
         items = [(node, f"invariants: {name}") for name, node in self.text.invariants]
         return self._formulas(items, names, "variable, momentum or parameter")
 
     def _formulas(
         self, items: Sequence[tuple[Node, str]], names: dict[str, str], noun: str
-    ) -> list[_Term]:
+    ) -> list[Term]:
         symbols = {str(x): x for x in (*self.q, *self.p, *self.v)}
-        translator = self.formulas.translator(
-            {x: symbols[x] for x, cure in names.items() if not cure}
-        )
-        found = []
-        for node, where in items:
-            expression = self.formulas.parsed(
-                node, where, names if self.text.are_named else None, noun
-            )
-            if expression is None or not self.text.are_named:
-                continue
-            try:
-                made = translator.translate(expression)
-            except ExpressionError as error:
-                self.source.expression_fault(node, where, error)
-            else:
-                found.append(_Term(node, where, expression, made))
-        return found
-
-    def _check_values(self, terms: Sequence[_Term], start: dict[str, fmpq]) -> None:
-        """Note formulas that have no value at the start, as far as that is known."""
-        with ctx.workprec(BITS):
-            values = {name: arb(x) for name, x in start.items()}
-        for term in terms:
-            if all(str(x) in start for x in term.made.free_symbols):
-                self.formulas.value(
-                    term.expression,
-                    term.node,
-                    f"{term.where} at the initial values",
-                    values,
-                )
-
-    def _check_size(self, terms: Sequence[_Term]) -> None:
-        """Note terms whose derivatives are too long."""
-        from garkcli.problems.translate import MAX_SIZE, size_of_derivatives
-
-        sizes = [size_of_derivatives(x.made) for x in terms]
-        if sum(sizes) > MAX_SIZE:
-            largest = terms[sizes.index(max(sizes))]
-            found = f"second derivatives of {sum(sizes)} operations"
-            message = f"{largest.where}: {found} (limit {MAX_SIZE})"
-            cure = "write it shorter, or with fewer variables"
-            self.source.fault(largest.node, message, cure)
-
-    def _check_numbers(self, terms: Sequence[_Term]) -> None:
-        """Note terms with numbers too long to be written, once powers are multiplied out."""
-        import sympy
-
-        for term in terms:
-            longest = 0
-            for x in term.made.atoms(sympy.Rational):
-                bits = max(abs(int(x.p)), int(x.q)).bit_length()
-                longest = max(longest, bits)
-            if longest > MAX_BITS:
-                digits = int(longest * LOG10_2)
-                message = f"{term.where}: a coefficient of about {digits} digits"
-                cure = "choose units in which coefficients are shorter"
-                self.source.fault(term.node, message, cure)
+        known = names if self.text.are_named else None
+        return self.reader.terms(items, symbols, known, noun)
 
     def _transformed(
-        self, lagrangians: list[_Term], start: dict[str, fmpq]
-    ) -> tuple[list[_Term], dict[str, fmpq]]:
+        self, lagrangians: list[Term], start: dict[str, fmpq]
+    ) -> tuple[list[Term], dict[str, fmpq]]:
         """The Hamiltonian terms, and the start with momenta."""
         moving = [x for x in lagrangians if x.made.free_symbols & set(self.v)]
         if not moving:
@@ -256,14 +192,14 @@ class Maker:
         transformed = (self._transform(term, known) for term in lagrangians)
         found = [term for term in transformed if term is not None]
         self.source.close()
-        self._check_size(found)
-        self._check_numbers(found)
+        self.reader.check_size(found)
+        self.reader.check_numbers(found)
         self.source.close()
         if has_velocities:
             start = start | self._momenta(lagrangians, found, at, moving[0])
         return found, start
 
-    def _transform(self, term: _Term, known: Mapping[Any, arb]) -> _Term | None:
+    def _transform(self, term: Term, known: Mapping[Any, arb]) -> Term | None:
         """The Hamiltonian of one term; None where it is not found, which is noted."""
         from garkcli.problems.lagrangian import legendre_transform
         from garkcli.problems.mass import WRITE_HAMILTONIAN
@@ -285,10 +221,10 @@ class Maker:
 
     def _momenta(
         self,
-        lagrangians: Sequence[_Term],
-        hamiltonians: Sequence[_Term],
+        lagrangians: Sequence[Term],
+        hamiltonians: Sequence[Term],
         at: Mapping[Any, arb],
-        moving: _Term,
+        moving: Term,
     ) -> dict[str, fmpq]:
         """The momenta by name that belong to the velocities at the start."""
         from garkcli.problems.start import initial_momenta
@@ -308,12 +244,12 @@ class Maker:
         return {str(x): nearby(y) for x, y in zip(self.p, momenta, strict=True)}
 
     def _refuse_constants(
-        self, terms: Sequence[_Term], invariants: Sequence[_Term]
+        self, terms: Sequence[Term], invariants: Sequence[Term]
     ) -> None:
         """Note an H with which nothing moves, and invariants that are none: they are constant for
         every motion.
         """
-        from garkcli.problems.hamiltonian import is_constant
+        from garkcli.problems.vectorfield import is_constant
 
         if is_constant(sum(x.made for x in terms)):
             parts = "the sum of its terms" if len(terms) > 1 else "it"
@@ -330,14 +266,14 @@ class Maker:
                     "write a first integral in positions and momenta, or leave it out",
                 )
 
-    def _check_fields(self, terms: Sequence[_Term], start: dict[str, fmpq]) -> None:
+    def _check_fields(self, terms: Sequence[Term], start: dict[str, fmpq]) -> None:
         """Note terms that have no derivative at the start."""
         from garkcli.problems.start import missing_derivative
 
         with ctx.workprec(BITS):
             at = {x: arb(start[str(x)]) for x in (*self.q, *self.p)}
         for term in terms:
-            missing = missing_derivative(term.made, self.text.variables, at)
+            missing = missing_derivative(term.made, (*self.q, *self.p), at)
             if missing is not None:
                 self.source.fault(
                     term.node,

@@ -70,8 +70,8 @@ def convergence_figure(result: Convergence, name: str) -> Figure:
     order = result.visible_order
     points = curve(result, "h")
     errors = _curve(points, "error", _ERROR)
-    steps = [row for row in result.rows if row.energy_error > 0]
-    kept = [(row.h, row.energy_error) for row in steps]
+    energies = [(row.h, row.energy_error) for row in result.rows]
+    kept = [(h, error) for h, error in energies if error is not None and error > 0]
     energy_errors = _curve(kept, "energy error", _ENERGY_ERROR)
     curves = [found for found in (errors, energy_errors) if found is not None]
     if errors is not None:

@@ -12,7 +12,7 @@ from matplotlib.axes import Axes
 from matplotlib.figure import Figure
 
 from garkcli.longtime.history import InvariantHistory, LongRun
-from garkcli.problems.hamiltonian import Hamiltonian
+from garkcli.problems.oscillator import Oscillator
 
 _PALE, _RED = "#7fa1d6", "#a02417"  # of clearly different lightness in grey
 _ERRORS: Mapping[str, Any] = {
@@ -37,9 +37,8 @@ def energy_figure(run: LongRun) -> Figure:
     figure = Figure(figsize=(7.2, height), layout="constrained")
     grid = figure.subplots(rows, 1, sharex=True, squeeze=False, height_ratios=heights)
     panels = grid[:, 0]
-    name = "oscillator"
-    if isinstance(run.problem, Hamiltonian):
-        name = run.problem.name
+    problem = run.problem
+    name = "oscillator" if isinstance(problem, Oscillator) else problem.name
     initial = name[:1].upper()
     capitalized = initial + name[1:]
     steps = f"h = {run.step}, {run.steps} steps"

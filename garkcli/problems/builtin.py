@@ -13,12 +13,23 @@ from typing import Any, TypeAlias
 from flint import arb, fmpq
 
 from garkcli.errors import UsageProblem, did_you_mean
-from garkcli.problems.generic import generic, nystrom, semi_separable, separable
+from garkcli.problems import stiff
+from garkcli.problems.generic import (
+    generic,
+    generic_rhs,
+    nystrom,
+    semi_separable,
+    separable,
+)
 from garkcli.problems.hamiltonian import Hamiltonian
 from garkcli.problems.mechanical import Mechanical
+from garkcli.problems.problem import Problem
+from garkcli.problems.righthandside import RightHandSide
 
-Maker: TypeAlias = Callable[[int, int], Hamiltonian]
+Maker: TypeAlias = Callable[[int, int], Problem]
 """Makes a problem of a number of terms and a seed."""
+StiffMaker: TypeAlias = Callable[[int, fmpq], RightHandSide]
+"""Makes a problem of a number of terms and a stiffness."""
 
 
 @dataclass(frozen=True)
@@ -28,31 +39,82 @@ class BuiltIn:
     Attributes:
         name: what ``--problem`` takes.
         summary: one line for ``gark list``.
-        energy: H, for people.
+        formula: H, or the sum of the right-hand sides, for people.
         sees: which trees it sees, for people.
         make: makes it.
         takes_seed: whether its coefficients depend on the seed.
+        is_hamiltonian: whether it is; otherwise its terms are right-hand sides.
+        stiff: makes it with a stiffness, where it has one to be chosen.
     """
 
     name: str
     summary: str
-    energy: str
+    formula: str
     sees: str
     make: Maker
     takes_seed: bool = False
+    is_hamiltonian: bool = True
+    stiff: StiffMaker | None = None
+
+    @property
+    def takes_stiffness(self) -> bool:
+        """Whether it has a stiffness to be chosen."""
+        return self.stiff is not None
+
+
+def problem(
+    name: str, terms: int, seed: int = 1, stiffness: fmpq | None = None
+) -> Problem:
+    """The problem called ``name``, of either kind, split into ``terms`` terms.
+
+    Args:
+        name: a key of ``PROBLEMS``.
+        terms: how many.
+        seed: of those with random coefficients.
+        stiffness: of those that have one; 1 by default.
+
+    Raises:
+        UsageProblem: there is no such problem, or it has no stiffness.
+
+    >>> problem("van-der-pol", 2, stiffness=fmpq(1000)).terms[0]
+    (z, 0)
+    """
+    entry = built_in(name)
+    if stiffness is None:
+        return entry.make(terms, seed)
+    check_stiffness(name)
+    assert entry.stiff is not None
+    return entry.stiff(terms, stiffness)
+
+
+def check_stiffness(name: str) -> None:
+    """Refuse a stiffness for a built-in problem that has none.
+
+    Raises:
+        UsageProblem: it would change nothing.
+    """
+    if not built_in(name).takes_stiffness:
+        takers = ", ".join(x.name for x in PROBLEMS.values() if x.takes_stiffness)
+        raise UsageProblem(
+            f"--stiffness is for the problems {takers}, not for {name}",
+            "leave it out, or choose one of these",
+        )
 
 
 def hamiltonian(name: str, terms: int, seed: int = 1) -> Hamiltonian:
-    """The problem called ``name``, split into ``terms`` terms; ``seed`` is for those with random
-    coefficients.
+    """The Hamiltonian problem called ``name``, split into ``terms`` terms; ``seed`` is for those
+    with random coefficients.
 
     Raises:
-        UsageProblem: there is no such problem.
+        UsageProblem: there is no such problem, or it is not Hamiltonian.
 
     >>> [str(x) for x in hamiltonian("pendulum", 2).terms]
     ['px**2/2', '1 - cos(x)']
     """
-    return built_in(name).make(terms, seed)
+    made = built_in(name).make(terms, seed)
+    if not isinstance(made, Hamiltonian):
+        raise UsageProblem(f"{name} is not Hamiltonian", "its maker is problem(...)")
+    return made
 
 
 def built_in(name: str) -> BuiltIn:
@@ -124,6 +186,15 @@ def _rods(q: tuple[Any, ...], _: tuple[Any, ...]) -> Any:
     (a, b), (u, w) = q, velocities(("a", "b"))
     kinetic = u**2 + w**2 / 2 + u * w * sympy.cos(a - b)
     return legendre_transform(kinetic, ("a", "b"), dict.fromkeys(q, arb(0)))
+
+
+def _stiff(
+    name: str, summary: str, formula: str, sees: str, made: StiffMaker
+) -> BuiltIn:
+    def make(terms: int, _: int) -> RightHandSide:
+        return made(terms, fmpq(1))
+
+    return BuiltIn(name, summary, formula, sees, make, is_hamiltonian=False, stiff=made)
 
 
 _ALTERNATING = "alternating trees in which velocities do not branch"
@@ -219,6 +290,27 @@ _ENTRIES = (
             kinetic=_rods,
         ),
     ),
+    _stiff(
+        "prothero-robinson",
+        "stiff about a solution that is known; not Hamiltonian",
+        "ẏ = φ'(t) − λ (y − φ(t)), φ = cos t, λ the stiffness: φ' and the rest",
+        "those that branch into time alone",
+        stiff.prothero_robinson,
+    ),
+    _stiff(
+        "van-der-pol",
+        "its smooth solution; stiff and non-stiff parts; not Hamiltonian",
+        "ẏ = z, ż = σ ((1 − y²) z − y), σ the stiffness: z and the rest",
+        "all, with at most 3 branches at a vertex of the stiff part",
+        stiff.van_der_pol,
+    ),
+    _stiff(
+        "reaction-diffusion",
+        "eight cells in a line; reaction and diffusion; not Hamiltonian",
+        "u̇ᵢ = rᵢ uᵢ (1 − uᵢ) + k (uᵢ₋₁ − 2uᵢ + uᵢ₊₁), k the stiffness: reaction and diffusion",
+        "all, with at most 2 branches at a reaction, one at a diffusion",
+        stiff.reaction_diffusion,
+    ),
     BuiltIn(
         "generic",
         "a random polynomial in N terms, none separable; sees every tree",
@@ -251,8 +343,21 @@ _ENTRIES = (
         nystrom,
         takes_seed=True,
     ),
+    BuiltIn(
+        "generic-rhs",
+        "random right-hand sides, one a colour; sees every tree",
+        "ẏ = Σ v (1 + a·y)⁷ in three unknowns, three powers a term, random rational v, a",
+        "all, with at most 7 branches at a vertex",
+        generic_rhs,
+        takes_seed=True,
+        is_hamiltonian=False,
+    ),
 )
 PROBLEMS: Mapping[str, BuiltIn] = {entry.name: entry for entry in _ENTRIES}
 """The problems by name, in the order in which they are shown."""
 GENERIC = ("generic", "generic-semi-separable", "generic-separable", "generic-nystrom")
-"""Those that see every tree of a structure, from the most general one to the most special."""
+"""The Hamiltonian ones that see every tree of a structure, from the most general one to the most
+special.
+"""
+GENERIC_RHS = "generic-rhs"
+"""That of right-hand sides."""

@@ -8,7 +8,9 @@ from typing import Any
 from flint import fmpq
 
 from garkcli.problems.draw import Draw
-from garkcli.problems.hamiltonian import Hamiltonian, symbols
+from garkcli.problems.hamiltonian import Hamiltonian
+from garkcli.problems.righthandside import RightHandSide
+from garkcli.problems.vectorfield import symbols
 
 DEGREE = 8
 """The degree of the terms: fields have nonzero derivatives up to the seventh, for all trees of
@@ -16,6 +18,8 @@ order 8.
 """
 VARIABLES = ("x", "y")
 """The positions."""
+UNKNOWNS = ("x", "y", "z")
+"""Those of right-hand sides."""
 _FORMS = 3  # powers of linear forms in each term
 
 
@@ -51,6 +55,61 @@ def nystrom(terms: int, seed: int) -> Hamiltonian:
     """½|p|² + Σ_l U^{l}(q): velocities are linear, so that they do not branch."""
     kinetic = sum(p**2 for p in _momenta()) / 2
     return _separated("generic-nystrom", kinetic, terms, Draw(seed))
+
+
+def generic_rhs(
+    terms: int, seed: int, linear: frozenset[int] = frozenset()
+) -> RightHandSide:
+    """f^{l} = Σ_k v_k (1 + a_k·y)^7, with random rational v_k and a_k: every component of every
+    term has every derivative.
+
+    Args:
+        terms: how many.
+        seed: of the coefficients.
+        linear: the terms that are linear instead, Σ_k v_k (1 + a_k·y), for methods that take them
+            to be.
+    """
+    draw = Draw(seed)
+    y = symbols(UNKNOWNS, "y")
+    split = []
+    for term in range(terms):
+        degree = 1 if term in linear else DEGREE - 1
+        split.append(_right_hand_side(draw, y, terms, degree))
+    return RightHandSide(
+        "generic-rhs",
+        UNKNOWNS,
+        tuple(split),
+        tuple(fmpq(draw.between(-10, 10), 50) for _ in UNKNOWNS),
+        fmpq(1),
+        is_generic=True,
+        long_run=(fmpq(1, 100), fmpq(1)),  # the solutions need not exist for longer
+    )
+
+
+def _right_hand_side(
+    draw: Draw, y: Sequence[Any], terms: int, degree: int
+) -> tuple[Any, ...]:
+    """Σ_k v_k (1 + a_k·y)^degree, as many expressions as there are unknowns."""
+    import sympy
+
+    total = [sympy.Integer(0) for _ in y]
+    for _ in range(_FORMS):
+        form = _form(draw, y)
+        for i in range(len(y)):
+            numerator = draw.sign() * draw.between(5, 20)
+            total[i] += sympy.Rational(numerator, 100 * terms) * form**degree
+    return tuple(total)
+
+
+def _form(draw: Draw, variables: Sequence[Any]) -> Any:
+    """1 + a·y with random a."""
+    import sympy
+
+    slopes = []
+    for _variable in variables:
+        numerator = draw.sign() * draw.between(3, 12)
+        slopes.append(sympy.Rational(numerator, 20))
+    return 1 + sum(a * x for a, x in zip(slopes, variables, strict=True))
 
 
 def _separated(name: str, kinetic: Any, terms: int, draw: Draw) -> Hamiltonian:
@@ -90,11 +149,7 @@ def polynomial(draw: Draw, variables: Sequence[Any], terms: int) -> Any:
 
     total = sympy.Integer(0)
     for _ in range(_FORMS):
-        slopes = []
-        for _variable in variables:
-            numerator = draw.sign() * draw.between(3, 12)
-            slopes.append(sympy.Rational(numerator, 20))
-        form = 1 + sum(a * x for a, x in zip(slopes, variables, strict=True))
+        form = _form(draw, variables)
         numerator = draw.sign() * draw.between(5, 20)
         factor = sympy.Rational(numerator, 1600 * terms)
         total += factor * form**DEGREE

@@ -12,7 +12,6 @@ from flint import arb, ctx, fmpq
 
 from garkcli.errors import NoLegendreTransform
 from garkcli.problems.draw import Draw
-from garkcli.problems.hamiltonian import symbols
 from garkcli.problems.mass import (
     BITS,
     WRITE_HAMILTONIAN,
@@ -24,6 +23,7 @@ from garkcli.problems.mass import (
     velocities,
 )
 from garkcli.problems.solving import solutions
+from garkcli.problems.vectorfield import symbols
 
 _TRIES = 8  # random places where a solution is tested
 _NEAR = 50  # thousandths: how far from the start they are

@@ -15,7 +15,6 @@ from typing import Any
 from flint import arb
 
 from garkcli.errors import NoLegendreTransform
-from garkcli.problems.hamiltonian import symbols
 from garkcli.problems.inversion import by_solving
 from garkcli.problems.mass import (
     Lagrangian,
@@ -24,6 +23,7 @@ from garkcli.problems.mass import (
     inverse_of,
     velocities,
 )
+from garkcli.problems.vectorfield import symbols
 
 
 def legendre_transform(

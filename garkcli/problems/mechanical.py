@@ -12,7 +12,8 @@ from typing import Any
 
 from flint import fmpq
 
-from garkcli.problems.hamiltonian import Hamiltonian, symbols
+from garkcli.problems.hamiltonian import Hamiltonian
+from garkcli.problems.vectorfield import symbols
 
 
 def half_square(_: tuple[Any, ...], p: tuple[Any, ...]) -> Any:

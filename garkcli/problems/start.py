@@ -10,8 +10,8 @@ from typing import Any
 from flint import arb, arb_mat, ctx
 
 from garkcli.errors import NoLegendreTransform
-from garkcli.problems.hamiltonian import symbols
 from garkcli.problems.mass import BITS, enclosed, is_smooth, velocities
+from garkcli.problems.vectorfield import symbols
 
 
 def initial_momenta(
@@ -66,15 +66,14 @@ def initial_momenta(
 
 
 def missing_derivative(
-    H: Any, variables: tuple[str, ...], start: Mapping[Any, arb]
+    made: Any, by: Sequence[Any], start: Mapping[Any, arb]
 ) -> tuple[str, str] | None:
-    """What is wrong with a derivative of H at the start, and the cure; None where all derivatives
-    exist.
+    """What is wrong with a derivative of an expression at the start, and the cure; None where all
+    derivatives exist.
 
     A derivative with |x| counts as none: it has no derivatives of its own.
     """
-    by = (*symbols(variables, "q"), *symbols(variables, "p"))
-    gradient = [H.diff(x) for x in by]
+    gradient = [made.diff(x) for x in by]
     for x, g in zip(by, gradient, strict=True):
         if not is_smooth(g):
             return (

@@ -9,6 +9,7 @@ from textwrap import wrap
 
 from garkcli.convergence.result import Convergence, Row
 from garkcli.problems.oscillator import Oscillator
+from garkcli.problems.righthandside import RightHandSide
 from garkcli.report.asciiplot import SEVERAL, terminal_curves
 from garkcli.report.convergence import (
     WIDTH,
@@ -71,6 +72,9 @@ def _about(result: Convergence) -> str:
     problem = result.problem
     if isinstance(problem, Oscillator):
         return f"oscillator; q̈ = −ω²q, ω = {problem.omega}"
+    if isinstance(problem, RightHandSide):
+        stiff = problem.stiffness
+        return problem.name if stiff is None else f"{problem.name}, stiffness {stiff}"
     text = str(problem.energy).replace("**", "^")
     if len(text) > _LONGEST:
         return problem.name

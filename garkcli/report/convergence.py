@@ -7,9 +7,18 @@ from textwrap import wrap
 
 from flint import arb
 
-from garkcli.convergence.result import CLOSE, MAX_ORDER, Convergence, Cost, Row
+from garkcli.convergence.result import (
+    CLOSE,
+    MAX_ORDER,
+    Convergence,
+    Cost,
+    Row,
+    Stiffness,
+)
 from garkcli.problems.hamiltonian import FLOAT_DIGITS, Hamiltonian
 from garkcli.problems.oscillator import Oscillator
+from garkcli.problems.problem import Problem
+from garkcli.problems.righthandside import RightHandSide
 from garkcli.report.asciiplot import terminal_curves, terminal_plot
 from garkcli.report.convergence_data import csv_of, invariant_names, json_of
 from garkcli.report.figures import rounded, scientific
@@ -67,10 +76,12 @@ def _text(result: Convergence, name: str, paint: Paint, with_work: bool) -> list
     return lines
 
 
-def describe(problem: Oscillator | Hamiltonian) -> str:
+def describe(problem: Oscillator | Problem) -> str:
     """A problem and its split in one line."""
     if isinstance(problem, Hamiltonian):
         return _described(problem)
+    if isinstance(problem, RightHandSide):
+        return _described_fields(problem)
     energies = [_energy(k, v) for k, v in problem.shares]
     return f"q̈ = −ω²q, ω = {problem.omega}; {_numbered(energies)}"
 
@@ -102,6 +113,24 @@ def _described(problem: Hamiltonian) -> str:
     return f"{problem.name}; {_numbered(texts)}"
 
 
+def _described_fields(problem: RightHandSide) -> str:
+    name = problem.name
+    if problem.stiffness is not None:
+        name += f", stiffness {problem.stiffness}"
+    fields = []
+    for l, term in enumerate(problem.terms, start=1):
+        components = ", ".join(str(x).replace("**", "^") for x in term)
+        fields.append(
+            f"f{{{l}}}: ({components})" if len(term) > 1 else f"f{{{l}}}: {components}"
+        )
+    if sum(map(len, fields)) <= _LONGEST:
+        return f"{name}; {', '.join(fields)}"
+    sides = (
+        f"{len(fields)} right-hand sides" if len(fields) > 1 else "one right-hand side"
+    )
+    return f"{name}, {sides} of {', '.join(problem.variables)}"
+
+
 def _tables(result: Convergence) -> list[list[str]]:
     """The columns side by side; those of invariants below each other where they are too wide."""
     rows = result.rows
@@ -111,9 +140,10 @@ def _tables(result: Convergence) -> list[list[str]]:
     errors += [rounded(row.error) for row in rows]
     slopes = ["slope"]
     slopes += [_slope(row) for row in rows]
-    energies = ["energy error"]
-    energies += [rounded(row.energy_error) for row in rows]
-    columns = [errors, slopes, energies]
+    columns = [errors, slopes]
+    energies = [row.energy_error for row in rows if row.energy_error is not None]
+    if energies:
+        columns.append(["energy error", *map(rounded, energies)])
     for k, name in enumerate(invariant_names(result)):
         column = [f"{_short_name(name)} error"]
         column += [rounded(row.invariant_errors[k]) for row in rows]
@@ -213,6 +243,8 @@ def verdict(result: Convergence, paint: Paint) -> str:
     """The last word: "they agree", or not."""
     if result.verdict == "undecided":
         return paint("note", "undecided")
+    if result.verdict == "reduced":
+        return paint("note", "reduced by stiffness")
     return paint.verdict(result.verdict == "agree", "they agree", "THEY DISAGREE")
 
 
@@ -224,6 +256,8 @@ def remarks(result: Convergence) -> list[str]:
             f"the last {result.plateau} rows show the rounding of the coefficients "
             "and are not fitted"
         )
+    if result.stiff is not None:
+        said.append(_of_stiffness(result, result.stiff))
     if result.is_exact:
         said.append("the method makes no error on this problem")
     elif result.short_time is not None:
@@ -237,10 +271,23 @@ def remarks(result: Convergence) -> list[str]:
     return said
 
 
+def _of_stiffness(result: Convergence, stiff: Stiffness) -> str:
+    """What the slopes of a stiff problem are to be held against."""
+    size = scientific(arb(stiff.resolution), 1)
+    if not stiff.is_stable:
+        return f"h ‖∂f/∂y‖ is {size} or more, and the steps are not stable there"
+    return (
+        f"stiff: h ‖∂f/∂y‖ is {size} or more; classical order {predicted(result)}, "
+        f"stage order {stiff.stage_order}"
+    )
+
+
 def _of_short_time(result: Convergence) -> str:
     observed, short = result.observed_order, result.short_order
     time = scientific(arb(result.short_time), 1)
     tiny = f"with tiny steps, to t = {time}, it is {order_text(short)}"
+    if result.verdict == "reduced":
+        return tiny
     if observed is None or short is None:
         return f"at these step sizes the order has not settled; {tiny}"
     if abs(observed - short) <= CLOSE:

@@ -11,7 +11,9 @@ from typing import Any
 from garkcli.convergence.result import Convergence, Cost, Row
 from garkcli.errors import Fault
 from garkcli.exact.display import to_float
+from garkcli.problems.hamiltonian import Hamiltonian
 from garkcli.problems.oscillator import Oscillator
+from garkcli.problems.problem import Problem
 from garkcli.report.figures import for_programs
 from garkcli.report.json_text import to_json
 from garkcli.report.plain import csv_cell
@@ -114,6 +116,13 @@ def _data(result: Convergence, name: str, with_work: bool) -> dict[str, Any]:
     if result.short_time is not None:
         order = _place(result.short_order)
         data["short"] = {"t_end": str(result.short_time), "observed_order": order}
+    if result.stiff is not None:
+        data["stiff"] = {
+            "least_h_times_norm": float(f"{result.stiff.resolution:.3g}"),
+            "classical_order": result.predicted_order,
+            "stage_order": result.stiff.stage_order,
+            "slope": _place(result.observed_order),
+        }
     data["steps"] = [_step(row, names, with_work) for row in result.rows]
     data["note"] = result.visible.trees
     return data
@@ -124,7 +133,16 @@ def _split(result: Convergence) -> dict[str, Any]:
     if isinstance(problem, Oscillator):
         split = [[str(k), str(v)] for k, v in problem.shares]
         return {"omega": str(problem.omega), "split": split}
-    return {"hamiltonian": [str(term) for term in problem.terms]}
+    return terms_data(problem)
+
+
+def terms_data(problem: Problem) -> dict[str, Any]:
+    """The terms of a problem: Hamiltonians, or right-hand sides with their stiffness."""
+    if isinstance(problem, Hamiltonian):
+        return {"hamiltonian": [str(term) for term in problem.terms]}
+    sides = [[str(x) for x in term] for term in problem.terms]
+    stiffness = None if problem.stiffness is None else str(problem.stiffness)
+    return {"right_hand_sides": sides, "stiffness": stiffness}
 
 
 def _place(order: float | None) -> float | None:
@@ -137,16 +155,19 @@ def _place(order: float | None) -> float | None:
 def _step(row: Row, names: Sequence[str], with_work: bool) -> dict[str, Any]:
     errors = dict(zip(names, row.invariant_errors, strict=True))
     in_numbers = {name: _number(error) for name, error in errors.items()}
+    energy = row.energy_error
     step: dict[str, Any] = {
         "h": to_float(row.h),
         "h_exact": str(row.h),
         "error": _number(row.error),
         "slope": _place(row.slope),
-        "energy_error": _number(row.energy_error),
+        "energy_error": None if energy is None else _number(energy),
         "digits": row.digits,
         "invariant_errors": in_numbers,
     }
-    measured = {"energy": row.energy_error, **errors}
+    measured = dict(errors)
+    if energy is not None:
+        measured = {"energy": energy, **errors}
     below = []
     for name, x in measured.items():
         if x.contains(0) and not x.is_zero():
@@ -211,7 +232,9 @@ def _written(
 
 
 def _columns(result: Convergence | None) -> list[str]:
-    columns = ["h", "h_exact", "error", "slope", "energy_error"]
+    columns = ["h", "h_exact", "error", "slope"]
+    if result is None or _has_energy(result):
+        columns.append("energy_error")
     if result is not None:
         for name in invariant_names(result):
             word = name.replace(" ", "_")
@@ -219,6 +242,10 @@ def _columns(result: Convergence | None) -> list[str]:
         if any(row.digits is not None for row in result.rows):
             columns.append("digits")
     return columns
+
+
+def _has_energy(result: Convergence) -> bool:
+    return all(row.energy_error is not None for row in result.rows)
 
 
 def _cells(row: Row) -> list[str]:
@@ -229,7 +256,8 @@ def _cells(row: Row) -> list[str]:
     cells = [repr(h), str(row.h)]
     cells.append(for_programs(row.error, _DIGITS))
     cells.append(slope)
-    cells.append(for_programs(row.energy_error, _DIGITS))
+    if row.energy_error is not None:
+        cells.append(for_programs(row.energy_error, _DIGITS))
     cells += [for_programs(x, _DIGITS) for x in row.invariant_errors]
     if row.digits is not None:
         cells.append(str(row.digits))

@@ -8,7 +8,8 @@ from typing import Any
 
 from garkcli.exact.display import to_decimal, to_float
 from garkcli.longtime.history import InvariantHistory, LongRun
-from garkcli.problems.hamiltonian import Hamiltonian
+from garkcli.problems.oscillator import Oscillator
+from garkcli.report.convergence_data import terms_data
 from garkcli.report.energy_text import Report, text_of
 from garkcli.report.json_text import to_json
 from garkcli.report.paint import Paint
@@ -61,11 +62,8 @@ def _data(report: Report) -> dict[str, Any]:
 
 
 def _problem(run: LongRun) -> dict[str, Any]:
-    if isinstance(run.problem, Hamiltonian):
-        return {
-            "problem": run.problem.name,
-            "hamiltonian": [str(term) for term in run.problem.terms],
-        }
+    if not isinstance(run.problem, Oscillator):
+        return {"problem": run.problem.name, **terms_data(run.problem)}
     shares = [[str(k), str(v)] for k, v in run.problem.shares]
     return {"problem": "oscillator", "omega": str(run.problem.omega), "split": shares}
 
@@ -88,7 +86,9 @@ def _quantity(history: InvariantHistory, run: LongRun) -> dict[str, Any]:
     }
 
 
-def _symplectic_data(report: Report) -> dict[str, Any]:
+def _symplectic_data(report: Report) -> dict[str, Any] | None:
+    if report.symplecticity is None:
+        return None
     found: dict[str, Any] = {"proved": report.symplecticity.is_proved}
     if report.run.stability is not None:
         found["determinant_minus_1"] = to_decimal(

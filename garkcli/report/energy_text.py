@@ -59,7 +59,7 @@ class Report:
 
     name: str
     run: LongRun
-    symplecticity: Symplecticity
+    symplecticity: Symplecticity | None
     claims: tuple[Claim, ...] = ()
 
 
@@ -74,13 +74,18 @@ def text_of(report: Report, paint: Paint, is_long: bool = True) -> list[str]:
     for history in run.invariants:
         lines += _history(history, run, paint)
         lines.append("")
-    lines += _symplectic(report, paint)
+    if report.symplecticity is None:
+        lines.pop()
+    else:
+        lines += _symplectic(report.symplecticity, run.stability, paint)
     if report.claims:
         lines.append("")
     for claim in report.claims:
         lines += _claim(claim, paint)
-    if is_long and run.energy.max_error > 0:
-        plot = terminal_band(run.times, run.energy.errors, "H(t) − H(0)")
+    first = run.invariants[0]
+    if is_long and first.max_error > 0:
+        label = "H(t) − H(0)" if run.energy else f"error of {first.name}"
+        plot = terminal_band(run.times, first.errors, label)
         lines.append("")
         lines += indented(plot.splitlines())
     return lines
@@ -254,8 +259,9 @@ def _determinant(stability: Stability) -> str:
     return "0" if stability.is_symplectic else to_decimal(stability.determinant - 1, 4)
 
 
-def _symplectic(report: Report, paint: Paint) -> list[str]:
-    found, stability = report.symplecticity, report.run.stability
+def _symplectic(
+    found: Symplecticity, stability: Stability | None, paint: Paint
+) -> list[str]:
     is_refuted = any(x.is_seen for x in found.defects)
     if stability is not None and not stability.is_symplectic:
         is_refuted = True

@@ -10,31 +10,25 @@ rectangular method has one.
 from __future__ import annotations
 
 from collections.abc import Hashable, Mapping, Sequence
-from dataclasses import dataclass, replace
+from dataclasses import dataclass
 from typing import Any, TypeAlias, TypeVar
 
-from garkcli.errors import UsageProblem
 from garkcli.graph import components
-from garkcli.problems.hamiltonian import (
-    GROUPS,
-    Group,
-    Hamiltonian,
-    VectorField,
-    vector_field,
-)
+from garkcli.problems.vectorfield import Group
+from garkcli.stepping.fields import Fields
 from garkcli.tableau.pointwise import Entries, numeric_entries
-from garkcli.tableau.tableau import Colour, Tableau
+from garkcli.tableau.tableau import Tableau
 
 DIGITS = 60
 """Numbers of a tableau that agree to so many digits are equal."""
 T = TypeVar("T", bound=Hashable)
-Fields: TypeAlias = Mapping[tuple[int, Group], VectorField]
-"""The vector fields that are not zero, by colour and by what they drive."""
 
 
 @dataclass(frozen=True)
 class Stage:
-    """Positions or momenta of stage ``index`` of the stage space ``space``."""
+    """One group of numbers of stage ``index`` of the stage space ``space``: positions, momenta, all
+    unknowns, or its time.
+    """
 
     space: int
     index: int
@@ -212,136 +206,3 @@ def entry(
 
 def _text(x: Any) -> str:
     return str(x.str(DIGITS, radius=False))
-
-
-def driven(colour: Colour) -> tuple[Group, ...]:
-    """What a colour drives."""
-    return GROUPS if colour.part == "y" else (colour.part,)
-
-
-def with_joined_terms(tableau: Tableau) -> Tableau:
-    """A partitioned method for an unsplit problem q̇ = V(q, p), ṗ = F(q, p) with both in one
-    term.
-    """
-    has_one_space = tableau.size == 2 and len(tableau.spaces) == 1
-    driven_parts = {x.part for x in tableau.colours}
-    if not has_one_space or driven_parts != set(GROUPS):
-        return tableau
-    joined = [replace(x, term=0) for x in tableau.colours]
-    return replace(tableau, colours=tuple(joined))
-
-
-def fields_of(tableau: Tableau, problem: Hamiltonian) -> Fields:
-    """The vector fields of the colours.
-
-    Raises:
-        UsageProblem: the problem is not of the form that the structure of the method is for.
-    """
-    driving = set()
-    for x in tableau.colours:
-        driving |= {(x.term, group) for group in driven(x)}
-    for term in range(len(problem.terms)):
-        for group in GROUPS:
-            if (term, group) in driving:
-                continue
-            if not vector_field(problem, term, group).is_zero:
-                raise _no_colour(problem, term, group)
-    fields: dict[tuple[int, Group], VectorField] = {}
-    for m, colour in enumerate(tableau.colours):
-        for group in driven(colour):
-            field = vector_field(problem, colour.term, group)
-            if not field.is_zero:
-                fields[m, group] = field
-    _check_edges(tableau, fields)
-    return fields
-
-
-def _no_colour(problem: Hamiltonian, term: int, group: Group) -> UsageProblem:
-    on, other = "q", "p"
-    if group == "q":
-        on, other = "p", "q"
-    H = f"H{{{term + 1}}}"
-    message = (
-        f"{H} of {problem.name} depends on {on}, but the method has no colour for that"
-    )
-    cure = f"choose a problem whose {H} depends on {other} alone, or another structure"
-    return UsageProblem(message, cure)
-
-
-def _check_edges(tableau: Tableau, fields: Fields) -> None:
-    """Refuse fields that are not as the method takes them to be."""
-    for (l, _), field in fields.items():
-        colour = tableau.colours[l]
-        name = colour.name
-        if colour.is_linear and not field.is_linear:
-            raise UsageProblem(
-                f"the method takes the field of colour {name} to be linear, and here it is not",
-                "choose a problem with quadratic kinetic energy",
-            )
-        for m, driver in fields:
-            if driver in field.depends and tableau.block(l, m) is None:
-                other = tableau.colours[m].name
-                raise UsageProblem(
-                    f"the field of colour {name} depends on what colour {other} drives, "
-                    f"which its stages do not see",
-                    "choose a problem of the form that the structure is for",
-                )
-
-
-def visible_tableau(tableau: Tableau, fields: Fields) -> Tableau:
-    """The tableau whose trees are those that the problem can see: its order is the one to be
-    observed.
-
-    Each field has a colour and stages of its own, zero fields have none, and no stage sees what its
-    field does not depend on.
-    """
-    colours, spaces = [], []
-    for k, ((m, group), field) in enumerate(fields.items()):
-        colour = tableau.colours[m]
-        is_linear = field.is_linear
-        colours.append(replace(colour, space=k, part=group, is_linear=is_linear))
-        spaces.append(tableau.space(m))
-    blocks = {}
-    for k, ((l, _), field) in enumerate(fields.items()):
-        for n, (m, driver) in enumerate(fields):
-            block = tableau.block(l, m)
-            if driver in field.depends and block is not None:
-                blocks[k, n] = block
-    return Tableau(tuple(spaces), tuple(colours), blocks)
-
-
-def visible_trees(fields: Fields) -> str:
-    """In one line, which trees a problem with these fields can see."""
-    if all(field.is_linear for field in fields.values()):
-        return "a linear problem sees only the unbranched trees"
-    if _is_separable(fields):
-        velocities = [x for (_, group), x in fields.items() if group == "q"]
-        if all(field.is_linear for field in velocities):
-            return (
-                "with quadratic kinetic energy it sees the trees in which velocities and forces "
-                "alternate and velocities do not branch"
-            )
-        return "a separable problem sees the trees in which velocities and forces alternate"
-    parts = [f"it sees the trees of all colours of the method{_branching(fields)}"]
-    dependences = {field.depends for field in fields.values()}
-    alone = (("positions", ("q",), "velocities"), ("momenta", ("p",), "forces"))
-    for x, groups, branch in alone:
-        if groups in dependences:
-            parts.append(f"what depends on {x} alone has only {branch} as branches")
-    return "; ".join(parts)
-
-
-def _is_separable(fields: Fields) -> bool:
-    """Whether velocities depend on momenta alone, and forces on positions."""
-    return all(group not in field.depends for (_, group), field in fields.items())
-
-
-def _branching(fields: Fields) -> str:
-    """How many branches a vertex can have, where that is bounded."""
-    degrees = []
-    for field in fields.values():
-        degree = field.degree
-        if degree is None:
-            return ""
-        degrees.append(degree)
-    return f", with at most {max(degrees)} branches at a vertex"

@@ -13,17 +13,12 @@ from typing import TYPE_CHECKING, Any, TypeAlias
 
 from flint import arb, ctx, fmpq
 
-from garkcli.problems.hamiltonian import FLOAT_DIGITS, Hamiltonian
+from garkcli.problems.hamiltonian import FLOAT_DIGITS
 from garkcli.problems.oscillator import terms_of
+from garkcli.problems.problem import Problem
 from garkcli.problems.straightline import define, enclosed
-from garkcli.stepping.dependency import (
-    DependencyGraph,
-    Fields,
-    dependency_graph,
-    entry,
-    fields_of,
-    with_joined_terms,
-)
+from garkcli.stepping.dependency import DependencyGraph, dependency_graph, entry
+from garkcli.stepping.fields import Fields, fields_of, stepped_terms, with_clock
 from garkcli.stepping.matching import split_into
 from garkcli.stepping.newton import MAX_ITERATIONS
 from garkcli.stepping.program import Program, write
@@ -39,7 +34,7 @@ FLOAT_PRECISION = 2.0**-52
 Real: TypeAlias = Any
 """A float, or the midpoint of a ball with the digits of the integrator."""
 Recorder: TypeAlias = Callable[[list[Real]], None]
-"""Is given (q, p) after a step, shape (2d,)."""
+"""Is given the unknowns after a step: (q, p), shape (2d,), or y, shape (d,)."""
 StepProgram: TypeAlias = Callable[
     [list[Real], list[Real], int, int, Recorder | None],
     tuple[list[Real], list[int], int],
@@ -62,14 +57,14 @@ class Integrator:
     """A method on a problem, ready to step.
 
     Attributes:
-        problem: the split problem; d degrees of freedom.
+        problem: the split problem.
         digits: of all numbers; up to ``FLOAT_DIGITS`` they are floats.
         program: what a step does.
         coefficients: enclosures of the coefficients that the program asks for, in its order.
         run: the program, made.
     """
 
-    problem: Hamiltonian
+    problem: Problem
     digits: int
     program: Program
     coefficients: tuple[arb, ...]
@@ -106,7 +101,7 @@ class Binding:
     """
 
     tableau: Tableau
-    problem: Hamiltonian
+    problem: Problem
     fields: Fields
 
     def at(self, digits: int = FLOAT_DIGITS) -> Integrator:
@@ -141,16 +136,14 @@ class Binding:
     # one text serves any number of digits: its coefficients and constants have names
     @cached_property
     def _program_for_floats(self) -> Program:
-        return write(
-            self.graph, self.fields, self.problem.dimension, is_for_balls=False
-        )
+        return write(self.graph, self.fields, self.problem.layout, is_for_balls=False)
 
     @cached_property
     def _program_for_balls(self) -> Program:
-        return write(self.graph, self.fields, self.problem.dimension, is_for_balls=True)
+        return write(self.graph, self.fields, self.problem.layout, is_for_balls=True)
 
 
-def bind(tableau: Tableau, problem: Hamiltonian) -> Binding:
+def bind(tableau: Tableau, problem: Problem) -> Binding:
     """Make ``tableau`` and ``problem`` for each other, to step with any number of digits.
 
     Args:
@@ -166,9 +159,10 @@ def bind(tableau: Tableau, problem: Hamiltonian) -> Binding:
     >>> [round(x, 6) for x in integrate(made, fmpq(1, 10), 10)]
     [1.056272, -0.391965]
     """
-    joined = with_joined_terms(tableau)
-    split = split_into(problem, terms_of(joined))
-    return Binding(joined, split, fields_of(joined, split))
+    made = stepped_terms(tableau, problem)
+    split = split_into(problem, terms_of(made))
+    made = with_clock(made, split)
+    return Binding(made, split, fields_of(made, split))
 
 
 def _bits(digits: int) -> int:

@@ -6,13 +6,15 @@ from dataclasses import replace
 from typing import Any
 
 from garkcli.errors import UsageProblem
-from garkcli.problems.hamiltonian import Hamiltonian, symbols
+from garkcli.problems.hamiltonian import Hamiltonian
+from garkcli.problems.problem import Problem
+from garkcli.problems.vectorfield import symbols
 
 
-def split_into(problem: Hamiltonian, terms: int) -> Hamiltonian:
+def split_into(problem: Problem, terms: int) -> Problem:
     """``problem`` with as many terms.
 
-    One term is the sum. A problem of one term is split in the natural way: the summands with
+    One term is the sum. A Hamiltonian of one term is split in the natural way: the summands with
     momenta make the first term, those of the positions alone the others, in equal shares.
 
     Raises:
@@ -23,14 +25,15 @@ def split_into(problem: Hamiltonian, terms: int) -> Hamiltonian:
         return problem
     if terms == 1:
         return problem.unsplit()
-    split = _natural(problem, terms) if found == 1 else None
-    if split is not None:
-        return replace(problem, terms=split)
+    if found == 1 and isinstance(problem, Hamiltonian):
+        split = _natural(problem, terms)
+        if split is not None:
+            return replace(problem, terms=split)
     plural = "s" if found > 1 else ""
     cure = f"give a list of {terms} in its file"
     if found > 1:
         cure += f", or choose a method for {found}"
-    else:
+    elif isinstance(problem, Hamiltonian):
         cure += ": no sum of parts with and without momenta"
     message = f"{problem.name} has {found} term{plural}, the method is for {terms}"
     raise UsageProblem(message, cure)

@@ -14,7 +14,7 @@ from __future__ import annotations
 
 from collections.abc import Sequence
 
-from garkcli.problems.hamiltonian import Group
+from garkcli.problems.vectorfield import Group
 from garkcli.stepping.dependency import FieldEvaluation, Stage, StageBlock
 from garkcli.stepping.jacobian import JacobianWriter, Slope, identity_minus
 from garkcli.stepping.stagewriter import StageWriter, names
@@ -74,7 +74,7 @@ class NewtonWriter:
                 unknowns.append(f"z{c}")
         is_direct = len(unknowns) <= _DIRECT and not self._is_for_balls
         self._start(block)
-        state = names("y", 2 * d)
+        state = names("y", self._stages.layout.unknowns)
         write(f"floor = {_size_of(state)}")
         write("before = 0.0")
         write("done = False")
@@ -150,7 +150,8 @@ class NewtonWriter:
         field = stages.fields[key]
         start = []
         for group in field.depends:
-            start += [stages.start(group, i) for i in range(stages.d)]
+            size = stages.layout.size(group)
+            start += [stages.start(group, i) for i in range(size)]
         code = stages.code(field.components, evaluation, self._is_for_balls)
         prefix = f"g{evaluation.colour}{evaluation.group}_"
         self.frozen[key] = stages.emit(code, start, prefix)
@@ -159,7 +160,7 @@ class NewtonWriter:
         k = 0
         for stage in block.unknowns:
             summed = self._stages.graph.sums[stage]
-            total = self._stages.total(stage, summed)
+            total = self._stages.total(stage, summed, stage.group)
             for i, text in enumerate(total.texts):
                 c = self._stages.component(stage, i)
                 image = text or "0.0"

@@ -13,16 +13,16 @@ from __future__ import annotations
 from collections.abc import Mapping
 from dataclasses import dataclass, replace
 
-from garkcli.problems.hamiltonian import GROUPS
 from garkcli.problems.straightline import Code
+from garkcli.problems.vectorfield import Layout
 from garkcli.stepping.chainrule import ChainRule
 from garkcli.stepping.dependency import (
     DependencyGraph,
     FieldEvaluation,
-    Fields,
     Stage,
     StageBlock,
 )
+from garkcli.stepping.fields import Fields
 from garkcli.stepping.jacobian import JacobianWriter
 from garkcli.stepping.newton import NewtonWriter
 from garkcli.stepping.stagewriter import Lines, StageWriter, names
@@ -35,11 +35,12 @@ class Program:
     """A step as text.
 
     Attributes:
-        source: of ``run(state, w, first, count, record)``. A state is the list of (q, p), what they
-            have lost in their last digits, and what the starts of Newton's method missed in the
-            last step and how that changed; the result is the new state, the number of iterations of
-            each implicit block, and the number of Jacobians. ``record``, unless it is None, is
-            called with (q, p) after each step.
+        source: of ``run(state, w, first, count, record)``. A state is the list of its
+            numbers, that of time last, what they have lost in their last digits, and what the
+            starts of Newton's method missed in the last step and how that changed; the result is
+            the new state, the number of iterations of each implicit block, and the number of
+            Jacobians. ``record``, unless it is None, is
+            called with the numbers without time after each step.
         coefficients: of which stage and value the coefficient a is that each w is h times; of no
             stage for b.
         codes: all that the text was made of.
@@ -68,26 +69,25 @@ class Program:
 
 
 def write(
-    graph: DependencyGraph, fields: Fields, dimension: int, is_for_balls: bool
+    graph: DependencyGraph, fields: Fields, layout: Layout, is_for_balls: bool
 ) -> Program:
-    """The program of one step of the method with this ``graph`` on vector fields of d =
-    ``dimension``.
-    """
-    return _ProgramWriter(graph, fields, dimension, is_for_balls).program()
+    """The program of one step of the method with this ``graph`` on states with this ``layout``."""
+    return _ProgramWriter(graph, fields, layout, is_for_balls).program()
 
 
 class _ProgramWriter:
     """Writes all of a step, with the help of those who write its parts."""
 
     def __init__(
-        self, graph: DependencyGraph, fields: Fields, dimension: int, is_for_balls: bool
+        self, graph: DependencyGraph, fields: Fields, layout: Layout, is_for_balls: bool
     ) -> None:
         self.body = Lines(_INSIDE)
-        self.stages = StageWriter(graph, fields, dimension, is_for_balls, self.body)
+        self.stages = StageWriter(graph, fields, layout, is_for_balls, self.body)
         self.jacobians = JacobianWriter(self.stages)
         self.newton = NewtonWriter(self.stages, self.jacobians)
         self.graph = graph
-        self.d = dimension
+        self.layout = layout
+        self.d = layout.dimension
         self.is_for_balls = is_for_balls
         self.blocks = graph.blocks()
         self.implicit = tuple(block for block in self.blocks if block.unknowns)
@@ -98,8 +98,8 @@ class _ProgramWriter:
         self._write_step()
         lines = self._around(self.body.texts)
         text = "\n".join(lines) + "\n"
-        # (q, p) and what it lost; of each unknown what was missed, and how that changed
-        size = 2 * (2 * self.d) + 2 * (self.d * len(self.unknowns))
+        # the numbers and what they lost; of each unknown what was missed, and how that changed
+        size = 2 * self.layout.total + 2 * (self.d * len(self.unknowns))
         evaluations = len(self.graph.evaluations) + len(self.newton.frozen)
         made = Program(
             source=text,
@@ -115,8 +115,8 @@ class _ProgramWriter:
 
     def _around(self, body: list[str]) -> list[str]:
         """The function whose loop has this ``body``."""
-        y = names("y", 2 * self.d)
-        lost = names("e", 2 * self.d)
+        y = names("y", self.layout.total)
+        lost = names("e", self.layout.total)
         components: list[str] = []
         for stage in self.unknowns:
             components += [self.stages.component(stage, i) for i in range(self.d)]
@@ -164,9 +164,9 @@ class _ProgramWriter:
                 c = self.stages.component(stage, i)
                 missed = f"z{c} - g{c}"
                 write(f"m{c}, n{c} = {missed}, {missed} - m{c}")
-        for i in range(2 * self.d):
+        for i in range(self.layout.total):
             self._add(i)
-        y = names("y", 2 * self.d)
+        y = names("y", self.layout.unknowns)
         total = " + ".join(y)
         total_of_all = f"({total})"
         if self.is_for_balls:
@@ -178,11 +178,11 @@ class _ProgramWriter:
         write(f" record([{', '.join(y)}])")
 
     def _write_increments(self) -> None:
-        """The increments d = y_1 − y_0, positions before momenta."""
+        """The increments d = y_1 − y_0, group after group."""
         changes: list[str] = []
-        for group in GROUPS:
+        for group in self.layout.groups:
             driving = [x for x in self.graph.evaluations if x.group == group]
-            changes += self.stages.total(None, driving).texts
+            changes += self.stages.total(None, driving, group).texts
         for i, change in enumerate(changes):
             self.body.write(f"d{i} = {change or '0.0'}")
 

@@ -6,15 +6,15 @@ from collections.abc import Iterator, Sequence
 from contextlib import contextmanager
 from dataclasses import dataclass
 
-from garkcli.problems.hamiltonian import Group
 from garkcli.problems.straightline import Code, code_of
+from garkcli.problems.vectorfield import Group, Layout
 from garkcli.stepping.dependency import (
     DependencyGraph,
     FieldEvaluation,
-    Fields,
     Stage,
     StageBlock,
 )
+from garkcli.stepping.fields import Fields
 
 
 class Lines:
@@ -59,7 +59,7 @@ class StageWriter:
     Args:
         graph: of the method on the problem.
         fields: its vector fields.
-        dimension: d.
+        layout: of a state.
         is_for_balls: whether the numbers are balls.
         lines: where they are written.
 
@@ -67,8 +67,8 @@ class StageWriter:
         weights: the names of the numbers w, by the texts of their coefficients.
         first: where each of them occurs first.
         codes: all that was written of fields.
-        values: the names of what each evaluation gave, d each.
-        stages: the names of each stage value, d each.
+        values: the names of what each evaluation gave.
+        stages: the names of the numbers of each stage value.
         number: of each vertex, for names.
     """
 
@@ -76,11 +76,12 @@ class StageWriter:
         self,
         graph: DependencyGraph,
         fields: Fields,
-        dimension: int,
+        layout: Layout,
         is_for_balls: bool,
         lines: Lines,
     ) -> None:
-        self.graph, self.fields, self.d = graph, fields, dimension
+        self.graph, self.fields = graph, fields
+        self.layout, self.d = layout, layout.dimension
         self.is_for_balls = is_for_balls
         self.lines = lines
         self.weights: dict[str, str] = {}
@@ -108,7 +109,7 @@ class StageWriter:
 
     def _place(self, stage: Stage) -> None:
         """The stage value itself, y_0 and the sum."""
-        total = self.total(stage, self.graph.sums[stage])
+        total = self.total(stage, self.graph.sums[stage], stage.group)
         found = []
         for i, text in enumerate(total.texts):
             name = self.start(stage.group, i)
@@ -128,9 +129,14 @@ class StageWriter:
             found += self.stages[stage]
         return found
 
-    def total(self, stage: Stage | None, evaluations: Sequence[FieldEvaluation]) -> Sum:
-        """The sums of w f over ``evaluations``; from a sum that is known, where that has at least
-        two of the terms.
+    def total(
+        self,
+        stage: Stage | None,
+        evaluations: Sequence[FieldEvaluation],
+        group: Group,
+    ) -> Sum:
+        """The sums of w f over ``evaluations``, which drive ``group``; from a sum that is known,
+        where that has at least two of the terms.
 
         In a composition of short steps each stage goes on from the one before, and so costs no more
         than that.
@@ -139,9 +145,10 @@ class StageWriter:
         for evaluation in evaluations:
             if any(f != "0" for f in self.values[evaluation]):
                 terms[evaluation] = self.weight(stage, evaluation)
-        base = self._largest_part(terms)
+        size = self.layout.size(group)
+        base = self._largest_part(terms, size)
         texts = []
-        for i in range(self.d):
+        for i in range(size):
             parts = [base.texts[i]] if base.texts[i] else []
             for evaluation, w in terms.items():
                 f = self.values[evaluation][i]
@@ -150,11 +157,11 @@ class StageWriter:
             texts.append(" + ".join(parts))
         return Sum(terms, texts)
 
-    def _largest_part(self, terms: dict[FieldEvaluation, str]) -> Sum:
+    def _largest_part(self, terms: dict[FieldEvaluation, str], size: int) -> Sum:
         """The known sum with the most of these terms and no others; an empty one where none has
         two.
         """
-        largest = Sum({}, [""] * self.d)
+        largest = Sum({}, [""] * size)
         for known in self._known_sums:
             is_part = len(known.terms) > 1 and known.terms.items() <= terms.items()
             if is_part and len(known.terms) > len(largest.terms):
@@ -190,9 +197,8 @@ class StageWriter:
         return results
 
     def start(self, group: Group, i: int) -> str:
-        """The name of component i of q_0 or of p_0."""
-        before = self.d if group == "p" else 0
-        return f"y{before + i}"
+        """The name of component i of a group at the start of the step."""
+        return f"y{self.layout.start(group) + i}"
 
     def component(self, stage: Stage, i: int) -> str:
         """What the names of component i of a stage value end in."""

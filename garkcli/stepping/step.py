@@ -1,12 +1,13 @@
-"""Steps of a symplectic pair, eq. (spgqrk), or of a GARK method, on a split Hamiltonian problem.
+"""Steps of a symplectic pair, eq. (spgqrk), or of a GARK method, on a split problem.
 
 With y_0 the start of the step, and the colours m of the tableau,
 
     Y^k_i = y_0 + h Σ_m Σ_j a^{k,m}_{ij} f^m(Y^{rows(m)}_j),
     y_1 = y_0 + h Σ_m Σ_j b^m_j f^m(Y^{rows(m)}_j),
 
-where f^m drives positions (V), momenta (F) or both. Explicit parts are computed in order; the
-unknowns of each implicit block by Newton's method with exact Jacobians.
+where f^m drives positions (V), momenta (F) or both, or is a right-hand side of its own.
+Explicit parts are computed in order; the unknowns of each implicit block by Newton's method with
+exact Jacobians.
 ``garkcli.stepping.program`` writes this out for the method and the problem at hand. The numbers are
 floats with compensated summation from step to step, or midpoints of balls with any number of
 digits; Jacobians are floats in both cases, so that each iteration near the solution is worth the
@@ -131,7 +132,7 @@ class Stepper:
         start = integrator.problem.initial if self.initial is None else self.initial
         with ctx.workprec(integrator.bits):
             numbers = [integrator.number(x) for x in start]
-            # nothing has been lost or missed before the first step
+            # time begins at 0; nothing has been lost or missed before the first step
             others = integrator.program.size - len(numbers)
             self._numbers = numbers + [integrator.number(0)] * others
         self._weights = integrator.weights(self.h)
@@ -139,8 +140,8 @@ class Stepper:
 
     @property
     def y(self) -> list[Real]:
-        """(q, p), shape (2d,)."""
-        return self._numbers[: 2 * self.integrator.problem.dimension]
+        """The unknowns: (q, p), shape (2d,), or y, shape (d,)."""
+        return self._numbers[: self.integrator.problem.layout.unknowns]
 
     @property
     def work(self) -> Work:

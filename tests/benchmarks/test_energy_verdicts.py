@@ -13,7 +13,7 @@ from garkcli.longtime.history import LongRun
 from garkcli.longtime.longtime import long_run
 from garkcli.methodfile.load import load, loads
 from garkcli.methodfile.problem import loads_problem
-from garkcli.stepping.dependency import with_joined_terms
+from garkcli.stepping.fields import with_joined_terms
 from garkcli.stepping.step import StepFailed
 from tests.benchmarks.measuring import ROOT
 from tests.longtime.planets import (

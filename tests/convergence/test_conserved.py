@@ -10,7 +10,8 @@ from flint import fmpq
 
 from garkcli.convergence.conserved import changing
 from garkcli.problems.builtin import hamiltonian
-from garkcli.problems.hamiltonian import Hamiltonian, symbols
+from garkcli.problems.hamiltonian import Hamiltonian
+from garkcli.problems.vectorfield import symbols
 
 KEPLER = hamiltonian("kepler", 2)
 (X, Y), (PX, PY) = (symbols(("x", "y"), group) for group in ("q", "p"))

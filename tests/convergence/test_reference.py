@@ -97,7 +97,7 @@ def test_a_solution_that_ends_is_told_when() -> None:
     """
     from dataclasses import replace
 
-    from garkcli.problems.hamiltonian import symbols
+    from garkcli.problems.vectorfield import symbols
 
     ((x,), (p,)) = (symbols(("x",), group) for group in ("q", "p"))
     problem = replace(

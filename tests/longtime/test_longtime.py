@@ -20,9 +20,11 @@ from garkcli.longtime.longtime import long_run, usual
 from garkcli.methodfile.load import load, loads
 from garkcli.methodfile.problem import loads_problem
 from garkcli.problems.builtin import hamiltonian
-from garkcli.problems.hamiltonian import Hamiltonian, energy_function, symbols
+from garkcli.problems.hamiltonian import Hamiltonian
 from garkcli.problems.oscillator import Oscillator, terms_of
-from garkcli.stepping.dependency import with_joined_terms
+from garkcli.problems.problem import quantities_function
+from garkcli.problems.vectorfield import symbols
+from garkcli.stepping.fields import with_joined_terms
 from garkcli.stepping.integrator import bind
 from garkcli.stepping.step import StepFailed, trajectory
 from garkcli.tableau.tableau import Tableau
@@ -66,7 +68,7 @@ def stepped(source: str, name: str, count: int, h: fmpq) -> np.ndarray:
     """The errors of all invariants after each step, plainly."""
     tableau = tableau_of(source)
     problem = hamiltonian(name, terms_of(tableau))
-    measure = energy_function(problem, 15)
+    measure = quantities_function(problem, 15)
     values = np.array(
         [measure(*y) for y in trajectory(bind(tableau, problem).at(), h, count)]
     )

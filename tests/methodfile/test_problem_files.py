@@ -16,7 +16,9 @@ from garkcli.methodfile.formulas import BITS, nearby
 from garkcli.methodfile.load import loads
 from garkcli.methodfile.problem import load_problem, loads_problem
 from garkcli.problems.builtin import hamiltonian
-from garkcli.problems.hamiltonian import Hamiltonian, energy_function
+from garkcli.problems.hamiltonian import Hamiltonian
+from garkcli.problems.problem import quantities_function
+from garkcli.problems.righthandside import RightHandSide
 
 PROBLEMS = Path(__file__).resolve().parents[2] / "problems"
 ONE = "variables: [x]\nhamiltonian: px**2/2 - cos(x)\ninitial: {x: 1, px: 0}\n"
@@ -30,8 +32,10 @@ def faults(text: str) -> list[tuple[int, int, str, str]]:
 
 
 def read(text: str) -> Hamiltonian:
-    """The problem of a text."""
-    return loads_problem(dedent(text))
+    """The Hamiltonian of a text."""
+    problem = loads_problem(dedent(text))
+    assert isinstance(problem, Hamiltonian)
+    return problem
 
 
 def test_smallest_file() -> None:
@@ -89,7 +93,7 @@ def test_files_of_built_in_problems(name: str) -> None:
     )
     assert own.variables == built_in.variables
     with ctx.workprec(200):
-        one, other = (energy_function(x, 50) for x in (built_in, own))
+        one, other = (quantities_function(x, 50) for x in (built_in, own))
         for k in range(5):
             at = [arb(fmpq(7 * k + 3 * i + 1, 11)) for i in range(len(own.initial))]
             assert all(a.overlaps(b) for a, b in zip(one(*at), other(*at), strict=True))
@@ -175,7 +179,7 @@ def test_momenta_of_a_lagrangian() -> None:
             "name: x",
             [
                 (1, 1, "variables missing"),
-                (1, 1, "no hamiltonian and no"),
+                (1, 1, "no hamiltonian, no"),
                 (1, 1, "initial missing"),
             ],
         ),
@@ -516,10 +520,17 @@ def test_method_files_and_problem_files_know_each_other() -> None:
 
 @pytest.mark.parametrize("path", sorted(PROBLEMS.glob("*.yaml")), ids=lambda x: x.stem)
 def test_files_of_the_folder(path: Path) -> None:
-    """Every file of the folder problems is read; its invariants are first integrals, by their
-    Poisson brackets.
+    """Every file of the folder problems is read; its invariants are first integrals: by their
+    Poisson brackets, or along the right-hand sides.
     """
     problem = load_problem(str(path))
+    if isinstance(problem, RightHandSide):
+        y = [sympy.Symbol(x, real=True) for x in problem.variables]
+        for _, made in problem.invariants:
+            pairs = zip(y, problem.total, strict=True)
+            change = sum(made.diff(x) * f for x, f in pairs)
+            assert sympy.simplify(change) == 0
+        return
     H = problem.energy
     q = [sympy.Symbol(x, real=True) for x in problem.variables]
     p = [sympy.Symbol(f"p{x}", real=True) for x in problem.variables]

@@ -4,6 +4,7 @@ from __future__ import annotations
 
 import os
 from pathlib import Path
+from typing import Any
 
 import pytest
 
@@ -15,6 +16,9 @@ from garkcli.problems.builtin import (
     check_seed,
     hamiltonian,
 )
+from garkcli.problems.builtin import problem as made
+from garkcli.problems.hamiltonian import Hamiltonian
+from garkcli.problems.problem import Problem
 
 PAGE = Path(__file__).resolve().parents[2] / "docs" / "problems.md"
 BEGIN, END = "<!-- problems -->\n", "<!-- end of problems -->\n"
@@ -22,7 +26,7 @@ BEGIN, END = "<!-- problems -->\n", "<!-- end of problems -->\n"
 
 def row(entry: BuiltIn) -> str:
     """The row of one problem in the table of the page."""
-    cells = (f"`{entry.name}`", entry.energy.replace("|", r"\|"), entry.sees)
+    cells = (f"`{entry.name}`", entry.formula.replace("|", r"\|"), entry.sees)
     return f"| {' | '.join(cells)} |\n"
 
 
@@ -33,7 +37,7 @@ def test_the_page_has_every_problem() -> None:
     found, end, tail = rest.partition(END)
     assert begin
     assert end
-    table = "| `--problem` | H | sees |\n|---|---|---|\n" + "".join(
+    table = "| `--problem` | H, or ẏ | sees |\n|---|---|---|\n" + "".join(
         map(row, PROBLEMS.values())
     )
     if os.environ.get("GARK_UPDATE_SNAPSHOTS"):
@@ -49,16 +53,24 @@ def test_entries_are_whole(entry: BuiltIn, terms: int) -> None:
 
     The sum of the terms does not depend on their number unless the coefficients do.
     """
-    problem = hamiltonian(entry.name, terms)
+    problem = made(entry.name, terms)
     assert built_in(entry.name) is entry
     assert problem.name == entry.name
     assert len(problem.terms) == terms
-    assert len(problem.initial) == 2 * problem.dimension
+    assert len(problem.initial) == problem.layout.unknowns
+    assert isinstance(problem, Hamiltonian) is entry.is_hamiltonian
     assert entry.make(terms, 1) == problem
     assert (entry.make(terms, 2) != problem) is entry.takes_seed
     if not entry.takes_seed:
-        difference = problem.energy - hamiltonian(entry.name, 1).energy
-        assert difference.expand() == 0
+        for whole, alone in zip(
+            total(problem), total(made(entry.name, 1)), strict=True
+        ):
+            assert (whole - alone).expand() == 0
+
+
+def total(problem: Problem) -> tuple[Any, ...]:
+    """H, or the sum of the right-hand sides."""
+    return (problem.energy,) if isinstance(problem, Hamiltonian) else problem.total
 
 
 def test_seeds_are_for_random_coefficients() -> None:

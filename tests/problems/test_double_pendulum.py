@@ -16,8 +16,8 @@ from garkcli.errors import UsageProblem
 from garkcli.families.registry import diagonal_method
 from garkcli.methodfile.load import load
 from garkcli.problems.builtin import hamiltonian
-from garkcli.problems.hamiltonian import symbols
-from garkcli.stepping.dependency import fields_of
+from garkcli.problems.vectorfield import symbols
+from garkcli.stepping.fields import fields_of
 from garkcli.stepping.integrator import bind
 from garkcli.stepping.matching import split_into
 from garkcli.stepping.step import integrate

@@ -11,7 +11,7 @@ from sympy import Add, Rational
 
 from garkcli.problems.builtin import hamiltonian
 from garkcli.problems.draw import Draw
-from garkcli.problems.hamiltonian import symbols
+from garkcli.problems.vectorfield import symbols
 
 
 def test_published_numbers() -> None:

@@ -12,7 +12,9 @@ import pytest
 from garkcli.exact.display import to_float
 from garkcli.families.registry import diagonal_method
 from garkcli.problems.builtin import hamiltonian
-from garkcli.problems.hamiltonian import GROUPS, function, symbols, vector_field
+from garkcli.problems.hamiltonian import vector_field
+from garkcli.problems.straightline import function
+from garkcli.problems.vectorfield import GROUPS, symbols
 from garkcli.stepping.integrator import bind
 from garkcli.stepping.step import integrate
 from garkcli.tableau.forms import gark

@@ -20,9 +20,10 @@ from garkcli.families.registry import diagonal_method
 from garkcli.methodfile.load import load
 from garkcli.order.conditions import coupling_graph
 from garkcli.problems.builtin import GENERIC, hamiltonian
-from garkcli.problems.hamiltonian import Hamiltonian, symbols, vector_field
+from garkcli.problems.hamiltonian import Hamiltonian, vector_field
 from garkcli.problems.straightline import function
-from garkcli.stepping.dependency import visible_tableau
+from garkcli.problems.vectorfield import symbols
+from garkcli.stepping.fields import visible_tableau
 from garkcli.stepping.integrator import bind
 from garkcli.tableau.forms import gark, spelled_out, symplectic_pair, with_linear
 from garkcli.tableau.tableau import Tableau

@@ -14,11 +14,11 @@ from hypothesis import strategies as st
 from sympy import Rational, cos, cosh, exp, log, sin, sqrt
 
 from garkcli.errors import NoLegendreTransform
-from garkcli.problems.hamiltonian import symbols
 from garkcli.problems.lagrangian import legendre_transform
 from garkcli.problems.mass import enclosed, velocities
 from garkcli.problems.solving import solutions
 from garkcli.problems.start import initial_momenta, missing_derivative
+from garkcli.problems.vectorfield import symbols
 
 LETTERS = ("x", "y", "z")
 SMALL = st.integers(-3, 3)
@@ -251,18 +251,19 @@ def test_momenta_of_velocities() -> None:
 
 def test_derivatives_at_the_start() -> None:
     """The variable by which there is none."""
-    variables, (x, y), _, (px, py) = names(2)
+    _, (x, y), _, (px, py) = names(2)
+    by = (x, y, px, py)
     at = balls({x: Rational(0), y: Rational(1), px: Rational(1), py: Rational(1)})
-    assert missing_derivative(y**2 + px**2, variables, at) is None
-    assert missing_derivative(y**2 + x ** Rational(1, 2), variables, at) == (
+    assert missing_derivative(y**2 + px**2, by, at) is None
+    assert missing_derivative(y**2 + x ** Rational(1, 2), by, at) == (
         "no derivative by x",
         "start elsewhere",
     )
-    assert missing_derivative(sqrt(py - 1) + sin(x), variables, at) == (
+    assert missing_derivative(sqrt(py - 1) + sin(x), by, at) == (
         "no derivative by py",
         "start elsewhere",
     )
-    kinks = missing_derivative(sympy.asin(sqrt(1 - 1 / py**2)), variables, at)
+    kinks = missing_derivative(sympy.asin(sqrt(1 - 1 / py**2)), by, at)
     assert kinks is not None
     assert "the derivative by py has kinks" in kinks[0]
 

@@ -25,7 +25,7 @@ from garkcli.report.bandplot import INSIDE, SINGLE, terminal_band
 from garkcli.report.energy import render
 from garkcli.report.energy_text import Claim, Report
 from garkcli.report.paint import Paint
-from garkcli.stepping.dependency import with_joined_terms
+from garkcli.stepping.fields import with_joined_terms
 
 ROOT = Path(__file__).parents[2]
 RECTANGULAR, RK4 = (

@@ -12,9 +12,10 @@ from hypothesis import strategies as st
 
 from garkcli.families.registry import diagonal_method
 from garkcli.problems.builtin import hamiltonian
-from garkcli.problems.hamiltonian import GROUPS, Hamiltonian, symbols
+from garkcli.problems.hamiltonian import Hamiltonian
 from garkcli.problems.oscillator import terms_of
-from garkcli.stepping.dependency import with_joined_terms
+from garkcli.problems.vectorfield import GROUPS, symbols
+from garkcli.stepping.fields import with_joined_terms
 from garkcli.stepping.integrator import bind
 from garkcli.stepping.step import Stepper, integrate, trajectory
 from garkcli.tableau.forms import gark, pair, separable_prk, symplectic_pair

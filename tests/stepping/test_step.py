@@ -17,15 +17,12 @@ from garkcli.families.registry import diagonal_method
 from garkcli.graph import components
 from garkcli.longtime.longtime import long_run
 from garkcli.problems.builtin import hamiltonian
-from garkcli.problems.hamiltonian import GROUPS, Hamiltonian, symbols, vector_field
+from garkcli.problems.hamiltonian import Hamiltonian, vector_field
 from garkcli.problems.oscillator import terms_of
 from garkcli.problems.straightline import function
-from garkcli.stepping.dependency import (
-    Stage,
-    fields_of,
-    visible_trees,
-    with_joined_terms,
-)
+from garkcli.problems.vectorfield import GROUPS, symbols
+from garkcli.stepping.dependency import Stage
+from garkcli.stepping.fields import fields_of, visible_trees, with_joined_terms
 from garkcli.stepping.integrator import bind
 from garkcli.stepping.step import StepFailed, integrate, trajectory
 from garkcli.tableau.forms import (

@@ -26,7 +26,8 @@ from hypothesis import strategies as st
 from mpmath import mpf
 
 from garkcli.families.registry import diagonal_method
-from garkcli.problems.hamiltonian import FLOAT_DIGITS, Hamiltonian, symbols
+from garkcli.problems.hamiltonian import FLOAT_DIGITS, Hamiltonian
+from garkcli.problems.vectorfield import symbols
 from garkcli.stepping.integrator import bind
 from garkcli.stepping.step import trajectory
 from garkcli.tableau.forms import gark, pair, spelled_out, symplectic_pair

@@ -1,0 +1,270 @@
+"""From the text of a problem file with ``rhs`` to right-hand sides: known names, values at the
+start, derivatives, and whether an exact solution is one.
+"""
+
+from __future__ import annotations
+
+from collections.abc import Sequence
+from itertools import chain
+from typing import TYPE_CHECKING
+
+from flint import arb, ctx, fmpq
+from yaml.nodes import Node
+
+from garkcli.methodfile.formulas import BITS, Formulas, nearby
+from garkcli.methodfile.source import Source, shortened
+from garkcli.methodfile.termreader import Term, TermReader
+from garkcli.methodfile.terms import ProblemText
+from garkcli.problems.vectorfield import TIME
+
+if TYPE_CHECKING:
+    from garkcli.problems.righthandside import RightHandSide
+
+STIFFNESS = "stiffness"
+"""The parameter that ``--stiffness`` sets."""
+_SHOWN = 8  # most missing names that are told
+_TRIES = (fmpq(1, 3), fmpq(2, 3), fmpq(1))  # of the time, where a solution is tried
+
+
+class SidesMaker:
+    """Makes the problem of one file; faults are noted in its source."""
+
+    def __init__(self, source: Source, formulas: Formulas, text: ProblemText) -> None:
+        from garkcli.problems.vectorfield import symbols
+
+        self.source, self.formulas, self.text = source, formulas, text
+        self.reader = TermReader(source, formulas)
+        self.y = symbols(text.variables, "y")
+        (self.t,) = symbols(text.variables, TIME)
+        self._symbols = {str(x): x for x in (*self.y, self.t)}
+
+    def problem(self) -> RightHandSide:
+        """The problem.
+
+        Raises:
+            MethodFileError: there are faults; all that could be found.
+        """
+        from garkcli.problems.righthandside import RightHandSide
+
+        exact = self._exact()
+        start = self._initial(exact)
+        terms = [self._side(side) for side in self.text.sides]
+        invariants = self._invariants()
+        all_terms = list(chain(*(term.values() for term in terms)))
+        if start is not None:
+            at = {**start, TIME: fmpq(0)}
+            self.reader.check_values([*all_terms, *invariants], at)
+        self.reader.check_size(all_terms)
+        solution = [] if exact is None else list(exact.values())
+        self.reader.check_numbers([*all_terms, *invariants, *solution])
+        self.source.close()
+        assert start is not None
+        self._check_jacobians(all_terms, start)
+        self._refuse_constants(all_terms, terms, invariants)
+        self.source.close()
+        made = RightHandSide(
+            self.text.name,
+            self.text.variables,
+            tuple(self._components(term) for term in terms),
+            tuple(start[name] for name in self.text.variables),
+            self.text.t_end,
+            tuple((x.where.removeprefix("invariants: "), x.made) for x in invariants),
+            None if exact is None else self._components(exact),
+            stiffness=self._stiffness,
+        )
+        if exact is not None:
+            self._check_solution(made, exact)
+            self.source.close()
+        return made
+
+    @property
+    def _stiffness(self) -> fmpq | None:
+        found = self.formulas.values.get(STIFFNESS)
+        return found if isinstance(found, fmpq) else None
+
+    def _components(self, term: dict[str, Term]) -> tuple[object, ...]:
+        """D expressions: 0 for what is left out."""
+        import sympy
+
+        zero = sympy.Integer(0)
+        names = self.text.variables
+        return tuple(term[x].made if x in term else zero for x in names)
+
+    def _side(self, side: Sequence[tuple[str, Node, str]]) -> dict[str, Term]:
+        """The formulas of one term by the names of variables."""
+        names = dict.fromkeys(self._symbols, "")
+        noun = "variable or parameter, nor t"
+        return self._by_name(side, names, noun)
+
+    def _by_name(
+        self,
+        items: Sequence[tuple[str, Node, str]],
+        names: dict[str, str],
+        noun: str,
+    ) -> dict[str, Term]:
+        known = names if self.text.are_named else None
+        found = {}
+        for name, node, where in items:
+            for term in self.reader.terms([(node, where)], self._symbols, known, noun):
+                found[name] = term
+        return found
+
+    def _invariants(self) -> list[Term]:
+        names = dict.fromkeys(map(str, self.y), "")
+        names[TIME] = "an invariant depends on the variables alone"
+        items = [(node, f"invariants: {name}") for name, node in self.text.invariants]
+        known = names if self.text.are_named else None
+        noun = "variable or parameter"
+        return self.reader.terms(items, self._symbols, known, noun)
+
+    def _exact(self) -> dict[str, Term] | None:
+        """The exact solution by names; None where there is none, or it has faults."""
+        node = self.text.exact
+        if node is None:
+            return None
+        before = len(self.source.faults)
+        variables = self.text.variables if self.text.are_named else ()
+        entries = self.source.mapping(node, "exact", variables)
+        items = [(name, x, f"exact: {name}") for name, x in entries.items()]
+        names = dict.fromkeys(map(str, self.y), "the solution is a formula in t")
+        names[TIME] = ""
+        found = self._by_name(items, names, "parameter, nor t")
+        if self.text.are_named:
+            self._refuse_missing(
+                node, "exact", entries, f"a formula, such as {{}}: cos({TIME})"
+            )
+        return found if len(self.source.faults) == before else None
+
+    def _initial(self, exact: dict[str, Term] | None) -> dict[str, fmpq] | None:
+        """The initial values by name; None where they are not complete."""
+        started = None if exact is None else self._start_of(exact)
+        node = self.text.initial
+        if node is None:
+            return started
+        before = len(self.source.faults)
+        variables = self.text.variables if self.text.are_named else ()
+        entries = self.source.mapping(node, "initial", variables)
+        values = {}
+        for name, x in entries.items():
+            where = f"initial: {name if self.text.are_named else shortened(name)[1:-1]}"
+            value = self.formulas.rational(x, where)
+            if value is not None:
+                values[name] = value
+        if self.text.are_named and len(self.source.faults) == before:
+            self._refuse_missing(node, "initial", entries, "a number, such as {}: 1/2")
+        if len(self.source.faults) > before or not self.text.are_named:
+            return None
+        if exact is not None and started is not None:
+            self._refuse_other_start(exact, started, values)
+        return values
+
+    def _refuse_other_start(
+        self,
+        exact: dict[str, Term],
+        started: dict[str, fmpq],
+        values: dict[str, fmpq],
+    ) -> None:
+        """Note where the exact solution does not begin at the initial values."""
+        for name, term in exact.items():
+            if values[name] != started[name]:
+                self.source.fault(
+                    term.node,
+                    f"{term.where} starts at {_decimal(started[name])}, but initial has "
+                    f"{_decimal(values[name])}",
+                    "leave initial out, or correct one of them",
+                )
+
+    def _start_of(self, exact: dict[str, Term]) -> dict[str, fmpq] | None:
+        """The exact solution at t = 0; None where it has no value there, which is noted."""
+        found = {}
+        for name, term in exact.items():
+            where = f"{term.where} at t = 0"
+            at = {TIME: fmpq(0)}
+            value = self.formulas.value(term.expression, term.node, where, at)
+            if value is not None:
+                found[name] = nearby(value)
+        return found if len(found) == len(exact) else None
+
+    def _refuse_missing(
+        self, node: Node, where: str, given: dict[str, Node], cure: str
+    ) -> None:
+        missing = [x for x in self.text.variables if x not in given]
+        if missing:
+            more = ", …" if len(missing) > _SHOWN else ""
+            names = ", ".join(missing[:_SHOWN])
+            message = f"{where}: no value for {names}{more}"
+            self.source.fault(node, message, f"give each {cure.format(missing[0])}")
+
+    def _check_jacobians(self, terms: Sequence[Term], start: dict[str, fmpq]) -> None:
+        """Note right-hand sides that have no derivative at the start: Newton's method needs it."""
+        from garkcli.problems.start import missing_derivative
+
+        with ctx.workprec(BITS):
+            at = {x: arb(start[str(x)]) for x in self.y}
+            at[self.t] = arb(0)
+        for term in terms:
+            missing = missing_derivative(term.made, self.y, at)
+            if missing is not None:
+                what, cure = missing
+                message = f"{term.where} at the initial values: {what}"
+                self.source.fault(term.node, message, cure)
+
+    def _refuse_constants(
+        self,
+        all_terms: Sequence[Term],
+        terms: Sequence[dict[str, Term]],
+        invariants: Sequence[Term],
+    ) -> None:
+        """Note right-hand sides with which nothing moves, and invariants that depend on nothing."""
+        from garkcli.problems.vectorfield import is_constant
+
+        sums = [
+            sum(term[name].made for term in terms if name in term)
+            for name in self.text.variables
+        ]
+        if all(x == 0 for x in sums):
+            self.source.fault(
+                all_terms[0].node,
+                "nothing moves: the right-hand sides sum to 0",
+                "write the derivative of a variable",
+            )
+        for invariant in invariants:
+            if is_constant(invariant.made):
+                self.source.fault(
+                    invariant.node,
+                    f"{invariant.where} is constant: it depends on no variable",
+                    "write a first integral in the variables, or leave it out",
+                )
+
+    def _check_solution(self, problem: RightHandSide, exact: dict[str, Term]) -> None:
+        """Note a solution whose derivative differs from the right-hand sides at a later time, with
+        balls that prove it.
+        """
+        from garkcli.problems.mass import enclosed
+
+        places = dict(zip(self.y, problem.exact or (), strict=True))
+        for part in _TRIES:
+            time = part * problem.t_end
+            at = {self.t: arb(time)}
+            for name, total in zip(problem.variables, problem.total, strict=True):
+                term = exact[name]
+                slope = term.made.diff(self.t)
+                field = total.xreplace(places)
+                has, needs = enclosed([slope, field], at)
+                if not (has.is_finite() and needs.is_finite()):
+                    message = f"{term.where} has no value at t = {time}"
+                    self.source.fault(term.node, message, "give an earlier t_end")
+                    return
+                if not has.overlaps(needs):
+                    self.source.fault(
+                        term.node,
+                        f"{term.where} is no solution: at t = {time} its derivative is "
+                        f"{_decimal(has)}, the right-hand sides give {_decimal(needs)}",
+                        "correct it, or leave exact out",
+                    )
+                    return
+
+
+def _decimal(x: fmpq | arb) -> str:
+    """A few digits of a number."""
+    return str(arb(x).str(6, radius=False))

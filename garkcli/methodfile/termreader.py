@@ -1,0 +1,106 @@
+"""Formulas of a problem as sympy expressions, and what is refused of them, whatever they are of."""
+
+from __future__ import annotations
+
+from collections.abc import Mapping, Sequence
+from dataclasses import dataclass
+from typing import Any
+
+from flint import arb, ctx, fmpq
+from yaml.nodes import Node
+
+from garkcli.errors import ExpressionError
+from garkcli.exact.nodes import Expression
+from garkcli.methodfile.formulas import BITS, Formulas
+from garkcli.methodfile.source import Source
+from garkcli.transfer import LOG10_2
+
+MAX_BITS = 4_000
+"""Longest numerator or denominator: squared and cubed it is short of the 4300 digits that Python
+writes.
+"""
+
+
+@dataclass(frozen=True)
+class Term:
+    """A formula of the file, and its sympy expression."""
+
+    node: Node
+    where: str
+    expression: Expression
+    made: Any
+
+
+@dataclass(frozen=True)
+class TermReader:
+    """Reads formulas with variables; faults are noted in the source."""
+
+    source: Source
+    formulas: Formulas
+
+    def terms(
+        self,
+        items: Sequence[tuple[Node, str]],
+        symbols: Mapping[str, Any],
+        names: Mapping[str, str] | None,
+        noun: str,
+    ) -> list[Term]:
+        """The formulas without faults.
+
+        Args:
+            items: each formula with what it is called in messages.
+            symbols: of all names.
+            names: for names that may not stand here, the cure; "" for those that may. None where
+                the variables have faults: then nothing is translated.
+            noun: what a name can be here.
+        """
+        allowed = {x: symbols[x] for x, cure in (names or {}).items() if not cure}
+        translator = self.formulas.translator(allowed)
+        found = []
+        for node, where in items:
+            expression = self.formulas.parsed(node, where, names, noun)
+            if expression is None or names is None:
+                continue
+            try:
+                made = translator.translate(expression)
+            except ExpressionError as error:
+                self.source.expression_fault(node, where, error)
+            else:
+                found.append(Term(node, where, expression, made))
+        return found
+
+    def check_values(self, terms: Sequence[Term], start: Mapping[str, fmpq]) -> None:
+        """Note formulas that have no value at the start, as far as that is known."""
+        with ctx.workprec(BITS):
+            values = {name: arb(x) for name, x in start.items()}
+        for term in terms:
+            if all(str(x) in start for x in term.made.free_symbols):
+                where = f"{term.where} at the initial values"
+                self.formulas.value(term.expression, term.node, where, values)
+
+    def check_size(self, terms: Sequence[Term]) -> None:
+        """Note terms whose derivatives are too long."""
+        from garkcli.problems.translate import MAX_SIZE, size_of_derivatives
+
+        sizes = [size_of_derivatives(x.made) for x in terms]
+        if sum(sizes) > MAX_SIZE:
+            largest = terms[sizes.index(max(sizes))]
+            found = f"second derivatives of {sum(sizes)} operations"
+            message = f"{largest.where}: {found} (limit {MAX_SIZE})"
+            cure = "write it shorter, or with fewer variables"
+            self.source.fault(largest.node, message, cure)
+
+    def check_numbers(self, terms: Sequence[Term]) -> None:
+        """Note terms with numbers too long to be written, once powers are multiplied out."""
+        import sympy
+
+        for term in terms:
+            longest = 0
+            for x in term.made.atoms(sympy.Rational):
+                bits = max(abs(int(x.p)), int(x.q)).bit_length()
+                longest = max(longest, bits)
+            if longest > MAX_BITS:
+                digits = int(longest * LOG10_2)
+                message = f"{term.where}: a coefficient of about {digits} digits"
+                cure = "choose units in which coefficients are shorter"
+                self.source.fault(term.node, message, cure)

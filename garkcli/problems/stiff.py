@@ -1,0 +1,138 @@
+"""Problems that are not Hamiltonian, with a stiffness to be chosen.
+
+Right-hand sides are split into parts, the stiff one last. The parts go to the terms of a method in
+this order; where a method has more terms than there are parts, the last ones have equal shares of
+the last part.
+"""
+
+from __future__ import annotations
+
+from collections.abc import Sequence
+from typing import Any
+
+from flint import fmpq
+
+from garkcli.problems.righthandside import RightHandSide
+from garkcli.problems.vectorfield import TIME, symbols
+
+CELLS = 8
+"""Of the reaction–diffusion line."""
+
+
+def prothero_robinson(terms: int, stiffness: fmpq) -> RightHandSide:
+    """ẏ = φ'(t) − λ (y − φ(t)) with φ(t) = cos t and λ the stiffness; y = φ(t).
+
+    Source: Prothero and Robinson, Math. Comp. 28 (1974), 145–162.
+    """
+    import sympy
+
+    variables = ("y",)
+    ((y,), (t,)) = (symbols(variables, group) for group in ("y", TIME))
+    solution = sympy.cos(t)
+    parts = [(solution.diff(t),), (-_rational(stiffness) * (y - solution),)]
+    return RightHandSide(
+        "prothero-robinson",
+        variables,
+        shared(parts, terms),
+        (fmpq(1),),
+        fmpq(1),
+        exact=(solution,),
+        stiffness=stiffness,
+    )
+
+
+def van_der_pol(terms: int, stiffness: fmpq) -> RightHandSide:
+    """ẏ = z, ż = ((1 − y²) z − y)/ε with 1/ε the stiffness, from a point of the smooth solution.
+
+    Source: Hairer and Wanner, Solving Ordinary Differential Equations II, section VI.3; the start
+    is the asymptotic expansion of the smooth solution at y = 2 up to ε³.
+    """
+    variables = ("y", "z")
+    y, z = symbols(variables, "y")
+    small = 1 / stiffness
+    start = fmpq(-2, 3)
+    for power, coefficient in enumerate(_SMOOTH_START, start=1):
+        start += coefficient * small**power
+    force = _rational(stiffness) * ((1 - y**2) * z - y)
+    return RightHandSide(
+        "van-der-pol",
+        variables,
+        shared([(z, 0 * z), (0 * z, force)], terms),
+        (fmpq(2), start),
+        fmpq(1, 2),
+        long_run=(fmpq(1, 100), fmpq(100)),
+        stiffness=stiffness,
+    )
+
+
+# z_1, z_2, z_3 at y = 2 of z = Σ ε^k z_k(y): z_0 = y/(1 − y²), and (1 − y²) z_{k+1} is the sum
+# of all z_i' z_{k−i}
+_SMOOTH_START = (fmpq(10, 81), fmpq(-292, 2187), fmpq(15266, 59049))
+
+
+def reaction_diffusion(terms: int, stiffness: fmpq) -> RightHandSide:
+    """u̇_i = r_i u_i (1 − u_i) + k (u_{i−1} − 2 u_i + u_{i+1}) in a line of cells that nothing
+    leaves, k the stiffness and r_i growing along the line.
+
+    It starts near the state that fast diffusion leads to: 1/4 everywhere, and off it what balances
+    the reaction, w/k with the differences of w summed up from the left.
+    """
+    import sympy
+
+    variables = tuple(f"u{i}" for i in range(1, CELLS + 1))
+    u = symbols(variables, "y")
+    rates = [fmpq(CELLS + i, 2 * CELLS) for i in range(CELLS)]
+    reaction = tuple(_rational(r) * x * (1 - x) for r, x in zip(rates, u, strict=True))
+    k = _rational(stiffness)
+    diffusion = []
+    for i, x in enumerate(u):
+        neighbours = [u[j] for j in (i - 1, i + 1) if 0 <= j < CELLS]
+        flows = sympy.Add(*neighbours) - len(neighbours) * x
+        diffusion.append(k * flows)
+    return RightHandSide(
+        "reaction-diffusion",
+        variables,
+        shared([reaction, tuple(diffusion)], terms),
+        _balanced(rates, stiffness),
+        fmpq(2),
+        stiffness=stiffness,
+    )
+
+
+def _balanced(rates: Sequence[fmpq], stiffness: fmpq) -> tuple[fmpq, ...]:
+    """1/4 + w_i/k, where the diffusion of w cancels the reaction at 1/4 but for its mean, and w is
+    0 on average.
+    """
+    level = fmpq(1, 4)
+    growth = [r * level * (1 - level) for r in rates]
+    mean = sum(growth, fmpq(0)) / len(growth)
+    w, flow = [fmpq(0)], fmpq(0)
+    for g in growth[:-1]:
+        flow += (
+            mean - g
+        )  # what flows on to the right has to make up for all cells so far
+        w.append(w[-1] + flow)
+    middle = sum(w, fmpq(0)) / len(w)
+    return tuple(level + (x - middle) / stiffness for x in w)
+
+
+def shared(parts: Sequence[tuple[Any, ...]], terms: int) -> tuple[tuple[Any, ...], ...]:
+    """The parts in ``terms`` terms: the last one in equal shares where there are fewer parts, the
+    last ones added up where there are more.
+    """
+    kept = list(parts[: terms - 1])
+    rest = tuple(
+        sum(components) for components in zip(*parts[terms - 1 :], strict=True)
+    )
+    if terms <= len(parts):
+        return (*kept, rest)
+    kept = list(parts[:-1])
+    left = terms - len(kept)
+    share = tuple(component / left for component in parts[-1])
+    return (*kept, *(share,) * left)
+
+
+def _rational(x: fmpq) -> Any:
+    import sympy
+
+    return sympy.Rational(int(x.p), int(x.q))

@@ -1,0 +1,199 @@
+"""Vector fields of numbers in groups: positions and momenta, or all unknowns, and time.
+
+The expressions are sympy objects; no text is ever evaluated. sympy is imported when the first field
+is derived.
+"""
+
+from __future__ import annotations
+
+from collections.abc import Iterable
+from dataclasses import dataclass
+from functools import cache
+from typing import Any, Final, Literal, TypeAlias
+
+from flint import arb, ctx, fmpq
+
+from garkcli.problems.draw import Draw
+from garkcli.problems.straightline import function
+
+Group: TypeAlias = Literal["q", "p", "y", "t"]
+"""Positions, momenta, all unknowns of a problem that is not Hamiltonian, or time."""
+GROUPS: tuple[Group, Group] = ("q", "p")
+"""Those of a Hamiltonian problem."""
+TIME: Final = "t"
+"""The name of time in formulas, and of its group."""
+
+
+@dataclass(frozen=True)
+class Layout:
+    """The numbers of a state, group after group.
+
+    Attributes:
+        groups: which there are, in order; time is the last one.
+        dimension: d, the numbers of every group but time, which is one.
+    """
+
+    groups: tuple[Group, ...]
+    dimension: int
+
+    def size(self, group: Group) -> int:
+        """How many numbers a group is."""
+        return 1 if group == TIME else self.dimension
+
+    def start(self, group: Group) -> int:
+        """Where the numbers of a group begin."""
+        return self.groups.index(group) * self.dimension
+
+    @property
+    def total(self) -> int:
+        """How many numbers a state has, time included."""
+        return sum(map(self.size, self.groups))
+
+    @property
+    def unknowns(self) -> int:
+        """How many it has without time."""
+        return sum(self.dimension for group in self.groups if group != TIME)
+
+
+@cache
+def symbols(variables: tuple[str, ...], group: Group) -> tuple[Any, ...]:
+    """The sympy symbols of a group: positions and unknowns are called like the variables, shape
+    (d,); time is one symbol.
+    """
+    import sympy
+
+    if group == TIME:
+        return (sympy.Symbol(TIME, real=True),)
+    prefix = "p" if group == "p" else ""
+    return tuple(sympy.Symbol(prefix + name, real=True) for name in variables)
+
+
+@dataclass(frozen=True)
+class VectorField:
+    """V^{l}, F^{l} or f^{l}, with its Jacobians.
+
+    Attributes:
+        components: d sympy expressions; one for time.
+        variables: of the problem.
+        depends: the groups that occur in it, in their order: its functions take the values of these
+            only.
+    """
+
+    components: tuple[Any, ...]
+    variables: tuple[str, ...]
+    depends: tuple[Group, ...]
+
+    @property
+    def is_zero(self) -> bool:
+        """Whether there is no such field."""
+        return not any(self.components)
+
+    @property
+    def is_linear(self) -> bool:
+        """Whether all second derivatives vanish."""
+        return all(
+            is_constant(x)
+            for g in self.depends
+            for row in self.derivative(g)
+            for x in row
+        )
+
+    @property
+    def degree(self) -> int | None:
+        """A bound of the degree of all components, before terms cancel; None when they are not
+        polynomials.
+        """
+        largest = 0
+        for component in self.components:
+            degree = _degree(component)
+            if degree is None:
+                return None
+            largest = max(largest, degree)
+        return largest
+
+    def derivative(self, group: Group) -> tuple[tuple[Any, ...], ...]:
+        """The Jacobian by a group, sympy expressions, shape (d, size of the group)."""
+        return _derivative(self, group)
+
+    @property
+    def arguments(self) -> tuple[Any, ...]:
+        """The symbols of what it depends on, in the order of the groups."""
+        return tuple(x for g in self.depends for x in symbols(self.variables, g))
+
+
+def occurring(
+    components: Iterable[Any], variables: tuple[str, ...], groups: Iterable[Group]
+) -> tuple[Group, ...]:
+    """Those of ``groups`` that occur in expressions."""
+    free: set[Any] = set()
+    for component in components:
+        free |= component.free_symbols
+    return tuple(g for g in groups if not free.isdisjoint(symbols(variables, g)))
+
+
+@cache
+def _derivative(field: VectorField, group: Group) -> tuple[tuple[Any, ...], ...]:
+    by = symbols(field.variables, group)
+    return tuple(tuple(f.diff(x) for x in by) for f in field.components)
+
+
+def is_constant(x: Any) -> bool:
+    """Whether an expression depends on nothing, be it written with symbols that cancel."""
+    import sympy
+
+    names = tuple(sorted(x.free_symbols, key=str))
+    if not names:
+        return True
+    if _differs(x, names):
+        return False
+    if _degree(x) is not None:
+        return not sympy.expand(x).free_symbols
+    # what has one value wherever it was tried is left to sympy, unless that would take long
+    return bool(x.count_ops() < _SIMPLE) and not sympy.simplify(x).free_symbols
+
+
+_SIMPLE = 200  # operations
+_TRIES = 8  # random places where two values are looked for
+
+
+def _differs(x: Any, names: tuple[Any, ...]) -> bool:
+    """Whether two values of an expression lie in balls that do not overlap, which proves that it is
+    no constant.
+    """
+    draw = Draw(1)
+    first: arb | None = None
+    with ctx.workprec(200):
+        value = function((x,), names, True)
+        for _ in range(_TRIES):
+            place = [arb(fmpq(draw.between(1, 999), 1000)) for _ in names]
+            try:
+                (ball,) = value(*place)
+            except (ArithmeticError, ValueError):  # not defined here
+                continue
+            if not ball.is_finite():
+                continue
+            if first is None:
+                first = ball
+            elif not ball.overlaps(first):
+                return True
+    return False
+
+
+def _degree(x: Any) -> int | None:
+    """The degree of a polynomial as it is written; None for another expression."""
+    if not x.free_symbols:
+        return 0
+    if x.is_Symbol:
+        return 1
+    if x.is_Pow and x.exp.is_Integer and x.exp.is_positive:
+        base = _degree(x.base)
+        return None if base is None else base * int(x.exp)
+    if not (x.is_Add or x.is_Mul):
+        return None
+    parts = []
+    for y in x.args:
+        degree = _degree(y)
+        if degree is None:
+            return None
+        parts.append(degree)
+    return max(parts) if x.is_Add else sum(parts)

@@ -1,0 +1,226 @@
+"""The vector fields of a method's colours on a problem, and which trees these can see."""
+
+from __future__ import annotations
+
+from collections.abc import Mapping
+from dataclasses import replace
+from typing import TypeAlias
+
+from garkcli.errors import UsageProblem
+from garkcli.order.nonautonomous import with_time
+from garkcli.problems.hamiltonian import Hamiltonian
+from garkcli.problems.problem import Problem, field_of
+from garkcli.problems.righthandside import RightHandSide, clock
+from garkcli.problems.vectorfield import GROUPS, TIME, Group, VectorField, is_constant
+from garkcli.tableau.tableau import Colour, Part, Tableau
+
+Fields: TypeAlias = Mapping[tuple[int, Group], VectorField]
+"""The vector fields that are not zero, by colour and by what they drive."""
+
+
+def driven(colour: Colour) -> tuple[Group, ...]:
+    """What a colour drives in a Hamiltonian problem."""
+    return GROUPS if colour.part == "y" else (colour.part,)
+
+
+def with_joined_terms(tableau: Tableau) -> Tableau:
+    """A partitioned method for an unsplit problem q̇ = V(q, p), ṗ = F(q, p) with both in one
+    term.
+    """
+    has_one_space = tableau.size == 2 and len(tableau.spaces) == 1
+    driven_parts = {x.part for x in tableau.colours}
+    if not has_one_space or driven_parts != set(GROUPS):
+        return tableau
+    joined = [replace(x, term=0) for x in tableau.colours]
+    return replace(tableau, colours=tuple(joined))
+
+
+def stepped_terms(tableau: Tableau, problem: Problem) -> Tableau:
+    """The tableau with the terms that it steps ``problem`` in.
+
+    Raises:
+        UsageProblem: it drives positions and momenta, and the problem has none.
+    """
+    if isinstance(problem, Hamiltonian):
+        return with_joined_terms(tableau)
+    if tableau.is_partitioned:
+        raise UsageProblem(
+            f"the method drives positions and momenta, and {problem.name} has none",
+            "choose a Hamiltonian problem, or a method whose colours drive all unknowns",
+        )
+    return tableau
+
+
+def with_clock(tableau: Tableau, problem: Problem) -> Tableau:
+    """The tableau with time as its last colour where the problem has time in it: stages are at t_0
+    + h c^{l}, with the nodes as the tableau has them.
+
+    Raises:
+        UsageProblem: it has no one node for each stage.
+    """
+    if isinstance(problem, Hamiltonian) or not problem.has_time:
+        return tableau
+    made = with_time(tableau)
+    if made is None:
+        raise UsageProblem(
+            f"{problem.name} depends on t, and the stages of the method have no times: a colour is "
+            "linear, or colours share stages and differ in their nodes",
+            "choose a problem without t, or give time as an unknown with the derivative 1",
+        )
+    return made
+
+
+def fields_of(tableau: Tableau, problem: Problem) -> Fields:
+    """The vector fields of the colours.
+
+    Raises:
+        UsageProblem: the problem is not of the form that the structure of the method is for.
+    """
+    if isinstance(problem, Hamiltonian):
+        fields = _hamiltonian_fields(tableau, problem)
+    else:
+        fields = _right_hand_sides(tableau, problem)
+    _check_edges(tableau, fields)
+    return fields
+
+
+def _right_hand_sides(tableau: Tableau, problem: RightHandSide) -> Fields:
+    """f^{l} of each colour l; ṫ = 1 is that of the last one where there is time."""
+    fields: dict[tuple[int, Group], VectorField] = {}
+    for m, colour in enumerate(tableau.colours):
+        if problem.has_time and m == tableau.size - 1:
+            fields[m, TIME] = clock(problem)
+            continue
+        field = field_of(problem, colour.term, "y")
+        if not field.is_zero:
+            fields[m, "y"] = field
+    return fields
+
+
+def _hamiltonian_fields(tableau: Tableau, problem: Hamiltonian) -> Fields:
+    driving = set()
+    for x in tableau.colours:
+        driving |= {(x.term, group) for group in driven(x)}
+    for term in range(len(problem.terms)):
+        for group in GROUPS:
+            if (term, group) in driving:
+                continue
+            if not field_of(problem, term, group).is_zero:
+                raise _no_colour(problem, term, group)
+    fields: dict[tuple[int, Group], VectorField] = {}
+    for m, colour in enumerate(tableau.colours):
+        for group in driven(colour):
+            field = field_of(problem, colour.term, group)
+            if not field.is_zero:
+                fields[m, group] = field
+    return fields
+
+
+def _no_colour(problem: Hamiltonian, term: int, group: Group) -> UsageProblem:
+    on, other = "q", "p"
+    if group == "q":
+        on, other = "p", "q"
+    H = f"H{{{term + 1}}}"
+    message = (
+        f"{H} of {problem.name} depends on {on}, but the method has no colour for that"
+    )
+    cure = f"choose a problem whose {H} depends on {other} alone, or another structure"
+    return UsageProblem(message, cure)
+
+
+def _check_edges(tableau: Tableau, fields: Fields) -> None:
+    """Refuse fields that are not as the method takes them to be."""
+    for (l, driven_group), field in fields.items():
+        colour = tableau.colours[l]
+        name = colour.name
+        if colour.is_linear and not field.is_linear:
+            raise UsageProblem(
+                f"the method takes the field of colour {name} to be linear, and here it is not",
+                "choose a problem with quadratic kinetic energy"
+                if driven_group == "q"
+                else "choose a problem in which it is",
+            )
+        for m, driver in fields:
+            if driver in field.depends and tableau.block(l, m) is None:
+                other = tableau.colours[m].name
+                raise UsageProblem(
+                    f"the field of colour {name} depends on what colour {other} drives, "
+                    f"which its stages do not see",
+                    "choose a problem of the form that the structure is for",
+                )
+
+
+def visible_tableau(tableau: Tableau, fields: Fields) -> Tableau:
+    """The tableau whose trees are those that the problem can see: its order is the one to be
+    observed.
+
+    Each field has a colour and stages of its own, zero fields have none, and no stage sees what its
+    field does not depend on.
+    """
+    colours, spaces = [], []
+    for k, ((m, group), field) in enumerate(fields.items()):
+        colour = tableau.colours[m]
+        part: Part = "y" if group == TIME else group
+        is_linear = field.is_linear
+        colours.append(replace(colour, space=k, part=part, is_linear=is_linear))
+        spaces.append(tableau.space(m))
+    blocks = {}
+    for k, ((l, _), field) in enumerate(fields.items()):
+        for n, (m, driver) in enumerate(fields):
+            block = tableau.block(l, m)
+            if driver in field.depends and block is not None:
+                blocks[k, n] = block
+    return Tableau(tuple(spaces), tuple(colours), blocks)
+
+
+def visible_trees(fields: Fields) -> str:
+    """In one line, which trees a problem with these fields can see."""
+    if all(field.is_linear for field in fields.values()):
+        return "a linear problem sees only the unbranched trees"
+    if _is_linear_but_for_time(fields):
+        return "linear but for t: of the branches at a vertex all but one are time"
+    if _is_separable(fields):
+        velocities = [x for (_, group), x in fields.items() if group == "q"]
+        if all(field.is_linear for field in velocities):
+            return (
+                "with quadratic kinetic energy it sees the trees in which velocities and forces "
+                "alternate and velocities do not branch"
+            )
+        return "a separable problem sees the trees in which velocities and forces alternate"
+    parts = [f"it sees the trees of all colours of the method{_branching(fields)}"]
+    dependences = {field.depends for field in fields.values()}
+    alone = (("positions", ("q",), "velocities"), ("momenta", ("p",), "forces"))
+    for x, groups, branch in alone:
+        if groups in dependences:
+            parts.append(f"what depends on {x} alone has only {branch} as branches")
+    return "; ".join(parts)
+
+
+def _is_linear_but_for_time(fields: Fields) -> bool:
+    """Whether right-hand sides with time in them are linear in the unknowns, with constant
+    coefficients.
+    """
+    for (_, group), field in fields.items():
+        if group not in ("y", TIME):
+            return False
+        if "y" in field.depends:
+            entries = [x for row in field.derivative("y") for x in row]
+            if not all(map(is_constant, entries)):
+                return False
+    return True
+
+
+def _is_separable(fields: Fields) -> bool:
+    """Whether velocities depend on momenta alone, and forces on positions."""
+    return all(group not in field.depends for (_, group), field in fields.items())
+
+
+def _branching(fields: Fields) -> str:
+    """How many branches a vertex can have, where that is bounded."""
+    degrees = []
+    for field in fields.values():
+        degree = field.degree
+        if degree is None:
+            return ""
+        degrees.append(degree)
+    return f", with at most {max(degrees)} branches at a vertex"
