@@ -170,3 +170,23 @@ def test_a_digit_off_loses_it_exactly(digits: int) -> None:
     limit = R.at_infinity()
     assert limit is not None
     assert sign(limit) != 0
+
+
+def test_a_method_with_the_cosine_of_ten_degrees() -> None:
+    """γ = 1/2 + cos(π/18)/√3 is a root of 24x³ − 36x² + 12x − 1: order 4, A- and B-stable.
+
+    K. Burrage 1979; Hairer, Wanner, section IV.6.
+    """
+    text = (
+        "parameters: {g: 'root_of(24*x^3 - 36*x^2 + 12*x - 1, 1.07)', d: 1/(6*(1 - 2*g)**2)}\n"
+        "A: [[g], [1/2 - g, g], [2*g, 1 - 4*g, g]]\n"
+        "b: [d, 1 - 2*d, d]\n"
+    )
+    found = stability(loads(text).tableau)
+    (linear,) = found.linear
+    assert (linear.a_stable, linear.l_stable) == (True, False)
+    assert found.algebraic is not None
+    assert found.algebraic.holds
+    assert linear.ssp is not None
+    assert linear.ssp.value is not None
+    assert linear.ssp.value.exact == 0
