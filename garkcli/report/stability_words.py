@@ -28,6 +28,8 @@ from garkcli.tableau.tableau import Tableau
 
 LABEL = 22
 """Columns of a label."""
+LONGEST_POLYNOMIAL = 320
+"""Signs of a polynomial in the text for people."""
 WIDTH = 80
 """Columns of a terminal."""
 
@@ -102,7 +104,10 @@ def equation(root: RealRoot, variable: str, digits: int) -> str:
 def minimal_text(root: RealRoot, variable: str) -> str:
     """The polynomial that a number is told by."""
     polynomial = Polynomial.from_flint(root.polynomial)
-    return polynomial_text(polynomial, variable)
+    text = polynomial_text(polynomial, variable)
+    if len(text) > LONGEST_POLYNOMIAL:
+        return f"a polynomial of degree {polynomial.degree}, in --format json"
+    return text
 
 
 def number(root: RealRoot, digits: int) -> str:

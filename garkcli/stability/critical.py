@@ -56,9 +56,13 @@ def _with_derivative(p: Polynomial, degree: int, k: int) -> Number:
 def roots_between(
     polynomials: Sequence[Polynomial], low: RealRoot, high: RealRoot | None
 ) -> list[RealRoot]:
-    """Their distinct roots strictly between two numbers, ascending; None for ∞."""
+    """Numbers between two others, ascending, with all their roots among them; None for ∞.
+
+    Over a number field they are the roots of the norms: one too many only makes one cell more.
+    """
     found: set[RealRoot] = set()
     for p in polynomials:
         if p:
-            found |= {root for root, _ in real_roots(p.square_free())}
+            norm = Polynomial.from_flint(p.norm())
+            found |= {root for root, _ in real_roots(norm)}
     return sorted(x for x in found if low < x and (high is None or x < high))

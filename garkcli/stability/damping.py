@@ -141,7 +141,8 @@ class ImexPair:
 
         Args:
             E: the coefficients of E by powers of y, or of y², as polynomials in x.
-            is_in_squares: whether they are of y²; then numbers t < 0 do not matter.
+            is_in_squares: whether they are of y², and x is −z_E; else x is |z_E| on the imaginary
+                axis.
         """
         zero = RealRoot.rational(ZERO)
         if not self.has_fixed_poles:
@@ -154,8 +155,9 @@ class ImexPair:
         critical += E[:1]  # where it is zero, a root passes through 0
         start = zero
         for end in [*roots_between(critical, zero, None), None]:
-            member = _member(E, between(start, end))
-            if not is_nonnegative(member, from_zero=is_in_squares):
+            x = between(start, end)
+            point = (-x, ZERO) if is_in_squares else (ZERO, x)
+            if not self._is_bounded(*point):
                 return Ray(start)
             if end is not None:
                 start = end
@@ -187,19 +189,17 @@ def _is_explicit(tableau: Tableau, l: int) -> bool:
     return not has_loop and all(len(found) == 1 for found in components(neighbours))
 
 
-def is_nonnegative(p: Polynomial, from_zero: bool = False) -> bool:
-    """Whether p(y) ≥ 0 for all real y, or for all y ≥ 0, decided exactly.
+def is_nonnegative(p: Polynomial) -> bool:
+    """Whether p(y) ≥ 0 for all real y, decided exactly.
 
     >>> is_nonnegative(Polynomial([1, -2, 1])), is_nonnegative(Polynomial([1, -3, 1]))
     (True, False)
     """
     if not p:
         return True
-    if sign(p.leading) < 0 or (not from_zero and p.degree % 2):
+    if sign(p.leading) < 0 or p.degree % 2:
         return False
-    origin = RealRoot.rational(ZERO)
-    changes = [root for root, power in real_roots(p) if power % 2]
-    return not any(not from_zero or root > origin for root in changes)
+    return not any(power % 2 for _, power in real_roots(p))
 
 
 def _critical(E: Sequence[Polynomial]) -> list[Polynomial] | None:
