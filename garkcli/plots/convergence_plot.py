@@ -17,6 +17,7 @@ from matplotlib.ticker import FuncFormatter, MaxNLocator
 
 from garkcli.convergence.result import Convergence
 from garkcli.plots.slopes import Curve, Decades, Line, place_line
+from garkcli.problems.righthandside import RightHandSide
 from garkcli.report.asciiplot import log10
 from garkcli.report.convergence import order_text
 from garkcli.report.convergence_data import problem_name
@@ -159,6 +160,9 @@ def _title(result: Convergence) -> str:
     name = problem_name(result)
     initial = name[:1].upper()
     capitalized = initial + name[1:]
+    problem = result.problem
+    if isinstance(problem, RightHandSide) and problem.stiffness is not None:
+        capitalized += f", stiffness {problem.stiffness},"
     return f"{capitalized} to t = {result.t_end}"
 
 
