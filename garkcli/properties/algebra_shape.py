@@ -12,6 +12,7 @@ from __future__ import annotations
 
 from collections.abc import Iterable, Sequence
 from dataclasses import dataclass
+from typing import TypeAlias
 
 from flint import fmpq, fmpq_poly, nmod_poly
 
@@ -22,6 +23,7 @@ from garkcli.properties.shape import Shape
 from garkcli.tableau.polynomial_space import PolynomialSpace
 from garkcli.tableau.tableau import Tableau
 
+Blocks: TypeAlias = dict[tuple[int, int], Matrix]
 PRIMES = (2147483647, 2147483629, 2147483587, 2147483579, 2147483563, 2147483549)
 """Primes that are tried; most have a root of a node polynomial, and few hide an entry."""
 
@@ -51,23 +53,11 @@ def shape_of_families(tableau: Tableau, colours: Sequence[int]) -> Shape | None:
     >>> shape_of_families(lobatto, [0]).implicit_stages
     29
     """
-    indices = sorted({tableau.colours[l].space for l in colours})
-    places = [(k, m) for k in indices for m in colours]
-    if not all(place in tableau.blocks for place in places):
+    blocks = _rational_blocks(tableau, colours)
+    spaces = None if blocks is None else _spaces(tableau, blocks)
+    if blocks is None or spaces is None:
         return None
-    blocks = {place: tableau.blocks[place] for place in places}
-    if not all(_is_rational(block) for block in blocks.values()):
-        return None
-    spaces = {}
-    for k in indices:
-        space = tableau.spaces[k]
-        if not isinstance(space, PolynomialSpace):
-            return None
-        found = _space(tableau, k, blocks, space.modulus)
-        if found is None:
-            return None
-        spaces[k] = found
-    vertices = tuple((k, i) for k in indices for i in spaces[k].kept)
+    vertices = tuple((k, i) for k, space in spaces.items() for i in space.kept)
     if len(vertices) < 2:
         return None
     owners = {m: tableau.colours[m].space for m in colours}
@@ -76,13 +66,37 @@ def shape_of_families(tableau: Tableau, colours: Sequence[int]) -> Shape | None:
     return Shape("fully implicit", len(vertices), (vertices,), None, "")
 
 
+def _rational_blocks(tableau: Tableau, colours: Sequence[int]) -> Blocks | None:
+    """The blocks between some colours; None where one does not exist or is irrational."""
+    indices = sorted({tableau.colours[l].space for l in colours})
+    found: Blocks = {}
+    for place in [(k, m) for k in indices for m in colours]:
+        block = tableau.blocks.get(place)
+        if block is None or not _is_rational(block):
+            return None
+        found[place] = block
+    return found
+
+
+def _spaces(tableau: Tableau, blocks: Blocks) -> dict[int, _Space] | None:
+    """The stage spaces; None where one is of no family, or irrational nodes are left out."""
+    spaces = {}
+    for k in dict.fromkeys(k for k, _ in blocks):
+        space = tableau.spaces[k]
+        if not isinstance(space, PolynomialSpace):
+            return None
+        found = _space(tableau, k, blocks, space.modulus)
+        if found is None:
+            return None
+        spaces[k] = found
+    return spaces
+
+
 def _is_rational(block: Matrix) -> bool:
     return all(isinstance(x, fmpq) for row in block for x in row)
 
 
-def _space(
-    tableau: Tableau, k: int, blocks: dict[tuple[int, int], Matrix], M: fmpq_poly
-) -> _Space | None:
+def _space(tableau: Tableau, k: int, blocks: Blocks, M: fmpq_poly) -> _Space | None:
     """The stages of a space without those that see nothing, or that none sees; None where such a
     node is irrational.
     """
@@ -121,7 +135,7 @@ def _divided(M: fmpq_poly, values: Vector) -> fmpq_poly:
 
 def _has_centre(
     spaces: dict[int, _Space],
-    blocks: dict[tuple[int, int], Matrix],
+    blocks: Blocks,
     owners: dict[int, int],
     p: int,
 ) -> bool:
