@@ -10,6 +10,7 @@ from garkcli.cli.options import CONTEXT, PATH, Output, common, settings_option
 
 if TYPE_CHECKING:
     from garkcli.design.design import Design, Whose
+    from garkcli.design.stable_values import Wanted
     from garkcli.methodfile.family import FamilyFile
 
 
@@ -50,6 +51,18 @@ if TYPE_CHECKING:
     metavar="FILE",
     help="Write the first method found as a method file with its claim.",
 )
+@click.option(
+    "--p-stable",
+    "wanted",
+    flag_value="p-stable",
+    help="The exact set of values of one parameter for which the method is P-stable.",
+)
+@click.option(
+    "--a-stable", "wanted", flag_value="a-stable", help="The same for A-stability."
+)
+@click.option(
+    "--l-stable", "wanted", flag_value="l-stable", help="The same for L-stability."
+)
 @settings_option
 @common(["text", "json"])
 def command(
@@ -60,6 +73,7 @@ def command(
     seconds: float,
     digits: int,
     emitted: str | None,
+    wanted: Wanted | None,
     settings: dict[str, str],
     output: Output,
 ) -> int:
@@ -68,7 +82,7 @@ def command(
     A parameter is free by parameters: {tau: free}. The answer is every value, these values, a
     family of a dimension, or none, and then the tree whose condition cannot be met. Each value
     found goes through the certificate of gark check. Exit code 1: no value has the order of
-    --order.
+    --order, or the stability that is asked for.
     """
     from garkcli.design.design import find_parameters
     from garkcli.errors import UsageProblem
@@ -78,6 +92,13 @@ def command(
         raise UsageProblem("--pair and --conjugate are two methods", "ask for one")
     whose: Whose = "pair" if is_pair else "conjugate" if is_conjugate else "method"
     family = load_family(file, settings)
+    if wanted is not None:
+        if order is not None or emitted is not None:
+            raise UsageProblem(
+                f"--{wanted} gives a set of values, --order and --emit are about others",
+                "ask for one; --set takes a value that was found",
+            )
+        return _stable_values(family, wanted, whose, digits, output)
     found = find_parameters(family, order, whose, seconds)
     if output.format == "json":
         from garkcli.report import design_data
@@ -91,6 +112,22 @@ def command(
         _emit(family, found, emitted)
     is_reached = order is None or found.reaches(order)
     return _exit_code(found.last.kind == "undecided", is_reached)
+
+
+def _stable_values(
+    family: FamilyFile, wanted: Wanted, whose: Whose, digits: int, output: Output
+) -> int:
+    """The set of values with a kind of stability."""
+    from garkcli.design.stable_values import stable_values
+    from garkcli.report import stable_values as report
+
+    found = stable_values(family, wanted, whose)
+    if output.format == "json":
+        output.write(report.render_json(family.source, found, digits))
+    else:
+        output.write(report.render_text(family.source, found, digits, output.width))
+    is_open = not found.found and bool(found.undecided)
+    return _exit_code(is_open, bool(found.found))
 
 
 def _emit(family: FamilyFile, found: Design, path: str) -> None:

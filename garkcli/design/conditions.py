@@ -13,14 +13,14 @@ A span over ℚ(t) would give the order for almost all parameters and lose the e
 
 from __future__ import annotations
 
-from collections.abc import Iterator, Sequence
+from collections.abc import Iterator
 from dataclasses import dataclass
 
 from flint import fmpq, fmpq_mpoly
 
 from garkcli.design.coefficient_span import CoefficientSpan, Polynomials
 from garkcli.exact.matrix import Vector
-from garkcli.exact.parametric import Parameters, fraction
+from garkcli.exact.parametric import Parameters, common_denominator, fraction
 from garkcli.tableau.polynomial_space import PolynomialSpace
 from garkcli.tableau.tableau import Tableau
 from garkcli.trees.tree import Tree
@@ -67,8 +67,8 @@ class FamilyConditions:
         blocks = list(tableau.blocks.values())
         entries = [x for block in blocks for row in block for x in row]
         weights = [x for colour in tableau.colours for x in colour.b]
-        self._of_blocks = self._common_denominator(entries)
-        self._of_weights = self._common_denominator(weights)
+        self._of_blocks = common_denominator(entries, ring)
+        self._of_weights = common_denominator(weights, ring)
         self.denominators = tuple(
             d for d in (self._of_blocks, self._of_weights) if not d.is_constant()
         )
@@ -82,13 +82,6 @@ class FamilyConditions:
         ones = [self._polynomials(space.one, self._one) for space in tableau.spaces]
         self._forests = [[[_Member(self._one, one, ())]] for one in ones]
         self._branches: list[list[list[_Member]]] = [[[]] for _ in tableau.spaces]
-
-    def _common_denominator(self, entries: Sequence[object]) -> fmpq_mpoly:
-        common = self._one
-        for x in entries:
-            _, d = fraction(x, self.ring)
-            common = common * d // common.gcd(d)
-        return common
 
     def _polynomials(self, row: Vector, denominator: fmpq_mpoly) -> Polynomials:
         made = []

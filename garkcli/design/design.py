@@ -95,11 +95,12 @@ class Design:
         return self.last.order >= order and self.last.may_have_methods
 
 
-_TABLEAUS: dict[Whose, Callable[[Tableau], Tableau]] = {
+TABLEAUS: dict[Whose, Callable[[Tableau], Tableau]] = {
     "method": lambda tableau: tableau,
     "conjugate": conjugate,
     "pair": pair,
 }
+"""The tableau that is meant, from that of a file."""
 
 
 def find_parameters(
@@ -119,7 +120,7 @@ def find_parameters(
     Raises:
         ZeroWeight: a weight is zero for every value, and there is no conjugate.
     """
-    tableau = _TABLEAUS[whose](family.tableau)
+    tableau = TABLEAUS[whose](family.tableau)
     conditions = FamilyConditions(tableau, family.ring)
     relations = [radical.relation for radical in family.radicals]
     deadline = None if seconds is None else monotonic() + seconds
@@ -172,7 +173,7 @@ def _found(family: Family, whose: Whose, step: Step) -> tuple[Found, ...]:
 def _order_of(family: Family, whose: Whose, solution: Solution) -> Order | None:
     try:
         tableau = member(family.tableau, family.ring, solution.values)
-        return find_order(_TABLEAUS[whose](tableau))
+        return find_order(TABLEAUS[whose](tableau))
     except (ZeroDivisionError, ZeroWeight):
         return None
 

@@ -7,7 +7,7 @@ and a method with them goes through the same constructions as one with numbers.
 
 from __future__ import annotations
 
-from collections.abc import Sequence
+from collections.abc import Iterable, Sequence
 from typing import TypeAlias, cast
 
 from flint import Ordering, fmpq, fmpq_mpoly, fmpq_mpoly_ctx, fmpz
@@ -165,3 +165,12 @@ def fraction(number: object, ring: Parameters) -> tuple[fmpq_mpoly, fmpq_mpoly]:
     if isinstance(number, Parametric):
         return number.numerator, number.denominator
     return ring.constant(cast("fmpq", number)), ring.constant(fmpq(1))
+
+
+def common_denominator(numbers: Iterable[object], ring: Parameters) -> fmpq_mpoly:
+    """The least common multiple of the denominators."""
+    common = ring.constant(fmpq(1))
+    for x in numbers:
+        _, d = fraction(x, ring)
+        common = common * d // common.gcd(d)
+    return common

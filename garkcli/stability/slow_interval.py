@@ -12,17 +12,16 @@ from __future__ import annotations
 
 from collections.abc import Sequence
 from dataclasses import dataclass
-from itertools import combinations
 
-from flint import Ordering, fmpq, fmpq_mpoly, fmpq_mpoly_ctx
+from flint import fmpq, fmpq_mpoly
 
 from garkcli.errors import UsageProblem
 from garkcli.exact.cells import Interval, Point, where
-from garkcli.exact.domain import Domain
 from garkcli.exact.field import ZERO, Number
 from garkcli.exact.multivariate import Exponents, Multivariate
-from garkcli.exact.nodes import AlgebraicRoot
 from garkcli.exact.polynomial import Polynomial
+from garkcli.exact.projection import PLANE, curves, projected
+from garkcli.exact.root_number import number_of
 from garkcli.exact.roots import RealRoot
 from garkcli.stability.two_frequencies import (
     SplitSprings,
@@ -35,7 +34,6 @@ MOST_DEGREE = 4
 """Single algebraic x of a larger degree are left open."""
 WITNESSES = 8
 """Parts of [A, B] whose ends are tried first: an unstable one decides."""
-_PLANE = fmpq_mpoly_ctx.get(["a", "x"], Ordering.lex)
 
 
 @dataclass(frozen=True)
@@ -98,10 +96,9 @@ def slow_interval(
         root = x if isinstance(x, RealRoot) else RealRoot.rational(x)
         if not all(_has(intervals, root) for intervals in stable_at):
             return False
-        number = _number_of(x)
+        number = number_of(root, MOST_DEGREE)
         if number is None:
-            assert isinstance(x, RealRoot)
-            undecided.append(x)
+            undecided.append(root)
             return True
         found = stable_where([_with_fast(p, number) for p in plane])
         return any(_contains(interval, *ends) for interval in found)
@@ -118,21 +115,7 @@ def _is_rational(p: Multivariate) -> bool:
 
 def _critical(plane: Sequence[Multivariate], low: fmpq, high: fmpq) -> list[Polynomial]:
     """The polynomials in x between whose roots one x decides."""
-    curves = _curves(plane)
-    _, x = _PLANE.gens()
-    found: list[fmpq_mpoly] = []
-    for curve in curves:
-        degree = curve.degrees()[0]
-        if degree == 0:
-            found.append(curve)
-            continue
-        found.append(_leading(curve, degree))
-        found += [curve.compose(_PLANE.constant(end), x) for end in (low, high)]
-        if degree > 1:
-            found.append(curve.discriminant("a"))
-    crossing = [curve for curve in curves if curve.degrees()[0]]
-    found += [f.resultant(g, "a") for f, g in combinations(crossing, 2)]
-    return [_in_x(p) for p in found]
+    return projected(_curves(plane), [low, high])
 
 
 def _curves(plane: Sequence[Multivariate]) -> list[fmpq_mpoly]:
@@ -141,45 +124,13 @@ def _curves(plane: Sequence[Multivariate]) -> list[fmpq_mpoly]:
     trace, area = (a + d) * D, a * d - b * c
     whole = D * D
     deciding = [D, b, c, whole - area, whole + area - trace, whole + area + trace]
-    curves: dict[str, fmpq_mpoly] = {}
-    for p in deciding:
-        if p:
-            for factor, _ in p.factor()[1]:
-                curves[str(factor)] = factor
-    return [curve for curve in curves.values() if not curve.is_constant()]
+    return curves(deciding)
 
 
 def _in_plane(p: Multivariate) -> fmpq_mpoly:
+    """The same polynomial with a for y and x for t."""
     terms = {exponents: c for exponents, c in p.terms if isinstance(c, fmpq)}
-    return _PLANE.from_dict(terms)
-
-
-def _leading(curve: fmpq_mpoly, degree: int) -> fmpq_mpoly:
-    """The coefficient of the highest power of a, a polynomial in x."""
-    terms: dict[tuple[int, ...], fmpq] = {}
-    for (j, k), c in curve.to_dict().items():
-        if j == degree:
-            terms[0, k] = c
-    return _PLANE.from_dict(terms)
-
-
-def _in_x(p: fmpq_mpoly) -> Polynomial:
-    powers = {k: c for (_, k), c in p.to_dict().items()}
-    highest = max(powers, default=-1)
-    return Polynomial([powers.get(k, 0) for k in range(highest + 1)])
-
-
-def _number_of(x: Point) -> Number | None:
-    """A point as an exact number; None where its field would be too large."""
-    if not isinstance(x, RealRoot):
-        return x
-    if x.exact is not None:
-        return x.exact
-    if x.polynomial.degree() > MOST_DEGREE:
-        return None
-    coefficients = tuple(int(c) for c in x.polynomial.coeffs())
-    root = AlgebraicRoot(coefficients, x.number)
-    return Domain([root]).evaluate(root)
+    return PLANE.from_dict(terms)
 
 
 def _with_slow(p: Multivariate, a: Number) -> Polynomial:

@@ -1,0 +1,122 @@
+"""The step of a family of one parameter on a linear problem, as polynomials in z and t.
+
+For each value of the parameter t the step is M(z) = D(z)⁻¹ N(z) with D = det(I − zW)
+(``garkcli.stability.step_function``). Times common denominators of the coefficients both are
+polynomials in t, of a degree that the size of W bounds: values at so many rational t determine
+them.
+"""
+
+from __future__ import annotations
+
+from collections.abc import Iterable, Iterator, Sequence
+from dataclasses import dataclass
+from itertools import count, islice
+from typing import cast
+
+from flint import fmpq, fmpq_mpoly
+
+from garkcli.design.member import member
+from garkcli.exact.field import Number
+from garkcli.exact.matrix import Matrix
+from garkcli.exact.parametric import Parameters, common_denominator, fraction
+from garkcli.exact.polynomial import Polynomial, interpolated
+from garkcli.exact.projection import PLANE
+from garkcli.stability.step_function import stage_system, unreduced
+from garkcli.tableau.tableau import Tableau
+
+
+@dataclass(frozen=True)
+class StepPlane:
+    """M = N/D without a common factor of D and all entries of N.
+
+    Attributes:
+        denominator: D, with y for z.
+        numerators: shape (d, d).
+        poles: polynomials in t: where one is zero there is no method.
+    """
+
+    denominator: fmpq_mpoly
+    numerators: tuple[tuple[fmpq_mpoly, ...], ...]
+    poles: tuple[Polynomial, ...]
+
+
+def step_plane(
+    tableau: Tableau, ring: Parameters, fields: Sequence[Matrix]
+) -> StepPlane:
+    """The step for every value of the one parameter.
+
+    Args:
+        tableau: entries are rational numbers and rational functions of the parameter.
+        ring: the parameter.
+        fields: y ↦ L^m y for each colour, rational.
+    """
+    entries = [x for block in tableau.blocks.values() for row in block for x in row]
+    weights = [x for colour in tableau.colours for x in colour.b]
+    of_blocks = common_denominator(entries, ring)
+    of_weights = common_denominator(weights, ring)
+    unknowns = len(stage_system(tableau, fields).W)
+    # each row of I − zW times the one denominator, each entry of N times the other
+    degree = unknowns * _degree(entries, of_blocks, ring)
+    degree += _degree(weights, of_weights, ring)
+    points = list(islice(_values_without(of_blocks * of_weights), degree + 1))
+    denominators, numerators = [], []
+    for t in points:
+        step = unreduced(
+            stage_system(member(tableau, ring, {ring.names[0]: t}), fields)
+        )
+        scale = _at(of_blocks, t) ** unknowns * _at(of_weights, t)
+        denominators.append(step.denominator * scale)
+        numerators.append([p * scale for row in step.numerators for p in row])
+    D = _through(points, denominators)
+    N = [_through(points, values) for values in zip(*numerators, strict=True)]
+    return _in_lowest_terms(D, N, len(fields[0]), (of_blocks, of_weights))
+
+
+def _in_lowest_terms(
+    D: fmpq_mpoly, N: Sequence[fmpq_mpoly], d: int, poles: Iterable[fmpq_mpoly]
+) -> StepPlane:
+    common = D
+    for p in N:
+        common = common.gcd(p)
+    entries = [p // common for p in N]
+    rows = tuple(tuple(entries[i * d : (i + 1) * d]) for i in range(d))
+    return StepPlane(D // common, rows, tuple(map(_in_parameter, poles)))
+
+
+def _degree(
+    numbers: Sequence[Number], denominator: fmpq_mpoly, ring: Parameters
+) -> int:
+    """The largest degree in t of numbers times a common denominator, and of that itself."""
+    degrees = [int(denominator.total_degree())]
+    for x in numbers:
+        numerator, own = fraction(x, ring)
+        if numerator:
+            degrees.append(int((numerator * (denominator // own)).total_degree()))
+    return max(degrees)
+
+
+def _values_without(poles: fmpq_mpoly) -> Iterator[fmpq]:
+    """0, 1, 2, … without the roots of a polynomial."""
+    for k in count():
+        if _at(poles, fmpq(k)):
+            yield fmpq(k)
+
+
+def _at(p: fmpq_mpoly, t: fmpq) -> fmpq:
+    return fmpq(p(t))
+
+
+def _in_parameter(p: fmpq_mpoly) -> Polynomial:
+    powers = {int(k): fmpq(a) for (k,), a in p.to_dict().items()}
+    return Polynomial([powers.get(k, fmpq(0)) for k in range(max(powers) + 1)])
+
+
+def _through(points: Sequence[fmpq], values: Sequence[Polynomial]) -> fmpq_mpoly:
+    """The polynomial in z and t with given polynomials in z at given t."""
+    terms: dict[tuple[int, ...], fmpq] = {}
+    for j in range(max(p.degree for p in values) + 1):
+        coefficient = interpolated(points, [p[j] for p in values])
+        for k, a in enumerate(coefficient.coefficients):
+            if a:
+                terms[j, k] = cast("fmpq", a)
+    return PLANE.from_dict(terms)

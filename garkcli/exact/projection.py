@@ -1,0 +1,77 @@
+"""Where curves in the plane change their position over a line, seen along the other axis.
+
+Over the t-axis, the curves p_k(y, t) = 0 keep their order and number among the y of an interval but
+at a t where one has a vertical tangent or asymptote, where two cross, or where one meets an end of
+the interval: at roots of discriminants, leading coefficients, resultants and restrictions
+(G. E. Collins 1975). Between two such t every sign in the plane is that of one sample.
+"""
+
+from __future__ import annotations
+
+from collections.abc import Iterable, Sequence
+from itertools import combinations
+
+from flint import Ordering, fmpq, fmpq_mpoly, fmpq_mpoly_ctx
+
+from garkcli.exact.polynomial import Polynomial
+
+PLANE = fmpq_mpoly_ctx.get(["y", "t"], Ordering.lex)
+"""ℚ[y, t]: y is what is looked along, t is what stays."""
+
+
+def curves(polynomials: Iterable[fmpq_mpoly]) -> list[fmpq_mpoly]:
+    """The irreducible factors of polynomials in the plane, each once; constants are left out."""
+    found: dict[str, fmpq_mpoly] = {}
+    for p in polynomials:
+        if p:
+            for factor, _ in p.factor()[1]:
+                found[str(factor)] = factor
+    return [curve for curve in found.values() if not curve.is_constant()]
+
+
+def projected(found: Sequence[fmpq_mpoly], ends: Sequence[fmpq]) -> list[Polynomial]:
+    """The polynomials in t, not zero, between whose roots nothing changes.
+
+    Args:
+        found: irreducible curves, no two of them the same.
+        ends: the ends of the interval of y.
+    """
+    _, t = PLANE.gens()
+    critical: list[fmpq_mpoly] = []
+    crossing = []
+    for curve in found:
+        degree = curve.degrees()[0]
+        if degree == 0:
+            critical.append(curve)
+            continue
+        crossing.append(curve)
+        critical.append(leading(curve))
+        critical += [curve.compose(PLANE.constant(end), t) for end in ends]
+        if degree > 1:
+            critical.append(curve.discriminant("y"))
+    critical += [f.resultant(g, "y") for f, g in combinations(crossing, 2)]
+    return [in_t(p) for p in critical if p]
+
+
+def leading(p: fmpq_mpoly) -> fmpq_mpoly:
+    """The coefficient of the highest power of y, a polynomial in t."""
+    return coefficient_of(p, p.degrees()[0])
+
+
+def coefficient_of(p: fmpq_mpoly, power: int) -> fmpq_mpoly:
+    """The coefficient of a power of y, a polynomial in t."""
+    terms = p.to_dict()
+    return PLANE.from_dict({(0, k): c for (j, k), c in terms.items() if j == power})
+
+
+def in_t(p: fmpq_mpoly) -> Polynomial:
+    """A polynomial in t alone."""
+    powers = {k: c for (_, k), c in p.to_dict().items()}
+    highest = max(powers, default=-1)
+    return Polynomial([powers.get(k, 0) for k in range(highest + 1)])
+
+
+def at_y(p: fmpq_mpoly, y: fmpq) -> Polynomial:
+    """The polynomial in t for one y."""
+    _, t = PLANE.gens()
+    return in_t(p.compose(PLANE.constant(y), t))

@@ -1,0 +1,126 @@
+"""``gark design --p-stable`` and the like: sets of parameter values as text and as JSON."""
+
+from __future__ import annotations
+
+from collections.abc import Iterator
+from textwrap import wrap
+from typing import Any
+
+from garkcli.design.stable_values import StableValues, Wanted
+from garkcli.exact.cells import Interval
+from garkcli.exact.polynomial import Polynomial
+from garkcli.exact.polynomial_text import polynomial_text, root_decimal, root_text
+from garkcli.exact.roots import RealRoot
+from garkcli.report.exactly import root_data
+from garkcli.report.json_text import to_json
+from garkcli.report.plain import printable
+
+SCHEMA = "gark/design/1"
+_STABLE: dict[Wanted, str] = {
+    "p-stable": "P-stable",
+    "a-stable": "A-stable",
+    "l-stable": "L-stable",
+}
+
+
+def render_text(source: str, values: StableValues, digits: int, width: int) -> str:
+    """The set for people.
+
+    Args:
+        source: the file.
+        values: the set.
+        digits: of numbers without simple radicals.
+        width: columns to fill.
+    """
+    name = values.parameter
+    stable = _STABLE[values.wanted]
+    lines = [printable(source), f"  {printable(values.family.name)}"]
+    if not values.found:
+        none = "no value that is decided" if values.undecided else "no value"
+        lines += [f"  the {values.whose} is {stable} for {none} of {name}"]
+    elif values.is_everything:
+        lines += [f"  the {values.whose} is {stable} for every value of {name}"]
+    else:
+        lines += [f"  the {values.whose} is {stable} for exactly", ""]
+        for interval in values.found:
+            lines += _interval(interval, name, digits, width)
+    if values.undecided:
+        lines += ["", "  not decided, as the fields of the coefficients are too large"]
+        for root in values.undecided:
+            lines += _point(root, name, digits, width)
+    return "\n".join(lines) + "\n"
+
+
+def _interval(interval: Interval, name: str, digits: int, width: int) -> Iterator[str]:
+    start, end = interval.start, interval.end
+    if interval.is_point:
+        assert start is not None
+        yield from _point(start, name, digits, width)
+        return
+    text = name
+    if start is not None:
+        text = f"{_number(start, digits)} {_relation(interval.has_start)} {text}"
+    if end is not None:
+        text = f"{text} {_relation(interval.has_end)} {_number(end, digits)}"
+    yield f"    {text}"
+    for root in (start, end):
+        if root is not None and root.exact is None:
+            text = _meaning(root, digits)
+            indent = " " * 6
+            yield from wrap(
+                text, width, initial_indent=indent, subsequent_indent=indent + "  "
+            )
+
+
+def _relation(is_included: bool) -> str:
+    return "≤" if is_included else "<"
+
+
+def _point(root: RealRoot, name: str, digits: int, width: int) -> Iterator[str]:
+    if root.exact is not None:
+        yield f"    {name} = {root_text(root)}"
+        return
+    text = f"{name} = {_meaning(root, digits)}"
+    yield from wrap(text, width, initial_indent=" " * 4, subsequent_indent=" " * 6)
+
+
+def _number(root: RealRoot, digits: int) -> str:
+    return root_text(root) or f"{root_decimal(root, digits)}…"
+
+
+def _meaning(root: RealRoot, digits: int) -> str:
+    """What an irrational number is: decimals, with its radicals or the polynomial."""
+    decimals = f"{root_decimal(root, digits)}…"
+    simple = root_text(root)
+    if simple is not None:
+        return f"{simple} = {decimals}"
+    polynomial = polynomial_text(Polynomial.from_flint(root.polynomial), "x")
+    return f"{decimals}, a root of {polynomial}"
+
+
+def render_json(source: str, values: StableValues, digits: int) -> str:
+    """The set for programs: exact numbers as text, or as roots of polynomials."""
+    found = [_interval_data(interval, digits) for interval in values.found]
+    data = {
+        "schema": SCHEMA,
+        "file": source,
+        "name": values.family.name,
+        "of": values.whose,
+        "unknowns": [values.parameter],
+        "wanted": values.wanted,
+        "set": found,
+        "undecided": [root_data(root, digits) for root in values.undecided],
+    }
+    return to_json(data) + "\n"
+
+
+def _interval_data(interval: Interval, digits: int) -> dict[str, Any]:
+    start, end = interval.start, interval.end
+    if start is not None and interval.is_point:
+        return {"point": root_data(start, digits)}
+    return {
+        "from": None if start is None else root_data(start, digits),
+        "to": None if end is None else root_data(end, digits),
+        "from_included": interval.has_start,
+        "to_included": interval.has_end,
+    }

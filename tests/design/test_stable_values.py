@@ -1,0 +1,233 @@
+"""``gark design --a-stable`` and the like: exact sets of parameter values."""
+
+from __future__ import annotations
+
+import json
+from pathlib import Path
+
+import pytest
+from flint import fmpq
+from hypothesis import given, settings
+from hypothesis import strategies as st
+
+from garkcli import loads, pair
+from garkcli.design.stable_values import StableValues, Wanted, stable_values
+from garkcli.exact.polynomial_text import root_text
+from garkcli.exact.roots import RealRoot
+from garkcli.methodfile.family import loads_family
+from garkcli.problems.oscillator import Oscillator, terms_of
+from garkcli.stability.linear import is_a_stable, is_l_stable, stability_function
+from garkcli.stability.oscillator import oscillator_stability
+from garkcli.tableau.tableau import Tableau
+from tests.cli.harness import gark
+
+THETA = "parameters: {t: free}\nA: [[0, 0], [1 - t, t]]\nb: [1 - t, t]\n"
+SDIRK2 = "parameters: {t: free}\nA: [[t, 0], [1 - 2*t, t]]\nb: [1/2, 1/2]\n"
+STIFF2 = "parameters: {t: free}\nA: [[t, 0], [1 - t, t]]\nb: [1 - t, t]\n"
+TAU = """parameters: {{t: free}}
+methods:
+  - {{family: {}, stages: {}}}
+  - {{family: {}, stages: {}}}
+transfer: {{interpolation: t, collocation: 1 - t}}
+"""
+SMALL = 1 - 2**0.5 / 2
+LARGE = 1 + 2**0.5 / 2
+
+
+def found(text: str, wanted: Wanted, is_pair: bool = False) -> StableValues:
+    """The set for a family."""
+    return stable_values(loads_family(text), wanted, "pair" if is_pair else "method")
+
+
+def texts(values: StableValues) -> list[tuple[str | None, str | None, bool, bool]]:
+    """The set with its ends as text."""
+
+    def text(root: RealRoot | None) -> str | None:
+        return None if root is None else root_text(root)
+
+    return [(text(x.start), text(x.end), x.has_start, x.has_end) for x in values.found]
+
+
+@pytest.mark.parametrize(
+    ("text", "wanted", "known"),
+    [
+        (THETA, "a-stable", [("1/2", None, True, False)]),
+        (THETA, "l-stable", [("1", "1", True, True)]),
+        (SDIRK2, "a-stable", [("1/4", None, True, False)]),
+        (
+            SDIRK2,
+            "l-stable",
+            [
+                ("1 - sqrt(2)/2", "1 - sqrt(2)/2", True, True),
+                ("1 + sqrt(2)/2", "1 + sqrt(2)/2", True, True),
+            ],
+        ),
+        (STIFF2, "l-stable", [("1 - sqrt(2)/2", "1 + sqrt(2)/2", True, True)]),
+        (THETA.replace("free", "{free: true, range: [0, 1]}"), "a-stable", None),
+    ],
+)
+def test_known_sets(text: str, wanted: Wanted, known: list[object] | None) -> None:
+    """The θ-method for θ ≥ 1/2, L-stable at 1; SDIRK of two stages for γ ≥ 1/4, L-stable at
+    γ = 1 ± √2/2 (Hairer and Wanner, section IV.6); a range cuts the set.
+    """
+    if known is None:
+        known = [("1/2", "1", True, True)]
+    values = found(text, wanted)
+    assert texts(values) == known
+    assert values.undecided == ()
+
+
+@pytest.mark.parametrize(
+    ("families", "wanted"),
+    [
+        (("gauss", 1, "lobatto-iiia", 2), [("1", "1", True, True)]),
+        (("gauss", 2, "lobatto-iiia", 3), [("1", "1", True, True)]),
+        (("gauss", 2, "lobatto-iiia", 4), [("1", "1", True, True)]),
+    ],
+)
+def test_combinations_that_are_p_stable(
+    families: tuple[object, ...], wanted: list[object]
+) -> None:
+    """Gauss × Lobatto: interpolation alone, an isolated point of the parameter; of the method and
+    of its symplectic pair.
+    """
+    text = TAU.format(*families)
+    assert texts(found(text, "p-stable")) == wanted
+    assert texts(found(text, "p-stable", is_pair=True)) == wanted
+
+
+def decided(tableau: Tableau, wanted: Wanted) -> bool:
+    """One method by the ordinary engine."""
+    if wanted == "p-stable":
+        problem = Oscillator.default(terms_of(tableau), fmpq(1))
+        return oscillator_stability(tableau, problem).is_p_stable
+    R = stability_function(tableau)
+    return is_a_stable(R) if wanted == "a-stable" else is_l_stable(R)
+
+
+def contains(values: StableValues, t: fmpq) -> bool:
+    """Whether a rational number belongs to the set."""
+    root = RealRoot.rational(t)
+    for x in values.found:
+        behind = x.start is None or x.start < root or (x.has_start and x.start == root)
+        before = x.end is None or root < x.end or (x.has_end and x.end == root)
+        if behind and before:
+            return True
+    return False
+
+
+@pytest.mark.parametrize("wanted", ["a-stable", "l-stable", "p-stable"])
+@pytest.mark.parametrize(
+    "families",
+    [
+        ("gauss", 1, "lobatto-iiia", 2),
+        ("radau-iia", 2, "lobatto-iiia", 3),
+        ("gauss", 2, "lobatto-iiia", 4),
+    ],
+)
+def test_against_single_values(families: tuple[object, ...], wanted: Wanted) -> None:
+    """Many rational values, and those next to each end, are decided one by one."""
+    text = TAU.format(*families)
+    values = found(text, wanted)
+    tried = [fmpq(k, 4) for k in range(-10, 34, 3)] + [fmpq(k) for k in range(-1, 8)]
+    for x in values.found:
+        for end in (x.start, x.end):
+            if end is not None:
+                near = fmpq(int(float(end.ball(80)) * 1000), 1000)
+                tried += [near - fmpq(1, 1000), near, near + fmpq(1, 500)]
+    for t in tried:
+        method = loads(text, settings={"t": str(t)})
+        assert contains(values, t) == decided(method.tableau, wanted), t
+
+
+_ENTRY = st.tuples(st.integers(-2, 2), st.integers(-2, 2))
+
+
+@settings(max_examples=20)
+@given(
+    st.lists(_ENTRY, min_size=5, max_size=5),
+    st.sampled_from(["a-stable", "l-stable"]),
+)
+def test_random_families(entries: list[tuple[int, int]], wanted: Wanted) -> None:
+    """Of two stages with entries linear in t, one with a pole: sets against single values."""
+    a, b, c, d, w = (f"({p} + {q}*t)/2" for p, q in entries)
+    compare(f"A: [[{a}, {b}/(t - 3)], [{c}, {d}]]\nb: [{w}, 1 - {w}]\n", wanted)
+
+
+@settings(max_examples=12)
+@given(st.lists(_ENTRY, min_size=2, max_size=2), st.sampled_from([0, 1, 2]))
+def test_random_families_on_the_oscillator(
+    entries: list[tuple[int, int]], b: int
+) -> None:
+    """The same of P-stability, with two entries that are linear in t."""
+    a, c = (f"({p} + {q}*t)/2" for p, q in entries)
+    compare(f"A: [[{a}, 0], [{c}, {a}]]\nb: [{b}/2, 1 - {b}/2]\n", "p-stable")
+
+
+def compare(body: str, wanted: Wanted) -> None:
+    """A set against single values."""
+    text = f"parameters: {{t: free}}\n{body}"
+    values = found(text, wanted)
+    for k in range(-9, 10):
+        t = fmpq(k, 3) if k % 2 else fmpq(k, 2)
+        if t == 3:
+            assert not contains(values, t) or "t - 3" not in text
+            continue
+        tableau = loads(text, settings={"t": str(t)}).tableau
+        assert contains(values, t) == decided(tableau, wanted), (text, t)
+
+
+def test_the_pair_is_that_of_the_method() -> None:
+    """P-stability of the pair at its single value, and not beside it."""
+    text = TAU.format("gauss", 2, "lobatto-iiia", 3)
+    for t, known in (("1", True), ("99/100", False), ("1/2", False)):
+        tableau = pair(loads(text, settings={"t": t})).tableau
+        assert decided(tableau, "p-stable") is known
+
+
+def test_as_a_command(tmp_path: Path) -> None:
+    """Text, JSON, exit codes, and what is refused."""
+    path = tmp_path / "theta.yaml"
+    path.write_text(THETA, encoding="utf-8")
+    run = gark("design", str(path), "--a-stable")
+    assert run.code == 0
+    assert "    1/2 ≤ t\n" in run.out
+    data = json.loads(gark("design", str(path), "--l-stable", "--format", "json").out)
+    assert (data["schema"], data["wanted"]) == ("gark/design/1", "l-stable")
+    assert data["set"] == [{"point": "1"}]
+    path.write_text(
+        "parameters: {t: free}\nA: [[t/9]]\nb: [1 + t*t]\n", encoding="utf-8"
+    )
+    none = gark("design", str(path), "--p-stable")
+    assert none.code in {0, 1}
+    path.write_text(
+        "parameters: {t: free}\nA: [[0, 0], [t, 0]]\nb: [0, 1]\n", encoding="utf-8"
+    )
+    explicit = gark("design", str(path), "--a-stable")
+    assert (explicit.code, "for no value of t" in explicit.out) == (1, True)
+    both = gark("design", str(path), "--a-stable", "--order", "2")
+    assert (both.code, "ask for one" in both.err) == (2, True)
+    path.write_text(
+        "parameters: {t: free, u: free}\nA: [[t]]\nb: [u]\n", encoding="utf-8"
+    )
+    two = gark("design", str(path), "--a-stable")
+    assert (two.code, "--set u=1/2" in two.err) == (2, True)
+    path.write_text(
+        "parameters: {t: free}\nA: [[t + sqrt(2)]]\nb: [1]\n", encoding="utf-8"
+    )
+    roots = gark("design", str(path), "--a-stable")
+    assert (roots.code, "roots among the coefficients" in roots.err) == (2, True)
+
+
+def test_ends_that_are_algebraic_numbers(tmp_path: Path) -> None:
+    """Ends of degree 3 are told by their polynomials and are decided in their fields."""
+    path = tmp_path / "cubic.yaml"
+    path.write_text(
+        "parameters: {t: free}\nA: [[t, 0, 0], [1/2 - t, t, 0], [2*t, 1 - 4*t, t]]\n"
+        "b: [1/6/(1 - 2*t)**2, 1 - 1/3/(1 - 2*t)**2, 1/6/(1 - 2*t)**2]\n",
+        encoding="utf-8",
+    )
+    run = gark("design", str(path), "--a-stable", "--digits", "10")
+    assert run.code == 0
+    assert "≤ t" in run.out
+    assert "a root of" in run.out
