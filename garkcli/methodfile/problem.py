@@ -14,7 +14,7 @@ from garkcli.exact.formula import RESERVED
 from garkcli.methodfile.description import FORMS as METHOD_FORMS
 from garkcli.methodfile.formulas import Formulas, bad_name
 from garkcli.methodfile.load import read_text
-from garkcli.methodfile.sides import STIFFNESS, SidesMaker
+from garkcli.methodfile.sides import STIFFNESS, Sides, SidesMaker, read_sides
 from garkcli.methodfile.source import PROBLEM_FILE, Source, keys_of, one_line, shortened
 from garkcli.methodfile.terms import Maker, ProblemText
 from garkcli.problems.vectorfield import TIME
@@ -129,15 +129,15 @@ class _Reader:
         are_named = len(source.faults) == before
         self.formulas.read_parameters(entries.get("parameters"))
         self._refuse_taken(variables, form, entries.get("parameters"))
-        if "initial" not in entries and not (form == "rhs" and "exact" in entries):
-            source.fault(root, "initial missing", _initial_cure(variables, form))
-        if "exact" in entries and form not in ("rhs", None):
-            message = f"exact is for rhs, and this is a {form}"
-            source.fault(entries["exact"], message, "leave it out")
+        self._check_start(root, entries, variables, form)
         self._check_stiffness(root, form)
         if form is None:
             return None
         names = tuple(name for name, _ in variables)
+        sides: Sides = ()
+        if form == "rhs":
+            known = names if are_named else ()
+            sides = read_sides(source, entries[form], known, MAX_TERMS)
         return ProblemText(
             name=self._name(entries.get("name")),
             variables=names,
@@ -147,11 +147,24 @@ class _Reader:
             initial=entries.get("initial"),
             t_end=self._t_end(entries.get("t_end")),
             invariants=tuple(self._invariants(entries.get("invariants"), form)),
-            sides=self._sides(entries[form], names if are_named else ())
-            if form == "rhs"
-            else (),
+            sides=sides,
             exact=entries.get("exact"),
         )
+
+    def _check_start(
+        self,
+        root: Node,
+        entries: dict[str, Node],
+        variables: list[tuple[str, Node]],
+        form: str | None,
+    ) -> None:
+        """Refuse a file without initial values, and a solution of what has none."""
+        is_rhs = form == "rhs"
+        if "initial" not in entries and not (is_rhs and "exact" in entries):
+            self.source.fault(root, "initial missing", _initial_cure(variables, form))
+        if "exact" in entries and not is_rhs and form is not None:
+            message = f"exact is for rhs, and this is a {form}"
+            self.source.fault(entries["exact"], message, "leave it out")
 
     def _check_stiffness(self, root: Node, form: str | None) -> None:
         """Refuse a stiffness that would change nothing."""
@@ -246,41 +259,6 @@ class _Reader:
             message = " and ".join(_WITH_ARTICLE[key] for key in present)
             self.source.fault(entries[present[1]], message, "keep one of them")
         return present[0]
-
-    def _sides(
-        self, node: Node, names: tuple[str, ...]
-    ) -> tuple[tuple[tuple[str, Node, str], ...], ...]:
-        """The right-hand sides of each term: variables, formulas, and what these are called."""
-        if not isinstance(node, SequenceNode):
-            return (self._side(node, "rhs", names),)
-        items = self.source.items(node, "rhs")
-        if not items:
-            self.source.fault(
-                node, "rhs is empty", "give right-hand sides for each term"
-            )
-        if len(items) > MAX_TERMS:
-            self.source.fault(
-                node, f"rhs: {len(items)} terms (limit {MAX_TERMS})", "use fewer"
-            )
-            return ()
-        numbered = enumerate(items, start=1)
-        return tuple(self._side(item, f"f{{{l}}}", names) for l, item in numbered)
-
-    def _side(
-        self, node: Node, where: str, names: tuple[str, ...]
-    ) -> tuple[tuple[str, Node, str], ...]:
-        """Of one term; a formula alone is that of the only variable."""
-        if isinstance(node, ScalarNode) and len(names) == 1:
-            return ((names[0], node, where),)
-        if not isinstance(node, MappingNode):
-            example = ", ".join(f"{x}: …" for x in names[:2])
-            message = (
-                f"{where}: right-hand sides by the names of variables are expected"
-            )
-            self.source.fault(node, message, f"write {{{example}}}")
-            return ()
-        entries = self.source.mapping(node, where, names)
-        return tuple((name, x, f"{where} of {name}") for name, x in entries.items())
 
     def _items(self, node: Node, form: str) -> list[tuple[Node, str]]:
         if isinstance(node, ScalarNode):

@@ -8,9 +8,9 @@ from __future__ import annotations
 
 from collections.abc import Callable, Mapping
 from dataclasses import dataclass
-from typing import Any, TypeAlias
+from typing import TypeAlias
 
-from flint import arb, fmpq
+from flint import fmpq
 
 from garkcli.errors import UsageProblem, did_you_mean
 from garkcli.problems import stiff
@@ -22,7 +22,13 @@ from garkcli.problems.generic import (
     separable,
 )
 from garkcli.problems.hamiltonian import Hamiltonian
-from garkcli.problems.mechanical import Mechanical
+from garkcli.problems.mechanical import (
+    Mechanical,
+    cosine,
+    kepler_potential,
+    rods,
+    springs,
+)
 from garkcli.problems.problem import Problem
 from garkcli.problems.righthandside import RightHandSide
 
@@ -150,44 +156,6 @@ def _mechanical(
     return BuiltIn(name, summary, energy, sees, make)
 
 
-def _cos(x: Any) -> Any:
-    import sympy
-
-    return sympy.cos(x)
-
-
-def _kepler_potential(x: Any, y: Any) -> tuple[Any, ...]:
-    import sympy
-
-    return (-1 / sympy.sqrt(x**2 + y**2),)
-
-
-def _springs(*q: Any) -> tuple[Any, ...]:
-    """Springs between walls with quadratic and cubic forces, α = 1/4, β = 1/2: V = Σ r²/2 + αr³/3 +
-    βr⁴/4.
-    """
-    left, right = (0, *q), (*q, 0)
-    V = 0
-    for a, b in zip(left, right, strict=True):
-        r = b - a
-        V += r**2 / 2 + r**3 / 12 + r**4 / 8
-    return (V,)
-
-
-def _rods(q: tuple[Any, ...], _: tuple[Any, ...]) -> Any:
-    """T of two rods of length 1 with masses 1, in absolute angles: its mass matrix depends on their
-    difference.
-    """
-    import sympy
-
-    from garkcli.problems.lagrangian import legendre_transform
-    from garkcli.problems.mass import velocities
-
-    (a, b), (u, w) = q, velocities(("a", "b"))
-    kinetic = u**2 + w**2 / 2 + u * w * sympy.cos(a - b)
-    return legendre_transform(kinetic, ("a", "b"), dict.fromkeys(q, arb(0)))
-
-
 def _stiff(
     name: str, summary: str, formula: str, sees: str, made: StiffMaker
 ) -> BuiltIn:
@@ -228,7 +196,7 @@ _ENTRIES = (
         _ALTERNATING,
         Mechanical(
             ("x",),
-            lambda x: (1 - _cos(x),),
+            lambda x: (1 - cosine(x),),
             (fmpq(1), fmpq(1, 2)),
             fmpq(4),
             long_run=_TENTHS,
@@ -241,7 +209,7 @@ _ENTRIES = (
         _ALTERNATING,
         Mechanical(
             ("x", "y"),
-            _kepler_potential,
+            kepler_potential,
             (fmpq(2, 5), fmpq(0), fmpq(0), fmpq(2)),  # eccentricity 3/5, period 2π
             fmpq(2),
             invariants=lambda x, y, px, py: (("angular momentum", x * py - y * px),),
@@ -268,7 +236,7 @@ _ENTRIES = (
         _ALTERNATING,
         Mechanical(
             ("x", "y", "z"),
-            _springs,
+            springs,
             (fmpq(1), fmpq(1, 2), fmpq(-1, 4), fmpq(0), fmpq(1, 2), fmpq(0)),
             fmpq(2),
             long_run=_TENTHS,
@@ -282,12 +250,12 @@ _ENTRIES = (
         Mechanical(
             ("a", "b"),
             lambda a, b: (
-                1 - _cos(a),
-                2 - _cos(a) - _cos(b),
+                1 - cosine(a),
+                2 - cosine(a) - cosine(b),
             ),  # of the upper and the lower mass
             (fmpq(1), fmpq(-1, 2), fmpq(1), fmpq(1, 2)),
             fmpq(2),
-            kinetic=_rods,
+            kinetic=rods,
         ),
     ),
     _stiff(

@@ -10,7 +10,7 @@ from collections.abc import Callable
 from dataclasses import dataclass
 from typing import Any
 
-from flint import fmpq
+from flint import arb, fmpq
 
 from garkcli.problems.hamiltonian import Hamiltonian
 from garkcli.problems.vectorfield import symbols
@@ -69,3 +69,43 @@ class Mechanical:
             return (T, *parts)
         share = sympy.expand(V / (terms - 1))
         return (T, *(share,) * (terms - 1))
+
+
+def cosine(x: Any) -> Any:
+    """Cos x."""
+    import sympy
+
+    return sympy.cos(x)
+
+
+def kepler_potential(x: Any, y: Any) -> tuple[Any, ...]:
+    """−1/|q|."""
+    import sympy
+
+    return (-1 / sympy.sqrt(x**2 + y**2),)
+
+
+def springs(*q: Any) -> tuple[Any, ...]:
+    """Springs between walls with quadratic and cubic forces, α = 1/4, β = 1/2: V = Σ r²/2 + αr³/3 +
+    βr⁴/4.
+    """
+    left, right = (0, *q), (*q, 0)
+    V = 0
+    for a, b in zip(left, right, strict=True):
+        r = b - a
+        V += r**2 / 2 + r**3 / 12 + r**4 / 8
+    return (V,)
+
+
+def rods(q: tuple[Any, ...], _: tuple[Any, ...]) -> Any:
+    """T of two rods of length 1 with masses 1, in absolute angles: its mass matrix depends on their
+    difference.
+    """
+    import sympy
+
+    from garkcli.problems.lagrangian import legendre_transform
+    from garkcli.problems.mass import velocities
+
+    (a, b), (u, w) = q, velocities(("a", "b"))
+    kinetic = u**2 + w**2 / 2 + u * w * sympy.cos(a - b)
+    return legendre_transform(kinetic, ("a", "b"), dict.fromkeys(q, arb(0)))
