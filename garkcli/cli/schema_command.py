@@ -11,6 +11,17 @@ from garkcli.cli.options import CONTEXT, Output, common
 from garkcli.errors import UsageProblem
 
 
+def _reports(
+    context: click.Context,  # noqa: ARG001 -- what click gives
+    option: click.Parameter,  # noqa: ARG001
+    beginning: str,
+) -> list[str]:
+    """The reports that begin so, for completion in the shell."""
+    from garkcli.report.schemas import REPORTS
+
+    return [name for name in REPORTS if name.startswith(beginning)]
+
+
 @click.command("schema", context_settings=CONTEXT)
 @click.option("--problem", is_flag=True, help="Of problem files, instead.")
 @click.option(
@@ -18,6 +29,7 @@ from garkcli.errors import UsageProblem
     is_flag=False,
     flag_value="check",
     metavar="[COMMAND]",
+    shell_complete=_reports,
     help="Of the JSON that a command writes, instead; gark check where none is named.",
 )
 @common(["json"])

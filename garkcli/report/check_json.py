@@ -11,6 +11,7 @@ from collections.abc import Sequence
 from typing import TYPE_CHECKING, Any
 
 from garkcli.exact.display import decimal
+from garkcli.report.fault_json import FAULT
 from garkcli.report.hints_json import BLOCK, HINTS, blocks
 from garkcli.report.json_text import to_json
 from garkcli.report.order_json import SIMPLIFYING, order_fields
@@ -26,12 +27,12 @@ from garkcli.report.record import (
     array,
     inside,
     nullable,
+    published,
 )
 
 if TYPE_CHECKING:
     from garkcli.check.analysis import Analysis
     from garkcli.check.outcome import Claim, Outcome
-    from garkcli.errors import Fault
     from garkcli.tableau.tableau import Colour, Tableau
 
 SCHEMA = "gark/check/1"
@@ -48,19 +49,13 @@ def as_data(outcomes: Sequence[Outcome]) -> dict[str, Any]:
 
 
 def check_report_schema() -> Schema:
-    """The schema as plain data. Fields may be added to reports; those here never change their
-    meaning.
-    """
-    return {
-        "$schema": "http://json-schema.org/draft-07/schema#",
-        "title": "report of gark check",
-        **_REPORT.schema,
-    }
+    """The JSON Schema of these reports, as plain data."""
+    return published("report of gark check", _REPORT.schema)
 
 
 def colours_data(tableau: Tableau) -> list[dict[str, Any]]:
     """The colours with their stages."""
-    return [_COLOUR.data((tableau, colour)) for colour in tableau.colours]
+    return [COLOUR.data((tableau, colour)) for colour in tableau.colours]
 
 
 def _stages(found: tuple[Tableau, Colour]) -> int:
@@ -76,14 +71,15 @@ def _conjugate_consistent(found: Analysis) -> bool | None:
     return None if found.conjugate is None else not found.conjugate_inconsistent
 
 
-_COLOUR: Record[tuple[Tableau, Colour]] = Record(
+COLOUR: Record[tuple[Tableau, Colour]] = Record(
     Field("name", TEXT, lambda x: x[1].name),
     Field("stages", POSITION, _stages),
 )
+"""A colour of a tableau."""
 _ANALYSIS: tuple[Field[Analysis], ...] = (
     Field("exact", FLAG, lambda x: x.tolerance is None),
     Field("tolerance", nullable(TEXT), _tolerance),
-    Field("colours", array(_COLOUR.schema), lambda x: colours_data(x.tableau)),
+    Field("colours", array(COLOUR.schema), lambda x: colours_data(x.tableau)),
     Field("consistent", FLAG, lambda x: not x.inconsistent),
     Field("inconsistent_blocks", array(BLOCK), lambda x: blocks(x.inconsistent)),
     Field("conjugate_consistent", nullable(FLAG), _conjugate_consistent),
@@ -108,20 +104,10 @@ _CLAIM: Record[Claim] = Record(
     Field("line", POSITION, lambda x: x.line),
     Field("why", TEXT, lambda x: x.why or None, is_optional=True),
 )
-_ERROR: Record[Fault] = Record(
-    Field("line", nullable(POSITION), lambda x: x.line or None),
-    Field("column", nullable(POSITION), lambda x: x.column or None),
-    Field("message", TEXT, lambda x: x.message),
-    Field("help", TEXT, lambda x: x.help),
-)
-
-
-def _claims(outcome: Outcome) -> list[dict[str, Any]]:
-    return [_CLAIM.data(claim) for claim in outcome.claims]
 
 
 def _errors(outcome: Outcome) -> list[dict[str, Any]]:
-    return [_ERROR.data(fault) for fault in outcome.faults]
+    return [FAULT.data(fault) for fault in outcome.faults]
 
 
 _STRUCTURE: Schema = {"enum": ["general", "semi-separable", "separable", "nystrom"]}
@@ -136,12 +122,12 @@ _CHECKED: Record[Outcome] = Record(
     *inside(lambda x: x.analysis, _ANALYSIS),
     EVERY_PROPERTY,
     *HINTS,
-    Field("claims", array(_CLAIM.schema), _claims),
+    _CLAIM.every("claims", lambda x: x.claims),
 )
 _UNREADABLE: Record[Outcome] = Record(
     *_HEAD,
     Field("ok", {"const": False}, lambda x: x.ok),
-    Field("errors", {**array(_ERROR.schema), "minItems": 1}, _errors),
+    Field("errors", {**array(FAULT.schema), "minItems": 1}, _errors),
 )
 
 

@@ -21,7 +21,7 @@ from garkcli.report.convergence import (
     verdict,
     wrapped,
 )
-from garkcli.report.convergence_data import Entry, csv_of_several, json_of_several
+from garkcli.report.convergence_data import Entry, csv_of_several
 from garkcli.report.costs import Tested, costs_of, curve
 from garkcli.report.figures import scientific
 from garkcli.report.paint import Paint, aligned, indented, padded
@@ -48,6 +48,8 @@ def render(
         against: the horizontal axis of the plot: h, evaluations or seconds.
     """
     if format == "json":
+        from garkcli.report.convergence_json import json_of_several
+
         return json_of_several(entries, with_work)
     if format == "csv":
         return csv_of_several(entries, with_work)

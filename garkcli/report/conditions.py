@@ -3,13 +3,11 @@
 from __future__ import annotations
 
 from collections.abc import Iterable, Iterator, Sequence
-from typing import Any
 
 from garkcli.exact.display import decimal, to_decimal, to_latex, to_text
 from garkcli.exact.field import Number
 from garkcli.order.conditions import Condition
-from garkcli.report.conditions_data import ConditionRow, Valued
-from garkcli.report.json_text import to_json
+from garkcli.report.conditions_data import ConditionRow, Valued, shown
 from garkcli.report.latex import fragment, number
 from garkcli.report.paint import Paint, counted, folded, indented
 from garkcli.report.symplectic import legend_lines, member_lines, summary_lines
@@ -63,20 +61,9 @@ def render(
     if valued is not None and format != "text":
         rows = filter(valued.shows, rows)
     if format == "json":
-        fields = {} if valued is None else valued.data()
-        if subject is not None:
-            fields["symplectic"] = subject.data()
-        about = ""
-        for key, value in fields.items():
-            text = to_json(value, indent=None, ascii_only=True)
-            about += f'"{key}": {text}, '
-        yield f'{{"schema": "gark/conditions/1", {about}"conditions": ['
-        separator = "\n"
-        for row in rows:
-            line = to_json(_data(row), indent=None)
-            yield separator + line
-            separator = ",\n"
-        yield "\n]}\n"
+        from garkcli.report.conditions_json import json_of
+
+        yield from json_of(rows, subject, valued)
     elif format == "csv":
         count = "multiplicity" if subject is None else "stands_for"
         yield from _csv(rows, [*_VALUED, count])
@@ -86,42 +73,15 @@ def render(
         yield from _text(rows, paint, width, subject, valued)
 
 
-def _data(row: ConditionRow) -> dict[str, Any]:
-    tree = row.tree
-    data: dict[str, Any] = {
-        "tree": format_tree(tree, not row.is_shape),
-        "root": None if row.is_shape else tree.root + 1,
-        "order": tree.order,
-        "sigma": tree.symmetry,
-        "gamma": tree.density,
-        "condition": row.formula,
-    }
-    if row.is_shape:
-        data["for_all"] = list(vertex_letters(tree))
-    if row.condition is not None:
-        data |= {
-            "value": _number(row.condition.value, row.digits),
-            "required": _number(row.condition.required, row.digits),
-            "residual": _number(row.condition.residual, row.digits),
-            "holds": row.condition.holds,
-            "kind": "coupling" if row.condition.is_coupling else "diagonal",
-        }
-        if not row.stands_for:
-            data["multiplicity"] = len(row.condition.trees)
-    if row.stands_for:
-        data["stands_for"] = row.stands_for
-    if row.members:
-        data["members"] = [format_tree(u) for u in row.members]
-    return data
-
-
 def _csv(rows: Iterable[ConditionRow], heading: Sequence[str]) -> Iterator[str]:
     """The rows under their keys; under ``heading`` where there are none, since no condition
     fails.
     """
+    from garkcli.report.conditions_json import row_data
+
     keys: list[str] = []
     for row in rows:
-        data = _data(row)
+        data = row_data(row)
         data.pop("for_all", None)
         if not keys:
             keys = list(data)
@@ -249,18 +209,13 @@ def _multiplicity(row: ConditionRow) -> str:
 def _miss(condition: Condition, digits: int | None) -> str:
     """The value and the residual, in decimals where they are long or ``digits`` are asked for."""
     kind = "coupling" if condition.is_coupling else "diagonal"
-    value = _number(condition.value, digits)
-    residual = _number(condition.residual, digits)
+    value = shown(condition.value, digits)
+    residual = shown(condition.residual, digits)
     longest = max(len(value), len(residual))
     if digits is None and longest > MOST_DIGITS:
         value = f"about {to_decimal(condition.value, 8)}"
         residual = to_decimal(condition.residual, 4)
     return f"is {value}, off by {residual}  ({kind} condition)"
-
-
-def _number(value: Number, digits: int | None) -> str:
-    """A number as text, exactly or with so many digits."""
-    return to_text(value) if digits is None else to_decimal(value, digits)
 
 
 def _latex_values(condition: Condition, digits: int | None) -> tuple[str, str]:

@@ -3,11 +3,11 @@
 from __future__ import annotations
 
 from dataclasses import dataclass
-from typing import Any
 
 from flint import fmpq
 
-from garkcli.exact.display import decimal
+from garkcli.exact.display import to_decimal, to_text
+from garkcli.exact.field import Number
 from garkcli.order.conditions import Condition
 from garkcli.tableau.tableau import Tableau
 from garkcli.trees.notation import condition_latex, condition_text, vertex_letters
@@ -65,15 +65,17 @@ class Valued:
     tolerance: fmpq | None = None
     only_failing: bool = False
 
-    def data(self) -> dict[str, Any]:
-        """The fields of the JSON report."""
-        tolerance = None if self.tolerance is None else decimal(self.tolerance)
-        return {
-            "colours": [colour.name for colour in self.tableau.colours],
-            "tolerance": tolerance,
-        }
+    @property
+    def names(self) -> list[str]:
+        """The names of the colours."""
+        return [colour.name for colour in self.tableau.colours]
 
     def shows(self, row: ConditionRow) -> bool:
         """Whether a row is in the table."""
         fails = row.condition is not None and not row.condition.holds
         return fails or row.condition is None or not self.only_failing
+
+
+def shown(value: Number, digits: int | None) -> str:
+    """A number as text, exactly or with so many digits."""
+    return to_text(value) if digits is None else to_decimal(value, digits)

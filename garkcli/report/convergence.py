@@ -20,7 +20,7 @@ from garkcli.problems.oscillator import Oscillator
 from garkcli.problems.problem import Problem
 from garkcli.problems.righthandside import RightHandSide
 from garkcli.report.asciiplot import terminal_curves, terminal_plot
-from garkcli.report.convergence_data import csv_of, invariant_names, json_of
+from garkcli.report.convergence_data import csv_of, invariant_names
 from garkcli.report.figures import rounded, scientific
 from garkcli.report.paint import Paint, aligned, indented
 
@@ -46,6 +46,8 @@ def render(
 ) -> str:
     """The convergence test as text, JSON or CSV; ``with_work`` what its steps have cost."""
     if format == "json":
+        from garkcli.report.convergence_json import json_of
+
         return json_of(result, name, with_work)
     if format == "csv":
         return csv_of(result, with_work)

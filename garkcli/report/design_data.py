@@ -2,12 +2,28 @@
 
 from __future__ import annotations
 
-from typing import Any
+from typing import Any, NamedTuple, get_args
 
-from garkcli.design.design import Design, Found, Step
+from garkcli.design.design import Design, Found, Kind, Step, Whose
 from garkcli.design.solutions import value_at
-from garkcli.report.exactly import root_data
+from garkcli.report.exactly import ALGEBRAIC, root_data
 from garkcli.report.json_text import to_json
+from garkcli.report.record import (
+    COUNT,
+    FLAG,
+    INTEGER,
+    NULL,
+    POSITION,
+    TEXT,
+    Field,
+    Record,
+    Schema,
+    array,
+    inside,
+    nullable,
+    one_of,
+    published,
+)
 from garkcli.trees.notation import format_tree
 
 SCHEMA = "gark/design/1"
@@ -15,45 +31,130 @@ SCHEMA = "gark/design/1"
 
 def render(source: str, design: Design, digits: int) -> str:
     """The design as JSON text."""
-    last = design.last
-    data = {
-        "schema": SCHEMA,
-        "file": source,
-        "name": design.family.name,
-        "of": design.whose,
-        "unknowns": list(design.family.parameters),
-        **_step_data(design, last, digits),
-        "orders": [_step_data(design, step, digits) for step in design.steps],
-    }
-    return to_json(data) + "\n"
+    return to_json(_REPORT.data(_Shown(source, design, digits))) + "\n"
 
 
-def _step_data(design: Design, step: Step, digits: int) -> dict[str, Any]:
-    data: dict[str, Any] = {"order": step.order, "verdict": step.kind}
-    if step.ideal is not None:
-        data["ideal"] = [str(p) for p in step.ideal.polynomials]
-        data["dimension"] = step.ideal.dimension
-    data["solutions"] = [
-        x for found in step.found for x in _solutions(design, found, digits)
-    ]
-    data["witness"] = None if step.witness is None else format_tree(step.witness)
-    return data
+def design_report_schema() -> Schema:
+    """The JSON Schema of these reports."""
+    return published("report of gark design", _REPORT.schema)
 
 
-def _solutions(design: Design, found: Found, digits: int) -> list[dict[str, Any]]:
-    """Each real root as a solution, then the others as one."""
-    solution = found.solution
-    order = None if found.order is None else found.order.order
-    common = {"multiplicity": solution.multiplicity, "order": order}
-    data: list[dict[str, Any]] = []
-    for index, root in enumerate(solution.real):
+class _Shown(NamedTuple):
+    """A design, its file, and how many digits algebraic numbers have."""
+
+    source: str
+    design: Design
+    digits: int
+
+    @property
+    def last(self) -> _StepOf:
+        """The highest order that was looked at."""
+        return _StepOf(self, self.design.last)
+
+    @property
+    def steps(self) -> list[_StepOf]:
+        """Every order."""
+        return [_StepOf(self, step) for step in self.design.steps]
+
+
+class _StepOf(NamedTuple):
+    """What one order asks."""
+
+    shown: _Shown
+    step: Step
+
+    @property
+    def solutions(self) -> list[dict[str, Any]]:
+        """All solutions, one after the other."""
+        return [x for found in self.step.found for x in _solutions(self.shown, found)]
+
+
+class _Root(NamedTuple):
+    """A real solution, by its number among the real roots of what was found."""
+
+    shown: _Shown
+    found: Found
+    number: int
+
+    @property
+    def values(self) -> dict[str, object]:
+        """The parameters."""
+        solution = self.found.solution
+        root = solution.real[self.number]
         values = {}
-        for name in design.family.parameters:
+        for name in self.shown.design.family.parameters:
             value = value_at(solution.values[name], root)
-            values[name] = root_data(value, digits)
-        is_within = index in found.accepted
-        data.append({"values": values, "real": True, "admissible": is_within, **common})
-    others = solution.degree - len(solution.real)
-    if others:
-        data.append({"values": None, "real": False, "count": others, **common})
+            values[name] = root_data(value, self.shown.digits)
+        return values
+
+
+def _order(found: Found) -> int | None:
+    return None if found.order is None else found.order.order
+
+
+def _others(found: Found) -> int:
+    """The solutions that are not real."""
+    return found.solution.degree - len(found.solution.real)
+
+
+_VALUES: Schema = {"type": "object", "additionalProperties": ALGEBRAIC}
+_FOUND: tuple[Field[Found], ...] = (
+    Field("multiplicity", POSITION, lambda x: x.solution.multiplicity),
+    Field("order", nullable(COUNT), _order),
+)
+_REAL: Record[_Root] = Record(
+    Field("values", _VALUES, lambda x: x.values),
+    Field("real", {"const": True}, lambda _: True),
+    Field("admissible", FLAG, lambda x: x.number in x.found.accepted),
+    *inside(lambda x: x.found, _FOUND),
+)
+_NOT_REAL: Record[Found] = Record(
+    Field("values", NULL, lambda _: None),
+    Field("real", {"const": False}, lambda _: False),
+    Field("count", POSITION, _others),
+    *_FOUND,
+)
+
+
+def _solutions(shown: _Shown, found: Found) -> list[dict[str, Any]]:
+    """Each real root as a solution, then the others as one."""
+    roots = range(len(found.solution.real))
+    data = [_REAL.data(_Root(shown, found, k)) for k in roots]
+    if _others(found):
+        data.append(_NOT_REAL.data(found))
     return data
+
+
+def _ideal(found: _StepOf) -> list[str] | None:
+    ideal = found.step.ideal
+    return None if ideal is None else [str(p) for p in ideal.polynomials]
+
+
+def _dimension(found: _StepOf) -> int | None:
+    ideal = found.step.ideal
+    return None if ideal is None else ideal.dimension
+
+
+def _witness(found: _StepOf) -> str | None:
+    witness = found.step.witness
+    return None if witness is None else format_tree(witness)
+
+
+_SOLUTION: Schema = one_of(_REAL.schema, _NOT_REAL.schema)
+_STEP: Record[_StepOf] = Record(
+    Field("order", POSITION, lambda x: x.step.order),
+    Field("verdict", {"enum": [*get_args(Kind)]}, lambda x: x.step.kind),
+    Field("ideal", array(TEXT), _ideal, is_optional=True),
+    Field("dimension", INTEGER, _dimension, is_optional=True),
+    Field("solutions", array(_SOLUTION), lambda x: x.solutions),
+    Field("witness", nullable(TEXT), _witness),
+)
+_REPORT: Record[_Shown] = Record(
+    Field("schema", {"const": SCHEMA}, lambda _: SCHEMA),
+    Field("file", TEXT, lambda x: x.source),
+    Field("name", TEXT, lambda x: x.design.family.name),
+    Field("of", {"enum": [*get_args(Whose)]}, lambda x: x.design.whose),
+    Field("unknowns", array(TEXT), lambda x: list(x.design.family.parameters)),
+    *inside(lambda x: x.last, _STEP.fields),
+    _STEP.every("orders", lambda x: x.steps),
+)

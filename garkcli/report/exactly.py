@@ -16,6 +16,17 @@ from garkcli.exact.polynomial_text import (
     root_text,
 )
 from garkcli.exact.roots import RealRoot
+from garkcli.report.record import TEXT, Schema, one_of
+
+ROOT_OF: Schema = {
+    "type": "object",
+    "required": ["root_of", "decimal"],
+    "properties": {"root_of": TEXT, "decimal": TEXT},
+    "additionalProperties": False,
+}
+"""An algebraic number without simple radicals: a polynomial in x, and which root of it."""
+ALGEBRAIC: Schema = one_of(TEXT, ROOT_OF)
+"""What ``root_data`` makes."""
 
 
 def polynomial_latex(p: Polynomial, variable: str) -> str:

@@ -7,7 +7,7 @@ from typing import Any
 from garkcli.properties.definitions import Definition
 from garkcli.report.json_text import to_json
 from garkcli.report.paint import Paint, folded
-from garkcli.report.record import TEXT, Field, Record, Schema
+from garkcli.report.record import TEXT, Field, Record, Schema, published
 
 SCHEMA = "gark/explain/1"
 _WIDTH = 80
@@ -26,11 +26,7 @@ _REPORT: Record[Definition] = Record(
 
 def explanation_schema() -> Schema:
     """The JSON Schema of ``gark check --explain KEY --format json``."""
-    return {
-        "$schema": "http://json-schema.org/draft-07/schema#",
-        "title": "report of gark check --explain",
-        **_REPORT.schema,
-    }
+    return published("report of gark check --explain", _REPORT.schema)
 
 
 def as_data(found: Definition) -> dict[str, Any]:

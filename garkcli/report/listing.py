@@ -3,10 +3,14 @@
 from __future__ import annotations
 
 from collections.abc import Mapping
+from typing import NamedTuple
 
 from garkcli.families.registry import Family
 from garkcli.report.json_text import to_json
 from garkcli.report.paint import Paint
+from garkcli.report.record import TEXT, Field, Record, Schema, published
+
+SCHEMA = "gark/list/1"
 
 
 def render(
@@ -18,25 +22,7 @@ def render(
 ) -> str:
     """The lists as text or JSON."""
     if format == "json":
-        data = {
-            "schema": "gark/list/1",
-            "families": [
-                {
-                    "name": x.name,
-                    "stages": _stages(x),
-                    "order": x.order,
-                    "summary": x.summary,
-                }
-                for x in families.values()
-            ],
-            "transfer": [
-                {"name": name, "summary": summary} for name, summary in rules.items()
-            ],
-            "problems": [
-                {"name": name, "summary": summary} for name, summary in problems.items()
-            ],
-        }
-        return to_json(data) + "\n"
+        return to_json(_REPORT.data(_Lists(families, rules, problems))) + "\n"
     lines = [paint("strong", f"{'families':<20} {'stages':<8} {'order':<7}")]
     lines += [
         f"  {x.name:<18} {_stages(x):<8} {x.order:<7} {x.summary}"
@@ -58,9 +44,40 @@ def render(
     return "\n".join(lines) + "\n"
 
 
+class _Lists(NamedTuple):
+    """Families by their names, and summaries of the others by theirs."""
+
+    families: Mapping[str, Family]
+    rules: Mapping[str, str]
+    problems: Mapping[str, str]
+
+
 def _stages(family: Family) -> str:
     return (
         str(family.smallest)
         if family.largest == family.smallest
         else f">= {family.smallest}"
     )
+
+
+_FAMILY: Record[Family] = Record(
+    Field("name", TEXT, lambda x: x.name),
+    Field("stages", TEXT, _stages),
+    Field("order", TEXT, lambda x: x.order),
+    Field("summary", TEXT, lambda x: x.summary),
+)
+_NAMED: Record[tuple[str, str]] = Record(
+    Field("name", TEXT, lambda x: x[0]),
+    Field("summary", TEXT, lambda x: x[1]),
+)
+_REPORT: Record[_Lists] = Record(
+    Field("schema", {"const": SCHEMA}, lambda _: SCHEMA),
+    _FAMILY.every("families", lambda x: x.families.values()),
+    _NAMED.every("transfer", lambda x: x.rules.items()),
+    _NAMED.every("problems", lambda x: x.problems.items()),
+)
+
+
+def list_report_schema() -> Schema:
+    """The JSON Schema of ``gark list``."""
+    return published("report of gark list", _REPORT.schema)

@@ -13,8 +13,9 @@ from garkcli.exact.display import decimal, to_decimal, to_text
 from garkcli.exact.field import Number
 from garkcli.report.json_text import to_json
 from garkcli.report.record import (
-    EXACT,
+    COUNT,
     FLAG,
+    NUMERAL,
     POSITION,
     TEXT,
     Field,
@@ -22,6 +23,7 @@ from garkcli.report.record import (
     Schema,
     array,
     nullable,
+    published,
 )
 from garkcli.trees.notation import format_tree
 from garkcli.trees.tree import Tree
@@ -124,12 +126,8 @@ def render_json(report: ModifiedReport) -> str:
 
 
 def modified_report_schema() -> Schema:
-    """The schema as plain data. Fields may be added; those here never change their meaning."""
-    return {
-        "$schema": "http://json-schema.org/draft-07/schema#",
-        "title": "report of gark modified",
-        **_REPORT.schema,
-    }
+    """The JSON Schema of these reports, as plain data."""
+    return published("report of gark modified", _REPORT.schema)
 
 
 def _order_fields(
@@ -146,7 +144,7 @@ def _order_fields(
         return None if reached is None else reached.is_lower_bound
 
     return (
-        Field(name, nullable({"type": "integer", "minimum": 0}), order),
+        Field(name, nullable(COUNT), order),
         Field(f"{name}_is_lower_bound", nullable(FLAG), is_lower_bound),
     )
 
@@ -165,8 +163,8 @@ def formula_text(formula: Any) -> str:
     return str(formula).replace("**", "^")
 
 
-def _equation(report: ModifiedReport) -> list[dict[str, Any]]:
-    return [_TERM.data((report, term)) for term in report.equation]
+def _equation(report: ModifiedReport) -> list[tuple[ModifiedReport, TreeTerm]]:
+    return [(report, term) for term in report.equation]
 
 
 def _hamiltonian(report: ModifiedReport) -> list[dict[str, Any]] | None:
@@ -181,19 +179,19 @@ _TERM: Record[tuple[ModifiedReport, TreeTerm]] = Record(
     Field("root", POSITION, lambda x: x[1].tree.root + 1),
     Field("order", POSITION, lambda x: x[1].tree.order),
     Field("symmetry", POSITION, lambda x: x[1].symmetry),
-    Field("coefficient", EXACT, lambda x: x[0].number(x[1].coefficient)),
-    Field("factor", EXACT, lambda x: x[0].number(x[1].factor)),
+    Field("coefficient", NUMERAL, lambda x: x[0].number(x[1].coefficient)),
+    Field("factor", NUMERAL, lambda x: x[0].number(x[1].factor)),
 )
 _POWER: Record[PowerTerm] = Record(
-    Field("power", {"type": "integer", "minimum": 0}, lambda x: x.power),
+    Field("power", COUNT, lambda x: x.power),
     Field("formulas", array(TEXT), _formulas),
 )
 _FORMULA: Record[ModifiedFormula] = Record(
     Field("problem", TEXT, lambda x: x.problem.name),
     Field("of", {"enum": ["hamiltonian", "equation"]}, lambda x: x.of),
     Field("unknowns", array(TEXT), unknowns_of),
-    Field("max_power", {"type": "integer", "minimum": 0}, lambda x: x.max_order - 1),
-    Field("terms", array(_POWER.schema), lambda x: [_POWER.data(t) for t in x.terms]),
+    Field("max_power", COUNT, lambda x: x.max_order - 1),
+    _POWER.every("terms", lambda x: x.terms),
 )
 _REPORT: Record[ModifiedReport] = Record(
     Field("schema", {"const": SCHEMA}, lambda _: SCHEMA),
@@ -208,7 +206,7 @@ _REPORT: Record[ModifiedReport] = Record(
     *_order_fields("symplectic_order", lambda x: x.symplectic),
     *_order_fields("energy_order", lambda x: x.energy),
     *_order_fields("effective_order", lambda x: x.effective),
-    Field("equation", array(_TERM.schema), _equation),
+    _TERM.every("equation", _equation),
     Field("hamiltonian", nullable(array(_TERM.schema)), _hamiltonian),
     _FORMULA.or_null("formula", lambda x: x.formula),
 )

@@ -7,7 +7,6 @@ import io
 from collections.abc import Iterator, Sequence
 from dataclasses import dataclass
 from math import ceil
-from typing import Any
 
 from garkcli.backward.energy import ModifiedEnergy, ModifiedRun
 from garkcli.convergence.result import Row
@@ -25,8 +24,8 @@ from garkcli.report.record import (
     Field,
     Record,
     Schema,
-    array,
     nullable,
+    published,
 )
 
 SCHEMA = "gark/modified-energy/1"
@@ -135,20 +134,8 @@ def to_float_error(row: Row) -> float:
 
 
 def modified_energy_schema() -> Schema:
-    """The schema as plain data. Fields may be added; those here never change their meaning."""
-    return {
-        "$schema": "http://json-schema.org/draft-07/schema#",
-        "title": "report of gark energy --modified",
-        **_REPORT.schema,
-    }
-
-
-def _rows(energy: ModifiedEnergy) -> list[dict[str, Any]]:
-    return [_ROW.data(row) for row in energy.rows]
-
-
-def _energies(report: ModifiedEnergyReport) -> list[dict[str, Any]]:
-    return [_ENERGY.data(x) for x in report.run.energies]
+    """The JSON Schema of these reports, as plain data."""
+    return published("report of gark energy --modified", _REPORT.schema)
 
 
 _ROW: Record[Row] = Record(
@@ -167,7 +154,7 @@ _ENERGY: Record[ModifiedEnergy] = Record(
         {"enum": ["agree", "disagree", "undecided"]},
         lambda x: x.verdict,
     ),
-    Field("rows", array(_ROW.schema), _rows),
+    _ROW.every("rows", lambda x: x.rows),
 )
 _REPORT: Record[ModifiedEnergyReport] = Record(
     Field("schema", {"const": SCHEMA}, lambda _: SCHEMA),
@@ -176,5 +163,5 @@ _REPORT: Record[ModifiedEnergyReport] = Record(
     Field("t_end", EXACT, lambda x: str(x.run.t_end)),
     Field("max_order", POSITION, lambda x: x.run.max_order),
     Field("digits", POSITION, lambda x: x.run.digits),
-    Field("energies", array(_ENERGY.schema), _energies),
+    _ENERGY.every("energies", lambda x: x.run.energies),
 )

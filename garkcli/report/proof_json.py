@@ -7,7 +7,8 @@ format.
 
 from __future__ import annotations
 
-from typing import Any, TypeAlias
+from collections.abc import Iterable
+from typing import Generic, NamedTuple, TypeAlias, TypeVar
 
 from flint import fmpq, fmpq_poly
 
@@ -16,112 +17,61 @@ from garkcli.check.proof import MethodProof
 from garkcli.exact.cells import between
 from garkcli.exact.display import to_ball
 from garkcli.exact.field import Number, NumberField, coordinates
+from garkcli.exact.matrix import Matrix
 from garkcli.exact.polynomial import Polynomial
 from garkcli.exact.roots import real_roots
 from garkcli.order.certificate import Witness
 from garkcli.order.proof import Proof
 from garkcli.report.json_text import to_json
+from garkcli.report.record import (
+    COUNT,
+    FLAG,
+    POSITION,
+    TEXT,
+    Field,
+    Record,
+    Schema,
+    array,
+    inside,
+    one_of,
+    published,
+)
 from garkcli.tableau.polynomial_space import PolynomialSpace
 from garkcli.tableau.stages import StageSpace
 from garkcli.tableau.tableau import Colour, Tableau
 from garkcli.trees.notation import format_tree
 
-Document: TypeAlias = dict[str, Any]
+SCHEMA = "gark/certificate/1"
+Part = TypeVar("Part")
+_Block: TypeAlias = tuple[tuple[int, int], Matrix]
+"""The rows of a block, with its stage space and colour."""
 DIGITS_OF_ROOT = 100
 """Decimal places of the interval that says which root θ is."""
 
 
 def render(proof: MethodProof) -> str:
     """The proof as JSON text."""
-    tableau = proof.method.tableau
-    document: Document = {
-        "schema": "gark/certificate/1",
-        "name": proof.name,
-        "version": __version__,
-        "field": _field(tableau.field),
-        "method": _proof(proof.method),
-    }
-    if proof.conjugate is not None:
-        document["conjugate"] = _proof(proof.conjugate)
-    if proof.pair is not None:
-        document["pair"] = _proof(proof.pair)
-        document["pair"]["colour_of"] = _colours_of_pair(tableau, proof.pair.tableau)
-    if proof.obstacle:
-        document["no_conjugate"] = proof.obstacle
-    return to_json(document) + "\n"
+    return to_json(_REPORT.data(proof)) + "\n"
 
 
-def _field(field: NumberField | None) -> Document | None:
-    """θ by its minimal polynomial, lowest coefficient first, and an interval around it."""
-    if field is None:
-        return None
+def certificate_schema() -> Schema:
+    """The JSON Schema of certificates."""
+    return published("certificate of gark certificate", _REPORT.schema)
+
+
+def _coefficients(field: NumberField) -> list[str]:
+    """The minimal polynomial of θ, lowest coefficient first."""
+    return [str(field.modulus[k]) for k in range(field.degree + 1)]
+
+
+def _theta_between(field: NumberField) -> list[str]:
+    """An interval around θ."""
     theta = field.element(fmpq_poly([0, 1]))
     mantissa, exponent = to_ball(theta, DIGITS_OF_ROOT + 10).mid().man_exp()
     near = fmpq(mantissa) * fmpq(2) ** int(exponent)
     unit = fmpq(1, 10**DIGITS_OF_ROOT)
     rounded = unit * (near / unit).floor()
-    below, above = rounded - unit, rounded + 2 * unit
-    modulus = [str(field.modulus[k]) for k in range(field.degree + 1)]
-    return {"modulus": modulus, "theta_between": [str(below), str(above)]}
-
-
-def _proof(proof: Proof) -> Document:
-    data = _tableau(proof.tableau)
-    order = proof.order
-    data["order"] = order.order
-    data["spanning"] = [
-        [[format_tree(tree) for tree in trees] for trees in by_colour]
-        for by_colour in proof.spanning
-    ]
-    data["witness"] = _witness(order.witness, proof.tableau.degree)
-    return data
-
-
-def _witness(witness: Witness | None, degree: int) -> Document | None:
-    """The tree that fails, None where the search ended at its limit."""
-    if witness is None:
-        return None
-    return {
-        "tree": format_tree(witness.tree),
-        "value": _number(witness.value, degree),
-        "required": str(witness.required),
-    }
-
-
-def _tableau(tableau: Tableau) -> Document:
-    degree = tableau.degree
-    colours = [_colour(colour, degree) for colour in tableau.colours]
-    blocks = []
-    for (k, m), block in sorted(tableau.blocks.items()):
-        matrix = [[_number(x, degree) for x in row] for row in block]
-        blocks.append({"space": k + 1, "colour": m + 1, "A": matrix})
-    return {
-        "spaces": [_space(space) for space in tableau.spaces],
-        "colours": colours,
-        "blocks": blocks,
-    }
-
-
-def _colour(colour: Colour, degree: int) -> Document:
-    return {
-        "name": colour.name,
-        "space": colour.space + 1,
-        "drives": colour.part,
-        "linear": colour.is_linear,
-        "b": [_number(x, degree) for x in colour.b],
-    }
-
-
-def _space(space: StageSpace) -> Document:
-    """K^s, or K[x]/(M) with M lowest coefficient first and points at which its sign changes."""
-    if isinstance(space, PolynomialSpace):
-        modulus = [str(space.modulus[k]) for k in range(space.stages + 1)]
-        return {
-            "stages": space.stages,
-            "modulus": modulus,
-            "between_nodes": [str(x) for x in _between_nodes(space.modulus)],
-        }
-    return {"stages": space.stages}
+    return [str(rounded - unit), str(rounded + 2 * unit)]
 
 
 def _between_nodes(modulus: fmpq_poly) -> list[fmpq]:
@@ -138,6 +88,105 @@ def _number(number: Number, degree: int) -> str | list[str]:
     return [str(x) for x in coordinates(number, degree)]
 
 
-def _colours_of_pair(tableau: Tableau, both: Tableau) -> list[int]:
+def _between(space: StageSpace) -> list[str] | None:
+    if not isinstance(space, PolynomialSpace):
+        return None
+    return [str(x) for x in _between_nodes(space.modulus)]
+
+
+def _modulus(space: StageSpace) -> list[str] | None:
+    if not isinstance(space, PolynomialSpace):
+        return None
+    return [str(space.modulus[k]) for k in range(space.stages + 1)]
+
+
+def _colours_of_pair(proof: MethodProof) -> list[int]:
     """Which colour of the method each colour of the pair comes from."""
-    return [index % tableau.size + 1 for index in range(both.size)]
+    assert proof.pair is not None
+    size, doubled = proof.method.tableau.size, proof.pair.tableau.size
+    return [index % size + 1 for index in range(doubled)]
+
+
+class _In(NamedTuple, Generic[Part]):
+    """A part of a tableau over a field of some degree."""
+
+    part: Part
+    degree: int
+
+    def numbers(self, found: Iterable[Number]) -> list[str | list[str]]:
+        """These numbers as text, or as coordinates."""
+        return [_number(x, self.degree) for x in found]
+
+
+_RATIONAL: Schema = {"type": "string", "pattern": r"^-?\d+(/\d+)?$"}
+_NUMBER: Schema = one_of(_RATIONAL, array(_RATIONAL))
+"""A rational number, or the coordinates of one of ℚ(θ)."""
+_FIELD: Record[NumberField] = Record(
+    Field("modulus", array(_RATIONAL), _coefficients),
+    Field("theta_between", array(_RATIONAL), _theta_between),
+)
+_SPACE: Record[StageSpace] = Record(
+    Field("stages", POSITION, lambda x: x.stages),
+    Field("modulus", array(_RATIONAL), _modulus, is_optional=True),
+    Field("between_nodes", array(_RATIONAL), _between, is_optional=True),
+)
+_COLOUR: Record[_In[Colour]] = Record(
+    Field("name", TEXT, lambda x: x.part.name),
+    Field("space", POSITION, lambda x: x.part.space + 1),
+    Field("drives", {"enum": ["y", "q", "p"]}, lambda x: x.part.part),
+    Field("linear", FLAG, lambda x: x.part.is_linear),
+    Field("b", array(_NUMBER), lambda x: x.numbers(x.part.b)),
+)
+_BLOCK: Record[_In[_Block]] = Record(
+    Field("space", POSITION, lambda x: x.part[0][0] + 1),
+    Field("colour", POSITION, lambda x: x.part[0][1] + 1),
+    Field("A", array(array(_NUMBER)), lambda x: [x.numbers(r) for r in x.part[1]]),
+)
+_WITNESS: Record[_In[Witness]] = Record(
+    Field("tree", TEXT, lambda x: format_tree(x.part.tree)),
+    Field("value", _NUMBER, lambda x: _number(x.part.value, x.degree)),
+    Field("required", _RATIONAL, lambda x: str(x.part.required)),
+)
+
+
+def _parts(tableau: Tableau, parts: Iterable[Part]) -> list[_In[Part]]:
+    return [_In(part, tableau.degree) for part in parts]
+
+
+def _witness(proof: Proof) -> _In[Witness] | None:
+    """The tree that fails; None where the search ended at its limit."""
+    witness = proof.order.witness
+    return None if witness is None else _In(witness, proof.tableau.degree)
+
+
+def _spanning(proof: Proof) -> list[list[list[str]]]:
+    return [
+        [[format_tree(tree) for tree in trees] for trees in by_colour]
+        for by_colour in proof.spanning
+    ]
+
+
+_PROOF: Record[Proof] = Record(
+    _SPACE.every("spaces", lambda x: x.tableau.spaces),
+    _COLOUR.every("colours", lambda x: _parts(x.tableau, x.tableau.colours)),
+    _BLOCK.every(
+        "blocks", lambda x: _parts(x.tableau, sorted(x.tableau.blocks.items()))
+    ),
+    Field("order", COUNT, lambda x: x.order.order),
+    Field("spanning", array(array(array(TEXT))), _spanning),
+    _WITNESS.or_null("witness", _witness),
+)
+_PAIR: Record[MethodProof] = Record(
+    *inside(lambda x: x.pair, _PROOF.fields),
+    Field("colour_of", array(POSITION), _colours_of_pair),
+)
+_REPORT: Record[MethodProof] = Record(
+    Field("schema", {"const": SCHEMA}, lambda _: SCHEMA),
+    Field("name", TEXT, lambda x: x.name),
+    Field("version", TEXT, lambda _: __version__),
+    _FIELD.or_null("field", lambda x: x.method.tableau.field),
+    Field("method", _PROOF.schema, lambda x: _PROOF.data(x.method)),
+    _PROOF.optional("conjugate", lambda x: x.conjugate),
+    _PAIR.optional("pair", lambda x: None if x.pair is None else x),
+    Field("no_conjugate", TEXT, lambda x: x.obstacle or None, is_optional=True),
+)

@@ -8,7 +8,7 @@ from garkcli.exact.display import to_text
 from garkcli.properties.keys import KEYS
 from garkcli.properties.property import Size, Verdict
 from garkcli.properties.registry import find
-from garkcli.report.exactly import root_data
+from garkcli.report.exactly import ROOT_OF, root_data
 from garkcli.report.record import (
     COUNT,
     EXACT,
@@ -21,6 +21,7 @@ from garkcli.report.record import (
     Schema,
     array,
     nullable,
+    one_of,
 )
 
 if TYPE_CHECKING:
@@ -154,13 +155,7 @@ def _value(found: Verdict) -> Any:
     return "infinity" if value.root is None else root_data(value.root)
 
 
-_ROOT: Schema = {
-    "type": "object",
-    "required": ["root_of", "decimal"],
-    "properties": {"root_of": TEXT, "decimal": TEXT},
-    "additionalProperties": False,
-}
-_VALUE: Schema = {"oneOf": [{"type": ["boolean", "integer", "string", "null"]}, _ROOT]}
+_VALUE: Schema = one_of({"type": ["boolean", "integer", "string", "null"]}, ROOT_OF)
 _VERDICT: Record[tuple[str, Verdict]] = Record(
     Field("property", {"enum": list(KEYS)}, lambda x: x[0]),
     Field("value", _VALUE, lambda x: _value(x[1])),

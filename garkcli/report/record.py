@@ -17,10 +17,19 @@ EXACT: Schema = {
 }
 INTEGER: Schema = {"type": "integer"}
 FLAG: Schema = {"type": "boolean"}
+NULL: Schema = {"type": "null"}
 TRUE: Schema = {"const": True}
 COUNT: Schema = {"type": "integer", "minimum": 0}
 POSITION: Schema = {"type": "integer", "minimum": 1}
 """A number of a line, a stage or an order, from 1."""
+NUMERAL: Schema = {
+    "type": "string",
+    "description": "An exact number, or a decimal where digits were asked for.",
+}
+NUMBER: Schema = {
+    "type": ["number", "null"],
+    "description": "A float; null beyond the range of floats, or where there is none.",
+}
 SIZE: Schema = {
     "type": ["number", "null"],
     "minimum": 0,
@@ -33,12 +42,35 @@ def nullable(schema: Schema) -> Schema:
     kind = schema.get("type")
     if kind in ("string", "boolean", "integer", "number"):
         return {**schema, "type": [kind, "null"]}
-    return {"oneOf": [{"type": "null"}, schema]}
+    return one_of(NULL, schema)
 
 
 def array(items: Schema) -> Schema:
     """A list of these."""
     return {"type": "array", "items": items}
+
+
+def counts_of(what: str) -> Schema:
+    """A number for each of numbered things, by their numbers from 1."""
+    return {
+        "type": "object",
+        "description": f"By {what}.",
+        "patternProperties": {"^[1-9][0-9]*$": COUNT},
+        "additionalProperties": False,
+    }
+
+
+def one_of(*schemas: Schema) -> Schema:
+    """One of these, and of no two of them."""
+    return {"oneOf": [*schemas]}
+
+
+def published(title: str, schema: Schema) -> Schema:
+    """The schema of a whole document. Fields may be added to documents; those that are there never
+    change their meaning.
+    """
+    head = {"$schema": "http://json-schema.org/draft-07/schema#", "title": title}
+    return {**head, **schema}
 
 
 @dataclass(frozen=True)
@@ -96,6 +128,13 @@ class Record(Generic[Whole]):
         }
         return schema if self.is_open else {**schema, "additionalProperties": False}
 
+    def with_rows(self, name: str, row: Record[Any]) -> Schema:
+        """The schema of these objects with a last field, a list that is written row by row."""
+        schema = self.schema
+        properties = {**schema["properties"], name: array(row.schema)}
+        required = [*schema["required"], name]
+        return {**schema, "required": required, "properties": properties}
+
     def or_null(self, name: str, part: Callable[[Owner], Whole | None]) -> Field[Owner]:
         """A field with this object of a part; null where there is no such part."""
         return Field(name, nullable(self.schema), self._of(part))
@@ -105,6 +144,16 @@ class Record(Generic[Whole]):
     ) -> Field[Owner]:
         """A field with this object of a part; left out where there is no such part."""
         return Field(name, self.schema, self._of(part), is_optional=True)
+
+    def every(
+        self, name: str, parts: Callable[[Owner], Iterable[Whole]]
+    ) -> Field[Owner]:
+        """A field with a list of these objects, one for each part."""
+
+        def found(owner: Owner) -> object:
+            return [self.data(part) for part in parts(owner)]
+
+        return Field(name, array(self.schema), found)
 
     def _of(self, part: Callable[[Owner], Whole | None]) -> Callable[[Owner], object]:
         return _of_part(part, self.data)

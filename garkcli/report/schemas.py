@@ -10,11 +10,23 @@ from typing import Any
 
 from garkcli.errors import UsageProblem, did_you_mean
 
+_TABLEAU = "garkcli.report.tableau_json:tableau_report_schema"
 REPORTS = {
     "check": "garkcli.report.check_json:check_report_schema",
+    "explain": "garkcli.report.explanation:explanation_schema",
+    "trees": "garkcli.report.symplectic:trees_report_schema",
+    "conditions": "garkcli.report.conditions_json:conditions_report_schema",
+    "tableau": _TABLEAU,
+    "conjugate": _TABLEAU,
+    "reduce": _TABLEAU,
+    "stability": "garkcli.report.stability_json:stability_report_schema",
+    "design": "garkcli.report.design_data:design_report_schema",
     "modified": "garkcli.report.modified_data:modified_report_schema",
     "modified-energy": "garkcli.report.modified_energy:modified_energy_schema",
-    "explain": "garkcli.report.explanation:explanation_schema",
+    "converge": "garkcli.report.convergence_json:converge_report_schema",
+    "energy": "garkcli.report.energy_json:energy_report_schema",
+    "certificate": "garkcli.report.proof_json:certificate_schema",
+    "list": "garkcli.report.listing:list_report_schema",
 }
 """Where the function is that makes the schema of a command's report."""
 

@@ -3,40 +3,26 @@
 from __future__ import annotations
 
 from collections.abc import Sequence
-from typing import Any
 
 from garkcli.errors import UsageProblem
 from garkcli.exact.polynomial import Polynomial
 from garkcli.exact.polynomial_text import integral
 from garkcli.report.exactly import polynomial_latex
-from garkcli.report.json_text import to_json
 from garkcli.report.paint import Paint
-from garkcli.report.stability_colours import colours_data, fraction_latex
-from garkcli.report.stability_data import StabilityReport, as_data
+from garkcli.report.stability_colours import fraction_latex
+from garkcli.report.stability_data import StabilityReport
 from garkcli.report.stability_text import text_of
 
 
 def render(reports: Sequence[StabilityReport], format: str, paint: Paint) -> str:
     """All reports in one format."""
     if format == "json":
-        data = {
-            "schema": "gark/stability/1",
-            "files": [_data(report) for report in reports],
-        }
-        return to_json(data) + "\n"
+        from garkcli.report.stability_json import json_of
+
+        return json_of(reports)
     if format == "latex":
         return "\n".join(_latex(report) for report in reports)
     return "\n".join("\n".join(text_of(report, paint)) + "\n" for report in reports)
-
-
-def _data(report: StabilityReport) -> dict[str, Any]:
-    """One report as plain data: for several colours R is the one with a z for each."""
-    data = as_data(report)
-    colours = report.found.colours
-    if colours is not None:
-        data["R_alike"] = data["R"]
-        data |= colours_data(colours, report.digits)
-    return data
 
 
 def _latex(report: StabilityReport) -> str:

@@ -3,13 +3,11 @@
 from __future__ import annotations
 
 from collections.abc import Iterator
-from typing import Any
 
 from garkcli.exact.multivariate import Multivariate
 from garkcli.exact.polynomial_text import integral_scale, multivariate_text
-from garkcli.report.exactly import multivariate_latex, root_data
+from garkcli.report.exactly import multivariate_latex
 from garkcli.report.paint import Paint
-from garkcli.report.stability_data import ssp_data
 from garkcli.report.stability_region import damped_lines
 from garkcli.report.stability_words import equation, line, over, ssp_text
 from garkcli.stability.colours import Colours
@@ -90,45 +88,6 @@ def _ray_text(ray: Ray | None, what: str, digits: int) -> str:
     if ray.end.exact == 0:
         return "none"
     return f"{what} ≤ {equation(ray.end, 'x', digits).removeprefix('= ')}"
-
-
-def colours_data(found: Colours, digits: int) -> dict[str, Any]:
-    """The same for programs."""
-    names = [f"z{k + 1}" for k in range(found.size)]
-    data: dict[str, Any] = {"R": None}
-    if found.R is not None:
-        P, Q = integral_parts(found.R)
-        data["R"] = {
-            "numerator": multivariate_text(P, names),
-            "denominator": multivariate_text(Q, names),
-            "lowest_terms": found.R.is_reduced,
-        }
-    data["ssp_radii"] = [
-        {
-            "direction": [str(ratio) for ratio in radius.ratios],
-            "radius": ssp_data(radius.radius, digits),
-        }
-        for radius in found.radii
-    ]
-    data["pair"] = None if found.pair is None else _pair_data(found, digits)
-    return data
-
-
-def _pair_data(found: Colours, digits: int) -> dict[str, Any]:
-    pair = found.pair
-    assert pair is not None
-    return {
-        "explicit": found.names[pair.explicit],
-        "implicit": found.names[pair.implicit],
-        "real_interval": _ray_data(found.real, digits),
-        "imaginary_interval": _ray_data(found.imaginary, digits),
-    }
-
-
-def _ray_data(ray: Ray | None, digits: int) -> Any:
-    if ray is None:
-        return None
-    return {"to": None if ray.end is None else root_data(ray.end, digits)}
 
 
 def fraction_latex(found: Colours) -> str | None:

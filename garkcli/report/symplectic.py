@@ -5,17 +5,31 @@ from __future__ import annotations
 from collections.abc import Iterable, Iterator
 from itertools import groupby, zip_longest
 from textwrap import wrap
-from typing import Any
+from typing import Any, NamedTuple
 
 from garkcli.report.json_text import to_json
 from garkcli.report.latex import fragment
 from garkcli.report.paint import Paint, counted
-from garkcli.report.symplectic_subject import Subject
-from garkcli.report.trees import DRAWN_ORDER, picture
+from garkcli.report.record import (
+    FLAG,
+    POSITION,
+    TEXT,
+    Field,
+    Record,
+    Schema,
+    array,
+    counts_of,
+    one_of,
+    published,
+)
+from garkcli.report.symplectic_subject import SUBJECT, Subject
+from garkcli.report.trees import DRAWN_ORDER, picture, rooted_schemas
 from garkcli.trees.drawing import draw_text
 from garkcli.trees.notation import format_latex
-from garkcli.trees.symplectic import ConditionClass
+from garkcli.trees.symplectic import KINDS, ConditionClass
+from garkcli.trees.tree import Tree
 
+SCHEMA = "gark/symplectic-trees/1"
 WIDTH = 80
 _DRAWING = 60
 """The column at which the drawn trees begin."""
@@ -31,7 +45,7 @@ def render_classes(
 ) -> Iterator[str]:
     """The classes as pieces of text, each a whole line or more."""
     if format == "json":
-        yield _json_line(_head(subject))[:-1] + ', "classes": ['
+        yield _json_line(_HEAD.data(subject))[:-1] + ', "classes": ['
         separator = "\n"
         for tree in classes:
             data = _data(subject, tree, with_members)
@@ -71,10 +85,7 @@ def _csv(
 def render_class_counts(subject: Subject, format: str, paint: Paint) -> Iterator[str]:
     """The numbers of classes alone."""
     if format in {"json", "ndjson"}:
-        head = _head(subject)
-        if len(subject.orders) > 1:
-            by_order = {str(n): few for n, few, _ in subject.counts}
-            head["by_order"] = by_order
+        head = _COUNTED.data(subject)
         indent = None if format == "ndjson" else 2
         yield to_json(head, indent=indent, ascii_only=True) + "\n"
         return
@@ -131,26 +142,63 @@ def member_lines(members: Iterable[str], width: int = WIDTH) -> list[str]:
     return lines
 
 
-def _head(subject: Subject) -> dict[str, Any]:
-    orders = subject.orders
-    scope = {"order": orders[-1], "upto": len(orders) > 1}
-    return {"schema": "gark/symplectic-trees/1", **scope, **subject.data()}
+def _by_order(subject: Subject) -> dict[str, int] | None:
+    """The classes of each order, where there are several."""
+    if len(subject.orders) == 1:
+        return None
+    return {str(n): few for n, few, _ in subject.counts}
+
+
+_HEAD: Record[Subject] = Record(
+    Field("schema", {"const": SCHEMA}, lambda _: SCHEMA),
+    Field("order", POSITION, lambda x: x.orders[-1]),
+    Field("upto", FLAG, lambda x: len(x.orders) > 1),
+    *SUBJECT.fields,
+)
+_COUNTED: Record[Subject] = Record(
+    *_HEAD.fields,
+    Field("by_order", counts_of("order"), _by_order, is_optional=True),
+)
+
+
+class _Class(NamedTuple):
+    """One row: a class of trees, and whether its members are listed."""
+
+    subject: Subject
+    found: ConditionClass
+    with_members: bool
+
+    @property
+    def tree(self) -> Tree:
+        """The representative."""
+        return self.found.representative
+
+    @property
+    def members(self) -> list[str] | None:
+        """The trees of the class, where they are listed."""
+        return self.subject.members(self.found) if self.with_members else None
+
+
+_ROW: Record[_Class] = Record(
+    Field("kind", {"enum": [*KINDS]}, lambda x: x.subject.kind),
+    Field("representative", TEXT, lambda x: x.subject.text(x.found)),
+    Field("root", POSITION, lambda x: x.tree.root + 1),
+    Field("order", POSITION, lambda x: x.tree.order),
+    Field("sigma", POSITION, lambda x: x.tree.symmetry),
+    Field("gamma", POSITION, lambda x: x.tree.density),
+    Field("stands_for", POSITION, lambda x: len(x.found.members)),
+    Field("members", array(TEXT), lambda x: x.members, is_optional=True),
+)
 
 
 def _data(subject: Subject, tree: ConditionClass, with_members: bool) -> dict[str, Any]:
-    here = tree.representative
-    data: dict[str, Any] = {
-        "kind": subject.kind,
-        "representative": subject.text(tree),
-        "root": here.root + 1,
-        "order": here.order,
-        "sigma": here.symmetry,
-        "gamma": here.density,
-        "stands_for": len(tree.members),
-    }
-    if with_members:
-        data["members"] = subject.members(tree)
-    return data
+    return _ROW.data(_Class(subject, tree, with_members))
+
+
+def trees_report_schema() -> Schema:
+    """The JSON Schema of ``gark trees``: rooted trees or free ones, listed or counted."""
+    free = [_HEAD.with_rows("classes", _ROW), _COUNTED.schema]
+    return published("report of gark trees", one_of(*rooted_schemas(), *free))
 
 
 def _text(

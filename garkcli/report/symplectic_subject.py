@@ -5,10 +5,11 @@ from __future__ import annotations
 from collections.abc import Iterator
 from dataclasses import dataclass
 from functools import cached_property
-from typing import TYPE_CHECKING, Any
+from typing import TYPE_CHECKING
 
 from garkcli.errors import UsageProblem
 from garkcli.report.paint import counted
+from garkcli.report.record import COUNT, POSITION, TEXT, Field, Record, array
 from garkcli.trees.count import Admissible, counts_upto
 from garkcli.trees.free import Structure
 from garkcli.trees.notation import format_tree
@@ -119,14 +120,14 @@ class Subject:
     @property
     def summary(self) -> str:
         """How many conditions are left, in words."""
-        few, many = self.independent, self._all_conditions
+        few, many = self.independent, self.all_conditions
         conditions = counted(few, "independent condition")
         which = "of order" if len(self.orders) == 1 else "up to order"
         instead = "" if few == many else f", instead of {many}"
         return f"{conditions} {which} {self.orders[-1]} for {self._problem}{instead}"
 
     @property
-    def _all_conditions(self) -> int:
+    def all_conditions(self) -> int:
         """The conditions of all orders, were the method not symplectic."""
         return sum(k for _, _, k in self.counts)
 
@@ -139,15 +140,15 @@ class Subject:
             return f"a self-conjugate method of {counted(terms, 'vector field')}"
         return _PROBLEMS[self.kind]
 
-    def data(self) -> dict[str, Any]:
-        """The same for JSON."""
-        return {
-            "kind": self.kind,
-            "terms": len(self.structure.leaders),
-            "colours": list(self.names),
-            "count": self.independent,
-            "instead_of": self._all_conditions,
-        }
+
+SUBJECT: Record[Subject] = Record(
+    Field("kind", {"enum": [*KINDS]}, lambda x: x.kind),
+    Field("terms", POSITION, lambda x: len(x.structure.leaders)),
+    Field("colours", array(TEXT), lambda x: list(x.names)),
+    Field("count", COUNT, lambda x: x.independent),
+    Field("instead_of", COUNT, lambda x: x.all_conditions),
+)
+"""The same for JSON."""
 
 
 def subject_of_kind(kind: Kind, terms: int | None, orders: range) -> Subject:

@@ -1,48 +1,88 @@
-"""``gark tableau`` and ``gark conjugate`` as JSON: exact strings, with floats of the same shape
-beside them.
+"""``gark tableau``, ``gark conjugate`` and ``gark reduce`` as JSON: exact strings, with floats of
+the same shape beside them.
 """
 
 from __future__ import annotations
 
-from collections.abc import Callable
-from typing import Any
+from collections.abc import Callable, Sequence
+from typing import Any, NamedTuple
 
 from flint import arb
 
 from garkcli.exact.display import to_float
-from garkcli.report.check_json import colours_data
+from garkcli.report.check_json import COLOUR, colours_data
 from garkcli.report.json_text import to_json
+from garkcli.report.record import (
+    FLAG,
+    NUMBER,
+    NUMERAL,
+    TEXT,
+    Field,
+    Record,
+    Schema,
+    array,
+    inside,
+    nullable,
+    published,
+)
 from garkcli.report.tableau_text import cell_text
 from garkcli.tableau.pointwise import Cell, Entries
 from garkcli.tableau.tableau import Tableau
 
+SCHEMA = "gark/tableau/1"
+
 
 def render(tableau: Tableau, entries: Entries, name: str) -> str:
     """The tableau as JSON text."""
-    data = {
-        "schema": "gark/tableau/1",
-        "name": name,
-        "exact": entries.is_exact,
-        "colours": colours_data(tableau),
-        **_mapped(entries, lambda cell: cell_text(cell, entries.digits)),
-        "float": _mapped(entries, _float),
-    }
-    return to_json(data) + "\n"
+    return to_json(_REPORT.data(_Shown(tableau, entries, name))) + "\n"
+
+
+def tableau_report_schema() -> Schema:
+    """The JSON Schema of tableaus, of all commands that print one."""
+    return published("tableau of gark tableau, conjugate and reduce", _REPORT.schema)
+
+
+class _Shown(NamedTuple):
+    """A tableau with the entries that are shown of it."""
+
+    tableau: Tableau
+    entries: Entries
+    name: str
 
 
 def _float(cell: Cell) -> float:
     return float(cell) if isinstance(cell, arb) else to_float(cell)
 
 
-def _mapped(entries: Entries, change: Callable[[Cell], Any]) -> dict[str, Any]:
-    return {
-        "c": [[change(x) for x in row] for row in entries.c],
-        "A": [
-            [
-                None if block is None else [[change(x) for x in row] for row in block]
-                for block in row
-            ]
+def _entry_fields(
+    entry: Schema, change: Callable[[Entries, Cell], object]
+) -> tuple[Field[Entries], ...]:
+    """c, A and b with their entries changed into what ``entry`` describes."""
+
+    def rows(entries: Entries, found: Sequence[Sequence[Cell]]) -> list[list[Any]]:
+        return [[change(entries, x) for x in row] for row in found]
+
+    def blocks(entries: Entries) -> list[list[Any]]:
+        return [
+            [None if block is None else rows(entries, block) for block in row]
             for row in entries.A
-        ],
-        "b": [[change(x) for x in row] for row in entries.b],
-    }
+        ]
+
+    matrix = array(array(entry))
+    return (
+        Field("c", matrix, lambda x: rows(x, x.c)),
+        Field("A", array(array(nullable(matrix))), blocks),
+        Field("b", matrix, lambda x: rows(x, x.b)),
+    )
+
+
+_EXACT = _entry_fields(NUMERAL, lambda entries, x: cell_text(x, entries.digits))
+_FLOATS: Record[Entries] = Record(*_entry_fields(NUMBER, lambda _, x: _float(x)))
+_REPORT: Record[_Shown] = Record(
+    Field("schema", {"const": SCHEMA}, lambda _: SCHEMA),
+    Field("name", TEXT, lambda x: x.name),
+    Field("exact", FLAG, lambda x: x.entries.is_exact),
+    Field("colours", array(COLOUR.schema), lambda x: colours_data(x.tableau)),
+    *inside(lambda x: x.entries, _EXACT),
+    Field("float", _FLOATS.schema, lambda x: _FLOATS.data(x.entries)),
+)

@@ -10,10 +10,21 @@ from typing import NamedTuple, TypeAlias
 from garkcli.report.json_text import to_json
 from garkcli.report.latex import fragment
 from garkcli.report.paint import Paint, counted, folded
+from garkcli.report.record import (
+    COUNT,
+    FLAG,
+    POSITION,
+    TEXT,
+    Field,
+    Record,
+    Schema,
+    counts_of,
+)
 from garkcli.trees.drawing import draw_text, tikz
 from garkcli.trees.notation import format_latex, parse_tree
 from garkcli.trees.tree import Tree
 
+SCHEMA = "gark/trees/1"
 Counts: TypeAlias = Sequence[tuple[int, tuple[int, ...]]]
 """For each order, the numbers of trees by root colour."""
 WIDTH = 80
@@ -58,7 +69,7 @@ def render(
         yield from _json(query, rows, counts)
     elif format == "ndjson":
         for row in rows:
-            yield to_json(_data(row), indent=None, ascii_only=True) + "\n"
+            yield to_json(_ROW.data(row), indent=None, ascii_only=True) + "\n"
     elif format == "csv":
         yield "tree,root,order,sigma,gamma\n"
         for row in rows:
@@ -74,12 +85,7 @@ def render_counts(
 ) -> Iterator[str]:
     """The counts alone."""
     if format in {"json", "ndjson"}:
-        head = _head(query, counts)
-        if query.upto:
-            by_order = {}
-            for n, by_root in counts:
-                by_order[str(n)] = sum(kept(query, by_root))
-            head["by_order"] = by_order
+        head = _COUNTED.data(_Found(query, counts))
         indent = None if format == "ndjson" else 2
         yield to_json(head, indent=indent, ascii_only=True) + "\n"
         return
@@ -110,31 +116,54 @@ def kept(query: Query, by_root: Sequence[int]) -> list[int]:
     return [count for _, count in _roots(query, by_root)]
 
 
-def _head(query: Query, counts: Counts) -> dict[str, object]:
-    by_root: dict[str, int] = {}
-    for _, row in counts:
-        for root, count in _roots(query, row):
-            key = str(root)
-            by_root.setdefault(key, 0)
-            by_root[key] += count
-    return {
-        "schema": "gark/trees/1",
-        "colours": query.colours,
-        "order": query.order,
-        "upto": query.upto,
-        "count": sum(by_root.values()),
-        "by_root": by_root,
-    }
+class _Found(NamedTuple):
+    """What was asked for, and how many trees there are."""
+
+    query: Query
+    counts: Counts
+
+    @property
+    def by_root(self) -> dict[str, int]:
+        """The trees of each root colour."""
+        total: dict[str, int] = {}
+        for _, row in self.counts:
+            for root, count in _roots(self.query, row):
+                key = str(root)
+                total[key] = total.get(key, 0) + count
+        return total
+
+    @property
+    def by_order(self) -> dict[str, int] | None:
+        """The trees of each order, where there are several."""
+        if not self.query.upto:
+            return None
+        return {str(n): sum(kept(self.query, row)) for n, row in self.counts}
 
 
-def _data(row: TreeRow) -> dict[str, object]:
-    return {
-        "tree": row.tree,
-        "root": row.root + 1,
-        "order": row.order,
-        "sigma": row.sigma,
-        "gamma": row.gamma,
-    }
+_ROW: Record[TreeRow] = Record(
+    Field("tree", TEXT, lambda x: x.tree),
+    Field("root", POSITION, lambda x: x.root + 1),
+    Field("order", POSITION, lambda x: x.order),
+    Field("sigma", POSITION, lambda x: x.sigma),
+    Field("gamma", POSITION, lambda x: x.gamma),
+)
+_HEAD: Record[_Found] = Record(
+    Field("schema", {"const": SCHEMA}, lambda _: SCHEMA),
+    Field("colours", POSITION, lambda x: x.query.colours),
+    Field("order", POSITION, lambda x: x.query.order),
+    Field("upto", FLAG, lambda x: x.query.upto),
+    Field("count", COUNT, lambda x: sum(x.by_root.values())),
+    Field("by_root", counts_of("root colour"), lambda x: x.by_root),
+)
+_COUNTED: Record[_Found] = Record(
+    *_HEAD.fields,
+    Field("by_order", counts_of("order"), lambda x: x.by_order, is_optional=True),
+)
+
+
+def rooted_schemas() -> list[Schema]:
+    """The JSON Schemas of lists and of counts of rooted trees."""
+    return [_HEAD.with_rows("trees", _ROW), _COUNTED.schema]
 
 
 def _json(
@@ -143,11 +172,11 @@ def _json(
     if counts is None:
         rows = list(rows)
         counts = _counted(query, rows)
-    head = to_json(_head(query, counts), indent=None, ascii_only=True)
+    head = to_json(_HEAD.data(_Found(query, counts)), indent=None, ascii_only=True)
     yield head[:-1] + ', "trees": ['
     separator = "\n"
     for row in rows:
-        line = to_json(_data(row), indent=None, ascii_only=True)
+        line = to_json(_ROW.data(row), indent=None, ascii_only=True)
         yield separator + line
         separator = ",\n"
     yield "\n]}\n"

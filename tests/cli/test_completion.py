@@ -12,6 +12,7 @@ import pytest
 from click.shell_completion import BashComplete
 
 from garkcli.cli.main import COMMANDS, gark
+from garkcli.report.schemas import REPORTS
 from tests.cli.harness import ROOT
 
 
@@ -66,6 +67,17 @@ def test_problems_are_completed(
     assert ("plain", "pendulum.yml") in completions("converge", "m", "--problem", "p")
     assert ("plain", "pendulum") in completions("converge", "m", "--problem", "p")
     assert completions("check", "m", "--format", "sa") == [("plain", "sarif")]
+
+
+def test_reports_with_a_schema_are_completed() -> None:
+    """Every report whose schema there is, and no other command."""
+    found = completions("schema", "--report", "con")
+    assert found == [
+        ("plain", "conditions"),
+        ("plain", "conjugate"),
+        ("plain", "converge"),
+    ]
+    assert [x for _, x in completions("schema", "--report", "")] == list(REPORTS)
 
 
 @pytest.mark.skipif(os.name != "posix", reason="asks as bash does")

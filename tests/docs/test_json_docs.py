@@ -26,7 +26,10 @@ REPORTS = {
         ["conditions", METHOD, "--order", "2"],
         ["conditions", METHOD, "--order", "2", "--symplectic", "--members"],
     ],
-    "tableau, gark conjugate": [["tableau", METHOD], ["conjugate", METHOD]],
+    "tableau, gark conjugate, gark reduce": [
+        ["tableau", METHOD],
+        ["conjugate", METHOD],
+    ],
     "stability": [
         ["stability", METHOD],
         ["stability", "methods/rectangular.gark.yaml"],
@@ -49,12 +52,13 @@ REPORTS = {
         ["energy", METHOD, "--problem", "pendulum", "--t-end", "10", "--bounded"],
         ["energy", METHOD, "--problem", "pendulum", "--t-end", "10", "--symplecticity"],
     ],
+    "design": [["design", "tests/examples/families/sdirk.gark.yaml"]],
     "list": [["list"]],
 }
 """Of each section the runs whose reports it describes."""
 
-GIVEN_NAMES = re.compile(r"[VFfHP]?\d+|angular momentum")
-"""Keys that are names of colours or invariants."""
+GIVEN_NAMES = re.compile(r"[VFfHP]?\d+|angular momentum|g")
+"""Keys that are names of colours, invariants or parameters."""
 
 
 def section(name: str) -> str:

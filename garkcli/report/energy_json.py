@@ -1,0 +1,156 @@
+"""``gark energy --format json`` and its JSON Schema."""
+
+from __future__ import annotations
+
+from typing import NamedTuple, get_args
+
+from flint import fmpq
+
+from garkcli.exact.display import to_decimal, to_float
+from garkcli.longtime.history import InvariantHistory, LongRun, Verdict
+from garkcli.longtime.stability import Stability
+from garkcli.longtime.symplecticity import Defect, Symplecticity
+from garkcli.longtime.trend import Shape
+from garkcli.report.energy_text import Claim, Report
+from garkcli.report.json_text import to_json
+from garkcli.report.problem_json import NAME, TERMS, Stepped
+from garkcli.report.record import (
+    COUNT,
+    EXACT,
+    FLAG,
+    NUMBER,
+    POSITION,
+    SIZE,
+    TEXT,
+    Field,
+    Record,
+    Schema,
+    inside,
+    nullable,
+    one_of,
+    published,
+)
+
+SCHEMA = "gark/energy/1"
+
+
+def json_of(report: Report) -> str:
+    """The report as JSON text."""
+    form = _REPORTS[type(report.run.problem)]
+    return to_json(form.data(report)) + "\n"
+
+
+def energy_report_schema() -> Schema:
+    """The JSON Schema of these reports."""
+    forms = (form.schema for form in _REPORTS.values())
+    return published("report of gark energy", one_of(*forms))
+
+
+class _Quantity(NamedTuple):
+    """What became of one quantity, and the time that was reached."""
+
+    history: InvariantHistory
+    end: float
+
+    @property
+    def drift_in_all(self) -> float | None:
+        """What the drift adds up to."""
+        drift = self.history.drift
+        return None if drift is None else drift * self.end
+
+
+def _float(x: fmpq | None) -> float | None:
+    return None if x is None else to_float(x)
+
+
+def _turns(run: LongRun) -> int | None:
+    """None where the steps are exact: nothing is counted then."""
+    return None if run.digits is None else run.turns
+
+
+def _has_blown_up(run: LongRun) -> bool:
+    return run.is_unstable and run.escaped is None
+
+
+class _Measured(NamedTuple):
+    """How symplectic the steps are, and the stability of the step map of the oscillator."""
+
+    found: Symplecticity
+    stability: Stability | None
+
+
+def _measured(report: Report) -> _Measured | None:
+    """None where the problem is not Hamiltonian."""
+    if report.symplecticity is None:
+        return None
+    return _Measured(report.symplecticity, report.run.stability)
+
+
+def _determinant(measured: _Measured) -> str | None:
+    """The determinant of M minus 1, of the step map of the oscillator."""
+    stability = measured.stability
+    return None if stability is None else to_decimal(stability.determinant - 1, 4)
+
+
+def _quantities(run: LongRun) -> list[_Quantity]:
+    return [_Quantity(history, run.end) for history in run.invariants]
+
+
+def _problem(run: LongRun) -> Stepped:
+    return run.problem
+
+
+_QUANTITY: Record[_Quantity] = Record(
+    Field("name", TEXT, lambda x: x.history.name),
+    Field("initial", NUMBER, lambda x: x.history.initial),
+    Field("max_error", SIZE, lambda x: x.history.max_error),
+    Field("drift", NUMBER, lambda x: x.history.drift),
+    Field("drift_uncertainty", SIZE, lambda x: x.history.uncertainty),
+    Field("drift_in_all", NUMBER, lambda x: x.drift_in_all),
+    Field("oscillation", SIZE, lambda x: x.history.amplitude),
+    Field("round_off", SIZE, lambda x: x.history.round_off),
+    Field("rounded_coefficients", SIZE, lambda x: x.history.coefficients),
+    Field("verdict", {"enum": [*get_args(Verdict)]}, lambda x: x.history.verdict),
+    Field("trend", {"enum": [*get_args(Shape)]}, lambda x: x.history.shape),
+    Field("t_end_to_decide", SIZE, lambda x: _float(x.history.longer)),
+)
+_RUN: tuple[Field[LongRun], ...] = (
+    Field("step", SIZE, lambda x: to_float(x.step)),
+    Field("step_exact", EXACT, lambda x: str(x.step)),
+    Field("t_end", SIZE, lambda x: to_float(x.t_end)),
+    Field("t_end_exact", EXACT, lambda x: str(x.t_end)),
+    Field("steps", COUNT, lambda x: x.steps),
+    Field("digits", nullable(POSITION), lambda x: x.digits),
+    Field("turns", nullable(COUNT), _turns),
+    Field("blew_up", FLAG, _has_blown_up),
+    Field("escaped_at", SIZE, lambda x: _float(x.escaped)),
+    Field("drifts", FLAG, lambda x: x.drifts),
+    _QUANTITY.every("quantities", _quantities),
+)
+_DEFECT: Record[Defect] = Record(
+    Field("t", SIZE, lambda x: to_float(x.time)),
+    Field("size", SIZE, lambda x: x.size),
+    Field("good_to", SIZE, lambda x: x.error),
+)
+_SYMPLECTIC: Record[_Measured] = Record(
+    Field("proved", FLAG, lambda x: x.found.is_proved),
+    Field("determinant_minus_1", TEXT, _determinant, is_optional=True),
+    _DEFECT.every("defects", lambda x: x.found.defects),
+)
+_CLAIM: Record[Claim] = Record(
+    Field("claim", TEXT, lambda x: x.claim),
+    Field("found", TEXT, lambda x: x.found),
+    Field("holds", FLAG, lambda x: x.holds),
+)
+_REPORTS: dict[type[Stepped], Record[Report]] = {
+    kind: Record(
+        Field("schema", {"const": SCHEMA}, lambda _: SCHEMA),
+        *inside(lambda x: x.run, inside(_problem, [NAME, *terms])),
+        Field("name", TEXT, lambda x: x.name),
+        *inside(lambda x: x.run, _RUN),
+        _SYMPLECTIC.or_null("symplectic", _measured),
+        _CLAIM.every("claims", lambda x: x.claims),
+    )
+    for kind, terms in TERMS.items()
+}
+"""By the kind of the problem."""

@@ -1,0 +1,56 @@
+"""Which problem was stepped, in JSON reports."""
+
+from __future__ import annotations
+
+from typing import Any, TypeAlias
+
+from garkcli.problems.hamiltonian import Hamiltonian
+from garkcli.problems.oscillator import Oscillator
+from garkcli.problems.problem import Problem
+from garkcli.problems.righthandside import RightHandSide
+from garkcli.report.record import EXACT, TEXT, Field, array, nullable
+
+Stepped: TypeAlias = Oscillator | Problem
+
+
+def name_of(problem: Stepped) -> str:
+    """What --problem calls it."""
+    return "oscillator" if isinstance(problem, Oscillator) else problem.name
+
+
+def _split(problem: Oscillator) -> list[list[str]]:
+    return [[str(k), str(v)] for k, v in problem.shares]
+
+
+def _hamiltonians(problem: Hamiltonian) -> list[str]:
+    return [str(term) for term in problem.terms]
+
+
+def _sides(problem: RightHandSide) -> list[list[str]]:
+    return [[str(x) for x in term] for term in problem.terms]
+
+
+def _stiffness(problem: RightHandSide) -> str | None:
+    return None if problem.stiffness is None else str(problem.stiffness)
+
+
+NAME: Field[Stepped] = Field("problem", TEXT, name_of)
+_OSCILLATOR: tuple[Field[Oscillator], ...] = (
+    Field("omega", EXACT, lambda x: str(x.omega)),
+    Field("split", array(array(EXACT)), _split),
+)
+_HAMILTONIAN: tuple[Field[Hamiltonian], ...] = (
+    Field("hamiltonian", array(TEXT), _hamiltonians),
+)
+_RIGHT_HAND_SIDE: tuple[Field[RightHandSide], ...] = (
+    Field("right_hand_sides", array(array(TEXT)), _sides),
+    Field("stiffness", nullable(EXACT), _stiffness),
+)
+TERMS: dict[type[Stepped], tuple[Field[Any], ...]] = {
+    Oscillator: _OSCILLATOR,
+    Hamiltonian: _HAMILTONIAN,
+    RightHandSide: _RIGHT_HAND_SIDE,
+}
+"""By the kind of the problem: ω and the shares (k_l, v_l) of each term, the terms H^{l} as text, or
+the components of each term f^{l}.
+"""

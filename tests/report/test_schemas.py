@@ -1,0 +1,221 @@
+"""Every report for programs keeps to the schema that is published of it, on many methods and
+problems, and the schema refuses what is not such a report.
+"""
+
+from __future__ import annotations
+
+import json
+import re
+from copy import deepcopy
+from functools import cache
+from pathlib import Path
+from typing import Any
+
+import pytest
+from jsonschema import Draft7Validator
+
+from garkcli.cli.main import COMMANDS
+from garkcli.report.schemas import REPORTS, report_schema
+from tests.cli.harness import ROOT, gark
+
+METHODS = [f"methods/{path.name}" for path in sorted(ROOT.glob("methods/*.gark.yaml"))]
+EXAMPLES = [
+    f"tests/examples/{folder}/{path.name}"
+    for folder in ("valid", "failing")
+    for path in sorted(ROOT.glob(f"tests/examples/{folder}/*.gark.yaml"))
+]
+FILES = [*METHODS, *EXAMPLES]
+PROBLEMS = [f"problems/{path.name}" for path in sorted(ROOT.glob("problems/*.yaml"))]
+SLOW = {
+    "methods/gauss6-lobatto7.gark.yaml",
+    "methods/three-colours.gark.yaml",
+    "tests/examples/valid/families-implicit.gark.yaml",
+}
+"""Files whose stability takes a good part of a second."""
+FAMILY = "tests/examples/families/sdirk.gark.yaml"
+IMEX = "methods/ark-ars222.gark.yaml"
+VERLET = "methods/stoermer-verlet.gark.yaml"
+COLLOCATION = "methods/collocation.gark.yaml"
+ROUNDED = "tests/examples/valid/rounded.gark.yaml"
+RUNS: dict[str, list[tuple[str, ...]]] = {
+    "check": [(file, "--max-order", "3") for file in METHODS],
+    "explain": [("check", "--explain", "order")],
+    "trees": [
+        ("-n", "4"),
+        ("-N", "2", "-n", "3", "--upto"),
+        ("-N", "2", "-n", "3", "--colours-used", "1,2"),
+        ("-n", "30", "--count"),
+        ("-N", "3", "-n", "5", "--count", "--upto", "--root", "2"),
+        ("--tree", "[[]_2]_1"),
+        ("-n", "5", "--symplectic"),
+        ("-n", "4", "--upto", "--symplectic", "--members"),
+        ("-n", "5", "--upto", "--symplectic", "--count"),
+    ],
+    "conditions": [
+        (),
+        ("-N", "2", "--coloured", "-n", "3"),
+        ("--symplectic", "--members"),
+        (COLLOCATION, "--digits", "5"),
+        (COLLOCATION, "--failing", "-n", "5"),
+        (COLLOCATION, "--failing", "-n", "2"),
+        (VERLET, "--symplectic", "--members"),
+        *((file, "-n", "2") for file in FILES),
+    ],
+    "tableau": [(file,) for file in FILES] + [(COLLOCATION, "--digits", "8")],
+    "conjugate": [(file, "--pair") for file in FILES] + [(COLLOCATION,)],
+    "reduce": [(file,) for file in FILES],
+    "stability": [
+        *((file,) for file in METHODS if file not in SLOW),
+        (ROUNDED,),
+        (VERLET, COLLOCATION),
+        (COLLOCATION, "--slow", "1/4", "--fast", "2"),
+        (COLLOCATION, "--slow", "0..1/4", "--fast", "2"),
+        (IMEX, "--ratio", "2"),
+    ],
+    "modified": [
+        *((file, "-n", "3") for file in FILES if file not in SLOW),
+        (VERLET, "-n", "3", "--problem", "pendulum"),
+        (VERLET, "-n", "3", "--digits", "5"),
+    ],
+    "modified-energy": [("energy", COLLOCATION, "--modified", "--t-end", "1")],
+    "design": [(FAMILY,), (FAMILY, "--order", "4"), (FAMILY, "--pair")],
+    "certificate": [(file,) for file in FILES],
+    "list": [()],
+    "energy": [
+        (VERLET, "--t-end", "10"),
+        (COLLOCATION, "--t-end", "10"),
+        (VERLET, "--problem", "kepler", "--t-end", "3", "--step", "1/20"),
+        (ROUNDED, "--t-end", "10", "--bounded"),
+        (VERLET, "--problem", "pendulum", "--t-end", "2", "--symplecticity"),
+        (VERLET, "--problem", PROBLEMS[1], "--t-end", "1"),
+        (IMEX, "--problem", "van-der-pol", "--t-end", "1"),
+    ],
+    "converge": [
+        (VERLET, "--problem", "oscillator"),
+        (VERLET, "--problem", "pendulum", "--work"),
+        (VERLET, COLLOCATION, "nowhere.yaml", "--problem", "oscillator"),
+        (IMEX, "--problem", "prothero-robinson"),
+    ],
+}
+"""How each report is asked for."""
+
+
+@cache
+def validator(command: str) -> Draft7Validator:
+    """What decides whether something is a report of a command."""
+    return Draft7Validator(report_schema(command))
+
+
+@cache
+def reports(command: str) -> list[dict[str, Any]]:
+    """The reports of all runs of a command; those that end with a message have none."""
+    found = []
+    for arguments in RUNS[command]:
+        words = (command, *arguments) if command in COMMANDS else arguments
+        run = gark(*words, "--format", "json")
+        assert run.code in (0, 1, 2), run.err
+        if run.out:
+            found.append(json.loads(run.out))
+    return found
+
+
+def complaints(command: str, report: object) -> list[str]:
+    """What the schema has against a report."""
+    return [
+        f"{list(error.absolute_path)}: {error.message[:300]}"
+        for error in validator(command).iter_errors(report)
+    ]
+
+
+@pytest.mark.parametrize("command", REPORTS)
+def test_the_schema_is_one(command: str) -> None:
+    """Draft-07, with a title; the command prints it."""
+    schema = report_schema(command)
+    Draft7Validator.check_schema(schema)
+    assert schema["$schema"] == "http://json-schema.org/draft-07/schema#"
+    assert command.split("-")[-1] in schema["title"]
+    printed = gark("schema", "--report", command)
+    assert json.loads(printed.out) == schema
+
+
+def test_every_command_with_a_report_has_a_schema() -> None:
+    """All commands but ``gark schema``, whose output is a schema itself; and every name of a report
+    that the program writes is the constant of a schema.
+    """
+    assert set(COMMANDS) - {"schema"} <= set(REPORTS)
+    assert RUNS.keys() == REPORTS.keys()
+    names = set()
+    for path in Path(ROOT, "garkcli").rglob("*.py"):
+        names |= set(re.findall(r"gark/[a-z-]+/1", path.read_text(encoding="utf-8")))
+    schemas = json.dumps([report_schema(command) for command in REPORTS])
+    assert names == set(re.findall(r'"const": "(gark/[a-z-]+/1)"', schemas))
+
+
+@pytest.mark.parametrize("command", REPORTS)
+def test_reports_keep_to_their_schema(command: str) -> None:
+    """Whatever the method, the problem and the options, the schema allows the report."""
+    found = reports(command)
+    assert len(found) >= len(RUNS[command]) * 3 // 5
+    for report in found:
+        assert complaints(command, report) == []
+
+
+def objects(value: Any, at: tuple[Any, ...] = ()) -> list[tuple[Any, ...]]:
+    """The paths to all objects in plain data, the first of each list alone."""
+    if isinstance(value, dict):
+        inner = [x for key, one in value.items() for x in objects(one, (*at, key))]
+        return [at, *inner]
+    return objects(value[0], (*at, 0)) if isinstance(value, list) and value else []
+
+
+def changed(report: dict[str, Any], path: tuple[Any, ...]) -> tuple[Any, Any]:
+    """A copy of a report, and the object in it at a path."""
+    copy = deepcopy(report)
+    here: Any = copy
+    for step in path:
+        here = here[step]
+    return copy, here
+
+
+OPEN = {("check", ()), ("explain", ())}
+"""Objects to which a later release may add fields without a new schema."""
+
+
+@pytest.mark.parametrize("command", REPORTS)
+def test_what_is_wrong_is_refused(command: str) -> None:
+    """At each place of a report: a field that nobody described, a value of another type; and a
+    report of another command.
+    """
+    report = max(reports(command), key=lambda x: len(objects(x)))
+    for path in objects(report):
+        copy, here = changed(report, path)
+        if {"invariant_errors", "values"} & {*path}:
+            continue  # the keys are names of the problem or of parameters
+        here["mood"] = "good"
+        assert bool(complaints(command, copy)) != ((command, path) in OPEN), path
+        del here["mood"]
+        for key in list(here):
+            kept = here[key]
+            here[key] = {"not": ["this"]}
+            assert complaints(command, copy), (*path, key)
+            here[key] = kept
+    assert complaints(command, {**report, "schema": "gark/other/1"})
+
+
+@pytest.mark.parametrize("command", REPORTS)
+def test_a_field_that_is_missing_is_refused(command: str) -> None:
+    """Each field at the top of a report has to be there, but for those that only some have: an ideal that was
+    not found is left out.
+    """
+    report = reports(command)[0]
+    always = set.intersection(*(set(x) for x in reports(command)))
+    for key in sorted(always - {"ideal", "dimension"}):
+        shorter = {name: value for name, value in report.items() if name != key}
+        assert complaints(command, shorter), key
+
+
+def test_a_report_that_nobody_has() -> None:
+    """An unknown name is refused with the nearest known one."""
+    run = gark("schema", "--report", "condition")
+    assert run.code == 2
+    assert "conditions" in run.err
