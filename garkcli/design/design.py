@@ -123,6 +123,7 @@ def find_parameters(
     tableau = TABLEAUS[whose](family.tableau)
     conditions = FamilyConditions(tableau, family.ring)
     relations = [radical.relation for radical in family.radicals]
+    relations += family.relations
     deadline = None if seconds is None else monotonic() + seconds
     start = Ideal(family.ring, conditions.denominators, deadline).with_zeros(relations)
     steps: list[Step] = []

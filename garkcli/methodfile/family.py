@@ -2,24 +2,34 @@
 
 from __future__ import annotations
 
-from collections.abc import Mapping
+from collections.abc import Iterator, Mapping, Sequence
 from dataclasses import dataclass
 from typing import Any, cast
 
-from flint import fmpq, fmpz_poly
+from flint import fmpq, fmpq_mpoly, fmpz_poly
 from yaml.nodes import Node
 
 from garkcli.errors import ExpressionError, LimitExceeded, MethodError
 from garkcli.exact.domain import Domain, perfect_root
-from garkcli.exact.field import Number
+from garkcli.exact.field import ZERO, Number
 from garkcli.exact.nodes import AlgebraicRoot, Expression, Name, Root
 from garkcli.exact.parametric import Parameters, Parametric, fraction
 from garkcli.exact.rewriting import roots_in
 from garkcli.exact.roots import RealRoot
+from garkcli.methodfile.description import (
+    ArkText,
+    ButcherText,
+    Description,
+    MethodsText,
+    PrkText,
+    TableauText,
+)
 from garkcli.methodfile.load import NO_SETTINGS, built, described, read_method_text
 from garkcli.methodfile.numbers import Free, Numbers, Values
+from garkcli.methodfile.reader import Reader
 from garkcli.methodfile.source import one_line
 from garkcli.tableau.family import Family, Radical
+from garkcli.tableau.tableau import Tableau
 
 MAX_DEGREE = 200
 """Largest degree of a coefficient in the parameters."""
@@ -36,12 +46,15 @@ class FamilyFile(Family):
         text: the file as it was read.
         settings: values that were given for other parameters.
         places: where in the text the value of each parameter stands, from and to.
+        shape: where ``unknown: …`` stands, and the tableau that it means as keys of a method file;
+            None where the file has no shape.
     """
 
     source: str
     text: str
     settings: Mapping[str, str]
     places: Mapping[str, tuple[int, int]]
+    shape: tuple[tuple[int, int], str] | None = None
 
 
 def load_family(path: str, settings: Mapping[str, str] = NO_SETTINGS) -> FamilyFile:
@@ -75,9 +88,10 @@ def loads_family(
     reader, description = described(text, source, settings)
     numbers = reader.numbers
     if not numbers.free:
+        reader.source.close()
         raise MethodError(
             f"{source} has no free parameter",
-            "write parameters: {tau: free} in place of a value",
+            'write parameters: {tau: free} in place of a value, or "?" for an entry',
         )
     tableau, values = built(reader, description, FamilyValues)
     ranges = {}
@@ -93,9 +107,58 @@ def loads_family(
         parameters=tuple(numbers.free),
         ranges=ranges,
         radicals=tuple(values.domain.radicals),
+        relations=tuple(_of_nodes(description, tableau)),
         settings=settings,
         places={name: _place(text, node) for name, node in numbers.places.items()},
+        shape=_shape(reader),
     )
+
+
+def _of_nodes(description: Description, tableau: Tableau) -> Iterator[fmpq_mpoly]:
+    """Where a node is given and it or its row is unknown: the node minus the sum of the row."""
+    for l in _with_given_nodes(description):
+        colour = tableau.colours[l]
+        rows = colour.space
+        block = tableau.blocks.get((rows, l)) or tableau.blocks.get((rows, 1 - l))
+        if block is None:
+            continue
+        for node, row in zip(colour.c, block, strict=True):
+            difference: object = node - sum(row, start=ZERO)
+            if isinstance(difference, Parametric):
+                yield difference.numerator
+
+
+def _with_given_nodes(description: Description) -> list[int]:
+    """The colours whose nodes stand in the file."""
+    content = description.content
+    given: Sequence[object]
+    match content:
+        case TableauText():
+            given = list(content.c)
+        case ArkText():
+            given = [content.c] * len(content.A)
+        case PrkText():
+            # the rows of q.A are the stages of the forces
+            parts = [content.q.c, content.p.c]
+            given = parts if description.structure == "general" else parts[::-1]
+        case MethodsText():
+            methods = content.methods
+            given = [x.c if isinstance(x, ButcherText) else None for x in methods]
+            if description.structure != "general":
+                return []
+    return [l for l, nodes in enumerate(given) if nodes is not None]
+
+
+def _shape(reader: Reader) -> tuple[tuple[int, int], str] | None:
+    """Where a shape stands in the file, and what it means."""
+    if reader.shaped is None:
+        return None
+    from garkcli.methodfile.shaped import spelled
+
+    text = spelled(reader.shaped.layout)
+    if reader.shaped.form == "prk" and "structure" not in reader.keys:
+        text += "\nstructure: separable"
+    return reader.shaped.place, text
 
 
 def _place(text: str, node: Node) -> tuple[int, int]:
@@ -118,9 +181,16 @@ def with_values(
     """
     text = family.text
     given = {**family.settings, **values}
-    for name in sorted(given, key=lambda name: family.places[name], reverse=True):
-        start, end = family.places[name]
-        text = text[:start] + _scalar(given[name]) + text[end:]
+    changes = []
+    for name, place in family.places.items():
+        if name in given:
+            changes.append((place, _scalar(given[name])))
+    if family.shape is not None:
+        place, tableau = family.shape
+        lines = [f"  {name}: {_scalar(value)}" for name, value in given.items()]
+        changes.append((place, "\n".join(["parameters:", *lines, tableau])))
+    for (start, end), change in sorted(changes, reverse=True):
+        text = text[:start] + change + text[end:]
     lines = [f"# {line}" for line in head.splitlines()]
     if "expect:" not in text:
         text = f"{text.rstrip()}\nexpect: {{{claim}}}"

@@ -13,7 +13,7 @@ from garkcli.exact.domain import Domain
 from garkcli.exact.expression import parse
 from garkcli.exact.field import ZERO, Number
 from garkcli.exact.matrix import Matrix, Vector
-from garkcli.exact.nodes import Expression, Literal
+from garkcli.exact.nodes import Expression, Literal, Name
 from garkcli.exact.rewriting import depth_of, roots_in, size_of, substitute
 from garkcli.methodfile.source import Source, shortened
 from garkcli.methodfile.spellings import (
@@ -24,6 +24,7 @@ from garkcli.methodfile.spellings import (
     opens,
     printed_row,
 )
+from garkcli.methodfile.unknowns import UNKNOWN, is_bare_unknown, name_of_place
 
 MAX_SIZE = 2_000
 """Most operations of one coefficient, those of the parameters in it written out."""
@@ -47,11 +48,15 @@ Rows: TypeAlias = tuple[Row, ...]
 
 @dataclass(frozen=True)
 class Free:
-    """A parameter without a value, and where it may lie; None where there is no bound."""
+    """A parameter without a value, and where it may lie; None where there is no bound.
+
+    ``where`` is the entry of a tableau that it stands for, empty for a parameter with a name.
+    """
 
     node: Node
     smallest: Entry | None = None
     largest: Entry | None = None
+    where: str = ""
 
 
 @dataclass
@@ -85,13 +90,62 @@ class Numbers:
     def entry(self, node: Node, where: str) -> Entry:
         """One coefficient; a faulty one is noted and read as zero, so that reading goes on."""
         expression: Expression = Literal(ZERO)
+        if is_bare_unknown(node):
+            cure = f'quote it: "{UNKNOWN}"'
+            self.source.fault(
+                node, f"YAML reads a bare {UNKNOWN} as a key", cure, where=where
+            )
+            entry = Entry(expression, node, where)
+            self.entries.append(entry)
+            return entry
         text = self.source.scalar(node, where)
-        if text is not None and not is_misread(self.source, node, text, where):
+        if text == UNKNOWN:
+            expression = self._unknown(node, where)
+        elif text is not None and not is_misread(self.source, node, text, where):
             try:
                 expression = self._expression(text)
             except ExpressionError as error:
                 self.source.expression_fault(node, where, *explained(error, text))
         entry = Entry(expression, node, where)
+        self.entries.append(entry)
+        return entry
+
+    def _unknown(self, node: Node, where: str) -> Expression:
+        """An entry without a value: an unknown named by its place, or the value given for it."""
+        name = name_of_place(where)
+        if name is None:
+            message = f"{UNKNOWN} stands for an entry of A, b or c"
+            cure = "write parameters: {tau: free} for any other unknown"
+            self.source.fault(node, message, cure, where=where)
+            return Literal(ZERO)
+        if name in self.parameters:
+            message = f"{where}: its name {name} is that of a parameter"
+            self.source.fault(node, message, "call the parameter something else")
+            return Literal(ZERO)
+        self.places[name] = node
+        if name in self.settings:
+            value = self.given(name, node, where)
+        else:
+            value = Name(name)
+            self.free[name] = Free(node, where=where)
+        self.define(name, value)
+        return value
+
+    def given(self, name: str, node: Node, where: str) -> Expression:
+        """The value of an unknown that is given from outside of the file."""
+        text = self.settings[name]
+        try:
+            value = parse(text)
+        except ExpressionError as error:
+            message = f"{where} is set to {shortened(text)}: {error.message}"
+            self.source.fault(node, message, error.help)
+            return Literal(ZERO)
+        self.of_parameters.append(Entry(value, node, where))
+        return value
+
+    def written(self, text: str, node: Node, where: str) -> Entry:
+        """A coefficient that a shape writes in place of the file."""
+        entry = Entry(self._expression(text), node, where)
         self.entries.append(entry)
         return entry
 

@@ -4,11 +4,11 @@ from __future__ import annotations
 
 from yaml.nodes import MappingNode, Node, ScalarNode
 
-from garkcli.errors import ExpressionError, did_you_mean
-from garkcli.exact.expression import FUNCTIONS, parse
+from garkcli.errors import did_you_mean
+from garkcli.exact.expression import FUNCTIONS
 from garkcli.exact.field import ZERO
 from garkcli.exact.nodes import Expression, Literal, Name
-from garkcli.methodfile.numbers import Entry, Free, Numbers
+from garkcli.methodfile.numbers import Free, Numbers
 from garkcli.methodfile.source import key_nodes, shortened
 
 
@@ -32,7 +32,7 @@ def read_parameters(numbers: Numbers, node: Node | None) -> None:
             message = f"{where} cannot be the name of a parameter"
             source.fault(key, message, "use letters, digits and _")
         elif name in numbers.settings:
-            value = _given(numbers, name, value_node, where)
+            value = numbers.given(name, value_node, where)
         elif _is_free(value_node):
             value = Name(name)
             numbers.free[name] = _free(numbers, value_node, where)
@@ -41,19 +41,6 @@ def read_parameters(numbers: Numbers, node: Node | None) -> None:
             numbers.of_parameters.append(numbers.entries.pop())
         numbers.define(name, value)
         numbers.places[name] = value_node
-
-
-def _given(numbers: Numbers, name: str, node: Node, where: str) -> Expression:
-    """The value of a parameter that is given from outside of the file."""
-    text = numbers.settings[name]
-    try:
-        value = parse(text)
-    except ExpressionError as error:
-        message = f"{where} is set to {shortened(text)}: {error.message}"
-        numbers.source.fault(node, message, error.help)
-        return Literal(ZERO)
-    numbers.of_parameters.append(Entry(value, node, where))
-    return value
 
 
 def _is_free(node: Node) -> bool:
@@ -86,9 +73,18 @@ def _free(numbers: Numbers, node: Node, where: str) -> Free:
 
 
 def refuse_free(numbers: Numbers) -> None:
-    """Note the parameters without a value: a method has one for each."""
+    """Note the unknowns without a value, those of entries as one: a method has a value for each."""
+    family = "the file describes a family of methods"
+    entries = [(name, x) for name, x in numbers.free.items() if x.where]
     for name, free in numbers.free.items():
-        message = f"parameters: {name} is free: the file describes a family of methods"
+        if free.where:
+            continue
+        cure = f"gark design finds values; --set {name}=1/2 chooses one"
+        message = f"parameters: {name} is free: {family}"
+        numbers.source.fault(free.node, message, cure)
+    for name, free in entries[:1]:
+        others = f", and {len(entries) - 1} more" if len(entries) > 1 else ""
+        message = f"{free.where} is unknown{others}: {family}"
         cure = f"gark design finds values; --set {name}=1/2 chooses one"
         numbers.source.fault(free.node, message, cure)
 

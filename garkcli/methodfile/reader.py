@@ -6,7 +6,7 @@ from __future__ import annotations
 
 import re
 from collections.abc import Mapping, Sequence
-from typing import cast
+from typing import TYPE_CHECKING, Literal, cast
 
 from flint import fmpq
 from yaml.nodes import MappingNode, Node, ScalarNode, SequenceNode
@@ -36,9 +36,12 @@ from garkcli.methodfile.description import (
 from garkcli.methodfile.expectations import NUMBERS
 from garkcli.methodfile.numbers import Numbers
 from garkcli.methodfile.parameters import read_parameters, refuse_unknown_settings
-from garkcli.methodfile.source import Source, keys_of, shortened
+from garkcli.methodfile.source import Source, key_nodes, keys_of, shortened
 from garkcli.methodfile.spelled_out import SpelledOutReader, are_too_many
 from garkcli.transfer import RULES
+
+if TYPE_CHECKING:
+    from garkcli.methodfile.shaped import Shaped
 
 KEYS = (
     "gark",
@@ -47,6 +50,7 @@ KEYS = (
     "reference",
     *FORMS,
     *PLAIN,
+    "unknown",
     "transfer",
     "structure",
     "conjugate",
@@ -94,6 +98,8 @@ class Reader:
         self.source = source
         self.numbers = Numbers(source, settings=settings)
         self.spelled_out = SpelledOutReader(source, self.numbers)
+        self.shaped: Shaped | None = None
+        self.keys: frozenset[str] = frozenset()
 
     def read(self) -> Description | None:
         """The description; None, with faults noted in the source, where there is none."""
@@ -107,6 +113,7 @@ class Reader:
             source.fault(root, "this is a problem file, not a method file", cure)
             return None
         entries = source.mapping(root, "the file", KEYS, _CURES)
+        self.keys = frozenset(entries)
         self._version(entries.get("gark"))
         text = {}
         for key in ("name", "description", "reference"):
@@ -116,25 +123,48 @@ class Reader:
         is_conjugate = self._is_conjugate(entries.get("conjugate"))
         claims = expectations.read(source, entries.get("expect"))
         read_parameters(self.numbers, entries.get("parameters"))
-        refuse_unknown_settings(self.numbers)
         form = self._form(root, entries)
         if form is None:
             return None
+        if form == "unknown":
+            self.shaped = self._shaped(root, entries)
+            if self.shaped is None:
+                return None
+            form = self.shaped.form
         self._refuse_misplaced(form, entries)
         structure = self._structure(form, entries)
         content = self._content(form, structure, entries)
         if content is None:
             return None
+        refuse_unknown_settings(self.numbers)
         return Description(
             form=form,
             content=content,
-            node=entries[form] if form in entries else entries["b"],
+            node=self._node_of(form, entries),
             structure=structure,
             is_conjugate=is_conjugate,
             tolerance=tolerance,
             claims=claims,
             **text,
         )
+
+    def _node_of(self, form: Form, entries: dict[str, Node]) -> Node:
+        """Where the coefficients stand."""
+        for key in (form, "unknown"):
+            if key in entries:
+                return entries[key]
+        return entries["b"]
+
+    def _shaped(self, root: Node, entries: dict[str, Node]) -> Shaped | None:
+        """``unknown`` of the file."""
+        from garkcli.methodfile.shaped import ShapeReader  # few files have it
+
+        if "parameters" in entries:
+            message = "parameters do not go with unknown: its unknowns have their names"
+            cure = "leave them out, or spell the tableau out with them"
+            self.source.fault(entries["parameters"], message, cure)
+        key = key_nodes(root)["unknown"]
+        return ShapeReader(self.source, self.numbers).read(key, entries["unknown"])
 
     def _version(self, node: Node | None) -> None:
         if node is not None and self.source.scalar(node, "gark") != "1":
@@ -159,9 +189,11 @@ class Reader:
             return None
         return value
 
-    def _form(self, root: Node, entries: dict[str, Node]) -> Form | None:
+    def _form(
+        self, root: Node, entries: dict[str, Node]
+    ) -> Form | Literal["unknown"] | None:
         """Which form the coefficients have; A, b and c at the top are those of a tableau."""
-        present: list[str] = [key for key in FORMS if key in entries]
+        present: list[str] = [key for key in (*FORMS, "unknown") if key in entries]
         plain = [key for key in PLAIN if key in entries]
         if plain:
             present.append(plain[0])
@@ -177,7 +209,7 @@ class Reader:
         if len(present) > 1:
             return None
         if not plain:
-            return cast("Form", present[0])
+            return cast("Form", present[0])  # or "unknown"
         missing = [key for key in ("A", "b") if key not in entries]
         if missing:
             message = f"{' and '.join(missing)} missing beside {', '.join(plain)}"
@@ -198,6 +230,8 @@ class Reader:
         if node is not None and form == "prk" and word == "semi-separable":
             message = "a prk cannot be semi-separable: that takes two Hamiltonians"
             self.source.fault(node, message, "use methods")
+        if self.shaped is not None and form == "prk" and word is None:
+            return "separable"
         return cast("Structure", word or "general")
 
     def _is_conjugate(self, node: Node | None) -> bool:
@@ -214,6 +248,8 @@ class Reader:
     def _content(
         self, form: Form, structure: Structure, entries: dict[str, Node]
     ) -> MethodsText | TableauText | ArkText | PrkText | None:
+        if self.shaped is not None:
+            return self.shaped.content
         if form not in entries:
             return self.spelled_out.tableau_of(entries, entries.get("linear"))
         node = entries[form]

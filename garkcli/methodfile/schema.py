@@ -12,7 +12,10 @@ from typing import Any, TypeAlias
 from garkcli.families.registry import FAMILIES, MAX_STAGES
 from garkcli.methodfile.description import FORMS, STRUCTURES
 from garkcli.methodfile.expectations import NUMBERS, TABLES
+from garkcli.methodfile.shaped import MAX_STAGES as MOST_UNKNOWN_STAGES
+from garkcli.methodfile.shapes.registry import SHAPES, find_shape
 from garkcli.methodfile.transfers import ALL_RULES
+from garkcli.methodfile.unknowns import UNKNOWN
 from garkcli.properties.property import Kind
 from garkcli.properties.registry import every_property
 from garkcli.transfer import RULES, SUMMARIES
@@ -30,7 +33,13 @@ _MEASURE: Schema = {
     "type": ["number", "string"],
     "pattern": r"^(>=\s*)?[-+*/^(),.\sA-Za-z0-9_]+$",
 }
-_ROW: Schema = {"anyOf": [{"type": "array", "items": _NUMBER, "minItems": 1}, _NUMBER]}
+_ENTRY: Schema = {
+    "anyOf": [
+        _NUMBER,
+        {"const": UNKNOWN, "description": "Unknown: gark design finds values."},
+    ]
+}
+_ROW: Schema = {"anyOf": [{"type": "array", "items": _ENTRY, "minItems": 1}, _ENTRY]}
 _MATRIX: Schema = {
     "description": "Row by row; the rows of a triangle may end at the diagonal or before it.",
     "type": "array",
@@ -50,12 +59,16 @@ def method_file_schema() -> Schema:
         "description": "One Runge-Kutta method: GARK, ARK, PRK, or built from diagonal methods.",
         "type": "object",
         "additionalProperties": False,
-        "oneOf": [*({"required": [form]} for form in FORMS), {"required": ["A", "b"]}],
+        "oneOf": [
+            *({"required": [form]} for form in (*FORMS, "unknown")),
+            {"required": ["A", "b"]},
+        ],
         "allOf": [
             _goes_with("transfer", {"required": ["methods"]}),
             _goes_with(
                 "linear", {"anyOf": [{"required": ["tableau"]}, {"required": ["A"]}]}
             ),
+            _goes_with("unknown", {"not": {"required": ["parameters"]}}),
             _goes_with("c", {"anyOf": [{"required": ["A"]}]}),
             {
                 "if": {
@@ -69,7 +82,11 @@ def method_file_schema() -> Schema:
                     "required": ["structure"],
                     "properties": {"structure": {"not": {"const": "general"}}},
                 },
-                "then": {"anyOf": [{"required": ["methods"]}, {"required": ["prk"]}]},
+                "then": {
+                    "anyOf": [
+                        {"required": [form]} for form in ("methods", "prk", "unknown")
+                    ]
+                },
             },
             {
                 "if": {"required": ["prk"]},
@@ -136,15 +153,37 @@ def _properties() -> Schema:
             "type": "array",
             "items": {"type": "integer", "minimum": 1},
         },
-        "parameters": {
-            "type": "object",
-            "additionalProperties": {"$ref": "#/definitions/number"},
-        },
+        "unknown": _unknown(),
+        "parameters": _parameters(),
         "tolerance": {
             **_NUMBER,
             "description": "The rounding of the coefficients, for instance 1e-13.",
         },
         "expect": _expect(),
+    }
+
+
+def _unknown() -> Schema:
+    summaries = [{"const": x, "description": find_shape(x).summary} for x in SHAPES]
+    shape: Schema = {"oneOf": summaries}
+    shapes = {"type": "array", "items": shape, "minItems": 1}
+    stages = {"type": "integer", "minimum": 1, "maximum": MOST_UNKNOWN_STAGES}
+    return {
+        **_closed(
+            {"stages": stages, "shape": {"anyOf": [shape, shapes]}}, "stages", "shape"
+        ),
+        "description": "A tableau of unknowns with a shape, for gark design.",
+    }
+
+
+def _parameters() -> Schema:
+    number = {"$ref": "#/definitions/number"}
+    ends = {"type": "array", "items": number, "minItems": 2, "maxItems": 2}
+    free = _closed({"free": {"const": True}, "range": ends}, "free")
+    return {
+        "description": "Names used in coefficients, each with a value, or free.",
+        "type": "object",
+        "additionalProperties": {"anyOf": [number, free]},
     }
 
 

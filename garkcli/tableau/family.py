@@ -40,6 +40,8 @@ class Family:
         parameters: the names of the free parameters.
         ranges: for each the least and the greatest value it may have, None where there is none.
         radicals: the roots among the coefficients.
+        relations: polynomials that are zero at every method of it, such as a given node minus
+            the sum of its row.
     """
 
     name: str
@@ -48,6 +50,7 @@ class Family:
     parameters: tuple[str, ...]
     ranges: Mapping[str, tuple[fmpq | None, fmpq | None]]
     radicals: tuple[Radical, ...]
+    relations: tuple[fmpq_mpoly, ...] = ()
 
     def __repr__(self) -> str:
         return f"<Family {self.name}: {', '.join(self.parameters)}>"

@@ -24,6 +24,7 @@ EXAMPLES = Path(__file__).parents[1] / "examples"
 SUFFIX = ".gark.yaml"
 VALID = sorted((EXAMPLES / "valid").glob(f"*{SUFFIX}"))
 INVALID = sorted((EXAMPLES / "invalid").glob(f"*{SUFFIX}"))
+FAMILY_FILES = sorted((EXAMPLES / "families").glob(f"*{SUFFIX}"))
 SECONDS = 5
 """Of the processor, which no refusal may take."""
 
@@ -93,7 +94,7 @@ def test_the_valid_files_say_every_word_of_the_format(
     vocabulary: tuple[str, ...],
 ) -> None:
     """No key, form, structure, rule, claim, family or function is without an example that loads."""
-    text = words(VALID)
+    text = words(VALID + FAMILY_FILES)
     assert [word for word in vocabulary if word not in text] == []
 
 

@@ -14,6 +14,7 @@ from jsonschema import Draft7Validator
 from garkcli.families.registry import FAMILIES, MAX_STAGES
 from garkcli.methodfile.description import FORMS, PLAIN, STRUCTURES
 from garkcli.methodfile.expectations import CLAIMS
+from garkcli.methodfile.family import load_family
 from garkcli.methodfile.load import load
 from garkcli.methodfile.reader import KEYS
 from garkcli.methodfile.schema import method_file_schema
@@ -29,6 +30,7 @@ RIGHT = sorted(
     for folder in ("methods", "tests/examples/valid", "tests/examples/failing")
     for path in (ROOT / folder).glob(f"*{SUFFIX}")
 )
+FAMILY_FILES = sorted((ROOT / "tests/examples/families").glob(f"*{SUFFIX}"))
 INVALID = {
     path.name.removesuffix(SUFFIX): path
     for path in (ROOT / "tests/examples/invalid").glob(f"*{SUFFIX}")
@@ -64,6 +66,7 @@ BEYOND = {
         "parameter-used-before", "parameters-that-explode", "powers-of-powers", "tolerance-irrational",
         "tolerance-no-number", "tolerance-too-large", "unknown-name",
     },
+    "families of methods": {"unknown-entries", "unknown-name-taken", "unknown-shapes-apart"},
     "mathematics": {
         "block-beside-gauss-6", "coinciding-nodes", "division-by-exact-zero", "division-by-zero",
         "division-by-zero-parameter", "even-root-of-negative", "radicals-of-large-degree", "structure-zero-weight",
@@ -103,6 +106,13 @@ def test_what_loads_is_allowed(path: Path) -> None:
     schema too.
     """
     load(str(path))
+    assert [error.message[:200] for error in VALIDATOR.iter_errors(data(path))] == []
+
+
+@pytest.mark.parametrize("path", FAMILY_FILES, ids=lambda path: path.name)
+def test_families_are_allowed(path: Path) -> None:
+    """A file with unknowns is a method file for the schema too."""
+    assert load_family(str(path)).parameters
     assert [error.message[:200] for error in VALIDATOR.iter_errors(data(path))] == []
 
 
@@ -151,6 +161,7 @@ def test_the_schema_knows_the_words_of_the_loader() -> None:
     assert set(properties) == set(KEYS)
     assert [x["required"] for x in SCHEMA["oneOf"]] == [
         *([form] for form in FORMS),
+        ["unknown"],
         ["A", "b"],
     ]
     assert set(properties["tableau"]["properties"]) == set(PLAIN)

@@ -1,0 +1,201 @@
+"""Unknown entries and shapes of tableaus: classical methods from nothing but their stages."""
+
+from __future__ import annotations
+
+import re
+
+import pytest
+
+from garkcli import find_order, loads
+from garkcli.design.chosen import first_method
+from garkcli.design.design import Design, find_parameters
+from garkcli.design.solutions import value_at
+from garkcli.errors import MethodError
+from garkcli.methodfile.family import loads_family, with_values
+from garkcli.methodfile.shapes.registry import SHAPES, find_shape, layout_of
+from tests.cli.harness import gark
+
+
+def shaped(stages: int, shape: str) -> str:
+    """A file of some stages and a shape."""
+    return f"unknown: {{stages: {stages}, shape: {shape}}}\n"
+
+
+def dimensions(found: Design) -> list[int]:
+    """Of the methods of each order."""
+    return [step.ideal.dimension for step in found.steps if step.ideal is not None]
+
+
+def decimals(found: Design, name: str) -> list[float]:
+    """The real values of one unknown at the last order, ascending."""
+    values = []
+    for one in found.last.found:
+        for root in one.solution.real:
+            value = value_at(one.solution.values[name], root)
+            values.append(float(value.ball(80)))
+    return sorted(values)
+
+
+def test_entries_are_named_by_their_place() -> None:
+    """One colour, several, shared stages and two parts: names do not collide."""
+    one = loads_family('A: [["?", "?"], [0, 0]]\nb: ["?", 1]\n')
+    assert one.parameters == ("a11", "a12", "b1")
+    blocks = 'A: [[[["?"]], [["?"]]], [[["?"]], [["?"]]]]\nb: [["?"], ["?"]]\n'
+    several = ("a11_11", "a12_11", "a21_11", "a22_11", "b1_1", "b2_1")
+    assert sorted(loads_family(blocks).parameters) == sorted(several)
+    ark = 'ark:\n  A: [[["?"]], [["?"]]]\n  b: ["?"]\n'
+    assert sorted(loads_family(ark).parameters) == ["a1_11", "a2_11", "b1"]
+    prk = 'prk:\n  q: {A: [["?"]], b: ["?"]}\n  p: {A: [["?"]], b: ["?"]}\n'
+    names = ["p_a11", "p_b1", "q_a11", "q_b1"]
+    assert sorted(loads_family(prk).parameters) == names
+
+
+def test_given_nodes_are_conditions() -> None:
+    """With c₂ given the one method of order 2 is found; a node of its own is no freedom more."""
+    text = 'A: [[0, 0], ["?", 0]]\nb: ["?", "?"]\nc: [0, {}]\n'
+    found = find_parameters(loads_family(text.format("1/3")), 2)
+    (one,) = found.last.found
+    assert list(map(str, one.solution.values.values())) == ["1/3", "-1/2", "3/2"]
+    free = find_parameters(loads_family(text.format('"?"')), 2)
+    assert dimensions(free) == [2, 1]
+
+
+@pytest.mark.parametrize("form", ["entries", "shape"])
+def test_explicit_methods_of_two_stages(form: str) -> None:
+    """Order 2 is the family b₂ = 1/(2 c₂), order 3 none; entries and shape say the same."""
+    text = 'A: [[0, 0], ["?", 0]]\nb: ["?", "?"]\n'
+    if form == "shape":
+        text = shaped(2, "explicit")
+    found = find_parameters(loads_family(text))
+    assert [step.kind for step in found.steps] == ["family", "family", "none"]
+    assert dimensions(found) == [2, 1, -1]
+    node = "a21" if form == "entries" else "c2"
+    chosen = find_parameters(loads_family(text, settings={node: "2/3"}), 2)
+    (one,) = chosen.last.found
+    assert list(map(str, one.solution.values.values())) == ["1/4", "3/4"]
+
+
+def test_explicit_methods_of_three_stages() -> None:
+    """Order 3 is a family of dimension 2 (Kutta), order 4 none."""
+    found = find_parameters(loads_family(shaped(3, "explicit")))
+    assert dimensions(found) == [5, 4, 2, -1]
+
+
+def test_singly_diagonally_implicit_methods() -> None:
+    """Two stages: order 3 for both γ of Nørsett; three: order 4 for three γ, one of them Crouzeix's
+    (1 + 2 cos(π/18)/√3)/2.
+    """
+    two = find_parameters(loads_family(shaped(2, "sdirk")), 3)
+    assert decimals(two, "gamma") == pytest.approx([0.2113248654, 0.7886751346])
+    three = find_parameters(loads_family(shaped(3, "sdirk")), 4)
+    gammas = [0.1288864005, 0.3025345782, 1.0685790213]
+    assert decimals(three, "gamma") == pytest.approx(gammas)
+
+
+def test_gauss_from_two_stages() -> None:
+    """Two stages, order 4: Gauss's nodes, in both orders, and order 5 for none."""
+    found = find_parameters(loads_family(shaped(2, "full")), 4)
+    nodes = pytest.approx([0.2113248654, 0.7886751346])
+    assert decimals(found, "c1") == nodes
+    assert decimals(found, "c2") == nodes
+
+
+@pytest.mark.parametrize(("stages", "order", "real"), [(3, 4, 1), (5, 4, 0)])
+def test_symmetric_compositions(stages: int, order: int, real: int) -> None:
+    """Three midpoint rules, the same backwards: order 4 for one real solution, with
+    b₁ = 1/(2 − ∛2); five leave a family.
+    """
+    text = shaped(stages, "[symplectic-dirk, palindromic]")
+    found = find_parameters(loads_family(text), order)
+    if not real:
+        assert (found.last.kind, dimensions(found)[-1]) == ("family", 1)
+        return
+    assert decimals(found, "b1") == pytest.approx([1 / (2 - 2 ** (1 / 3))])
+    assert sum(x.solution.degree for x in found.last.found) == 3
+
+
+def test_shapes_do_what_they_say() -> None:
+    """Each shape on three stages, entry by entry."""
+    (rows,) = layout_of(3, ["esdirk", "stiffly-accurate"]).A
+    assert rows == (
+        ("0", "0", "0"),
+        ("c2 - gamma", "gamma", "0"),
+        ("b1", "b2", "gamma"),
+    )
+    assert layout_of(2, ["splitting"]).A == (
+        (("a1", "0"), ("a1", "a2")),
+        (("0", "0"), ("b1", "0")),
+    )
+    explicit, implicit = layout_of(2, ["imex"]).A
+    assert explicit == (("0", "0"), ("c2", "0"))
+    assert implicit == (("0", "0"), ("c2 - gamma", "gamma"))
+    for name in SHAPES:
+        shape = find_shape(name)
+        assert (shape.name, bool(shape.summary)) == (name, True)
+
+
+@pytest.mark.parametrize("shape", ["[full, palindromic]", "[dirk, palindromic]"])
+def test_palindromes_are_symmetric(shape: str) -> None:
+    """Whatever the unknowns are, the method is its own adjoint: odd orders come for nothing."""
+    family = loads_family(shaped(3, shape))
+    values = {}
+    for k, name in enumerate(family.parameters):
+        values[name] = f"{k + 1}/{2 * k + 3}"
+    method = loads(with_values(family, values, "any", "order: 0"))
+    A, b = method.tableau.block(0, 0), method.tableau.colours[0].b
+    for i in range(3):
+        for j in range(3):
+            assert A[2 - i][2 - j] == b[2 - j] - A[i][j]
+
+
+@pytest.mark.parametrize(
+    "shapes", [["explicit", "stiffly-accurate"], ["explicit", "palindromic"],
+               ["sdirk", "palindromic"], ["splitting", "stiffly-accurate"],
+               ["sdirk", "imex"]],
+)  # fmt: skip
+def test_shapes_that_do_not_go_together(shapes: list[str]) -> None:
+    """They are refused, with a cure."""
+    with pytest.raises(MethodError) as caught:
+        layout_of(3, shapes)
+    assert caught.value.help
+
+
+@pytest.mark.parametrize(
+    ("text", "order"),
+    [
+        (shaped(2, "sdirk"), 3),
+        (shaped(3, "[symplectic-dirk, palindromic]"), 4),
+        ('A: [["?"]]\nb: ["?"]\n', 2),
+    ],
+)
+def test_what_is_found_is_a_method_file(text: str, order: int) -> None:
+    """The file that is written spells the tableau out and has the order."""
+    family = loads_family(text)
+    chosen = first_method(find_parameters(family, order))
+    assert chosen is not None
+    written = with_values(family, chosen.values, "head", f"order: {chosen.order}")
+    method = loads(written)
+    assert not re.search(r"unknown:|\?", written)
+    assert [x.value for x in method.claims] == [order]
+    assert find_order(method).order == order
+
+
+@pytest.mark.parametrize("shape", ["imex", "splitting", "[esdirk, stiffly-accurate]"])
+def test_a_shape_with_values_is_a_method_file(shape: str) -> None:
+    """Parts on shared stages and parts of their own are spelled out too."""
+    family = loads_family(shaped(2, shape))
+    values = dict.fromkeys(family.parameters, "1/2")
+    method = loads(with_values(family, values, "head", "order: 0"))
+    tableau = loads(shaped(2, shape), settings=values).tableau
+    assert method.tableau.blocks == tableau.blocks
+
+
+def test_as_a_command(tmp_path: object) -> None:
+    """Choosing every unknown of a shape leaves a method that commands take; too few are named."""
+    path = f"{tmp_path}/shape.yaml"
+    with open(path, "w", encoding="utf-8") as stream:
+        stream.write(shaped(2, "explicit"))
+    run = gark("design", path, "--order", "2")
+    assert (run.code, "2*c2*b2 - 1" in run.out) == (0, True)
+    left = gark("design", path, "--set", "d2=1")
+    assert (left.code, "one of: c2, b1, b2" in left.err) == (2, True)
