@@ -21,7 +21,8 @@ from garkcli.exact.matrix import Matrix
 from garkcli.exact.parametric import Parameters, common_denominator, fraction
 from garkcli.exact.polynomial import Polynomial, interpolated
 from garkcli.exact.projection import PLANE
-from garkcli.stability.step_function import stage_system, unreduced
+from garkcli.stability.step_function import unreduced
+from garkcli.stepping.stage_system import stage_system
 from garkcli.tableau.tableau import Tableau
 
 

@@ -19,7 +19,8 @@ from garkcli.exact.cells import Interval, Point, sign_of, where
 from garkcli.exact.field import ONE, ZERO, Number
 from garkcli.exact.polynomial import Polynomial, gcd
 from garkcli.exact.roots import sign
-from garkcli.stability.step_function import stage_system, step_function
+from garkcli.stability.step_function import step_function
+from garkcli.stepping.stage_system import stage_system
 from garkcli.tableau.tableau import Tableau
 
 

@@ -1,12 +1,8 @@
 """The step of a method on a linear problem as a matrix of rational functions of the step size.
 
-With the vector field y ↦ L^m y of colour m, L^m ∈ K^{d×d}, the stage values obey
-
-    Y^k = 𝟙 ⊗ y₀ + z Σ_m (A^{k,m} ⊗ L^m) Y^{space(m)},    y₁ = y₀ + z Σ_m (b_m ⊗ L^m) Y^{space(m)},
-
-so that y₁ = M(z) y₀ with M(z) = I + z B (I − zW)⁻¹ E. Its entries have the common denominator
-det(I − zW); by Cramer's rule the numerators have at most its degree bound, the number of unknowns,
-so that finitely many terms of the power series of M determine them.
+With W, E and B of the stage system y₁ = M(z) y₀ with M(z) = I + z B (I − zW)⁻¹ E. Its entries have
+the common denominator det(I − zW); by Cramer's rule the numerators have at most its degree bound,
+the number of unknowns, so that finitely many terms of the power series of M determine them.
 """
 
 from __future__ import annotations
@@ -16,24 +12,9 @@ from dataclasses import dataclass
 
 from garkcli.exact.characteristic import reciprocal_characteristic
 from garkcli.exact.field import ONE, ZERO, Number
-from garkcli.exact.matrix import Matrix, Vector, apply, transpose
+from garkcli.exact.matrix import Vector, apply, transpose
 from garkcli.exact.polynomial import Polynomial, gcd
-from garkcli.tableau.tableau import Tableau
-
-
-@dataclass(frozen=True)
-class StageSystem:
-    """W, E and B of this module's heading, over the domain K of the coefficients.
-
-    Attributes:
-        W: shape (n, n), n the number of unknown stage values that are used.
-        E: shape (n, d).
-        B: shape (d, n).
-    """
-
-    W: Matrix
-    E: Matrix
-    B: Matrix
+from garkcli.stepping.stage_system import StageSystem
 
 
 @dataclass(frozen=True)
@@ -47,64 +28,6 @@ class StepFunction:
 
     denominator: Polynomial
     numerators: tuple[tuple[Polynomial, ...], ...]
-
-
-def stage_system(
-    tableau: Tableau, fields: Sequence[Matrix], pattern: Sequence[Matrix] | None = None
-) -> StageSystem:
-    """The linear system of the stages.
-
-    Args:
-        tableau: the method.
-        fields: L^m for each colour m, all of one shape (d, d).
-        pattern: matrices that are zero only where the L^m are zero for all parameters of a problem,
-            so that the unknowns are the same for all; None for the L^m themselves.
-    """
-    d = len(fields[0])
-    driven = []
-    for m, kept in enumerate(fields if pattern is None else pattern):
-        for i in range(d):
-            driven += [(m, i, j, fields[m][i][j]) for j in range(d) if kept[i][j]]
-    first: dict[
-        tuple[int, int], int
-    ] = {}  # (stage space, component of y) → its first unknown
-    size = 0
-    for m, _, j, _ in driven:
-        values = tableau.colours[m].space, j
-        if values not in first:
-            first[values] = size
-            size += tableau.space(m).stages
-    W = _zeros(size, size)
-    E = _zeros(size, d)
-    B = _zeros(d, size)
-    for m, i, j, factor in driven:
-        colour = tableau.colours[m]
-        column = first[colour.space, j]
-        _add(B, i, column, factor, (colour.b,))
-        for (k, component), row in first.items():
-            block = tableau.blocks.get((k, m))
-            if component == i and block is not None:
-                _add(W, row, column, factor, block)
-    for (k, component), row in first.items():
-        ones = tuple((x,) for x in tableau.spaces[k].one)
-        _add(E, row, component, ONE, ones)
-    return StageSystem(_frozen(W), _frozen(E), _frozen(B))
-
-
-def _zeros(rows: int, columns: int) -> list[list[Number]]:
-    return [[ZERO] * columns for _ in range(rows)]
-
-
-def _frozen(rows: list[list[Number]]) -> Matrix:
-    return tuple(tuple(row) for row in rows)
-
-
-def _add(
-    matrix: list[list[Number]], row: int, column: int, factor: Number, block: Matrix
-) -> None:
-    for i, entries in enumerate(block, start=row):
-        for j, x in enumerate(entries, start=column):
-            matrix[i][j] = matrix[i][j] + factor * x
 
 
 def step_function(system: StageSystem) -> StepFunction:

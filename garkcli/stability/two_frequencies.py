@@ -22,7 +22,7 @@ from garkcli.exact.multivariate import Multivariate, lattice, through_points
 from garkcli.exact.polynomial import Polynomial, gcd, interpolated
 from garkcli.problems.oscillator import Oscillator, check_structure, terms_of
 from garkcli.stability.oscillator import Ratio, stable_set
-from garkcli.stability.step_function import StageSystem, stage_system
+from garkcli.stepping.stage_system import StageSystem, stage_system
 from garkcli.tableau.tableau import Colour, Tableau
 
 

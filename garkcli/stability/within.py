@@ -20,7 +20,7 @@ from garkcli.exact.roots import sign
 from garkcli.graph import components
 from garkcli.stability.bounds import OPEN, Bounds, first_failure
 from garkcli.stability.ssp_within import ssp_within
-from garkcli.stability.step_function import StageSystem, stage_system
+from garkcli.stepping.stage_system import StageSystem, stage_system
 from garkcli.tableau.tableau import Tableau
 
 BITS = 256
@@ -64,7 +64,7 @@ def stability_within(
         ctx.prec = BITS
         system = stage_system(tableau, [((w,),) for w in shares])
         P, Q = _fraction(system, _summands(tableau, shares), tolerance)
-        stiff = is_stiffly_accurate(system)
+        stiff = is_stiffly_accurate(tableau, shares)
         bounded = _is_bounded(P, Q, order, stiff)
         right = _poles_are_right(Q)
         if right is False and not _are_coprime(P, Q):
@@ -88,9 +88,31 @@ def _both(first: bool | None, second: bool | None) -> bool | None:
     return True if first and second else None
 
 
-def is_stiffly_accurate(system: StageSystem) -> bool:
-    """Whether a row of W is B: the last stage is the step, so that R(∞) = 0 for regular W."""
-    return any(row == system.B[0] for row in system.W)
+def is_stiffly_accurate(tableau: Tableau, shares: Sequence[Number]) -> bool:
+    """Whether a stage is the step, a_ij^{k,m} = b_j^{m} for every colour m that is driven.
+
+    Then R(∞) = 0 where W is regular. Equal coefficients of the file are equal numbers, whatever
+    was rounded; equal sums of coefficients of several colours are a chance.
+
+    Args:
+        tableau: the method, one coordinate a stage.
+        shares: w_l with λ_l = w_l λ; colours with 0 are not driven.
+    """
+    driven = [m for m, share in enumerate(shares) if share]
+    for k in {tableau.colours[m].space for m in driven}:
+        for i in range(tableau.spaces[k].stages):
+            if all(_is_new_value(tableau, k, i, m) for m in driven):
+                return True
+    return False
+
+
+def _is_new_value(tableau: Tableau, k: int, i: int, m: int) -> bool:
+    """Whether stage i of space k sees colour m with its weights."""
+    weights = tuple(tableau.colours[m].b)
+    block = tableau.blocks.get((k, m))
+    if block is None:
+        return not any(weights)
+    return tuple(block[i]) == weights
 
 
 def _summands(tableau: Tableau, shares: Sequence[Number]) -> StageSystem:

@@ -1,13 +1,8 @@
 """One step on a linear problem, exactly: y₁ = R(h) y₀ with R(h) ∈ K^{2×2}.
 
-The vector field of colour m is y ↦ L^m y, so the stage values obey, in the stage spaces,
+With the stage system of the fields y ↦ L^m y of the colours,
 
-    Y^k = 𝟙 ⊗ y₀ + h Σ_m (A^{k,m} ⊗ L^m) Y^{rows(m)},     y₁ = y₀ + h Σ_m (b_m ⊗ L^m) Y^{rows(m)}.
-
-Keeping of each Y^k only the components that some vector field looks at, these are
-
-    X = E y₀ + h W X,     y₁ = y₀ + h B X,     hence     R(h) = I + h B (I − hW)⁻¹ E = I + Σ_k h^k B
-    W^{k−1} E.
+    R(h) = I + h B (I − hW)⁻¹ E = I + Σ_k h^k B W^{k−1} E.
 
 A number of K = ℚ(θ) is kept as its multiplication matrix over ℚ, so that all of it is rational
 arithmetic in python-flint.
@@ -15,16 +10,17 @@ arithmetic in python-flint.
 
 from __future__ import annotations
 
-from collections.abc import Iterator, Sequence
+from collections.abc import Iterator
 from dataclasses import dataclass
 
 from flint import arb, arb_mat, fmpq, fmpq_mat
 
 from garkcli.errors import UsageProblem
 from garkcli.exact.display import to_ball
-from garkcli.exact.field import ONE, ZERO, Number, NumberField, coordinates
+from garkcli.exact.field import ONE, ZERO, NumberField, coordinates
 from garkcli.exact.matrix import Matrix, identity, multiply, scale, subtract, transpose
 from garkcli.problems.oscillator import Oscillator, check_structure
+from garkcli.stepping.stage_system import stage_system
 from garkcli.tableau.tableau import Tableau
 
 MAX_STEPS = 10**15
@@ -33,7 +29,7 @@ MAX_STEPS = 10**15
 
 @dataclass(frozen=True)
 class LinearStep:
-    """A tableau on an oscillator: the matrices W, E, B of this module's heading, over ℚ.
+    """A tableau on an oscillator: W, E and B of its stage system, over ℚ.
 
     Attributes:
         problem: the oscillator and its split.
@@ -99,90 +95,19 @@ def linear_step(tableau: Tableau, problem: Oscillator) -> LinearStep:
         UsageProblem: the split is not one that the structure of the tableau is for.
     """
     check_structure(tableau, problem)
-    terms = _terms(tableau, problem)
-    first, n = _first_unknowns(tableau, terms)
-
-    W = _zeros(n, n)
-    E = _zeros(n, 2)
-    B = _zeros(2, n)
-    for term in terms:
-        colour = tableau.colours[term.colour]
-        column = first[colour.space, term.seen]
-        _add(B, term.driven, column, term.factor, (colour.b,))
-        for (space, component), row in first.items():
-            if component != term.driven:
-                continue
-            block = tableau.blocks.get((space, term.colour))
-            if block is not None:
-                _add(W, row, column, term.factor, block)
-    for (space, component), row in first.items():
-        ones = tuple((x,) for x in tableau.spaces[space].one)
-        _add(E, row, component, ONE, ones)
+    fields = [problem.matrix(colour) for colour in tableau.colours]
+    system = stage_system(tableau, fields)
     field = tableau.field
     return LinearStep(
         problem,
         field,
-        _over_rationals(W, field),
-        _columns(E, field),
-        _over_rationals(B, field),
+        _over_rationals(system.W, field),
+        _columns(system.E, field),
+        _over_rationals(system.B, field),
     )
 
 
-@dataclass(frozen=True)
-class _LinearTerm:
-    """What the field of a colour does: component ``driven`` of y gets ``factor`` times component
-    ``seen``.
-    """
-
-    colour: int
-    driven: int
-    seen: int
-    factor: Number
-
-
-def _terms(tableau: Tableau, problem: Oscillator) -> list[_LinearTerm]:
-    """The entries of all matrices L^m that are not zero."""
-    found = []
-    for m, colour in enumerate(tableau.colours):
-        L = problem.matrix(colour)
-        for i in (0, 1):
-            for j in (0, 1):
-                factor = L[i][j]
-                if factor:
-                    found.append(_LinearTerm(m, i, j, factor))
-    return found
-
-
-def _first_unknowns(
-    tableau: Tableau, terms: Sequence[_LinearTerm]
-) -> tuple[dict[tuple[int, int], int], int]:
-    """The number of the first unknown of each (stage space, component of y) that some field looks
-    at, and how many unknowns there are.
-    """
-    first: dict[tuple[int, int], int] = {}
-    n = 0
-    for term in terms:
-        colour = tableau.colours[term.colour]
-        place = colour.space, term.seen
-        if place not in first:
-            first[place] = n
-            n += tableau.space(term.colour).stages
-    return first, n
-
-
-def _zeros(rows: int, columns: int) -> list[list[Number]]:
-    return [[ZERO] * columns for _ in range(rows)]
-
-
-def _add(
-    matrix: list[list[Number]], row: int, column: int, factor: Number, block: Matrix
-) -> None:
-    for i, entries in enumerate(block, start=row):
-        for j, x in enumerate(entries, start=column):
-            matrix[i][j] = matrix[i][j] + factor * x
-
-
-def _over_rationals(rows: list[list[Number]], field: NumberField | None) -> fmpq_mat:
+def _over_rationals(rows: Matrix, field: NumberField | None) -> fmpq_mat:
     """Each number replaced by its multiplication matrix over ℚ."""
     if field is None:
         return fmpq_mat([[x for x in row if isinstance(x, fmpq)] for row in rows])
@@ -203,7 +128,7 @@ def _over_rationals(rows: list[list[Number]], field: NumberField | None) -> fmpq
     return fmpq_mat(columns).transpose()
 
 
-def _columns(rows: list[list[Number]], field: NumberField | None) -> fmpq_mat:
+def _columns(rows: Matrix, field: NumberField | None) -> fmpq_mat:
     """Each number replaced by its column of coordinates over ℚ."""
     d = field.degree if field else 1
     flat = []

@@ -9,9 +9,10 @@ from hypothesis import strategies as st
 
 from garkcli.families.registry import diagonal_method
 from garkcli.methodfile.load import loads
+from garkcli.properties.last_stage import is_stiffly_accurate as has_new_value_as_stage
 from garkcli.stability.linear import is_a_stable, is_l_stable, stability_function
 from garkcli.stability.summary import stability_of_rounded
-from garkcli.stability.within import stability_within
+from garkcli.stability.within import is_stiffly_accurate, stability_within
 from garkcli.tableau.forms import additive, gark
 
 TOLERANCE = fmpq(1, 10**9)
@@ -119,3 +120,32 @@ def test_coefficients_that_are_added_add_their_rounding(
     both = additive([((a,),), ((a,),)], [(one,), (one,)], None)
     assert is_a_stable(stability_function(both))
     assert stability_of_rounded(both, TOLERANCE).linear[0].a_stable is expected
+
+
+@pytest.mark.parametrize(
+    ("first", "second", "stiff"),
+    [
+        (("1/2", "1/2"), ("1/2", "1/2"), True),
+        (("1/3", "1/2"), ("2/3", "1/2"), False),
+        (("1", "1"), ("0", "0"), True),
+        (("1/4", "1/2"), ("1/4", "1/2"), False),
+    ],
+)
+def test_the_last_stage_is_compared_colour_by_colour(
+    first: tuple[str, str], second: tuple[str, str], stiff: bool
+) -> None:
+    """One stage with a^{1}, a^{2} and b^{1}, b^{2}: where a^{1} + a^{2} = b^{1} + b^{2} by chance,
+    neighbours have R(∞) ≠ 0, and L-stability is left open. The property says the same.
+    """
+    numbers = [fmpq(*map(int, x.split("/"))) for x in (*first, *second)]
+    a, b, other_a, other_b = numbers
+    both = additive([((a,),), ((other_a,),)], [(b,), (other_b,)], None)
+    shares = [fmpq(1), fmpq(1)]
+    assert is_stiffly_accurate(both, shares) is stiff
+    assert has_new_value_as_stage(both) is stiff
+    found = stability_within(both, shares, TOLERANCE, 0)
+    if a + other_a == b + other_b:
+        assert is_l_stable(stability_function(both))
+        assert found.l_stable is (True if stiff else None)
+    alone = stability_within(both, [fmpq(1), fmpq(0)], TOLERANCE, 0)
+    assert alone.l_stable is (a == b)
