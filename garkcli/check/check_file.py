@@ -12,7 +12,7 @@ from garkcli.check.outcome import Claim, Outcome
 from garkcli.errors import MethodFileError
 from garkcli.methodfile.build import MethodFile
 from garkcli.methodfile.expectations import highest_order
-from garkcli.methodfile.load import load
+from garkcli.methodfile.load import NO_SETTINGS, load
 from garkcli.order.certificate import DEFAULT_LIMIT, Order
 from garkcli.tableau.conjugate import conjugate
 from garkcli.tableau.forms import pair
@@ -35,7 +35,10 @@ solved for carries the rounding of all others.
 
 
 def check_file(
-    path: str, limit: int = DEFAULT_LIMIT, want_constants: bool = False
+    path: str,
+    limit: int = DEFAULT_LIMIT,
+    want_constants: bool = False,
+    settings: Mapping[str, str] = NO_SETTINGS,
 ) -> Outcome:
     """Check one method file; a file that cannot be read gives an outcome with its faults.
 
@@ -43,9 +46,10 @@ def check_file(
         path: a file, or ``-`` for standard input.
         limit: where the search for orders stops, unless a claim of the file reaches further.
         want_constants: compute the error constants too.
+        settings: values of its parameters, by name, in place of those in the file.
     """
     try:
-        method = load(path)
+        method = load(path, settings)
     except MethodFileError as error:
         return Outcome(error.source, error.source, faults=error.faults, text=error.text)
 

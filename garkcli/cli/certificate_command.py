@@ -4,13 +4,20 @@ from __future__ import annotations
 
 import click
 
-from garkcli.cli.options import CONTEXT, PATH, Output, common
+from garkcli.cli.options import (
+    CONTEXT,
+    PATH,
+    Output,
+    common,
+    settings_option,
+)
 
 
 @click.command("certificate", context_settings=CONTEXT)
 @click.argument("file", type=PATH, metavar="FILE")
+@settings_option
 @common(["json"])
-def command(file: str, output: Output) -> int:
+def command(file: str, settings: dict[str, str], output: Output) -> int:
     """What proves the orders of a method, to be checked without gark.
 
     The exact tableau, its conjugate and pair, the trees that span all trees of each order, and a
@@ -21,5 +28,5 @@ def command(file: str, output: Output) -> int:
     from garkcli.methodfile.load import load
     from garkcli.report.proof_json import render
 
-    output.write(render(prove_method(load(file))))
+    output.write(render(prove_method(load(file, settings))))
     return 0

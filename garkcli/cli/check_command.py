@@ -7,7 +7,15 @@ from dataclasses import replace
 
 import click
 
-from garkcli.cli.options import CONTEXT, PATH, Output, common, digits_option
+from garkcli.cli.options import (
+    CONTEXT,
+    PATH,
+    Output,
+    common,
+    digits_option,
+    refuse_settings_of_several,
+    settings_option,
+)
 from garkcli.report.check_formats import FORMATS
 
 
@@ -60,6 +68,7 @@ from garkcli.report.check_formats import FORMATS
 @digits_option(
     "In the text N significant digits instead of exact values and residuals."
 )
+@settings_option
 @common(["auto", *FORMATS])
 def command(
     files: tuple[str, ...],
@@ -71,6 +80,7 @@ def command(
     require_claims: bool,
     jobs: int,
     digits: int | None,
+    settings: dict[str, str],
     output: Output,
 ) -> int:
     """Everything known about each method, and its claims.
@@ -99,8 +109,9 @@ def command(
 
         earlier = read_baseline(baseline)
     paths = list(find_files(files))
+    refuse_settings_of_several(settings, paths)
     running = check_files(
-        paths, max_order, error_constants, jobs or os.cpu_count() or 1
+        paths, max_order, error_constants, jobs or os.cpu_count() or 1, settings
     )
     outcomes = list(tracked(running, len(paths), "checking", output.verbosity >= 0))
     if require_claims:

@@ -15,6 +15,7 @@ from garkcli.cli.options import (
     common,
     digits_option,
     document_option,
+    settings_option,
 )
 from garkcli.cli.tree_options import colours_option, kind_asked, symplectic_options
 from garkcli.errors import UsageProblem
@@ -68,8 +69,9 @@ if TYPE_CHECKING:
 @digits_option("Values and residuals in decimals of N digits; by default exact.")
 @document_option
 @symplectic_options
+@settings_option
 @common(["text", "json", "csv", "latex"])
-def command(output: Output, **options: Any) -> int:
+def command(settings: dict[str, str], output: Output, **options: Any) -> int:
     """The order-condition table.
 
     Without FILE the paper's Table 1 for any order: a row for each tree shape, to hold for all
@@ -86,9 +88,11 @@ def command(output: Output, **options: Any) -> int:
     wanted = Wanted(**options)
     asked = kind_asked(wanted.symplectic, wanted.kind, wanted.members, output.format)
     _check(wanted, asked)
+    if settings and wanted.file is None:
+        raise UsageProblem("--set is for the parameters of FILE", "name a file")
     valued = None
     if wanted.file is not None:
-        valued = _chosen(wanted.file, wanted.which, wanted.failing)
+        valued = _chosen(wanted.file, settings, wanted.which, wanted.failing)
     subject = None
     if asked is not None:
         subject = _subject(asked, wanted, valued)
@@ -197,13 +201,15 @@ def _arranged(
         yield row if digits is None else replace(row, digits=digits)
 
 
-def _chosen(file: str, which: str | None, only_failing: bool) -> Valued:
+def _chosen(
+    file: str, settings: Mapping[str, str], which: str | None, only_failing: bool
+) -> Valued:
     from garkcli.methodfile.load import load
     from garkcli.report.conditions_data import Valued
     from garkcli.tableau.conjugate import conjugate
     from garkcli.tableau.forms import pair
 
-    method = load(file)
+    method = load(file, settings)
     tableau = method.tableau
     if which == "conjugate":
         tableau = conjugate(tableau)

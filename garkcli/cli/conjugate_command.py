@@ -11,6 +11,7 @@ from garkcli.cli.options import (
     common,
     digits_option,
     document_option,
+    settings_option,
 )
 
 
@@ -21,9 +22,15 @@ from garkcli.cli.options import (
 )
 @digits_option("Decimals of N digits; by default exact, or 17 digits.")
 @document_option
+@settings_option
 @common(["text", "yaml", "json", "latex"])
 def command(
-    file: str, is_pair: bool, digits: int | None, document: bool, output: Output
+    file: str,
+    is_pair: bool,
+    digits: int | None,
+    document: bool,
+    settings: dict[str, str],
+    output: Output,
 ) -> int:
     """The symplectic conjugate tableau of a method.
 
@@ -35,7 +42,7 @@ def command(
     from garkcli.tableau.conjugate import conjugate
     from garkcli.tableau.forms import pair
 
-    method = load(file)
+    method = load(file, settings)
     name = f"symplectic {'pair' if is_pair else 'conjugate'} of {method.name}"
     made = pair(method.tableau) if is_pair else conjugate(method.tableau)
     from garkcli.cli.rendering import write_tableau

@@ -2,6 +2,7 @@
 
 from __future__ import annotations
 
+from collections.abc import Mapping
 from dataclasses import dataclass
 from pathlib import Path
 from typing import TYPE_CHECKING, Any
@@ -9,7 +10,14 @@ from typing import TYPE_CHECKING, Any
 import click
 
 from garkcli.cli.converging import Problems, Wanted, compared, hint_rounding, tested
-from garkcli.cli.options import CONTEXT, PATH, Output, common
+from garkcli.cli.options import (
+    CONTEXT,
+    PATH,
+    Output,
+    common,
+    refuse_settings_of_several,
+    settings_option,
+)
 from garkcli.cli.problems import (
     ProblemType,
     note_changing,
@@ -71,8 +79,11 @@ def _moved(_: click.Context, option: click.Parameter, value: object) -> None:
 @click.option("--drift", is_flag=True, hidden=True, expose_value=False, callback=_moved)
 @click.option("--step", hidden=True, expose_value=False, callback=_moved)
 @plot_option
+@settings_option
 @common(["text", "json", "csv"])
-def command(files: tuple[str, ...], output: Output, **options: Any) -> int:
+def command(
+    files: tuple[str, ...], settings: dict[str, str], output: Output, **options: Any
+) -> int:
     """The convergence test: errors over step sizes, observed against predicted order, energy error.
 
     Steps are taken with as many digits as the errors need, so that a method of order 12 shows slope
@@ -90,13 +101,14 @@ def command(files: tuple[str, ...], output: Output, **options: Any) -> int:
     from garkcli.methodfile.finding import find_files
 
     paths = list(find_files(files))
+    refuse_settings_of_several(settings, paths)
     asked = Asked(**options)
     _check(asked)
     wanted = _wanted(asked)
     against = asked.against or ("evaluations" if asked.work else "h")
     shown = Shown(asked.work, against, asked.plot)
     if len(paths) == 1:
-        return _one(paths[0], wanted, shown, output)
+        return _one(paths[0], settings, wanted, shown, output)
     return _several(paths, wanted, shown, output)
 
 
@@ -179,7 +191,9 @@ class Shown:
     plot: str | None
 
 
-def _one(path: str, wanted: Wanted, shown: Shown, output: Output) -> int:
+def _one(
+    path: str, settings: Mapping[str, str], wanted: Wanted, shown: Shown, output: Output
+) -> int:
     """The test of one method."""
     from garkcli.methodfile.load import load
     from garkcli.report import convergence as report
@@ -187,7 +201,7 @@ def _one(path: str, wanted: Wanted, shown: Shown, output: Output) -> int:
     from garkcli.stepping.step import StepFailed
 
     problems = Problems(wanted)
-    method = load(path)
+    method = load(path, settings)
     tableau = stepped_tableau(method, output, has_momenta=problems.is_hamiltonian)
     problems.prepare([tableau])
     if problems.read is not None:

@@ -2,13 +2,14 @@
 
 from __future__ import annotations
 
+from collections.abc import Mapping
 from dataclasses import dataclass
 from pathlib import Path
 from typing import TYPE_CHECKING, Any
 
 import click
 
-from garkcli.cli.options import CONTEXT, PATH, Output, common
+from garkcli.cli.options import CONTEXT, PATH, Output, common, settings_option
 from garkcli.cli.problems import (
     ProblemType,
     find_problem,
@@ -91,8 +92,9 @@ NOT_BOUNDED = frozenset({"drifts", "unstable", "undecided"})
     help="Measure in the modified Hamiltonian of trees up to ORDER, 5 by default, too.",
 )
 @plot_option
+@settings_option
 @common(["text", "json", "csv"])
-def command(output: Output, **options: Any) -> int:
+def command(settings: dict[str, str], output: Output, **options: Any) -> int:
     """The energy error over a long time, and that of every other invariant: does it drift?
 
     A drift is told from the oscillation around it by a fit, and has an uncertainty. The step map of
@@ -117,11 +119,11 @@ def command(output: Output, **options: Any) -> int:
     wanted = Wanted(**options)
     _check(wanted)
     if wanted.modified is not None:
-        return _in_modified(wanted, wanted.modified, output)
+        return _in_modified(wanted, wanted.modified, settings, output)
     limit = given_positive("--max-error", wanted.max_error)
     time = given_positive("--t-end", wanted.t_end)
     step = given_positive("--step", wanted.step)
-    method = load(wanted.file)
+    method = load(wanted.file, settings)
     tableau, problem = _at_work(method, wanted, output)
     try:
         run = _run(method, tableau, problem, time, step, wanted, output)
@@ -178,9 +180,12 @@ class Wanted:
     modified: int | None
 
 
-def _in_modified(wanted: Wanted, order: int, output: Output) -> int:
+def _in_modified(
+    wanted: Wanted, order: int, settings: Mapping[str, str], output: Output
+) -> int:
     """The energy error in the modified Hamiltonian."""
     from garkcli.cli.modified_energy import measure_modified
+    from garkcli.methodfile.load import load
 
     others = {
         "--omega": wanted.omega,
@@ -194,7 +199,13 @@ def _in_modified(wanted: Wanted, order: int, output: Output) -> int:
     }
     times = wanted.t_end, wanted.step
     return measure_modified(
-        wanted.file, wanted.problem, wanted.seed, times, order, others, output
+        load(wanted.file, settings),
+        wanted.problem,
+        wanted.seed,
+        times,
+        order,
+        others,
+        output,
     )
 
 

@@ -13,6 +13,7 @@ from garkcli.cli.options import (
     common,
     digits_option,
     document_option,
+    settings_option,
 )
 from garkcli.cli.problems import ProblemType, find_hamiltonian, seed_option
 from garkcli.cli.stepping import refuse_misplaced, stepped_tableau
@@ -57,6 +58,7 @@ if TYPE_CHECKING:
 @seed_option
 @digits_option("Coefficients in decimals of N digits; by default exact.")
 @document_option
+@settings_option
 @common(["text", "json", "latex"])
 def command(
     file: str,
@@ -67,6 +69,7 @@ def command(
     seed: int | None,
     digits: int | None,
     document: bool,
+    settings: dict[str, str],
     output: Output,
 ) -> int:
     """The modified equation of a method, in trees, exactly.
@@ -87,7 +90,7 @@ def command(
 
     if document and output.format != "latex":
         raise UsageProblem("--document goes with --format latex", "add --format latex")
-    method = load(file)
+    method = load(file, settings)
     tableau = _chosen(method, which)
     formula = None
     if problem is not None:

@@ -9,10 +9,11 @@ from garkcli.cli.problems import find_hamiltonian
 from garkcli.cli.stepping import given_positive, stepped_tableau
 from garkcli.cli.streams import say_problem
 from garkcli.errors import UsageProblem
+from garkcli.methodfile.build import MethodFile
 
 
 def measure_modified(
-    file: str,
+    method: MethodFile,
     problem: str,
     seed: int | None,
     times: tuple[str | None, str | None],
@@ -23,7 +24,7 @@ def measure_modified(
     """Measure the energy error in the modified Hamiltonian, and return the exit code.
 
     Args:
-        file: the method.
+        method: whose steps are taken.
         problem: a name or the path of a problem file.
         seed: of random problems.
         times: --t-end and --step, as they were written.
@@ -35,7 +36,6 @@ def measure_modified(
         UsageProblem: an option does not go with --modified, or the coefficients are rounded.
     """
     from garkcli.backward.energy import modified_run
-    from garkcli.methodfile.load import load
     from garkcli.report.modified_energy import ModifiedEnergyReport, render
     from garkcli.report.progress import tracked
     from garkcli.stepping.step import StepFailed
@@ -45,7 +45,6 @@ def measure_modified(
             raise UsageProblem(f"{option} does not go with --modified", "leave it out")
     t_end = given_positive("--t-end", times[0])
     longest = given_positive("--step", times[1])
-    method = load(file)
     if method.tolerance is not None:
         raise UsageProblem(
             "--modified: the order in it is shown for exact coefficients, not for rounded ones",

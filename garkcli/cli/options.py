@@ -3,12 +3,13 @@
 from __future__ import annotations
 
 import sys
-from collections.abc import Callable, Iterable, Sequence
+from collections.abc import Callable, Iterable, Mapping, Sequence, Sized
 from typing import Any, TypeVar
 
 import click
 
 from garkcli.cli.streams import is_terminal, put, safe_pieces, say, wants_colour
+from garkcli.errors import UsageProblem
 from garkcli.report.paint import Paint
 
 F = TypeVar("F", bound=Callable[..., Any])
@@ -69,6 +70,16 @@ settings_option: Callable[[F], F] = click.option(
     help="A value for a parameter of FILE, in place of the one in it.",
 )
 """``--set``; it arrives as a mapping."""
+
+
+def refuse_settings_of_several(settings: Mapping[str, str], paths: Sized) -> None:
+    """``--set`` is about the parameters of one file.
+
+    Raises:
+        UsageProblem: it is given with several.
+    """
+    if settings and len(paths) > 1:
+        raise UsageProblem("--set is for one FILE", "give the files one by one")
 
 
 document_option: Callable[[F], F] = click.option(

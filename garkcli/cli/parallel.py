@@ -6,7 +6,7 @@ from __future__ import annotations
 
 import sys
 from collections import deque
-from collections.abc import Callable, Iterator, Sequence
+from collections.abc import Callable, Iterator, Mapping, Sequence
 from contextlib import contextmanager, suppress
 from functools import partial
 from typing import TYPE_CHECKING
@@ -14,6 +14,7 @@ from typing import TYPE_CHECKING
 from garkcli.check.check_file import check_file
 from garkcli.check.outcome import Outcome
 from garkcli.errors import Fault
+from garkcli.methodfile.load import NO_SETTINGS
 
 if TYPE_CHECKING:  # slow to import, and of no use to a check of one file
     from multiprocessing.connection import Connection
@@ -28,16 +29,21 @@ BATCH = 8
 
 
 def check_files(
-    paths: Sequence[str], limit: int, want_constants: bool, jobs: int
+    paths: Sequence[str],
+    limit: int,
+    want_constants: bool,
+    jobs: int,
+    settings: Mapping[str, str] = NO_SETTINGS,
 ) -> Iterator[Outcome]:
     """Check ``paths`` in their order, ``jobs`` of them at a time.
 
     A file that ends its worker, by a lack of memory or a signal, has an outcome that says so, and
     the others are checked as if nothing had been.
     """
-    work: Work = partial(
-        _checked, partial(check_file, limit=limit, want_constants=want_constants)
+    check = partial(
+        check_file, limit=limit, want_constants=want_constants, settings=settings
     )
+    work: Work = partial(_checked, check)
     jobs = min(jobs, len(paths), MOST_WORKERS)
     if jobs < 2 or "-" in paths:
         yield from map(work, paths)

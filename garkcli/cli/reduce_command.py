@@ -6,7 +6,13 @@ from typing import TYPE_CHECKING
 
 import click
 
-from garkcli.cli.options import CONTEXT, PATH, Output, common
+from garkcli.cli.options import (
+    CONTEXT,
+    PATH,
+    Output,
+    common,
+    settings_option,
+)
 from garkcli.errors import UsageProblem
 
 if TYPE_CHECKING:
@@ -16,8 +22,9 @@ if TYPE_CHECKING:
 
 @click.command("reduce", context_settings=CONTEXT)
 @click.argument("file", type=PATH, metavar="FILE")
+@settings_option
 @common(["yaml", "text", "json", "latex"])
-def command(file: str, output: Output) -> int:
+def command(file: str, settings: dict[str, str], output: Output) -> int:
     """The smallest method that does the same, as a method file.
 
     Stages that have no influence on the step are left out, and stages that are equal on every
@@ -26,7 +33,7 @@ def command(file: str, output: Output) -> int:
     """
     from garkcli.methodfile.load import load
 
-    method = load(file)
+    method = load(file, settings)
     smaller = smallest(file, method)
     if smaller is method.tableau:
         output.note(f"{file}: nothing to reduce")

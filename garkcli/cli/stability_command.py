@@ -8,7 +8,14 @@ from typing import TYPE_CHECKING
 
 import click
 
-from garkcli.cli.options import CONTEXT, PATH, Output, common
+from garkcli.cli.options import (
+    CONTEXT,
+    PATH,
+    Output,
+    common,
+    refuse_settings_of_several,
+    settings_option,
+)
 from garkcli.errors import UsageProblem, did_you_mean
 
 if TYPE_CHECKING:
@@ -53,6 +60,7 @@ if TYPE_CHECKING:
 @click.option(
     "--order-star", is_flag=True, help="With --plot: |R(z)| > |exp z| instead."
 )
+@settings_option
 @common(["text", "json", "latex"])
 def command(
     files: tuple[str, ...],
@@ -62,6 +70,7 @@ def command(
     digits: int,
     plot: str | None,
     order_star: bool,
+    settings: dict[str, str],
     output: Output,
 ) -> int:
     """Stability on linear, oscillating and contractive problems, decided exactly.
@@ -81,8 +90,10 @@ def command(
         _check_plot(plot)
     ratios = [_ratio(text) for text in ratio]
     reports = []
-    for file in find_files(files):
-        method = load(file)
+    paths = list(find_files(files))
+    refuse_settings_of_several(settings, paths)
+    for file in paths:
+        method = load(file, settings)
         if slow is None or fast is None:
             reports.append(_whole_report(file, method, digits, ratios))
         else:

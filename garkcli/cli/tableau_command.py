@@ -11,6 +11,7 @@ from garkcli.cli.options import (
     common,
     digits_option,
     document_option,
+    settings_option,
 )
 
 
@@ -18,8 +19,15 @@ from garkcli.cli.options import (
 @click.argument("file", type=PATH, metavar="FILE")
 @digits_option("Decimals of N digits; by default exact, or 17 digits.")
 @document_option
+@settings_option
 @common(["text", "yaml", "json", "latex"])
-def command(file: str, digits: int | None, document: bool, output: Output) -> int:
+def command(
+    file: str,
+    digits: int | None,
+    document: bool,
+    settings: dict[str, str],
+    output: Output,
+) -> int:
     """The assembled tableau, all blocks.
 
     Entries are exact where the nodes are rational or quadratic numbers, decimals otherwise. With
@@ -29,7 +37,7 @@ def command(file: str, digits: int | None, document: bool, output: Output) -> in
     from garkcli.cli.rendering import write_tableau
     from garkcli.methodfile.load import load
 
-    method = load(file)
+    method = load(file, settings)
     write_tableau(
         method.tableau, method.name, digits, output, method.tolerance, document
     )
