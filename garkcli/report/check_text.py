@@ -123,15 +123,22 @@ def _wrapped(text: str, width: int = 78) -> list[str]:
     return wrap(text, width)
 
 
+def _title(outcome: Outcome) -> list[str]:
+    """The file and the name of the method: below each other where they are long."""
+    file, name = printable(outcome.file), printable(outcome.name)
+    if outcome.name == outcome.file:
+        return [file]
+    title = f"{file}: {name}"
+    return [title] if len(title) <= _WIDTH else [f"{file}:", f"  {name}"]
+
+
 def _full(
     outcome: Outcome, analysis: Analysis, paint: Paint, digits: int | None
 ) -> list[str]:
     tableau = analysis.tableau
-    title = printable(outcome.file)
-    if outcome.name != outcome.file:
-        title += f": {printable(outcome.name)}"
     kind = _kind(tableau, outcome.structure, analysis.tolerance)
-    lines = [paint("strong", title), *indented(_wrapped(kind)), ""]
+    title = [paint("strong", line) for line in _title(outcome)]
+    lines = [*title, *indented(_wrapped(kind)), ""]
     lines += order_lines(analysis, paint, digits)
     if analysis.suggestion is not None:
         lines += suggestion_lines(analysis.suggestion, analysis.tolerance, paint)
@@ -306,8 +313,11 @@ def _claim(outcome: Outcome, claim: Claim, paint: Paint) -> str:
     verdict = paint("bad", "CLAIM FAILS")
     instead = f"expected {claim.expected}, found {claim.found}"
     place = f"{printable(outcome.file)}:{claim.line}:{claim.column}"
-    line = f"  {verdict}      {claim.claim}: {instead}  ({place})"
-    if not claim.why:
-        return line
-    why = folded(claim.why, _WIDTH - 2 - LABEL, "")
-    return "\n".join([line, *indented(why, " " * (2 + LABEL))])
+    said = f"{claim.claim}: {instead}"
+    left = _WIDTH - 2 - LABEL
+    is_short = len(said) + len(place) + 4 <= left
+    told = [f"{said}  ({place})"] if is_short else [said, f"({place})"]
+    if claim.why:
+        told += folded(claim.why, left, "")
+    first, *rest = told
+    return "\n".join([f"  {verdict}      {first}", *indented(rest, " " * (2 + LABEL))])

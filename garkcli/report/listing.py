@@ -3,14 +3,16 @@
 from __future__ import annotations
 
 from collections.abc import Mapping
+from textwrap import wrap
 from typing import NamedTuple
 
 from garkcli.families.registry import Family
 from garkcli.report.json_text import to_json
-from garkcli.report.paint import Paint
+from garkcli.report.paint import Paint, indented
 from garkcli.report.record import TEXT, Field, Record, Schema, published
 
 SCHEMA = "gark/list/1"
+_WIDTH = 80
 
 
 def render(
@@ -23,20 +25,18 @@ def render(
     """The lists as text or JSON."""
     if format == "json":
         return to_json(_REPORT.data(_Lists(families, rules, problems))) + "\n"
-    lines = [paint("strong", f"{'families':<20} {'stages':<8} {'order':<7}")]
+    lines = [paint("strong", f"{'families':<20} {'stages':<8} order")]
     lines += [
         f"  {x.name:<18} {_stages(x):<8} {x.order:<7} {x.summary}"
         for x in families.values()
     ]
     for title, entries in (("transfer rules", rules), ("problems", problems)):
-        width = max(len(name) for name in entries) + 2
+        width = max(len(name) for name in entries) + 4
         lines += ["", paint("strong", title)]
         for name, summary in entries.items():
-            lines.append(
-                f"  {name:<{width}}{summary}"
-                if len(summary) + width < 78
-                else f"  {name}\n      {summary}"
-            )
+            first, *rest = wrap(summary, _WIDTH - width)
+            lines.append(f"  {name}".ljust(width) + first)
+            lines += indented(rest, " " * width)
     lines += [
         "",
         "A problem of your own is a file: --problem FILE.yaml, see docs/problem-file.md.",

@@ -88,7 +88,7 @@ def render(
     if widest <= width:
         lines += grid
     else:
-        lines += _listing(tableau, entries)
+        lines += _listing(tableau, entries, width)
     return "\n".join(lines) + "\n"
 
 
@@ -157,16 +157,14 @@ def distinct_rows(tableau: Tableau) -> list[int]:
     return list(seen.values())
 
 
-def _listing(tableau: Tableau, entries: Entries) -> list[str]:
+def _listing(tableau: Tableau, entries: Entries, width: int) -> list[str]:
     """Each block on its own."""
     digits = entries.digits
     names = [colour.name for colour in tableau.colours]
     lines: list[str] = []
     for name, nodes, weights in zip(names, entries.c, entries.b, strict=True):
-        c = ", ".join(_texts(nodes, digits))
-        b = ", ".join(_texts(weights, digits))
-        lines.append(f"c{{{name}}} = {c}")
-        lines.append(f"b{{{name}}} = {b}")
+        lines += _vector(f"c{{{name}}}", _texts(nodes, digits), width)
+        lines += _vector(f"b{{{name}}}", _texts(weights, digits), width)
         lines.append("")
     for l in distinct_rows(tableau):
         row_name = names[l]
@@ -179,3 +177,17 @@ def _listing(tableau: Tableau, entries: Entries) -> list[str]:
             lines += indented(rows, " " * 4)
             lines.append("")
     return lines[:-1]
+
+
+def _vector(name: str, texts: Sequence[str], width: int) -> list[str]:
+    """Nodes or weights, in as many lines as they need."""
+    lines = [f"{name} ="]
+    margin = " " * (len(name) + 2)
+    ends = [","] * (len(texts) - 1) + [""]
+    for text, end in zip(texts, ends, strict=True):
+        longer = f"{lines[-1]} {text}{end}"
+        if len(longer) <= width:
+            lines[-1] = longer
+        else:
+            lines.append(f"{margin} {text}{end}")
+    return lines

@@ -190,3 +190,13 @@ def test_a_repair_too_wide_for_its_line_has_one_of_its_own(tmp_path: Path) -> No
     lines = gark("check", "m.yaml", cwd=tmp_path).out.splitlines()
     at = lines.index("        the claimed order would hold with")
     assert lines[at + 1] == "          A{1,1}, row 3, entry 2, = 1/2 instead of 1/3"
+
+
+def test_the_lists_are_columns() -> None:
+    """Every entry of gark list begins in the column of its section, and fits 80 columns."""
+    sections = gark("list").out.split("\n\n")[1:3]
+    for section in sections:
+        entries = section.splitlines()[1:]
+        begin = [re.match(r"(?:  \S+)?\s+", line) for line in entries]
+        assert len({x and x.end() for x in begin}) == 1
+        assert max(map(len, entries)) <= 80

@@ -191,3 +191,24 @@ def test_hints_and_constants_of_one_colour() -> None:
     shown = render([found], Paint())
     assert "largest 0.166667 at [[]]\n" in shown
     assert "coupling" not in shown
+
+
+def test_long_places_have_a_line_of_their_own() -> None:
+    """Where the file is long the name of the method and the place of a failed claim go on in the
+    next line, and what was found fits 80 columns.
+    """
+    text = "name: {}\nmethods: [{{family: gauss, stages: 2}}]\nexpect: {{symplectic: false}}\n"
+    folder = "a-folder-with-a-long-name/long/"
+    long = outcome(
+        text.format("Gauss with two stages, copied by hand"), f"{folder}m.gark.yaml"
+    )
+    found = render([long], Paint()).splitlines()
+    assert found[:2] == [
+        f"{folder}m.gark.yaml:",
+        "  Gauss with two stages, copied by hand",
+    ]
+    claim = found.index("  CLAIM FAILS      symplectic: expected false, found true")
+    assert found[claim + 1] == " " * 19 + f"({folder}m.gark.yaml:3:22)"
+    assert max(map(len, found)) <= 80
+    short = outcome(text.format("Gauss"))
+    assert render([short], Paint()).splitlines()[0] == "m.gark.yaml: Gauss"

@@ -181,3 +181,12 @@ def test_stages_are_counted_as_the_paper_does() -> None:
     assert semi.stages_of("y") == ()
     text = gark("check", "methods/rectangular.gark.yaml", "-v").out
     assert "stages q: 3, p: 2" in text
+
+
+def test_long_nodes_and_weights_go_on_in_the_next_line() -> None:
+    """Nodes and weights of a tableau too wide for a grid fit 80 columns, and none is lost."""
+    run = gark("tableau", "methods/gauss6-lobatto7.gark.yaml")
+    vectors = run.out.split("\n\n")[1:3]
+    assert max(len(line) for part in vectors for line in part.splitlines()) <= 80
+    counts = [len(x.split(",")) for part in vectors for x in re.split(r"\nb", part)]
+    assert counts == [6, 6, 7, 7]
