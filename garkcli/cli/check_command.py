@@ -101,7 +101,7 @@ def command(
         raise _no_file()
     from garkcli.cli.parallel import check_files
     from garkcli.methodfile.finding import find_files
-    from garkcli.report.progress import tracked
+    from garkcli.page.progress import tracked
 
     earlier = None
     if baseline is not None:

@@ -82,8 +82,8 @@ def command(settings: dict[str, str], output: Output, **options: Any) -> int:
     With --symplectic one condition of each class of those that are equivalent for symplectic
     methods; with FILE for its symplectic pair, unless it is symplectic itself.
     """
+    from garkcli.page.progress import tracked
     from garkcli.report import conditions as report
-    from garkcli.report.progress import tracked
 
     wanted = Wanted(**options)
     asked = kind_asked(wanted.symplectic, wanted.kind, wanted.members, output.format)

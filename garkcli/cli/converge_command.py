@@ -196,8 +196,8 @@ def _one(
 ) -> int:
     """The test of one method."""
     from garkcli.methodfile.load import load
+    from garkcli.page.progress import watching
     from garkcli.report import convergence as report
-    from garkcli.report.progress import watching
     from garkcli.stepping.step import StepFailed
 
     problems = Problems(wanted)

@@ -203,7 +203,7 @@ def compared(paths: Sequence[str], wanted: Wanted, output: Output) -> list[Entry
         MethodFileError: the problem file has faults.
         UsageProblem: the steps that are wanted do not fit the time.
     """
-    from garkcli.report.progress import watching
+    from garkcli.page.progress import watching
 
     problems = Problems(wanted)
     methods = [_loaded(path, problems, output) for path in paths]

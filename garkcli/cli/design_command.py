@@ -135,7 +135,7 @@ def _emit(family: FamilyFile, found: Design, path: str) -> None:
     from garkcli.design.chosen import first_method
     from garkcli.errors import UsageProblem
     from garkcli.methodfile.family import with_values
-    from garkcli.report.writing import write_whole
+    from garkcli.page.writing import write_whole
 
     chosen = first_method(found)
     if chosen is None:

@@ -285,8 +285,8 @@ def _run(
     """
     from garkcli.longtime.history import whole_run
     from garkcli.longtime.longtime import long_run, usual
+    from garkcli.page.progress import tracked
     from garkcli.problems.hamiltonian import FLOAT_DIGITS
-    from garkcli.report.progress import tracked
 
     h, t_end = whole_run(step, time, *usual(problem))
     shows_bar = output.verbosity >= 0
@@ -331,8 +331,8 @@ def _symplecticity(
 def _claims(run: LongRun, bounded: bool, limit: fmpq | None) -> tuple[Claim, ...]:
     """What the options claim. What is undecided is not shown to be bounded."""
     from garkcli.exact.display import decimal, to_float
+    from garkcli.page.figures import measured
     from garkcli.report.energy_text import Claim
-    from garkcli.report.figures import measured
 
     claims = []
     if bounded:

@@ -26,7 +26,7 @@ from garkcli.cli.streams import (
     say_problem,
 )
 from garkcli.errors import GarkError, MethodFileError, did_you_mean
-from garkcli.report.plain import printable
+from garkcli.page.plain import printable
 
 REPORT_TO = "the issue tracker of the project"
 COMPLETION = "_GARK_COMPLETE"

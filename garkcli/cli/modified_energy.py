@@ -36,8 +36,8 @@ def measure_modified(
         UsageProblem: an option does not go with --modified, or the coefficients are rounded.
     """
     from garkcli.backward.energy import modified_run
+    from garkcli.page.progress import tracked
     from garkcli.report.modified_energy import ModifiedEnergyReport, render
-    from garkcli.report.progress import tracked
     from garkcli.stepping.step import StepFailed
 
     for option, value in others.items():

@@ -10,7 +10,7 @@ import click
 
 from garkcli.cli.streams import is_terminal, put, safe_pieces, say, wants_colour
 from garkcli.errors import UsageProblem
-from garkcli.report.paint import Paint
+from garkcli.page.paint import Paint
 
 F = TypeVar("F", bound=Callable[..., Any])
 CONTEXT = {"help_option_names": [], "max_content_width": 100}
@@ -165,7 +165,7 @@ class Output:
         self.verbosity = verbosity
         self._color = color
         if path is not None:
-            from garkcli.report.writing import refuse_unwritable
+            from garkcli.page.writing import refuse_unwritable
 
             refuse_unwritable(path)
 
@@ -197,7 +197,7 @@ class Output:
             for piece in pieces:
                 put(piece, format, coloured)
             return
-        from garkcli.report.writing import write_whole
+        from garkcli.page.writing import write_whole
 
         write_whole(self.path, safe_pieces(pieces, format, coloured))
 

@@ -6,7 +6,7 @@ from flint import fmpq
 
 from garkcli.cli.options import Output
 from garkcli.errors import UsageProblem
-from garkcli.report.plain import printable
+from garkcli.page.plain import printable
 from garkcli.tableau.pointwise import Entries, entries, in_points
 from garkcli.tableau.tableau import Tableau
 

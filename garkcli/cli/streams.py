@@ -9,9 +9,9 @@ from collections.abc import Iterable
 from typing import TYPE_CHECKING
 
 from garkcli.errors import GarkError
-from garkcli.report.plain import printable
-from garkcli.report.plaintext import HANDLER, plain_text
-from garkcli.report.safety import (
+from garkcli.page.plain import printable
+from garkcli.page.plaintext import HANDLER, plain_text
+from garkcli.page.safety import (
     JSON,
     XML,
     YAML,
@@ -113,8 +113,8 @@ def say_problem(error: GarkError) -> None:
 
 def say_faults(outcome: Outcome) -> None:
     """Say every fault of a file that cannot be read."""
+    from garkcli.page.paint import Paint
     from garkcli.report.check_text import faults_text
-    from garkcli.report.paint import Paint
 
     paint = Paint(wants_colour(sys.stderr))
     say(faults_text(outcome, paint), paint.color)

@@ -163,8 +163,8 @@ def _count(query: Query, output: Output) -> None:
 
 def _list(query: Query, orders: range, wanted: Wanted, output: Output) -> None:
     """A row for each tree."""
+    from garkcli.page.progress import tracked
     from garkcli.report import trees as report
-    from garkcli.report.progress import tracked
 
     totals = _totals(query)
     count_all = None
@@ -196,8 +196,8 @@ def _refuse_millions(lines: int | None, yes: bool) -> None:
 
 def _free_trees(kind: Kind, wanted: Wanted, output: Output) -> None:
     """A row for each class of equivalent conditions of symplectic methods."""
+    from garkcli.page.progress import tracked
     from garkcli.report import symplectic as report
-    from garkcli.report.progress import tracked
     from garkcli.report.symplectic_subject import subject_of_kind
 
     of_rooted = (wanted.root, wanted.colours_used, wanted.one)
@@ -225,8 +225,8 @@ def _free_trees(kind: Kind, wanted: Wanted, output: Output) -> None:
 
 def _single(text: str, svg: str | None, is_document: bool, output: Output) -> None:
     """One tree, given in bracket text."""
+    from garkcli.page.writing import write_whole
     from garkcli.report import trees as report
-    from garkcli.report.writing import write_whole
     from garkcli.trees.notation import NotationError, format_tree, parse_tree
     from garkcli.trees.svg import draw_svg_sheet
 
@@ -315,7 +315,7 @@ def _rows(query: Query, orders: range) -> Iterator[TreeRow]:
 def _draw(path: str, listed: Iterable[Tree], coloured: bool) -> None:
     from itertools import islice
 
-    from garkcli.report.writing import write_whole
+    from garkcli.page.writing import write_whole
     from garkcli.trees.notation import format_tree
     from garkcli.trees.svg import draw_svg_sheet
 

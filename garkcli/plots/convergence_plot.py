@@ -16,9 +16,9 @@ from matplotlib.figure import Figure
 from matplotlib.ticker import FuncFormatter, MaxNLocator
 
 from garkcli.convergence.result import Convergence
+from garkcli.page.asciiplot import log10
 from garkcli.plots.slopes import Curve, Decades, Line, place_line
 from garkcli.problems.righthandside import RightHandSide
-from garkcli.report.asciiplot import log10
 from garkcli.report.convergence import order_text
 from garkcli.report.convergence_data import problem_name
 from garkcli.report.costs import curve

@@ -10,7 +10,7 @@ from matplotlib import rc_context
 from matplotlib.figure import Figure
 
 from garkcli.errors import UsageProblem
-from garkcli.report.writing import refuse_unwritable, write_whole
+from garkcli.page.writing import refuse_unwritable, write_whole
 
 SUFFIXES = (".png", ".svg", ".pdf")
 """The kinds of file that figures can be saved as."""

@@ -5,7 +5,7 @@ from __future__ import annotations
 from collections.abc import Sequence
 
 from garkcli.check.baseline import Regression
-from garkcli.report.plain import inert, printable
+from garkcli.page.plain import inert, printable
 
 
 def render(found: Sequence[Regression], files: int) -> str:

@@ -8,7 +8,7 @@ from typing import TYPE_CHECKING, TypeAlias
 
 if TYPE_CHECKING:
     from garkcli.check.outcome import Outcome
-    from garkcli.report.paint import Paint
+    from garkcli.page.paint import Paint
 
 Renderer: TypeAlias = "Callable[[Sequence[Outcome], Paint, int, int | None], str]"
 

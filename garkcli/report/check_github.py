@@ -7,9 +7,9 @@ from hashlib import sha256
 
 from garkcli.check.findings import Finding, findings
 from garkcli.check.outcome import Outcome
+from garkcli.page.paint import Paint
+from garkcli.page.plain import printable
 from garkcli.report import check_text
-from garkcli.report.paint import Paint
-from garkcli.report.plain import printable
 
 
 def render(outcomes: Sequence[Outcome]) -> str:

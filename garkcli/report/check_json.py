@@ -11,12 +11,8 @@ from collections.abc import Sequence
 from typing import TYPE_CHECKING, Any
 
 from garkcli.exact.display import decimal
-from garkcli.report.fault_json import FAULT
-from garkcli.report.hints_json import BLOCK, HINTS, blocks
-from garkcli.report.json_text import to_json
-from garkcli.report.order_json import SIMPLIFYING, order_fields
-from garkcli.report.property_json import EVERY_PROPERTY, PROPERTIES
-from garkcli.report.record import (
+from garkcli.page.json_text import to_json
+from garkcli.page.record import (
     COUNT,
     FLAG,
     POSITION,
@@ -29,6 +25,10 @@ from garkcli.report.record import (
     nullable,
     published,
 )
+from garkcli.report.fault_json import FAULT
+from garkcli.report.hints_json import BLOCK, HINTS, blocks
+from garkcli.report.order_json import SIMPLIFYING, order_fields
+from garkcli.report.property_json import EVERY_PROPERTY, PROPERTIES
 
 if TYPE_CHECKING:
     from garkcli.check.analysis import Analysis

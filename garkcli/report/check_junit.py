@@ -8,7 +8,7 @@ from collections.abc import Sequence
 
 from garkcli.check.explained import claim_hint, claim_witness
 from garkcli.check.outcome import Outcome
-from garkcli.report.plain import printable
+from garkcli.page.plain import printable
 
 _NOT_XML = re.compile("[^\t\n\r -\ud7ff\ue000-\ufffd\U00010000-\U0010ffff]")
 

@@ -7,8 +7,8 @@ from collections.abc import Sequence
 from garkcli.check.analysis import AnyOrder
 from garkcli.check.findings import findings
 from garkcli.check.outcome import Outcome
+from garkcli.page.plain import printable
 from garkcli.report.check_text import no_claims
-from garkcli.report.plain import printable
 
 
 def render(outcomes: Sequence[Outcome]) -> str:

@@ -11,7 +11,7 @@ from garkcli.check.analysis import Analysis, AnyOrder
 from garkcli.exact.display import decimal, to_decimal, to_text
 from garkcli.order.certificate import Order, Witness
 from garkcli.order.nonautonomous import with_time
-from garkcli.report.paint import Paint, beside, indented
+from garkcli.page.paint import Paint, beside, indented
 from garkcli.tableau.tableau import Tableau
 from garkcli.trees.drawing import draw_text
 from garkcli.trees.notation import format_tree

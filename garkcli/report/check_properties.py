@@ -5,9 +5,9 @@ from __future__ import annotations
 from collections.abc import Sequence
 from typing import TYPE_CHECKING
 
+from garkcli.page.paint import folded
 from garkcli.properties.keys import KEYS
 from garkcli.properties.naming import number_text, stages_name
-from garkcli.report.paint import folded
 
 if TYPE_CHECKING:
     from garkcli.properties.property import Verdict

@@ -8,8 +8,8 @@ from typing import Any
 from garkcli import __version__
 from garkcli.check.findings import KINDS, Finding, findings
 from garkcli.check.outcome import Outcome
-from garkcli.report.json_text import to_json
-from garkcli.report.plain import printable
+from garkcli.page.json_text import to_json
+from garkcli.page.plain import printable
 
 
 def render(outcomes: Sequence[Outcome]) -> str:

@@ -11,14 +11,14 @@ from garkcli.check.explained import BOUND, SHARP_BOUND, bound_numbers
 from garkcli.check.outcome import Claim, Outcome
 from garkcli.errors import excerpt
 from garkcli.exact.display import decimal
+from garkcli.page.paint import Paint, aligned, counted, folded, indented
+from garkcli.page.plain import inert, printable
 from garkcli.report.check_orders import (
     LABEL,
     order_lines,
     order_number,
     suggestion_lines,
 )
-from garkcli.report.paint import Paint, aligned, counted, folded, indented
-from garkcli.report.plain import inert, printable
 from garkcli.tableau.tableau import Tableau
 
 _WIDTH = 80

@@ -8,9 +8,11 @@ from string import ascii_lowercase, ascii_uppercase
 from textwrap import wrap
 
 from garkcli.convergence.result import Convergence, Row
+from garkcli.page.asciiplot import SEVERAL, terminal_curves
+from garkcli.page.figures import scientific
+from garkcli.page.paint import Paint, aligned, indented, padded
 from garkcli.problems.oscillator import Oscillator
 from garkcli.problems.righthandside import RightHandSide
-from garkcli.report.asciiplot import SEVERAL, terminal_curves
 from garkcli.report.convergence import (
     WIDTH,
     exactly,
@@ -23,8 +25,6 @@ from garkcli.report.convergence import (
 )
 from garkcli.report.convergence_data import Entry, csv_of_several
 from garkcli.report.costs import Tested, costs_of, curve
-from garkcli.report.figures import scientific
-from garkcli.report.paint import Paint, aligned, indented, padded
 
 _LONGEST = 60  # characters of a Hamiltonian that are still shown
 _INDENT = 2

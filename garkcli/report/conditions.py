@@ -7,9 +7,9 @@ from collections.abc import Iterable, Iterator, Sequence
 from garkcli.exact.display import decimal, to_decimal, to_latex, to_text
 from garkcli.exact.field import Number
 from garkcli.order.conditions import Condition
+from garkcli.page.latex import fragment, number
+from garkcli.page.paint import Paint, counted, folded, indented
 from garkcli.report.conditions_data import ConditionRow, Valued, shown
-from garkcli.report.latex import fragment, number
-from garkcli.report.paint import Paint, counted, folded, indented
 from garkcli.report.symplectic import legend_lines, member_lines, summary_lines
 from garkcli.report.symplectic_subject import Subject
 from garkcli.report.trees import picture

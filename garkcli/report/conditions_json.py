@@ -7,9 +7,8 @@ from typing import Any, NamedTuple, TypeAlias
 
 from garkcli.exact.display import decimal
 from garkcli.order.conditions import Condition
-from garkcli.report.conditions_data import ConditionRow, Valued, shown
-from garkcli.report.json_text import to_json
-from garkcli.report.record import (
+from garkcli.page.json_text import to_json
+from garkcli.page.record import (
     FLAG,
     NUMERAL,
     POSITION,
@@ -22,6 +21,7 @@ from garkcli.report.record import (
     one_of,
     published,
 )
+from garkcli.report.conditions_data import ConditionRow, Valued, shown
 from garkcli.report.symplectic_subject import SUBJECT, Subject
 from garkcli.trees.notation import format_tree, vertex_letters
 

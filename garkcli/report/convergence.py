@@ -15,14 +15,14 @@ from garkcli.convergence.result import (
     Row,
     Stiffness,
 )
+from garkcli.page.asciiplot import terminal_curves, terminal_plot
+from garkcli.page.figures import rounded, scientific
+from garkcli.page.paint import Paint, aligned, indented
 from garkcli.problems.hamiltonian import FLOAT_DIGITS, Hamiltonian
 from garkcli.problems.oscillator import Oscillator
 from garkcli.problems.problem import Problem
 from garkcli.problems.righthandside import RightHandSide
-from garkcli.report.asciiplot import terminal_curves, terminal_plot
 from garkcli.report.convergence_data import csv_of, invariant_names
-from garkcli.report.figures import rounded, scientific
-from garkcli.report.paint import Paint, aligned, indented
 
 WIDTH = 80
 """Columns of a terminal."""

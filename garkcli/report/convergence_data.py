@@ -10,9 +10,9 @@ from dataclasses import dataclass
 from garkcli.convergence.result import Convergence, Cost, Row
 from garkcli.errors import Fault
 from garkcli.exact.display import to_float
+from garkcli.page.figures import for_programs
+from garkcli.page.plain import csv_cell
 from garkcli.problems.oscillator import Oscillator
-from garkcli.report.figures import for_programs
-from garkcli.report.plain import csv_cell
 from garkcli.report.problem_json import name_of
 
 DIGITS = 6

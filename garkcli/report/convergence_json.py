@@ -9,17 +9,9 @@ from flint import arb
 
 from garkcli.convergence.result import Convergence, Cost, Row, Verdict
 from garkcli.exact.display import to_float
-from garkcli.report.convergence_data import (
-    DIGITS,
-    SLOPE_DIGITS,
-    Entry,
-    invariant_names,
-)
-from garkcli.report.fault_json import FAULT
-from garkcli.report.figures import for_programs
-from garkcli.report.json_text import to_json
-from garkcli.report.problem_json import NAME, TERMS, Stepped
-from garkcli.report.record import (
+from garkcli.page.figures import for_programs
+from garkcli.page.json_text import to_json
+from garkcli.page.record import (
     COUNT,
     EXACT,
     FLAG,
@@ -36,6 +28,14 @@ from garkcli.report.record import (
     one_of,
     published,
 )
+from garkcli.report.convergence_data import (
+    DIGITS,
+    SLOPE_DIGITS,
+    Entry,
+    invariant_names,
+)
+from garkcli.report.fault_json import FAULT
+from garkcli.report.problem_json import NAME, TERMS, Stepped
 
 SCHEMA = "gark/converge/1"
 SCHEMA_OF_SEVERAL = "gark/converge-comparison/1"

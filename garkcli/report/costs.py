@@ -11,10 +11,10 @@ from typing import TypeAlias
 from flint import arb, fmpq
 
 from garkcli.convergence.result import Convergence, Cost
-from garkcli.report.asciiplot import log10
+from garkcli.page.asciiplot import log10
+from garkcli.page.figures import scientific
+from garkcli.page.paint import indented, padded
 from garkcli.report.convergence import NO_TIME, WORK, work_cells
-from garkcli.report.figures import scientific
-from garkcli.report.paint import indented, padded
 
 Tested: TypeAlias = Sequence[tuple[str, Convergence]]
 """The results by the letters of their methods."""

@@ -6,9 +6,9 @@ from typing import Any, NamedTuple, get_args
 
 from garkcli.design.design import Design, Found, Kind, Step, Whose
 from garkcli.design.solutions import value_at
-from garkcli.report.exactly import ALGEBRAIC, root_data
-from garkcli.report.json_text import to_json
-from garkcli.report.record import (
+from garkcli.page.exactly import ALGEBRAIC, root_data
+from garkcli.page.json_text import to_json
+from garkcli.page.record import (
     COUNT,
     FLAG,
     INTEGER,

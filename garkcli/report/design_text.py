@@ -12,7 +12,7 @@ from garkcli.errors import counted
 from garkcli.exact.polynomial import Polynomial
 from garkcli.exact.polynomial_text import polynomial_text, root_decimal, root_text
 from garkcli.exact.roots import RealRoot
-from garkcli.report.plain import printable
+from garkcli.page.plain import printable
 from garkcli.trees.notation import format_tree
 
 INDENT = " " * 17

@@ -6,9 +6,9 @@ import csv
 import io
 
 from garkcli.longtime.history import LongRun
+from garkcli.page.paint import Paint
+from garkcli.page.plain import csv_cell
 from garkcli.report.energy_text import Report, text_of
-from garkcli.report.paint import Paint
-from garkcli.report.plain import csv_cell
 
 
 def render(report: Report, format: str, paint: Paint, is_long: bool = True) -> str:

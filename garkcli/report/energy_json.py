@@ -11,10 +11,8 @@ from garkcli.longtime.history import InvariantHistory, LongRun, Verdict
 from garkcli.longtime.stability import Stability
 from garkcli.longtime.symplecticity import Defect, Symplecticity
 from garkcli.longtime.trend import Shape
-from garkcli.report.energy_text import Claim, Report
-from garkcli.report.json_text import to_json
-from garkcli.report.problem_json import NAME, TERMS, Stepped
-from garkcli.report.record import (
+from garkcli.page.json_text import to_json
+from garkcli.page.record import (
     COUNT,
     EXACT,
     FLAG,
@@ -30,6 +28,8 @@ from garkcli.report.record import (
     one_of,
     published,
 )
+from garkcli.report.energy_text import Claim, Report
+from garkcli.report.problem_json import NAME, TERMS, Stepped
 
 SCHEMA = "gark/energy/1"
 

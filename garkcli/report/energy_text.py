@@ -10,11 +10,11 @@ from garkcli.longtime.rounding import power_of_ten
 from garkcli.longtime.stability import Stability
 from garkcli.longtime.symplecticity import Symplecticity
 from garkcli.longtime.trend import LEAST
+from garkcli.page.bandplot import terminal_band
+from garkcli.page.figures import measured
+from garkcli.page.paint import Paint, counted, indented
 from garkcli.problems.hamiltonian import FLOAT_DIGITS
-from garkcli.report.bandplot import terminal_band
 from garkcli.report.convergence import describe
-from garkcli.report.figures import measured
-from garkcli.report.paint import Paint, counted, indented
 
 FATES = {
     "elliptic": "the energy error is bounded for all time",

@@ -4,10 +4,10 @@ from __future__ import annotations
 
 from typing import Any
 
+from garkcli.page.json_text import to_json
+from garkcli.page.paint import Paint, folded
+from garkcli.page.record import TEXT, Field, Record, Schema, published
 from garkcli.properties.definitions import Definition
-from garkcli.report.json_text import to_json
-from garkcli.report.paint import Paint, folded
-from garkcli.report.record import TEXT, Field, Record, Schema, published
 
 SCHEMA = "gark/explain/1"
 _WIDTH = 80

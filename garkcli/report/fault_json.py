@@ -3,7 +3,7 @@
 from __future__ import annotations
 
 from garkcli.errors import Fault
-from garkcli.report.record import POSITION, TEXT, Field, Record, nullable
+from garkcli.page.record import POSITION, TEXT, Field, Record, nullable
 
 FAULT: Record[Fault] = Record(
     Field("line", nullable(POSITION), lambda x: x.line or None),

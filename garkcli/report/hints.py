@@ -8,8 +8,8 @@ from garkcli.check.explained import repair_text
 from garkcli.order.blame import Blame
 from garkcli.order.constants import ErrorConstants
 from garkcli.order.suggestion import Misprint
+from garkcli.page.paint import Paint, folded
 from garkcli.report.check_orders import size
-from garkcli.report.paint import Paint, folded
 from garkcli.tableau.tableau import Tableau
 from garkcli.trees.notation import format_tree
 

@@ -6,7 +6,7 @@ from collections.abc import Sequence
 from typing import TYPE_CHECKING, Any
 
 from garkcli.exact.display import to_text
-from garkcli.report.record import (
+from garkcli.page.record import (
     COUNT,
     EXACT,
     FLAG,

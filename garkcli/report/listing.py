@@ -7,9 +7,9 @@ from textwrap import wrap
 from typing import NamedTuple
 
 from garkcli.families.registry import Family
-from garkcli.report.json_text import to_json
-from garkcli.report.paint import Paint, indented
-from garkcli.report.record import TEXT, Field, Record, Schema, published
+from garkcli.page.json_text import to_json
+from garkcli.page.paint import Paint, indented
+from garkcli.page.record import TEXT, Field, Record, Schema, published
 
 SCHEMA = "gark/list/1"
 _WIDTH = 80

@@ -8,10 +8,10 @@ from itertools import groupby
 from garkcli.backward.summary import Reached
 from garkcli.exact.display import decimal, to_decimal, to_latex, to_text
 from garkcli.exact.field import Number
-from garkcli.report.latex import fragment, number
+from garkcli.page.latex import fragment, number
+from garkcli.page.paint import Paint, counted, folded, indented
 from garkcli.report.modified_data import ModifiedReport, TreeTerm, render_json
 from garkcli.report.modified_formula import formula_latex, formula_lines
-from garkcli.report.paint import Paint, counted, folded, indented
 from garkcli.report.trees import picture
 from garkcli.trees.notation import format_latex, format_tree
 

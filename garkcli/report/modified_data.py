@@ -11,8 +11,8 @@ from garkcli.backward.hamiltonian import HamiltonianTerm
 from garkcli.backward.summary import BackwardAnalysis, Reached
 from garkcli.exact.display import decimal, to_decimal, to_text
 from garkcli.exact.field import Number
-from garkcli.report.json_text import to_json
-from garkcli.report.record import (
+from garkcli.page.json_text import to_json
+from garkcli.page.record import (
     COUNT,
     FLAG,
     NUMERAL,

@@ -11,11 +11,10 @@ from math import ceil
 from garkcli.backward.energy import ModifiedEnergy, ModifiedRun
 from garkcli.convergence.result import Row
 from garkcli.exact.display import to_float
-from garkcli.report.convergence import describe
-from garkcli.report.figures import scientific
-from garkcli.report.json_text import to_json
-from garkcli.report.paint import Paint, folded, indented
-from garkcli.report.record import (
+from garkcli.page.figures import scientific
+from garkcli.page.json_text import to_json
+from garkcli.page.paint import Paint, folded, indented
+from garkcli.page.record import (
     COUNT,
     EXACT,
     FLAG,
@@ -27,6 +26,7 @@ from garkcli.report.record import (
     nullable,
     published,
 )
+from garkcli.report.convergence import describe
 
 SCHEMA = "gark/modified-energy/1"
 _WIDTH = 80

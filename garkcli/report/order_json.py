@@ -6,7 +6,7 @@ from typing import TYPE_CHECKING
 
 from garkcli.exact.display import decimal, to_text
 from garkcli.order.certificate import Order
-from garkcli.report.record import (
+from garkcli.page.record import (
     COUNT,
     EXACT,
     INTEGER,

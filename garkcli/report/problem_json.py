@@ -4,11 +4,11 @@ from __future__ import annotations
 
 from typing import Any, TypeAlias
 
+from garkcli.page.record import EXACT, TEXT, Field, array, nullable
 from garkcli.problems.hamiltonian import Hamiltonian
 from garkcli.problems.oscillator import Oscillator
 from garkcli.problems.problem import Problem
 from garkcli.problems.righthandside import RightHandSide
-from garkcli.report.record import EXACT, TEXT, Field, array, nullable
 
 Stepped: TypeAlias = Oscillator | Problem
 

@@ -22,8 +22,8 @@ from garkcli.exact.polynomial import Polynomial
 from garkcli.exact.roots import real_roots
 from garkcli.order.certificate import Witness
 from garkcli.order.proof import Proof
-from garkcli.report.json_text import to_json
-from garkcli.report.record import (
+from garkcli.page.json_text import to_json
+from garkcli.page.record import (
     COUNT,
     FLAG,
     POSITION,

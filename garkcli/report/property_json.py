@@ -5,11 +5,8 @@ from __future__ import annotations
 from typing import TYPE_CHECKING, Any
 
 from garkcli.exact.display import to_text
-from garkcli.properties.keys import KEYS
-from garkcli.properties.property import Size, Verdict
-from garkcli.properties.registry import find
-from garkcli.report.exactly import ROOT_OF, root_data
-from garkcli.report.record import (
+from garkcli.page.exactly import ROOT_OF, root_data
+from garkcli.page.record import (
     COUNT,
     EXACT,
     FLAG,
@@ -23,6 +20,9 @@ from garkcli.report.record import (
     nullable,
     one_of,
 )
+from garkcli.properties.keys import KEYS
+from garkcli.properties.property import Size, Verdict
+from garkcli.properties.registry import find
 
 if TYPE_CHECKING:
     from garkcli.check.analysis import Analysis

@@ -4,7 +4,7 @@ from __future__ import annotations
 
 from collections.abc import Callable
 
-from garkcli.report.asciiplot import beside_axis, ruled
+from garkcli.page.asciiplot import beside_axis, ruled
 
 FULL = "█"
 """Inside."""

@@ -7,8 +7,8 @@ from collections.abc import Sequence
 from garkcli.errors import UsageProblem
 from garkcli.exact.polynomial import Polynomial
 from garkcli.exact.polynomial_text import integral
-from garkcli.report.exactly import polynomial_latex
-from garkcli.report.paint import Paint
+from garkcli.page.exactly import polynomial_latex
+from garkcli.page.paint import Paint
 from garkcli.report.stability_colours import fraction_latex
 from garkcli.report.stability_data import StabilityReport
 from garkcli.report.stability_text import text_of

@@ -6,8 +6,8 @@ from collections.abc import Iterator
 
 from garkcli.exact.multivariate import Multivariate
 from garkcli.exact.polynomial_text import integral_scale, multivariate_text
-from garkcli.report.exactly import multivariate_latex
-from garkcli.report.paint import Paint
+from garkcli.page.exactly import multivariate_latex
+from garkcli.page.paint import Paint
 from garkcli.report.stability_region import damped_lines
 from garkcli.report.stability_words import equation, line, over, ssp_text
 from garkcli.stability.colours import Colours

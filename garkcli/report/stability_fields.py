@@ -12,8 +12,8 @@ from garkcli.exact.display import plain_decimal, to_text
 from garkcli.exact.polynomial import Polynomial
 from garkcli.exact.polynomial_text import integral, multivariate_text, polynomial_text
 from garkcli.exact.roots import RealRoot
-from garkcli.report.exactly import ALGEBRAIC, ROOT_OF, root_data
-from garkcli.report.record import (
+from garkcli.page.exactly import ALGEBRAIC, ROOT_OF, root_data
+from garkcli.page.record import (
     COUNT,
     EXACT,
     FLAG,

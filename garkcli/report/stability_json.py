@@ -6,8 +6,8 @@ from collections.abc import Sequence
 from itertools import product
 
 from garkcli.exact.display import decimal
-from garkcli.report.json_text import to_json
-from garkcli.report.record import (
+from garkcli.page.json_text import to_json
+from garkcli.page.record import (
     FLAG,
     TEXT,
     Field,

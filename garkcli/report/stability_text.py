@@ -8,8 +8,8 @@ from garkcli.exact.cells import Interval
 from garkcli.exact.display import decimal, to_text
 from garkcli.exact.polynomial import Polynomial
 from garkcli.exact.polynomial_text import integral, polynomial_text, root_text
-from garkcli.report.paint import Paint
-from garkcli.report.plain import printable
+from garkcli.page.paint import Paint
+from garkcli.page.plain import printable
 from garkcli.report.stability_colours import colours_text
 from garkcli.report.stability_data import StabilityReport, degrees, factors
 from garkcli.report.stability_region import region_lines

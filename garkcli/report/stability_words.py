@@ -20,7 +20,7 @@ from garkcli.exact.polynomial_text import (
 )
 from garkcli.exact.rewriting import format_expression
 from garkcli.exact.roots import RealRoot
-from garkcli.report.paint import Paint, indented
+from garkcli.page.paint import Paint, indented
 from garkcli.report.stability_data import square_root
 from garkcli.stability.bounds import Bounds
 from garkcli.stability.ssp import SspCoefficient

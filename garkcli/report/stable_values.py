@@ -11,9 +11,9 @@ from garkcli.exact.cells import Interval
 from garkcli.exact.polynomial import Polynomial
 from garkcli.exact.polynomial_text import polynomial_text, root_decimal, root_text
 from garkcli.exact.roots import RealRoot
-from garkcli.report.exactly import root_data
-from garkcli.report.json_text import to_json
-from garkcli.report.plain import printable
+from garkcli.page.exactly import root_data
+from garkcli.page.json_text import to_json
+from garkcli.page.plain import printable
 
 SCHEMA = "gark/design/1"
 _STABLE: dict[Wanted, str] = {

@@ -7,10 +7,10 @@ from itertools import groupby, zip_longest
 from textwrap import wrap
 from typing import Any, NamedTuple
 
-from garkcli.report.json_text import to_json
-from garkcli.report.latex import fragment
-from garkcli.report.paint import Paint, counted
-from garkcli.report.record import (
+from garkcli.page.json_text import to_json
+from garkcli.page.latex import fragment
+from garkcli.page.paint import Paint, counted
+from garkcli.page.record import (
     FLAG,
     POSITION,
     TEXT,

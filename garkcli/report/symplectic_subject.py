@@ -8,8 +8,8 @@ from functools import cached_property
 from typing import TYPE_CHECKING
 
 from garkcli.errors import UsageProblem
-from garkcli.report.paint import counted
-from garkcli.report.record import COUNT, POSITION, TEXT, Field, Record, array
+from garkcli.page.paint import counted
+from garkcli.page.record import COUNT, POSITION, TEXT, Field, Record, array
 from garkcli.trees.count import Admissible, counts_upto
 from garkcli.trees.free import Structure
 from garkcli.trees.notation import format_tree

@@ -10,9 +10,8 @@ from typing import Any, NamedTuple
 from flint import arb
 
 from garkcli.exact.display import to_float
-from garkcli.report.check_json import COLOUR, colours_data
-from garkcli.report.json_text import to_json
-from garkcli.report.record import (
+from garkcli.page.json_text import to_json
+from garkcli.page.record import (
     FLAG,
     NUMBER,
     NUMERAL,
@@ -25,6 +24,7 @@ from garkcli.report.record import (
     nullable,
     published,
 )
+from garkcli.report.check_json import COLOUR, colours_data
 from garkcli.report.tableau_text import cell_text
 from garkcli.tableau.pointwise import Cell, Entries
 from garkcli.tableau.tableau import Tableau

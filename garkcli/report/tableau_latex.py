@@ -11,7 +11,7 @@ from collections.abc import Iterator, Sequence
 from flint import arb
 
 from garkcli.exact.display import to_latex
-from garkcli.report.latex import fragment, number
+from garkcli.page.latex import fragment, number
 from garkcli.report.tableau_text import cell_text, distinct_rows, remark
 from garkcli.tableau.pointwise import Cell, Entries
 from garkcli.tableau.tableau import Tableau

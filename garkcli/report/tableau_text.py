@@ -8,7 +8,7 @@ from itertools import chain
 from flint import arb
 
 from garkcli.exact.display import to_ball, to_text
-from garkcli.report.paint import Paint, aligned, indented
+from garkcli.page.paint import Paint, aligned, indented
 from garkcli.tableau.pointwise import Cell, Entries
 from garkcli.tableau.tableau import Tableau
 

@@ -7,10 +7,10 @@ from dataclasses import dataclass
 from itertools import groupby
 from typing import NamedTuple, TypeAlias
 
-from garkcli.report.json_text import to_json
-from garkcli.report.latex import fragment
-from garkcli.report.paint import Paint, counted, folded
-from garkcli.report.record import (
+from garkcli.page.json_text import to_json
+from garkcli.page.latex import fragment
+from garkcli.page.paint import Paint, counted, folded
+from garkcli.page.record import (
     COUNT,
     FLAG,
     POSITION,

@@ -16,8 +16,8 @@ from garkcli.check.claims import verify
 from garkcli.check.deciding import analyse
 from garkcli.check.outcome import Outcome
 from garkcli.methodfile.load import loads
+from garkcli.page.paint import Paint
 from garkcli.report.check_text import render
-from garkcli.report.paint import Paint
 from garkcli.tableau.forms import gark
 from garkcli.tableau.method import butcher
 from garkcli.tableau.tableau import Tableau

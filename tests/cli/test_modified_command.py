@@ -8,8 +8,8 @@ from pathlib import Path
 import pytest
 from jsonschema import Draft7Validator
 
+from garkcli.page.plaintext import plain_text
 from garkcli.report.modified_data import modified_report_schema
-from garkcli.report.plaintext import plain_text
 from garkcli.trees.notation import parse_tree
 from tests.cli.harness import gark
 

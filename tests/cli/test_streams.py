@@ -15,8 +15,8 @@ from hypothesis import given
 from hypothesis import strategies as st
 
 from garkcli.cli.streams import TERMINAL
-from garkcli.report.plaintext import ascii_form, plain_line, plain_text
-from garkcli.report.safety import escaped, written_out
+from garkcli.page.plaintext import ascii_form, plain_line, plain_text
+from garkcli.page.safety import escaped, written_out
 from garkcli.report.trees import DRAWING
 from tests.cli.harness import ROOT, gark
 from tests.cli.test_snapshots import RUNS

@@ -13,8 +13,8 @@ from hypothesis import given
 from hypothesis import strategies as st
 
 from garkcli.cli.main import COMMANDS
-from garkcli.report.paint import folded
-from garkcli.report.plaintext import broken, plain_line, plain_text
+from garkcli.page.paint import folded
+from garkcli.page.plaintext import broken, plain_line, plain_text
 from tests.cli.harness import gark
 
 RUNS = [

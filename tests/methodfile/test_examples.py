@@ -16,8 +16,8 @@ from garkcli.methodfile.expectations import CLAIMS
 from garkcli.methodfile.load import load
 from garkcli.methodfile.reader import KEYS
 from garkcli.methodfile.transfers import ALL_RULES
+from garkcli.page.paint import Paint
 from garkcli.report.check_text import faults_text
-from garkcli.report.paint import Paint
 from tests.examples.snapshots import assert_recorded
 
 EXAMPLES = Path(__file__).parents[1] / "examples"

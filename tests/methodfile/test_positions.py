@@ -10,8 +10,8 @@ from garkcli.check.outcome import Outcome
 from garkcli.errors import Fault, MethodFileError
 from garkcli.methodfile.load import load, loads
 from garkcli.methodfile.source import Source
+from garkcli.page.paint import Paint
 from garkcli.report.check_text import faults_text
-from garkcli.report.paint import Paint
 
 
 def faults(text: str) -> tuple[Fault, ...]:

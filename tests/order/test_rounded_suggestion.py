@@ -18,8 +18,8 @@ from garkcli.methodfile.printed import printed_units
 from garkcli.order.certificate import find_order
 from garkcli.order.rounded import find_order_within
 from garkcli.order.suggestion import Suggestion, suggest_tolerance
+from garkcli.page.paint import Paint
 from garkcli.report.check_text import render
-from garkcli.report.paint import Paint
 from garkcli.tableau.tableau import Tableau
 from tests.catalogue.catalogue import tableau
 from tests.catalogue.method_files import method_file

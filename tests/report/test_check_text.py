@@ -10,9 +10,9 @@ from garkcli.check.outcome import Outcome
 from garkcli.methodfile.load import loads
 from garkcli.order.blame import find_blame
 from garkcli.order.constants import error_constants
+from garkcli.page.paint import Paint, aligned, beside
 from garkcli.report.check_text import render
 from garkcli.report.hints import blame_lines
-from garkcli.report.paint import Paint, aligned, beside
 
 ESCAPE = re.compile(r"\x1b\[[0-9;]*m")
 

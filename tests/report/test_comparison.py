@@ -17,14 +17,14 @@ from garkcli.convergence.convergence import converge
 from garkcli.convergence.result import Convergence, Cost, Row
 from garkcli.errors import Fault
 from garkcli.families.registry import diagonal_method
+from garkcli.page.figures import rounded, scientific
+from garkcli.page.paint import Paint
 from garkcli.problems.builtin import hamiltonian
 from garkcli.problems.oscillator import Oscillator
 from garkcli.report.comparison import letters, render
 from garkcli.report.convergence import render as render_one
 from garkcli.report.convergence_data import Entry
 from garkcli.report.costs import amount, curve
-from garkcli.report.figures import rounded, scientific
-from garkcli.report.paint import Paint
 from garkcli.tableau.forms import gark
 from garkcli.tableau.tableau import Tableau
 

@@ -12,11 +12,11 @@ from garkcli.convergence.convergence import converge
 from garkcli.convergence.result import Convergence, Cost, Visible
 from garkcli.errors import Fault
 from garkcli.families.registry import diagonal_method
+from garkcli.page.paint import Paint
 from garkcli.problems.builtin import hamiltonian
 from garkcli.report.comparison import render as render_several
 from garkcli.report.convergence import render
 from garkcli.report.convergence_data import Entry
-from garkcli.report.paint import Paint
 from garkcli.tableau.forms import gark
 
 NAMES = ("rk4", "a long name " * 20, "wordwithoutspaces" * 12, "方法" * 60)

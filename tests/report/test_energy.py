@@ -17,14 +17,14 @@ from garkcli.longtime.history import LongRun
 from garkcli.longtime.longtime import long_run
 from garkcli.longtime.symplecticity import Defect, Symplecticity
 from garkcli.methodfile.load import load
+from garkcli.page.bandplot import INSIDE, SINGLE, terminal_band
+from garkcli.page.paint import Paint
 from garkcli.plots.energy_plot import energy_figure
 from garkcli.plots.saving import save
 from garkcli.problems.builtin import hamiltonian
 from garkcli.problems.oscillator import Oscillator, terms_of
-from garkcli.report.bandplot import INSIDE, SINGLE, terminal_band
 from garkcli.report.energy import render
 from garkcli.report.energy_text import Claim, Report
-from garkcli.report.paint import Paint
 from garkcli.stepping.fields import with_joined_terms
 
 ROOT = Path(__file__).parents[2]

@@ -27,6 +27,7 @@ from garkcli.cli.check_command import command as check_command
 from garkcli.cli.main import gark as commands
 from garkcli.errors import Fault, MethodFileError
 from garkcli.methodfile.load import loads
+from garkcli.page.paint import Paint
 from garkcli.report import (
     check_github,
     check_junit,
@@ -36,7 +37,6 @@ from garkcli.report import (
 )
 from garkcli.report.check_formats import FORMATS
 from garkcli.report.check_json import as_data
-from garkcli.report.paint import Paint
 from tests.cli.harness import ROOT, gark
 
 FAILING = "tests/examples/failing/collocation-misprinted.gark.yaml"

@@ -20,10 +20,10 @@ from garkcli.convergence.convergence import converge
 from garkcli.convergence.result import Convergence
 from garkcli.errors import UsageProblem
 from garkcli.families.registry import diagonal_method
+from garkcli.page.asciiplot import SEVERAL, terminal_curves, terminal_plot
 from garkcli.plots.convergence_plot import comparison_figure, convergence_figure
 from garkcli.plots.saving import save
 from garkcli.problems.oscillator import Oscillator
-from garkcli.report.asciiplot import SEVERAL, terminal_curves, terminal_plot
 from garkcli.tableau.forms import gark
 
 OSCILLATOR = Oscillator.default(1, fmpq(1))

@@ -6,8 +6,8 @@ import io
 
 import pytest
 
-from garkcli.report import progress
-from garkcli.report.progress import watching
+from garkcli.page import progress
+from garkcli.page.progress import watching
 
 
 class _Terminal(io.StringIO):

@@ -11,7 +11,7 @@ from typing import Any
 
 from flint import arb
 
-from garkcli.report.asciiplot import log10 as decades_of
+from garkcli.page.asciiplot import log10 as decades_of
 
 _DIGITS_PER_BIT = log10(2)
 _ALL = 15  # digits of a float

@@ -7,7 +7,7 @@ from dataclasses import dataclass
 import pytest
 from jsonschema import Draft7Validator
 
-from garkcli.report.record import COUNT, TEXT, Field, Record, array, inside, nullable
+from garkcli.page.record import COUNT, TEXT, Field, Record, array, inside, nullable
 
 
 @dataclass(frozen=True)

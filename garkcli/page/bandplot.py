@@ -7,7 +7,7 @@ from __future__ import annotations
 from collections.abc import Mapping, Sequence
 from itertools import pairwise
 
-from garkcli.report.asciiplot import beside_axis
+from garkcli.page.asciiplot import beside_axis
 
 INSIDE = "│"
 """From the least to the greatest value of a column."""

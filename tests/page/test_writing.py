@@ -13,7 +13,7 @@ from pathlib import Path
 import pytest
 
 from garkcli.errors import UsageProblem
-from garkcli.report.writing import refuse_unwritable, write_whole
+from garkcli.page.writing import refuse_unwritable, write_whole
 from tests.cli.harness import ROOT, gark
 
 posix = pytest.mark.skipif(os.name != "posix", reason="links and permissions of POSIX")

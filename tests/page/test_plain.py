@@ -8,6 +8,8 @@ from hypothesis import strategies as st
 
 from garkcli.check.outcome import Outcome
 from garkcli.errors import Fault
+from garkcli.page.paint import Paint
+from garkcli.page.plain import csv_cell, inert, printable
 from garkcli.report import (
     check_github,
     check_junit,
@@ -15,8 +17,6 @@ from garkcli.report import (
     check_sarif,
     check_text,
 )
-from garkcli.report.paint import Paint
-from garkcli.report.plain import csv_cell, inert, printable
 
 TURNED = "a\N{RIGHT-TO-LEFT OVERRIDE}b\x1b[2J\x9b1m"
 """A name that turns text, clears a terminal, and colours it by a control character of one byte."""

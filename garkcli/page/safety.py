@@ -8,7 +8,7 @@ from __future__ import annotations
 
 import re
 
-from garkcli.report.plain import inert
+from garkcli.page.plain import inert
 
 JSON = frozenset({"json", "ndjson", "sarif"})
 """Formats that are JSON: a sign may always be written as ``\\u1234``."""
