@@ -74,10 +74,10 @@ if TYPE_CHECKING:
 def command(settings: dict[str, str], output: Output, **options: Any) -> int:
     """The order-condition table.
 
-    Without FILE the paper's Table 1 for any order: a row for each tree shape, to hold for all
-    colours (text and latex), or a row for each coloured tree (json and csv). With FILE every
-    condition of that method with its exact value, the required value and the residual; identical
-    conditions are listed once.
+    Without FILE the conditions that every method has to meet: a row for each tree shape, to hold
+    for all colours (text and latex), or a row for each coloured tree (json and csv). With FILE
+    every condition of that method with its exact value, the required value and the residual;
+    identical conditions are listed once.
 
     With --symplectic one condition of each class of those that are equivalent for symplectic
     methods; with FILE for its symplectic pair, unless it is symplectic itself.

@@ -46,7 +46,7 @@ COMMANDS = {
     "design": "for which values of its parameters a method has an order",
     "certificate": "what proves the orders, to be checked without gark",
     "list": "families, transfer rules, problems",
-    "schema": "the JSON Schemas of method and problem files, for editors",
+    "schema": "the JSON Schemas of method files, problem files and reports",
 }
 """Every command with its line in the help; the module of the same name in this room has it."""
 

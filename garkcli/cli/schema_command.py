@@ -30,11 +30,11 @@ def _reports(
     flag_value="check",
     metavar="[COMMAND]",
     shell_complete=_reports,
-    help="Of the JSON that a command writes, instead; gark check where none is named.",
+    help="Of what a command writes with --format json, instead; gark check where none is named.",
 )
 @common(["json"])
 def command(problem: bool, report: str | None, output: Output) -> int:
-    """The JSON Schema (draft-07) of method files, for editors.
+    """The JSON Schema (draft-07) of method files, for editors; or of problem files, or of reports.
 
     With the YAML extension of an editor, name it in the first line of a method file:
     # yaml-language-server: $schema=gark.schema.json
