@@ -49,20 +49,23 @@ def algebraic_stability(tableau: Tableau) -> AlgebraicStability | None:
     >>> found.weights_are_positive, found.form_is_positive
     (True, False)
     """
-    colours = range(tableau.size)
-    if any(tableau.block(l, m) is None for l in colours for m in colours):
+    if len(list(tableau.edges())) < tableau.size**2:
         return None
-    weights = all(
-        is_positive_semidefinite(tableau.space(l).gram(tableau.colours[l].b))
-        for l in colours
+    grams = []
+    for l, colour in enumerate(tableau.colours):
+        gram = tableau.space(l).gram(colour.b)
+        grams.append(gram)
+    return AlgebraicStability(
+        weights_are_positive=all(is_positive_semidefinite(gram) for gram in grams),
+        form_is_positive=is_positive_semidefinite(contractivity(tableau)),
     )
-    return AlgebraicStability(weights, is_positive_semidefinite(contractivity(tableau)))
 
 
 def contractivity(tableau: Tableau) -> Matrix:
     """The matrix M, in the bases of the stage spaces; all blocks exist."""
     colours = range(tableau.size)
-    return _assembled([[_form(tableau, l, m) for m in colours] for l in colours])
+    blocks = [[_form(tableau, l, m) for m in colours] for l in colours]
+    return _assembled(blocks)
 
 
 def _form(tableau: Tableau, l: int, m: int) -> Matrix:
@@ -73,7 +76,8 @@ def _form(tableau: Tableau, l: int, m: int) -> Matrix:
     weights, others = tableau.colours[l].b, tableau.colours[m].b
     outgoing = tableau.space(l).form(weights, there)
     incoming = transpose(tableau.space(m).form(others, back))
-    return subtract(add_matrices(outgoing, incoming), outer(weights, others))
+    both = add_matrices(outgoing, incoming)
+    return subtract(both, outer(weights, others))
 
 
 def _assembled(blocks: list[list[Matrix]]) -> Matrix:
@@ -107,20 +111,27 @@ def negative_pivot(form: Matrix, is_definite: bool = False) -> Number | None:
     remaining = list(range(len(rows)))
     while remaining:
         signs = {i: sign(rows[i][i]) for i in remaining}
-        negative = next((i for i in remaining if signs[i] < 0), None)
-        if negative is not None:
-            return rows[negative][negative]
-        if any(rows[i][j] for i in remaining if not signs[i] for j in remaining):
-            return ZERO
-        pivot = next((i for i in remaining if signs[i]), None)
-        if pivot is None:
+        for i in remaining:
+            if signs[i] < 0:
+                return rows[i][i]
+        for i in remaining:
+            if signs[i] == 0 and any(rows[i][j] for j in remaining):
+                return ZERO
+        pivots = [i for i in remaining if signs[i] > 0]
+        if not pivots:
             return ZERO if is_definite else None
+        pivot = pivots[0]
         remaining.remove(pivot)
-        for i in remaining:
-            factor = rows[i][pivot] / rows[pivot][pivot]
-            if factor:
-                for j in remaining:
-                    rows[i][j] = rows[i][j] - factor * rows[pivot][j]
-        for i in remaining:
-            rows[i][pivot] = rows[pivot][i] = ZERO
+        _eliminate(rows, pivot, remaining)
     return None
+
+
+def _eliminate(rows: list[list[Number]], pivot: int, remaining: list[int]) -> None:
+    """Take multiples of the row of the pivot from the others, among the remaining columns."""
+    pivot_row = rows[pivot]
+    for i in remaining:
+        row = rows[i]
+        factor = row[pivot] / pivot_row[pivot]
+        if factor:
+            for j in remaining:
+                row[j] = row[j] - factor * pivot_row[j]

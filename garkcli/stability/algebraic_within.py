@@ -7,13 +7,18 @@ methods is singular: then nothing is decided, for neighbours are on both sides.
 
 from __future__ import annotations
 
+from itertools import chain, combinations
+
 from flint import arb, ctx, fmpq
 
 from garkcli.exact.display import to_ball
-from garkcli.exact.field import Number
-from garkcli.tableau.tableau import Tableau
+from garkcli.exact.matrix import Vector
+from garkcli.tableau.tableau import Edge, Tableau
 
 BITS = 256
+"""Precision of the balls; far below any tolerance that files have."""
+DIGITS = BITS // 4
+"""Digits of exact numbers that become balls."""
 
 
 def algebraic_within(tableau: Tableau, tolerance: fmpq) -> bool | None:
@@ -24,40 +29,58 @@ def algebraic_within(tableau: Tableau, tolerance: fmpq) -> bool | None:
         tolerance: the rounding of coefficients that are not zero.
     """
     with ctx.workprec(BITS):
-        weights = [[_ball(b, tolerance) for b in c.b] for c in tableau.colours]
-        everything = [b for row in weights for b in row]
+        weights = [_balls(colour.b, tolerance) for colour in tableau.colours]
+        everything = list(chain.from_iterable(weights))
         if any(b < 0 for b in everything):
             return False
-        found = is_positive(_form(tableau, weights, tolerance))
-        are_positive = all(b > 0 or b.is_zero() for b in everything)
-        return None if found and not are_positive else found
+        form = _form(tableau, weights, tolerance)
+        found = is_positive(form)
+        if found and not all(b > 0 or b.is_zero() for b in everything):
+            return None
+        return found
 
 
-def _ball(x: Number, tolerance: fmpq) -> arb:
-    """A coefficient with its rounding; zeros are structure."""
-    ball = to_ball(x, BITS // 4)
-    return ball + arb(0, arb(tolerance).upper()) if x else ball
+def _balls(row: Vector, tolerance: fmpq) -> list[arb]:
+    """Coefficients with their rounding; zeros are structure."""
+    rounding = arb(0, arb(tolerance).upper())
+    found = []
+    for x in row:
+        ball = to_ball(x, DIGITS)
+        if x:
+            ball += rounding
+        found.append(ball)
+    return found
 
 
 def _form(
     tableau: Tableau, weights: list[list[arb]], tolerance: fmpq
 ) -> list[list[arb]]:
     """B A + Aᵀ B − b bᵀ over all colours and stages."""
-    places = [(l, i) for l, row in enumerate(weights) for i in range(len(row))]
-    blocks = {}
+    blocks = _blocks(tableau, tolerance)
+    places = []
+    for l, row in enumerate(weights):
+        places += [(l, i) for i in range(len(row))]
+    form = []
+    for l, i in places:
+        b_i = weights[l][i]
+        entries = []
+        for m, j in places:
+            b_j = weights[m][j]
+            outgoing = b_i * blocks[l, m][i][j]
+            incoming = b_j * blocks[m, l][j][i]
+            entries.append(outgoing + incoming - b_i * b_j)
+        form.append(entries)
+    return form
+
+
+def _blocks(tableau: Tableau, tolerance: fmpq) -> dict[Edge, list[list[arb]]]:
+    """The blocks of every pair of colours with their rounding."""
+    found = {}
     for l in range(tableau.size):
         for m in range(tableau.size):
             block = tableau.block(l, m) or ()
-            blocks[l, m] = [[_ball(x, tolerance) for x in row] for row in block]
-    form = []
-    for l, i in places:
-        row = []
-        for m, j in places:
-            outgoing = weights[l][i] * blocks[l, m][i][j]
-            incoming = weights[m][j] * blocks[m, l][j][i]
-            row.append(outgoing + incoming - weights[l][i] * weights[m][j])
-        form.append(row)
-    return form
+            found[l, m] = [_balls(row, tolerance) for row in block]
+    return found
 
 
 def is_positive(form: list[list[arb]]) -> bool | None:
@@ -71,23 +94,28 @@ def is_positive(form: list[list[arb]]) -> bool | None:
     while remaining:
         if any(rows[i][i] < 0 for i in remaining):
             return False
-        pivot = next((i for i in remaining if rows[i][i] > 0), None)
-        if pivot is None:
+        pivots = [i for i in remaining if rows[i][i] > 0]
+        if not pivots:
             return _without_pivot(rows, remaining)
+        pivot = pivots[0]
+        pivot_row = rows[pivot]
         remaining.remove(pivot)
         for i in remaining:
-            factor = rows[i][pivot] / rows[pivot][pivot]
+            row = rows[i]
+            factor = row[pivot] / pivot_row[pivot]
             for j in remaining:
-                rows[i][j] = rows[i][j] - factor * rows[pivot][j]
+                row[j] = row[j] - factor * pivot_row[j]
     return True
 
 
 def _without_pivot(rows: list[list[arb]], remaining: list[int]) -> bool | None:
     """The same where no diagonal entry is known to be positive."""
+    for i, j in combinations(remaining, 2):
+        diagonal = rows[i][i] * rows[j][j]
+        others = rows[i][j] * rows[j][i]
+        if diagonal - others < 0:
+            return False
     for i in remaining:
-        for j in remaining:
-            minor = rows[i][i] * rows[j][j] - rows[i][j] * rows[j][i]
-            if i != j and minor < 0:
-                return False
-    entries = (rows[i][j] for i in remaining for j in remaining)
-    return True if all(x.is_zero() for x in entries) else None
+        if not all(rows[i][j].is_zero() for j in remaining):
+            return None
+    return True

@@ -68,14 +68,17 @@ class ImexPair:
     @cached_property
     def parts(self) -> tuple[tuple[Multivariate, Multivariate], ...]:
         """The real and imaginary parts of P(z_E, iy) and of Q(z_E, iy), in (a, b, y)."""
-        over, under = self.R.numerator, self.R.denominator
-        return _split(over, self.explicit), _split(under, self.explicit)
+        over = _split(self.R.numerator, self.explicit)
+        under = _split(self.R.denominator, self.explicit)
+        return over, under
 
     @cached_property
     def margin(self) -> Multivariate:
         """The polynomial E in (a, b, y)."""
         (p, q), (u, v) = self.parts
-        return (u * u + v * v) - (p * p + q * q)
+        over = p * p + q * q
+        under = u * u + v * v
+        return under - over
 
     @cached_property
     def has_fixed_poles(self) -> bool:
@@ -105,25 +108,25 @@ class ImexPair:
     def _is_bounded(self, a: fmpq, b: fmpq) -> bool:
         """Whether E(a, b, ·) ≥ 0."""
         with precision(BITS):
-            x, y = arb(a), arb(b)
-            E = [_value(terms, x, y) for terms in self._enclosed.E]
+            E = _values(self._enclosed.E, a, b)
             roots = root_count(E) if len(E) > 1 else None
-        if roots is not None:
-            return roots == 0 and bool(E[-1] > 0)
-        return is_nonnegative(_at(self.margin, a, b))
+        if roots is None:
+            exact = _at(self.margin, a, b)
+            return is_nonnegative(exact)
+        return roots == 0 and bool(E[-1] > 0)
 
     def _poles_are_right(self, a: fmpq, b: fmpq) -> bool:
         if self.has_fixed_poles:
             return self.fixed_poles_are_right
         with precision(BITS):
-            x, y = arb(a), arb(b)
-            u = [_value(terms, x, y) for terms in self._enclosed.u]
-            v = [_value(terms, x, y) for terms in self._enclosed.v]
+            u = _values(self._enclosed.u, a, b)
+            v = _values(self._enclosed.v, a, b)
             found = _ball_poles_are_right(u, v)
         if found is not None:
             return found
         _, (real, imaginary) = self.parts
-        return _exact_poles_are_right(_at(real, a, b), _at(imaginary, a, b))
+        exact_u, exact_v = _at(real, a, b), _at(imaginary, a, b)
+        return _exact_poles_are_right(exact_u, exact_v)
 
     def real_ray(self) -> Ray | None:
         """The z_E ≤ 0 from 0 on with all z_I damped; None where that is not decided."""
@@ -154,10 +157,13 @@ class ImexPair:
             return None
         critical += E[:1]  # where it is zero, a root passes through 0
         start = zero
-        for end in [*roots_between(critical, zero, None), None]:
+        ends = [*roots_between(critical, zero, None), None]
+        for end in ends:
             x = between(start, end)
-            point = (-x, ZERO) if is_in_squares else (ZERO, x)
-            if not self._is_bounded(*point):
+            a, b = ZERO, x
+            if is_in_squares:
+                a, b = -x, ZERO
+            if not self._is_bounded(a, b):
                 return Ray(start)
             if end is not None:
                 start = end
@@ -184,9 +190,12 @@ def _is_explicit(tableau: Tableau, l: int) -> bool:
     """Whether the stages of a colour can be taken one after the other."""
     block = tableau.block(l, l)
     assert block is not None
-    neighbours = {i: [j for j, x in enumerate(row) if x] for i, row in enumerate(block)}
-    has_loop = any(i in others for i, others in neighbours.items())
-    return not has_loop and all(len(found) == 1 for found in components(neighbours))
+    neighbours = {}
+    for i, row in enumerate(block):
+        neighbours[i] = [j for j, x in enumerate(row) if x]
+        if i in neighbours[i]:
+            return False
+    return all(len(component) == 1 for component in components(neighbours))
 
 
 def is_nonnegative(p: Polynomial) -> bool:
@@ -221,24 +230,27 @@ def _member(E: Sequence[Polynomial], x: fmpq) -> Polynomial:
 
 def _on_axis(p: Multivariate, axis: int) -> Polynomial:
     """A polynomial in (a, b) on half of an axis: a = −x, b = 0, or a = 0, b = x."""
-    direction = [ZERO, ZERO]
-    direction[axis] = ONE if axis else -ONE
-    return p.along(direction)
+    toward_imaginary = [ZERO, ONE]
+    toward_left = [-ONE, ZERO]
+    return p.along(toward_imaginary if axis else toward_left)
 
 
 def _split(p: Multivariate, explicit: int) -> tuple[Multivariate, Multivariate]:
     """The real and imaginary parts of p(a + ib, iy) as polynomials in (a, b, y)."""
-    parts: tuple[dict[Exponents, Number], dict[Exponents, Number]] = ({}, {})
+    real: dict[Exponents, Number] = {}
+    imaginary: dict[Exponents, Number] = {}
     for exponents, coefficient in p.terms:
-        j, k = exponents[explicit], exponents[1 - explicit]
+        j = exponents[explicit]
+        k = exponents[1 - explicit]
         for m in range(j + 1):
             # the term of (a + ib)^j (iy)^k with b^m: i^(m+k) times real numbers
             turns = (m + k) % 4
-            amount = coefficient * (comb(j, m) * (-1 if turns >= 2 else 1))
-            terms = parts[turns % 2]
+            amount = coefficient * comb(j, m)
+            if turns >= 2:
+                amount = -amount
+            terms = imaginary if turns % 2 else real
             power = (j - m, m, k)
             terms[power] = terms.get(power, ZERO) + amount
-    real, imaginary = parts
     return Multivariate.of(3, real), Multivariate.of(3, imaginary)
 
 
@@ -264,11 +276,16 @@ def _in_balls(p: Multivariate) -> list[_Terms]:
     return found
 
 
-def _value(terms: _Terms, a: arb, b: arb) -> arb:
-    total = arb(0)
-    for j, k, coefficient in terms:
-        total += coefficient * a**j * b**k
-    return total
+def _values(by_y: Sequence[_Terms], a: fmpq, b: fmpq) -> list[arb]:
+    """The coefficients by powers of y at one point (a, b), in balls."""
+    x, y = arb(a), arb(b)
+    found = []
+    for terms in by_y:
+        total = arb(0)
+        for j, k, coefficient in terms:
+            total += coefficient * x**j * y**k
+        found.append(total)
+    return found
 
 
 def _at(p: Multivariate, a: fmpq, b: fmpq) -> Polynomial:
@@ -301,6 +318,7 @@ def _turned(
     u = [*u, *[zero] * (degree + 1 - len(u))]
     v = [*v, *[zero] * (degree + 1 - len(v))]
     c, s = u[degree], v[degree]
-    real = [c * x + s * y for x, y in zip(u, v, strict=True)]
-    imaginary = [c * y - s * x for x, y in zip(u, v, strict=True)]
+    pairs = list(zip(u, v, strict=True))
+    real = [c * x + s * y for x, y in pairs]
+    imaginary = [c * y - s * x for x, y in pairs]
     return real, imaginary[:degree]

@@ -20,7 +20,7 @@ from math import comb
 
 from flint import fmpq
 
-from garkcli.exact.field import ONE, Number
+from garkcli.exact.field import ONE, ZERO, Number
 from garkcli.exact.multivariate import Exponents, Multivariate, from_lines, lattice
 from garkcli.exact.polynomial import Polynomial, gcd
 from garkcli.stability.step_function import StepFunction, unreduced
@@ -49,9 +49,9 @@ class Fraction:
 
     def with_fixed(self, index: int, value: Number) -> tuple[Polynomial, Polynomial]:
         """P and Q of two colours as polynomials in the other variable, for z_index = value."""
-        return _fixed(self.numerator, index, value), _fixed(
-            self.denominator, index, value
-        )
+        over = _fixed(self.numerator, index, value)
+        under = _fixed(self.denominator, index, value)
+        return over, under
 
 
 def _fixed(p: Multivariate, index: int, value: Number) -> Polynomial:
@@ -59,8 +59,10 @@ def _fixed(p: Multivariate, index: int, value: Number) -> Polynomial:
     coefficients: list[Number] = []
     for exponents, a in p.terms:
         power = exponents[1 - index]
-        coefficients += [fmpq(0)] * (power + 1 - len(coefficients))
-        coefficients[power] = coefficients[power] + a * value ** exponents[index]
+        missing = power + 1 - len(coefficients)
+        coefficients += [ZERO] * missing
+        amount = a * value ** exponents[index]
+        coefficients[power] = coefficients[power] + amount
     return Polynomial(coefficients)
 
 
@@ -90,8 +92,10 @@ def stability_fraction(tableau: Tableau) -> Fraction | None:
     over, under = {}, {}
     for point in lattice(axes, degree):
         step = _on_line(tableau, point)
-        over[point], under[point] = step.numerators[0][0], step.denominator
-    P, Q = from_lines(over, 0, degree), from_lines(under, 0, degree)
+        [[over[point]]] = step.numerators
+        under[point] = step.denominator
+    P = from_lines(over, 0, degree)
+    Q = from_lines(under, 0, degree)
     return _in_lowest_terms(P, Q)
 
 
@@ -110,7 +114,8 @@ def _in_lowest_terms(P: Multivariate, Q: Multivariate) -> Fraction:
         direction = _direction([0] * axes, offset)
         on_line = Q.along(direction)
         common = gcd(P.along(direction), on_line)
-        if common.degree == 0 and on_line.degree == Q.degree:
+        has_full_degree = on_line.degree == Q.degree
+        if common.degree == 0 and has_full_degree:
             return Fraction(P, Q, is_reduced=True)
     for offset in OFFSETS:
         reduced = _cancelled(P, Q, offset)
@@ -139,9 +144,12 @@ def _cancelled(P: Multivariate, Q: Multivariate, offset: int) -> Fraction | None
         common = gcd(top, bottom)
         lowest = bottom // common
         scale = ONE / lowest[0]
-        over[point], under[point] = top // common * scale, lowest * scale
+        over[point] = top // common * scale
+        under[point] = lowest * scale
         degree = max(degree, over[point].degree, lowest.degree)
-    p, q = from_lines(over, offset, degree), from_lines(under, offset, degree)
-    is_equal = q * P == p * Q
-    is_lowest = q.degree == max(line.degree for line in under.values())
-    return Fraction(p, q, is_reduced=True) if is_equal and is_lowest else None
+    p = from_lines(over, offset, degree)
+    q = from_lines(under, offset, degree)
+    least_degree = max(line.degree for line in under.values())
+    if q * P != p * Q or q.degree != least_degree:
+        return None
+    return Fraction(p, q, is_reduced=True)

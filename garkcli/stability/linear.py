@@ -59,19 +59,22 @@ def stability_function(
         shares: the w_l, one a colour; None for 1 each, the problem with all parts equal.
     """
     weights = [ONE] * tableau.size if shares is None else list(shares)
-    step = step_function(stage_system(tableau, [((w,),) for w in weights]))
-    return StabilityFunction(step.numerators[0][0], step.denominator)
+    fields = [((w,),) for w in weights]
+    step = step_function(stage_system(tableau, fields))
+    [[numerator]] = step.numerators
+    return StabilityFunction(numerator, step.denominator)
 
 
 def real_and_imaginary(p: Polynomial) -> tuple[Polynomial, Polynomial]:
     """The polynomials u and v in y with p(iy) = u(y) + i v(y)."""
-    signs = (1, 1, -1, -1)  # of i⁰, i¹, i², i³
-    real = [
-        a * signs[k % 4] if k % 2 == 0 else ZERO for k, a in enumerate(p.coefficients)
-    ]
-    imaginary = [
-        a * signs[k % 4] if k % 2 == 1 else ZERO for k, a in enumerate(p.coefficients)
-    ]
+    real: list[Number] = []
+    imaginary: list[Number] = []
+    for k, a in enumerate(p.coefficients):
+        # i⁰, i¹, i², i³ = 1, i, −1, −i
+        amount = -a if k % 4 in {2, 3} else a
+        is_real = k % 2 == 0
+        real.append(amount if is_real else ZERO)
+        imaginary.append(ZERO if is_real else amount)
     return Polynomial(real), Polynomial(imaginary)
 
 
@@ -113,7 +116,10 @@ def real_set(R: StabilityFunction) -> tuple[Interval, ...]:
 def is_i_stable(R: StabilityFunction) -> bool:
     """Whether |R(iy)| ≤ 1 for all real y."""
     found = imaginary_set(R)
-    return len(found) == 1 and found[0].end is None and found[0].has_start
+    if len(found) != 1:
+        return False
+    [only] = found
+    return only.has_start and only.end is None
 
 
 def poles_are_right(Q: Polynomial) -> bool:
@@ -140,7 +146,9 @@ def exact_cauchy_index(f: Polynomial, g: Polynomial) -> int:
     while chain[-1]:
         chain.append(-(chain[-2] % chain[-1]))
     chain.pop()
-    return _variations(chain, at_plus=False) - _variations(chain, at_plus=True)
+    at_minus = _variations(chain, at_plus=False)
+    at_plus = _variations(chain, at_plus=True)
+    return at_minus - at_plus
 
 
 def _variations(chain: Sequence[Polynomial], at_plus: bool) -> int:
@@ -148,7 +156,8 @@ def _variations(chain: Sequence[Polynomial], at_plus: bool) -> int:
     signs = []
     for p in chain:
         leading = sign(p.leading)
-        signs.append(leading if at_plus or p.degree % 2 == 0 else -leading)
+        is_turned = p.degree % 2 == 1 and not at_plus
+        signs.append(-leading if is_turned else leading)
     return sum(1 for a, b in pairwise(signs) if a != b)
 
 

@@ -13,6 +13,7 @@ from __future__ import annotations
 
 from collections.abc import Sequence
 from dataclasses import dataclass
+from itertools import chain
 
 from flint import fmpq
 
@@ -89,11 +90,10 @@ class OscillatorStability:
     @property
     def is_p_stable(self) -> bool:
         """Whether no step size is unstable."""
-        return (
-            len(self.stable) == 1
-            and self.stable[0].has_start
-            and self.stable[0].end is None
-        )
+        if len(self.stable) != 1:
+            return False
+        [only] = self.stable
+        return only.has_start and only.end is None
 
     @property
     def conserved(self) -> tuple[Polynomial, Polynomial, Polynomial] | None:
@@ -105,13 +105,16 @@ class OscillatorStability:
             return None
         (a, b), (c, d) = self.step.numerators
         form = (c, d - a, -b)
-        common = gcd(gcd(form[0], form[1]), form[2])
+        common = Polynomial([])
+        for p in form:
+            common = gcd(common, p)
         if not common:
             return None  # M is a multiple of the identity: every form is conserved
         reduced = [p // common for p in form]
-        unit = ONE / next(x for p in reduced for x in p.coefficients if x)
-        scaled = [p * unit for p in reduced]
-        return scaled[0], scaled[1], scaled[2]
+        numbers = chain.from_iterable(p.coefficients for p in reduced)
+        first = next(x for x in numbers if x)
+        alpha, beta, gamma = (p * (ONE / first) for p in reduced)
+        return alpha, beta, gamma
 
 
 def oscillator_stability(tableau: Tableau, problem: Oscillator) -> OscillatorStability:
@@ -133,19 +136,16 @@ def analysed(tableau: Tableau, fields: Sequence[Matrix]) -> OscillatorStability:
     """The same for given fields y ↦ L^m y with L^m = (0, k_m; −v_m, 0) in (ωq, p)."""
     step = step_function(stage_system(tableau, fields))
     (a, b), (c, d) = step.numerators
-    trace = Ratio.of(_even(a + d), _even(step.denominator))
-    determinant = Ratio.of(
-        _even(a * d - b * c), _even(step.denominator * step.denominator)
-    )
+    poles = _even(step.denominator)
+    trace = Ratio.of(_even(a + d), poles)
+    determinant = Ratio.of(_even(a * d - b * c), poles * poles)
     N, D = trace.numerator, trace.denominator
     return OscillatorStability(
         step=step,
         trace=trace,
         determinant=determinant,
         discriminant=D * D * 4 - N * N,
-        stable=stable_set(
-            trace, determinant, _off_diagonal(step), _even(step.denominator)
-        ),
+        stable=stable_set(trace, determinant, _off_diagonal(step), poles),
         phase=phase_error(trace, determinant),
     )
 
@@ -202,9 +202,9 @@ def stable_set(
 def _off_diagonal(step: StepFunction) -> tuple[Polynomial, Polynomial]:
     """The entries off the diagonal, odd in z, times z as polynomials in x."""
     (_, b), (c, _) = step.numerators
-    return Polynomial([ZERO, *b.coefficients[1::2]]), Polynomial(
-        [ZERO, *c.coefficients[1::2]]
-    )
+    upper = Polynomial([ZERO, *b.coefficients[1::2]])
+    lower = Polynomial([ZERO, *c.coefficients[1::2]])
+    return upper, lower
 
 
 def phase_error(trace: Ratio, determinant: Ratio) -> PhaseError:
@@ -219,13 +219,14 @@ def phase_error(trace: Ratio, determinant: Ratio) -> PhaseError:
     terms = 16
     limit = 4 * (over.degree + under.degree) + 40
     while terms <= limit:
-        difference = (over - under * _cosine_squared(terms)).coefficients[:terms]
-        leading = next((k for k, a in enumerate(difference) if a), None)
+        difference = over - under * _cosine_squared(terms)
+        known = difference.coefficients[:terms]
+        leading = next((k for k, a in enumerate(known) if a), None)
         if leading is not None:
             if leading == 1:  # θ − z is no small part of z
                 return PhaseError(0, None)
             # −2 z · c z^(order+1) = leading term; under is 4 at x = 0
-            constant = difference[leading] / (under[0] * -2)
+            constant = known[leading] / (under[0] * -2)
             return PhaseError(2 * leading - 2, constant)
         terms *= 2
     return PhaseError(None, ZERO)

@@ -47,8 +47,10 @@ def largest_sector(R: StabilityFunction) -> Sector | None:
     if critical is None:
         return None
     edge = RealRoot.rational(ONE)
-    for root in reversed([RealRoot.rational(ZERO), *critical]):
-        if not _is_bounded_at(R, between(root, edge)):
+    from_axis = [RealRoot.rational(ZERO), *critical]
+    for root in reversed(from_axis):
+        inside = between(root, edge)
+        if not _is_bounded_at(R, inside):
             return Sector(edge)
         edge = root
     return Sector(edge)
@@ -69,7 +71,9 @@ def _critical_cosines(R: StabilityFunction) -> list[RealRoot] | None:
 
 def _on_ray(R: StabilityFunction, c: Number) -> Polynomial:
     """E/r on the ray with cos φ = c."""
-    E = _squared_on_ray(R.denominator, c) - _squared_on_ray(R.numerator, c)
+    over = _squared_on_ray(R.numerator, c)
+    under = _squared_on_ray(R.denominator, c)
+    E = under - over
     return Polynomial(E.coefficients[1:])
 
 
@@ -79,8 +83,11 @@ def _squared_on_ray(p: Polynomial, c: Number) -> Polynomial:
     squared: list[Number] = [ZERO] * (2 * p.degree + 1)
     for j, a in enumerate(p.coefficients):
         for k, b in enumerate(p.coefficients):
+            power = j + k
             term = a * b * cosines[abs(j - k)]
-            squared[j + k] = squared[j + k] + (term if (j + k) % 2 == 0 else -term)
+            if power % 2:
+                term = -term
+            squared[power] = squared[power] + term
     return Polynomial(squared)
 
 
@@ -88,7 +95,8 @@ def _chebyshev(c: Number, most: int) -> list[Number]:
     """T_0(c), T_1(c), …: the cosines of the multiples of φ."""
     cosines: list[Number] = [ONE, c]
     for _ in range(most):
-        cosines.append(2 * c * cosines[-1] - cosines[-2])
+        before, last = cosines[-2:]
+        cosines.append(2 * c * last - before)
     return cosines
 
 
@@ -103,4 +111,5 @@ def _is_bounded_at(R: StabilityFunction, c: fmpq) -> bool:
     origin = RealRoot.rational(ZERO)
     if any(root > origin for root, _ in real_roots(poles)):
         return False
-    return all(power % 2 == 0 for root, power in real_roots(ray) if root > origin)
+    powers = [power for root, power in real_roots(ray) if root > origin]
+    return all(power % 2 == 0 for power in powers)

@@ -21,6 +21,7 @@ if TYPE_CHECKING:
     from collections.abc import Sequence
 
     from garkcli.arrays import Floats
+    from garkcli.exact.matrix import Matrix
 
 
 @dataclass(frozen=True)
@@ -57,10 +58,10 @@ def springs_plane(
         fast_end: the largest hω of the fast spring.
         points: a side of the grid.
     """
-    parts = [
-        _floats(tableau, split, fmpq(a), fmpq(x)) for a, x in ((0, 0), (1, 0), (0, 1))
-    ]
-    (W, B, E), (W_a, B_a, _), (W_x, B_x, _) = parts
+    zero, one = fmpq(0), fmpq(1)
+    W, B, E = _floats(tableau, split, zero, zero)
+    W_a, B_a, _ = _floats(tableau, split, one, zero)
+    W_x, B_x, _ = _floats(tableau, split, zero, one)
     slow = np.linspace(0.0, slow_end, points)
     fast = np.linspace(0.0, fast_end, points)
     half = np.empty((points, points))
@@ -89,7 +90,11 @@ def plane_with_ends_of(
         stable: the stable (hω)² of the fast spring.
         slow: the largest (hω)² of the slow one that was decided.
     """
-    ends = [float(i.end.ball(64)) ** 0.5 for i in stable if i.end is not None]
+    ends = []
+    for interval in stable:
+        if interval.end is not None:
+            square = float(interval.end.ball(64))
+            ends.append(square**0.5)
     fast_end = 1.3 * max([*ends, 4.0])
     slow_end = 1.3 * max(to_float(slow) ** 0.5, 3.0)
     return springs_plane(tableau, split, slow_end, fast_end)
@@ -103,6 +108,9 @@ def _floats(
     one = fmpq(1)
     pattern = [split.matrix(colour, one, one) for colour in tableau.colours]
     system = stage_system(tableau, fields, pattern)
-    matrices = (system.W, system.B, system.E)
-    W, B, E = (np.array([[to_float(x) for x in row] for row in m]) for m in matrices)
-    return W, B, E
+    return _array(system.W), _array(system.B), _array(system.E)
+
+
+def _array(matrix: Matrix) -> Floats:
+    rows = [[to_float(x) for x in row] for row in matrix]
+    return np.array(rows)

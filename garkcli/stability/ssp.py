@@ -20,7 +20,7 @@ from dataclasses import dataclass
 
 from garkcli.exact.characteristic import reciprocal_characteristic
 from garkcli.exact.field import ONE, ZERO, Number
-from garkcli.exact.matrix import Matrix, apply
+from garkcli.exact.matrix import Matrix, apply, scale, transpose
 from garkcli.exact.polynomial import Polynomial
 from garkcli.exact.roots import RealRoot, real_roots, sign
 from garkcli.tableau.pointwise import in_points
@@ -89,17 +89,16 @@ def _radius(
 ) -> SspCoefficient | None:
     """The largest r in a direction, with the conditions of the ``driven`` colours."""
     exact = in_points(tableau)
-    if exact is None:
-        return None
-    colours = range(exact.size)
-    if any(exact.block(l, m) is None for l in colours for m in colours):
+    if exact is None or len(list(exact.edges())) < exact.size**2:
         return None
     whole, parts = stacked(exact, ratios)
-    smallest: RealRoot | None = None
-    for condition in _conditions(whole, [parts[l] for l in driven]):
+    driven_parts = [parts[l] for l in driven]
+    failures = []
+    for condition in _conditions(whole, driven_parts):
         failing = _first_failure(condition)
-        if failing is not None and (smallest is None or failing < smallest):
-            smallest = failing
+        if failing is not None:
+            failures.append(failing)
+    smallest = min(failures, default=None)
     return SspCoefficient(smallest)
 
 
@@ -115,19 +114,31 @@ def stacked(tableau: Tableau, ratios: Sequence[Number]) -> tuple[Matrix, list[Ma
         size += space.stages
     parts = []
     for m, colour in enumerate(tableau.colours):
-        K: list[list[Number]] = [[ZERO] * (size + 1) for _ in range(size + 1)]
+        K = _square(size + 1)
         column = starts[colour.space]
         for k, start in enumerate(starts):
-            for i, row in enumerate(tableau.blocks.get((k, m), ()), start=start):
-                K[i][column : column + len(row)] = row
-        K[size][column : column + len(colour.b)] = colour.b
-        parts.append(tuple(tuple(row) for row in K))
-    whole: list[list[Number]] = [[ZERO] * (size + 1) for _ in range(size + 1)]
+            block = tableau.blocks.get((k, m), ())
+            for i, row in enumerate(block, start=start):
+                end = column + len(row)
+                K[i][column:end] = row
+        end = column + len(colour.b)
+        K[size][column:end] = colour.b
+        parts.append(_frozen(K))
+    whole = _square(size + 1)
     for ratio, part in zip(ratios, parts, strict=True):
         for i, row in enumerate(part):
             for j, x in enumerate(row):
                 whole[i][j] = whole[i][j] + ratio * x
-    return tuple(tuple(row) for row in whole), parts
+    return _frozen(whole), parts
+
+
+def _square(size: int) -> list[list[Number]]:
+    """A matrix of zeros."""
+    return [[ZERO] * size for _ in range(size)]
+
+
+def _frozen(rows: list[list[Number]]) -> Matrix:
+    return tuple(tuple(row) for row in rows)
 
 
 def _conditions(whole: Matrix, parts: Sequence[Matrix]) -> Iterator[Polynomial]:
@@ -137,14 +148,13 @@ def _conditions(whole: Matrix, parts: Sequence[Matrix]) -> Iterator[Polynomial]:
     polynomial of degree at most n: finitely many terms of the product of the series determine it.
     """
     n = len(whole)
-    minus_whole = tuple(tuple(-x for x in row) for row in whole)
+    minus_whole = scale(-ONE, whole)
     denominator = reciprocal_characteristic(minus_whole)
     yield denominator
     for part in parts:
-        for column in range(n):
-            vector = tuple(row[column] for row in part)
-            if any(vector):
-                yield from _entries(denominator, minus_whole, vector, n)
+        for column in transpose(part):
+            if any(column):
+                yield from _entries(denominator, minus_whole, column, n)
     yield from _entries(denominator, minus_whole, (ONE,) * n, n)
 
 
@@ -158,8 +168,12 @@ def _entries(
         for i, x in enumerate(state):
             series[i].append(x)
         state = apply(minus_whole, state)
-    products = [denominator * Polynomial(terms) for terms in series]
-    return [Polynomial(product.coefficients[: n + 1]) for product in products]
+    numerators = []
+    for terms in series:
+        product = denominator * Polynomial(terms)
+        lowest = product.coefficients[: n + 1]
+        numerators.append(Polynomial(lowest))
+    return numerators
 
 
 def _first_failure(p: Polynomial) -> RealRoot | None:

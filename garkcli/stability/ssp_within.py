@@ -31,43 +31,50 @@ def ssp_within(tableau: Tableau, shares: Sequence[Number], tolerance: fmpq) -> B
         tolerance: the rounding of coefficients that are not zero.
     """
     pattern, parts = stacked(tableau, shares)
-    wide = [_widened(part, tolerance) for part in parts]
     n = len(pattern)
     whole = arb_mat(n, n)
-    for share, part in zip(shares, wide, strict=True):
-        if share:
-            whole += part * to_ball(share, DIGITS)
-    denominator = _reciprocal(pattern, whole)
     vectors = [[arb(1)] * n]
-    for share, part in zip(shares, wide, strict=True):
-        columns = part.transpose().tolist() if share else []
-        vectors += [v for v in columns if not all(x.is_zero() for x in v)]
+    for share, part in zip(shares, parts, strict=True):
+        if share:
+            wide = _widened(part, tolerance)
+            whole += wide * to_ball(share, DIGITS)
+            vectors += _columns(wide)
+    denominator = _reciprocal(pattern, whole)
     conditions = [denominator]
     for vector in vectors:
         conditions += _entries(denominator, whole, vector)
-    return least([first_failure(condition) for condition in conditions])
+    failures = [first_failure(condition) for condition in conditions]
+    return least(failures)
 
 
 def _widened(matrix: Matrix, tolerance: fmpq) -> arb_mat:
     """The coefficients with their rounding; zeros are structure."""
     rounding = arb(0, arb(tolerance).upper())
-    return arb_mat(
-        [
-            [to_ball(x, DIGITS) + rounding if x else arb(0) for x in row]
-            for row in matrix
-        ]
-    )
+    rows = []
+    for exact in matrix:
+        row = [to_ball(x, DIGITS) + rounding if x else arb(0) for x in exact]
+        rows.append(row)
+    return arb_mat(rows)
+
+
+def _columns(matrix: arb_mat) -> list[list[arb]]:
+    """The columns that are not zero."""
+    columns = matrix.transpose().tolist()
+    return [column for column in columns if not all(x.is_zero() for x in column)]
 
 
 def _reciprocal(pattern: Matrix, matrix: arb_mat) -> list[arb]:
     """det(I + rK) as coefficients of r, component by component."""
-    edges = {i: [j for j, x in enumerate(row) if x] for i, row in enumerate(pattern)}
+    edges = {}
+    for i, row in enumerate(pattern):
+        edges[i] = [j for j, x in enumerate(row) if x]
     result = arb_poly([1])
     for component in components(edges):
         block = arb_mat([[-matrix[i, j] for j in component] for i in component])
         factor = [arb(1), -block[0, 0]]
         if len(component) > 1:
-            factor = list(block.charpoly().coeffs())[::-1]
+            characteristic = list(block.charpoly().coeffs())
+            factor = characteristic[::-1]
         result = result * arb_poly(factor)
     return [result[k] for k in range(len(result))]
 
@@ -83,8 +90,9 @@ def _entries(
         for i in range(n):
             series[i].append(state[i, 0])
         state = -(matrix * state)
+    common = arb_poly(denominator)
     found = []
     for terms in series:
-        product = arb_poly(denominator) * arb_poly(terms)
+        product = common * arb_poly(terms)
         found.append([product[k] for k in range(n + 1)])
     return found

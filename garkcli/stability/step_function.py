@@ -7,7 +7,6 @@ the number of unknowns, so that finitely many terms of the power series of M det
 
 from __future__ import annotations
 
-from collections.abc import Sequence
 from dataclasses import dataclass
 
 from garkcli.exact.characteristic import reciprocal_characteristic
@@ -44,7 +43,11 @@ def unreduced(system: StageSystem) -> StepFunction:
     series = [_series(system, column, n) for column in columns]
     numerators = []
     for i in range(d):
-        entries = (_numerator(denominator, series[j][i], i == j, n) for j in range(d))
+        entries = []
+        for j in range(d):
+            constant = ONE if i == j else ZERO
+            powers = Polynomial([constant, *series[j][i]])
+            entries.append(_numerator(denominator, powers, n))
         numerators.append(tuple(entries))
     return StepFunction(denominator, tuple(numerators))
 
@@ -60,13 +63,11 @@ def _series(system: StageSystem, column: Vector, terms: int) -> list[list[Number
     return found
 
 
-def _numerator(
-    denominator: Polynomial, series: Sequence[Number], is_diagonal: bool, degree: int
-) -> Polynomial:
+def _numerator(denominator: Polynomial, series: Polynomial, degree: int) -> Polynomial:
     """The first terms of D · M_ij, which are all there are."""
-    entry = Polynomial([ONE if is_diagonal else ZERO, *series])
-    product = denominator * entry
-    return Polynomial(product.coefficients[: degree + 1])
+    product = denominator * series
+    lowest = product.coefficients[: degree + 1]
+    return Polynomial(lowest)
 
 
 def _reduced(step: StepFunction) -> StepFunction:
@@ -76,7 +77,8 @@ def _reduced(step: StepFunction) -> StepFunction:
             common = gcd(common, p)
     lowest = step.denominator // common
     scale = ONE / lowest[0]
-    numerators = tuple(
-        tuple(p // common * scale for p in row) for row in step.numerators
-    )
-    return StepFunction(lowest * scale, numerators)
+    numerators = []
+    for row in step.numerators:
+        entries = [p // common * scale for p in row]
+        numerators.append(tuple(entries))
+    return StepFunction(lowest * scale, tuple(numerators))

@@ -17,7 +17,7 @@ from garkcli.errors import UsageProblem
 from garkcli.exact.cells import Interval
 from garkcli.exact.characteristic import reciprocal_characteristic
 from garkcli.exact.field import ONE, ZERO, Number
-from garkcli.exact.matrix import Matrix
+from garkcli.exact.matrix import Matrix, outer, subtract
 from garkcli.exact.multivariate import Multivariate, lattice, through_points
 from garkcli.exact.polynomial import Polynomial, gcd, interpolated
 from garkcli.problems.oscillator import Oscillator, check_structure, terms_of
@@ -43,10 +43,12 @@ class SplitSprings:
     def matrix(self, colour: Colour, a: Number, x: Number) -> Matrix:
         """L with (q, p)˙ = L (q, p), h = 1, shape (2, 2)."""
         l = colour.term
-        velocity = ZERO if colour.part == "p" else self.kinetic[l]
-        force: Number = (
-            ZERO if colour.part == "q" else self.slow[l] * a + self.fast[l] * x
-        )
+        velocity = self.kinetic[l]
+        force = self.slow[l] * a + self.fast[l] * x
+        if colour.part == "p":
+            velocity = ZERO
+        if colour.part == "q":
+            force = ZERO
         return ((ZERO, velocity), (-force, ZERO))
 
 
@@ -93,12 +95,10 @@ def springs(tableau: Tableau, fast: int) -> SplitSprings:
             "give another colour with --fast",
         )
     share = fmpq(1, len(slow_terms))
-    nothing = [ZERO] * terms
-    kinetic, slow, strong = list(nothing), list(nothing), list(nothing)
-    kinetic[0] = ONE
-    for l in slow_terms:
-        slow[l] = share
-    strong[fast] = ONE
+    numbers = range(terms)
+    kinetic = [ONE if l == 0 else ZERO for l in numbers]
+    slow = [share if l in slow_terms else ZERO for l in numbers]
+    strong = [ONE if l == fast else ZERO for l in numbers]
     return SplitSprings(tuple(kinetic), tuple(slow), tuple(strong))
 
 
@@ -120,17 +120,21 @@ def two_frequencies(
     check_structure(tableau, _like_an_oscillator(split))
     count = len(_system(tableau, split, slow, ZERO).W) + 1
     points = [fmpq(k) for k in range(count)]
-    rows = [_determinants(_system(tableau, split, slow, x)) for x in points]
+    rows = []
+    for x in points:
+        system = _system(tableau, split, slow, x)
+        rows.append(_determinants(system))
     columns = zip(*rows, strict=True)
-    D, a, b, c, d = _reduced([interpolated(points, column) for column in columns])
+    determinants = [interpolated(points, column) for column in columns]
+    D, a, b, c, d = _reduced(determinants)
     trace = Ratio.of(a + d, D)
     determinant = Ratio.of(a * d - b * c, D * D)
-    N = trace.numerator
+    over, under = trace.numerator, trace.denominator
     return TwoFrequencies(
         slow=slow,
         trace=trace,
         determinant=determinant,
-        discriminant=trace.denominator * trace.denominator * 4 - N * N,
+        discriminant=under * under * 4 - over * over,
         stable=stable_set(trace, determinant, (b, c), D),
     )
 
@@ -148,7 +152,10 @@ def plane_of_determinants(
     check_structure(tableau, _like_an_oscillator(split))
     degree = len(_system(tableau, split, ZERO, ZERO).W)
     points = list(lattice(2, degree))
-    rows = [_determinants(_system(tableau, split, fmpq(i), fmpq(j))) for i, j in points]
+    rows = []
+    for i, j in points:
+        system = _system(tableau, split, fmpq(i), fmpq(j))
+        rows.append(_determinants(system))
     planes = []
     for column in zip(*rows, strict=True):
         values = dict(zip(points, column, strict=True))
@@ -173,8 +180,11 @@ def _reduced(polynomials: Sequence[Polynomial]) -> list[Polynomial]:
 
 def _like_an_oscillator(split: SplitSprings) -> Oscillator:
     """A split with the same terms in play, for the check of the structure."""
-    force = tuple((s + f) / 2 for s, f in zip(split.slow, split.fast, strict=True))
-    return Oscillator(ONE, tuple(zip(split.kinetic, force, strict=True)))
+    shares = []
+    for kinetic, slow, fast in zip(split.kinetic, split.slow, split.fast, strict=True):
+        force = (slow + fast) / 2
+        shares.append((kinetic, force))
+    return Oscillator(ONE, tuple(shares))
 
 
 def _system(tableau: Tableau, split: SplitSprings, slow: fmpq, x: fmpq) -> StageSystem:
@@ -188,15 +198,13 @@ def _determinants(system: StageSystem) -> Sequence[Number]:
     """det(I − W) and, times it, the entries of M = I + B (I − W)⁻¹ E."""
     D = _determinant(system.W)
     entries: list[Number] = []
-    for i in range(2):
+    for i, weights in enumerate(system.B):
         for j in range(2):
+            # det(I − W + e bᵀ) = D + D bᵀ (I − W)⁻¹ e
             column = tuple(row[j] for row in system.E)
-            changed = tuple(
-                tuple(w - e * b for w, b in zip(row, system.B[i], strict=True))
-                for row, e in zip(system.W, column, strict=True)
-            )
-            unit = ONE if i == j else ZERO
-            entries.append(_determinant(changed) - D + unit * D)
+            rank_one = outer(column, weights)
+            increment = _determinant(subtract(system.W, rank_one)) - D
+            entries.append(D + increment if i == j else increment)
     return (D, *entries)
 
 
