@@ -6,7 +6,7 @@ import copyreg
 from collections.abc import Callable
 from typing import Any, TypeAlias
 
-from flint import arb, ctx, fmpq, fmpq_mat, fmpq_poly
+from flint import arb, ctx, fmpq, fmpq_mat, fmpq_poly, fmpz_poly
 
 Made: TypeAlias = tuple[Callable[..., Any], tuple[Any, ...]]
 """What makes a value again, and from what."""
@@ -20,6 +20,10 @@ def _rational(number: fmpq) -> Made:
 
 def _polynomial(poly: fmpq_poly) -> Made:
     return fmpq_poly, (poly.coeffs(),)
+
+
+def _integer_polynomial(poly: fmpz_poly) -> Made:
+    return fmpz_poly, ([int(x) for x in poly.coeffs()],)
 
 
 def _matrix(matrix: fmpq_mat) -> Made:
@@ -52,3 +56,4 @@ def register() -> None:
     copyreg.pickle(fmpq, _rational)
     copyreg.pickle(fmpq_poly, _polynomial)
     copyreg.pickle(fmpq_mat, _matrix)
+    copyreg.pickle(fmpz_poly, _integer_polynomial)

@@ -4,7 +4,7 @@ from __future__ import annotations
 
 import pickle
 
-from flint import arb, fmpq, fmpq_mat, fmpq_poly
+from flint import arb, fmpq, fmpq_mat, fmpq_poly, fmpz_poly
 
 from garkcli.exact.display import to_text
 from garkcli.exact.domain import Domain
@@ -20,7 +20,12 @@ def sent(value: object) -> object:
 
 def test_exact_numbers_arrive_unchanged() -> None:
     """Rationals, polynomials and matrices are the same on the other side."""
-    values = (fmpq(-3, 7), fmpq_poly([1, fmpq(1, 3)]), fmpq_mat([[1, fmpq(1, 2)]]))
+    values = (
+        fmpq(-3, 7),
+        fmpq_poly([1, fmpq(1, 3)]),
+        fmpz_poly([-2, 0, 10**30]),
+        fmpq_mat([[1, fmpq(1, 2)]]),
+    )
     assert sent(values) == values
 
 
