@@ -14,28 +14,43 @@ from garkcli.report import check_text
 
 def render(outcomes: Sequence[Outcome]) -> str:
     """A workflow command for each finding, and what every file has for the log."""
-    lines = [_annotation(x) for outcome in outcomes for x in findings(outcome)]
-    text = check_text.render(outcomes, Paint(False), 0 if len(outcomes) > 1 else -1)
-    return "".join(f"{line}\n" for line in lines) + (_inert(text) if text else "")
+    found = ""
+    for outcome in outcomes:
+        for finding in findings(outcome):
+            found += f"{_annotation(finding)}\n"
+    verbosity = 0 if len(outcomes) > 1 else -1
+    text = check_text.render(outcomes, Paint(False), verbosity)
+    if text:
+        found += _inert(text)
+    return found
 
 
 def _inert(text: str) -> str:
     """The text with workflow commands switched off: names of files come from strangers."""
-    token = sha256(text.encode("utf-8", "surrogatepass")).hexdigest()
+    encoded = text.encode("utf-8", "surrogatepass")
+    token = sha256(encoded).hexdigest()
     return f"::stop-commands::{token}\n{text}::{token}::\n"
 
 
 def _annotation(finding: Finding) -> str:
-    place = f"file={_property(finding.file)},line={finding.line},col={finding.column}"
-    text = f"{finding.message}; {finding.help}" if finding.help else finding.message
-    return f"::error {place},title={_property('gark: ' + finding.rule)}::{_data(text)}"
+    file = _property(finding.file)
+    place = f"file={file},line={finding.line},col={finding.column}"
+    title = _property(f"gark: {finding.rule}")
+    text = finding.message
+    if finding.help:
+        text += f"; {finding.help}"
+    return f"::error {place},title={title}::{_data(text)}"
 
 
 def _data(text: str) -> str:
     """The text of a command: what ends a line is written by its number, other signs by name."""
-    escaped = text.replace("%", "%25").replace("\r", "%0D").replace("\n", "%0A")
+    escaped = text.replace("%", "%25")
+    escaped = escaped.replace("\r", "%0D")
+    escaped = escaped.replace("\n", "%0A")
     return printable(escaped)
 
 
 def _property(text: str) -> str:
-    return _data(text).replace(":", "%3A").replace(",", "%2C")
+    """A property of a command: colons and commas end it."""
+    escaped = _data(text).replace(":", "%3A")
+    return escaped.replace(",", "%2C")

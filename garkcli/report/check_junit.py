@@ -7,7 +7,8 @@ import xml.etree.ElementTree as ET
 from collections.abc import Sequence
 
 from garkcli.check.explained import claim_hint, claim_witness
-from garkcli.check.outcome import Outcome
+from garkcli.check.outcome import Claim, Outcome
+from garkcli.errors import Fault
 from garkcli.page.plain import printable
 
 _NOT_XML = re.compile("[^\t\n\r -\ud7ff\ue000-\ufffd\U00010000-\U0010ffff]")
@@ -19,7 +20,8 @@ def render(outcomes: Sequence[Outcome]) -> str:
     for outcome in outcomes:
         root.append(_suite(outcome))
     for count in ("tests", "failures", "errors"):
-        total = sum(int(suite.get(count, "0")) for suite in root)
+        numbers = [suite.get(count, "0") for suite in root]
+        total = sum(map(int, numbers))
         root.set(count, str(total))
     ET.indent(root)
     text = ET.tostring(root, encoding="unicode")
@@ -29,43 +31,59 @@ def render(outcomes: Sequence[Outcome]) -> str:
 def _suite(outcome: Outcome) -> ET.Element:
     name = _clean(outcome.file)
     suite = ET.Element("testsuite", name=name)
-    readable = ET.SubElement(suite, "testcase", classname=name, name="is a method")
+    readable = _case(suite, "is a method")
     if outcome.faults:
-        text = "\n".join(
-            f"{x.line}:{x.column}: {x.message}; {x.help}".rstrip("; ")
-            for x in outcome.faults
-        )
-        error = ET.SubElement(
-            readable, "error", message=_clean(outcome.faults[0].message)
-        )
-        error.text = _clean(text)
+        _add_error(readable, outcome.faults)
     for claim in outcome.claims:
-        title = _clean(f"{claim.claim}: {claim.expected}")
-        case = ET.SubElement(
-            suite, "testcase", classname=name, name=title, line=str(claim.line)
-        )
+        case = _case(suite, _clean(f"{claim.claim}: {claim.expected}"))
+        case.set("line", str(claim.line))
         if not claim.holds:
-            message = f"expected {claim.expected}, found {claim.found}"
-            failure = ET.SubElement(
-                case, "failure", message=_clean(message), type="claim"
-            )
-            witness = claim_witness(outcome, claim.claim)
-            hint = claim_hint(outcome, claim.claim)
-            details = "\n".join(text for text in (witness, hint) if text)
-            failure.text = _clean(details) or None
-    missing = outcome.needs_claims and outcome.makes_no_claim
-    if missing:
-        case = ET.SubElement(suite, "testcase", classname=name, name="makes a claim")
-        ET.SubElement(
-            case, "failure", message="the file makes no claim", type="no-claim"
-        )
-    suite.set("tests", str(1 + len(outcome.claims) + missing))
-    suite.set("failures", str(len(outcome.failed_claims) + missing))
-    suite.set("errors", str(int(bool(outcome.faults))))
+            _add_failure(case, outcome, claim)
+    tests = 1 + len(outcome.claims)
+    failures = len(outcome.failed_claims)
+    if outcome.needs_claims and outcome.makes_no_claim:
+        tests += 1
+        failures += 1
+        message = "the file makes no claim"
+        case = _case(suite, "makes a claim")
+        ET.SubElement(case, "failure", message=message, type="no-claim")
+    errors = 1 if outcome.faults else 0
+    suite.set("tests", str(tests))
+    suite.set("failures", str(failures))
+    suite.set("errors", str(errors))
     return suite
+
+
+def _case(suite: ET.Element, name: str) -> ET.Element:
+    """A further case of a suite, whose name is that of the file."""
+    file = suite.get("name", "")
+    return ET.SubElement(suite, "testcase", classname=file, name=name)
+
+
+def _add_error(case: ET.Element, faults: Sequence[Fault]) -> None:
+    """All faults of a file, the first one as the message."""
+    lines = []
+    for fault in faults:
+        place = f"{fault.line}:{fault.column}"
+        line = f"{place}: {fault.message}; {fault.help}"
+        lines.append(line.rstrip("; "))
+    message = _clean(faults[0].message)
+    error = ET.SubElement(case, "error", message=message)
+    error.text = _clean("\n".join(lines))
+
+
+def _add_failure(case: ET.Element, outcome: Outcome, claim: Claim) -> None:
+    """What was found in place of a claim, and why."""
+    message = f"expected {claim.expected}, found {claim.found}"
+    failure = ET.SubElement(case, "failure", message=_clean(message), type="claim")
+    witness = claim_witness(outcome, claim.claim)
+    hint = claim_hint(outcome, claim.claim)
+    details = filter(None, (witness, hint))
+    failure.text = _clean("\n".join(details)) or None
 
 
 def _clean(text: str) -> str:
     """``text`` without characters that XML has no way to write; signs that turn text by name."""
-    lines = _NOT_XML.sub("\N{REPLACEMENT CHARACTER}", text).split("\n")
-    return "\n".join(printable(line) for line in lines)
+    writable = _NOT_XML.sub("\N{REPLACEMENT CHARACTER}", text)
+    lines = [printable(line) for line in writable.split("\n")]
+    return "\n".join(lines)

@@ -6,9 +6,9 @@ from collections.abc import Sequence
 
 from garkcli.check.explained import repair_text
 from garkcli.order.blame import Blame
-from garkcli.order.constants import ErrorConstants
+from garkcli.order.constants import ErrorConstants, Norms
 from garkcli.order.suggestion import Misprint
-from garkcli.page.paint import Paint, folded
+from garkcli.page.paint import Paint, folded, indented
 from garkcli.report.check_orders import size
 from garkcli.tableau.tableau import Tableau
 from garkcli.trees.notation import format_tree
@@ -24,30 +24,38 @@ def blame_lines(blame: Blame, tableau: Tableau, paint: Paint) -> list[str]:
     own = [colour.name for colour in tableau.colours]
     names = blame.names or own
     has_colours = len(names) > 1
-    letter = "Â" if blame.of == "conjugate-order" else "A"
-    lines = [f"  {paint('note', 'hint')}: {_failing(blame, has_colours)}"]
-    if blame.culprit is not None and has_colours:
-        culprit = _blocks([blame.culprit], names, letter)
-        lines.append(f"{_MARGIN}{culprit} {_CULPRIT}")
-    elif len(blame.in_every) > 1:
-        blocks = _blocks(blame.in_every, names, letter)
-        lines.append(f"{_MARGIN}in every one of them: {blocks}")
-    if blame.in_none:
-        blocks = _blocks(blame.in_none, names, letter)
-        lines.append(f"{_MARGIN}in none of them: {blocks}")
-    for repair in blame.repairs[:_SHOWN_REPAIRS]:
-        lines += _repair_lines("the claimed order", repair_text(repair, own))
-        if repair == blame.repairs[0] and blame.restores:
+    hint = paint("note", "hint")
+    lines = [f"  {hint}: {_failing(blame, has_colours)}"]
+    lines += indented(_suspects(blame, names), _MARGIN)
+    for place, repair in enumerate(blame.repairs[:_SHOWN_REPAIRS]):
+        text = repair_text(repair, own)
+        lines += _repair_lines("the claimed order", text)
+        if place == 0 and blame.restores:
             claims = ", ".join(blame.restores)
             lines.append(f"{_MARGIN}and so would {claims}")
     return lines
 
 
+def _suspects(blame: Blame, names: Sequence[str]) -> list[str]:
+    """Which blocks take part in all conditions that fail, and which in none."""
+    letter = "Â" if blame.of == "conjugate-order" else "A"
+    texts = []
+    if blame.culprit is not None and len(names) > 1:
+        culprit = _blocks([blame.culprit], names, letter)
+        texts.append(f"{culprit} {_CULPRIT}")
+    elif len(blame.in_every) > 1:
+        blocks = _blocks(blame.in_every, names, letter)
+        texts.append(f"in every one of them: {blocks}")
+    if blame.in_none:
+        blocks = _blocks(blame.in_none, names, letter)
+        texts.append(f"in none of them: {blocks}")
+    return texts
+
+
 def _failing(blame: Blame, has_colours: bool) -> str:
     """How many conditions fail, of which order, and whether they couple colours."""
-    text = (
-        f"{blame.failing} of the {blame.total} conditions of order {blame.order} fail"
-    )
+    how_many = f"{blame.failing} of the {blame.total}"
+    text = f"{how_many} conditions of order {blame.order} fail"
     if blame.total == 1:
         text = f"the one condition of order {blame.order} fails"
     if blame.of != "order":
@@ -61,10 +69,11 @@ def misprint_lines(found: Misprint, tableau: Tableau, paint: Paint) -> list[str]
     """Why no tolerance is proposed: an entry looks misprinted, and which."""
     names = [colour.name for colour in tableau.colours]
     residual, explained = size(found.residual), size(found.explained)
-    hint = f"  {paint('note', 'hint')}:"
+    hint = paint("note", "hint")
     small = f"up to order {found.order} the residuals are at most {residual}"
     known = f"the digits in the file explain {explained}"
-    lines = [f"{hint} {small},", f"{_MARGIN}{known}: an entry looks misprinted"]
+    lines = [f"  {hint}: {small},"]
+    lines.append(f"{_MARGIN}{known}: an entry looks misprinted")
     for repair in found.repairs[:_SHOWN_REPAIRS]:
         text = repair_text(repair, names)
         lines += _repair_lines(f"order {found.order}", text)
@@ -83,7 +92,11 @@ def _repair_lines(order: str, repair: str) -> list[str]:
 def _blocks(
     blocks: Sequence[tuple[int, int]], names: Sequence[str], letter: str
 ) -> str:
-    return ", ".join(f"{letter}{{{names[l]},{names[m]}}}" for l, m in blocks)
+    found = []
+    for l, m in blocks:
+        colours = f"{names[l]},{names[m]}"
+        found.append(f"{letter}{{{colours}}}")
+    return ", ".join(found)
 
 
 def constants_lines(constants: ErrorConstants, colours: bool) -> list[str]:
@@ -92,20 +105,21 @@ def constants_lines(constants: ErrorConstants, colours: bool) -> list[str]:
     """
     how = "exact" if constants.is_exact else "in floats"
     lines = [f"  error coefficients of order {constants.order} ({how})"]
-    kinds = [("all trees", constants.all), ("coupling trees", constants.coupling)]
-    if not colours:
-        kinds = kinds[:1]
-    for label, norms in kinds:
-        trees = f"{norms.trees:>8} trees"
-        sizes = f"2-norm {norms.two:.6g}   largest {norms.largest:.6g}"
-        line = f"    {label:<15}{trees}   {sizes}"
-        if norms.worst is None:
-            lines.append(line)
-            continue
-        worst = f"at {format_tree(norms.worst, colours)}"
-        if len(line) + 1 + len(worst) <= WIDTH:
-            lines.append(f"{line} {worst}")
-        else:
-            lines.append(line)
-            lines += folded(f"{_MARGIN}{worst}", WIDTH, f"{_MARGIN}   ")
+    lines += _norm_lines("all trees", constants.all, colours)
+    if colours:
+        lines += _norm_lines("coupling trees", constants.coupling, colours)
     return lines
+
+
+def _norm_lines(label: str, norms: Norms, colours: bool) -> list[str]:
+    """The norms over some trees, and the tree of the largest coefficient."""
+    trees = f"{norms.trees:>8} trees"
+    sizes = f"2-norm {norms.two:.6g}   largest {norms.largest:.6g}"
+    line = f"    {label:<15}{trees}   {sizes}"
+    if norms.worst is None:
+        return [line]
+    worst = f"at {format_tree(norms.worst, colours)}"
+    whole = f"{line} {worst}"
+    if len(whole) <= WIDTH:
+        return [whole]
+    return [line, *folded(f"{_MARGIN}{worst}", WIDTH, f"{_MARGIN}   ")]

@@ -2,7 +2,7 @@
 
 from __future__ import annotations
 
-from collections.abc import Iterator
+from collections.abc import Iterator, Sequence
 
 from garkcli.exact.multivariate import Multivariate
 from garkcli.exact.polynomial_text import integral_scale, multivariate_text
@@ -21,28 +21,38 @@ LONGEST_FRACTION = 600
 
 def colours_text(found: Colours, digits: int, paint: Paint) -> Iterator[str]:
     """The paragraphs about all colours, each with a z of its own."""
-    names = [f"z{k + 1}" for k in range(found.size)]
-    meanings = ", ".join(f"{z} = hλ{k + 1}" for k, z in enumerate(names))
-    yield f"  {paint('strong', 'every colour')}, {meanings}"
-    yield from line(f"R({', '.join(names)})", _fraction_text(found, names))
-    label = "additive SSP radii"
-    if any(radius.radius is None for radius in found.radii):
-        yield from line(label, ssp_text(None, digits))
-    else:
-        for radius in found.radii:
-            end = ssp_text(radius.radius, digits)
-            yield from line(label, f"{_direction_text(radius)}, r ≤ {end}")
-            label = ""
+    numbers = range(1, found.size + 1)
+    names = [f"z{k}" for k in numbers]
+    meanings = [f"z{k} = hλ{k}" for k in numbers]
+    title = paint("strong", "every colour")
+    yield f"  {title}, {', '.join(meanings)}"
+    variables = ", ".join(names)
+    yield from line(f"R({variables})", _fraction_text(found, names))
+    yield from _radii_text(found.radii, digits)
     if found.pair is not None:
         yield ""
         yield from _pair_text(found.pair, found, digits, paint)
+
+
+def _radii_text(radii: Sequence[AdditiveRadius], digits: int) -> Iterator[str]:
+    """How far the region of absolute monotonicity reaches in each direction."""
+    label = "additive SSP radii"
+    if any(radius.radius is None for radius in radii):
+        yield from line(label, ssp_text(None, digits))
+        return
+    for radius in radii:
+        end = ssp_text(radius.radius, digits)
+        direction = _direction_text(radius)
+        yield from line(label, f"{direction}, r ≤ {end}")
+        label = ""
 
 
 def _fraction_text(found: Colours, names: list[str]) -> str:
     if found.R is None:
         return f"too large: {found.lines} lines determine it (limit {MOST_LINES})"
     P, Q = integral_parts(found.R)
-    text = over(multivariate_text(P, names), multivariate_text(Q, names))
+    top, bottom = multivariate_text(P, names), multivariate_text(Q, names)
+    text = over(top, bottom)
     if len(text) > LONGEST_FRACTION:
         terms = f"{len(P.terms)} terms over {len(Q.terms)}"
         text = f"{terms}, written out by --format json and latex"
@@ -54,8 +64,10 @@ def _fraction_text(found: Colours, names: list[str]) -> str:
 def integral_parts(R: Fraction) -> tuple[Multivariate, Multivariate]:
     """Numerator and denominator with integers as coefficients, where they are rational."""
     P, Q = R.numerator, R.denominator
-    scale = integral_scale(a for p in (P, Q) for _, a in p.terms)
-    constant = Multivariate.of(P.variables, {(0,) * P.variables: scale})
+    coefficients = [a for _, a in (*P.terms, *Q.terms)]
+    scale = integral_scale(coefficients)
+    unit = (0,) * P.variables
+    constant = Multivariate.of(P.variables, {unit: scale})
     return P * constant, Q * constant
 
 
@@ -63,19 +75,27 @@ def _direction_text(found: AdditiveRadius) -> str:
     """``(r, 0)``, ``(r, 2r)``: the point of the region that is meant."""
     parts = []
     for ratio in found.ratios:
-        factor = "" if ratio == 1 else f"{ratio} "
-        parts.append(f"{factor}r" if ratio else "0")
-    return f"({', '.join(parts)})"
+        part = f"{ratio} r"
+        if ratio == 0:
+            part = "0"
+        elif ratio == 1:
+            part = "r"
+        parts.append(part)
+    point = ", ".join(parts)
+    return f"({point})"
 
 
 def _pair_text(
     pair: ImexPair, found: Colours, digits: int, paint: Paint
 ) -> Iterator[str]:
-    e, i = f"z{pair.explicit + 1}", f"z{pair.implicit + 1}"
+    e = f"z{pair.explicit + 1}"
+    i = f"z{pair.implicit + 1}"
     title = paint("strong", "implicit-explicit pair")
     yield f"  {title}: {e} with |R| ≤ 1 for every {i}, Re {i} ≤ 0"
-    yield from line("real axis", _ray_text(found.real, f"−{e}", digits))
-    yield from line("imaginary axis", _ray_text(found.imaginary, f"|{e}|", digits))
+    real = _ray_text(found.real, f"−{e}", digits)
+    yield from line("real axis", real)
+    imaginary = _ray_text(found.imaginary, f"|{e}|", digits)
+    yield from line("imaginary axis", imaginary)
     yield ""
     yield from damped_lines(pair, found.explicit_alone)
 
@@ -87,15 +107,21 @@ def _ray_text(ray: Ray | None, what: str, digits: int) -> str:
         return "no limit"
     if ray.end.exact == 0:
         return "none"
-    return f"{what} ≤ {equation(ray.end, 'x', digits).removeprefix('= ')}"
+    end = equation(ray.end, "x", digits).removeprefix("= ")
+    return f"{what} ≤ {end}"
 
 
 def fraction_latex(found: Colours) -> str | None:
     """R as a line of an ``align*``; None where it is too large."""
     if found.R is None:
         return None
-    names = [f"z_{{{k + 1}}}" for k in range(found.size)]
+    numbers = range(1, found.size + 1)
+    names = [f"z_{{{k}}}" for k in numbers]
     P, Q = integral_parts(found.R)
-    top, bottom = multivariate_latex(P, names), multivariate_latex(Q, names)
-    fraction = top if bottom == "1" else rf"\frac{{{top}}}{{{bottom}}}"
-    return f"  R({', '.join(names)}) &= {fraction}"
+    top = multivariate_latex(P, names)
+    bottom = multivariate_latex(Q, names)
+    fraction = top
+    if bottom != "1":
+        fraction = rf"\frac{{{top}}}{{{bottom}}}"
+    variables = ", ".join(names)
+    return f"  R({variables}) &= {fraction}"

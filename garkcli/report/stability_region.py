@@ -44,7 +44,8 @@ def damped_lines(pair: ImexPair, explicit: StabilityFunction) -> Iterator[str]:
     reach = reach_of([P, Q])
 
     def is_damped(z: complex) -> bool:
-        return pair.is_damped(_rational(z.real), abs(_rational(z.imag)))
+        a, b = _rational(z.real), _rational(z.imag)
+        return pair.is_damped(a, abs(b))
 
     def is_bounded(z: complex) -> bool:
         return _is_bounded(P, Q, z)
@@ -52,14 +53,16 @@ def damped_lines(pair: ImexPair, explicit: StabilityFunction) -> Iterator[str]:
     picture = terminal_region(
         is_damped, -reach, reach / 3, reach, COLUMNS, LINES, is_bounded
     )
-    e, i = f"z{pair.explicit + 1}", f"z{pair.implicit + 1}"
+    e = f"z{pair.explicit + 1}"
+    i = f"z{pair.implicit + 1}"
     yield f"    █ {e} with every {i} damped, decided at each sign"
     yield f"    : further {e} damped where {i} = 0, roughly"
     yield from indented(picture.splitlines(), MARGIN)
 
 
 def _rational(x: float) -> fmpq:
-    return fmpq(*x.as_integer_ratio())
+    numerator, denominator = x.as_integer_ratio()
+    return fmpq(numerator, denominator)
 
 
 def _floats(R: StabilityFunction) -> tuple[list[float], list[float]]:
@@ -69,7 +72,9 @@ def _floats(R: StabilityFunction) -> tuple[list[float], list[float]]:
 
 
 def _is_bounded(P: Sequence[float], Q: Sequence[float], z: complex) -> bool:
-    return abs(_horner(P, z)) <= abs(_horner(Q, z)) * EDGE
+    over = abs(_horner(P, z))
+    under = abs(_horner(Q, z))
+    return over <= under * EDGE
 
 
 def reach_of(polynomials: Sequence[Sequence[float]]) -> float:

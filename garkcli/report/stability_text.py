@@ -88,7 +88,8 @@ def _linear_text(
         whose = ", all colours alike"
     elif is_one_of_many:
         whose = f", colour {found.name} alone"
-    yield f"  {paint('strong', 'linear test equation')}{whose}, z = hλ"
+    title = paint("strong", "linear test equation")
+    yield f"  {title}{whose}, z = hλ"
     if found.real is None or found.imaginary is None:
         yield from line("A-stable", decided(found.a_stable, paint))
         yield from line("L-stable", decided(found.l_stable, paint))
@@ -99,8 +100,10 @@ def _linear_text(
     yield from line("R(z)", quotient(R.numerator, R.denominator, "z"))
     limit = R.at_infinity()
     yield from line("R(∞)", "unbounded" if limit is None else to_text(limit))
-    reason = "" if found.a_stable else f": {_why_not_a_stable(found)}"
-    yield from line("A-stable", decided(found.a_stable, paint) + reason)
+    a_stable = decided(found.a_stable, paint)
+    if not found.a_stable:
+        a_stable += f": {_why_not_a_stable(found)}"
+    yield from line("A-stable", a_stable)
     yield from line("L-stable", decided(found.l_stable, paint))
     yield from line("A(α)-stable", _sector_text(found.sector, digits))
     yield from line("real axis", real_text(found.real, digits))
@@ -139,8 +142,10 @@ def _oscillator_text(
     [discriminant] = integral([found.discriminant])
     yield from line("4D² − N²", polynomial_text(discriminant, "x"))
     yield from _stable_text(found.stable, digits)
-    reason = "" if found.is_p_stable else f": {_why_not_p_stable(found, digits)}"
-    yield from line("P-stable", paint.verdict(found.is_p_stable) + reason)
+    p_stable = paint.verdict(found.is_p_stable)
+    if not found.is_p_stable:
+        p_stable += f": {_why_not_p_stable(found, digits)}"
+    yield from line("P-stable", p_stable)
     yield from line("phase lag", _phase_text(found))
     yield from line("conserved form", _conserved_text(found))
 
