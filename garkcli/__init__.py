@@ -28,6 +28,7 @@ if TYPE_CHECKING:
     from garkcli.check.proof import prove_method
     from garkcli.convergence import convergence as _convergence
     from garkcli.design.design import find_parameters
+    from garkcli.design.search.run import search_methods
     from garkcli.errors import GarkError, MethodFileError
     from garkcli.longtime import longtime as _longtime
     from garkcli.longtime import symplecticity as _symplecticity
@@ -99,6 +100,7 @@ _HOMES = {
     "parse_tree": "trees.notation",
     "prove_method": "check.proof",
     "reduced": "api.properties",
+    "search_methods": "design.search.run",
     "simplifying": "order.simplifying",
     "symplectic_pair": "tableau.forms",
     "symplecticity_defects": "longtime.symplecticity",
@@ -165,6 +167,7 @@ __all__ = [
     "parse_tree",
     "prove_method",
     "reduced",
+    "search_methods",
     "simplifying",
     "symplectic_pair",
     "symplecticity_defects",

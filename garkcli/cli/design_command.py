@@ -2,7 +2,8 @@
 
 from __future__ import annotations
 
-from typing import TYPE_CHECKING
+from collections.abc import Mapping
+from typing import TYPE_CHECKING, Any
 
 import click
 
@@ -63,6 +64,35 @@ if TYPE_CHECKING:
 @click.option(
     "--l-stable", "wanted", flag_value="l-stable", help="The same for L-stability."
 )
+@click.option(
+    "--search",
+    "starts",
+    type=click.IntRange(1, 10_000_000),
+    metavar="N",
+    help="Search from N random starts instead, and prove what is found.",
+)
+@click.option(
+    "--seed", type=int, metavar="S", help="With --search: of the starts; 0 by default."
+)
+@click.option(
+    "--most",
+    type=click.IntRange(1, 100_000),
+    metavar="K",
+    help="With --search: methods to find at most; 5 by default.",
+)
+@click.option(
+    "-j",
+    "--jobs",
+    type=click.IntRange(1, 1000),
+    metavar="N",
+    help="With --search: processes.",
+)
+@click.option(
+    "--emit-all",
+    type=PATH,
+    metavar="DIR",
+    help="With --search: write every method found into a folder.",
+)
 @settings_option
 @common(["text", "json"])
 def command(
@@ -76,6 +106,7 @@ def command(
     wanted: Wanted | None,
     settings: dict[str, str],
     output: Output,
+    **searching: Any,
 ) -> int:
     """For which values of its free parameters a method has an order, exactly.
 
@@ -83,22 +114,33 @@ def command(
     family of a dimension, or none, and then the tree whose condition cannot be met. Each value
     found goes through the certificate of gark check. Exit code 1: no value has the order of
     --order, or the stability that is asked for.
+
+    With --search methods of the order are looked for by least squares from random starts. Each find
+    is exact, its order proved by the certificate; proved to exist; or numerical, and then it is
+    not proved. The same seed has the same finds everywhere. Exit code 3: nothing was found, which
+    says nothing of what there is.
     """
     from garkcli.design.design import find_parameters
     from garkcli.errors import UsageProblem
     from garkcli.methodfile.family import load_family
 
+    _refuse_alone(searching)
     if is_pair and is_conjugate:
         raise UsageProblem("--pair and --conjugate are two methods", "ask for one")
     whose: Whose = "pair" if is_pair else "conjugate" if is_conjugate else "method"
     family = load_family(file, settings)
     if wanted is not None:
-        if order is not None or emitted is not None:
+        others = (order, emitted, searching["starts"])
+        if any(x is not None for x in others):
             raise UsageProblem(
-                f"--{wanted} gives a set of values, --order and --emit are about others",
+                f"--{wanted} gives a set of values, --order, --emit, --search do not",
                 "ask for one; --set takes a value that was found",
             )
         return _stable_values(family, wanted, whose, digits, output)
+    if searching["starts"] is not None:
+        from garkcli.cli.searching import search
+
+        return search(family, order, whose, {**searching, "emit": emitted}, output)
     found = find_parameters(family, order, whose, seconds)
     if output.format == "json":
         from garkcli.report import design_data
@@ -112,6 +154,16 @@ def command(
         _emit(family, found, emitted)
     is_reached = order is None or found.reaches(order)
     return _exit_code(found.last.kind == "undecided", is_reached)
+
+
+def _refuse_alone(searching: Mapping[str, object]) -> None:
+    """Options that say nothing without --search."""
+    from garkcli.errors import UsageProblem
+
+    for name in ("seed", "most", "jobs", "emit_all"):
+        if searching["starts"] is None and searching[name] is not None:
+            option = "--" + name.replace("_", "-")
+            raise UsageProblem(f"{option} goes with --search", "add --search N")
 
 
 def _stable_values(

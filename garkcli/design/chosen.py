@@ -6,7 +6,7 @@ from dataclasses import dataclass
 
 from flint import fmpq_mat, fmpq_poly
 
-from garkcli.design.design import Design, Found
+from garkcli.design.design import Design
 from garkcli.design.solutions import value_at
 from garkcli.errors import MethodError
 from garkcli.exact.field import Algebraic, Number, NumberField, coordinates
@@ -43,13 +43,19 @@ def first_method(design: Design) -> Chosen | None:
         for found in step.found:
             if found.order is not None and found.accepted:
                 root = found.solution.real[found.accepted[0]]
-                return Chosen(_values(design, found, root), found.order.order)
+                names = design.family.parameters
+                values = {name: found.solution.values[name] for name in names}
+                return Chosen(values_text(values, root), found.order.order)
     return None
 
 
-def _values(design: Design, found: Found, root: RealRoot) -> dict[str, str]:
-    """The parameters, in radicals where each has simple ones, else in one root of a polynomial."""
-    values = {name: found.solution.values[name] for name in design.family.parameters}
+def values_text(values: dict[str, Number], root: RealRoot) -> dict[str, str]:
+    """Elements of ℚ[u]/modulus at a root of the modulus, in radicals where each has simple ones,
+    else in one root of a polynomial.
+
+    Raises:
+        MethodError: no value generates the field, or its degree is beyond method files.
+    """
     texts = {}
     for name, value in values.items():
         simple = root_text(value_at(value, root))

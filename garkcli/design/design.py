@@ -164,14 +164,15 @@ def _found(family: Family, whose: Whose, step: Step) -> tuple[Found, ...]:
     for solution in solutions(step.ideal):
         accepted = []
         for index, root in enumerate(solution.real):
-            if _is_admissible(family, solution, root):
+            if is_admissible(family, solution, root):
                 accepted.append(index)
-        order = _order_of(family, whose, solution)
+        order = order_of(family, whose, solution)
         found.append(Found(solution, order, tuple(accepted)))
     return tuple(found)
 
 
-def _order_of(family: Family, whose: Whose, solution: Solution) -> Order | None:
+def order_of(family: Family, whose: Whose, solution: Solution) -> Order | None:
+    """The order of the method with some values, by the certificate; None where there is none."""
     try:
         tableau = member(family.tableau, family.ring, solution.values)
         return find_order(TABLEAUS[whose](tableau))
@@ -179,7 +180,7 @@ def _order_of(family: Family, whose: Whose, solution: Solution) -> Order | None:
         return None
 
 
-def _is_admissible(family: Family, solution: Solution, root: RealRoot) -> bool:
+def is_admissible(family: Family, solution: Solution, root: RealRoot) -> bool:
     """Whether even roots are positive there and parameters within their ranges."""
     for radical in family.radicals:
         value = solution.values[radical.name]

@@ -37,6 +37,13 @@ def member(tableau: Tableau, ring: Parameters, values: Mapping[str, Number]) -> 
     return Tableau(spaces, colours, blocks)
 
 
+def value_of(
+    polynomial: fmpq_mpoly, ring: Parameters, values: Mapping[str, Number]
+) -> Number:
+    """A polynomial in the parameters at one point."""
+    return _At([values[name] for name in ring.names]).polynomial(polynomial)
+
+
 class _At:
     """Evaluates rational functions at one point."""
 

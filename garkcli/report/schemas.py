@@ -21,6 +21,7 @@ REPORTS = {
     "reduce": _TABLEAU,
     "stability": "garkcli.report.stability_json:stability_report_schema",
     "design": "garkcli.report.design_data:design_report_schema",
+    "design-search": "garkcli.report.search_data:search_report_schema",
     "modified": "garkcli.report.modified_data:modified_report_schema",
     "modified-energy": "garkcli.report.modified_energy:modified_energy_schema",
     "converge": "garkcli.report.convergence_json:converge_report_schema",

@@ -52,7 +52,13 @@ REPORTS = {
         ["energy", METHOD, "--problem", "pendulum", "--t-end", "10", "--bounded"],
         ["energy", METHOD, "--problem", "pendulum", "--t-end", "10", "--symplecticity"],
     ],
-    "design": [["design", "tests/examples/families/sdirk.gark.yaml"]],
+    "design": [
+        ["design", "tests/examples/families/sdirk.gark.yaml"],
+        [
+            *["design", "tests/examples/families/sdirk.gark.yaml"],
+            *["--order", "3", "--search", "3"],
+        ],
+    ],
     "list": [["list"]],
 }
 """Of each section the runs whose reports it describes."""

@@ -1,0 +1,182 @@
+"""``gark design --search``: the search, its report, and the files that it writes."""
+
+from __future__ import annotations
+
+from collections.abc import Iterator, Mapping, Sequence
+from contextlib import contextmanager
+from pathlib import Path
+from typing import TYPE_CHECKING, Any
+
+from garkcli.cli.signals import INTERRUPTED
+from garkcli.design.search.run import MOST, Crew, Result, Timed, results
+from garkcli.design.search.run import prove as prove_in
+from garkcli.design.search.run import solve as solve_in
+from garkcli.design.search.search import Search
+from garkcli.design.search.told import TOLERANCE, Method
+from garkcli.errors import UsageProblem
+from garkcli.methodfile.family import FamilyFile, loads_family, with_values
+from garkcli.page.progress import watching
+from garkcli.page.writing import refuse_unwritable, write_whole
+from garkcli.report import search_data, search_text
+
+if TYPE_CHECKING:
+    from garkcli.cli.options import Output
+    from garkcli.design.design import Whose
+
+CLAIMS = {"method": "order", "conjugate": "conjugate-order", "pair": "pair-order"}
+HEADS = {
+    "exact": "exact",
+    "exists": "proved to exist, with these decimals",
+    "numerical": "numerical, nothing is proved",
+}
+
+
+def search(
+    family: FamilyFile,
+    order: int | None,
+    whose: Whose,
+    wanted: Mapping[str, Any],
+    output: Output,
+) -> int:
+    """Search for methods, report them and write their files.
+
+    Args:
+        family: of methods.
+        order: of ``--order``.
+        whose: which order is meant.
+        wanted: the options ``starts``, ``seed``, ``most``, ``jobs``, ``emit`` and ``emit_all``.
+        output: where the report goes.
+    """
+    if order is None:
+        raise UsageProblem("a search is for an order", "say which by --order P")
+    _check_places(wanted)
+    looking = Search(family, order, whose)
+    result = _searched(looking, family, wanted, output)
+    files = _written(family, looking, result, wanted)
+    render = search_data.render if output.format == "json" else search_text.render
+    output.write(render(family.source, looking, result, files, output.width))
+    if result.is_interrupted:
+        return INTERRUPTED
+    # that nothing was found says nothing of what there is
+    return 0 if result.methods else 3
+
+
+def _check_places(wanted: Mapping[str, Any]) -> None:
+    if wanted["emit"] is not None:
+        refuse_unwritable(wanted["emit"])
+    if wanted["emit_all"] is not None:
+        folder = Path(wanted["emit_all"])
+        try:
+            folder.mkdir(parents=True, exist_ok=True)
+        except OSError as error:
+            raise UsageProblem(
+                f"cannot make the folder {folder}: {error.strerror}",
+                "choose another place",
+            ) from None
+
+
+def _searched(
+    looking: Search, family: FamilyFile, wanted: Mapping[str, Any], output: Output
+) -> Result:
+    """The result, also where an interrupt ends the search."""
+    count = wanted["starts"]
+    result = Result()
+    with watching(output.may_show_progress) as show:
+        try:
+            with _crew(family, looking, wanted["jobs"] or 1) as crew:
+                numbers = wanted["seed"] or 0, wanted["most"] or MOST
+                for result in results(looking, count, *numbers, crew):
+                    what = f"starts, {len(result.methods)} methods found"
+                    show(what, result.starts, count)
+        except KeyboardInterrupt:
+            result.is_interrupted = True
+    return result
+
+
+@contextmanager
+def _crew(family: FamilyFile, looking: Search, jobs: int) -> Iterator[Crew | None]:
+    if jobs < 2:
+        yield None
+        return
+    import multiprocessing
+
+    given = family.text, family.source, dict(family.settings)
+    setting = given, looking.order, looking.whose
+    with multiprocessing.Pool(jobs, _begin, setting) as pool:
+        yield _Several(pool, jobs)
+
+
+class _Several:
+    """Workers that have read the file for themselves."""
+
+    def __init__(self, pool: Any, size: int) -> None:
+        self.pool = pool
+        self.size = size
+
+    def solve(self, batches: Sequence[list[list[float]]]) -> list[Timed]:
+        made: list[Timed] = self.pool.map(_solve, batches, chunksize=1)
+        return made
+
+    def prove(self, solutions: Sequence[tuple[int, list[float]]]) -> list[Timed]:
+        made: list[Timed] = self.pool.map(_prove, solutions, chunksize=1)
+        return made
+
+
+_WORKING: list[Search] = []
+"""What a worker searches for."""
+
+
+def _begin(given: tuple[Any, ...], order: int, whose: Whose) -> None:
+    """A worker reads the file; an interrupt is for the process that has the terminal."""
+    import signal
+
+    signal.signal(signal.SIGINT, signal.SIG_IGN)
+    for name in ("SIGTERM", "SIGHUP"):
+        if hasattr(signal, name):
+            signal.signal(getattr(signal, name), signal.SIG_DFL)
+    _WORKING[:] = [Search(loads_family(*given), order, whose)]
+
+
+def _solve(batch: list[list[float]]) -> Timed:
+    return solve_in(_WORKING[0], batch)
+
+
+def _prove(solution: tuple[int, list[float]]) -> Timed:
+    return prove_in(_WORKING[0], solution)
+
+
+def _written(
+    family: FamilyFile, looking: Search, result: Result, wanted: Mapping[str, Any]
+) -> list[str | None]:
+    """Write the files that are asked for; where each method is."""
+    files: list[str | None] = [None] * len(result.methods)
+    if wanted["emit"] is not None and result.methods:
+        files[0] = wanted["emit"]
+    if wanted["emit_all"] is not None:
+        stem = Path(family.source).name.split(".")[0] or "method"
+        for k in range(len(files)):
+            name = f"{stem}-{k + 1}.gark.yaml"
+            files[k] = str(Path(wanted["emit_all"]) / name)
+    for path, method in zip(files, result.methods, strict=True):
+        if path is not None:
+            text = _file_text(family, looking, method, wanted["seed"] or 0)
+            write_whole(path, [text])
+    if wanted["emit"] is not None and wanted["emit_all"] is not None and files:
+        text = _file_text(family, looking, result.methods[0], wanted["seed"] or 0)
+        write_whole(wanted["emit"], [text])
+    return files
+
+
+def _file_text(family: FamilyFile, looking: Search, method: Method, seed: int) -> str:
+    """A method file with its claim and how it was found."""
+    claim = f"{CLAIMS[looking.whose]}: {method.order}"
+    head = (
+        f"found by gark design {family.source} --order {looking.order}, "
+        f"start {method.start} of seed {seed}\n{HEADS[method.proof]}: {claim}"
+    )
+    if not method.is_exact:
+        head += f", residuals below {method.residual} before rounding"
+    text = with_values(family, method.values, head, claim)
+    if not method.is_exact and "tolerance:" not in text:
+        text += f"tolerance: {TOLERANCE}\n"
+    return text

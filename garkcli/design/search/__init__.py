@@ -1,0 +1,1 @@
+"""Methods with unknowns by search: least squares from many starts, exact numbers, a proof."""

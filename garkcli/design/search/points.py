@@ -1,0 +1,197 @@
+"""Points that solve a system: how they may move, and Newton's method to any number of digits."""
+
+from __future__ import annotations
+
+from dataclasses import dataclass
+from typing import TYPE_CHECKING, Any
+
+from flint import arb, arb_mat, ctx, fmpq
+
+from garkcli.design.search.rational import RationalFunction, as_ball, as_float
+
+if TYPE_CHECKING:
+    from collections.abc import Sequence
+
+    from garkcli.design.search.rational import Array
+    from garkcli.design.search.residuals import Generators, Residuals
+
+RANK = 1e-7
+"""Pivots smaller than this, times the largest, are taken for rounding."""
+FIRST_BITS = 106
+
+
+@dataclass(frozen=True)
+class Fixed:
+    """A function of the unknowns that is given a value.
+
+    Attributes:
+        function: an unknown, or a node.
+        value: a short rational number.
+    """
+
+    function: RationalFunction
+    value: fmpq
+
+
+class Fixings:
+    """The conditions of a family together with values for some functions.
+
+    Args:
+        conditions: of the family.
+        fixed: functions with their values.
+        trials: values of one more function, one for each point.
+        function: that function.
+    """
+
+    def __init__(
+        self,
+        conditions: Residuals | Generators,
+        fixed: Sequence[Fixed] = (),
+        function: RationalFunction | None = None,
+        trials: Sequence[fmpq] = (),
+    ) -> None:
+        self.conditions = conditions
+        self.fixed = tuple(fixed)
+        self.function = function
+        self.trials = tuple(trials)
+
+    def at(self, points: Array) -> tuple[Array, Array]:
+        """Values and derivatives as those of ``Residuals.at``, the functions below them."""
+        import numpy as np
+
+        values, gradients = self.conditions.at(points)
+        rows = [(one.function, [one.value]) for one in self.fixed]
+        if self.function is not None:
+            rows.append((self.function, list(self.trials)))
+        if not rows:
+            return values, gradients
+        is_exact = points.dtype == object
+        constant: Any = as_ball if is_exact else as_float
+        more = np.full((len(rows), points.shape[1]), constant(fmpq(0)), points.dtype)
+        slopes = np.full(
+            (len(rows), *gradients.shape[1:]), constant(fmpq(0)), points.dtype
+        )
+        for number, (function, wanted) in enumerate(rows):
+            slope = function.at(points, constant)
+            targets = np.array([constant(x) for x in wanted], points.dtype)
+            more[number] = slope.value - targets
+            for unknown, derivative in slope.derivatives:
+                slopes[number, unknown] = derivative
+        return np.concatenate([values, more]), np.concatenate([gradients, slopes])
+
+
+@dataclass(frozen=True)
+class Rank:
+    """Rows and columns of a matrix with a determinant that is not zero, as many as there are.
+
+    Attributes:
+        rows: indices, in the order of elimination.
+        columns: indices.
+    """
+
+    rows: tuple[int, ...]
+    columns: tuple[int, ...]
+
+    def __len__(self) -> int:
+        return len(self.rows)
+
+
+def rank(matrix: Array, grain: float = RANK) -> Rank:
+    """The rank up to rounding, by elimination with the largest entry as pivot.
+
+    Args:
+        matrix: of floats.
+        grain: pivots smaller than this times the largest count as zero; the largest is 1 at least.
+    """
+    import numpy as np
+
+    rest = matrix.copy()
+    rows: list[int] = []
+    columns: list[int] = []
+    # the conditions are scaled to entries about 1: a matrix with small ones alone is nearly zero
+    least = grain * max(1.0, float(np.max(np.abs(rest), initial=0.0)))
+    for _ in range(min(rest.shape)):
+        sizes = np.abs(rest)
+        i, j = np.unravel_index(int(np.argmax(sizes)), rest.shape)
+        if not sizes[i, j] > least:
+            break
+        rows.append(int(i))
+        columns.append(int(j))
+        factors = rest[:, j] / rest[i, j]
+        rest = rest - factors[:, None] * rest[i][None, :]
+        rest[i] = 0.0
+        rest[:, j] = 0.0
+    return Rank(tuple(rows), tuple(columns))
+
+
+def balls(point: Sequence[Any]) -> Array:
+    """A column of balls."""
+    import numpy as np
+
+    made = np.empty((len(point), 1), object)
+    made[:, 0] = [arb(x) for x in point]
+    return made
+
+
+def polished(system: Fixings, point: Sequence[float], bits: int) -> Array | None:
+    """A solution near a point to many bits, a column of balls without radius.
+
+    Newton's method on as many equations and unknowns as the rank; the other equations have to
+    hold at the end, and the other unknowns stay. None where they do not: then there is no solution
+    near, or one at which the equations are degenerate.
+    """
+    import numpy as np
+
+    x = balls(point)
+    start = np.array(point)[:, None]
+    _, jacobian = system.at(start)
+    chosen = rank(jacobian[:, :, 0])
+    working = FIRST_BITS
+    while True:
+        with ctx.workprec(working):
+            if not _newton(system, x, chosen):
+                return None
+            if working >= bits:
+                break
+        working = min(2 * working, bits)
+    with ctx.workprec(bits):
+        for _ in range(2):
+            if largest_residual(system, x) < small(bits):
+                return x
+            if not _newton(system, x, chosen):
+                return None
+        return x if largest_residual(system, x) < small(bits) else None
+
+
+def small(bits: int) -> arb:
+    """What residuals have to be below after so many bits, four fifths of them."""
+    return arb(1) / arb(2) ** (4 * bits // 5)
+
+
+def _newton(system: Fixings, x: Array, chosen: Rank) -> bool:
+    """One step, in place; whether there is one."""
+    if not len(chosen):
+        return True
+    residuals, jacobians = system.at(x)
+    matrix = arb_mat(
+        [[jacobians[i, j, 0].mid() for j in chosen.columns] for i in chosen.rows]
+    )
+    right = arb_mat([[residuals[i, 0].mid()] for i in chosen.rows])
+    try:
+        change = matrix.solve(right)
+    except ZeroDivisionError:
+        return False
+    for number, j in enumerate(chosen.columns):
+        x[j, 0] = (x[j, 0] - change[number, 0]).mid()
+    return all(bool(abs(value) < 1000) for value in x[:, 0])
+
+
+def largest_residual(system: Fixings, x: Array) -> arb:
+    """A bound on all of them."""
+    residuals, _ = system.at(x)
+    largest = arb(0)
+    for value in residuals[:, 0]:
+        upper = abs(value).upper()
+        if not upper <= largest:  # also where it is no number
+            largest = upper
+    return largest

@@ -1,0 +1,112 @@
+"""Rational functions of unknowns with their gradients, for many points at once.
+
+Points are columns of arrays of floats, or of balls (``flint.arb`` in arrays of objects): the same
+code serves the search and its proofs. Floats are added, multiplied and divided entry by entry and
+in one order, nothing is left to a library that sums as suits the processor: the results are the
+same to the last bit on every machine with IEEE arithmetic.
+"""
+
+from __future__ import annotations
+
+from collections.abc import Callable
+from dataclasses import dataclass
+from typing import TYPE_CHECKING, Any, TypeAlias
+
+from flint import arb, fmpq, fmpq_mpoly
+
+from garkcli.exact.parametric import Parameters, fraction
+
+if TYPE_CHECKING:
+    import numpy as np
+
+    Array: TypeAlias = np.ndarray[Any, np.dtype[Any]]
+
+Constant: TypeAlias = Callable[[fmpq], Any]
+"""Makes a float or a ball of a rational number."""
+
+
+def as_float(number: fmpq) -> float:
+    """The nearest float; Python divides whole numbers with one rounding."""
+    return int(number.p) / int(number.q)
+
+
+def as_ball(number: fmpq) -> arb:
+    """A ball with the number in it."""
+    return arb(number)
+
+
+@dataclass(frozen=True)
+class _Polynomial:
+    """Terms: a coefficient and the unknowns that it is multiplied with, as often as it takes."""
+
+    terms: tuple[tuple[fmpq, tuple[int, ...]], ...]
+
+    @classmethod
+    def of(cls, polynomial: fmpq_mpoly) -> _Polynomial:
+        terms = []
+        for exponents, a in sorted(polynomial.to_dict().items()):
+            factors: list[int] = []
+            for unknown, exponent in enumerate(exponents):
+                factors += [unknown] * int(exponent)
+            terms.append((a, tuple(factors)))
+        return cls(tuple(terms))
+
+    def at(self, points: Array, constant: Constant) -> Any:
+        total: Any = None
+        for a, factors in self.terms:
+            term: Any = constant(a)
+            for unknown in factors:
+                term = points[unknown] * term
+            total = term if total is None else total + term
+        return constant(fmpq(0)) if total is None else total
+
+
+@dataclass(frozen=True)
+class Slope:
+    """A value and its derivatives.
+
+    Attributes:
+        value: at each point, or one number for all of them.
+        derivatives: those by unknowns that are not zero everywhere.
+    """
+
+    value: Any
+    derivatives: tuple[tuple[int, Any], ...]
+
+
+class RationalFunction:
+    """P/Q and its gradient.
+
+    Args:
+        number: a rational number or a rational function.
+        ring: the unknowns.
+    """
+
+    def __init__(self, number: object, ring: Parameters) -> None:
+        p, q = fraction(number, ring)
+        self.is_zero = not p
+        self._numerator = _Polynomial.of(p)
+        self._denominator = None if q.is_one() else _Polynomial.of(q)
+        self._derivatives = []
+        for unknown in range(len(ring.names)):
+            of_p, of_q = p.derivative(unknown), q.derivative(unknown)
+            if of_p or of_q:
+                pair = _Polynomial.of(of_p), _Polynomial.of(of_q)
+                self._derivatives.append((unknown, pair))
+
+    def at(self, points: Array, constant: Constant) -> Slope:
+        """The value and the gradient at points, shape (unknowns, points)."""
+        value = self._numerator.at(points, constant)
+        if self._denominator is None:
+            derivatives = [
+                (unknown, p.at(points, constant))
+                for unknown, (p, _) in self._derivatives
+            ]
+            return Slope(value, tuple(derivatives))
+        q = self._denominator.at(points, constant)
+        value = value / q
+        derivatives = []
+        for unknown, (of_p, of_q) in self._derivatives:
+            change = of_p.at(points, constant) - value * of_q.at(points, constant)
+            derivatives.append((unknown, change / q))
+        return Slope(value, tuple(derivatives))

@@ -1,0 +1,188 @@
+"""Rational and algebraic numbers told by many of their digits.
+
+What is told here is a guess, which an exact certificate has to confirm: a wrong one does no harm.
+"""
+
+from __future__ import annotations
+
+from collections.abc import Mapping, Sequence
+from dataclasses import dataclass
+
+from flint import arb, ctx, fmpq, fmpq_poly, fmpz, fmpz_mat, fmpz_poly
+
+from garkcli.exact.field import Number, NumberField
+from garkcli.exact.polynomial import Polynomial
+from garkcli.exact.roots import RealRoot, real_roots
+
+MAX_DEGREE = 8
+"""Largest degree that is tried."""
+
+
+@dataclass(frozen=True)
+class Recognised:
+    """Numbers of one field.
+
+    Attributes:
+        values: by name.
+        modulus: the minimal polynomial of the generator of their field, monic.
+        root: its root that is meant; rational where all values are.
+    """
+
+    values: Mapping[str, Number]
+    modulus: fmpq_poly
+    root: RealRoot
+
+
+def recognised(numbers: Mapping[str, arb], bits: int) -> Recognised | None:
+    """The exact numbers of which these are digits, where they are short.
+
+    Args:
+        numbers: balls without radius.
+        bits: so many of each are right.
+    """
+    values: dict[str, Number] = {}
+    irrational: dict[str, arb] = {}
+    for name, number in numbers.items():
+        value = rational(number, bits)
+        if value is None:
+            irrational[name] = number
+        else:
+            values[name] = value
+    if not irrational:
+        return Recognised(values, fmpq_poly([0, 1]), RealRoot.rational(fmpq(0)))
+    found = _generator(irrational, bits)
+    if found is None:
+        return None
+    polynomial, generator = found
+    modulus = fmpq_poly(polynomial) / fmpq(polynomial[polynomial.degree()])
+    field = NumberField(modulus, ())
+    root = _root(modulus, generator)
+    if root is None:
+        return None
+    for name, number in irrational.items():
+        coordinates = _coordinates(number, generator, field.degree, bits)
+        if coordinates is None:
+            return None
+        values[name] = field.from_coordinates(coordinates)
+    return Recognised(values, modulus, root)
+
+
+def rational(number: arb, bits: int) -> fmpq | None:
+    """The rational number of which these are digits, where it has a third of the digits or less.
+
+    >>> with ctx.workprec(200):
+    ...     rational((arb(22) / 7).mid(), 190)
+    22/7
+    """
+    exact = _dyadic(number)
+    grain = fmpq(1, fmpz(2) ** (3 * bits // 4))
+    simplest = _simplest(exact - grain, exact + grain)
+    length = max(simplest.p.bit_length(), simplest.q.bit_length())
+    return simplest if length <= bits // 4 else None
+
+
+def _dyadic(number: arb) -> fmpq:
+    mantissa, exponent = number.mid().man_exp()
+    power = fmpz(2) ** abs(int(exponent))
+    return fmpq(mantissa * power) if exponent >= 0 else fmpq(mantissa, power)
+
+
+def _simplest(low: fmpq, high: fmpq) -> fmpq:
+    """The number with the least denominator between two, by continued fractions."""
+    if low <= 0 <= high:
+        return fmpq(0)
+    if high < 0:
+        return -_simplest(-high, -low)
+    terms: list[fmpz] = []
+    while True:
+        whole = low.floor()
+        if low == whole or whole < high.floor():
+            terms.append(whole if low == whole else whole + 1)
+            break
+        terms.append(whole)
+        low, high = 1 / (high - whole), 1 / (low - whole)
+    value = fmpq(terms[-1])
+    for term in reversed(terms[:-1]):
+        value = term + 1 / value
+    return value
+
+
+def _generator(
+    irrational: Mapping[str, arb], bits: int
+) -> tuple[fmpz_poly, arb] | None:
+    """The minimal polynomial of the number with the largest degree, and that number."""
+    best: tuple[fmpz_poly, arb] | None = None
+    for number in irrational.values():
+        polynomial = minimal_polynomial(number, bits)
+        if polynomial is None:
+            return None
+        if best is None or polynomial.degree() > best[0].degree():
+            best = polynomial, number
+    return best
+
+
+def minimal_polynomial(number: arb, bits: int) -> fmpz_poly | None:
+    """A polynomial of least degree with short coefficients that is zero at a number up to its
+    digits.
+
+    >>> with ctx.workprec(300):
+    ...     minimal_polynomial(arb(2).sqrt().mid(), 290)
+    x^2 + (-2)
+    """
+    for degree in range(1, MAX_DEGREE + 1):
+        with ctx.workprec(bits):
+            powers = [number**k for k in range(degree + 1)]
+        relation = _relation(powers, bits)
+        if relation is not None:
+            polynomial = fmpz_poly(relation)
+            _, factors = polynomial.factor()
+            return min((f for f, _ in factors), key=lambda f: _size_at(f, number, bits))
+    return None
+
+
+def _size_at(polynomial: fmpz_poly, number: arb, bits: int) -> arb:
+    with ctx.workprec(bits):
+        total = arb(0)
+        for k in range(polynomial.degree(), -1, -1):
+            total = total * number + arb(polynomial[k])
+        return abs(total).mid()
+
+
+def _relation(numbers: Sequence[arb], bits: int) -> list[fmpz] | None:
+    """Short whole numbers with Σ m_k x_k = 0 up to the digits, by lattice reduction (A. Lenstra,
+    H. Lenstra, L. Lovász, 1982).
+    """
+    size = len(numbers)
+    kept = 7 * bits // 8
+    with ctx.workprec(bits):
+        scaled = [(x * arb(2) ** kept + arb(0.5)).floor().mid() for x in numbers]
+    rows = []
+    for k, x in enumerate(scaled):
+        row = [fmpz(int(k == j)) for j in range(size)]
+        rows.append([*row, _dyadic(x).p])
+    shortest = fmpz_mat(rows).lll()
+    relation = [shortest[0, j] for j in range(size)]
+    # by chance the lattice has vectors of kept/size bits
+    most = kept // (2 * size)
+    longest = max(int(shortest[0, j]).bit_length() for j in range(size + 1))
+    return relation if longest <= most and any(relation[1:]) else None
+
+
+def _coordinates(
+    number: arb, generator: arb, degree: int, bits: int
+) -> list[fmpq] | None:
+    """A number as a polynomial in the generator."""
+    with ctx.workprec(bits):
+        powers = [generator**k for k in range(degree)]
+    relation = _relation([number, *powers], bits)
+    if relation is None or not relation[0]:
+        return None
+    return [fmpq(-x, relation[0]) for x in relation[1:]]
+
+
+def _root(modulus: fmpq_poly, generator: arb) -> RealRoot | None:
+    """The real root of a polynomial nearest to a number."""
+    roots = [root for root, _ in real_roots(Polynomial.from_flint(modulus))]
+    if not roots:
+        return None
+    return min(roots, key=lambda root: abs(root.ball(256) - generator).mid())

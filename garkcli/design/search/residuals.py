@@ -1,0 +1,314 @@
+"""The residuals of all trees of a family up to an order, with gradients, for many points at once.
+
+A tree is stem ∘ branch in the tree table, and its stage vector 𝒜^[stem] ⊙ (A 𝒜^[branch]). Values
+and derivatives by every unknown are carried along together. The residual of a tree u of order ρ is
+that of the normalised condition, γ(u)/ρ b·𝒜^[u] − 1/ρ: conditions of one order weigh alike.
+"""
+
+from __future__ import annotations
+
+from typing import TYPE_CHECKING, Any
+
+from flint import fmpq, fmpq_mpoly
+
+from garkcli.design.conditions import FamilyConditions
+from garkcli.design.search.rational import (
+    Constant,
+    RationalFunction,
+    Slope,
+    as_ball,
+    as_float,
+)
+from garkcli.exact.parametric import Parameters
+from garkcli.order.conditions import coupling_graph
+from garkcli.tableau.polynomial_space import PolynomialSpace
+from garkcli.tableau.tableau import Tableau
+
+if TYPE_CHECKING:
+    from collections.abc import Sequence
+
+    from garkcli.design.search.rational import Array
+    from garkcli.trees.columns import Segment
+
+
+class Residuals:
+    """The order conditions of a family as functions of its unknowns.
+
+    Args:
+        tableau: its entries are rational numbers and rational functions.
+        ring: the unknowns.
+        order: conditions of all trees up to it are meant.
+        more: further polynomials that are to be zero.
+    """
+
+    def __init__(
+        self,
+        tableau: Tableau,
+        ring: Parameters,
+        order: int,
+        more: Sequence[fmpq_mpoly] = (),
+    ) -> None:
+        from garkcli.trees.table import TreeTable
+
+        edges, linear = coupling_graph(tableau)
+        self.tableau = tableau
+        self.unknowns = len(ring.names)
+        self.table = TreeTable.upto(tableau.size, order, edges, linear)
+        self.blocks = {
+            key: _functions(block, ring) for key, block in tableau.blocks.items()
+        }
+        weights = [colour.b for colour in tableau.colours]
+        self.weights = [_functions([row], ring)[0] for row in weights]
+        one = ring.constant(fmpq(1))
+        self.more = [RationalFunction(ring.quotient(x, one), ring) for x in more]
+
+    def __len__(self) -> int:
+        return len(self.table) + len(self.more)
+
+    @property
+    def numbers_a_point(self) -> int:
+        """How many numbers an evaluation holds for each point, about."""
+        stages = max(space.stages for space in self.tableau.spaces)
+        lower = self.table.starts[-1][0]  # trees below the highest order
+        vectors = 3 * lower * stages + 2 * (len(self.table) - lower) * stages
+        return (vectors + 2 * len(self)) * (self.unknowns + 1)
+
+    def at(self, points: Array) -> tuple[Array, Array]:
+        """Values, shape (conditions, points), and derivatives, (conditions, unknowns, points).
+
+        Args:
+            points: shape (unknowns, points), of floats or of balls.
+        """
+        return _Evaluation(self, points).run()
+
+
+class Generators:
+    """Polynomials that generate all order conditions of a family, none of them zero, each once.
+
+    They are fewer than the trees: what is proved of all of them is proved of all conditions.
+
+    Args:
+        tableau: as for ``Residuals``.
+        ring: the unknowns.
+        order: conditions of all trees up to it are meant.
+        more: further polynomials that are to be zero.
+
+    Attributes:
+        denominators: functions that are not zero at any method of the family.
+    """
+
+    def __init__(
+        self,
+        tableau: Tableau,
+        ring: Parameters,
+        order: int,
+        more: Sequence[fmpq_mpoly] = (),
+    ) -> None:
+        one = ring.constant(fmpq(1))
+        conditions = FamilyConditions(tableau, ring)
+        polynomials = list(more)
+        for k in range(1, order + 1):
+            polynomials += [x.polynomial for x in conditions.of_order(k)]
+        self.functions: list[RationalFunction] = []
+        known: list[fmpq_mpoly] = []
+        for polynomial in polynomials:
+            if not polynomial:
+                continue
+            monic = polynomial / polynomial.leading_coefficient()
+            if monic not in known:
+                known.append(monic)
+                number = ring.quotient(monic, one)
+                self.functions.append(RationalFunction(number, ring))
+        self.denominators = [
+            RationalFunction(ring.quotient(d, one), ring)
+            for d in conditions.denominators
+        ]
+
+    def at(self, points: Array) -> tuple[Array, Array]:
+        """Values and derivatives as those of ``Residuals.at``; points are balls."""
+        import numpy as np
+
+        zero = as_ball(fmpq(0))
+        unknowns, count = points.shape
+        values = np.full((len(self.functions), count), zero, object)
+        gradients = np.full((len(self.functions), unknowns, count), zero, object)
+        for number, function in enumerate(self.functions):
+            slope = function.at(points, as_ball)
+            values[number] = slope.value
+            for unknown, derivative in slope.derivatives:
+                gradients[number, unknown] = derivative
+        return values, gradients
+
+
+def _functions(
+    rows: Sequence[Sequence[object]], ring: Parameters
+) -> list[list[RationalFunction]]:
+    return [[RationalFunction(x, ring) for x in row] for row in rows]
+
+
+class _Vectors:
+    """Stage vectors of trees: values (trees, stages, points), derivatives (…, unknowns, points)."""
+
+    __slots__ = ("derivatives", "values")
+
+    def __init__(self, values: Array, derivatives: Array) -> None:
+        self.values = values
+        self.derivatives = derivatives
+
+    def part(self, which: Array) -> _Vectors:
+        return _Vectors(self.values[which], self.derivatives[which])
+
+
+class _Evaluation:
+    """One evaluation; ``vectors[n, l]`` and ``applied[space, n, m]`` as for float weights."""
+
+    def __init__(self, system: Residuals, points: Array) -> None:
+        import numpy as np
+
+        self.np = np
+        self.system = system
+        self.table = system.table
+        self.points = points
+        self.is_exact = points.dtype == object
+        self.constant: Constant = as_ball if self.is_exact else as_float
+        self.blocks = {
+            key: [
+                [x if x.is_zero else x.at(points, self.constant) for x in row]
+                for row in block
+            ]
+            for key, block in system.blocks.items()
+        }
+        self.weights = [
+            [x.at(points, self.constant) for x in row] for row in system.weights
+        ]
+        self.vectors: dict[tuple[int, int], _Vectors] = {}
+        self.applied: dict[tuple[int, int, int], _Vectors] = {}
+        shape = len(system), points.shape[1]
+        self.values = self._zeros(*shape)
+        self.gradients = self._zeros(shape[0], system.unknowns, shape[1])
+
+    def _zeros(self, *shape: int) -> Array:
+        if self.is_exact:
+            return self.np.full(shape, self.constant(fmpq(0)), object)
+        return self.np.zeros(shape)
+
+    def run(self) -> tuple[Array, Array]:
+        tableau, table = self.system.tableau, self.table
+        for l in range(tableau.size):
+            one = self._single_vertex(l)
+            self.vectors[1, l] = one
+            self._close(l, slice(l, l + 1), one)
+        for order in range(2, table.max_order + 1):
+            self._apply(order - 1)
+            for segment in table.segments:
+                if segment.order == order:
+                    self._grow(segment)
+        for number, function in enumerate(self.system.more, start=len(table)):
+            slope = function.at(self.points, self.constant)
+            self.values[number] = slope.value
+            for unknown, derivative in slope.derivatives:
+                self.gradients[number, unknown] = derivative
+        return self.values, self.gradients
+
+    def _single_vertex(self, colour: int) -> _Vectors:
+        space = self.system.tableau.space(colour)
+        points = self.points.shape[1]
+        values = self._zeros(1, space.stages, points)
+        for i, x in enumerate(space.one):
+            values[:, i] = self.constant(x)  # type: ignore[arg-type]
+        derivatives = self._zeros(1, space.stages, self.system.unknowns, points)
+        return _Vectors(values, derivatives)
+
+    def _apply(self, order: int) -> None:
+        """Every block to the vectors of the trees of one order."""
+        for (space, m), block in self.blocks.items():
+            vectors = self.vectors.get((order, m))
+            if vectors is None:
+                continue
+            trees, _, points = vectors.values.shape
+            image = _Vectors(
+                self._zeros(trees, len(block), points),
+                self._zeros(trees, len(block), self.system.unknowns, points),
+            )
+            for i, row in enumerate(block):
+                for j, slope in enumerate(row):
+                    if isinstance(slope, Slope):
+                        self._add_multiple(image, i, slope, vectors, j)
+            self.applied[space, order, m] = image
+
+    def _add_multiple(
+        self, image: _Vectors, i: int, slope: Slope, vectors: _Vectors, j: int
+    ) -> None:
+        """Add a_ij v_j to the entry i."""
+        v = vectors.values[:, j]
+        image.values[:, i] += slope.value * v
+        image.derivatives[:, i] += slope.value * vectors.derivatives[:, j]
+        for unknown, derivative in slope.derivatives:
+            image.derivatives[:, i, unknown] += derivative * v
+
+    def _grow(self, segment: Segment) -> None:
+        """The trees of a segment: their stage vectors and residuals."""
+        table, root = self.table, segment.root
+        ids = slice(segment.ids.start, segment.ids.stop)
+        space = self.system.tableau.colours[root].space
+        stem_order = segment.order - segment.branch_order
+        first = segment.stems.start
+        # vectors of an order and root colour are in the order of their ids
+        stems = self.vectors[stem_order, root].part(table.stem[ids] - first)
+        applied = self.applied[space, segment.branch_order, segment.branch_root]
+        branches = applied.part(table.branch[ids] - segment.branches.start)
+        made = self._product(space, stems, branches)
+        self._close(root, ids, made)
+        if segment.order < table.max_order:
+            self._keep(segment.order, root, made)
+
+    def _keep(self, order: int, root: int, made: _Vectors) -> None:
+        known = self.vectors.get((order, root))
+        if known is not None:
+            join = self.np.concatenate
+            values = join([known.values, made.values])
+            derivatives = join([known.derivatives, made.derivatives])
+            made = _Vectors(values, derivatives)
+        self.vectors[order, root] = made
+
+    def _product(self, space: int, u: _Vectors, v: _Vectors) -> _Vectors:
+        stages = self.system.tableau.spaces[space]
+        if not isinstance(stages, PolynomialSpace):
+            values = u.values * v.values
+            derivatives = u.derivatives * v.values[:, :, None]
+            derivatives += u.values[:, :, None] * v.derivatives
+            return _Vectors(values, derivatives)
+        values = self._modular(stages, u.values, v.values)
+        derivatives = self._modular(stages, u.derivatives, v.values[:, :, None])
+        derivatives += self._modular(stages, v.derivatives, u.values[:, :, None])
+        return _Vectors(values, derivatives)
+
+    def _modular(self, space: PolynomialSpace, u: Array, v: Array) -> Array:
+        """The product of polynomials modulo the node polynomial."""
+        s = space.stages
+        trees, _, *rest = u.shape
+        out = self._zeros(trees, 2 * s - 1, *rest)
+        for i in range(s):
+            for j in range(s):
+                out[:, i + j] += u[:, i] * v[:, j]
+        for k in range(2 * s - 2, s - 1, -1):
+            for j in range(s):
+                out[:, k - s + j] -= self.constant(space.modulus[j]) * out[:, k]
+        return out[:, :s]
+
+    def _close(self, root: int, ids: slice, vectors: _Vectors) -> None:
+        """The residuals of trees from their stage vectors."""
+        table = self.table
+        values, gradients = self.values[ids], self.gradients[ids]
+        for i, slope in enumerate(self.weights[root]):
+            x = vectors.values[:, i]
+            values += slope.value * x
+            gradients += slope.value * vectors.derivatives[:, i]
+            for unknown, derivative in slope.derivatives:
+                gradients[:, unknown] += derivative * x
+        order = int(table.order[ids.start])
+        required = self.constant(fmpq(1, order))
+        for k, number in enumerate(range(ids.start, ids.stop)):
+            scale: Any = self.constant(fmpq(int(table.gamma[number]), order))
+            values[k] = scale * values[k] - required
+            gradients[k] *= scale

@@ -1,0 +1,277 @@
+"""Methods of an order by search, each with what is proved of it."""
+
+from __future__ import annotations
+
+from collections.abc import Iterator, Mapping
+from dataclasses import dataclass
+from functools import cached_property
+from typing import TYPE_CHECKING, Literal, TypeAlias
+
+from flint import arb, ctx, fmpq, fmpq_mpoly
+
+from garkcli.design.design import TABLEAUS, Found, Whose, is_admissible, order_of
+from garkcli.design.member import value_of
+from garkcli.design.search.krawczyk import is_proved
+from garkcli.design.search.least_squares import least_squares
+from garkcli.design.search.points import Fixings, largest_residual, polished
+from garkcli.design.search.rational import RationalFunction, as_float
+from garkcli.design.search.recognise import Recognised, recognised
+from garkcli.design.search.residuals import Generators, Residuals
+from garkcli.design.search.snap import fixed_nearby, nodes_of, snapped, unknowns_of
+from garkcli.design.solutions import Solution
+from garkcli.problems.draw import Draw
+from garkcli.tableau.family import Family
+
+if TYPE_CHECKING:
+    from garkcli.design.search.rational import Array
+
+Proof: TypeAlias = Literal["exact", "exists", "numerical"]
+"""What is known of a find: its exact order; that there is one; that residuals are small."""
+BITS = 1024
+"""Bits to which solutions are polished."""
+FEW_BITS = 212
+"""Enough to tell a solution from a point with small residuals."""
+USUAL = (0.0, 1.0)
+WIDE = (-2.0, 2.0)
+"""Where unknowns without a range start."""
+MEMORY = 48 * 2**20
+"""Bytes of the derivatives of one batch, about."""
+MOST_STARTS = 1024
+"""Starts of one batch at most."""
+
+
+@dataclass(frozen=True)
+class Find:
+    """A method that was found.
+
+    Attributes:
+        start: the number of the start that led to it, from 1.
+        proof: what is known of it.
+        order: its exact order where that is known; else the order of the conditions that were
+            solved.
+        found: the exact numbers, where they are known.
+        digits: the values to many digits otherwise, balls without radius.
+        exponent: no residual is larger than 10 to it; None where they are zero.
+    """
+
+    start: int
+    proof: Proof
+    order: int
+    found: Found | None
+    digits: Mapping[str, arb]
+    exponent: int | None
+
+
+class Search:
+    """A search for methods of an order among those of a family.
+
+    Args:
+        family: of methods.
+        order: that is wanted.
+        whose: of the method, its symplectic conjugate or its pair.
+
+    Raises:
+        ZeroWeight: there is no conjugate.
+    """
+
+    def __init__(self, family: Family, order: int, whose: Whose = "method") -> None:
+        self.family = family
+        self.order = order
+        self.whose = whose
+        self.tableau = TABLEAUS[whose](family.tableau)
+
+    @cached_property
+    def conditions(self) -> Residuals:
+        """Of all trees, and the relations in the file."""
+        return Residuals(self.tableau, self.family.ring, self.order, self._relations)
+
+    @cached_property
+    def batch(self) -> int:
+        """How many starts are worked on at a time."""
+        largest = self.conditions.numbers_a_point * 8
+        return max(8, min(MOST_STARTS, MEMORY // largest))
+
+    def starts(self, seed: int, count: int) -> Iterator[list[float]]:
+        """Random values of the unknowns: within their ranges; without one between 0 and 1, of
+        every fourth start between −2 and 2.
+        """
+        draw = Draw(seed)
+        for number in range(count):
+            usual = WIDE if number % 4 == 3 else USUAL
+            start = []
+            for name in self.family.ring.names:
+                low, high = _ends(self.family.ranges.get(name), usual)
+                # a word has 64 bits, a float 53
+                start.append(low + (high - low) * ((draw.word() >> 11) / 2**53))
+            yield start
+
+    def solve(self, starts: list[list[float]]) -> list[tuple[int, list[float]]]:
+        """The starts of a batch that succeed, each with its solution in floats."""
+        import numpy as np
+
+        columns = np.ascontiguousarray(np.array(starts).transpose())
+        minima = least_squares(self.conditions.at, columns)
+        return [
+            (int(k), [float(x) for x in minima.points[:, k]])
+            for k in np.flatnonzero(minima.succeeded)
+            if self._is_within(minima.points[:, k])
+        ]
+
+    def _is_within(self, point: Array) -> bool:
+        """Whether parameters are in their ranges and even roots positive, up to rounding."""
+        values = dict(zip(self.family.ring.names, map(float, point), strict=True))
+        for name, (least, greatest) in self.family.ranges.items():
+            if least is not None and values[name] < as_float(least) - 1e-9:
+                return False
+            if greatest is not None and values[name] > as_float(greatest) + 1e-9:
+                return False
+        return all(
+            values[radical.name] > 0
+            for radical in self.family.radicals
+            if radical.is_positive
+        )
+
+    def find(self, start: int, point: list[float]) -> Find | None:
+        """What can be proved of a solution in floats; None where it is no solution after all.
+
+        Args:
+            start: its number.
+            point: values of the unknowns.
+        """
+        import numpy as np
+
+        free = Fixings(self.conditions)
+        if polished(free, point, FEW_BITS) is None:
+            return self._degenerate(start, point)
+        best: Find | None = None
+        system, x = free, None
+        for wanted in self._preferences:
+            tried, near = snapped(self.conditions, wanted, np.array(point))
+            made = polished(tried, [float(a) for a in near], BITS)
+            if made is None:
+                continue
+            system, x = tried, made
+            find = self._exact(start, made)
+            if find is not None and _is_rational(find):
+                return find
+            best = best or find
+        if best is not None:
+            return best
+        if x is None:
+            x = polished(free, point, BITS)
+        return None if x is None else self._inexact(start, system, x)
+
+    def _inexact(self, start: int, system: Fixings, x: Array) -> Find | None:
+        """A find whose numbers are not known exactly."""
+        if not self._is_inside(x):
+            return None
+        with ctx.workprec(BITS):
+            exponent = _exponent(largest_residual(system, x))
+        generators = self._generators
+        proving = Fixings(generators, system.fixed)
+        proof: Proof = "numerical"
+        if is_proved(proving, x, BITS, generators.denominators):
+            proof = "exists"
+        digits = dict(zip(self.family.ring.names, x[:, 0], strict=True))
+        return Find(start, proof, self.order, None, digits, exponent)
+
+    @cached_property
+    def _generators(self) -> Generators:
+        return Generators(self.tableau, self.family.ring, self.order, self._relations)
+
+    @property
+    def _relations(self) -> list[fmpq_mpoly]:
+        relations = [radical.relation for radical in self.family.radicals]
+        return [*relations, *self.family.relations]
+
+    def _is_inside(self, x: Array) -> bool:
+        """Whether all numbers within 2^(−bits/2) of a point are in their ranges and the roots that
+        are meant.
+        """
+        with ctx.workprec(BITS):
+            around = arb(0, arb(1) / arb(2) ** (BITS // 2))
+            values = dict(zip(self.family.ring.names, x[:, 0] + around, strict=True))
+            for name, (least, greatest) in self.family.ranges.items():
+                if least is not None and not values[name] > arb(least):
+                    return False
+                if greatest is not None and not values[name] < arb(greatest):
+                    return False
+            for radical in self.family.radicals:
+                value = values[radical.name]
+                if radical.is_positive and not value > 0:
+                    return False
+                meant = radical.meant
+                if meant is not None and not meant.ball(BITS // 2).overlaps(value):
+                    return False
+        return True
+
+    def _degenerate(self, start: int, point: list[float]) -> Find | None:
+        """A solution at which the conditions are degenerate.
+
+        No iteration reaches it to many digits. What is near a short number is given that value;
+        where the conditions are no longer degenerate then, the certificate decides.
+        """
+        import numpy as np
+
+        column = np.array(point)[:, None]
+        fixed = fixed_nearby(self.conditions, self._preferences[0], column)
+        x = polished(Fixings(self.conditions, fixed), point, BITS)
+        if x is None:
+            return None
+        return self._exact(start, x)
+
+    def _exact(self, start: int, x: Array) -> Find | None:
+        """The method with the exact numbers of which these are digits, if it has the order."""
+        digits = dict(zip(self.family.ring.names, x[:, 0], strict=True))
+        guess = recognised(digits, BITS)
+        return None if guess is None else self._certified(start, guess)
+
+    @cached_property
+    def _preferences(self) -> list[list[RationalFunction]]:
+        """What is to be short, in two orders: one may lead to rational numbers, the other not."""
+        nodes = list(nodes_of(self.tableau, self.family.ring))
+        names = unknowns_of(self.family.ring)
+        return [nodes + names, nodes + names[::-1]]
+
+    def _certified(self, start: int, guess: Recognised) -> Find | None:
+        """The method with these numbers, if the certificate says that it has the order."""
+        field = next(
+            (x.field for x in guess.values.values() if not isinstance(x, fmpq)), None
+        )
+        solution = Solution(guess.modulus, field, dict(guess.values), 1, (guess.root,))
+        ring = self.family.ring
+        if any(value_of(x, ring, solution.values) for x in self._relations):
+            return None
+        if not is_admissible(self.family, solution, guess.root):
+            return None
+        order = order_of(self.family, self.whose, solution)
+        if order is None or order.order < self.order:
+            return None
+        found = Found(solution, order, (0,))
+        return Find(start, "exact", order.order, found, {}, None)
+
+
+def _is_rational(find: Find) -> bool:
+    return find.found is not None and find.found.solution.field is None
+
+
+def _ends(
+    given: tuple[fmpq | None, fmpq | None] | None, usual: tuple[float, float]
+) -> tuple[float, float]:
+    """From where to where an unknown starts; beyond a single end of its range as far as usual."""
+    least, greatest = given or (None, None)
+    width = usual[1] - usual[0]
+    if least is not None:
+        low = as_float(least)
+        return low, low + width if greatest is None else as_float(greatest)
+    if greatest is not None:
+        return as_float(greatest) - width, as_float(greatest)
+    return usual
+
+
+def _exponent(bound: arb) -> int:
+    """The least whole number with bound ≤ 10^e."""
+    exponent = 0
+    while bound <= arb(10) ** (exponent - 1):
+        exponent -= 1
+    return exponent

@@ -1,0 +1,183 @@
+"""From a point on a set of solutions to one with as many short rational numbers as it allows.
+
+Where the solutions are a manifold of dimension d, d independent functions of the unknowns can be
+given values: the nodes first, then the unknowns. Each is given the shortest rational number near
+its present value from which least squares come back to the manifold.
+"""
+
+from __future__ import annotations
+
+from collections.abc import Iterator, Sequence
+from math import ceil, floor
+from typing import TYPE_CHECKING
+
+from flint import fmpq
+
+from garkcli.design.search.least_squares import least_squares
+from garkcli.design.search.points import Fixed, Fixings, rank
+from garkcli.design.search.rational import RationalFunction, as_float
+from garkcli.exact.parametric import Parameters, Parametric
+from garkcli.tableau.point_space import PointSpace
+from garkcli.tableau.tableau import Tableau
+
+if TYPE_CHECKING:
+    from garkcli.design.search.rational import Array
+    from garkcli.design.search.residuals import Residuals
+
+DENOMINATORS = (1, 2, 3, 4, 5, 6, 8, 10, 12, 16, 20, 24, 30)
+"""What short rational numbers have."""
+REACH = 0.12
+"""How far a function is moved at most."""
+TRIALS = 10
+"""Values that are tried at once, the shortest."""
+STEPS = 60
+"""Steps of least squares that lead to such a value, or it is not taken."""
+FINE = (10**3, 10**6, 10**9)
+"""Denominators where none of the short ones leads back."""
+NEAR = 1e-4
+"""How far least squares may end from a solution at which the conditions are degenerate."""
+DEGENERATE = 1e-4
+"""Pivots that vanish where the conditions are degenerate are no larger nearby."""
+LARGEST = 20.0
+"""No unknown may get larger on the way."""
+
+
+def nodes_of(tableau: Tableau, ring: Parameters) -> Iterator[RationalFunction]:
+    """The nodes that are functions of the unknowns, each once."""
+    known = set()
+    for colour in tableau.colours:
+        if isinstance(tableau.spaces[colour.space], PointSpace):
+            nodes: Sequence[object] = colour.c
+            for node in nodes:
+                if isinstance(node, Parametric) and node not in known:
+                    known.add(node)
+                    yield RationalFunction(node, ring)
+
+
+def unknowns_of(ring: Parameters) -> list[RationalFunction]:
+    """The unknowns as functions of themselves."""
+    return [RationalFunction(ring.parameter(name), ring) for name in ring.names]
+
+
+def snapped(
+    conditions: Residuals, wanted: Sequence[RationalFunction], point: Array
+) -> tuple[Fixings, Array]:
+    """A system with isolated solutions, and one of them near a point.
+
+    Args:
+        conditions: of the family.
+        wanted: functions that are to be short, in this order.
+        point: a solution in floats, shape (unknowns,).
+    """
+    fixed: list[Fixed] = []
+    x = point[:, None]
+    _, jacobians = conditions.at(x)
+    known = rank(jacobians[:, :, 0])
+    for function in wanted:
+        if len(known) == len(point):
+            break
+        if not _is_independent(conditions, fixed, function, x, len(known)):
+            continue
+        for values in _trials(_value(function, x)):
+            moved = _moved(conditions, fixed, function, values, x, len(known))
+            if moved is not None:
+                value, x = moved
+                fixed.append(Fixed(function, value))
+                _, jacobians = Fixings(conditions, fixed).at(x)
+                known = rank(jacobians[:, :, 0])
+                break
+    return Fixings(conditions, fixed), x[:, 0]
+
+
+def fixed_nearby(
+    conditions: Residuals, wanted: Sequence[RationalFunction], x: Array
+) -> list[Fixed]:
+    """Functions that are near a short number and independent of the conditions at a point.
+
+    Args:
+        conditions: of the family.
+        wanted: functions to look at, in this order.
+        x: the point, shape (unknowns, 1).
+    """
+    fixed: list[Fixed] = []
+    _, jacobians = conditions.at(x)
+    known = len(rank(jacobians[:, :, 0], DEGENERATE))
+    for function in wanted:
+        if known == len(x):
+            break
+        present = _value(function, x)
+        value = next(
+            (fmpq(round(present * q), q) for q in DENOMINATORS if _is_near(present, q)),
+            None,
+        )
+        if value is None:
+            continue
+        more = [*fixed, Fixed(function, value)]
+        _, jacobians = Fixings(conditions, more).at(x)
+        if len(rank(jacobians[:, :, 0], DEGENERATE)) > known:
+            fixed = more
+            known += 1
+    return fixed
+
+
+def _is_near(present: float, q: int) -> bool:
+    return abs(present - round(present * q) / q) < NEAR
+
+
+def _value(function: RationalFunction, x: Array) -> float:
+    import numpy as np
+
+    return float(np.broadcast_to(function.at(x, as_float).value, 1)[0])
+
+
+def _is_independent(
+    conditions: Residuals,
+    fixed: Sequence[Fixed],
+    function: RationalFunction,
+    x: Array,
+    before: int,
+) -> bool:
+    system = Fixings(conditions, fixed, function, [fmpq(0)])
+    _, jacobians = system.at(x)
+    return len(rank(jacobians[:, :, 0])) > before
+
+
+def _trials(present: float) -> Iterator[list[fmpq]]:
+    """Values near the present one: short ones, then one that hardly moves it."""
+    short = []
+    for q in DENOMINATORS:
+        for p in range(ceil((present - REACH) * q), floor((present + REACH) * q) + 1):
+            value = fmpq(p, q)
+            if value not in short:
+                short.append(value)
+    yield short[:TRIALS]
+    yield short[TRIALS : 2 * TRIALS]
+    for q in FINE:
+        yield [fmpq(round(present * q), q)]
+
+
+def _moved(
+    conditions: Residuals,
+    fixed: Sequence[Fixed],
+    function: RationalFunction,
+    values: Sequence[fmpq],
+    x: Array,
+    before: int,
+) -> tuple[fmpq, Array] | None:
+    """The first of some values that a solution with it is found for, and that solution."""
+    import numpy as np
+
+    if not values:
+        return None
+    system = Fixings(conditions, fixed, function, values)
+    starts = np.repeat(x, len(values), axis=1)
+    # points that leave the batch would have to take their values with them
+    minima = least_squares(system.at, starts, STEPS, are_kept=True)
+    for k, value in enumerate(values):
+        end = np.ascontiguousarray(minima.points[:, k : k + 1])
+        if not minima.succeeded[k] or np.max(np.abs(end)) > LARGEST:
+            continue
+        _, jacobians = Fixings(conditions, [*fixed, Fixed(function, value)]).at(end)
+        if len(rank(jacobians[:, :, 0])) > before:
+            return value, end
+    return None
