@@ -8,6 +8,7 @@ from pathlib import Path
 from typing import TYPE_CHECKING, Any
 
 from garkcli.cli.signals import INTERRUPTED
+from garkcli.cli.streams import say_problem
 from garkcli.design.search.run import MOST, Crew, Result, Timed, results
 from garkcli.design.search.run import prove as prove_in
 from garkcli.design.search.run import solve as solve_in
@@ -20,6 +21,8 @@ from garkcli.page.writing import refuse_unwritable, write_whole
 from garkcli.report import search_data, search_text
 
 if TYPE_CHECKING:
+    from concurrent.futures import ProcessPoolExecutor
+
     from garkcli.cli.options import Output
     from garkcli.design.design import Whose
 
@@ -90,36 +93,54 @@ def _searched(
                     show(what, result.starts, count)
         except KeyboardInterrupt:
             result.is_interrupted = True
+        except WorkerLost as error:
+            say_problem(error)
+            result.is_interrupted = True
     return result
 
 
 @contextmanager
 def _crew(family: FamilyFile, looking: Search, jobs: int) -> Iterator[Crew | None]:
+    """Workers where there are several; none is left behind."""
     if jobs < 2:
         yield None
         return
     import multiprocessing
+    from concurrent.futures import ProcessPoolExecutor
+    from concurrent.futures.process import BrokenProcessPool
 
     given = family.text, family.source, dict(family.settings)
     setting = given, looking.order, looking.whose
-    with multiprocessing.Pool(jobs, _begin, setting) as pool:
+    pool = ProcessPoolExecutor(jobs, initializer=_begin, initargs=setting)
+    try:
         yield _Several(pool, jobs)
+    except BrokenProcessPool:
+        raise WorkerLost(
+            "a process of the search was ended from outside",
+            "where memory is short use fewer --jobs",
+        ) from None
+    finally:
+        pool.shutdown(wait=False, cancel_futures=True)
+        for child in multiprocessing.active_children():
+            child.kill()
+
+
+class WorkerLost(UsageProblem):
+    """A worker was ended by a signal; what it was at is not known."""
 
 
 class _Several:
     """Workers that have read the file for themselves."""
 
-    def __init__(self, pool: Any, size: int) -> None:
+    def __init__(self, pool: ProcessPoolExecutor, size: int) -> None:
         self.pool = pool
         self.size = size
 
     def solve(self, batches: Sequence[list[list[float]]]) -> list[Timed]:
-        made: list[Timed] = self.pool.map(_solve, batches, chunksize=1)
-        return made
+        return list(self.pool.map(_solve, batches))
 
     def prove(self, solutions: Sequence[tuple[int, list[float]]]) -> list[Timed]:
-        made: list[Timed] = self.pool.map(_prove, solutions, chunksize=1)
-        return made
+        return list(self.pool.map(_prove, solutions))
 
 
 _WORKING: list[Search] = []

@@ -78,6 +78,7 @@ RUNS: dict[str, list[tuple[str, ...]]] = {
         (VERLET, "-n", "3", "--digits", "5"),
     ],
     "modified-energy": [("energy", COLLOCATION, "--modified", "--t-end", "1")],
+    "design-search": [("design", FAMILY, "--order", "3", "--search", "4")],
     "design": [(FAMILY,), (FAMILY, "--order", "4"), (FAMILY, "--pair")],
     "certificate": [(file,) for file in FILES],
     "list": [()],

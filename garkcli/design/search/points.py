@@ -156,16 +156,20 @@ def polished(system: Fixings, point: Sequence[float], bits: int) -> Array | None
         working = min(2 * working, bits)
     with ctx.workprec(bits):
         for _ in range(2):
-            if largest_residual(system, x) < small(bits):
+            if largest_residual(system, x) < _small(bits):
                 return x
             if not _newton(system, x, chosen):
                 return None
-        return x if largest_residual(system, x) < small(bits) else None
+        return x if largest_residual(system, x) < _small(bits) else None
 
 
-def small(bits: int) -> arb:
-    """What residuals have to be below after so many bits, four fifths of them."""
-    return arb(1) / arb(2) ** (4 * bits // 5)
+def small_bits(bits: int) -> int:
+    """Residuals have to be below 2 to minus this after so many bits."""
+    return 4 * bits // 5
+
+
+def _small(bits: int) -> arb:
+    return arb(1) / arb(2) ** small_bits(bits)
 
 
 def _newton(system: Fixings, x: Array, chosen: Rank) -> bool:

@@ -13,7 +13,7 @@ from garkcli.design.design import TABLEAUS, Found, Whose, is_admissible, order_o
 from garkcli.design.member import value_of
 from garkcli.design.search.krawczyk import is_proved
 from garkcli.design.search.least_squares import least_squares
-from garkcli.design.search.points import Fixings, largest_residual, polished
+from garkcli.design.search.points import Fixings, polished
 from garkcli.design.search.rational import RationalFunction, as_float
 from garkcli.design.search.recognise import Recognised, recognised
 from garkcli.design.search.residuals import Generators, Residuals
@@ -51,7 +51,6 @@ class Find:
             solved.
         found: the exact numbers, where they are known.
         digits: the values to many digits otherwise, balls without radius.
-        exponent: no residual is larger than 10 to it; None where they are zero.
     """
 
     start: int
@@ -59,7 +58,6 @@ class Find:
     order: int
     found: Found | None
     digits: Mapping[str, arb]
-    exponent: int | None
 
 
 class Search:
@@ -165,15 +163,13 @@ class Search:
         """A find whose numbers are not known exactly."""
         if not self._is_inside(x):
             return None
-        with ctx.workprec(BITS):
-            exponent = _exponent(largest_residual(system, x))
         generators = self._generators
         proving = Fixings(generators, system.fixed)
         proof: Proof = "numerical"
         if is_proved(proving, x, BITS, generators.denominators):
             proof = "exists"
         digits = dict(zip(self.family.ring.names, x[:, 0], strict=True))
-        return Find(start, proof, self.order, None, digits, exponent)
+        return Find(start, proof, self.order, None, digits)
 
     @cached_property
     def _generators(self) -> Generators:
@@ -248,7 +244,7 @@ class Search:
         if order is None or order.order < self.order:
             return None
         found = Found(solution, order, (0,))
-        return Find(start, "exact", order.order, found, {}, None)
+        return Find(start, "exact", order.order, found, {})
 
 
 def _is_rational(find: Find) -> bool:
@@ -267,11 +263,3 @@ def _ends(
     if greatest is not None:
         return as_float(greatest) - width, as_float(greatest)
     return usual
-
-
-def _exponent(bound: arb) -> int:
-    """The least whole number with bound ≤ 10^e."""
-    exponent = 0
-    while bound <= arb(10) ** (exponent - 1):
-        exponent -= 1
-    return exponent

@@ -4,11 +4,13 @@ from __future__ import annotations
 
 from collections.abc import Mapping
 from dataclasses import dataclass
+from math import floor, log10
 
 from flint import arb
 
 from garkcli.design.chosen import DIGITS, values_text
-from garkcli.design.search.search import Find, Proof
+from garkcli.design.search.points import small_bits
+from garkcli.design.search.search import BITS, Find, Proof
 from garkcli.design.solutions import value_at
 from garkcli.errors import MethodError
 from garkcli.exact.field import Number
@@ -18,6 +20,10 @@ from garkcli.exact.roots import RealRoot
 
 DECIMALS = 40
 """Decimals of numbers that are not known exactly."""
+RESIDUAL = f"1e-{floor(log10(2) * small_bits(BITS))}"
+"""What all residuals are below after the last step of Newton's method. The residuals themselves are
+rounding, and no two machines need to agree on them.
+"""
 TOLERANCE = "1e-30"
 """What a file with so many decimals is meant up to."""
 
@@ -59,7 +65,7 @@ def told(find: Find, parameters: tuple[str, ...]) -> Method:
         values = _exact(exact, solution.real[0])
     else:
         values = {name: decimals(find.digits[name]) for name in parameters}
-    residual = "0" if find.exponent is None else f"1e{find.exponent}"
+    residual = "0" if find.found is not None else RESIDUAL
     return Method(find.start, find.proof, find.order, values, residual)
 
 
