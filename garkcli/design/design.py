@@ -11,6 +11,7 @@ from garkcli.design.conditions import FamilyConditions
 from garkcli.design.groebner import NotDecided
 from garkcli.design.ideal import Ideal
 from garkcli.design.member import member
+from garkcli.design.msolve import find_msolve
 from garkcli.design.solutions import Solution, solutions, value_at
 from garkcli.errors import ZeroWeight
 from garkcli.exact.field import Algebraic, Number
@@ -50,7 +51,9 @@ class Step:
     Attributes:
         order: the order.
         kind: for which values it is reached.
-        ideal: the ideal of its conditions and of all lower ones; None where it was not found.
+        ideal: the ideal of its conditions and of all lower ones; None where it was not found. Where
+            it is not proved it is msolve's: each zero has the order, that there are no others is
+            not proved.
         witness: the first tree whose condition no value meets together with those before it.
         found: the solutions, where there are finitely many.
     """
@@ -95,6 +98,8 @@ class Design:
         return self.last.order >= order and self.last.may_have_methods
 
 
+SHARE = 0.25
+"""The part of the time that python-flint has where msolve is there too: what it finds is proved."""
 TABLEAUS: dict[Whose, Callable[[Tableau], Tableau]] = {
     "method": lambda tableau: tableau,
     "conjugate": conjugate,
@@ -124,16 +129,23 @@ def find_parameters(
     conditions = FamilyConditions(tableau, family.ring)
     relations = [radical.relation for radical in family.radicals]
     relations += family.relations
-    deadline = None if seconds is None else monotonic() + seconds
-    start = Ideal(family.ring, conditions.denominators, deadline).with_zeros(relations)
+    now = monotonic()
+    deadline = first = None
+    if seconds is not None:
+        has_other_engine = order is not None and find_msolve() is not None
+        deadline = now + seconds
+        first = now + SHARE * seconds if has_other_engine else deadline
+    start = Ideal(family.ring, conditions.denominators, first).with_zeros(relations)
     steps: list[Step] = []
     ideal = start
     for k in range(1, (order or DEFAULT_LIMIT) + 1):
         step = _step(conditions, ideal, k, start)
+        if step.kind == "undecided" and order is not None:
+            step = _at_once(conditions, start, order, deadline)
         if step.kind == "solutions":
             step = replace(step, found=_found(family, whose, step))
         steps.append(step)
-        if step.ideal is None or not step.may_have_methods:
+        if step.ideal is None or not step.may_have_methods or step.order == order:
             break
         ideal = step.ideal
     return Design(family, whose, tableau, tuple(steps))
@@ -152,6 +164,24 @@ def _step(conditions: FamilyConditions, ideal: Ideal, order: int, start: Ideal) 
         return Step(order, "undecided", None)
     if ideal is start:
         return Step(order, "every-value", ideal)
+    if ideal.dimension > 0:
+        return Step(order, "family", ideal)
+    return Step(order, "solutions", ideal)
+
+
+def _at_once(
+    conditions: FamilyConditions, start: Ideal, order: int, deadline: float | None
+) -> Step:
+    """All conditions up to an order in one system, by msolve."""
+    polynomials = []
+    for k in range(1, order + 1):
+        polynomials += [condition.polynomial for condition in conditions.of_order(k)]
+    try:
+        ideal = start.with_zeros_unproved(polynomials, deadline)
+    except NotDecided:
+        return Step(order, "undecided", None)
+    if ideal.is_everything:
+        return Step(order, "undecided", ideal)
     if ideal.dimension > 0:
         return Step(order, "family", ideal)
     return Step(order, "solutions", ideal)

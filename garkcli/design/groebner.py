@@ -1,15 +1,20 @@
-"""Gröbner bases over ℚ by python-flint, small ones at once, large ones within a time."""
+"""Gröbner bases over ℚ by python-flint, small ones at once, large ones within a time; by msolve
+where that time is not enough.
+"""
 
 from __future__ import annotations
 
-from collections.abc import Sequence
+from collections.abc import Callable, Sequence
 from multiprocessing import get_context
 from multiprocessing.connection import Connection
 from time import monotonic
-from typing import Any, TypeAlias
+from typing import Any, TypeAlias, TypeVar
 
 from flint import Ordering, fmpz, fmpz_mpoly, fmpz_mpoly_ctx, fmpz_mpoly_vec
 
+from garkcli.design.msolve import basis_by_msolve, find_msolve, is_basis
+
+T = TypeVar("T")
 SMALL = (100, 1000, 20_000)
 """Most polynomials, terms of one, bits of a coefficient, for which no process is started."""
 Terms: TypeAlias = dict[tuple[int, ...], int]
@@ -43,41 +48,81 @@ def groebner_basis(
     if deadline is None:
         basis = generators.buchberger_naive()
         return list(basis.autoreduction(groebner=True))
-    return _within_time(list(generators), context, deadline)
+    texts = [_terms(p) for p in generators]
+    found = _within_time(_basis, (texts, tuple(context.names())), deadline)
+    return [_polynomial(p, context) for p in found]
+
+
+def unproved_basis(
+    polynomials: Sequence[fmpz_mpoly],
+    context: fmpz_mpoly_ctx,
+    deadline: float | None,
+) -> list[fmpz_mpoly]:
+    """The Gröbner basis by msolve, verified to be one of an ideal that contains the polynomials.
+
+    Raises:
+        NotDecided: there is no msolve, no answer in time, or not one that stands the test.
+    """
+    program = find_msolve()
+    if program is None:
+        raise NotDecided
+    given = [p for p in polynomials if p]
+    basis = basis_by_msolve(program, given, context, deadline)
+    if basis is None:
+        raise NotDecided
+    lists = [_terms(p) for p in basis], [_terms(p) for p in given]
+    if not _within_time(_is_verified, (*lists, tuple(context.names())), deadline):
+        raise NotDecided
+    return basis
 
 
 def _within_time(
-    generators: Sequence[fmpz_mpoly], context: fmpz_mpoly_ctx, deadline: float
-) -> list[fmpz_mpoly]:
-    """The same in a process of its own, which can be stopped in the middle of its work."""
+    work: Callable[..., T], arguments: tuple[Any, ...], deadline: float | None
+) -> T:
+    """What a function returns in a process of its own, which can be stopped in the middle of it."""
     # fork copies the threads' locks of whoever calls; spawn is the same everywhere
     processes = get_context("spawn")
     here, there = processes.Pipe(duplex=False)
-    terms = [_terms(p) for p in generators]
-    names = tuple(context.names())
-    worker = processes.Process(target=_work, args=(there, terms, names), daemon=True)
+    worker = processes.Process(
+        target=_serve, args=(there, work, arguments), daemon=True
+    )
     worker.start()
     there.close()
     try:
-        if not here.poll(max(0.0, deadline - monotonic())):
+        seconds = None if deadline is None else max(0.0, deadline - monotonic())
+        if not here.poll(seconds):
             raise NotDecided
-        basis: list[Terms] = here.recv()
+        result: T = here.recv()
     except EOFError:  # it ended without a result: no memory, or killed
         raise NotDecided from None
     finally:
         worker.kill()
         worker.join()
         here.close()
-    return [_polynomial(p, context) for p in basis]
+    return result
 
 
-def _work(pipe: Connection, generators: list[Terms], names: tuple[str, ...]) -> None:
+def _serve(
+    pipe: Connection, work: Callable[..., object], arguments: tuple[Any, ...]
+) -> None:
     """What the process does."""
+    pipe.send(work(*arguments))
+
+
+def _basis(generators: list[Terms], names: tuple[str, ...]) -> list[Terms]:
     context = fmpz_mpoly_ctx.get(names, Ordering.degrevlex)
     polynomials = [_polynomial(p, context) for p in generators]
     vector: Any = fmpz_mpoly_vec(polynomials, context)
     basis = vector.buchberger_naive().autoreduction(groebner=True)
-    pipe.send([_terms(p) for p in basis])
+    return [_terms(p) for p in basis]
+
+
+def _is_verified(
+    basis: list[Terms], given: list[Terms], names: tuple[str, ...]
+) -> bool:
+    context = fmpz_mpoly_ctx.get(names, Ordering.degrevlex)
+    polynomials = [_polynomial(p, context) for p in given]
+    return is_basis([_polynomial(p, context) for p in basis], polynomials, context)
 
 
 def _terms(p: fmpz_mpoly) -> Terms:

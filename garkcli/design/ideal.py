@@ -18,7 +18,7 @@ from flint import (
     fmpz_mpoly_vec,
 )
 
-from garkcli.design.groebner import groebner_basis
+from garkcli.design.groebner import groebner_basis, unproved_basis
 from garkcli.exact.parametric import Parameters
 
 Exponents: TypeAlias = tuple[int, ...]
@@ -36,6 +36,8 @@ class Ideal:
 
     Attributes:
         basis: a reduced Gröbner basis, primitive over ℤ; empty for the zero ideal.
+        is_proved: whether it is one of the ideal; else of an ideal that is known to contain it, so
+            that its zeros are zeros, and perhaps not all of them.
     """
 
     def __init__(
@@ -50,6 +52,7 @@ class Ideal:
         names = [*ring.names, UNIT] if nonzero else list(ring.names)
         self._context = fmpz_mpoly_ctx.get(names, Ordering.degrevlex)
         self.basis: list[fmpz_mpoly] = []
+        self.is_proved = True
         if nonzero:
             product = self._context.gen(len(names) - 1)
             for polynomial in nonzero:
@@ -86,6 +89,20 @@ class Ideal:
             return self
         grown = copy(self)
         grown.basis = groebner_basis([*self.basis, *new], self._context, self._deadline)
+        return grown
+
+    def with_zeros_unproved(
+        self, polynomials: Iterable[fmpq_mpoly], deadline: float | None
+    ) -> Ideal:
+        """The same by msolve: an ideal that contains it, so that its zeros are zeros of it.
+
+        Raises:
+            NotDecided: msolve is not there, or its answer is not in time.
+        """
+        new = [self._integral(polynomial) for polynomial in polynomials]
+        grown = copy(self)
+        grown.basis = unproved_basis([*self.basis, *new], self._context, deadline)
+        grown.is_proved = False
         return grown
 
     def _remainder(self, polynomial: fmpz_mpoly) -> fmpz_mpoly:

@@ -135,6 +135,11 @@ def _dimension(found: _StepOf) -> int | None:
     return None if ideal is None else ideal.dimension
 
 
+def _is_complete(found: _StepOf) -> bool | None:
+    ideal = found.step.ideal
+    return None if ideal is None else ideal.is_proved
+
+
 def _witness(found: _StepOf) -> str | None:
     witness = found.step.witness
     return None if witness is None else format_tree(witness)
@@ -146,6 +151,7 @@ _STEP: Record[_StepOf] = Record(
     Field("verdict", {"enum": [*get_args(Kind)]}, lambda x: x.step.kind),
     Field("ideal", array(TEXT), _ideal, is_optional=True),
     Field("dimension", INTEGER, _dimension, is_optional=True),
+    Field("complete", FLAG, _is_complete, is_optional=True),
     Field("solutions", array(_SOLUTION), lambda x: x.solutions),
     Field("witness", nullable(TEXT), _witness),
 )

@@ -63,6 +63,8 @@ def _of_steps(
             yield from _witness(design, step, width)
         case "undecided":
             yield f"{head}not decided in the time of --seconds"
+            if step.ideal is not None:
+                yield f"{INDENT}msolve finds that no value has it, which is no proof"
             yield f"{INDENT}values for some unknowns, by --set, make it decidable"
         case "family":
             yield f"{head}{_family(step)}"
@@ -73,6 +75,8 @@ def _of_steps(
             yield from _polynomials(step, width)
             for found in step.found:
                 yield from _solutions(design, found, digits, width)
+    if step.ideal is not None and not step.ideal.is_proved and step.kind != "undecided":
+        yield f"{INDENT}found by msolve: each is proved, that there are no others is not"
 
 
 def _witness(design: Design, step: Step, width: int) -> Iterator[str]:

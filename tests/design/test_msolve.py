@@ -1,0 +1,154 @@
+"""msolve as a second engine: what it says is verified, and what is not proved is said."""
+
+from __future__ import annotations
+
+import sys
+from pathlib import Path
+
+import pytest
+from flint import Ordering, fmpz_mpoly_ctx
+
+from garkcli.design import design, groebner, msolve
+from garkcli.design.design import Design, find_parameters
+from garkcli.design.solutions import value_at
+from garkcli.methodfile.family import loads_family
+from garkcli.report import design_text
+
+CONTEXT = fmpz_mpoly_ctx.get(("x", "y"), Ordering.degrevlex)
+X, Y = CONTEXT.gens()
+CIRCLE = [X**2 + Y**2 - 1, 3 * X * Y - 1]
+BASIS = "[3*x1*x2-1, \nx1^2+x2^2-1, \n3*x2^3+x1-3*x2]:"
+FULL3 = "unknown: {stages: 3, shape: full}\n"
+EXPLICIT4 = "unknown: {stages: 4, shape: explicit}\n"
+
+
+def program(folder: Path, answer: str, ending: str = "") -> str:
+    """A program that answers every question with the same text."""
+    path = folder / "msolve"
+    lines = [
+        f"#!{sys.executable}",
+        "import sys",
+        ending,
+        "place = sys.argv[sys.argv.index('-o') + 1]",
+        f"open(place, 'w').write({answer!r})",
+    ]
+    path.write_text("\n".join(lines), encoding="utf-8")
+    path.chmod(0o755)
+    return str(path)
+
+
+@pytest.mark.skipif(sys.platform == "win32", reason="a script is no program there")
+def test_a_right_answer_is_taken(
+    tmp_path: Path, monkeypatch: pytest.MonkeyPatch
+) -> None:
+    """Comments are passed over, and the basis is that of python-flint."""
+    path = program(tmp_path, f"#Reduced Groebner basis data\n#---\n{BASIS}\n")
+    monkeypatch.setattr(groebner, "find_msolve", lambda: path)
+    found = groebner.unproved_basis(CIRCLE, CONTEXT, None)
+    own = groebner.groebner_basis(CIRCLE, CONTEXT, None)
+    assert sorted(map(str, found)) == sorted(map(str, own))
+
+
+WRONG = {
+    "no basis of it": "[x1-1, x2]:",
+    "no Gröbner basis": "[3*x1*x2-1, x1^2+x2^2-1]:",
+    "infinitely many": "[1, 2, -1, []]:",
+    "no answer": "",
+    "nonsense": "[x1+sin(x2)]:",
+    "another unknown": "[x3]:",
+}
+
+
+@pytest.mark.skipif(sys.platform == "win32", reason="a script is no program there")
+@pytest.mark.parametrize("answer", WRONG.values(), ids=WRONG.keys())
+def test_a_wrong_answer_is_not(
+    answer: str, tmp_path: Path, monkeypatch: pytest.MonkeyPatch
+) -> None:
+    """A basis of something else, of nothing, or no basis leaves the question open."""
+    path = program(tmp_path, answer)
+    monkeypatch.setattr(groebner, "find_msolve", lambda: path)
+    with pytest.raises(groebner.NotDecided):
+        groebner.unproved_basis(CIRCLE, CONTEXT, None)
+
+
+@pytest.mark.skipif(sys.platform == "win32", reason="a script is no program there")
+@pytest.mark.parametrize(
+    "ending", ["sys.exit(1)", "import time; time.sleep(60)", "raise MemoryError"]
+)
+def test_a_program_that_fails_leaves_it_open(
+    ending: str, tmp_path: Path, monkeypatch: pytest.MonkeyPatch
+) -> None:
+    """A code, no end in time, a crash: not decided, and nothing else."""
+    path = program(tmp_path, BASIS, ending)
+    monkeypatch.setattr(groebner, "find_msolve", lambda: path)
+    with pytest.raises(groebner.NotDecided):
+        groebner.unproved_basis(CIRCLE, CONTEXT, msolve.monotonic() + 0.5)
+
+
+def test_a_question_has_no_sign_in_front() -> None:
+    """A leading plus ends the program; unknowns have names of ours."""
+    text = msolve._question([X - 1, -Y + 2], CONTEXT)
+    assert text == "x1,x2\n0\n1*x1^1-1,\n-1*x2^1+2\n"
+
+
+def _by_msolve(text: str, order: int, monkeypatch: pytest.MonkeyPatch) -> Design:
+    """A design by msolve alone, where it is installed."""
+    if msolve.find_msolve() is None:
+        pytest.skip("msolve is not installed")
+    monkeypatch.setattr(design, "SHARE", 0.001)
+    return find_parameters(loads_family(text), order, seconds=100)
+
+
+def test_gauss_from_three_stages(monkeypatch: pytest.MonkeyPatch) -> None:
+    """Three stages of order 6, twelve unknowns: Gauss's method in the six orders of its stages."""
+    found = _by_msolve(FULL3, 6, monkeypatch)
+    nodes = []
+    for one in found.last.found:
+        assert one.order is not None
+        assert one.order.order == 6
+        for root in one.solution.real:
+            values = [value_at(one.solution.values[f"c{i}"], root) for i in (1, 2, 3)]
+            nodes.append(tuple(float(value.ball(80)) for value in values))
+    gauss = (0.1127016654, 0.5, 0.8872983346)
+    assert len(nodes) == 6
+    for found_nodes in nodes:
+        assert sorted(found_nodes) == pytest.approx(gauss)
+    text = design_text.render("full.yaml", found, 12, 80)
+    assert "that there are no others is not" in text
+
+
+CLASSICAL = {
+    "RK4": {"c2": "1/2", "c3": "1/2"},
+    "3/8 rule": {"c2": "1/3", "c3": "2/3"},
+}
+
+
+@pytest.mark.parametrize("name", CLASSICAL)
+def test_classical_methods_of_four_stages(name: str) -> None:
+    """With the nodes of Kutta's 3/8 rule there is that method; with those of the classical one
+    a family with b₃ free, in which 1/3 gives it.
+    """
+    nodes = CLASSICAL[name]
+    found = find_parameters(loads_family(EXPLICIT4, settings=nodes), 4, seconds=30)
+    if name == "RK4":
+        assert found.last.ideal is not None
+        assert (found.last.kind, found.last.ideal.dimension) == ("family", 1)
+        nodes = {**nodes, "b3": "1/3"}
+        found = find_parameters(loads_family(EXPLICIT4, settings=nodes), 4, seconds=30)
+    (one,) = found.last.found
+    values = {x: str(value) for x, value in one.solution.values.items()}
+    if name == "RK4":
+        assert values == {
+            "c4": "1", "a32": "1/2", "a42": "0", "a43": "1", "b1": "1/6", "b2": "1/3", "b4": "1/6",
+        }  # fmt: skip
+    else:
+        assert values == {
+            "c4": "1", "a32": "1", "a42": "-1", "a43": "1", "b1": "1/8", "b2": "3/8", "b3": "3/8", "b4": "1/8",
+        }  # fmt: skip
+
+
+def test_no_stiffly_accurate_sdirk() -> None:
+    """Four stages, singly diagonally implicit, the last row b: order 4 for none, proved."""
+    text = "unknown: {stages: 4, shape: [sdirk, stiffly-accurate]}\n"
+    found = find_parameters(loads_family(text), 4)
+    assert [step.kind for step in found.steps] == ["family"] * 3 + ["none"]
