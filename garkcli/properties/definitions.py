@@ -59,7 +59,8 @@ _OF_ORDERS = (
     ),
     Definition(
         "bound",
-        "The bound of the order that the simplifying conditions give, min{r, 2η+2, ξ+1, η+ζ+1}.",
+        "The bound of the order that the simplifying conditions give, min{r, 2η+2, ξ+1, η+ζ+1}, with"
+        " the letters of sharp-bound.",
         _PAPER,
         _ORDER,
     ),
@@ -110,7 +111,8 @@ _OF_ORDERS = (
         "symplectic",
         "The method is its own symplectic conjugate: b_i^{l} a_ij^{l,m} + b_j^{m} a_ji^{m,l} ="
         " b_i^{l} b_j^{m} for all l, m, i, j. Of a partitioned method: its two parts are conjugates"
-        " of each other.",
+        " of each other. Then every step is symplectic; that of a reducible method may be so"
+        " without it.",
         "J. M. Sanz-Serna, BIT 28 (1988)",
         KINDS["truth"],
     ),

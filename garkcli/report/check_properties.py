@@ -57,7 +57,10 @@ def _is(subject: Subject, key: str, wanted: bool) -> bool:
 def _told(subject: Subject, key: str) -> str:
     if key != "symmetric":
         return _NAMES[key]
-    return f"symmetric ({_reflected(subject.tableau, subject.symmetry.reflections)})"
+    reflections = subject.symmetry.reflections
+    if not reflections:
+        return "symmetric once reduced"
+    return f"symmetric ({_reflected(subject.tableau, reflections)})"
 
 
 def _reflected(tableau: Tableau, reflections: Sequence[Reflection]) -> str:

@@ -7,9 +7,10 @@ from fractions import Fraction
 
 import pytest
 from flint import fmpq, fmpq_poly
-from hypothesis import given
+from hypothesis import given, settings
 from hypothesis import strategies as st
 
+from garkcli import find_property
 from garkcli.exact.field import ONE
 from garkcli.exact.matrix import identity
 from garkcli.exact.polynomial import Polynomial
@@ -395,3 +396,42 @@ def test_semidefinite_forms() -> None:
     assert negative_pivot(((zero, zero), (zero, one))) is None
     assert negative_pivot(((zero, zero), (zero, one)), is_definite=True) == 0
     assert negative_pivot(((one, 2 * one), (2 * one, one))) == -3
+
+
+@given(methods(), st.lists(ENTRY, min_size=4, max_size=4))
+@settings(max_examples=25)
+def test_a_stage_without_influence_does_not_hide_the_symmetry(
+    method: tuple[Rows, list[Fraction]], row: list[Fraction]
+) -> None:
+    """A further stage that nothing looks at, whatever its row, leaves the map what it is."""
+    A, b = followed_by_adjoint(*method)
+    width = len(b)
+    padded = [[*entries, Fraction(0)] for entries in A]
+    further = (row * (width + 1))[: width + 1]
+    longer = tableau_of([*padded, further], [*b, Fraction(0)])
+    assert symmetric_verdict(longer) is True
+
+
+def symmetric_verdict(tableau: Tableau) -> object:
+    """What ``gark check`` says of a method."""
+    return find_property(tableau, "symmetric").value
+
+
+@pytest.mark.parametrize(
+    ("A", "b", "expected"),
+    [
+        ("[[1/2, 0], [1, 0]]", "[1, 0]", True),
+        ("[[1/2, 0], [1/2, 0]]", "[1/4, 3/4]", True),
+        ("[[1/3, 0], [1, 0]]", "[1, 0]", False),
+        ("[[0, 0], [1, 0]]", "[1/2, 1/2]", False),
+    ],
+)
+def test_reducible_methods_are_symmetric_as_what_they_do(
+    A: str, b: str, expected: bool
+) -> None:
+    """The implicit midpoint rule with a stage too many, in two ways; others are not symmetric."""
+    tableau = loads(f"methods: [{{A: {A}, b: {b}}}]").tableau
+    assert symmetric_verdict(tableau) is expected
+    smaller = reduced(tableau)
+    assert smaller is not None
+    assert stability_symmetric(smaller) is expected

@@ -20,8 +20,8 @@ PROPERTY = Property(
     key="algebraically-stable",
     text=(
         "No weight is negative, and the matrix M with the blocks B^{l} A^{l,m} + (A^{m,l})ᵀ B^{m} −"
-        " b^{l} (b^{m})ᵀ is positive semidefinite. Then differences of solutions of contractive"
-        " problems never grow (B-stability)."
+        " b^{l} (b^{m})ᵀ is positive semidefinite. Then differences of solutions never grow where"
+        " every vector field is contractive (B-stability)."
     ),
     source=(
         "K. Burrage, J. C. Butcher, SIAM J. Numer. Anal. 16 (1979); for GARK methods: A. Sandu,"
