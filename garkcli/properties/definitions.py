@@ -59,8 +59,8 @@ _OF_ORDERS = (
     ),
     Definition(
         "bound",
-        "The bound of the order that the simplifying conditions give, min{r, 2η+2, ξ+1, η+ζ+1}, with"
-        " the letters of sharp-bound.",
+        "The bound of the order that the simplifying conditions give, min{r, 2η+2, ξ+1, η+ζ+1},"
+        " with the letters of sharp-bound.",
         _PAPER,
         _ORDER,
     ),

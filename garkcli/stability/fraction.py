@@ -28,7 +28,7 @@ from garkcli.stepping.stage_system import stage_system
 from garkcli.tableau.tableau import Tableau
 
 MOST_LINES = 400
-"""Lines that are looked at: 27 stages of two colours, or 12 of three."""
+"""Lines that are looked at: 26 stages of three colours, or 11 of four."""
 OFFSETS = (1, 3, 7, 13, 29)
 """Where lattices of directions begin that are tried for common factors."""
 
