@@ -36,7 +36,7 @@ from garkcli.methodfile.description import (
 from garkcli.methodfile.expectations import NUMBERS
 from garkcli.methodfile.numbers import Numbers
 from garkcli.methodfile.parameters import read_parameters, refuse_unknown_settings
-from garkcli.methodfile.source import Source, key_nodes, keys_of, shortened
+from garkcli.methodfile.source import Source, keys_of, shortened
 from garkcli.methodfile.spelled_out import SpelledOutReader, are_too_many
 from garkcli.transfer import RULES
 
@@ -163,8 +163,10 @@ class Reader:
             message = "parameters do not go with unknown: its unknowns have their names"
             cure = "leave them out, or spell the tableau out with them"
             self.source.fault(entries["parameters"], message, cure)
-        key = key_nodes(root)["unknown"]
-        return ShapeReader(self.source, self.numbers).read(key, entries["unknown"])
+        content = entries["unknown"]
+        # the key as it stands there, misspelt perhaps
+        key = next(x for x, y in root.value if y is content)
+        return ShapeReader(self.source, self.numbers).read(key, content)
 
     def _version(self, node: Node | None) -> None:
         if node is not None and self.source.scalar(node, "gark") != "1":

@@ -10,7 +10,7 @@ from garkcli import find_order, loads
 from garkcli.design.chosen import first_method
 from garkcli.design.design import Design, find_parameters
 from garkcli.design.solutions import value_at
-from garkcli.errors import MethodError
+from garkcli.errors import MethodError, MethodFileError
 from garkcli.methodfile.family import loads_family, with_values
 from garkcli.methodfile.shapes.registry import SHAPES, find_shape, layout_of
 from tests.cli.harness import gark
@@ -199,3 +199,12 @@ def test_as_a_command(tmp_path: object) -> None:
     assert (run.code, "2*c2*b2 - 1" in run.out) == (0, True)
     left = gark("design", path, "--set", "d2=1")
     assert (left.code, "one of: c2, b1, b2" in left.err) == (2, True)
+
+
+def test_the_misspelt_key_is_read_on() -> None:
+    """``unknown`` misspelt is one fault that says so, and what it says is read as meant."""
+    with pytest.raises(MethodFileError) as told:
+        loads_family("unknwon: {stages: 2, shape: sdirk}\n")
+    assert [(fault.line, fault.column, fault.help) for fault in told.value.faults] == [
+        (1, 1, "did you mean 'unknown'?")
+    ]
