@@ -9,7 +9,6 @@ from pathlib import Path
 
 import pytest
 
-from garkcli.plots.saving import SUFFIXES
 from tests.cli.harness import ROOT, gark
 
 COLLOCATION = "methods/collocation.gark.yaml"
@@ -176,22 +175,24 @@ def test_work_keeps_coarse_steps() -> None:
     ]
 
 
-@pytest.mark.parametrize("suffix", SUFFIXES)
-def test_figures_are_the_same_each_time(tmp_path: Path, suffix: str) -> None:
+@pytest.mark.parametrize(
+    ("arguments", "suffix"),
+    [
+        ((VERLET, RECTANGULAR), ".png"),
+        ((VERLET, RECTANGULAR, "--work"), ".svg"),
+        ((RECTANGULAR, "--work"), ".pdf"),
+    ],
+)
+def test_figures_are_the_same_each_time(
+    tmp_path: Path, arguments: tuple[str, ...], suffix: str
+) -> None:
     """Two runs of a comparison draw the same file, to the byte; so do two of one method's work."""
     steps = ("--steps", "1/4,1/8,1/16", "--problem", "pendulum", "-q")
-    for k, arguments in enumerate(
-        (
-            (VERLET, RECTANGULAR),
-            (VERLET, RECTANGULAR, "--work"),
-            (RECTANGULAR, "--work"),
-        )
-    ):
-        paths = [tmp_path / f"{k}-{n}{suffix}" for n in (1, 2)]
-        for path in paths:
-            run = gark("converge", *arguments, *steps, "--plot", str(path))
-            assert run.code == 0, run.err
-        assert paths[0].read_bytes() == paths[1].read_bytes()
+    paths = [tmp_path / f"{n}{suffix}" for n in (1, 2)]
+    for path in paths:
+        run = gark("converge", *arguments, *steps, "--plot", str(path))
+        assert run.code == 0, run.err
+    assert paths[0].read_bytes() == paths[1].read_bytes()
 
 
 def test_nothing_to_draw(tmp_path: Path) -> None:

@@ -19,7 +19,9 @@ pytestmark = pytest.mark.skipif(os.name != "posix", reason="signals between proc
 PATIENCE = 60.0
 """Seconds to wait for a sign of life, on a machine that is very busy."""
 # nothing to be fast enough for: millions of trees
-FOR_EVER = ("trees", "-N", "2", "-n", "13", "--yes", "--format", "ndjson")
+FOR_EVER = ("trees", "-N", "2", "-n", "12", "--yes", "--format", "ndjson")
+# much more than a pipe holds
+LONG = ("trees", "-N", "2", "-n", "10", "--yes", "--format", "ndjson")
 
 
 def _as_from_a_terminal() -> None:
@@ -74,7 +76,7 @@ def test_a_report_that_is_cut_short_leaves_nothing(name: str, tmp_path: Path) ->
 def test_a_reader_that_does_not_read_holds_nothing_up(name: str) -> None:
     """A program that waits for the pipe to have room ends at the signal, not when somebody reads."""
     number = getattr(signal, name)
-    with running(*FOR_EVER) as process:
+    with running(*LONG) as process:
         assert process.stdout is not None
         assert process.stdout.read(1) == b"{"
         process.send_signal(number)

@@ -7,6 +7,7 @@ import json
 import os
 import subprocess
 import sys
+from functools import cache
 from pathlib import Path
 
 import pytest
@@ -18,7 +19,7 @@ from garkcli.cli.streams import TERMINAL
 from garkcli.page.plaintext import ascii_form, plain_line, plain_text
 from garkcli.page.safety import escaped, written_out
 from garkcli.report.trees import DRAWING
-from tests.cli.harness import ROOT, gark
+from tests.cli.harness import ROOT, Run, gark
 from tests.cli.test_snapshots import RUNS
 
 LONG = {"energy-kepler", "energy-drifting", "converge-several"}
@@ -63,13 +64,19 @@ def test_every_sign_of_the_program_has_an_ascii_form() -> None:
     assert "" not in forms.values()
 
 
+@cache
+def as_recorded(name: str) -> Run:
+    """A recorded run, once for all encodings."""
+    return gark(*RUNS[name])
+
+
 @pytest.mark.parametrize("encoding", ["cp1252", "ascii", "cp437"])
 @pytest.mark.parametrize("name", SHORT)
 def test_a_run_in_another_encoding(name: str, encoding: str) -> None:
     """Each recorded run ends with the same code and says the same in what the encoding has; nothing
     becomes a question mark or a code point.
     """
-    recorded, run = gark(*RUNS[name]), gark(*RUNS[name], encoding=encoding)
+    recorded, run = as_recorded(name), gark(*RUNS[name], encoding=encoding)
     assert run.code == recorded.code
     for meant, made in ((recorded.out, run.out), (recorded.err, run.err)):
         assert made.count("?") == meant.count("?")

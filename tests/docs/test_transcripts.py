@@ -24,14 +24,17 @@ PAGES = [
 @pytest.mark.skipif(os.name == "nt", reason="the pages are for a shell with sed")
 @pytest.mark.parametrize("page", PAGES, ids=lambda page: page.name)
 def test_a_page_is_a_real_session(page: Path, tmp_path: Path) -> None:
-    """From a folder with nothing but the examples: each file as shown, each command in its turn."""
+    """From a folder with nothing but the examples: each file as shown, each command in its turn.
+
+    Those of the README are processes.
+    """
     prepare(tmp_path)
     count = 0
     for step in steps(page):
         if step.file:
             (tmp_path / step.file).write_text(step.text, encoding="utf-8")
             continue
-        code, lines = run(step.command, tmp_path)
+        code, lines = run(step.command, tmp_path, as_process=page.name == "README.md")
         assert code in {0, 1}, "\n".join(lines)
         if os.environ.get("GARK_UPDATE_SNAPSHOTS") == "1":
             shown = brought_up_to_date(step.text, lines)

@@ -12,7 +12,8 @@ from collections.abc import Iterator
 from dataclasses import dataclass
 from pathlib import Path
 
-ROOT = Path(__file__).parents[2]
+from tests.cli.harness import ROOT, gark
+
 FOLDERS = ("methods", "problems", "tests/examples", "tools")
 """What a page may use from the checkout."""
 
@@ -86,14 +87,21 @@ def prepare(folder: Path) -> None:
         shutil.copytree(ROOT / name, target)
 
 
-def run(command: str, folder: Path) -> tuple[int, list[str]]:
-    """Run one command as a user does; its exit code, and its lines, errors first."""
+def run(command: str, folder: Path, as_process: bool) -> tuple[int, list[str]]:
+    """Run one command as a user does; its exit code, and its lines, errors first.
+
+    ``gark`` is a process where ``as_process`` says so, and a call in this one otherwise, which
+    imports nothing twice.
+    """
     words = shlex.split(command)
+    if words[0] == "gark" and not as_process:
+        done = gark(*words[1:], cwd=folder)
+        return int(str(done.code)), (done.err + done.out).splitlines()
     if words[0] == "gark":
         words = [sys.executable, "-m", "garkcli", *words[1:]]
     elif words[0] == "python3":
         words[0] = sys.executable
-    done = subprocess.run(
+    ended = subprocess.run(
         words,
         cwd=folder,
         env={**os.environ, "PYTHONUTF8": "1", "PYTHONIOENCODING": "utf-8"},
@@ -102,4 +110,4 @@ def run(command: str, folder: Path) -> tuple[int, list[str]]:
         encoding="utf-8",
         check=False,
     )
-    return done.returncode, (done.stderr + done.stdout).splitlines()
+    return ended.returncode, (ended.stderr + ended.stdout).splitlines()

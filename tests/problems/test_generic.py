@@ -8,12 +8,11 @@ from typing import Any
 
 import numpy as np
 import pytest
+from sympy import Poly, Rational
 
-from garkcli.exact.display import to_float
 from garkcli.families.registry import diagonal_method
 from garkcli.problems.builtin import hamiltonian
 from garkcli.problems.hamiltonian import vector_field
-from garkcli.problems.straightline import function
 from garkcli.problems.vectorfield import GROUPS, symbols
 from garkcli.stepping.integrator import bind
 from garkcli.stepping.step import integrate
@@ -50,6 +49,18 @@ def partitions(n: int, largest: int) -> list[tuple[int, ...]]:
 
 
 @cache
+def as_polynomial(expression: Any) -> Poly:
+    """An expression in all variables, multiplied out once."""
+    return Poly(expression, *Y)
+
+
+def derived(polynomial: Any, where: tuple[int, ...]) -> Any:
+    """A derivative of a polynomial by the variables of these numbers."""
+    whole = as_polynomial(polynomial)
+    return whole.diff(*((Y[k], where.count(k)) for k in set(where))) if where else whole
+
+
+@cache
 def derivative(colour: int, count: int) -> Any:
     """The tensor of ``count``-th derivatives of one field at the initial values, shape (4, 4,
     …).
@@ -57,12 +68,10 @@ def derivative(colour: int, count: int) -> Any:
     group = GROUPS[colour // 2]
     field = vector_field(PROBLEM, colour % 2, group)
     places = list(combinations_with_replacement(range(4), count))
-    expressions = tuple(
-        f.diff(*(Y[k] for k in where)) if where else f
-        for f in field.components
-        for where in places
+    at = [Rational(int(x.p), int(x.q)) for x in PROBLEM.initial]
+    values = iter(
+        [float(derived(f, where)(*at)) for f in field.components for where in places]
     )
-    values = iter(function(expressions, Y, False)(*map(to_float, PROBLEM.initial)))
     tensor = np.zeros((4,) * (count + 1))
     for i in range(2):
         for where in places:
