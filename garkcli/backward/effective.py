@@ -97,10 +97,10 @@ def effective_order(equation: ModifiedEquation) -> EffectiveOrder:
 
 def _bracket_with_delta(forest: Forest, order: int) -> fmpz_mat:
     """χ ↦ [χ, δ] from trees of an order to those of the next."""
-    rows, columns = forest.of_order(order + 1), forest.of_order(order)
+    rows = forest.of_order(order + 1)
+    columns = forest.of_order(order)
     matrix = fmpz_mat(len(rows), len(columns))
-    for number in rows:
-        i = number - rows.start
+    for i, number in enumerate(rows):
         for cut in forest.cuts[number]:
             if forest.order(cut.branch) == 1:
                 j = cut.rest - columns.start
@@ -127,12 +127,14 @@ def _with_columns(matrix: fmpz_mat, sides: Sequence[Sequence[fmpq]]) -> fmpz_mat
     rows, columns = matrix.nrows(), matrix.ncols()
     appended = []
     for side in sides:
-        common = lcm(*(int(x.q) for x in side))
+        denominators = [int(x.q) for x in side]
+        common = lcm(*denominators)
         appended.append([(x * common).p for x in side])
-    entries = matrix.tolist()
-    for i, row in enumerate(entries):
-        row += [side[i] for side in appended]
-    return fmpz_mat(rows, columns + len(sides), [x for row in entries for x in row])
+    entries = []
+    for i, row in enumerate(matrix.tolist()):
+        entries += row
+        entries += [side[i] for side in appended]
+    return fmpz_mat(rows, columns + len(sides), entries)
 
 
 def _solve(
@@ -143,10 +145,15 @@ def _solve(
     extended = []
     for i, row in enumerate(matrix.tolist()):
         left = [fmpq(x) for x in row]
-        extended.append([*left, *(side[i] for side in sides)])
+        right = [side[i] for side in sides]
+        extended.append(left + right)
     reduced, _ = fmpq_mat(extended).rref()
+    behind = range(columns, columns + len(sides))
     solution: list[Number] = [ZERO] * columns
     for i, j in enumerate(leading_columns(reduced)):
-        values = [reduced[i, columns + d] for d in range(len(sides))]
-        solution[j] = field.from_coordinates(values) if field else values[0]
+        values = [reduced[i, column] for column in behind]
+        if field is None:
+            [solution[j]] = values
+        else:
+            solution[j] = field.from_coordinates(values)
     return solution

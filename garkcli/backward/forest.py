@@ -95,7 +95,8 @@ class Forest:
         Raises:
             UsageProblem: there are too many of them.
         """
-        return cls.of(Admissible.of(tableau.size, *coupling_graph(tableau)), order)
+        admissible = Admissible.of(tableau.size, *coupling_graph(tableau))
+        return cls.of(admissible, order)
 
     def of_order(self, order: int) -> range:
         """The numbers of the trees with ``order`` vertices."""
@@ -109,7 +110,8 @@ class Forest:
             if number is None:
                 return None
             below.append(number)
-        return self._numbers.get((tree.root, tuple(sorted(below))))
+        below.sort()
+        return self._numbers.get((tree.root, tuple(below)))
 
     def order(self, number: int) -> int:
         """ρ of the tree of this number."""
@@ -142,29 +144,38 @@ class _Cutter:
                 kept = tuple(sorted((*others, cut.rest)))
                 rest = self.numbers[root, kept]
                 found[rest, cut.branch] += alike * cut.times
-        cuts = tuple(Cut(rest, cut, times) for (rest, cut), times in found.items())
-        self.known.append(cuts)
-        return cuts
+        cuts = []
+        for (rest, below_edge), times in found.items():
+            cuts.append(Cut(rest, below_edge, times))
+        self.known.append(tuple(cuts))
+        return self.known[-1]
 
 
 def possible_order(tableau: Tableau, order: int) -> int:
     """The largest order up to ``order`` with few enough trees."""
     admissible = Admissible.of(tableau.size, *coupling_graph(tableau))
-    total = 0
-    for n, counts in enumerate(counts_upto(admissible, order), start=1):
-        total += sum(counts)
-        if total > MAX_TREES:
-            return n - 1
-    return order
+    too_many = _first_beyond_limit(admissible, order)
+    if too_many is None:
+        return order
+    first, _ = too_many
+    return first - 1
 
 
 def _check_size(admissible: Admissible, order: int) -> None:
     """Refuse a number of trees that would take too long."""
+    too_many = _first_beyond_limit(admissible, order)
+    if too_many is None:
+        return
+    n, total = too_many
+    message = f"{total} trees of order up to {n} (limit {MAX_TREES})"
+    raise UsageProblem(message, f"ask for --order {n - 1} at most")
+
+
+def _first_beyond_limit(admissible: Admissible, order: int) -> tuple[int, int] | None:
+    """The first order with too many trees up to it, and how many; None where all are few enough."""
     total = 0
     for n, counts in enumerate(counts_upto(admissible, order), start=1):
         total += sum(counts)
         if total > MAX_TREES:
-            raise UsageProblem(
-                f"{total} trees of order up to {n} (limit {MAX_TREES})",
-                f"ask for --order {n - 1} at most",
-            )
+            return n, total
+    return None

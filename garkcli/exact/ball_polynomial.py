@@ -28,9 +28,14 @@ def cauchy_index(f: Sequence[arb], g: Sequence[arb]) -> int | None:
         if rest is None:
             return None
         chain.append(rest)
-    if not chain[-1] or any(p[-1].contains(0) for p in chain):
+    if not chain[-1]:
         return None
-    return _variations(chain, at_plus=False) - _variations(chain, at_plus=True)
+    leading = [p[-1] for p in chain]
+    if any(a.contains(0) for a in leading):
+        return None
+    at_minus = _variations(chain, at_plus=False)
+    at_plus = _variations(chain, at_plus=True)
+    return at_minus - at_plus
 
 
 def derivative(coefficients: Sequence[arb]) -> list[arb]:
@@ -48,15 +53,15 @@ def value(coefficients: Sequence[arb], x: arb) -> arb:
 
 def _negative_remainder(f: Sequence[arb], g: Sequence[arb]) -> list[arb] | None:
     """−(f mod g), with a leading coefficient that is not zero."""
-    rest = list(f)
-    if g[-1].contains(0):
+    *lower, leading = g
+    if leading.contains(0):
         return None
+    rest = list(f)
     while len(rest) >= len(g):
-        factor = rest[-1] / g[-1]
-        shift = len(rest) - len(g)
-        for k, a in enumerate(g[:-1]):
-            rest[shift + k] = rest[shift + k] - factor * a
-        rest.pop()
+        factor = rest.pop() / leading
+        shift = len(rest) - len(lower)
+        for k, a in enumerate(lower, start=shift):
+            rest[k] = rest[k] - factor * a
     while rest and rest[-1].is_zero():
         rest.pop()
     if not rest or rest[-1].contains(0):
@@ -69,6 +74,8 @@ def _variations(chain: Sequence[Sequence[arb]], at_plus: bool) -> int:
     signs = []
     for p in chain:
         is_positive = bool(p[-1] > 0)
-        is_even = len(p) % 2 == 1
-        signs.append(is_positive if at_plus or is_even else not is_positive)
+        has_odd_degree = len(p) % 2 == 0
+        if has_odd_degree and not at_plus:
+            is_positive = not is_positive
+        signs.append(is_positive)
     return sum(1 for a, b in pairwise(signs) if a != b)

@@ -43,14 +43,17 @@ class Multivariate:
         >>> Multivariate.of(2, {(0, 1): fmpq(3), (1, 0): fmpq(0), (1, 1): fmpq(2)}).terms
         (((1, 1), 2), ((0, 1), 3))
         """
-        kept = [(e, a) for e, a in terms.items() if a]
-        kept.sort(key=lambda term: (sum(term[0]), term[0]), reverse=True)
+        kept = [(exponents, a) for exponents, a in terms.items() if a]
+        kept.sort(key=_rank, reverse=True)
         return cls(variables, tuple(kept))
 
     @property
     def degree(self) -> int:
         """The total degree; −1 of the zero polynomial."""
-        return sum(self.terms[0][0]) if self.terms else -1
+        if not self.terms:
+            return -1
+        exponents, _ = self.terms[0]
+        return sum(exponents)
 
     def __add__(self, other: Multivariate) -> Multivariate:
         sums = dict(self.terms)
@@ -59,8 +62,8 @@ class Multivariate:
         return Multivariate.of(self.variables, sums)
 
     def __neg__(self) -> Multivariate:
-        negated = tuple((exponents, -a) for exponents, a in self.terms)
-        return Multivariate(self.variables, negated)
+        negated = [(exponents, -a) for exponents, a in self.terms]
+        return Multivariate(self.variables, tuple(negated))
 
     def __sub__(self, other: Multivariate) -> Multivariate:
         return self + -other
@@ -76,15 +79,17 @@ class Multivariate:
         """The value at an exact point."""
         total: Number = ZERO
         for exponents, a in self.terms:
-            powers = zip(point, exponents, strict=True)
-            total = total + a * prod((x**k for x, k in powers if k), start=ONE)
+            pairs = zip(point, exponents, strict=True)
+            powers = [x**k for x, k in pairs if k]
+            total = total + a * prod(powers, start=ONE)
         return total
 
     def by_last(self) -> list[Multivariate]:
         """The coefficients of 1, x, x², … in the last variable x."""
         powers: list[dict[Exponents, Number]] = []
         for (*others, last), a in self.terms:
-            powers += [{} for _ in range(last + 1 - len(powers))]
+            missing = last + 1 - len(powers)
+            powers += [{} for _ in range(missing)]
             powers[last][tuple(others)] = a
         return [Multivariate.of(self.variables - 1, terms) for terms in powers]
 
@@ -96,6 +101,12 @@ class Multivariate:
             k = sum(exponents)
             coefficients[k] = coefficients[k] + single(direction)
         return Polynomial(coefficients)
+
+
+def _rank(term: tuple[Exponents, Number]) -> tuple[int, Exponents]:
+    """Where a term stands: by its total degree, then by its exponents."""
+    exponents, _ = term
+    return sum(exponents), exponents
 
 
 def lattice(axes: int, degree: int) -> Iterator[Exponents]:
@@ -127,7 +138,8 @@ def from_lines(
     terms: dict[Exponents, Number] = {}
     for k in range(degree + 1):
         values = {point: lines[point][k] for point in lattice(axes, k)}
-        for exponents, a in _interpolated(values, axes, offset, k).items():
+        part = _interpolated(values, axes, offset, k)
+        for exponents, a in part.items():
             first = k - sum(exponents)
             terms[first, *exponents] = a
     return Multivariate.of(axes + 1, terms)
@@ -162,7 +174,8 @@ def _interpolated(
         factors = [enumerate(basis[i].coefficients) for i in point]
         for chosen in product(*factors):
             exponents = tuple(power for power, _ in chosen)
-            a = prod((x for _, x in chosen), start=difference)
+            numbers = [x for _, x in chosen]
+            a = prod(numbers, start=difference)
             terms[exponents] = terms.get(exponents, ZERO) + a
     return terms
 
@@ -172,8 +185,9 @@ def _take_differences(table: dict[Exponents, Number], axis: int, degree: int) ->
     descending = sorted(table, key=lambda point: point[axis], reverse=True)
     for rank in range(1, degree + 1):
         for point in descending:
-            if point[axis] >= rank:
-                before = (*point[:axis], point[axis] - 1, *point[axis + 1 :])
+            i = point[axis]
+            if i >= rank:
+                before = (*point[:axis], i - 1, *point[axis + 1 :])
                 table[point] = table[point] - table[before]
 
 
@@ -182,5 +196,6 @@ def _newton_basis(offset: int, degree: int) -> list[Polynomial]:
     basis = [Polynomial([1])]
     for i in range(degree):
         factor = Polynomial([-(offset + i), 1])
-        basis.append(basis[-1] * factor * fmpq(1, i + 1))
+        product_so_far = basis[-1] * factor
+        basis.append(product_so_far * fmpq(1, i + 1))
     return basis

@@ -37,8 +37,11 @@ def integral_scale(numbers: Iterable[Number]) -> fmpq:
         if not isinstance(a, fmpq):
             return fmpq(1)
         # gcd(a, p/q) = gcd(...)/lcm(q) for numbers in lowest terms
-        denominator, content = denominator.lcm(a.q), content.gcd(a.p)
-    return fmpq(denominator, content) if content else fmpq(1)
+        denominator = denominator.lcm(a.q)
+        content = content.gcd(a.p)
+    if not content:
+        return fmpq(1)
+    return fmpq(denominator, content)
 
 
 def polynomial_text(p: Polynomial, variable: str) -> str:
@@ -47,8 +50,10 @@ def polynomial_text(p: Polynomial, variable: str) -> str:
     >>> polynomial_text(Polynomial([48, -22, 1]), "x")
     'x^2 - 22*x + 48'
     """
-    descending = reversed(list(enumerate(p.coefficients)))
-    return _sum_text((a, power_text(variable, k)) for k, a in descending)
+    terms = []
+    for k, a in enumerate(p.coefficients):
+        terms.append((a, power_text(variable, k)))
+    return _sum_text(terms[::-1])
 
 
 def multivariate_text(p: Multivariate, variables: Sequence[str]) -> str:
@@ -60,7 +65,8 @@ def multivariate_text(p: Multivariate, variables: Sequence[str]) -> str:
     terms = []
     for exponents, a in p.terms:
         named = zip(variables, exponents, strict=True)
-        terms.append((a, "*".join(power_text(x, k) for x, k in named if k)))
+        powers = [power_text(x, k) for x, k in named if k]
+        terms.append((a, "*".join(powers)))
     return _sum_text(terms)
 
 
@@ -128,7 +134,8 @@ def root_text(root: RealRoot) -> str | None:
 
 def root_decimal(root: RealRoot, digits: int) -> str:
     """A root rounded to significant digits, zeros at the end left out."""
-    return ball_decimal(root.ball(int(digits * BITS_A_DIGIT) + 40), digits)
+    bits = int(digits * BITS_A_DIGIT) + 40
+    return ball_decimal(root.ball(bits), digits)
 
 
 def ball_decimal(ball: arb, digits: int) -> str:
