@@ -44,6 +44,7 @@ COMMANDS = {
     "converge": "the convergence test on a problem",
     "energy": "energy and other invariants over a long time: do they drift?",
     "design": "for which values of its parameters a method has an order",
+    "sweep": "many methods side by side: which are best",
     "certificate": "what proves the orders, to be checked without gark",
     "list": "families, transfer rules, problems",
     "schema": "the JSON Schemas of method files, problem files and reports",

@@ -24,6 +24,7 @@ def _reports(
 
 @click.command("schema", context_settings=CONTEXT)
 @click.option("--problem", is_flag=True, help="Of problem files, instead.")
+@click.option("--sweep", is_flag=True, help="Of spec files of gark sweep, instead.")
 @click.option(
     "--report",
     is_flag=False,
@@ -33,17 +34,19 @@ def _reports(
     help="Of what a command writes with --format json, instead; gark check where none is named.",
 )
 @common(["json"])
-def command(problem: bool, report: str | None, output: Output) -> int:
+def command(problem: bool, sweep: bool, report: str | None, output: Output) -> int:
     """The JSON Schema (draft-07) of method files, for editors; or of problem files, or of reports.
 
     With the YAML extension of an editor, name it in the first line of a method file:
     # yaml-language-server: $schema=gark.schema.json
     """
-    if problem and report is not None:
+    asked = {"--problem": problem, "--sweep": sweep, "--report": report is not None}
+    named = [name for name, is_asked in asked.items() if is_asked]
+    if len(named) > 1:
         raise UsageProblem(
-            "--problem and --report are two schemas", "ask for one at a time"
+            f"{' and '.join(named)} are {len(named)} schemas", "ask for one at a time"
         )
-    schema = _schema(problem, report)
+    schema = _sweep_schema() if sweep else _schema(problem, report)
     output.write(json.dumps(schema, indent=2, ensure_ascii=False) + "\n")
     return 0
 
@@ -60,3 +63,10 @@ def _schema(of_problems: bool, report: str | None) -> dict[str, Any]:
     from garkcli.methodfile.schema import method_file_schema
 
     return method_file_schema()
+
+
+def _sweep_schema() -> dict[str, Any]:
+    from garkcli.methodfile.sweep_schema import sweep_file_schema
+    from garkcli.sweep.columns import columns, property_kind
+
+    return sweep_file_schema({name: property_kind(name) for name in columns()})

@@ -22,12 +22,14 @@ REPORTS = {
     "stability": "garkcli.report.stability_json:stability_report_schema",
     "design": "garkcli.report.design_data:design_report_schema",
     "design-search": "garkcli.report.search_data:search_report_schema",
+    "design-stability": "garkcli.report.stable_values:stable_values_schema",
     "modified": "garkcli.report.modified_data:modified_report_schema",
     "modified-energy": "garkcli.report.modified_energy:modified_energy_schema",
     "converge": "garkcli.report.convergence_json:converge_report_schema",
     "energy": "garkcli.report.energy_json:energy_report_schema",
     "certificate": "garkcli.report.proof_json:certificate_schema",
     "list": "garkcli.report.listing:list_report_schema",
+    "sweep": "garkcli.report.sweep:sweep_report_schema",
 }
 """Where the function is that makes the schema of a command's report."""
 

@@ -11,11 +11,12 @@ from garkcli.exact.cells import Interval
 from garkcli.exact.polynomial import Polynomial
 from garkcli.exact.polynomial_text import polynomial_text, root_decimal, root_text
 from garkcli.exact.roots import RealRoot
-from garkcli.page.exactly import root_data
+from garkcli.page.exactly import ALGEBRAIC, root_data
 from garkcli.page.json_text import to_json
 from garkcli.page.plain import printable
+from garkcli.page.record import FLAG, TEXT, Schema, array, nullable, one_of, published
 
-SCHEMA = "gark/design/1"
+SCHEMA = "gark/design-stability/1"
 _STABLE: dict[Wanted, str] = {
     "p-stable": "P-stable",
     "a-stable": "A-stable",
@@ -123,4 +124,35 @@ def _interval_data(interval: Interval, digits: int) -> dict[str, Any]:
         "to": None if end is None else root_data(end, digits),
         "from_included": interval.has_start,
         "to_included": interval.has_end,
+    }
+
+
+def stable_values_schema() -> Schema:
+    """The JSON Schema of these reports."""
+    point = _object({"point": ALGEBRAIC})
+    end = nullable(ALGEBRAIC)
+    ends = {"from": end, "to": end, "from_included": FLAG, "to_included": FLAG}
+    document = _object(
+        {
+            "schema": {"const": SCHEMA},
+            "file": TEXT,
+            "name": TEXT,
+            "of": {"enum": ["method", "conjugate", "pair"]},
+            "unknowns": array(TEXT),
+            "wanted": {"enum": list(_STABLE)},
+            "set": array(one_of(point, _object(ends))),
+            "undecided": array(ALGEBRAIC),
+        }
+    )
+    return published(
+        "report of gark design with --a-stable and the like: stability", document
+    )
+
+
+def _object(fields: dict[str, Schema]) -> Schema:
+    return {
+        "type": "object",
+        "required": list(fields),
+        "properties": fields,
+        "additionalProperties": False,
     }

@@ -3,6 +3,7 @@
 import csv
 import io
 import json
+import os
 import re
 import sys
 import xml.etree.ElementTree as ET
@@ -20,6 +21,7 @@ from tests.cli.harness import ROOT, gark
 
 COLLOCATION = "methods/collocation.gark.yaml"
 VERLET = "methods/stoermer-verlet.gark.yaml"
+SWEEP = "tests/examples/sweeps/small.yaml"
 FREE = "tests/examples/families/sdirk.gark.yaml"
 ARK = "methods/ark-ars222.gark.yaml"
 FAILING = "tests/examples/failing/collocation-misprinted.gark.yaml"
@@ -59,6 +61,7 @@ RUNS = [
     (("modified", VERLET), ("text", "json", "latex")),
     (("certificate", VERLET), ("json",)),
     (("design", FREE), ("text", "json")),
+    (("sweep", SWEEP, "--rows", os.devnull), ("text", "json", "jsonl", "csv")),
     (("schema",), ("json",)),
     (("schema", "--report"), ("json",)),
 ]

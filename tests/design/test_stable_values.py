@@ -193,7 +193,7 @@ def test_as_a_command(tmp_path: Path) -> None:
     assert run.code == 0
     assert "    1/2 ≤ t\n" in run.out
     data = json.loads(gark("design", str(path), "--l-stable", "--format", "json").out)
-    assert (data["schema"], data["wanted"]) == ("gark/design/1", "l-stable")
+    assert (data["schema"], data["wanted"]) == ("gark/design-stability/1", "l-stable")
     assert data["set"] == [{"point": "1"}]
     path.write_text(
         "parameters: {t: free}\nA: [[t/9]]\nb: [1 + t*t]\n", encoding="utf-8"

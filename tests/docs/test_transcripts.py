@@ -17,6 +17,7 @@ PAGES = [
     ROOT / "docs" / "energy.md",
     ROOT / "docs" / "certificate.md",
     ROOT / "docs" / "design.md",
+    ROOT / "docs" / "sweep.md",
     ROOT / "docs" / "search.md",
 ]
 

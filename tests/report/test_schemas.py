@@ -5,6 +5,7 @@ problems, and the schema refuses what is not such a report.
 from __future__ import annotations
 
 import json
+import os
 import re
 from copy import deepcopy
 from functools import cache
@@ -80,6 +81,12 @@ RUNS: dict[str, list[tuple[str, ...]]] = {
     "modified-energy": [("energy", COLLOCATION, "--modified", "--t-end", "1")],
     "design-search": [("design", FAMILY, "--order", "3", "--search", "4")],
     "design": [(FAMILY,), (FAMILY, "--order", "4"), (FAMILY, "--pair")],
+    "design-stability": [
+        ("design", FAMILY, option, *of)
+        for option in ("--a-stable", "--l-stable", "--p-stable")
+        for of in ((), ("--pair",))
+    ],
+    "sweep": [("tests/examples/sweeps/small.yaml", "--rows", os.devnull)],
     "certificate": [(file,) for file in FILES],
     "list": [()],
     "energy": [
@@ -190,7 +197,7 @@ def test_what_is_wrong_is_refused(command: str) -> None:
     report = max(reports(command), key=lambda x: len(objects(x)))
     for path in objects(report):
         copy, here = changed(report, path)
-        if {"invariant_errors", "values"} & {*path}:
+        if {"invariant_errors", "values", "parameters"} & {*path}:
             continue  # the keys are names of the problem or of parameters
         here["mood"] = "good"
         assert bool(complaints(command, copy)) != ((command, path) in OPEN), path

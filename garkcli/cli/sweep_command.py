@@ -1,0 +1,106 @@
+"""``gark sweep``."""
+
+from __future__ import annotations
+
+from pathlib import Path
+from typing import TYPE_CHECKING
+
+import click
+
+from garkcli.cli.options import CONTEXT, PATH, Output, common
+
+if TYPE_CHECKING:
+    from garkcli.report.sweep import SweepReport
+    from garkcli.sweep.run import Progress
+
+
+@click.command("sweep", context_settings=CONTEXT)
+@click.argument("spec", type=PATH, metavar="SPEC")
+@click.option(
+    "--rows",
+    type=PATH,
+    metavar="FILE",
+    help="Where the rows go, a line of JSON each; by default SPEC with .jsonl.",
+)
+@click.option("--resume", is_flag=True, help="Do what is missing in the rows.")
+@click.option(
+    "--jobs",
+    type=click.IntRange(1, 60),
+    default=1,
+    show_default=True,
+    metavar="N",
+    help="Processes side by side.",
+)
+@click.option(
+    "--scheduler",
+    metavar="ADDRESS",
+    default="",
+    help="Work on the Dask cluster there; needs garkcli[cluster].",
+)
+@click.option(
+    "--top",
+    type=click.IntRange(1),
+    default=10,
+    show_default=True,
+    metavar="N",
+    help="How many of the best are shown; CSV and JSON lines have all.",
+)
+@click.option(
+    "--parquet",
+    type=PATH,
+    metavar="FILE",
+    help="Write the methods that are kept as Parquet too; needs garkcli[parquet].",
+)
+@common(["text", "json", "jsonl", "csv"])
+def command(
+    spec: str,
+    rows: str | None,
+    resume: bool,
+    jobs: int,
+    scheduler: str,
+    top: int,
+    parquet: str | None,
+    output: Output,
+) -> int:
+    """Many methods side by side: families, stages, transfer rules, values of parameters.
+
+    SPEC says which, which criteria are told of each, which methods are kept, and what is better;
+    see docs/sweep.md. Each criterion is decided exactly, as gark check and gark stability do. The
+    rows are written one by one: a sweep that is ended at any moment goes on with --resume.
+    """
+    from garkcli.report.sweep import SweepReport, write_parquet
+    from garkcli.sweep.load import load_plan
+    from garkcli.sweep.run import sweep
+    from garkcli.sweep.store import RowStore
+
+    plan = load_plan(spec)
+    path = rows if rows is not None else str(Path(spec).with_suffix(".jsonl"))
+    with RowStore(path, resume) as store:
+        for progress in sweep(plan, store, jobs, scheduler):
+            last = progress
+        report = SweepReport(spec, plan, store.rows, top)
+    _tell(last, path, output)
+    output.write(_rendered(report, output))
+    if parquet is not None:
+        write_parquet(report, parquet)
+    return 0
+
+
+def _tell(progress: Progress, path: str, output: Output) -> None:
+    before = f", {progress.before} were there" if progress.before else ""
+    output.note(f"{progress.done} rows added to {path}{before}")
+    if output.verbosity > 0:
+        output.note(f"processor time of the methods: {progress.seconds:.2f} s")
+
+
+def _rendered(report: SweepReport, output: Output) -> str:
+    from garkcli.report.sweep import render_csv, render_json, render_lines, render_text
+
+    match output.format:
+        case "json":
+            return render_json(report)
+        case "jsonl":
+            return render_lines(report)
+        case "csv":
+            return render_csv(report)
+    return render_text(report, output.width)

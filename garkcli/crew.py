@@ -1,0 +1,193 @@
+"""Processes that work side by side, whatever becomes of one of them."""
+
+from __future__ import annotations
+
+from collections import deque
+from collections.abc import Callable, Iterator, Sequence
+from contextlib import contextmanager, suppress
+from typing import TYPE_CHECKING, Generic, TypeVar
+
+if TYPE_CHECKING:  # slow to import, and of no use to work that is not shared
+    from multiprocessing.connection import Connection
+    from multiprocessing.context import BaseContext
+    from multiprocessing.process import BaseProcess
+
+MOST_WORKERS = 60
+"""Windows waits for 63 things at a time, a few of which are its own."""
+BATCH = 8
+"""Items that a worker has at hand: it should not wait while another's outcome is read."""
+Item = TypeVar("Item")
+Outcome = TypeVar("Outcome")
+
+
+class _Worker(Generic[Item, Outcome]):
+    """A process that does the items it is sent, one after the other."""
+
+    def __init__(self, context: BaseContext, work: Callable[[Item], Outcome]) -> None:
+        self.items: deque[int] = deque()
+        self.connection, other = context.Pipe()
+        self.process: BaseProcess = context.Process(  # type: ignore[attr-defined]
+            target=_serve, args=(other, work), daemon=True
+        )
+        # a worker that is interrupted before it is ready would say so
+        with _without_interrupts():
+            self.process.start()
+        other.close()
+
+    def send(self, number: int, item: Item) -> None:
+        """One more item; a worker that has died is found out when it does not answer."""
+        self.items.append(number)
+        with suppress(OSError):
+            self.connection.send(item)
+
+    def end(self) -> None:
+        """End the process, whatever it is at."""
+        self.connection.close()
+        self.process.kill()
+        self.process.join()
+
+
+class Crew(Generic[Item, Outcome]):
+    """Workers, and what is left for them.
+
+    Args:
+        work: from an item to its outcome; both travel between processes.
+        items: the work there is.
+        size: how many workers.
+        crashed: the outcome of an item that ended its worker, and how.
+    """
+
+    def __init__(
+        self,
+        work: Callable[[Item], Outcome],
+        items: Sequence[Item],
+        size: int,
+        crashed: Callable[[Item, str], Outcome],
+    ) -> None:
+        import multiprocessing
+
+        from garkcli.exact.pickling import register
+
+        register()
+        # fork keeps the modules that are loaded already, where the system has it
+        method = "fork" if "fork" in multiprocessing.get_all_start_methods() else None
+        self.context: BaseContext = multiprocessing.get_context(method)
+        self.work = work
+        self.items = items
+        self.crashed = crashed
+        self.waiting = deque(range(len(items)))
+        self.size = size
+        self.workers: list[_Worker[Item, Outcome]] = []
+
+    def __enter__(self) -> Crew[Item, Outcome]:
+        return self
+
+    def __exit__(self, *_: object) -> None:
+        for worker in self.workers:
+            worker.end()
+
+    def outcomes(self) -> Iterator[Outcome]:
+        """Every outcome, in the order of the items."""
+        ready: dict[int, Outcome] = {}
+        following = 0
+        for number, outcome in self.as_they_come():
+            ready[number] = outcome
+            while following in ready:
+                yield ready.pop(following)
+                following += 1
+
+    def as_they_come(self) -> Iterator[tuple[int, Outcome]]:
+        """Every outcome with the number of its item, as soon as it is there."""
+        from multiprocessing.connection import Connection, wait
+
+        self._hire()
+        while any(worker.items for worker in self.workers):
+            by_connection = {worker.connection: worker for worker in self.workers}
+            for found in wait(list(by_connection)):
+                assert isinstance(found, Connection)
+                worker = by_connection[found]
+                number = worker.items[0] if worker.items else -1
+                try:
+                    outcome = found.recv()
+                except (EOFError, OSError):
+                    yield from self._bury(worker)
+                    continue
+                worker.items.popleft()
+                self._supply(worker)
+                yield number, outcome
+
+    def _hire(self) -> None:
+        """As many workers as there is work for."""
+        while len(self.workers) < self.size and self.waiting:
+            worker: _Worker[Item, Outcome] = _Worker(self.context, self.work)
+            self.workers.append(worker)
+            self._supply(worker)
+
+    def _supply(self, worker: _Worker[Item, Outcome]) -> None:
+        """Items ahead of what a worker is at, fewer when there are few for all."""
+        most = max(1, min(BATCH, len(self.waiting) // self.size))
+        while self.waiting and len(worker.items) < most:
+            number = self.waiting.popleft()
+            worker.send(number, self.items[number])
+
+    def _bury(self, worker: _Worker[Item, Outcome]) -> Iterator[tuple[int, Outcome]]:
+        """A worker that died: the item it was at is to blame, the others go back."""
+        worker.end()
+        self.workers.remove(worker)
+        items = list(worker.items)
+        self.waiting.extendleft(reversed(items[1:]))
+        if items:
+            why = _cause(worker.process.exitcode)
+            yield items[0], self.crashed(self.items[items[0]], why)
+        self._hire()
+
+
+def _cause(code: int | None) -> str:
+    """What ended a process.
+
+    >>> _cause(-9), _cause(3)
+    ('by SIGKILL, as the system does where memory is short', 'with exit code 3')
+    """
+    import signal
+
+    if code is None or code >= 0:
+        return f"with exit code {code}"
+    name = f"signal {-code}"
+    with suppress(ValueError):
+        name = signal.Signals(-code).name
+    more = ", as the system does where memory is short" if name == "SIGKILL" else ""
+    return f"by {name}{more}"
+
+
+def _serve(connection: Connection, work: Callable[[Item], Outcome]) -> None:
+    """What a worker does; it ends when nobody sends any more.
+
+    An interrupt is for the process that has the terminal, which ends the workers.
+    """
+    import signal
+
+    from garkcli.exact.pickling import register
+
+    signal.signal(signal.SIGINT, signal.SIG_IGN)
+    for name in ("SIGTERM", "SIGHUP"):
+        if hasattr(signal, name):
+            signal.signal(getattr(signal, name), signal.SIG_DFL)
+    register()
+    with suppress(EOFError, OSError):
+        while True:
+            connection.send(work(connection.recv()))
+
+
+@contextmanager
+def _without_interrupts() -> Iterator[None]:
+    """Hold interrupts back, where the system can; they arrive at the end."""
+    import signal
+
+    if not hasattr(signal, "pthread_sigmask"):
+        yield
+        return
+    signal.pthread_sigmask(signal.SIG_BLOCK, {signal.SIGINT})
+    try:
+        yield
+    finally:
+        signal.pthread_sigmask(signal.SIG_UNBLOCK, {signal.SIGINT})

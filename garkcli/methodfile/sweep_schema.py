@@ -1,0 +1,127 @@
+"""The JSON Schema (draft-07) of spec files of sweeps, for editors; made from the same lists that
+the loader checks by.
+"""
+
+from __future__ import annotations
+
+from collections.abc import Iterable, Mapping
+
+from garkcli.families.registry import FAMILIES
+from garkcli.methodfile.schema import Schema
+from garkcli.methodfile.sweep_file import KEYS
+from garkcli.methodfile.transfers import ALL_RULES
+from garkcli.transfer import RULES
+
+_RATIONAL: Schema = {
+    "description": "A rational number: 2, 0.1, 1/3.",
+    "type": ["number", "string"],
+    "pattern": r"^[-+*/^().,\sA-Za-z0-9_]+$",
+}
+
+
+def sweep_file_schema(kinds: Mapping[str, str]) -> Schema:
+    """The schema as plain data.
+
+    Args:
+        kinds: the columns there are, and whether each is a ``truth``, ``count`` or ``number``.
+    """
+    columns = _one_or_more({"enum": list(kinds)})
+    properties = {
+        "name": {"type": "string", "description": "What people call the sweep."},
+        "methods": {
+            "description": "One entry a colour; families times stages of each.",
+            "type": "array",
+            "minItems": 1,
+            "items": _method(),
+        },
+        "transfer": {
+            "description": "Rules for the blocks between the methods, each tried.",
+            **_one_or_more(_rule()),
+        },
+        "files": {
+            "description": "Method files, beside the spec file.",
+            **_one_or_more({"type": "string"}),
+        },
+        "parameters": {
+            "description": "Values of parameters.",
+            "type": "object",
+            "additionalProperties": _grid(),
+        },
+        "columns": {"description": "What is told of each method.", **columns},
+        "where": _conditions(kinds),
+        "best": {"description": "Columns to sort by, best first.", **columns},
+        "pareto": {"description": "Columns of the Pareto front.", **columns},
+    }
+    return {
+        "$schema": "http://json-schema.org/draft-07/schema#",
+        "title": "gark sweep file",
+        "description": "Which methods are swept, and what is told of each.",
+        "type": "object",
+        "additionalProperties": False,
+        "required": ["columns"],
+        "anyOf": [{"required": ["methods"]}, {"required": ["files"]}],
+        "properties": {key: properties[key] for key in KEYS},
+    }
+
+
+def _one_or_more(item: Schema) -> Schema:
+    return {"anyOf": [item, {"type": "array", "items": item, "minItems": 1}]}
+
+
+def _words(words: Iterable[str]) -> Schema:
+    return {"enum": list(words)}
+
+
+def _method() -> Schema:
+    span = {"type": "string", "pattern": r"^[0-9]{1,3}\.\.[0-9]{1,3}$"}
+    stages = {"anyOf": [{"type": "integer", "minimum": 1}, span]}
+    return {
+        "type": "object",
+        "additionalProperties": False,
+        "required": ["family"],
+        "properties": {
+            "family": _one_or_more(_words(FAMILIES)),
+            "stages": _one_or_more(stages),
+        },
+    }
+
+
+def _rule() -> Schema:
+    weights = {
+        "type": "object",
+        "minProperties": 1,
+        "propertyNames": _words(RULES),
+        "additionalProperties": _RATIONAL,
+    }
+    return {"anyOf": [_words(ALL_RULES), weights]}
+
+
+def _grid() -> Schema:
+    steps = {
+        "type": "object",
+        "additionalProperties": False,
+        "required": ["from", "to", "steps"],
+        "properties": {
+            "from": _RATIONAL,
+            "to": _RATIONAL,
+            "steps": {"type": "integer", "minimum": 1},
+        },
+    }
+    return {"anyOf": [steps, *_one_or_more(_RATIONAL)["anyOf"]]}
+
+
+def _conditions(kinds: Mapping[str, str]) -> Schema:
+    bound: Schema = {
+        "type": ["number", "string"],
+        "pattern": r"^(>=|<=|>|<|=)?\s*[-+0-9./eE]+$",
+    }
+    truth: Schema = {"type": "boolean"}
+    properties = {
+        name: truth if kind == "truth" else bound for name, kind in kinds.items()
+    }
+    return {
+        "description": "What a method has to have to be kept.",
+        "type": "object",
+        "additionalProperties": False,
+        "properties": properties,
+    }

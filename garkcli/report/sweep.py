@@ -1,0 +1,234 @@
+"""``gark sweep`` as text, JSON, JSON lines, CSV and Parquet."""
+
+from __future__ import annotations
+
+import csv
+import io
+import json
+from collections.abc import Iterator, Mapping, Sequence
+from dataclasses import dataclass
+from textwrap import wrap
+from typing import Any
+
+from garkcli.errors import UsageProblem, counted
+from garkcli.page.json_text import to_json
+from garkcli.page.plain import printable
+from garkcli.page.record import COUNT, FLAG, TEXT, Schema, array, published
+from garkcli.sweep.columns import Value, columns
+from garkcli.sweep.plan import Plan
+from garkcli.sweep.ranking import best_first, kept, pareto_front
+from garkcli.sweep.row import Row
+
+SCHEMA = "gark/sweep/1"
+
+
+@dataclass(frozen=True)
+class SweepReport:
+    """What is told of a sweep.
+
+    Attributes:
+        source: the spec file.
+        plan: the sweep.
+        rows: all rows.
+        top: how many of the best are shown in texts.
+    """
+
+    source: str
+    plan: Plan
+    rows: Mapping[str, Row]
+    top: int
+
+    @property
+    def done(self) -> list[Row]:
+        """The rows of this sweep, in its order."""
+        keys = (point.key for point in self.plan.points())
+        return [self.rows[key] for key in keys if key in self.rows]
+
+    @property
+    def best(self) -> list[Row]:
+        """The kept rows, best first."""
+        found = kept(self.done)
+        return best_first(found, self.plan.best) if self.plan.best else found
+
+    @property
+    def front(self) -> list[Row]:
+        """The Pareto front."""
+        return pareto_front(kept(self.done), self.plan.pareto)
+
+    @property
+    def failed(self) -> list[Row]:
+        """The rows of methods that could not be made."""
+        return [row for row in self.done if "failure" in row]
+
+
+def render_text(report: SweepReport, width: int) -> str:
+    """The best methods and the front, for people."""
+    plan, best, failed = report.plan, report.best, report.failed
+    found = f"{counted(len(plan), 'method')}, {len(best)} kept"
+    lines = [f"{printable(plan.name)}: {found}"]
+    if failed:
+        reason = printable(str(failed[0]["failure"]))
+        text = f"{len(failed)} cannot be made, the first: {reason}"
+        lines += wrap(text, width, initial_indent="  ", subsequent_indent="    ")
+    if best:
+        by = f", best by {', '.join(plan.best)}" if plan.best else ""
+        shown = best[: report.top]
+        of = f"{len(shown)} of them" if len(shown) < len(best) else "all of them"
+        lines += ["", f"  {of}{by}"]
+        lines += _entries(plan, shown, width)
+    if plan.pareto:
+        front = report.front
+        lines += ["", f"  Pareto front of {', '.join(plan.pareto)}: {len(front)}"]
+        lines += _entries(plan, front[: report.top], width)
+    return "\n".join(lines) + "\n"
+
+
+def _entries(plan: Plan, rows: Sequence[Row], width: int) -> Iterator[str]:
+    for number, row in enumerate(rows, start=1):
+        head = f"{number:>5}  "
+        key = printable(str(row["key"]))
+        yield from wrap(key, width, initial_indent=head, subsequent_indent=" " * 9)
+        values = [f"{name} {_shown(row, name)}" for name in plan.criteria.columns]
+        indent = " " * 9
+        yield from wrap(
+            ", ".join(values), width, initial_indent=indent, subsequent_indent=indent
+        )
+
+
+def _shown(row: Row, name: str) -> str:
+    value = row.get(name)
+    if isinstance(value, bool):
+        return "yes" if value else "no"
+    if isinstance(value, float):
+        return f"{value:.6g}"
+    return "-" if value is None else str(value)
+
+
+def render_json(report: SweepReport) -> str:
+    """The best methods and the front, for programs."""
+    plan = report.plan
+    data = {
+        "schema": SCHEMA,
+        "file": report.source,
+        "name": plan.name,
+        "methods": len(plan),
+        "kept": len(report.best),
+        "failed": len(report.failed),
+        "columns": list(plan.criteria.columns),
+        "best": report.best[: report.top],
+        "pareto": report.front if plan.pareto else [],
+    }
+    return to_json(data) + "\n"
+
+
+def render_lines(report: SweepReport) -> str:
+    """The kept rows as JSON lines, best first."""
+    return "".join(f"{json.dumps(row, ensure_ascii=False)}\n" for row in report.best)
+
+
+def render_csv(report: SweepReport) -> str:
+    """The kept rows, best first."""
+    out = io.StringIO()
+    names = _flat_names(report.plan)
+    writer = csv.DictWriter(out, names, lineterminator="\n")
+    writer.writeheader()
+    for row in report.best:
+        flat = _flat(report.plan, row)
+        writer.writerow({name: _cell(flat[name]) for name in names})
+    return out.getvalue()
+
+
+def _flat_names(plan: Plan) -> list[str]:
+    return ["key", "method", *plan.grids, *plan.criteria.columns]
+
+
+def _flat(plan: Plan, row: Row) -> dict[str, Value]:
+    """A row without nesting."""
+    settings = row["parameters"]
+    assert isinstance(settings, dict)
+    flat: dict[str, Value] = {"key": str(row["key"]), "method": str(row["method"])}
+    for name in plan.grids:
+        flat[name] = settings.get(name)
+    for name in plan.criteria.columns:
+        value = row.get(name)
+        assert not isinstance(value, dict)
+        flat[name] = value
+    return flat
+
+
+def _cell(value: Value) -> object:
+    if isinstance(value, bool):
+        return "true" if value else "false"
+    return "" if value is None else value
+
+
+def write_parquet(report: SweepReport, path: str) -> None:
+    """The kept rows, best first, as a Parquet file; infinite numbers are those of floats.
+
+    Raises:
+        UsageProblem: pyarrow is not installed.
+    """
+    try:
+        import pyarrow as pa
+        import pyarrow.parquet as pq
+    except ImportError:
+        raise UsageProblem(
+            "--parquet needs pyarrow", "install garkcli[parquet], or take --format csv"
+        ) from None
+    from garkcli.page.writing import write_whole
+
+    rows = [_flat(report.plan, row) for row in report.best]
+    table: dict[str, Any] = {}
+    for name in _flat_names(report.plan):
+        table[name] = _without_text(name, [row[name] for row in rows], report.plan)
+    sink = io.BytesIO()
+    pq.write_table(pa.table(table), sink)
+    write_whole(path, [sink.getvalue()])
+
+
+def _without_text(name: str, values: list[Value], plan: Plan) -> list[Value]:
+    """A column of criteria with ∞ as a float, and then all of it in floats."""
+    if name not in plan.criteria.columns or "infinity" not in values:
+        return values
+    return [None if value is None else float(value) for value in values]
+
+
+_VALUE: Schema = {"type": ["boolean", "number", "string", "null"]}
+
+
+def sweep_report_schema() -> Schema:
+    """The JSON Schema of what ``gark sweep --format json`` writes."""
+    fields: dict[str, Schema] = {
+        "schema": {"const": SCHEMA},
+        "file": TEXT,
+        "name": TEXT,
+        "methods": COUNT,
+        "kept": COUNT,
+        "failed": COUNT,
+        "columns": array(TEXT),
+        "best": array(_row_schema()),
+        "pareto": array(_row_schema()),
+    }
+    document = {
+        "type": "object",
+        "required": list(fields),
+        "properties": fields,
+        "additionalProperties": False,
+    }
+    return published("report of gark sweep", document)
+
+
+def _row_schema() -> Schema:
+    fields: dict[str, Schema] = {
+        "key": TEXT,
+        "spec": TEXT,
+        "kept": FLAG,
+        "method": TEXT,
+        "parameters": {"type": "object", "additionalProperties": TEXT},
+    }
+    return {
+        "type": "object",
+        "required": list(fields),
+        "properties": {**fields, **dict.fromkeys(columns(), _VALUE)},
+        "additionalProperties": False,
+    }

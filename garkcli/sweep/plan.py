@@ -1,0 +1,165 @@
+"""Which methods a sweep has: templates times the values of their parameters, each with a key."""
+
+from __future__ import annotations
+
+import hashlib
+import json
+import math
+from collections.abc import Iterator, Mapping
+from dataclasses import dataclass, field
+from functools import cached_property
+from typing import Literal, TypeAlias
+
+from garkcli.sweep.columns import INFINITY, Value, columns
+
+Relation: TypeAlias = Literal["=", ">=", "<=", ">", "<"]
+
+
+@dataclass(frozen=True)
+class Condition:
+    """What a method has to have to be kept.
+
+    Attributes:
+        column: which criterion.
+        relation: of its value to the bound.
+        bound: the other side.
+    """
+
+    column: str
+    relation: Relation
+    bound: bool | float
+
+    def holds(self, value: Value) -> bool:
+        """Whether a value fulfils it; what has no value does not."""
+        if value is None:
+            return False
+        left, right = number(value), float(self.bound)
+        match self.relation:
+            case "=":
+                return left == right
+            case ">=":
+                return left >= right
+            case "<=":
+                return left <= right
+            case ">":
+                return left > right
+            case "<":
+                return left < right
+
+
+def number(value: Value) -> float:
+    """A value as it is compared."""
+    if value == INFINITY:
+        return math.inf
+    assert value is not None
+    return float(value)
+
+
+@dataclass(frozen=True)
+class Template:
+    """A method file, with the parameters that a sweep gives values to.
+
+    Attributes:
+        name: what it is called in rows.
+        text: of the file.
+        parameters: their names.
+    """
+
+    name: str
+    text: str
+    parameters: tuple[str, ...]
+
+
+@dataclass(frozen=True)
+class Point:
+    """One method.
+
+    Attributes:
+        key: no other method of the sweep has it.
+        template: its file.
+        settings: the values of the parameters, as text.
+    """
+
+    key: str
+    template: Template
+    settings: Mapping[str, str]
+
+
+@dataclass(frozen=True)
+class Criteria:
+    """What is told of each method.
+
+    Attributes:
+        columns: the criteria, in the order of the rows.
+        conditions: what has to hold for a method to be kept, the first to fail ends its row.
+    """
+
+    columns: tuple[str, ...]
+    conditions: tuple[Condition, ...]
+
+    @cached_property
+    def _as_text(self) -> str:
+        conditions = [(x.column, x.relation, x.bound) for x in self.conditions]
+        return json.dumps([self.columns, conditions])
+
+    def fingerprint(self, template: Template) -> str:
+        """What rows of a template have that were made by the same criteria of the same file."""
+        text = f"{self._as_text}\n{template.text}"
+        return hashlib.sha256(text.encode()).hexdigest()[:12]
+
+
+@dataclass(frozen=True)
+class Plan:
+    """A sweep.
+
+    Attributes:
+        name: of the sweep.
+        templates: the files.
+        grids: the values of each parameter.
+        criteria: what is told.
+        best: columns by which methods are sorted, the first one first.
+        pareto: columns of the Pareto front.
+    """
+
+    name: str
+    templates: tuple[Template, ...]
+    grids: Mapping[str, tuple[str, ...]]
+    criteria: Criteria
+    best: tuple[str, ...] = ()
+    pareto: tuple[str, ...] = ()
+    _starts: list[int] = field(default_factory=list, init=False, compare=False)
+
+    def __post_init__(self) -> None:
+        total = 0
+        for template in self.templates:
+            self._starts.append(total)
+            total += self._size(template)
+        self._starts.append(total)
+
+    def __len__(self) -> int:
+        """How many methods there are."""
+        return self._starts[-1]
+
+    def _size(self, template: Template) -> int:
+        return math.prod(len(self.grids[name]) for name in template.parameters)
+
+    def points(self) -> Iterator[Point]:
+        """Every method, those of a template one after the other."""
+        for template in self.templates:
+            for index in range(self._size(template)):
+                yield self._point(template, index)
+
+    def _point(self, template: Template, index: int) -> Point:
+        settings = {}
+        for name in reversed(template.parameters):
+            values = self.grids[name]
+            index, place = divmod(index, len(values))
+            settings[name] = values[place]
+        in_order = {name: settings[name] for name in template.parameters}
+        values_text = ", ".join(f"{name}={x}" for name, x in in_order.items())
+        key = f"{template.name}; {values_text}" if values_text else template.name
+        return Point(key, template, in_order)
+
+    def more_is_better(self, name: str) -> bool:
+        """Whether larger values of a column come first."""
+        return columns()[name].more_is_better

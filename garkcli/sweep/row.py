@@ -1,0 +1,96 @@
+"""The row of one method: its key, its parameters, and its columns."""
+
+from __future__ import annotations
+
+from collections.abc import Mapping
+from functools import lru_cache
+from typing import TypeAlias
+
+from flint import fmpq
+
+from garkcli.design.member import member
+from garkcli.errors import GarkError, MethodError, MethodFileError
+from garkcli.exact.field import Number
+from garkcli.methodfile.family import FamilyFile, loads_family
+from garkcli.methodfile.load import loads
+from garkcli.sweep.columns import Value, columns
+from garkcli.sweep.judged import Judged
+from garkcli.sweep.plan import Criteria, Point
+from garkcli.tableau.tableau import Tableau
+
+Row: TypeAlias = "dict[str, Value | dict[str, str]]"
+"""``key``, ``spec``, ``kept``, ``method``, ``parameters``, then columns; ``failure`` where there is
+no such method.
+"""
+
+
+def row_of(criteria: Criteria, point: Point) -> Row:
+    """What is true of a method, as far as its row goes.
+
+    Conditions are decided first, in their order; the first that fails ends the row.
+    """
+    row = _start(criteria, point)
+    try:
+        judged = Judged(_tableau(point))
+        for condition in criteria.conditions:
+            value = columns()[condition.column].value(judged)
+            row[condition.column] = value
+            if not condition.holds(value):
+                return row
+        for name in criteria.columns:
+            if name not in row:
+                row[name] = columns()[name].value(judged)
+    except (GarkError, ZeroDivisionError) as error:
+        row["failure"] = _message(error)
+        return row
+    return {**row, "kept": True}
+
+
+def crashed_row(criteria: Criteria, point: Point, why: str) -> Row:
+    """The row of a method that ended the process it was judged in."""
+    return {**_start(criteria, point), "failure": f"its process was ended {why}"}
+
+
+def _start(criteria: Criteria, point: Point) -> Row:
+    return {
+        "key": point.key,
+        "spec": criteria.fingerprint(point.template),
+        "kept": False,
+        "method": point.template.name,
+        "parameters": dict(point.settings),
+    }
+
+
+def _message(error: Exception) -> str:
+    if isinstance(error, MethodFileError) and error.faults:
+        return error.faults[0].message
+    if isinstance(error, GarkError):
+        return error.message
+    return "a denominator is zero"
+
+
+def _tableau(point: Point) -> Tableau:
+    """The method: as a member of its family where that is read already, else from its file."""
+    family = _family(point.template.text, point.template.parameters)
+    if family is not None:
+        values: Mapping[str, Number] = {
+            name: fmpq(*map(int, text.split("/")))
+            for name, text in point.settings.items()
+        }
+        return member(family.tableau, family.ring, values)
+    method = loads(point.template.text, point.key, point.settings)
+    if method.tolerance is not None:
+        raise MethodError("its coefficients are rounded", "give exact ones")
+    return method.tableau
+
+
+@lru_cache(maxsize=32)
+def _family(text: str, parameters: tuple[str, ...]) -> FamilyFile | None:
+    """The family of a file; None where not all of its parameters are free, or it has radicals."""
+    try:
+        family = loads_family(text)
+    except GarkError:
+        return None
+    if set(family.parameters) != set(parameters) or family.radicals:
+        return None
+    return family

@@ -1,0 +1,111 @@
+"""The rows that are missing, each made once: in this process, in others, or on a cluster."""
+
+from __future__ import annotations
+
+import json
+from collections.abc import Iterator, Sequence
+from dataclasses import dataclass
+from functools import partial
+
+from garkcli.crew import MOST_WORKERS, Crew
+from garkcli.errors import UsageProblem
+from garkcli.sweep.plan import Criteria, Plan, Point
+from garkcli.sweep.row import crashed_row
+from garkcli.sweep.store import RowStore
+from garkcli.sweep.task import Result, lines, rows_of
+
+CHUNK = 25
+"""Methods of a task: the machinery of a task costs about as much as one of them."""
+
+
+@dataclass
+class Progress:
+    """What a run has come to.
+
+    Attributes:
+        total: how many methods the sweep has.
+        before: how many of them were in the file already.
+        done: how many have been added.
+        seconds: processor time of the added ones, in whatever process.
+    """
+
+    total: int
+    before: int
+    done: int = 0
+    seconds: float = 0.0
+
+
+def sweep(
+    plan: Plan, store: RowStore, jobs: int = 1, scheduler: str = ""
+) -> Iterator[Progress]:
+    """Add the rows that are missing, in the order in which they come.
+
+    Args:
+        plan: the sweep.
+        store: where the rows are.
+        jobs: processes on this machine.
+        scheduler: the address of a Dask scheduler, to work there instead.
+
+    Yields:
+        How far it is, after each task.
+
+    Raises:
+        UsageProblem: the rows of the file are not those of this sweep, or there is no cluster.
+    """
+    missing = []
+    for point in plan.points():
+        row = store.rows.get(point.key)
+        if row is None:
+            missing.append(point)
+        elif row.get("spec") != plan.criteria.fingerprint(point.template):
+            raise UsageProblem(
+                f"{store.path} has rows of another spec, such as that of {point.key}",
+                "columns, conditions or a method file have changed: choose another --rows",
+            )
+    progress = Progress(len(plan), len(plan) - len(missing))
+    yield progress
+    tasks = [missing[k : k + CHUNK] for k in range(0, len(missing), CHUNK)]
+    for text, seconds in _results(plan.criteria, tasks, jobs, scheduler):
+        for line in text.splitlines():
+            store.add(json.loads(line))
+            progress.done += 1
+        progress.seconds += seconds
+        yield progress
+
+
+def _results(
+    criteria: Criteria, tasks: list[list[Point]], jobs: int, scheduler: str
+) -> Iterator[Result]:
+    if scheduler:
+        from garkcli.sweep.cluster import on_cluster
+
+        yield from on_cluster(criteria, tasks, scheduler)
+        return
+    jobs = min(jobs, len(tasks), MOST_WORKERS)
+    if jobs < 2:
+        yield from (rows_of(criteria, points) for points in tasks)
+        return
+    yield from _side_by_side(criteria, tasks, jobs)
+
+
+def _side_by_side(
+    criteria: Criteria, tasks: Sequence[Sequence[Point]], jobs: int
+) -> Iterator[Result]:
+    """Tasks that end their worker are done again, a method each; then it is known which does."""
+    work = partial(rows_of, criteria)
+    ended: list[Sequence[Point]] = []
+
+    def crashed(points: Sequence[Point], why: str) -> Result:
+        if len(points) > 1:
+            ended.append(points)
+            return "", 0.0
+        return lines([crashed_row(criteria, points[0], why)]), 0.0
+
+    with Crew(work, tasks, jobs, crashed) as crew:
+        for _, result in crew.as_they_come():
+            yield result
+    singles: list[Sequence[Point]] = [[point] for points in ended for point in points]
+    if singles:
+        with Crew(work, singles, jobs, crashed) as crew:
+            for _, result in crew.as_they_come():
+                yield result

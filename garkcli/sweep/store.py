@@ -1,0 +1,120 @@
+"""The rows of a sweep on disk: a line of JSON each, appended whole, each key once.
+
+What a killed process leaves behind is at worst a last line without its end; it is cut off, and its
+method done again. One process writes: a lock keeps a second one out, where the system has locks.
+"""
+
+from __future__ import annotations
+
+import json
+import os
+import stat
+from contextlib import suppress
+from types import TracebackType
+
+from garkcli.errors import UsageProblem
+from garkcli.sweep.row import Row
+
+_BLOCK = 1 << 16
+
+
+class RowStore:
+    """A file of rows that is read once and then appended to.
+
+    Args:
+        path: of the file.
+        is_resumed: whether it may have rows.
+
+    Attributes:
+        rows: those of the file by their keys, and those added since.
+
+    Raises:
+        UsageProblem: it exists and nobody said that it may; it is no file of rows, or another
+            process writes to it.
+    """
+
+    def __init__(self, path: str, is_resumed: bool) -> None:
+        self.path = path
+        self.rows: dict[str, Row] = {}
+        try:
+            self._file = os.open(path, os.O_RDWR | os.O_CREAT | _BINARY, 0o666)
+        except OSError as error:
+            why = error.strerror
+            raise UsageProblem(
+                f"{path} cannot be written: {why}", "choose another --rows"
+            ) from None
+        try:
+            self._lock()
+            self._read(is_resumed)
+        except BaseException:
+            os.close(self._file)
+            raise
+
+    def __enter__(self) -> RowStore:
+        return self
+
+    def __exit__(
+        self,
+        kind: type[BaseException] | None,
+        error: BaseException | None,
+        traceback: TracebackType | None,
+    ) -> None:
+        os.close(self._file)
+
+    def _lock(self) -> None:
+        if not stat.S_ISREG(os.fstat(self._file).st_mode):
+            return  # a device is nobody's
+        with suppress(ImportError):
+            import fcntl
+
+            try:
+                # of this process alone: workers that outlive it do not keep the lock
+                fcntl.lockf(self._file, fcntl.LOCK_EX | fcntl.LOCK_NB)
+            except (BlockingIOError, PermissionError):
+                raise UsageProblem(
+                    f"another sweep writes to {self.path}", "wait for it"
+                ) from None
+            except OSError:
+                return  # a file system without locks
+
+    def _read(self, is_resumed: bool) -> None:
+        data = bytearray()
+        while block := os.read(self._file, _BLOCK):
+            data += block
+        if data and not is_resumed:
+            raise UsageProblem(
+                f"{self.path} exists",
+                "--resume does what is missing in it; or choose another --rows",
+            )
+        whole = data.rfind(b"\n") + 1
+        for number, line in enumerate(bytes(data[:whole]).splitlines(), start=1):
+            row = self._row(line, number)
+            self.rows.setdefault(str(row["key"]), row)
+        if whole < len(data):
+            os.ftruncate(self._file, whole)
+        os.lseek(self._file, whole, os.SEEK_SET)
+
+    def _row(self, line: bytes, number: int) -> Row:
+        try:
+            row = json.loads(line)
+        except ValueError:
+            row = None
+        if isinstance(row, dict) and isinstance(row.get("key"), str):
+            return row
+        raise UsageProblem(
+            f"{self.path}, line {number}: this is no row of a sweep",
+            "choose another --rows, or remove the line",
+        )
+
+    def add(self, row: Row) -> None:
+        """Append a row that is not there yet."""
+        key = str(row["key"])
+        if key in self.rows:
+            return
+        line = memoryview(f"{json.dumps(row, ensure_ascii=False)}\n".encode())
+        while line:
+            line = line[os.write(self._file, line) :]
+        self.rows[key] = row
+
+
+_BINARY = getattr(os, "O_BINARY", 0)
