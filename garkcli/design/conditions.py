@@ -15,6 +15,7 @@ from __future__ import annotations
 
 from collections.abc import Iterator
 from dataclasses import dataclass
+from itertools import chain
 
 from flint import fmpq, fmpq_mpoly
 
@@ -22,7 +23,7 @@ from garkcli.design.coefficient_span import CoefficientSpan, Polynomials
 from garkcli.exact.matrix import Vector
 from garkcli.exact.parametric import Parameters, common_denominator, fraction
 from garkcli.tableau.polynomial_space import PolynomialSpace
-from garkcli.tableau.tableau import Tableau
+from garkcli.tableau.tableau import Edge, Tableau
 from garkcli.trees.tree import Tree
 
 
@@ -64,24 +65,25 @@ class FamilyConditions:
         self.ring = ring
         self._one = ring.constant(fmpq(1))
         self._zero = ring.constant(fmpq(0))
-        blocks = list(tableau.blocks.values())
-        entries = [x for block in blocks for row in block for x in row]
-        weights = [x for colour in tableau.colours for x in colour.b]
-        self._of_blocks = common_denominator(entries, ring)
-        self._of_weights = common_denominator(weights, ring)
-        self.denominators = tuple(
-            d for d in (self._of_blocks, self._of_weights) if not d.is_constant()
-        )
-        self._maps = {
-            key: [self._polynomials(row, self._of_blocks) for row in block]
-            for key, block in tableau.blocks.items()
-        }
-        self._weights = [
-            self._polynomials(colour.b, self._of_weights) for colour in tableau.colours
-        ]
-        ones = [self._polynomials(space.one, self._one) for space in tableau.spaces]
-        self._forests = [[[_Member(self._one, one, ())]] for one in ones]
-        self._branches: list[list[list[_Member]]] = [[[]] for _ in tableau.spaces]
+        weights = [colour.b for colour in tableau.colours]
+        rows = list(chain.from_iterable(tableau.blocks.values()))
+        self._of_blocks = common_denominator(chain.from_iterable(rows), ring)
+        self._of_weights = common_denominator(chain.from_iterable(weights), ring)
+        both = (self._of_blocks, self._of_weights)
+        self.denominators = tuple(d for d in both if not d.is_constant())
+        self._maps: dict[Edge, list[Polynomials]] = {}
+        for edge, block in tableau.blocks.items():
+            cleared = [self._polynomials(row, self._of_blocks) for row in block]
+            self._maps[edge] = cleared
+        self._weights = [self._polynomials(b, self._of_weights) for b in weights]
+        # of each stage space, by order: members with one branch, and all members
+        self._branches: list[list[list[_Member]]] = []
+        self._forests: list[list[list[_Member]]] = []
+        for space in tableau.spaces:
+            one = self._polynomials(space.one, self._one)
+            vertex = _Member(self._one, one, ())
+            self._branches.append([[]])
+            self._forests.append([[vertex]])
 
     def _polynomials(self, row: Vector, denominator: fmpq_mpoly) -> Polynomials:
         made = []
@@ -93,23 +95,27 @@ class FamilyConditions:
     def of_order(self, order: int) -> Iterator[Condition]:
         """Conditions that generate those of all trees of an order, together with lower ones."""
         for l in range(self.tableau.size):
+            weights = self._weights[l]
             for member in self._stage_vectors(l, order):
                 value = self._zero
-                for b, x in zip(self._weights[l], member.vector, strict=True):
+                for b, x in zip(weights, member.vector, strict=True):
                     value += b * x
                 required = member.scale * self._of_weights / fmpq(order)
                 tree = Tree(l, member.branches)
                 yield Condition(tree, value - required)
 
     def _stage_vectors(self, colour: int, order: int) -> list[_Member]:
-        rows = self.tableau.colours[colour].space
-        while len(self._forests[rows]) < order:
-            k = len(self._forests[rows])
-            self._branches[rows].append(self._spanning(self._new_branches(rows, k)))
-            self._forests[rows].append(self._spanning(self._new_forests(rows, k)))
-        if self.tableau.colours[colour].is_linear and order > 1:
-            return self._branches[rows][order - 1]
-        return self._forests[rows][order - 1]
+        seeing = self.tableau.colours[colour]
+        branches = self._branches[seeing.space]
+        forests = self._forests[seeing.space]
+        while len(forests) < order:
+            k = len(forests)
+            new_branches = self._new_branches(seeing.space, k)
+            branches.append(self._spanning(new_branches))
+            new_forests = self._new_forests(seeing.space, k)
+            forests.append(self._spanning(new_forests))
+        has_one_branch = seeing.is_linear and order > 1
+        return branches[order - 1] if has_one_branch else forests[order - 1]
 
     def _new_branches(self, rows: int, order: int) -> Iterator[_Member]:
         for m in range(self.tableau.size):
@@ -125,22 +131,26 @@ class FamilyConditions:
                             total += a * x
                     image.append(total * fmpq(order))
                 scale = self._of_blocks * member.scale
-                yield _Member(scale, tuple(image), (Tree(m, member.branches),))
+                branch = Tree(m, member.branches)
+                yield _Member(scale, tuple(image), (branch,))
 
     def _new_forests(self, rows: int, order: int) -> Iterator[_Member]:
         """One branch, or the smallest branch times the forest of the others."""
-        yield from self._branches[rows][order]
+        branches, forests = self._branches[rows], self._forests[rows]
+        yield from branches[order]
         for j in range(1, order // 2 + 1):
-            for branch in self._branches[rows][j]:
-                for rest in self._forests[rows][order - j]:
+            for branch in branches[j]:
+                for rest in forests[order - j]:
                     trees = (*branch.branches, *rest.branches)
+                    scale = branch.scale * rest.scale
                     vector = self._product(rows, branch.vector, rest.vector)
-                    yield _Member(branch.scale * rest.scale, vector, trees)
+                    yield _Member(scale, vector, trees)
 
     def _product(self, rows: int, u: Polynomials, v: Polynomials) -> Polynomials:
         space = self.tableau.spaces[rows]
         if not isinstance(space, PolynomialSpace):
-            return tuple(x * y for x, y in zip(u, v, strict=True))
+            pairs = zip(u, v, strict=True)
+            return tuple(x * y for x, y in pairs)
         s = space.stages
         out = [self._zero] * (2 * s - 1)
         for i, x in enumerate(u):
@@ -155,4 +165,9 @@ class FamilyConditions:
 
     def _spanning(self, members: Iterator[_Member]) -> list[_Member]:
         span = CoefficientSpan()
-        return [x for x in members if span.insert((x.scale, *x.vector))]
+        kept = []
+        for member in members:
+            coordinates = (member.scale, *member.vector)
+            if span.insert(coordinates):
+                kept.append(member)
+        return kept

@@ -10,13 +10,13 @@ from __future__ import annotations
 
 from collections.abc import Iterable, Iterator, Sequence
 from dataclasses import dataclass
-from itertools import count, islice
+from itertools import chain, count, islice
 from typing import cast
 
 from flint import fmpq, fmpq_mpoly
 
 from garkcli.design.member import member
-from garkcli.exact.field import Number
+from garkcli.exact.field import ZERO, Number
 from garkcli.exact.matrix import Matrix
 from garkcli.exact.parametric import Parameters, common_denominator, fraction
 from garkcli.exact.polynomial import Polynomial, interpolated
@@ -51,23 +51,26 @@ def step_plane(
         ring: the parameter.
         fields: y ↦ L^m y for each colour, rational.
     """
-    entries = [x for block in tableau.blocks.values() for row in block for x in row]
-    weights = [x for colour in tableau.colours for x in colour.b]
+    rows = chain.from_iterable(tableau.blocks.values())
+    entries = list(chain.from_iterable(rows))
+    weights = list(chain.from_iterable(colour.b for colour in tableau.colours))
     of_blocks = common_denominator(entries, ring)
     of_weights = common_denominator(weights, ring)
     unknowns = len(stage_system(tableau, fields).W)
     # each row of I − zW times the one denominator, each entry of N times the other
     degree = unknowns * _degree(entries, of_blocks, ring)
     degree += _degree(weights, of_weights, ring)
-    points = list(islice(_values_without(of_blocks * of_weights), degree + 1))
+    allowed = _values_without(of_blocks * of_weights)
+    points = list(islice(allowed, degree + 1))
+    [name] = ring.names
     denominators, numerators = [], []
     for t in points:
-        step = unreduced(
-            stage_system(member(tableau, ring, {ring.names[0]: t}), fields)
-        )
+        method = member(tableau, ring, {name: t})
+        step = unreduced(stage_system(method, fields))
         scale = _at(of_blocks, t) ** unknowns * _at(of_weights, t)
         denominators.append(step.denominator * scale)
-        numerators.append([p * scale for row in step.numerators for p in row])
+        parts = chain.from_iterable(step.numerators)
+        numerators.append([p * scale for p in parts])
     D = _through(points, denominators)
     N = [_through(points, values) for values in zip(*numerators, strict=True)]
     return _in_lowest_terms(D, N, len(fields[0]), (of_blocks, of_weights))
@@ -80,8 +83,12 @@ def _in_lowest_terms(
     for p in N:
         common = common.gcd(p)
     entries = [p // common for p in N]
-    rows = tuple(tuple(entries[i * d : (i + 1) * d]) for i in range(d))
-    return StepPlane(D // common, rows, tuple(map(_in_parameter, poles)))
+    rows = []
+    for start in range(0, d * d, d):
+        row = entries[start : start + d]
+        rows.append(tuple(row))
+    of_parameter = [_in_parameter(p) for p in poles]
+    return StepPlane(D // common, tuple(rows), tuple(of_parameter))
 
 
 def _degree(
@@ -92,7 +99,8 @@ def _degree(
     for x in numbers:
         numerator, own = fraction(x, ring)
         if numerator:
-            degrees.append(int((numerator * (denominator // own)).total_degree()))
+            cleared = numerator * (denominator // own)
+            degrees.append(int(cleared.total_degree()))
     return max(degrees)
 
 
@@ -109,7 +117,8 @@ def _at(p: fmpq_mpoly, t: fmpq) -> fmpq:
 
 def _in_parameter(p: fmpq_mpoly) -> Polynomial:
     powers = {int(k): fmpq(a) for (k,), a in p.to_dict().items()}
-    return Polynomial([powers.get(k, fmpq(0)) for k in range(max(powers) + 1)])
+    exponents = range(max(powers) + 1)
+    return Polynomial([powers.get(k, ZERO) for k in exponents])
 
 
 def _through(points: Sequence[fmpq], values: Sequence[Polynomial]) -> fmpq_mpoly:

@@ -88,8 +88,11 @@ def slow_interval(
     critical = _critical(plane, low, high)
     undecided: list[RealRoot] = []
     ends = RealRoot.rational(low), RealRoot.rational(high)
-    witnesses = [low + (high - low) * fmpq(k, WITNESSES) for k in range(WITNESSES + 1)]
-    stable_at = [stable_where([_with_slow(p, a) for p in plane]) for a in witnesses]
+    stable_at = []
+    for k in range(WITNESSES + 1):
+        a = low + (high - low) * fmpq(k, WITNESSES)
+        determinants = [_with_slow(p, a) for p in plane]
+        stable_at.append(stable_where(determinants))
 
     def is_stable(x: Point) -> bool:
         # one a that is unstable decides; that is cheap, as the polynomials in x are rational
@@ -121,9 +124,12 @@ def _critical(plane: Sequence[Multivariate], low: fmpq, high: fmpq) -> list[Poly
 def _curves(plane: Sequence[Multivariate]) -> list[fmpq_mpoly]:
     """The irreducible factors of all polynomials whose signs tell what is stable."""
     D, a, b, c, d = (_in_plane(p) for p in plane)
-    trace, area = (a + d) * D, a * d - b * c
+    # times D²: tr M, det M and 1
+    trace = (a + d) * D
+    area = a * d - b * c
     whole = D * D
-    deciding = [D, b, c, whole - area, whole + area - trace, whole + area + trace]
+    both = whole + area
+    deciding = [D, b, c, whole - area, both - trace, both + trace]
     return curves(deciding)
 
 
@@ -152,16 +158,18 @@ def _has(intervals: Sequence[Interval], x: RealRoot) -> bool:
 def _contains(interval: Interval, left: RealRoot, right: RealRoot) -> bool:
     """Whether [left, right] is a part of it."""
     start, end = interval.start, interval.end
-    is_behind = start is None or start < left or (interval.has_start and start == left)
-    is_before = end is None or right < end or (interval.has_end and end == right)
-    return is_behind and is_before
+    if start is not None and left < start:
+        return False
+    if end is not None and end < right:
+        return False
+    if start == left and not interval.has_start:
+        return False
+    return interval.has_end or end != right
 
 
 def _trimmed(interval: Interval, undecided: Sequence[RealRoot]) -> Interval:
     """An interval without those of its ends that are not decided."""
-    return Interval(
-        interval.start,
-        interval.end,
-        interval.has_start and interval.start not in undecided,
-        interval.has_end and interval.end not in undecided,
-    )
+    start, end = interval.start, interval.end
+    has_start = interval.has_start and start not in undecided
+    has_end = interval.has_end and end not in undecided
+    return Interval(start, end, has_start, has_end)
