@@ -41,14 +41,22 @@ def render(
             1 all in full.
         digits: significant digits of values and residuals; None for exact numbers.
     """
-    full = verbosity > 0 or (len(outcomes) == 1 and verbosity == 0)
+    has_several = len(outcomes) > 1
+    full = verbosity > 0 or (verbosity == 0 and not has_several)
     quiet = verbosity < 0
-    blocks = [_outcome(outcome, paint, full, quiet, digits) for outcome in outcomes]
+    blocks = []
+    for outcome in outcomes:
+        block = _outcome(outcome, paint, full, quiet, digits)
+        if block:
+            blocks.append(block)
     between = "\n\n" if full else "\n"
-    text = between.join(filter(None, blocks))
-    if len(outcomes) > 1 and verbosity >= 0:
-        text += "\n\n" + _summary(outcomes, paint)
-    return inert(text) + "\n" if text else ""
+    text = between.join(blocks)
+    if has_several and not quiet:
+        summary = _summary(outcomes, paint)
+        text += f"\n\n{summary}"
+    if not text:
+        return ""
+    return inert(text) + "\n"
 
 
 def _outcome(
@@ -77,9 +85,11 @@ def _summary(outcomes: Sequence[Outcome], paint: Paint) -> str:
     looked_at = f"{len(outcomes)} files, {counted(claims, 'claim')}"
     failures = f"{counted(failed, 'file')} failed"
     verdict = paint.verdict(not failed, "all hold", failures)
+    text = f"{looked_at}: {verdict}"
     silent = sum(outcome.makes_no_claim for outcome in outcomes)
-    ending = f"; {no_claims(silent)}" if silent else ""
-    return f"{looked_at}: {verdict}{ending}"
+    if silent:
+        text += f"; {no_claims(silent)}"
+    return text
 
 
 def no_claims(files: int) -> str:
@@ -92,16 +102,19 @@ def faults_text(outcome: Outcome, paint: Paint) -> str:
     """Every fault of a file that cannot be read, with a caret under the text."""
     source = outcome.text.splitlines()
     file = printable(outcome.file)
-    error = paint("bad", "error")
+    error, caret = paint("bad", "error"), paint("bad", "^")
+    cure = paint("note", "help")
     lines: list[str] = []
     for fault in outcome.faults:
-        place = f"{file}:{fault.line}:{fault.column}" if fault.line else file
+        place = file
+        if fault.line:
+            place += f":{fault.line}:{fault.column}"
         lines.append(f"{place}: {error}: {printable(fault.message)}")
         if 0 < fault.line <= len(source):
             shown = source[fault.line - 1]
-            lines += excerpt(shown, fault.line, fault.column, paint("bad", "^"))
+            lines += excerpt(shown, fault.line, fault.column, caret)
         if fault.help:
-            lines.append(f"      {paint('note', 'help')}: {printable(fault.help)}")
+            lines.append(f"      {cure}: {printable(fault.help)}")
     return "\n".join(lines)
 
 
@@ -129,7 +142,9 @@ def _title(outcome: Outcome) -> list[str]:
     if outcome.name == outcome.file:
         return [file]
     title = f"{file}: {name}"
-    return [title] if len(title) <= _WIDTH else [f"{file}:", f"  {name}"]
+    if len(title) <= _WIDTH:
+        return [title]
+    return [f"{file}:", f"  {name}"]
 
 
 def _full(
@@ -137,8 +152,9 @@ def _full(
 ) -> list[str]:
     tableau = analysis.tableau
     kind = _kind(tableau, outcome.structure, analysis.tolerance)
-    title = [paint("strong", line) for line in _title(outcome)]
-    lines = [*title, *indented(_wrapped(kind)), ""]
+    lines = [paint("strong", line) for line in _title(outcome)]
+    lines += indented(_wrapped(kind))
+    lines.append("")
     lines += order_lines(analysis, paint, digits)
     if analysis.suggestion is not None:
         lines += suggestion_lines(analysis.suggestion, analysis.tolerance, paint)
@@ -147,20 +163,18 @@ def _full(
 
         lines += misprint_lines(analysis.misprint, tableau, paint)
     lines += ["", *_conditions(analysis)]
-    lines += [
-        "",
-        *_properties(analysis, paint),
-        "",
-        *_more_properties(outcome, analysis),
-    ]
+    lines += ["", *_properties(analysis, paint)]
+    lines += ["", *_more_properties(outcome, analysis)]
     if outcome.constants is not None:
         from garkcli.report.hints import constants_lines
 
         lines += ["", *constants_lines(outcome.constants, tableau.size > 1)]
-    if _missing(outcome, paint):
-        lines += ["", *_missing(outcome, paint)]
+    missing = _missing(outcome, paint)
+    if missing:
+        lines += ["", *missing]
     if outcome.claims:
-        lines += ["", *(_claim(outcome, claim, paint) for claim in outcome.claims)]
+        claims = [_claim(outcome, claim, paint) for claim in outcome.claims]
+        lines += ["", *claims]
     if outcome.blame is not None:
         from garkcli.report.hints import blame_lines
 
@@ -169,11 +183,15 @@ def _full(
 
 
 def _kind(tableau: Tableau, structure: str, tolerance: fmpq | None) -> str:
-    special = "" if structure == "general" else f"for {structure} problems; "
     colours = counted(tableau.size, "colour")
     stages = ", ".join(_stage_counts(tableau))
-    how = _domain(tableau) if tolerance is None else f"within {decimal(tolerance)}"
-    return f"{special}{colours}, stages {stages}; {how}"
+    text = f"{colours}, stages {stages}"
+    if structure != "general":
+        text = f"for {structure} problems; {text}"
+    how = _domain(tableau)
+    if tolerance is not None:
+        how = f"within {decimal(tolerance)}"
+    return f"{text}; {how}"
 
 
 def _stage_counts(tableau: Tableau) -> list[str]:
@@ -196,7 +214,8 @@ def _domain(tableau: Tableau) -> str:
 def _conditions(analysis: Analysis) -> list[str]:
     found = analysis.simplifying
     limit = analysis.limit
-    rows = _labelled("B(r)", ["  ".join(_capped(found.B, limit))])
+    quadrature = "  ".join(_capped(found.B, limit))
+    rows = _labelled("B(r)", [quadrature])
     for label, table in (("C(eta)", found.C), ("D(zeta)", found.D)):
         cells = [_capped(row, limit) for row in table]
         rows += _labelled(label, aligned(cells))
@@ -226,10 +245,12 @@ def _capped(numbers: Sequence[int | None], limit: int) -> list[str]:
     """Numbers of conditions that hold; those at the limit may be larger."""
     cells = []
     for number in numbers:
+        cell = str(number)
         if number is None:
-            cells.append("-")
-        else:
-            cells.append(f">={number}" if number >= limit else str(number))
+            cell = "-"
+        elif number >= limit:
+            cell = f">={number}"
+        cells.append(cell)
     return cells
 
 
@@ -290,13 +311,15 @@ def _consistent(
         return f"{yes}, {letter}{{l,m}}𝟙 = c{{l}} for every block"
     sums = []
     for l, m in wrong[:_NAMED_BLOCKS]:
-        sums.append(f"{letter}{{{names[l]},{names[m]}}}𝟙")
+        colours = f"{names[l]},{names[m]}"
+        sums.append(f"{letter}{{{colours}}}𝟙")
     blocks = ", ".join(sums)
     others = len(wrong) - len(sums)
     if others:
         blocks += f" and {others} more"
+    no = paint("bad", "no")
     verb = "differs" if len(wrong) == 1 else "differ"
-    return f"{paint('bad', 'no')}: {blocks} {verb} from c"
+    return f"{no}: {blocks} {verb} from c"
 
 
 def _missing(outcome: Outcome, paint: Paint) -> list[str]:
@@ -310,14 +333,17 @@ def _claim(outcome: Outcome, claim: Claim, paint: Paint) -> str:
     if claim.holds:
         verdict = paint("good", "claim holds")
         return f"  {verdict}      {claim.claim}: {claim.expected}"
-    verdict = paint("bad", "CLAIM FAILS")
-    instead = f"expected {claim.expected}, found {claim.found}"
-    place = f"{printable(outcome.file)}:{claim.line}:{claim.column}"
-    said = f"{claim.claim}: {instead}"
-    left = _WIDTH - 2 - LABEL
-    is_short = len(said) + len(place) + 4 <= left
-    told = [f"{said}  ({place})"] if is_short else [said, f"({place})"]
+    file = printable(outcome.file)
+    place = f"({file}:{claim.line}:{claim.column})"
+    said = f"{claim.claim}: expected {claim.expected}, found {claim.found}"
+    margin = 2 + LABEL
+    left = _WIDTH - margin
+    told = [f"{said}  {place}"]
+    if len(told[0]) > left:
+        told = [said, place]
     if claim.why:
         told += folded(claim.why, left, "")
     first, *rest = told
-    return "\n".join([f"  {verdict}      {first}", *indented(rest, " " * (2 + LABEL))])
+    verdict = paint("bad", "CLAIM FAILS")
+    lines = [f"  {verdict}      {first}", *indented(rest, " " * margin)]
+    return "\n".join(lines)
