@@ -24,7 +24,7 @@ if TYPE_CHECKING:
 MAX_STEPS = 300
 """Steps of a start before it is given up."""
 SMALL = 1e-13
-"""A start has succeeded when no residual is larger."""
+"""What residuals are where nothing but rounding is left of them."""
 LARGE = 40.0
 """Unknowns beyond are on the way to infinity, where many starts end up."""
 MAX_DAMPING = 1e10
@@ -47,7 +47,11 @@ class Minima:
 
 
 def least_squares(
-    system: System, starts: Array, steps: int = MAX_STEPS, are_kept: bool = False
+    system: System,
+    starts: Array,
+    steps: int = MAX_STEPS,
+    small: float = SMALL,
+    are_kept: bool = False,
 ) -> Minima:
     """Solve a system from every start.
 
@@ -55,6 +59,7 @@ def least_squares(
         system: residuals (conditions, points) and derivatives (conditions, unknowns, points).
         starts: shape (unknowns, starts).
         steps: after which a start is given up.
+        small: a start has succeeded when no residual is larger.
         are_kept: whether the system is that of these points in this order, so that none may be
             left out when it has ended.
     """
@@ -66,7 +71,7 @@ def least_squares(
     with np.errstate(all="ignore"):
         run = _Run(system, points)
         for _ in range(steps):
-            done = run.largest < SMALL
+            done = run.largest < small
             succeeded[alive[done]] = True
             points[:, alive] = run.x
             stays = ~done & run.is_promising()
@@ -80,7 +85,7 @@ def least_squares(
                 break
             run.step()
         else:
-            succeeded[alive[run.largest < SMALL]] = True
+            succeeded[alive[run.largest < small]] = True
             points[:, alive] = run.x
     return Minima(points, succeeded)
 

@@ -150,9 +150,10 @@ class Search:
                 continue
             system, x = tried, made
             find = self._exact(start, made)
-            if find is not None and _is_rational(find):
-                return find
-            best = best or find
+            if find is not None and (best is None or _degree(find) < _degree(best)):
+                best = find
+            if best is not None and _degree(best) == 1:
+                break
         if best is not None:
             return best
         if x is None:
@@ -247,8 +248,9 @@ class Search:
         return Find(start, "exact", order.order, found, {})
 
 
-def _is_rational(find: Find) -> bool:
-    return find.found is not None and find.found.solution.field is None
+def _degree(find: Find) -> int:
+    """Of the field of an exact find."""
+    return 0 if find.found is None else find.found.solution.degree
 
 
 def _ends(

@@ -30,8 +30,10 @@ REACH = 0.12
 """How far a function is moved at most."""
 TRIALS = 10
 """Values that are tried at once, the shortest."""
-STEPS = 60
+STEPS = 120
 """Steps of least squares that lead to such a value, or it is not taken."""
+CLOSE = 1e-11
+"""Residuals from which Newton's method goes on."""
 FINE = (10**3, 10**6, 10**9)
 """Denominators where none of the short ones leads back."""
 NEAR = 1e-4
@@ -172,7 +174,7 @@ def _moved(
     system = Fixings(conditions, fixed, function, values)
     starts = np.repeat(x, len(values), axis=1)
     # points that leave the batch would have to take their values with them
-    minima = least_squares(system.at, starts, STEPS, are_kept=True)
+    minima = least_squares(system.at, starts, STEPS, CLOSE, are_kept=True)
     for k, value in enumerate(values):
         end = np.ascontiguousarray(minima.points[:, k : k + 1])
         if not minima.succeeded[k] or np.max(np.abs(end)) > LARGEST:
