@@ -1,0 +1,215 @@
+"""Kinds of stability of a family of one parameter t: what decides, and what one value has.
+
+A-stability hangs on E(x, t) = |Q(iy)|² − |P(iy)|² with x = y² and on where the roots of Q are,
+P-stability on the signs of D and of 1 − det M and 1 + det M ± tr M, as polynomials in x = z² and t.
+"""
+
+from __future__ import annotations
+
+from collections.abc import Sequence
+from dataclasses import dataclass
+from typing import Protocol
+
+from flint import fmpq, fmpq_mpoly
+
+from garkcli.design.design import TABLEAUS, Whose
+from garkcli.design.member import member
+from garkcli.design.step_plane import StepPlane, step_plane
+from garkcli.errors import UsageProblem, ZeroWeight
+from garkcli.exact.cells import Interval, Point, between, sign_of
+from garkcli.exact.field import ONE, ZERO, Number
+from garkcli.exact.matrix import Matrix
+from garkcli.exact.polynomial import Polynomial
+from garkcli.exact.projection import (
+    PLANE,
+    at_y,
+    coefficient_of,
+    curves,
+    in_t,
+    leading,
+    projected,
+)
+from garkcli.exact.roots import RealRoot
+from garkcli.problems.oscillator import Oscillator, check_structure, terms_of
+from garkcli.stability.linear import (
+    imaginary_set,
+    is_a_stable,
+    stability_function,
+)
+from garkcli.stability.oscillator import oscillator_stability
+from garkcli.tableau.family import Family
+from garkcli.tableau.tableau import Tableau
+
+_RIGHT = "the linear test equation has no meaning for it: some stages do not see every vector field"
+
+
+@dataclass(frozen=True)
+class Members:
+    """The methods of a family."""
+
+    family: Family
+    whose: Whose
+
+    def at(self, value: Number) -> Tableau | None:
+        """The method for a value; None where a weight or a denominator is zero."""
+        family = self.family
+        try:
+            tableau = member(family.tableau, family.ring, {family.ring.names[0]: value})
+            return TABLEAUS[self.whose](tableau)
+        except (ZeroDivisionError, ZeroWeight):
+            return None
+
+
+class Kind(Protocol):
+    """A kind of stability of a family.
+
+    Attributes:
+        plane: the step of the family.
+        critical: polynomials between whose roots one t decides.
+        essential: polynomials of which one is zero where the limit of methods that have it may not
+            have it.
+    """
+
+    plane: StepPlane
+    critical: list[Polynomial]
+    essential: list[Polynomial]
+
+    def __init__(self, members: Members, tableau: Tableau) -> None: ...
+
+    def decide(self, value: Number) -> bool:
+        """By the ordinary engine."""
+
+    def witness(self, value: fmpq) -> fmpq | None:
+        """An x at which a condition is violated for a value that has been decided in vain."""
+
+    def conditions(self, x: fmpq) -> list[Polynomial]:
+        """Polynomials in t: where one is negative the method is not stable at x."""
+
+
+class AStability:
+    """|R(z)| ≤ 1 for Re z ≤ 0."""
+
+    def __init__(self, members: Members, tableau: Tableau) -> None:
+        colours, spaces = range(tableau.size), range(len(tableau.spaces))
+        is_complete = all((k, m) in tableau.blocks for k in spaces for m in colours)
+        if tableau.is_partitioned or not is_complete:
+            raise UsageProblem(_RIGHT, "ask for --p-stable")
+        self.members = members
+        fields: list[Matrix] = [((ONE,),)] * tableau.size
+        self.plane = step_plane(tableau, members.family.ring, fields)
+        self.Q = self.plane.denominator
+        self.P = self.plane.numerators[0][0]
+        self.E = _squared_modulus(self.Q) - _squared_modulus(self.P)
+        u, v = _real_and_imaginary(self.Q)
+        self.essential: list[Polynomial] = []
+        self.critical = projected(curves([self.E]), [ZERO])
+        # a pole at infinity or on the axis, another degree of R, other lowest terms
+        self.critical += [in_t(leading(self.Q)), in_t(leading(self.P))]
+        self.critical += [
+            in_t(u.resultant(v, "y")),
+            in_t(self.P.resultant(self.Q, "y")),
+        ]
+
+    def decide(self, value: Number) -> bool:
+        tableau = self.members.at(value)
+        return tableau is not None and is_a_stable(stability_function(tableau))
+
+    def witness(self, value: fmpq) -> fmpq | None:
+        tableau = self.members.at(value)
+        if tableau is None:
+            return None
+        found = imaginary_set(stability_function(tableau))
+        return _first_gap(found)
+
+    def conditions(self, x: fmpq) -> list[Polynomial]:
+        return [at_y(self.E, x)]
+
+    def is_damped(self, t: Point) -> bool:
+        """Whether R(∞) = 0; common factors of P and Q change both degrees alike."""
+        return _degree_at(self.P, t) < _degree_at(self.Q, t)
+
+
+class PStability:
+    """All powers of the step matrix on the oscillator are bounded for every step size."""
+
+    def __init__(self, members: Members, tableau: Tableau) -> None:
+        self.members = members
+        self.problem = Oscillator.default(terms_of(tableau), fmpq(1))
+        check_structure(tableau, self.problem)
+        fields = [self.problem.matrix(colour) for colour in tableau.colours]
+        self.plane = step_plane(tableau, members.family.ring, fields)
+        (a, b), (c, d) = self.plane.numerators
+        whole = self.plane.denominator**2
+        trace, area = (a + d) * self.plane.denominator, a * d - b * c
+        # b and c are odd in z, all others even
+        self.signs = [
+            _in_square(p)
+            for p in (whole - area, whole + area - trace, whole + area + trace)
+        ]
+        z, _ = PLANE.gens()
+        D = _in_square(self.plane.denominator)
+        self.essential = projected(curves([D, *self.signs]), [ZERO])
+        others = [self.plane.denominator, a + d, area, z * b, z * c]
+        deciding = [*self.signs, *map(_in_square, others)]
+        self.critical = projected(curves(deciding), [ZERO])
+
+    def decide(self, value: Number) -> bool:
+        tableau = self.members.at(value)
+        if tableau is None:
+            return False
+        return oscillator_stability(tableau, self.problem).is_p_stable
+
+    def witness(self, value: fmpq) -> fmpq | None:
+        tableau = self.members.at(value)
+        if tableau is None:
+            return None
+        return _first_gap(oscillator_stability(tableau, self.problem).stable)
+
+    def conditions(self, x: fmpq) -> list[Polynomial]:
+        return [at_y(p, x) for p in self.signs]
+
+
+def _first_gap(intervals: Sequence[Interval]) -> fmpq | None:
+    """A rational x ≥ 0 in the first open gap of a set of intervals; None where there is none."""
+    end: RealRoot | None = RealRoot.rational(ZERO)
+    for interval in intervals:
+        assert end is not None
+        assert interval.start is not None
+        if end < interval.start:
+            return between(end, interval.start)
+        end = interval.end
+    return None if end is None else between(end, None)
+
+
+def _degree_at(p: fmpq_mpoly, t: Point) -> int:
+    """The degree in y of p(y, t)."""
+    for k in range(p.degrees()[0], -1, -1):
+        coefficient = in_t(coefficient_of(p, k))
+        if sign_of(coefficient, t):
+            return k
+    return -1
+
+
+def _real_and_imaginary(p: fmpq_mpoly) -> tuple[fmpq_mpoly, fmpq_mpoly]:
+    """The polynomials u and v in x = y² with p(iy) = u(y²) + i y v(y²)."""
+    parts: tuple[dict[tuple[int, ...], fmpq], ...] = ({}, {})
+    for (j, k), a in p.to_dict().items():
+        sign = -1 if j % 4 in {2, 3} else 1
+        parts[j % 2][j // 2, k] = a * sign
+    return PLANE.from_dict(parts[0]), PLANE.from_dict(parts[1])
+
+
+def _squared_modulus(p: fmpq_mpoly) -> fmpq_mpoly:
+    """|p(iy)|² in x = y²."""
+    u, v = _real_and_imaginary(p)
+    x, _ = PLANE.gens()
+    return u * u + x * v * v
+
+
+def _in_square(p: fmpq_mpoly) -> fmpq_mpoly:
+    """A polynomial with even powers of z only, in x = z²."""
+    terms: dict[tuple[int, ...], fmpq] = {}
+    for (j, k), a in p.to_dict().items():
+        assert j % 2 == 0
+        terms[j // 2, k] = a
+    return PLANE.from_dict(terms)
