@@ -152,6 +152,7 @@ def command(
         output.write(design_text.render(file, found, digits, output.width))
     if emitted is not None:
         _emit(family, found, emitted)
+    order = order or family.order
     is_reached = order is None or found.reaches(order)
     return _exit_code(found.last.kind == "undecided", is_reached)
 

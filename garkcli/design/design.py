@@ -2,15 +2,17 @@
 
 from __future__ import annotations
 
-from collections.abc import Callable
+from collections.abc import Callable, Sequence
 from dataclasses import dataclass, replace
 from time import monotonic
 from typing import Literal, TypeAlias
 
+from flint import fmpq_mpoly
+
 from garkcli.design.conditions import FamilyConditions
 from garkcli.design.groebner import NotDecided
 from garkcli.design.ideal import Ideal
-from garkcli.design.member import member
+from garkcli.design.member import member, value_of
 from garkcli.design.msolve import find_msolve
 from garkcli.design.solutions import Solution, solutions, value_at
 from garkcli.errors import ZeroWeight
@@ -54,7 +56,8 @@ class Step:
         ideal: the ideal of its conditions and of all lower ones; None where it was not found. Where
             it is not proved it is msolve's: each zero has the order, that there are no others is
             not proved.
-        witness: the first tree whose condition no value meets together with those before it.
+        witness: the first tree whose condition no value meets together with those before it; None
+            where what is wanted besides the order cannot be met.
         found: the solutions, where there are finitely many.
     """
 
@@ -128,20 +131,22 @@ def find_parameters(
     tableau = TABLEAUS[whose](family.tableau)
     conditions = FamilyConditions(tableau, family.ring)
     relations = [radical.relation for radical in family.radicals]
-    relations += family.relations
+    order = order or family.order
+    nonzero = (*conditions.denominators, *family.nonzero)
     now = monotonic()
     deadline = first = None
     if seconds is not None:
         has_other_engine = order is not None and find_msolve() is not None
         deadline = now + seconds
         first = now + SHARE * seconds if has_other_engine else deadline
-    start = Ideal(family.ring, conditions.denominators, first).with_zeros(relations)
+    start = Ideal(family.ring, nonzero, first).with_zeros(relations)
     steps: list[Step] = []
     ideal = start
     for k in range(1, (order or DEFAULT_LIMIT) + 1):
-        step = _step(conditions, ideal, k, start)
+        wanted = family.relations if k == 1 else ()
+        step = _step(conditions, ideal, k, start, wanted)
         if step.kind == "undecided" and order is not None:
-            step = _at_once(conditions, start, order, deadline)
+            step = _at_once(conditions, start, order, deadline, family.relations)
         if step.kind == "solutions":
             step = replace(step, found=_found(family, whose, step))
         steps.append(step)
@@ -151,9 +156,18 @@ def find_parameters(
     return Design(family, whose, tableau, tuple(steps))
 
 
-def _step(conditions: FamilyConditions, ideal: Ideal, order: int, start: Ideal) -> Step:
-    """What one order more asks of the parameters."""
+def _step(
+    conditions: FamilyConditions,
+    ideal: Ideal,
+    order: int,
+    start: Ideal,
+    wanted: Sequence[fmpq_mpoly],
+) -> Step:
+    """What one order more asks of the parameters, and whatever else is wanted."""
     try:
+        ideal = ideal.with_zeros(wanted)
+        if ideal.is_everything:
+            return Step(order, "none", ideal)
         # one condition after the other: small steps from one Gröbner basis to the next, and the
         # first condition that cannot be met is known
         for condition in conditions.of_order(order):
@@ -170,10 +184,14 @@ def _step(conditions: FamilyConditions, ideal: Ideal, order: int, start: Ideal) 
 
 
 def _at_once(
-    conditions: FamilyConditions, start: Ideal, order: int, deadline: float | None
+    conditions: FamilyConditions,
+    start: Ideal,
+    order: int,
+    deadline: float | None,
+    wanted: Sequence[fmpq_mpoly],
 ) -> Step:
     """All conditions up to an order in one system, by msolve."""
-    polynomials = []
+    polynomials = list(wanted)
     for k in range(1, order + 1):
         polynomials += [condition.polynomial for condition in conditions.of_order(k)]
     try:
@@ -224,7 +242,17 @@ def is_admissible(family: Family, solution: Solution, root: RealRoot) -> bool:
             return False
         if greatest is not None and _sign(value - greatest, root) > 0:
             return False
-    return True
+    return _has_signs(family, solution, root)
+
+
+def _has_signs(family: Family, solution: Solution, root: RealRoot) -> bool:
+    """Whether what is to be positive is, at a real root of a solution."""
+
+    def sign_of(polynomial: fmpq_mpoly) -> int:
+        return _sign(value_of(polynomial, family.ring, solution.values), root)
+
+    is_positive = all(sign_of(p) > 0 for p in family.positive)
+    return is_positive and all(sign_of(p) >= 0 for p in family.not_negative)
 
 
 def _sign(value: Number, root: RealRoot) -> int:

@@ -9,6 +9,7 @@ from typing import Any, cast
 from flint import fmpq, fmpq_mpoly, fmpz_poly
 from yaml.nodes import Node
 
+from garkcli.design.wants.want import numerators, sign_polynomial
 from garkcli.errors import ExpressionError, LimitExceeded, MethodError
 from garkcli.exact.domain import Domain, perfect_root
 from garkcli.exact.field import ZERO, Number
@@ -28,6 +29,7 @@ from garkcli.methodfile.load import NO_SETTINGS, built, described, read_method_t
 from garkcli.methodfile.numbers import Free, Numbers, Values
 from garkcli.methodfile.reader import Reader
 from garkcli.methodfile.source import one_line
+from garkcli.methodfile.wishes import meaning_of, read_wishes
 from garkcli.tableau.family import Family, Radical
 from garkcli.tableau.tableau import Tableau
 
@@ -48,6 +50,7 @@ class FamilyFile(Family):
         places: where in the text the value of each parameter stands, from and to.
         shape: where ``unknown: …`` stands, and the tableau that it means as keys of a method file;
             None where the file has no shape.
+        wanted_at: where ``design: …`` stands; None where there is none.
     """
 
     source: str
@@ -55,6 +58,7 @@ class FamilyFile(Family):
     settings: Mapping[str, str]
     places: Mapping[str, tuple[int, int]]
     shape: tuple[tuple[int, int], str] | None = None
+    wanted_at: tuple[int, int] | None = None
 
 
 def load_family(path: str, settings: Mapping[str, str] = NO_SETTINGS) -> FamilyFile:
@@ -93,7 +97,10 @@ def loads_family(
             f"{source} has no free parameter",
             'write parameters: {tau: free} in place of a value, or "?" for an entry',
         )
+    wishes = read_wishes(reader.source, numbers, reader.design)
     tableau, values = built(reader, description, FamilyValues)
+    ring = values.domain.ring
+    meaning = meaning_of(wishes, tableau, ring, values, reader.source)
     ranges = {}
     for name, free in numbers.free.items():
         ranges[name] = _ends(free, values)
@@ -103,11 +110,19 @@ def loads_family(
         text=text,
         name=one_line(description.name) or source,
         tableau=tableau,
-        ring=values.domain.ring,
+        ring=ring,
         parameters=tuple(numbers.free),
         ranges=ranges,
         radicals=tuple(values.domain.radicals),
-        relations=tuple(_of_nodes(description, tableau)),
+        relations=(
+            *_of_nodes(description, tableau),
+            *numerators(meaning.zeros, ring),
+        ),
+        nonzero=meaning.nonzero,
+        positive=tuple(sign_polynomial(x, ring) for x in meaning.positive),
+        not_negative=tuple(sign_polynomial(x, ring) for x in meaning.not_negative),
+        order=wishes.order,
+        wanted_at=reader.design_place(),
         settings=settings,
         places={name: _place(text, node) for name, node in numbers.places.items()},
         shape=_shape(reader),
@@ -189,6 +204,9 @@ def with_values(
         place, tableau = family.shape
         lines = [f"  {name}: {_scalar(value)}" for name, value in given.items()]
         changes.append((place, "\n".join(["parameters:", *lines, tableau])))
+    if family.wanted_at is not None:
+        # its names are those of unknowns, which the file has no more
+        changes.append((family.wanted_at, ""))
     for (start, end), change in sorted(changes, reverse=True):
         text = text[:start] + change + text[end:]
     lines = [f"# {line}" for line in head.splitlines()]

@@ -8,7 +8,7 @@ from garkcli.errors import did_you_mean
 from garkcli.exact.expression import FUNCTIONS
 from garkcli.exact.field import ZERO
 from garkcli.exact.nodes import Expression, Literal, Name
-from garkcli.methodfile.numbers import Free, Numbers
+from garkcli.methodfile.numbers import Entry, Free, Numbers
 from garkcli.methodfile.source import key_nodes, shortened
 
 
@@ -62,14 +62,21 @@ def _free(numbers: Numbers, node: Node, where: str) -> Free:
         source.fault(node, f"{where} is a mapping that does not say free: true", cure)
     if "range" not in entries:
         return Free(node)
-    ends = source.items(entries["range"], f"{where}, range")
+    return Free(node, *read_range(numbers, entries["range"], f"{where}, range"))
+
+
+def read_range(
+    numbers: Numbers, node: Node, where: str
+) -> tuple[Entry | None, Entry | None]:
+    """The two ends of a range; None where it is faulty."""
+    ends = numbers.source.items(node, where)
     if len(ends) != 2:
         message = f"{where}: a range has two ends"
-        source.fault(entries["range"], message, "write [1/4, 1]")
-        return Free(node)
-    smallest, largest = (numbers.entry(end, f"{where}, range") for end in ends)
+        numbers.source.fault(node, message, "write [1/4, 1]")
+        return None, None
+    smallest, largest = (numbers.entry(end, where) for end in ends)
     del numbers.entries[-2:]  # they are no coefficients
-    return Free(node, smallest, largest)
+    return smallest, largest
 
 
 def refuse_free(numbers: Numbers) -> None:

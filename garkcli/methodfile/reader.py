@@ -51,6 +51,7 @@ KEYS = (
     *FORMS,
     *PLAIN,
     "unknown",
+    "design",
     "transfer",
     "structure",
     "conjugate",
@@ -100,6 +101,8 @@ class Reader:
         self.spelled_out = SpelledOutReader(source, self.numbers)
         self.shaped: Shaped | None = None
         self.keys: frozenset[str] = frozenset()
+        self.design: Node | None = None
+        self._root: Node | None = None
 
     def read(self) -> Description | None:
         """The description; None, with faults noted in the source, where there is none."""
@@ -114,6 +117,8 @@ class Reader:
             return None
         entries = source.mapping(root, "the file", KEYS, _CURES)
         self.keys = frozenset(entries)
+        self.design = entries.get("design")
+        self._root = root
         self._version(entries.get("gark"))
         text = {}
         for key in ("name", "description", "reference"):
@@ -167,6 +172,15 @@ class Reader:
         # the key as it stands there, misspelt perhaps
         key = next(x for x, y in root.value if y is content)
         return ShapeReader(self.source, self.numbers).read(key, content)
+
+    def design_place(self) -> tuple[int, int] | None:
+        """From where to where ``design: …`` stands; None where there is none."""
+        if self.design is None or self._root is None:
+            return None
+        key = next(x for x, y in self._root.value if y is self.design)
+        start = key.start_mark.index
+        end = self.design.end_mark.index
+        return start, start + len(self.source.text[start:end].rstrip())
 
     def _version(self, node: Node | None) -> None:
         if node is not None and self.source.scalar(node, "gark") != "1":

@@ -9,6 +9,7 @@ from __future__ import annotations
 
 from typing import Any, TypeAlias
 
+from garkcli.design.wants.registry import WANTS, find_want
 from garkcli.families.registry import FAMILIES, MAX_STAGES
 from garkcli.methodfile.description import FORMS, STRUCTURES
 from garkcli.methodfile.expectations import NUMBERS, TABLES
@@ -48,6 +49,7 @@ _MATRIX: Schema = {
     },
     "minItems": 1,
 }
+_RANGE: Schema = {"type": "array", "items": _NUMBER, "minItems": 2, "maxItems": 2}
 _TEXT: Schema = {"type": ["string", "number", "boolean", "null"]}
 
 
@@ -154,6 +156,7 @@ def _properties() -> Schema:
             "items": {"type": "integer", "minimum": 1},
         },
         "unknown": _unknown(),
+        "design": _design(),
         "parameters": _parameters(),
         "tolerance": {
             **_NUMBER,
@@ -176,10 +179,38 @@ def _unknown() -> Schema:
     }
 
 
+def _design() -> Schema:
+    """What is wanted, for all colours or for those that are named."""
+    number: Schema = {"$ref": "#/definitions/number"}
+    count: Schema = {"type": "integer", "minimum": 1}
+    by_kind: dict[str, Schema] = {
+        "flag": {"type": "boolean"},
+        "count": count,
+        "number": number,
+    }
+    properties: Schema = {
+        "order": count,
+        "fix": {"type": "object", "additionalProperties": number},
+        "range": {"type": "object", "additionalProperties": _RANGE},
+    }
+    for key in WANTS:
+        want = find_want(key)
+        value = by_kind[want.kind]
+        colours = {
+            "type": "object",
+            "propertyNames": {"pattern": "^[1-9][0-9]*$"},
+            "additionalProperties": value,
+        }
+        properties[key] = {"description": want.summary, "anyOf": [value, colours]}
+    return {
+        **_closed(properties),
+        "description": "What gark design looks for, with the order of --order.",
+    }
+
+
 def _parameters() -> Schema:
     number = {"$ref": "#/definitions/number"}
-    ends = {"type": "array", "items": number, "minItems": 2, "maxItems": 2}
-    free = _closed({"free": {"const": True}, "range": ends}, "free")
+    free = _closed({"free": {"const": True}, "range": _RANGE}, "free")
     return {
         "description": "Names used in coefficients, each with a value, or free.",
         "type": "object",

@@ -80,7 +80,9 @@ def _of_steps(
 
 
 def _witness(design: Design, step: Step, width: int) -> Iterator[str]:
-    assert step.witness is not None
+    if step.witness is None:
+        yield f"{INDENT}what is wanted besides cannot be met, not even by complex values"
+        return
     text = "with the conditions before it, that of "
     tree = format_tree(step.witness, colours=design.tableau.size > 1)
     text += f"{tree} cannot be met, not even by complex values"
@@ -125,7 +127,7 @@ def _verdict(design: Design, found: Found, index: int) -> str:
     if found.order is None:
         return "no method: a weight or a denominator is zero there"
     if index not in found.accepted:
-        return "not of this file: outside of a range, or another sign of a root"
+        return "not of this file: out of a range, a sign not wanted, or another root"
     least = "at least " if found.order.is_lower_bound else ""
     order = f"{least}{found.order.order}"
     return f"order {order} of the {design.whose}, by a certificate of its own"

@@ -41,7 +41,11 @@ class Family:
         ranges: for each the least and the greatest value it may have, None where there is none.
         radicals: the roots among the coefficients.
         relations: polynomials that are zero at every method of it, such as a given node minus
-            the sum of its row.
+            the sum of its row, and what else is wanted of them.
+        nonzero: polynomials that are zero at none.
+        positive: those that are positive at the solutions that are taken.
+        not_negative: those that are at least 0 there.
+        order: which is wanted of them, where the file says so.
     """
 
     name: str
@@ -51,6 +55,10 @@ class Family:
     ranges: Mapping[str, tuple[fmpq | None, fmpq | None]]
     radicals: tuple[Radical, ...]
     relations: tuple[fmpq_mpoly, ...] = ()
+    nonzero: tuple[fmpq_mpoly, ...] = ()
+    positive: tuple[fmpq_mpoly, ...] = ()
+    not_negative: tuple[fmpq_mpoly, ...] = ()
+    order: int | None = None
 
     def __repr__(self) -> str:
         return f"<Family {self.name}: {', '.join(self.parameters)}>"

@@ -1,0 +1,118 @@
+"""What is wanted of the methods of a family: equations, and signs at solutions."""
+
+from __future__ import annotations
+
+from collections.abc import Callable, Iterable
+from dataclasses import dataclass
+from typing import Literal, TypeAlias
+
+from flint import fmpq, fmpq_mpoly
+
+from garkcli.errors import MethodError
+from garkcli.exact.matrix import Matrix, Vector
+from garkcli.exact.parametric import Parameters, fraction
+from garkcli.tableau.point_space import PointSpace
+from garkcli.tableau.tableau import Tableau
+
+Kind: TypeAlias = Literal["flag", "count", "number"]
+"""How its value is written: true, a whole number, a coefficient."""
+
+
+@dataclass(frozen=True)
+class Asked:
+    """A family and what is asked of it.
+
+    Attributes:
+        tableau: entries are rational numbers and rational functions of the parameters.
+        ring: the parameters.
+        value: a count, or a number, which may have parameters; True for a flag.
+        colours: of which colours it is wanted, counted from 0.
+    """
+
+    tableau: Tableau
+    ring: Parameters
+    value: object
+    colours: tuple[int, ...]
+
+    def block(self, l: int, m: int, key: str) -> Matrix:
+        """A^{l,m}.
+
+        Raises:
+            MethodError: there is no such block.
+        """
+        found = self.tableau.block(l, m)
+        if found is None:
+            raise MethodError(
+                f"design: {key} is for tableaus without empty blocks",
+                f"name the colour: {key}: {{2: …}}",
+            )
+        return found
+
+    def diagonal(self, colour: int, key: str) -> tuple[Matrix, Vector]:
+        """A^{l,l} and b^l of a colour.
+
+        Raises:
+            MethodError: there is no such block, or it is not spelled out stage by stage.
+        """
+        own = self.tableau.colours[colour]
+        block = self.tableau.blocks.get((own.space, colour))
+        space = self.tableau.spaces[own.space]
+        if block is None or not isinstance(space, PointSpace):
+            raise MethodError(
+                f"design: {key} is for tableaus with a block of their own stages",
+                f"name the colour: {key}: {{2: …}}, or spell the tableau out",
+            )
+        return block, own.b
+
+
+@dataclass(frozen=True)
+class Meaning:
+    """What a want means for the parameters.
+
+    Attributes:
+        zeros: rational functions that are zero.
+        nonzero: polynomials that are not.
+        positive: rational functions that are positive at the solutions that are taken.
+        not_negative: those that are at least 0.
+    """
+
+    zeros: tuple[object, ...] = ()
+    nonzero: tuple[fmpq_mpoly, ...] = ()
+    positive: tuple[object, ...] = ()
+    not_negative: tuple[object, ...] = ()
+
+
+@dataclass(frozen=True)
+class Want:
+    """Something that may be wanted.
+
+    Attributes:
+        key: in method files.
+        kind: of its value.
+        summary: what it says.
+        meaning: what it asks of the parameters.
+    """
+
+    key: str
+    kind: Kind
+    summary: str
+    meaning: Callable[[Asked], Meaning]
+
+
+def numerators(functions: Iterable[object], ring: Parameters) -> list[fmpq_mpoly]:
+    """Polynomials that are zero where rational functions are; without those that always are."""
+    found = []
+    for x in functions:
+        numerator, _ = fraction(x, ring)
+        if numerator:
+            found.append(numerator)
+    return found
+
+
+def sign_polynomial(function: object, ring: Parameters) -> fmpq_mpoly:
+    """A polynomial with the sign of a rational function, wherever that has no pole."""
+    numerator, denominator = fraction(function, ring)
+    return numerator * denominator
+
+
+ZERO = fmpq(0)

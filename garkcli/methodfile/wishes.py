@@ -1,0 +1,178 @@
+"""``design`` of a method file: what is wanted of the methods of a family besides their order."""
+
+from __future__ import annotations
+
+from dataclasses import dataclass
+
+from yaml.nodes import MappingNode, Node
+
+from garkcli.design.wants.registry import WANTS, find_want
+from garkcli.design.wants.want import Asked, Meaning, Want
+from garkcli.errors import GarkError, counted, did_you_mean
+from garkcli.exact.nodes import Name
+from garkcli.exact.parametric import Parameters
+from garkcli.methodfile.numbers import Entry, Free, Numbers, Values
+from garkcli.methodfile.parameters import read_range
+from garkcli.methodfile.source import Source
+from garkcli.tableau.tableau import Tableau
+
+KEYS = ("order", "fix", "range", *WANTS)
+"""The keys of ``design``."""
+FORM = "write design: {order: 3, stiffly-accurate: true}"
+
+
+@dataclass(frozen=True)
+class Wish:
+    """One key of ``design``; a count, a coefficient, or True.
+
+    Attributes:
+        node: where it stands.
+        want: what is wanted.
+        value: as it was read.
+        colour: the one it is about, counted from 0; None for all.
+    """
+
+    node: Node
+    want: Want
+    value: int | Entry | bool
+    colour: int | None
+
+
+@dataclass(frozen=True)
+class Wishes:
+    """All of ``design``.
+
+    Attributes:
+        order: that is wanted; None where the command says it.
+        fixed: pairs of entries that are equal.
+        wishes: everything else.
+    """
+
+    order: int | None = None
+    fixed: tuple[tuple[Entry, Entry], ...] = ()
+    wishes: tuple[Wish, ...] = ()
+
+
+def read_wishes(source: Source, numbers: Numbers, node: Node | None) -> Wishes:
+    """What a file wants; its unknowns are known already.
+
+    Args:
+        source: the file.
+        numbers: its coefficients.
+        node: the value of ``design``; None where there is none.
+    """
+    if node is None:
+        return Wishes()
+    entries = source.mapping(node, "design", KEYS, form=FORM)
+    order = None
+    if "order" in entries:
+        order = source.whole(entries["order"], "design: order", smallest=1)
+    fixed = _fixed(source, numbers, entries["fix"]) if "fix" in entries else []
+    if "range" in entries:
+        _ranges(source, numbers, entries["range"])
+    wishes = []
+    for key, value in entries.items():
+        if key not in {"order", "fix", "range"}:
+            wishes += _wishes(source, numbers, find_want(key), value)
+    return Wishes(order, tuple(fixed), tuple(wishes))
+
+
+def _fixed(source: Source, numbers: Numbers, node: Node) -> list[tuple[Entry, Entry]]:
+    """``fix: {c2: 2*gamma}``: unknowns with their values, which may have other unknowns."""
+    fixed = []
+    for name, value in source.mapping(node, "design: fix", (), form=FORM).items():
+        if name in numbers.settings:
+            continue
+        if name not in numbers.free:
+            known = list(numbers.free)
+            cure = did_you_mean(name, known)
+            source.fault(value, f"design: fix: {name} is no unknown of the file", cure)
+            continue
+        entry = numbers.entry(value, f"design: fix: {name}")
+        unknown = Entry(Name(name), value, f"design: fix: {name}")
+        numbers.entries.append(unknown)
+        fixed.append((unknown, entry))
+    return fixed
+
+
+def _ranges(source: Source, numbers: Numbers, node: Node) -> None:
+    """``range: {gamma: [1/4, 1]}``: where unknowns without a line of their own may lie."""
+    for name, value in source.mapping(node, "design: range", (), form=FORM).items():
+        where = f"design: range: {name}"
+        if name in numbers.free:
+            known = numbers.free[name]
+            ends = read_range(numbers, value, where)
+            numbers.free[name] = Free(known.node, *ends, where=known.where)
+        elif name not in numbers.settings:
+            cure = did_you_mean(name, list(numbers.free))
+            source.fault(value, f"{where} is no unknown of the file", cure)
+
+
+def _wishes(source: Source, numbers: Numbers, want: Want, node: Node) -> list[Wish]:
+    """One wish, or one for each colour that is named."""
+    if not isinstance(node, MappingNode):
+        found = _value(source, numbers, want, node)
+        return [] if found is None else [Wish(node, want, found, None)]
+    wishes = []
+    for name, value in source.mapping(node, f"design: {want.key}", ()).items():
+        if not name.isdigit() or int(name) < 1:
+            message = f"design: {want.key}: {name} is no colour"
+            source.fault(value, message, "colours count from 1: {2: true}")
+            continue
+        found = _value(source, numbers, want, value)
+        if found is not None:
+            wishes.append(Wish(value, want, found, int(name) - 1))
+    return wishes
+
+
+def _value(
+    source: Source, numbers: Numbers, want: Want, node: Node
+) -> int | Entry | bool | None:
+    """The value of a wish; None where it is faulty, or says that nothing is wanted."""
+    where = f"design: {want.key}"
+    if want.kind == "count":
+        return source.whole(node, where, smallest=1)
+    if want.kind == "number":
+        return numbers.entry(node, where)
+    word = source.choice(node, where, ("true", "false"))
+    return True if word == "true" else None
+
+
+def meaning_of(
+    wishes: Wishes, tableau: Tableau, ring: Parameters, values: Values, source: Source
+) -> Meaning:
+    """Everything that is wanted, as conditions on the parameters.
+
+    Args:
+        wishes: as they were read.
+        tableau: of the family.
+        ring: its parameters.
+        values: the coefficients of the file.
+        source: the file, where wishes that make no sense for it are noted.
+    """
+    meanings = []
+    for unknown, given in wishes.fixed:
+        difference = values.number(unknown) - values.number(given)
+        meanings.append(Meaning(zeros=(difference,)))
+    for wish in wishes.wishes:
+        colours = tuple(range(tableau.size))
+        if wish.colour is not None:
+            if wish.colour >= tableau.size:
+                message = f"design: {wish.want.key}: no colour {wish.colour + 1}"
+                cure = f"the method has {counted(tableau.size, 'colour')}"
+                source.fault(wish.node, message, cure)
+                continue
+            colours = (wish.colour,)
+        value = wish.value
+        number = values.number(value) if isinstance(value, Entry) else value
+        try:
+            asked = Asked(tableau, ring, number, colours)
+            meanings.append(wish.want.meaning(asked))
+        except GarkError as error:
+            source.fault(wish.node, error.message, error.help)
+    return Meaning(
+        zeros=tuple(x for one in meanings for x in one.zeros),
+        nonzero=tuple(x for one in meanings for x in one.nonzero),
+        positive=tuple(x for one in meanings for x in one.positive),
+        not_negative=tuple(x for one in meanings for x in one.not_negative),
+    )

@@ -1,0 +1,163 @@
+"""What is wanted besides the order: equations and signs, against methods from the literature."""
+
+from __future__ import annotations
+
+import pytest
+
+from garkcli import find_order, loads, pair
+from garkcli.design.chosen import first_method
+from garkcli.design.design import Design, find_parameters
+from garkcli.design.solutions import value_at
+from garkcli.design.wants.registry import WANTS, find_want
+from garkcli.errors import MethodFileError
+from garkcli.methodfile.family import loads_family, with_values
+from tests.cli.harness import gark
+
+SDIRK2 = "unknown: {stages: 2, shape: sdirk}\n"
+IMEX = """unknown: {stages: 4, shape: [imex, stiffly-accurate]}
+design:
+  order: 3
+  R-infinity: {2: 0}
+  range: {gamma: [2/5, 1]}
+  fix: {b1: 0, c2: gamma, c3: (1 + gamma)/2, e42: e43, e32: 2/5}
+"""
+
+
+def taken(found: Design, name: str) -> list[float]:
+    """The values of one unknown at the solutions that are taken."""
+    values = []
+    for one in found.last.found:
+        for index in one.accepted:
+            value = value_at(one.solution.values[name], one.solution.real[index])
+            values.append(float(value.ball(80)))
+    return sorted(values)
+
+
+def test_alexander() -> None:
+    """Stiffly accurate, R(∞) = 0, three stages, order 3: γ is a root of 6γ³ − 18γ² + 9γ − 1."""
+    with open("tests/examples/families/wanted.gark.yaml", encoding="utf-8") as stream:
+        found = find_parameters(loads_family(stream.read()))
+    assert found.last.order == 3
+    assert taken(found, "gamma") == pytest.approx([0.1589838999, 0.4358665215])
+
+
+def test_two_stages_that_damp() -> None:
+    """Order 2 and stiffly accurate with R(∞) = 0: γ = 1 ± √2/2, and with positive weights one."""
+    wanted = "design: {order: 2, stiffly-accurate: true"
+    found = find_parameters(loads_family(f"{SDIRK2}{wanted}, R-infinity: 0}}"))
+    assert taken(found, "gamma") == pytest.approx([0.2928932188, 1.7071067812])
+    text = f"{SDIRK2}{wanted}, R-infinity: 0, positive-weights: true}}"
+    assert taken(find_parameters(loads_family(text)), "gamma") == pytest.approx(
+        [0.2928932188]
+    )
+
+
+def test_the_value_at_infinity() -> None:
+    """R(∞) of the two stages of order 3 is 1 − √3 for γ = 1/2 + √3/6 and 1 + √3 for the other."""
+    text = SDIRK2 + "design: {order: 3, R-infinity: 1 - sqrt(3)}"
+    assert taken(find_parameters(loads_family(text)), "gamma") == pytest.approx(
+        [0.7886751346]
+    )
+
+
+def test_symplectic_and_pair_order() -> None:
+    """Two stages, symplectic, order 4, diagonal 1/4: Gauss; the pair of a combination has order 4
+    for τ = 1 alone, as without ``design``.
+    """
+    text = "unknown: {stages: 2, shape: full}\ndesign: {order: 4, symplectic: true}"
+    found = find_parameters(loads_family(text))
+    assert taken(found, "c1") == pytest.approx([0.2113248654, 0.7886751346])
+    pairs = """parameters: {tau: free}
+methods: [{family: gauss, stages: 2}, {family: lobatto-iiia, stages: 4}]
+transfer: {interpolation: tau, collocation: 1 - tau}
+design: {pair-order: 4}
+"""
+    found = find_parameters(loads_family(pairs), 2)
+    assert taken(found, "tau") == [1]
+    text = pairs.replace("design: {pair-order: 4}", "")
+    assert find_order(pair(loads(text, settings={"tau": "1"}))).order == 4
+
+
+def test_stage_order() -> None:
+    """ESDIRK, two stages, stage order 2: c₂ = 2γ, so that order 2 is the trapezoidal rule."""
+    text = "unknown: {stages: 2, shape: esdirk}\ndesign: {order: 2, stage-order: 2, fix: {c2: 1}}"
+    found = find_parameters(loads_family(text))
+    (one,) = found.last.found
+    values = {name: str(value) for name, value in one.solution.values.items()}
+    assert values == {"c2": "1", "gamma": "1/2", "b1": "1/2", "b2": "1/2"}
+
+
+def test_an_implicit_explicit_method() -> None:
+    """Four stages of order 3 with an L-stable implicit part, Alexander's γ, proved from its file."""
+    family = loads_family(IMEX)
+    found = find_parameters(family)
+    assert taken(found, "gamma") == pytest.approx([0.4358665215])
+    chosen = first_method(found)
+    assert chosen is not None
+    written = with_values(family, chosen.values, "head", "order: 3")
+    assert "design" not in written
+    assert find_order(loads(written)).order == 3
+
+
+def test_nodes_are_filtered_by_exact_signs() -> None:
+    """A node at the end of the interval is inside of it."""
+    text = 'A: [[0, 0], ["?", 0]]\nb: [1/2, 1/2]\ndesign: {{order: 2, {}}}\n'
+    inside = find_parameters(loads_family(text.format("nodes-in-unit-interval: true")))
+    assert taken(inside, "a21") == [1]
+
+
+@pytest.mark.parametrize(
+    ("wanted", "message"),
+    [
+        ("{ordr: 3}", "unknown key 'ordr'"),
+        ("{fix: {c9: 1}}", "c9 is no unknown"),
+        ("{range: {gamma: [1]}}", "a range has two ends"),
+        ("{range: {c9: [0, 1]}}", "c9 is no unknown"),
+        ("{stage-order: 0}", "at least 1"),
+        ("{stiffly-accurate: {2: true}}", "no colour 2"),
+        ("{stiffly-accurate: {x: true}}", "x is no colour"),
+        ("{symplectic: perhaps}", "not known"),
+        ("{R-infinity: c9}", "'c9' is not a parameter"),
+    ],
+)
+def test_faults(wanted: str, message: str) -> None:
+    """What is no wish is a fault at its place."""
+    with pytest.raises(MethodFileError) as caught:
+        loads_family(f"{SDIRK2}design: {wanted}\n")
+    (fault,) = caught.value.faults
+    assert message in fault.message
+    assert fault.line == 2
+
+
+def test_explicit_methods_have_no_value_at_infinity() -> None:
+    """R(z) is a polynomial: refused with a cure."""
+    text = "unknown: {stages: 2, shape: explicit}\ndesign: {R-infinity: 0}\n"
+    with pytest.raises(MethodFileError, match="R-infinity"):
+        loads_family(text)
+
+
+def test_what_cannot_be_met(tmp_path: object) -> None:
+    """Wishes that contradict each other leave no value, before any tree."""
+    path = f"{tmp_path}/wanted.yaml"
+    with open(path, "w", encoding="utf-8") as stream:
+        stream.write(
+            SDIRK2 + "design: {stiffly-accurate: true, fix: {gamma: 1, b2: 2}}\n"
+        )
+    run = gark("design", path, "--order", "1")
+    assert (run.code, "what is wanted besides cannot be met" in run.out) == (1, True)
+
+
+def test_every_want_has_a_file() -> None:
+    """Each is found by its key and says what it is."""
+    for key in WANTS:
+        want = find_want(key)
+        assert (want.key, bool(want.summary)) == (key, True)
+
+
+def test_as_a_command(tmp_path: object) -> None:
+    """The order of the file is what the exit code is about."""
+    path = f"{tmp_path}/wanted.yaml"
+    with open(path, "w", encoding="utf-8") as stream:
+        stream.write(SDIRK2 + "design: {order: 4}\n")
+    assert gark("design", path).code == 1
+    assert gark("design", path, "--order", "3").code == 0
