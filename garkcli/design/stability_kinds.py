@@ -54,7 +54,8 @@ class Members:
         """The method for a value; None where a weight or a denominator is zero."""
         family = self.family
         try:
-            tableau = member(family.tableau, family.ring, {family.ring.names[0]: value})
+            [name] = family.ring.names
+            tableau = member(family.tableau, family.ring, {name: value})
             return TABLEAUS[self.whose](tableau)
         except (ZeroDivisionError, ZeroWeight):
             return None
@@ -104,11 +105,10 @@ class AStability:
         self.essential: list[Polynomial] = []
         self.critical = projected(curves([self.E]), [ZERO])
         # a pole at infinity or on the axis, another degree of R, other lowest terms
-        self.critical += [in_t(leading(self.Q)), in_t(leading(self.P))]
-        self.critical += [
-            in_t(u.resultant(v, "y")),
-            in_t(self.P.resultant(self.Q, "y")),
-        ]
+        common = self.P.resultant(self.Q, "y")
+        on_axis = u.resultant(v, "y")
+        for p in (leading(self.Q), leading(self.P), on_axis, common):
+            self.critical.append(in_t(p))
 
     def decide(self, value: Number) -> bool:
         tableau = self.members.at(value)
@@ -138,18 +138,18 @@ class PStability:
         check_structure(tableau, self.problem)
         fields = [self.problem.matrix(colour) for colour in tableau.colours]
         self.plane = step_plane(tableau, members.family.ring, fields)
+        D = self.plane.denominator
         (a, b), (c, d) = self.plane.numerators
-        whole = self.plane.denominator**2
-        trace, area = (a + d) * self.plane.denominator, a * d - b * c
-        # b and c are odd in z, all others even
-        self.signs = [
-            _in_square(p)
-            for p in (whole - area, whole + area - trace, whole + area + trace)
-        ]
+        # times D²: 1, tr M and det M; b and c are odd in z, all others even
+        whole = D * D
+        trace = (a + d) * D
+        area = a * d - b * c
+        both = whole + area
+        conditions = [whole - area, both - trace, both + trace]
+        self.signs = [_in_square(p) for p in conditions]
         z, _ = PLANE.gens()
-        D = _in_square(self.plane.denominator)
-        self.essential = projected(curves([D, *self.signs]), [ZERO])
-        others = [self.plane.denominator, a + d, area, z * b, z * c]
+        self.essential = projected(curves([_in_square(D), *self.signs]), [ZERO])
+        others = [D, a + d, area, z * b, z * c]
         deciding = [*self.signs, *map(_in_square, others)]
         self.critical = projected(curves(deciding), [ZERO])
 
@@ -192,11 +192,13 @@ def _degree_at(p: fmpq_mpoly, t: Point) -> int:
 
 def _real_and_imaginary(p: fmpq_mpoly) -> tuple[fmpq_mpoly, fmpq_mpoly]:
     """The polynomials u and v in x = y² with p(iy) = u(y²) + i y v(y²)."""
-    parts: tuple[dict[tuple[int, ...], fmpq], ...] = ({}, {})
+    real: dict[tuple[int, ...], fmpq] = {}
+    imaginary: dict[tuple[int, ...], fmpq] = {}
     for (j, k), a in p.to_dict().items():
-        sign = -1 if j % 4 in {2, 3} else 1
-        parts[j % 2][j // 2, k] = a * sign
-    return PLANE.from_dict(parts[0]), PLANE.from_dict(parts[1])
+        part = imaginary if j % 2 else real
+        # i⁰, i¹, i², i³ = 1, i, −1, −i
+        part[j // 2, k] = -a if j % 4 in {2, 3} else a
+    return PLANE.from_dict(real), PLANE.from_dict(imaginary)
 
 
 def _squared_modulus(p: fmpq_mpoly) -> fmpq_mpoly:

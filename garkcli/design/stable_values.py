@@ -136,12 +136,10 @@ def _refuse_others(family: Family) -> None:
 
 def _trimmed(interval: Interval, undecided: Sequence[RealRoot]) -> Interval:
     """An interval without those of its ends that are not decided."""
-    return Interval(
-        interval.start,
-        interval.end,
-        interval.has_start and interval.start not in undecided,
-        interval.has_end and interval.end not in undecided,
-    )
+    start, end = interval.start, interval.end
+    has_start = interval.has_start and start not in undecided
+    has_end = interval.has_end and end not in undecided
+    return Interval(start, end, has_start, has_end)
 
 
 class _Decision:
@@ -171,7 +169,9 @@ class _Decision:
     def _holds(self, t: Point) -> bool:
         if not isinstance(t, RealRoot):
             return self._at_rational(t)
-        return self._at_rational(t.exact) if t.exact is not None else self._at_root(t)
+        if t.exact is not None:
+            return self._at_rational(t.exact)
+        return self._at_root(t)
 
     def _is_outside(self, t: Point) -> bool:
         least, greatest = self.ends
@@ -192,7 +192,8 @@ class _Decision:
         return self._known[key]
 
     def _at_root(self, t: RealRoot) -> bool:
-        if self._is_outside(t) or any(not sign_at(p, t) for p in self.kind.plane.poles):
+        poles = self.kind.plane.poles
+        if self._is_outside(t) or any(sign_at(p, t) == 0 for p in poles):
             return False
         for x in self._witnesses:
             if any(sign_at(p, t) < 0 for p in self.kind.conditions(x)):
@@ -212,8 +213,12 @@ def _holds_at(intervals: Sequence[Interval], t: Point) -> bool:
     root = t if isinstance(t, RealRoot) else RealRoot.rational(t)
     for interval in intervals:
         start, end = interval.start, interval.end
-        behind = start is None or start < root or (interval.has_start and start == root)
-        before = end is None or root < end or (interval.has_end and end == root)
+        behind = start is None or start < root
+        before = end is None or root < end
+        if interval.has_start and start == root:
+            behind = True
+        if interval.has_end and end == root:
+            before = True
         if behind and before:
             return True
     return False
