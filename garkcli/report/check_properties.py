@@ -39,8 +39,10 @@ def property_lines(subject: Subject) -> list[tuple[str, str]]:
     if kinds - {subject.shape.name}:
         lines.append(("by colour", _by_colour(subject)))
     lines.append(("stage order", _stage_order(subject)))
-    told = [_told(subject, key) for key, x in _NAMES.items() if _is(subject, key, True)]
-    told += [text for key, (odd, text) in _ODDITIES.items() if _is(subject, key, odd)]
+    told = [_told(subject, key) for key in _NAMES if _is(subject, key, True)]
+    for key, (odd_value, text) in _ODDITIES.items():
+        if _is(subject, key, odd_value):
+            told.append(text)
     if told:
         lines.append(("properties", ", ".join(told)))
     keys = [*_NAMES, *_ODDITIES]
@@ -109,13 +111,19 @@ def _by_colour(subject: Subject) -> str:
         if shape is None:
             continue
         by_kind.setdefault(_named(shape), []).append(name)
-    return "; ".join(f"{', '.join(found)} {kind}" for kind, found in by_kind.items())
+    texts = []
+    for kind, found in by_kind.items():
+        colours = ", ".join(found)
+        texts.append(f"{colours} {kind}")
+    return "; ".join(texts)
 
 
 def _stage_order(subject: Subject) -> str:
     found = subject.stage_orders
     verdict = subject.verdict("stage-order")
-    text = f"{'at least ' if verdict.is_at_least else ''}{verdict.value}"
+    text = str(verdict.value)
+    if verdict.is_at_least:
+        text = f"at least {text}"
     if len(set(found)) > 1:
         text += f"   by colour {', '.join(map(str, found))}"
     return text
@@ -142,4 +150,7 @@ def _value(verdict: Verdict) -> str:
         return "not decided" if verdict.is_undecided else "no meaning"
     if isinstance(verdict.value, bool):
         return "yes" if verdict.value else "no"
-    return f"{'at least ' if verdict.is_at_least else ''}{verdict.value}"
+    text = str(verdict.value)
+    if verdict.is_at_least:
+        return f"at least {text}"
+    return text

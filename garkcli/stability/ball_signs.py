@@ -25,7 +25,11 @@ def both(first: bool | None, second: bool | None) -> bool | None:
 
 def mirrored(coefficients: Iterable[arb]) -> list[arb]:
     """p(−z)."""
-    return [-a if k % 2 else a for k, a in enumerate(coefficients)]
+    found = []
+    for k, a in enumerate(coefficients):
+        is_odd = k % 2 == 1
+        found.append(-a if is_odd else a)
+    return found
 
 
 def squared_on_axis(p: Sequence[arb]) -> list[arb]:
@@ -33,7 +37,8 @@ def squared_on_axis(p: Sequence[arb]) -> list[arb]:
     x = arb_poly([0, 1])
     real = arb_poly(mirrored(p[0::2]))
     imaginary = arb_poly(mirrored(p[1::2]))
-    total = real * real + x * imaginary * imaginary
+    total = real * real
+    total += x * imaginary * imaginary
     return [total[k] for k in range(len(total))]
 
 
@@ -120,7 +125,8 @@ def are_coprime(P: list[arb], Q: list[arb]) -> bool:
     size = degree_p + degree_q
     if size == 0:
         return True
-    rows = _shifted(P, degree_q, size) + _shifted(Q, degree_p, size)
+    rows = _shifted(P, degree_q, size)
+    rows += _shifted(Q, degree_p, size)
     resultant = arb_mat(rows).det()
     return not resultant.contains(0)
 

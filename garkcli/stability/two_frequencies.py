@@ -90,10 +90,8 @@ def springs(tableau: Tableau, fast: int) -> SplitSprings:
     with_force = {x.term for x in tableau.colours if x.part in "yp"}
     slow_terms = _slow_terms(terms, fast, with_force)
     if fast not in with_force or not slow_terms:
-        raise UsageProblem(
-            f"term {fast + 1} leaves no term for the other spring",
-            "give another colour with --fast",
-        )
+        message = f"term {fast + 1} leaves no term for the other spring"
+        raise UsageProblem(message, "give another colour with --fast")
     share = fmpq(1, len(slow_terms))
     numbers = range(terms)
     kinetic = [ONE if l == 0 else ZERO for l in numbers]
@@ -118,8 +116,8 @@ def two_frequencies(
         UsageProblem: the split is not one that the structure of the tableau is for.
     """
     check_structure(tableau, _like_an_oscillator(split))
-    count = len(_system(tableau, split, slow, ZERO).W) + 1
-    points = [fmpq(k) for k in range(count)]
+    unknowns = len(_system(tableau, split, slow, ZERO).W)
+    points = [fmpq(k) for k in range(unknowns + 1)]
     rows = []
     for x in points:
         system = _system(tableau, split, slow, x)
@@ -166,7 +164,8 @@ def plane_of_determinants(
 def stable_where(determinants: Sequence[Polynomial]) -> tuple[Interval, ...]:
     """The x ≥ 0 with all powers of M bounded, from det(I − W) and the entries of M times it."""
     D, a, b, c, d = _reduced(determinants)
-    trace, determinant = Ratio.of(a + d, D), Ratio.of(a * d - b * c, D * D)
+    trace = Ratio.of(a + d, D)
+    determinant = Ratio.of(a * d - b * c, D * D)
     return stable_set(trace, determinant, (b, c), D)
 
 
