@@ -23,11 +23,20 @@ Outcome = TypeVar("Outcome")
 class _Worker(Generic[Item, Outcome]):
     """A process that does the items it is sent, one after the other."""
 
-    def __init__(self, context: BaseContext, work: Callable[[Item], Outcome]) -> None:
+    def __init__(
+        self,
+        context: BaseContext,
+        work: Callable[[Item], Outcome],
+        others: Sequence[Connection],
+    ) -> None:
         self.items: deque[int] = deque()
         self.connection, other = context.Pipe()
+        # a forked worker has the ends of this process too; while it holds them nobody is told that
+        # this process has ended
+        is_forked = context.get_start_method() == "fork"
+        not_its_own = [self.connection, *others] if is_forked else []
         self.process: BaseProcess = context.Process(  # type: ignore[attr-defined]
-            target=_serve, args=(other, work), daemon=True
+            target=_serve, args=(other, work, not_its_own), daemon=True
         )
         # a worker that is interrupted before it is ready would say so
         with _without_interrupts():
@@ -119,7 +128,8 @@ class Crew(Generic[Item, Outcome]):
     def _hire(self) -> None:
         """As many workers as there is work for."""
         while len(self.workers) < self.size and self.waiting:
-            worker: _Worker[Item, Outcome] = _Worker(self.context, self.work)
+            others = [worker.connection for worker in self.workers]
+            worker: _Worker[Item, Outcome] = _Worker(self.context, self.work, others)
             self.workers.append(worker)
             self._supply(worker)
 
@@ -159,7 +169,11 @@ def _cause(code: int | None) -> str:
     return f"by {name}{more}"
 
 
-def _serve(connection: Connection, work: Callable[[Item], Outcome]) -> None:
+def _serve(
+    connection: Connection,
+    work: Callable[[Item], Outcome],
+    not_its_own: Sequence[Connection],
+) -> None:
     """What a worker does; it ends when nobody sends any more.
 
     An interrupt is for the process that has the terminal, which ends the workers.
@@ -173,6 +187,8 @@ def _serve(connection: Connection, work: Callable[[Item], Outcome]) -> None:
         if hasattr(signal, name):
             signal.signal(getattr(signal, name), signal.SIG_DFL)
     register()
+    for other in not_its_own:
+        other.close()
     with suppress(EOFError, OSError):
         while True:
             connection.send(work(connection.recv()))

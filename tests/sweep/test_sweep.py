@@ -183,14 +183,17 @@ def test_side_by_side(spec: Path, monkeypatch: pytest.MonkeyPatch) -> None:
 
 @pytest.mark.skipif(os.name == "nt", reason="there are no such signals")
 def test_killed_and_resumed(spec: Path) -> None:
-    """A sweep that is killed while it writes goes on to the rows of one that was not."""
+    """A sweep that is killed while it writes goes on to the rows of one that was not; its workers
+    end with it, and with them the pipe that they hold.
+    """
     rows = spec.with_suffix(".jsonl")
     spec.write_text(LONG, encoding="utf-8")
     command = [sys.executable, "-m", "garkcli", "sweep", str(spec), "--jobs", "2"]
-    with subprocess.Popen(command, stdout=-3, stderr=-3) as process:
+    with subprocess.Popen(command, stdout=-1, stderr=-3) as process:
         while process.poll() is None and not (rows.exists() and rows.stat().st_size):
             time.sleep(0.01)
         process.kill()
+        process.communicate(timeout=100)
     count = len(rows.read_bytes().splitlines())
     assert count > 0
     resumed = gark("sweep", str(spec), "--resume")
