@@ -11,6 +11,7 @@ from garkcli.cli.options import CONTEXT, PATH, Output, common
 
 if TYPE_CHECKING:
     from garkcli.report.sweep import SweepReport
+    from garkcli.sweep.plan import Plan
     from garkcli.sweep.run import Progress
 
 
@@ -51,6 +52,12 @@ if TYPE_CHECKING:
     metavar="FILE",
     help="Write the methods that are kept as Parquet too; needs garkcli[parquet].",
 )
+@click.option(
+    "--plot",
+    type=PATH,
+    metavar="FILE",
+    help="Draw the methods in the plane of the first two columns of pareto.",
+)
 @common(["text", "json", "jsonl", "csv"])
 def command(
     spec: str,
@@ -60,6 +67,7 @@ def command(
     scheduler: str,
     top: int,
     parquet: str | None,
+    plot: str | None,
     output: Output,
 ) -> int:
     """Many methods side by side: families, stages, transfer rules, values of parameters.
@@ -74,6 +82,8 @@ def command(
     from garkcli.sweep.store import RowStore
 
     plan = load_plan(spec)
+    if plot is not None:
+        _refuse_plot(plan, plot)
     path = rows if rows is not None else str(Path(spec).with_suffix(".jsonl"))
     with RowStore(path, resume) as store:
         for progress in sweep(plan, store, jobs, scheduler):
@@ -83,7 +93,25 @@ def command(
     output.write(_rendered(report, output))
     if parquet is not None:
         write_parquet(report, parquet)
+    if plot is not None:
+        from garkcli.plots.saving import save
+        from garkcli.plots.sweep_plot import sweep_figure
+
+        x, y = plan.pareto[:2]
+        save(sweep_figure(report, x, y), Path(plot))
     return 0
+
+
+def _refuse_plot(plan: Plan, path: str) -> None:
+    """Refuse a plot without axes or without a place, before the work is done."""
+    from garkcli.errors import UsageProblem
+    from garkcli.plots.saving import check_suffix
+
+    if len(plan.pareto) < 2:
+        raise UsageProblem(
+            "--plot needs two columns", "write pareto: [error, stages] into the spec"
+        )
+    check_suffix(Path(path))
 
 
 def _tell(progress: Progress, path: str, output: Output) -> None:

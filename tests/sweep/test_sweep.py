@@ -20,7 +20,9 @@ from hypothesis import strategies as st
 
 from garkcli import analyse, loads
 from garkcli.errors import MethodFileError, UsageProblem
+from garkcli.plots.sweep_plot import sweep_figure
 from garkcli.report.schemas import report_schema
+from garkcli.report.sweep import SweepReport
 from garkcli.sweep import run as running
 from garkcli.sweep import task
 from garkcli.sweep.columns import columns, property_kind
@@ -264,6 +266,30 @@ def test_reports(spec: Path) -> None:
     text = gark("sweep", str(spec), "--resume").out
     assert f"small: 32 methods, {data['kept']} kept" in text
     assert max(map(len, text.splitlines())) <= 80
+
+
+def test_the_plot(spec: Path) -> None:
+    """A point for each method that is kept, and one more for those of the front; the same bytes
+    every time; what cannot be drawn is refused before the work.
+    """
+    first, second = spec.with_suffix(".svg"), spec.with_name("again.svg")
+    assert gark("sweep", str(spec), "--plot", str(first)).code == 0
+    assert gark("sweep", str(spec), "--resume", "--plot", str(second)).code == 0
+    assert first.read_bytes() == second.read_bytes()
+    rows = spec.with_suffix(".jsonl")
+    report = SweepReport(
+        str(spec), load_plan(str(spec)), {str(x["key"]): x for x in rows_in(rows)}, 1
+    )
+    (axes,) = sweep_figure(report, "order", "stages").axes
+    drawn = [list(zip(*line.get_data(), strict=True)) for line in axes.lines]
+    everything = [(x["order"], x["stages"]) for x in kept(report.done)]
+    assert drawn == [everything, [(x["order"], x["stages"]) for x in report.front]]
+    rows.unlink()
+    assert gark("sweep", str(spec), "--plot", "figure.txt").code == 2
+    spec.write_text(SPEC.replace("pareto: [order, stages]\n", ""), encoding="utf-8")
+    refused = gark("sweep", str(spec), "--plot", str(first))
+    assert (refused.code, "needs two columns" in refused.err) == (2, True)
+    assert not rows.exists()
 
 
 _ROWS = st.lists(
