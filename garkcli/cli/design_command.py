@@ -7,9 +7,17 @@ from typing import TYPE_CHECKING, Any
 
 import click
 
-from garkcli.cli.options import CONTEXT, PATH, Output, common, settings_option
+from garkcli.cli.options import (
+    CONTEXT,
+    PATH,
+    Output,
+    choices_option,
+    common,
+    settings_option,
+)
 
 if TYPE_CHECKING:
+    from garkcli.design.choices import Choice
     from garkcli.design.design import Design, Whose
     from garkcli.design.stable_values import Wanted
     from garkcli.methodfile.family import FamilyFile
@@ -94,6 +102,7 @@ if TYPE_CHECKING:
     help="With --search: write every method found into a folder.",
 )
 @settings_option
+@choices_option
 @common(["text", "json"])
 def command(
     file: str,
@@ -105,6 +114,7 @@ def command(
     emitted: str | None,
     wanted: Wanted | None,
     settings: dict[str, str],
+    choices: dict[str, str],
     output: Output,
     **searching: Any,
 ) -> int:
@@ -141,20 +151,66 @@ def command(
         from garkcli.cli.searching import search
 
         return search(family, order, whose, {**searching, "emit": emitted}, output)
+    chosen: list[Choice] = []
+    if choices:
+        known = find_parameters(family, order, whose, seconds)
+        chosen = _walk(known, choices)
+        family = load_family(file, {**settings, **choices})
     found = find_parameters(family, order, whose, seconds)
     if output.format == "json":
         from garkcli.report import design_data
 
-        output.write(design_data.render(file, found, digits))
+        output.write(design_data.render(file, found, digits, chosen))
     else:
         from garkcli.report import design_text
 
-        output.write(design_text.render(file, found, digits, output.width))
+        output.write(design_text.render(file, found, digits, output.width, chosen))
     if emitted is not None:
         _emit(family, found, emitted)
     order = order or family.order
     is_reached = order is None or found.reaches(order)
     return _exit_code(found.last.kind == "undecided", is_reached)
+
+
+def _walk(known: Design, choices: Mapping[str, str]) -> list[Choice]:
+    """What each value of --choose leaves."""
+    from garkcli.design.choices import walk_down
+    from garkcli.design.groebner import NotDecided
+    from garkcli.errors import ExpressionError, UsageProblem, did_you_mean
+    from garkcli.exact.domain import Domain
+    from garkcli.exact.expression import parse
+    from garkcli.exact.field import Algebraic
+
+    unknowns = known.family.parameters
+    values = {}
+    for name, text in choices.items():
+        if name not in unknowns:
+            cure = did_you_mean(name, list(unknowns))
+            raise UsageProblem(f"--choose: no unknown {name!r}", cure)
+        try:
+            expression = parse(text)
+            value = Domain([expression]).evaluate(expression)
+        except ExpressionError as error:
+            raise UsageProblem(
+                f"--choose {name}: {error.message}", error.help
+            ) from None
+        if isinstance(value, Algebraic):
+            raise UsageProblem(
+                f"--choose {name}: a rational number is expected",
+                "--set takes radicals",
+            )
+        values[name] = text, value
+    if len(values) == len(unknowns):
+        raise UsageProblem(
+            "--choose leaves no unknown", "gark check with --set judges one method"
+        )
+    try:
+        return walk_down(known, values)
+    except NotDecided:
+        raise UsageProblem(
+            "--choose: what is left is not decided in the time of --seconds",
+            "choose with --set",
+        ) from None
 
 
 def _refuse_alone(searching: Mapping[str, object]) -> None:

@@ -61,6 +61,16 @@ def _settings(
     return settings
 
 
+choices_option: Callable[[F], F] = click.option(
+    "--choose",
+    "choices",
+    multiple=True,
+    metavar="NAME=VALUE",
+    callback=_settings,
+    help="As --set, and say what each choice leaves; repeatable.",
+)
+"""``--choose``; it arrives as a mapping."""
+
 settings_option: Callable[[F], F] = click.option(
     "--set",
     "settings",

@@ -2,8 +2,10 @@
 
 from __future__ import annotations
 
+from collections.abc import Sequence
 from typing import Any, NamedTuple, get_args
 
+from garkcli.design.choices import Choice
 from garkcli.design.design import Design, Found, Kind, Step, Whose
 from garkcli.design.solutions import value_at
 from garkcli.page.exactly import ALGEBRAIC, root_data
@@ -29,9 +31,11 @@ from garkcli.trees.notation import format_tree
 SCHEMA = "gark/design/1"
 
 
-def render(source: str, design: Design, digits: int) -> str:
+def render(
+    source: str, design: Design, digits: int, choices: Sequence[Choice] = ()
+) -> str:
     """The design as JSON text."""
-    return to_json(_REPORT.data(_Shown(source, design, digits))) + "\n"
+    return to_json(_REPORT.data(_Shown(source, design, digits, choices))) + "\n"
 
 
 def design_report_schema() -> Schema:
@@ -45,6 +49,7 @@ class _Shown(NamedTuple):
     source: str
     design: Design
     digits: int
+    choices: Sequence[Choice]
 
     @property
     def last(self) -> _StepOf:
@@ -155,12 +160,20 @@ _STEP: Record[_StepOf] = Record(
     Field("solutions", array(_SOLUTION), lambda x: x.solutions),
     Field("witness", nullable(TEXT), _witness),
 )
+_CHOICE: Record[Choice] = Record(
+    Field("name", TEXT, lambda x: x.name),
+    Field("value", TEXT, lambda x: x.value),
+    Field("order", POSITION, lambda x: x.order),
+    Field("dimension_before", INTEGER, lambda x: x.before),
+    Field("dimension", INTEGER, lambda x: x.after),
+)
 _REPORT: Record[_Shown] = Record(
     Field("schema", {"const": SCHEMA}, lambda _: SCHEMA),
     Field("file", TEXT, lambda x: x.source),
     Field("name", TEXT, lambda x: x.design.family.name),
     Field("of", {"enum": [*get_args(Whose)]}, lambda x: x.design.whose),
     Field("unknowns", array(TEXT), lambda x: list(x.design.family.parameters)),
+    _CHOICE.every("choices", lambda x: x.choices),
     *inside(lambda x: x.last, _STEP.fields),
     _STEP.every("orders", lambda x: x.steps),
 )

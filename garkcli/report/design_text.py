@@ -6,6 +6,7 @@ from collections.abc import Iterator, Sequence
 from itertools import groupby
 from textwrap import wrap
 
+from garkcli.design.choices import Choice
 from garkcli.design.design import Design, Found, Step
 from garkcli.design.solutions import value_at
 from garkcli.errors import counted
@@ -21,7 +22,13 @@ MAX_POLYNOMIALS = 12
 _TIMES = {1: "", 2: "; a double solution", 3: "; a triple solution"}
 
 
-def render(source: str, design: Design, digits: int, width: int) -> str:
+def render(
+    source: str,
+    design: Design,
+    digits: int,
+    width: int,
+    choices: Sequence[Choice] = (),
+) -> str:
     """The design as text.
 
     Args:
@@ -29,16 +36,25 @@ def render(source: str, design: Design, digits: int, width: int) -> str:
         design: what each order asks of the parameters.
         digits: of numbers without simple radicals.
         width: columns to fill.
+        choices: of values that led to it.
     """
     family = design.family
     lines = [printable(source), f"  {printable(family.name)}"]
     unknowns = f"unknown {', '.join(family.parameters)}; order of the {design.whose}"
     lines += wrap(unknowns, width, initial_indent="  ", subsequent_indent="  ")
+    lines += [f"  {_left(choice)}" for choice in choices]
     lines.append("")
     for _, group in groupby(design.steps, key=_kind_of):
         steps = list(group)
         lines += _of_steps(design, steps, digits, width)
     return "\n".join(lines) + "\n"
+
+
+def _left(choice: Choice) -> str:
+    """What a choice leaves."""
+    left = "no method" if choice.after < 0 else f"dimension {choice.after}"
+    before = f"of order {choice.order}, dimension {choice.before}"
+    return f"{choice.name} = {choice.value} leaves {left} {before}"
 
 
 def _kind_of(step: Step) -> tuple[str, tuple[str, ...]]:
