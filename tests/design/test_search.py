@@ -22,6 +22,7 @@ from garkcli.design.search.recognise import minimal_polynomial, rational, recogn
 from garkcli.design.search.residuals import Generators, Residuals
 from garkcli.design.search.run import Alone, Result, results
 from garkcli.design.search.search import BITS, Search
+from garkcli.design.search.snap import values_near
 from garkcli.design.search.told import decimals
 from garkcli.exact.field import Algebraic
 from garkcli.methodfile.family import FamilyFile
@@ -128,12 +129,12 @@ def test_residuals_are_those_of_the_conditions(
 def test_what_happens_to_a_start_does_not_depend_on_the_others() -> None:
     """To the last bit: one at a time, all at once, in another order."""
     search = Search(loads_family(explicit(4)), 4)
-    columns = np.array(list(search.starts(5, 6))).transpose().copy()
+    columns = np.array(list(search.starts(5, 3))).transpose().copy()
     together = least_squares(search.conditions.at, columns)
     turned = least_squares(search.conditions.at, columns[:, ::-1].copy())
     assert np.array_equal(turned.points[:, ::-1], together.points)
     assert together.succeeded.any()
-    for k in range(6):
+    for k in range(3):
         alone = least_squares(search.conditions.at, columns[:, k : k + 1].copy())
         assert np.array_equal(alone.points[:, 0], together.points[:, k])
         assert alone.succeeded[0] == together.succeeded[k]
@@ -204,7 +205,7 @@ def test_both_sdirk_methods() -> None:
 
 def test_degenerate_solutions() -> None:
     """τ = 1 is a double solution: least squares end near it, and it is told exactly."""
-    search = Search(loads_family(TAU), 4, "pair")
+    search = Search(loads_family(TAU), 3, "pair")
     (one,) = finished(search, 1).methods
     assert (one.proof, one.order, dict(one.values)) == ("exact", 4, {"tau": "1"})
 
@@ -355,6 +356,22 @@ def test_what_is_not_recognised() -> None:
     with ctx.workprec(100):
         assert decimals(arb("-0.0625"), 3) == "-0.062"
         assert decimals(arb("123456.75"), 1) == "123456.8"
+
+
+@pytest.mark.parametrize("present", [0.05, -0.1, 0.0, 0.49, 3.98])
+def test_short_numbers_are_near(present: float) -> None:
+    """The shortest first, none twice, none far away; zero behind them unless it is the value."""
+    short, more, *fine = values_near(present)
+    assert all(
+        abs(x - fmpq(*present.as_integer_ratio())) <= fmpq(1, 8) for x in short + more
+    )
+    lengths = [x.q for x in short + more if x]
+    assert lengths == sorted(lengths)
+    assert len(set(map(str, short + more))) == len(short + more)
+    if abs(present) < 0.12:
+        zeros = [k for k, x in enumerate(short + more) if not x]
+        assert zeros == ([0] if present == 0 else [len(short + more) - 1])
+    assert [len(x) for x in fine] == [1, 1, 1]
 
 
 def test_the_same_finds_with_several_processes(tmp_path: Path) -> None:

@@ -14,6 +14,8 @@ from garkcli.design.search.told import Method, told
 from garkcli.tableau.family import Family
 
 Start: TypeAlias = list[float]
+FIRST = 64
+"""Starts of the first batch, so that something is found soon; batches grow twofold, for speed."""
 SAME = 1e-6
 """Solutions no further apart in any unknown are one solution."""
 
@@ -142,13 +144,15 @@ def results(
     crew = crew or Alone(search)
     run = _Run(search, crew, most)
     coming = search.starts(seed, starts)
-    size = max(1, min(search.batch, -(-starts // crew.size)))
+    largest = max(1, min(search.batch, -(-starts // crew.size)))
+    size = min(FIRST, largest)
     while group := list(islice(coming, size * crew.size)):
         batches = [group[k : k + size] for k in range(0, len(group), size)]
         solved = crew.solve(batches)
         first = run.result.starts
         run.result.starts += len(group)
         yield from run.take(solved, first, size)
+        size = min(2 * size, largest)
 
 
 class _Run:

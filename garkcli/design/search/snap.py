@@ -29,7 +29,7 @@ DENOMINATORS = (1, 2, 3, 4, 5, 6, 8, 10, 12, 16, 20, 24, 30)
 REACH = 0.12
 """How far a function is moved at most."""
 TRIALS = 10
-"""Values that are tried at once, the shortest."""
+"""Values that are tried first, the shortest."""
 STEPS = 120
 """Steps of least squares that lead to such a value, or it is not taken."""
 CLOSE = 1e-11
@@ -80,7 +80,7 @@ def snapped(
             break
         if not _is_independent(conditions, fixed, function, x, len(known)):
             continue
-        for values in _trials(_value(function, x)):
+        for values in values_near(_value(function, x)):
             moved = _moved(conditions, fixed, function, values, x, len(known))
             if moved is not None:
                 value, x = moved
@@ -144,16 +144,25 @@ def _is_independent(
     return len(rank(jacobians[:, :, 0])) > before
 
 
-def _trials(present: float) -> Iterator[list[fmpq]]:
-    """Values near the present one: short ones, then one that hardly moves it."""
+def values_near(present: float) -> Iterator[list[fmpq]]:
+    """Values near the present one: short ones, then one that hardly moves it.
+
+    Zero comes behind the short ones, where it is not the present value: it makes another kind of
+    method, explicit in place of implicit.
+    """
     short = []
     for q in DENOMINATORS:
         for p in range(ceil((present - REACH) * q), floor((present + REACH) * q) + 1):
             value = fmpq(p, q)
             if value not in short:
                 short.append(value)
+    short.sort(key=lambda value: int(value.q))
+    zero = fmpq(0)
+    if zero in short and abs(present) > CLOSE:
+        short.remove(zero)
+        short.append(zero)
     yield short[:TRIALS]
-    yield short[TRIALS : 2 * TRIALS]
+    yield short[TRIALS:]
     for q in FINE:
         yield [fmpq(round(present * q), q)]
 
