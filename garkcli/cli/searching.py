@@ -54,12 +54,12 @@ def search(
         raise UsageProblem("a search is for an order", "say which by --order P")
     _check_places(wanted)
     looking = Search(family, order, whose)
-    result = _searched(looking, family, wanted, output)
+    result, ended = _searched(looking, family, wanted, output)
     files = _written(family, looking, result, wanted)
     render = search_data.render if output.format == "json" else search_text.render
     output.write(render(family.source, looking, result, files, output.width))
-    if result.is_interrupted:
-        return INTERRUPTED
+    if ended is not None:
+        return ended
     # that nothing was found says nothing of what there is
     return 0 if result.methods else 3
 
@@ -80,10 +80,10 @@ def _check_places(wanted: Mapping[str, Any]) -> None:
 
 def _searched(
     looking: Search, family: FamilyFile, wanted: Mapping[str, Any], output: Output
-) -> Result:
-    """The result, also where an interrupt ends the search."""
+) -> tuple[Result, int | None]:
+    """The result, and the exit code where an interrupt or a lost worker ends the search."""
     count = wanted["starts"]
-    result = Result()
+    result, ended = Result(), None
     with watching(output.may_show_progress) as show:
         try:
             with _crew(family, looking, wanted["jobs"] or 1) as crew:
@@ -92,11 +92,12 @@ def _searched(
                     what = f"starts, {len(result.methods)} methods found"
                     show(what, result.starts, count)
         except KeyboardInterrupt:
-            result.is_interrupted = True
+            ended = INTERRUPTED
         except WorkerLost as error:
             say_problem(error)
-            result.is_interrupted = True
-    return result
+            ended = 3
+    result.is_interrupted = ended is not None
+    return result, ended
 
 
 @contextmanager

@@ -15,6 +15,7 @@ from hypothesis import given, settings
 from hypothesis import strategies as st
 
 from garkcli import find_order, loads, loads_family, search_methods
+from garkcli.cli.searching import WorkerLost
 from garkcli.design.search.krawczyk import is_proved
 from garkcli.design.search.least_squares import damped_step, least_squares
 from garkcli.design.search.points import Fixings, polished, rank
@@ -400,10 +401,13 @@ def test_nothing_found_and_misuse(tmp_path: Path) -> None:
         assert word in wrong.err
 
 
+@pytest.mark.parametrize(
+    ("end", "code"), [(KeyboardInterrupt(), 130), (WorkerLost("lost"), 3)]
+)
 def test_an_interrupt_keeps_what_is_found(
-    tmp_path: Path, monkeypatch: pytest.MonkeyPatch
+    end: BaseException, code: int, tmp_path: Path, monkeypatch: pytest.MonkeyPatch
 ) -> None:
-    """Interrupted in the second proof: the first method is reported and written."""
+    """Interrupted in the second proof, or a worker lost: the first method is reported and written."""
     path = tmp_path / "family.yaml"
     path.write_text(SDIRK2, encoding="utf-8")
     proved: Callable[..., Any] = Alone.prove
@@ -412,12 +416,12 @@ def test_an_interrupt_keeps_what_is_found(
     def prove(self: Alone, solutions: Any) -> Any:
         calls.append(1)
         if len(calls) > 1:
-            raise KeyboardInterrupt
+            raise end
         return proved(self, solutions)
 
     monkeypatch.setattr(Alone, "prove", prove)
     arguments = ["--order", "3", "--search", "9", "--emit-all", str(tmp_path / "out")]
     run = gark("design", str(path), *arguments)
-    assert run.code == 130
+    assert run.code == code
     assert "interrupted" in run.out
     assert len(list((tmp_path / "out").iterdir())) == 1
