@@ -412,6 +412,17 @@ def test_a_stage_without_influence_does_not_hide_the_symmetry(
     assert symmetric_verdict(longer) is True
 
 
+@pytest.mark.parametrize(
+    ("A", "b"), [([[1]], [0]), ([[1, 0], [0, 3]], [0, 0]), ([[1, 2], [0, 1]], [0, 0])]
+)
+def test_a_step_that_does_nothing_is_symmetric(
+    A: list[list[int]], b: list[int]
+) -> None:
+    """Without weights the step is the identity, whatever the rows."""
+    rows = [[Fraction(x) for x in row] for row in A]
+    assert symmetric_verdict(tableau_of(rows, [Fraction(x) for x in b])) is True
+
+
 def symmetric_verdict(tableau: Tableau) -> object:
     """What ``gark check`` says of a method."""
     return find_property(tableau, "symmetric").value

@@ -1,9 +1,16 @@
 """Symmetric methods."""
 
+from __future__ import annotations
+
+from dataclasses import replace
+
+from flint import fmpq
+
 from garkcli.properties.property import Property, Verdict
 from garkcli.properties.reduction import is_plainly_irreducible, reduced
 from garkcli.properties.subject import Subject
 from garkcli.properties.symmetry import MOST_RENUMBERINGS, symmetry
+from garkcli.tableau.tableau import Tableau
 
 
 def _decide(subject: Subject) -> Verdict:
@@ -28,14 +35,41 @@ def _reduced_verdict(subject: Subject) -> Verdict:
     smaller = reduced(tableau)
     if smaller is None:
         return Verdict.undecided("stages at irrational nodes are not compared")
-    if smaller is tableau:
+    settled = _with_idle_stages_in_the_middle(smaller)
+    if settled is tableau:
         return obstacle
-    holds = symmetry(smaller, subject.tolerance).holds
+    holds = symmetry(settled, subject.tolerance).holds
     if holds is None:
         return Verdict.undecided("there are too many renumberings once it is reduced")
     if holds:
         return Verdict(True, "once it is reduced")
     return obstacle
+
+
+def _with_idle_stages_in_the_middle(tableau: Tableau) -> Tableau:
+    """The same method where a last stage that does nothing has the row b_m/2.
+
+    A stage space of which nothing is left keeps one stage, whose row no step depends on. With this
+    row it is its own image in the adjoint method.
+    """
+    half = fmpq(1, 2)
+    blocks = dict(tableau.blocks)
+    idle = [k for k in range(len(tableau.spaces)) if _is_idle(tableau, k)]
+    for k, m in tableau.blocks:
+        if k in idle:
+            blocks[k, m] = (tuple(half * b for b in tableau.colours[m].b),)
+    return replace(tableau, blocks=blocks) if idle else tableau
+
+
+def _is_idle(tableau: Tableau, k: int) -> bool:
+    """Whether a stage space has one stage, of weight zero, that no stage of another sees."""
+    if tableau.spaces[k].stages > 1:
+        return False
+    own = [m for m, colour in enumerate(tableau.colours) if colour.space == k]
+    if any(any(tableau.colours[m].b) for m in own):
+        return False
+    seen = [block for (j, m), block in tableau.blocks.items() if m in own and j != k]
+    return not any(any(row) for block in seen for row in block)
 
 
 PROPERTY = Property(
