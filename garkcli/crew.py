@@ -79,7 +79,11 @@ class Crew(Generic[Item, Outcome]):
 
         register()
         # fork keeps the modules that are loaded already, where the system has it
-        method = "fork" if "fork" in multiprocessing.get_all_start_methods() else None
+        method = (
+            "fork"
+            if "fork" in multiprocessing.get_all_start_methods()
+            else None
+        )
         self.context: BaseContext = multiprocessing.get_context(method)
         self.work = work
         self.items = items
@@ -111,7 +115,9 @@ class Crew(Generic[Item, Outcome]):
 
         self._hire()
         while any(worker.items for worker in self.workers):
-            by_connection = {worker.connection: worker for worker in self.workers}
+            by_connection = {
+                worker.connection: worker for worker in self.workers
+            }
             for found in wait(list(by_connection)):
                 assert isinstance(found, Connection)
                 worker = by_connection[found]
@@ -129,7 +135,9 @@ class Crew(Generic[Item, Outcome]):
         """As many workers as there is work for."""
         while len(self.workers) < self.size and self.waiting:
             others = [worker.connection for worker in self.workers]
-            worker: _Worker[Item, Outcome] = _Worker(self.context, self.work, others)
+            worker: _Worker[Item, Outcome] = _Worker(
+                self.context, self.work, others
+            )
             self.workers.append(worker)
             self._supply(worker)
 
@@ -140,7 +148,9 @@ class Crew(Generic[Item, Outcome]):
             number = self.waiting.popleft()
             worker.send(number, self.items[number])
 
-    def _bury(self, worker: _Worker[Item, Outcome]) -> Iterator[tuple[int, Outcome]]:
+    def _bury(
+        self, worker: _Worker[Item, Outcome]
+    ) -> Iterator[tuple[int, Outcome]]:
         """A worker that died: the item it was at is to blame, the others go back."""
         worker.end()
         self.workers.remove(worker)
@@ -165,7 +175,11 @@ def _cause(code: int | None) -> str:
     name = f"signal {-code}"
     with suppress(ValueError):
         name = signal.Signals(-code).name
-    more = ", as the system does where memory is short" if name == "SIGKILL" else ""
+    more = (
+        ", as the system does where memory is short"
+        if name == "SIGKILL"
+        else ""
+    )
     return f"by {name}{more}"
 
 

@@ -120,7 +120,11 @@ def did_you_mean(word: str, known: Iterable[str]) -> str:
     if close:
         return f"did you mean {close!r}?"
     letters = _letters(word)
-    begun = [x for x in words if len(letters) > 2 and _letters(x).startswith(letters)]
+    begun = [
+        x
+        for x in words
+        if len(letters) > 2 and _letters(x).startswith(letters)
+    ]
     if begun:
         return f"did you mean {' or '.join(map(repr, begun[:WORDS_SHOWN]))}?"
     if not known:
@@ -144,7 +148,9 @@ def nearest(word: str, known: Iterable[str]) -> str:
 
     letters = _letters(word[:MAX_WORD])
     words = _that_begin_like(word, list(known))
-    spelt = {_letters(x): x for x in reversed(words)}  # of two alike the first stays
+    spelt = {
+        _letters(x): x for x in reversed(words)
+    }  # of two alike the first stays
     if letters in spelt:
         return spelt[letters]
     close = get_close_matches(letters, spelt, n=1)
@@ -204,7 +210,9 @@ class MethodFileError(GarkError):
     order.
     """
 
-    def __init__(self, source: str, faults: Sequence[Fault], text: str = "") -> None:
+    def __init__(
+        self, source: str, faults: Sequence[Fault], text: str = ""
+    ) -> None:
         super().__init__("; ".join(fault.message for fault in faults))
         self.source = source
         self.faults = tuple(faults)
@@ -244,4 +252,7 @@ def excerpt(text: str, line: int, column: int, caret: str = "^") -> list[str]:
     part = text[start : start + EXCERPT_WIDTH]
     shown = part.replace("\t", " ")
     before = printable(shown[: column - 1 - start])
-    return [f"{line:5} | {printable(shown)}", f"      | {' ' * len(before)}{caret}"]
+    return [
+        f"{line:5} | {printable(shown)}",
+        f"      | {' ' * len(before)}{caret}",
+    ]

@@ -57,7 +57,9 @@ def interpolation(l: Method, m: Method) -> Matrix:
         BlockTooLarge: the entries would be too long.
     """
     _refuse_large(l, m)
-    columns = [l.space.of_polynomial(basis) for basis in m.space.basis_polynomials()]
+    columns = [
+        l.space.of_polynomial(basis) for basis in m.space.basis_polynomials()
+    ]
     return multiply(transpose(tuple(columns)), m.A)
 
 
@@ -139,7 +141,9 @@ _ENTRIES: Mapping[str, _Entry] = {
 }
 
 RULES: Mapping[str, Rule] = {
-    name: entry.rule for name, entry in _ENTRIES.items() if not entry.makes_both
+    name: entry.rule
+    for name, entry in _ENTRIES.items()
+    if not entry.makes_both
 }
 """The rules that make one block from two methods."""
 
@@ -150,11 +154,15 @@ PAIR_RULES: Mapping[str, Rule] = {
 them.
 """
 
-SUMMARIES: Mapping[str, str] = {name: entry.summary for name, entry in _ENTRIES.items()}
+SUMMARIES: Mapping[str, str] = {
+    name: entry.summary for name, entry in _ENTRIES.items()
+}
 """One line a rule, for people."""
 
 
-def combination(terms: Sequence[tuple[Number, Rule]], l: Method, m: Method) -> Matrix:
+def combination(
+    terms: Sequence[tuple[Number, Rule]], l: Method, m: Method
+) -> Matrix:
     """Σ τ_k A_k^{l,m} over the rules; consistent where the weights τ_k sum to 1, eq. (lincomb)."""
     blocks = [scale(weight, rule(l, m)) for weight, rule in terms]
     total = blocks[0]
@@ -163,7 +171,9 @@ def combination(terms: Sequence[tuple[Number, Rule]], l: Method, m: Method) -> M
     return total
 
 
-def build_on(methods: Sequence[Method], orders: Sequence[int], l: int, m: int) -> int:
+def build_on(
+    methods: Sequence[Method], orders: Sequence[int], l: int, m: int
+) -> int:
     """Which of two colours a ``symplectic-`` rule builds on: smaller order, fewer stages, lower
     number.
     """

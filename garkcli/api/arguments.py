@@ -55,7 +55,9 @@ def tolerance_of(method: AnyMethod, given: object = None) -> fmpq | None:
         value = read_decimal(str(given).lower())
     value = fmpq(value)
     if not 0 <= value < 1:
-        raise MethodError("a tolerance lies between 0 and 1", "for instance '1e-13'")
+        raise MethodError(
+            "a tolerance lies between 0 and 1", "for instance '1e-13'"
+        )
     return value or None
 
 
@@ -68,7 +70,9 @@ def of_methods(
     """
     parameters = signature(function).parameters
     first = next(iter(parameters))
-    default = parameters["tolerance"].default if "tolerance" in parameters else None
+    default = (
+        parameters["tolerance"].default if "tolerance" in parameters else None
+    )
 
     @wraps(function)
     def wrapped(*arguments: Any, **named: Any) -> R:
@@ -79,14 +83,20 @@ def of_methods(
         else:
             return cast("Callable[..., R]", function)(**named)
         position = (
-            list(parameters).index("tolerance") if "tolerance" in parameters else -1
+            list(parameters).index("tolerance")
+            if "tolerance" in parameters
+            else -1
         )
         is_given = "tolerance" in named or (0 < position < len(arguments))
         own = tolerance_of(method)
         if position > 0 and not is_given and own is not None:
             named["tolerance"] = (
-                float(own.p) / float(own.q) if isinstance(default, float) else own
+                float(own.p) / float(own.q)
+                if isinstance(default, float)
+                else own
             )
-        return cast("Callable[..., R]", function)(tableau_of(method), *rest, **named)
+        return cast("Callable[..., R]", function)(
+            tableau_of(method), *rest, **named
+        )
 
     return cast("Callable[Concatenate[AnyMethod, P], R]", wrapped)

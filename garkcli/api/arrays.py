@@ -59,7 +59,9 @@ def from_arrays(
     if nodes is not None:
         entries["c"] = writer.text(nodes, "c")
     if tolerance is not None:
-        entries["tolerance"] = number_text(tolerance, "tolerance", is_rounded=True)
+        entries["tolerance"] = number_text(
+            tolerance, "tolerance", is_rounded=True
+        )
     lines = [f"{key}: {text}\n" for key, text in entries.items()]
     return loads("".join(lines), SOURCE)
 
@@ -78,7 +80,9 @@ class _Writer:
         if value is None:
             return "null"
         if isinstance(value, list):
-            items = [self.text(x, f"{where}[{i}]") for i, x in enumerate(value)]
+            items = [
+                self.text(x, f"{where}[{i}]") for i, x in enumerate(value)
+            ]
             return f"[{', '.join(items)}]"
         return _quoted(number_text(value, where, self.is_rounded))
 

@@ -46,10 +46,16 @@ def find_order(
     near = tolerance_of(method, tolerance)
     if near is None:
         return certificate.find_order(tableau_of(method), limit)
-    if tolerance is None and isinstance(method, GarkMethod) and method.base is not None:
+    if (
+        tolerance is None
+        and isinstance(method, GarkMethod)
+        and method.base is not None
+    ):
         found = deciding.analyse(method.base.tableau, limit, near)
         order = (
-            found.pair_order if method.derivation == "pair" else found.conjugate_order
+            found.pair_order
+            if method.derivation == "pair"
+            else found.conjugate_order
         )
         if order is not None:
             return order
@@ -69,7 +75,9 @@ def analyse(
         tolerance: the rounding of the coefficients; that of the method where it is not given, 0 for
             none.
     """
-    return deciding.analyse(tableau_of(method), limit, tolerance_of(method, tolerance))
+    return deciding.analyse(
+        tableau_of(method), limit, tolerance_of(method, tolerance)
+    )
 
 
 def is_symplectic(method: AnyMethod, tolerance: object = None) -> bool:
@@ -91,7 +99,9 @@ class _OfSameKind(Protocol):
     def __call__(self, method: GarkMethod | Method) -> GarkMethod: ...
 
 
-def _of_same_kind(make: Callable[[AnyMethod], Tableau | GarkMethod]) -> _OfSameKind:
+def _of_same_kind(
+    make: Callable[[AnyMethod], Tableau | GarkMethod],
+) -> _OfSameKind:
     """The function itself; its type says what it returns for what."""
     return cast(_OfSameKind, make)
 

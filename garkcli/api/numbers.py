@@ -55,7 +55,9 @@ def number_text(x: Any, where: str, is_rounded: bool) -> str:
     raise MethodError(message, _CURE)
 
 
-_CURE = "give an int, a Fraction, a float, or its text, such as '1/2 - sqrt(3)/6'"
+_CURE = (
+    "give an int, a Fraction, a float, or its text, such as '1/2 - sqrt(3)/6'"
+)
 
 
 def _fraction_text(p: int, q: int) -> str:
@@ -83,7 +85,9 @@ def _is_float(x: Any) -> bool:
 def _float_text(x: Any, where: str, is_rounded: bool) -> str:
     value = float(x)
     if not isfinite(value):
-        raise MethodError(f"{where}: {value} is no number", "coefficients are finite")
+        raise MethodError(
+            f"{where}: {value} is no number", "coefficients are finite"
+        )
     if value != x:
         cure = "give the text of the number, or a Fraction"
         raise MethodError(f"{where}: {x} has more digits than a float", cure)
@@ -91,7 +95,9 @@ def _float_text(x: Any, where: str, is_rounded: bool) -> str:
     mantissa = text.lower().partition("e")[0]
     significant = mantissa.replace(".", "").lstrip("-0").rstrip("0")
     is_long = len(significant) > FLOAT_DIGITS
-    is_subnormal = 0 < abs(value) < float_info.min  # such floats keep fewer digits
+    is_subnormal = (
+        0 < abs(value) < float_info.min
+    )  # such floats keep fewer digits
     if (is_long or is_subnormal) and not is_rounded:
         message = f"{where}: {text} is a rounded number"
         raise MethodError(message, _CURE_OF_ROUNDED)
@@ -99,7 +105,8 @@ def _float_text(x: Any, where: str, is_rounded: bool) -> str:
 
 
 _CURE_OF_ROUNDED = (
-    "give it exactly, as a Fraction or a text such as '1/3', or say tolerance='1e-13'"
+    "give it exactly, as a Fraction or a text such as '1/3',"
+    " or say tolerance='1e-13'"
 )
 
 
@@ -131,7 +138,9 @@ def _unreadable(x: Any, where: str) -> MethodError:
         cure = "give it exactly, as a Rational or a text"
         message = f"{where}: {_shown(x)} is a rounded number"
         return MethodError(message, cure)
-    message = f"{where}: {_shown(x)} is made of more than rationals and real roots"
+    message = (
+        f"{where}: {_shown(x)} is made of more than rationals and real roots"
+    )
     return MethodError(message, _CURE)
 
 

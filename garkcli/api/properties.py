@@ -16,7 +16,9 @@ from garkcli.properties.subject import Subject
 from garkcli.tableau.garkmethod import GarkMethod
 
 
-def find_property(method: AnyMethod, key: str, tolerance: object = None) -> Verdict:
+def find_property(
+    method: AnyMethod, key: str, tolerance: object = None
+) -> Verdict:
     """What is true of a property, such as ``"l-stable"``, and what decides it.
 
     Args:
@@ -38,7 +40,9 @@ def find_property(method: AnyMethod, key: str, tolerance: object = None) -> Verd
     near = tolerance_of(method, tolerance) or ZERO
     order = find_order(method, tolerance=tolerance).order
     conditions = simplifying(tableau, DEFAULT_LIMIT, near)
-    return Subject(tableau, order, conditions, DEFAULT_LIMIT, near).verdict(key)
+    return Subject(tableau, order, conditions, DEFAULT_LIMIT, near).verdict(
+        key
+    )
 
 
 def reduced(method: AnyMethod) -> GarkMethod | None:
@@ -57,4 +61,6 @@ def reduced(method: AnyMethod) -> GarkMethod | None:
             return None
         smaller = found
     name = method.name if isinstance(method, GarkMethod) else ""
-    return GarkMethod(tableau=smaller, name=name, tolerance=tolerance_of(method, None))
+    return GarkMethod(
+        tableau=smaller, name=name, tolerance=tolerance_of(method, None)
+    )

@@ -29,7 +29,10 @@ class Differentials:
     """
 
     def __init__(
-        self, tableau: Tableau, problem: Hamiltonian, energies: Sequence[Formula]
+        self,
+        tableau: Tableau,
+        problem: Hamiltonian,
+        energies: Sequence[Formula],
     ) -> None:
         self.tableau = tableau
         self.problem = problem

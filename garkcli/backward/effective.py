@@ -122,7 +122,9 @@ def _rational_sides(
     return [list(column) for column in zip(*rows, strict=True)]
 
 
-def _with_columns(matrix: fmpz_mat, sides: Sequence[Sequence[fmpq]]) -> fmpz_mat:
+def _with_columns(
+    matrix: fmpz_mat, sides: Sequence[Sequence[fmpq]]
+) -> fmpz_mat:
     """A matrix with multiples of columns appended that have integer entries."""
     rows, columns = matrix.nrows(), matrix.ncols()
     appended = []
@@ -138,7 +140,9 @@ def _with_columns(matrix: fmpz_mat, sides: Sequence[Sequence[fmpq]]) -> fmpz_mat
 
 
 def _solve(
-    matrix: fmpz_mat, sides: Sequence[Sequence[fmpq]], field: NumberField | None
+    matrix: fmpz_mat,
+    sides: Sequence[Sequence[fmpq]],
+    field: NumberField | None,
 ) -> list[Number]:
     """One solution of a linear system that has one, its right-hand side given by coordinates."""
     columns = matrix.ncols()

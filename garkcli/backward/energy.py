@@ -20,7 +20,12 @@ from flint import arb, ctx, fmpq
 
 from garkcli.backward.formulas import ModifiedFormula, modified_formula
 from garkcli.convergence.ladder import has_settled
-from garkcli.convergence.result import CLOSE, Row, observed_order, slope_between
+from garkcli.convergence.result import (
+    CLOSE,
+    Row,
+    observed_order,
+    slope_between,
+)
 from garkcli.errors import UsageProblem
 from garkcli.problems.hamiltonian import Hamiltonian
 from garkcli.problems.straightline import function
@@ -77,7 +82,9 @@ class ModifiedEnergy:
         excess = self.observed_order - self.exact_order
         if excess < -CLOSE:
             return "disagree"
-        return "agree" if self.is_lower_bound or excess <= CLOSE else "undecided"
+        return (
+            "agree" if self.is_lower_bound or excess <= CLOSE else "undecided"
+        )
 
 
 @dataclass(frozen=True)
@@ -158,7 +165,9 @@ def modified_run(
     ):
         rows = tuple(row[k] for row in table)
         energies.append(_energy(power, order, is_lower_bound, rows))
-    return ModifiedRun(formula.problem, t_end, max_order, meter.digits, tuple(energies))
+    return ModifiedRun(
+        formula.problem, t_end, max_order, meter.digits, tuple(energies)
+    )
 
 
 def _changing(formula: ModifiedFormula) -> tuple[list[int], list[Any]]:
@@ -172,7 +181,9 @@ def _changing(formula: ModifiedFormula) -> tuple[list[int], list[Any]]:
     return powers, formulas
 
 
-def _next_power(tableau: Tableau, formula: ModifiedFormula) -> tuple[int, bool]:
+def _next_power(
+    tableau: Tableau, formula: ModifiedFormula
+) -> tuple[int, bool]:
     """The power of h that follows, and whether nothing is known but that it is not less."""
     for order in range(formula.max_order + 1, formula.max_order + _BEYOND + 1):
         try:
@@ -185,7 +196,9 @@ def _next_power(tableau: Tableau, formula: ModifiedFormula) -> tuple[int, bool]:
     return formula.max_order + _BEYOND, True
 
 
-def _first_count(problem: Hamiltonian, t_end: fmpq, longest: fmpq | None) -> int:
+def _first_count(
+    problem: Hamiltonian, t_end: fmpq, longest: fmpq | None
+) -> int:
     """The steps of the first row.
 
     Raises:
@@ -270,7 +283,9 @@ class _Meter:
 
     def _have_settled(self, table: Sequence[Sequence[Row]]) -> bool:
         columns = zip(*table, strict=True)
-        return all(_energy(0, 0, True, tuple(rows)).has_settled for rows in columns)
+        return all(
+            _energy(0, 0, True, tuple(rows)).has_settled for rows in columns
+        )
 
     def errors(self, count: int) -> list[arb]:
         """The root mean square over time, by the trapezoidal rule, of H̃(y_n) − H̃(y_0) for each
@@ -293,7 +308,9 @@ class _Meter:
                     # the trapezoidal rule; the change is 0 at the start
                     squares[k] += square / 2 if n == count else square
             sizes = [abs(x) for x in start]
-            noise = sum(sizes, arb(1)) * arb(10) ** (_LOST - self.digits) * count
+            noise = (
+                sum(sizes, arb(1)) * arb(10) ** (_LOST - self.digits) * count
+            )
             means = [(x / count).sqrt() for x in squares]
             return [_enclosed(x, noise) for x in means]
 

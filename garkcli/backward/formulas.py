@@ -6,7 +6,11 @@ from dataclasses import dataclass, replace
 from math import comb, prod
 from typing import TYPE_CHECKING, Any, Literal
 
-from garkcli.backward.differentials import Differentials, Formula, FormulaVector
+from garkcli.backward.differentials import (
+    Differentials,
+    Formula,
+    FormulaVector,
+)
 from garkcli.backward.hamiltonian import modified_hamiltonian
 from garkcli.backward.modified import ModifiedEquation, modified_equation
 from garkcli.backward.visible import visible
@@ -116,7 +120,9 @@ def modified_formula(
 
 
 def _of_hamiltonian(
-    differentials: Differentials, equation: ModifiedEquation, structure: Structure
+    differentials: Differentials,
+    equation: ModifiedEquation,
+    structure: Structure,
 ) -> list[list[Formula]]:
     """For each power of h one formula."""
     sums: list[list[Formula]] = [[0] for _ in range(equation.max_order)]

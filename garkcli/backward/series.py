@@ -43,7 +43,9 @@ def elementary_weights(tableau: Tableau, forest: Forest) -> list[Number]:
         for branch in branches:
             below = forest.trees[branch].root
             block = tableau.block(root, below)
-            assert block is not None  # the trees are those that the tableau admits
+            assert (
+                block is not None
+            )  # the trees are those that the tableau admits
             vector = space.product(vector, apply(block, vectors[branch]))
         vectors.append(vector)
         weights.append(dot(tableau.colours[root].b, vector))

@@ -95,7 +95,11 @@ class Analysis:
 
         tolerance = ZERO if self.tolerance is None else self.tolerance
         return Subject(
-            self.tableau, self.order.order, self.simplifying, self.limit, tolerance
+            self.tableau,
+            self.order.order,
+            self.simplifying,
+            self.limit,
+            tolerance,
         )
 
     def __repr__(self) -> str:
@@ -107,7 +111,9 @@ class Analysis:
         return f"<Analysis {', '.join(orders)}>"
 
 
-def conjugate_and_pair(tableau: Tableau) -> tuple[Tableau | None, Tableau | None, str]:
+def conjugate_and_pair(
+    tableau: Tableau,
+) -> tuple[Tableau | None, Tableau | None, str]:
     """The conjugate and the symplectic pair, None where a weight is zero, and then why."""
     conjugated, both, obstacle = None, None, ""
     try:

@@ -46,7 +46,9 @@ def read_baseline(path: str) -> Mapping[str, Mapping[str, Any]]:
     if not isinstance(report, dict) or report.get("schema") != SCHEMA:
         raise _refused(path, "not a report of gark check")
     files = report.get("files")
-    if not isinstance(files, list) or not all(_is_whole(file) for file in files):
+    if not isinstance(files, list) or not all(
+        _is_whole(file) for file in files
+    ):
         raise _refused(path, "a damaged report of gark check")
     return {PurePath(file["file"]).as_posix(): file for file in files}
 
@@ -108,11 +110,15 @@ def _new_file(now: Mapping[str, Any]) -> list[Regression]:
     for claim in now["claims"]:
         if not claim["holds"]:
             before = f"new, expected {claim['expected']}"
-            found.append(Regression(file, claim["claim"], before, claim["found"]))
+            found.append(
+                Regression(file, claim["claim"], before, claim["found"])
+            )
     return found
 
 
-def _changed(now: Mapping[str, Any], before: Mapping[str, Any]) -> list[Regression]:
+def _changed(
+    now: Mapping[str, Any], before: Mapping[str, Any]
+) -> list[Regression]:
     file = now["file"]
     if "errors" in before:
         return []  # no worse; where it can be read now better, whatever its claims say
@@ -126,9 +132,13 @@ def _changed(now: Mapping[str, Any], before: Mapping[str, Any]) -> list[Regressi
         if claim["holds"] or failed_before:
             continue
         earlier = "held" if name in held else "not claimed"
-        found.append(Regression(file, name, earlier, f"found {claim['found']}"))
+        found.append(
+            Regression(file, name, earlier, f"found {claim['found']}")
+        )
     for order in ORDERS:
         old, new = before.get(order), now[order]
         if type(old) is int and (new is None or new < old):
-            found.append(Regression(file, order.replace("_", " "), str(old), str(new)))
+            found.append(
+                Regression(file, order.replace("_", " "), str(old), str(new))
+            )
     return found

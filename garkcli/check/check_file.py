@@ -51,16 +51,22 @@ def check_file(
     try:
         method = load(path, settings)
     except MethodFileError as error:
-        return Outcome(error.source, error.source, faults=error.faults, text=error.text)
+        return Outcome(
+            error.source, error.source, faults=error.faults, text=error.text
+        )
 
     def units() -> Mapping[Number, fmpq]:
-        from garkcli.methodfile.printed import printed_units  # few methods are asked
+        from garkcli.methodfile.printed import (
+            printed_units,
+        )  # few methods are asked
 
         return printed_units(method.printed)
 
     reach = max(limit, highest_order(method.claims) + 1)
     analysis = analyse(method.tableau, reach, method.tolerance, units)
-    first_failing = None if analysis.order.is_lower_bound else analysis.order.order + 1
+    first_failing = (
+        None if analysis.order.is_lower_bound else analysis.order.order + 1
+    )
     constants = None
     if want_constants and first_failing is not None:
         from garkcli.order.constants import error_constants
@@ -74,7 +80,9 @@ def check_file(
         analysis=analysis,
         claims=claims,
         text=method.text,
-        blame=_with_consequences(method, claims, _blame(method, analysis), reach),
+        blame=_with_consequences(
+            method, claims, _blame(method, analysis), reach
+        ),
         constants=constants,
     )
 
@@ -94,7 +102,9 @@ def _blame(method: MethodFile, analysis: Analysis) -> Blame | None:
         claimed = highest_order(claims)
         if found is None or found.order >= claimed:
             continue
-        is_explained = method.tolerance is not None and analysis.suggestion is not None
+        is_explained = (
+            method.tolerance is not None and analysis.suggestion is not None
+        )
         if found.is_lower_bound or is_explained:
             return None
         from garkcli.order.blame import blame_of  # paid for by failures alone
@@ -109,21 +119,30 @@ def _blame(method: MethodFile, analysis: Analysis) -> Blame | None:
 
 
 def _with_consequences(
-    method: MethodFile, claims: tuple[Claim, ...], blame: Blame | None, limit: int
+    method: MethodFile,
+    claims: tuple[Claim, ...],
+    blame: Blame | None,
+    limit: int,
 ) -> Blame | None:
     """The same, with the other claims that fail for the reason that its first repair removes."""
     if blame is None or not blame.repairs:
         return blame
     others = set()
     for claim in claims:
-        if not claim.holds and claim.claim in WITHOUT_NODES and claim.claim != blame.of:
+        if (
+            not claim.holds
+            and claim.claim in WITHOUT_NODES
+            and claim.claim != blame.of
+        ):
             others.add(claim.claim)
     if not others:
         return blame
     changed = blame.repairs[0].carried_out(method.tableau)
     analysis = analyse(changed, limit, method.tolerance)
     texts = tuple(claim for claim in method.claims if claim.key in others)
-    restored = [claim.claim for claim in verify(texts, analysis) if claim.holds]
+    restored = [
+        claim.claim for claim in verify(texts, analysis) if claim.holds
+    ]
     return replace(blame, restores=tuple(restored))
 
 

@@ -13,7 +13,9 @@ from garkcli.order.simplifying import Simplifying
 from garkcli.properties.keys import KEYS
 
 
-def verify(claims: tuple[ClaimText, ...], analysis: Analysis) -> tuple[Claim, ...]:
+def verify(
+    claims: tuple[ClaimText, ...], analysis: Analysis
+) -> tuple[Claim, ...]:
     """Hold each claim against the truth."""
     return tuple(_held_against(claim, analysis) for claim in claims)
 

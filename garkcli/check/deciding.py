@@ -48,11 +48,15 @@ def analyse(
     return analyse_within(tableau, tolerance, limit)
 
 
-def _analyse_exactly(tableau: Tableau, limit: int, units: Units | None) -> Analysis:
+def _analyse_exactly(
+    tableau: Tableau, limit: int, units: Units | None
+) -> Analysis:
     conjugated, both, obstacle = conjugate_and_pair(tableau)
     order = find_order(tableau, limit)
     conditions = simplifying(tableau, limit)
-    conjugate_order = None if conjugated is None else find_order(conjugated, limit)
+    conjugate_order = (
+        None if conjugated is None else find_order(conjugated, limit)
+    )
     pair_order, pair_conditions = None, None
     pair_bound, pair_sharp_bound = None, None
     if both is not None and is_pair_of_itself(tableau, both):
@@ -94,7 +98,10 @@ def _analyse_exactly(tableau: Tableau, limit: int, units: Units | None) -> Analy
 
 
 def _misprint(
-    tableau: Tableau, order: Order, suggestion: Suggestion | None, units: Units | None
+    tableau: Tableau,
+    order: Order,
+    suggestion: Suggestion | None,
+    units: Units | None,
 ) -> Misprint | None:
     """The one printed value that does not fit the others, where there is one."""
     if suggestion is None or units is None:
@@ -104,9 +111,13 @@ def _misprint(
     return find_misprint(tableau, order, suggestion, units())
 
 
-def _suggestion(tableau: Tableau, order: Order, limit: int) -> Suggestion | None:
+def _suggestion(
+    tableau: Tableau, order: Order, limit: int
+) -> Suggestion | None:
     """What to write into a file that looks rounded; only tiny residuals are looked at further."""
-    spelled_out = any(isinstance(space, PointSpace) for space in tableau.spaces)
+    spelled_out = any(
+        isinstance(space, PointSpace) for space in tableau.spaces
+    )
     if not spelled_out or order.witness is None:
         return None
     if not within(order.witness.residual, TINY):

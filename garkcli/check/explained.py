@@ -105,7 +105,9 @@ def claim_hint(outcome: Outcome, claim: str) -> str:
         return f"an entry looks misprinted: {repair_text(repair, names)}"
     if blame is not None and blame.of == claim and blame.repairs:
         repair = blame.repairs[0]
-        return f"the claimed order would hold with {repair_text(repair, names)}"
+        return (
+            f"the claimed order would hold with {repair_text(repair, names)}"
+        )
     return ""
 
 

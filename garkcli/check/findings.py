@@ -62,12 +62,16 @@ def _unreadable(outcome: Outcome) -> Iterator[Part]:
     for fault in outcome.faults:
         key = f"{fault.message}\0{seen[fault.message]}"
         seen[fault.message] += 1
-        yield Part(fault.message, fault.help, key, fault.line or 1, fault.column or 1)
+        yield Part(
+            fault.message, fault.help, key, fault.line or 1, fault.column or 1
+        )
 
 
 def _failed_claims(outcome: Outcome) -> Iterator[Part]:
     for claim in outcome.failed_claims:
-        message = f"{claim.claim}: expected {claim.expected}, found {claim.found}"
+        message = (
+            f"{claim.claim}: expected {claim.expected}, found {claim.found}"
+        )
         witness = claim_witness(outcome, claim.claim)
         if witness:
             message = f"{message}; {witness}"
@@ -77,7 +81,9 @@ def _failed_claims(outcome: Outcome) -> Iterator[Part]:
 
 def _missing_claims(outcome: Outcome) -> Iterator[Part]:
     if outcome.needs_claims and outcome.makes_no_claim:
-        yield Part("the file makes no claim", "write what holds under expect", "")
+        yield Part(
+            "the file makes no claim", "write what holds under expect", ""
+        )
 
 
 KINDS = {
@@ -95,7 +101,13 @@ def findings(outcome: Outcome) -> Iterator[Finding]:
         for part in kind.find(outcome):
             digest = _digest(f"{file}\0{rule}\0{part.key}")
             yield Finding(
-                rule, file, part.line, part.column, part.message, part.help, digest
+                rule,
+                file,
+                part.line,
+                part.column,
+                part.message,
+                part.help,
+                digest,
             )
 
 

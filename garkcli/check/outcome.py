@@ -83,7 +83,11 @@ class Outcome:
     def ok(self) -> bool:
         """Whether the file is a method, every claim holds, and there is one where one is needed."""
         missing = self.needs_claims and self.makes_no_claim
-        return self.analysis is not None and not self.failed_claims and not missing
+        return (
+            self.analysis is not None
+            and not self.failed_claims
+            and not missing
+        )
 
     @property
     def exit_code(self) -> int:

@@ -33,10 +33,14 @@ class MethodProof:
     def is_own_pair(self) -> bool:
         """Whether the method is partitioned and the pair that is made of it."""
         both = self.pair
-        return both is not None and is_pair_of_itself(self.method.tableau, both.tableau)
+        return both is not None and is_pair_of_itself(
+            self.method.tableau, both.tableau
+        )
 
 
-def prove_method(method: GarkMethod, limit: int = DEFAULT_LIMIT) -> MethodProof:
+def prove_method(
+    method: GarkMethod, limit: int = DEFAULT_LIMIT
+) -> MethodProof:
     """The orders of a method, its conjugate and its pair, with spanning trees and witnesses.
 
     Args:

@@ -29,7 +29,11 @@ from garkcli.exact.field import Number
 from garkcli.order.certificate import Witness
 from garkcli.order.conditions import elementary_weight, is_admissible
 from garkcli.order.defects import Defects, is_symplectic_within
-from garkcli.order.propagation import ConjugateRounding, Propagation, conjugate_rounding
+from garkcli.order.propagation import (
+    ConjugateRounding,
+    Propagation,
+    conjugate_rounding,
+)
 from garkcli.order.rounded import Effect, RoundedOrder, find_order_within
 from garkcli.order.simplifying import Simplifying, Table, simplifying
 from garkcli.order.suggestion import suggest_wider
@@ -175,7 +179,9 @@ def _agreeing(
     if both is not None and not tableau.is_partitioned:
         both = replace(both, order=_at_most(both.order, order, 0))
         if hat is not None:
-            both = replace(both, order=_at_most(both.order, hat.order, tableau.size))
+            both = replace(
+                both, order=_at_most(both.order, hat.order, tableau.size)
+            )
     return hat, both
 
 
@@ -205,11 +211,15 @@ def _like(derived: _Derived | None, own: RoundedOrder) -> _Derived | None:
     if derived is None:
         return None
     found = derived.order
-    is_same = found.order == own.order and found.is_lower_bound == own.is_lower_bound
+    is_same = (
+        found.order == own.order and found.is_lower_bound == own.is_lower_bound
+    )
     return derived if is_same else replace(derived, order=own)
 
 
-def _at_most(pair_order: RoundedOrder, part: RoundedOrder, shift: int) -> RoundedOrder:
+def _at_most(
+    pair_order: RoundedOrder, part: RoundedOrder, shift: int
+) -> RoundedOrder:
     """The order of the pair, no more than that of a part whose colours begin at ``shift``."""
     if part.order > pair_order.order:
         return pair_order
@@ -248,10 +258,14 @@ def _no_earlier(
         tree = Tree(tree.branches[0].root, (Tree(tree.root),))
     if not is_admissible(conjugated, tree):
         return found
-    witness = Witness(tree, elementary_weight(conjugated, tree), own.witness.required)
+    witness = Witness(
+        tree, elementary_weight(conjugated, tree), own.witness.required
+    )
     sizes = (*found.sizes[: own.order], abs(to_ball(witness.residual)))
     means = (*found.means[: own.order], own.means[-1])
-    return RoundedOrder(own.order, found.tolerance, witness, False, sizes, means)
+    return RoundedOrder(
+        own.order, found.tolerance, witness, False, sizes, means
+    )
 
 
 def _shifted(tree: Tree, shift: int) -> Tree:

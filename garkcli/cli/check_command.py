@@ -111,13 +111,23 @@ def command(
     paths = list(find_files(files))
     refuse_settings_of_several(settings, paths)
     running = check_files(
-        paths, max_order, error_constants, jobs or os.cpu_count() or 1, settings
+        paths,
+        max_order,
+        error_constants,
+        jobs or os.cpu_count() or 1,
+        settings,
     )
-    outcomes = list(tracked(running, len(paths), "checking", output.verbosity >= 0))
+    outcomes = list(
+        tracked(running, len(paths), "checking", output.verbosity >= 0)
+    )
     if require_claims:
-        outcomes = [replace(outcome, needs_claims=True) for outcome in outcomes]
+        outcomes = [
+            replace(outcome, needs_claims=True) for outcome in outcomes
+        ]
     if wants_properties:
-        outcomes = [replace(outcome, wants_properties=True) for outcome in outcomes]
+        outcomes = [
+            replace(outcome, wants_properties=True) for outcome in outcomes
+        ]
     if earlier is not None:
         from garkcli.check.baseline import regressions
         from garkcli.report import check_baseline
@@ -128,7 +138,8 @@ def command(
         return int(bool(worse))
     chosen = _format(output)
     output.write(
-        FORMATS[chosen](outcomes, output.paint, output.verbosity, digits), chosen
+        FORMATS[chosen](outcomes, output.paint, output.verbosity, digits),
+        chosen,
     )
     return max(outcome.exit_code for outcome in outcomes)
 

@@ -17,7 +17,11 @@ from garkcli.cli.options import (
     document_option,
     settings_option,
 )
-from garkcli.cli.tree_options import colours_option, kind_asked, symplectic_options
+from garkcli.cli.tree_options import (
+    colours_option,
+    kind_asked,
+    symplectic_options,
+)
 from garkcli.errors import UsageProblem
 
 if TYPE_CHECKING:
@@ -54,7 +58,10 @@ if TYPE_CHECKING:
     help="Of the symplectic conjugate of FILE.",
 )
 @click.option(
-    "--pair", "which", flag_value="pair", help="Of the symplectic pair of FILE."
+    "--pair",
+    "which",
+    flag_value="pair",
+    help="Of the symplectic pair of FILE.",
 )
 @click.option(
     "--failing", is_flag=True, help="Only conditions of FILE that do not hold."
@@ -66,7 +73,9 @@ if TYPE_CHECKING:
     show_default=True,
     help="Order of the rows; worst: the largest residual first.",
 )
-@digits_option("Values and residuals in decimals of N digits; by default exact.")
+@digits_option(
+    "Values and residuals in decimals of N digits; by default exact."
+)
 @document_option
 @symplectic_options
 @settings_option
@@ -86,17 +95,25 @@ def command(settings: dict[str, str], output: Output, **options: Any) -> int:
     from garkcli.report import conditions as report
 
     wanted = Wanted(**options)
-    asked = kind_asked(wanted.symplectic, wanted.kind, wanted.members, output.format)
+    asked = kind_asked(
+        wanted.symplectic, wanted.kind, wanted.members, output.format
+    )
     _check(wanted, asked)
     if settings and wanted.file is None:
-        raise UsageProblem("--set is for the parameters of FILE", "name a file")
+        raise UsageProblem(
+            "--set is for the parameters of FILE", "name a file"
+        )
     valued = None
     if wanted.file is not None:
         valued = _chosen(wanted.file, settings, wanted.which, wanted.failing)
     subject = None
     if asked is not None:
         subject = _subject(asked, wanted, valued)
-    if valued is not None and subject is not None and subject.tableau is not None:
+    if (
+        valued is not None
+        and subject is not None
+        and subject.tableau is not None
+    ):
         valued = replace(valued, tableau=subject.tableau)
     if subject is not None:
         rows = _independent(subject, wanted.members, valued)
@@ -188,7 +205,9 @@ def _refuse(given: Mapping[str, object]) -> None:
     """
     for option, value in given.items():
         if value:
-            raise UsageProblem(f"{option}: values are those of a method", "give a FILE")
+            raise UsageProblem(
+                f"{option}: values are those of a method", "give a FILE"
+            )
 
 
 def _arranged(
@@ -202,7 +221,10 @@ def _arranged(
 
 
 def _chosen(
-    file: str, settings: Mapping[str, str], which: str | None, only_failing: bool
+    file: str,
+    settings: Mapping[str, str],
+    which: str | None,
+    only_failing: bool,
 ) -> Valued:
     from garkcli.methodfile.load import load
     from garkcli.report.conditions_data import Valued
@@ -220,7 +242,10 @@ def _chosen(
 
 def _subject(asked: Kind, wanted: Wanted, valued: Valued | None) -> Subject:
     """What the conditions are independent for: a kind of methods, or the one of a file."""
-    from garkcli.report.symplectic_subject import subject_of_kind, subject_of_method
+    from garkcli.report.symplectic_subject import (
+        subject_of_kind,
+        subject_of_method,
+    )
 
     if valued is None:
         return subject_of_kind(asked, wanted.colours, wanted.orders)
@@ -244,7 +269,11 @@ def _independent(
     for found, (tree, condition) in zip(classes, values, strict=True):
         shown = found.members if members else ()
         yield ConditionRow(
-            tree, False, condition, stands_for=len(found.members), members=shown
+            tree,
+            False,
+            condition,
+            stands_for=len(found.members),
+            members=shown,
         )
 
 

@@ -18,7 +18,10 @@ from garkcli.cli.options import (
 @click.command("conjugate", context_settings=CONTEXT)
 @click.argument("file", type=PATH, metavar="FILE")
 @click.option(
-    "--pair", "is_pair", is_flag=True, help="The symplectic pair, 2N colours, instead."
+    "--pair",
+    "is_pair",
+    is_flag=True,
+    help="The symplectic pair, 2N colours, instead.",
 )
 @digits_option("Decimals of N digits; by default exact, or 17 digits.")
 @document_option

@@ -9,7 +9,13 @@ from typing import TYPE_CHECKING, Any
 
 import click
 
-from garkcli.cli.converging import Problems, Wanted, compared, hint_rounding, tested
+from garkcli.cli.converging import (
+    Problems,
+    Wanted,
+    compared,
+    hint_rounding,
+    tested,
+)
 from garkcli.cli.options import (
     CONTEXT,
     PATH,
@@ -76,13 +82,18 @@ def _moved(_: click.Context, option: click.Parameter, value: object) -> None:
     type=click.Choice(AXES),
     help="What plots have below: h, or evaluations with --work; seconds depend on the machine.",
 )
-@click.option("--drift", is_flag=True, hidden=True, expose_value=False, callback=_moved)
+@click.option(
+    "--drift", is_flag=True, hidden=True, expose_value=False, callback=_moved
+)
 @click.option("--step", hidden=True, expose_value=False, callback=_moved)
 @plot_option
 @settings_option
 @common(["text", "json", "csv"])
 def command(
-    files: tuple[str, ...], settings: dict[str, str], output: Output, **options: Any
+    files: tuple[str, ...],
+    settings: dict[str, str],
+    output: Output,
+    **options: Any,
 ) -> int:
     """The convergence test: errors over step sizes, observed against predicted order, energy error.
 
@@ -144,7 +155,9 @@ def _check(asked: Asked) -> None:
     """
     if asked.named is not None:
         of_oscillator = {"--omega": asked.omega, "--split": asked.split}
-        refuse_misplaced(asked.named, asked.seed, asked.stiffness, of_oscillator)
+        refuse_misplaced(
+            asked.named, asked.seed, asked.stiffness, of_oscillator
+        )
     elif asked.stiffness is not None:
         raise UsageProblem(
             "--stiffness is for a problem that has one",
@@ -153,7 +166,9 @@ def _check(asked: Asked) -> None:
     if asked.omega:
         positive("--omega", asked.omega)
     if asked.against not in (None, "h") and not asked.work:
-        message = f"--against {asked.against} is not known without measuring it"
+        message = (
+            f"--against {asked.against} is not known without measuring it"
+        )
         raise UsageProblem(message, "add --work")
     check_plot(asked.plot)
 
@@ -192,7 +207,11 @@ class Shown:
 
 
 def _one(
-    path: str, settings: Mapping[str, str], wanted: Wanted, shown: Shown, output: Output
+    path: str,
+    settings: Mapping[str, str],
+    wanted: Wanted,
+    shown: Shown,
+    output: Output,
 ) -> int:
     """The test of one method."""
     from garkcli.methodfile.load import load
@@ -202,7 +221,9 @@ def _one(
 
     problems = Problems(wanted)
     method = load(path, settings)
-    tableau = stepped_tableau(method, output, has_momenta=problems.is_hamiltonian)
+    tableau = stepped_tableau(
+        method, output, has_momenta=problems.is_hamiltonian
+    )
     problems.prepare([tableau])
     if problems.read is not None:
         note_changing(problems.read, output)
@@ -216,7 +237,10 @@ def _one(
     output.write(report.render(result, method.name, format, paint, shown.work))
     hint_rounding(method, tableau, result, output)
     if shown.plot is not None:
-        from garkcli.plots.convergence_plot import comparison_figure, convergence_figure
+        from garkcli.plots.convergence_plot import (
+            comparison_figure,
+            convergence_figure,
+        )
 
         if shown.against == "h" and not shown.work:
             figure = convergence_figure(result, method.name)
@@ -226,13 +250,17 @@ def _one(
     return int(result.verdict == "disagree")
 
 
-def _several(paths: list[str], wanted: Wanted, shown: Shown, output: Output) -> int:
+def _several(
+    paths: list[str], wanted: Wanted, shown: Shown, output: Output
+) -> int:
     """The comparison; what fails is told, and stops nothing."""
     from garkcli.report import comparison as report
 
     entries = compared(paths, wanted, output)
     format, paint = output.format, output.paint
-    output.write(report.render(entries, format, paint, shown.work, shown.against))
+    output.write(
+        report.render(entries, format, paint, shown.work, shown.against)
+    )
     if shown.plot is not None:
         _draw(entries, shown, output)
     return max(entry.exit_code for entry in entries)

@@ -35,7 +35,10 @@ if TYPE_CHECKING:
     "--pair", "is_pair", is_flag=True, help="The order of the symplectic pair."
 )
 @click.option(
-    "--conjugate", "is_conjugate", is_flag=True, help="The order of the conjugate."
+    "--conjugate",
+    "is_conjugate",
+    is_flag=True,
+    help="The order of the conjugate.",
 )
 @click.option(
     "--seconds",
@@ -67,10 +70,16 @@ if TYPE_CHECKING:
     help="The exact set of values of one parameter for which the method is P-stable.",
 )
 @click.option(
-    "--a-stable", "wanted", flag_value="a-stable", help="The same for A-stability."
+    "--a-stable",
+    "wanted",
+    flag_value="a-stable",
+    help="The same for A-stability.",
 )
 @click.option(
-    "--l-stable", "wanted", flag_value="l-stable", help="The same for L-stability."
+    "--l-stable",
+    "wanted",
+    flag_value="l-stable",
+    help="The same for L-stability.",
 )
 @click.option(
     "--search",
@@ -80,7 +89,10 @@ if TYPE_CHECKING:
     help="Search from N random starts instead, and prove what is found.",
 )
 @click.option(
-    "--seed", type=int, metavar="S", help="With --search: of the starts; 0 by default."
+    "--seed",
+    type=int,
+    metavar="S",
+    help="With --search: of the starts; 0 by default.",
 )
 @click.option(
     "--most",
@@ -136,8 +148,12 @@ def command(
 
     _refuse_alone(searching)
     if is_pair and is_conjugate:
-        raise UsageProblem("--pair and --conjugate are two methods", "ask for one")
-    whose: Whose = "pair" if is_pair else "conjugate" if is_conjugate else "method"
+        raise UsageProblem(
+            "--pair and --conjugate are two methods", "ask for one"
+        )
+    whose: Whose = (
+        "pair" if is_pair else "conjugate" if is_conjugate else "method"
+    )
     family = load_family(file, settings)
     if wanted is not None:
         others = (order, emitted, searching["starts"])
@@ -150,7 +166,9 @@ def command(
     if searching["starts"] is not None:
         from garkcli.cli.searching import search
 
-        return search(family, order, whose, {**searching, "emit": emitted}, output)
+        return search(
+            family, order, whose, {**searching, "emit": emitted}, output
+        )
     chosen: list[Choice] = []
     if choices:
         known = find_parameters(family, order, whose, seconds)
@@ -164,7 +182,9 @@ def command(
     else:
         from garkcli.report import design_text
 
-        output.write(design_text.render(file, found, digits, output.width, chosen))
+        output.write(
+            design_text.render(file, found, digits, output.width, chosen)
+        )
     if emitted is not None:
         _emit(family, found, emitted)
     order = order or family.order
@@ -202,7 +222,8 @@ def _walk(known: Design, choices: Mapping[str, str]) -> list[Choice]:
         values[name] = text, value
     if len(values) == len(unknowns):
         raise UsageProblem(
-            "--choose leaves no unknown", "gark check with --set judges one method"
+            "--choose leaves no unknown",
+            "gark check with --set judges one method",
         )
     try:
         return walk_down(known, values)
@@ -220,11 +241,17 @@ def _refuse_alone(searching: Mapping[str, object]) -> None:
     for name in ("seed", "most", "jobs", "emit_all"):
         if searching["starts"] is None and searching[name] is not None:
             option = "--" + name.replace("_", "-")
-            raise UsageProblem(f"{option} goes with --search", "add --search N")
+            raise UsageProblem(
+                f"{option} goes with --search", "add --search N"
+            )
 
 
 def _stable_values(
-    family: FamilyFile, wanted: Wanted, whose: Whose, digits: int, output: Output
+    family: FamilyFile,
+    wanted: Wanted,
+    whose: Whose,
+    digits: int,
+    output: Output,
 ) -> int:
     """The set of values with a kind of stability."""
     from garkcli.design.stable_values import stable_values
@@ -234,7 +261,9 @@ def _stable_values(
     if output.format == "json":
         output.write(report.render_json(family.source, found, digits))
     else:
-        output.write(report.render_text(family.source, found, digits, output.width))
+        output.write(
+            report.render_text(family.source, found, digits, output.width)
+        )
     is_open = not found.found and bool(found.undecided)
     return _exit_code(is_open, bool(found.found))
 
@@ -252,7 +281,11 @@ def _emit(family: FamilyFile, found: Design, path: str) -> None:
             "there is no single method to be written: no order has finitely many",
             "choose values with --set, or ask for a higher order",
         )
-    key = {"method": "order", "conjugate": "conjugate-order", "pair": "pair-order"}
+    key = {
+        "method": "order",
+        "conjugate": "conjugate-order",
+        "pair": "pair-order",
+    }
     claim = f"{key[found.whose]}: {chosen.order}"
     head = f"found by gark design {family.source}: {claim}"
     write_whole(path, [with_values(family, chosen.values, head, claim)])

@@ -55,7 +55,9 @@ NOT_BOUNDED = frozenset({"drifts", "unstable", "undecided"})
     help="What to follow: a name that gark list shows, or a problem file.",
 )
 @problem_options
-@click.option("--step", metavar="H", help="The step size; each problem has its own.")
+@click.option(
+    "--step", metavar="H", help="The step size; each problem has its own."
+)
 @click.option(
     "--digits",
     type=click.IntRange(1, 200),
@@ -81,7 +83,9 @@ NOT_BOUNDED = frozenset({"drifts", "unstable", "undecided"})
     help="Claim that nothing drifts, as far as this run can tell.",
 )
 @click.option(
-    "--max-error", metavar="E", help="Claim that no energy error is larger than E."
+    "--max-error",
+    metavar="E",
+    help="Claim that no energy error is larger than E.",
 )
 @click.option(
     "--modified",
@@ -216,7 +220,9 @@ def _check(wanted: Wanted) -> None:
         UsageProblem: two of them do not.
     """
     of_oscillator = {"--omega": wanted.omega, "--split": wanted.split}
-    refuse_misplaced(wanted.problem, wanted.seed, wanted.stiffness, of_oscillator)
+    refuse_misplaced(
+        wanted.problem, wanted.seed, wanted.stiffness, of_oscillator
+    )
     if wanted.problem == "oscillator" and wanted.digits is not None:
         message = "--digits is not for the oscillator: its steps are exact"
         raise UsageProblem(message, "leave it out")
@@ -245,7 +251,9 @@ def _at_work(
         problem = split_into(read, terms_of(tableau))
         note_changing(problem, output)
         return tableau, problem
-    return tableau, find_problem(wanted.problem, tableau, wanted.seed, stiffness)
+    return tableau, find_problem(
+        wanted.problem, tableau, wanted.seed, stiffness
+    )
 
 
 def _check_quantities(problem: Problem, wanted: Wanted) -> None:
@@ -328,7 +336,9 @@ def _symplecticity(
     return Symplecticity(proved, defects)
 
 
-def _claims(run: LongRun, bounded: bool, limit: fmpq | None) -> tuple[Claim, ...]:
+def _claims(
+    run: LongRun, bounded: bool, limit: fmpq | None
+) -> tuple[Claim, ...]:
     """What the options claim. What is undecided is not shown to be bounded."""
     from garkcli.exact.display import decimal, to_float
     from garkcli.page.figures import measured
@@ -344,5 +354,7 @@ def _claims(run: LongRun, bounded: bool, limit: fmpq | None) -> tuple[Claim, ...
         energy = run.energy or max(run.invariants, key=lambda x: x.max_error)
         holds = not run.is_unstable and energy.max_error <= to_float(limit)
         found_error = measured(energy.max_error, energy.round_off)
-        claims.append(Claim(f"max-error: {decimal(limit)}", found_error, holds))
+        claims.append(
+            Claim(f"max-error: {decimal(limit)}", found_error, holds)
+        )
     return tuple(claims)

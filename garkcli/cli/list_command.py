@@ -18,6 +18,8 @@ def command(output: Output) -> int:
 
     problems = {entry.name: entry.summary for entry in PROBLEMS.values()}
     output.write(
-        listing.render(FAMILIES, SUMMARIES, problems, output.format, output.paint)
+        listing.render(
+            FAMILIES, SUMMARIES, problems, output.format, output.paint
+        )
     )
     return 0

@@ -58,7 +58,9 @@ class _LazyGroup(click.Group):
     def list_commands(self, ctx: click.Context) -> list[str]:
         return list(COMMANDS)
 
-    def get_command(self, ctx: click.Context, cmd_name: str) -> click.Command | None:
+    def get_command(
+        self, ctx: click.Context, cmd_name: str
+    ) -> click.Command | None:
         if cmd_name not in COMMANDS:
             return None
         command = import_module(f"garkcli.cli.{cmd_name}_command").command
@@ -80,7 +82,9 @@ class _LazyGroup(click.Group):
             formatter.write_dl(list(COMMANDS.items()))
 
 
-def _show_version(context: click.Context, _: click.Parameter, wanted: bool) -> None:
+def _show_version(
+    context: click.Context, _: click.Parameter, wanted: bool
+) -> None:
     if wanted and not context.resilient_parsing:
         put(f"gark {__version__}\n")
         context.exit()
@@ -104,7 +108,9 @@ def _show_version(context: click.Context, _: click.Parameter, wanted: bool) -> N
     help="Show the version and exit.",
 )
 @click.option(
-    "--debug", is_flag=True, help="Show the traceback of a fault of the program."
+    "--debug",
+    is_flag=True,
+    help="Show the traceback of a fault of the program.",
 )
 @help_option
 @click.pass_context
@@ -233,7 +239,12 @@ def _complain(error: GarkError) -> None:
         from garkcli.check.outcome import Outcome
 
         say_faults(
-            Outcome(error.source, error.source, faults=error.faults, text=error.text)
+            Outcome(
+                error.source,
+                error.source,
+                faults=error.faults,
+                text=error.text,
+            )
         )
         return
     say_problem(error)

@@ -43,7 +43,10 @@ if TYPE_CHECKING:
     help="Of the symplectic conjugate of FILE.",
 )
 @click.option(
-    "--pair", "which", flag_value="pair", help="Of the symplectic pair of FILE."
+    "--pair",
+    "which",
+    flag_value="pair",
+    help="Of the symplectic pair of FILE.",
 )
 @click.option(
     "--equation",
@@ -89,7 +92,9 @@ def command(
     from garkcli.report.modified_data import ModifiedReport
 
     if document and output.format != "latex":
-        raise UsageProblem("--document goes with --format latex", "add --format latex")
+        raise UsageProblem(
+            "--document goes with --format latex", "add --format latex"
+        )
     method = load(file, settings)
     tableau = _chosen(method, which)
     formula = None
@@ -109,12 +114,18 @@ def command(
         file, method.name, found, which or "", digits, equation, formula
     )
     is_long = output.verbosity >= 0
-    output.write(render(report, output.format, output.paint, is_long, document))
+    output.write(
+        render(report, output.format, output.paint, is_long, document)
+    )
     return 0
 
 
 def _formula(
-    method: MethodFile, tableau: Tableau, problem: str, seed: int | None, order: int
+    method: MethodFile,
+    tableau: Tableau,
+    problem: str,
+    seed: int | None,
+    order: int,
 ) -> ModifiedFormula:
     """The formula on the problem of --problem.
 
@@ -148,4 +159,8 @@ def _chosen(method: MethodFile, which: str | None) -> Tableau:
             f"--{which}: rounding goes on into the coefficients of it",
             "give exact coefficients, without tolerance",
         )
-    return conjugate(method.tableau) if which == "conjugate" else pair(method.tableau)
+    return (
+        conjugate(method.tableau)
+        if which == "conjugate"
+        else pair(method.tableau)
+    )

@@ -8,7 +8,13 @@ from typing import Any, TypeVar
 
 import click
 
-from garkcli.cli.streams import is_terminal, put, safe_pieces, say, wants_colour
+from garkcli.cli.streams import (
+    is_terminal,
+    put,
+    safe_pieces,
+    say,
+    wants_colour,
+)
 from garkcli.errors import UsageProblem
 from garkcli.page.paint import Paint
 
@@ -19,7 +25,9 @@ PATH = click.Path(readable=False)
 """The type of arguments that are files: shells complete them, whoever reads them checks them."""
 
 
-def _show_help(context: click.Context, _: click.Parameter, wanted: bool) -> None:
+def _show_help(
+    context: click.Context, _: click.Parameter, wanted: bool
+) -> None:
     if wanted and not context.resilient_parsing:
         put(context.get_help() + "\n")
         context.exit()
@@ -52,7 +60,9 @@ def _settings(
     for text in given:
         name, sign, value = text.partition("=")
         if not sign or not name.strip() or not value.strip():
-            raise click.BadParameter(f"{text!r} is not NAME=VALUE", context, parameter)
+            raise click.BadParameter(
+                f"{text!r} is not NAME=VALUE", context, parameter
+            )
         if name.strip() in settings:
             raise click.BadParameter(
                 f"{name.strip()!r} is given twice", context, parameter
@@ -82,14 +92,18 @@ settings_option: Callable[[F], F] = click.option(
 """``--set``; it arrives as a mapping."""
 
 
-def refuse_settings_of_several(settings: Mapping[str, str], paths: Sized) -> None:
+def refuse_settings_of_several(
+    settings: Mapping[str, str], paths: Sized
+) -> None:
     """``--set`` is about the parameters of one file.
 
     Raises:
         UsageProblem: it is given with several.
     """
     if settings and len(paths) > 1:
-        raise UsageProblem("--set is for one FILE", "give the files one by one")
+        raise UsageProblem(
+            "--set is for one FILE", "give the files one by one"
+        )
 
 
 document_option: Callable[[F], F] = click.option(

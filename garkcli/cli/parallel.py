@@ -30,7 +30,10 @@ def check_files(
     the others are checked as if nothing had been.
     """
     check = partial(
-        check_file, limit=limit, want_constants=want_constants, settings=settings
+        check_file,
+        limit=limit,
+        want_constants=want_constants,
+        settings=settings,
     )
     work: Work = partial(_checked, check)
     jobs = min(jobs, len(paths), MOST_WORKERS)

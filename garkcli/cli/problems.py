@@ -27,7 +27,10 @@ F = TypeVar("F", bound=Callable[..., Any])
 def is_path(text: str) -> bool:
     """Whether this is the path of a problem file rather than the name of a built-in problem."""
     return (
-        text == "-" or text.endswith((".yaml", ".yml")) or "/" in text or "\\" in text
+        text == "-"
+        or text.endswith((".yaml", ".yml"))
+        or "/" in text
+        or "\\" in text
     )
 
 
@@ -43,7 +46,10 @@ class ProblemType(click.ParamType):  # type: ignore[type-arg]
         return "NAME|FILE"
 
     def convert(
-        self, value: str, param: click.Parameter | None, ctx: click.Context | None
+        self,
+        value: str,
+        param: click.Parameter | None,
+        ctx: click.Context | None,
     ) -> str:
         """Refuse what is neither, before anything is read."""
         from garkcli.problems.builtin import PROBLEMS
@@ -73,7 +79,8 @@ class ProblemType(click.ParamType):  # type: ignore[type-arg]
                 found += sorted(
                     os.path.join(folder, name)
                     for name in os.listdir(folder or ".")
-                    if name.startswith(start) and name.endswith((".yaml", ".yml"))
+                    if name.startswith(start)
+                    and name.endswith((".yaml", ".yml"))
                     if name.isprintable()
                 )
             return [CompletionItem(name) for name in found]
@@ -81,7 +88,9 @@ class ProblemType(click.ParamType):  # type: ignore[type-arg]
 
 
 omega_option: Callable[[F], F] = click.option(
-    "--omega", metavar="W", help="The frequency of the oscillator; 1 by default."
+    "--omega",
+    metavar="W",
+    help="The frequency of the oscillator; 1 by default.",
 )
 split_option: Callable[[F], F] = click.option(
     "--split",
@@ -98,7 +107,10 @@ t_end_option: Callable[[F], F] = click.option(
     "--t-end", metavar="T", help="The final time; each problem has its own."
 )
 plot_option: Callable[[F], F] = click.option(
-    "--plot", type=PATH, metavar="FILE", help="Draw into FILE: .png, .svg or .pdf."
+    "--plot",
+    type=PATH,
+    metavar="FILE",
+    help="Draw into FILE: .png, .svg or .pdf.",
 )
 
 
@@ -111,7 +123,13 @@ stiffness_option: Callable[[F], F] = click.option(
 
 def problem_options(function: F) -> F:
     """``--omega``, ``--split``, ``--seed``, ``--stiffness`` and ``--t-end``."""
-    options = (t_end_option, stiffness_option, seed_option, split_option, omega_option)
+    options = (
+        t_end_option,
+        stiffness_option,
+        seed_option,
+        split_option,
+        omega_option,
+    )
     for option in options:
         function = option(function)
     return function

@@ -43,7 +43,9 @@ def command(file: str, settings: dict[str, str], output: Output) -> int:
     if output.format != "yaml":
         from garkcli.cli.rendering import write_tableau
 
-        write_tableau(smaller, _name(method, smaller), None, output, method.tolerance)
+        write_tableau(
+            smaller, _name(method, smaller), None, output, method.tolerance
+        )
         return 0
     output.write(_file(file, method, smaller))
     return 0

@@ -38,7 +38,9 @@ def write_tableau(
         UsageProblem: no preamble belongs to the format, or no method file says the tableau.
     """
     if is_document and output.format != "latex":
-        raise UsageProblem("--document goes with --format latex", "add --format latex")
+        raise UsageProblem(
+            "--document goes with --format latex", "add --format latex"
+        )
     if output.format == "yaml":
         output.write(_method_file(tableau, name, digits, tolerance))
         return
@@ -55,7 +57,9 @@ def write_tableau(
     if output.format == "latex":
         from garkcli.report import tableau_latex
 
-        output.write(tableau_latex.render(tableau, found, printable(name), is_document))
+        output.write(
+            tableau_latex.render(tableau, found, printable(name), is_document)
+        )
     else:
         from garkcli.report import tableau_text
 

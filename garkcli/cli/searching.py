@@ -26,7 +26,11 @@ if TYPE_CHECKING:
     from garkcli.cli.options import Output
     from garkcli.design.design import Whose
 
-CLAIMS = {"method": "order", "conjugate": "conjugate-order", "pair": "pair-order"}
+CLAIMS = {
+    "method": "order",
+    "conjugate": "conjugate-order",
+    "pair": "pair-order",
+}
 HEADS = {
     "exact": "exact",
     "exists": "proved to exist, with these decimals",
@@ -51,12 +55,16 @@ def search(
         output: where the report goes.
     """
     if order is None:
-        raise UsageProblem("a search is for an order", "say which by --order P")
+        raise UsageProblem(
+            "a search is for an order", "say which by --order P"
+        )
     _check_places(wanted)
     looking = Search(family, order, whose)
     result, ended = _searched(looking, family, wanted, output)
     files = _written(family, looking, result, wanted)
-    render = search_data.render if output.format == "json" else search_text.render
+    render = (
+        search_data.render if output.format == "json" else search_text.render
+    )
     output.write(render(family.source, looking, result, files, output.width))
     if ended is not None:
         return ended
@@ -79,7 +87,10 @@ def _check_places(wanted: Mapping[str, Any]) -> None:
 
 
 def _searched(
-    looking: Search, family: FamilyFile, wanted: Mapping[str, Any], output: Output
+    looking: Search,
+    family: FamilyFile,
+    wanted: Mapping[str, Any],
+    output: Output,
 ) -> tuple[Result, int | None]:
     """The result, and the exit code where an interrupt or a lost worker ends the search."""
     count = wanted["starts"]
@@ -101,7 +112,9 @@ def _searched(
 
 
 @contextmanager
-def _crew(family: FamilyFile, looking: Search, jobs: int) -> Iterator[Crew | None]:
+def _crew(
+    family: FamilyFile, looking: Search, jobs: int
+) -> Iterator[Crew | None]:
     """Workers where there are several; none is left behind."""
     if jobs < 2:
         yield None
@@ -140,7 +153,9 @@ class _Several:
     def solve(self, batches: Sequence[list[list[float]]]) -> list[Timed]:
         return list(self.pool.map(_solve, batches))
 
-    def prove(self, solutions: Sequence[tuple[int, list[float]]]) -> list[Timed]:
+    def prove(
+        self, solutions: Sequence[tuple[int, list[float]]]
+    ) -> list[Timed]:
         return list(self.pool.map(_prove, solutions))
 
 
@@ -168,7 +183,10 @@ def _prove(solution: tuple[int, list[float]]) -> Timed:
 
 
 def _written(
-    family: FamilyFile, looking: Search, result: Result, wanted: Mapping[str, Any]
+    family: FamilyFile,
+    looking: Search,
+    result: Result,
+    wanted: Mapping[str, Any],
 ) -> list[str | None]:
     """Write the files that are asked for; where each method is."""
     files: list[str | None] = [None] * len(result.methods)
@@ -184,12 +202,16 @@ def _written(
             text = _file_text(family, looking, method, wanted["seed"] or 0)
             write_whole(path, [text])
     if wanted["emit"] is not None and wanted["emit_all"] is not None and files:
-        text = _file_text(family, looking, result.methods[0], wanted["seed"] or 0)
+        text = _file_text(
+            family, looking, result.methods[0], wanted["seed"] or 0
+        )
         write_whole(wanted["emit"], [text])
     return files
 
 
-def _file_text(family: FamilyFile, looking: Search, method: Method, seed: int) -> str:
+def _file_text(
+    family: FamilyFile, looking: Search, method: Method, seed: int
+) -> str:
     """A method file with its claim and how it was found."""
     claim = f"{CLAIMS[looking.whose]}: {method.order}"
     head = (

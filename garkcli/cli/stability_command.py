@@ -85,7 +85,9 @@ def command(
     if (slow is None) != (fast is None):
         raise UsageProblem("--slow and --fast belong together", "give both")
     if order_star and plot is None:
-        raise UsageProblem("--order-star is for the picture", "give --plot FILE too")
+        raise UsageProblem(
+            "--order-star is for the picture", "give --plot FILE too"
+        )
     if plot is not None:
         _check_plot(plot)
     ratios = [_ratio(text) for text in ratio]
@@ -98,7 +100,9 @@ def command(
             reports.append(_whole_report(file, method, digits, ratios))
         else:
             reports.append(
-                _springs_report(file, method, digits, slow, fast, plot is not None)
+                _springs_report(
+                    file, method, digits, slow, fast, plot is not None
+                )
             )
     output.write(render(reports, output.format, output.paint))
     if plot is not None:
@@ -117,7 +121,8 @@ def _check_plot(plot: str) -> None:
     check_suffix(Path(plot))
     if not Path(plot).parent.is_dir():
         raise UsageProblem(
-            f"cannot write {plot}: there is no such folder", "choose another place"
+            f"cannot write {plot}: there is no such folder",
+            "choose another place",
         )
 
 
@@ -142,7 +147,8 @@ def _whole_report(
     if method.tolerance is None:
         if ratios and method.tableau.size != 2:
             raise UsageProblem(
-                f"{file}: --ratio is for methods of two colours", "leave it out"
+                f"{file}: --ratio is for methods of two colours",
+                "leave it out",
             )
         found = stability(method.tableau, ratios=ratios)
     else:
@@ -151,7 +157,12 @@ def _whole_report(
 
 
 def _springs_report(
-    file: str, method: MethodFile, digits: int, slow: str, fast: str, with_plane: bool
+    file: str,
+    method: MethodFile,
+    digits: int,
+    slow: str,
+    fast: str,
+    with_plane: bool,
 ) -> StabilityReport:
     """The two springs that the options ask for."""
     from garkcli.report.stability_data import StabilityReport
@@ -167,7 +178,9 @@ def _springs_report(
     tableau = method.tableau
     names = [colour.name for colour in tableau.colours]
     if fast not in names:
-        raise UsageProblem(f"--fast: no colour {fast!r}", did_you_mean(fast, names))
+        raise UsageProblem(
+            f"--fast: no colour {fast!r}", did_you_mean(fast, names)
+        )
     split = springs(tableau, tableau.colours[names.index(fast)].term)
     low, high = _strengths(slow)
     nothing = Stability(tableau, (), None, None)
@@ -194,9 +207,12 @@ def _strengths(slow: str) -> tuple[fmpq, fmpq]:
     low = rational("--slow", first)
     high = rational("--slow", last) if dots else low
     if low < 0:
-        raise UsageProblem(f"--slow {slow}: a square is not negative", "give 0 or more")
+        raise UsageProblem(
+            f"--slow {slow}: a square is not negative", "give 0 or more"
+        )
     if dots and not low < high:
         raise UsageProblem(
-            f"--slow {slow}: the ends are not in ascending order", "give --slow A..B"
+            f"--slow {slow}: the ends are not in ascending order",
+            "give --slow A..B",
         )
     return low, high

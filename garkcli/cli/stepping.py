@@ -23,7 +23,10 @@ DECADES = 50
 
 
 def stepped_tableau(
-    method: MethodFile, output: Output, path: str = "", has_momenta: bool = True
+    method: MethodFile,
+    output: Output,
+    path: str = "",
+    has_momenta: bool = True,
 ) -> Tableau:
     """The tableau that steps: the symplectic pair of ``methods`` where the problem has positions
     and momenta, else what the file gives.
@@ -33,7 +36,9 @@ def stepped_tableau(
     from garkcli.errors import ZeroWeight
     from garkcli.tableau.forms import pair
 
-    is_diagonal = method.form == "methods" and not method.tableau.is_partitioned
+    is_diagonal = (
+        method.form == "methods" and not method.tableau.is_partitioned
+    )
     if not (is_diagonal and has_momenta):
         return method.tableau
     try:
@@ -65,7 +70,9 @@ def refuse_misplaced(
     """
     from garkcli.problems.builtin import PROBLEMS, check_seed, check_stiffness
 
-    given = next((option for option, value in of_oscillator.items() if value), None)
+    given = next(
+        (option for option, value in of_oscillator.items() if value), None
+    )
     if problem != "oscillator" and given:
         raise UsageProblem(
             f"{given} is for the oscillator, not for {problem}", "leave it out"
@@ -92,7 +99,9 @@ def check_plot(path: str | None) -> None:
         check_suffix(Path(path))
 
 
-def oscillator(tableau: Tableau, omega: str | None, split: str | None) -> Oscillator:
+def oscillator(
+    tableau: Tableau, omega: str | None, split: str | None
+) -> Oscillator:
     """The oscillator of ``--omega`` and ``--split``, for one method.
 
     Raises:
@@ -140,7 +149,9 @@ def rational(option: str, text: str) -> fmpq:
         expression = parse(text)
         number = Domain([expression]).evaluate(expression)
     except ExpressionError as error:
-        raise UsageProblem(f"{option} {text}: {error.message}", error.help) from None
+        raise UsageProblem(
+            f"{option} {text}: {error.message}", error.help
+        ) from None
     if isinstance(number, Algebraic):
         raise UsageProblem(
             f"{option} {text}: a rational number is expected", "such as 1/2"

@@ -12,7 +12,11 @@ import click
 
 from garkcli.cli.options import CONTEXT, PATH, Output, common, document_option
 from garkcli.cli.streams import is_terminal, say
-from garkcli.cli.tree_options import colours_option, kind_asked, symplectic_options
+from garkcli.cli.tree_options import (
+    colours_option,
+    kind_asked,
+    symplectic_options,
+)
 from garkcli.errors import UsageProblem
 
 if TYPE_CHECKING:
@@ -49,8 +53,12 @@ MAX_PICTURES = 2000
     metavar="L,M,...",
     help="Only trees in which each of these colours occurs.",
 )
-@click.option("--count", is_flag=True, help="Count without generating, for any order.")
-@click.option("--yes", is_flag=True, help="List them also where they are millions.")
+@click.option(
+    "--count", is_flag=True, help="Count without generating, for any order."
+)
+@click.option(
+    "--yes", is_flag=True, help="List them also where they are millions."
+)
 @click.option(
     "--tree",
     "one",
@@ -58,7 +66,10 @@ MAX_PICTURES = 2000
     help="One tree, such as [[]_2,[]_1]_1, instead of an order.",
 )
 @click.option(
-    "--svg", type=PATH, metavar="FILE", help="Draw a sheet of all the trees into FILE."
+    "--svg",
+    type=PATH,
+    metavar="FILE",
+    help="Draw a sheet of all the trees into FILE.",
 )
 @document_option
 @symplectic_options
@@ -72,7 +83,9 @@ def command(output: Output, **options: Any) -> int:
     conditions are equivalent for symplectic methods.
     """
     wanted = Wanted(**options)
-    asked = kind_asked(wanted.symplectic, wanted.kind, wanted.members, output.format)
+    asked = kind_asked(
+        wanted.symplectic, wanted.kind, wanted.members, output.format
+    )
     if asked is not None:
         _free_trees(asked, wanted, output)
     else:
@@ -119,7 +132,9 @@ class Wanted:
             UsageProblem: none is.
         """
         if self.order is None:
-            raise UsageProblem("which order?", "give --order n, or --tree for one tree")
+            raise UsageProblem(
+                "which order?", "give --order n, or --tree for one tree"
+            )
         first = 1 if self.upto else self.order
         return range(first, self.order + 1)
 
@@ -155,10 +170,14 @@ def _count(query: Query, output: Output) -> None:
     from garkcli.report import trees as report
 
     if query.used:
-        raise UsageProblem("--count knows no --colours-used", "leave one of them out")
+        raise UsageProblem(
+            "--count knows no --colours-used", "leave one of them out"
+        )
     counts = _counts(query)
     with _any_digits():
-        output.write(report.render_counts(query, counts, output.format, output.paint))
+        output.write(
+            report.render_counts(query, counts, output.format, output.paint)
+        )
 
 
 def _list(query: Query, orders: range, wanted: Wanted, output: Output) -> None:
@@ -172,7 +191,9 @@ def _list(query: Query, orders: range, wanted: Wanted, output: Output) -> None:
         kept = [report.kept(query, by_root) for _, by_root in totals]
         count_all = sum(map(sum, kept))
     _refuse_millions(count_all, wanted.yes)
-    rows = tracked(_rows(query, orders), count_all, "trees", output.may_show_progress)
+    rows = tracked(
+        _rows(query, orders), count_all, "trees", output.may_show_progress
+    )
     pieces = report.render(
         query, rows, totals, output.format, output.paint, wanted.document
     )
@@ -191,7 +212,9 @@ def _refuse_millions(lines: int | None, yes: bool) -> None:
         say(f"{lines} trees: list them all? [y/N]")
         if sys.stdin.readline().strip().lower() in {"y", "yes"}:
             return
-    raise UsageProblem(f"{lines} trees", "--yes lists them, --count counts them")
+    raise UsageProblem(
+        f"{lines} trees", "--yes lists them, --count counts them"
+    )
 
 
 def _free_trees(kind: Kind, wanted: Wanted, output: Output) -> None:
@@ -216,14 +239,18 @@ def _free_trees(kind: Kind, wanted: Wanted, output: Output) -> None:
     else:
         lines = subject.independent
         _refuse_millions(lines, wanted.yes)
-        classes = tracked(subject.classes(), lines, "trees", output.may_show_progress)
+        classes = tracked(
+            subject.classes(), lines, "trees", output.may_show_progress
+        )
         pieces = report.render_classes(
             subject, classes, format, paint, wanted.members, wanted.document
         )
         output.write(pieces)
 
 
-def _single(text: str, svg: str | None, is_document: bool, output: Output) -> None:
+def _single(
+    text: str, svg: str | None, is_document: bool, output: Output
+) -> None:
     """One tree, given in bracket text."""
     from garkcli.page.writing import write_whole
     from garkcli.report import trees as report
@@ -241,7 +268,9 @@ def _single(text: str, svg: str | None, is_document: bool, output: Output) -> No
         write_whole(svg, [draw_svg_sheet([tree], [written])])
         output.note(f"wrote {svg}")
         return
-    row = report.TreeRow(written, tree.root, tree.order, tree.symmetry, tree.density)
+    row = report.TreeRow(
+        written, tree.root, tree.order, tree.symmetry, tree.density
+    )
     by_root = tuple(int(l == tree.root) for l in range(colours))
     counts = [(tree.order, by_root)]
     query = report.Query(colours, tree.order, False, tree.root + 1)
@@ -284,7 +313,11 @@ def _counts(query: Query) -> list[tuple[int, tuple[int, ...]]]:
 
     if not query.upto:
         return [(query.order, count_by_root(query.colours, query.order))]
-    return [*enumerate(counts_upto(Admissible.of(query.colours), query.order), start=1)]
+    return [
+        *enumerate(
+            counts_upto(Admissible.of(query.colours), query.order), start=1
+        )
+    ]
 
 
 def _totals(query: Query) -> list[tuple[int, tuple[int, ...]]] | None:

@@ -53,7 +53,9 @@ def seeing_problem(tableaux: Sequence[Tableau], seed: int = 1) -> str:
     return most
 
 
-def in_common(name: str, tableaux: Sequence[Tableau], seed: int) -> list[Problem]:
+def in_common(
+    name: str, tableaux: Sequence[Tableau], seed: int
+) -> list[Problem]:
     """The problem called ``name`` for each method, with one sum for all of them.
 
     Its coefficients depend on the number of terms: all methods get that of the method with the
@@ -63,7 +65,9 @@ def in_common(name: str, tableaux: Sequence[Tableau], seed: int) -> list[Problem
     most = max(terms)
     if name == GENERIC_RHS:
         found = [
-            _linear_terms(x) for x, n in zip(tableaux, terms, strict=True) if n == most
+            _linear_terms(x)
+            for x, n in zip(tableaux, terms, strict=True)
+            if n == most
         ]
         widest: Problem = generic_rhs(most, seed, frozenset.union(*found))
     else:

@@ -32,10 +32,14 @@ STIFF = 30
 """h ‖∂f/∂y‖ from which on steps do not resolve a problem."""
 _NEAR = 0.125  # how far, in parts of the order, the first slope of a ladder may be off
 _STEADY = 0.02  # change between two slopes at which they have settled
-_EXTRAPOLATED = 0.06  # change between two extrapolated orders at which they have
+_EXTRAPOLATED = (
+    0.06  # change between two extrapolated orders at which they have
+)
 _SURE = 0.005  # change between two extrapolated orders that is enough, wherever the slopes are
 _FLAT = 0.25  # how far a slope on the plateau is below the order
-_ABOVE = 300  # how many times the error of the plateau an error has to be to count
+_ABOVE = (
+    300  # how many times the error of the plateau an error has to be to count
+)
 
 
 def default_rows(solver: Solver, is_timed: bool) -> tuple[list[Row], int]:

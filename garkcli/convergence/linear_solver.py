@@ -12,7 +12,13 @@ from math import ceil, factorial
 
 from flint import arb, arb_mat, ctx, fmpq
 
-from garkcli.convergence.result import Cost, Row, Visible, absolute, slope_between
+from garkcli.convergence.result import (
+    Cost,
+    Row,
+    Visible,
+    absolute,
+    slope_between,
+)
 from garkcli.convergence.solver import NoUniqueStep
 from garkcli.convergence.work import MAX_DIGITS, REACHED, cost_of, work_of
 from garkcli.errors import UsageProblem
@@ -46,7 +52,9 @@ LINEAR_ONLY = (
 _FIRST_BITS = 128
 # balls are as exact as the smallest errors need
 _DECADES = (6, 12, 24, 48, 96, 192, 384)
-_AGREEING = 8  # digits of an error by which steps and the step map have to agree
+_AGREEING = (
+    8  # digits of an error by which steps and the step map have to agree
+)
 
 
 @dataclass

@@ -43,7 +43,11 @@ _REFINED = 64  # times the first number of steps with which they should have
 
 
 def run(
-    made: Integrator, h: fmpq, count: int, watch: Watch | None = None, what: str = ""
+    made: Integrator,
+    h: fmpq,
+    count: int,
+    watch: Watch | None = None,
+    what: str = "",
 ) -> Stepper:
     """The state after ``count`` steps of size ``h``; ``watch`` is told about ``what``.
 

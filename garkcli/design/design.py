@@ -27,7 +27,9 @@ from garkcli.tableau.tableau import Tableau
 from garkcli.trees.tree import Tree
 
 Whose: TypeAlias = Literal["method", "conjugate", "pair"]
-Kind: TypeAlias = Literal["every-value", "solutions", "family", "none", "undecided"]
+Kind: TypeAlias = Literal[
+    "every-value", "solutions", "family", "none", "undecided"
+]
 
 
 @dataclass(frozen=True)
@@ -146,11 +148,17 @@ def find_parameters(
         wanted = family.relations if k == 1 else ()
         step = _step(conditions, ideal, k, start, wanted)
         if step.kind == "undecided" and order is not None:
-            step = _at_once(conditions, start, order, deadline, family.relations)
+            step = _at_once(
+                conditions, start, order, deadline, family.relations
+            )
         if step.kind == "solutions":
             step = replace(step, found=_found(family, whose, step))
         steps.append(step)
-        if step.ideal is None or not step.may_have_methods or step.order == order:
+        if (
+            step.ideal is None
+            or not step.may_have_methods
+            or step.order == order
+        ):
             break
         ideal = step.ideal
     return Design(family, whose, tableau, tuple(steps))
@@ -193,7 +201,9 @@ def _at_once(
     """All conditions up to an order in one system, by msolve."""
     polynomials = list(wanted)
     for k in range(1, order + 1):
-        polynomials += [condition.polynomial for condition in conditions.of_order(k)]
+        polynomials += [
+            condition.polynomial for condition in conditions.of_order(k)
+        ]
     try:
         ideal = start.with_zeros_unproved(polynomials, deadline)
     except NotDecided:
@@ -234,7 +244,10 @@ def is_admissible(family: Family, solution: Solution, root: RealRoot) -> bool:
         value = solution.values[radical.name]
         if radical.is_positive and _sign(value, root) <= 0:
             return False
-        if radical.meant is not None and value_at(value, root) != radical.meant:
+        if (
+            radical.meant is not None
+            and value_at(value, root) != radical.meant
+        ):
             return False
     for name, (least, greatest) in family.ranges.items():
         value = solution.values[name]

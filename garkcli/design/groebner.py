@@ -71,7 +71,9 @@ def unproved_basis(
     if basis is None:
         raise NotDecided
     lists = [_terms(p) for p in basis], [_terms(p) for p in given]
-    if not _within_time(_is_verified, (*lists, tuple(context.names())), deadline):
+    if not _within_time(
+        _is_verified, (*lists, tuple(context.names())), deadline
+    ):
         raise NotDecided
     return basis
 
@@ -89,7 +91,9 @@ def _within_time(
     worker.start()
     there.close()
     try:
-        seconds = None if deadline is None else max(0.0, deadline - monotonic())
+        seconds = (
+            None if deadline is None else max(0.0, deadline - monotonic())
+        )
         if not here.poll(seconds):
             raise NotDecided
         result: T = here.recv()
@@ -122,7 +126,9 @@ def _is_verified(
 ) -> bool:
     context = fmpz_mpoly_ctx.get(names, Ordering.degrevlex)
     polynomials = [_polynomial(p, context) for p in given]
-    return is_basis([_polynomial(p, context) for p in basis], polynomials, context)
+    return is_basis(
+        [_polynomial(p, context) for p in basis], polynomials, context
+    )
 
 
 def _terms(p: fmpz_mpoly) -> Terms:

@@ -88,7 +88,9 @@ class Ideal:
         if not new or self.is_everything:
             return self
         grown = copy(self)
-        grown.basis = groebner_basis([*self.basis, *new], self._context, self._deadline)
+        grown.basis = groebner_basis(
+            [*self.basis, *new], self._context, self._deadline
+        )
         return grown
 
     def with_zeros_unproved(
@@ -101,7 +103,9 @@ class Ideal:
         """
         new = [self._integral(polynomial) for polynomial in polynomials]
         grown = copy(self)
-        grown.basis = unproved_basis([*self.basis, *new], self._context, deadline)
+        grown.basis = unproved_basis(
+            [*self.basis, *new], self._context, deadline
+        )
         grown.is_proved = False
         return grown
 
@@ -218,14 +222,18 @@ def _divides(a: Exponents, b: Exponents) -> bool:
     return all(x <= y for x, y in zip(a, b, strict=True))
 
 
-def _normal_form(terms: _Terms, lower: Sequence[tuple[Exponents, _Terms]]) -> _Terms:
+def _normal_form(
+    terms: _Terms, lower: Sequence[tuple[Exponents, _Terms]]
+) -> _Terms:
     """The remainder of a polynomial on division by a monic Gröbner basis."""
     rest: _Terms = {}
     while terms:
         exponents, a = terms.popitem()
         for first, instead in lower:
             if _divides(first, exponents):
-                shift = tuple(x - y for x, y in zip(exponents, first, strict=True))
+                shift = tuple(
+                    x - y for x, y in zip(exponents, first, strict=True)
+                )
                 for e, b in instead.items():
                     place = tuple(x + y for x, y in zip(e, shift, strict=True))
                     _accumulate(terms, place, a * b)

@@ -16,7 +16,9 @@ from garkcli.tableau.stages import StageSpace
 from garkcli.tableau.tableau import Tableau
 
 
-def member(tableau: Tableau, ring: Parameters, values: Mapping[str, Number]) -> Tableau:
+def member(
+    tableau: Tableau, ring: Parameters, values: Mapping[str, Number]
+) -> Tableau:
     """The tableau with every parameter replaced by its value.
 
     Args:

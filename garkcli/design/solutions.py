@@ -151,10 +151,16 @@ def _at(
 ) -> Iterator[Solution]:
     """The solutions, one a factor of f."""
     n = f.degree()
-    horner = [fmpq_poly([f[n - k] for k in range(j, -1, -1)]) for j in range(n)]
+    horner = [
+        fmpq_poly([f[n - k] for k in range(j, -1, -1)]) for j in range(n)
+    ]
     size = u.nrows()
     powers = [
-        fmpq_mat(size, size, [fmpq(i == j) for i in range(size) for j in range(size)])
+        fmpq_mat(
+            size,
+            size,
+            [fmpq(i == j) for i in range(size) for j in range(size)],
+        )
     ]
     for _ in range(n - 1):
         powers.append(powers[-1] * u)

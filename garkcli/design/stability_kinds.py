@@ -92,7 +92,9 @@ class AStability:
 
     def __init__(self, members: Members, tableau: Tableau) -> None:
         colours, spaces = range(tableau.size), range(len(tableau.spaces))
-        is_complete = all((k, m) in tableau.blocks for k in spaces for m in colours)
+        is_complete = all(
+            (k, m) in tableau.blocks for k in spaces for m in colours
+        )
         if tableau.is_partitioned or not is_complete:
             raise UsageProblem(_RIGHT, "ask for --p-stable")
         self.members = members
@@ -148,7 +150,9 @@ class PStability:
         conditions = [whole - area, both - trace, both + trace]
         self.signs = [_in_square(p) for p in conditions]
         z, _ = PLANE.gens()
-        self.essential = projected(curves([_in_square(D), *self.signs]), [ZERO])
+        self.essential = projected(
+            curves([_in_square(D), *self.signs]), [ZERO]
+        )
         others = [D, a + d, area, z * b, z * c]
         deciding = [*self.signs, *map(_in_square, others)]
         self.critical = projected(curves(deciding), [ZERO])

@@ -24,7 +24,12 @@ from typing import Literal, TypeAlias
 from flint import fmpq
 
 from garkcli.design.design import TABLEAUS, Whose
-from garkcli.design.stability_kinds import AStability, Kind, Members, PStability
+from garkcli.design.stability_kinds import (
+    AStability,
+    Kind,
+    Members,
+    PStability,
+)
 from garkcli.errors import UsageProblem
 from garkcli.exact.cells import Interval, Point, sign_of, where
 from garkcli.exact.polynomial import Polynomial
@@ -111,11 +116,15 @@ def _decided(
     return tuple(_trimmed(interval, undecided) for interval in kept), undecided
 
 
-def _damped(kind: AStability, found: Sequence[Interval]) -> tuple[Interval, ...]:
+def _damped(
+    kind: AStability, found: Sequence[Interval]
+) -> tuple[Interval, ...]:
     """The values out of a set with R(∞) = 0."""
     critical = list(kind.critical)
     for interval in found:
-        ends = [end for end in (interval.start, interval.end) if end is not None]
+        ends = [
+            end for end in (interval.start, interval.end) if end is not None
+        ]
         critical += [Polynomial.from_flint(end.polynomial) for end in ends]
     return where(lambda t: _holds_at(found, t) and kind.is_damped(t), critical)
 
@@ -156,9 +165,13 @@ class _Decision:
 
     def run(self) -> tuple[Interval, ...]:
         """The set; open intervals first, as they tell about their ends."""
-        at_ends = [Polynomial([-end, 1]) for end in self.ends if end is not None]
+        at_ends = [
+            Polynomial([-end, 1]) for end in self.ends if end is not None
+        ]
         poles = [p for p in self.kind.plane.poles if p.degree > 0]
-        critical = [p.square_free() for p in self.kind.critical if p.degree > 0]
+        critical = [
+            p.square_free() for p in self.kind.critical if p.degree > 0
+        ]
         critical += at_ends + poles
         self._inside = where(self._holds_between, critical)
         return where(self._holds, critical)
@@ -176,7 +189,9 @@ class _Decision:
     def _is_outside(self, t: Point) -> bool:
         least, greatest = self.ends
         below = least is not None and sign_of(Polynomial([-least, 1]), t) < 0
-        above = greatest is not None and sign_of(Polynomial([-greatest, 1]), t) > 0
+        above = (
+            greatest is not None and sign_of(Polynomial([-greatest, 1]), t) > 0
+        )
         return below or above
 
     def _at_rational(self, t: fmpq) -> bool:

@@ -121,7 +121,9 @@ def _in_parameter(p: fmpq_mpoly) -> Polynomial:
     return Polynomial([powers.get(k, ZERO) for k in exponents])
 
 
-def _through(points: Sequence[fmpq], values: Sequence[Polynomial]) -> fmpq_mpoly:
+def _through(
+    points: Sequence[fmpq], values: Sequence[Polynomial]
+) -> fmpq_mpoly:
     """The polynomial in z and t with given polynomials in z at given t."""
     terms: dict[tuple[int, ...], fmpq] = {}
     for j in range(max(p.degree for p in values) + 1):

@@ -80,7 +80,9 @@ class Domain:
             else:
                 self._values[root] = value
         if len(irrational) > MAX_RADICALS:
-            message = f"{len(irrational)} different radicals (limit {MAX_RADICALS})"
+            message = (
+                f"{len(irrational)} different radicals (limit {MAX_RADICALS})"
+            )
             first = irrational[0]
             cure = "write the coefficients in fewer"
             raise LimitExceeded(message, cure, first.start, first.end)
@@ -106,7 +108,9 @@ class Domain:
                 total: Number = ZERO if signs[0] in "+-" else ONE
                 for sign, operand in zip(signs, operands, strict=True):
                     number = self.evaluate(operand)
-                    total = _bounded(_apply(sign, total, number, operand), expression)
+                    total = _bounded(
+                        _apply(sign, total, number, operand), expression
+                    )
                 return total
             case Power(base=base, exponent=exponent):
                 return self._power(self.evaluate(base), exponent, expression)
@@ -114,7 +118,9 @@ class Domain:
                 return self._values[expression]
             case Name(name=name):
                 message = f"{name!r} has no value"
-                raise UndefinedValue(message, "", expression.start, expression.end)
+                raise UndefinedValue(
+                    message, "", expression.start, expression.end
+                )
         raise TypeError(f"no expression: {expression!r}")
 
     def _power(self, number: Number, exponent: int, at: Expression) -> Number:
@@ -172,7 +178,9 @@ class Domain:
 
     def _generated(self, roots: list[Radical]) -> None:
         """ℚ(all roots), adjoined one after the other, the inner ones first."""
-        from garkcli.exact.tower import RATIONALS  # few methods have such roots
+        from garkcli.exact.tower import (
+            RATIONALS,
+        )  # few methods have such roots
 
         tower = RATIONALS
         kept: list[Radical] = []
@@ -194,7 +202,9 @@ class Domain:
         if tower.degree > 1:
             self.field = NumberField(tower.modulus, elements)
         for root, poly in elements:
-            self._values[root] = self.field.element(poly) if self.field else poly[0]
+            self._values[root] = (
+                self.field.element(poly) if self.field else poly[0]
+            )
 
     def _relation(
         self, tower: Tower, kept: list[Radical], root: Radical

@@ -112,7 +112,9 @@ class Parser:
                 offset = position + len(rest) - len(unread)
                 sign = self.text[offset]
                 cure = _SIGN_CURES.get(sign, self.cure)
-                message = f"the sign {sign!r} has no place in a {self.value_noun}"
+                message = (
+                    f"the sign {sign!r} has no place in a {self.value_noun}"
+                )
                 raise ExpressionError(message, cure, offset, offset + 1)
             kind = match.lastgroup or "end"
             start, end = match.span(kind)
@@ -159,7 +161,9 @@ class Parser:
     def _term(self) -> Expression:
         return self._chain("*/", self._factor)
 
-    def _chain(self, signs: str, operand: Callable[[], Expression]) -> Expression:
+    def _chain(
+        self, signs: str, operand: Callable[[], Expression]
+    ) -> Expression:
         start = self.start
         joined, operands = signs[0], [operand()]
         while self.kind == "op" and self.value in {signs[0], signs[1]}:
@@ -173,7 +177,9 @@ class Parser:
         self.depth += 1
         if self.depth > MAX_DEPTH:
             message = f"nested more than {MAX_DEPTH} deep"
-            raise LimitExceeded(message, "write it flatter", self.start, self.start + 1)
+            raise LimitExceeded(
+                message, "write it flatter", self.start, self.start + 1
+            )
         try:
             if self.kind == "op" and self.value in {"+", "-"}:
                 return self._signed()
@@ -203,10 +209,14 @@ class Parser:
             negative = self._advance() == "-"
         power = self._raised(base, negative, start)
         if self.kind == "op" and self.value in {"**", "^"}:
-            self._fail("a power of a power", "use parentheses and small exponents")
+            self._fail(
+                "a power of a power", "use parentheses and small exponents"
+            )
         return power
 
-    def _raised(self, base: Expression, is_negative: bool, start: int) -> Expression:
+    def _raised(
+        self, base: Expression, is_negative: bool, start: int
+    ) -> Expression:
         """``base`` to the exponent that comes next, without its sign."""
         exponent = self._integer("an exponent", MAX_EXPONENT)
         if is_negative:
@@ -270,9 +280,13 @@ class Parser:
         self._expect(")", opened)
         return Root(radicand, index, start=start, end=self.last_end)
 
-    def _root_of(self, polynomial: Expression, start: int, opened: int) -> Expression:
+    def _root_of(
+        self, polynomial: Expression, start: int, opened: int
+    ) -> Expression:
         """What follows the polynomial of a root."""
-        from garkcli.exact.root_of import root_nearest  # few methods have such roots
+        from garkcli.exact.root_of import (
+            root_nearest,
+        )  # few methods have such roots
 
         self._expect(",", opened)
         near = self._sum()
@@ -295,7 +309,9 @@ def read_decimal(text: str, start: int = 0) -> fmpq:
     digits = len(whole) + len(fraction)
     if digits + abs(shift) > MAX_DIGITS:
         message = f"a number of more than {MAX_DIGITS} digits"
-        raise LimitExceeded(message, "write fewer digits", start, start + len(text))
+        raise LimitExceeded(
+            message, "write fewer digits", start, start + len(text)
+        )
     digits = int(whole + fraction)
     scale = shift - len(fraction)
     if scale >= 0:

@@ -35,13 +35,17 @@ class Parameters:
     def parameter(self, name: str) -> Parametric:
         """A parameter as a number."""
         index = self.names.index(name)
-        return Parametric(self, self.context.gen(index), self.constant(fmpq(1)))
+        return Parametric(
+            self, self.context.gen(index), self.constant(fmpq(1))
+        )
 
     def constant(self, number: fmpq) -> fmpq_mpoly:
         """A number as a polynomial."""
         return self.context.constant(number)
 
-    def quotient(self, numerator: fmpq_mpoly, denominator: fmpq_mpoly) -> Mixed:
+    def quotient(
+        self, numerator: fmpq_mpoly, denominator: fmpq_mpoly
+    ) -> Mixed:
         """The quotient in lowest terms, its denominator with leading coefficient 1."""
         common = numerator.gcd(denominator)
         if not common.is_one():
@@ -160,14 +164,18 @@ class Parametric:
         return f"({self.numerator})/({self.denominator})"
 
 
-def fraction(number: object, ring: Parameters) -> tuple[fmpq_mpoly, fmpq_mpoly]:
+def fraction(
+    number: object, ring: Parameters
+) -> tuple[fmpq_mpoly, fmpq_mpoly]:
     """Numerator and denominator as polynomials, of a rational number too."""
     if isinstance(number, Parametric):
         return number.numerator, number.denominator
     return ring.constant(cast("fmpq", number)), ring.constant(fmpq(1))
 
 
-def common_denominator(numbers: Iterable[object], ring: Parameters) -> fmpq_mpoly:
+def common_denominator(
+    numbers: Iterable[object], ring: Parameters
+) -> fmpq_mpoly:
     """The least common multiple of the denominators."""
     common = ring.constant(fmpq(1))
     for x in numbers:

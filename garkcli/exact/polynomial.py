@@ -8,7 +8,14 @@ from typing import Self
 from flint import arb, ctx, fmpq, fmpq_mat, fmpq_poly, fmpz_poly
 
 from garkcli.exact.display import to_ball
-from garkcli.exact.field import ONE, ZERO, Algebraic, Number, NumberField, coordinates
+from garkcli.exact.field import (
+    ONE,
+    ZERO,
+    Algebraic,
+    Number,
+    NumberField,
+    coordinates,
+)
 
 
 class Polynomial:
@@ -222,7 +229,9 @@ def _norm_of(number: Number, field: NumberField) -> fmpq:
     return fmpq_mat(rows).det()
 
 
-def interpolated(points: Sequence[fmpq], values: Sequence[Number]) -> Polynomial:
+def interpolated(
+    points: Sequence[fmpq], values: Sequence[Number]
+) -> Polynomial:
     """The polynomial of least degree through points, by Newton's divided differences.
 
     Args:
@@ -239,7 +248,9 @@ def interpolated(points: Sequence[fmpq], values: Sequence[Number]) -> Polynomial
             difference = table[i] - table[i - 1]
             table[i] = difference / distance
     result = Polynomial([])
-    for point, difference in zip(reversed(points), reversed(table), strict=True):
+    for point, difference in zip(
+        reversed(points), reversed(table), strict=True
+    ):
         x_minus_point = Polynomial([-point, ONE])
         result = result * x_minus_point + difference
     return result

@@ -29,7 +29,9 @@ def curves(polynomials: Iterable[fmpq_mpoly]) -> list[fmpq_mpoly]:
     return [curve for curve in found.values() if not curve.is_constant()]
 
 
-def projected(found: Sequence[fmpq_mpoly], ends: Sequence[fmpq]) -> list[Polynomial]:
+def projected(
+    found: Sequence[fmpq_mpoly], ends: Sequence[fmpq]
+) -> list[Polynomial]:
     """The polynomials in t, not zero, between whose roots nothing changes.
 
     Args:
@@ -61,7 +63,9 @@ def leading(p: fmpq_mpoly) -> fmpq_mpoly:
 def coefficient_of(p: fmpq_mpoly, power: int) -> fmpq_mpoly:
     """The coefficient of a power of y, a polynomial in t."""
     terms = p.to_dict()
-    return PLANE.from_dict({(0, k): c for (j, k), c in terms.items() if j == power})
+    return PLANE.from_dict(
+        {(0, k): c for (j, k), c in terms.items() if j == power}
+    )
 
 
 def in_t(p: fmpq_mpoly) -> Polynomial:

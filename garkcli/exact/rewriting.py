@@ -65,7 +65,9 @@ def names_in(expression: Expression) -> Iterator[Name]:
         yield from names_in(part)
 
 
-def substitute(expression: Expression, values: Mapping[str, Expression]) -> Expression:
+def substitute(
+    expression: Expression, values: Mapping[str, Expression]
+) -> Expression:
     """``expression`` with each name replaced by its value; offsets stay those of ``expression``.
 
     Raises:
@@ -78,7 +80,8 @@ def substitute(expression: Expression, values: Mapping[str, Expression]) -> Expr
             return values[name]
         case Chain(operands=operands):
             return replace(
-                expression, operands=tuple(substitute(x, values) for x in operands)
+                expression,
+                operands=tuple(substitute(x, values) for x in operands),
             )
         case Power(base=base):
             return replace(expression, base=substitute(base, values))
@@ -95,7 +98,9 @@ def substitute(expression: Expression, values: Mapping[str, Expression]) -> Expr
     return expression
 
 
-def _unknown_name(name: Name, values: Mapping[str, Expression]) -> UndefinedValue:
+def _unknown_name(
+    name: Name, values: Mapping[str, Expression]
+) -> UndefinedValue:
     cure = did_you_mean(name.name, values) if values else ""
     if not cure.startswith("did"):
         cure = f"define it, before its use: parameters: {{{name.name}: 1/2}}"
@@ -155,7 +160,8 @@ class _Text:
         for sign, operand in zip(chain.signs, chain.operands, strict=True):
             binds = is_product or sign == "-"
             parts.append(
-                sign + (self.tight(operand) if binds else self.written(operand))
+                sign
+                + (self.tight(operand) if binds else self.written(operand))
             )
         return "".join(parts).removeprefix("+").removeprefix("*")
 
@@ -163,7 +169,9 @@ class _Text:
         """The text in parentheses, unless it is one sign or one call."""
         text = self.written(expression)
         is_whole_number = isinstance(expression, Literal) and text.isdigit()
-        if is_whole_number or isinstance(expression, (Name, Root, AlgebraicRoot, Call)):
+        if is_whole_number or isinstance(
+            expression, (Name, Root, AlgebraicRoot, Call)
+        ):
             return text
         return f"({text})"
 

@@ -73,7 +73,9 @@ def _nearest(
             found = []
             for factor, _ in factors:
                 roots = isolated(tuple(int(a) for a in factor.coeffs()), bits)
-                found += [(abs(x - target), factor, k) for k, x in enumerate(roots)]
+                found += [
+                    (abs(x - target), factor, k) for k, x in enumerate(roots)
+                ]
             if not found:
                 message = "the polynomial has no real root"
                 raise UndefinedValue(
@@ -86,7 +88,9 @@ def _nearest(
                 return (factor if is_positive else -factor), number
         bits *= 2
     message = "two roots are equally near to this number"
-    raise UndefinedValue(message, "write more digits of the root", near.start, near.end)
+    raise UndefinedValue(
+        message, "write more digits of the root", near.start, near.end
+    )
 
 
 def _in_radicals(
@@ -108,7 +112,9 @@ def _polynomial(expression: Expression) -> fmpq_poly:
         case Name(name=name) if name == VARIABLE:
             return fmpq_poly([0, 1])
         case Name():
-            raise _error("names other than x have no place in root_of", expression)
+            raise _error(
+                "names other than x have no place in root_of", expression
+            )
         case Chain(signs=signs, operands=operands):
             total = fmpq_poly([0 if signs[0] in "+-" else 1])
             for sign, operand in zip(signs, operands, strict=True):
@@ -120,7 +126,9 @@ def _polynomial(expression: Expression) -> fmpq_poly:
     raise _error("the polynomial has rational coefficients", expression)
 
 
-def _joined(sign: str, left: fmpq_poly, right: fmpq_poly, at: Expression) -> fmpq_poly:
+def _joined(
+    sign: str, left: fmpq_poly, right: fmpq_poly, at: Expression
+) -> fmpq_poly:
     if sign == "+":
         return left + right
     if sign == "-":
@@ -166,7 +174,9 @@ def _too_large(at: Expression) -> LimitExceeded:
 
 
 def _error(message: str, at: Expression) -> ExpressionError:
-    cure = "write root_of(p, r): p a polynomial in x, r a decimal near the root"
+    cure = (
+        "write root_of(p, r): p a polynomial in x, r a decimal near the root"
+    )
     return ExpressionError(message, cure, at.start, max(at.end, at.start + 1))
 
 

@@ -87,7 +87,9 @@ RATIONALS = Tower(_X, (), ())
 """ℚ."""
 
 
-def _as_polynomials(generator: fmpq_mat, wanted: list[fmpq_mat]) -> list[fmpq_poly]:
+def _as_polynomials(
+    generator: fmpq_mat, wanted: list[fmpq_mat]
+) -> list[fmpq_poly]:
     """Elements of an algebra as polynomials in its generator, all given by their multiplication
     matrices.
     """

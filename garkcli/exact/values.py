@@ -92,7 +92,9 @@ def exponent_of(expression: Expression, names: Mapping[str, Value]) -> fmpq:
     if abs(value) > MAX_EXPONENT or value.q > MAX_DENOMINATOR:
         fault = f"is beyond {MAX_EXPONENT} or has more than four decimals"
         message = f"the exponent {shown(value)} {fault}"
-        raise LimitExceeded(message, "use a smaller or simpler one", start, end)
+        raise LimitExceeded(
+            message, "use a smaller or simpler one", start, end
+        )
     return value
 
 
@@ -135,7 +137,9 @@ def _cut(text: str) -> str:
     return f"{start}…"
 
 
-def _power(base: Value, exponent: fmpq, at: Expression, of: Expression) -> Value:
+def _power(
+    base: Value, exponent: fmpq, at: Expression, of: Expression
+) -> Value:
     """A power; the base is positive where the exponent is no whole number."""
     if exponent < 0:
         _check_divisor(base, of)
@@ -155,7 +159,9 @@ def _power(base: Value, exponent: fmpq, at: Expression, of: Expression) -> Value
     return _bounded(arb(base) ** arb(exponent), at)
 
 
-def _root(radicand: Value, index: int, at: Expression, of: Expression) -> Value:
+def _root(
+    radicand: Value, index: int, at: Expression, of: Expression
+) -> Value:
     is_odd = index % 2 == 1
     if isinstance(radicand, fmpq) and (is_odd or radicand >= 0):
         size = abs(radicand)

@@ -16,7 +16,11 @@ from garkcli.exact.matrix import (
     subtract,
 )
 from garkcli.tableau.method import Method
-from garkcli.tableau.polynomial_space import PolynomialSpace, integral, integration
+from garkcli.tableau.polynomial_space import (
+    PolynomialSpace,
+    integral,
+    integration,
+)
 
 X = fmpq_poly([0, 1])
 

@@ -2,7 +2,11 @@
 IV.5.
 """
 
-from garkcli.families.polynomials import collocation_method, conjugate_method, legendre
+from garkcli.families.polynomials import (
+    collocation_method,
+    conjugate_method,
+    legendre,
+)
 from garkcli.tableau.method import Method
 
 

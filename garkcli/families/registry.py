@@ -37,7 +37,9 @@ class Family:
 
 def _named(name: str, order: str, summary: str) -> Family:
     stages = explicit.STAGES[name]
-    return Family(name, lambda _: explicit.named(name), stages, stages, order, summary)
+    return Family(
+        name, lambda _: explicit.named(name), stages, stages, order, summary
+    )
 
 
 _any = partial(Family, largest=MAX_STAGES)
@@ -52,7 +54,11 @@ FAMILIES: Mapping[str, Family] = {
             summary="collocation at the Gauss nodes; symplectic",
         ),
         _any(
-            "radau-ia", radau.radau_ia, 1, order="2s - 1", summary="first node 0, D(s)"
+            "radau-ia",
+            radau.radau_ia,
+            1,
+            order="2s - 1",
+            summary="first node 0, D(s)",
         ),
         _any(
             "radau-iia",
@@ -143,16 +149,26 @@ def require_member(name: str, stages: int | None = None) -> int:
     """
     family = FAMILIES.get(name)
     if family is None:
-        other = OTHER_NAMES.get(name.lower().replace("_", "-").replace(" ", "-"))
-        cure = f"it is called {other} here" if other else did_you_mean(name, FAMILIES)
+        other = OTHER_NAMES.get(
+            name.lower().replace("_", "-").replace(" ", "-")
+        )
+        cure = (
+            f"it is called {other} here"
+            if other
+            else did_you_mean(name, FAMILIES)
+        )
         raise UnknownFamily(f"no family {name[:MAX_NAME]!r}", cure)
     is_single = family.smallest == family.largest
     s = family.smallest if stages is None and is_single else stages
     if s is None:
         example = f"write for instance stages: {max(2, family.smallest)}"
-        raise UnknownFamily(f"the family {name} needs its number of stages", example)
+        raise UnknownFamily(
+            f"the family {name} needs its number of stages", example
+        )
     if not family.smallest <= s <= family.largest:
-        have = str(family.smallest) if is_single else f"{family.smallest} or more"
+        have = (
+            str(family.smallest) if is_single else f"{family.smallest} or more"
+        )
         if s > family.largest:
             have += f", at most {family.largest}"
         message = f"{name} with {counted(s, 'stage')} does not exist"

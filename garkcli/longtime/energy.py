@@ -102,7 +102,9 @@ def oscillator_run(
     kept = np.union1d(extremes(errors.values, points - 2), [0, done])
     history = _history(errors, energy, fate, line, excused, kept, h)
     times = tuple((kept * h).tolist())
-    return LongRun(problem, step, t_end, done, None, (history,), times, stability=fate)
+    return LongRun(
+        problem, step, t_end, done, None, (history,), times, stability=fate
+    )
 
 
 def _history(
@@ -204,7 +206,9 @@ def _energy_errors(R: Matrix, omega: fmpq, count: int) -> Floats:
     return errors
 
 
-def _at_precision(R: Matrix, omega: fmpq, count: int, bits: int) -> Floats | None:
+def _at_precision(
+    R: Matrix, omega: fmpq, count: int, bits: int
+) -> Floats | None:
     """The same with balls of ``bits`` bits; None where these are too few."""
     with ctx.workprec(bits):
         step = _scaled(R, omega, bits)
@@ -231,7 +235,9 @@ def _in_floats(balls: list[arb]) -> Floats:
     return np.array([float(x) for x in balls])
 
 
-def _forms(step: arb_mat, length: int) -> tuple[list[tuple[arb, arb, arb]], arb_mat]:
+def _forms(
+    step: arb_mat, length: int
+) -> tuple[list[tuple[arb, arb, arb]], arb_mat]:
     """Q_j as coefficients of z₁², z₁z₂, z₂² for j < length, and R^length; fewer when they grow out
     of floats.
     """

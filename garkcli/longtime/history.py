@@ -122,7 +122,9 @@ class LongRun:
     @property
     def drifts(self) -> bool:
         """Whether a quantity drifts, has blown up or escaped."""
-        return any(x.verdict in ("drifts", "unstable") for x in self.invariants)
+        return any(
+            x.verdict in ("drifts", "unstable") for x in self.invariants
+        )
 
 
 def count_steps(t_end: fmpq, step: fmpq) -> int:

@@ -47,7 +47,9 @@ class Measure:
             lambda: quantities_function(problem, digits)
         )
         number = arb if self._bits else to_float
-        start: list[Any] = self._precisely(lambda: [number(x) for x in problem.initial])
+        start: list[Any] = self._precisely(
+            lambda: [number(x) for x in problem.initial]
+        )
         summands: list[Any] = []
         self._lengths = []
         for _, expression in problem.quantities:

@@ -113,7 +113,9 @@ class Record:
             return
         start = self.done + 1
         errors = self.measure.errors(states)
-        is_inside = np.abs(errors) <= BLOW_UP * self.measure.scale  # and no nan
+        is_inside = (
+            np.abs(errors) <= BLOW_UP * self.measure.scale
+        )  # and no nan
         outside = np.flatnonzero(~is_inside.all(axis=1))
         if outside.size:
             self.blew_up = True

@@ -92,7 +92,9 @@ def _exactly(x: Any) -> fmpq | arb:
     return fmpq(*x.as_integer_ratio()) if isinstance(x, float) else x
 
 
-def _defect(method: Integrator, step: fmpq, time: fmpq, y: Sequence[Any]) -> Defect:
+def _defect(
+    method: Integrator, step: fmpq, time: fmpq, y: Sequence[Any]
+) -> Defect:
     delta = fmpq(1, 10**_DECADES)
     with ctx.workprec(method.bits):
         M = _jacobian(method, step, y, delta)

@@ -51,7 +51,11 @@ _HALVES = tuple((k / 4, (k + 2) / 4) for k in range(3))
 _QUARTERS = tuple((k / 8, (k + 2) / 8) for k in range(7))
 _EIGHTHS = tuple((k / 8, (k + 1) / 8) for k in range(8))
 _WINDOWS = (*_WHOLE, *_HALVES, *_QUARTERS, *_EIGHTHS)
-_OF_HALVES, _OF_QUARTERS, _OF_EIGHTHS = slice(1, 4), slice(4, 11), slice(11, 19)
+_OF_HALVES, _OF_QUARTERS, _OF_EIGHTHS = (
+    slice(1, 4),
+    slice(4, 11),
+    slice(11, 19),
+)
 # (length / quarter)^(3/2): how much less noise there is in the slope of all than of a quarter
 _SHORTENING = 8.0
 # 99 percent of Student's t with the five degrees of freedom that seven overlapping quarters have
@@ -210,7 +214,9 @@ class Trends:
             finding, shape = "undecided", "step"
         elif (move := _net(found, least)) > 0.0:
             finding, shape = "undecided", "curve"
-        return Trend(slope / self.count, uncertainty / self.count, finding, shape, move)
+        return Trend(
+            slope / self.count, uncertainty / self.count, finding, shape, move
+        )
 
     def _fitted(self, signal: int) -> _Windows:
         """The lines through all windows."""

@@ -92,7 +92,9 @@ class ArkReader:
         fitted: list[Rows] = []
         for m, rows in enumerate(matrices):
             where = of_colour("A", m)
-            fitted.append(self.numbers.fitted(rows, items[m], where, shape, why))
+            fitted.append(
+                self.numbers.fitted(rows, items[m], where, shape, why)
+            )
         return tuple(fitted)
 
     def _weights(self, node: Node, colours: int) -> tuple[Row, ...]:
@@ -106,14 +108,20 @@ class ArkReader:
         return tuple(rows)
 
     def _check_lengths(
-        self, entries: dict[str, Node], b: tuple[Row, ...], c: Row | None, stages: int
+        self,
+        entries: dict[str, Node],
+        b: tuple[Row, ...],
+        c: Row | None,
+        stages: int,
     ) -> None:
         """Note weights and nodes that are not one a stage."""
         wanted = counted(stages, "stage")
         for name, row in _rows_of_weights(b):
             if len(row) != stages:
                 message = f"{name} has {entries_in(len(row))} for {wanted}"
-                self.source.fault(entries["b"], message, "give a weight a stage")
+                self.source.fault(
+                    entries["b"], message, "give a weight a stage"
+                )
         if c is not None and len(c) != stages:
             message = f"c has {entries_in(len(c))} for {wanted}"
             cure = "give a node a stage, or leave c out"

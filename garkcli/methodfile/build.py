@@ -8,7 +8,12 @@ from typing import TYPE_CHECKING, TypeAlias, TypeVar
 
 from yaml.nodes import Node
 
-from garkcli.errors import GarkError, MethodError, MethodFileError, ShapeMismatch
+from garkcli.errors import (
+    GarkError,
+    MethodError,
+    MethodFileError,
+    ShapeMismatch,
+)
 from garkcli.exact.field import ONE, ZERO, Number
 from garkcli.exact.matrix import Matrix
 from garkcli.families.registry import diagonal_method
@@ -139,11 +144,16 @@ class Builder:
 
     def _spelled_out(self, text: TableauText) -> Tableau:
         A = [
-            [None if rows is None else self.values.matrix(rows) for rows in row]
+            [
+                None if rows is None else self.values.matrix(rows)
+                for rows in row
+            ]
             for row in text.A
         ]
         b = [self.values.vector(row) for row in text.b]
-        c = [None if row is None else self.values.vector(row) for row in text.c]
+        c = [
+            None if row is None else self.values.vector(row) for row in text.c
+        ]
         return spelled_out(A, b, c, text.linear)
 
     def _prk(self, text: PrkText, structure: Structure) -> Tableau:
@@ -156,15 +166,21 @@ class Builder:
             for part in (text.q, text.p)
         )
         if structure == "general":
-            return partitioned(butcher(q[0], q[1], q[2]), butcher(p[0], p[1], p[2]))
+            return partitioned(
+                butcher(q[0], q[1], q[2]), butcher(p[0], p[1], p[2])
+            )
         tableau = separable_prk(q, p)
-        return with_linear(tableau, ["q"]) if structure == "nystrom" else tableau
+        return (
+            with_linear(tableau, ["q"]) if structure == "nystrom" else tableau
+        )
 
     # -- methods and transfer
     # -------------------------------------------------------------------------------
 
     def _methods(self, text: MethodsText, structure: Structure) -> Tableau:
-        methods = [self._diagonal(l, method) for l, method in enumerate(text.methods)]
+        methods = [
+            self._diagonal(l, method) for l, method in enumerate(text.methods)
+        ]
         tableau = gark(methods, self._transfer(text, methods, structure))
         if structure == "general":
             return tableau
@@ -172,7 +188,8 @@ class Builder:
         if structure == "semi-separable":
             forces = [0, 1]
         both = self._at(
-            text.methods[0].node, lambda: symplectic_pair(tableau, velocities, forces)
+            text.methods[0].node,
+            lambda: symplectic_pair(tableau, velocities, forces),
         )
         return with_linear(both, ["V1"]) if structure == "nystrom" else both
 
@@ -186,7 +203,10 @@ class Builder:
             return method_in_points(method, self.values.vector(self.nodes[l]))
         c = self.values.vector(text.c) if text.c is not None else None
         return butcher(
-            self.values.matrix(text.A), self.values.vector(text.b), c, text.name
+            self.values.matrix(text.A),
+            self.values.vector(text.b),
+            c,
+            text.name,
         )
 
     def _transfer(
@@ -194,7 +214,10 @@ class Builder:
     ) -> Blocks:
         """The off-diagonal blocks that the structure needs."""
         needed = [
-            (l, m) for l in range(len(methods)) for m in range(len(methods)) if l != m
+            (l, m)
+            for l in range(len(methods))
+            for m in range(len(methods))
+            if l != m
         ]
         if structure != "general":
             needed = [(1, 0)]
@@ -209,14 +232,17 @@ class Builder:
             try:
                 if block is None:
                     raise MethodError(
-                        "it has no rule", "give it one, or a default, under transfer"
+                        "it has no rule",
+                        "give it one, or a default, under transfer",
                     )
                 if isinstance(block, MatrixText):
                     blocks[l, m] = self._matrix(block, methods, l, m)
                 else:
                     blocks[l, m] = self._by_rule(block, methods, orders, l, m)
             except GarkError as error:
-                node = block.node if block is not None else text.methods[0].node
+                node = (
+                    block.node if block is not None else text.methods[0].node
+                )
                 message = f"{block_name(l, m)}: {error.message}"
                 self.source.fault(node, message, error.help)
         self.source.close()
@@ -236,13 +262,22 @@ class Builder:
         return self.values.matrix(block.rows)
 
     def _by_rule(
-        self, text: RuleText, methods: list[Method], orders: _Orders, l: int, m: int
+        self,
+        text: RuleText,
+        methods: list[Method],
+        orders: _Orders,
+        l: int,
+        m: int,
     ) -> Matrix:
         rule, weight = text.terms[0]
         if weight is None and rule in PAIR_RULES:
-            base = build_on(methods, [orders[k] for k in range(len(methods))], l, m)
+            base = build_on(
+                methods, [orders[k] for k in range(len(methods))], l, m
+            )
             other = l if base == m else m
-            return symplectic_blocks(PAIR_RULES[rule], methods, base, other)[l, m]
+            return symplectic_blocks(PAIR_RULES[rule], methods, base, other)[
+                l, m
+            ]
         if weight is None:
             return RULES[rule](methods[l], methods[m])
         terms: list[tuple[Number, Rule]] = [
@@ -306,7 +341,9 @@ def nodes_to_spell_out(
     if not isinstance(content, MethodsText):
         return {}
     blocks = content.transfer.blocks
-    beside = [key for key, block in blocks.items() if isinstance(block, MatrixText)]
+    beside = [
+        key for key, block in blocks.items() if isinstance(block, MatrixText)
+    ]
     rows: dict[int, Row] = {}
     for k in dict.fromkeys(k for key in beside for k in key):
         text = content.methods[k]
@@ -319,7 +356,9 @@ def nodes_to_spell_out(
     return rows
 
 
-def _family_nodes(text: FamilyText, space: StageSpace, numbers: Numbers) -> Row | None:
+def _family_nodes(
+    text: FamilyText, space: StageSpace, numbers: Numbers
+) -> Row | None:
     """The nodes of a family as coefficients; None where there is nothing to spell out, or a fault
     where it cannot be.
     """

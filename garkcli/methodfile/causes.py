@@ -54,7 +54,9 @@ def _elsewhere(others: Sequence[tuple[int, int]]) -> str:
     """Where else a cause shows: ``(also at 4:12 and in 3 more places)``."""
     if not others:
         return ""
-    places = ", ".join(f"{line}:{column}" for line, column in others[:MAX_PLACES])
+    places = ", ".join(
+        f"{line}:{column}" for line, column in others[:MAX_PLACES]
+    )
     left = len(others) - MAX_PLACES
     if left > 0:
         return f" (also at {places} and in {counted(left, 'more place')})"

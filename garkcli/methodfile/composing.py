@@ -57,10 +57,14 @@ class _Composer(yaml.SafeLoader):
         """One value and those in it."""
         self._count += 1
         if self._count > MAX_NODES:
-            raise TooLargeError(self._next_event(), _TOO_MANY, "no method needs that")
+            raise TooLargeError(
+                self._next_event(), _TOO_MANY, "no method needs that"
+            )
         if self._depth >= MAX_NESTING:
             event = self._next_event()
-            if isinstance(event, (yaml.SequenceStartEvent, yaml.MappingStartEvent)):
+            if isinstance(
+                event, (yaml.SequenceStartEvent, yaml.MappingStartEvent)
+            ):
                 raise TooLargeError(event, _TOO_DEEP, "no file needs that")
         self._depth += 1
         node: Node | None = super().compose_node(parent, index)
@@ -97,9 +101,13 @@ def yaml_fault(error: yaml.MarkedYAMLError) -> Fault:
         problem = context.partition(";")[0]
     cure = next((cure for words, cure in _YAML_CURES if words in problem), "")
     if "parsing a flow" in context and error.context_mark:
-        opened = f"{error.context_mark.line + 1}:{error.context_mark.column + 1}"
+        opened = (
+            f"{error.context_mark.line + 1}:{error.context_mark.column + 1}"
+        )
         cure = f"the bracket at {opened} is open: close it, and put commas between its values"
-    return Fault(printable(f"this is not YAML: {problem}"), printable(cure), *place)
+    return Fault(
+        printable(f"this is not YAML: {problem}"), printable(cure), *place
+    )
 
 
 def composed(text: str) -> Node | Fault | None:

@@ -10,7 +10,9 @@ from yaml.nodes import Node
 
 from garkcli.methodfile.numbers import Entry, Row, Rows
 
-Structure: TypeAlias = Literal["general", "semi-separable", "separable", "nystrom"]
+Structure: TypeAlias = Literal[
+    "general", "semi-separable", "separable", "nystrom"
+]
 STRUCTURES: tuple[Structure, ...] = (
     "general",
     "semi-separable",

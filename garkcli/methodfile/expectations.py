@@ -51,11 +51,15 @@ def read(source: Source, node: Node | None) -> tuple[ClaimText, ...]:
     if node is None:
         return ()
     claims = []
-    for key, value_node in source.mapping(node, "expect", CLAIMS, form=_FORM).items():
+    for key, value_node in source.mapping(
+        node, "expect", CLAIMS, form=_FORM
+    ).items():
         where = f"expect, {key}"
         wanted: Wanted
         if key in TABLES:
-            wanted = _table(source, value_node, where, depth=1 if key == "B" else 2)
+            wanted = _table(
+                source, value_node, where, depth=1 if key == "B" else 2
+            )
         else:
             wanted = _READERS[_kind(key)](source, value_node, where)
         claims.append(ClaimText(value_node, key, wanted))
@@ -91,7 +95,9 @@ def _number(source: Source, node: Node, where: str) -> Wanted:
     if text.isascii() and text.isdigit() and len(text) < 5:
         return int(text)
     if isinstance(node, ScalarNode):
-        message = f'{where}: a number or ">= n" is expected, not {shortened(text)}'
+        message = (
+            f'{where}: a number or ">= n" is expected, not {shortened(text)}'
+        )
         source.fault(node, message, 'for instance order: 4, or order: ">= 4"')
     return None
 
@@ -114,7 +120,8 @@ def _table(source: Source, node: Node, where: str, depth: int) -> Wanted:
     if depth > 1:
         return [_table(source, item, where, depth - 1) for item in node.value]
     return [
-        None if is_null(item) else _number(source, item, where) for item in node.value
+        None if is_null(item) else _number(source, item, where)
+        for item in node.value
     ]
 
 
@@ -124,7 +131,9 @@ _OF_ORDERS = {*NUMBERS, *TABLES, "stage-order"}
 
 def highest_order(claims: tuple[ClaimText, ...]) -> int:
     """The largest order that occurs in the claims."""
-    found = [_largest(claim.value) for claim in claims if claim.key in _OF_ORDERS]
+    found = [
+        _largest(claim.value) for claim in claims if claim.key in _OF_ORDERS
+    ]
     return max(found, default=0)
 
 

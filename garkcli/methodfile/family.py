@@ -25,7 +25,12 @@ from garkcli.methodfile.description import (
     PrkText,
     TableauText,
 )
-from garkcli.methodfile.load import NO_SETTINGS, built, described, read_method_text
+from garkcli.methodfile.load import (
+    NO_SETTINGS,
+    built,
+    described,
+    read_method_text,
+)
 from garkcli.methodfile.numbers import Free, Numbers, Values
 from garkcli.methodfile.reader import Reader
 from garkcli.methodfile.source import one_line
@@ -61,7 +66,9 @@ class FamilyFile(Family):
     wanted_at: tuple[int, int] | None = None
 
 
-def load_family(path: str, settings: Mapping[str, str] = NO_SETTINGS) -> FamilyFile:
+def load_family(
+    path: str, settings: Mapping[str, str] = NO_SETTINGS
+) -> FamilyFile:
     """Read a method file with free parameters.
 
     Raises:
@@ -72,7 +79,9 @@ def load_family(path: str, settings: Mapping[str, str] = NO_SETTINGS) -> FamilyF
 
 
 def loads_family(
-    text: str, source: str = "<text>", settings: Mapping[str, str] = NO_SETTINGS
+    text: str,
+    source: str = "<text>",
+    settings: Mapping[str, str] = NO_SETTINGS,
 ) -> FamilyFile:
     r"""Read a method file with free parameters from its text.
 
@@ -120,21 +129,29 @@ def loads_family(
         ),
         nonzero=meaning.nonzero,
         positive=tuple(sign_polynomial(x, ring) for x in meaning.positive),
-        not_negative=tuple(sign_polynomial(x, ring) for x in meaning.not_negative),
+        not_negative=tuple(
+            sign_polynomial(x, ring) for x in meaning.not_negative
+        ),
         order=wishes.order,
         wanted_at=reader.design_place(),
         settings=settings,
-        places={name: _place(text, node) for name, node in numbers.places.items()},
+        places={
+            name: _place(text, node) for name, node in numbers.places.items()
+        },
         shape=_shape(reader),
     )
 
 
-def _of_nodes(description: Description, tableau: Tableau) -> Iterator[fmpq_mpoly]:
+def _of_nodes(
+    description: Description, tableau: Tableau
+) -> Iterator[fmpq_mpoly]:
     """Where a node is given and it or its row is unknown: the node minus the sum of the row."""
     for l in _with_given_nodes(description):
         colour = tableau.colours[l]
         rows = colour.space
-        block = tableau.blocks.get((rows, l)) or tableau.blocks.get((rows, 1 - l))
+        block = tableau.blocks.get((rows, l)) or tableau.blocks.get(
+            (rows, 1 - l)
+        )
         if block is None:
             continue
         for node, row in zip(colour.c, block, strict=True):
@@ -155,10 +172,14 @@ def _with_given_nodes(description: Description) -> list[int]:
         case PrkText():
             # the rows of q.A are the stages of the forces
             parts = [content.q.c, content.p.c]
-            given = parts if description.structure == "general" else parts[::-1]
+            given = (
+                parts if description.structure == "general" else parts[::-1]
+            )
         case MethodsText():
             methods = content.methods
-            given = [x.c if isinstance(x, ButcherText) else None for x in methods]
+            given = [
+                x.c if isinstance(x, ButcherText) else None for x in methods
+            ]
             if description.structure != "general":
                 return []
     return [l for l, nodes in enumerate(given) if nodes is not None]
@@ -202,7 +223,9 @@ def with_values(
             changes.append((place, _scalar(given[name])))
     if family.shape is not None:
         place, tableau = family.shape
-        lines = [f"  {name}: {_scalar(value)}" for name, value in given.items()]
+        lines = [
+            f"  {name}: {_scalar(value)}" for name, value in given.items()
+        ]
         changes.append((place, "\n".join(["parameters:", *lines, tableau])))
     if family.wanted_at is not None:
         # its names are those of unknowns, which the file has no more
@@ -229,7 +252,9 @@ def _ends(free: Free, values: FamilyValues) -> tuple[fmpq | None, fmpq | None]:
             value = values.plain(entry.expression)
             if value is None:
                 message = f"{entry.where}: a rational number is expected"
-                values.numbers.source.fault(entry.node, message, "write [1/4, 1]")
+                values.numbers.source.fault(
+                    entry.node, message, "write [1/4, 1]"
+                )
         ends.append(value)
     smallest, largest = ends
     return smallest, largest
@@ -246,7 +271,9 @@ class FamilyValues(Values):
         self.printed = ()
         self._values: dict[int, Number] = {}
         names = list(numbers.free)
-        self.domain = _FamilyDomain(names, [x.expression for x in numbers.entries])
+        self.domain = _FamilyDomain(
+            names, [x.expression for x in numbers.entries]
+        )
         known: dict[int, Number] = {}
         for entry in numbers.entries:
             key = id(entry.expression)
@@ -271,11 +298,15 @@ class FamilyValues(Values):
 class _FamilyDomain(Domain):
     """Evaluates expressions to rational functions of parameters."""
 
-    def __init__(self, names: list[str], expressions: list[Expression]) -> None:
+    def __init__(
+        self, names: list[str], expressions: list[Expression]
+    ) -> None:
         found: dict[Root | AlgebraicRoot, None] = {}
         for expression in expressions:
             found.update(dict.fromkeys(roots_in(expression)))
-        self._names = {root: f"{ROOT}{i}" for i, root in enumerate(found, start=1)}
+        self._names = {
+            root: f"{ROOT}{i}" for i, root in enumerate(found, start=1)
+        }
         self.ring = Parameters([*names, *self._names.values()])
         self.radicals: list[Radical] = []
         self._values = {}
@@ -294,9 +325,13 @@ class _FamilyDomain(Domain):
                 return rational
         name = self._names[root]
         unknown = self.ring.parameter(name)
-        relation = cast("Parametric", unknown**root.index - cast("Any", radicand))
+        relation = cast(
+            "Parametric", unknown**root.index - cast("Any", radicand)
+        )
         is_even = root.index % 2 == 0
-        self.radicals.append(Radical(name, relation.numerator, is_positive=is_even))
+        self.radicals.append(
+            Radical(name, relation.numerator, is_positive=is_even)
+        )
         return cast("Number", unknown)
 
     def _root_of_polynomial(self, root: AlgebraicRoot) -> Number:

@@ -62,23 +62,24 @@ class Formulas:
         if text is None:
             return None
         if is_null(node):
-            self.source.fault(node, f"{where}: nothing is here", "write a formula")
+            self.source.fault(
+                node, f"{where}: nothing is here", "write a formula"
+            )
             return None
         if is_misread(self.source, node, text, where):
             return None
         try:
             expression = parse_formula(text)
             if size_of(expression, self._sizes) > MAX_SIZE:
-                message = (
-                    f"more than {MAX_SIZE} operations, with the parameters written out"
-                )
+                message = f"more than {MAX_SIZE} operations, with the parameters written out"
                 raise LimitExceeded(message, "write it shorter", 0, len(text))
         except ExpressionError as error:
             self.source.expression_fault(node, where, *explained(error, text))
             return None
         return (
             expression
-            if names is None or self._are_known(expression, node, where, names, noun)
+            if names is None
+            or self._are_known(expression, node, where, names, noun)
             else None
         )
 
@@ -103,18 +104,35 @@ class Formulas:
         for name, place in strangers.items():
             cure = names.get(name) or did_you_mean(name, sorted(allowed))
             self.source.fault(
-                node, f"{where}: {shortened(name)} is no {noun}", cure, place.start
+                node,
+                f"{where}: {shortened(name)} is no {noun}",
+                cure,
+                place.start,
             )
         return not strangers
 
-    def constant(self, node: Node, where: str) -> tuple[Expression, Value] | None:
+    def constant(
+        self, node: Node, where: str
+    ) -> tuple[Expression, Value] | None:
         """A formula of parameters alone, and its value."""
         expression = self.parsed(node, where, {})
-        value = None if expression is None else self.value(expression, node, where, {})
-        return None if expression is None or value is None else (expression, value)
+        value = (
+            None
+            if expression is None
+            else self.value(expression, node, where, {})
+        )
+        return (
+            None
+            if expression is None or value is None
+            else (expression, value)
+        )
 
     def value(
-        self, expression: Expression, node: Node, where: str, names: Mapping[str, Value]
+        self,
+        expression: Expression,
+        node: Node,
+        where: str,
+        names: Mapping[str, Value],
     ) -> Value | None:
         """The value for given values of names; None where there is none, which is noted."""
         try:
@@ -139,7 +157,9 @@ class Formulas:
 
         if node is None:
             return
-        for name, value_node in self.source.mapping(node, "parameters", ()).items():
+        for name, value_node in self.source.mapping(
+            node, "parameters", ()
+        ).items():
             where = f"parameters: {shortened(name)[1:-1]}"
             message = bad_name(name)
             if message:

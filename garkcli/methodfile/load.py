@@ -20,7 +20,13 @@ from garkcli.methodfile.finding import STDIN, SUFFIX, find_files
 from garkcli.methodfile.numbers import Numbers, Values
 from garkcli.methodfile.parameters import refuse_free
 from garkcli.methodfile.reader import Reader
-from garkcli.methodfile.source import MAX_BYTES, METHOD_FILE, FileKind, Source, one_line
+from garkcli.methodfile.source import (
+    MAX_BYTES,
+    METHOD_FILE,
+    FileKind,
+    Source,
+    one_line,
+)
 from garkcli.tableau.tableau import Tableau
 
 NO_SETTINGS: Mapping[str, str] = {}
@@ -56,14 +62,18 @@ def _of_folder(path: str) -> Fault:
     try:
         os.scandir(path).close()
     except OSError as error:
-        return Fault(f"this folder cannot be read: {error.strerror}", "name the files")
+        return Fault(
+            f"this folder cannot be read: {error.strerror}", "name the files"
+        )
     first = next(find_files([path]))
     if first == path:
         return Fault(
-            f"no {SUFFIX} files in this directory", "name the files, or rename them"
+            f"no {SUFFIX} files in this directory",
+            "name the files, or rename them",
         )
     return Fault(
-        "a directory, where one method file is expected", f"name one, such as {first}"
+        "a directory, where one method file is expected",
+        f"name one, such as {first}",
     )
 
 
@@ -78,7 +88,9 @@ def read_text(path: str, kind: FileKind) -> tuple[str, str]:
             raise MethodFileError(
                 "<stdin>", [Fault("standard input is closed", "name a file")]
             )
-        return _decoded("<stdin>", sys.stdin.buffer.read(MAX_BYTES + 1)), "<stdin>"
+        return _decoded(
+            "<stdin>", sys.stdin.buffer.read(MAX_BYTES + 1)
+        ), "<stdin>"
     try:
         status = os.stat(path)
     except FileNotFoundError:
@@ -98,7 +110,9 @@ def read_text(path: str, kind: FileKind) -> tuple[str, str]:
             # no more than there is: to clear a megabyte takes longer than to read most files
             size = min(status.st_size, MAX_BYTES)
             data = stream.read(size + 1)
-            if len(data) > size:  # it has grown, or is one whose size no system knows
+            if (
+                len(data) > size
+            ):  # it has grown, or is one whose size no system knows
                 data += stream.read(MAX_BYTES - size)
     except OSError as error:
         raise MethodFileError(
@@ -110,7 +124,12 @@ def read_text(path: str, kind: FileKind) -> tuple[str, str]:
 def _decoded(name: str, data: bytes) -> str:
     if len(data) > MAX_BYTES:
         raise MethodFileError(
-            name, [Fault(f"a file of more than {MAX_BYTES} bytes", "split it", 1, 1)]
+            name,
+            [
+                Fault(
+                    f"a file of more than {MAX_BYTES} bytes", "split it", 1, 1
+                )
+            ],
         )
     try:
         return data.decode("utf-8-sig")
@@ -122,7 +141,9 @@ def _decoded(name: str, data: bytes) -> str:
 
 
 def loads(
-    text: str, source: str = "<text>", settings: Mapping[str, str] = NO_SETTINGS
+    text: str,
+    source: str = "<text>",
+    settings: Mapping[str, str] = NO_SETTINGS,
 ) -> MethodFile:
     """Read a method file from its text.
 
@@ -194,6 +215,8 @@ def built(
     reader.source.close()
     values = values_of(reader.numbers)
     reader.source.close()
-    tableau = Builder(reader.source, values, families, nodes).tableau(description)
+    tableau = Builder(reader.source, values, families, nodes).tableau(
+        description
+    )
     reader.source.close()
     return tableau, values

@@ -8,7 +8,12 @@ from typing import TypeAlias
 
 from yaml.nodes import Node, ScalarNode, SequenceNode
 
-from garkcli.errors import ExpressionError, LimitExceeded, UndefinedValue, counted
+from garkcli.errors import (
+    ExpressionError,
+    LimitExceeded,
+    UndefinedValue,
+    counted,
+)
 from garkcli.exact.domain import Domain
 from garkcli.exact.expression import parse
 from garkcli.exact.field import ZERO, Number
@@ -93,7 +98,10 @@ class Numbers:
         if is_bare_unknown(node):
             cure = f'quote it: "{UNKNOWN}"'
             self.source.fault(
-                node, f"YAML reads a bare {UNKNOWN} as a key", cure, where=where
+                node,
+                f"YAML reads a bare {UNKNOWN} as a key",
+                cure,
+                where=where,
             )
             entry = Entry(expression, node, where)
             self.entries.append(entry)
@@ -101,11 +109,15 @@ class Numbers:
         text = self.source.scalar(node, where)
         if text == UNKNOWN:
             expression = self._unknown(node, where)
-        elif text is not None and not is_misread(self.source, node, text, where):
+        elif text is not None and not is_misread(
+            self.source, node, text, where
+        ):
             try:
                 expression = self._expression(text)
             except ExpressionError as error:
-                self.source.expression_fault(node, where, *explained(error, text))
+                self.source.expression_fault(
+                    node, where, *explained(error, text)
+                )
         entry = Entry(expression, node, where)
         self.entries.append(entry)
         return entry
@@ -120,7 +132,9 @@ class Numbers:
             return Literal(ZERO)
         if name in self.parameters:
             message = f"{where}: its name {name} is that of a parameter"
-            self.source.fault(node, message, "call the parameter something else")
+            self.source.fault(
+                node, message, "call the parameter something else"
+            )
             return Literal(ZERO)
         self.places[name] = node
         if name in self.settings:
@@ -185,7 +199,9 @@ class Numbers:
             return (self.entry(node, where),)
         items = self.source.items(node, where)
         if not items and not self.source.faults:
-            self.source.fault(node, f"{where} is empty", "every method has a stage")
+            self.source.fault(
+                node, f"{where} is empty", "every method has a stage"
+            )
         return self._entries(items, where)
 
     def _entries(self, items: Sequence[Node], where: str) -> Row:
@@ -200,7 +216,9 @@ class Numbers:
             place = f"{where}, entry {len(row) + 1}"
             if is_open:
                 message = "a comma ends the value inside brackets"
-                self.source.fault(item, message, 'quote it: "root(x, n)"', where=place)
+                self.source.fault(
+                    item, message, 'quote it: "root(x, n)"', where=place
+                )
                 row.append(Entry(Literal(ZERO), item, place))
             else:
                 row.append(self.entry(item, place))
@@ -229,7 +247,9 @@ class Numbers:
         if any(rows):
             return tuple(rows)
         if not self.source.faults:
-            self.source.fault(node, f"{where} is empty", "every method has a stage")
+            self.source.fault(
+                node, f"{where} is empty", "every method has a stage"
+            )
         return ()
 
     def _is_text(self, rows: Sequence[Node], where: str, what: str) -> bool:
@@ -245,7 +265,12 @@ class Numbers:
         return True
 
     def fitted(
-        self, rows: Rows, node: Node, where: str, shape: tuple[int, int], why: str
+        self,
+        rows: Rows,
+        node: Node,
+        where: str,
+        shape: tuple[int, int],
+        why: str,
     ) -> Rows:
         """A matrix of the given shape; note at most one fault where it has another.
 
@@ -278,7 +303,9 @@ class Numbers:
         if is_square and count + 1 == stages and is_triangle([0, *lengths]):
             found = counted(count, "row")
             message = f"{where} has {found} for {counted(stages, 'stage')}"
-            cure = "begin with the empty row of the first stage: [[], [1/2], …]"
+            cure = (
+                "begin with the empty row of the first stage: [[], [1/2], …]"
+            )
             self.source.fault(node, message, cure)
             return rows
         self._uneven(lengths, node, where, columns)
@@ -350,7 +377,9 @@ class Values:
                 self._values[id(entry)] = known[key]
             except ExpressionError as error:
                 source.expression_fault(entry.node, entry.where, error)
-        self.printed = tuple((expressions[key], value) for key, value in known.items())
+        self.printed = tuple(
+            (expressions[key], value) for key, value in known.items()
+        )
         _note_faults(source, numbers.of_parameters)
 
     def _find_culprits(self, numbers: Numbers, error: ExpressionError) -> None:
@@ -365,7 +394,9 @@ class Values:
         _note_faults(source, numbers.entries)
         if len(source.faults) > before:
             return
-        with_roots = (x for x in numbers.entries if any(roots_in(x.expression)))
+        with_roots = (
+            x for x in numbers.entries if any(roots_in(x.expression))
+        )
         source.fault(next(with_roots).node, error.message, error.help)
 
     def number(self, entry: Entry) -> Number:

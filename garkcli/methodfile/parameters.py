@@ -27,7 +27,9 @@ def read_parameters(numbers: Numbers, node: Node | None) -> None:
         where = f"parameters: {name}"
         value: Expression = Literal(ZERO)
         if name in FUNCTIONS:
-            source.fault(key, f"{where} is a function already", "choose another name")
+            source.fault(
+                key, f"{where} is a function already", "choose another name"
+            )
         elif not name.isidentifier() or not name.isascii():
             message = f"{where} cannot be the name of a parameter"
             source.fault(key, message, "use letters, digits and _")
@@ -56,13 +58,19 @@ def _free(numbers: Numbers, node: Node, where: str) -> Free:
         return Free(node)
     source = numbers.source
     entries = source.mapping(node, where, ("free", "range"))
-    says_free = "free" in entries and source.scalar(entries["free"], where) == "true"
+    says_free = (
+        "free" in entries and source.scalar(entries["free"], where) == "true"
+    )
     if not says_free:
         cure = "write {free: true, range: [1/4, 1]}, or give it a value"
-        source.fault(node, f"{where} is a mapping that does not say free: true", cure)
+        source.fault(
+            node, f"{where} is a mapping that does not say free: true", cure
+        )
     if "range" not in entries:
         return Free(node)
-    return Free(node, *read_range(numbers, entries["range"], f"{where}, range"))
+    return Free(
+        node, *read_range(numbers, entries["range"], f"{where}, range")
+    )
 
 
 def read_range(
@@ -101,7 +109,9 @@ def refuse_unknown_settings(numbers: Numbers) -> None:
     known = list(numbers.parameters)
     for name in numbers.settings:
         if name not in known:
-            cure = did_you_mean(name, known) if known else "it has no parameters"
+            cure = (
+                did_you_mean(name, known) if known else "it has no parameters"
+            )
             numbers.source.fault(
                 None, f"no parameter {shortened(name)} to be set", cure
             )

@@ -9,7 +9,14 @@ from flint import arb, ctx, fmpq
 
 from garkcli.exact.enclosing import OPERATIONS, enclose
 from garkcli.exact.field import Number
-from garkcli.exact.nodes import AlgebraicRoot, Chain, Expression, Literal, Power, Root
+from garkcli.exact.nodes import (
+    AlgebraicRoot,
+    Chain,
+    Expression,
+    Literal,
+    Power,
+    Root,
+)
 from garkcli.order.tolerance import rounded_up
 
 Printed: TypeAlias = Sequence[tuple[Expression, Number]]

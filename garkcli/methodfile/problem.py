@@ -15,7 +15,13 @@ from garkcli.methodfile.description import FORMS as METHOD_FORMS
 from garkcli.methodfile.formulas import Formulas, bad_name
 from garkcli.methodfile.load import read_text
 from garkcli.methodfile.sides import STIFFNESS, Sides, SidesMaker, read_sides
-from garkcli.methodfile.source import PROBLEM_FILE, Source, keys_of, one_line, shortened
+from garkcli.methodfile.source import (
+    PROBLEM_FILE,
+    Source,
+    keys_of,
+    one_line,
+    shortened,
+)
 from garkcli.methodfile.terms import Maker, ProblemText
 from garkcli.problems.vectorfield import TIME
 
@@ -104,7 +110,9 @@ class _Reader:
         root = source.compose()
         if root is None:
             return None
-        if keys_of(root) & set(METHOD_FORMS) and not keys_of(root) & set(FORMS):
+        if keys_of(root) & set(METHOD_FORMS) and not keys_of(root) & set(
+            FORMS
+        ):
             source.fault(
                 root,
                 "this is a method file, not a problem file",
@@ -143,10 +151,14 @@ class _Reader:
             variables=names,
             are_named=are_named,
             form=form,
-            terms=() if form == "rhs" else tuple(self._items(entries[form], form)),
+            terms=()
+            if form == "rhs"
+            else tuple(self._items(entries[form], form)),
             initial=entries.get("initial"),
             t_end=self._t_end(entries.get("t_end")),
-            invariants=tuple(self._invariants(entries.get("invariants"), form)),
+            invariants=tuple(
+                self._invariants(entries.get("invariants"), form)
+            ),
             sides=sides,
             exact=entries.get("exact"),
         )
@@ -161,7 +173,9 @@ class _Reader:
         """Refuse a file without initial values, and a solution of what has none."""
         is_rhs = form == "rhs"
         if "initial" not in entries and not (is_rhs and "exact" in entries):
-            self.source.fault(root, "initial missing", _initial_cure(variables, form))
+            self.source.fault(
+                root, "initial missing", _initial_cure(variables, form)
+            )
         if "exact" in entries and not is_rhs and form is not None:
             message = f"exact is for rhs, and this is a {form}"
             self.source.fault(entries["exact"], message, "leave it out")
@@ -182,7 +196,9 @@ class _Reader:
         text = None if node is None else self.source.scalar(node, "name")
         return shown_name(text or Path(self.source.name).stem)
 
-    def _variables(self, root: Node, node: Node | None) -> list[tuple[str, Node]]:
+    def _variables(
+        self, root: Node, node: Node | None
+    ) -> list[tuple[str, Node]]:
         """The names of the positions that can be names, and where they stand."""
         if node is None:
             self.source.fault(
@@ -197,10 +213,14 @@ class _Reader:
             else self.source.items(node, "variables")
         )
         if not items and isinstance(node, SequenceNode):
-            self.source.fault(node, "variables is empty", "name at least one position")
+            self.source.fault(
+                node, "variables is empty", "name at least one position"
+            )
         if len(items) > MAX_VARIABLES:
             self.source.fault(
-                node, f"{len(items)} variables (limit {MAX_VARIABLES})", "use fewer"
+                node,
+                f"{len(items)} variables (limit {MAX_VARIABLES})",
+                "use fewer",
             )
             return []
         found: dict[str, Node] = {}
@@ -211,13 +231,17 @@ class _Reader:
             why = "is named twice" if name in found else bad_name(name)
             if why:
                 self.source.fault(
-                    item, f"variables: {shortened(name)} {why}", "choose another name"
+                    item,
+                    f"variables: {shortened(name)} {why}",
+                    "choose another name",
                 )
             else:
                 found[name] = item
         return list(found.items())
 
-    def _refuse_clashes(self, variables: list[tuple[str, Node]], form: str) -> None:
+    def _refuse_clashes(
+        self, variables: list[tuple[str, Node]], form: str
+    ) -> None:
         """Refuse a variable that is the momentum or velocity of another, or has one with a name of
         the formulas: the momentum of ``i`` would be π.
         """
@@ -232,11 +256,16 @@ class _Reader:
                 )
             if name in derived:
                 self.source.fault(
-                    node, f"variables: {name} is {derived[name]}", "choose another name"
+                    node,
+                    f"variables: {name} is {derived[name]}",
+                    "choose another name",
                 )
 
     def _refuse_taken(
-        self, variables: list[tuple[str, Node]], form: str | None, node: Node | None
+        self,
+        variables: list[tuple[str, Node]],
+        form: str | None,
+        node: Node | None,
     ) -> None:
         """Refuse a parameter that is called like a variable, or like what belongs to one."""
         taken = {
@@ -245,7 +274,9 @@ class _Reader:
         }
         for key, _ in node.value if isinstance(node, MappingNode) else ():
             if isinstance(key, ScalarNode) and key.value in taken:
-                message = f"parameters: {key.value} is {taken[key.value]} already"
+                message = (
+                    f"parameters: {key.value} is {taken[key.value]} already"
+                )
                 self.source.fault(key, message, "choose another name")
 
     def _form(self, root: Node, entries: dict[str, Node]) -> str | None:
@@ -265,14 +296,20 @@ class _Reader:
             return [(node, form)]
         items = self.source.items(node, form)
         if not items and isinstance(node, SequenceNode):
-            self.source.fault(node, f"{form} is empty", "give a formula for each term")
+            self.source.fault(
+                node, f"{form} is empty", "give a formula for each term"
+            )
         if len(items) > MAX_TERMS:
             self.source.fault(
-                node, f"{form}: {len(items)} terms (limit {MAX_TERMS})", "use fewer"
+                node,
+                f"{form}: {len(items)} terms (limit {MAX_TERMS})",
+                "use fewer",
             )
             return []
         letter = form[0].upper()
-        return [(item, f"{letter}{{{l}}}") for l, item in enumerate(items, start=1)]
+        return [
+            (item, f"{letter}{{{l}}}") for l, item in enumerate(items, start=1)
+        ]
 
     def _t_end(self, node: Node | None) -> fmpq:
         if node is None:
@@ -289,17 +326,25 @@ class _Reader:
             return DEFAULT_T_END
         return found[1]
 
-    def _invariants(self, node: Node | None, form: str) -> list[tuple[str, Node]]:
-        entries = {} if node is None else self.source.mapping(node, "invariants", ())
+    def _invariants(
+        self, node: Node | None, form: str
+    ) -> list[tuple[str, Node]]:
+        entries = (
+            {} if node is None else self.source.mapping(node, "invariants", ())
+        )
         if len(entries) > MAX_INVARIANTS:
             self.source.fault(
-                node, f"{len(entries)} invariants (limit {MAX_INVARIANTS})", "use fewer"
+                node,
+                f"{len(entries)} invariants (limit {MAX_INVARIANTS})",
+                "use fewer",
             )
             return []
         for name, value in entries.items():
             if form != "rhs" and name.lower() in {"energy", "h"}:
                 self.source.fault(
-                    value, f"invariants: {name} is reported always", "leave it out"
+                    value,
+                    f"invariants: {name} is reported always",
+                    "leave it out",
                 )
         return [(shown_name(name), value) for name, value in entries.items()]
 
@@ -307,7 +352,9 @@ class _Reader:
 def _initial_cure(variables: list[tuple[str, Node]], form: str | None) -> str:
     values = []
     for name, _ in variables[:2]:
-        values.append(f"{name}: 0" if form == "rhs" else f"{name}: 0, p{name}: 0")
+        values.append(
+            f"{name}: 0" if form == "rhs" else f"{name}: 0, p{name}: 0"
+        )
     return f"write initial: {{{', '.join(values)}}}"
 
 
@@ -317,7 +364,9 @@ def _derived(variables: list[tuple[str, Node]], form: str) -> dict[str, str]:
         return {TIME: "time"}
     names = {f"p{name}": f"the momentum of {name}" for name, _ in variables}
     if form == "lagrangian":
-        names |= {f"v{name}": f"the velocity of {name}" for name, _ in variables}
+        names |= {
+            f"v{name}": f"the velocity of {name}" for name, _ in variables
+        }
     return names
 
 

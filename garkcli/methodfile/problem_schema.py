@@ -9,11 +9,18 @@ from __future__ import annotations
 from collections.abc import Iterable
 
 from garkcli.exact.formula import RESERVED
-from garkcli.methodfile.problem import KEYS, MAX_INVARIANTS, MAX_TERMS, MAX_VARIABLES
+from garkcli.methodfile.problem import (
+    KEYS,
+    MAX_INVARIANTS,
+    MAX_TERMS,
+    MAX_VARIABLES,
+)
 from garkcli.methodfile.schema import Schema
 from garkcli.problems.vectorfield import TIME
 
-_CLASHING = {name.removeprefix("p") for name in RESERVED if name.startswith("p")}
+_CLASHING = {
+    name.removeprefix("p") for name in RESERVED if name.startswith("p")
+}
 
 
 def _name_but(names: Iterable[str]) -> str:
@@ -46,7 +53,11 @@ def problem_file_schema() -> Schema:
         "type": "object",
         "additionalProperties": False,
         "required": ["variables"],
-        "oneOf": [_of_momenta("hamiltonian"), _of_momenta("lagrangian"), _of_rhs()],
+        "oneOf": [
+            _of_momenta("hamiltonian"),
+            _of_momenta("lagrangian"),
+            _of_rhs(),
+        ],
         "properties": {key: properties[key] for key in KEYS},
         "definitions": {"formula": _FORMULA, "constant": _CONSTANT},
     }

@@ -35,7 +35,10 @@ from garkcli.methodfile.description import (
 )
 from garkcli.methodfile.expectations import NUMBERS
 from garkcli.methodfile.numbers import Numbers
-from garkcli.methodfile.parameters import read_parameters, refuse_unknown_settings
+from garkcli.methodfile.parameters import (
+    read_parameters,
+    refuse_unknown_settings,
+)
 from garkcli.methodfile.source import Source, keys_of, shortened
 from garkcli.methodfile.spelled_out import SpelledOutReader, are_too_many
 from garkcli.transfer import RULES
@@ -67,7 +70,9 @@ _CURES = (
         (*NUMBERS, "symplectic"),
         "claims go under expect, for instance expect: {order: 4}",
     )
-    | dict.fromkeys(("family", "stages"), "write methods: [{family: gauss, stages: 2}]")
+    | dict.fromkeys(
+        ("family", "stages"), "write methods: [{family: gauss, stages: 2}]"
+    )
     | dict.fromkeys(("blocks", "default"), "it goes under transfer")
     | dict.fromkeys(("q", "p"), "it goes under prk: {q: {A, b}, p: {A, b}}")
     | dict.fromkeys(
@@ -77,7 +82,9 @@ _CURES = (
     | dict.fromkeys(RULES, "write it under transfer")
 )
 """Keys that are expected elsewhere than at the top of the file, and where."""
-_DECIMAL = re.compile(r"([0-9]+(\.[0-9]*)?|\.[0-9]+)([eE][+-]?[0-9]+)?", re.ASCII)
+_DECIMAL = re.compile(
+    r"([0-9]+(\.[0-9]*)?|\.[0-9]+)([eE][+-]?[0-9]+)?", re.ASCII
+)
 
 
 _METHODS = "write a list: [{family: gauss, stages: 2}, …]"
@@ -113,7 +120,9 @@ class Reader:
         keys = keys_of(root)
         if keys & {"hamiltonian", "lagrangian"} and not keys & set(FORMS):
             cure = "give it beside a method file: gark converge METHOD --problem FILE"
-            source.fault(root, "this is a problem file, not a method file", cure)
+            source.fault(
+                root, "this is a problem file, not a method file", cure
+            )
             return None
         entries = source.mapping(root, "the file", KEYS, _CURES)
         self.keys = frozenset(entries)
@@ -209,12 +218,16 @@ class Reader:
         self, root: Node, entries: dict[str, Node]
     ) -> Form | Literal["unknown"] | None:
         """Which form the coefficients have; A, b and c at the top are those of a tableau."""
-        present: list[str] = [key for key in (*FORMS, "unknown") if key in entries]
+        present: list[str] = [
+            key for key in (*FORMS, "unknown") if key in entries
+        ]
         plain = [key for key in PLAIN if key in entries]
         if plain:
             present.append(plain[0])
         for key in present[1:]:
-            message = f"{key}: the coefficients are given by {present[0]} already"
+            message = (
+                f"{key}: the coefficients are given by {present[0]} already"
+            )
             cure = f"keep one of {', '.join(present)}"
             self.source.fault(entries[key], message, cure)
         if not present:
@@ -228,8 +241,12 @@ class Reader:
             return cast("Form", present[0])  # or "unknown"
         missing = [key for key in ("A", "b") if key not in entries]
         if missing:
-            message = f"{' and '.join(missing)} missing beside {', '.join(plain)}"
-            self.source.fault(entries[plain[0]], message, "give A, b and perhaps c")
+            message = (
+                f"{' and '.join(missing)} missing beside {', '.join(plain)}"
+            )
+            self.source.fault(
+                entries[plain[0]], message, "give A, b and perhaps c"
+            )
             return None
         return "tableau"
 
@@ -238,13 +255,19 @@ class Reader:
         word = None
         if node is not None:
             word = self.source.choice(node, "structure", STRUCTURES)
-        if node is not None and form in {"tableau", "ark"} and word != "general":
+        if (
+            node is not None
+            and form in {"tableau", "ark"}
+            and word != "general"
+        ):
             cure = "use methods, tableau or prk"
             if form == "tableau":
                 cure = "write absent blocks as null"
             self.source.fault(node, f"structure does not go with {form}", cure)
         if node is not None and form == "prk" and word == "semi-separable":
-            message = "a prk cannot be semi-separable: that takes two Hamiltonians"
+            message = (
+                "a prk cannot be semi-separable: that takes two Hamiltonians"
+            )
             self.source.fault(node, message, "use methods")
         if self.shaped is not None and form == "prk" and word is None:
             return "separable"
@@ -253,7 +276,9 @@ class Reader:
     def _is_conjugate(self, node: Node | None) -> bool:
         if node is None:
             return False
-        return self.source.choice(node, "conjugate", ("true", "false")) == "true"
+        return (
+            self.source.choice(node, "conjugate", ("true", "false")) == "true"
+        )
 
     def _refuse_misplaced(self, form: Form, entries: dict[str, Node]) -> None:
         for key, home in (("transfer", "methods"), ("linear", "tableau")):
@@ -273,7 +298,10 @@ class Reader:
             return self._methods(node, structure, entries.get("transfer"))
         if form == "tableau":
             return self.spelled_out.tableau(node, entries.get("linear"))
-        from garkcli.methodfile.ark_prk import ArkReader, PrkReader  # rare forms
+        from garkcli.methodfile.ark_prk import (
+            ArkReader,
+            PrkReader,
+        )  # rare forms
 
         if form == "ark":
             return ArkReader(self.source, self.numbers).read(node)
@@ -289,16 +317,22 @@ class Reader:
             items = source.items(node, "methods", _METHODS)
         if are_too_many(source, items, node):
             return None
-        methods = [self._method(item, l) for l, item in enumerate(items, start=1)]
+        methods = [
+            self._method(item, l) for l, item in enumerate(items, start=1)
+        ]
         if not items and isinstance(node, SequenceNode):
             cure = "list at least one diagonal method"
             source.fault(node, "methods is empty", cure)
         if structure != "general" and len(items) != 2:
-            message = f"structure: {structure} is for two colours, not {len(items)}"
+            message = (
+                f"structure: {structure} is for two colours, not {len(items)}"
+            )
             source.fault(node, message)
         if len(items) > 1 and transfer is None:
             cure = "write transfer: collocation (or interpolation)"
-            source.fault(node, "two colours or more need a transfer rule", cure)
+            source.fault(
+                node, "two colours or more need a transfer rule", cure
+            )
         rules = TransferText(None, {})
         if transfer is not None:
             from garkcli.methodfile.transfers import TransferReader
@@ -316,7 +350,10 @@ class Reader:
         self, methods: Sequence[FamilyText | ButcherText], node: Node
     ) -> bool:
         """Note blocks between the methods that together have too many entries to be made."""
-        stages = [x.stages if isinstance(x, FamilyText) else len(x.b) for x in methods]
+        stages = [
+            x.stages if isinstance(x, FamilyText) else len(x.b)
+            for x in methods
+        ]
         inside = sum(s * s for s in stages)
         entries = sum(stages) ** 2 - inside
         if entries <= MAX_ENTRIES:
@@ -358,8 +395,12 @@ class Reader:
         stages = None
         if has_stages:
             node_of_stages = entries["stages"]
-            stages = self.source.whole(node_of_stages, f"{where}, stages", smallest=1)
-        if name is None or (name in FAMILIES and has_stages and stages is None):
+            stages = self.source.whole(
+                node_of_stages, f"{where}, stages", smallest=1
+            )
+        if name is None or (
+            name in FAMILIES and has_stages and stages is None
+        ):
             return None
         try:
             return FamilyText(node, name, require_member(name, stages))

@@ -37,19 +37,32 @@ _MEASURE: Schema = {
 _ENTRY: Schema = {
     "anyOf": [
         _NUMBER,
-        {"const": UNKNOWN, "description": "Unknown: gark design finds values."},
+        {
+            "const": UNKNOWN,
+            "description": "Unknown: gark design finds values.",
+        },
     ]
 }
-_ROW: Schema = {"anyOf": [{"type": "array", "items": _ENTRY, "minItems": 1}, _ENTRY]}
+_ROW: Schema = {
+    "anyOf": [{"type": "array", "items": _ENTRY, "minItems": 1}, _ENTRY]
+}
 _MATRIX: Schema = {
     "description": "Row by row; the rows of a triangle may end at the diagonal or before it.",
     "type": "array",
     "items": {
-        "anyOf": [{"$ref": "#/definitions/row"}, {"type": "array", "maxItems": 0}]
+        "anyOf": [
+            {"$ref": "#/definitions/row"},
+            {"type": "array", "maxItems": 0},
+        ]
     },
     "minItems": 1,
 }
-_RANGE: Schema = {"type": "array", "items": _NUMBER, "minItems": 2, "maxItems": 2}
+_RANGE: Schema = {
+    "type": "array",
+    "items": _NUMBER,
+    "minItems": 2,
+    "maxItems": 2,
+}
 _TEXT: Schema = {"type": ["string", "number", "boolean", "null"]}
 
 
@@ -68,14 +81,17 @@ def method_file_schema() -> Schema:
         "allOf": [
             _goes_with("transfer", {"required": ["methods"]}),
             _goes_with(
-                "linear", {"anyOf": [{"required": ["tableau"]}, {"required": ["A"]}]}
+                "linear",
+                {"anyOf": [{"required": ["tableau"]}, {"required": ["A"]}]},
             ),
             _goes_with("unknown", {"not": {"required": ["parameters"]}}),
             _goes_with("c", {"anyOf": [{"required": ["A"]}]}),
             {
                 "if": {
                     "required": ["methods"],
-                    "properties": {"methods": {"type": "array", "minItems": 2}},
+                    "properties": {
+                        "methods": {"type": "array", "minItems": 2}
+                    },
                 },
                 "then": {"required": ["transfer"]},
             },
@@ -86,14 +102,17 @@ def method_file_schema() -> Schema:
                 },
                 "then": {
                     "anyOf": [
-                        {"required": [form]} for form in ("methods", "prk", "unknown")
+                        {"required": [form]}
+                        for form in ("methods", "prk", "unknown")
                     ]
                 },
             },
             {
                 "if": {"required": ["prk"]},
                 "then": {
-                    "properties": {"structure": {"not": {"const": "semi-separable"}}}
+                    "properties": {
+                        "structure": {"not": {"const": "semi-separable"}}
+                    }
                 },
             },
         ],
@@ -103,7 +122,9 @@ def method_file_schema() -> Schema:
             "row": _ROW,
             "matrix": _MATRIX,
             "butcher": _butcher(),
-            "method": {"oneOf": [_family(), {"$ref": "#/definitions/butcher"}]},
+            "method": {
+                "oneOf": [_family(), {"$ref": "#/definitions/butcher"}]
+            },
             "rule": _rule(),
         },
     }
@@ -167,13 +188,17 @@ def _properties() -> Schema:
 
 
 def _unknown() -> Schema:
-    summaries = [{"const": x, "description": find_shape(x).summary} for x in SHAPES]
+    summaries = [
+        {"const": x, "description": find_shape(x).summary} for x in SHAPES
+    ]
     shape: Schema = {"oneOf": summaries}
     shapes = {"type": "array", "items": shape, "minItems": 1}
     stages = {"type": "integer", "minimum": 1, "maximum": MOST_UNKNOWN_STAGES}
     return {
         **_closed(
-            {"stages": stages, "shape": {"anyOf": [shape, shapes]}}, "stages", "shape"
+            {"stages": stages, "shape": {"anyOf": [shape, shapes]}},
+            "stages",
+            "shape",
         ),
         "description": "A tableau of unknowns with a shape, for gark design.",
     }
@@ -201,7 +226,10 @@ def _design() -> Schema:
             "propertyNames": {"pattern": "^[1-9][0-9]*$"},
             "additionalProperties": value,
         }
-        properties[key] = {"description": want.summary, "anyOf": [value, colours]}
+        properties[key] = {
+            "description": want.summary,
+            "anyOf": [value, colours],
+        }
     return {
         **_closed(properties),
         "description": "What gark design looks for, with the order of --order.",
@@ -233,7 +261,9 @@ def _family() -> Schema:
         "description": "A family of methods, see gark list.",
     }
     stages = {"type": "integer", "minimum": 1, "maximum": MAX_STAGES}
-    family = _closed({"family": names, "stages": stages, "name": _TEXT}, "family")
+    family = _closed(
+        {"family": names, "stages": stages, "name": _TEXT}, "family"
+    )
     single = [name for name, x in FAMILIES.items() if x.smallest == x.largest]
     return {
         **family,
@@ -253,7 +283,9 @@ def _butcher() -> Schema:
 
 
 def _rule() -> Schema:
-    words = [{"const": rule, "description": SUMMARIES[rule]} for rule in ALL_RULES]
+    words = [
+        {"const": rule, "description": SUMMARIES[rule]} for rule in ALL_RULES
+    ]
     weights = {rule: {"$ref": "#/definitions/number"} for rule in RULES}
     combination = {
         "type": "object",
@@ -269,7 +301,9 @@ def _transfer() -> Schema:
     block = {"anyOf": [rule, {"$ref": "#/definitions/matrix"}]}
     blocks = {
         "type": "object",
-        "propertyNames": {"pattern": r"^\s*[1-9][0-9]{0,3}\s*,\s*[1-9][0-9]{0,3}\s*$"},
+        "propertyNames": {
+            "pattern": r"^\s*[1-9][0-9]{0,3}\s*,\s*[1-9][0-9]{0,3}\s*$"
+        },
         "additionalProperties": block,
     }
     split = {
@@ -357,11 +391,16 @@ def _expect() -> Schema:
     row = {"type": "array", "items": entry}
     properties: Schema = dict.fromkeys(NUMBERS, number)
     properties |= {
-        key: row if key == "B" else {"type": "array", "items": row} for key in TABLES
+        key: row if key == "B" else {"type": "array", "items": row}
+        for key in TABLES
     }
     truth: Schema = {"type": "boolean"}
     properties["symplectic"] = truth
-    by_kind: dict[Kind, Schema] = {"truth": truth, "count": number, "number": _MEASURE}
+    by_kind: dict[Kind, Schema] = {
+        "truth": truth,
+        "count": number,
+        "number": _MEASURE,
+    }
     properties |= {x.key: by_kind[x.kind] for x in every_property()}
     return {
         "description": "Claims that gark check confirms.",

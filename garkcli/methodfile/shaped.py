@@ -58,14 +58,18 @@ class ShapeReader:
             key: the word ``unknown`` in the file.
             node: its value.
         """
-        entries = self.source.mapping(node, "unknown", ("stages", "shape"), form=FORM)
+        entries = self.source.mapping(
+            node, "unknown", ("stages", "shape"), form=FORM
+        )
         missing = [name for name in ("stages", "shape") if name not in entries]
         if missing:
             message = f"unknown: {' and '.join(missing)} missing"
             if not self.source.faults:
                 self.source.fault(node, message, FORM)
             return None
-        stages = self.source.whole(entries["stages"], "unknown, stages", smallest=1)
+        stages = self.source.whole(
+            entries["stages"], "unknown, stages", smallest=1
+        )
         names = self._names(entries["shape"])
         if stages is None or not names:
             return None
@@ -95,7 +99,9 @@ class ShapeReader:
                 return []
             if word not in SHAPES:
                 cure = did_you_mean(word, SHAPES)
-                self.source.fault(item, f"unknown, shape: {word} is no shape", cure)
+                self.source.fault(
+                    item, f"unknown, shape: {word} is no shape", cure
+                )
                 return []
             names.append(word)
         if not names:
@@ -111,7 +117,9 @@ class ShapeReader:
             self.numbers.free[name] = Free(node, where=name)
         self.numbers.define(name, value)
 
-    def _content(self, layout: Layout, node: Node) -> TableauText | ArkText | PrkText:
+    def _content(
+        self, layout: Layout, node: Node
+    ) -> TableauText | ArkText | PrkText:
         matrices: list[Rows] = []
         for colour, texts in enumerate(layout.A):
             matrices.append(self._matrix(texts, node, of_colour("A", colour)))
@@ -125,7 +133,9 @@ class ShapeReader:
             )
             return PrkText(q, p)
         if layout.kind == "ark":
-            return ArkText(tuple(matrices), (weights[0],) * len(matrices), None)
+            return ArkText(
+                tuple(matrices), (weights[0],) * len(matrices), None
+            )
         return TableauText(((matrices[0],),), (weights[0],), (None,), ())
 
     def _matrix(self, texts: Texts, node: Node, where: str) -> Rows:
@@ -137,7 +147,9 @@ class ShapeReader:
     def _row(self, texts: Sequence[str], node: Node, where: str) -> Row:
         entries = []
         for j, text in enumerate(texts, start=1):
-            entries.append(self.numbers.written(text, node, f"{where}, entry {j}"))
+            entries.append(
+                self.numbers.written(text, node, f"{where}, entry {j}")
+            )
         return tuple(entries)
 
 

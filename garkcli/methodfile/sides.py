@@ -27,13 +27,19 @@ Side: TypeAlias = tuple[tuple[str, Node, str], ...]
 Sides: TypeAlias = tuple[Side, ...]
 """Those of all terms."""
 _SHOWN = 8  # most missing names that are told
-_TRIES = (fmpq(1, 3), fmpq(2, 3), fmpq(1))  # of the time, where a solution is tried
+_TRIES = (
+    fmpq(1, 3),
+    fmpq(2, 3),
+    fmpq(1),
+)  # of the time, where a solution is tried
 
 
 class SidesMaker:
     """Makes the problem of one file; faults are noted in its source."""
 
-    def __init__(self, source: Source, formulas: Formulas, text: ProblemText) -> None:
+    def __init__(
+        self, source: Source, formulas: Formulas, text: ProblemText
+    ) -> None:
         from garkcli.problems.vectorfield import symbols
 
         self.source, self.formulas, self.text = source, formulas, text
@@ -72,7 +78,10 @@ class SidesMaker:
             tuple(self._components(term) for term in terms),
             tuple(start[name] for name in self.text.variables),
             self.text.t_end,
-            tuple((x.where.removeprefix("invariants: "), x.made) for x in invariants),
+            tuple(
+                (x.where.removeprefix("invariants: "), x.made)
+                for x in invariants
+            ),
             None if exact is None else self._components(exact),
             stiffness=self._stiffness,
         )
@@ -109,14 +118,19 @@ class SidesMaker:
         known = names if self.text.are_named else None
         found = {}
         for name, node, where in items:
-            for term in self.reader.terms([(node, where)], self._symbols, known, noun):
+            for term in self.reader.terms(
+                [(node, where)], self._symbols, known, noun
+            ):
                 found[name] = term
         return found
 
     def _invariants(self) -> list[Term]:
         names = dict.fromkeys(map(str, self.y), "")
         names[TIME] = "an invariant depends on the variables alone"
-        items = [(node, f"invariants: {name}") for name, node in self.text.invariants]
+        items = [
+            (node, f"invariants: {name}")
+            for name, node in self.text.invariants
+        ]
         known = names if self.text.are_named else None
         noun = "variable or parameter"
         return self.reader.terms(items, self._symbols, known, noun)
@@ -130,7 +144,9 @@ class SidesMaker:
         variables = self.text.variables if self.text.are_named else ()
         entries = self.source.mapping(node, "exact", variables)
         items = [(name, x, f"exact: {name}") for name, x in entries.items()]
-        names = dict.fromkeys(map(str, self.y), "the solution is a formula in t")
+        names = dict.fromkeys(
+            map(str, self.y), "the solution is a formula in t"
+        )
         names[TIME] = ""
         found = self._by_name(items, names, "parameter, nor t")
         if self.text.are_named:
@@ -139,7 +155,9 @@ class SidesMaker:
             )
         return found if len(self.source.faults) == before else None
 
-    def _initial(self, exact: dict[str, Term] | None) -> dict[str, fmpq] | None:
+    def _initial(
+        self, exact: dict[str, Term] | None
+    ) -> dict[str, fmpq] | None:
         """The initial values by name; None where they are not complete."""
         started = None if exact is None else self._start_of(exact)
         node = self.text.initial
@@ -155,7 +173,9 @@ class SidesMaker:
             if value is not None:
                 values[name] = value
         if self.text.are_named and len(self.source.faults) == before:
-            self._refuse_missing(node, "initial", entries, "a number, such as {}: 1/2")
+            self._refuse_missing(
+                node, "initial", entries, "a number, such as {}: 1/2"
+            )
         if len(self.source.faults) > before or not self.text.are_named:
             return None
         if exact is not None and started is not None:
@@ -197,9 +217,13 @@ class SidesMaker:
             more = ", …" if len(missing) > _SHOWN else ""
             names = ", ".join(missing[:_SHOWN])
             message = f"{where}: no value for {names}{more}"
-            self.source.fault(node, message, f"give each {cure.format(missing[0])}")
+            self.source.fault(
+                node, message, f"give each {cure.format(missing[0])}"
+            )
 
-    def _check_jacobians(self, terms: Sequence[Term], start: dict[str, fmpq]) -> None:
+    def _check_jacobians(
+        self, terms: Sequence[Term], start: dict[str, fmpq]
+    ) -> None:
         """Note right-hand sides that have no derivative at the start: Newton's method needs it."""
         from garkcli.problems.start import missing_derivative
 
@@ -240,7 +264,9 @@ class SidesMaker:
                     "write a first integral in the variables, or leave it out",
                 )
 
-    def _check_solution(self, problem: RightHandSide, exact: dict[str, Term]) -> None:
+    def _check_solution(
+        self, problem: RightHandSide, exact: dict[str, Term]
+    ) -> None:
         """Note a solution whose derivative differs from the right-hand sides at a later time, with
         balls that prove it.
         """
@@ -250,14 +276,18 @@ class SidesMaker:
         for part in _TRIES:
             time = part * problem.t_end
             at = {self.t: arb(time)}
-            for name, total in zip(problem.variables, problem.total, strict=True):
+            for name, total in zip(
+                problem.variables, problem.total, strict=True
+            ):
                 term = exact[name]
                 slope = term.made.diff(self.t)
                 field = total.xreplace(places)
                 has, needs = enclosed([slope, field], at)
                 if not (has.is_finite() and needs.is_finite()):
                     message = f"{term.where} has no value at t = {time}"
-                    self.source.fault(term.node, message, "give an earlier t_end")
+                    self.source.fault(
+                        term.node, message, "give an earlier t_end"
+                    )
                     return
                 if not has.overlaps(needs):
                     self.source.fault(
@@ -274,7 +304,9 @@ def _decimal(x: fmpq | arb) -> str:
     return str(arb(x).str(6, radius=False))
 
 
-def read_sides(source: Source, node: Node, names: tuple[str, ...], most: int) -> Sides:
+def read_sides(
+    source: Source, node: Node, names: tuple[str, ...], most: int
+) -> Sides:
     """The right-hand sides of each term: variables, formulas, and what these are called.
 
     Args:
@@ -287,22 +319,34 @@ def read_sides(source: Source, node: Node, names: tuple[str, ...], most: int) ->
         return (_side(source, node, "rhs", names),)
     items = source.items(node, "rhs")
     if not items:
-        source.fault(node, "rhs is empty", "give right-hand sides for each term")
+        source.fault(
+            node, "rhs is empty", "give right-hand sides for each term"
+        )
     if len(items) > most:
-        source.fault(node, f"rhs: {len(items)} terms (limit {most})", "use fewer")
+        source.fault(
+            node, f"rhs: {len(items)} terms (limit {most})", "use fewer"
+        )
         return ()
     numbered = enumerate(items, start=1)
-    return tuple(_side(source, item, f"f{{{l}}}", names) for l, item in numbered)
+    return tuple(
+        _side(source, item, f"f{{{l}}}", names) for l, item in numbered
+    )
 
 
-def _side(source: Source, node: Node, where: str, names: tuple[str, ...]) -> Side:
+def _side(
+    source: Source, node: Node, where: str, names: tuple[str, ...]
+) -> Side:
     """Of one term; a formula alone is that of the only variable."""
     if isinstance(node, ScalarNode) and len(names) == 1:
         return ((names[0], node, where),)
     if not isinstance(node, MappingNode):
         example = ", ".join(f"{x}: …" for x in names[:2])
-        message = f"{where}: right-hand sides by the names of variables are expected"
+        message = (
+            f"{where}: right-hand sides by the names of variables are expected"
+        )
         source.fault(node, message, f"write {{{example}}}")
         return ()
     entries = source.mapping(node, where, names)
-    return tuple((name, x, f"{where} of {name}") for name, x in entries.items())
+    return tuple(
+        (name, x, f"{where} of {name}") for name, x in entries.items()
+    )

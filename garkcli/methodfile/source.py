@@ -63,7 +63,9 @@ PROBLEM_FILE = FileKind(
 class Source:
     """One file being read: its name, its text, its kind, and the faults found so far."""
 
-    def __init__(self, name: str, text: str, kind: FileKind = METHOD_FILE) -> None:
+    def __init__(
+        self, name: str, text: str, kind: FileKind = METHOD_FILE
+    ) -> None:
         self.name = name
         self.text = text
         self.kind = kind
@@ -105,7 +107,9 @@ class Source:
         fault = Fault(printable(text), printable(cure), line, column)
         self._note(fault, cause, is_one)
 
-    def _note(self, fault: Fault, cause: str = "", is_one: bool = False) -> None:
+    def _note(
+        self, fault: Fault, cause: str = "", is_one: bool = False
+    ) -> None:
         self._found.append(Found(fault, cause, is_one))
         if len(self._found) >= MAX_FAULTS_READ:
             raise self.error()
@@ -117,7 +121,9 @@ class Source:
             return mark.line + 1, mark.column + 1 + offset
         if node.style in {"|", ">"} or node.end_mark.line > mark.line:
             return folded_place(self.text, node, offset)
-        return mark.line + 1, mark.column + 1 + (node.style in {"'", '"'}) + offset
+        return mark.line + 1, mark.column + 1 + (
+            node.style in {"'", '"'}
+        ) + offset
 
     def expression_fault(
         self, node: Node, where: str, error: ExpressionError, cause: str = ""
@@ -139,7 +145,11 @@ class Source:
         one.
         """
         if not self._found:
-            self.fault(None, f"this is not a {self.kind.name}", f"see {self.kind.page}")
+            self.fault(
+                None,
+                f"this is not a {self.kind.name}",
+                f"see {self.kind.page}",
+            )
         once = dict.fromkeys(self._found)
         faults = told_once(sorted(once, key=place_of))
         if len(faults) > MAX_FAULTS:
@@ -152,7 +162,9 @@ class Source:
     def compose(self) -> MappingNode | None:
         """The root of the file; None, with faults noted, where there is no mapping."""
         if len(self.text) > MAX_BYTES:
-            self.fault(None, f"a file of more than {MAX_BYTES} characters", "split it")
+            self.fault(
+                None, f"a file of more than {MAX_BYTES} characters", "split it"
+            )
             return None
         root = composed(self.text)
         if isinstance(root, Fault):
@@ -201,13 +213,17 @@ class Source:
                 continue
             key = key_node.value
             if key in entries:
-                message = f"{where}: the key {shortened(key)} stands here twice"
+                message = (
+                    f"{where}: the key {shortened(key)} stands here twice"
+                )
                 self.fault(key_node, message, "keep one of them")
             elif not known or key in known:
                 entries[key] = value
             else:
                 unknown.append(key_node)
-                meant = _meant(key, known) if len(unknown) <= MAX_FAULTS else ""
+                meant = (
+                    _meant(key, known) if len(unknown) <= MAX_FAULTS else ""
+                )
                 if meant and key not in cures and meant not in given:
                     entries[meant] = value
         self._unknown_keys(unknown, where, known, cures)
@@ -275,7 +291,9 @@ class Source:
             return None
         return int(text)
 
-    def choice(self, node: Node, where: str, known: Iterable[str]) -> str | None:
+    def choice(
+        self, node: Node, where: str, known: Iterable[str]
+    ) -> str | None:
         """One of a few words."""
         text = self.scalar(node, where)
         words = list(known)
@@ -347,4 +365,6 @@ def shortened(text: str, length: int = 60) -> str:
 
 def is_null(node: Node) -> bool:
     """Whether the value is YAML's null."""
-    return isinstance(node, ScalarNode) and node.tag == "tag:yaml.org,2002:null"
+    return (
+        isinstance(node, ScalarNode) and node.tag == "tag:yaml.org,2002:null"
+    )

@@ -17,7 +17,9 @@ from garkcli.methodfile.description import (
 from garkcli.methodfile.numbers import Numbers, Row, Rows
 from garkcli.methodfile.source import Source, is_null
 
-_ANOTHER_METHOD = "embedded weights make another method: give it a file of its own"
+_ANOTHER_METHOD = (
+    "embedded weights make another method: give it a file of its own"
+)
 _EMBEDDED = ("bhat", "b_hat", "bh", "b2", "b*", "b^", "btilde", "bE", "b-hat")
 CURES = dict.fromkeys(_EMBEDDED, _ANOTHER_METHOD) | {
     "family": "a family is listed under methods: [{family: gauss, stages: 2}]",
@@ -210,7 +212,9 @@ class SpelledOutReader:
         if are_too_many(self.source, items, node):
             return None
         if isinstance(node, SequenceNode) and not items:
-            self.source.fault(node, "b is empty", "give a row of weights a colour")
+            self.source.fault(
+                node, "b is empty", "give a row of weights a colour"
+            )
         rows: list[Row] = []
         for l, item in enumerate(items):
             rows.append(self.numbers.row(item, of_colour("b", l)))
@@ -223,7 +227,9 @@ class SpelledOutReader:
         colours = len(b)
         items = self.source.items(node, f"A, row {l + 1} of blocks")
         if len(items) != colours:
-            message = f"row {l + 1} of blocks has {counted(len(items), 'block')}"
+            message = (
+                f"row {l + 1} of blocks has {counted(len(items), 'block')}"
+            )
             message += f" for {counted(colours, 'colour')}"
             cure = "write null for a block that does not exist"
             self.source.fault(node, message, cure)
@@ -232,7 +238,9 @@ class SpelledOutReader:
             blocks.append(self._block(item, l, m, b))
         return tuple(blocks)
 
-    def _block(self, node: Node, l: int, m: int, b: tuple[Row, ...]) -> Rows | None:
+    def _block(
+        self, node: Node, l: int, m: int, b: tuple[Row, ...]
+    ) -> Rows | None:
         """The block A^{l,m}, a row for each weight of l, a column for each of m; None for null."""
         if is_null(node):
             return None

@@ -92,7 +92,9 @@ def _in_brackets(items: Sequence[str]) -> str:
     return f"[{inside}]"
 
 
-def printed_row(rows: Sequence[Node], example: str) -> tuple[Node, str, str] | None:
+def printed_row(
+    rows: Sequence[Node], example: str
+) -> tuple[Node, str, str] | None:
     """The first row that is a text of several numbers, as other programs print them; that text; and
     all rows in brackets, or ``example`` where they are no plain numbers. None where there is none.
     """
@@ -110,11 +112,23 @@ _PLAIN = re.compile(r"[-+]?[0-9][0-9./]*", re.ASCII)
 _SPELLINGS: tuple[tuple[re.Pattern[str], str], ...] = tuple(
     (re.compile(pattern, re.ASCII), cure)
     for pattern, cure in (
-        (r"(?P<x>[0-9.]+)[dD](?P<n>[-+]?[0-9]+)", "write the exponent with e: {x}e{n}"),
-        (r"(?P<x>[0-9.]+([eE][-+]?[0-9]+)?)_[A-Za-z]\w*", "leave the kind out: {x}"),
-        (r"(?P<x>[0-9]*\.[0-9]+|[0-9]+\.)[fFlLq]\b", "leave the suffix out: {x}"),
+        (
+            r"(?P<x>[0-9.]+)[dD](?P<n>[-+]?[0-9]+)",
+            "write the exponent with e: {x}e{n}",
+        ),
+        (
+            r"(?P<x>[0-9.]+([eE][-+]?[0-9]+)?)_[A-Za-z]\w*",
+            "leave the kind out: {x}",
+        ),
+        (
+            r"(?P<x>[0-9]*\.[0-9]+|[0-9]+\.)[fFlLq]\b",
+            "leave the suffix out: {x}",
+        ),
         (r"\b(?P<f>sqrt|cbrt)(?P<x>[0-9]+)", "write {f}({x})"),
-        (r"\b(math|np|numpy|sympy|sp|cmath|jnp)\.(?P<f>sqrt|cbrt)", "write {f}(x)"),
+        (
+            r"\b(math|np|numpy|sympy|sp|cmath|jnp)\.(?P<f>sqrt|cbrt)",
+            "write {f}(x)",
+        ),
         (r"\b(?P<f>Sqrt|SQRT)\b", "write sqrt(x)"),
         (r"\\d?frac", "write fractions as 1/2"),
         (r"\\sqrt", "write sqrt(x)"),
@@ -126,7 +140,9 @@ _SPELLINGS: tuple[tuple[re.Pattern[str], str], ...] = tuple(
 """Numbers as other languages write them, and how a method file does."""
 
 
-def explained(error: ExpressionError, text: str) -> tuple[ExpressionError, str]:
+def explained(
+    error: ExpressionError, text: str
+) -> tuple[ExpressionError, str]:
     """The error with the cure for what comes from another language; and its cause, where that is
     not the word at fault.
     """
@@ -142,7 +158,9 @@ def explained(error: ExpressionError, text: str) -> tuple[ExpressionError, str]:
                 what = shortened(found.group())
                 message = f"{what} is not how a number is written here"
             cure = better.format(**found.groupdict())
-            explanation = ExpressionError(message, cure, found.start(), found.end())
+            explanation = ExpressionError(
+                message, cure, found.start(), found.end()
+            )
             return explanation, pattern.pattern
     if _is_symbol(error, text):
         return error, _SYMBOLS.pattern
@@ -157,7 +175,9 @@ def _is_symbol(error: ExpressionError, text: str) -> bool:
     """Whether a tableau was copied with its symbols; a slip in the name of a parameter is another
     matter.
     """
-    if not isinstance(error, UndefinedValue) or error.help.startswith("did you mean"):
+    if not isinstance(error, UndefinedValue) or error.help.startswith(
+        "did you mean"
+    ):
         return False
     word = text[error.start : error.end]
     return _SYMBOLS.fullmatch(word) is not None
@@ -183,10 +203,14 @@ def is_misread(source: Source, node: Node, text: str, where: str) -> bool:
     kind = str(node.tag).rpartition(":")[2]
     message, cure = "", ""
     if kind in _WORDS:
-        message = f"{text or 'nothing'!r} is no number: YAML reads it as {kind}"
+        message = (
+            f"{text or 'nothing'!r} is no number: YAML reads it as {kind}"
+        )
         cure = "write a number, such as 1/2"
     elif _READ_DIFFERENTLY.fullmatch(text):
-        message = f"{text} means different numbers to different readers of YAML"
+        message = (
+            f"{text} means different numbers to different readers of YAML"
+        )
         cure = "write the number in plain decimal digits"
         if "_" in text:
             cure = "leave out the _"

@@ -78,7 +78,9 @@ def reads_sweep(
 class _Reader:
     """Reads one spec file."""
 
-    def __init__(self, source: Source, kinds: Mapping[str, str], folder: Path) -> None:
+    def __init__(
+        self, source: Source, kinds: Mapping[str, str], folder: Path
+    ) -> None:
         self.source = source
         self.kinds = kinds
         self.folder = folder
@@ -96,7 +98,9 @@ class _Reader:
         if "methods" in entries:
             methods.read(entries["methods"], entries.get("transfer"))
         elif "transfer" in entries:
-            source.fault(entries["transfer"], "transfer without methods", "add methods")
+            source.fault(
+                entries["transfer"], "transfer without methods", "add methods"
+            )
         if "files" in entries:
             methods.read_files(entries["files"], self.folder)
         if not {"methods", "files"} & entries.keys():
@@ -124,7 +128,9 @@ class _Reader:
         found.columns = list(dict.fromkeys(asked))
 
     def _grids(self, node: Node) -> None:
-        for name, values in self.source.mapping(node, "parameters", ()).items():
+        for name, values in self.source.mapping(
+            node, "parameters", ()
+        ).items():
             where = f"parameters: {name}"
             if not _NAME.fullmatch(name):
                 message = f"{where} cannot be the name of a parameter"
@@ -135,7 +141,9 @@ class _Reader:
             else:
                 given = [self._rational(x, where) for x in one_or_more(values)]
                 found = [x for x in given if x is not None]
-            self.found.grids[name] = tuple(str(x) for x in dict.fromkeys(found))
+            self.found.grids[name] = tuple(
+                str(x) for x in dict.fromkeys(found)
+            )
 
     def _steps(self, node: Node, where: str) -> list[fmpq]:
         """Equidistant values, both ends included."""
@@ -143,14 +151,23 @@ class _Reader:
         form = "write {from: 0, to: 1, steps: 10}"
         entries = self.source.mapping(node, where, keys, form=form)
         if entries.keys() != set(keys):
-            self.source.fault(node, f"{where}: from, to and steps are needed", form)
+            self.source.fault(
+                node, f"{where}: from, to and steps are needed", form
+            )
             return []
         first = self._rational(entries["from"], where)
         last = self._rational(entries["to"], where)
         steps = self.source.whole(entries["steps"], where, 1)
-        if first is None or last is None or steps is None or steps > MOST_VALUES:
+        if (
+            first is None
+            or last is None
+            or steps is None
+            or steps > MOST_VALUES
+        ):
             return []
-        return [first + (last - first) * fmpq(k, steps) for k in range(steps + 1)]
+        return [
+            first + (last - first) * fmpq(k, steps) for k in range(steps + 1)
+        ]
 
     def _rational(self, node: Node, where: str) -> fmpq | None:
         text = self.source.scalar(node, where)
@@ -183,7 +200,9 @@ class _Reader:
     def _refuse_large(self, root: Node) -> None:
         total = 0
         for template in self.found.templates:
-            total += prod(len(self.found.grids[x]) for x in template.parameters)
+            total += prod(
+                len(self.found.grids[x]) for x in template.parameters
+            )
         if total > MOST_METHODS:
             message = f"{total} methods (limit {MOST_METHODS})"
             self.source.fault(root, message, "make several sweeps")
@@ -196,7 +215,9 @@ class _Reader:
         return found
 
     def _conditions(self, node: Node) -> None:
-        for name, value in self.source.mapping(node, "where", self.kinds).items():
+        for name, value in self.source.mapping(
+            node, "where", self.kinds
+        ).items():
             if name not in self.kinds:
                 continue
             text = self.source.scalar(value, f"where, {name}")

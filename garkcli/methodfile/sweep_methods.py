@@ -39,9 +39,13 @@ class MethodsReader:
 
     def read(self, node: Node, transfer: Node | None) -> None:
         """The entries of ``methods`` with each rule of ``transfer``."""
-        choices = [self._choices(item) for item in self.source.items(node, "methods")]
+        choices = [
+            self._choices(item) for item in self.source.items(node, "methods")
+        ]
         if not choices:
-            self.source.fault(node, "methods is empty", "name at least one family")
+            self.source.fault(
+                node, "methods is empty", "name at least one family"
+            )
         rules: list[tuple[str, str, set[str]]] = [("", "", set())]
         if len(choices) > 1:
             if transfer is None:
@@ -50,7 +54,9 @@ class MethodsReader:
             else:
                 rules = list(self._rules(transfer))
         elif transfer is not None:
-            self.source.fault(transfer, "one method has no transfer", "leave it out")
+            self.source.fault(
+                transfer, "one method has no transfer", "leave it out"
+            )
         for methods in product(*choices):
             for rule, shown, names in rules:
                 self._add(methods, rule, shown, names)
@@ -64,12 +70,16 @@ class MethodsReader:
     ) -> None:
         """One template out of families and a rule."""
         used = tuple(name for name in self.found.grids if name in names)
-        members = [f'{{family: "{family}", stages: {s}}}' for family, s in methods]
+        members = [
+            f'{{family: "{family}", stages: {s}}}' for family, s in methods
+        ]
         lines = [f"methods: [{', '.join(members)}]"]
         if rule:
             lines.append(f"transfer: {rule}")
         if used:
-            lines.insert(0, f"parameters: {{{', '.join(f'{x}: free' for x in used)}}}")
+            lines.insert(
+                0, f"parameters: {{{', '.join(f'{x}: free' for x in used)}}}"
+            )
         title = " + ".join(f"{family} {s}" for family, s in methods)
         name = f"{title}; {shown}" if shown else title
         template = TemplateText(name, "\n".join(lines) + "\n", used)
@@ -86,7 +96,9 @@ class MethodsReader:
             form="write {family: gauss, stages: 1..4}",
         )
         if "family" not in entries:
-            self.source.fault(node, "methods: family missing", "name one, or a list")
+            self.source.fault(
+                node, "methods: family missing", "name one, or a list"
+            )
             return []
         families = []
         for item in one_or_more(entries["family"]):
@@ -103,7 +115,9 @@ class MethodsReader:
                 with suppress(UnknownFamily):
                     found[family, require_member(family, s)] = None
         if families and not found:
-            message = f"methods: no member of {', '.join(families)} has these stages"
+            message = (
+                f"methods: no member of {', '.join(families)} has these stages"
+            )
             self.source.fault(node, message, "write stages: 2, [1, 3] or 1..4")
         return list(found)
 
@@ -112,11 +126,17 @@ class MethodsReader:
             return []
         found: list[int] = []
         for item in one_or_more(node):
-            span = _SPAN.fullmatch(item.value) if isinstance(item, ScalarNode) else None
+            span = (
+                _SPAN.fullmatch(item.value)
+                if isinstance(item, ScalarNode)
+                else None
+            )
             if span:
                 first, last = int(span[1]), int(span[2])
                 if not 1 <= first <= last <= MAX_STAGES:
-                    message = f"methods, stages: {span[0]} is no range of stages"
+                    message = (
+                        f"methods, stages: {span[0]} is no range of stages"
+                    )
                     self.source.fault(item, message, "write 1..4")
                 found += range(first, min(last, MAX_STAGES) + 1)
                 continue
@@ -133,14 +153,24 @@ class MethodsReader:
                     yield rule, rule, set()
                 continue
             terms, names = [], set()
-            for rule, weight in self.source.mapping(item, "transfer", RULES).items():
+            for rule, weight in self.source.mapping(
+                item, "transfer", RULES
+            ).items():
                 text = self._weight(weight, f"transfer, weight of {rule}")
                 if text is not None:
                     terms.append((rule, text))
                     names |= set(_NAME.findall(text)) & self.found.grids.keys()
-            rule = "{" + ", ".join(f'{rule}: "{text}"' for rule, text in terms) + "}"
+            rule = (
+                "{"
+                + ", ".join(f'{rule}: "{text}"' for rule, text in terms)
+                + "}"
+            )
             if terms:
-                yield rule, " + ".join(f"({x}) {rule}" for rule, x in terms), names
+                yield (
+                    rule,
+                    " + ".join(f"({x}) {rule}" for rule, x in terms),
+                    names,
+                )
 
     def _weight(self, node: Node, where: str) -> str | None:
         text = self.source.scalar(node, where)
@@ -166,9 +196,9 @@ class MethodsReader:
             used = tuple(x for x in self.found.grids if x in has)
             missing = [x for x in reader.numbers.free if x not in used]
             if missing:
-                message = (
-                    f"files: {shortened(name)} has the free parameter {missing[0]}"
+                message = f"files: {shortened(name)} has the free parameter {missing[0]}"
+                cure = (
+                    f"give it values: parameters: {{{missing[0]}: [1/4, 1/2]}}"
                 )
-                cure = f"give it values: parameters: {{{missing[0]}: [1/4, 1/2]}}"
                 self.source.fault(item, message, cure)
             self.found.templates.append(TemplateText(name, text, used))

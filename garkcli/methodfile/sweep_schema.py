@@ -27,7 +27,10 @@ def sweep_file_schema(kinds: Mapping[str, str]) -> Schema:
     """
     columns = _one_or_more({"enum": list(kinds)})
     properties = {
-        "name": {"type": "string", "description": "What people call the sweep."},
+        "name": {
+            "type": "string",
+            "description": "What people call the sweep.",
+        },
         "methods": {
             "description": "One entry a colour; families times stages of each.",
             "type": "array",
@@ -117,7 +120,8 @@ def _conditions(kinds: Mapping[str, str]) -> Schema:
     }
     truth: Schema = {"type": "boolean"}
     properties = {
-        name: truth if kind == "truth" else bound for name, kind in kinds.items()
+        name: truth if kind == "truth" else bound
+        for name, kind in kinds.items()
     }
     return {
         "description": "What a method has to have to be kept.",

@@ -34,7 +34,9 @@ class SweepText:
     templates: list[TemplateText] = field(default_factory=list)
     grids: dict[str, tuple[str, ...]] = field(default_factory=dict)
     columns: list[str] = field(default_factory=list)
-    conditions: list[tuple[str, str, bool | float]] = field(default_factory=list)
+    conditions: list[tuple[str, str, bool | float]] = field(
+        default_factory=list
+    )
     best: list[str] = field(default_factory=list)
     pareto: list[str] = field(default_factory=list)
 

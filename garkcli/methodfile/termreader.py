@@ -54,7 +54,9 @@ class TermReader:
                 the variables have faults: then nothing is translated.
             noun: what a name can be here.
         """
-        allowed = {x: symbols[x] for x, cure in (names or {}).items() if not cure}
+        allowed = {
+            x: symbols[x] for x, cure in (names or {}).items() if not cure
+        }
         translator = self.formulas.translator(allowed)
         found = []
         for node, where in items:
@@ -69,7 +71,9 @@ class TermReader:
                 found.append(Term(node, where, expression, made))
         return found
 
-    def check_values(self, terms: Sequence[Term], start: Mapping[str, fmpq]) -> None:
+    def check_values(
+        self, terms: Sequence[Term], start: Mapping[str, fmpq]
+    ) -> None:
         """Note formulas that have no value at the start, as far as that is known."""
         with ctx.workprec(BITS):
             values = {name: arb(x) for name, x in start.items()}
@@ -101,6 +105,8 @@ class TermReader:
                 longest = max(longest, bits)
             if longest > MAX_BITS:
                 digits = int(longest * LOG10_2)
-                message = f"{term.where}: a coefficient of about {digits} digits"
+                message = (
+                    f"{term.where}: a coefficient of about {digits} digits"
+                )
                 cure = "choose units in which coefficients are shorter"
                 self.source.fault(term.node, message, cure)

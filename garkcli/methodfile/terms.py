@@ -56,13 +56,18 @@ class ProblemText:
 class Maker:
     """Makes the problem of one file; faults are noted in its source."""
 
-    def __init__(self, source: Source, formulas: Formulas, text: ProblemText) -> None:
+    def __init__(
+        self, source: Source, formulas: Formulas, text: ProblemText
+    ) -> None:
         from garkcli.problems.mass import velocities
         from garkcli.problems.vectorfield import symbols
 
         self.source, self.formulas, self.text = source, formulas, text
         self.reader = TermReader(source, formulas)
-        self.q, self.p = symbols(text.variables, "q"), symbols(text.variables, "p")
+        self.q, self.p = (
+            symbols(text.variables, "q"),
+            symbols(text.variables, "p"),
+        )
         self.v = velocities(text.variables)
         self.is_lagrangian = text.form == "lagrangian"
 
@@ -96,7 +101,10 @@ class Maker:
             tuple(x.made for x in terms),
             tuple(at.values()),
             self.text.t_end,
-            tuple((x.where.removeprefix("invariants: "), x.made) for x in invariants),
+            tuple(
+                (x.where.removeprefix("invariants: "), x.made)
+                for x in invariants
+            ),
         )
 
     def _initial(self) -> dict[str, fmpq] | None:
@@ -116,12 +124,16 @@ class Maker:
             value = self.formulas.rational(x, f"initial: {name}")
             if value is not None:
                 values[name] = value
-        given = [group for group in motions if any(str(x) in entries for x in group)]
+        given = [
+            group for group in motions if any(str(x) in entries for x in group)
+        ]
         if len(given) > 1:
             cure = "give all velocities or all momenta"
             self.source.fault(node, "initial: velocities and momenta", cure)
         elif len(self.source.faults) == before:
-            self._refuse_missing(node, given[0] if given else motions[-1], entries)
+            self._refuse_missing(
+                node, given[0] if given else motions[-1], entries
+            )
         return values if len(self.source.faults) == before else None
 
     def _read_unnamed(self, node: Node) -> None:
@@ -145,25 +157,37 @@ class Maker:
         self, motion: Sequence[Any], other: Sequence[Any], cure: str
     ) -> dict[str, str]:
         """For names that may stand in a formula nothing, for others the cure."""
-        names = {str(y): cure.format(x) for x, y in zip(motion, other, strict=True)}
+        names = {
+            str(y): cure.format(x) for x, y in zip(motion, other, strict=True)
+        }
         return names | {str(x): "" for x in (*self.q, *motion)}
 
     def _terms(self) -> list[Term]:
         if self.is_lagrangian:
-            names = self._names(self.v, self.p, "a Lagrangian has velocities: {}")
+            names = self._names(
+                self.v, self.p, "a Lagrangian has velocities: {}"
+            )
             noun = "variable, velocity or parameter"
         else:
-            names = self._names(self.p, self.v, "a Hamiltonian has momenta: {}")
+            names = self._names(
+                self.p, self.v, "a Hamiltonian has momenta: {}"
+            )
             noun = "variable, momentum or parameter"
         return self._formulas(self.text.terms, names, noun)
 
     def _invariants(self) -> list[Term]:
         names = self._names(self.p, self.v, "invariants have momenta: {}")
-        items = [(node, f"invariants: {name}") for name, node in self.text.invariants]
+        items = [
+            (node, f"invariants: {name}")
+            for name, node in self.text.invariants
+        ]
         return self._formulas(items, names, "variable, momentum or parameter")
 
     def _formulas(
-        self, items: Sequence[tuple[Node, str]], names: dict[str, str], noun: str
+        self,
+        items: Sequence[tuple[Node, str]],
+        names: dict[str, str],
+        noun: str,
     ) -> list[Term]:
         symbols = {str(x): x for x in (*self.q, *self.p, *self.v)}
         known = names if self.text.are_named else None
@@ -206,17 +230,18 @@ class Maker:
 
         unsolved = too_long(term.made, self.v)
         if unsolved is not None:
-            message = (
-                f"{term.where}: p = ∂L/∂v was not solved for {unsolved}, it is too long"
-            )
+            message = f"{term.where}: p = ∂L/∂v was not solved for {unsolved}, it is too long"
             self.source.fault(term.node, message, WRITE_HAMILTONIAN)
             return None
         try:
             return replace(
-                term, made=legendre_transform(term.made, self.text.variables, known)
+                term,
+                made=legendre_transform(term.made, self.text.variables, known),
             )
         except NoLegendreTransform as error:
-            self.source.fault(term.node, f"{term.where}: {error.message}", error.help)
+            self.source.fault(
+                term.node, f"{term.where}: {error.message}", error.help
+            )
             return None
 
     def _momenta(
@@ -229,7 +254,9 @@ class Maker:
         """The momenta by name that belong to the velocities at the start."""
         from garkcli.problems.start import initial_momenta
 
-        L, H = ([x.made for x in terms] for terms in (lagrangians, hamiltonians))
+        L, H = (
+            [x.made for x in terms] for terms in (lagrangians, hamiltonians)
+        )
         try:
             momenta = initial_momenta(L, H, self.text.variables, at)
         except NoLegendreTransform as error:
@@ -241,7 +268,9 @@ class Maker:
             message = f"{moving.where}: the momenta do not exist at the initial values"
             self.source.fault(moving.node, message, "start elsewhere")
             self.source.close()
-        return {str(x): nearby(y) for x, y in zip(self.p, momenta, strict=True)}
+        return {
+            str(x): nearby(y) for x, y in zip(self.p, momenta, strict=True)
+        }
 
     def _refuse_constants(
         self, terms: Sequence[Term], invariants: Sequence[Term]
@@ -266,7 +295,9 @@ class Maker:
                     "write a first integral in positions and momenta, or leave it out",
                 )
 
-    def _check_fields(self, terms: Sequence[Term], start: dict[str, fmpq]) -> None:
+    def _check_fields(
+        self, terms: Sequence[Term], start: dict[str, fmpq]
+    ) -> None:
         """Note terms that have no derivative at the start."""
         from garkcli.problems.start import missing_derivative
 

@@ -36,7 +36,9 @@ class TransferReader:
         if not keys & {"default", "blocks"}:
             # without quotes {1,2: rule} has the keys 1 and 2
             keys_in_order = key_nodes(node).values()
-            numbered = [x for x in keys_in_order if _BLOCK_OR_COLOUR.fullmatch(x.value)]
+            numbered = [
+                x for x in keys_in_order if _BLOCK_OR_COLOUR.fullmatch(x.value)
+            ]
             if numbered:
                 message = "transfer: single blocks stand under blocks"
                 cure = 'write transfer: {default: …, blocks: {"1,2": …}}'
@@ -52,7 +54,9 @@ class TransferReader:
             blocks = self._blocks(entries["blocks"], colours)
         return TransferText(default, blocks)
 
-    def _blocks(self, node: Node, colours: int) -> dict[tuple[int, int], BlockText]:
+    def _blocks(
+        self, node: Node, colours: int
+    ) -> dict[tuple[int, int], BlockText]:
         """The blocks that are given one by one; keys such as ``1,2`` count colours from 1."""
         blocks: dict[tuple[int, int], BlockText] = {}
         keys = key_nodes(node)
@@ -93,7 +97,9 @@ class TransferReader:
             return RuleText(node, ((rule, None),)) if rule else None
         mixed = sorted(keys_of(node) & set(PAIR_RULES))
         if mixed:
-            what = "makes both blocks of a pair of colours and cannot be combined"
+            what = (
+                "makes both blocks of a pair of colours and cannot be combined"
+            )
             message = f"{where}: {mixed[0]} {what}"
             self.source.fault(node, message, f"write {mixed[0]} on its own")
             return None

@@ -44,7 +44,9 @@ def is_bare_unknown(node: Node) -> bool:
     """Whether a ? stands there without quotes, which YAML takes for the sign of a key."""
     if not isinstance(node, MappingNode) or len(node.value) != 1:
         return False
-    return all(isinstance(x, ScalarNode) and not x.value for x in node.value[0])
+    return all(
+        isinstance(x, ScalarNode) and not x.value for x in node.value[0]
+    )
 
 
 def _together(indices: _Indices) -> str:

@@ -77,16 +77,22 @@ def read_wishes(source: Source, numbers: Numbers, node: Node | None) -> Wishes:
     return Wishes(order, tuple(fixed), tuple(wishes))
 
 
-def _fixed(source: Source, numbers: Numbers, node: Node) -> list[tuple[Entry, Entry]]:
+def _fixed(
+    source: Source, numbers: Numbers, node: Node
+) -> list[tuple[Entry, Entry]]:
     """``fix: {c2: 2*gamma}``: unknowns with their values, which may have other unknowns."""
     fixed = []
-    for name, value in source.mapping(node, "design: fix", (), form=FORM).items():
+    for name, value in source.mapping(
+        node, "design: fix", (), form=FORM
+    ).items():
         if name in numbers.settings:
             continue
         if name not in numbers.free:
             known = list(numbers.free)
             cure = did_you_mean(name, known)
-            source.fault(value, f"design: fix: {name} is no unknown of the file", cure)
+            source.fault(
+                value, f"design: fix: {name} is no unknown of the file", cure
+            )
             continue
         entry = numbers.entry(value, f"design: fix: {name}")
         unknown = Entry(Name(name), value, f"design: fix: {name}")
@@ -97,7 +103,9 @@ def _fixed(source: Source, numbers: Numbers, node: Node) -> list[tuple[Entry, En
 
 def _ranges(source: Source, numbers: Numbers, node: Node) -> None:
     """``range: {gamma: [1/4, 1]}``: where unknowns without a line of their own may lie."""
-    for name, value in source.mapping(node, "design: range", (), form=FORM).items():
+    for name, value in source.mapping(
+        node, "design: range", (), form=FORM
+    ).items():
         where = f"design: range: {name}"
         if name in numbers.free:
             known = numbers.free[name]
@@ -108,7 +116,9 @@ def _ranges(source: Source, numbers: Numbers, node: Node) -> None:
             source.fault(value, f"{where} is no unknown of the file", cure)
 
 
-def _wishes(source: Source, numbers: Numbers, want: Want, node: Node) -> list[Wish]:
+def _wishes(
+    source: Source, numbers: Numbers, want: Want, node: Node
+) -> list[Wish]:
     """One wish, or one for each colour that is named."""
     if not isinstance(node, MappingNode):
         found = _value(source, numbers, want, node)
@@ -139,7 +149,11 @@ def _value(
 
 
 def meaning_of(
-    wishes: Wishes, tableau: Tableau, ring: Parameters, values: Values, source: Source
+    wishes: Wishes,
+    tableau: Tableau,
+    ring: Parameters,
+    values: Values,
+    source: Source,
 ) -> Meaning:
     """Everything that is wanted, as conditions on the parameters.
 
@@ -158,7 +172,9 @@ def meaning_of(
         colours = tuple(range(tableau.size))
         if wish.colour is not None:
             if wish.colour >= tableau.size:
-                message = f"design: {wish.want.key}: no colour {wish.colour + 1}"
+                message = (
+                    f"design: {wish.want.key}: no colour {wish.colour + 1}"
+                )
                 cure = f"the method has {counted(tableau.size, 'colour')}"
                 source.fault(wish.node, message, cure)
                 continue

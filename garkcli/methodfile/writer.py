@@ -150,9 +150,13 @@ def _is_prk(tableau: Tableau) -> bool:
 def _is_ark(tableau: Tableau) -> bool:
     """Whether several vector fields share all stages and nodes, and none is linear."""
     colours = tableau.colours
-    is_shared = len(tableau.spaces) == 1 and len({colour.c for colour in colours}) == 1
+    is_shared = (
+        len(tableau.spaces) == 1 and len({colour.c for colour in colours}) == 1
+    )
     is_plain = not any(colour.is_linear for colour in colours)
-    return len(colours) > 1 and is_shared and is_plain and _is_complete(tableau)
+    return (
+        len(colours) > 1 and is_shared and is_plain and _is_complete(tableau)
+    )
 
 
 def _is_complete(tableau: Tableau) -> bool:
@@ -189,7 +193,9 @@ def _blocks(tableau: Tableau, text: NumberText) -> list[str]:
     return lines
 
 
-def _block(tableau: Tableau, l: int, m: int, text: NumberText) -> Iterator[str]:
+def _block(
+    tableau: Tableau, l: int, m: int, text: NumberText
+) -> Iterator[str]:
     """The lines of the block A^{l,m}, which is null where it does not exist."""
     block = tableau.block(l, m)
     dash = "    - -" if m == 0 else "      -"

@@ -14,7 +14,13 @@ from flint import fmpq
 from garkcli.exact.field import ZERO
 from garkcli.order.conditions import Condition
 from garkcli.order.listing import all_conditions, count_conditions
-from garkcli.order.repairs import Missed, Repair, named_block, named_blocks, repairs
+from garkcli.order.repairs import (
+    Missed,
+    Repair,
+    named_block,
+    named_blocks,
+    repairs,
+)
 from garkcli.tableau.tableau import Edge, Tableau
 from garkcli.trees.tree import Tree
 

@@ -184,7 +184,9 @@ class _Spans:
         """Coordinates over ℚ: each number by its coordinates in 1, θ, …"""
         if self.degree == 1:
             return cast("list[fmpq]", list(vector))
-        return [x for number in vector for x in coordinates(number, self.degree)]
+        return [
+            x for number in vector for x in coordinates(number, self.degree)
+        ]
 
 
 def all_spanning_trees(
@@ -202,6 +204,9 @@ def all_spanning_trees(
     spans = _Spans(tableau)
     for order in orders:
         yield tuple(
-            tuple(Tree(l, forest.branches) for forest in spans.stage_vectors(l, order))
+            tuple(
+                Tree(l, forest.branches)
+                for forest in spans.stage_vectors(l, order)
+            )
             for l in range(tableau.size)
         )

@@ -106,7 +106,9 @@ def is_admissible(tableau: Tableau, tree: Tree) -> bool:
     return True
 
 
-def _stage_vector(tableau: Tableau, tree: Tree, memo: dict[Tree, Vector]) -> Vector:
+def _stage_vector(
+    tableau: Tableau, tree: Tree, memo: dict[Tree, Vector]
+) -> Vector:
     """𝒜^[u], eqs. (Ataul) and (Au); branches are kept in ``memo``, the tree itself is not."""
     space = tableau.space(tree.root)
     colour = tableau.colours[tree.root]
@@ -138,7 +140,8 @@ def coupling_graph(
     """
     colours = range(tableau.size)
     edges = tuple(
-        tuple(tableau.block(l, m) is not None for m in colours) for l in colours
+        tuple(tableau.block(l, m) is not None for m in colours)
+        for l in colours
     )
     return edges, frozenset(l for l in colours if tableau.colours[l].is_linear)
 

@@ -99,7 +99,9 @@ def _exact(tableau: Tableau, order: int) -> ErrorConstants:
         everything.append((e, condition.trees))
         if mixed:
             coupling.append((e, mixed))
-    return ErrorConstants(order, True, _exact_norms(everything), _exact_norms(coupling))
+    return ErrorConstants(
+        order, True, _exact_norms(everything), _exact_norms(coupling)
+    )
 
 
 def _exact_norms(coefficients: Sequence[_Coefficient]) -> Norms:

@@ -99,7 +99,9 @@ def is_symplectic_within(tableau: Tableau, tolerance: fmpq) -> bool:
             is_canonical = parts == {"q", "p"}
             if is_canonical and one.space == other.space:
                 difference = _minus_part(one.b, other.b, 1)
-                if not functional_within(tableau.space(l), difference, tolerance):
+                if not functional_within(
+                    tableau.space(l), difference, tolerance
+                ):
                     return False
             if not is_canonical and parts != {"y"}:
                 continue  # velocities among each other, or forces: the form pairs none

@@ -26,7 +26,13 @@ from dataclasses import dataclass
 from flint import arb, arb_mat, ctx, fmpq
 
 from garkcli.exact.field import Number
-from garkcli.order.entries import Entries, entrywise_max, plus, scalar_product, times
+from garkcli.order.entries import (
+    Entries,
+    entrywise_max,
+    plus,
+    scalar_product,
+    times,
+)
 from garkcli.order.recursion import OrderByOrder
 from garkcli.tableau.conjugate import are_opposite
 from garkcli.tableau.enclosing import Enclosure, enclose_tableau
@@ -142,7 +148,9 @@ class Propagation(OrderByOrder[_Range]):
         return found
 
 
-def printed_rounding(tableau: Tableau, units: Mapping[Number, fmpq]) -> Propagation:
+def printed_rounding(
+    tableau: Tableau, units: Mapping[Number, fmpq]
+) -> Propagation:
     """What the last digits of printed coefficients leave open.
 
     Args:
@@ -223,7 +231,9 @@ class ConjugateRounding:
         return True
 
 
-def conjugate_rounding(tableau: Tableau, tolerance: fmpq) -> ConjugateRounding | None:
+def conjugate_rounding(
+    tableau: Tableau, tolerance: fmpq
+) -> ConjugateRounding | None:
     """The radii of all Â^{l,m}; None where a weight that is divided by is within t of zero.
 
     >>> from garkcli.families.registry import diagonal_method

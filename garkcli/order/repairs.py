@@ -184,7 +184,10 @@ def _has_points(method: Tableau, l: int) -> bool:
 
 
 def _solution(
-    method: Tableau, missed: Missed, place: _Place, failing: Sequence[Condition]
+    method: Tableau,
+    missed: Missed,
+    place: _Place,
+    failing: Sequence[Condition],
 ) -> Number | None:
     """The value with which a failing condition holds; None where none depends on the entry.
 
@@ -261,7 +264,9 @@ def _derived(missed: Missed, method: Tableau) -> Tableau | None:
         return None
 
 
-def _with_entry(tableau: Tableau, key: Edge, i: int, j: int, value: Number) -> Tableau:
+def _with_entry(
+    tableau: Tableau, key: Edge, i: int, j: int, value: Number
+) -> Tableau:
     block = list(tableau.blocks[key])
     block[i] = _with_value(block[i], j, value)
     blocks = {**tableau.blocks, key: tuple(block)}

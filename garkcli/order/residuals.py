@@ -152,7 +152,9 @@ class TreeResiduals:
             self._applied[key] = A * columns
         return self._applied[key]
 
-    def _stage_vectors(self, table: TreeTable, order: int, l: int) -> list[Row]:
+    def _stage_vectors(
+        self, table: TreeTable, order: int, l: int
+    ) -> list[Row]:
         """𝒜^[u] of the trees with root colour l, in the order of the table; there is one at
         least.
         """

@@ -133,14 +133,18 @@ def find_order_within(
             verdicts.append(decision.of(order))
     decided = [verdict for verdict in verdicts if verdict.size is not None]
     met = [verdict for verdict in verdicts if verdict.is_met]
-    wider = [verdict.tolerance for verdict in met if verdict.tolerance is not None]
+    wider = [
+        verdict.tolerance for verdict in met if verdict.tolerance is not None
+    ]
     last = verdicts[-1] if verdicts else None
     return RoundedOrder(
         order=len(met),
         tolerance=max(wider, default=tolerance),
         witness=last.witness if last else None,
         undecided=len(decided) < len(verdicts),
-        sizes=tuple(verdict.size for verdict in decided if verdict.size is not None),
+        sizes=tuple(
+            verdict.size for verdict in decided if verdict.size is not None
+        ),
         means=tuple(verdict.means for verdict in decided),
         doubt=last.doubt if last else None,
     )
@@ -195,7 +199,11 @@ class _Decision:
 
     def _explained(self, order: int, verdict: _Verdict) -> _Verdict:
         """What is left of a failure once rounding is known."""
-        if self.effect is None or verdict.witness is None or verdict.size is None:
+        if (
+            self.effect is None
+            or verdict.witness is None
+            or verdict.size is None
+        ):
             return verdict
         effect = self.effect(order)
         doubtful = _Verdict(verdict.means, doubt=Doubt(verdict.size, effect))
@@ -210,7 +218,9 @@ class _Decision:
 
     @cached_property
     def trees(self) -> TreeResiduals:
-        return TreeResiduals(self.tableau, enclose_tableau(self.tableau, self.bits))
+        return TreeResiduals(
+            self.tableau, enclose_tableau(self.tableau, self.bits)
+        )
 
     @cached_property
     def spans(self) -> ApproximateSpans:

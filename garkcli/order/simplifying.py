@@ -192,7 +192,9 @@ class _Alike:
         )
 
 
-def consistent_blocks(tableau: Tableau, tolerance: fmpq = ZERO) -> dict[Edge, bool]:
+def consistent_blocks(
+    tableau: Tableau, tolerance: fmpq = ZERO
+) -> dict[Edge, bool]:
     """For each block that exists whether A^{l,m} 𝟙 = c^{l}, eq. (Aone), within ``tolerance`` at
     every stage.
     """

@@ -90,7 +90,9 @@ def vector_within(space: StageSpace, vector: Vector, tolerance: fmpq) -> bool:
     return form_within(space, None, column, tolerance, dual=False)
 
 
-def functional_within(space: StageSpace, functional: Vector, tolerance: fmpq) -> bool:
+def functional_within(
+    space: StageSpace, functional: Vector, tolerance: fmpq
+) -> bool:
     """Whether a functional, Σ w_i f(c_i), has all |w_i| ≤ tolerance."""
     column = tuple((x,) for x in functional)
     return form_within(space, None, column, tolerance)
@@ -131,7 +133,9 @@ def form_within(
     return True
 
 
-def form_entries(space: StageSpace, other: StageSpace, matrix: Matrix) -> arb_mat:
+def form_entries(
+    space: StageSpace, other: StageSpace, matrix: Matrix
+) -> arb_mat:
     """The coefficients m_ij of a bilinear form at the nodes, in balls."""
     with ctx.workprec(FIRST_BITS):
         return _at_nodes(space, other, matrix, dual=True)

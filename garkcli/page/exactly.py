@@ -36,7 +36,9 @@ def polynomial_latex(p: Polynomial, variable: str) -> str:
     x^{2}-22x+48
     """
     descending = reversed(list(enumerate(p.coefficients)))
-    return _sum_latex((a, power_text(variable, k, f"{{{k}}}")) for k, a in descending)
+    return _sum_latex(
+        (a, power_text(variable, k, f"{{{k}}}")) for k, a in descending
+    )
 
 
 def multivariate_latex(p: Multivariate, variables: Sequence[str]) -> str:
@@ -49,7 +51,9 @@ def multivariate_latex(p: Multivariate, variables: Sequence[str]) -> str:
     terms = []
     for exponents, a in p.terms:
         named = zip(variables, exponents, strict=True)
-        terms.append((a, "".join(power_text(x, k, f"{{{k}}}") for x, k in named)))
+        terms.append(
+            (a, "".join(power_text(x, k, f"{{{k}}}") for x, k in named))
+        )
     return _sum_latex(terms)
 
 

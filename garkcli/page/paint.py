@@ -7,7 +7,13 @@ from collections.abc import Iterable, Sequence
 from dataclasses import dataclass
 from itertools import zip_longest
 
-_CODES = {"good": "32", "bad": "31;1", "strong": "1", "faint": "2", "note": "36"}
+_CODES = {
+    "good": "32",
+    "bad": "31;1",
+    "strong": "1",
+    "faint": "2",
+    "note": "36",
+}
 
 _DOT = re.compile("●([0-9]+)")
 """A dot of a drawn tree, with the number of its colour."""
@@ -114,7 +120,9 @@ def folded(text: str, width: int, indent: str = "      ") -> list[str]:
     return [line.rstrip() for line in lines]
 
 
-def beside(left: Sequence[str], right: Sequence[str], gap: str = "   ") -> list[str]:
+def beside(
+    left: Sequence[str], right: Sequence[str], gap: str = "   "
+) -> list[str]:
     """Two blocks of lines next to each other."""
     width = max((len(line) for line in left), default=0)
     lines = []

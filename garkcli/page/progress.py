@@ -67,7 +67,9 @@ def _with_bar(
         MofNCompleteColumn(),
         TimeRemainingColumn(),
     )
-    with Progress(*columns, console=Console(stderr=True), transient=True) as progress:
+    with Progress(
+        *columns, console=Console(stderr=True), transient=True
+    ) as progress:
         task = progress.add_task(what, total=total, completed=done)
         pending = 0
         for item in items:
@@ -131,7 +133,9 @@ class _Bar:
             self.task = self.progress.add_task(what, total=total)
             self.progress.start()
         assert self.task is not None
-        self.progress.update(self.task, description=what, completed=done, total=total)
+        self.progress.update(
+            self.task, description=what, completed=done, total=total
+        )
 
     def close(self) -> None:
         """Take the bar away."""

@@ -69,7 +69,10 @@ def published(title: str, schema: Schema) -> Schema:
     """The schema of a whole document. Fields may be added to documents; those that are there never
     change their meaning.
     """
-    head = {"$schema": "http://json-schema.org/draft-07/schema#", "title": title}
+    head = {
+        "$schema": "http://json-schema.org/draft-07/schema#",
+        "title": title,
+    }
     return {**head, **schema}
 
 
@@ -120,13 +123,19 @@ class Record(Generic[Whole]):
     @property
     def schema(self) -> Schema:
         """The JSON Schema (draft-07) of such objects."""
-        required = [field.name for field in self.fields if not field.is_optional]
+        required = [
+            field.name for field in self.fields if not field.is_optional
+        ]
         schema: Schema = {
             "type": "object",
             "required": required,
             "properties": {field.name: field.schema for field in self.fields},
         }
-        return schema if self.is_open else {**schema, "additionalProperties": False}
+        return (
+            schema
+            if self.is_open
+            else {**schema, "additionalProperties": False}
+        )
 
     def with_rows(self, name: str, row: Record[Any]) -> Schema:
         """The schema of these objects with a last field, a list that is written row by row."""
@@ -135,7 +144,9 @@ class Record(Generic[Whole]):
         required = [*schema["required"], name]
         return {**schema, "required": required, "properties": properties}
 
-    def or_null(self, name: str, part: Callable[[Owner], Whole | None]) -> Field[Owner]:
+    def or_null(
+        self, name: str, part: Callable[[Owner], Whole | None]
+    ) -> Field[Owner]:
         """A field with this object of a part; null where there is no such part."""
         return Field(name, nullable(self.schema), self._of(part))
 
@@ -155,7 +166,9 @@ class Record(Generic[Whole]):
 
         return Field(name, array(self.schema), found)
 
-    def _of(self, part: Callable[[Owner], Whole | None]) -> Callable[[Owner], object]:
+    def _of(
+        self, part: Callable[[Owner], Whole | None]
+    ) -> Callable[[Owner], object]:
         return _of_part(part, self.data)
 
 

@@ -13,7 +13,9 @@ from typing import BinaryIO
 
 from garkcli.errors import UsageProblem
 
-_OWN_STREAM = re.compile(r"/dev/(?:fd/)?(\d+|stdout|stderr)|/proc/self/fd/(\d+)")
+_OWN_STREAM = re.compile(
+    r"/dev/(?:fd/)?(\d+|stdout|stderr)|/proc/self/fd/(\d+)"
+)
 _MOST_LINKS = 40
 """As many links in a row as Linux follows."""
 
@@ -126,7 +128,9 @@ def _encoded(pieces: Iterable[str | bytes]) -> Iterator[bytes]:
         yield piece.encode("utf-8") if isinstance(piece, str) else piece
 
 
-def _write_through(target: Path, pieces: Iterable[str | bytes], is_file: bool) -> None:
+def _write_through(
+    target: Path, pieces: Iterable[str | bytes], is_file: bool
+) -> None:
     """Write into what is there: a file of several names at the end, a device as it comes."""
     data = _encoded(pieces)
     if is_file:

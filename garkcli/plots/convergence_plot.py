@@ -31,9 +31,19 @@ _Place: TypeAlias = Callable[[float], float]
 _BLUE, _RED = "#1f4e9e", "#c0392b"  # of clearly different lightness in grey
 _STYLES: Sequence[Style] = (
     {"marker": "o", "linestyle": "-", "color": "black"},
-    {"marker": "s", "linestyle": "--", "color": "#c0392b", "markerfacecolor": "white"},
+    {
+        "marker": "s",
+        "linestyle": "--",
+        "color": "#c0392b",
+        "markerfacecolor": "white",
+    },
     {"marker": "^", "linestyle": "-.", "color": "#1f4e9e"},
-    {"marker": "D", "linestyle": ":", "color": "#e08214", "markerfacecolor": "white"},
+    {
+        "marker": "D",
+        "linestyle": ":",
+        "color": "#e08214",
+        "markerfacecolor": "white",
+    },
     {"marker": "v", "linestyle": (0, (5, 1, 1, 1, 1, 1)), "color": "#4d8f4d"},
     {"marker": "X", "linestyle": (0, (8, 2)), "color": "0.55"},
     {
@@ -72,7 +82,9 @@ def convergence_figure(result: Convergence, name: str) -> Figure:
     points = curve(result, "h")
     errors = _curve(points, "error", _ERROR)
     energies = [(row.h, row.energy_error) for row in result.rows]
-    kept = [(h, error) for h, error in energies if error is not None and error > 0]
+    kept = [
+        (h, error) for h, error in energies if error is not None and error > 0
+    ]
     energy_errors = _curve(kept, "energy error", _ENERGY_ERROR)
     curves = [found for found in (errors, energy_errors) if found is not None]
     if errors is not None:
@@ -179,7 +191,11 @@ def _style(k: int) -> dict[str, Any]:
 
 
 def _log_log(
-    curves: Sequence[Curve], lines: Sequence[Line], title: str, label: str, size: float
+    curves: Sequence[Curve],
+    lines: Sequence[Line],
+    title: str,
+    label: str,
+    size: float,
 ) -> Figure:
     """A figure of the curves; where they leave the range of floats, of their logarithms.
 
@@ -262,7 +278,12 @@ def _annotate(axes: Axes, line: Line, place: _Place) -> None:
         zorder=1.6,
         fontsize=9,
         color="0.3",
-        bbox={"facecolor": "white", "edgecolor": "none", "pad": 0.6, "alpha": 0.8},
+        bbox={
+            "facecolor": "white",
+            "edgecolor": "none",
+            "pad": 0.6,
+            "alpha": 0.8,
+        },
     )
 
 

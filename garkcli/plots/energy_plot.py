@@ -35,7 +35,9 @@ def energy_figure(run: LongRun) -> Figure:
     heights[0] = 3.0  # the energy
     height = 0.9 + sum(heights)
     figure = Figure(figsize=(7.2, height), layout="constrained")
-    grid = figure.subplots(rows, 1, sharex=True, squeeze=False, height_ratios=heights)
+    grid = figure.subplots(
+        rows, 1, sharex=True, squeeze=False, height_ratios=heights
+    )
     panels = grid[:, 0]
     problem = run.problem
     name = "oscillator" if isinstance(problem, Oscillator) else problem.name

@@ -105,7 +105,9 @@ def _draw_axes(axes: Axes) -> None:
     axes.set_aspect("equal")
 
 
-def window_of(functions: Sequence[StabilityFunction], is_symmetric: bool) -> Window:
+def window_of(
+    functions: Sequence[StabilityFunction], is_symmetric: bool
+) -> Window:
     """A part of the plane with all that happens: zeros of P, poles, where |R| = 1 on the axis."""
     reach = 2.0
     for R in functions:
@@ -140,7 +142,9 @@ def stability_figure(
     return trace_figure(reports)
 
 
-def region_figure(reports: Sequence[StabilityReport], order_star: bool) -> Figure:
+def region_figure(
+    reports: Sequence[StabilityReport], order_star: bool
+) -> Figure:
     """The regions |R(z)| ≤ 1, a panel a direction where there is one method of several colours."""
     pair = None
     first = reports[0]
@@ -177,7 +181,9 @@ def _direction_of(report: StabilityReport, pair: ImexPair) -> str:
     return _direction(explicit.name)
 
 
-def _draw_damped(axes: Axes, pair: ImexPair, explicit: StabilityFunction) -> None:
+def _draw_damped(
+    axes: Axes, pair: ImexPair, explicit: StabilityFunction
+) -> None:
     """The z_E with all z_I damped, each square decided at its centre, and the outline without."""
     window = window_of([explicit], is_symmetric=False)
     x = np.linspace(window.left, window.right, SQUARES)
@@ -192,7 +198,9 @@ def _draw_damped(axes: Axes, pair: ImexPair, explicit: StabilityFunction) -> Non
     below = -y[:0:-1]
     both = np.concatenate([below, y])
     shades = ListedColormap(["#ffffff", COLOURS[0]])
-    axes.pcolormesh(x, both, lower + upper, cmap=shades, alpha=0.35, shading="nearest")
+    axes.pcolormesh(
+        x, both, lower + upper, cmap=shades, alpha=0.35, shading="nearest"
+    )
     u, v, z = window.grid()
     level = _finite(modulus(explicit, z))
     colour, dashes = _line(1)
@@ -228,7 +236,9 @@ def _line(k: int) -> tuple[str, Any]:
     return colour, dashes
 
 
-def _draw_regions(axes: Axes, named: Sequence[Named], order_star: bool) -> None:
+def _draw_regions(
+    axes: Axes, named: Sequence[Named], order_star: bool
+) -> None:
     functions = [R for _, R in named]
     window = window_of(functions, order_star)
     x, y, z = window.grid()
@@ -250,7 +260,9 @@ def _draw_regions(axes: Axes, named: Sequence[Named], order_star: bool) -> None:
     _draw_axes(axes)
     axes.set_xlabel("Re z")
     axes.set_ylabel("Im z")
-    what = "order star: |R(z)| > |exp z|" if order_star else "filled: |R(z)| ≤ 1"
+    what = (
+        "order star: |R(z)| > |exp z|" if order_star else "filled: |R(z)| ≤ 1"
+    )
     axes.set_title(what, fontsize=10, loc="left")
     if len(named) > 1:
         legend = axes.legend(handles=handles, fontsize=9, loc="upper left")
@@ -306,7 +318,9 @@ def _half_trace(oscillator: OscillatorStability, z: Array) -> Array:
     return half
 
 
-def _shade_stable(axes: Axes, oscillator: OscillatorStability, end: float) -> None:
+def _shade_stable(
+    axes: Axes, oscillator: OscillatorStability, end: float
+) -> None:
     for interval in oscillator.stable:
         low = 0.0
         high = end

@@ -100,7 +100,9 @@ def check_stiffness(name: str) -> None:
         UsageProblem: it would change nothing.
     """
     if not built_in(name).takes_stiffness:
-        takers = ", ".join(x.name for x in PROBLEMS.values() if x.takes_stiffness)
+        takers = ", ".join(
+            x.name for x in PROBLEMS.values() if x.takes_stiffness
+        )
         raise UsageProblem(
             f"--stiffness is for the problems {takers}, not for {name}",
             "leave it out, or choose one of these",
@@ -119,7 +121,9 @@ def hamiltonian(name: str, terms: int, seed: int = 1) -> Hamiltonian:
     """
     made = built_in(name).make(terms, seed)
     if not isinstance(made, Hamiltonian):
-        raise UsageProblem(f"{name} is not Hamiltonian", "its maker is problem(...)")
+        raise UsageProblem(
+            f"{name} is not Hamiltonian", "its maker is problem(...)"
+        )
     return made
 
 
@@ -130,7 +134,9 @@ def built_in(name: str) -> BuiltIn:
         UsageProblem: there is no such problem.
     """
     if name not in PROBLEMS:
-        raise UsageProblem(f"no problem {name!r}", did_you_mean(name, tuple(PROBLEMS)))
+        raise UsageProblem(
+            f"no problem {name!r}", did_you_mean(name, tuple(PROBLEMS))
+        )
     return PROBLEMS[name]
 
 
@@ -144,7 +150,9 @@ def check_seed(name: str, seed: int | None) -> None:
     if seed is not None and name not in takers:
         plural = "s" if len(takers) > 1 else ""
         whose = f"problem{plural} {', '.join(takers)}"
-        raise UsageProblem(f"--seed is for the {whose}, not for {name}", "leave it out")
+        raise UsageProblem(
+            f"--seed is for the {whose}, not for {name}", "leave it out"
+        )
 
 
 def _mechanical(
@@ -162,7 +170,9 @@ def _stiff(
     def make(terms: int, _: int) -> RightHandSide:
         return made(terms, fmpq(1))
 
-    return BuiltIn(name, summary, formula, sees, make, is_hamiltonian=False, stiff=made)
+    return BuiltIn(
+        name, summary, formula, sees, make, is_hamiltonian=False, stiff=made
+    )
 
 
 _ALTERNATING = "alternating trees in which velocities do not branch"
@@ -174,7 +184,9 @@ _ENTRIES = (
         "½p² and parts of ½ω²q²; sees the unbranched trees only",
         "½p² + ½ω²q², the step map taken exactly",
         "the unbranched trees",
-        Mechanical(("q",), lambda q: (q**2 / 2,), (fmpq(1), fmpq(1, 2)), fmpq(4)),
+        Mechanical(
+            ("q",), lambda q: (q**2 / 2,), (fmpq(1), fmpq(1, 2)), fmpq(4)
+        ),
     ),
     _mechanical(
         "split-oscillator",
@@ -210,9 +222,16 @@ _ENTRIES = (
         Mechanical(
             ("x", "y"),
             kepler_potential,
-            (fmpq(2, 5), fmpq(0), fmpq(0), fmpq(2)),  # eccentricity 3/5, period 2π
+            (
+                fmpq(2, 5),
+                fmpq(0),
+                fmpq(0),
+                fmpq(2),
+            ),  # eccentricity 3/5, period 2π
             fmpq(2),
-            invariants=lambda x, y, px, py: (("angular momentum", x * py - y * px),),
+            invariants=lambda x, y, px, py: (
+                ("angular momentum", x * py - y * px),
+            ),
             long_run=(fmpq(1, 50), fmpq(1000)),
         ),
     ),
@@ -323,7 +342,12 @@ _ENTRIES = (
 )
 PROBLEMS: Mapping[str, BuiltIn] = {entry.name: entry for entry in _ENTRIES}
 """The problems by name, in the order in which they are shown."""
-GENERIC = ("generic", "generic-semi-separable", "generic-separable", "generic-nystrom")
+GENERIC = (
+    "generic",
+    "generic-semi-separable",
+    "generic-separable",
+    "generic-nystrom",
+)
 """The Hamiltonian ones that see every tree of a structure, from the most general one to the most
 special.
 """

@@ -82,7 +82,10 @@ def generic_rhs(
         tuple(fmpq(draw.between(-10, 10), 50) for _ in UNKNOWNS),
         fmpq(1),
         is_generic=True,
-        long_run=(fmpq(1, 100), fmpq(1)),  # the solutions need not exist for longer
+        long_run=(
+            fmpq(1, 100),
+            fmpq(1),
+        ),  # the solutions need not exist for longer
     )
 
 
@@ -114,8 +117,12 @@ def _form(draw: Draw, variables: Sequence[Any]) -> Any:
 
 def _separated(name: str, kinetic: Any, terms: int, draw: Draw) -> Hamiltonian:
     if terms == 1:
-        return _problem(name, [kinetic + polynomial(draw, _positions(), terms)], draw)
-    potentials = [polynomial(draw, _positions(), terms) for _ in range(terms - 1)]
+        return _problem(
+            name, [kinetic + polynomial(draw, _positions(), terms)], draw
+        )
+    potentials = [
+        polynomial(draw, _positions(), terms) for _ in range(terms - 1)
+    ]
     return _problem(name, [kinetic, *potentials], draw)
 
 
@@ -127,7 +134,10 @@ def _problem(name: str, split: Sequence[Any], draw: Draw) -> Hamiltonian:
         start(draw),
         fmpq(1),
         is_generic=True,
-        long_run=(fmpq(1, 100), fmpq(1)),  # the solutions need not exist for longer
+        long_run=(
+            fmpq(1, 100),
+            fmpq(1),
+        ),  # the solutions need not exist for longer
     )
 
 

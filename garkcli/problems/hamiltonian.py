@@ -79,7 +79,9 @@ class Hamiltonian:
 
 
 @cache
-def vector_field(problem: Hamiltonian, term: int, drives: Group) -> VectorField:
+def vector_field(
+    problem: Hamiltonian, term: int, drives: Group
+) -> VectorField:
     """V^{l} for ``drives`` q, F^{l} for p."""
     import sympy
 

@@ -160,7 +160,9 @@ def _by_elimination(equations: _Equations) -> _Solved:
     return _Solved(made, {})
 
 
-def _times(matrix: Sequence[Sequence[Any]], vector: Sequence[Any]) -> list[Any]:
+def _times(
+    matrix: Sequence[Sequence[Any]], vector: Sequence[Any]
+) -> list[Any]:
     return [_dot(row, vector) for row in matrix]
 
 
@@ -214,7 +216,10 @@ def _by_form(L: Any, equations: _Equations) -> list[_Solved]:
 
 
 def _of_form(
-    form: _Form, v: Sequence[Any], shifted: Sequence[Any], raised: Sequence[Any]
+    form: _Form,
+    v: Sequence[Any],
+    shifted: Sequence[Any],
+    raised: Sequence[Any],
 ) -> list[_Solved]:
     """The velocities G⁻¹(p − b)/φ'(a) for the values of a, from p − b and G⁻¹(p − b)."""
     import sympy

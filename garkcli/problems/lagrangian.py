@@ -82,7 +82,9 @@ def _of_quadratic(lagrangian: Lagrangian) -> Any:
     H = [-lagrangian.L.xreplace(at_rest)]
     for block in coupled(M):
         own = [[M[i][j] for j in block] for i in block]
-        inverse, divisor = inverse_of(own, [v[i] for i in block], lagrangian.start)
+        inverse, divisor = inverse_of(
+            own, [v[i] for i in block], lagrangian.start
+        )
         products = []
         for a, i in enumerate(block):
             for b, j in enumerate(block):

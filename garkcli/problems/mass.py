@@ -15,7 +15,9 @@ from garkcli.problems.straightline import function
 
 MAX_COUPLED = 5
 """Most velocities that a mass matrix depending on the positions may couple."""
-WRITE_HAMILTONIAN = "write the Hamiltonian itself: hamiltonian: instead of lagrangian:"
+WRITE_HAMILTONIAN = (
+    "write the Hamiltonian itself: hamiltonian: instead of lagrangian:"
+)
 BITS = 300
 """Precision of enclosures that tell solutions apart."""
 

@@ -94,7 +94,8 @@ def parse_shares(text: str, terms: int) -> tuple[tuple[fmpq, fmpq], ...]:
     parts = text.split(",")
     if len(parts) != terms:
         raise UsageProblem(
-            f"the split {text!r} has {len(parts)} pairs for {terms} terms", cure
+            f"the split {text!r} has {len(parts)} pairs for {terms} terms",
+            cure,
         )
     shares = []
     for part in parts:
@@ -158,7 +159,10 @@ def check_structure(tableau: Tableau, problem: Oscillator) -> None:
         for m, (k_m, v_m) in enumerate(driven):
             is_seen = k_l * v_m or v_l * k_m  # the product L^l L^m is not zero
             if is_seen and tableau.block(l, m) is None:
-                l_name, m_name = tableau.colours[l].name, tableau.colours[m].name
+                l_name, m_name = (
+                    tableau.colours[l].name,
+                    tableau.colours[m].name,
+                )
                 raise UsageProblem(
                     f"with this split the field of colour {l_name} depends on what colour {m_name} "
                     f"drives, which its stages do not see",

@@ -5,7 +5,11 @@ from __future__ import annotations
 from collections.abc import Callable
 from typing import Any, TypeAlias
 
-from garkcli.problems.hamiltonian import FLOAT_DIGITS, Hamiltonian, vector_field
+from garkcli.problems.hamiltonian import (
+    FLOAT_DIGITS,
+    Hamiltonian,
+    vector_field,
+)
 from garkcli.problems.righthandside import RightHandSide, right_hand_side
 from garkcli.problems.straightline import function
 from garkcli.problems.vectorfield import TIME, Group, VectorField, symbols
@@ -27,7 +31,9 @@ def unknowns(problem: Problem) -> tuple[Any, ...]:
     return tuple(x for g in groups for x in symbols(problem.variables, g))
 
 
-def quantities_function(problem: Problem, digits: int) -> Callable[..., list[Any]]:
+def quantities_function(
+    problem: Problem, digits: int
+) -> Callable[..., list[Any]]:
     """What is conserved, the energy first where there is one, as a function of the unknowns:
     floats, or balls for more ``digits``.
 

@@ -82,7 +82,9 @@ def reaction_diffusion(terms: int, stiffness: fmpq) -> RightHandSide:
     variables = tuple(f"u{i}" for i in range(1, CELLS + 1))
     u = symbols(variables, "y")
     rates = [fmpq(CELLS + i, 2 * CELLS) for i in range(CELLS)]
-    reaction = tuple(_rational(r) * x * (1 - x) for r, x in zip(rates, u, strict=True))
+    reaction = tuple(
+        _rational(r) * x * (1 - x) for r, x in zip(rates, u, strict=True)
+    )
     k = _rational(stiffness)
     diffusion = []
     for i, x in enumerate(u):
@@ -116,7 +118,9 @@ def _balanced(rates: Sequence[fmpq], stiffness: fmpq) -> tuple[fmpq, ...]:
     return tuple(level + (x - middle) / stiffness for x in w)
 
 
-def shared(parts: Sequence[tuple[Any, ...]], terms: int) -> tuple[tuple[Any, ...], ...]:
+def shared(
+    parts: Sequence[tuple[Any, ...]], terms: int
+) -> tuple[tuple[Any, ...], ...]:
     """The parts in ``terms`` terms: the last one in equal shares where there are fewer parts, the
     last ones added up where there are more.
     """

@@ -117,7 +117,9 @@ def constant_name(x: fmpq) -> str:
 
 @cache
 def code_of(
-    expressions: tuple[Any, ...], arguments: tuple[Any, ...], is_for_balls: bool
+    expressions: tuple[Any, ...],
+    arguments: tuple[Any, ...],
+    is_for_balls: bool,
 ) -> Code:
     """The code of sympy expressions in the symbols ``arguments``.
 
@@ -216,7 +218,11 @@ class _Writer:
         above, below = [], []
         for factor in x.as_ordered_factors():
             exponent = factor.exp if factor.is_Pow else None
-            if exponent is not None and exponent.is_Rational and exponent.is_negative:
+            if (
+                exponent is not None
+                and exponent.is_Rational
+                and exponent.is_negative
+            ):
                 below.append(self._power(factor.base, -exponent))
             else:
                 above.append(factor)
@@ -263,7 +269,9 @@ class _Writer:
 
 
 def function(
-    expressions: tuple[Any, ...], arguments: tuple[Any, ...], is_for_balls: bool
+    expressions: tuple[Any, ...],
+    arguments: tuple[Any, ...],
+    is_for_balls: bool,
 ) -> Callable[..., list[Any]]:
     """The expressions as one function of numbers, one after the other, to a list of numbers.
 

@@ -78,7 +78,9 @@ class Translator:
             )
         numbers = made.atoms(sympy.Rational)
         if any(abs(x) > 1 << FLOAT_BITS for x in numbers):
-            message = f"the constants together make a number above 2^{FLOAT_BITS}"
+            message = (
+                f"the constants together make a number above 2^{FLOAT_BITS}"
+            )
             raise LimitExceeded(
                 message, "choose other units", expression.start, expression.end
             )
@@ -133,8 +135,14 @@ class Translator:
         if _bits(base) * abs(exponent) > 2 * MAX_BITS:
             raise too_many_bits(at)
         made = base**exponent
-        if made.is_Pow and made.exp.is_Rational and abs(made.exp) > MAX_EXPONENT:
-            message = f"the exponents are {made.exp} together (limit {MAX_EXPONENT})"
+        if (
+            made.is_Pow
+            and made.exp.is_Rational
+            and abs(made.exp) > MAX_EXPONENT
+        ):
+            message = (
+                f"the exponents are {made.exp} together (limit {MAX_EXPONENT})"
+            )
             raise LimitExceeded(message, "use smaller ones", at.start, at.end)
         return _without_kinks(made, at)
 
@@ -147,7 +155,10 @@ class Translator:
             inner = _shortened(format_expression(at.radicand))
             cure = f"where it is positive, write ({inner})**(1/{index})"
             raise UndefinedValue(
-                "only square roots are taken of variables", cure, at.start, at.end
+                "only square roots are taken of variables",
+                cure,
+                at.start,
+                at.end,
             )
         power = sympy.Rational(1, index)
         if radicand.is_negative:

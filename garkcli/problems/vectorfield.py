@@ -118,21 +118,29 @@ class VectorField:
     @property
     def arguments(self) -> tuple[Any, ...]:
         """The symbols of what it depends on, in the order of the groups."""
-        return tuple(x for g in self.depends for x in symbols(self.variables, g))
+        return tuple(
+            x for g in self.depends for x in symbols(self.variables, g)
+        )
 
 
 def occurring(
-    components: Iterable[Any], variables: tuple[str, ...], groups: Iterable[Group]
+    components: Iterable[Any],
+    variables: tuple[str, ...],
+    groups: Iterable[Group],
 ) -> tuple[Group, ...]:
     """Those of ``groups`` that occur in expressions."""
     free: set[Any] = set()
     for component in components:
         free |= component.free_symbols
-    return tuple(g for g in groups if not free.isdisjoint(symbols(variables, g)))
+    return tuple(
+        g for g in groups if not free.isdisjoint(symbols(variables, g))
+    )
 
 
 @cache
-def _derivative(field: VectorField, group: Group) -> tuple[tuple[Any, ...], ...]:
+def _derivative(
+    field: VectorField, group: Group
+) -> tuple[tuple[Any, ...], ...]:
     by = symbols(field.variables, group)
     return tuple(tuple(f.diff(x) for x in by) for f in field.components)
 

@@ -24,7 +24,14 @@ from garkcli.tableau.polynomial_space import PolynomialSpace
 from garkcli.tableau.tableau import Tableau
 
 Blocks: TypeAlias = dict[tuple[int, int], Matrix]
-PRIMES = (2147483647, 2147483629, 2147483587, 2147483579, 2147483563, 2147483549)
+PRIMES = (
+    2147483647,
+    2147483629,
+    2147483587,
+    2147483579,
+    2147483563,
+    2147483549,
+)
 """Primes that are tried; most have a root of a node polynomial, and few hide an entry."""
 
 
@@ -43,7 +50,9 @@ class _Space:
     kept: tuple[int, ...]
 
 
-def shape_of_families(tableau: Tableau, colours: Sequence[int]) -> Shape | None:
+def shape_of_families(
+    tableau: Tableau, colours: Sequence[int]
+) -> Shape | None:
     """The shape of the given colours of a method, where all their stages but those that see nothing
     or are not seen are solved together; None where that is not proved so.
 
@@ -66,7 +75,9 @@ def shape_of_families(tableau: Tableau, colours: Sequence[int]) -> Shape | None:
     return Shape("fully implicit", len(vertices), (vertices,), None, "")
 
 
-def _rational_blocks(tableau: Tableau, colours: Sequence[int]) -> Blocks | None:
+def _rational_blocks(
+    tableau: Tableau, colours: Sequence[int]
+) -> Blocks | None:
     """The blocks between some colours; None where one does not exist or is irrational."""
     indices = sorted({tableau.colours[l].space for l in colours})
     found: Blocks = {}
@@ -96,7 +107,9 @@ def _is_rational(block: Matrix) -> bool:
     return all(isinstance(x, fmpq) for row in block for x in row)
 
 
-def _space(tableau: Tableau, k: int, blocks: Blocks, M: fmpq_poly) -> _Space | None:
+def _space(
+    tableau: Tableau, k: int, blocks: Blocks, M: fmpq_poly
+) -> _Space | None:
     """The stages of a space without those that see nothing, or that none sees; None where such a
     node is irrational.
     """
@@ -196,7 +209,9 @@ def _residues(numbers: Iterable[Number], p: int) -> list[int]:
 
 
 def _pairing(row: Sequence[int], polynomial: nmod_poly) -> int:
-    return sum(a * int(b) for a, b in zip(row, polynomial.coeffs(), strict=False))
+    return sum(
+        a * int(b) for a, b in zip(row, polynomial.coeffs(), strict=False)
+    )
 
 
 def _at(rows: Sequence[Sequence[int]], r: int, p: int) -> list[int]:

@@ -35,7 +35,10 @@ def _negative_weight(tableau: Tableau, tolerance: fmpq = ZERO) -> str:
         space = tableau.space(m)
         if not isinstance(space, PointSpace):
             is_positive = are_positive(space, colour.b)
-            if not is_positive and negative_pivot(space.gram(colour.b)) is not None:
+            if (
+                not is_positive
+                and negative_pivot(space.gram(colour.b)) is not None
+            ):
                 return f"b{{{colour.name}}} has a negative entry"
             continue
         for j, b in enumerate(colour.b):
@@ -61,7 +64,9 @@ def obstacle_within(tableau: Tableau, tolerance: fmpq) -> str | None:
         if _has_negative_minor(form):
             return "a minor of M is negative"
         is_positive = all(
-            b > tolerance for colour in tableau.colours for b in map(to_ball, colour.b)
+            b > tolerance
+            for colour in tableau.colours
+            for b in map(to_ball, colour.b)
         )
         return "" if is_positive and _is_definite(form) else None
 
@@ -79,7 +84,9 @@ def _in_balls(tableau: Tableau, tolerance: fmpq) -> list[list[arb]]:
     colours = range(tableau.size)
     weights = [[widened(x) for x in colour.b] for colour in tableau.colours]
     blocks = {
-        (l, m): balls(tableau.block(l, m) or ()) for l in colours for m in colours
+        (l, m): balls(tableau.block(l, m) or ())
+        for l in colours
+        for m in colours
     }
     places = [(l, i) for l in colours for i in range(len(weights[l]))]
     return [
@@ -98,7 +105,9 @@ def _has_negative_minor(form: list[list[arb]]) -> bool:
     if any(form[i][i] < 0 for i in n):
         return True
     pairs = ((i, j) for i in n for j in range(i))
-    return any(form[i][i] * form[j][j] < form[i][j] * form[j][i] for i, j in pairs)
+    return any(
+        form[i][i] * form[j][j] < form[i][j] * form[j][i] for i, j in pairs
+    )
 
 
 def _is_definite(form: list[list[arb]]) -> bool:

@@ -121,7 +121,9 @@ _OF_ORDERS = (
 
 def _of_property(found: Property) -> Definition:
     values = KINDS[found.kind]
-    return Definition(found.key, found.text, found.source, values, found.meaning)
+    return Definition(
+        found.key, found.text, found.source, values, found.meaning
+    )
 
 
 def every_definition() -> list[Definition]:

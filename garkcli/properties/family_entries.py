@@ -26,7 +26,9 @@ def is_nonzero_at(
     """
     k, m = place
     here, there = tableau.spaces[k], tableau.space(m)
-    if not isinstance(here, PolynomialSpace) or not isinstance(there, PolynomialSpace):
+    if not isinstance(here, PolynomialSpace) or not isinstance(
+        there, PolynomialSpace
+    ):
         return None
     row_node, column_node = nodes_of(here)[i], nodes_of(there)[j]
     block = tableau.blocks[place]
@@ -44,7 +46,9 @@ def is_nonzero_at(
 @lru_cache(maxsize=32)
 def nodes_of(space: PolynomialSpace) -> list[RealRoot]:
     """The nodes in ascending order."""
-    return [node for node, _ in real_roots(Polynomial.from_flint(space.modulus))]
+    return [
+        node for node, _ in real_roots(Polynomial.from_flint(space.modulus))
+    ]
 
 
 def _divided(M: fmpq_poly, values: Iterable[Number]) -> Polynomial:
@@ -59,7 +63,9 @@ def _divided(M: fmpq_poly, values: Iterable[Number]) -> Polynomial:
     return total
 
 
-def is_family_stage(tableau: Tableau, k: int, i: int, wanted: Sequence[Vector]) -> bool:
+def is_family_stage(
+    tableau: Tableau, k: int, i: int, wanted: Sequence[Vector]
+) -> bool:
     """Whether stage i of a family, nodes ascending, has the rows wanted, one a colour."""
     space = tableau.spaces[k]
     assert isinstance(space, PolynomialSpace)
@@ -72,7 +78,9 @@ def is_family_stage(tableau: Tableau, k: int, i: int, wanted: Sequence[Vector]) 
     return vanishes_at(common, nodes_of(space)[i])
 
 
-def common_nodes(tableau: Tableau, k: int, wanted: Sequence[Vector]) -> Polynomial:
+def common_nodes(
+    tableau: Tableau, k: int, wanted: Sequence[Vector]
+) -> Polynomial:
     """The polynomial whose roots are the nodes of a family at which a stage has the rows wanted.
 
     In the stage algebra ℚ[x]/(M) the rows at a node ξ are the functionals f ↦ (A f)(ξ). They are

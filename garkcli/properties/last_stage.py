@@ -62,7 +62,9 @@ def is_stiffly_accurate(tableau: Tableau, tolerance: fmpq = ZERO) -> bool:
     return False
 
 
-def first_same_as_last(tableau: Tableau, tolerance: fmpq = ZERO) -> FirstSameAsLast:
+def first_same_as_last(
+    tableau: Tableau, tolerance: fmpq = ZERO
+) -> FirstSameAsLast:
     """Whether the first stage is the old value and the last one the new value: FSAL.
 
     Then the last evaluation of a step is the first of the next. It is asked of every stage space.
@@ -95,7 +97,11 @@ def old_value(tableau: Tableau) -> list[Vector]:
 
 
 def missed_entries(
-    tableau: Tableau, k: int, i: int, wanted: Sequence[Vector], tolerance: fmpq = ZERO
+    tableau: Tableau,
+    k: int,
+    i: int,
+    wanted: Sequence[Vector],
+    tolerance: fmpq = ZERO,
 ) -> list[tuple[int, int]]:
     """Where stage i of a space of points differs from the rows wanted, as (colour, stage).
 
@@ -120,7 +126,11 @@ def _is_close(a: Number, b: Number, allowed: fmpq) -> bool:
 
 
 def _is_stage(
-    tableau: Tableau, k: int, i: int, wanted: Sequence[Vector], tolerance: fmpq = ZERO
+    tableau: Tableau,
+    k: int,
+    i: int,
+    wanted: Sequence[Vector],
+    tolerance: fmpq = ZERO,
 ) -> bool:
     """Whether stage i of a space, in the order of its nodes, has the rows wanted."""
     space = tableau.spaces[k]

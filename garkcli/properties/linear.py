@@ -41,7 +41,9 @@ def no_meaning() -> Verdict:
 def decide_within(found: bool | None) -> Verdict:
     """A verdict on all methods within a tolerance."""
     if found is None:
-        return Verdict.undecided("methods within the tolerance differ, or seem to")
+        return Verdict.undecided(
+            "methods within the tolerance differ, or seem to"
+        )
     return Verdict.unless("" if found else "no method within the tolerance is")
 
 
@@ -68,7 +70,9 @@ def _left_pole(Q: Polynomial) -> str:
     try:
         ctx.prec = _BITS
         balls = [acb(to_ball(a, 30)) for a in Q.coefficients]
-        roots: list[acb] = acb_poly(balls).roots(tol=arb(2) ** -60, maxprec=4 * _BITS)
+        roots: list[acb] = acb_poly(balls).roots(
+            tol=arb(2) ** -60, maxprec=4 * _BITS
+        )
         upper = [z for z in roots if not z.imag < 0]
         pole = min(upper, key=lambda z: z.real.mid())
         real = ball_decimal(pole.real, _DIGITS)
@@ -84,7 +88,9 @@ def first_gap(intervals: Sequence[Interval]) -> Interval | None:
     origin = RealRoot.rational(ZERO)
     end, is_left_out = origin, True
     for found in intervals:
-        if found.start is not None and (end < found.start or not found.has_start):
+        if found.start is not None and (
+            end < found.start or not found.has_start
+        ):
             return Interval(end, found.start, is_left_out, not found.has_start)
         if found.end is None:
             return None

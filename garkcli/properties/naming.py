@@ -59,7 +59,9 @@ def stages_name(tableau: Tableau, vertices: Iterable[Vertex]) -> str:
 def _of_colours(tableau: Tableau, space: int) -> str:
     if len(tableau.spaces) == 1:
         return ""
-    names = [colour.name for colour in tableau.colours if colour.space == space]
+    names = [
+        colour.name for colour in tableau.colours if colour.space == space
+    ]
     word = "colour" if len(names) == 1 else "colours"
     return f" of {word} {', '.join(names)}"
 
@@ -76,5 +78,7 @@ def ranges(numbers: Sequence[int]) -> str:
             runs[-1].append(number)
         else:
             runs.append([number])
-    texts = [str(run[0]) if len(run) == 1 else f"{run[0]}-{run[-1]}" for run in runs]
+    texts = [
+        str(run[0]) if len(run) == 1 else f"{run[0]}-{run[-1]}" for run in runs
+    ]
     return ", ".join(texts)

@@ -14,7 +14,13 @@ from itertools import combinations
 from flint import fmpq, fmpq_poly
 
 from garkcli.exact.field import ZERO, Number
-from garkcli.exact.matrix import Matrix, SingularMatrixError, Vector, apply, solve
+from garkcli.exact.matrix import (
+    Matrix,
+    SingularMatrixError,
+    Vector,
+    apply,
+    solve,
+)
 from garkcli.exact.signs import roots_below
 from garkcli.properties.pattern import is_nonzero
 from garkcli.stability.algebraic import negative_pivot
@@ -51,7 +57,9 @@ def reduced(tableau: Tableau) -> Tableau | None:
 def _at_points(tableau: Tableau) -> Tableau | None:
     if all(isinstance(space, PointSpace) for space in tableau.spaces):
         return tableau
-    from garkcli.tableau.pointwise import in_points  # nodes of families are radicals
+    from garkcli.tableau.pointwise import (
+        in_points,
+    )  # nodes of families are radicals
 
     return in_points(tableau)
 
@@ -86,7 +94,8 @@ def is_plainly_irreducible(tableau: Tableau, tolerance: fmpq = ZERO) -> bool:
     """
     spaces = range(len(tableau.spaces))
     return all(
-        _has_weights(tableau, k, tolerance) and _tells_apart(tableau, k, tolerance)
+        _has_weights(tableau, k, tolerance)
+        and _tells_apart(tableau, k, tolerance)
         for k in spaces
     )
 
@@ -96,7 +105,9 @@ def _has_weights(tableau: Tableau, k: int, tolerance: fmpq) -> bool:
     rows = [colour.b for colour in tableau.colours if colour.space == k]
     if isinstance(space, PointSpace):
         stages = range(space.stages)
-        return all(any(is_nonzero(b[i], tolerance) for b in rows) for i in stages)
+        return all(
+            any(is_nonzero(b[i], tolerance) for b in rows) for i in stages
+        )
     return not tolerance and any(
         _is_gaussian(space, b) or _is_regular(space.gram(b)) for b in rows
     )
@@ -135,7 +146,11 @@ def _is_gaussian(space: StageSpace, b: Vector) -> bool:
     M = space.modulus
     has_ends = s > 1 and not M(0) and not M(1)
     reflected = M(fmpq_poly([1, -1]))
-    return has_ends and not roots_below(M, ZERO) and not roots_below(reflected, ZERO)
+    return (
+        has_ends
+        and not roots_below(M, ZERO)
+        and not roots_below(reflected, ZERO)
+    )
 
 
 def _tells_apart(tableau: Tableau, k: int, tolerance: fmpq) -> bool:
@@ -171,7 +186,9 @@ def _that_matter(tableau: Tableau) -> list[list[int]]:
             block = tableau.blocks.get((k, m))
             if block is None:
                 continue
-            seen = {(colour.space, j) for j, entry in enumerate(block[i]) if entry}
+            seen = {
+                (colour.space, j) for j, entry in enumerate(block[i]) if entry
+            }
             waiting += seen - reached
             reached |= seen
     kept = []
@@ -188,7 +205,9 @@ def _without(tableau: Tableau, kept: Sequence[Sequence[int]]) -> Tableau:
         for space, stages in zip(tableau.spaces, kept, strict=True)
     )
     colours = tuple(
-        replace(x, b=_chosen(x.b, kept[x.space]), c=_chosen(x.c, kept[x.space]))
+        replace(
+            x, b=_chosen(x.b, kept[x.space]), c=_chosen(x.c, kept[x.space])
+        )
         for x in tableau.colours
     )
     blocks = {
@@ -242,13 +261,19 @@ def _equal_stages(tableau: Tableau) -> list[list[list[int]]]:
     """For each space its stages in classes of equal ones, the coarsest partition that is stable."""
     classes = [[list(range(space.stages))] for space in tableau.spaces]
     while True:
-        finer = [_split(tableau, k, classes) for k in range(len(tableau.spaces))]
-        if [len(found) for found in finer] == [len(found) for found in classes]:
+        finer = [
+            _split(tableau, k, classes) for k in range(len(tableau.spaces))
+        ]
+        if [len(found) for found in finer] == [
+            len(found) for found in classes
+        ]:
             return finer
         classes = finer
 
 
-def _split(tableau: Tableau, k: int, classes: list[list[list[int]]]) -> list[list[int]]:
+def _split(
+    tableau: Tableau, k: int, classes: list[list[list[int]]]
+) -> list[list[int]]:
     """The classes of one space, divided by what their stages see."""
     found: list[list[int]] = []
     for members in classes[k]:

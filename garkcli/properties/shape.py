@@ -44,7 +44,9 @@ class Shape:
         return self.singly or self.kind
 
 
-def shape(tableau: Tableau, colour: int | None = None, tolerance: fmpq = ZERO) -> Shape:
+def shape(
+    tableau: Tableau, colour: int | None = None, tolerance: fmpq = ZERO
+) -> Shape:
     """The shape of the whole tableau, or of the diagonal method of one colour.
 
     Args:
@@ -63,7 +65,9 @@ def shape(tableau: Tableau, colour: int | None = None, tolerance: fmpq = ZERO) -
 
 def shape_of(graph: StageGraph, tolerance: fmpq = ZERO) -> Shape:
     """The shape of the stages of a graph."""
-    together = [tuple(sorted(found)) for found in graph.systems if len(found) > 1]
+    together = [
+        tuple(sorted(found)) for found in graph.systems if len(found) > 1
+    ]
     alone = [
         found[0]
         for found in graph.systems

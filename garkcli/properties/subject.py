@@ -58,8 +58,13 @@ class Subject:
     @cached_property
     def is_complete(self) -> bool:
         """Whether every stage sees every vector field."""
-        colours, spaces = range(self.tableau.size), range(len(self.tableau.spaces))
-        return all((k, m) in self.tableau.blocks for k in spaces for m in colours)
+        colours, spaces = (
+            range(self.tableau.size),
+            range(len(self.tableau.spaces)),
+        )
+        return all(
+            (k, m) in self.tableau.blocks for k in spaces for m in colours
+        )
 
     @cached_property
     def graph(self) -> StageGraph:
@@ -124,7 +129,9 @@ class Subject:
     def stage_orders(self) -> tuple[int, ...]:
         """For each colour the largest q with B(q) and C(q) for all its stages."""
         found = []
-        for r, etas in zip(self.simplifying.B, self.simplifying.C, strict=True):
+        for r, etas in zip(
+            self.simplifying.B, self.simplifying.C, strict=True
+        ):
             found.append(min([r, *(eta for eta in etas if eta is not None)]))
         return tuple(found)
 
@@ -143,4 +150,6 @@ class Subject:
         from garkcli.stability.within import stability_within
 
         shares = [ONE] * self.tableau.size
-        return stability_within(self.tableau, shares, self.tolerance, self.order)
+        return stability_within(
+            self.tableau, shares, self.tolerance, self.order
+        )

@@ -129,7 +129,9 @@ def _are_close(rows: Matrix, others: Matrix, allowed: fmpq) -> bool:
     )
 
 
-def _reflections(tableau: Tableau, k: int, tolerance: fmpq) -> Iterator[Reflection]:
+def _reflections(
+    tableau: Tableau, k: int, tolerance: fmpq
+) -> Iterator[Reflection]:
     """The maps of one stage space that may do it."""
     space = tableau.spaces[k]
     if isinstance(space, PolynomialSpace):
@@ -151,7 +153,9 @@ def _reflected_polynomials(space: PolynomialSpace) -> Iterator[Reflection]:
     yield Reflection(tuple(zip(*columns, strict=True)), None)
 
 
-def _keys(tableau: Tableau, k: int, space: StageSpace) -> list[tuple[Vector, Vector]]:
+def _keys(
+    tableau: Tableau, k: int, space: StageSpace
+) -> list[tuple[Vector, Vector]]:
     """What a stage has, and what its image must have: row sums, then weights.
 
     Row sums r of A turn into (sum of weights) − r, and weights stay.
@@ -167,12 +171,16 @@ def _keys(tableau: Tableau, k: int, space: StageSpace) -> list[tuple[Vector, Vec
             row = sum(block[i], ZERO)
             sums.append(row)
             turned.append(sum(colour.b, ZERO) - row)
-        weights = [colour.b[i] for colour in tableau.colours if colour.space == k]
+        weights = [
+            colour.b[i] for colour in tableau.colours if colour.space == k
+        ]
         keys.append(((*sums, *weights), (*turned, *weights)))
     return keys
 
 
-def _fitting(keys: list[tuple[Vector, Vector]], tolerance: fmpq) -> list[list[bool]]:
+def _fitting(
+    keys: list[tuple[Vector, Vector]], tolerance: fmpq
+) -> list[list[bool]]:
     """For each pair of stages whether one may turn into the other; sums are as long as stages."""
     allowed = (3 * len(keys) + 3) * tolerance
     return [

@@ -68,7 +68,9 @@ def _tolerance(found: Analysis) -> str | None:
 
 
 def _conjugate_consistent(found: Analysis) -> bool | None:
-    return None if found.conjugate is None else not found.conjugate_inconsistent
+    return (
+        None if found.conjugate is None else not found.conjugate_inconsistent
+    )
 
 
 COLOUR: Record[tuple[Tableau, Colour]] = Record(
@@ -81,7 +83,9 @@ _ANALYSIS: tuple[Field[Analysis], ...] = (
     Field("tolerance", nullable(TEXT), _tolerance),
     Field("colours", array(COLOUR.schema), lambda x: colours_data(x.tableau)),
     Field("consistent", FLAG, lambda x: not x.inconsistent),
-    Field("inconsistent_blocks", array(BLOCK), lambda x: blocks(x.inconsistent)),
+    Field(
+        "inconsistent_blocks", array(BLOCK), lambda x: blocks(x.inconsistent)
+    ),
     Field("conjugate_consistent", nullable(FLAG), _conjugate_consistent),
     Field("symplectic", FLAG, lambda x: x.symplectic),
     *inside(lambda x: x.order, order_fields()),
@@ -110,7 +114,9 @@ def _errors(outcome: Outcome) -> list[dict[str, Any]]:
     return [FAULT.data(fault) for fault in outcome.faults]
 
 
-_STRUCTURE: Schema = {"enum": ["general", "semi-separable", "separable", "nystrom"]}
+_STRUCTURE: Schema = {
+    "enum": ["general", "semi-separable", "separable", "nystrom"]
+}
 _HEAD: tuple[Field[Outcome], ...] = (
     Field("file", TEXT, lambda x: x.file),
     Field("name", TEXT, lambda x: x.name),

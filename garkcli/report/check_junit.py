@@ -75,7 +75,9 @@ def _add_error(case: ET.Element, faults: Sequence[Fault]) -> None:
 def _add_failure(case: ET.Element, outcome: Outcome, claim: Claim) -> None:
     """What was found in place of a claim, and why."""
     message = f"expected {claim.expected}, found {claim.found}"
-    failure = ET.SubElement(case, "failure", message=_clean(message), type="claim")
+    failure = ET.SubElement(
+        case, "failure", message=_clean(message), type="claim"
+    )
     witness = claim_witness(outcome, claim.claim)
     hint = claim_hint(outcome, claim.claim)
     details = filter(None, (witness, hint))

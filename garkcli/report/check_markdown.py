@@ -38,7 +38,11 @@ def _row(outcome: Outcome) -> str:
         cells = [f"`{_code(outcome.file)}`", "unreadable", "", "", "", "", ""]
     else:
         claims, failed = len(outcome.claims), len(outcome.failed_claims)
-        orders = (analysis.order, analysis.conjugate_order, analysis.pair_order)
+        orders = (
+            analysis.order,
+            analysis.conjugate_order,
+            analysis.pair_order,
+        )
         cells = [
             f"`{_code(outcome.file)}`",
             *(_order(order) for order in orders),

@@ -98,7 +98,10 @@ def _order(
     number = paint("strong", order_number(order))
     head = f"  {label:{LABEL}}{number}"
     if not isinstance(order, Order):
-        tolerance, largest = decimal(order.tolerance), size(order.largest_residual)
+        tolerance, largest = (
+            decimal(order.tolerance),
+            size(order.largest_residual),
+        )
         head += f"   within {tolerance}, residuals up to {largest}"
         if order.undecided:
             return _undecided(head, order)
@@ -152,7 +155,10 @@ def suggestion_lines(
     rounding = size(found.rounding)
     if tolerance is not None:
         effect = f"rounding by {decimal(tolerance)} makes residuals up to {rounding}"
-        return [f"{hint} {effect}: the tolerance is too tight;", f"        {cure}"]
+        return [
+            f"{hint} {effect}: the tolerance is too tight;",
+            f"        {cure}",
+        ]
     small = f"up to order {found.order} the residuals are at most {rounding}"
     return [
         f"{hint} {small}, then {size(found.genuine)}:",
@@ -192,4 +198,8 @@ def _residual(witness: Witness, digits: int | None) -> list[str]:
         return [f"about {value} instead of {required}, off by {residual}"]
     if len(value) + len(residual) < _ONE_LINE:
         return [f"{value} instead of {required}, off by {residual}"]
-    return [f"value    {value}", f"required {required}", f"residual {residual}"]
+    return [
+        f"value    {value}",
+        f"required {required}",
+        f"residual {residual}",
+    ]

@@ -80,7 +80,9 @@ def _reflected(tableau: Tableau, reflections: Sequence[Reflection]) -> str:
 def _moved(reflection: Reflection) -> str:
     if reflection.images is None:
         return "x → 1 − x"
-    pairs = [f"{i + 1}↔{j + 1}" for i, j in enumerate(reflection.images) if i < j]
+    pairs = [
+        f"{i + 1}↔{j + 1}" for i, j in enumerate(reflection.images) if i < j
+    ]
     return "stages " + ", ".join(pairs) if pairs else "each stage its own"
 
 

@@ -15,7 +15,8 @@ from garkcli.page.plain import printable
 def render(outcomes: Sequence[Outcome]) -> str:
     """One run with a result for each finding."""
     rules = [
-        {"id": x, "shortDescription": {"text": kind.text}} for x, kind in KINDS.items()
+        {"id": x, "shortDescription": {"text": kind.text}}
+        for x, kind in KINDS.items()
     ]
     log = {
         "$schema": "https://json.schemastore.org/sarif-2.1.0.json",
@@ -23,11 +24,17 @@ def render(outcomes: Sequence[Outcome]) -> str:
         "runs": [
             {
                 "tool": {
-                    "driver": {"name": "gark", "version": __version__, "rules": rules}
+                    "driver": {
+                        "name": "gark",
+                        "version": __version__,
+                        "rules": rules,
+                    }
                 },
                 "columnKind": "unicodeCodePoints",
                 "results": [
-                    _result(x) for outcome in outcomes for x in findings(outcome)
+                    _result(x)
+                    for outcome in outcomes
+                    for x in findings(outcome)
                 ],
             }
         ],
@@ -36,7 +43,11 @@ def render(outcomes: Sequence[Outcome]) -> str:
 
 
 def _result(finding: Finding) -> dict[str, Any]:
-    text = f"{finding.message}; {finding.help}" if finding.help else finding.message
+    text = (
+        f"{finding.message}; {finding.help}"
+        if finding.help
+        else finding.message
+    )
     region = {"startLine": finding.line, "startColumn": finding.column}
     return {
         "ruleId": finding.rule,

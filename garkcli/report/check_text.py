@@ -157,7 +157,9 @@ def _full(
     lines.append("")
     lines += order_lines(analysis, paint, digits)
     if analysis.suggestion is not None:
-        lines += suggestion_lines(analysis.suggestion, analysis.tolerance, paint)
+        lines += suggestion_lines(
+            analysis.suggestion, analysis.tolerance, paint
+        )
     if analysis.misprint is not None:
         from garkcli.report.hints import misprint_lines
 
@@ -225,10 +227,17 @@ def _conditions(analysis: Analysis) -> list[str]:
     rows += _labelled("", [bound_numbers(found)])
     both = analysis.pair_simplifying
     bound, sharper_of_pair = analysis.pair_bound, analysis.pair_sharp_bound
-    if both is None or both is found or bound is None or sharper_of_pair is None:
+    if (
+        both is None
+        or both is found
+        or bound is None
+        or sharper_of_pair is None
+    ):
         return rows
     rows += _bound("pair bound", both.bound, BOUND, bound)
-    rows += _bound("pair, sharper", both.sharp_bound, SHARP_BOUND, sharper_of_pair)
+    rows += _bound(
+        "pair, sharper", both.sharp_bound, SHARP_BOUND, sharper_of_pair
+    )
     return rows + _labelled("", [bound_numbers(both)])
 
 
@@ -278,7 +287,9 @@ def _properties(analysis: Analysis, paint: Paint) -> list[str]:
     text = _consistent(analysis.inconsistent, names, "A", near, paint)
     lines = _labelled("consistent", [text])
     if analysis.conjugate is not None:
-        text = _consistent(analysis.conjugate_inconsistent, names, "Â", near, paint)
+        text = _consistent(
+            analysis.conjugate_inconsistent, names, "Â", near, paint
+        )
         lines += _labelled("conjugate nodes", [text])
     own = "its own conjugate"
     if analysis.tableau.is_partitioned:
@@ -289,7 +300,10 @@ def _properties(analysis: Analysis, paint: Paint) -> list[str]:
 
 def _more_properties(outcome: Outcome, analysis: Analysis) -> list[str]:
     """What the method is like: what is worth a word, or everything where that was asked for."""
-    from garkcli.report.check_properties import every_property_lines, property_lines
+    from garkcli.report.check_properties import (
+        every_property_lines,
+        property_lines,
+    )
 
     if outcome.wants_properties:
         return every_property_lines(analysis.subject)
@@ -326,7 +340,9 @@ def _missing(outcome: Outcome, paint: Paint) -> list[str]:
     """The line on a file that has to make a claim and makes none."""
     if not (outcome.needs_claims and outcome.makes_no_claim):
         return []
-    return [f"  {paint('bad', 'NO CLAIM')}         write what holds under expect"]
+    return [
+        f"  {paint('bad', 'NO CLAIM')}         write what holds under expect"
+    ]
 
 
 def _claim(outcome: Outcome, claim: Claim, paint: Paint) -> str:

@@ -76,7 +76,11 @@ def _about(result: Convergence) -> str:
         return f"oscillator; q̈ = −ω²q, ω = {problem.omega}"
     if isinstance(problem, RightHandSide):
         stiff = problem.stiffness
-        return problem.name if stiff is None else f"{problem.name}, stiffness {stiff}"
+        return (
+            problem.name
+            if stiff is None
+            else f"{problem.name}, stiffness {stiff}"
+        )
     text = str(problem.energy).replace("**", "^")
     if len(text) > _LONGEST:
         return problem.name
@@ -88,7 +92,9 @@ def _text(
 ) -> list[str]:
     count = len(entries)
     named = list(zip(letters(count), entries, strict=True))
-    tested = [(letter, x.result) for letter, x in named if x.result is not None]
+    tested = [
+        (letter, x.result) for letter, x in named if x.result is not None
+    ]
     lines = [paint("strong", f"{count} methods")]
     if tested:
         results = [result for _, result in tested]

@@ -73,7 +73,9 @@ def render(
         yield from _text(rows, paint, width, subject, valued)
 
 
-def _csv(rows: Iterable[ConditionRow], heading: Sequence[str]) -> Iterator[str]:
+def _csv(
+    rows: Iterable[ConditionRow], heading: Sequence[str]
+) -> Iterator[str]:
     """The rows under their keys; under ``heading`` where there are none, since no condition
     fails.
     """

@@ -26,9 +26,7 @@ from garkcli.report.convergence_data import csv_of, invariant_names
 
 WIDTH = 80
 """Columns of a terminal."""
-NO_TIME = (
-    "no seconds where floats do not reach the error: the counts are for more digits"
-)
+NO_TIME = "no seconds where floats do not reach the error: the counts are for more digits"
 WORK = ("steps", "evaluations", "iterations", "Jacobians", "seconds")
 """What is counted, as column heads."""
 _LONGEST = 80  # characters of a Hamiltonian that are still shown
@@ -55,7 +53,9 @@ def render(
     return "\n".join(lines) + "\n"
 
 
-def _text(result: Convergence, name: str, paint: Paint, with_work: bool) -> list[str]:
+def _text(
+    result: Convergence, name: str, paint: Paint, with_work: bool
+) -> list[str]:
     about = f"{describe(result.problem)}; to t = {result.t_end}"
     lines = [paint("strong", line) for line in wrap(name, WIDTH)]
     lines += indented(wrapped(about))
@@ -123,12 +123,16 @@ def _described_fields(problem: RightHandSide) -> str:
     for l, term in enumerate(problem.terms, start=1):
         components = ", ".join(str(x).replace("**", "^") for x in term)
         fields.append(
-            f"f{{{l}}}: ({components})" if len(term) > 1 else f"f{{{l}}}: {components}"
+            f"f{{{l}}}: ({components})"
+            if len(term) > 1
+            else f"f{{{l}}}: {components}"
         )
     if sum(map(len, fields)) <= _LONGEST:
         return f"{name}; {', '.join(fields)}"
     sides = (
-        f"{len(fields)} right-hand sides" if len(fields) > 1 else "one right-hand side"
+        f"{len(fields)} right-hand sides"
+        if len(fields) > 1
+        else "one right-hand side"
     )
     return f"{name}, {sides} of {', '.join(problem.variables)}"
 
@@ -143,7 +147,9 @@ def _tables(result: Convergence) -> list[list[str]]:
     slopes = ["slope"]
     slopes += [_slope(row) for row in rows]
     columns = [errors, slopes]
-    energies = [row.energy_error for row in rows if row.energy_error is not None]
+    energies = [
+        row.energy_error for row in rows if row.energy_error is not None
+    ]
     if energies:
         columns.append(["energy error", *map(rounded, energies)])
     for k, name in enumerate(invariant_names(result)):
@@ -157,7 +163,9 @@ def _tables(result: Convergence) -> list[list[str]]:
     return _fitting(steps, columns)
 
 
-def _fitting(steps: Sequence[str], columns: list[list[str]]) -> list[list[str]]:
+def _fitting(
+    steps: Sequence[str], columns: list[list[str]]
+) -> list[list[str]]:
     """Tables with the step sizes on the left and as many of the columns as fit."""
     tables = []
     while columns:
@@ -247,7 +255,9 @@ def verdict(result: Convergence, paint: Paint) -> str:
         return paint("note", "undecided")
     if result.verdict == "reduced":
         return paint("note", "reduced by stiffness")
-    return paint.verdict(result.verdict == "agree", "they agree", "THEY DISAGREE")
+    return paint.verdict(
+        result.verdict == "agree", "they agree", "THEY DISAGREE"
+    )
 
 
 def remarks(result: Convergence) -> list[str]:
@@ -277,7 +287,9 @@ def _of_stiffness(result: Convergence, stiff: Stiffness) -> str:
     """What the slopes of a stiff problem are to be held against."""
     size = scientific(arb(stiff.resolution), 1)
     if not stiff.is_stable:
-        return f"h ‖∂f/∂y‖ is {size} or more, and the steps are not stable there"
+        return (
+            f"h ‖∂f/∂y‖ is {size} or more, and the steps are not stable there"
+        )
     return (
         f"stiff: h ‖∂f/∂y‖ is {size} or more; classical order {predicted(result)}, "
         f"stage order {stiff.stage_order}"

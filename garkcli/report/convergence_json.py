@@ -106,7 +106,9 @@ class _Step(NamedTuple):
         if self.row.energy_error is not None:
             measured = {"energy": self.row.energy_error, **measured}
         below = [
-            name for name, x in measured.items() if x.contains(0) and not x.is_zero()
+            name
+            for name, x in measured.items()
+            if x.contains(0) and not x.is_zero()
         ]
         return below or None
 
@@ -138,7 +140,10 @@ _STEP: Record[_Step] = Record(
     Field("digits", nullable(POSITION), lambda x: x.row.digits),
     Field("invariant_errors", _ERRORS, lambda x: x.in_numbers),
     Field(
-        "below_round_off", array(TEXT), lambda x: x.below_round_off, is_optional=True
+        "below_round_off",
+        array(TEXT),
+        lambda x: x.below_round_off,
+        is_optional=True,
     ),
 )
 _COST: Record[Cost] = Record(
@@ -167,7 +172,11 @@ _SHORT: Record[Convergence] = Record(
 
 def _resolution(result: Convergence) -> float | None:
     """The smallest h ‖∂f/∂y‖ in a few digits."""
-    return None if result.stiff is None else float(f"{result.stiff.resolution:.3g}")
+    return (
+        None
+        if result.stiff is None
+        else float(f"{result.stiff.resolution:.3g}")
+    )
 
 
 def _stage_order(result: Convergence) -> int | None:

@@ -35,7 +35,9 @@ def render(
     source: str, design: Design, digits: int, choices: Sequence[Choice] = ()
 ) -> str:
     """The design as JSON text."""
-    return to_json(_REPORT.data(_Shown(source, design, digits, choices))) + "\n"
+    return (
+        to_json(_REPORT.data(_Shown(source, design, digits, choices))) + "\n"
+    )
 
 
 def design_report_schema() -> Schema:
@@ -71,7 +73,11 @@ class _StepOf(NamedTuple):
     @property
     def solutions(self) -> list[dict[str, Any]]:
         """All solutions, one after the other."""
-        return [x for found in self.step.found for x in _solutions(self.shown, found)]
+        return [
+            x
+            for found in self.step.found
+            for x in _solutions(self.shown, found)
+        ]
 
 
 class _Root(NamedTuple):

@@ -11,7 +11,11 @@ from garkcli.design.design import Design, Found, Step
 from garkcli.design.solutions import value_at
 from garkcli.errors import counted
 from garkcli.exact.polynomial import Polynomial
-from garkcli.exact.polynomial_text import polynomial_text, root_decimal, root_text
+from garkcli.exact.polynomial_text import (
+    polynomial_text,
+    root_decimal,
+    root_text,
+)
 from garkcli.exact.roots import RealRoot
 from garkcli.page.plain import printable
 from garkcli.trees.notation import format_tree
@@ -40,7 +44,9 @@ def render(
     """
     family = design.family
     lines = [printable(source), f"  {printable(family.name)}"]
-    unknowns = f"unknown {', '.join(family.parameters)}; order of the {design.whose}"
+    unknowns = (
+        f"unknown {', '.join(family.parameters)}; order of the {design.whose}"
+    )
     lines += wrap(unknowns, width, initial_indent="  ", subsequent_indent="  ")
     lines += [f"  {_left(choice)}" for choice in choices]
     lines.append("")
@@ -91,7 +97,11 @@ def _of_steps(
             yield from _polynomials(step, width)
             for found in step.found:
                 yield from _solutions(design, found, digits, width)
-    if step.ideal is not None and not step.ideal.is_proved and step.kind != "undecided":
+    if (
+        step.ideal is not None
+        and not step.ideal.is_proved
+        and step.kind != "undecided"
+    ):
         yield f"{INDENT}found by msolve: each is proved, that there are no others is not"
 
 
@@ -109,7 +119,9 @@ def _witness(design: Design, step: Step, width: int) -> Iterator[str]:
 def _family(step: Step) -> str:
     assert step.ideal is not None
     dimension = step.ideal.dimension
-    return f"a family of dimension {dimension}: the zeros, real and complex, of"
+    return (
+        f"a family of dimension {dimension}: the zeros, real and complex, of"
+    )
 
 
 def _polynomials(step: Step, width: int) -> Iterator[str]:
@@ -118,16 +130,23 @@ def _polynomials(step: Step, width: int) -> Iterator[str]:
     for p in polynomials[:MAX_POLYNOMIALS]:
         indent = INDENT + "  "
         yield from wrap(
-            str(p), width, initial_indent=indent, subsequent_indent=indent + "  "
+            str(p),
+            width,
+            initial_indent=indent,
+            subsequent_indent=indent + "  ",
         )
     more = len(polynomials) - MAX_POLYNOMIALS
     if more > 0:
         yield f"{INDENT}  and {counted(more, 'polynomial')} more, see --format json"
 
 
-def _solutions(design: Design, found: Found, digits: int, width: int) -> Iterator[str]:
+def _solutions(
+    design: Design, found: Found, digits: int, width: int
+) -> Iterator[str]:
     solution = found.solution
-    times = _TIMES.get(solution.multiplicity, f"; {solution.multiplicity} times")
+    times = _TIMES.get(
+        solution.multiplicity, f"; {solution.multiplicity} times"
+    )
     for index, root in enumerate(solution.real):
         yield f"{INDENT}{_verdict(design, found, index)}{times}"
         for name in design.family.parameters:
@@ -149,10 +168,14 @@ def _verdict(design: Design, found: Found, index: int) -> str:
     return f"order {order} of the {design.whose}, by a certificate of its own"
 
 
-def _value(name: str, value: RealRoot, digits: int, width: int) -> Iterator[str]:
+def _value(
+    name: str, value: RealRoot, digits: int, width: int
+) -> Iterator[str]:
     indent = INDENT + "  "
     text = f"{name} = {_number(value, digits)}"
-    yield from wrap(text, width, initial_indent=indent, subsequent_indent=indent + "  ")
+    yield from wrap(
+        text, width, initial_indent=indent, subsequent_indent=indent + "  "
+    )
 
 
 def _number(value: RealRoot, digits: int) -> str:

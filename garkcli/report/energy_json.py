@@ -89,7 +89,9 @@ def _measured(report: Report) -> _Measured | None:
 def _determinant(measured: _Measured) -> str | None:
     """The determinant of M minus 1, of the step map of the oscillator."""
     stability = measured.stability
-    return None if stability is None else to_decimal(stability.determinant - 1, 4)
+    return (
+        None if stability is None else to_decimal(stability.determinant - 1, 4)
+    )
 
 
 def _quantities(run: LongRun) -> list[_Quantity]:
@@ -110,7 +112,9 @@ _QUANTITY: Record[_Quantity] = Record(
     Field("oscillation", SIZE, lambda x: x.history.amplitude),
     Field("round_off", SIZE, lambda x: x.history.round_off),
     Field("rounded_coefficients", SIZE, lambda x: x.history.coefficients),
-    Field("verdict", {"enum": [*get_args(Verdict)]}, lambda x: x.history.verdict),
+    Field(
+        "verdict", {"enum": [*get_args(Verdict)]}, lambda x: x.history.verdict
+    ),
     Field("trend", {"enum": [*get_args(Shape)]}, lambda x: x.history.shape),
     Field("t_end_to_decide", SIZE, lambda x: _float(x.history.longer)),
 )

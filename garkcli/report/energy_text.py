@@ -111,7 +111,9 @@ def _steps(run: LongRun) -> str:
     return f"{run.steps} steps, {how}"
 
 
-def _history(history: InvariantHistory, run: LongRun, paint: Paint) -> list[str]:
+def _history(
+    history: InvariantHistory, run: LongRun, paint: Paint
+) -> list[str]:
     """What became of one conserved quantity, in lines beside their labels."""
     names = [x.name for x in run.invariants]
     width = max(15, *map(len, names)) + 2
@@ -201,7 +203,9 @@ def _unstable(history: InvariantHistory, run: LongRun) -> str:
         return f": blown up after {run.steps} steps, at t = {run.end:g}"
     time = to_float(run.escaped)
     error = measured(history.errors[-1], history.round_off, 2)
-    return f": the orbit escapes after t = {time:g}, where the error is {error}"
+    return (
+        f": the orbit escapes after t = {time:g}, where the error is {error}"
+    )
 
 
 def _undecided(history: InvariantHistory, run: LongRun) -> str:
@@ -212,7 +216,9 @@ def _undecided(history: InvariantHistory, run: LongRun) -> str:
         return f"{slope}; a slow modulation may do that"
     if history.shape == "none":
         return f"the motion turns back {counted(run.turns, 'time')} only"
-    return "it moves to another level; that may happen once, or again and again"
+    return (
+        "it moves to another level; that may happen once, or again and again"
+    )
 
 
 def _cure(history: InvariantHistory) -> list[str]:
@@ -229,7 +235,9 @@ def _bounded(history: InvariantHistory, run: LongRun) -> str:
         return " for all time: det R(h) = 1 and |tr R(h)| < 2, decided exactly"
     in_all = (history.uncertainty or 0.0) * run.end
     if history.coefficients > in_all / 2:
-        return ": no drift beyond what the rounding of the coefficients can cause"
+        return (
+            ": no drift beyond what the rounding of the coefficients can cause"
+        )
     return ": no drift beyond its uncertainty"
 
 
@@ -256,7 +264,11 @@ def _times(history: InvariantHistory) -> str:
 
 
 def _determinant(stability: Stability) -> str:
-    return "0" if stability.is_symplectic else to_decimal(stability.determinant - 1, 4)
+    return (
+        "0"
+        if stability.is_symplectic
+        else to_decimal(stability.determinant - 1, 4)
+    )
 
 
 def _symplectic(

@@ -65,7 +65,9 @@ def _failing(blame: Blame, has_colours: bool) -> str:
     return text
 
 
-def misprint_lines(found: Misprint, tableau: Tableau, paint: Paint) -> list[str]:
+def misprint_lines(
+    found: Misprint, tableau: Tableau, paint: Paint
+) -> list[str]:
     """Why no tolerance is proposed: an entry looks misprinted, and which."""
     names = [colour.name for colour in tableau.colours]
     residual, explained = size(found.residual), size(found.explained)

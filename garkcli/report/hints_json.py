@@ -138,6 +138,8 @@ HINTS: tuple[Field[Outcome], ...] = (
     _BLAME.optional("blame", lambda x: x.blame),
     *inside(_analysis, [_MISPRINT.optional("misprint", lambda x: x.misprint)]),
     _CONSTANTS.optional("error_constants", lambda x: x.constants),
-    *inside(_analysis, [_SUGGESTION.optional("suggestion", lambda x: x.suggestion)]),
+    *inside(
+        _analysis, [_SUGGESTION.optional("suggestion", lambda x: x.suggestion)]
+    ),
 )
 """Each is left out where there is nothing to say."""

@@ -80,7 +80,11 @@ class ModifiedReport:
 
     def number(self, value: Number) -> str:
         """A coefficient as text."""
-        return to_text(value) if self.digits is None else to_decimal(value, self.digits)
+        return (
+            to_text(value)
+            if self.digits is None
+            else to_decimal(value, self.digits)
+        )
 
     @property
     def equation(self) -> Iterator[TreeTerm]:
@@ -106,7 +110,9 @@ class ModifiedReport:
 
 
 def _of_free_tree(term: HamiltonianTerm) -> TreeTerm:
-    return TreeTerm(term.tree.representative, term.tree.symmetry, term.coefficient)
+    return TreeTerm(
+        term.tree.representative, term.tree.symmetry, term.coefficient
+    )
 
 
 def unknowns_of(formula: ModifiedFormula) -> list[str]:
@@ -197,7 +203,11 @@ _REPORT: Record[ModifiedReport] = Record(
     Field("schema", {"const": SCHEMA}, lambda _: SCHEMA),
     Field("file", TEXT, lambda x: x.file),
     Field("name", TEXT, lambda x: x.name),
-    Field("derivation", {"enum": ["", "pair", "conjugate"]}, lambda x: x.derivation),
+    Field(
+        "derivation",
+        {"enum": ["", "pair", "conjugate"]},
+        lambda x: x.derivation,
+    ),
     Field("tolerance", nullable(TEXT), _tolerance),
     Field("colours", array(TEXT), lambda x: list(x.names)),
     Field("max_order", POSITION, lambda x: x.found.equation.max_order),

@@ -58,7 +58,9 @@ def text_of(report: ModifiedEnergyReport, paint: Paint) -> list[str]:
     lines = [paint("strong", report.name)]
     lines += indented(folded(describe(run.problem), _WIDTH - 2, "  "))
     lines.append(f"  to t = {run.t_end}, {run.digits} digits")
-    lines.append("  root mean square of H(t) - H(0), and with the modified terms of H")
+    lines.append(
+        "  root mean square of H(t) - H(0), and with the modified terms of H"
+    )
     label = max(len(str(row.h)) for row in run.energies[0].rows) + 2
     label = max(label, 8)
     beside = max(1, (_WIDTH - 2 - label) // _ERROR)

@@ -47,8 +47,18 @@ def order_fields(prefix: str = "") -> tuple[Field[AnyOrder], ...]:
     return (
         Field(f"{prefix}order", number, lambda x: x.order),
         _WITNESS.or_null(f"{prefix}witness", lambda x: x.witness),
-        Field(is_bound, TRUE, lambda x: x.is_lower_bound or None, is_optional=True),
-        Field(f"{prefix}order_largest_residual", SIZE, _residual, is_optional=True),
+        Field(
+            is_bound,
+            TRUE,
+            lambda x: x.is_lower_bound or None,
+            is_optional=True,
+        ),
+        Field(
+            f"{prefix}order_largest_residual",
+            SIZE,
+            _residual,
+            is_optional=True,
+        ),
         Field(f"{prefix}order_tolerance", TEXT, _tolerance, is_optional=True),
         Field(f"{prefix}order_undecided", TRUE, _undecided, is_optional=True),
     )
@@ -56,7 +66,11 @@ def order_fields(prefix: str = "") -> tuple[Field[AnyOrder], ...]:
 
 def _residual(order: AnyOrder) -> float | None:
     """The largest residual of an order within a tolerance."""
-    return None if isinstance(order, Order) else float(order.largest_residual.upper())
+    return (
+        None
+        if isinstance(order, Order)
+        else float(order.largest_residual.upper())
+    )
 
 
 def _tolerance(order: AnyOrder) -> str | None:

@@ -140,7 +140,9 @@ _COLOUR: Record[_In[Colour]] = Record(
 _BLOCK: Record[_In[_Block]] = Record(
     Field("space", POSITION, lambda x: x.part[0][0] + 1),
     Field("colour", POSITION, lambda x: x.part[0][1] + 1),
-    Field("A", array(array(_NUMBER)), lambda x: [x.numbers(r) for r in x.part[1]]),
+    Field(
+        "A", array(array(_NUMBER)), lambda x: [x.numbers(r) for r in x.part[1]]
+    ),
 )
 _WITNESS: Record[_In[Witness]] = Record(
     Field("tree", TEXT, lambda x: format_tree(x.part.tree)),
@@ -188,5 +190,7 @@ _REPORT: Record[MethodProof] = Record(
     Field("method", _PROOF.schema, lambda x: _PROOF.data(x.method)),
     _PROOF.optional("conjugate", lambda x: x.conjugate),
     _PAIR.optional("pair", lambda x: None if x.pair is None else x),
-    Field("no_conjugate", TEXT, lambda x: x.obstacle or None, is_optional=True),
+    Field(
+        "no_conjugate", TEXT, lambda x: x.obstacle or None, is_optional=True
+    ),
 )

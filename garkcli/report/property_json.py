@@ -97,7 +97,9 @@ def _names(tableau: Tableau, space: int) -> list[str]:
     return [colour.name for colour in tableau.colours if colour.space == space]
 
 
-def _system(tableau: Tableau, vertices: tuple[Vertex, ...]) -> list[dict[str, Any]]:
+def _system(
+    tableau: Tableau, vertices: tuple[Vertex, ...]
+) -> list[dict[str, Any]]:
     """A system of stages, space by space."""
     by_space: dict[int, list[int]] = {}
     for space, stage in vertices:
@@ -119,7 +121,9 @@ def _renumbering(found: Analysis) -> list[dict[str, Any]] | None:
     return [
         {
             "colours": _names(found.tableau, space),
-            "stages": "1 - x" if x.images is None else [i + 1 for i in x.images],
+            "stages": "1 - x"
+            if x.images is None
+            else [i + 1 for i in x.images],
         }
         for space, x in enumerate(reflections)
     ]
@@ -130,7 +134,9 @@ PROPERTIES: Record[Analysis] = Record(
     Field("gamma", nullable(EXACT), lambda x: _gamma(x.subject.shape)),
     _truth("fully-implicit"),
     Field(
-        "implicit_stages", nullable(COUNT), lambda x: x.subject.shape.implicit_stages
+        "implicit_stages",
+        nullable(COUNT),
+        lambda x: x.subject.shape.implicit_stages,
     ),
     Field("solved_together", array(array(_STAGES)), _together),
     *map(_truth, ("stiffly-accurate", "fsal", "symmetric")),
@@ -138,7 +144,12 @@ PROPERTIES: Record[Analysis] = Record(
     Field("symplectic", FLAG, lambda x: x.symplectic),
     _truth("reducible"),
     Field("stage_order", COUNT, lambda x: min(x.subject.stage_orders)),
-    Field("stage_order_is_lower_bound", TRUE, _stage_order_is_open, is_optional=True),
+    Field(
+        "stage_order_is_lower_bound",
+        TRUE,
+        _stage_order_is_open,
+        is_optional=True,
+    ),
     *map(_truth, ("nodes-in-unit-interval", "positive-weights")),
     _truth("algebraically-stable"),
     Field("by_colour", array(_OF_COLOUR.schema), _by_colour),
@@ -155,7 +166,9 @@ def _value(found: Verdict) -> Any:
     return "infinity" if value.root is None else root_data(value.root)
 
 
-_VALUE: Schema = one_of({"type": ["boolean", "integer", "string", "null"]}, ROOT_OF)
+_VALUE: Schema = one_of(
+    {"type": ["boolean", "integer", "string", "null"]}, ROOT_OF
+)
 _VERDICT: Record[tuple[str, Verdict]] = Record(
     Field("property", {"enum": list(KEYS)}, lambda x: x[0]),
     Field("value", _VALUE, lambda x: _value(x[1])),

@@ -42,7 +42,8 @@ def report_schema(command: str) -> dict[str, Any]:
     """
     if command not in REPORTS:
         raise UsageProblem(
-            f"no schema of a report of {command!r}", did_you_mean(command, REPORTS)
+            f"no schema of a report of {command!r}",
+            did_you_mean(command, REPORTS),
         )
     module, function = REPORTS[command].split(":")
     schema: dict[str, Any] = getattr(import_module(module), function)()

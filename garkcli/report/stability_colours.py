@@ -49,7 +49,9 @@ def _radii_text(radii: Sequence[AdditiveRadius], digits: int) -> Iterator[str]:
 
 def _fraction_text(found: Colours, names: list[str]) -> str:
     if found.R is None:
-        return f"too large: {found.lines} lines determine it (limit {MOST_LINES})"
+        return (
+            f"too large: {found.lines} lines determine it (limit {MOST_LINES})"
+        )
     P, Q = integral_parts(found.R)
     top, bottom = multivariate_text(P, names), multivariate_text(Q, names)
     text = over(top, bottom)

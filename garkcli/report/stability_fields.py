@@ -10,7 +10,11 @@ from flint import fmpq
 from garkcli.exact.cells import Interval
 from garkcli.exact.display import plain_decimal, to_text
 from garkcli.exact.polynomial import Polynomial
-from garkcli.exact.polynomial_text import integral, multivariate_text, polynomial_text
+from garkcli.exact.polynomial_text import (
+    integral,
+    multivariate_text,
+    polynomial_text,
+)
 from garkcli.exact.roots import RealRoot
 from garkcli.page.exactly import ALGEBRAIC, ROOT_OF, root_data
 from garkcli.page.record import (
@@ -149,7 +153,9 @@ def _ray(shown: Shown[Any], ray: Ray | None) -> dict[str, object] | None:
 
 
 def _intervals(
-    shown: Shown[OscillatorStability] | Shown[TwoFrequencies] | Shown[SlowInterval],
+    shown: Shown[OscillatorStability]
+    | Shown[TwoFrequencies]
+    | Shown[SlowInterval],
 ) -> list[Shown[Interval]]:
     return [Shown(x, shown.digits) for x in shown.part.stable]
 
@@ -222,14 +228,20 @@ def _implicit(shown: Shown[Colours]) -> str | None:
 
 
 RADIUS: Record[Shown[AdditiveRadius]] = Record(
-    Field("direction", array(EXACT), lambda x: [str(r) for r in x.part.ratios]),
+    Field(
+        "direction", array(EXACT), lambda x: [str(r) for r in x.part.ratios]
+    ),
     Field("radius", nullable(ALGEBRAIC), lambda x: x.radius(x.part.radius)),
 )
 IMEX: Record[Shown[Colours]] = Record(
     Field("explicit", TEXT, _explicit),
     Field("implicit", TEXT, _implicit),
     Field("real_interval", nullable(_END), lambda x: _ray(x, x.part.real)),
-    Field("imaginary_interval", nullable(_END), lambda x: _ray(x, x.part.imaginary)),
+    Field(
+        "imaginary_interval",
+        nullable(_END),
+        lambda x: _ray(x, x.part.imaginary),
+    ),
 )
 
 
@@ -281,9 +293,15 @@ SPRINGS: tuple[Field[Shown[TwoFrequencies]], ...] = (
 )
 SLOW_INTERVAL: tuple[Field[Shown[SlowInterval]], ...] = (
     Field(
-        "slow", _record(**{"from": EXACT, "to": EXACT}), lambda x: _slow_ends(x.part)
+        "slow",
+        _record(**{"from": EXACT, "to": EXACT}),
+        lambda x: _slow_ends(x.part),
     ),
     _INTERVAL.every("stable", _intervals),
-    Field("stable_for_every_fast", nullable(FLAG), lambda x: x.part.is_stable_for_all),
+    Field(
+        "stable_for_every_fast",
+        nullable(FLAG),
+        lambda x: x.part.is_stable_for_all,
+    ),
     Field("open_points", array(ALGEBRAIC), _open_points),
 )

@@ -63,7 +63,9 @@ def text_of(report: StabilityReport, paint: Paint) -> Iterator[str]:
     found = report.found
     for linear in found.linear:
         yield ""
-        yield from _linear_text(linear, len(found.linear) > 1, report.digits, paint)
+        yield from _linear_text(
+            linear, len(found.linear) > 1, report.digits, paint
+        )
     if within is not None:
         yield from _rounded_text(found, paint)
         return
@@ -233,21 +235,29 @@ def _springs_text(found: TwoFrequencies, digits: int) -> Iterator[str]:
     yield from _stable_text(found.stable, digits)
 
 
-def _slow_text(found: SlowInterval, digits: int, paint: Paint) -> Iterator[str]:
+def _slow_text(
+    found: SlowInterval, digits: int, paint: Paint
+) -> Iterator[str]:
     yield ""
     yield "  two springs, x = (hω_fast)²"
     yield f"  for every a = (hω_slow)² from {found.low} to {found.high}"
     yield from _stable_text(found.stable, digits)
     for x in found.open_points:
-        single = f"x = {number(x, digits)} alone, a root of {minimal_text(x, 'x')}"
+        single = (
+            f"x = {number(x, digits)} alone, a root of {minimal_text(x, 'x')}"
+        )
         yield from line("not decided", single)
-    yield from line("stable for all x > 0", decided(found.is_stable_for_all, paint))
+    yield from line(
+        "stable for all x > 0", decided(found.is_stable_for_all, paint)
+    )
 
 
 def _within_text(found: StabilityWithin, digits: int) -> Iterator[str]:
     """What is known of rounded coefficients besides A- and L-stability."""
     yield from line("real axis", bounds_text(found.real, digits, "−z ≤ "))
-    yield from line("imaginary axis", bounds_text(found.imaginary, digits, "y² ≤ "))
+    yield from line(
+        "imaginary axis", bounds_text(found.imaginary, digits, "y² ≤ ")
+    )
     yield from line("SSP coefficient", bounds_text(found.ssp, digits))
 
 
@@ -258,4 +268,6 @@ def _rounded_text(found: Stability, paint: Paint) -> Iterator[str]:
         yield "  oscillator: not decided for rounded coefficients"
         return
     yield f"  {paint('strong', 'nonlinear')}"
-    yield from line("algebraically stable", decided(found.algebraic_within, paint))
+    yield from line(
+        "algebraically stable", decided(found.algebraic_within, paint)
+    )

@@ -78,7 +78,9 @@ def line(label: str, text: str) -> list[str]:
     return [head.rstrip(), *indented(others, " " * (LABEL + 4))]
 
 
-def quotient(numerator: Polynomial, denominator: Polynomial, variable: str) -> str:
+def quotient(
+    numerator: Polynomial, denominator: Polynomial, variable: str
+) -> str:
     """A fraction of two polynomials."""
     p, q = integral([numerator, denominator])
     return over(polynomial_text(p, variable), polynomial_text(q, variable))
@@ -137,7 +139,12 @@ def real_text(intervals: Sequence[Interval], digits: int) -> str:
 def imaginary_text(intervals: Sequence[Interval], digits: int) -> str:
     """The interval of the imaginary axis around 0, from intervals of y²."""
     first = intervals[0] if intervals else None
-    if first is None or first.is_point or first.start is None or first.start.exact != 0:
+    if (
+        first is None
+        or first.is_point
+        or first.start is None
+        or first.start.exact != 0
+    ):
         return "y = 0 only"
     if first.end is None:
         return "all y"
@@ -172,7 +179,10 @@ def interval_text(interval: Interval, digits: int) -> str:
     ends = [interval.start]
     if interval.end is not None:
         right = "≤" if interval.has_end else "<"
-        end, end_of_z = number(interval.end, digits), square_root(interval.end, digits)
+        end, end_of_z = (
+            number(interval.end, digits),
+            square_root(interval.end, digits),
+        )
         text += f" {right} {end}, z to {end_of_z}"
         ends.append(interval.end)
     for x in ends:
@@ -192,7 +202,9 @@ def bounds_text(found: Bounds, digits: int, before: str = "") -> str:
     if low is None:
         return "no limit"
     if high is None:
-        beyond = f" beyond {before}{_digits(arb(low), digits)}" if low > 0 else ""
+        beyond = (
+            f" beyond {before}{_digits(arb(low), digits)}" if low > 0 else ""
+        )
         return f"not decided{beyond}"
     if low == high:
         return f"{before}{low}"

@@ -9,12 +9,24 @@ from typing import Any
 from garkcli.design.stable_values import StableValues, Wanted
 from garkcli.exact.cells import Interval
 from garkcli.exact.polynomial import Polynomial
-from garkcli.exact.polynomial_text import polynomial_text, root_decimal, root_text
+from garkcli.exact.polynomial_text import (
+    polynomial_text,
+    root_decimal,
+    root_text,
+)
 from garkcli.exact.roots import RealRoot
 from garkcli.page.exactly import ALGEBRAIC, root_data
 from garkcli.page.json_text import to_json
 from garkcli.page.plain import printable
-from garkcli.page.record import FLAG, TEXT, Schema, array, nullable, one_of, published
+from garkcli.page.record import (
+    FLAG,
+    TEXT,
+    Schema,
+    array,
+    nullable,
+    one_of,
+    published,
+)
 
 SCHEMA = "gark/design-stability/1"
 _STABLE: dict[Wanted, str] = {
@@ -24,7 +36,9 @@ _STABLE: dict[Wanted, str] = {
 }
 
 
-def render_text(source: str, values: StableValues, digits: int, width: int) -> str:
+def render_text(
+    source: str, values: StableValues, digits: int, width: int
+) -> str:
     """The set for people.
 
     Args:
@@ -40,19 +54,26 @@ def render_text(source: str, values: StableValues, digits: int, width: int) -> s
         none = "no value that is decided" if values.undecided else "no value"
         lines += [f"  the {values.whose} is {stable} for {none} of {name}"]
     elif values.is_everything:
-        lines += [f"  the {values.whose} is {stable} for every value of {name}"]
+        lines += [
+            f"  the {values.whose} is {stable} for every value of {name}"
+        ]
     else:
         lines += [f"  the {values.whose} is {stable} for exactly", ""]
         for interval in values.found:
             lines += _interval(interval, name, digits, width)
     if values.undecided:
-        lines += ["", "  not decided, as the fields of the coefficients are too large"]
+        lines += [
+            "",
+            "  not decided, as the fields of the coefficients are too large",
+        ]
         for root in values.undecided:
             lines += _point(root, name, digits, width)
     return "\n".join(lines) + "\n"
 
 
-def _interval(interval: Interval, name: str, digits: int, width: int) -> Iterator[str]:
+def _interval(
+    interval: Interval, name: str, digits: int, width: int
+) -> Iterator[str]:
     start, end = interval.start, interval.end
     if interval.is_point:
         assert start is not None
@@ -60,7 +81,9 @@ def _interval(interval: Interval, name: str, digits: int, width: int) -> Iterato
         return
     text = name
     if start is not None:
-        text = f"{_number(start, digits)} {_relation(interval.has_start)} {text}"
+        text = (
+            f"{_number(start, digits)} {_relation(interval.has_start)} {text}"
+        )
     if end is not None:
         text = f"{text} {_relation(interval.has_end)} {_number(end, digits)}"
     yield f"    {text}"
@@ -69,7 +92,10 @@ def _interval(interval: Interval, name: str, digits: int, width: int) -> Iterato
             text = _meaning(root, digits)
             indent = " " * 6
             yield from wrap(
-                text, width, initial_indent=indent, subsequent_indent=indent + "  "
+                text,
+                width,
+                initial_indent=indent,
+                subsequent_indent=indent + "  ",
             )
 
 
@@ -77,12 +103,16 @@ def _relation(is_included: bool) -> str:
     return "≤" if is_included else "<"
 
 
-def _point(root: RealRoot, name: str, digits: int, width: int) -> Iterator[str]:
+def _point(
+    root: RealRoot, name: str, digits: int, width: int
+) -> Iterator[str]:
     if root.exact is not None:
         yield f"    {name} = {root_text(root)}"
         return
     text = f"{name} = {_meaning(root, digits)}"
-    yield from wrap(text, width, initial_indent=" " * 4, subsequent_indent=" " * 6)
+    yield from wrap(
+        text, width, initial_indent=" " * 4, subsequent_indent=" " * 6
+    )
 
 
 def _number(root: RealRoot, digits: int) -> str:
@@ -145,7 +175,8 @@ def stable_values_schema() -> Schema:
         }
     )
     return published(
-        "report of gark design with --a-stable and the like: stability", document
+        "report of gark design with --a-stable and the like: stability",
+        document,
     )
 
 

@@ -82,7 +82,9 @@ def _csv(
         yield ",".join(map(str, data.values())) + "\n"
 
 
-def render_class_counts(subject: Subject, format: str, paint: Paint) -> Iterator[str]:
+def render_class_counts(
+    subject: Subject, format: str, paint: Paint
+) -> Iterator[str]:
     """The numbers of classes alone."""
     if format in {"json", "ndjson"}:
         head = _COUNTED.data(subject)
@@ -191,7 +193,9 @@ _ROW: Record[_Class] = Record(
 )
 
 
-def _data(subject: Subject, tree: ConditionClass, with_members: bool) -> dict[str, Any]:
+def _data(
+    subject: Subject, tree: ConditionClass, with_members: bool
+) -> dict[str, Any]:
     return _ROW.data(_Class(subject, tree, with_members))
 
 
@@ -215,7 +219,9 @@ def _text(
     yield from summary_lines(subject)
 
 
-def _entry(subject: Subject, tree: ConditionClass, with_members: bool) -> Iterator[str]:
+def _entry(
+    subject: Subject, tree: ConditionClass, with_members: bool
+) -> Iterator[str]:
     here = tree.representative
     sizes = f"σ = {here.symmetry:<4} γ = {here.density:<5}"
     trees = counted(len(tree.members), "tree")
@@ -231,7 +237,9 @@ def _entry(subject: Subject, tree: ConditionClass, with_members: bool) -> Iterat
         yield line.rstrip() + "\n"
 
 
-def _latex(subject: Subject, classes: Iterable[ConditionClass]) -> Iterator[str]:
+def _latex(
+    subject: Subject, classes: Iterable[ConditionClass]
+) -> Iterator[str]:
     for line in legend_lines(subject):
         yield f"% {line}"
     yield "\\begin{longtable}{clcccc}\n  \\hline\n"

@@ -137,7 +137,9 @@ class Subject:
         if self.kind == "pair":
             return f"a symplectic pair of {counted(terms, 'Hamiltonian')}"
         if self.kind == "self-conjugate":
-            return f"a self-conjugate method of {counted(terms, 'vector field')}"
+            return (
+                f"a self-conjugate method of {counted(terms, 'vector field')}"
+            )
         return _PROBLEMS[self.kind]
 
 
@@ -194,9 +196,7 @@ def subject_of_method(tableau: Tableau, orders: range) -> Subject:
     quadratic = frozenset(term for term, x in natures if x.is_linear)
     for term, x in natures:
         if term in quadratic and not x.is_linear:
-            message = (
-                f"colour {x.name} is not linear, as the other colour of its stages is"
-            )
+            message = f"colour {x.name} is not linear, as the other colour of its stages is"
             cure = "such a term of the Hamiltonian has no classes; make both linear or none"
             raise UsageProblem(message, cure)
     colours = tuple((term, x.part) for term, x in natures)
@@ -218,9 +218,13 @@ def _not_symplectic(tableau: Tableau) -> UsageProblem:
     weights = {(x.space, x.b) for x in tableau.colours}
     spaces = {space for space, _ in weights}
     if len(weights) > len(spaces):
-        reason = "positions and momenta have different weights at the same stages"
+        reason = (
+            "positions and momenta have different weights at the same stages"
+        )
         cure = "give both the same weights"
     else:
-        reason = "its momentum blocks are not the conjugates of its position blocks"
+        reason = (
+            "its momentum blocks are not the conjugates of its position blocks"
+        )
         cure = "with --pair they become the conjugates"
     return UsageProblem(f"the method is not symplectic: {reason}", cure)

@@ -39,7 +39,9 @@ def render(tableau: Tableau, entries: Entries, name: str) -> str:
 
 def tableau_report_schema() -> Schema:
     """The JSON Schema of tableaus, of all commands that print one."""
-    return published("tableau of gark tableau, conjugate and reduce", _REPORT.schema)
+    return published(
+        "tableau of gark tableau, conjugate and reduce", _REPORT.schema
+    )
 
 
 class _Shown(NamedTuple):
@@ -59,7 +61,9 @@ def _entry_fields(
 ) -> tuple[Field[Entries], ...]:
     """c, A and b with their entries changed into what ``entry`` describes."""
 
-    def rows(entries: Entries, found: Sequence[Sequence[Cell]]) -> list[list[Any]]:
+    def rows(
+        entries: Entries, found: Sequence[Sequence[Cell]]
+    ) -> list[list[Any]]:
         return [[change(entries, x) for x in row] for row in found]
 
     def blocks(entries: Entries) -> list[list[Any]]:
@@ -76,8 +80,12 @@ def _entry_fields(
     )
 
 
-_EXACT = _entry_fields(NUMERAL, lambda entries, x: cell_text(x, entries.digits))
-_FLOATS: Record[Entries] = Record(*_entry_fields(NUMBER, lambda _, x: _float(x)))
+_EXACT = _entry_fields(
+    NUMERAL, lambda entries, x: cell_text(x, entries.digits)
+)
+_FLOATS: Record[Entries] = Record(
+    *_entry_fields(NUMBER, lambda _, x: _float(x))
+)
 _REPORT: Record[_Shown] = Record(
     Field("schema", {"const": SCHEMA}, lambda _: SCHEMA),
     Field("name", TEXT, lambda x: x.name),

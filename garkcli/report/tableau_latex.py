@@ -48,7 +48,9 @@ def _displays(tableau: Tableau, entries: Entries) -> Iterator[str]:
     arrays = []
     columns = 0
     for letter, part in (("Q", "q"), ("P", "p")):
-        driven = [m for m in range(tableau.size) if tableau.colours[m].part == part]
+        driven = [
+            m for m in range(tableau.size) if tableau.colours[m].part == part
+        ]
         array = _array(entries, _stages_of(tableau, driven), driven)
         arrays.append([f"{letter}: \\quad", *array])
         columns += sum(len(entries.b[m]) for m in driven)
@@ -77,7 +79,9 @@ def _display(lines: Sequence[str]) -> Iterator[str]:
     yield r"\]"
 
 
-def _array(entries: Entries, shown: Sequence[int], colours: Sequence[int]) -> list[str]:
+def _array(
+    entries: Entries, shown: Sequence[int], colours: Sequence[int]
+) -> list[str]:
     """C | A | …, the stages of one colour of ``shown`` under those of the other, b below."""
     groups = "|".join("c" * len(entries.b[m]) for m in colours)
     lines = [f"\\begin{{array}}{{c|{groups}}}"]

@@ -68,7 +68,11 @@ def remark(entries: Entries) -> str:
 
 
 def render(
-    tableau: Tableau, entries: Entries, title: str, paint: Paint, width: int = 80
+    tableau: Tableau,
+    entries: Entries,
+    title: str,
+    paint: Paint,
+    width: int = 80,
 ) -> str:
     """The whole tableau.
 

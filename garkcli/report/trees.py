@@ -157,7 +157,9 @@ _HEAD: Record[_Found] = Record(
 )
 _COUNTED: Record[_Found] = Record(
     *_HEAD.fields,
-    Field("by_order", counts_of("order"), lambda x: x.by_order, is_optional=True),
+    Field(
+        "by_order", counts_of("order"), lambda x: x.by_order, is_optional=True
+    ),
 )
 
 
@@ -172,7 +174,9 @@ def _json(
     if counts is None:
         rows = list(rows)
         counts = _counted(query, rows)
-    head = to_json(_HEAD.data(_Found(query, counts)), indent=None, ascii_only=True)
+    head = to_json(
+        _HEAD.data(_Found(query, counts)), indent=None, ascii_only=True
+    )
     yield head[:-1] + ', "trees": ['
     separator = "\n"
     for row in rows:
@@ -195,7 +199,9 @@ def _text(
     query: Query, rows: Iterable[TreeRow], counts: Counts | None, paint: Paint
 ) -> Iterator[str]:
     many = query.colours > 1
-    for (n, root), group in groupby(rows, key=lambda row: (row.order, row.root)):
+    for (n, root), group in groupby(
+        rows, key=lambda row: (row.order, row.root)
+    ):
         heading = f"order {n}"
         if many:
             heading += f", root colour {root + 1}"

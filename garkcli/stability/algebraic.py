@@ -56,7 +56,9 @@ def algebraic_stability(tableau: Tableau) -> AlgebraicStability | None:
         gram = tableau.space(l).gram(colour.b)
         grams.append(gram)
     return AlgebraicStability(
-        weights_are_positive=all(is_positive_semidefinite(gram) for gram in grams),
+        weights_are_positive=all(
+            is_positive_semidefinite(gram) for gram in grams
+        ),
         form_is_positive=is_positive_semidefinite(contractivity(tableau)),
     )
 
@@ -126,7 +128,9 @@ def negative_pivot(form: Matrix, is_definite: bool = False) -> Number | None:
     return None
 
 
-def _eliminate(rows: list[list[Number]], pivot: int, remaining: list[int]) -> None:
+def _eliminate(
+    rows: list[list[Number]], pivot: int, remaining: list[int]
+) -> None:
     """Take multiples of the row of the pivot from the others, among the remaining columns."""
     pivot_row = rows[pivot]
     for i in remaining:

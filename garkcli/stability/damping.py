@@ -30,7 +30,11 @@ from garkcli.exact.multivariate import Exponents, Multivariate
 from garkcli.exact.polynomial import Polynomial, gcd
 from garkcli.exact.roots import RealRoot, real_roots, sign
 from garkcli.graph import components
-from garkcli.stability.critical import MOST_POINTS, critical_polynomials, roots_between
+from garkcli.stability.critical import (
+    MOST_POINTS,
+    critical_polynomials,
+    roots_between,
+)
 from garkcli.stability.fraction import Fraction
 from garkcli.stability.linear import exact_cauchy_index, poles_are_right
 from garkcli.tableau.tableau import Tableau
@@ -83,7 +87,10 @@ class ImexPair:
     @cached_property
     def has_fixed_poles(self) -> bool:
         """Whether the poles in z_I do not depend on z_E."""
-        powers = (exponents[self.explicit] for exponents, _ in self.R.denominator.terms)
+        powers = (
+            exponents[self.explicit]
+            for exponents, _ in self.R.denominator.terms
+        )
         return not any(powers)
 
     @cached_property
@@ -235,7 +242,9 @@ def _on_axis(p: Multivariate, axis: int) -> Polynomial:
     return p.along(toward_imaginary if axis else toward_left)
 
 
-def _split(p: Multivariate, explicit: int) -> tuple[Multivariate, Multivariate]:
+def _split(
+    p: Multivariate, explicit: int
+) -> tuple[Multivariate, Multivariate]:
     """The real and imaginary parts of p(a + ib, iy) as polynomials in (a, b, y)."""
     real: dict[Exponents, Number] = {}
     imaginary: dict[Exponents, Number] = {}

@@ -71,7 +71,9 @@ def _summands(tableau: Tableau, shares: Sequence[Number]) -> StageSystem:
     blocks: dict[tuple[int, int], Matrix] = {}
     for edge, block in tableau.blocks.items():
         blocks[edge] = tuple(_ones(row) for row in block)
-    colours = [replace(colour, b=_ones(colour.b)) for colour in tableau.colours]
+    colours = [
+        replace(colour, b=_ones(colour.b)) for colour in tableau.colours
+    ]
     counted = replace(tableau, blocks=blocks, colours=tuple(colours))
     sizes: list[Matrix] = []
     for w in shares:

@@ -46,7 +46,9 @@ class StabilityFunction:
         """R(∞); None where R is unbounded."""
         if self.numerator.degree > self.denominator.degree:
             return None
-        return self.numerator[self.denominator.degree] / self.denominator.leading
+        return (
+            self.numerator[self.denominator.degree] / self.denominator.leading
+        )
 
 
 def stability_function(

@@ -117,7 +117,9 @@ class OscillatorStability:
         return alpha, beta, gamma
 
 
-def oscillator_stability(tableau: Tableau, problem: Oscillator) -> OscillatorStability:
+def oscillator_stability(
+    tableau: Tableau, problem: Oscillator
+) -> OscillatorStability:
     """What a method does to q̈ = −ω²q for every step size.
 
     Args:
@@ -129,10 +131,14 @@ def oscillator_stability(tableau: Tableau, problem: Oscillator) -> OscillatorSta
     """
     unit = Oscillator(ONE, problem.shares)
     check_structure(tableau, unit)
-    return analysed(tableau, [unit.matrix(colour) for colour in tableau.colours])
+    return analysed(
+        tableau, [unit.matrix(colour) for colour in tableau.colours]
+    )
 
 
-def analysed(tableau: Tableau, fields: Sequence[Matrix]) -> OscillatorStability:
+def analysed(
+    tableau: Tableau, fields: Sequence[Matrix]
+) -> OscillatorStability:
     """The same for given fields y ↦ L^m y with L^m = (0, k_m; −v_m, 0) in (ωq, p)."""
     step = step_function(stage_system(tableau, fields))
     (a, b), (c, d) = step.numerators

@@ -63,7 +63,10 @@ class SlowInterval:
         if len(self.stable) != 1:
             return False
         [interval] = self.stable
-        if interval.start != RealRoot.rational(ZERO) or interval.end is not None:
+        if (
+            interval.start != RealRoot.rational(ZERO)
+            or interval.end is not None
+        ):
             return False
         if not interval.has_start and self.low > 0:
             return False
@@ -116,7 +119,9 @@ def _is_rational(p: Multivariate) -> bool:
     return all(isinstance(a, fmpq) for _, a in p.terms)
 
 
-def _critical(plane: Sequence[Multivariate], low: fmpq, high: fmpq) -> list[Polynomial]:
+def _critical(
+    plane: Sequence[Multivariate], low: fmpq, high: fmpq
+) -> list[Polynomial]:
     """The polynomials in x between whose roots one x decides."""
     return projected(_curves(plane), [low, high])
 

@@ -80,7 +80,10 @@ def springs_plane(
 
 
 def plane_with_ends_of(
-    tableau: Tableau, split: SplitSprings, stable: Sequence[Interval], slow: fmpq
+    tableau: Tableau,
+    split: SplitSprings,
+    stable: Sequence[Interval],
+    slow: fmpq,
 ) -> SpringsPlane:
     """The plane as far as something happens for the slow frequency that was decided.
 

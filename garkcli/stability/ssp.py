@@ -72,7 +72,9 @@ def ssp_coefficient(
     return _radius(tableau, ratios, driven)
 
 
-def additive_radius(tableau: Tableau, ratios: Sequence[Number]) -> AdditiveRadius:
+def additive_radius(
+    tableau: Tableau, ratios: Sequence[Number]
+) -> AdditiveRadius:
     """How far the region of absolute monotonicity reaches in one direction.
 
     Args:
@@ -102,7 +104,9 @@ def _radius(
     return SspCoefficient(smallest)
 
 
-def stacked(tableau: Tableau, ratios: Sequence[Number]) -> tuple[Matrix, list[Matrix]]:
+def stacked(
+    tableau: Tableau, ratios: Sequence[Number]
+) -> tuple[Matrix, list[Matrix]]:
     """Σ ratio_l K_l and the K_l, on all stages of all spaces and the new value after them.
 
     K_l has the columns of colour l only; stages that colours share are one row.
@@ -141,7 +145,9 @@ def _frozen(rows: list[list[Number]]) -> Matrix:
     return tuple(tuple(row) for row in rows)
 
 
-def _conditions(whole: Matrix, parts: Sequence[Matrix]) -> Iterator[Polynomial]:
+def _conditions(
+    whole: Matrix, parts: Sequence[Matrix]
+) -> Iterator[Polynomial]:
     """Polynomials in r that must not be negative from 0 to the radius.
 
     (I + rK)⁻¹ = Σ (−r)^k K^k. With the denominator d(r) = det(I + rK), d · (I + rK)⁻¹ is a
@@ -159,7 +165,10 @@ def _conditions(whole: Matrix, parts: Sequence[Matrix]) -> Iterator[Polynomial]:
 
 
 def _entries(
-    denominator: Polynomial, minus_whole: Matrix, vector: Sequence[Number], n: int
+    denominator: Polynomial,
+    minus_whole: Matrix,
+    vector: Sequence[Number],
+    n: int,
 ) -> list[Polynomial]:
     """The numerators of (I + rK)⁻¹ v."""
     series: list[list[Number]] = [[] for _ in range(n)]

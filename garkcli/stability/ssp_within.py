@@ -22,7 +22,9 @@ DIGITS = 64
 """Digits of the balls."""
 
 
-def ssp_within(tableau: Tableau, shares: Sequence[Number], tolerance: fmpq) -> Bounds:
+def ssp_within(
+    tableau: Tableau, shares: Sequence[Number], tolerance: fmpq
+) -> Bounds:
     """The first failure of any condition, between bounds.
 
     Args:
@@ -60,7 +62,9 @@ def _widened(matrix: Matrix, tolerance: fmpq) -> arb_mat:
 def _columns(matrix: arb_mat) -> list[list[arb]]:
     """The columns that are not zero."""
     columns = matrix.transpose().tolist()
-    return [column for column in columns if not all(x.is_zero() for x in column)]
+    return [
+        column for column in columns if not all(x.is_zero() for x in column)
+    ]
 
 
 def _reciprocal(pattern: Matrix, matrix: arb_mat) -> list[arb]:
@@ -70,7 +74,9 @@ def _reciprocal(pattern: Matrix, matrix: arb_mat) -> list[arb]:
         edges[i] = [j for j, x in enumerate(row) if x]
     result = arb_poly([1])
     for component in components(edges):
-        block = arb_mat([[-matrix[i, j] for j in component] for i in component])
+        block = arb_mat(
+            [[-matrix[i, j] for j in component] for i in component]
+        )
         factor = [arb(1), -block[0, 0]]
         if len(component) > 1:
             characteristic = list(block.charpoly().coeffs())

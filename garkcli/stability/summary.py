@@ -24,7 +24,10 @@ from garkcli.stability.linear import (
     real_set,
     stability_function,
 )
-from garkcli.stability.oscillator import OscillatorStability, oscillator_stability
+from garkcli.stability.oscillator import (
+    OscillatorStability,
+    oscillator_stability,
+)
 from garkcli.stability.sector import Sector, largest_sector
 from garkcli.stability.ssp import SspCoefficient, ssp_coefficient
 from garkcli.stability.within import StabilityWithin, stability_within
@@ -92,7 +95,9 @@ class Stability:
 
 
 def stability(
-    tableau: Tableau, problem: Oscillator | None = None, ratios: Sequence[fmpq] = ()
+    tableau: Tableau,
+    problem: Oscillator | None = None,
+    ratios: Sequence[fmpq] = (),
 ) -> Stability:
     """Decide everything that ``gark stability`` reports.
 
@@ -146,20 +151,28 @@ def stability_of_rounded(tableau: Tableau, tolerance: fmpq) -> Stability:
         found.append(one)
     algebraic = algebraic_within(tableau, tolerance) if found else None
     return Stability(
-        tableau, tuple(found), None, None, tolerance, algebraic_within=algebraic
+        tableau,
+        tuple(found),
+        None,
+        None,
+        tolerance,
+        algebraic_within=algebraic,
     )
 
 
 def _linear(tableau: Tableau) -> tuple[LinearStability, ...]:
     return tuple(
-        linear_stability(tableau, name, shares) for name, shares in _directions(tableau)
+        linear_stability(tableau, name, shares)
+        for name, shares in _directions(tableau)
     )
 
 
 def _directions(tableau: Tableau) -> list[tuple[str, list[Number]]]:
     """The directions of (λ_1, …, λ_N) that are looked at, with their names."""
     colours = range(tableau.size)
-    is_complete = all(tableau.block(l, m) is not None for l in colours for m in colours)
+    is_complete = all(
+        tableau.block(l, m) is not None for l in colours for m in colours
+    )
     if tableau.is_partitioned or not is_complete:
         return []
     found: list[tuple[str, list[Number]]] = [("all", [ONE] * tableau.size)]

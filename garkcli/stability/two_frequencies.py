@@ -180,13 +180,17 @@ def _reduced(polynomials: Sequence[Polynomial]) -> list[Polynomial]:
 def _like_an_oscillator(split: SplitSprings) -> Oscillator:
     """A split with the same terms in play, for the check of the structure."""
     shares = []
-    for kinetic, slow, fast in zip(split.kinetic, split.slow, split.fast, strict=True):
+    for kinetic, slow, fast in zip(
+        split.kinetic, split.slow, split.fast, strict=True
+    ):
         force = (slow + fast) / 2
         shares.append((kinetic, force))
     return Oscillator(ONE, tuple(shares))
 
 
-def _system(tableau: Tableau, split: SplitSprings, slow: fmpq, x: fmpq) -> StageSystem:
+def _system(
+    tableau: Tableau, split: SplitSprings, slow: fmpq, x: fmpq
+) -> StageSystem:
     # both springs are kept in the structure of the system, whatever their strengths
     fields = [split.matrix(colour, slow, x) for colour in tableau.colours]
     kept = [split.matrix(colour, ONE, ONE) for colour in tableau.colours]

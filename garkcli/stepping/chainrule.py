@@ -33,7 +33,9 @@ class _Layer:
     """Stage values or field evaluations that do not depend on each other."""
 
     stages: Sequence[Stage]
-    entries: Sequence[_Entry]  # of the matrix W whose sums of w f the stages are
+    entries: Sequence[
+        _Entry
+    ]  # of the matrix W whose sums of w f the stages are
     evaluations: Sequence[FieldEvaluation]
 
 
@@ -69,7 +71,11 @@ class ChainRule:
         inside = {*stages, *self.unknowns}
         arguments = []
         for evaluation in self.evaluations:
-            seen = [stage for stage in graph.arguments[evaluation] if stage in inside]
+            seen = [
+                stage
+                for stage in graph.arguments[evaluation]
+                if stage in inside
+            ]
             arguments += [(evaluation, stage) for stage in seen]
         self.arguments = tuple(arguments)
 
@@ -91,7 +97,9 @@ class ChainRule:
                     found.append((row, column, place))
         return found
 
-    def inverse(self, derivatives: Sequence[float], weights: Sequence[float]) -> Floats:
+    def inverse(
+        self, derivatives: Sequence[float], weights: Sequence[float]
+    ) -> Floats:
         """(I − J)⁻¹, shape (n, n).
 
         Args:
@@ -112,7 +120,9 @@ class ChainRule:
         w = np.array(weights)
         for layer in self._layers:
             if layer.entries:
-                found = _combined(len(layer.stages), layer.entries, w, of_fields)
+                found = _combined(
+                    len(layer.stages), layer.entries, w, of_fields
+                )
                 stages.update(zip(layer.stages, found, strict=True))
             for x in layer.evaluations:
                 total = np.zeros((d, n))

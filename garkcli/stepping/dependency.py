@@ -133,7 +133,9 @@ class DependencyGraph:
                 busiest = max(component, key=ways.__getitem__)
                 cut.add(busiest)
 
-    def _predecessors(self, stages: Sequence[Stage]) -> dict[Stage, set[Stage]]:
+    def _predecessors(
+        self, stages: Sequence[Stage]
+    ) -> dict[Stage, set[Stage]]:
         """Which of ``stages`` the evaluations look at that each of them sums."""
         inside = set(stages)
         before: dict[Stage, set[Stage]] = {}
@@ -190,7 +192,10 @@ def dependency_graph(tableau: Tableau, fields: Fields) -> DependencyGraph:
 
 
 def entry(
-    tableau: Tableau, entries: Entries, stage: Stage | None, value: FieldEvaluation
+    tableau: Tableau,
+    entries: Entries,
+    stage: Stage | None,
+    value: FieldEvaluation,
 ) -> Any:
     """The coefficient of ``value`` in a stage, an enclosure, or 0 where it is not seen; for no
     stage its weight.

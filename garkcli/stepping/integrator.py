@@ -17,8 +17,17 @@ from garkcli.problems.hamiltonian import FLOAT_DIGITS
 from garkcli.problems.oscillator import terms_of
 from garkcli.problems.problem import Problem
 from garkcli.problems.straightline import define, enclosed
-from garkcli.stepping.dependency import DependencyGraph, dependency_graph, entry
-from garkcli.stepping.fields import Fields, fields_of, stepped_terms, with_clock
+from garkcli.stepping.dependency import (
+    DependencyGraph,
+    dependency_graph,
+    entry,
+)
+from garkcli.stepping.fields import (
+    Fields,
+    fields_of,
+    stepped_terms,
+    with_clock,
+)
 from garkcli.stepping.matching import split_into
 from garkcli.stepping.newton import MAX_ITERATIONS
 from garkcli.stepping.program import Program, write
@@ -108,7 +117,11 @@ class Binding:
         """The steps with numbers of ``digits`` digits; floats up to ``FLOAT_DIGITS``."""
         digits = max(digits, FLOAT_DIGITS)
         is_for_balls = digits > FLOAT_DIGITS
-        program = self._program_for_balls if is_for_balls else self._program_for_floats
+        program = (
+            self._program_for_balls
+            if is_for_balls
+            else self._program_for_floats
+        )
         entries = numeric_entries(self.tableau, digits + 5)
         with _precision(digits):
             coefficients = tuple(
@@ -119,11 +132,18 @@ class Binding:
                 **enclosed(program.codes),
                 "NotSolved": NotSolved,
                 "nan": math.nan,
-                "precision": arb(10) ** -digits if is_for_balls else FLOAT_PRECISION,
+                "precision": arb(10) ** -digits
+                if is_for_balls
+                else FLOAT_PRECISION,
                 "iterations": MAX_ITERATIONS + (digits if is_for_balls else 0),
                 "inverted": _inverted,
-                **{f"chain{i}": chain.inverse for i, chain in program.chains.items()},
-                "corrections": _corrections_of_balls if is_for_balls else _corrections,
+                **{
+                    f"chain{i}": chain.inverse
+                    for i, chain in program.chains.items()
+                },
+                "corrections": _corrections_of_balls
+                if is_for_balls
+                else _corrections,
             }
             run = define(program.source, "run", names)
         return Integrator(self.problem, digits, program, coefficients, run)
@@ -136,11 +156,15 @@ class Binding:
     # one text serves any number of digits: its coefficients and constants have names
     @cached_property
     def _program_for_floats(self) -> Program:
-        return write(self.graph, self.fields, self.problem.layout, is_for_balls=False)
+        return write(
+            self.graph, self.fields, self.problem.layout, is_for_balls=False
+        )
 
     @cached_property
     def _program_for_balls(self) -> Program:
-        return write(self.graph, self.fields, self.problem.layout, is_for_balls=True)
+        return write(
+            self.graph, self.fields, self.problem.layout, is_for_balls=True
+        )
 
 
 def bind(tableau: Tableau, problem: Problem) -> Binding:

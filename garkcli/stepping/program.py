@@ -63,7 +63,9 @@ class Program:
         """Evaluations of vector fields in one iteration of each implicit block."""
         counts = []
         for block in self.implicit:
-            is_evaluation = [isinstance(x, FieldEvaluation) for x in block.order]
+            is_evaluation = [
+                isinstance(x, FieldEvaluation) for x in block.order
+            ]
             counts.append(sum(is_evaluation))
         return tuple(counts)
 
@@ -79,10 +81,16 @@ class _ProgramWriter:
     """Writes all of a step, with the help of those who write its parts."""
 
     def __init__(
-        self, graph: DependencyGraph, fields: Fields, layout: Layout, is_for_balls: bool
+        self,
+        graph: DependencyGraph,
+        fields: Fields,
+        layout: Layout,
+        is_for_balls: bool,
     ) -> None:
         self.body = Lines(_INSIDE)
-        self.stages = StageWriter(graph, fields, layout, is_for_balls, self.body)
+        self.stages = StageWriter(
+            graph, fields, layout, is_for_balls, self.body
+        )
         self.jacobians = JacobianWriter(self.stages)
         self.newton = NewtonWriter(self.stages, self.jacobians)
         self.graph = graph
@@ -91,7 +99,9 @@ class _ProgramWriter:
         self.is_for_balls = is_for_balls
         self.blocks = graph.blocks()
         self.implicit = tuple(block for block in self.blocks if block.unknowns)
-        self.unknowns = [stage for block in self.blocks for stage in block.unknowns]
+        self.unknowns = [
+            stage for block in self.blocks for stage in block.unknowns
+        ]
 
     def program(self) -> Program:
         """Write everything."""
@@ -119,7 +129,9 @@ class _ProgramWriter:
         lost = names("e", self.layout.total)
         components: list[str] = []
         for stage in self.unknowns:
-            components += [self.stages.component(stage, i) for i in range(self.d)]
+            components += [
+                self.stages.component(stage, i) for i in range(self.d)
+            ]
         missed = [f"m{c}" for c in components]
         changed = [f"n{c}" for c in components]
         state = ", ".join((*y, *lost, *missed, *changed))

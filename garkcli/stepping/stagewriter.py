@@ -102,10 +102,14 @@ class StageWriter:
                 self._place(vertex)
 
     def _evaluate(self, evaluation: FieldEvaluation) -> None:
-        components = self.fields[evaluation.colour, evaluation.group].components
+        components = self.fields[
+            evaluation.colour, evaluation.group
+        ].components
         code = self.code(components, evaluation, self.is_for_balls)
         prefix = f"f{self.number[evaluation]}_"
-        self.values[evaluation] = self.emit(code, self.arguments(evaluation), prefix)
+        self.values[evaluation] = self.emit(
+            code, self.arguments(evaluation), prefix
+        )
 
     def _place(self, stage: Stage) -> None:
         """The stage value itself, y_0 and the sum."""
@@ -157,13 +161,17 @@ class StageWriter:
             texts.append(" + ".join(parts))
         return Sum(terms, texts)
 
-    def _largest_part(self, terms: dict[FieldEvaluation, str], size: int) -> Sum:
+    def _largest_part(
+        self, terms: dict[FieldEvaluation, str], size: int
+    ) -> Sum:
         """The known sum with the most of these terms and no others; an empty one where none has
         two.
         """
         largest = Sum({}, [""] * size)
         for known in self._known_sums:
-            is_part = len(known.terms) > 1 and known.terms.items() <= terms.items()
+            is_part = (
+                len(known.terms) > 1 and known.terms.items() <= terms.items()
+            )
             if is_part and len(known.terms) > len(largest.terms):
                 largest = known
         return largest
@@ -189,7 +197,9 @@ class StageWriter:
         self.codes.append(made)
         return made
 
-    def emit(self, code: Code, arguments: Sequence[str], prefix: str) -> list[str]:
+    def emit(
+        self, code: Code, arguments: Sequence[str], prefix: str
+    ) -> list[str]:
         """Write ``code`` for these arguments; the names of its results."""
         lines, results = code.lines(arguments, prefix)
         for line in lines:

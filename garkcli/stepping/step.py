@@ -43,7 +43,8 @@ class StepFailed(GarkError):
                 "the solution may end there"
             )
         super().__init__(
-            f"step {number} of size {h}: {what} (residual {residual:.1e})", cure
+            f"step {number} of size {h}: {what} (residual {residual:.1e})",
+            cure,
         )
         self.number = number
         self.h = h
@@ -99,7 +100,10 @@ def trajectory(
 
 
 def integrate(
-    integrator: Integrator, h: fmpq, count: int, initial: Sequence[Any] | None = None
+    integrator: Integrator,
+    h: fmpq,
+    count: int,
+    initial: Sequence[Any] | None = None,
 ) -> list[Real]:
     """(q, p) after ``count`` steps; see ``trajectory``."""
     stepper = Stepper(integrator, h, initial)
@@ -129,7 +133,11 @@ class Stepper:
 
     def __post_init__(self) -> None:
         integrator = self.integrator
-        start = integrator.problem.initial if self.initial is None else self.initial
+        start = (
+            integrator.problem.initial
+            if self.initial is None
+            else self.initial
+        )
         with ctx.workprec(integrator.bits):
             numbers = [integrator.number(x) for x in start]
             # time begins at 0; nothing has been lost or missed before the first step
@@ -148,7 +156,8 @@ class Stepper:
         """What all steps so far have cost."""
         program = self.integrator.program
         repeated = sum(
-            n * k for n, k in zip(self._iterations, program.repeated, strict=True)
+            n * k
+            for n, k in zip(self._iterations, program.repeated, strict=True)
         )
         return Work(
             self.done * program.evaluations + repeated,
@@ -165,7 +174,9 @@ class Stepper:
         try:
             made = self._run(count, record)
         except NotSolved as failure:
-            raise StepFailed(failure.number, self.h, failure.residual) from None
+            raise StepFailed(
+                failure.number, self.h, failure.residual
+            ) from None
         self._numbers, iterations, jacobians = made
         pairs = zip(self._iterations, iterations, strict=True)
         self._iterations = [before + more for before, more in pairs]
@@ -179,6 +190,10 @@ class Stepper:
         integrator = self.integrator
         first = self.done + 1
         if not integrator.is_for_balls:
-            return integrator.run(self._numbers, self._weights, first, count, record)
+            return integrator.run(
+                self._numbers, self._weights, first, count, record
+            )
         with ctx.workprec(integrator.bits):
-            return integrator.run(self._numbers, self._weights, first, count, record)
+            return integrator.run(
+                self._numbers, self._weights, first, count, record
+            )

@@ -53,10 +53,14 @@ def _error(constants: ErrorConstants | None, is_largest: bool) -> float | None:
     if is_largest:
         if norms.worst_value is None:
             return 0.0
-        return abs(_rounded(ball_decimal(to_ball(norms.worst_value, 20), DIGITS)))
+        return abs(
+            _rounded(ball_decimal(to_ball(norms.worst_value, 20), DIGITS))
+        )
     if norms.two_squared is None:
         return None
-    return _rounded(ball_decimal(to_ball(norms.two_squared, 30).sqrt(), DIGITS))
+    return _rounded(
+        ball_decimal(to_ball(norms.two_squared, 30).sqrt(), DIGITS)
+    )
 
 
 def _rounded(text: str) -> float:
@@ -104,10 +108,26 @@ _PLAIN = (
         lambda m: _order(m.conjugate_order),
         "that of the symplectic conjugate",
     ),
-    Column("pair-order", lambda m: _order(m.pair_order), "that of the symplectic pair"),
-    Column("symplectic", lambda m: is_symplectic(m.tableau), "is it its own conjugate"),
-    Column("bound", lambda m: _bound(m.simplifying, False), "the paper's lower bound"),
-    Column("sharp-bound", lambda m: _bound(m.simplifying, True), "the sharper bound"),
+    Column(
+        "pair-order",
+        lambda m: _order(m.pair_order),
+        "that of the symplectic pair",
+    ),
+    Column(
+        "symplectic",
+        lambda m: is_symplectic(m.tableau),
+        "is it its own conjugate",
+    ),
+    Column(
+        "bound",
+        lambda m: _bound(m.simplifying, False),
+        "the paper's lower bound",
+    ),
+    Column(
+        "sharp-bound",
+        lambda m: _bound(m.simplifying, True),
+        "the sharper bound",
+    ),
     Column(
         "pair-bound",
         lambda m: _bound(m.pair_simplifying, False),
@@ -137,7 +157,9 @@ _PLAIN = (
         False,
     ),
     Column(
-        "phase-order", _phase_order, "the order of the phase error on the oscillator"
+        "phase-order",
+        _phase_order,
+        "the order of the phase error on the oscillator",
     ),
     Column("phase-constant", _phase_constant, "the constant of it", False),
     Column(
@@ -146,7 +168,9 @@ _PLAIN = (
         "stages of all stage spaces",
         False,
     ),
-    Column("colours", lambda m: m.tableau.size, "parts of the vector field", False),
+    Column(
+        "colours", lambda m: m.tableau.size, "parts of the vector field", False
+    ),
 )
 _LESS_IS_BETTER = {"implicit-stages", "fully-implicit", "reducible", "gamma"}
 
@@ -168,5 +192,8 @@ def property_kind(name: str) -> str:
         return find(name).kind
     if name == "symplectic":
         return "truth"
-    is_real = name.removeprefix("pair-").startswith("error") or name == "phase-constant"
+    is_real = (
+        name.removeprefix("pair-").startswith("error")
+        or name == "phase-constant"
+    )
     return "number" if is_real else "count"

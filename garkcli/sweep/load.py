@@ -21,7 +21,9 @@ def load_plan(path: str) -> Plan:
         Condition(name, cast(Relation, relation), bound)
         for name, relation, bound in text.conditions
     )
-    templates = tuple(Template(x.name, x.text, x.parameters) for x in text.templates)
+    templates = tuple(
+        Template(x.name, x.text, x.parameters) for x in text.templates
+    )
     criteria = Criteria(tuple(text.columns), conditions)
     best, pareto = tuple(text.best), tuple(text.pareto)
     return Plan(text.name, templates, text.grids, criteria, best, pareto)

@@ -157,7 +157,9 @@ class Plan:
             settings[name] = values[place]
         in_order = {name: settings[name] for name in template.parameters}
         values_text = ", ".join(f"{name}={x}" for name, x in in_order.items())
-        key = f"{template.name}; {values_text}" if values_text else template.name
+        key = (
+            f"{template.name}; {values_text}" if values_text else template.name
+        )
         return Point(key, template, in_order)
 
     def more_is_better(self, name: str) -> bool:

@@ -25,7 +25,9 @@ def pareto_front(rows: Sequence[Row], by: Sequence[str]) -> list[Row]:
     """The rows with all values that no other row surpasses: at least as good in every column and
     better in one.
     """
-    complete = [row for row in rows if all(row.get(name) is not None for name in by)]
+    complete = [
+        row for row in rows if all(row.get(name) is not None for name in by)
+    ]
     front: list[tuple[Row, tuple[float, ...]]] = []
     # whatever surpasses a row comes before it in lexicographic order
     for row in best_first(complete, by):

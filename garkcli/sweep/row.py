@@ -48,7 +48,10 @@ def row_of(criteria: Criteria, point: Point) -> Row:
 
 def crashed_row(criteria: Criteria, point: Point, why: str) -> Row:
     """The row of a method that ended the process it was judged in."""
-    return {**_start(criteria, point), "failure": f"its process was ended {why}"}
+    return {
+        **_start(criteria, point),
+        "failure": f"its process was ended {why}",
+    }
 
 
 def _start(criteria: Criteria, point: Point) -> Row:

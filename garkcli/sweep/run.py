@@ -104,7 +104,9 @@ def _side_by_side(
     with Crew(work, tasks, jobs, crashed) as crew:
         for _, result in crew.as_they_come():
             yield result
-    singles: list[Sequence[Point]] = [[point] for points in ended for point in points]
+    singles: list[Sequence[Point]] = [
+        [point] for points in ended for point in points
+    ]
     if singles:
         with Crew(work, singles, jobs, crashed) as crew:
             for _, result in crew.as_they_come():

@@ -87,7 +87,9 @@ class RowStore:
                 "--resume does what is missing in it; or choose another --rows",
             )
         whole = data.rfind(b"\n") + 1
-        for number, line in enumerate(bytes(data[:whole]).splitlines(), start=1):
+        for number, line in enumerate(
+            bytes(data[:whole]).splitlines(), start=1
+        ):
             row = self._row(line, number)
             self.rows.setdefault(str(row["key"]), row)
         if whole < len(data):

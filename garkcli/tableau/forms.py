@@ -79,7 +79,9 @@ def _row_sums(l: int, row: Sequence[Matrix | None], stages: int) -> Vector:
     return apply(block, PointSpace(block[0]).one)
 
 
-def additive(A: Sequence[Matrix], b: Sequence[Vector], c: Vector | None) -> Tableau:
+def additive(
+    A: Sequence[Matrix], b: Sequence[Vector], c: Vector | None
+) -> Tableau:
     """An additive method: one set of stages, a matrix and a row of weights a colour."""
     nodes = c
     if nodes is None:
@@ -161,7 +163,8 @@ def symplectic_pair(
     """
     if tableau.is_partitioned:
         raise MethodError(
-            "the method is partitioned already", "give the tableau of the positions"
+            "the method is partitioned already",
+            "give the tableau of the positions",
         )
     driven = {*velocities, *forces}
     used = [l for l in range(tableau.size) if l in driven]

@@ -41,7 +41,9 @@ class GarkMethod:
 
     @cached_property
     def _entries(self) -> Entries:
-        from garkcli.tableau import pointwise  # loaded when entries are asked for
+        from garkcli.tableau import (
+            pointwise,
+        )  # loaded when entries are asked for
 
         return pointwise.entries(self.tableau)
 

@@ -83,7 +83,9 @@ class PointSpace(StageSpace):
     def basis_polynomials(self) -> Iterator[Vector]:
         self._check_distinct()
         if is_rational((self.points,)):
-            yield from _rational_lagrange(cast("tuple[fmpq, ...]", self.points))
+            yield from _rational_lagrange(
+                cast("tuple[fmpq, ...]", self.points)
+            )
         else:
             yield from _lagrange(self.points)
 

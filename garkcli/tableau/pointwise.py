@@ -18,7 +18,14 @@ from garkcli.exact.display import to_ball
 from garkcli.exact.domain import Domain, square_free
 from garkcli.exact.enclosing import enclose
 from garkcli.exact.field import ONE, ZERO, Algebraic, Number
-from garkcli.exact.matrix import Matrix, Vector, apply, apply_left, identity, multiply
+from garkcli.exact.matrix import (
+    Matrix,
+    Vector,
+    apply,
+    apply_left,
+    identity,
+    multiply,
+)
 from garkcli.exact.nodes import Chain, Expression, Literal, Root
 from garkcli.tableau.method import Method
 from garkcli.tableau.point_space import PointSpace
@@ -198,7 +205,9 @@ class _Frame:
 
 
 def _at_points(
-    tableau: Tableau, radical_nodes: Mapping[int, Sequence[Expression]], domain: Domain
+    tableau: Tableau,
+    radical_nodes: Mapping[int, Sequence[Expression]],
+    domain: Domain,
 ) -> Tableau:
     """Blocks V_k A V_m⁻¹, weights b V⁻¹ and nodes V c, V the Vandermonde matrices of the nodes."""
     embed = _embedding(tableau, domain)
@@ -244,7 +253,9 @@ def _embedding(tableau: Tableau, domain: Domain) -> Callable[[Number], Number]:
             return number
         total: Number = ZERO
         coefficients = field.in_radicals(number)
-        for coefficient, word in zip(coefficients, field.monomials, strict=True):
+        for coefficient, word in zip(
+            coefficients, field.monomials, strict=True
+        ):
             term: Number = ONE * coefficient
             for index in word:
                 term = term * radicals[index]

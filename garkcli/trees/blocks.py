@@ -78,7 +78,9 @@ def iter_blocks(
     if block_size < 1:
         raise ValueError(f"a block holds at least one tree, not {block_size}")
     admissible = Admissible.of(colours, edges, linear)
-    wanted = [root for root in range(colours) if roots is None or root in roots]
+    wanted = [
+        root for root in range(colours) if roots is None or root in roots
+    ]
     lower = TreeTable.of(admissible, max(order - 1, 1))
     if order == 1:
         for root in wanted:
@@ -138,7 +140,9 @@ def select(
     bits[wanted] = 1 << np.arange(len(wanted))
     # for every tree of the lower orders which of the colours occur
     used: Column | None = None
-    for block in iter_blocks(colours, order, block_size, narrowed, linear, roots):
+    for block in iter_blocks(
+        colours, order, block_size, narrowed, linear, roots
+    ):
         if used is None:
             used = _used_by_all(block.lower, bits)
         occurring = _used(block.columns, bits, used)

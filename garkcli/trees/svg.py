@@ -18,10 +18,14 @@ STEP_Y = 36
 RADIUS = 11
 DIAMETER = 2 * RADIUS
 MARGIN = 16
-ROW_GAP = 24  # between the captions of one row and the highest tree of the next
+ROW_GAP = (
+    24  # between the captions of one row and the highest tree of the next
+)
 CAPTION_SIZE = 12  # type size of the captions, in pixels
 CAPTION_STEP = 17  # from one line of a caption to the next
-CHARACTER = 0.62 * CAPTION_SIZE  # width of a character of the captions, in pixels
+CHARACTER = (
+    0.62 * CAPTION_SIZE
+)  # width of a character of the captions, in pixels
 FONTS = "DejaVu Sans, Helvetica, Arial, sans-serif"
 Vertices: TypeAlias = "Sequence[Vertex]"
 Pixels: TypeAlias = list[float]

@@ -144,7 +144,9 @@ class ConditionClass:
         return Tree(self.centred.root, rest) == half
 
 
-def independent_classes(structure: Structure, order: int) -> Iterator[ConditionClass]:
+def independent_classes(
+    structure: Structure, order: int
+) -> Iterator[ConditionClass]:
     """The independent conditions of one order, each once, sorted by the trees rooted at the
     centroid.
 
@@ -163,7 +165,9 @@ def independent_classes(structure: Structure, order: int) -> Iterator[ConditionC
             yield ConditionClass(tree, structure)
 
 
-def superfluous_classes(structure: Structure, order: int) -> Iterator[ConditionClass]:
+def superfluous_classes(
+    structure: Structure, order: int
+) -> Iterator[ConditionClass]:
     """The free trees u∘u of one order, whose conditions hold once those of lower order do; none for
     a pair.
 

@@ -51,7 +51,9 @@ class TreeTable:
     # [order - 1][root]: the first id; one more entry for the end
     starts: tuple[tuple[int, ...], ...]
     segments: tuple[Segment, ...]
-    _texts: dict[bool, Texts] = field(default_factory=dict, repr=False, compare=False)
+    _texts: dict[bool, Texts] = field(
+        default_factory=dict, repr=False, compare=False
+    )
 
     @classmethod
     def upto(
@@ -80,7 +82,9 @@ class TreeTable:
         segments: list[Segment] = []
         for n in range(2, order + 1):
             segments += _fill(columns, admissible, starts, n)
-        return cls(admissible, order, columns.freeze(), starts, tuple(segments))
+        return cls(
+            admissible, order, columns.freeze(), starts, tuple(segments)
+        )
 
     def __len__(self) -> int:
         return len(self.columns)
@@ -135,7 +139,9 @@ class TreeTable:
     def tree(self, tree_id: int) -> Tree:
         """The tree with an id; raises ``IndexError`` when there is none."""
         if not 0 <= tree_id < len(self):
-            raise IndexError(f"no tree {tree_id} in a table of {len(self)} trees")
+            raise IndexError(
+                f"no tree {tree_id} in a table of {len(self)} trees"
+            )
         stem = self.columns.stem
         branch = self.columns.branch
         branches = []
@@ -146,7 +152,9 @@ class TreeTable:
         root = int(self.columns.root[u])
         return Tree(root, branches)
 
-    def notation(self, ids: Iterable[int] | Column, colours: bool = True) -> list[str]:
+    def notation(
+        self, ids: Iterable[int] | Column, colours: bool = True
+    ) -> list[str]:
         """Bracket text of many trees, the same as ``format_tree``, built from the texts of their
         parents.
         """
@@ -176,7 +184,9 @@ def _too_large(size: int, colours: int, order: int) -> TableTooLarge:
     )
 
 
-def first_ids(admissible: Admissible, order: int) -> tuple[tuple[int, ...], ...]:
+def first_ids(
+    admissible: Admissible, order: int
+) -> tuple[tuple[int, ...], ...]:
     """The first id of each order and root colour, as in ``TreeTable.starts``."""
     starts: list[tuple[int, ...]] = []
     first = 0
@@ -209,7 +219,9 @@ def segments_of(
             if not len(growth):
                 continue
             ids = range(start, start + len(growth))
-            segment = Segment(order, root, branch_order, colour, ids, stems, branches)
+            segment = Segment(
+                order, root, branch_order, colour, ids, stems, branches
+            )
             made.append((segment, growth))
             start = ids.stop
     return made

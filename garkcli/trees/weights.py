@@ -139,7 +139,9 @@ class _Evaluation:
         b = self.weights[root]
         stem_order = segment.order - segment.branch_order
         stems = self.vectors[stem_order, root]
-        branches = self.applied[space, segment.branch_order, segment.branch_root]
+        branches = self.applied[
+            space, segment.branch_order, segment.branch_root
+        ]
         first_stem = segment.stems.start
         first_branch = segment.branches.start
         ids = segment.ids

@@ -13,7 +13,13 @@ from flint import fmpq, fmpq_mat, fmpz
 from hypothesis import assume, given, settings
 from hypothesis import strategies as st
 
-from garkcli import MethodFileError, diagonal_method, find_order, from_arrays, loads
+from garkcli import (
+    MethodFileError,
+    diagonal_method,
+    find_order,
+    from_arrays,
+    loads,
+)
 from garkcli.errors import MethodError
 from garkcli.exact.display import to_text
 from garkcli.families.registry import FAMILIES
@@ -53,7 +59,9 @@ def test_entries_go_round(
     made = from_arrays(A, b)
     assert [[Fraction(int(x.p), int(x.q)) for x in row] for row in made.A] == A
     assert [Fraction(int(x.p), int(x.q)) for x in made.b] == b
-    assert [Fraction(int(x.p), int(x.q)) for x in made.c] == [sum(row) for row in A]
+    assert [Fraction(int(x.p), int(x.q)) for x in made.c] == [
+        sum(row) for row in A
+    ]
     assert from_arrays(made.A, made.b, made.c).tableau == made.tableau
     assert loads(made.text).tableau == made.tableau
 
@@ -84,7 +92,10 @@ def kinds() -> dict[str, tuple[Any, Any]]:
         "floats": ([[0.0, 0.0], [0.5, 0.0]], [0.0, 1.0]),
         "Decimals": ([[0, 0], [Decimal("0.5"), 0]], [Decimal(0), Decimal(1)]),
         "FLINT": ([[fmpz(0), 0], [fmpq(1, 2), 0]], [fmpz(0), fmpq(1)]),
-        "FLINT's matrices": (fmpq_mat([[0, 0], [fmpq(1, 2), 0]]), fmpq_mat([[0, 1]])),
+        "FLINT's matrices": (
+            fmpq_mat([[0, 0], [fmpq(1, 2), 0]]),
+            fmpq_mat([[0, 1]]),
+        ),
         "NumPy": (np.array([[0, 0], [0.5, 0]]), np.array([0, 1])),
         "NumPy's objects": (
             np.array([[0, 0], [Fraction(1, 2), 0]], dtype=object),
@@ -99,8 +110,14 @@ def kinds() -> dict[str, tuple[Any, Any]]:
             [0, 1],
         ),
         "SymPy": ([[0, 0], [half, 0]], [sympy.Integer(0), sympy.S.One]),
-        "SymPy's matrices": (sympy.Matrix([[0, 0], [half, 0]]), sympy.Matrix([0, 1])),
-        "generators": ((row for row in ((0, 0), (Fraction(1, 2), 0))), iter([0, 1])),
+        "SymPy's matrices": (
+            sympy.Matrix([[0, 0], [half, 0]]),
+            sympy.Matrix([0, 1]),
+        ),
+        "generators": (
+            (row for row in ((0, 0), (Fraction(1, 2), 0))),
+            iter([0, 1]),
+        ),
         "a triangle": ([[], [Fraction(1, 2)]], [0, 1]),
     }
 
@@ -119,7 +136,8 @@ def test_radicals_of_sympy_stay_exact() -> None:
     x = sympy.sqrt(3) / 6
     quarter, half = sympy.Rational(1, 4), sympy.Rational(1, 2)
     made = from_arrays(
-        sympy.Matrix([[quarter, quarter - x], [quarter + x, quarter]]), [half, half]
+        sympy.Matrix([[quarter, quarter - x], [quarter + x, quarter]]),
+        [half, half],
     )
     wanted = diagonal_method("gauss", 2).A
     assert [[to_text(x) for x in row] for row in made.A] == [
@@ -164,7 +182,9 @@ def test_rounded_floats_ask_for_a_tolerance() -> None:
     x = 3**0.5 / 6
     A, b = [[0.25, 0.25 - x], [0.25 + x, 0.25]], [0.5, 0.5]
     with pytest.raises(MethodError, match="rounded number"):
-        from_arrays([[5e-324]], [1])  # the only digit that so small a float has
+        from_arrays(
+            [[5e-324]], [1]
+        )  # the only digit that so small a float has
     with pytest.raises(MethodError, match="rounded number") as caught:
         from_arrays(A, b)
     assert caught.value.message.startswith("A[0][1]")

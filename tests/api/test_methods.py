@@ -58,7 +58,9 @@ def test_every_kind_of_method_is_taken(kind: str) -> None:
     assert find_order(pair(method)).order == 4
     assert simplifying(method).B == (4,)
     assert elementary_weight(method, tree) == fmpq(1, tree.density)
-    assert all(not condition.residual for condition in conditions(method, _trees()))
+    assert all(
+        not condition.residual for condition in conditions(method, _trees())
+    )
 
 
 def _trees() -> list[garkcli.Tree]:
@@ -112,7 +114,10 @@ def test_convergence_takes_a_method() -> None:
 
 def test_gark_puts_diagonal_methods_together() -> None:
     """By a rule, or with the blocks that the rule makes; and what does not go is refused."""
-    gauss, lobatto = diagonal_method("gauss", 2), diagonal_method("lobatto-iiia", 3)
+    gauss, lobatto = (
+        diagonal_method("gauss", 2),
+        diagonal_method("lobatto-iiia", 3),
+    )
     l, m = of_registry("gauss", 2), of_registry("lobatto-iiia", 3)
     rule = RULES["interpolation"]
     wanted = gark([l, m], {(0, 1): rule(l, m), (1, 0): rule(m, l)})
@@ -125,7 +130,9 @@ def test_gark_puts_diagonal_methods_together() -> None:
 
 def test_what_is_no_method_is_refused() -> None:
     """A path, or nothing at all, is no method; the error says how to get one."""
-    with pytest.raises(MethodError, match="a method is expected, not str") as caught:
+    with pytest.raises(
+        MethodError, match="a method is expected, not str"
+    ) as caught:
         find_order("methods/rk4.gark.yaml")  # type: ignore[arg-type]
     assert "load(path)" in caught.value.help
     with pytest.raises(MethodError, match="NoneType"):

@@ -47,7 +47,10 @@ def _bracket(f: fmpq_mpoly, g: fmpq_mpoly) -> fmpq_mpoly:
 
 def _in_ring(formula: Any, problem: Hamiltonian) -> fmpq_mpoly:
     """A formula of sympy in x, p, sin x, cos x."""
-    (x,), (p,) = symbols(problem.variables, "q"), symbols(problem.variables, "p")
+    (x,), (p,) = (
+        symbols(problem.variables, "q"),
+        symbols(problem.variables, "p"),
+    )
     s, c = sympy.symbols("s c")
     written = sympy.sympify(formula).subs({sympy.sin(x): s, sympy.cos(x): c})
     polynomial = sympy.Poly(written, x, p, s, c)
@@ -101,9 +104,7 @@ def test_symplectic_euler_has_all_powers() -> None:
     """A method that is not symmetric, on a quartic oscillator: also the odd powers, with the sign
     of the order in which the flows are composed.
     """
-    euler = (
-        "{prk: {q: {A: [[0]], b: [1]}, p: {A: [[1]], b: [1]}}, structure: separable}"
-    )
+    euler = "{prk: {q: {A: [[0]], b: [1]}, p: {A: [[1]], b: [1]}}, structure: separable}"
     (x,), (p,) = symbols(("x",), "q"), symbols(("x",), "p")
     problem = Hamiltonian(
         "quartic", ("x",), (p**2 / 2, x**4 / 4), (fmpq(1), fmpq(0)), fmpq(1)
@@ -131,9 +132,13 @@ def test_a_composition() -> None:
     flows = _yoshida()
     kicks = [c for c, letter in flows if letter == "U"]
     drifts = [c for c, letter in flows if letter == "T"]
-    A_q = [[c if j < i else 0 for j, c in enumerate(drifts)] for i in range(len(kicks))]
+    A_q = [
+        [c if j < i else 0 for j, c in enumerate(drifts)]
+        for i in range(len(kicks))
+    ]
     A_p = [
-        [c if j <= i else 0 for j, c in enumerate(kicks)] for i in range(len(drifts))
+        [c if j <= i else 0 for j, c in enumerate(kicks)]
+        for i in range(len(drifts))
     ]
     text = f"""
 prk:

@@ -87,7 +87,9 @@ class _Polynomials:
                 total[key] += value * (b / tree.symmetry)
         return total
 
-    def flow(self, fields: Sequence[Field]) -> dict[series.Component, list[fmpq]]:
+    def flow(
+        self, fields: Sequence[Field]
+    ) -> dict[series.Component, list[fmpq]]:
         """x(h) from 0 for h f̃ = Σ h^n fields[n − 1]: Σ_j 1/j! (Σ h^n L_n)^j x."""
         order = len(fields)
         origin = [fmpq(0)] * len(self.components)
@@ -98,7 +100,9 @@ class _Polynomials:
             for j in range(order + 1):
                 for k, value in enumerate(levels):
                     values[k] += value(*origin) / factorial(j)
-                levels = [self._lie(fields, levels, k) for k in range(order + 1)]
+                levels = [
+                    self._lie(fields, levels, k) for k in range(order + 1)
+                ]
             found[key] = values
         return found
 
@@ -147,7 +151,9 @@ def test_its_flow_is_the_step_of_other_forms() -> None:
     coupled = everywhere(interpolation, "gauss 1", "lobatto-iiia 2")
     _check_on_a_random_field(coupled, 4)
     _check_on_a_random_field(pair(coupled), 3)
-    ark = "{ark: {A: [[[0, 0], [1, 0]], [[0, 0], [0, 1]]], b: [[0, 1], [0, 1]]}}"
+    ark = (
+        "{ark: {A: [[[0, 0], [1, 0]], [[0, 0], [0, 1]]], b: [[0, 1], [0, 1]]}}"
+    )
     _check_on_a_random_field(loads(ark).tableau, 4)
 
 
@@ -170,10 +176,14 @@ def test_known_coefficients() -> None:
     midpoint = modified_equation(loads("{A: [[1/2]], b: [1]}").tableau, 4)
     assert str(midpoint[parse_tree("[[],[]]")]) == "-1/12"
     assert str(midpoint[parse_tree("[[[]]]")]) == "1/12"
-    assert not list(midpoint.terms(4))  # a symmetric method has odd orders alone
+    assert not list(
+        midpoint.terms(4)
+    )  # a symmetric method has odd orders alone
 
 
-@pytest.mark.parametrize("path", ["rk4", "collocation", "rectangular", "ark-ars222"])
+@pytest.mark.parametrize(
+    "path", ["rk4", "collocation", "rectangular", "ark-ars222"]
+)
 def test_the_order_is_that_of_the_certificate(path: str) -> None:
     """The first order with a coefficient is one above the order of the method."""
     tableau = load(f"methods/{path}.gark.yaml").tableau
@@ -197,7 +207,9 @@ FOREST = Forest.of(Admissible.of(2, [[True, True], [True, False]]), 4)
 
 def _random_coefficients(seed: int) -> list[fmpq]:
     dice = Random(seed)
-    return [fmpq(dice.randint(-4, 4), dice.choice([1, 2, 3])) for _ in FOREST.trees]
+    return [
+        fmpq(dice.randint(-4, 4), dice.choice([1, 2, 3])) for _ in FOREST.trees
+    ]
 
 
 COEFFICIENTS = st.integers(0, 10**9).map(_random_coefficients)
@@ -213,7 +225,9 @@ def test_logarithm_and_exponential(b: list[fmpq]) -> None:
 
 @given(COEFFICIENTS, COEFFICIENTS, COEFFICIENTS)
 @settings(max_examples=20, deadline=None)
-def test_the_product_is_pre_lie(a: list[fmpq], b: list[fmpq], c: list[fmpq]) -> None:
+def test_the_product_is_pre_lie(
+    a: list[fmpq], b: list[fmpq], c: list[fmpq]
+) -> None:
     """(a ◁ b) ◁ c − a ◁ (b ◁ c) is symmetric in b and c: the second derivative of a field along two
     others.
     """
@@ -252,7 +266,9 @@ def test_too_many_trees() -> None:
 
 def test_trees_that_are_not_there() -> None:
     """A tree that the method does not see has no coefficient, one that is too large no answer."""
-    equation = modified_equation(load("methods/stoermer-verlet.gark.yaml").tableau, 3)
+    equation = modified_equation(
+        load("methods/stoermer-verlet.gark.yaml").tableau, 3
+    )
     assert not equation[Tree(0, [Tree(0)])]
     with pytest.raises(KeyError):
         equation[Tree(0, [Tree(1), Tree(1), Tree(1)])]

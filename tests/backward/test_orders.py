@@ -81,7 +81,9 @@ def test_orders_of_symplecticity_and_energy(text: str, limit: int) -> None:
     structure = hamiltonian_structure(tableau)
     assert structure is not None
     problem = oracle.random_problem(tableau, limit + 1, seed=3)
-    assert symplectic_order(equation, structure) == oracle.symplectic_order(problem)
+    assert symplectic_order(equation, structure) == oracle.symplectic_order(
+        problem
+    )
     assert energy_order(equation, structure) == oracle.energy_order(problem)
 
 
@@ -157,7 +159,9 @@ def _check_hamiltonian(tableau: Tableau, order: int) -> None:
     change = problem.cut(changes[1] - changes[0])
     assert oracle.lowest_power([change], order + 1) == order + 1
     if equation.order < order:
-        assert oracle.energy_order(problem) < order  # H itself is not kept so well
+        assert (
+            oracle.energy_order(problem) < order
+        )  # H itself is not kept so well
 
 
 @pytest.mark.parametrize(
@@ -205,7 +209,9 @@ def test_elementary_hamiltonians_are_their_gradients() -> None:
 
 def test_no_structure() -> None:
     """Where roots cannot move there is no order of symplecticity."""
-    one_way = "{tableau: {A: [[[[1/2]], [[1/2]]], [null, [[1/2]]]], b: [[1], [1]]}}"
+    one_way = (
+        "{tableau: {A: [[[[1/2]], [[1/2]]], [null, [[1/2]]]], b: [[1], [1]]}}"
+    )
     assert hamiltonian_structure(loads(one_way).tableau) is None
 
 
@@ -220,7 +226,9 @@ def test_random_pairs_have_a_modified_hamiltonian(seed: int) -> None:
         return str(fmpq(dice.randint(-3, 3), dice.choice([2, 3])))
 
     def block(rows: int, columns: int) -> str:
-        text = [", ".join(small() for _ in range(columns)) for _ in range(rows)]
+        text = [
+            ", ".join(small() for _ in range(columns)) for _ in range(rows)
+        ]
         return "[" + ", ".join(f"[{row}]" for row in text) + "]"
 
     stages = [2, 1]

@@ -26,14 +26,18 @@ def test_collocation_pair(
     file.write_text(f"methods: {methods}\ntransfer: collocation\n")
     command = [*GARK, "check", str(file), "--format", "json"]
     found = json.loads(
-        subprocess.run(command, check=True, capture_output=True, text=True).stdout
+        subprocess.run(
+            command, check=True, capture_output=True, text=True
+        ).stdout
     )["files"][0]
     assert (found["order"], found["conjugate_order"], found["pair_order"]) == (
         order,
         order,
         order,
     )
-    time = seconds(lambda: subprocess.run(command, check=True, capture_output=True), 3)
+    time = seconds(
+        lambda: subprocess.run(command, check=True, capture_output=True), 3
+    )
     memory = peak_of_children()
     report(
         f"gark check, Gauss {gauss} and Lobatto {gauss + 1} / {limit:g} s",
@@ -42,5 +46,8 @@ def test_collocation_pair(
         f"{time:.3f} s",
     )
     report(
-        f"its memory / {megabytes:g} MB", memory / megabytes, 1.0, f"{memory:.0f} MB"
+        f"its memory / {megabytes:g} MB",
+        memory / megabytes,
+        1.0,
+        f"{memory:.0f} MB",
     )

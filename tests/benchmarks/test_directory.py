@@ -17,7 +17,13 @@ from garkcli.methodfile.load import load
 from garkcli.order.certificate import find_order
 from garkcli.tableau.tableau import Tableau
 from garkcli.transfer import PAIR_RULES, RULES
-from tests.benchmarks.measuring import GARK, interleaved, process, report, seconds
+from tests.benchmarks.measuring import (
+    GARK,
+    interleaved,
+    process,
+    report,
+    seconds,
+)
 from tests.catalogue.catalogue import entries
 from tests.catalogue.method_files import method_file
 
@@ -32,7 +38,11 @@ MEMBERS = [
 def family_files() -> list[str]:
     """Pairs of Gauss, Radau and Lobatto methods of 2 to 4 stages, coupled by every rule in turn."""
     rules = (*RULES, *PAIR_RULES)
-    pairs = [(one, other) for one, other in product(MEMBERS, MEMBERS) if one != other]
+    pairs = [
+        (one, other)
+        for one, other in product(MEMBERS, MEMBERS)
+        if one != other
+    ]
     return [
         f"methods: [{one}, {other}]\ntransfer: {rules[k % len(rules)]}\n"
         for k, (one, other) in enumerate(pairs)
@@ -53,7 +63,9 @@ def rational_file(k: int) -> str:
             else "0"
         )
 
-    rows = ", ".join(f"[{', '.join(entry(i, j) for j in range(s))}]" for i in range(s))
+    rows = ", ".join(
+        f"[{', '.join(entry(i, j) for j in range(s))}]" for i in range(s)
+    )
     weights = ", ".join(f"{2 * (i + 1)}/{s * (s + 1)}" for i in range(s))
     return f"methods: [{{A: [{rows}], b: [{weights}]}}]\n"
 
@@ -88,7 +100,9 @@ def test_a_directory_costs_its_certificates(directory: Path) -> None:
     orders = seconds(lambda: [find_order(tableau) for tableau in tableaus], 3)
     start = seconds(process([*GARK, "check", str(paths[0])]), 5)
     whole = seconds(process([*GARK, "check", str(directory)]), 3)
-    detail = f"{whole:.2f} s, certificates {orders:.2f} s, start-up {start:.2f} s"
+    detail = (
+        f"{whole:.2f} s, certificates {orders:.2f} s, start-up {start:.2f} s"
+    )
     report(
         f"gark check of {FILES} files / certificates and start-up",
         whole / (orders + start),
@@ -119,9 +133,16 @@ def test_the_catalogue_in_one_call(tmp_path: Path) -> None:
         )
     start = perf_counter()
     done = subprocess.run(
-        [*GARK, "check", "-j", "2", str(tmp_path)], capture_output=True, text=True
+        [*GARK, "check", "-j", "2", str(tmp_path)],
+        capture_output=True,
+        text=True,
     )
     time = perf_counter() - start
     assert done.returncode == 0, done.stdout[-2000:]
     assert "94 files, 94 claims: all hold" in done.stdout
-    report("gark check -j 2 of the catalogue / 20 s", time / 20, 1.0, f"{time:.1f} s")
+    report(
+        "gark check -j 2 of the catalogue / 20 s",
+        time / 20,
+        1.0,
+        f"{time:.1f} s",
+    )

@@ -4,7 +4,13 @@ from __future__ import annotations
 
 import pytest
 
-from tests.benchmarks.measuring import GARK, PYTHON, interleaved, process, report
+from tests.benchmarks.measuring import (
+    GARK,
+    PYTHON,
+    interleaved,
+    process,
+    report,
+)
 
 SYMPY = process([*PYTHON, "-c", "import sympy"])
 

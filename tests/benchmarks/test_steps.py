@@ -68,7 +68,9 @@ def test_kepler_against_scipy() -> None:
     ours = {n: _ours(n) for n in PER_PERIOD}
     theirs = [_scipy("DOP853", 2.3e-14, 1e-16), _scipy("LSODA", 1e-13, 1e-13)]
     (seconds, error), best = ours[110], min(theirs, key=_a_digit)
-    detail = f"{seconds:.2f} s to {error:.1e}, {best[0]:.1f} s to {best[1]:.1e}"
+    detail = (
+        f"{seconds:.2f} s to {error:.1e}, {best[0]:.1f} s to {best[1]:.1e}"
+    )
     report(
         "Kepler to 1e-8, time a digit / scipy",
         _a_digit(ours[110]) / _a_digit(best),
@@ -78,7 +80,12 @@ def test_kepler_against_scipy() -> None:
     (seconds, error), fastest = ours[60], min(theirs)
     assert error < fastest[1]
     detail = f"{seconds:.2f} s to {error:.1e}, {fastest[0]:.1f} s to {fastest[1]:.1e}"
-    report("Kepler at equal error, time / scipy", seconds / fastest[0], 1.0, detail)
+    report(
+        "Kepler at equal error, time / scipy",
+        seconds / fastest[0],
+        1.0,
+        detail,
+    )
 
 
 def _a_digit(run: tuple[float, float]) -> float:
@@ -96,9 +103,13 @@ def _ours(per_period: int) -> tuple[float, float]:
             encoding="utf-8"
         )
     )
-    made = bind(loads(method_file(entry)).tableau, hamiltonian("kepler", 2)).at()
+    made = bind(
+        loads(method_file(entry)).tableau, hamiltonian("kepler", 2)
+    ).at()
     with ctx.workprec(120):
-        period = fmpq(int((2 * arb.pi() * 10**30).floor().unique_fmpz()), 10**30)
+        period = fmpq(
+            int((2 * arb.pi() * 10**30).floor().unique_fmpz()), 10**30
+        )
     h = period / per_period
     start = process_time()
     state = Stepper(made, h)
@@ -134,10 +145,18 @@ def _scipy(method: str, rtol: float, atol: float) -> tuple[float, float]:
     times = [2 * pi * k for k in (PERIODS // 100, PERIODS)]
     start = process_time()
     solved = solve_ivp(
-        field, (0, times[-1]), START, method=method, rtol=rtol, atol=atol, t_eval=times
+        field,
+        (0, times[-1]),
+        START,
+        method=method,
+        rtol=rtol,
+        atol=atol,
+        t_eval=times,
     )
     seconds = process_time() - start
-    early, late = (abs(energy(y.tolist()) - energy(list(START))) for y in solved.y.T)
+    early, late = (
+        abs(energy(y.tolist()) - energy(list(START))) for y in solved.y.T
+    )
     error = float(np.linalg.norm(solved.y[:, -1] - START))
     print(
         f"  scipy {method}: {seconds:.1f} s, error {error:.1e}; energy error {early:.1e}, then {late:.1e}"

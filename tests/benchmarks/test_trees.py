@@ -59,12 +59,15 @@ def test_weights() -> None:
     entries = numeric_entries(tableau)
     rows = [colour.space for colour in tableau.colours]
     blocks = {
-        (rows[l], m): np.array(entries.A[l][m], dtype=float) for l, m in tableau.edges()
+        (rows[l], m): np.array(entries.A[l][m], dtype=float)
+        for l, m in tableau.edges()
     }
     weights = [np.array(row, dtype=float) for row in entries.b]
     table = TreeTable.upto(4, 7, edges, linear)
     making = seconds(lambda: TreeTable.upto(4, 7, edges, linear), 7)
-    weighing = seconds(lambda: elementary_weights(table, rows, blocks, weights), 7)
+    weighing = seconds(
+        lambda: elementary_weights(table, rows, blocks, weights), 7
+    )
     report(
         "weights / table, 4 colours to order 7",
         weighing / making,

@@ -17,7 +17,9 @@ def method_file(entry: Entry) -> str:
         f"reference: {_quoted(entry['source'])}",
     ]
     if entry["problem_class"] != "general":
-        structure = "nystrom" if entry["problem_class"] == "rkn" else "separable"
+        structure = (
+            "nystrom" if entry["problem_class"] == "rkn" else "separable"
+        )
         lines += [f"structure: {structure}", "prk:"]
         for part, drives, at in (("q", 0, 1), ("p", 1, 0)):
             lines += [f"  {part}:", f"    A: {_list(blocks['A'][at][drives])}"]
@@ -26,10 +28,17 @@ def method_file(entry: Entry) -> str:
                 f"    c: {_list(blocks['c'][at])}",
             ]
     elif entry["kind"] == "ark":
-        lines += ["ark:", f"  A: {_list(blocks['A'][0])}", f"  b: {_list(blocks['b'])}"]
+        lines += [
+            "ark:",
+            f"  A: {_list(blocks['A'][0])}",
+            f"  b: {_list(blocks['b'])}",
+        ]
         lines += [f"  c: {_list(blocks['c'][0])}"]
     else:
-        lines += ["tableau:", *(f"  {key}: {_list(blocks[key])}" for key in "Abc")]
+        lines += [
+            "tableau:",
+            *(f"  {key}: {_list(blocks[key])}" for key in "Abc"),
+        ]
     if not entry["exact"]:
         lines.append(f"tolerance: {entry['rounding']}")
     return "\n".join([*lines, f"expect: {{order: {order}}}", ""])

@@ -32,7 +32,8 @@ def test_the_catalogue_is_whole() -> None:
     keys |= {"rounding", "source", "notes", "blocks"}
     assert len(ENTRIES) == 94
     assert all(
-        set(entry) == keys and entry["name"] == name for name, entry in ENTRIES.items()
+        set(entry) == keys and entry["name"] == name
+        for name, entry in ENTRIES.items()
     )
     assert len(EXACT) == 46
 
@@ -84,7 +85,9 @@ def test_rounded_methods_have_their_verified_order_within_their_rounding(
             ]
 
         order, rounding = entry["verified_order"], arb(entry["rounding"])
-        assert all(x < rounding for n in range(1, order + 1) for x in residuals(n))
+        assert all(
+            x < rounding for n in range(1, order + 1) for x in residuals(n)
+        )
         assert any(x > 100 * rounding for x in residuals(order + 1))
 
 

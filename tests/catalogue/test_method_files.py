@@ -34,14 +34,19 @@ def test_one_call_over_the_directory(tmp_path: Path) -> None:
     assert run.code == 0, run.err
     files = json.loads(run.out)["files"]
     assert {
-        Path(x["file"]).name.removesuffix(".gark.yaml"): x["order"] for x in files
+        Path(x["file"]).name.removesuffix(".gark.yaml"): x["order"]
+        for x in files
     } == {name: entry["verified_order"] for name, entry in ENTRIES.items()}
-    assert [x["exact"] for x in files] == [entry["exact"] for entry in ENTRIES.values()]
+    assert [x["exact"] for x in files] == [
+        entry["exact"] for entry in ENTRIES.values()
+    ]
 
 
 def _floats(rows: Iterable[Iterable[Any]]) -> Any:
     """Double precision: ``long double`` has as many bits as the machine likes."""
-    return np.array([[float(x.str(25, radius=False)) for x in row] for row in rows])
+    return np.array(
+        [[float(x.str(25, radius=False)) for x in row] for row in rows]
+    )
 
 
 @pytest.mark.parametrize("name", ENTRIES)
@@ -59,7 +64,10 @@ def test_brute_force_over_the_table_in_floats(name: str) -> None:
     table = TreeTable.upto(tableau.size, order + 1, edges, linear)
     printed = numeric_entries(tableau, 25)
     rows = [colour.space for colour in tableau.colours]
-    blocks = {(rows[l], m): _floats(printed.A[l][m] or ()) for l, m in tableau.edges()}
+    blocks = {
+        (rows[l], m): _floats(printed.A[l][m] or ())
+        for l, m in tableau.edges()
+    }
     weights = [_floats([row])[0] for row in printed.b]
     found = elementary_weights(table, rows, blocks, weights)
     sizes = elementary_weights(

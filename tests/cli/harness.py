@@ -71,7 +71,9 @@ def gark(
 
 def _stream(encoding: str) -> io.TextIOWrapper | io.StringIO:
     return (
-        io.TextIOWrapper(io.BytesIO(), encoding=encoding) if encoding else io.StringIO()
+        io.TextIOWrapper(io.BytesIO(), encoding=encoding)
+        if encoding
+        else io.StringIO()
     )
 
 

@@ -54,7 +54,9 @@ class Project:
     def write(self, **files: str) -> None:
         """Write files; ``m`` is ``m.gark.yaml``."""
         for name, text in files.items():
-            (self.folder / f"{name}.gark.yaml").write_text(text, encoding="utf-8")
+            (self.folder / f"{name}.gark.yaml").write_text(
+                text, encoding="utf-8"
+            )
 
     def compare(self, **files: str) -> Run:
         """What ``--baseline`` says once these files are written."""
@@ -65,7 +67,11 @@ class Project:
 def test_the_same_files_are_not_worse(tmp_path: Path) -> None:
     """Files that hold, fail and cannot be read are no worse than themselves: exit code 0."""
     run = Project(tmp_path, a=HOLDS, b=FAILS, c=BROKEN).compare()
-    assert (run.code, run.out, run.err) == (0, "3 files: nothing got worse\n", "")
+    assert (run.code, run.out, run.err) == (
+        0,
+        "3 files: nothing got worse\n",
+        "",
+    )
 
 
 def test_a_claim_that_held_fails(tmp_path: Path) -> None:
@@ -176,7 +182,9 @@ def test_a_baseline_that_is_a_method_file(tmp_path: Path) -> None:
 # -----------------------------------------------------------------------------------------------
 
 
-def process(*arguments: str, stdin: str = "") -> subprocess.CompletedProcess[str]:
+def process(
+    *arguments: str, stdin: str = ""
+) -> subprocess.CompletedProcess[str]:
     """``gark check`` as a process, as workers are forked from it."""
     command = [sys.executable, "-m", "garkcli", "check", *arguments]
     environment = {**os.environ, "PYTHONPATH": str(ROOT), "COLUMNS": "80"}
@@ -207,7 +215,10 @@ def process(*arguments: str, stdin: str = "") -> subprocess.CompletedProcess[str
         ),
         (
             ("--format", "text"),
-            ("tests/examples/failing", "tests/examples/invalid/octal.gark.yaml"),
+            (
+                "tests/examples/failing",
+                "tests/examples/invalid/octal.gark.yaml",
+            ),
         ),
         (
             ("--format", "text", "-v", "--error-constants"),
@@ -256,11 +267,16 @@ def test_a_baseline_of_many_at_a_time(tmp_path: Path) -> None:
     """A report written by twos is a baseline for a check one by one, with nothing worse."""
     base = tmp_path / "base.json"
     assert (
-        process("methods", "-j", "2", "--format", "json", "-o", str(base)).returncode
+        process(
+            "methods", "-j", "2", "--format", "json", "-o", str(base)
+        ).returncode
         == 0
     )
     run = process("methods", "--baseline", str(base))
-    assert (run.returncode, run.stdout.splitlines()[-1].partition(": ")[2]) == (
+    assert (
+        run.returncode,
+        run.stdout.splitlines()[-1].partition(": ")[2],
+    ) == (
         0,
         "nothing got worse",
     )
@@ -279,7 +295,9 @@ def test_a_baseline_of_many_at_a_time(tmp_path: Path) -> None:
 )
 def test_a_damaged_baseline_is_refused(files: str, tmp_path: Path) -> None:
     """A report whose fields are not what they were is no baseline, and no fault of the program."""
-    (tmp_path / "a.gark.yaml").write_text("methods: [{family: gauss, stages: 1}]\n")
+    (tmp_path / "a.gark.yaml").write_text(
+        "methods: [{family: gauss, stages: 1}]\n"
+    )
     base = tmp_path / "base.json"
     base.write_text(f'{{"schema": "gark/check/1", "files": {files}}}')
     run = gark("check", "a.gark.yaml", "--baseline", "base.json", cwd=tmp_path)
@@ -289,7 +307,9 @@ def test_a_damaged_baseline_is_refused(files: str, tmp_path: Path) -> None:
 
 def test_a_baseline_is_a_file_of_bounded_size(tmp_path: Path) -> None:
     """Devices, pipes, directories and huge files are refused before a byte of them is read."""
-    (tmp_path / "a.gark.yaml").write_text("methods: [{family: gauss, stages: 1}]\n")
+    (tmp_path / "a.gark.yaml").write_text(
+        "methods: [{family: gauss, stages: 1}]\n"
+    )
     names = ["."]
     if hasattr(os, "mkfifo"):
         os.mkfifo(tmp_path / "pipe")
@@ -325,10 +345,16 @@ main(["check", "-j", "2", *sys.argv[1:]])
 @pytest.mark.parametrize(
     ("how", "says"),
     [
-        ("os.kill(os.getpid(), signal.SIGKILL)", "its check was ended by SIGKILL"),
+        (
+            "os.kill(os.getpid(), signal.SIGKILL)",
+            "its check was ended by SIGKILL",
+        ),
         ("os.abort()", "its check was ended by SIGABRT"),
         ("os._exit(7)", "its check was ended with exit code 7"),
-        ("raise MemoryError('no room')", "internal fault: MemoryError: no room"),
+        (
+            "raise MemoryError('no room')",
+            "internal fault: MemoryError: no room",
+        ),
     ],
 )
 def test_a_worker_that_dies_is_told_and_stops_nothing(
@@ -339,7 +365,14 @@ def test_a_worker_that_dies_is_told_and_stops_nothing(
     for name in names:
         (tmp_path / name).write_text(HOLDS)
     done = subprocess.run(
-        [sys.executable, "-c", ENDING.format(how=how), ".", "--format", "json"],
+        [
+            sys.executable,
+            "-c",
+            ENDING.format(how=how),
+            ".",
+            "--format",
+            "json",
+        ],
         cwd=tmp_path,
         env={**os.environ, "PYTHONPATH": str(ROOT)},
         capture_output=True,
@@ -373,7 +406,9 @@ def test_a_fault_in_one_file_stops_nothing(
         (tmp_path / f"{name}.gark.yaml").write_text(FAILS)
     run = gark("check", ".", cwd=tmp_path)
     assert run.code == 3
-    assert "b.gark.yaml: error: internal fault: RuntimeError: broken" in run.out
+    assert (
+        "b.gark.yaml: error: internal fault: RuntimeError: broken" in run.out
+    )
     assert run.out.count("found 4") == 2
 
 
@@ -382,7 +417,10 @@ def test_more_workers_than_a_system_waits_for() -> None:
     from garkcli.cli.parallel import MOST_WORKERS
 
     assert MOST_WORKERS <= 61
-    alone, many = process("methods", "-j", "1"), process("methods", "-j", "256")
+    alone, many = (
+        process("methods", "-j", "1"),
+        process("methods", "-j", "256"),
+    )
     assert (alone.returncode, alone.stdout) == (many.returncode, many.stdout)
 
 
@@ -429,7 +467,8 @@ def test_a_folder_that_cannot_be_read(
         assert run.code == 2
         closed = os.path.join("sub", "closed")
         assert (
-            f"{closed}: error: this folder cannot be read: Permission denied" in run.out
+            f"{closed}: error: this folder cannot be read: Permission denied"
+            in run.out
         )
         assert ("order 4" in run.out) is (path == "sub")
 

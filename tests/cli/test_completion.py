@@ -20,7 +20,8 @@ def completions(*words: str) -> list[tuple[str, str]]:
     """What a shell is offered for the last word, with its kind."""
     shell = BashComplete(gark, {}, "gark", "_GARK_COMPLETE")
     return [
-        (x.type, x.value) for x in shell.get_completions(list(words[:-1]), words[-1])
+        (x.type, x.value)
+        for x in shell.get_completions(list(words[:-1]), words[-1])
     ]
 
 
@@ -64,8 +65,12 @@ def test_problems_are_completed(
         ("plain", "kepler"),
         ("plain", "kepler.yaml"),
     ]
-    assert ("plain", "pendulum.yml") in completions("converge", "m", "--problem", "p")
-    assert ("plain", "pendulum") in completions("converge", "m", "--problem", "p")
+    assert ("plain", "pendulum.yml") in completions(
+        "converge", "m", "--problem", "p"
+    )
+    assert ("plain", "pendulum") in completions(
+        "converge", "m", "--problem", "p"
+    )
     assert completions("check", "m", "--format", "sa") == [("plain", "sarif")]
 
 
@@ -77,7 +82,9 @@ def test_reports_with_a_schema_are_completed() -> None:
         ("plain", "conjugate"),
         ("plain", "converge"),
     ]
-    assert [x for _, x in completions("schema", "--report", "")] == list(REPORTS)
+    assert [x for _, x in completions("schema", "--report", "")] == list(
+        REPORTS
+    )
 
 
 @pytest.mark.skipif(os.name != "posix", reason="asks as bash does")

@@ -35,7 +35,8 @@ def test_several_methods_side_by_side() -> None:
     results = json.loads(run.out)["results"]
     assert [x["visible_order"] for x in results] == [4, 4, 2]
     assert all(
-        abs(x["steps"][-1]["slope"] - x["visible_order"]) < 0.05 for x in results
+        abs(x["steps"][-1]["slope"] - x["visible_order"]) < 0.05
+        for x in results
     )
     assert all(x["agrees"] for x in results)
 
@@ -105,7 +106,13 @@ def test_a_method_for_other_problems_stops_none() -> None:
 def test_disagreement_of_one_is_exit_code_1() -> None:
     """Steps far too large for one of them."""
     run = gark(
-        "converge", VERLET, RECTANGULAR, "--problem", "kepler", "--steps", "1/2,1/4"
+        "converge",
+        VERLET,
+        RECTANGULAR,
+        "--problem",
+        "kepler",
+        "--steps",
+        "1/2,1/4",
     )
     assert run.code == 1
     assert "THEY DISAGREE" in run.out
@@ -114,10 +121,14 @@ def test_disagreement_of_one_is_exit_code_1() -> None:
 def test_directories_and_patterns(tmp_path: Path) -> None:
     """As for check: a directory stands for its method files, a pattern for what it matches."""
     for name in ("a", "b"):
-        (tmp_path / f"{name}.gark.yaml").write_bytes((ROOT / VERLET).read_bytes())
+        (tmp_path / f"{name}.gark.yaml").write_bytes(
+            (ROOT / VERLET).read_bytes()
+        )
     for argument in (str(tmp_path), str(tmp_path / "*.yaml")):
         run = gark("converge", argument, "--format", "json")
-        assert [Path(x["file"]).name for x in json.loads(run.out)["results"]] == [
+        assert [
+            Path(x["file"]).name for x in json.loads(run.out)["results"]
+        ] == [
             "a.gark.yaml",
             "b.gark.yaml",
         ]
@@ -129,7 +140,12 @@ def test_problem_file_for_several() -> None:
     run = gark("converge", VERLET, RECTANGULAR, "--problem", "-", stdin=text)
     assert (run.code, run.out.count("they agree")) == (0, 2), run.err
     broken = gark(
-        "converge", VERLET, RECTANGULAR, "--problem", "-", stdin="{variables: [x]}"
+        "converge",
+        VERLET,
+        RECTANGULAR,
+        "--problem",
+        "-",
+        stdin="{variables: [x]}",
     )
     assert (broken.code, broken.out) == (2, "")
 
@@ -152,8 +168,12 @@ def test_work_in_every_format(problem: str, files: tuple[str, ...]) -> None:
             for row in result["steps"]
         )
         assert result["steps"][0]["work"]["seconds"] is not None
-    rows = list(csv.DictReader(io.StringIO(gark(*arguments, "--format", "csv").out)))
-    assert all(int(row["evaluations"]) >= int(row["steps"]) > 0 for row in rows)
+    rows = list(
+        csv.DictReader(io.StringIO(gark(*arguments, "--format", "csv").out))
+    )
+    assert all(
+        int(row["evaluations"]) >= int(row["steps"]) > 0 for row in rows
+    )
 
 
 def test_work_keeps_coarse_steps() -> None:
@@ -168,7 +188,9 @@ def test_work_keeps_coarse_steps() -> None:
         "--format",
         "json",
     )
-    plain, with_work = (json.loads(gark(*arguments, *x).out) for x in ((), ("--work",)))
+    plain, with_work = (
+        json.loads(gark(*arguments, *x).out) for x in ((), ("--work",))
+    )
     assert with_work["steps"][0]["h"] > plain["steps"][0]["h"]
     assert [x["error"] for x in with_work["steps"][-3:]] == [
         x["error"] for x in plain["steps"][-3:]
@@ -198,7 +220,11 @@ def test_figures_are_the_same_each_time(
 def test_nothing_to_draw(tmp_path: Path) -> None:
     """Without a single result there is no figure, and that is said."""
     run = gark(
-        "converge", INVALID, "nowhere.gark.yaml", "--plot", str(tmp_path / "a.png")
+        "converge",
+        INVALID,
+        "nowhere.gark.yaml",
+        "--plot",
+        str(tmp_path / "a.png"),
     )
     assert run.code == 2
     assert "nothing to draw" in run.err
@@ -224,14 +250,19 @@ def test_nothing_to_draw(tmp_path: Path) -> None:
             "--omega 0: a positive number is expected",
             (VERLET, RECTANGULAR, "--omega", "0"),
         ),
-        ("no figure can be saved", (VERLET, RECTANGULAR, "--plot", "figure.jpg")),
+        (
+            "no figure can be saved",
+            (VERLET, RECTANGULAR, "--plot", "figure.jpg"),
+        ),
         (
             "there is no such folder",
             (VERLET, RECTANGULAR, "--plot", "nowhere/figure.png"),
         ),
     ],
 )
-def test_options_that_do_not_go_together(said: str, arguments: tuple[str, ...]) -> None:
+def test_options_that_do_not_go_together(
+    said: str, arguments: tuple[str, ...]
+) -> None:
     """Said once, before anything is computed."""
     run = gark("converge", *arguments)
     assert (run.code, run.out) == (2, "")

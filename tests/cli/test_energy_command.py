@@ -57,7 +57,13 @@ def test_max_error(limit: str, code: int) -> None:
 def test_what_is_undecided_is_not_bounded() -> None:
     """A claim needs a run that is long enough."""
     run = gark(
-        "energy", RECTANGULAR, "--problem", "kepler", "--t-end", "5", "--bounded"
+        "energy",
+        RECTANGULAR,
+        "--problem",
+        "kepler",
+        "--t-end",
+        "5",
+        "--bounded",
     )
     assert run.code == 1
     assert "found: energy undecided" in run.out
@@ -106,23 +112,37 @@ def test_symplecticity_is_measured() -> None:
 def test_problem_files() -> None:
     """A problem of the user's own, with its invariants and ten thousand steps."""
     run = gark(
-        "energy", RECTANGULAR, "--problem", "problems/kepler.yaml", "--format", "json"
+        "energy",
+        RECTANGULAR,
+        "--problem",
+        "problems/kepler.yaml",
+        "--format",
+        "json",
     )
     data = json.loads(run.out)
     assert (data["steps"], data["drifts"]) == (10_000, False)
-    assert [x["name"] for x in data["quantities"]] == ["energy", "angular momentum"]
+    assert [x["name"] for x in data["quantities"]] == [
+        "energy",
+        "angular momentum",
+    ]
 
 
 @pytest.mark.parametrize(
     ("options", "said"),
     [
         (("--digits", "30"), "--digits is not for the oscillator"),
-        (("--problem", "kepler", "--omega", "2"), "--omega is for the oscillator"),
+        (
+            ("--problem", "kepler", "--omega", "2"),
+            "--omega is for the oscillator",
+        ),
         (
             ("--problem", "kepler", "--split", "1:0,0:1"),
             "--split is for the oscillator",
         ),
-        (("--problem", "kepler", "--seed", "2"), "--seed is for the problems generic"),
+        (
+            ("--problem", "kepler", "--seed", "2"),
+            "--seed is for the problems generic",
+        ),
         (("--problem", "keppler"), "did you mean 'kepler'"),
         (("--t-end", "1", "--step", "0.3"), "not a whole number of steps"),
         (("--t-end", "0"), "a positive number is expected"),
@@ -159,7 +179,11 @@ def test_figures_are_written(tmp_path: Path) -> None:
         )
         assert run.code == 0
         assert f"wrote {tmp_path}" in run.err
-    assert sorted(x.name for x in tmp_path.iterdir()) == ["a.pdf", "a.png", "a.svg"]
+    assert sorted(x.name for x in tmp_path.iterdir()) == [
+        "a.pdf",
+        "a.png",
+        "a.svg",
+    ]
 
 
 def test_csv_keeps_the_extremes() -> None:
@@ -196,9 +220,15 @@ def test_a_directory_is_no_method(tmp_path: Path) -> None:
     """
     run = gark("energy", "methods")
     assert run.code == 2
-    assert "methods: error: a directory, where one method file is expected" in run.err
+    assert (
+        "methods: error: a directory, where one method file is expected"
+        in run.err
+    )
     assert "such as methods/ark-ars222.gark.yaml" in run.err
-    assert "no .gark.yaml files in this directory" in gark("energy", str(tmp_path)).err
+    assert (
+        "no .gark.yaml files in this directory"
+        in gark("energy", str(tmp_path)).err
+    )
 
 
 def test_problem_at_rest(tmp_path: Path) -> None:

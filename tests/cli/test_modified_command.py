@@ -49,7 +49,11 @@ def test_ascii_fits_80_columns() -> None:
 
 @pytest.mark.parametrize(
     "arguments",
-    [(VERLET,), ("methods/rk4.gark.yaml",), (COLLOCATION, "--pair", "-n", "3")],
+    [
+        (VERLET,),
+        ("methods/rk4.gark.yaml",),
+        (COLLOCATION, "--pair", "-n", "3"),
+    ],
 )
 def test_json_is_of_its_schema(arguments: tuple[str, ...]) -> None:
     """Reports have the schema, a damaged one has not, and trees can be read."""
@@ -68,7 +72,9 @@ def test_json_is_of_its_schema(arguments: tuple[str, ...]) -> None:
 
 def test_the_modified_hamiltonian_of_stoermer_verlet() -> None:
     """H + h² (U''(T', T')/12 − T''(U', U')/24) + O(h⁴), as is well known."""
-    report = json.loads(gark("modified", VERLET, "-n", "3", "--format", "json").out)
+    report = json.loads(
+        gark("modified", VERLET, "-n", "3", "--format", "json").out
+    )
     found = {term["tree"]: term["factor"] for term in report["hamiltonian"]}
     assert found == {
         "[]_1": "1",
@@ -94,7 +100,9 @@ def test_rounded_coefficients(tmp_path: Path) -> None:
     report = json.loads(gark("modified", str(path), "--format", "json").out)
     assert report["order"] == 3
     assert report["effective_order"] is None
-    assert not list(Draft7Validator(modified_report_schema()).iter_errors(report))
+    assert not list(
+        Draft7Validator(modified_report_schema()).iter_errors(report)
+    )
     refused = gark("modified", str(path), "--pair")
     assert refused.code == 2
     assert "help: give exact coefficients" in refused.err
@@ -141,21 +149,29 @@ def test_the_formula_on_a_problem() -> None:
     report = json.loads(
         gark("modified", VERLET, *PENDULUM, "-n", "3", "--format", "json").out
     )
-    assert not list(Draft7Validator(modified_report_schema()).iter_errors(report))
+    assert not list(
+        Draft7Validator(modified_report_schema()).iter_errors(report)
+    )
     assert report["formula"]["of"] == "hamiltonian"
     assert [term["power"] for term in report["formula"]["terms"]] == [0, 2]
-    latex = gark("modified", VERLET, *PENDULUM, "-n", "3", "--format", "latex").out
+    latex = gark(
+        "modified", VERLET, *PENDULUM, "-n", "3", "--format", "latex"
+    ).out
     assert r"\tilde H &=" in latex
     assert r"\frac{\sin^{2}{\left(x \right)}}{24}" in latex
 
 
-def test_the_formula_of_a_method_that_is_not_symplectic(tmp_path: Path) -> None:
+def test_the_formula_of_a_method_that_is_not_symplectic(
+    tmp_path: Path,
+) -> None:
     """The equation for each unknown, in a file of one tableau."""
     path = tmp_path / "euler.gark.yaml"
     path.write_text("{A: [[0]], b: [1]}\n", encoding="utf-8")
     text = gark("modified", str(path), *PENDULUM, "-n", "2").out
     assert "  h^1\n    x'      sin(x)/2\n    px'     px*cos(x)/2\n" in text
-    latex = gark("modified", str(path), *PENDULUM, "-n", "2", "--format", "latex").out
+    latex = gark(
+        "modified", str(path), *PENDULUM, "-n", "2", "--format", "latex"
+    ).out
     assert r"\dot{px} &=" in latex
 
 
@@ -186,7 +202,10 @@ def test_problems_and_options_that_do_not_fit(tmp_path: Path) -> None:
         ((str(rounded), *PENDULUM), "exact coefficients"),
         ((VERLET, *PENDULUM, "--seed", "2"), "leave it out"),
         ((VERLET, "--seed", "2"), "give --problem"),
-        ((VERLET, "--problem", "generic-separable", "-n", "3"), "--order 2 at most"),
+        (
+            (VERLET, "--problem", "generic-separable", "-n", "3"),
+            "--order 2 at most",
+        ),
     ):
         run = gark("modified", *arguments)
         assert run.code == 2, run.out

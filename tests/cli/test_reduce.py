@@ -87,8 +87,13 @@ def test_nothing_to_reduce(path: Path) -> None:
 
 def test_other_formats() -> None:
     """The smaller tableau as text and as JSON."""
-    assert "1/2 | 1/2" in gark("reduce", "-", "--format", "text", stdin=TWICE).out
-    assert '"stages": 1' in gark("reduce", "-", "--format", "json", stdin=TWICE).out
+    assert (
+        "1/2 | 1/2" in gark("reduce", "-", "--format", "text", stdin=TWICE).out
+    )
+    assert (
+        '"stages": 1'
+        in gark("reduce", "-", "--format", "json", stdin=TWICE).out
+    )
 
 
 def test_what_is_not_compared_is_refused() -> None:

@@ -13,7 +13,9 @@ METHOD = "A: [[1/4, 0], [1/2, 1/4]]\nb: [1/2, 1/2]\n"
 SHAPE = "unknown: {stages: 2, shape: sdirk}\n"
 CHOSEN = ["--set", "g=1/4"]
 SHAPED = [
-    x for text in ("gamma=1/4", "c2=3/4", "b1=1/2", "b2=1/2") for x in ("--set", text)
+    x
+    for text in ("gamma=1/4", "c2=3/4", "b1=1/2", "b2=1/2")
+    for x in ("--set", text)
 ]
 COMMANDS: dict[str, list[str]] = {
     "check": ["--format", "json"],
@@ -57,12 +59,20 @@ def test_what_is_not_chosen_is_said(command: str, tmp_path: Path) -> None:
     path = tmp_path / "family.yaml"
     path.write_text(FAMILY, encoding="utf-8")
     refused = gark(command, str(path), *COMMANDS[command])
-    assert (refused.code, "--set g=1/2 chooses one" in refused.out + refused.err) == (
+    assert (
+        refused.code,
+        "--set g=1/2 chooses one" in refused.out + refused.err,
+    ) == (
         2,
         True,
     )
-    wrong = gark(command, str(path), *COMMANDS[command], *CHOSEN, "--set", "h=1")
-    assert (wrong.code, "no parameter 'h'" in wrong.out + wrong.err) == (2, True)
+    wrong = gark(
+        command, str(path), *COMMANDS[command], *CHOSEN, "--set", "h=1"
+    )
+    assert (wrong.code, "no parameter 'h'" in wrong.out + wrong.err) == (
+        2,
+        True,
+    )
 
 
 @pytest.mark.parametrize("command", ["check", "stability", "converge"])

@@ -15,7 +15,9 @@ import pytest
 
 from tests.cli.harness import ROOT
 
-pytestmark = pytest.mark.skipif(os.name != "posix", reason="signals between processes")
+pytestmark = pytest.mark.skipif(
+    os.name != "posix", reason="signals between processes"
+)
 PATIENCE = 60.0
 """Seconds to wait for a sign of life, on a machine that is very busy."""
 # nothing to be fast enough for: millions of trees
@@ -59,7 +61,9 @@ def wait_for(folder: Path, process: subprocess.Popen[bytes]) -> None:
 
 
 @pytest.mark.parametrize("name", ["SIGINT", "SIGTERM", "SIGHUP"])
-def test_a_report_that_is_cut_short_leaves_nothing(name: str, tmp_path: Path) -> None:
+def test_a_report_that_is_cut_short_leaves_nothing(
+    name: str, tmp_path: Path
+) -> None:
     """A signal while a file is being written takes it back: no file, no temporary one, no word, and
     128 plus the number of the signal.
     """

@@ -18,12 +18,33 @@ RUNS = {
         f"{EXAMPLES}/failing",
         "methods/ark-ars222.gark.yaml",
     ),
-    "check-failing": ("check", f"{EXAMPLES}/failing/collocation-misprinted.gark.yaml"),
+    "check-failing": (
+        "check",
+        f"{EXAMPLES}/failing/collocation-misprinted.gark.yaml",
+    ),
     "check-invalid": ("check", f"{EXAMPLES}/invalid/many-faults.gark.yaml"),
-    "check-zero-weight": ("check", f"{EXAMPLES}/valid/ark-own-weights.gark.yaml"),
-    "check-json": ("check", "methods/rectangular.gark.yaml", "--format", "json"),
+    "check-zero-weight": (
+        "check",
+        f"{EXAMPLES}/valid/ark-own-weights.gark.yaml",
+    ),
+    "check-json": (
+        "check",
+        "methods/rectangular.gark.yaml",
+        "--format",
+        "json",
+    ),
     "trees": ("trees", "-N", "2", "-n", "3", "--root", "1"),
-    "trees-count": ("trees", "-N", "3", "-n", "12", "--upto", "--count", "--root", "2"),
+    "trees-count": (
+        "trees",
+        "-N",
+        "3",
+        "-n",
+        "12",
+        "--upto",
+        "--count",
+        "--root",
+        "2",
+    ),
     "conditions": ("conditions", "--order", "4"),
     "conditions-file": ("conditions", VERLET, "--order", "3"),
     "conditions-latex": ("conditions", "--order", "3", "--format", "latex"),
@@ -105,12 +126,16 @@ def test_a_run_is_as_recorded(name: str) -> None:
     assert_recorded(SNAPSHOTS / f"{name}.txt", record(RUNS[name], run))
 
 
-@pytest.mark.parametrize("name", [name for name in RUNS if name not in SOURCES])
+@pytest.mark.parametrize(
+    "name", [name for name in RUNS if name not in SOURCES]
+)
 def test_a_run_fits_the_terminal(name: str) -> None:
     """No line of the report is wider than 80 columns, file names apart."""
     run = gark(*RUNS[name])
     lines = [
-        line for line in (run.out + run.err).splitlines() if ".gark.yaml" not in line
+        line
+        for line in (run.out + run.err).splitlines()
+        if ".gark.yaml" not in line
     ]
     assert [line for line in lines if len(line) > 80] == []
 

@@ -35,7 +35,9 @@ def shown_texts() -> list[str]:
     texts = []
     for path in (ROOT / "garkcli").rglob("*.py"):
         nodes = list(ast.walk(ast.parse(path.read_text("utf-8"))))
-        documenting = {id(node.value) for node in nodes if isinstance(node, ast.Expr)}
+        documenting = {
+            id(node.value) for node in nodes if isinstance(node, ast.Expr)
+        }
         if path.parent.name == "cli":
             documenting = set()
         texts += [
@@ -52,7 +54,9 @@ def test_every_sign_of_the_program_has_an_ascii_form() -> None:
     """Whatever text of the package may be shown, no sign of it becomes a code point, a question
     mark or nothing.
     """
-    signs = {sign for text in shown_texts() for sign in text if sign.isprintable()}
+    signs = {
+        sign for text in shown_texts() for sign in text if sign.isprintable()
+    }
     # limits of ranges of signs, and the sign for signs that are not shown
     signs -= {"\U00010000", "\N{REPLACEMENT CHARACTER}"}
     assert len(signs) > 100
@@ -116,12 +120,19 @@ def test_any_text_can_be_written(text: str, encoding: str) -> None:
 
 
 @pytest.mark.parametrize("format_", ["json", "yaml"])
-def test_formats_with_escapes_lose_nothing(format_: str, tmp_path: Path) -> None:
+def test_formats_with_escapes_lose_nothing(
+    format_: str, tmp_path: Path
+) -> None:
     """Where the stream lacks a sign, JSON and YAML have it as an escape, and read back the same."""
     method = "methods: [{family: gauss, stages: 2}]\nname: Störmer γ 𝟙 中\n"
     (tmp_path / "m.gark.yaml").write_text(method, encoding="utf-8")
     run = gark(
-        "conjugate", "m.gark.yaml", "--format", format_, cwd=tmp_path, encoding="cp1252"
+        "conjugate",
+        "m.gark.yaml",
+        "--format",
+        format_,
+        cwd=tmp_path,
+        encoding="cp1252",
     )
     assert run.out.isascii()
     read = json.loads if format_ == "json" else yaml.safe_load
@@ -141,7 +152,9 @@ def test_a_file_is_utf_8_whatever_the_stream_is(tmp_path: Path) -> None:
 # -- processes
 
 
-def shell(command: str, **variables: str) -> subprocess.CompletedProcess[bytes]:
+def shell(
+    command: str, **variables: str
+) -> subprocess.CompletedProcess[bytes]:
     """What a shell makes of a command in which gark is ``$GARK``."""
     environment = {**os.environ, "PYTHONPATH": str(ROOT), "COLUMNS": "80"}
     environment["GARK"] = f"{sys.executable} -m garkcli"
@@ -173,7 +186,9 @@ def test_a_process_without_utf_8(variables: dict[str, str]) -> None:
     )
     assert (done.returncode, done.stderr) == (0, b"")
     assert done.stdout.count(b"?") == 1  # that of the help
-    assert b"sigma = 2" in done.stdout or "σ = 2" in done.stdout.decode("utf-8")
+    assert b"sigma = 2" in done.stdout or "σ = 2" in done.stdout.decode(
+        "utf-8"
+    )
 
 
 @pytest.mark.parametrize(
@@ -218,7 +233,9 @@ def test_nobody_reads_the_report(command: str) -> None:
 
 def test_somebody_stops_reading() -> None:
     """What fills a pipe ends with 141 when its reader stops."""
-    done = shell("$GARK trees -N 3 -n 9 --yes | head -1; exit ${PIPESTATUS[0]}")
+    done = shell(
+        "$GARK trees -N 3 -n 9 --yes | head -1; exit ${PIPESTATUS[0]}"
+    )
     assert (done.returncode, done.stderr) == (141, b"")
 
 
@@ -268,23 +285,38 @@ def test_a_file_name_gives_no_orders(
         except UnicodeEncodeError:
             pytest.skip("names of files are ASCII here")
         run = gark(
-            arguments[0], file, *arguments[1:], cwd=tmp_path, GITHUB_ACTIONS="true"
+            arguments[0],
+            file,
+            *arguments[1:],
+            cwd=tmp_path,
+            GITHUB_ACTIONS="true",
         )
         assert run.code in (0, 2)
         shown = run.out + run.err
         assert all(sign.isprintable() or sign == "\n" for sign in shown)
-        assert not any(line.lstrip().startswith("::") for line in shown.splitlines())
+        assert not any(
+            line.lstrip().startswith("::") for line in shown.splitlines()
+        )
 
 
 def test_options_that_do_not_exist_are_named_harmlessly() -> None:
     """What was typed is shown, and orders nothing."""
-    for wrong in ("--a\x1b[2J", "--problem=\x1b[2J\u202e", "-\x9b", "\x1b]0;x\x07"):
+    for wrong in (
+        "--a\x1b[2J",
+        "--problem=\x1b[2J\u202e",
+        "-\x9b",
+        "\x1b]0;x\x07",
+    ):
         run = gark("converge", "methods/rk4.gark.yaml", wrong)
         assert run.code == 2
-        assert all(sign.isprintable() or sign == "\n" for sign in run.out + run.err)
+        assert all(
+            sign.isprintable() or sign == "\n" for sign in run.out + run.err
+        )
         run = gark(wrong)
         assert run.code == 2
-        assert all(sign.isprintable() or sign == "\n" for sign in run.out + run.err)
+        assert all(
+            sign.isprintable() or sign == "\n" for sign in run.out + run.err
+        )
 
 
 @given(st.text())
@@ -294,7 +326,9 @@ def test_escapes_are_those_of_the_format(text: str) -> None:
     made = written_out(whole, "json")
     assert made.replace("\n", "").isprintable()
     assert json.loads(made) == {"name": text}
-    assert all(json.loads(f'"{escaped(sign, "json")}"') == sign for sign in text[:5])
+    assert all(
+        json.loads(f'"{escaped(sign, "json")}"') == sign for sign in text[:5]
+    )
 
 
 # -- colour
@@ -322,11 +356,15 @@ def test_colour_as_the_environment_asks(
     invalid = "tests/examples/invalid/octal.gark.yaml"
     assert ("\x1b[" in gark("tableau", invalid, **variables).err) is coloured
     assert "\x1b[" in gark("check", file, "--color", "always", **variables).out
-    assert "\x1b[" not in gark("check", file, "--color", "never", **variables).out
+    assert (
+        "\x1b[" not in gark("check", file, "--color", "never", **variables).out
+    )
 
 
 @given(st.sampled_from("ωαΩ²⁴ᵀ"), st.sampled_from("hqM"))
-def test_words_of_two_letters_do_not_run_together(sign: str, letter: str) -> None:
+def test_words_of_two_letters_do_not_run_together(
+    sign: str, letter: str
+) -> None:
     """A spelled letter beside a letter, and a letter after an exponent, have a gap between them."""
     assert plain_line(f"{sign}{letter}") == f"{ascii_form(sign)} {letter}"
     gap = "" if ascii_form(sign).startswith("^") else " "

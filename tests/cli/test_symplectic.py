@@ -151,11 +151,15 @@ def test_members_add_up_to_all_trees(kind: Kind) -> None:
     admissible = structure.admissible
     colours = range(admissible.colours)
     edges = [[m in row for m in colours] for row in admissible.branches]
-    assert found["instead_of"] == count_trees(len(colours), 4, edges, admissible.linear)
+    assert found["instead_of"] == count_trees(
+        len(colours), 4, edges, admissible.linear
+    )
     for row in found["classes"]:
         assert row["stands_for"] == len(row["members"])
         assert row["representative"] in row["members"]
-        centred = class_of(structure, parse_tree(row["representative"])).centred
+        centred = class_of(
+            structure, parse_tree(row["representative"])
+        ).centred
         assert all(
             class_of(structure, parse_tree(tree)).centred == centred
             for tree in row["members"]
@@ -165,22 +169,42 @@ def test_members_add_up_to_all_trees(kind: Kind) -> None:
 @pytest.mark.parametrize("kind", KINDS)
 def test_formats_agree(kind: Kind) -> None:
     """JSON, ndjson, CSV and text list the same classes with σ, γ and the number of members."""
-    asked = (*TREES, "--kind", kind, "-N", "2", "-n", "4", "--upto", "--members")
+    asked = (
+        *TREES,
+        "--kind",
+        kind,
+        "-N",
+        "2",
+        "-n",
+        "4",
+        "--upto",
+        "--members",
+    )
     rows = data(*asked)["classes"]
     assert rows
     assert [
-        json.loads(line) for line in gark(*asked, "--format", "ndjson").out.splitlines()
+        json.loads(line)
+        for line in gark(*asked, "--format", "ndjson").out.splitlines()
     ] == rows
-    in_csv = list(csv.DictReader(io.StringIO(gark(*asked, "--format", "csv").out)))
-    assert [x["members"].split() for x in in_csv] == [x["members"] for x in rows]
-    assert [(x["kind"], x["representative"], int(x["stands_for"])) for x in in_csv] == [
-        (kind, x["representative"], x["stands_for"]) for x in rows
+    in_csv = list(
+        csv.DictReader(io.StringIO(gark(*asked, "--format", "csv").out))
+    )
+    assert [x["members"].split() for x in in_csv] == [
+        x["members"] for x in rows
     ]
+    assert [
+        (x["kind"], x["representative"], int(x["stands_for"])) for x in in_csv
+    ] == [(kind, x["representative"], x["stands_for"]) for x in rows]
     in_text = re.findall(
-        r"^  (\S+) +σ = (\d+) +γ = (\d+) +(\d+) tree", gark(*asked).out, re.MULTILINE
+        r"^  (\S+) +σ = (\d+) +γ = (\d+) +(\d+) tree",
+        gark(*asked).out,
+        re.MULTILINE,
     )
     assert in_text == [
-        (x["representative"], *(str(x[k]) for k in ("sigma", "gamma", "stands_for")))
+        (
+            x["representative"],
+            *(str(x[k]) for k in ("sigma", "gamma", "stands_for")),
+        )
         for x in rows
     ]
     for row in rows:
@@ -198,7 +222,10 @@ def test_text_names_the_colours_within_80_columns() -> None:
     assert run.out.startswith("colours: 1 V1, 2 V2,")
     assert "24 F12" in run.out
     assert max(map(len, run.out.splitlines())) <= 80
-    assert "colours:" not in gark(*TREES, "--kind", "self-conjugate", "-n", "3").out
+    assert (
+        "colours:"
+        not in gark(*TREES, "--kind", "self-conjugate", "-n", "3").out
+    )
 
 
 def test_sheet_has_a_drawing_for_each_class(tmp_path: Path) -> None:
@@ -206,7 +233,9 @@ def test_sheet_has_a_drawing_for_each_class(tmp_path: Path) -> None:
     target = tmp_path / "sheet.svg"
     assert gark(*TREES, "-n", "4", "--svg", str(target)).code == 0
     circles = (
-        ET.parse(target).getroot().findall(".//{http://www.w3.org/2000/svg}circle")
+        ET.parse(target)
+        .getroot()
+        .findall(".//{http://www.w3.org/2000/svg}circle")
     )
     assert len(circles) == 8 * 4
 
@@ -218,7 +247,8 @@ def test_conditions_of_a_kind_are_those_of_its_classes() -> None:
     found = data(*CONDITIONS, "--kind", "semi-separable", "-n", "4")
     classes = data(*TREES, "--kind", "semi-separable", "-n", "4", "--upto")
     assert found["symplectic"] == {
-        k: classes[k] for k in ("kind", "terms", "colours", "count", "instead_of")
+        k: classes[k]
+        for k in ("kind", "terms", "colours", "count", "instead_of")
     }
     assert [(x["tree"], x["stands_for"]) for x in found["conditions"]] == [
         (x["representative"], x["stands_for"]) for x in classes["classes"]
@@ -240,11 +270,13 @@ def test_collocation_satisfies_all_classes_to_order_four() -> None:
     assert not any(x["holds"] for x in fifth)
     assert not any(
         x["holds"]
-        for x in data("conditions", COLLOCATION, "--pair", "-n", "5", "--only")[
-            "conditions"
-        ]
+        for x in data(
+            "conditions", COLLOCATION, "--pair", "-n", "5", "--only"
+        )["conditions"]
     )
-    failing = gark(*CONDITIONS, COLLOCATION, "-n", "5", "--only", "--failing").out
+    failing = gark(
+        *CONDITIONS, COLLOCATION, "-n", "5", "--only", "--failing"
+    ).out
     assert " ".join(failing.split()).endswith("of 5996; 662 fail")
     assert gark(*CONDITIONS, COLLOCATION, "-n", "4", "--failing").out.endswith(
         "; all hold\n"
@@ -256,9 +288,15 @@ def test_classes_that_fail_are_those_of_conditions_that_fail() -> None:
     conditions.
     """
     path = "methods/symplectic-gauss-lobatto4.gark.yaml"
-    rows = data(*CONDITIONS, path, "-n", "5", "--only", "--members")["conditions"]
-    every = data("conditions", path, "--pair", "-n", "5", "--only")["conditions"]
-    failing = {tree for row in rows if not row["holds"] for tree in row["members"]}
+    rows = data(*CONDITIONS, path, "-n", "5", "--only", "--members")[
+        "conditions"
+    ]
+    every = data("conditions", path, "--pair", "-n", "5", "--only")[
+        "conditions"
+    ]
+    failing = {
+        tree for row in rows if not row["holds"] for tree in row["members"]
+    }
     assert 0 < sum(row["holds"] for row in rows) < len(rows) == 662
     assert {row["tree"] for row in every if not row["holds"]} == {
         t for t in failing if t[-1] in "12"
@@ -283,7 +321,11 @@ def test_conditions_of_a_class_fail_together() -> None:
     ("path", "kind", "colours"),
     [
         (VERLET, "separable", ["q", "p"]),
-        ("methods/semi-separable.gark.yaml", "semi-separable", ["V1", "F1", "F2"]),
+        (
+            "methods/semi-separable.gark.yaml",
+            "semi-separable",
+            ["V1", "F1", "F2"],
+        ),
         ("methods/prk-lobatto-iiia-iiib.gark.yaml", "pair", ["q", "p"]),
         (
             "methods/three-colours.gark.yaml",
@@ -299,9 +341,9 @@ def test_kind_of_a_file(path: str, kind: str, colours: list[str]) -> None:
     terms = str(found["terms"])
     assert (
         found["count"]
-        == data(*TREES, "--kind", kind, "-N", terms, "-n", "3", "--upto", "--count")[
-            "count"
-        ]
+        == data(
+            *TREES, "--kind", kind, "-N", terms, "-n", "3", "--upto", "--count"
+        )["count"]
     )
 
 
@@ -325,11 +367,13 @@ def test_method_that_is_its_own_conjugate() -> None:
         "self-conjugate",
         23,
     )
-    assert {x["holds"] for x in found["conditions"] if x["order"] < 3} == {True}
+    assert {x["holds"] for x in found["conditions"] if x["order"] < 3} == {
+        True
+    }
     assert (
-        data(*CONDITIONS, "-", "-n", "2", "--pair", stdin=MIDPOINTS)["symplectic"][
-            "kind"
-        ]
+        data(*CONDITIONS, "-", "-n", "2", "--pair", stdin=MIDPOINTS)[
+            "symplectic"
+        ]["kind"]
         == "pair"
     )
 
@@ -342,7 +386,8 @@ def test_blocks_that_a_file_lacks() -> None:
     assert found["symplectic"]["count"] == len(found["conditions"]) == 2 * 5
     assert found["symplectic"]["instead_of"] == 2 * 20
     assert all(
-        "1" not in x["tree"] or "2" not in x["tree"] for x in found["conditions"]
+        "1" not in x["tree"] or "2" not in x["tree"]
+        for x in found["conditions"]
     )
 
 
@@ -362,9 +407,9 @@ def test_file_that_is_not_symplectic(text: str) -> None:
     assert (run.code, run.out) == (2, "")
     assert "the method is not symplectic: " in run.err
     assert ("different weights" in run.err) == (text == WEIGHTS)
-    assert (gark(*CONDITIONS, "-", "--pair", "-n", "1", stdin=text).code == 0) == (
-        text == UNSYMPLECTIC
-    )
+    assert (
+        gark(*CONDITIONS, "-", "--pair", "-n", "1", stdin=text).code == 0
+    ) == (text == UNSYMPLECTIC)
 
 
 @pytest.mark.parametrize(
@@ -381,15 +426,30 @@ def test_file_that_is_not_symplectic(text: str) -> None:
         ((*TREES,), "which order?"),
         ((*TREES, "-n", "3", "--root", "1"), "free trees have no root"),
         ((*TREES, "--tree", "[]_1"), "free trees have no root"),
-        ((*TREES, "-n", "3", "--colours-used", "1"), "free trees have no root"),
+        (
+            (*TREES, "-n", "3", "--colours-used", "1"),
+            "free trees have no root",
+        ),
         (("trees", "-n", "3", "--members"), "--members is about free trees"),
         (("conditions", "--kind", "pair"), "--kind is about free trees"),
-        ((*TREES, "-n", "2", "--members", "--format", "latex"), "--members do not fit"),
+        (
+            (*TREES, "-n", "2", "--members", "--format", "latex"),
+            "--members do not fit",
+        ),
         ((*CONDITIONS, "--coloured"), "free trees have colours"),
-        ((*CONDITIONS, COLLOCATION, "--kind", "pair"), "the kind is that of FILE"),
-        ((*CONDITIONS, COLLOCATION, "-N", "2"), "the colours are those of FILE"),
+        (
+            (*CONDITIONS, COLLOCATION, "--kind", "pair"),
+            "the kind is that of FILE",
+        ),
+        (
+            (*CONDITIONS, COLLOCATION, "-N", "2"),
+            "the colours are those of FILE",
+        ),
         ((*CONDITIONS, "--failing"), "values are those of a method"),
-        ((*CONDITIONS, "methods/ark-ars222.gark.yaml"), "divides by the weights"),
+        (
+            (*CONDITIONS, "methods/ark-ars222.gark.yaml"),
+            "divides by the weights",
+        ),
     ],
 )
 def test_options_that_do_not_go_together(
@@ -404,17 +464,23 @@ def test_options_that_do_not_go_together(
 @pytest.mark.parametrize(
     "arguments", [("trees", "-N", "2"), ("conditions",), TREES, CONDITIONS]
 )
-def test_pictures_in_latex_are_indented_evenly(arguments: tuple[str, ...]) -> None:
+def test_pictures_in_latex_are_indented_evenly(
+    arguments: tuple[str, ...],
+) -> None:
     """No empty line follows a picture, and what is between its begin and its end is indented
     further.
     """
     lines = gark(*arguments, "-n", "3", "--format", "latex").out.splitlines()
     assert all(line.strip() for line in lines)
     starts = [
-        k for k, line in enumerate(lines) if line.startswith("  \\begin{tikzpicture}")
+        k
+        for k, line in enumerate(lines)
+        if line.startswith("  \\begin{tikzpicture}")
     ]
     assert starts
     for k in starts:
-        end = next(i for i in range(k, len(lines)) if "\\end{tikzpicture}" in lines[i])
+        end = next(
+            i for i in range(k, len(lines)) if "\\end{tikzpicture}" in lines[i]
+        )
         assert lines[end].startswith("  \\end{tikzpicture} &")
         assert all(line.startswith("    \\") for line in lines[k + 1 : end])

@@ -24,9 +24,13 @@ ONE = fmpq(1)
 
 def collocated(s: int, t: int) -> Tableau:
     """Gauss s × Lobatto IIIA t with collocation blocks."""
-    one, other = diagonal_method("gauss", s), diagonal_method("lobatto-iiia", t)
+    one, other = (
+        diagonal_method("gauss", s),
+        diagonal_method("lobatto-iiia", t),
+    )
     return gark(
-        [one, other], {(0, 1): collocation(one, other), (1, 0): collocation(other, one)}
+        [one, other],
+        {(0, 1): collocation(one, other), (1, 0): collocation(other, one)},
     )
 
 
@@ -55,7 +59,9 @@ def default(tableau: Tableau, omega: fmpq = ONE) -> Oscillator:
         (pair(collocated(6, 7)), 12),
     ],
 )
-def test_observed_order_is_the_predicted_one(tableau: Tableau, order: int) -> None:
+def test_observed_order_is_the_predicted_one(
+    tableau: Tableau, order: int
+) -> None:
     """From order 1 to 16 the slope is the order to two decimals: never that of round-off."""
     result = converge(tableau, default(tableau))
     assert result.observed_order == pytest.approx(order, abs=3e-3)
@@ -82,9 +88,12 @@ def test_split_decides_what_is_visible() -> None:
     """
     one, other = diagonal_method("gauss", 1), diagonal_method("gauss", 2)
     tableau = gark(
-        [one, other], {(0, 1): collocation(one, other), (1, 0): collocation(other, one)}
+        [one, other],
+        {(0, 1): collocation(one, other), (1, 0): collocation(other, one)},
     )
-    unsplit = converge(tableau, Oscillator(ONE, ((fmpq(0), fmpq(0)), (ONE, ONE))))
+    unsplit = converge(
+        tableau, Oscillator(ONE, ((fmpq(0), fmpq(0)), (ONE, ONE)))
+    )
     split = converge(tableau, default(tableau))
     assert (unsplit.visible_order, split.visible_order) == (4, 2)
     assert unsplit.observed_order == pytest.approx(4, abs=1e-3)
@@ -95,13 +104,19 @@ def test_errors_are_those_of_stepping() -> None:
     """rk4 with its classical polynomial, stepped in floats: the same errors and energy errors."""
     omega = fmpq(3, 2)
     result = converge(
-        alone("rk4"), default(alone("rk4"), omega), fmpq(6), [fmpq(1, 4), fmpq(1, 8)]
+        alone("rk4"),
+        default(alone("rk4"), omega),
+        fmpq(6),
+        [fmpq(1, 4), fmpq(1, 8)],
     )
     w = float(omega)
     L = np.array([[0.0, 1.0], [-w * w, 0.0]])
     start = np.array([1.0, w / 2])
     end = np.array(
-        [np.cos(6 * w) + np.sin(6 * w) / 2, w * (np.cos(6 * w) / 2 - np.sin(6 * w))]
+        [
+            np.cos(6 * w) + np.sin(6 * w) / 2,
+            w * (np.cos(6 * w) / 2 - np.sin(6 * w)),
+        ]
     )
     for row, h in zip(result.rows, (0.25, 0.125), strict=True):
         R = sum(
@@ -122,7 +137,8 @@ def test_units_do_not_matter() -> None:
     """A faster oscillator in its own units of time has the very same errors."""
     tableau = symplectic_pair(collocated(2, 3), [0], [1])
     slow, fast = (
-        converge(tableau, default(tableau, omega)) for omega in (ONE, fmpq(22, 7))
+        converge(tableau, default(tableau, omega))
+        for omega in (ONE, fmpq(22, 7))
     )
     for one, other in zip(slow.rows, fast.rows, strict=True):
         assert float(one.error / other.error) == pytest.approx(1, abs=1e-9)
@@ -132,11 +148,13 @@ def test_units_do_not_matter() -> None:
 def test_gauss_conserves_energy_exactly() -> None:
     """Not small: zero. The pair's energy error is not, and it has the order of the method."""
     gauss, tableau = alone("gauss", 2), pair(collocated(2, 3))
-    assert all(row.energy_error == 0 for row in converge(gauss, default(gauss)).rows)
-    rows = converge(tableau, default(tableau)).rows
-    assert float(rows[-2].energy_error / rows[-1].energy_error) == pytest.approx(
-        16, abs=0.1
+    assert all(
+        row.energy_error == 0 for row in converge(gauss, default(gauss)).rows
     )
+    rows = converge(tableau, default(tableau)).rows
+    assert float(
+        rows[-2].energy_error / rows[-1].energy_error
+    ) == pytest.approx(16, abs=0.1)
 
 
 def test_coincidence_is_bounded_and_not_called_zero() -> None:
@@ -150,7 +168,9 @@ def test_coincidence_is_bounded_and_not_called_zero() -> None:
         [[none, none], [full, none]], [(ONE,), (ONE,)], [None, None]
     )  # p with the new q
     whole = converge(tableau, default(tableau), fmpq(6), [ONE]).rows[0]
-    thirds = converge(tableau, default(tableau, fmpq(3)), fmpq(2), [fmpq(1, 3)]).rows[0]
+    thirds = converge(
+        tableau, default(tableau, fmpq(3)), fmpq(2), [fmpq(1, 3)]
+    ).rows[0]
     assert whole.energy_error == 0
     assert thirds.energy_error.contains(0)
     assert not thirds.energy_error.is_zero()
@@ -186,7 +206,10 @@ def test_rounded_coefficients_end_the_ladder() -> None:
     0, and shows.
     """
     rk4 = diagonal_method("rk4")
-    b = tuple(fmpq(x, 10**10) for x in (1666666667, 3333333333, 3333333333, 1666666666))
+    b = tuple(
+        fmpq(x, 10**10)
+        for x in (1666666667, 3333333333, 3333333333, 1666666666)
+    )
     tableau = spelled_out([[rk4.A]], [b], [None])
     within = converge(tableau, default(tableau), tolerance=fmpq(1, 10**9))
     assert (within.visible_order, within.predicted_order, within.verdict) == (
@@ -199,7 +222,9 @@ def test_rounded_coefficients_end_the_ladder() -> None:
 
 
 @pytest.mark.parametrize("missed", [12, 30, 90])
-def test_a_condition_missed_by_little_shows_in_a_short_time(missed: int) -> None:
+def test_a_condition_missed_by_little_shows_in_a_short_time(
+    missed: int,
+) -> None:
     """rk4 with a weight off by 10^−12 … 10^−90: the steps of usual size show 4, tiny ones the order
     0 that the certificate proves.
     """
@@ -253,7 +278,10 @@ def test_heavy_libraries_are_not_imported() -> None:
         "print([x for x in ('numpy', 'matplotlib', 'sympy') if x in sys.modules])"
     )
     run = subprocess.run(
-        [sys.executable, "-c", code], capture_output=True, text=True, check=True
+        [sys.executable, "-c", code],
+        capture_output=True,
+        text=True,
+        check=True,
     )
     assert run.stdout == "[]\n"
 
@@ -264,5 +292,7 @@ def test_too_many_steps_are_refused() -> None:
     """
     with pytest.raises(UsageProblem, match="limit 1000000000000000"):
         converge(alone("rk4"), Oscillator.default(1, fmpq(1)), fmpq(10**18))
-    rows = converge(alone("rk4"), Oscillator.default(1, fmpq(1)), fmpq(10**14)).rows
+    rows = converge(
+        alone("rk4"), Oscillator.default(1, fmpq(1)), fmpq(10**14)
+    ).rows
     assert 1 <= len(rows) < 8

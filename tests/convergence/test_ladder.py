@@ -33,7 +33,9 @@ def rows_of(error: Callable[[float], float], count: int) -> list[Row]:
     """Rows with h = 1, 1/2, …"""
     made: list[Row] = []
     for k in range(count):
-        slope = None if k == 0 else log2(error(2.0 ** (1 - k)) / error(2.0**-k))
+        slope = (
+            None if k == 0 else log2(error(2.0 ** (1 - k)) / error(2.0**-k))
+        )
         made.append(Row(fmpq(1, 2**k), arb(error(2.0**-k)), slope, arb(0)))
     return made
 
@@ -54,7 +56,9 @@ def ladder_of(error: Callable[[float], float]) -> list[Row]:
     b=st.floats(-1, 1),
     c=st.floats(0.01, 100),
 )
-def test_ladder_ends_near_the_order(order: int, a: float, b: float, c: float) -> None:
+def test_ladder_ends_near_the_order(
+    order: int, a: float, b: float, c: float
+) -> None:
     """Whatever the expansion of the error: it is small at the start, and shows the order at the
     end.
     """
@@ -129,7 +133,9 @@ def test_ladder_fits_the_method(order: int) -> None:
     in few rows.
     """
     tableau = (
-        RECTANGULAR if order == 4 else gark([diagonal_method("explicit-euler")], {})
+        RECTANGULAR
+        if order == 4
+        else gark([diagonal_method("explicit-euler")], {})
     )
     rows = converge(tableau, hamiltonian("pendulum", terms_of(tableau))).rows
     assert len(rows) == ROWS

@@ -25,7 +25,9 @@ def test_each_choice_says_what_it_leaves(tmp_path: Path) -> None:
     chosen = ["--choose", "c2=1/3", "--choose", "a32=0", "--format", "json"]
     none = gark(*command, *chosen)
     data = json.loads(none.out)
-    dimensions = [(x["dimension_before"], x["dimension"]) for x in data["choices"]]
+    dimensions = [
+        (x["dimension_before"], x["dimension"]) for x in data["choices"]
+    ]
     assert (none.code, dimensions) == (1, [(2, 1), (1, -1)])
 
 

@@ -88,7 +88,10 @@ def test_combinations(families: tuple[object, ...], wanted: list[str]) -> None:
     assert kinds(found) == wanted
     for step in found.steps:
         for one in step.found:
-            assert (one.solution.values, one.solution.multiplicity) == ({"tau": 1}, 2)
+            assert (one.solution.values, one.solution.multiplicity) == (
+                {"tau": 1},
+                2,
+            )
     generic = wanted.count("every-value")
     for tau in ("0", "1/3", "-2"):
         method = loads(text, settings={"tau": tau})
@@ -136,19 +139,29 @@ def test_explicit_methods_of_three_stages() -> None:
     """Order 3 is a family of dimension 2, order 4 is none; chosen nodes leave one method."""
     found = find_parameters(loads_family(EXPLICIT3), 4)
     assert kinds(found) == ["every-value", "family", "family", "none"]
-    assert [step.ideal.dimension for step in found.steps[:3] if step.ideal] == [5, 4, 2]
+    assert [
+        step.ideal.dimension for step in found.steps[:3] if step.ideal
+    ] == [5, 4, 2]
     chosen = find_parameters(
         loads_family(EXPLICIT3, settings={"c2": "1/3", "c3": "2/3"}), 3
     )
     (one,) = chosen.last.found
-    assert one.solution.values == {"a32": fmpq(2, 3), "b2": 0, "b3": fmpq(3, 4)}
+    assert one.solution.values == {
+        "a32": fmpq(2, 3),
+        "b2": 0,
+        "b3": fmpq(3, 4),
+    }
 
 
 def test_splitting_of_four_stages() -> None:
     """All real splittings of order 4 with four maps a part: Forest's and Ruth's, both ways."""
     names = [f"{letter}{i}" for letter in "ab" for i in range(1, 5)]
-    rows_q = [[f"a{j}" if j < i else "0" for j in range(1, 5)] for i in range(1, 5)]
-    rows_p = [[f"b{j}" if j <= i else "0" for j in range(1, 5)] for i in range(1, 5)]
+    rows_q = [
+        [f"a{j}" if j < i else "0" for j in range(1, 5)] for i in range(1, 5)
+    ]
+    rows_p = [
+        [f"b{j}" if j <= i else "0" for j in range(1, 5)] for i in range(1, 5)
+    ]
 
     def text(rows: list[list[str]]) -> str:
         return "[" + ", ".join(f"[{', '.join(row)}]" for row in rows) + "]"
@@ -201,7 +214,11 @@ def test_what_is_found_is_a_method_file(text: str) -> None:
         find_parameters(family, order, "method" if "A:" in text else "pair")
     )
     assert chosen is not None
-    claim = f"order: {chosen.order}" if "A:" in text else f"pair-order: {chosen.order}"
+    claim = (
+        f"order: {chosen.order}"
+        if "A:" in text
+        else f"pair-order: {chosen.order}"
+    )
     method = loads(with_values(family, chosen.values, "found", claim))
     assert [x.key for x in method.claims] == [claim.split(":")[0]]
     whole = method if "A:" in text else pair(method)
@@ -261,9 +278,7 @@ def test_too_little_time() -> None:
     """Twelve unknowns without structure are left undecided, with what would help."""
     names = [f"a{i}{j}" for i in range(3) for j in range(3)]
     rows = [f"[{', '.join(names[3 * i : 3 * i + 3])}]" for i in range(3)]
-    text = (
-        f"parameters: {{{', '.join(f'{x}: free' for x in [*names, 'u', 'v', 'w'])}}}\n"
-    )
+    text = f"parameters: {{{', '.join(f'{x}: free' for x in [*names, 'u', 'v', 'w'])}}}\n"
     text += f"A: [{', '.join(rows)}]\nb: [u, v, w]\n"
     found = find_parameters(loads_family(text), 6, seconds=0.5)
     assert kinds(found)[-1] == "undecided"
@@ -276,8 +291,13 @@ def test_as_a_command(tmp_path: Path) -> None:
     run = gark("design", str(path))
     assert run.code == 0
     assert "g = 1/2 + sqrt(3)/6 = 0.788675134595…" in run.out
-    data = json.loads(gark("design", str(path), "--order", "3", "--format", "json").out)
-    assert (data["verdict"], data["ideal"]) == ("solutions", ["6*g^2 - 6*g + 1"])
+    data = json.loads(
+        gark("design", str(path), "--order", "3", "--format", "json").out
+    )
+    assert (data["verdict"], data["ideal"]) == (
+        "solutions",
+        ["6*g^2 - 6*g + 1"],
+    )
     assert [x["order"] for x in data["solutions"]] == [3, 3]
     assert data["schema"] == design_data.SCHEMA
     assert gark("design", str(path), "--order", "4").code == 1
@@ -290,7 +310,10 @@ def test_as_a_command(tmp_path: Path) -> None:
     assert (wrong.code, "no parameter 'h'" in wrong.err) == (2, True)
     assert gark("design", str(path), "--set", "g").code == 2
     refused = gark("check", str(path))
-    assert (refused.code, "gark design finds values" in refused.out + refused.err) == (
+    assert (
+        refused.code,
+        "gark design finds values" in refused.out + refused.err,
+    ) == (
         2,
         True,
     )

@@ -16,7 +16,11 @@ from garkcli.exact.polynomial_text import root_text
 from garkcli.exact.roots import RealRoot
 from garkcli.methodfile.family import loads_family
 from garkcli.problems.oscillator import Oscillator, terms_of
-from garkcli.stability.linear import is_a_stable, is_l_stable, stability_function
+from garkcli.stability.linear import (
+    is_a_stable,
+    is_l_stable,
+    stability_function,
+)
 from garkcli.stability.oscillator import oscillator_stability
 from garkcli.tableau.tableau import Tableau
 from tests.cli.harness import gark
@@ -36,16 +40,23 @@ LARGE = 1 + 2**0.5 / 2
 
 def found(text: str, wanted: Wanted, is_pair: bool = False) -> StableValues:
     """The set for a family."""
-    return stable_values(loads_family(text), wanted, "pair" if is_pair else "method")
+    return stable_values(
+        loads_family(text), wanted, "pair" if is_pair else "method"
+    )
 
 
-def texts(values: StableValues) -> list[tuple[str | None, str | None, bool, bool]]:
+def texts(
+    values: StableValues,
+) -> list[tuple[str | None, str | None, bool, bool]]:
     """The set with its ends as text."""
 
     def text(root: RealRoot | None) -> str | None:
         return None if root is None else root_text(root)
 
-    return [(text(x.start), text(x.end), x.has_start, x.has_end) for x in values.found]
+    return [
+        (text(x.start), text(x.end), x.has_start, x.has_end)
+        for x in values.found
+    ]
 
 
 @pytest.mark.parametrize(
@@ -63,10 +74,16 @@ def texts(values: StableValues) -> list[tuple[str | None, str | None, bool, bool
             ],
         ),
         (STIFF2, "l-stable", [("1 - sqrt(2)/2", "1 + sqrt(2)/2", True, True)]),
-        (THETA.replace("free", "{free: true, range: [0, 1]}"), "a-stable", None),
+        (
+            THETA.replace("free", "{free: true, range: [0, 1]}"),
+            "a-stable",
+            None,
+        ),
     ],
 )
-def test_known_sets(text: str, wanted: Wanted, known: list[object] | None) -> None:
+def test_known_sets(
+    text: str, wanted: Wanted, known: list[object] | None
+) -> None:
     """The θ-method for θ ≥ 1/2, L-stable at 1; SDIRK of two stages for γ ≥ 1/4, L-stable at
     γ = 1 ± √2/2 (Hairer and Wanner, section IV.6); a range cuts the set.
     """
@@ -109,7 +126,11 @@ def contains(values: StableValues, t: fmpq) -> bool:
     """Whether a rational number belongs to the set."""
     root = RealRoot.rational(t)
     for x in values.found:
-        behind = x.start is None or x.start < root or (x.has_start and x.start == root)
+        behind = (
+            x.start is None
+            or x.start < root
+            or (x.has_start and x.start == root)
+        )
         before = x.end is None or root < x.end or (x.has_end and x.end == root)
         if behind and before:
             return True
@@ -125,11 +146,15 @@ def contains(values: StableValues, t: fmpq) -> bool:
         ("gauss", 2, "lobatto-iiia", 4),
     ],
 )
-def test_against_single_values(families: tuple[object, ...], wanted: Wanted) -> None:
+def test_against_single_values(
+    families: tuple[object, ...], wanted: Wanted
+) -> None:
     """Many rational values, and those next to each end, are decided one by one."""
     text = TAU.format(*families)
     values = found(text, wanted)
-    tried = [fmpq(k, 4) for k in range(-10, 34, 3)] + [fmpq(k) for k in range(-1, 8)]
+    tried = [fmpq(k, 4) for k in range(-10, 34, 3)] + [
+        fmpq(k) for k in range(-1, 8)
+    ]
     for x in values.found:
         for end in (x.start, x.end):
             if end is not None:
@@ -148,10 +173,14 @@ _ENTRY = st.tuples(st.integers(-2, 2), st.integers(-2, 2))
     st.lists(_ENTRY, min_size=5, max_size=5),
     st.sampled_from(["a-stable", "l-stable"]),
 )
-def test_random_families(entries: list[tuple[int, int]], wanted: Wanted) -> None:
+def test_random_families(
+    entries: list[tuple[int, int]], wanted: Wanted
+) -> None:
     """Of two stages with entries linear in t, one with a pole: sets against single values."""
     a, b, c, d, w = (f"({p} + {q}*t)/2" for p, q in entries)
-    compare(f"A: [[{a}, {b}/(t - 3)], [{c}, {d}]]\nb: [{w}, 1 - {w}]\n", wanted)
+    compare(
+        f"A: [[{a}, {b}/(t - 3)], [{c}, {d}]]\nb: [{w}, 1 - {w}]\n", wanted
+    )
 
 
 @settings(max_examples=12)
@@ -192,8 +221,13 @@ def test_as_a_command(tmp_path: Path) -> None:
     run = gark("design", str(path), "--a-stable")
     assert run.code == 0
     assert "    1/2 ≤ t\n" in run.out
-    data = json.loads(gark("design", str(path), "--l-stable", "--format", "json").out)
-    assert (data["schema"], data["wanted"]) == ("gark/design-stability/1", "l-stable")
+    data = json.loads(
+        gark("design", str(path), "--l-stable", "--format", "json").out
+    )
+    assert (data["schema"], data["wanted"]) == (
+        "gark/design-stability/1",
+        "l-stable",
+    )
     assert data["set"] == [{"point": "1"}]
     path.write_text(
         "parameters: {t: free}\nA: [[t/9]]\nb: [1 + t*t]\n", encoding="utf-8"
@@ -201,7 +235,8 @@ def test_as_a_command(tmp_path: Path) -> None:
     none = gark("design", str(path), "--p-stable")
     assert none.code in {0, 1}
     path.write_text(
-        "parameters: {t: free}\nA: [[0, 0], [t, 0]]\nb: [0, 1]\n", encoding="utf-8"
+        "parameters: {t: free}\nA: [[0, 0], [t, 0]]\nb: [0, 1]\n",
+        encoding="utf-8",
     )
     explicit = gark("design", str(path), "--a-stable")
     assert (explicit.code, "for no value of t" in explicit.out) == (1, True)
@@ -216,7 +251,10 @@ def test_as_a_command(tmp_path: Path) -> None:
         "parameters: {t: free}\nA: [[t + sqrt(2)]]\nb: [1]\n", encoding="utf-8"
     )
     roots = gark("design", str(path), "--a-stable")
-    assert (roots.code, "roots among the coefficients" in roots.err) == (2, True)
+    assert (roots.code, "roots among the coefficients" in roots.err) == (
+        2,
+        True,
+    )
 
 
 def test_ends_that_are_algebraic_numbers(tmp_path: Path) -> None:

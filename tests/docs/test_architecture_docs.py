@@ -9,7 +9,9 @@ import pytest
 
 ROOT = Path(__file__).resolve().parents[2]
 TEXT = (ROOT / "docs" / "architecture.md").read_text(encoding="utf-8")
-ROOMS = sorted(path.parent.name for path in (ROOT / "garkcli").glob("*/__init__.py"))
+ROOMS = sorted(
+    path.parent.name for path in (ROOT / "garkcli").glob("*/__init__.py")
+)
 
 
 def part(room: str) -> str:

@@ -32,7 +32,9 @@ under the text, and ends with exit code 2. Nothing in a file is ever executed, a
 
 def cell(text: str) -> str:
     """A text as one cell of a Markdown table; ``…`` stands for what does not fit."""
-    text = " ".join("".join(x if x.isprintable() else " " for x in text).split())
+    text = " ".join(
+        "".join(x if x.isprintable() else " " for x in text).split()
+    )
     text = text if len(text) <= LONGEST else f"{text[: LONGEST - 1].rstrip()}…"
     for sign in "\\`*_|":
         text = text.replace(sign, f"\\{sign}")
@@ -63,7 +65,9 @@ def row(path: Path) -> str:
         load(str(path))
     fault, lines = caught.value.faults[0], caught.value.text.splitlines()
     line = (
-        around(lines[fault.line - 1], fault.column) if fault.line <= len(lines) else ""
+        around(lines[fault.line - 1], fault.column)
+        if fault.line <= len(lines)
+        else ""
     )
     kind = path.name.removesuffix(SUFFIX).replace("-", " ")
     return f"| {kind} | {code(line)} | {cell(fault.message)} | {cell(fault.help)} |\n"
@@ -91,7 +95,9 @@ def test_every_row_has_four_cells() -> None:
         for line in PAGE.read_text(encoding="utf-8").splitlines()
         if line.startswith("|")
     ][2:]
-    assert len(rows) == len(list((ROOT / "tests/examples/invalid").glob(f"*{SUFFIX}")))
+    assert len(rows) == len(
+        list((ROOT / "tests/examples/invalid").glob(f"*{SUFFIX}"))
+    )
     for line in rows:
         cells = line.replace("\\|", "").split("|")[1:-1]
         assert len(cells) == 4

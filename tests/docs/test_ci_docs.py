@@ -44,7 +44,9 @@ def commands() -> list[str]:
         for line in text.splitlines()
     ]
     steps = [step for workflow in WORKFLOWS for step in scripts(workflow)]
-    spoken = [x for x in re.findall(r"`(gark [^`]+)`", PAGE) if x != "gark check"]
+    spoken = [
+        x for x in re.findall(r"`(gark [^`]+)`", PAGE) if x != "gark check"
+    ]
     return [
         x.partition(" >>")[0].strip()
         for x in [*shell, *steps, *spoken]
@@ -147,7 +149,9 @@ def test_every_exit_code_has_its_row(tmp_path: Path) -> None:
         "130",
         "141",
     ]
-    for code, text in enumerate(("", "expect: {order: 3}", "expct: {order: 2}")):
+    for code, text in enumerate(
+        ("", "expect: {order: 3}", "expct: {order: 2}")
+    ):
         (tmp_path / "m.gark.yaml").write_text(
             f"methods: [{{family: gauss, stages: 1}}]\n{text}\n"
         )
@@ -157,11 +161,15 @@ def test_every_exit_code_has_its_row(tmp_path: Path) -> None:
 def test_the_action_is_used_as_it_is() -> None:
     """The step with our action gives only inputs that the action has."""
     action = yaml.safe_load((ROOT / "action.yml").read_text(encoding="utf-8"))
-    (step,) = [x for x in uses(WORKFLOWS) if x["uses"].startswith("OWNER/gark@")]
+    (step,) = [
+        x for x in uses(WORKFLOWS) if x["uses"].startswith("OWNER/gark@")
+    ]
     assert set(step["with"]) <= set(action["inputs"])
     assert (
         gark(
-            "check", step["with"]["files"], *shlex.split(step["with"]["arguments"])
+            "check",
+            step["with"]["files"],
+            *shlex.split(step["with"]["arguments"]),
         ).code
         == 0
     )

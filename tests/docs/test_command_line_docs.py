@@ -26,7 +26,9 @@ def reference() -> str:
             max_content_width=80,
         )
         assert result.exit_code == 0, result.output
-        parts.append(f"### gark {name}\n\n```text\n{result.output.rstrip()}\n```\n")
+        parts.append(
+            f"### gark {name}\n\n```text\n{result.output.rstrip()}\n```\n"
+        )
     return "\n".join(parts)
 
 

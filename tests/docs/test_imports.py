@@ -55,12 +55,16 @@ def test_no_circle_of_imports() -> None:
     """Each module can be read after those it imports: components of the graph are single modules."""
     modules = module_files()
     graph = {
-        name: sorted(imported_modules(path.read_text(encoding="utf-8"), modules))
+        name: sorted(
+            imported_modules(path.read_text(encoding="utf-8"), modules)
+        )
         for name, path in modules.items()
     }
     assert len(graph) > 100
     assert not any(name in imported for name, imported in graph.items())
-    circles = [component for component in components(graph) if len(component) > 1]
+    circles = [
+        component for component in components(graph) if len(component) > 1
+    ]
     assert circles == []
 
 
@@ -74,4 +78,8 @@ def test_imports_in_functions_are_seen_and_those_for_types_are_not() -> None:
         "if TYPE_CHECKING:\n    from garkcli.b import x\n"
         "def f():\n    from garkcli.c import y\n    from garkcli import d\n"
     )
-    assert imported_modules(text, modules) == {"garkcli.a", "garkcli.c", "garkcli.d"}
+    assert imported_modules(text, modules) == {
+        "garkcli.a",
+        "garkcli.c",
+        "garkcli.d",
+    }

@@ -43,14 +43,38 @@ REPORTS = {
     ],
     "converge": [
         ["converge", METHOD, "--problem", "oscillator"],
-        ["converge", METHOD, "--problem", "kepler", "--steps", "1/8,1/16", "--work"],
+        [
+            "converge",
+            METHOD,
+            "--problem",
+            "kepler",
+            "--steps",
+            "1/8,1/16",
+            "--work",
+        ],
         ["converge", METHOD, METHOD, "--problem", "oscillator"],
     ],
     "energy": [
         ["energy", METHOD, "--t-end", "100"],
         ["energy", METHOD, "--t-end", "1", "--modified"],
-        ["energy", METHOD, "--problem", "pendulum", "--t-end", "10", "--bounded"],
-        ["energy", METHOD, "--problem", "pendulum", "--t-end", "10", "--symplecticity"],
+        [
+            "energy",
+            METHOD,
+            "--problem",
+            "pendulum",
+            "--t-end",
+            "10",
+            "--bounded",
+        ],
+        [
+            "energy",
+            METHOD,
+            "--problem",
+            "pendulum",
+            "--t-end",
+            "10",
+            "--symplecticity",
+        ],
     ],
     "design": [
         ["design", "tests/examples/families/sdirk.gark.yaml"],
@@ -93,7 +117,9 @@ def test_every_key_is_on_the_page(name: str) -> None:
         found = gark(*arguments, "--format", "json")
         assert found.code in {0, 1}, found.err
         report = json.loads(found.out)
-        wanted = {key for key in keys(report) if not GIVEN_NAMES.fullmatch(key)}
+        wanted = {
+            key for key in keys(report) if not GIVEN_NAMES.fullmatch(key)
+        }
         assert wanted | {report["schema"]} <= described
 
 
@@ -109,8 +135,14 @@ def test_the_example_of_a_check_is_real() -> None:
     (method,), (real,) = shown["files"], found["files"]
     assert list(method) == list(real)
     assert method["claims"] == real["claims"][:1]
-    shortened = {key for key in method if method[key] is None and real[key] is not None}
-    assert shortened == {"conjugate_witness", "pair_witness", "nonautonomous_witness"}
+    shortened = {
+        key for key in method if method[key] is None and real[key] is not None
+    }
+    assert shortened == {
+        "conjugate_witness",
+        "pair_witness",
+        "nonautonomous_witness",
+    }
     for key in set(method) - shortened - {"claims"}:
         assert method[key] == real[key], key
 
@@ -131,7 +163,10 @@ def test_what_a_failing_check_adds_is_on_the_page() -> None:
             "converge",
             ["converge", METHOD, "--problem", "kepler", "--steps", "1/8,1/16"],
         ),
-        ("converge", ["converge", METHOD, METHOD, "--problem", "oscillator", "--work"]),
+        (
+            "converge",
+            ["converge", METHOD, METHOD, "--problem", "oscillator", "--work"],
+        ),
         ("energy", ["energy", METHOD, "--problem", "kepler", "--t-end", "10"]),
     ],
 )

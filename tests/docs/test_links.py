@@ -39,7 +39,9 @@ def missing(page: Path) -> list[str]:
     for link in links(page):
         name, _, anchor = link.partition("#")
         target = (page.parent / name) if name else page
-        is_there = target.exists() and (not anchor or anchor in anchors(target))
+        is_there = target.exists() and (
+            not anchor or anchor in anchors(target)
+        )
         if not is_there:
             found.append(link)
     return found
@@ -59,7 +61,8 @@ def test_every_page_is_found_from_the_readme() -> None:
         page = ahead.pop()
         seen.add(page)
         targets = {
-            (page.parent / link.partition("#")[0]).resolve() for link in links(page)
+            (page.parent / link.partition("#")[0]).resolve()
+            for link in links(page)
         }
         ahead += [x for x in targets if x.suffix == ".md" and x not in seen]
     assert set(PAGES) - seen == {PACKAGE_PAGE}

@@ -59,7 +59,9 @@ ALL = [
 ]
 PROBLEMS = [block for block in ALL if is_problem(block)]
 WHOLE = [block for block in ALL if is_whole(block)]
-FRAGMENTS = [block for block in ALL if not is_whole(block) and not is_problem(block)]
+FRAGMENTS = [
+    block for block in ALL if not is_whole(block) and not is_problem(block)
+]
 
 
 def test_the_documentation_has_files() -> None:
@@ -79,10 +81,13 @@ def test_a_whole_file_loads(block: str) -> None:
 def test_a_problem_is_a_file_of_the_repository(block: str) -> None:
     """The problem that the README shows is the file that it names, comments apart."""
     files = [
-        path.read_text(encoding="utf-8") for path in (ROOT / "problems").glob("*.yaml")
+        path.read_text(encoding="utf-8")
+        for path in (ROOT / "problems").glob("*.yaml")
     ]
     assert loads_problem(block).terms
-    assert block in [re.sub(r"^#.*\n", "", text, flags=re.MULTILINE) for text in files]
+    assert block in [
+        re.sub(r"^#.*\n", "", text, flags=re.MULTILINE) for text in files
+    ]
 
 
 @pytest.mark.parametrize("block", FRAGMENTS)
@@ -111,6 +116,8 @@ def test_every_command_of_the_documentation_exists() -> None:
         path.read_text(encoding="utf-8")
         for path in (README, *sorted((ROOT / "docs").glob("*.md")))
     ]
-    named = {word for text in texts for word in re.findall(r"`gark ([a-z]+)", text)}
+    named = {
+        word for text in texts for word in re.findall(r"`gark ([a-z]+)", text)
+    }
     assert named
     assert named <= set(COMMANDS)

@@ -13,7 +13,9 @@ def test_the_examples_print_what_the_page_says() -> None:
     text = PAGE.read_text(encoding="utf-8")
     # a closing fence is no output
     examples = text.replace("```python\n", "").replace("```\n", "")
-    test = doctest.DocTestParser().get_doctest(examples, {}, "python.md", str(PAGE), 0)
+    test = doctest.DocTestParser().get_doctest(
+        examples, {}, "python.md", str(PAGE), 0
+    )
     assert len(test.examples) > 10
     report: list[str] = []
     result = doctest.DocTestRunner(verbose=False).run(test, out=report.append)

@@ -41,7 +41,8 @@ def steps(page: Path) -> Iterator[Step]:
     """
     text = page.read_text(encoding="utf-8")
     pattern = re.compile(
-        r"(?:`([\w./-]+\.yaml)`:\n\n)?```(\w+)\n(.*?)^```$", re.DOTALL | re.MULTILINE
+        r"(?:`([\w./-]+\.yaml)`:\n\n)?```(\w+)\n(.*?)^```$",
+        re.DOTALL | re.MULTILINE,
     )
     for name, language, block in pattern.findall(text):
         if language == "yaml" and name and "/" not in name:
@@ -57,7 +58,9 @@ def steps(page: Path) -> Iterator[Step]:
 def agrees(shown: str, lines: list[str]) -> bool:
     """Whether ``lines`` are those shown, where a line ``...`` stands for any number of them."""
     pattern = "".join(
-        r"(?:.*\n)*" if line.strip() == "..." else re.escape(line.rstrip()) + r"\n"
+        r"(?:.*\n)*"
+        if line.strip() == "..."
+        else re.escape(line.rstrip()) + r"\n"
         for line in shown.splitlines()
     )
     return (

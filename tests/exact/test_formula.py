@@ -67,7 +67,11 @@ def test_format_and_parse_are_inverse(expression: Expression) -> None:
             value_of(again, NAMES)
         return
     found = value_of(again, NAMES)
-    assert found == wanted if isinstance(wanted, fmpq) else arb(found).overlaps(wanted)
+    assert (
+        found == wanted
+        if isinstance(wanted, fmpq)
+        else arb(found).overlaps(wanted)
+    )
 
 
 @given(FORMULAS)
@@ -127,7 +131,10 @@ def condition(expression: Expression) -> float:
             ball = arb(
                 value_of(
                     expression,
-                    {**NAMES, **{x: arb(y) * spread for x, y in NAMES.items()}},
+                    {
+                        **NAMES,
+                        **{x: arb(y) * spread for x, y in NAMES.items()},
+                    },
                 )
             )
         except ExpressionError:
@@ -298,7 +305,10 @@ def test_expressions_are_walked() -> None:
     assert [x.name for x in names_in(expression)] == ["a", "b", "c", "a"]
     assert len(list(roots_in(expression))) == 1
     assert size_of(expression, {"a": 100}) == 209
-    values = {x: parse_formula(y) for x, y in (("a", "pi"), ("b", "4"), ("c", "1 + 1"))}
+    values = {
+        x: parse_formula(y)
+        for x, y in (("a", "pi"), ("b", "4"), ("c", "1 + 1"))
+    }
     assert (
         format_expression(substitute(expression, values))
         == "sin(pi*sqrt(4))**((1+1)/2)+pi"

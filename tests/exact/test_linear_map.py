@@ -36,11 +36,17 @@ def maps(draw: st.DrawFn) -> tuple[NumberField | None, Matrix, Matrix, Matrix]:
         if field is None or draw(st.booleans()):
             return draw(rationals)
         return field.from_coordinates(
-            draw(st.lists(rationals, min_size=field.degree, max_size=field.degree))
+            draw(
+                st.lists(
+                    rationals, min_size=field.degree, max_size=field.degree
+                )
+            )
         )
 
     def rows(count: int, length: int) -> Matrix:
-        return tuple(tuple(number() for _ in range(length)) for _ in range(count))
+        return tuple(
+            tuple(number() for _ in range(length)) for _ in range(count)
+        )
 
     return (
         field,
@@ -74,7 +80,9 @@ def test_images_and_pullbacks(
         tuple(naive(w, column) for column in columns) for w in functionals
     ]
     entries = [x for row in images + pullbacks for x in row]
-    assert all(x.poly.degree() > 0 for x in entries if isinstance(x, Algebraic))
+    assert all(
+        x.poly.degree() > 0 for x in entries if isinstance(x, Algebraic)
+    )
 
 
 @given(maps())
@@ -93,7 +101,8 @@ def test_numbers_of_two_fields_do_not_meet() -> None:
     them.
     """
     a, b = (
-        Domain([parse(text)]).evaluate(parse(text)) for text in ("sqrt(2)", "sqrt(3)")
+        Domain([parse(text)]).evaluate(parse(text))
+        for text in ("sqrt(2)", "sqrt(3)")
     )
     with pytest.raises(TypeError, match="two different fields"):
         dot((a, fmpq(1)), (fmpq(1), b))
@@ -103,7 +112,8 @@ def test_numbers_of_two_fields_do_not_meet() -> None:
 def test_rows_of_unrelated_denominators(width: int, seed: int) -> None:
     """Rows that are summed as fractions have the same images as by definition."""
     row = tuple(
-        fmpq(k + seed, 2 ** (6000 + k) + 2 * k + 1) for k in range(1, width + 1)
+        fmpq(k + seed, 2 ** (6000 + k) + 2 * k + 1)
+        for k in range(1, width + 1)
     )
     vector = tuple(fmpq(2 * k - 5, k + 3) for k in range(width))
     linear = LinearMap((row, vector), None)

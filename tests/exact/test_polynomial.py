@@ -11,7 +11,13 @@ from garkcli.exact.domain import Domain
 from garkcli.exact.expression import parse
 from garkcli.exact.field import Number
 from garkcli.exact.polynomial import Polynomial, gcd, interpolated, resultant
-from garkcli.exact.roots import RealRoot, multiplicity_at, real_roots, sign, sign_at
+from garkcli.exact.roots import (
+    RealRoot,
+    multiplicity_at,
+    real_roots,
+    sign,
+    sign_at,
+)
 
 SMALL = st.fractions(min_value=-5, max_value=5, max_denominator=12).map(
     lambda x: fmpq(x.numerator, x.denominator)
@@ -40,16 +46,26 @@ def test_roots_that_were_multiplied_out_are_found(roots: list[fmpq]) -> None:
     assert found == sorted((x, roots.count(x)) for x in set(roots))
 
 
-@given(st.lists(SMALL, min_size=1, max_size=3), st.lists(SMALL, min_size=1, max_size=3))
-def test_over_a_number_field_too(rational: list[fmpq], shifts: list[fmpq]) -> None:
+@given(
+    st.lists(SMALL, min_size=1, max_size=3),
+    st.lists(SMALL, min_size=1, max_size=3),
+)
+def test_over_a_number_field_too(
+    rational: list[fmpq], shifts: list[fmpq]
+) -> None:
     """Roots a + √2 are found, their conjugates a − √2 are told apart from them."""
     root_of_two = number("sqrt(2)")
-    roots: list[Number] = [*rational, *(root_of_two + shift for shift in shifts)]
+    roots: list[Number] = [
+        *rational,
+        *(root_of_two + shift for shift in shifts),
+    ]
     found = real_roots(product(roots))
     assert sum(power for _, power in found) == len(roots)
     for root, power in found:
         close = [
-            x for x in roots if abs(sign(x - between(root, None))) and _is(root, x)
+            x
+            for x in roots
+            if abs(sign(x - between(root, None))) and _is(root, x)
         ]
         assert len(close) == power
 
@@ -64,10 +80,16 @@ def test_signs_at_algebraic_numbers_are_exact() -> None:
     (_, _), (root, _) = real_roots(Polynomial([-2, 0, 1]))
     assert sign_at(Polynomial([-2, 0, 1]), root) == 0
     assert (
-        sign_at(Polynomial([fmpq(-2) - fmpq(1, 10**40), fmpq(0), fmpq(1)]), root) == -1
+        sign_at(
+            Polynomial([fmpq(-2) - fmpq(1, 10**40), fmpq(0), fmpq(1)]), root
+        )
+        == -1
     )
     assert (
-        sign_at(Polynomial([fmpq(-2) + fmpq(1, 10**40), fmpq(0), fmpq(1)]), root) == 1
+        sign_at(
+            Polynomial([fmpq(-2) + fmpq(1, 10**40), fmpq(0), fmpq(1)]), root
+        )
+        == 1
     )
 
 
@@ -87,7 +109,9 @@ def test_common_roots_are_the_gcd(
 
 
 @given(st.lists(SMALL, min_size=1, max_size=6))
-def test_interpolation_gives_the_polynomial_back(coefficients: list[fmpq]) -> None:
+def test_interpolation_gives_the_polynomial_back(
+    coefficients: list[fmpq],
+) -> None:
     """Through n points there is one polynomial of degree < n."""
     p = Polynomial(coefficients)
     points = [fmpq(k) for k in range(len(coefficients))]
@@ -95,7 +119,8 @@ def test_interpolation_gives_the_polynomial_back(coefficients: list[fmpq]) -> No
 
 
 @given(
-    st.lists(SMALL, min_size=1, max_size=5), st.lists(SMALL, min_size=1, max_size=20)
+    st.lists(SMALL, min_size=1, max_size=5),
+    st.lists(SMALL, min_size=1, max_size=20),
 )
 def test_cells_decide_as_evaluation_does(
     roots: list[fmpq], samples: list[fmpq]
@@ -106,8 +131,13 @@ def test_cells_decide_as_evaluation_does(
     for x in samples:
         inside = False
         for interval in found:
-            above = interval.start is None or interval.start <= RealRoot.rational(x)
-            below = interval.end is None or RealRoot.rational(x) <= interval.end
+            above = (
+                interval.start is None
+                or interval.start <= RealRoot.rational(x)
+            )
+            below = (
+                interval.end is None or RealRoot.rational(x) <= interval.end
+            )
             inside = inside or (above and below)
         assert inside == (p(x) >= 0)
 

@@ -94,7 +94,13 @@ TEXTBOOK = {
     ("explicit-euler", 1): ("0", "0", "1"),
     ("explicit-midpoint", 2): ("0, 1/2", "0, 0", "1/2, 0", "0, 1"),
     ("heun", 2): ("0, 1", "0, 0", "1, 0", "1/2, 1/2"),
-    ("kutta", 3): ("0, 1/2, 1", "0, 0, 0", "1/2, 0, 0", "-1, 2, 0", "1/6, 2/3, 1/6"),
+    ("kutta", 3): (
+        "0, 1/2, 1",
+        "0, 0, 0",
+        "1/2, 0, 0",
+        "-1, 2, 0",
+        "1/6, 2/3, 1/6",
+    ),
     ("rk4", 4): (
         "0, 1/2, 1/2, 1",
         "0, 0, 0, 0",
@@ -103,7 +109,13 @@ TEXTBOOK = {
         "0, 0, 1, 0",
         "1/6, 1/3, 1/3, 1/6",
     ),
-    ("ssp2", 3): ("0, 1/2, 1", "0, 0, 0", "1/2, 0, 0", "1/2, 1/2, 0", "1/3, 1/3, 1/3"),
+    ("ssp2", 3): (
+        "0, 1/2, 1",
+        "0, 0, 0",
+        "1/2, 0, 0",
+        "1/2, 1/2, 0",
+        "1/3, 1/3, 1/3",
+    ),
 }
 """Nodes, rows of A, weights.
 
@@ -199,7 +211,11 @@ def test_the_order_that_people_are_told(name: str) -> None:
     """The order in terms of s that the registry lists is the true one."""
     family = FAMILIES[name]
     stages = family.smallest if family.smallest == family.largest else 4
-    told = {"2s": 2 * stages, "2s - 1": 2 * stages - 1, "2s - 2": 2 * stages - 2}
+    told = {
+        "2s": 2 * stages,
+        "2s - 1": 2 * stages - 1,
+        "2s - 2": 2 * stages - 2,
+    }
     assert told.get(family.order, family.order) in (
         ORDERS[name](stages),
         str(ORDERS[name](stages)),
@@ -314,7 +330,9 @@ def test_ssp2(s: int) -> None:
         for j, x in enumerate(row)
     )
     assert (
-        find_order(gark([method], {})).order == brute_order(gark([method], {}), 3) == 2
+        find_order(gark([method], {})).order
+        == brute_order(gark([method], {}), 3)
+        == 2
     )
 
 

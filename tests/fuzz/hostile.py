@@ -21,7 +21,13 @@ def _square(entry: str, size: int) -> str:
 
 def hostile_files() -> Mapping[str, str]:
     """Every hostile file by name."""
-    return {**_numbers(), **_repetitions(), **_sizes(), **_texts(), **_nestings()}
+    return {
+        **_numbers(),
+        **_repetitions(),
+        **_sizes(),
+        **_texts(),
+        **_nestings(),
+    }
 
 
 def hostile_problems() -> Mapping[str, str]:
@@ -44,23 +50,36 @@ def _numbers() -> Mapping[str, str]:
         "the inverse of five square roots": _number(f"1/({roots})"),
         "a power of five square roots": _number(f"(1+{roots})**-64"),
         "many products of radicals": _number("*".join([f"(1+{roots})"] * 200)),
-        "many quotients of radicals": _number("/".join([f"(1+{roots})"] * 200)),
+        "many quotients of radicals": _number(
+            "/".join([f"(1+{roots})"] * 200)
+        ),
         "long radicands": _number(f"root({sevens},12)+root({threes},4)"),
-        "long nested radicands": _number(f"root({sevens}+root({threes},4),12)"),
+        "long nested radicands": _number(
+            f"root({sevens}+root({threes},4),12)"
+        ),
         "the inverse of a long nested radicand": _number(
             f"root(1/({sevens}+root({threes},4)),12)"
         ),
         "long radicands five deep": _number(
-            "".join(f"sqrt({str(k) * 900}+" for k in range(1, 6)) + "1" + ")" * 5
+            "".join(f"sqrt({str(k) * 900}+" for k in range(1, 6))
+            + "1"
+            + ")" * 5
         ),
-        "a radicand close to zero": _number("sqrt(((((sqrt(2)-1)**64)**8)**4)**4)"),
+        "a radicand close to zero": _number(
+            "sqrt(((((sqrt(2)-1)**64)**8)**4)**4)"
+        ),
         "a power of a power": _number(
             f"((((sqrt(2)+root(3,12)+{'7' * 30})**64)**8)**4)"
         ),
         "many inverses": _number(
-            "+".join(f"1/(root(5,4)+cbrt(3)+sqrt(5+sqrt(8))+{k})" for k in range(300))
+            "+".join(
+                f"1/(root(5,4)+cbrt(3)+sqrt(5+sqrt(8))+{k})"
+                for k in range(300)
+            )
         ),
-        "a sum of fractions": _number("+".join(f"1/{10**6 + i}" for i in range(1900))),
+        "a sum of fractions": _number(
+            "+".join(f"1/{10**6 + i}" for i in range(1900))
+        ),
         "many digits": _number("1" * 980_000),
         "an exponent": _number("1e999999999999999999999"),
     }
@@ -101,7 +120,9 @@ def _sizes() -> Mapping[str, str]:
     fractions = _list(
         [_list([f"{i}/{i + j + 1}" for j in range(100)]) for i in range(100)]
     )
-    hundred = f"{{A: {fractions}, b: {_list([f'1/{i + 1}' for i in range(100)])}}}"
+    hundred = (
+        f"{{A: {fractions}, b: {_list([f'1/{i + 1}' for i in range(100)])}}}"
+    )
     constant = f"{{A: {_square('1/3', 220)}, b: {_list(['1'] * 220)}}}"
     return {
         "many colours": f"methods: {_list(['{family: gauss, stages: 1}'] * 9_000)}\ntransfer: collocation",
@@ -142,7 +163,9 @@ def _texts() -> Mapping[str, str]:
         "a long block": "name: |\n" + " \n" * 480_000,
         "comments": "# x\n" * 240_000,
         "spaces": " " * 980_000 + "name: 1",
-        "many directives": "".join(f"%TAG !a{i}! tag:x\n" for i in range(40_000))
+        "many directives": "".join(
+            f"%TAG !a{i}! tag:x\n" for i in range(40_000)
+        )
         + "---\nname: 1",
         "many anchors": f"name: {_list([f'&a{i} 1' for i in range(24_000)])}",
         "a surrogate": "name: \ud800",
@@ -152,7 +175,9 @@ def _texts() -> Mapping[str, str]:
 def _nestings() -> Mapping[str, str]:
     """Many values, or values in values."""
     names = "bcdefghijkl"
-    bomb = "".join(f"{x}: &{x} {_list([f'*{chr(ord(x) - 1)}'] * 9)}\n" for x in names)
+    bomb = "".join(
+        f"{x}: &{x} {_list([f'*{chr(ord(x) - 1)}'] * 9)}\n" for x in names
+    )
     return {
         "half a million values": f"name: [{'1,' * 490_000}1]",
         "many empty lists": f"name: [{'[],' * 320_000}1]",

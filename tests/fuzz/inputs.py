@@ -37,7 +37,9 @@ SIGNS = (
 def seeds() -> tuple[str, ...]:
     """The files of the project: good ones to damage."""
     folders = (ROOT / "methods", ROOT / "tests" / "examples")
-    files = sorted(file for folder in folders for file in folder.rglob("*.gark.yaml"))
+    files = sorted(
+        file for folder in folders for file in folder.rglob("*.gark.yaml")
+    )
     return tuple(
         file.read_bytes().decode("utf-8", "replace")
         for file in files
@@ -45,9 +47,13 @@ def seeds() -> tuple[str, ...]:
     )
 
 
-def soup(random: Random, signs: Sequence[str] = WORDS, longest: int = 60) -> str:
+def soup(
+    random: Random, signs: Sequence[str] = WORDS, longest: int = 60
+) -> str:
     """Words one after the other."""
-    return "".join(random.choice(signs) for _ in range(random.randrange(longest)))
+    return "".join(
+        random.choice(signs) for _ in range(random.randrange(longest))
+    )
 
 
 def damaged(random: Random, text: str, words: Sequence[str] = WORDS) -> str:
@@ -138,7 +144,13 @@ class _Writer:
         """Diagonal methods and their transfer."""
         random = self.random
         sizes = [random.randrange(1, 5) for _ in range(random.randrange(1, 4))]
-        families = ("gauss", "radau-iia", "lobatto-iiia", "lobatto-iiib", "ssp2")
+        families = (
+            "gauss",
+            "radau-iia",
+            "lobatto-iiia",
+            "lobatto-iiib",
+            "ssp2",
+        )
         methods = [
             self.butcher(s, s)
             if random.random() < 0.6
@@ -154,10 +166,14 @@ class _Writer:
             "conjugate-collocation",
             "symplectic-collocation",
         )
-        rule = random.choice((*rules, "{collocation: tau, interpolation: 1 - tau}"))
+        rule = random.choice(
+            (*rules, "{collocation: tau, interpolation: 1 - tau}")
+        )
         if random.random() < 0.4:
             rule = f'{{default: {rule}, blocks: {{"1,2": {self.matrix(sizes[0], sizes[1])}}}}}'
-        structure = random.choice(("general", "semi-separable", "separable", "nystrom"))
+        structure = random.choice(
+            ("general", "semi-separable", "separable", "nystrom")
+        )
         return f"{text}\ntransfer: {rule}" + (
             f"\nstructure: {structure}" if len(sizes) == 2 else ""
         )
@@ -167,7 +183,10 @@ class _Writer:
         random = self.random
         sizes = [random.randrange(1, 4) for _ in range(random.randrange(1, 4))]
         blocks = [
-            [self.matrix(s, t) if random.random() < 0.9 else "null" for t in sizes]
+            [
+                self.matrix(s, t) if random.random() < 0.9 else "null"
+                for t in sizes
+            ]
             for s in sizes
         ]
         rows = ", ".join(f"[{', '.join(row)}]" for row in blocks)
@@ -189,9 +208,14 @@ class _Writer:
 def written_file(random: Random) -> str:
     """A file of any form with any sizes that fit."""
     writer = _Writer(random)
-    lines = [random.choice((writer.methods, writer.tableau, writer.ark, writer.prk))()]
+    lines = [
+        random.choice(
+            (writer.methods, writer.tableau, writer.ark, writer.prk)
+        )()
+    ]
     lines.insert(
-        0, f"parameters: {{tau: {random.choice(('1/2', '1/3', '2', '1', '0'))}}}"
+        0,
+        f"parameters: {{tau: {random.choice(('1/2', '1/3', '2', '1', '0'))}}}",
     )
     lines += ["conjugate: true"] if random.random() < 0.2 else []
     lines += ["tolerance: 1e-10"] if random.random() < 0.1 else []

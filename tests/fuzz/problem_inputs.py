@@ -124,7 +124,14 @@ class _Writer:
             )
         text = " + ".join(squares)
         return random.choice(
-            (text, text, text, f"-m*sqrt(1 - ({text}))", f"exp({text})", f"log({text})")
+            (
+                text,
+                text,
+                text,
+                f"-m*sqrt(1 - ({text}))",
+                f"exp({text})",
+                f"log({text})",
+            )
         )
 
     def term(self) -> str:
@@ -135,7 +142,9 @@ class _Writer:
             return f"{self.kinetic()} - {self.formula(self.names, 2)}"
         if chance < 0.7:
             return random.choice((self.kinetic(), self.formula(self.names, 3)))
-        return self.formula((*self.names, *self.motion), random.randrange(1, 5))
+        return self.formula(
+            (*self.names, *self.motion), random.randrange(1, 5)
+        )
 
     def file(self) -> str:
         """The whole file."""

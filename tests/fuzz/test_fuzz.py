@@ -31,7 +31,11 @@ from garkcli.methodfile.transfers import ALL_RULES
 from garkcli.tableau.tableau import Tableau
 from tests.fuzz.inputs import RADICALS, SIGNS, WORDS, method_file, seeds, soup
 from tests.fuzz.long_run import Cases, run
-from tests.fuzz.problem_inputs import problem_file, problem_seeds, written_problem
+from tests.fuzz.problem_inputs import (
+    problem_file,
+    problem_seeds,
+    written_problem,
+)
 
 SLOWEST = 5.0
 """Seconds of the processor that no file may take before its verdict."""
@@ -62,7 +66,8 @@ SCALARS = st.one_of(
 TREES = st.recursive(
     SCALARS,
     lambda below: (
-        st.lists(below, max_size=4) | st.dictionaries(SCALARS, below, max_size=4)
+        st.lists(below, max_size=4)
+        | st.dictionaries(SCALARS, below, max_size=4)
     ),
     max_leaves=12,
 )
@@ -71,7 +76,9 @@ TREES = st.recursive(
 
 def _or_anything(good: st.SearchStrategy[Any]) -> st.SearchStrategy[Any]:
     """Mostly what belongs there."""
-    return st.integers(0, 11).flatmap(lambda chance: TREES if chance == 0 else good)
+    return st.integers(0, 11).flatmap(
+        lambda chance: TREES if chance == 0 else good
+    )
 
 
 def _rows(
@@ -93,7 +100,9 @@ FAMILY = st.fixed_dictionaries(
 )
 RULE = st.one_of(
     st.sampled_from(ALL_RULES),
-    st.dictionaries(st.sampled_from(ALL_RULES), NUMBERS, min_size=1, max_size=3),
+    st.dictionaries(
+        st.sampled_from(ALL_RULES), NUMBERS, min_size=1, max_size=3
+    ),
 )
 TRANSFER = RULE | st.fixed_dictionaries(
     {},
@@ -109,7 +118,8 @@ VALUES: dict[str, st.SearchStrategy[Any]] = {
     "methods": _rows(FAMILY | BUTCHER),
     "transfer": TRANSFER,
     "tableau": st.fixed_dictionaries(
-        {"A": _rows(_rows(MATRIX | st.none())), "b": _rows(ROW)}, optional={"c": MATRIX}
+        {"A": _rows(_rows(MATRIX | st.none())), "b": _rows(ROW)},
+        optional={"c": MATRIX},
     ),
     "ark": st.fixed_dictionaries(
         {"A": _rows(MATRIX), "b": ROW | MATRIX}, optional={"c": ROW}
@@ -118,7 +128,9 @@ VALUES: dict[str, st.SearchStrategy[Any]] = {
     "structure": st.sampled_from(STRUCTURES),
     "conjugate": st.booleans(),
     "linear": st.lists(st.integers(0, 4), max_size=3),
-    "parameters": st.dictionaries(st.sampled_from(["tau", "x", "sqrt"]), NUMBERS),
+    "parameters": st.dictionaries(
+        st.sampled_from(["tau", "x", "sqrt"]), NUMBERS
+    ),
     "tolerance": st.floats(1e-20, 1),
     "expect": st.dictionaries(st.sampled_from(CLAIMS), TREES, max_size=3),
 }
@@ -128,7 +140,9 @@ def _files() -> st.SearchStrategy[dict[Any, Any]]:
     """One form, and a few of the other keys, each with a value that may belong there."""
     assert set(VALUES) < set(KEYS)
     others = {
-        key: _or_anything(value) for key, value in VALUES.items() if key not in FORMS
+        key: _or_anything(value)
+        for key, value in VALUES.items()
+        if key not in FORMS
     }
     others |= {key: SCALARS for key in KEYS if key not in VALUES}
     return st.sampled_from(FORMS).flatmap(
@@ -138,7 +152,9 @@ def _files() -> st.SearchStrategy[dict[Any, Any]]:
     )
 
 
-def faults_of(text: str, load: Callable[[str], object] = loads) -> tuple[Fault, ...]:
+def faults_of(
+    text: str, load: Callable[[str], object] = loads
+) -> tuple[Fault, ...]:
     """The faults of a file; none where it is good. Any other exception is what fuzzing looks for,
     or much time.
     """
@@ -182,7 +198,8 @@ def test_method_files(seed: int) -> None:
         faults = faults_of(text)
         refused += bool(faults)
         assert all(
-            fault.line >= 1 and fault.column >= 1 and fault.message for fault in faults
+            fault.line >= 1 and fault.column >= 1 and fault.message
+            for fault in faults
         ), text
     assert 0 < refused < 300
 
@@ -199,7 +216,8 @@ def test_problem_files(seed: int) -> None:
         faults = faults_of(text, loads_problem)
         refused += bool(faults)
         assert all(
-            fault.line >= 1 and fault.column >= 1 and fault.message for fault in faults
+            fault.line >= 1 and fault.column >= 1 and fault.message
+            for fault in faults
         ), text
     assert 0 < refused < 100
 
@@ -233,7 +251,11 @@ class Faulty(Cases):
                 bytearray(2**30)
             if self.misdeed == "warns":
                 warnings.warn("soon gone", DeprecationWarning, stacklevel=1)
-            raise ValueError if self.misdeed == "raises" else MethodFileError("m", ())
+            raise (
+                ValueError
+                if self.misdeed == "raises"
+                else MethodFileError("m", ())
+            )
         return None
 
     def reader(self) -> Callable[[int], str]:
@@ -257,7 +279,12 @@ def test_faults_of_the_loader_are_found(misdeed: str, error: str) -> None:
     """
     found = run(Faulty(1, seconds=0.2, misdeed=misdeed), range(4))
     assert [case.number for case in found] == [0, 1, 2, 3]
-    assert [case.kind for case in found] == ["loaded", "loaded", "fault", "loaded"]
+    assert [case.kind for case in found] == [
+        "loaded",
+        "loaded",
+        "fault",
+        "loaded",
+    ]
     assert error in found[2].error
 
 
@@ -299,7 +326,9 @@ def test_any_yaml(content: object) -> None:
 @FUZZ
 @given(
     st.text(max_size=200)
-    | st.lists(st.sampled_from(WORDS) | st.text(max_size=3), max_size=40).map("".join)
+    | st.lists(st.sampled_from(WORDS) | st.text(max_size=3), max_size=40).map(
+        "".join
+    )
 )
 def test_any_text(text: str) -> None:
     """Text that need not be YAML."""

@@ -19,7 +19,12 @@ BAD = "tests/examples/failing/collocation-misprinted.gark.yaml"
 def run(command: str, **variables: str) -> subprocess.CompletedProcess[str]:
     """Run a shell command as the two integrations do, with the installed ``gark`` on the path."""
     path = f"{Path(sys.executable).parent}{os.pathsep}{os.environ['PATH']}"
-    environment = {**os.environ, "PATH": path, "PYTHONPATH": str(ROOT), **variables}
+    environment = {
+        **os.environ,
+        "PATH": path,
+        "PYTHONPATH": str(ROOT),
+        **variables,
+    }
     return subprocess.run(
         ["bash", "-euo", "pipefail", "-c", command],
         cwd=ROOT,
@@ -45,13 +50,21 @@ def test_a_file_that_is_called_like_an_option(tmp_path: Path) -> None:
     """The hook and the action check a file whose name begins with a dash."""
     (hook,) = yaml.safe_load((ROOT / ".pre-commit-hooks.yaml").read_text())
     odd = tmp_path / "--version.gark.yaml"
-    odd.write_text("methods: [{family: gauss, stages: 2}]\nexpect: {order: 4}\n")
+    odd.write_text(
+        "methods: [{family: gauss, stages: 2}]\nexpect: {order: 4}\n"
+    )
     done = run(
         f"cd {tmp_path} && {' '.join([hook['entry'], *hook['args']])} {odd.name}"
     )
     assert (done.returncode, "order: 4" in done.stdout) == (0, True)
-    step = yaml.safe_load((ROOT / "action.yml").read_text())["runs"]["steps"][-1]
-    variables = {"FILES": odd.name, "ARGUMENTS": "", "RUNNER_TEMP": str(tmp_path)}
+    step = yaml.safe_load((ROOT / "action.yml").read_text())["runs"]["steps"][
+        -1
+    ]
+    variables = {
+        "FILES": odd.name,
+        "ARGUMENTS": "",
+        "RUNNER_TEMP": str(tmp_path),
+    }
     done = run(f"cd {tmp_path}\n{step['run']}", **variables)
     assert done.returncode == 0, done.stderr
 
@@ -59,7 +72,9 @@ def test_a_file_that_is_called_like_an_option(tmp_path: Path) -> None:
 def test_the_python_of_the_other_steps_is_left_alone() -> None:
     """Python is set up without changing the environment, and gark lives in a folder of its own."""
     steps = yaml.safe_load((ROOT / "action.yml").read_text())["runs"]["steps"]
-    (python,) = [step for step in steps if "setup-python" in step.get("uses", "")]
+    (python,) = [
+        step for step in steps if "setup-python" in step.get("uses", "")
+    ]
     assert python["with"]["update-environment"] is False
     scripts = "".join(step.get("run", "") for step in steps)
     assert "GITHUB_PATH" not in scripts
@@ -77,13 +92,17 @@ def test_action(file: str, code: int, tmp_path: Path) -> None:
     }
     variables = {
         name: re.sub(
-            r"\$\{\{ inputs\.([a-z-]+) \}\}", lambda match: inputs[match[1]], text
+            r"\$\{\{ inputs\.([a-z-]+) \}\}",
+            lambda match: inputs[match[1]],
+            text,
         )
         for name, text in step["env"].items()
     } | {"RUNNER_TEMP": str(tmp_path)}
     result = run(step["run"], **variables)
     assert result.returncode == code, result.stderr
-    line = (ROOT / BAD).read_text().splitlines().index("expect: {order: 4}") + 1
+    line = (ROOT / BAD).read_text().splitlines().index(
+        "expect: {order: 4}"
+    ) + 1
     assert (f"::error file={BAD},line={line}," in result.stdout) == bool(code)
 
 
@@ -91,7 +110,9 @@ def test_action_installs_this_project() -> None:
     """What the action installs is the directory it lies in, and that directory is the project."""
     action = yaml.safe_load((ROOT / "action.yml").read_text())
     install = next(
-        step for step in action["runs"]["steps"] if step.get("name") == "install"
+        step
+        for step in action["runs"]["steps"]
+        if step.get("name") == "install"
     )
     assert install["run"].rstrip().endswith('"$GITHUB_ACTION_PATH"')
     assert 'name = "garkcli"' in (ROOT / "pyproject.toml").read_text()

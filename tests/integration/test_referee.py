@@ -54,8 +54,12 @@ def judged(data: dict[str, Any], folder: Path) -> int:
     return code
 
 
-COLLOCATION = (ROOT / "methods" / "collocation.gark.yaml").read_text(encoding="utf-8")
-RADICALS = (ROOT / "methods" / "collocation-conjugate.gark.yaml").read_text("utf-8")
+COLLOCATION = (ROOT / "methods" / "collocation.gark.yaml").read_text(
+    encoding="utf-8"
+)
+RADICALS = (ROOT / "methods" / "collocation-conjugate.gark.yaml").read_text(
+    "utf-8"
+)
 
 
 def test_the_referee_shares_no_code() -> None:
@@ -71,7 +75,9 @@ def test_the_referee_shares_no_code() -> None:
     assert sum(bool(line.strip()) for line in text.splitlines()) < 300
 
 
-@pytest.mark.parametrize("path", METHODS, ids=lambda path: path.name.split(".")[0])
+@pytest.mark.parametrize(
+    "path", METHODS, ids=lambda path: path.name.split(".")[0]
+)
 def test_every_method_is_proved(
     path: Path, tmp_path: Path, capsys: pytest.CaptureFixture[str]
 ) -> None:
@@ -100,7 +106,9 @@ def test_as_a_program(tmp_path: Path) -> None:
 
     def run(*paths: Path) -> subprocess.CompletedProcess[str]:
         command = [sys.executable, "-I", str(SCRIPT), *map(str, paths)]
-        return subprocess.run(command, capture_output=True, text=True, check=False)
+        return subprocess.run(
+            command, capture_output=True, text=True, check=False
+        )
 
     assert run(good).returncode == 0
     assert run(good, bad).returncode == 1
@@ -180,13 +188,18 @@ def _coinciding_nodes(data: dict[str, Any]) -> None:
         _coinciding_nodes,
     ],
 )
-@pytest.mark.parametrize("text", [COLLOCATION, RADICALS], ids=["rational", "radicals"])
+@pytest.mark.parametrize(
+    "text", [COLLOCATION, RADICALS], ids=["rational", "radicals"]
+)
 def test_a_false_proof_is_found_out(
     text: str, change: Callable[[dict[str, Any]], None], tmp_path: Path
 ) -> None:
     """Trees that do not span, orders too high or too low, other blocks, other nodes."""
     data = certificate(text)
-    if change is _coinciding_nodes and "modulus" not in data["method"]["spaces"][0]:
+    if (
+        change is _coinciding_nodes
+        and "modulus" not in data["method"]["spaces"][0]
+    ):
         pytest.skip("no node polynomial")
     change(data)
     assert judged(data, tmp_path) == 1
@@ -208,7 +221,9 @@ def test_rounded_coefficients_have_no_proof() -> None:
     assert "without a tolerance" in str(caught.value)
 
 
-_ENTRIES = st.sampled_from(["0", "1/2", "1/3", "1", "-1/4", "sqrt(2)/2", "1/6"])
+_ENTRIES = st.sampled_from(
+    ["0", "1/2", "1/3", "1", "-1/4", "sqrt(2)/2", "1/6"]
+)
 
 
 @st.composite

@@ -40,16 +40,21 @@ def two_planets(seed: int) -> str:
     Masses are 10⁻⁴ to 3·10⁻³, semi-axes 1 and 1.5 to 3, eccentricities up to 1/4.
     """
     draw = Draw(seed)
-    masses = [between(draw, Fraction(1, 10_000), Fraction(3, 1000)) for _ in range(2)]
+    masses = [
+        between(draw, Fraction(1, 10_000), Fraction(3, 1000)) for _ in range(2)
+    ]
     axes = [Fraction(1), between(draw, Fraction(3, 2), Fraction(3))]
-    eccentricities = [between(draw, Fraction(0), Fraction(1, 4)) for _ in range(2)]
+    eccentricities = [
+        between(draw, Fraction(0), Fraction(1, 4)) for _ in range(2)
+    ]
     half_angles = [between(draw, Fraction(-3), Fraction(3)) for _ in range(2)]
     orbits = list(zip(masses, axes, eccentricities, half_angles, strict=True))
     return system(orbits, sun_moves=seed % 2 == 1)
 
 
 def system(
-    orbits: list[tuple[Fraction, Fraction, Fraction, Fraction]], sun_moves: bool
+    orbits: list[tuple[Fraction, Fraction, Fraction, Fraction]],
+    sun_moves: bool,
 ) -> str:
     """The problem file of planets that start at their perihelia.
 
@@ -85,7 +90,9 @@ def system(
         variables += ["xs", "ys"]
         kinetic.append("(pxs**2 + pys**2)/2")
         initial += ["xs: 0", "ys: 0"]
-        initial += [f"p{axis}s: -({' + '.join(momenta[axis])})" for axis in "xy"]
+        initial += [
+            f"p{axis}s: -({' + '.join(momenta[axis])})" for axis in "xy"
+        ]
     return "\n".join(
         [
             f"variables: [{', '.join(variables)}]",

@@ -23,9 +23,13 @@ def separable(s: int, t: int) -> Tableau:
     """Gauss s for velocities, Lobatto IIIA t for forces, by collocation: eq. (rectangular) for 2,
     3.
     """
-    one, other = diagonal_method("gauss", s), diagonal_method("lobatto-iiia", t)
+    one, other = (
+        diagonal_method("gauss", s),
+        diagonal_method("lobatto-iiia", t),
+    )
     Q = gark(
-        [one, other], {(0, 1): collocation(one, other), (1, 0): collocation(other, one)}
+        [one, other],
+        {(0, 1): collocation(one, other), (1, 0): collocation(other, one)},
     )
     return symplectic_pair(Q, [0], [1])
 
@@ -48,7 +52,9 @@ def exact_energy_errors(
     omega = problem.omega
     q, p, errors = fmpq(1), omega / 2, []
     for _ in range(steps + 1):
-        errors.append(float(arb((p * p + omega**2 * q * q) / 2 - 5 * omega**2 / 8)))
+        errors.append(
+            float(arb((p * p + omega**2 * q * q) / 2 - 5 * omega**2 / 8))
+        )
         q, p = a * q + b * p, c * q + d * p
     return errors
 
@@ -74,12 +80,16 @@ def test_energy_errors_are_exact_to_the_last_digits(
     expected = np.array(
         exact_energy_errors(tableau, default(tableau, omega), HALF, steps)
     )
-    result = oscillator_run(tableau, default(tableau, omega), HALF * steps, HALF)
+    result = oscillator_run(
+        tableau, default(tableau, omega), HALF * steps, HALF
+    )
     assert result.steps == steps
     assert np.array(result.energy.errors) == pytest.approx(
         expected, rel=1e-9, abs=1e-13 * np.abs(expected).max()
     )
-    assert result.energy.max_error == pytest.approx(np.abs(expected).max(), rel=1e-12)
+    assert result.energy.max_error == pytest.approx(
+        np.abs(expected).max(), rel=1e-12
+    )
 
 
 def test_rectangular_method_does_not_drift() -> None:
@@ -97,7 +107,9 @@ def test_small_energy_errors_are_not_rounding() -> None:
     all along.
     """
     tableau = separable(6, 7)
-    result = oscillator_run(tableau, default(tableau), fmpq(10_000), fmpq(1, 100))
+    result = oscillator_run(
+        tableau, default(tableau), fmpq(10_000), fmpq(1, 100)
+    )
     assert result.steps == 1_000_000
     early, late = (
         max(map(abs, half))
@@ -123,15 +135,27 @@ def test_dissipation_is_drift() -> None:
 def test_explicit_euler_drifts_and_blows_up() -> None:
     """Energy grows by 1 + h² a step; a run that leaves all bounds ends there and says so."""
     short = oscillator_run(
-        alone("explicit-euler"), default(alone("explicit-euler")), fmpq(1), fmpq(1, 100)
+        alone("explicit-euler"),
+        default(alone("explicit-euler")),
+        fmpq(1),
+        fmpq(1, 100),
     )
-    assert short.energy.max_error == pytest.approx(5 / 8 * (1.0001**100 - 1), rel=1e-10)
-    assert short.energy.drift == pytest.approx(short.energy.max_error, rel=1e-2)
+    assert short.energy.max_error == pytest.approx(
+        5 / 8 * (1.0001**100 - 1), rel=1e-10
+    )
+    assert short.energy.drift == pytest.approx(
+        short.energy.max_error, rel=1e-2
+    )
     long = oscillator_run(
-        alone("explicit-euler"), default(alone("explicit-euler")), fmpq(10_000), HALF
+        alone("explicit-euler"),
+        default(alone("explicit-euler")),
+        fmpq(10_000),
+        HALF,
     )
     assert long.is_unstable
-    assert long.steps == int(30 * np.log(10) / np.log(1.25))  # 1.25^n − 1 ≤ 1e30
+    assert long.steps == int(
+        30 * np.log(10) / np.log(1.25)
+    )  # 1.25^n − 1 ≤ 1e30
     assert long.energy.drift is None
     assert np.isfinite([long.energy.max_error, *long.energy.errors]).all()
 
@@ -148,7 +172,9 @@ def test_violent_instability_is_finite_too() -> None:
 def test_strong_damping() -> None:
     """Radau IIA at ωh = 50 has lost all energy after a while: the error is −H(0)."""
     tableau = alone("radau-iia", 1)
-    result = oscillator_run(tableau, default(tableau, fmpq(100)), fmpq(500), HALF)
+    result = oscillator_run(
+        tableau, default(tableau, fmpq(100)), fmpq(500), HALF
+    )
     assert result.energy.max_error == pytest.approx(result.energy.initial)
     assert result.energy.errors[-1] == pytest.approx(-result.energy.initial)
 
@@ -190,7 +216,9 @@ def test_uncertainty_of_no_drift(t_end: int) -> None:
 
 def test_uncertainty_of_a_drift() -> None:
     """A slow exponential is nearly a line: its slope is known as well as it is one."""
-    result = oscillator_run(alone("rk4"), default(alone("rk4")), fmpq(100), fmpq(1, 10))
+    result = oscillator_run(
+        alone("rk4"), default(alone("rk4")), fmpq(100), fmpq(1, 10)
+    )
     assert 0 < result.energy.uncertainty < 0.01 * abs(result.energy.drift)
     assert result.stability.fate == "contractive"
 
@@ -203,7 +231,9 @@ def test_amplitude_is_what_the_line_leaves() -> None:
     assert result.energy.amplitude == pytest.approx(
         (max(errors) - min(errors)) / 2, rel=1e-9
     )
-    lost = oscillator_run(alone("rk4"), default(alone("rk4")), fmpq(100), fmpq(1, 10))
+    lost = oscillator_run(
+        alone("rk4"), default(alone("rk4")), fmpq(100), fmpq(1, 10)
+    )
     assert lost.energy.amplitude < 0.01 * lost.energy.max_error
 
 
@@ -211,7 +241,9 @@ def test_series_has_both_ends() -> None:
     """From the start to the end, whatever the number of points."""
     tableau = separable(2, 3)
     for points in (10, 100, 2000):
-        result = oscillator_run(tableau, default(tableau), fmpq(10_000), HALF, points)
+        result = oscillator_run(
+            tableau, default(tableau), fmpq(10_000), HALF, points
+        )
         assert (result.times[0], result.times[-1]) == (0, 10_000)
         assert len(result.times) <= points
 

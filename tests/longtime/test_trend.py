@@ -60,7 +60,9 @@ def test_slope_of_a_line_through_oscillations(
 
 @given(waves)
 @settings(max_examples=300, deadline=None)
-def test_oscillations_do_not_drift(parts: list[tuple[float, float, float]]) -> None:
+def test_oscillations_do_not_drift(
+    parts: list[tuple[float, float, float]],
+) -> None:
     """No slope beyond its uncertainty, and none of the other trends but by a beat slower than the
     run.
     """
@@ -117,7 +119,11 @@ def test_uncertainty_of_fast_oscillations_is_tiny(
     height = sum(a for a, _, _ in parts)
     found = trend_of(oscillation(parts) + 1e-6 * height * S)
     assert abs(found.slope * N - 1e-6 * height) < 1e-8 * height
-    beats = [abs(f - g) for k, (_, f, _) in enumerate(parts) for _, g, _ in parts[:k]]
+    beats = [
+        abs(f - g)
+        for k, (_, f, _) in enumerate(parts)
+        for _, g, _ in parts[:k]
+    ]
     if min(beats, default=np.inf) > 150:
         assert found.uncertainty * N < 1e-7 * height
         assert (found.finding, found.shape) == ("drift", "line")
@@ -171,11 +177,15 @@ def test_pieces_make_no_difference(
 @pytest.mark.parametrize("sign", [1, -1])
 @pytest.mark.parametrize("rate", [0.1, 1, 3, 5, 10, 30, 100, 1000])
 @pytest.mark.parametrize("oscillates", [0.0, 0.1])
-def test_what_is_no_line_is_a_trend(sign: int, rate: float, oscillates: float) -> None:
+def test_what_is_no_line_is_a_trend(
+    sign: int, rate: float, oscillates: float
+) -> None:
     """Growth that sets in late, and decay that is over soon, are trends too."""
     bend = np.expm1(-rate * S) / np.expm1(-rate)
     for errors in (bend, bend[::-1] - bend[-1]):
-        found = trend_of(sign * (errors + oscillates * np.sin(2 * np.pi * 51.3 * S)))
+        found = trend_of(
+            sign * (errors + oscillates * np.sin(2 * np.pi * 51.3 * S))
+        )
         assert found.shape != "none"
         if rate <= 3:
             assert found.finding == "drift"

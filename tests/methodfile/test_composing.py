@@ -37,7 +37,9 @@ def places(node: yaml.Node | None) -> object:
     """A node with all in it: kind, tag, text, style, where it begins and ends."""
     if node is None:
         return None
-    marks = [(m.index, m.line, m.column) for m in (node.start_mark, node.end_mark)]
+    marks = [
+        (m.index, m.line, m.column) for m in (node.start_mark, node.end_mark)
+    ]
     value = node.value
     if isinstance(node, yaml.SequenceNode):
         value = [places(x) for x in node.value]

@@ -60,10 +60,15 @@ def test_an_invalid_file_is_refused_with_its_faults(
     assert places
     assert min(places) >= (1, 1)
     assert places == sorted(places)
-    assert max(line for line, _ in places) <= max(1, error.text.count("\n") + 1)
-    outcome = Outcome(error.source, error.source, faults=error.faults, text=error.text)
+    assert max(line for line, _ in places) <= max(
+        1, error.text.count("\n") + 1
+    )
+    outcome = Outcome(
+        error.source, error.source, faults=error.faults, text=error.text
+    )
     assert_recorded(
-        path.with_name(f"{stem(path)}.txt"), faults_text(outcome, Paint()) + "\n"
+        path.with_name(f"{stem(path)}.txt"),
+        faults_text(outcome, Paint()) + "\n",
     )
 
 
@@ -102,7 +107,9 @@ def test_the_misprinted_table_fails_its_claim() -> None:
     """The collocation example as the paper prints it is a method, of order 2 where order 4 is
     claimed.
     """
-    outcome = check_file(str(EXAMPLES / "failing" / f"collocation-misprinted{SUFFIX}"))
+    outcome = check_file(
+        str(EXAMPLES / "failing" / f"collocation-misprinted{SUFFIX}")
+    )
     assert [(x.claim, x.expected, x.found) for x in outcome.failed_claims] == [
         ("order", "4", "2")
     ]

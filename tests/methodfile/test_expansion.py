@@ -41,18 +41,23 @@ MANY = [f"y{i}" for i in range(20)]
 
 def problem(lagrangian: str, variables: list[str]) -> str:
     """A file of one term that moves with every variable."""
-    initial = ", ".join(f"{q}: {k + 1}, v{q}: 1/2" for k, q in enumerate(variables))
+    initial = ", ".join(
+        f"{q}: {k + 1}, v{q}: 1/2" for k, q in enumerate(variables)
+    )
     return f"variables: [{', '.join(variables)}]\nlagrangian: {lagrangian}\ninitial: {{{initial}}}\n"
 
 
 @given(FORMULAS, FORMULAS)
 @settings(max_examples=150, deadline=None)
-def test_terms_are_not_underestimated(numerator: Any, denominator: Any) -> None:
+def test_terms_are_not_underestimated(
+    numerator: Any, denominator: Any
+) -> None:
     """A polynomial has at most so many terms; nor does it matter that it is divided by another
     one.
     """
     assert (
-        len(sympy.Add.make_args(sympy.expand(numerator))) <= _fraction(numerator).terms
+        len(sympy.Add.make_args(sympy.expand(numerator)))
+        <= _fraction(numerator).terms
     )
     if denominator != 0:
         quotient = numerator + 1 / denominator
@@ -91,4 +96,6 @@ def test_long_equations_are_refused_soon(text: str) -> None:
     ) as caught:
         loads_problem(text)
     assert process_time() - before < 5
-    assert [(fault.line, fault.column) for fault in caught.value.faults] == [(2, 13)]
+    assert [(fault.line, fault.column) for fault in caught.value.faults] == [
+        (2, 13)
+    ]

@@ -64,9 +64,7 @@ def test_triangles_are_completed_wherever_matrices_are_square() -> None:
     whole = "ark: {A: [[[0, 0], [1, 0]], [[0, 0], [0, 1]]], b: [1/2, 1/2]}"
     assert tableau(short) == tableau(whole)
     short = "tableau: {A: [[[[], [1]], null], [null, [[1]]]], b: [[1/2, 1/2], [1]]}"
-    whole = (
-        "tableau: {A: [[[[0, 0], [1, 0]], null], [null, [[1]]]], b: [[1/2, 1/2], [1]]}"
-    )
+    whole = "tableau: {A: [[[[0, 0], [1, 0]], null], [null, [[1]]]], b: [[1/2, 1/2], [1]]}"
     assert tableau(short) == tableau(whole)
 
 
@@ -164,7 +162,12 @@ ONE_FAULT = {
         "tableau:",
     ),
     "no b": (TWO, "[[0", "b missing", "give A, b"),
-    "no b in a tableau": ("tableau: {A: [[0]]}", "{A", "b missing", "give A, b"),
+    "no b in a tableau": (
+        "tableau: {A: [[0]]}",
+        "{A",
+        "b missing",
+        "give A, b",
+    ),
     "a bordered array": (
         "tableau: [[0, 0], [1, 1]]",
         "[[0",
@@ -197,7 +200,12 @@ ONE_FAULT = {
         "a mapping",
         "{family: gauss, stages: 2}",
     ),
-    "a word for methods": ("methods: gauss", "gauss", "a list", "[{family: gauss"),
+    "a word for methods": (
+        "methods: gauss",
+        "gauss",
+        "a list",
+        "[{family: gauss",
+    ),
     "numbered methods": (
         "methods: {1: {family: gauss, stages: 2}}",
         "{1",
@@ -290,7 +298,12 @@ ONE_FAULT = {
         "Fraction",
         "write fractions as",
     ),
-    "Julia's fractions": (f"{TWO}b: [1//2, 1//2]", "1//2", "also at 2:11", "write 1/2"),
+    "Julia's fractions": (
+        f"{TWO}b: [1//2, 1//2]",
+        "1//2",
+        "also at 2:11",
+        "write 1/2",
+    ),
     "LaTeX": (
         f"{TWO}b: [0, '\\frac{{1}}{{2}}']",
         "\\frac",
@@ -387,7 +400,10 @@ def test_an_error_is_its_own_report() -> None:
         loads("A: [[0, 0], [O.5, 0]]\nb: [0, 1]\n", "first.gark.yaml")
     lines = str(caught.value).splitlines()
     assert lines[0].startswith("first.gark.yaml:1:15: A, row 2, entry 1: ")
-    assert lines[1:3] == ["    1 | A: [[0, 0], [O.5, 0]]", "      |               ^"]
+    assert lines[1:3] == [
+        "    1 | A: [[0, 0], [O.5, 0]]",
+        "      |               ^",
+    ]
     assert lines[3].startswith("      help: ")
 
 

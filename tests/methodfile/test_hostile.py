@@ -20,7 +20,9 @@ import pytest
 
 from tests.cli.harness import ROOT
 
-resource = pytest.importorskip("resource", reason="no limits on processes here")
+resource = pytest.importorskip(
+    "resource", reason="no limits on processes here"
+)
 
 SECONDS = 5.0
 """Processor time that no answer may take, so that a busy machine does not matter."""
@@ -32,7 +34,9 @@ FAILING = "tests/examples/failing/collocation-misprinted.gark.yaml"
 
 def _limited() -> None:
     with suppress(ValueError, OSError):  # macOS has the limit and refuses it
-        resource.setrlimit(resource.RLIMIT_AS, (MEGABYTES << 20, MEGABYTES << 20))
+        resource.setrlimit(
+            resource.RLIMIT_AS, (MEGABYTES << 20, MEGABYTES << 20)
+        )
     resource.setrlimit(resource.RLIMIT_CORE, (0, 0))
 
 
@@ -86,7 +90,8 @@ def bomb(levels: int, width: int) -> str:
     """Anchors of anchors: ``width`` to the power of ``levels`` values."""
     lines = ["name: bomb", "a0: &a0 [1/2, 1/2]"]
     lines += [
-        f"a{k}: &a{k} [{', '.join([f'*a{k - 1}'] * width)}]" for k in range(1, levels)
+        f"a{k}: &a{k} [{', '.join([f'*a{k - 1}'] * width)}]"
+        for k in range(1, levels)
     ]
     return "\n".join([*lines, f"methods: *a{levels - 1}\n"])
 
@@ -215,7 +220,13 @@ def answers(tmp_path_factory: pytest.TempPathFactory) -> dict[str, Answer]:
         (folder / names[what]).write_bytes(
             content.encode() if isinstance(content, str) else content
         )
-    command = [sys.executable, "-c", ONE_BY_ONE, str(MEGABYTES), *names.values()]
+    command = [
+        sys.executable,
+        "-c",
+        ONE_BY_ONE,
+        str(MEGABYTES),
+        *names.values(),
+    ]
     done = subprocess.run(
         command,
         cwd=folder,
@@ -237,12 +248,16 @@ def answers(tmp_path_factory: pytest.TempPathFactory) -> dict[str, Answer]:
 
 
 @pytest.mark.parametrize("what", HOSTILE)
-def test_a_hostile_file_is_refused(what: str, answers: dict[str, Answer]) -> None:
+def test_a_hostile_file_is_refused(
+    what: str, answers: dict[str, Answer]
+) -> None:
     """Exit code 2 and a message, soon, in little memory; nothing in the file was executed."""
     answer = answers[what]
     assert "Traceback" not in answer.text
     assert answer.code == 2, answer.text[-500:]
-    assert re.match(r"m[0-9]+\.gark\.yaml(:[0-9]+:[0-9]+)?: error: .", answer.text)
+    assert re.match(
+        r"m[0-9]+\.gark\.yaml(:[0-9]+:[0-9]+)?: error: .", answer.text
+    )
     assert answer.seconds < SECONDS
     assert answer.megabytes < 1000
     lines = answer.text.splitlines()
@@ -256,13 +271,17 @@ def test_a_tag_runs_nothing(tmp_path: Path) -> None:
         "methods: [{A: [[!!python/object/apply:os.system 'echo pwned']], b: [1]}]\n"
     )
     assert (
-        "pwned" not in refused(gark("check", "m.gark.yaml", cwd=tmp_path)).splitlines()
+        "pwned"
+        not in refused(gark("check", "m.gark.yaml", cwd=tmp_path)).splitlines()
     )
 
 
 def big_explicit(stages: int, entry: str) -> str:
     """An explicit method that is well formed: ``entry`` below the diagonal, equal weights."""
-    rows = [f"[{', '.join([entry] * i + ['0'] * (stages - i))}]" for i in range(stages)]
+    rows = [
+        f"[{', '.join([entry] * i + ['0'] * (stages - i))}]"
+        for i in range(stages)
+    ]
     weights = ", ".join([f"1/{stages}"] * stages)
     return f"methods:\n- A: [{', '.join(rows)}]\n  b: [{weights}]\n"
 
@@ -298,7 +317,9 @@ def test_a_big_method_is_answered_or_refused(
         preexec_fn=_limited,
     )
     assert done.returncode in {0, 2}, done.stderr[-500:]
-    assert ('"order": 1,' if done.returncode == 0 else '"errors"') in done.stdout
+    assert (
+        '"order": 1,' if done.returncode == 0 else '"errors"'
+    ) in done.stdout
     seconds, megabytes = map(float, done.stderr.split()[-2:])
     assert seconds < SECONDS
     assert megabytes < 500
@@ -326,17 +347,25 @@ def test_what_is_no_file_is_refused(tmp_path: Path) -> None:
     )
     for name in names:
         assert name in refused(gark("check", name, cwd=tmp_path))
-    assert "fifo.gark.yaml" in refused(gark("check", ".", "-j", "2", cwd=tmp_path))
+    assert "fifo.gark.yaml" in refused(
+        gark("check", ".", "-j", "2", cwd=tmp_path)
+    )
 
 
-@pytest.mark.parametrize("command", ["tableau", "conjugate", "converge", "conditions"])
+@pytest.mark.parametrize(
+    "command", ["tableau", "conjugate", "converge", "conditions"]
+)
 def test_other_commands_refuse_them_too(command: str, tmp_path: Path) -> None:
     """Every command that reads a method refuses a FIFO, a bomb and junk on standard input."""
     os.mkfifo(tmp_path / "fifo.gark.yaml")
     (tmp_path / "bomb.gark.yaml").write_text(bomb(12, 12))
     options = ("-n", "2") if command == "conditions" else ()
     for name in ("fifo.gark.yaml", "bomb.gark.yaml", "-"):
-        refused(gark(command, name, *options, cwd=tmp_path, stdin=bytes(range(256))))
+        refused(
+            gark(
+                command, name, *options, cwd=tmp_path, stdin=bytes(range(256))
+            )
+        )
 
 
 def test_an_endless_standard_input_is_refused() -> None:
@@ -368,7 +397,12 @@ def test_a_name_with_an_odd_byte_is_only_a_name(tmp_path: Path) -> None:
 # -- where a report goes
 # ------------------------------------------------------------------------------------------
 
-RUNS = [("check", FAILING), ("trees", "-N", "3", "-n", "7"), ("list",), ("schema",)]
+RUNS = [
+    ("check", FAILING),
+    ("trees", "-N", "3", "-n", "7"),
+    ("list",),
+    ("schema",),
+]
 
 
 @pytest.mark.parametrize("arguments", RUNS, ids=lambda arguments: arguments[0])
@@ -444,7 +478,9 @@ def test_a_file_limit_leaves_nothing_half_written(tmp_path: Path) -> None:
     assert (tmp_path / "trees.csv").read_text() == "old\n"
 
 
-def interrupted(arguments: Sequence[str], cwd: Path, ready: str) -> tuple[int, str]:
+def interrupted(
+    arguments: Sequence[str], cwd: Path, ready: str
+) -> tuple[int, str]:
     """Exit code and stderr of a run that gets ^C once ``ready`` is true, with its workers, as from
     a terminal.
     """
@@ -457,7 +493,9 @@ def interrupted(arguments: Sequence[str], cwd: Path, ready: str) -> tuple[int, s
         text=True,
         start_new_session=True,
         # what is started in the background of a script ignores ^C, and so do its children
-        preexec_fn=lambda: signal.signal(signal.SIGINT, signal.default_int_handler),
+        preexec_fn=lambda: signal.signal(
+            signal.SIGINT, signal.default_int_handler
+        ),
     )
     with running:
         try:
@@ -482,7 +520,8 @@ def _ready(pid: int, cwd: Path, ready: str) -> bool:
     """Whether a temporary file has been begun, or workers have been started."""
     if ready == "file":
         return any(
-            x.name.startswith(".") and x.stat().st_size > 0 for x in cwd.iterdir()
+            x.name.startswith(".") and x.stat().st_size > 0
+            for x in cwd.iterdir()
         )
     children = Path(f"/proc/{pid}/task/{pid}/children")
     return len(children.read_text().split()) >= 2
@@ -568,7 +607,12 @@ def broken(*arguments: str) -> subprocess.CompletedProcess[str]:
     )
     command = [sys.executable, "-c", script, *arguments]
     return subprocess.run(
-        command, cwd=ROOT, env=environment(), capture_output=True, text=True, timeout=30
+        command,
+        cwd=ROOT,
+        env=environment(),
+        capture_output=True,
+        text=True,
+        timeout=30,
     )
 
 

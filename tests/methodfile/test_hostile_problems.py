@@ -30,9 +30,7 @@ def problem(
     variables: str, form: str, formula: str, initial: str, rest: str = ""
 ) -> str:
     """A file of one term."""
-    return (
-        f"variables: [{variables}]\n{form}: {formula}\ninitial: {{{initial}}}\n{rest}"
-    )
+    return f"variables: [{variables}]\n{form}: {formula}\ninitial: {{{initial}}}\n{rest}"
 
 
 def one(formula: str, rest: str = "") -> str:
@@ -48,12 +46,18 @@ CHAIN = "+".join(
     for j, w in enumerate("abcde")
 )
 REFUSED = {
-    "100 kB": (one("+".join(["x*px"] * 20_000)), "a formula of 99999 characters"),
+    "100 kB": (
+        one("+".join(["x*px"] * 20_000)),
+        "a formula of 99999 characters",
+    ),
     "product": (
         one("px**2/2+" + "*".join(f"(x+{i})" for i in range(1, 600))),
         "second derivatives of",
     ),
-    "parentheses": (one("(" * 500 + "x" + ")" * 500), "nested more than 60 deep"),
+    "parentheses": (
+        one("(" * 500 + "x" + ")" * 500),
+        "nested more than 60 deep",
+    ),
     "powers of powers": (
         one("(" * 29 + "x" + "+1)**1.5" * 29),
         "a number above 2^1000",
@@ -82,18 +86,27 @@ REFUSED = {
         "more than 2000 operations",
     ),
     "variables": (
-        problem(", ".join(f"x{i}" for i in range(40_000)), "hamiltonian", "1", "x: 1"),
+        problem(
+            ", ".join(f"x{i}" for i in range(40_000)),
+            "hamiltonian",
+            "1",
+            "x: 1",
+        ),
         "40000 variables",
     ),
     "terms": (one("[" + "0, " * 40_000 + "]"), "40000 terms"),
     "invariants": (
-        one("px**2", "invariants: {" + ", ".join(f"j{i}: x" for i in range(99)) + "}"),
+        one(
+            "px**2",
+            "invariants: {" + ", ".join(f"j{i}: x" for i in range(99)) + "}",
+        ),
         "99 invariants",
     ),
     "aliases": (
         "a: &a [1, 1]\n"
         + "".join(
-            f"b{i}: &b{i} [*{'ab'[i > 0]}{i - 1 if i else ''}]\n" for i in range(30)
+            f"b{i}: &b{i} [*{'ab'[i > 0]}{i - 1 if i else ''}]\n"
+            for i in range(30)
         ),
         "nested more than 12 deep",
     ),
@@ -132,7 +145,10 @@ REFUSED = {
     ),
     "sum of powers": (
         problem(
-            "x", "lagrangian", "vx**5+vx**3*sin(x*vx)+log(cosh(vx))", "x: 1, vx: 1"
+            "x",
+            "lagrangian",
+            "vx**5+vx**3*sin(x*vx)+log(cosh(vx))",
+            "x: 1, vx: 1",
         ),
         "not solved",
     ),
@@ -154,7 +170,8 @@ READ = {
         ", ".join(f"{x}: 0, v{x}: 1" for x in MANY),
     ),
     "quotients": one(
-        "px**2/2+" + "+".join(f"(x**{i}+1)/(x**{i + 1}-3)" for i in range(1, 60))
+        "px**2/2+"
+        + "+".join(f"(x**{i}+1)/(x**{i + 1}-3)" for i in range(1, 60))
     ),
 }
 
@@ -185,7 +202,8 @@ def test_any_text_is_read_or_refused(seed: int) -> None:
     """
     random = Random(seed)
     seeds = [
-        path.read_text(encoding="utf-8") for path in sorted(PROBLEMS.glob("*.yaml"))
+        path.read_text(encoding="utf-8")
+        for path in sorted(PROBLEMS.glob("*.yaml"))
     ]
     for _ in range(100):
         try_one(hostile(random, seeds))
@@ -194,12 +212,16 @@ def test_any_text_is_read_or_refused(seed: int) -> None:
 def hostile(random: Random, seeds: list[str]) -> str:
     """One text."""
     if random.random() < 0.2:
-        return "".join(random.choice(WORDS) for _ in range(random.randrange(40)))
+        return "".join(
+            random.choice(WORDS) for _ in range(random.randrange(40))
+        )
     text = random.choice(seeds)
     for _ in range(random.randrange(1, 4)):
         i = random.randrange(len(text))
         j = i + random.choice((0, 1, 1, 3, 12))
-        text = text[:i] + random.choice(("", *WORDS, text[j : j + 9])) + text[j:]
+        text = (
+            text[:i] + random.choice(("", *WORDS, text[j : j + 9])) + text[j:]
+        )
     return text
 
 

@@ -101,7 +101,18 @@ def test_a_parameter_is_a_value_and_not_a_text() -> None:
 
 @pytest.mark.parametrize(
     "scalar",
-    ["010", "0x10", "1_000", "1:30", "yes", "on", "~", "2001-12-14", ".inf", ".NaN"],
+    [
+        "010",
+        "0x10",
+        "1_000",
+        "1:30",
+        "yes",
+        "on",
+        "~",
+        "2001-12-14",
+        ".inf",
+        ".NaN",
+    ],
 )
 def test_a_plain_scalar_that_yaml_reads_as_something_else_is_refused(
     scalar: str,
@@ -144,7 +155,9 @@ def test_underscores_are_soon_read() -> None:
     before = process_time()
     with pytest.raises(MethodFileError, match="100001 characters"):
         loads(f"methods: [{{A: [[{'_' * 100_000}x]], b: [1]}}]")
-    with pytest.raises(MethodFileError, match="different numbers to different readers"):
+    with pytest.raises(
+        MethodFileError, match="different numbers to different readers"
+    ):
         loads("methods: [{A: [[1_0_0]], b: [1]}]")
     assert process_time() - before < 2
 
@@ -153,7 +166,9 @@ def test_long_chains_of_parameters_are_refused() -> None:
     """Parameters that each use the one before: read to a depth of two hundred, then told."""
 
     def chain(length: int) -> dict[str, str]:
-        return {"p0": "sqrt(2)"} | {f"p{i}": f"p{i - 1} + 1" for i in range(1, length)}
+        return {"p0": "sqrt(2)"} | {
+            f"p{i}": f"p{i - 1} + 1" for i in range(1, length)
+        }
 
     assert value("p190 - p189", chain(191)) == 1
     with pytest.raises(

@@ -141,14 +141,18 @@ def test_limits_are_part_of_the_fault() -> None:
     """A file that would exhaust the machine is refused with the limit it passes."""
     assert (
         "50000 values"
-        in faults("a: &a [" + "1, " * 1000 + "1]\nb: [" + "*a, " * 500 + "*a]\n")[
-            0
-        ].message
+        in faults(
+            "a: &a [" + "1, " * 1000 + "1]\nb: [" + "*a, " * 500 + "*a]\n"
+        )[0].message
     )
     assert "12 deep" in faults("methods: " + "[" * 40 + "]" * 40)[0].message
-    assert "1000 digits" in faults("methods: [{A: [[1e2000]], b: [1]}]")[0].message
     assert (
-        "20000" in faults(f"methods: [{{A: [[{'1+' * 10001}1]], b: [1]}}]")[0].message
+        "1000 digits"
+        in faults("methods: [{A: [[1e2000]], b: [1]}]")[0].message
+    )
+    assert (
+        "20000"
+        in faults(f"methods: [{{A: [[{'1+' * 10001}1]], b: [1]}}]")[0].message
     )
 
 

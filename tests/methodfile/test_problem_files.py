@@ -79,7 +79,12 @@ def test_every_key() -> None:
         x**2 / 2 + y**2 / 2,
         2 * sympy.pi * (1 + x**2) ** sympy.Rational(3, 2) - sympy.sqrt(2) * y,
     )
-    assert problem.initial == (fmpq(1, 5), fmpq(1, 3), fmpq(-1, 10), fmpq(1, 4))
+    assert problem.initial == (
+        fmpq(1, 5),
+        fmpq(1, 3),
+        fmpq(-1, 10),
+        fmpq(1, 4),
+    )
     assert problem.t_end == fmpq(5, 2)
     assert problem.invariants == (("J", x * py - y * px),)
 
@@ -95,8 +100,14 @@ def test_files_of_built_in_problems(name: str) -> None:
     with ctx.workprec(200):
         one, other = (quantities_function(x, 50) for x in (built_in, own))
         for k in range(5):
-            at = [arb(fmpq(7 * k + 3 * i + 1, 11)) for i in range(len(own.initial))]
-            assert all(a.overlaps(b) for a, b in zip(one(*at), other(*at), strict=True))
+            at = [
+                arb(fmpq(7 * k + 3 * i + 1, 11))
+                for i in range(len(own.initial))
+            ]
+            assert all(
+                a.overlaps(b)
+                for a, b in zip(one(*at), other(*at), strict=True)
+            )
     assert own.initial == built_in.initial
     assert own.t_end == built_in.t_end
 
@@ -188,7 +199,10 @@ def test_momenta_of_a_lagrangian() -> None:
             ONE + "initial: {}",
             [(4, 1, "the file: the key 'initial' stands here twice")],
         ),
-        (ONE + "lagrangian: vx**2", [(4, 13, "a hamiltonian and a lagrangian")]),
+        (
+            ONE + "lagrangian: vx**2",
+            [(4, 13, "a hamiltonian and a lagrangian")],
+        ),
         (ONE + "gark: 2", [(4, 7, "gark: this program reads version 1")]),
         (ONE + "name: [a]", [(4, 7, "name: a single value is expected here")]),
         (ONE + "t_end: 0", [(4, 8, "t_end: a positive rational number")]),
@@ -202,13 +216,22 @@ def test_momenta_of_a_lagrangian() -> None:
         ),
         (
             ONE + "invariants: {J: vx}",
-            [(4, 17, "invariants: J: 'vx' is no variable, momentum or parameter")],
+            [
+                (
+                    4,
+                    17,
+                    "invariants: J: 'vx' is no variable, momentum or parameter",
+                )
+            ],
         ),
         (
             ONE + "invariants: {J: log(px)}",
             [(4, 17, "invariants: J at the initial values: log of px = 0")],
         ),
-        (ONE + "parameters: {x: 1}", [(4, 14, "parameters: x is a variable already")]),
+        (
+            ONE + "parameters: {x: 1}",
+            [(4, 14, "parameters: x is a variable already")],
+        ),
         (
             ONE + "parameters: {px: 1}",
             [(4, 14, "parameters: px is the momentum of x already")],
@@ -229,11 +252,23 @@ def test_momenta_of_a_lagrangian() -> None:
             ONE + "parameters: {a: log(-1)}",
             [(4, 17, "parameters: a: log of -1 is no real number")],
         ),
-        (ONE + "parameters: {a: x}", [(4, 17, "parameters: a: 'x' is no parameter")]),
-        (ONE + "parameters: {'a b': 1}", [(4, 21, "parameters: a b is no name")]),
+        (
+            ONE + "parameters: {a: x}",
+            [(4, 17, "parameters: a: 'x' is no parameter")],
+        ),
+        (
+            ONE + "parameters: {'a b': 1}",
+            [(4, 21, "parameters: a b is no name")],
+        ),
         (
             ONE + "parameters: {a: yes}",
-            [(4, 17, "parameters: a: 'yes' is no number: YAML reads it as bool")],
+            [
+                (
+                    4,
+                    17,
+                    "parameters: a: 'yes' is no number: YAML reads it as bool",
+                )
+            ],
         ),
         (
             ONE.replace("[x]", "[pi]"),
@@ -278,20 +313,32 @@ def test_momenta_of_a_lagrangian() -> None:
             ONE.replace("[x]", "[x, px]"),
             [(1, 16, "variables: px is the momentum of x")],
         ),
-        (ONE.replace("[x]", "[x, x]"), [(1, 16, "variables: 'x' is named twice")]),
+        (
+            ONE.replace("[x]", "[x, x]"),
+            [(1, 16, "variables: 'x' is named twice")],
+        ),
         (ONE.replace("[x]", "[]"), [(1, 12, "variables is empty")]),
         (
             ONE.replace("[x]", "[[x]]"),
             [(1, 13, "variables: a single value is expected here")],
         ),
-        (ONE.replace("[x]", "'x, y'"), [(1, 13, "variables: 'x, y' is no name")]),
+        (
+            ONE.replace("[x]", "'x, y'"),
+            [(1, 13, "variables: 'x, y' is no name")],
+        ),
         (
             ONE.replace("[x]", f"[{'x' * 31}]"),
             [(1, 13, "is longer than 30 characters")],
         ),
         (
             ONE.replace("cos(x)", "cos(z)"),
-            [(2, 28, "hamiltonian: 'z' is no variable, momentum or parameter")],
+            [
+                (
+                    2,
+                    28,
+                    "hamiltonian: 'z' is no variable, momentum or parameter",
+                )
+            ],
         ),
         (
             ONE.replace("px**2", "vx**2"),
@@ -321,7 +368,10 @@ def test_momenta_of_a_lagrangian() -> None:
             ONE.replace("cos(x)", "sqrt(x - 1)"),
             [(2, 14, "hamiltonian at the initial values: no derivative by x")],
         ),
-        (ONE.replace("cos(x)", "sqrt(x**2)"), [(2, 24, "hamiltonian: this has |x|")]),
+        (
+            ONE.replace("cos(x)", "sqrt(x**2)"),
+            [(2, 24, "hamiltonian: this has |x|")],
+        ),
         (
             ONE.replace("cos(x)", "abs(x)"),
             [(2, 24, "hamiltonian: 'abs' is not a function of formulas")],
@@ -330,7 +380,10 @@ def test_momenta_of_a_lagrangian() -> None:
             ONE.replace("cos(x)", "2**x"),
             [(2, 27, "hamiltonian: the exponent depends on x")],
         ),
-        (ONE.replace("px**2/2 - cos(x)", "[]"), [(2, 14, "hamiltonian is empty")]),
+        (
+            ONE.replace("px**2/2 - cos(x)", "[]"),
+            [(2, 14, "hamiltonian is empty")],
+        ),
         (
             ONE.replace("px**2/2 - cos(x)", "{a: 1}"),
             [(2, 14, "hamiltonian: a list is expected here")],
@@ -344,12 +397,18 @@ def test_momenta_of_a_lagrangian() -> None:
             [(2, 22, "H{2}: nothing is here")],
         ),
         (ONE.replace(", px: 0", ""), [(3, 10, "initial: no value for px")]),
-        (ONE.replace("{x: 1, px: 0}", "{}"), [(3, 10, "initial: no value for x, px")]),
+        (
+            ONE.replace("{x: 1, px: 0}", "{}"),
+            [(3, 10, "initial: no value for x, px")],
+        ),
         (
             ONE.replace("{x: 1, px: 0}", "[1, 0]"),
             [(3, 10, "initial: a mapping of keys to values")],
         ),
-        (ONE.replace("px: 0", "vx: 0"), [(3, 17, "initial: unknown key 'vx'")]),
+        (
+            ONE.replace("px: 0", "vx: 0"),
+            [(3, 17, "initial: unknown key 'vx'")],
+        ),
         (
             ONE.replace("px: 0", "px: nan"),
             [(3, 21, "initial: px: nan is not a number")],
@@ -361,7 +420,9 @@ def test_momenta_of_a_lagrangian() -> None:
         ),
     ],
 )
-def test_faults_of_hamiltonians(text: str, wanted: list[tuple[int, int, str]]) -> None:
+def test_faults_of_hamiltonians(
+    text: str, wanted: list[tuple[int, int, str]]
+) -> None:
     """Each fault with its place; no other is reported."""
     if not wanted:
         assert loads_problem(text)
@@ -390,7 +451,11 @@ def test_faults_of_hamiltonians(text: str, wanted: list[tuple[int, int, str]]) -
             "{x: 1, y: 1, vx: 0, vy: 0}",
             "the mass matrix of vx, vy is singular",
         ),
-        ("x + y", "{x: 1, y: 1, vx: 0, vy: 0}", "the Lagrangian has no velocities"),
+        (
+            "x + y",
+            "{x: 1, y: 1, vx: 0, vy: 0}",
+            "the Lagrangian has no velocities",
+        ),
         (
             "vx**2 + vy**2",
             "{x: 1, y: 1, vx: 0, py: 0}",
@@ -426,7 +491,9 @@ def test_faults_of_hamiltonians(text: str, wanted: list[tuple[int, int, str]]) -
         ),
     ],
 )
-def test_faults_of_lagrangians(lagrangian: str, initial: str, message: str) -> None:
+def test_faults_of_lagrangians(
+    lagrangian: str, initial: str, message: str
+) -> None:
     """Degenerate ones, wrong names, incomplete starts: one fault each, with a cure."""
     ((line, _, found, _),) = faults(
         f"variables: [x, y]\nlagrangian: {lagrangian}\ninitial: {initial}\n"
@@ -437,9 +504,7 @@ def test_faults_of_lagrangians(lagrangian: str, initial: str, message: str) -> N
 
 def test_velocities_clash_in_lagrangians_only() -> None:
     """A variable vx beside x is the velocity of x; a Hamiltonian has no such name."""
-    text = (
-        "{variables: [x, vx], %s: %s**2 + %s**2, initial: {x: 0, vx: 0, px: 1, pvx: 1}}"
-    )
+    text = "{variables: [x, vx], %s: %s**2 + %s**2, initial: {x: 0, vx: 0, px: 1, pvx: 1}}"
     assert read(text % ("hamiltonian", "px", "pvx")).variables == ("x", "vx")
     assert (
         "variables: vx is the velocity of x"
@@ -518,7 +583,9 @@ def test_method_files_and_problem_files_know_each_other() -> None:
         loads(ONE)
 
 
-@pytest.mark.parametrize("path", sorted(PROBLEMS.glob("*.yaml")), ids=lambda x: x.stem)
+@pytest.mark.parametrize(
+    "path", sorted(PROBLEMS.glob("*.yaml")), ids=lambda x: x.stem
+)
 def test_files_of_the_folder(path: Path) -> None:
     """Every file of the folder problems is read; its invariants are first integrals: by their
     Poisson brackets, or along the right-hand sides.

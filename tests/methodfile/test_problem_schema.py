@@ -21,7 +21,10 @@ VALIDATOR = Draft7Validator(SCHEMA)
 PROBLEMS = Path(__file__).resolve().parents[2] / "problems"
 RIGHT = [
     *FILES,
-    *(path.read_text(encoding="utf-8") for path in sorted(PROBLEMS.glob("*.yaml"))),
+    *(
+        path.read_text(encoding="utf-8")
+        for path in sorted(PROBLEMS.glob("*.yaml"))
+    ),
 ]
 GOOD: dict[str, Any] = {
     "variables": ["x"],
@@ -81,7 +84,9 @@ def test_what_loads_is_allowed(text: str) -> None:
 def test_slips_are_refused_by_both(change: dict[str, Any]) -> None:
     """By the schema, and by the loader."""
     changed = {
-        key: value for key, value in {**GOOD, **change}.items() if value is not None
+        key: value
+        for key, value in {**GOOD, **change}.items()
+        if value is not None
     }
     assert not VALIDATOR.is_valid(changed)
     with pytest.raises(MethodFileError):

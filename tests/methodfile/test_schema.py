@@ -74,7 +74,9 @@ BEYOND = {
     },
 }  # fmt: skip
 """Invalid examples that the schema allows, by the reason why only the loader can refuse them."""
-ONLY_THE_LOADER = {name: why for why, names in BEYOND.items() for name in names}
+ONLY_THE_LOADER = {
+    name: why for why, names in BEYOND.items() for name in names
+}
 
 
 def data(path: Path) -> Any:
@@ -88,7 +90,9 @@ def test_the_schema_is_one() -> None:
     assert SCHEMA["$schema"] == "http://json-schema.org/draft-07/schema#"
     references = set(_references(SCHEMA))
     assert references
-    assert references <= {f"#/definitions/{name}" for name in SCHEMA["definitions"]}
+    assert references <= {
+        f"#/definitions/{name}" for name in SCHEMA["definitions"]
+    }
 
 
 def _references(part: Any) -> list[str]:
@@ -100,20 +104,26 @@ def _references(part: Any) -> list[str]:
     return own + [x for value in part.values() for x in _references(value)]
 
 
-@pytest.mark.parametrize("path", RIGHT, ids=lambda path: path.name.removesuffix(SUFFIX))
+@pytest.mark.parametrize(
+    "path", RIGHT, ids=lambda path: path.name.removesuffix(SUFFIX)
+)
 def test_what_loads_is_allowed(path: Path) -> None:
     """Every method of the project and every valid or failing example is a method file for the
     schema too.
     """
     load(str(path))
-    assert [error.message[:200] for error in VALIDATOR.iter_errors(data(path))] == []
+    assert [
+        error.message[:200] for error in VALIDATOR.iter_errors(data(path))
+    ] == []
 
 
 @pytest.mark.parametrize("path", FAMILY_FILES, ids=lambda path: path.name)
 def test_families_are_allowed(path: Path) -> None:
     """A file with unknowns is a method file for the schema too."""
     assert load_family(str(path)).parameters
-    assert [error.message[:200] for error in VALIDATOR.iter_errors(data(path))] == []
+    assert [
+        error.message[:200] for error in VALIDATOR.iter_errors(data(path))
+    ] == []
 
 
 @pytest.mark.parametrize(

@@ -53,21 +53,28 @@ def tableaus(draw: st.DrawFn) -> Tableau:
     return spelled_out(A, vectors, nodes, linear)
 
 
-@given(tableaus(), st.text(st.characters(exclude_categories=["C", "Z"]), min_size=1))
+@given(
+    tableaus(),
+    st.text(st.characters(exclude_categories=["C", "Z"]), min_size=1),
+)
 def test_a_spelled_out_file_loads_as_the_same_tableau(
     tableau: Tableau, name: str
 ) -> None:
     """Blocks, absent blocks, nodes, weights, linear colours and the name survive writing and
     reading.
     """
-    method = loads(write_tableau_file(tableau, name, note="written\nby a test"))
+    method = loads(
+        write_tableau_file(tableau, name, note="written\nby a test")
+    )
     assert method.tableau == tableau
     assert method.name == name
 
 
 @given(st.data())
 @settings(max_examples=50)
-def test_a_partitioned_file_loads_as_the_same_tableau(data: st.DataObject) -> None:
+def test_a_partitioned_file_loads_as_the_same_tableau(
+    data: st.DataObject,
+) -> None:
     """Rectangular parts of a separable or Nyström method come back with their nodes."""
     s, t = data.draw(st.integers(1, 3)), data.draw(st.integers(1, 3))
     q = (
@@ -80,7 +87,9 @@ def test_a_partitioned_file_loads_as_the_same_tableau(data: st.DataObject) -> No
         data.draw(matrices(1, t))[0],
         data.draw(matrices(1, s))[0],
     )
-    tableau = with_linear(separable_prk(q, p), data.draw(st.sampled_from([[], ["q"]])))
+    tableau = with_linear(
+        separable_prk(q, p), data.draw(st.sampled_from([[], ["q"]]))
+    )
     assert loads(write_tableau_file(tableau, "prk")).tableau == tableau
 
 
@@ -88,7 +97,9 @@ def same_entries(one: Tableau, other: Tableau) -> bool:
     """Whether two tableaus have exactly the same entries, though each in a number field of its
     own.
     """
-    texts = [to_text(x) for tableau in (one, other) for x in all_entries(tableau)]
+    texts = [
+        to_text(x) for tableau in (one, other) for x in all_entries(tableau)
+    ]
     expressions = [parse(text) for text in texts]
     domain = Domain(expressions)
     values = [domain.evaluate(x) for x in expressions]

@@ -42,16 +42,25 @@ class Trees:
             size = len(self._levels)
             roots = range(self.tableau.size)
             self._levels.append(
-                [(l, forest) for l in roots for forest in self._forests(l, size)]
+                [
+                    (l, forest)
+                    for l in roots
+                    for forest in self._forests(l, size)
+                ]
             )
         return self._levels[order - 1]
 
     def _forests(self, l: int, size: int) -> list[tuple[Plain, ...]]:
         seen = {
-            m for m in range(self.tableau.size) if self.tableau.block(l, m) is not None
+            m
+            for m in range(self.tableau.size)
+            if self.tableau.block(l, m) is not None
         }
         choices = [
-            (n, u) for n in range(1, size + 1) for u in self.of_order(n) if u[0] in seen
+            (n, u)
+            for n in range(1, size + 1)
+            for u in self.of_order(n)
+            if u[0] in seen
         ]
         most = 1 if self.tableau.colours[l].is_linear else size
         return list(_multisets(choices, size, most))
@@ -148,6 +157,9 @@ def brute_order(tableau: Tableau, limit: int) -> int:
     """
     trees, weights = Trees(tableau), Weights(tableau)
     for order in range(1, limit + 1):
-        if any(weights.weight(u) != fmpq(1, density(u)) for u in trees.of_order(order)):
+        if any(
+            weights.weight(u) != fmpq(1, density(u))
+            for u in trees.of_order(order)
+        ):
             return order - 1
     return limit

@@ -24,7 +24,8 @@ def numbers(*texts: str) -> tuple[Vector, ...]:
     rows = [[parse(entry) for entry in text.split(",")] for text in texts]
     domain = Domain(expression for row in rows for expression in row)
     return tuple(
-        tuple(domain.evaluate(expression) for expression in row) for row in rows
+        tuple(domain.evaluate(expression) for expression in row)
+        for row in rows
     )
 
 
@@ -59,9 +60,14 @@ def block_at(
 
 def method_at(method: Method, nodes: Vector) -> Method:
     """A diagonal method of a polynomial space, entry by entry."""
-    weights = tuple(pairing(method.b, lagrange(nodes, j)) for j in range(len(nodes)))
+    weights = tuple(
+        pairing(method.b, lagrange(nodes, j)) for j in range(len(nodes))
+    )
     return Method(
-        method.name, PointSpace(nodes), block_at(method.A, nodes, nodes), weights
+        method.name,
+        PointSpace(nodes),
+        block_at(method.A, nodes, nodes),
+        weights,
     )
 
 
@@ -86,4 +92,6 @@ def at_points(tableau: Tableau, nodes: Sequence[Vector]) -> Tableau:
         )
         for m, colour in enumerate(tableau.colours)
     )
-    return Tableau(tuple(PointSpace(points) for points in nodes), colours, blocks)
+    return Tableau(
+        tuple(PointSpace(points) for points in nodes), colours, blocks
+    )

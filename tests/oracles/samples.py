@@ -46,8 +46,15 @@ def method(name: str) -> Method:
 def everywhere(rule: Rule, *names: str) -> Tableau:
     """The GARK tableau of some methods with one rule for all off-diagonal blocks."""
     methods = [method(name) for name in names]
-    edges = [(l, m) for l in range(len(methods)) for m in range(len(methods)) if l != m]
-    return gark(methods, {(l, m): rule(methods[l], methods[m]) for l, m in edges})
+    edges = [
+        (l, m)
+        for l in range(len(methods))
+        for m in range(len(methods))
+        if l != m
+    ]
+    return gark(
+        methods, {(l, m): rule(methods[l], methods[m]) for l, m in edges}
+    )
 
 
 def mixture(*weights: str) -> Rule:
@@ -160,16 +167,22 @@ def _named() -> Iterator[tuple[str, Callable[[], Tableau]]]:
     yield (
         "a mixture over Q(sqrt(5))",
         lambda: everywhere(
-            mixture("sqrt(5)", "1 - sqrt(5)", "0", "0"), "gauss 2", "radau-iia 2"
+            mixture("sqrt(5)", "1 - sqrt(5)", "0", "0"),
+            "gauss 2",
+            "radau-iia 2",
         ),
     )
     yield (
         "an inconsistent mixture",
-        lambda: everywhere(mixture("1", "1", "0", "0"), "gauss 2", "lobatto-iiia 3"),
+        lambda: everywhere(
+            mixture("1", "1", "0", "0"), "gauss 2", "lobatto-iiia 3"
+        ),
     )
     yield (
         "three methods",
-        lambda: everywhere(collocation, "gauss 2", "lobatto-iiia 2", "radau-iia 2"),
+        lambda: everywhere(
+            collocation, "gauss 2", "lobatto-iiia 2", "radau-iia 2"
+        ),
     )
     yield (
         "pair, collocation",
@@ -190,7 +203,9 @@ def _named() -> Iterator[tuple[str, Callable[[], Tableau]]]:
     yield "pair of Radau", lambda: pair(gark([method("radau-iia 2")], {}))
     yield (
         "pair of three",
-        lambda: pair(everywhere(collocation, "gauss 1", "lobatto-iiia 2", "gauss 2")),
+        lambda: pair(
+            everywhere(collocation, "gauss 1", "lobatto-iiia 2", "gauss 2")
+        ),
     )
     for name, velocities, forces in (
         ("semi-separable", [0], [0, 1]),
@@ -200,7 +215,9 @@ def _named() -> Iterator[tuple[str, Callable[[], Tableau]]]:
         yield (
             name,
             lambda velocities=velocities, forces=forces: symplectic_pair(  # type: ignore[misc]
-                everywhere(collocation, "gauss 2", "lobatto-iiia 4"), velocities, forces
+                everywhere(collocation, "gauss 2", "lobatto-iiia 4"),
+                velocities,
+                forces,
             ),
         )
     yield (
@@ -212,15 +229,22 @@ def _named() -> Iterator[tuple[str, Callable[[], Tableau]]]:
             ["V1"],
         ),
     )
-    yield "linear", lambda: with_linear(gark([method("radau-iia 2")], {}), ["1"])
+    yield (
+        "linear",
+        lambda: with_linear(gark([method("radau-iia 2")], {}), ["1"]),
+    )
     yield (
         "one linear of two",
-        lambda: with_linear(everywhere(interpolation, "gauss 2", "radau-iia 2"), ["2"]),
+        lambda: with_linear(
+            everywhere(interpolation, "gauss 2", "radau-iia 2"), ["2"]
+        ),
     )
     yield "rectangular", rectangular
     yield (
         "partitioned Lobatto",
-        lambda: partitioned(method("lobatto-iiia 3"), method("lobatto-iiib 3")),
+        lambda: partitioned(
+            method("lobatto-iiia 3"), method("lobatto-iiib 3")
+        ),
     )
     yield "IMEX over Q(sqrt(2))", implicit_explicit
     yield "one way", lambda: one_way("gauss 2", "radau-iia 2")
@@ -263,9 +287,14 @@ def random_graph(dice: Random) -> Tableau:
     def block(l: int, m: int) -> Matrix | None:
         if dice.random() < 0.25:
             return None
-        rows = [[small(dice) for _ in range(stages[m])] for _ in range(stages[l])]
+        rows = [
+            [small(dice) for _ in range(stages[m])] for _ in range(stages[l])
+        ]
         if is_good:
-            rows = [_normalised(row, c) for row, c in zip(rows, nodes[l], strict=True)]
+            rows = [
+                _normalised(row, c)
+                for row, c in zip(rows, nodes[l], strict=True)
+            ]
         return tuple(tuple(row) for row in rows)
 
     A = [[block(l, m) for m in range(colours)] for l in range(colours)]
@@ -294,7 +323,8 @@ def random_additive(dice: Random) -> Tableau:
         for row in ([], [c[1]], _normalised([small(dice), fmpq(0)], c[2]))
     )
     M = tuple(
-        tuple(_normalised([small(dice) for _ in range(s)], c[i])) for i in range(s)
+        tuple(_normalised([small(dice) for _ in range(s)], c[i]))
+        for i in range(s)
     )
     return additive([E, M], [b, b], tuple(c))
 
@@ -304,19 +334,25 @@ def random_partitioned(dice: Random) -> Tableau:
     s_v, s_f = dice.randint(1, 3), dice.randint(1, 3)
     b_q = tuple(_normalised([small(dice) for _ in range(s_v)], fmpq(1)))
     b_p = tuple(
-        _normalised([small(dice) for _ in range(s_f)], fmpq(dice.choice([1, 1, 2])))
+        _normalised(
+            [small(dice) for _ in range(s_f)], fmpq(dice.choice([1, 1, 2]))
+        )
     )
     A_q = [[small(dice) for _ in range(s_v)] for _ in range(s_f)]
     A_p = [[small(dice) for _ in range(s_f)] for _ in range(s_v)]
     for b, A in ((b_p, A_q), (b_q, A_p)):
         if b[-1]:  # the last row such that order 2 holds
             others = sum(
-                (x * sum(row, fmpq(0)) for x, row in zip(b[:-1], A[:-1], strict=True)),
+                (
+                    x * sum(row, fmpq(0))
+                    for x, row in zip(b[:-1], A[:-1], strict=True)
+                ),
                 fmpq(0),
             )
             A[-1] = _normalised(A[-1], (fmpq(1, 2) - others) / b[-1])
     return separable_prk(
-        (tuple(map(tuple, A_q)), b_q, None), (tuple(map(tuple, A_p)), b_p, None)
+        (tuple(map(tuple, A_q)), b_q, None),
+        (tuple(map(tuple, A_p)), b_p, None),
     )
 
 
@@ -334,7 +370,8 @@ def renumbered(tableau: Tableau, permutation: Sequence[int]) -> Tableau:
 def with_permuted_stages(tableau: Tableau, dice: Random) -> Tableau:
     """The stages of each space in another order; spaces must be of points."""
     orders = [
-        dice.sample(range(space.stages), space.stages) for space in tableau.spaces
+        dice.sample(range(space.stages), space.stages)
+        for space in tableau.spaces
     ]
 
     def moved(v: Vector, k: int) -> Vector:
@@ -350,7 +387,8 @@ def with_permuted_stages(tableau: Tableau, dice: Random) -> Tableau:
         for x in tableau.colours
     )
     spaces = tuple(
-        PointSpace(moved(space.nodes, k)) for k, space in enumerate(tableau.spaces)
+        PointSpace(moved(space.nodes, k))
+        for k, space in enumerate(tableau.spaces)
     )
     return Tableau(spaces, colours, blocks)
 
@@ -394,7 +432,11 @@ def with_an_edge_less(tableau: Tableau, dice: Random) -> Tableau:
     gone = dice.choice(sorted(tableau.blocks))
     return replace(
         tableau,
-        blocks={edge: block for edge, block in tableau.blocks.items() if edge != gone},
+        blocks={
+            edge: block
+            for edge, block in tableau.blocks.items()
+            if edge != gone
+        },
     )
 
 
@@ -420,7 +462,9 @@ def changed(dice: Random) -> Tableau:
     tableau = everywhere(rule, *names)
     if dice.random() < 0.3 and len(names) == 1:
         tableau = pair(tableau)
-    tableau = renumbered(tableau, dice.sample(range(tableau.size), tableau.size))
+    tableau = renumbered(
+        tableau, dice.sample(range(tableau.size), tableau.size)
+    )
     for change in (perturbed, with_an_edge_less, with_linear_colour):
         if tableau.blocks and dice.random() < 0.4:
             tableau = change(tableau, dice)

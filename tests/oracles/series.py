@@ -73,11 +73,16 @@ def flow(problem: Problem, powers: int) -> dict[Component, list[Number]]:
     x: dict[Component, Series] = {key: [(fmpq(0),)] for key in problem.fields}
     for known in range(powers):
         f = {
-            key: _field(forms, x, known, (fmpq(1),), lambda u, v: (u[0] * v[0],))
+            key: _field(
+                forms, x, known, (fmpq(1),), lambda u, v: (u[0] * v[0],)
+            )
             for key, forms in problem.fields.items()
         }
         x = {
-            key: [(fmpq(0),), *((c[0] / n,) for n, c in enumerate(f[key], start=1))]
+            key: [
+                (fmpq(0),),
+                *((c[0] / n,) for n, c in enumerate(f[key], start=1)),
+            ]
             for key in x
         }
     return {key: [c[0] for c in series] for key, series in x.items()}
@@ -96,7 +101,10 @@ def step(
     for known in range(powers):
         stages = [
             {
-                key: [zeros[k], *(image(tableau.blocks[k, key[0]], v) for v in f[key])]
+                key: [
+                    zeros[k],
+                    *(image(tableau.blocks[k, key[0]], v) for v in f[key]),
+                ]
                 if f
                 else [zeros[k]]
                 for key in problem.fields
@@ -107,7 +115,9 @@ def step(
         f = {}
         for (l, i), forms in problem.fields.items():
             rows = tableau.colours[l].space
-            f[l, i] = _field(forms, stages[rows], known, ones[rows], products[rows])
+            f[l, i] = _field(
+                forms, stages[rows], known, ones[rows], products[rows]
+            )
     return {
         (l, i): [fmpq(0), *(pairing(tableau.colours[l].b, v) for v in f[l, i])]
         for l, i in problem.fields
@@ -125,7 +135,9 @@ def _field(
     result: Series | None = None
     for form in forms:
         factor = list(_form(form, x, powers, unit))
-        result = factor if result is None else _multiplied(result, factor, times)
+        result = (
+            factor if result is None else _multiplied(result, factor, times)
+        )
     assert result is not None
     return result
 
@@ -134,7 +146,9 @@ def _form(
     form: Affine, x: Mapping[Component, Series], powers: int, unit: Vector
 ) -> Iterator[Vector]:
     for n in range(powers + 1):
-        total: list[Number] = [form.constant * y if n == 0 else fmpq(0) for y in unit]
+        total: list[Number] = [
+            form.constant * y if n == 0 else fmpq(0) for y in unit
+        ]
         for component, weight in form.weights.items():
             for k, y in enumerate(x[component][n]):
                 total[k] = total[k] + weight * y

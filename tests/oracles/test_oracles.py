@@ -45,7 +45,9 @@ def test_trees_are_all_and_once() -> None:
     pair = Trees(samples.NAMED["pair, collocation"]())
     assert sum(len(pair.of_order(n)) for n in range(1, 6)) == 6872
     assert all(order_of(u) == 4 for u in pair.of_order(4))
-    assert not any(same_tree(u, v) for u, v in combinations(pair.of_order(4), 2))
+    assert not any(
+        same_tree(u, v) for u, v in combinations(pair.of_order(4), 2)
+    )
 
 
 def test_linear_colours_have_chains_only() -> None:
@@ -66,7 +68,9 @@ def test_linear_colours_have_chains_only() -> None:
     ],
 )
 @pytest.mark.parametrize("seed", range(3))
-def test_both_oracles_know_textbook_orders(name: str, order: int, seed: int) -> None:
+def test_both_oracles_know_textbook_orders(
+    name: str, order: int, seed: int
+) -> None:
     """Trees and power series give the orders of the textbooks, and both see the next power fail."""
     tableau = samples.NAMED[name]()
     assert brute_order(tableau, order + 2) == order
@@ -115,7 +119,8 @@ def test_power_series_see_what_scalar_problems_hide() -> None:
     twig: Plain = (0, (leaf,))
     weights = Weights(tableau)
     residual = {
-        u: weights.weight(u) - fmpq(1, density(u)) for u in Trees(tableau).of_order(4)
+        u: weights.weight(u) - fmpq(1, density(u))
+        for u in Trees(tableau).of_order(4)
     }
     assert sorted(residual.values()) == [fmpq(-1, 12), 0, 0, fmpq(1, 6)]
     assert residual[(0, (leaf, twig))] == fmpq(-1, 12)

@@ -54,10 +54,13 @@ def in_decimals(exact: Tableau, digits: int) -> Tableau:
 
     def rounded(rows: Sequence[Sequence[Any]]) -> tuple[tuple[fmpq, ...], ...]:
         with ctx.workprec(4 * digits + 64):
-            return tuple(tuple(nearest(x, digits) for x in row) for row in rows)
+            return tuple(
+                tuple(nearest(x, digits) for x in row) for row in rows
+            )
 
     A = [
-        [None if block is None else rounded(block) for block in row] for row in found.A
+        [None if block is None else rounded(block) for block in row]
+        for row in found.A
     ]
     return spelled_out(A, rounded(found.b), rounded(found.c))
 

@@ -37,7 +37,13 @@ def example(name: str) -> Tableau:
 
 @pytest.mark.parametrize(
     "name",
-    ["collocation", "rectangular", "semi-separable", "ark-ars222", "three-colours"],
+    [
+        "collocation",
+        "rectangular",
+        "semi-separable",
+        "ark-ars222",
+        "three-colours",
+    ],
 )
 def test_exact_and_float_paths_agree(
     name: str, monkeypatch: pytest.MonkeyPatch
@@ -51,7 +57,10 @@ def test_exact_and_float_paths_agree(
     assert exact is not None
     assert floats is not None
     assert (exact.is_exact, floats.is_exact) == (True, False)
-    for one, other in ((exact.all, floats.all), (exact.coupling, floats.coupling)):
+    for one, other in (
+        (exact.all, floats.all),
+        (exact.coupling, floats.coupling),
+    ):
         assert one.trees == other.trees
         assert one.two == pytest.approx(other.two, rel=1e-9)
         assert one.largest == pytest.approx(other.largest, rel=1e-9)
@@ -109,7 +118,9 @@ def test_classical_method() -> None:
         (fmpq(0) - fmpq(1, 120)) / 1,
     ]
     assert found.all.trees == 9
-    assert found.all.two_squared == sum((e * e for e in by_hand), start=fmpq(0))
+    assert found.all.two_squared == sum(
+        (e * e for e in by_hand), start=fmpq(0)
+    )
     assert found.coupling.trees == 0
 
 
@@ -127,7 +138,9 @@ def test_too_many_trees() -> None:
     assert error_constants(pair(example("gauss6-lobatto7")), 13) is None
 
 
-def test_a_condition_with_a_diagonal_twin_is_one_of_a_diagonal_method() -> None:
+def test_a_condition_with_a_diagonal_twin_is_one_of_a_diagonal_method() -> (
+    None
+):
     """Of the pair of one method every condition of order 2 is one of A or of Â, whichever root
     stands for it.
     """

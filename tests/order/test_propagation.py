@@ -38,7 +38,8 @@ def moved(tableau: Tableau, dice: Random) -> Tableau:
         )
 
     blocks = {
-        key: tuple(row(x) for x in block) for key, block in tableau.blocks.items()
+        key: tuple(row(x) for x in block)
+        for key, block in tableau.blocks.items()
     }  # type: ignore[arg-type]
     colours = tuple(replace(x, b=row(x.b)) for x in tableau.colours)  # type: ignore[arg-type]
     return replace(tableau, blocks=blocks, colours=colours)
@@ -95,7 +96,9 @@ def test_residuals_change_by_no_more_than_the_effect(
     for one, two in zip(
         conditions(printed, trees), conditions(other, trees), strict=True
     ):
-        assert within(one.value - two.value, rounded_up(made.effect(one.tree.order)))
+        assert within(
+            one.value - two.value, rounded_up(made.effect(one.tree.order))
+        )
 
 
 def test_the_effect_is_of_the_size_of_the_rounding() -> None:
@@ -115,9 +118,13 @@ def test_the_effect_is_of_the_size_of_the_rounding() -> None:
     assert all(10 * reached[n - 1] > made.effect(n) for n in range(1, 5))
 
 
-def test_a_weight_within_the_tolerance_of_zero_leaves_the_conjugate_open() -> None:
+def test_a_weight_within_the_tolerance_of_zero_leaves_the_conjugate_open() -> (
+    None
+):
     """b_2 = 10⁻⁶ might be zero within 10⁻⁵, not within 10⁻⁷."""
-    tableau = samples.runge_kutta("0, 0", "1/2, 0", "999999/1000000, 1/1000000")
+    tableau = samples.runge_kutta(
+        "0, 0", "1/2, 0", "999999/1000000, 1/1000000"
+    )
     assert conjugate_rounding(tableau, T) is None
     found = conjugate_rounding(tableau, fmpq(1, 10**7))
     assert found is not None

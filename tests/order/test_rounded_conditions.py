@@ -56,7 +56,9 @@ def test_exact_methods_satisfy_what_they_satisfy_exactly(
 
 
 @pytest.mark.parametrize(("stages", "digits"), [(2, 16), (4, 30), (10, 60)])
-def test_decimals_satisfy_what_the_family_does(stages: int, digits: int) -> None:
+def test_decimals_satisfy_what_the_family_does(
+    stages: int, digits: int
+) -> None:
     """B, C, D of Gauss × Lobatto IIIA in decimals are those of the families, and the pair is
     symplectic.
     """
@@ -66,9 +68,13 @@ def test_decimals_satisfy_what_the_family_does(stages: int, digits: int) -> None
     )
     tolerance = fmpq(1, 10 ** (digits - 3))
     assert simplifying(decimal, tolerance=tolerance) == simplifying(exact)
-    assert simplifying(pair(decimal), tolerance=tolerance) == simplifying(pair(exact))
+    assert simplifying(pair(decimal), tolerance=tolerance) == simplifying(
+        pair(exact)
+    )
     assert all(consistent_blocks(decimal, tolerance).values())
-    assert not any(consistent_blocks(decimal, fmpq(1, 10 ** (digits + 3))).values())
+    assert not any(
+        consistent_blocks(decimal, fmpq(1, 10 ** (digits + 3))).values()
+    )
     assert is_symplectic_within(pair(decimal), tolerance)
     assert not is_symplectic_within(decimal, tolerance)
 
@@ -88,7 +94,9 @@ def test_symplectic_within_the_rounding() -> None:
         lambda: published("DP8_Hairer_853"),
     ],
 )
-def test_a_change_is_met_by_larger_tolerances_only(make: Callable[[], Tableau]) -> None:
+def test_a_change_is_met_by_larger_tolerances_only(
+    make: Callable[[], Tableau],
+) -> None:
     """A coefficient moved by 10⁻⁸: within 10⁻⁶ all is as before, within 10⁻¹⁰ consistency and C are
     gone.
     """
@@ -129,7 +137,9 @@ def test_values_at_nodes_decide(x: Fraction, t: Fraction) -> None:
     tolerance = fmpq(str(t))
     scale = fmpq(str(x))
     vector = tuple(scale * y for y in space.nodes)
-    upper = scale * fmpq(7886751345948128822, 10**19)  # (3 + √3)/6, rounded down
+    upper = scale * fmpq(
+        7886751345948128822, 10**19
+    )  # (3 + √3)/6, rounded down
     if abs(upper - tolerance) > fmpq(1, 10**15):
         assert vector_within(space, vector, tolerance) == (upper < tolerance)
 
@@ -143,4 +153,6 @@ def test_functionals_and_forms_at_nodes() -> None:
     assert not functional_within(method.space, method.b, fmpq(1, 2) - SMALL)
     gram = method.space.gram(method.b)
     assert form_within(method.space, method.space, gram, fmpq(1, 2) + SMALL)
-    assert not form_within(method.space, method.space, gram, fmpq(1, 2) - SMALL)
+    assert not form_within(
+        method.space, method.space, gram, fmpq(1, 2) - SMALL
+    )

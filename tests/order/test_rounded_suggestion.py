@@ -76,9 +76,12 @@ def test_float64_coefficients() -> None:
 
 
 @pytest.mark.parametrize(
-    ("stages", "digits", "order"), [(2, 10, 4), (3, 30, 6), (6, 30, 12), (10, 60, 20)]
+    ("stages", "digits", "order"),
+    [(2, 10, 4), (3, 30, 6), (6, 30, 12), (10, 60, 20)],
 )
-def test_decimals_of_gauss_and_lobatto(stages: int, digits: int, order: int) -> None:
+def test_decimals_of_gauss_and_lobatto(
+    stages: int, digits: int, order: int
+) -> None:
     """Also where the trees are too many to list."""
     decimal = gauss_lobatto(stages, digits)
     found = suggestion(decimal)
@@ -92,9 +95,12 @@ def test_no_gap_no_suggestion() -> None:
     rk = samples.runge_kutta("0, 0", "1/2, 0", "1/10000, 9999/10000")
     assert suggestion(rk) is None
     assert (
-        suggestion(samples.runge_kutta("0, 0", "1/2, 0", "0, 1000001/1000000")) is None
+        suggestion(samples.runge_kutta("0, 0", "1/2, 0", "0, 1000001/1000000"))
+        is None
     )
-    off = suggestion(samples.runge_kutta("0, 0", "1/2, 0", "0, 100000001/100000000"))
+    off = suggestion(
+        samples.runge_kutta("0, 0", "1/2, 0", "0, 100000001/100000000")
+    )
     assert off is not None
     assert off.tolerance == fmpq(1, 10**7)
 
@@ -105,7 +111,9 @@ DECIMALS = "methods: [{{A: [[0.25, -0.03867513459481288], [{}, 0.25]], b: [0.5, 
 def analysed(text: str) -> Analysis:
     """What a check finds, the digits of the text known."""
     method = loads(text)
-    return analyse(method.tableau, 30, None, lambda: printed_units(method.printed))
+    return analyse(
+        method.tableau, 30, None, lambda: printed_units(method.printed)
+    )
 
 
 def test_no_tolerance_swallows_a_misprint() -> None:
@@ -127,7 +135,10 @@ def test_what_the_digits_explain_is_proposed() -> None:
     found = analysed(DECIMALS.format("0.53867513459481288"))
     assert found.misprint is None
     assert found.suggestion is not None
-    assert (found.suggestion.order, found.suggestion.line) == (4, "tolerance: 1e-17")
+    assert (found.suggestion.order, found.suggestion.line) == (
+        4,
+        "tolerance: 1e-17",
+    )
 
 
 @pytest.mark.parametrize("name", ROUNDED)
@@ -138,7 +149,9 @@ def test_no_published_method_looks_misprinted(name: str) -> None:
     assert found.suggestion is not None
 
 
-@pytest.mark.parametrize("name", ["sundials_VERNER_10_6_7", "sundials_KVAERNO_4_2_3"])
+@pytest.mark.parametrize(
+    "name", ["sundials_VERNER_10_6_7", "sundials_KVAERNO_4_2_3"]
+)
 @pytest.mark.parametrize("seed", range(3))
 def test_a_wrong_digit_in_a_published_method(name: str, seed: int) -> None:
     """A digit of A changed in the 11th place is never taken for rounding; where one entry repairs

@@ -19,7 +19,9 @@ from garkcli.tableau.tableau import Tableau
 from tests.oracles import samples
 
 
-def conditions_one_by_one(tableau: Tableau, limit: int) -> list[list[int | None]]:
+def conditions_one_by_one(
+    tableau: Tableau, limit: int
+) -> list[list[int | None]]:
     """η^{l,m} of every pair of colours, each found on its own."""
     defects = Defects(tableau)
     found: list[list[int | None]] = []
@@ -29,7 +31,9 @@ def conditions_one_by_one(tableau: Tableau, limit: int) -> list[list[int | None]
             if tableau.block(l, m) is None:
                 row.append(None)
                 continue
-            failing = (k for k in range(1, limit + 1) if any(defects.C(l, m, k)))
+            failing = (
+                k for k in range(1, limit + 1) if any(defects.C(l, m, k))
+            )
             row.append(next(failing, limit + 1) - 1)
         found.append(row)
     return found
@@ -40,7 +44,11 @@ def test_shared_rows_have_their_own_conditions(seed: int) -> None:
     """Additive and partitioned methods, whose colours share stages, and some that share none."""
     dice = Random(seed)
     make = dice.choice(
-        [samples.random_additive, samples.random_partitioned, samples.random_graph]
+        [
+            samples.random_additive,
+            samples.random_partitioned,
+            samples.random_graph,
+        ]
     )
     tableau = make(dice)
     found = simplifying(tableau, 6)
@@ -78,7 +86,9 @@ def test_moments_are_kept_and_right(stages: int) -> None:
     for k in range(MAX_MOMENTS + 3):
         functional = tuple(x + k for x in method.b)
         assert (
-            space.gram(functional) == fresh.gram(functional) == fresh.gram(functional)
+            space.gram(functional)
+            == fresh.gram(functional)
+            == fresh.gram(functional)
         )
     one = space.gram(method.b)[0]
     assert one == tuple(fmpq(1, k) for k in range(1, stages + 1))

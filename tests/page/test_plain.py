@@ -33,7 +33,9 @@ def test_printable_text_is_one_line_without_controls(text: str) -> None:
 
 @given(
     st.lists(
-        st.sampled_from([" ", ":", "::", "#", "[", "error", "\n", "\t", "\xa0", "x"])
+        st.sampled_from(
+            [" ", ":", "::", "#", "[", "error", "\n", "\t", "\xa0", "x"]
+        )
     )
 )
 def test_no_line_is_a_workflow_command(parts: list[str]) -> None:
@@ -43,7 +45,9 @@ def test_no_line_is_a_workflow_command(parts: list[str]) -> None:
     assert "##[" not in shown
 
 
-@pytest.mark.parametrize("text", ["=1+1", "+cmd", "-cmd|x", "@sum", "\tx", "\rx"])
+@pytest.mark.parametrize(
+    "text", ["=1+1", "+cmd", "-cmd|x", "@sum", "\tx", "\rx"]
+)
 def test_no_cell_is_a_formula(text: str) -> None:
     """A spreadsheet takes the cell for text; numbers with a sign stay numbers."""
     assert csv_cell(text) == f"'{text}"
@@ -54,7 +58,9 @@ def test_no_cell_is_a_formula(text: str) -> None:
 def test_every_format_writes_faults_without_controls() -> None:
     """The name of the file, the line that is shown, the message and its cure."""
     fault = Fault(f"no {TURNED}", f"not {TURNED}", 1, 2)
-    outcome = Outcome(f"::error::{TURNED}", "m", faults=(fault,), text=f"x{TURNED}")
+    outcome = Outcome(
+        f"::error::{TURNED}", "m", faults=(fault,), text=f"x{TURNED}"
+    )
     texts = [
         check_text.render([outcome], Paint()),
         check_github.render([outcome]),
@@ -69,6 +75,8 @@ def test_every_format_writes_faults_without_controls() -> None:
 
 def test_the_caret_stands_under_the_text_as_it_is_shown() -> None:
     """What is written out before the column moves the caret."""
-    outcome = Outcome("f", "f", faults=(Fault("wrong", "", 1, 3),), text="a\x1bb")
+    outcome = Outcome(
+        "f", "f", faults=(Fault("wrong", "", 1, 3),), text="a\x1bb"
+    )
     _, line, caret = check_text.render([outcome], Paint()).splitlines()
     assert line.index("b", line.index("x1b") + 3) == caret.index("^")

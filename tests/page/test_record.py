@@ -7,7 +7,15 @@ from dataclasses import dataclass
 import pytest
 from jsonschema import Draft7Validator
 
-from garkcli.page.record import COUNT, TEXT, Field, Record, array, inside, nullable
+from garkcli.page.record import (
+    COUNT,
+    TEXT,
+    Field,
+    Record,
+    array,
+    inside,
+    nullable,
+)
 
 
 @dataclass(frozen=True)
@@ -66,7 +74,9 @@ def test_the_schema_is_closed_and_needs_its_fields() -> None:
     assert not allowed({"note": "last"})
     assert not allowed({"number": "1"})
     is_open: Record[_Stage] = Record(*_STAGE.fields, is_open=True)
-    assert Draft7Validator(is_open.schema).is_valid({"number": 1, "mood": "good"})
+    assert Draft7Validator(is_open.schema).is_valid(
+        {"number": 1, "mood": "good"}
+    )
 
 
 def test_null_is_allowed_of_any_schema() -> None:

@@ -12,7 +12,15 @@ from collections.abc import Callable, Iterator
 from dataclasses import dataclass
 from pathlib import Path
 
-from tests.portable.venvs import CACHE, ROOT, NotHad, Venv, done, python_of, version_of
+from tests.portable.venvs import (
+    CACHE,
+    ROOT,
+    NotHad,
+    Venv,
+    done,
+    python_of,
+    version_of,
+)
 
 KERNELS = {
     "x86_64": ("PRESCOTT", "NEHALEM", "SANDYBRIDGE", "HASWELL"),
@@ -94,22 +102,30 @@ class Circumstance:
         Raises:
             NotHad: this machine has no such circumstance.
         """
-        inherited = {key: value for key, value in os.environ.items() if key not in OURS}
+        inherited = {
+            key: value for key, value in os.environ.items() if key not in OURS
+        }
         return {**inherited, **self.environment(python_of(self.venv))}
 
 
 def circumstances() -> Iterator[Circumstance]:
     """All of them, the quickest to fail first."""
     newest = Venv(sys.executable, "newest")
-    yield Circumstance("newest", "the newest version of each dependency", newest)
+    yield Circumstance(
+        "newest", "the newest version of each dependency", newest
+    )
     floors = Venv(sys.executable, "floors")
     yield Circumstance(
         "floors", "the oldest declared version of each dependency", floors
     )
     no_libyaml = Venv(sys.executable, "no-libyaml")
-    yield Circumstance("no-libyaml", "PyYAML without libyaml", no_libyaml, FILES)
+    yield Circumstance(
+        "no-libyaml", "PyYAML without libyaml", no_libyaml, FILES
+    )
     what = "the tree of the source distribution"
-    yield Circumstance("sdist", what, newest, PACKAGED, tree=_source_distribution)
+    yield Circumstance(
+        "sdist", what, newest, PACKAGED, tree=_source_distribution
+    )
     for name in KERNELS.get(platform.machine(), ()):
         what = f"the {name} kernel of OpenBLAS"
         yield Circumstance(
@@ -122,7 +138,9 @@ def circumstances() -> Iterator[Circumstance]:
     yield Circumstance(
         "locale", "the locale of another country", newest, FILES, _locale
     )
-    yield Circumstance("ascii", "a locale and streams of ASCII", newest, FILES, _ascii)
+    yield Circumstance(
+        "ascii", "a locale and streams of ASCII", newest, FILES, _ascii
+    )
     ignoring = ("sh", "-c", 'trap "" INT; exec "$@"', "sh")
     what = "started with ^C ignored, as in the background of a script"
     yield Circumstance("background", what, newest, PROCESSES, wrapper=ignoring)
@@ -166,7 +184,8 @@ def _interpreters() -> Iterator[str]:
             [pyenv, "root"], capture_output=True, text=True, check=False
         )
         yield from map(
-            str, sorted(Path(root.stdout.strip()).glob("versions/3.*/bin/python"))
+            str,
+            sorted(Path(root.stdout.strip()).glob("versions/3.*/bin/python")),
         )
 
 
@@ -184,7 +203,9 @@ def _asked(python: Path, program: str, variables: dict[str, str]) -> str:
         check=False,
     )
     if done.returncode < 0:
-        raise NotHad(f"this processor cannot run it (signal {-done.returncode})")
+        raise NotHad(
+            f"this processor cannot run it (signal {-done.returncode})"
+        )
     if done.returncode:
         raise NotHad(done.stderr.strip().splitlines()[-1])
     return done.stdout.strip()
@@ -206,7 +227,9 @@ def _kernel(name: str) -> Environment:
         variables = {"OPENBLAS_CORETYPE": name}
         taken = _asked(python, _WHICH_KERNEL, variables)
         if SAME.get(taken.upper(), taken.upper()) != name:
-            raise NotHad(f"numpy computes with {taken or 'no OpenBLAS'} all the same")
+            raise NotHad(
+                f"numpy computes with {taken or 'no OpenBLAS'} all the same"
+            )
         return variables
 
     return environment

@@ -30,9 +30,9 @@ def test_every_dependency_has_a_floor() -> None:
     } < {*names}
     assert {"hypothesis", "jsonschema", "pytest", "pytest-xdist"} < {*names}
     assert len(names) == len({*names})
-    declared = tomllib.loads((ROOT / "pyproject.toml").read_text(encoding="utf-8"))[
-        "project"
-    ]
+    declared = tomllib.loads(
+        (ROOT / "pyproject.toml").read_text(encoding="utf-8")
+    )["project"]
     test = declared["optional-dependencies"]["test"]
     assert len(names) == len(declared["dependencies"]) + len(test)
 
@@ -62,7 +62,9 @@ def test_pythons_that_do_not_run_are_left_out(
     broken.write_text("#!/bin/sh\nexit 127\n")
     for path in (old, broken):
         path.chmod(0o755)
-    asked = ":".join([sys.executable, str(old), str(broken), str(tmp_path / "none")])
+    asked = ":".join(
+        [sys.executable, str(old), str(broken), str(tmp_path / "none")]
+    )
     monkeypatch.setenv("GARK_PYTHONS", asked)
     assert other_pythons() == []
     with pytest.raises(NotHad, match="does not run"):

@@ -39,10 +39,13 @@ class Venv:
 
 def floors() -> list[str]:
     """The declared minimum versions, those of the tests included, as pip's constraints."""
-    declared = tomllib.loads((ROOT / "pyproject.toml").read_text(encoding="utf-8"))[
-        "project"
-    ]
-    lines = (*declared["dependencies"], *declared["optional-dependencies"]["test"])
+    declared = tomllib.loads(
+        (ROOT / "pyproject.toml").read_text(encoding="utf-8")
+    )["project"]
+    lines = (
+        *declared["dependencies"],
+        *declared["optional-dependencies"]["test"],
+    )
     found = [FLOOR.match(line) for line in lines]
     return [f"{floor[1]}=={floor[2]}" for floor in found if floor]
 

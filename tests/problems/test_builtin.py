@@ -70,7 +70,11 @@ def test_entries_are_whole(entry: BuiltIn, terms: int) -> None:
 
 def total(problem: Problem) -> tuple[Any, ...]:
     """H, or the sum of the right-hand sides."""
-    return (problem.energy,) if isinstance(problem, Hamiltonian) else problem.total
+    return (
+        (problem.energy,)
+        if isinstance(problem, Hamiltonian)
+        else problem.total
+    )
 
 
 def test_seeds_are_for_random_coefficients() -> None:
@@ -80,7 +84,9 @@ def test_seeds_are_for_random_coefficients() -> None:
         if entry.takes_seed:
             check_seed(entry.name, 3)
         else:
-            with pytest.raises(UsageProblem, match=f"generic.*not for {entry.name}"):
+            with pytest.raises(
+                UsageProblem, match=f"generic.*not for {entry.name}"
+            ):
                 check_seed(entry.name, 3)
     with pytest.raises(UsageProblem, match=r"not for a\.yaml"):
         check_seed("a.yaml", 3)

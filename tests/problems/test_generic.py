@@ -33,7 +33,8 @@ def trees(order: int) -> tuple[Tree, ...]:
             for n in sorted(set(parts))
         ]
         forests += [
-            tuple(u for group in groups for u in group) for groups in product(*choices)
+            tuple(u for group in groups for u in group)
+            for groups in product(*choices)
         ]
     return tuple(Tree(root, forest) for root in range(4) for forest in forests)
 
@@ -57,7 +58,11 @@ def as_polynomial(expression: Any) -> Poly:
 def derived(polynomial: Any, where: tuple[int, ...]) -> Any:
     """A derivative of a polynomial by the variables of these numbers."""
     whole = as_polynomial(polynomial)
-    return whole.diff(*((Y[k], where.count(k)) for k in set(where))) if where else whole
+    return (
+        whole.diff(*((Y[k], where.count(k)) for k in set(where)))
+        if where
+        else whole
+    )
 
 
 @cache
@@ -70,7 +75,11 @@ def derivative(colour: int, count: int) -> Any:
     places = list(combinations_with_replacement(range(4), count))
     at = [Rational(int(x.p), int(x.q)) for x in PROBLEM.initial]
     values = iter(
-        [float(derived(f, where)(*at)) for f in field.components for where in places]
+        [
+            float(derived(f, where)(*at))
+            for f in field.components
+            for where in places
+        ]
     )
     tensor = np.zeros((4,) * (count + 1))
     for i in range(2):

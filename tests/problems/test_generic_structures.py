@@ -25,7 +25,12 @@ from garkcli.problems.straightline import function
 from garkcli.problems.vectorfield import symbols
 from garkcli.stepping.fields import visible_tableau
 from garkcli.stepping.integrator import bind
-from garkcli.tableau.forms import gark, spelled_out, symplectic_pair, with_linear
+from garkcli.tableau.forms import (
+    gark,
+    spelled_out,
+    symplectic_pair,
+    with_linear,
+)
 from garkcli.tableau.tableau import Tableau
 from garkcli.trees.count import Admissible, counts_upto
 from garkcli.trees.tree import Tree
@@ -101,7 +106,9 @@ class Differentials:
             choices = [u for u in self.trees(size) if u.root in colours]
             for count in range(1, n // size + 1):
                 for group in combinations_with_replacement(choices, count):
-                    for rest in self._forests(n - count * size, size - 1, colours):
+                    for rest in self._forests(
+                        n - count * size, size - 1, colours
+                    ):
                         found.append((*group, *rest))  # noqa: PERF401
         return found
 
@@ -109,14 +116,19 @@ class Differentials:
         """The tensor of ``count``-th derivatives of one field, shape (4, 4, …)."""
         term, group = self.keys[colour]
         field = vector_field(self.problem, term, group)
-        names = [x for g in ("q", "p") for x in symbols(self.problem.variables, g)]  # type: ignore[arg-type]
+        names = [
+            x for g in ("q", "p") for x in symbols(self.problem.variables, g)
+        ]  # type: ignore[arg-type]
         tensor = np.full((4,) * (count + 1), arb(0), dtype=object)
         places = list(combinations_with_replacement(range(4), count))
         for i, f in enumerate(field.components):
             made = tuple(
-                f.diff(*(names[k] for k in where)) if where else f for where in places
+                f.diff(*(names[k] for k in where)) if where else f
+                for where in places
             )
-            values = function(made, tuple(names), True)(*map(arb, self.problem.initial))
+            values = function(made, tuple(names), True)(
+                *map(arb, self.problem.initial)
+            )
             for where, value in zip(places, values, strict=True):
                 for k in permutations(where):
                     tensor[(i + 2 * (group == "p"), *k)] = arb(value)
@@ -140,13 +152,17 @@ class Differentials:
         ("generic-nystrom", [3, 4, 8, 16]),
     ],
 )
-def test_no_elementary_differential_vanishes(name: str, counts: list[int]) -> None:
+def test_no_elementary_differential_vanishes(
+    name: str, counts: list[int]
+) -> None:
     """Of all trees of the structure up to order 4, by ball arithmetic; they are as many as the
     coupling graph of the method has.
     """
     terms = len(set().union(*VELOCITIES_AND_FORCES[name]))
     gauss = diagonal_method("gauss", 2)
-    blocks = {(l, m): gauss.A for l in range(terms) for m in range(terms) if l != m}
+    blocks = {
+        (l, m): gauss.A for l in range(terms) for m in range(terms) if l != m
+    }
     tableau = of_structure(name, gark([gauss] * terms, blocks))
     found = Differentials(tableau, hamiltonian(name, terms))
     assert [len(found.trees(n)) for n in range(1, 5)] == counts
@@ -155,12 +171,16 @@ def test_no_elementary_differential_vanishes(name: str, counts: list[int]) -> No
     with ctx.workprec(200):
         for order in range(1, 5):
             for tree in found.trees(order):
-                assert any(not arb(x).contains(0) for x in found.of(tree)), tree
+                assert any(not arb(x).contains(0) for x in found.of(tree)), (
+                    tree
+                )
 
 
 @pytest.mark.parametrize("name", GENERIC)
 @pytest.mark.parametrize("seed", range(4))
-def test_methods_of_the_structure_show_their_order(name: str, seed: int) -> None:
+def test_methods_of_the_structure_show_their_order(
+    name: str, seed: int
+) -> None:
     """Random methods fail at some trees of order 2 or 3: the slope is their order, never more; and
     the problem is the one that a test without a problem takes.
     """
@@ -187,7 +207,9 @@ def test_methods_of_the_structure_show_their_order(name: str, seed: int) -> None
 def test_problem_of_a_file(file: str, name: str) -> None:
     """The methods of the paper have the problem of their structure."""
     assert (
-        seeing_problem([load(str(ROOT / "methods" / f"{file}.gark.yaml")).tableau])
+        seeing_problem(
+            [load(str(ROOT / "methods" / f"{file}.gark.yaml")).tableau]
+        )
         == name
     )
 
@@ -208,5 +230,7 @@ def test_one_problem_for_several_structures() -> None:
 def test_structures_without_a_problem_are_told() -> None:
     """A method whose colours see nothing, not even themselves, is for no problem at all."""
     none = spelled_out([[None]], [(fmpq(1),)], [(fmpq(0),)])
-    with pytest.raises(UsageProblem, match="no problem with random coefficients"):
+    with pytest.raises(
+        UsageProblem, match="no problem with random coefficients"
+    ):
         seeing_problem([none])

@@ -42,7 +42,9 @@ def balls(values: dict[Any, Any]) -> dict[Any, arb]:
 
 
 @st.composite
-def lagrangians(draw: st.DrawFn) -> tuple[int, Any, dict[Any, Any], dict[Any, Any]]:
+def lagrangians(
+    draw: st.DrawFn,
+) -> tuple[int, Any, dict[Any, Any], dict[Any, Any]]:
     """L = ½ v·M(q)v + b(q)·v − V(q) with polynomials of q, and rational q and v."""
     d = draw(st.integers(1, 3))
     _, q, v, _ = names(d)
@@ -52,11 +54,18 @@ def lagrangians(draw: st.DrawFn) -> tuple[int, Any, dict[Any, Any], dict[Any, An
         return sum(draw(SMALL) * term for term in (1, *q, square)) / 4
 
     M = [
-        [polynomial() if draw(st.booleans()) else sympy.Integer(draw(SMALL)) for _ in v]
+        [
+            polynomial() if draw(st.booleans()) else sympy.Integer(draw(SMALL))
+            for _ in v
+        ]
         for _ in v
     ]
     T = (
-        sum((M[min(i, j)][max(i, j)]) * v[i] * v[j] for i in range(d) for j in range(d))
+        sum(
+            (M[min(i, j)][max(i, j)]) * v[i] * v[j]
+            for i in range(d)
+            for j in range(d)
+        )
         / 2
     )
     T += sum(draw(st.integers(1, 5)) * x**2 for x in v)
@@ -87,20 +96,29 @@ def test_quadratic_lagrangians_are_transformed_exactly(
             legendre_transform(L, variables, balls(q))
         return
     H = legendre_transform(L, variables, balls(q))
-    p = {x: L.diff(y).xreplace({**q, **v}) for x, y in zip(p_symbols, v, strict=True)}
+    p = {
+        x: L.diff(y).xreplace({**q, **v})
+        for x, y in zip(p_symbols, v, strict=True)
+    }
     at = {**q, **p}
     assert [H.diff(x).xreplace(at) for x in p] == list(v.values())
     assert H.xreplace(at) + L.xreplace({**q, **v}) == sum(
         a * b for a, b in zip(p.values(), v.values(), strict=True)
     )
-    assert all(H.diff(x).xreplace(at) == -L.diff(x).xreplace({**q, **v}) for x in q)
+    assert all(
+        H.diff(x).xreplace(at) == -L.diff(x).xreplace({**q, **v}) for x in q
+    )
 
 
 @pytest.mark.parametrize("coupled", [4, 5])
 def test_chains_of_pendulums(coupled: int) -> None:
     """Mass matrices with cosines of differences: the identities hold in balls of 80 digits."""
     variables = tuple("abcde"[:coupled])
-    q, v, p = symbols(variables, "q"), velocities(variables), symbols(variables, "p")
+    q, v, p = (
+        symbols(variables, "q"),
+        velocities(variables),
+        symbols(variables, "p"),
+    )
     L = sum(
         (coupled - max(i, j)) * cos(q[i] - q[j]) * v[i] * v[j] / 2
         for i in range(coupled)
@@ -114,7 +132,8 @@ def test_chains_of_pendulums(coupled: int) -> None:
     momenta = dict(zip(p, enclosed([L.diff(x) for x in v], at), strict=True))
     back = enclosed([H.diff(x) for x in p], {**at, **momenta})
     assert all(
-        x.overlaps(at[y]) and x.rad() < 1e-60 for x, y in zip(back, v, strict=True)
+        x.overlaps(at[y]) and x.rad() < 1e-60
+        for x, y in zip(back, v, strict=True)
     )
 
 
@@ -159,14 +178,18 @@ def test_other_lagrangians(L: Any, d: int, knows_velocities: bool) -> None:
     elsewhere = balls(
         {x: y + Rational(k, 17) for k, (x, y) in enumerate(values.items(), 1)}
     )
-    momenta = dict(zip(p, enclosed([L.diff(x) for x in v], elsewhere), strict=True))
+    momenta = dict(
+        zip(p, enclosed([L.diff(x) for x in v], elsewhere), strict=True)
+    )
     there = {**elsewhere, **momenta}
     back = enclosed([H.diff(x) for x in p], there)
     assert all(
         x.overlaps(elsewhere[y]) and x.rad() < 1e-60
         for x, y in zip(back, v, strict=True)
     )
-    sides = enclosed([H + L - sum(a * b for a, b in zip(p, v, strict=True))], there)
+    sides = enclosed(
+        [H + L - sum(a * b for a, b in zip(p, v, strict=True))], there
+    )
     assert sides[0].contains(0)
     assert sides[0].rad() < 1e-60
 
@@ -193,7 +216,12 @@ def test_other_lagrangians(L: Any, d: int, knows_velocities: bool) -> None:
 def test_what_has_no_transform_is_refused(L: Any, message: str) -> None:
     """Degenerate mass matrices, and what is not solved in closed form."""
     start = balls(
-        {X: Rational(3, 10), Y: Rational(7, 10), VX: Rational(1, 2), VY: Rational(1, 5)}
+        {
+            X: Rational(3, 10),
+            Y: Rational(7, 10),
+            VX: Rational(1, 2),
+            VY: Rational(1, 5),
+        }
     )
     with pytest.raises(NoLegendreTransform) as caught:
         legendre_transform(L, ("x", "y"), start)
@@ -222,7 +250,9 @@ def test_terms_have_velocities_of_their_own() -> None:
     """
     variables, (x,), (v,), (p,) = names(1)
     start = {x: arb(0)}
-    one, other = (legendre_transform(v**2 / 2, variables, start) for _ in range(2))
+    one, other = (
+        legendre_transform(v**2 / 2, variables, start) for _ in range(2)
+    )
     assert (one + other).diff(p) == 2 * p
     assert legendre_transform(v**2, variables, start).diff(p) == p / 2
     assert legendre_transform(-cos(x), variables, start) == cos(x)
@@ -233,7 +263,9 @@ def test_momenta_of_velocities() -> None:
     variables, (x,), (v,), (p,) = names(1)
     at = balls({x: Rational(1, 2), v: Rational(3)})
     terms = [v**2 / 2, -cos(x)]
-    assert initial_momenta(terms, [p**2 / 2, cos(x)], variables, at)[0].overlaps(arb(3))
+    assert initial_momenta(terms, [p**2 / 2, cos(x)], variables, at)[
+        0
+    ].overlaps(arb(3))
     terms = [(1 + x**2) * v**2 / 2 + x * v, v**2]
     H = [legendre_transform(L, variables, at) for L in terms]
     (found,) = initial_momenta(terms, H, variables, at)
@@ -254,7 +286,9 @@ def test_derivatives_at_the_start() -> None:
     """The variable by which there is none."""
     _, (x, y), _, (px, py) = names(2)
     by = (x, y, px, py)
-    at = balls({x: Rational(0), y: Rational(1), px: Rational(1), py: Rational(1)})
+    at = balls(
+        {x: Rational(0), y: Rational(1), px: Rational(1), py: Rational(1)}
+    )
     assert missing_derivative(y**2 + px**2, by, at) is None
     assert missing_derivative(y**2 + x ** Rational(1, 2), by, at) == (
         "no derivative by x",

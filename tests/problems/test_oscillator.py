@@ -19,7 +19,10 @@ from garkcli.transfer import collocation
 
 ZERO, ONE, HALF = fmpq(0), fmpq(1), fmpq(1, 2)
 METHODS = [diagonal_method("gauss", 2), diagonal_method("lobatto-iiia", 3)]
-Q = gark(METHODS, {(0, 1): collocation(*METHODS), (1, 0): collocation(*METHODS[::-1])})
+Q = gark(
+    METHODS,
+    {(0, 1): collocation(*METHODS), (1, 0): collocation(*METHODS[::-1])},
+)
 
 
 @pytest.mark.parametrize("terms", [1, 2, 3, 5])
@@ -76,13 +79,19 @@ def test_structure_has_to_have_the_field() -> None:
     separable = symplectic_pair(Q, [0], [1])
     check_structure(separable, Oscillator.default(2, ONE))
     with pytest.raises(
-        UsageProblem, match="term 2 has kinetic energy, but the method has no colour"
+        UsageProblem,
+        match="term 2 has kinetic energy, but the method has no colour",
     ):
-        check_structure(separable, Oscillator(ONE, ((HALF, ZERO), (HALF, ONE))))
+        check_structure(
+            separable, Oscillator(ONE, ((HALF, ZERO), (HALF, ONE)))
+        )
     with pytest.raises(UsageProblem, match="term 1 has potential energy"):
-        check_structure(separable, Oscillator(ONE, ((ONE, HALF), (ZERO, HALF))))
+        check_structure(
+            separable, Oscillator(ONE, ((ONE, HALF), (ZERO, HALF)))
+        )
     check_structure(
-        symplectic_pair(Q, [0], [0, 1]), Oscillator(ONE, ((ONE, HALF), (ZERO, HALF)))
+        symplectic_pair(Q, [0], [0, 1]),
+        Oscillator(ONE, ((ONE, HALF), (ZERO, HALF))),
     )
 
 
@@ -90,7 +99,9 @@ def test_structure_has_to_see_what_the_field_depends_on() -> None:
     """Colour 2 without A^{2,1} cannot have ½p² in colour 1, whose positions it needs."""
     A = ((HALF,),)
     blind = spelled_out([[A, A], [None, A]], [(ONE,), (ONE,)], [None, None])
-    with pytest.raises(UsageProblem, match="colour 2 depends on what colour 1 drives"):
+    with pytest.raises(
+        UsageProblem, match="colour 2 depends on what colour 1 drives"
+    ):
         check_structure(blind, Oscillator.default(2, ONE))
     check_structure(blind, Oscillator(ONE, ((ZERO, ZERO), (ONE, ONE))))
 

@@ -34,7 +34,9 @@ def test_the_solution_of_prothero_and_robinson() -> None:
     (phi,) = made.exact
     assert sympy.simplify(made.total[0].subs(y, phi) - phi.diff(t)) == 0
     assert phi.subs(t, 0) == made.initial[0] == 1
-    assert float(solution(made, arb(1) / 2)[0]) == pytest.approx(0.8775825618903728)
+    assert float(solution(made, arb(1) / 2)[0]) == pytest.approx(
+        0.8775825618903728
+    )
 
 
 @pytest.mark.parametrize("name", ["prothero-robinson", "van-der-pol"])
@@ -44,7 +46,9 @@ def test_files_are_the_built_in_problems(name: str) -> None:
     built_in = rhs(name, 2, 10**6)
     assert isinstance(own, RightHandSide)
     for a, b in zip(own.terms, built_in.terms, strict=True):
-        assert [sympy.expand(x - y) for x, y in zip(a, b, strict=True)] == [0] * len(a)
+        assert [sympy.expand(x - y) for x, y in zip(a, b, strict=True)] == [
+            0
+        ] * len(a)
     assert own.initial == built_in.initial
     assert own.exact == built_in.exact
     assert own.stiffness == built_in.stiffness == 10**6
@@ -58,7 +62,9 @@ def test_the_start_of_van_der_pol_is_smooth() -> None:
     for k in range(3):
         total = sum(z[i].diff(v) * z[k - i] for i in range(k + 1))
         z.append(sympy.together(total / (1 - v**2)))
-    start = sum(x.subs(v, 2) * sympy.Rational(1, 1000) ** k for k, x in enumerate(z))
+    start = sum(
+        x.subs(v, 2) * sympy.Rational(1, 1000) ** k for k, x in enumerate(z)
+    )
     y, found = rhs("van-der-pol", 1, 1000).initial
     assert y == 2
     assert sympy.Rational(int(found.p), int(found.q)) == start
@@ -94,9 +100,9 @@ def test_shares() -> None:
 def test_steepness() -> None:
     """λ of Prothero and Robinson; 4 k and a bit for a line with diffusion k."""
     assert float(steepness(rhs("prothero-robinson", 2, 1000))) == 1000
-    assert float(steepness(rhs("reaction-diffusion", 2, 1000))) == pytest.approx(
-        4000, rel=1e-2
-    )
+    assert float(
+        steepness(rhs("reaction-diffusion", 2, 1000))
+    ) == pytest.approx(4000, rel=1e-2)
 
 
 def test_stiffness_is_for_those_that_have_one() -> None:
@@ -161,7 +167,9 @@ def test_every_elementary_differential_is_there() -> None:
     H = [[[[x.diff(b) for b in y] for x in row] for row in term] for term in J]
     rows: list[list[fmpq]] = [[] for _ in range(20)]
     for k in range(7):
-        place = {x: sympy.Rational(3 * i + 2 * k - 4, 20) for i, x in enumerate(y)}
+        place = {
+            x: sympy.Rational(3 * i + 2 * k - 4, 20) for i, x in enumerate(y)
+        }
         for row, values in zip(
             rows, _differentials((made.terms, J, H), place), strict=True
         ):
@@ -170,7 +178,8 @@ def test_every_elementary_differential_is_there() -> None:
 
 
 def _differentials(
-    derivatives: tuple[Any, Any, Any], place: dict[sympy.Symbol, sympy.Rational]
+    derivatives: tuple[Any, Any, Any],
+    place: dict[sympy.Symbol, sympy.Rational],
 ) -> list[list[fmpq]]:
     """f^l, f^l' f^m, f^l' f^m' f^n and f^l''(f^m, f^n) for all colours, by the definition."""
     n = range(len(place))
@@ -195,7 +204,10 @@ def _differentials(
         for m, k in ((0, 0), (0, 1), (1, 1)):
             products = [(a, b, f[m][a] * f[k][b]) for a in n for b in n]
             found.append(
-                [sum((H[l][i][a][b] * x for a, b, x in products), fmpq(0)) for i in n]
+                [
+                    sum((H[l][i][a][b] * x for a, b, x in products), fmpq(0))
+                    for i in n
+                ]
             )
     return found
 

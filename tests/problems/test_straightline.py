@@ -49,7 +49,9 @@ def combined(inner: st.SearchStrategy[Any]) -> st.SearchStrategy[Any]:
 
 
 EXPRESSIONS = st.recursive(
-    st.one_of(st.sampled_from(X), numbers(), st.just(sympy.pi)), combined, max_leaves=8
+    st.one_of(st.sampled_from(X), numbers(), st.just(sympy.pi)),
+    combined,
+    max_leaves=8,
 )
 POINTS = st.tuples(*[st.integers(1, 40).map(lambda k: fmpq(k, 16))] * 3)
 
@@ -60,11 +62,20 @@ def test_values_are_those_of_sympy(
     expressions: list[Any], point: tuple[fmpq, ...]
 ) -> None:
     """Several expressions at once, in 40 digits, and in floats where no part of one is large."""
-    at = {x: sympy.Rational(int(a.p), int(a.q)) for x, a in zip(X, point, strict=True)}
-    expected = [sympy.sympify(f).subs(at).evalf(DIGITS + 10) for f in expressions]
+    at = {
+        x: sympy.Rational(int(a.p), int(a.q))
+        for x, a in zip(X, point, strict=True)
+    }
+    expected = [
+        sympy.sympify(f).subs(at).evalf(DIGITS + 10) for f in expressions
+    ]
     assume(all(abs(x) < 1e12 for x in expected))
     size = max(1.0, *(float(abs(x)) for x in expected))
-    parts = {x for f in expressions for x in sympy.preorder_traversal(sympy.sympify(f))}
+    parts = {
+        x
+        for f in expressions
+        for x in sympy.preorder_traversal(sympy.sympify(f))
+    }
     # the sine of a number of nine digits has half the digits of a float
     if all(abs(x.subs(at).evalf()) < 1e3 for x in parts):
         code = function(tuple(map(sympy.sympify, expressions)), X, False)
@@ -135,7 +146,9 @@ def test_deep_expressions_are_cut() -> None:
     f, value = X[0], 0.5
     for _ in range(70):
         f, value = sympy.sin(1 + f / 2), math.sin(1 + value / 2)
-    assert function((f,), X[:1], False)(0.5) == pytest.approx([value], rel=1e-14)
+    assert function((f,), X[:1], False)(0.5) == pytest.approx(
+        [value], rel=1e-14
+    )
 
 
 def test_constants_beyond_the_floats_are_infinite() -> None:

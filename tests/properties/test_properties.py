@@ -19,7 +19,10 @@ from garkcli.families.registry import diagonal_method
 from garkcli.methodfile.load import load, loads
 from garkcli.order.certificate import find_order
 from garkcli.properties.algebra_shape import shape_of_families
-from garkcli.properties.last_stage import is_first_same_as_last, is_stiffly_accurate
+from garkcli.properties.last_stage import (
+    is_first_same_as_last,
+    is_stiffly_accurate,
+)
 from garkcli.properties.reduction import (
     are_positive,
     is_plainly_irreducible,
@@ -57,16 +60,21 @@ def family(name: str, stages: int | None) -> Tableau:
     return gark([diagonal_method(name, stages)], {})
 
 
-def followed_by_adjoint(A: Rows, b: list[Fraction]) -> tuple[Rows, list[Fraction]]:
+def followed_by_adjoint(
+    A: Rows, b: list[Fraction]
+) -> tuple[Rows, list[Fraction]]:
     """Half a step of the method, then half a step of its adjoint."""
     s = len(b)
     half = Fraction(1, 2)
     adjoint = [
-        [b[s - 1 - j] - A[s - 1 - i][s - 1 - j] for j in range(s)] for i in range(s)
+        [b[s - 1 - j] - A[s - 1 - i][s - 1 - j] for j in range(s)]
+        for i in range(s)
     ]
     weights = b[::-1]
     first = [[half * x for x in row] + [Fraction(0)] * s for row in A]
-    second = [[half * x for x in b] + [half * x for x in row] for row in adjoint]
+    second = [
+        [half * x for x in b] + [half * x for x in row] for row in adjoint
+    ]
     return first + second, [half * x for x in b] + [half * x for x in weights]
 
 
@@ -158,7 +166,9 @@ def test_a_stage_written_twice_is_found(
     assert is_reducible(double)
     assert smaller.spaces[0].stages <= s
     assert is_reducible(smaller) is False
-    assert find_order(smaller, 8).order == find_order(tableau_of(A, b), 8).order
+    assert (
+        find_order(smaller, 8).order == find_order(tableau_of(A, b), 8).order
+    )
     assert stability_function(smaller) == stability_function(tableau_of(A, b))
 
 
@@ -178,7 +188,9 @@ def test_explicit_means_nilpotent(method: tuple[Rows, list[Fraction]]) -> None:
     found = shape(tableau)
     if found.kind == "explicit":
         assert stability_function(tableau).denominator == Polynomial([1])
-    strictly_lower = all(x == 0 for i, row in enumerate(method[0]) for x in row[i:])
+    strictly_lower = all(
+        x == 0 for i, row in enumerate(method[0]) for x in row[i:]
+    )
     if strictly_lower:
         assert found.kind == "explicit"
 
@@ -229,7 +241,9 @@ def test_stages_that_are_solved_together() -> None:
         ("rk4", None, False, False),
     ],
 )
-def test_last_stages(name: str, stages: int | None, stiff: bool, fsal: bool) -> None:
+def test_last_stages(
+    name: str, stages: int | None, stiff: bool, fsal: bool
+) -> None:
     """Stiffly accurate, and first same as last."""
     tableau = family(name, stages)
     assert is_stiffly_accurate(tableau) is stiff
@@ -272,7 +286,9 @@ def test_what_has_no_simple_nodes_is_decided_too(
     assert (found.kind, found.implicit_stages) == ("fully implicit", implicit)
 
 
-@pytest.mark.parametrize("name", ["gauss", "radau-iia", "lobatto-iiia", "lobatto-iiib"])
+@pytest.mark.parametrize(
+    "name", ["gauss", "radau-iia", "lobatto-iiia", "lobatto-iiib"]
+)
 def test_stage_algebras_agree_with_points(name: str) -> None:
     """Without the nodes, and with them, the same is found."""
     algebra = family(name, 3)
@@ -330,7 +346,9 @@ FAMILIES = (
 
 @pytest.mark.parametrize("stages", [2, 3, 5])
 @pytest.mark.parametrize("name", FAMILIES)
-def test_systems_of_families_are_those_of_their_entries(name: str, stages: int) -> None:
+def test_systems_of_families_are_those_of_their_entries(
+    name: str, stages: int
+) -> None:
     """Common divisors and a stage modulo a prime find the same systems as the entries, looked at
     one by one in enclosures.
     """
@@ -358,7 +376,9 @@ def test_a_zero_between_irrational_nodes_is_no_proof() -> None:
     """
     tableau = family("gauss", 4)
     space = tableau.spaces[0]
-    columns = [space.product(space.of_polynomial((ONE, ONE)), e) for e in identity(4)]
+    columns = [
+        space.product(space.of_polynomial((ONE, ONE)), e) for e in identity(4)
+    ]
     block = tuple(zip(*columns, strict=True))
     diagonal = replace(tableau, blocks={(0, 0): block})
     assert shape_of_families(diagonal, [0]) is None
@@ -413,14 +433,17 @@ def test_a_stage_without_influence_does_not_hide_the_symmetry(
 
 
 @pytest.mark.parametrize(
-    ("A", "b"), [([[1]], [0]), ([[1, 0], [0, 3]], [0, 0]), ([[1, 2], [0, 1]], [0, 0])]
+    ("A", "b"),
+    [([[1]], [0]), ([[1, 0], [0, 3]], [0, 0]), ([[1, 2], [0, 1]], [0, 0])],
 )
 def test_a_step_that_does_nothing_is_symmetric(
     A: list[list[int]], b: list[int]
 ) -> None:
     """Without weights the step is the identity, whatever the rows."""
     rows = [[Fraction(x) for x in row] for row in A]
-    assert symmetric_verdict(tableau_of(rows, [Fraction(x) for x in b])) is True
+    assert (
+        symmetric_verdict(tableau_of(rows, [Fraction(x) for x in b])) is True
+    )
 
 
 def symmetric_verdict(tableau: Tableau) -> object:

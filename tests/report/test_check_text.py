@@ -46,10 +46,19 @@ def tableau(entry: str, weight: str = "1") -> str:
     [
         (tableau("-1/2"), "-1/2 instead of 1/2, off by -1"),
         (tableau("0"), "0 instead of 1/2, off by -1/2"),
-        (tableau("sqrt(2)/2"), "sqrt(2)/2 instead of 1/2, off by -1/2 + sqrt(2)/2"),
+        (
+            tableau("sqrt(2)/2"),
+            "sqrt(2)/2 instead of 1/2, off by -1/2 + sqrt(2)/2",
+        ),
         (tableau("1/2", "0"), "0 instead of 1, off by -1"),
-        (tableau("1/2", "-sqrt(3)"), "-sqrt(3) instead of 1, off by -1 - sqrt(3)"),
-        (tableau("1/2", "cbrt(2)"), "cbrt(2) instead of 1, off by -1 + cbrt(2)"),
+        (
+            tableau("1/2", "-sqrt(3)"),
+            "-sqrt(3) instead of 1, off by -1 - sqrt(3)",
+        ),
+        (
+            tableau("1/2", "cbrt(2)"),
+            "cbrt(2) instead of 1, off by -1 + cbrt(2)",
+        ),
     ],
 )
 def test_a_residual_is_written_exactly(text: str, line: str) -> None:
@@ -177,16 +186,24 @@ def test_long_requirements_are_shortened() -> None:
 
 def test_hints_and_constants_of_one_colour() -> None:
     """One failing condition is one condition; the trees of one colour show none and no coupling."""
-    text = "methods: [{A: [[0, 0], [1/3, 0]], b: [0, 1]}]\nexpect: {order: 2}\n"
+    text = (
+        "methods: [{A: [[0, 0], [1/3, 0]], b: [0, 1]}]\nexpect: {order: 2}\n"
+    )
     method = loads(text)
     analysis = analyse(method.tableau)
-    lines = blame_lines(find_blame(method.tableau, 2, 2), method.tableau, Paint())
+    lines = blame_lines(
+        find_blame(method.tableau, 2, 2), method.tableau, Paint()
+    )
     assert lines[0] == "  hint: the one condition of order 2 fails"
     assert any(
-        line.endswith("A{1,1}, row 2, entry 1, = 1/2 instead of 1/3") for line in lines
+        line.endswith("A{1,1}, row 2, entry 1, = 1/2 instead of 1/3")
+        for line in lines
     )
     found = Outcome(
-        "m", "m", analysis=analysis, constants=error_constants(method.tableau, 2)
+        "m",
+        "m",
+        analysis=analysis,
+        constants=error_constants(method.tableau, 2),
     )
     shown = render([found], Paint())
     assert "largest 0.166667 at [[]]\n" in shown
@@ -200,14 +217,17 @@ def test_long_places_have_a_line_of_their_own() -> None:
     text = "name: {}\nmethods: [{{family: gauss, stages: 2}}]\nexpect: {{symplectic: false}}\n"
     folder = "a-folder-with-a-long-name/long/"
     long = outcome(
-        text.format("Gauss with two stages, copied by hand"), f"{folder}m.gark.yaml"
+        text.format("Gauss with two stages, copied by hand"),
+        f"{folder}m.gark.yaml",
     )
     found = render([long], Paint()).splitlines()
     assert found[:2] == [
         f"{folder}m.gark.yaml:",
         "  Gauss with two stages, copied by hand",
     ]
-    claim = found.index("  CLAIM FAILS      symplectic: expected false, found true")
+    claim = found.index(
+        "  CLAIM FAILS      symplectic: expected false, found true"
+    )
     assert found[claim + 1] == " " * 19 + f"({folder}m.gark.yaml:3:22)"
     assert max(map(len, found)) <= 80
     short = outcome(text.format("Gauss"))

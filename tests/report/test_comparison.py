@@ -63,7 +63,9 @@ def entries(count: int) -> list[Entry]:
     """As many methods on the oscillator."""
     made = [on_oscillator(NAMES[k % len(NAMES)]) for k in range(count)]
     return [
-        Entry(f"{k}.gark.yaml", f"method {k}", result, (), int(not result.agrees))
+        Entry(
+            f"{k}.gark.yaml", f"method {k}", result, (), int(not result.agrees)
+        )
         for k, result in enumerate(made)
     ]
 
@@ -91,7 +93,8 @@ def test_text_fits_the_terminal(count: int) -> None:
         assert entry.result is not None
         assert scientific(entry.result.rows[-1].error) in found
     assert (
-        sum(line.endswith(("they agree", "THEY DISAGREE")) for line in lines) == count
+        sum(line.endswith(("they agree", "THEY DISAGREE")) for line in lines)
+        == count
     )
 
 
@@ -101,7 +104,9 @@ def test_methods_keep_their_step_sizes() -> None:
     """
     first, second = entries(2)
     assert isinstance(second.result, Convergence)
-    second = replace(second, result=replace(second.result, rows=second.result.rows[1:]))
+    second = replace(
+        second, result=replace(second.result, rows=second.result.rows[1:])
+    )
     lines = render([first, second], "text", PLAIN).splitlines()
     quarter = next(line for line in lines if line.split()[:1] == ["1/4"])
     eighth = next(line for line in lines if line.split()[:1] == ["1/8"])
@@ -119,7 +124,12 @@ def test_failures_are_told_among_the_others() -> None:
     assert data["summary"] == {"files": 2, "failed": 1}
     assert [x["ok"] for x in data["results"]] == [True, False]
     assert data["results"][1]["errors"] == [
-        {"line": 3, "column": 4, "message": "no such file", "help": "look elsewhere"}
+        {
+            "line": 3,
+            "column": 4,
+            "message": "no such file",
+            "help": "look elsewhere",
+        }
     ]
     assert {
         row["file"]
@@ -134,7 +144,9 @@ def test_failures_are_told_among_the_others() -> None:
 def test_same_names_are_told_apart() -> None:
     """Two methods of one name are shown with their files, others without."""
     first, second = (replace(entry, name="twin") for entry in entries(2))
-    text = render([first, second, replace(entries(3)[2], name="other")], "text", PLAIN)
+    text = render(
+        [first, second, replace(entries(3)[2], name="other")], "text", PLAIN
+    )
     assert "A  twin (0.gark.yaml)" in text
     assert "C  other\n" in text
 
@@ -154,7 +166,9 @@ def test_csv_has_every_column() -> None:
     name = 'say "rk4", the classical one'
     entry = Entry("a,b.gark.yaml", name, on_kepler("rk4", True), (), 0)
     rows = list(
-        csv.DictReader(io.StringIO(render([entry], "csv", PLAIN, with_work=True)))
+        csv.DictReader(
+            io.StringIO(render([entry], "csv", PLAIN, with_work=True))
+        )
     )
     assert list(rows[0]) == [
         *(
@@ -173,28 +187,44 @@ def test_csv_has_every_column() -> None:
     assert [row["method"] for row in rows] == [name] * 2
     assert rows[0]["file"] == "a,b.gark.yaml"
     for row, known in zip(rows, on_kepler("rk4", True).rows, strict=True):
-        assert float(row["h"]) == float(arb(fmpq(*map(int, row["h_exact"].split("/")))))
-        assert float(row["error"]) == pytest.approx(float(known.error), rel=1e-5)
+        assert float(row["h"]) == float(
+            arb(fmpq(*map(int, row["h_exact"].split("/"))))
+        )
+        assert float(row["error"]) == pytest.approx(
+            float(known.error), rel=1e-5
+        )
         assert float(row["angular_momentum_error"]) == pytest.approx(
             float(known.invariant_errors[0]), rel=1e-5
         )
         assert known.cost is not None
-        assert int(row["evaluations"]) == known.cost.evaluations == 8 * known.cost.steps
+        assert (
+            int(row["evaluations"])
+            == known.cost.evaluations
+            == 8 * known.cost.steps
+        )
         assert float(row["seconds"]) > 0
     alone = list(
-        csv.DictReader(io.StringIO(render_one(on_kepler("rk4"), "rk4", "csv", PLAIN)))
+        csv.DictReader(
+            io.StringIO(render_one(on_kepler("rk4"), "rk4", "csv", PLAIN))
+        )
     )
     assert alone == [{k: row[k] for k in alone[0]} for row in rows]
 
 
-def with_costs(name: str, costs: list[Cost | None], errors: list[float]) -> Entry:
+def with_costs(
+    name: str, costs: list[Cost | None], errors: list[float]
+) -> Entry:
     """A method with these errors and costs."""
     rows = tuple(
         Row(fmpq(1, 2**k), arb(e), None, arb(0), cost=c)
         for k, (e, c) in enumerate(zip(errors, costs, strict=True))
     )
     return Entry(
-        f"{name}.gark.yaml", name, replace(on_oscillator("rk4"), rows=rows), (), 0
+        f"{name}.gark.yaml",
+        name,
+        replace(on_oscillator("rk4"), rows=rows),
+        (),
+        0,
     )
 
 
@@ -208,7 +238,9 @@ def test_costs_of_equal_errors() -> None:
     ]
     steep = with_costs("steep", costs, [10**-1.5, 10**-6.5])
     other = with_costs("other", [Cost(1, 50, 0, 0), None], [1e-1, 1e-3])
-    text = render([steep, other], "text", PLAIN, with_work=True, against="evaluations")
+    text = render(
+        [steep, other], "text", PLAIN, with_work=True, against="evaluations"
+    )
     block = text[text.index("evaluations for an error of") :].splitlines()
     heads, first = block[0].split()[5:], block[1].split()[1:]
     assert dict(zip(heads, first, strict=True)) == {
@@ -226,7 +258,9 @@ def test_costs_of_equal_errors() -> None:
 def test_points_of_a_plot() -> None:
     """Only rows whose cost is known can be plotted against it."""
     entry = with_costs(
-        "one", [Cost(1, 50, 0, 0), None, Cost(4, 200, 0, 0, 0.5)], [1e-1, 1e-2, 0.0]
+        "one",
+        [Cost(1, 50, 0, 0), None, Cost(4, 200, 0, 0, 0.5)],
+        [1e-1, 1e-2, 0.0],
     )
     assert entry.result is not None
     assert [float(x) for x, _ in curve(entry.result, "evaluations")] == [50]
@@ -236,7 +270,9 @@ def test_points_of_a_plot() -> None:
 
 def test_work_of_one_method_in_text() -> None:
     """A table of costs below the errors, and the plot against evaluations."""
-    text = render_one(on_kepler("rk4", True), "rk4", "text", PLAIN, with_work=True)
+    text = render_one(
+        on_kepler("rk4", True), "rk4", "text", PLAIN, with_work=True
+    )
     (line,) = [
         line
         for line in text.splitlines()
@@ -254,16 +290,21 @@ def test_oscillator_has_costs_too() -> None:
     steps = [fmpq(1, 4), fmpq(1, 8), fmpq(1, 16)]
     problem = Oscillator.default(1, fmpq(1))
     result = converge(method("rk4"), problem, steps=steps, is_timed=True)
-    assert [row.cost.evaluations for row in result.rows if row.cost is not None] == [
+    assert [
+        row.cost.evaluations for row in result.rows if row.cost is not None
+    ] == [
         128,
         256,
         512,
     ]
     assert all(
-        row.cost is not None and row.cost.seconds is not None for row in result.rows
+        row.cost is not None and row.cost.seconds is not None
+        for row in result.rows
     )
     plain = on_oscillator("rk4").rows
-    assert [float(x.error) for x in result.rows] == [float(x.error) for x in plain]
+    assert [float(x.error) for x in result.rows] == [
+        float(x.error) for x in plain
+    ]
 
 
 def test_oscillator_beyond_floats_is_counted_without_time() -> None:

@@ -29,7 +29,8 @@ from garkcli.stepping.fields import with_joined_terms
 
 ROOT = Path(__file__).parents[2]
 RECTANGULAR, RK4 = (
-    str(ROOT / "methods" / f"{name}.gark.yaml") for name in ("rectangular", "rk4")
+    str(ROOT / "methods" / f"{name}.gark.yaml")
+    for name in ("rectangular", "rk4")
 )
 GAUSS = str(ROOT / "tests" / "examples" / "valid" / "smallest.gark.yaml")
 
@@ -68,7 +69,9 @@ def text(
 ) -> str:
     """The report for people."""
     return render(
-        Report("m", run, symplecticity or Symplecticity(True), claims), "text", Paint()
+        Report("m", run, symplecticity or Symplecticity(True), claims),
+        "text",
+        Paint(),
     )
 
 
@@ -87,7 +90,10 @@ def text(
         (kepler, "bounded: no drift beyond its uncertainty"),
         (kepler, "no error above round-off, at most"),
         (falling, "DRIFTS: the slope is"),
-        (lambda: nonlinear(RECTANGULAR, "kepler", 2), "undecided: fewer than 64 steps"),
+        (
+            lambda: nonlinear(RECTANGULAR, "kepler", 2),
+            "undecided: fewer than 64 steps",
+        ),
         (
             lambda: nonlinear(RECTANGULAR, "kepler", 10),
             "undecided: the motion turns back 3 times only;",
@@ -136,13 +142,15 @@ def test_what_is_said_of_blow_ups() -> None:
         ),
         (
             Symplecticity(
-                False, (Defect(fmpq(0), 1e-60, 2e-55), Defect(fmpq(5), 0, 3e-55))
+                False,
+                (Defect(fmpq(0), 1e-60, 2e-55), Defect(fmpq(5), 0, 3e-55)),
             ),
             "is below 1e-54",
         ),
         (
             Symplecticity(
-                False, (Defect(fmpq(0), 1e-60, 2e-55), Defect(fmpq(5), 1, 3e-55))
+                False,
+                (Defect(fmpq(0), 1e-60, 2e-55), Defect(fmpq(5), 1, 3e-55)),
             ),
             "t = 0, 5",
         ),
@@ -175,14 +183,21 @@ def test_quiet_reports_have_no_plot() -> None:
 
 @pytest.mark.parametrize(
     "make",
-    [kepler, falling, lambda: oscillator(RECTANGULAR), lambda: oscillator(GAUSS)],
+    [
+        kepler,
+        falling,
+        lambda: oscillator(RECTANGULAR),
+        lambda: oscillator(GAUSS),
+    ],
 )
 def test_json(make: Callable[[], LongRun]) -> None:
     """The same numbers, under names that stay."""
     run = make()
     claims = (Claim("bounded", "bounded", True),)
     measured = Symplecticity(False, (Defect(fmpq(1, 2), 0.25, 1e-55),))
-    data = json.loads(render(Report("m", run, measured, claims), "json", Paint()))
+    data = json.loads(
+        render(Report("m", run, measured, claims), "json", Paint())
+    )
     assert data["schema"] == "gark/energy/1"
     assert (data["step_exact"], data["steps"], data["drifts"]) == (
         str(run.step),
@@ -199,7 +214,9 @@ def test_json(make: Callable[[], LongRun]) -> None:
         == ("determinant_minus_1" in data["symplectic"])
         == (data["problem"] == "oscillator")
     )
-    assert [x["name"] for x in data["quantities"]] == [x.name for x in run.invariants]
+    assert [x["name"] for x in data["quantities"]] == [
+        x.name for x in run.invariants
+    ]
     for found, history in zip(data["quantities"], run.invariants, strict=True):
         assert (found["max_error"], found["drift"], found["verdict"]) == (
             history.max_error,
@@ -207,24 +224,39 @@ def test_json(make: Callable[[], LongRun]) -> None:
             history.verdict,
         )
         assert found["drift_in_all"] == pytest.approx(history.drift * run.end)
-    assert data["symplectic"]["defects"] == [{"t": 0.5, "size": 0.25, "good_to": 1e-55}]
-    assert data["claims"] == [{"claim": "bounded", "found": "bounded", "holds": True}]
+    assert data["symplectic"]["defects"] == [
+        {"t": 0.5, "size": 0.25, "good_to": 1e-55}
+    ]
+    assert data["claims"] == [
+        {"claim": "bounded", "found": "bounded", "holds": True}
+    ]
 
 
 def test_json_of_blow_ups_has_no_infinities() -> None:
     """What is not known is null."""
     history = replace(
-        kepler().invariants[0], verdict="unstable", drift=None, uncertainty=None
+        kepler().invariants[0],
+        verdict="unstable",
+        drift=None,
+        uncertainty=None,
     )
     data = json.loads(
         render(
-            Report("m", replace(kepler(), invariants=(history,)), Symplecticity(True)),
+            Report(
+                "m",
+                replace(kepler(), invariants=(history,)),
+                Symplecticity(True),
+            ),
             "json",
             Paint(),
         )
     )
     found = data["quantities"][0]
-    assert (found["drift"], found["drift_uncertainty"], found["drift_in_all"]) == (
+    assert (
+        found["drift"],
+        found["drift_uncertainty"],
+        found["drift_in_all"],
+    ) == (
         None,
         None,
         None,
@@ -237,7 +269,9 @@ def test_csv() -> None:
     rows = list(
         csv.reader(
             io.StringIO(
-                render(Report("m", kepler(), Symplecticity(True)), "csv", Paint())
+                render(
+                    Report("m", kepler(), Symplecticity(True)), "csv", Paint()
+                )
             )
         )
     )
@@ -274,7 +308,9 @@ def test_figures_are_the_same_each_time(tmp_path: Path, suffix: str) -> None:
     """Byte by byte, so that a repository of figures does not change without a reason."""
     for name in ("one", "two"):
         save(energy_figure(falling()), tmp_path / f"{name}{suffix}")
-    one, two = ((tmp_path / f"{name}{suffix}").read_bytes() for name in ("one", "two"))
+    one, two = (
+        (tmp_path / f"{name}{suffix}").read_bytes() for name in ("one", "two")
+    )
     assert one == two
     assert len(one) > 5000
 
@@ -315,7 +351,9 @@ def test_band_joins_its_points() -> None:
     ).splitlines()[1:10]
     for column in range(30):
         drawn = [
-            line.ljust(40)[line.index("┤" if "┤" in line else "│") + 1 + column]
+            line.ljust(40)[
+                line.index("┤" if "┤" in line else "│") + 1 + column
+            ]
             for line in lines
         ]
         assert any(x in (INSIDE, SINGLE) for x in drawn)
@@ -323,12 +361,24 @@ def test_band_joins_its_points() -> None:
 
 @pytest.mark.parametrize(
     "values",
-    [[0.0], [1.0], [-1.0], [0.0, 0.0], [1e-300, 2e-300], [-1e300, 1e300], [5.0, 5.0]],
+    [
+        [0.0],
+        [1.0],
+        [-1.0],
+        [0.0, 0.0],
+        [1e-300, 2e-300],
+        [-1e300, 1e300],
+        [5.0, 5.0],
+    ],
 )
 def test_band_of_little(values: list[float]) -> None:
     """One point, no height, and the ends of the floats."""
     found = terminal_band(
-        [float(k) for k in range(len(values))], values, "f", columns=27, height=5
+        [float(k) for k in range(len(values))],
+        values,
+        "f",
+        columns=27,
+        height=5,
     )
     assert len(found.splitlines()) == 8
     assert "nan" not in found

@@ -45,7 +45,9 @@ GOOD = "methods/stoermer-verlet.gark.yaml"
 FILES = (GOOD, FAILING, INVALID)
 MIDPOINT = "methods: [{A: [[1/2]], b: [1]}]\n"
 HEUN = "methods: [{family: heun}]\n"
-WRONG = f"{MIDPOINT}expect: {{order: 3, symplectic: false, bound: 2, B: [5]}}\n"
+WRONG = (
+    f"{MIDPOINT}expect: {{order: 3, symplectic: false, bound: 2, B: [5]}}\n"
+)
 AWKWARD = "a%,b:c`d|e\nf.gark.yaml"
 
 _TEXT = {
@@ -84,7 +86,13 @@ _LOCATION = {
 }
 _RESULT = {
     "type": "object",
-    "required": ["message", "ruleId", "ruleIndex", "locations", "partialFingerprints"],
+    "required": [
+        "message",
+        "ruleId",
+        "ruleIndex",
+        "locations",
+        "partialFingerprints",
+    ],
     "properties": {
         "ruleId": {"enum": list(KINDS)},
         "ruleIndex": {"type": "integer", "minimum": 0},
@@ -165,7 +173,9 @@ def sarif(*outcomes: Outcome) -> dict[str, Any]:
     """The one run of a SARIF report that has the structure of the standard."""
     log = json.loads(check_sarif.render(outcomes))
     Draft7Validator.check_schema(SARIF)
-    assert [error.message for error in Draft7Validator(SARIF).iter_errors(log)] == []
+    assert [
+        error.message for error in Draft7Validator(SARIF).iter_errors(log)
+    ] == []
     (run,) = log["runs"]
     assert isinstance(run, dict)
     return run
@@ -583,7 +593,9 @@ def fingerprints(text: str, file: str = "m.gark.yaml") -> list[str]:
 def test_sarif_of_real_files_has_the_structure_of_the_standard() -> None:
     """A good, a failing and an unreadable file give a log with every required property, one result a finding."""
     log = json.loads(gark("check", *FILES, "--format", "sarif").out)
-    assert [error.message for error in Draft7Validator(SARIF).iter_errors(log)] == []
+    assert [
+        error.message for error in Draft7Validator(SARIF).iter_errors(log)
+    ] == []
     (run,) = log["runs"]
     files = [
         x["locations"][0]["physicalLocation"]["artifactLocation"]["uri"]
@@ -600,9 +612,13 @@ def test_sarif_names_its_rules() -> None:
     run = sarif(outcome(WRONG), outcome("methods: 1\n"), silent)
     rules = run["tool"]["driver"]["rules"]
     assert (
-        {x["ruleId"] for x in run["results"]} == set(KINDS) == {x["id"] for x in rules}
+        {x["ruleId"] for x in run["results"]}
+        == set(KINDS)
+        == {x["id"] for x in rules}
     )
-    assert all(rules[x["ruleIndex"]]["id"] == x["ruleId"] for x in run["results"])
+    assert all(
+        rules[x["ruleIndex"]]["id"] == x["ruleId"] for x in run["results"]
+    )
 
 
 def test_sarif_points_at_the_claim() -> None:
@@ -623,7 +639,9 @@ def test_sarif_points_at_the_claim() -> None:
 
 def test_a_region_starts_at_one_where_no_place_is_known() -> None:
     """A file that is not there has no line; the region is still one of the standard."""
-    fault = Outcome("nowhere.gark.yaml", "nowhere", faults=(Fault("no such file"),))
+    fault = Outcome(
+        "nowhere.gark.yaml", "nowhere", faults=(Fault("no such file"),)
+    )
     (result,) = sarif(fault)["results"]
     assert result["locations"][0]["physicalLocation"]["region"] == {
         "startLine": 1,
@@ -633,7 +651,9 @@ def test_a_region_starts_at_one_where_no_place_is_known() -> None:
 
 def test_fingerprints_do_not_move() -> None:
     """Lines inserted above and other blanks leave every fingerprint as it was."""
-    moved = "# a comment\n\nname: later named\n" + WRONG.replace("{order", "{   order")
+    moved = "# a comment\n\nname: later named\n" + WRONG.replace(
+        "{order", "{   order"
+    )
     assert len(fingerprints(WRONG)) == 3
     assert fingerprints(moved) == fingerprints(WRONG)
     bad = "methods: [{family: gaus, stages: 2}]\ncolour: red\n"
@@ -644,8 +664,12 @@ def test_fingerprints_do_not_move() -> None:
 def test_fingerprints_tell_findings_apart() -> None:
     """Two claims, two files, and two faults with the same words have different fingerprints."""
     assert len(set(fingerprints(WRONG))) == 3
-    assert not set(fingerprints(WRONG)) & set(fingerprints(WRONG, "n.gark.yaml"))
-    same = Outcome("m", "m", faults=(Fault("no", "", 1, 1), Fault("no", "", 2, 1)))
+    assert not set(fingerprints(WRONG)) & set(
+        fingerprints(WRONG, "n.gark.yaml")
+    )
+    same = Outcome(
+        "m", "m", faults=(Fault("no", "", 1, 1), Fault("no", "", 2, 1))
+    )
     assert len({x.fingerprint for x in findings(same)}) == 2
 
 
@@ -658,7 +682,13 @@ def test_a_claim_that_still_fails_keeps_its_fingerprint() -> None:
 
 @pytest.mark.parametrize(
     "file",
-    [AWKWARD, "späße/m.gark.yaml", "C:m.gark.yaml", "a b.gark.yaml", "#1?.gark.yaml"],
+    [
+        AWKWARD,
+        "späße/m.gark.yaml",
+        "C:m.gark.yaml",
+        "a b.gark.yaml",
+        "#1?.gark.yaml",
+    ],
 )
 def test_a_file_name_is_a_uri(file: str) -> None:
     """Any file name becomes a URI reference that gives the name back."""
@@ -676,7 +706,10 @@ def test_a_file_name_is_a_uri(file: str) -> None:
 def junit(*outcomes: Outcome) -> ET.Element:
     """A JUnit report whose counts are those of its cases."""
     root = ET.fromstring(check_junit.render(outcomes))
-    assert (root.tag, {suite.tag for suite in root}) == ("testsuites", {"testsuite"})
+    assert (root.tag, {suite.tag for suite in root}) == (
+        "testsuites",
+        {"testsuite"},
+    )
     for part in (root, *root):
         for count, path in (
             ("tests", ".//testcase"),
@@ -685,7 +718,8 @@ def junit(*outcomes: Outcome) -> ET.Element:
         ):
             assert part.get(count) == str(len(part.findall(path)))
     assert all(
-        case.get("name") and case.get("classname") for case in root.iter("testcase")
+        case.get("name") and case.get("classname")
+        for case in root.iter("testcase")
     )
     return root
 
@@ -701,7 +735,9 @@ def test_junit_has_a_case_a_claim() -> None:
         "bound: 2",
         "B: [5]",
     ]
-    failed = [case.get("name") for case in suite if case.find("failure") is not None]
+    failed = [
+        case.get("name") for case in suite if case.find("failure") is not None
+    ]
     assert failed == ["order: 3", "symplectic: false", "B: [5]"]
     assert [case.get("name") for case in other] == ["is a method"]
     assert {case.get("line") for case in suite[1:]} == {"2"}
@@ -709,7 +745,9 @@ def test_junit_has_a_case_a_claim() -> None:
 
 def test_junit_of_an_unreadable_file_is_one_error() -> None:
     """A file that is no method is one case in error with every fault in its text."""
-    (suite,) = junit(outcome("methods: [{family: gauss, stages: x}]\ncolour: red\n"))
+    (suite,) = junit(
+        outcome("methods: [{family: gauss, stages: x}]\ncolour: red\n")
+    )
     (case,) = suite
     (error,) = case
     assert (case.get("name"), error.tag) == ("is a method", "error")
@@ -727,12 +765,26 @@ def test_junit_of_real_files() -> None:
 
 @pytest.mark.parametrize(
     "sign",
-    ["\0", "\x07", "\x1b", "\ud800", "\uffff", "\x7f", "<", "&", '"', "\n", "]]>"],
+    [
+        "\0",
+        "\x07",
+        "\x1b",
+        "\ud800",
+        "\uffff",
+        "\x7f",
+        "<",
+        "&",
+        '"',
+        "\n",
+        "]]>",
+    ],
 )
 def test_junit_parses_whatever_a_file_is_called(sign: str) -> None:
     """What XML cannot write is replaced, other control characters are written out, all else stays."""
     file = f"a{sign}b.gark.yaml"
-    faulty = Outcome(file, file, faults=(Fault(f"unknown {sign}", f"no {sign}", 1, 1),))
+    faulty = Outcome(
+        file, file, faults=(Fault(f"unknown {sign}", f"no {sign}", 1, 1),)
+    )
     (suite, broken) = junit(outcome(WRONG, file), faulty)
     allowed = sign not in {"\0", "\x07", "\x1b", "\ud800", "\uffff"}
     assert (
@@ -748,7 +800,9 @@ def test_junit_parses_whatever_a_file_is_called(sign: str) -> None:
 
 # -- GitHub -------------------------------------------------------------------------------------------------------
 
-_COMMAND = re.compile(r"::error ((?:[a-z]+=[^,:\n]*)(?:,[a-z]+=[^,:\n]*)*)::(.*)")
+_COMMAND = re.compile(
+    r"::error ((?:[a-z]+=[^,:\n]*)(?:,[a-z]+=[^,:\n]*)*)::(.*)"
+)
 
 
 def annotations(*outcomes: Outcome) -> list[tuple[dict[str, str], str]]:
@@ -758,10 +812,15 @@ def annotations(*outcomes: Outcome) -> list[tuple[dict[str, str], str]]:
         if line.startswith("::error"):
             match = _COMMAND.fullmatch(line)
             assert match, line
-            properties = dict(part.split("=", 1) for part in match[1].split(","))
+            properties = dict(
+                part.split("=", 1) for part in match[1].split(",")
+            )
             found.append(
                 (
-                    {key: _unescaped(value) for key, value in properties.items()},
+                    {
+                        key: _unescaped(value)
+                        for key, value in properties.items()
+                    },
                     _unescaped(match[2]),
                 )
             )
@@ -796,8 +855,12 @@ def test_claims_that_fail_for_one_reason_say_so(tmp_path: Path) -> None:
     """One wrong entry of Gauss 2 fails its orders and symplecticity: each finding names that entry,
     which restores them; a claim that stays wrong is not among them.
     """
-    claims = "order: 4, conjugate-order: 4, pair-order: 5, symplectic: true, B: [4]"
-    rows = "A: [[1/4, 1/4 - sqrt(3)/6], [1/4 + sqrt(3)/6, 1/3]]\nb: [1/2, 1/2]\n"
+    claims = (
+        "order: 4, conjugate-order: 4, pair-order: 5, symplectic: true, B: [4]"
+    )
+    rows = (
+        "A: [[1/4, 1/4 - sqrt(3)/6], [1/4 + sqrt(3)/6, 1/3]]\nb: [1/2, 1/2]\n"
+    )
     file = tmp_path / "gauss.gark.yaml"
     file.write_text(f"{rows}expect: {{{claims}}}\n")
     found = check_file(str(file))
@@ -805,7 +868,9 @@ def test_claims_that_fail_for_one_reason_say_so(tmp_path: Path) -> None:
     assert found.blame.restores == ("conjugate-order", "symplectic")
     repair = "A{1,1}, row 2, entry 2, = 1/4 instead of 1/3"
     consequence = f"it fails with order, and would hold with {repair}"
-    assert [(x.message.partition(":")[0], x.help) for x in findings(found)] == [
+    assert [
+        (x.message.partition(":")[0], x.help) for x in findings(found)
+    ] == [
         ("order", f"the claimed order would hold with {repair}"),
         ("conjugate-order", consequence),
         ("pair-order", ""),
@@ -825,7 +890,10 @@ def test_a_failed_claim_on_a_bound_says_what_it_is_made_of() -> None:
     claims = "bound: 3, sharp-bound: 3, pair-sharp-bound: 3"
     found = annotations(outcome(f"{HEUN}expect: {{{claims}}}\n"))
     numbers = "r = 2, η = 1, ζ = 1, ξ = 2, χ = 2"
-    printed, sharper = "min{r, 2η+2, ξ+1, η+ζ+1}", "min{r, 2η+2, ξ+1, χ+2, η+ζ+3}"
+    printed, sharper = (
+        "min{r, 2η+2, ξ+1, η+ζ+1}",
+        "min{r, 2η+2, ξ+1, χ+2, η+ζ+3}",
+    )
     assert [text for _, text in found] == [
         f"bound: expected 3, found 2; 2 = {printed} with {numbers}",
         f"sharp-bound: expected 3, found 2; 2 = {sharper} with {numbers}",
@@ -838,7 +906,13 @@ def test_a_failed_claim_on_a_bound_says_what_it_is_made_of() -> None:
 
 @pytest.mark.parametrize(
     "file",
-    [AWKWARD, "%0A.gark.yaml", "::error ::.gark.yaml", "a\r\nb", "x,line=9.gark.yaml"],
+    [
+        AWKWARD,
+        "%0A.gark.yaml",
+        "::error ::.gark.yaml",
+        "a\r\nb",
+        "x,line=9.gark.yaml",
+    ],
 )
 def test_annotations_escape_file_names(file: str) -> None:
     """Percent, newline, comma and colon in a file name come back as they were and add no property."""
@@ -863,7 +937,9 @@ def test_the_format_auto_knows_where_it_runs() -> None:
     for value in ("true", "false", ""):
         with patch.dict("os.environ", {"GITHUB_ACTIONS": value}):
             outcomes[value] = (
-                CliRunner().invoke(commands, ["check", str(ROOT / FAILING)]).output
+                CliRunner()
+                .invoke(commands, ["check", str(ROOT / FAILING)])
+                .output
             )
     assert outcomes["true"].startswith("::error file=")
     assert outcomes["false"] == outcomes[""]
@@ -884,7 +960,8 @@ def rows(outcomes: Sequence[Outcome]) -> list[list[str]]:
     lines = check_markdown.render(outcomes).split("\n")
     table = [line for line in lines if line.startswith("|")]
     return [
-        [cell.strip() for cell in re.split(r"(?<!\\)\|", line)[1:-1]] for line in table
+        [cell.strip() for cell in re.split(r"(?<!\\)\|", line)[1:-1]]
+        for line in table
     ]
 
 
@@ -903,14 +980,24 @@ def test_markdown_has_a_row_a_file() -> None:
         "claims",
     ]
     assert set(rule) == {"---"}
-    assert wrong == ["`m.gark.yaml`", "2", "2", "2", "2", "yes", "**3 of 4 fail**"]
+    assert wrong == [
+        "`m.gark.yaml`",
+        "2",
+        "2",
+        "2",
+        "2",
+        "yes",
+        "**3 of 4 fail**",
+    ]
     assert right[-1] == "none"
     assert bad == ["`m.gark.yaml`", "unreadable", "", "", "", "", ""]
 
 
 def test_markdown_says_what_is_a_lower_bound() -> None:
     """An order at which the search stopped is not shown as the order."""
-    _, _, row = rows([outcome("methods: [{family: gauss, stages: 3}]", limit=2)])
+    _, _, row = rows(
+        [outcome("methods: [{family: gauss, stages: 3}]", limit=2)]
+    )
     assert row[1:4] == ["at least 2"] * 3
 
 
@@ -921,7 +1008,9 @@ def test_markdown_cells_hold_any_file_name(file: str) -> None:
     _, _, row = rows([outcome(WRONG, file)])
     assert len(row) == 7
     assert row[0].count("`") == 2
-    assert len([line for line in text.split("\n") if line.startswith("- `")]) == 3
+    assert (
+        len([line for line in text.split("\n") if line.startswith("- `")]) == 3
+    )
 
 
 def test_markdown_escapes_messages() -> None:
@@ -936,20 +1025,30 @@ def test_no_format_forgets_a_finding() -> None:
     """Text, annotations, SARIF, JUnit and Markdown of one run have the same findings."""
     outcomes = [
         outcome(WRONG),
-        outcome("methods: [{family: gaus, stages: 2}]\ncolour: red\n", "n.gark.yaml"),
+        outcome(
+            "methods: [{family: gaus, stages: 2}]\ncolour: red\n",
+            "n.gark.yaml",
+        ),
     ]
     messages = [x.message for each in outcomes for x in findings(each)]
     assert len(messages) >= 4
-    cases = [x for x in junit(*outcomes).iter() if x.tag in {"failure", "error"}]
+    cases = [
+        x for x in junit(*outcomes).iter() if x.tag in {"failure", "error"}
+    ]
     in_junit = " ".join(f"{case.get('message')} {case.text}" for case in cases)
     # JUnit has the parts of a message in places of their own
-    parts = [x for message in messages for x in message.partition(": ")[2].split("; ")]
+    parts = [
+        x
+        for message in messages
+        for x in message.partition(": ")[2].split("; ")
+    ]
     assert all(part in in_junit for part in parts)
     results = [x["message"]["text"] for x in sarif(*outcomes)["results"]]
     shown = [text for _, text in annotations(*outcomes)]
     for said in (results, shown):
         assert all(
-            x.startswith(message) for x, message in zip(said, messages, strict=True)
+            x.startswith(message)
+            for x, message in zip(said, messages, strict=True)
         )
     markdown = check_markdown.render(outcomes)
     assert all(message in markdown for message in messages)
@@ -969,14 +1068,18 @@ def blamed(tmp_path: Path) -> Outcome:
     return check_file(str(file))
 
 
-def test_every_format_for_machines_has_witness_and_hint(tmp_path: Path) -> None:
+def test_every_format_for_machines_has_witness_and_hint(
+    tmp_path: Path,
+) -> None:
     """The tree whose condition fails, by how much, and the entry that would mend it."""
     found = blamed(tmp_path)
     texts = {
-        "sarif": json.loads(check_sarif.render([found]))["runs"][0]["results"][0][
-            "message"
-        ]["text"],
-        "junit": ET.fromstring(check_junit.render([found])).find(".//failure").text,  # type: ignore[union-attr]
+        "sarif": json.loads(check_sarif.render([found]))["runs"][0]["results"][
+            0
+        ]["message"]["text"],
+        "junit": ET.fromstring(check_junit.render([found]))
+        .find(".//failure")
+        .text,  # type: ignore[union-attr]
         "github": check_github.render([found]).splitlines()[0],
         "markdown": check_markdown.render([found]),
         "json": json.dumps(as_data([found])),
@@ -995,14 +1098,19 @@ def test_files_without_claims_are_counted_and_may_fail(tmp_path: Path) -> None:
         (tmp_path / f"{name}.gark.yaml").write_text(MIDPOINT)
     (tmp_path / "c.gark.yaml").write_text(f"{MIDPOINT}expect: {{order: 2}}\n")
     run = gark("check", ".", cwd=tmp_path)
-    assert (run.code, run.out.rstrip().endswith("all hold; 2 files make no claim")) == (
+    assert (
+        run.code,
+        run.out.rstrip().endswith("all hold; 2 files make no claim"),
+    ) == (
         0,
         True,
     )
     run = gark("check", ".", "--require-claims", cwd=tmp_path)
     assert (run.code, run.out.count("NO CLAIM")) == (1, 2)
     data = json.loads(
-        gark("check", ".", "--require-claims", "--format", "json", cwd=tmp_path).out
+        gark(
+            "check", ".", "--require-claims", "--format", "json", cwd=tmp_path
+        ).out
     )
     assert data["summary"] == {"files": 3, "failed": 2, "without_claims": 2}
     assert [file["ok"] for file in data["files"]] == [False, False, True]

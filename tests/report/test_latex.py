@@ -30,7 +30,9 @@ def latex(*arguments: str) -> str:
     """A LaTeX report, its comments left out."""
     run = gark(*arguments, "--format", "latex")
     assert run.code == 0, run.err
-    return "\n".join(line for line in run.out.splitlines() if not line.startswith("%"))
+    return "\n".join(
+        line for line in run.out.splitlines() if not line.startswith("%")
+    )
 
 
 def unbalanced(text: str) -> Iterator[str]:
@@ -50,7 +52,9 @@ def unbalanced(text: str) -> Iterator[str]:
     yield from stack
     if len(re.findall(r"(?<!\\)\$", text)) % 2:
         yield "$"
-    if text.count(r"\[") - len(re.findall(r"\\\\\[", text)) != text.count(r"\]"):
+    if text.count(r"\[") - len(re.findall(r"\\\\\[", text)) != text.count(
+        r"\]"
+    ):
         yield "["
 
 
@@ -68,7 +72,14 @@ def test_latex_is_balanced(arguments: tuple[str, ...]) -> None:
 
 def test_the_check_for_balance_can_fail() -> None:
     """The helper of these tests notices what is not closed."""
-    for text in ("{", "}", r"\begin{array}", r"\begin{a}\end{b}", "$x", r"\[x"):
+    for text in (
+        "{",
+        "}",
+        r"\begin{array}",
+        r"\begin{a}\end{b}",
+        "$x",
+        r"\[x",
+    ):
         assert list(unbalanced(text)), text
 
 

@@ -21,7 +21,10 @@ from garkcli.convergence.result import Convergence
 from garkcli.errors import UsageProblem
 from garkcli.families.registry import diagonal_method
 from garkcli.page.asciiplot import SEVERAL, terminal_curves, terminal_plot
-from garkcli.plots.convergence_plot import comparison_figure, convergence_figure
+from garkcli.plots.convergence_plot import (
+    comparison_figure,
+    convergence_figure,
+)
 from garkcli.plots.saving import save
 from garkcli.problems.oscillator import Oscillator
 from garkcli.tableau.forms import gark
@@ -38,7 +41,9 @@ def result_of(
     name: str, s: int | None = None, steps: tuple[fmpq, ...] | None = None
 ) -> Convergence:
     """The convergence test of one method, once."""
-    return converge(gark([diagonal_method(name, s)], {}), OSCILLATOR, steps=steps)
+    return converge(
+        gark([diagonal_method(name, s)], {}), OSCILLATOR, steps=steps
+    )
 
 
 def beyond_floats() -> Convergence:
@@ -51,7 +56,9 @@ def beyond_floats() -> Convergence:
 def test_terminal_plot_is_a_straight_line() -> None:
     """Points of error = h² rise from the lower left to the upper right corner, in equal steps."""
     h = [10.0**-k for k in range(4)]
-    lines = terminal_plot(h, [x**2 for x in h], width=31, height=7).splitlines()
+    lines = terminal_plot(
+        h, [x**2 for x in h], width=31, height=7
+    ).splitlines()
     at = [(i, line.index("•")) for i, line in enumerate(lines) if "•" in line]
     assert [i for i, _ in at] == [1, 3, 5, 7]
     assert [at[k][1] - at[k + 1][1] for k in range(3)] == [10, 10, 10]
@@ -113,7 +120,8 @@ def test_terminal_axis_of_counts(top: float, label: str) -> None:
 
 
 @pytest.mark.parametrize(
-    ("suffix", "start"), [(".png", b"\x89PNG"), (".svg", b"<?xml"), (".pdf", b"%PDF")]
+    ("suffix", "start"),
+    [(".png", b"\x89PNG"), (".svg", b"<?xml"), (".pdf", b"%PDF")],
 )
 def test_figures_are_saved(tmp_path: Path, suffix: str, start: bytes) -> None:
     """Each format is what its name says, nothing else is left behind, and an old file is
@@ -166,7 +174,9 @@ def test_comparison_figure_shows_every_method() -> None:
     found = []
     for line in slopes:
         x, y = line.get_xdata(), line.get_ydata()
-        found.append(round(float(np.log(y[0] / y[1]) / np.log(x[0] / x[1])), 9))
+        found.append(
+            round(float(np.log(y[0] / y[1]) / np.log(x[0] / x[1])), 9)
+        )
         assert line.get_label() == f"slope {found[-1]:.0f}"
     assert sorted(found) == [1, 2, 3, 4]
     assert [text.get_text() for text in figure.legends[0].get_texts()] == [
@@ -231,19 +241,26 @@ def test_figures_without_errors(tmp_path: Path) -> None:
         observed_order=None,
     )
     for k, figure in enumerate(
-        (convergence_figure(exact, "a method"), comparison_figure([("rk4", exact)]))
+        (
+            convergence_figure(exact, "a method"),
+            comparison_figure([("rk4", exact)]),
+        )
     ):
         assert figure.axes[0].get_lines() == []
         save(figure, tmp_path / f"{k}.png")
     mixed = comparison_figure([("exact", exact), ("rk4", result)])
-    assert [text.get_text() for text in mixed.legends[0].get_texts()] == ["rk4"]
+    assert [text.get_text() for text in mixed.legends[0].get_texts()] == [
+        "rk4"
+    ]
 
 
 def test_comparison_beyond_the_floats(tmp_path: Path) -> None:
     """Errors below 1e-308 beside large ones: logarithms are drawn instead."""
     path = tmp_path / "figure.svg"
     save(
-        comparison_figure([("gauss 16", beyond_floats()), ("rk4", result_of("rk4"))]),
+        comparison_figure(
+            [("gauss 16", beyond_floats()), ("rk4", result_of("rk4"))]
+        ),
         path,
     )
     assert path.stat().st_size > 5000
@@ -310,7 +327,9 @@ def test_lines_of_slopes_are_on_no_curve() -> None:
     for factor in (1e-3, 0.03, 0.3, 0.5, 2, 30):
         shifted = replace(
             result,
-            rows=tuple(replace(row, error=row.error * factor) for row in result.rows),
+            rows=tuple(
+                replace(row, error=row.error * factor) for row in result.rows
+            ),
         )
         (axes,) = comparison_figure([("one", result), ("other", shifted)]).axes
         *curves, line = axes.get_lines()
@@ -321,8 +340,12 @@ def test_lines_of_slopes_are_on_no_curve() -> None:
 def test_the_reference_is_not_on_the_energy_error() -> None:
     """Energy errors may be a little above the errors, where the reference usually is."""
     steps = [fmpq(1, 2**k) for k in range(1, 9)]
-    result = converge(gark([diagonal_method("rk4")], {}), OSCILLATOR, steps=steps)
-    rows = tuple(replace(row, energy_error=row.error * 3) for row in result.rows)
+    result = converge(
+        gark([diagonal_method("rk4")], {}), OSCILLATOR, steps=steps
+    )
+    rows = tuple(
+        replace(row, energy_error=row.error * 3) for row in result.rows
+    )
     (axes,) = convergence_figure(replace(result, rows=rows), "rk4").axes
     *curves, line = axes.get_lines()
     assert _clearance(line, curves) > 0.3
@@ -332,7 +355,10 @@ def test_the_reference_is_not_on_the_energy_error() -> None:
     ("steps", "shown"),
     [
         ((fmpq(1, 3), fmpq(1, 5), fmpq(1, 7)), ["0.2", "0.3"]),
-        ((fmpq(1, 2), fmpq(1, 10), fmpq(1, 20)), ["0.05", "0.1", "0.2", "0.5"]),
+        (
+            (fmpq(1, 2), fmpq(1, 10), fmpq(1, 20)),
+            ["0.05", "0.1", "0.2", "0.5"],
+        ),
         (
             (fmpq(1, 2), fmpq(1, 100), fmpq(1, 1000)),
             ["$\\mathdefault{10^{-3}}$", "$\\mathdefault{10^{-2}}$"],
@@ -345,7 +371,9 @@ def test_numbers_below_do_not_collide(
     """Over few decades some multiples of powers of ten are labelled too, and never one on
     another.
     """
-    result = converge(gark([diagonal_method("rk4")], {}), OSCILLATOR, fmpq(1), steps)
+    result = converge(
+        gark([diagonal_method("rk4")], {}), OSCILLATOR, fmpq(1), steps
+    )
     figure = comparison_figure([("rk4", result)])
     canvas = FigureCanvasAgg(figure)
     canvas.draw()
@@ -353,7 +381,10 @@ def test_numbers_below_do_not_collide(
     low, high = axes.get_xlim()
     labels = [
         text
-        for tick in (*axes.xaxis.get_major_ticks(), *axes.xaxis.get_minor_ticks())
+        for tick in (
+            *axes.xaxis.get_major_ticks(),
+            *axes.xaxis.get_minor_ticks(),
+        )
         if (text := tick.label1).get_text() and low <= tick.get_loc() <= high
     ]
     assert set(shown) <= {text.get_text() for text in labels}

@@ -41,7 +41,13 @@ def test_every_property_of_every_method(path: Path) -> None:
     listed = {x["property"]: x for x in found["every_property"]}
     assert list(listed) == list(KEYS)
     short = found["properties"]
-    for key in ("explicit", "fsal", "symmetric", "reducible", "implicit-stages"):
+    for key in (
+        "explicit",
+        "fsal",
+        "symmetric",
+        "reducible",
+        "implicit-stages",
+    ):
         assert short[key.replace("-", "_")] == listed[key]["value"]
     verdict = garkcli.find_property(garkcli.load(str(path)), "l-stable")
     assert listed["l-stable"]["value"] == verdict.value
@@ -89,7 +95,10 @@ def test_a_stage_order_at_the_limit_is_a_lower_bound() -> None:
     """With --max-order 1 no more is known; a claim on more raises the limit."""
     text = "methods: {family: gauss, stages: 3}\n"
     found = report("-", "--max-order", "1", stdin=text)["properties"]
-    assert (found["stage_order"], found["stage_order_is_lower_bound"]) == (1, True)
+    assert (found["stage_order"], found["stage_order_is_lower_bound"]) == (
+        1,
+        True,
+    )
     claimed = f"{text}expect: {{stage-order: 3}}\n"
     run = gark("check", "-", "--max-order", "1", stdin=claimed)
     assert run.code == 0

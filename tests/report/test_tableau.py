@@ -33,7 +33,8 @@ def arrays(text: str) -> list[list[list[str]]]:
     )
     rows = [body.replace("\\hline\n", "").split("\\\\") for body in found]
     return [
-        [[cell.strip() for cell in row.split("&")] for row in body] for body in rows
+        [[cell.strip() for cell in row.split("&")] for row in body]
+        for body in rows
     ]
 
 
@@ -44,7 +45,11 @@ def test_the_rectangular_method_is_printed_as_in_the_paper() -> None:
     third, half = r"\frac{1}{3}", r"\frac{1}{2}"
     assert q == [
         ["0", "0", "0"],
-        [half, r"\frac{1}{4}+\frac{\sqrt{3}}{8}", r"\frac{1}{4}-\frac{\sqrt{3}}{8}"],
+        [
+            half,
+            r"\frac{1}{4}+\frac{\sqrt{3}}{8}",
+            r"\frac{1}{4}-\frac{\sqrt{3}}{8}",
+        ],
         ["1", half, half],
         ["", half, half],
     ]
@@ -60,7 +65,11 @@ def test_a_wide_pair_is_one_display_after_the_other() -> None:
     (psymplecticGARK).
     """
     run = gark(
-        "conjugate", "methods/collocation.gark.yaml", "--pair", "--format", "latex"
+        "conjugate",
+        "methods/collocation.gark.yaml",
+        "--pair",
+        "--format",
+        "latex",
     )
     q, p = arrays(run.out)
     assert run.out.count(r"\[") == 2
@@ -69,16 +78,22 @@ def test_a_wide_pair_is_one_display_after_the_other() -> None:
     assert len(q) == 6
     assert {len(row) for row in (*q, *p)} == {6}
     (alone,) = arrays(
-        gark("tableau", "methods/collocation.gark.yaml", "--format", "latex").out
+        gark(
+            "tableau", "methods/collocation.gark.yaml", "--format", "latex"
+        ).out
     )
     assert alone == q
-    made = gark("conjugate", "methods/collocation.gark.yaml", "--format", "latex")
+    made = gark(
+        "conjugate", "methods/collocation.gark.yaml", "--format", "latex"
+    )
     assert arrays(made.out) == [p]
 
 
 def test_a_semi_separable_pair_leaves_out_what_the_problem_lacks() -> None:
     """The paper's Q has stages of both methods and one column of blocks, its P the other way."""
-    run = gark("tableau", "methods/semi-separable.gark.yaml", "--format", "latex")
+    run = gark(
+        "tableau", "methods/semi-separable.gark.yaml", "--format", "latex"
+    )
     q, p = arrays(run.out)
     assert [len(q), len(q[0])] == [2 + 3 + 1, 1 + 2]
     assert [len(p), len(p[0])] == [2 + 1, 1 + 2 + 3]
@@ -91,7 +106,9 @@ def test_a_document_is_complete(command: str) -> None:
     text = gark(*arguments, "--format", "latex").out
     assert text.startswith("\\documentclass")
     assert text.endswith("\\end{document}\n")
-    assert arrays(text) == arrays(gark(*arguments[:2], "--format", "latex").out)
+    assert arrays(text) == arrays(
+        gark(*arguments[:2], "--format", "latex").out
+    )
     for other in ("text", "yaml", "json"):
         run = gark(*arguments, "--format", other)
         assert (run.code, run.out) == (2, "")
@@ -116,7 +133,9 @@ def test_the_file_of_a_tableau_is_the_method(name: str) -> None:
 
 def test_what_no_file_spells_out() -> None:
     """Nodes without radicals ask for digits; pairs of several terms have no spelled-out form."""
-    run = gark("tableau", "methods/gauss6-lobatto7.gark.yaml", "--format", "yaml")
+    run = gark(
+        "tableau", "methods/gauss6-lobatto7.gark.yaml", "--format", "yaml"
+    )
     assert run.code == 2
     assert "--digits 17" in run.err
     run = gark(
@@ -140,19 +159,26 @@ def test_a_rounded_file_has_the_order_within_its_tolerance(
     """Decimals of any nodes make a file whose tolerance explains what rounding did."""
     path = f"methods/{name}.gark.yaml"
     text = gark("tableau", path, "--format", "yaml", "--digits", "25").out
-    found = json.loads(gark("check", "-", "--format", "json", stdin=text).out)["files"][
-        0
-    ]
+    found = json.loads(gark("check", "-", "--format", "json", stdin=text).out)[
+        "files"
+    ][0]
     assert found["order"] == order
     assert loads(text).tolerance == fmpq(1, 10**22)
 
 
 @pytest.mark.parametrize("shape", ["text", "latex", "json", "yaml"])
 @pytest.mark.parametrize("command", ["tableau", "conjugate"])
-def test_digits_make_decimals_in_every_format(command: str, shape: str) -> None:
+def test_digits_make_decimals_in_every_format(
+    command: str, shape: str
+) -> None:
     """No root and no fraction is left, and each number is that of the exact tableau, rounded."""
     run = gark(
-        command, "methods/collocation.gark.yaml", "--digits", "6", "--format", shape
+        command,
+        "methods/collocation.gark.yaml",
+        "--digits",
+        "6",
+        "--format",
+        shape,
     )
     assert run.code == 0
     assert "sqrt" not in run.out
@@ -167,7 +193,8 @@ def test_plain_decimals_are_read_back(p: int, twos: int, fives: int) -> None:
     text = plain_decimal(number)
     assert "/" not in text
     assert (
-        read_decimal(text.removeprefix("-")) * (-1 if text.startswith("-") else 1)
+        read_decimal(text.removeprefix("-"))
+        * (-1 if text.startswith("-") else 1)
         == number
     )
 
@@ -175,7 +202,10 @@ def test_plain_decimals_are_read_back(p: int, twos: int, fives: int) -> None:
 def test_stages_are_counted_as_the_paper_does() -> None:
     """Three stages for q and two for p, although the weights are two and three."""
     rectangular = load(str(ROOT / "methods/rectangular.gark.yaml")).tableau
-    assert (rectangular.stages_of("q"), rectangular.stages_of("p")) == ((3,), (2,))
+    assert (rectangular.stages_of("q"), rectangular.stages_of("p")) == (
+        (3,),
+        (2,),
+    )
     semi = load(str(ROOT / "methods/semi-separable.gark.yaml")).tableau
     assert (semi.stages_of("q"), semi.stages_of("p")) == ((2, 3), (2,))
     assert semi.stages_of("y") == ()
@@ -187,6 +217,10 @@ def test_long_nodes_and_weights_go_on_in_the_next_line() -> None:
     """Nodes and weights of a tableau too wide for a grid fit 80 columns, and none is lost."""
     run = gark("tableau", "methods/gauss6-lobatto7.gark.yaml")
     vectors = run.out.split("\n\n")[1:3]
-    assert max(len(line) for part in vectors for line in part.splitlines()) <= 80
-    counts = [len(x.split(",")) for part in vectors for x in re.split(r"\nb", part)]
+    assert (
+        max(len(line) for part in vectors for line in part.splitlines()) <= 80
+    )
+    counts = [
+        len(x.split(",")) for part in vectors for x in re.split(r"\nb", part)
+    ]
     assert counts == [6, 6, 7, 7]

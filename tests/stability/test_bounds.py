@@ -18,8 +18,18 @@ from garkcli.exact.roots import RealRoot
 from garkcli.methodfile.load import loads
 from garkcli.stability.algebraic import algebraic_stability
 from garkcli.stability.algebraic_within import algebraic_within, is_positive
-from garkcli.stability.bounds import OPEN, UNLIMITED, Bounds, first_failure, least
-from garkcli.stability.linear import imaginary_set, real_set, stability_function
+from garkcli.stability.bounds import (
+    OPEN,
+    UNLIMITED,
+    Bounds,
+    first_failure,
+    least,
+)
+from garkcli.stability.linear import (
+    imaginary_set,
+    real_set,
+    stability_function,
+)
 from garkcli.stability.ssp import ssp_coefficient
 from garkcli.stability.within import stability_within
 from garkcli.tableau.tableau import Tableau
@@ -60,14 +70,18 @@ def disturbed(A: list[list[str]], b: list[str], signs: list[int]) -> Tableau:
     def changed(x: str) -> str:
         return x if x == "0" else f"{x} + {next(following)}*({TOLERANCE})"
 
-    return method([[changed(x) for x in row] for row in A], [changed(x) for x in b])
+    return method(
+        [[changed(x) for x in row] for row in A], [changed(x) for x in b]
+    )
 
 
 def lies_within(value: RealRoot | None, bounds: Bounds) -> bool:
     """Whether a number, or ∞, is between bounds."""
     if value is None:
         return bounds.high is None
-    above = bounds.low is not None and not value < RealRoot.rational(bounds.low)
+    above = bounds.low is not None and not value < RealRoot.rational(
+        bounds.low
+    )
     below = bounds.high is None or not RealRoot.rational(bounds.high) < value
     return above and below
 
@@ -83,7 +97,10 @@ def first_end(intervals: tuple[Interval, ...]) -> RealRoot | None:
 def explicit(draw: st.DrawFn) -> tuple[list[list[str]], list[str]]:
     """Random explicit methods."""
     s = draw(st.integers(1, 3))
-    A = [[str(draw(ENTRY)) if j < i else "0" for j in range(s)] for i in range(s)]
+    A = [
+        [str(draw(ENTRY)) if j < i else "0" for j in range(s)]
+        for i in range(s)
+    ]
     return A, [str(draw(ENTRY)) for _ in range(s)]
 
 
@@ -173,7 +190,9 @@ def test_the_report(tmp_path: Path) -> None:
     text = CliRunner().invoke(gark, ["stability", str(path)]).output
     assert "−z ≤ 2.512745327\n" in text
     assert "y² ≤ 3.000000000\n" in text
-    json_text = CliRunner().invoke(gark, ["stability", str(path), "--format", "json"])
+    json_text = CliRunner().invoke(
+        gark, ["stability", str(path), "--format", "json"]
+    )
     (data,) = json.loads(json_text.output)["files"]
     ends = data["real_interval"]
     assert float(ends["at_least"]) < 2.51274532661833 < float(ends["at_most"])

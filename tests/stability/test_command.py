@@ -67,7 +67,10 @@ def test_latex() -> None:
 @pytest.mark.parametrize(
     ("arguments", "message"),
     [
-        (["methods/rk4.gark.yaml", "--slow", "1"], "--slow and --fast belong together"),
+        (
+            ["methods/rk4.gark.yaml", "--slow", "1"],
+            "--slow and --fast belong together",
+        ),
         (
             ["methods/three-colours.gark.yaml", "--slow", "1", "--fast", "4"],
             "no colour '4'",

@@ -10,7 +10,10 @@ from hypothesis import strategies as st
 
 from garkcli.families.registry import diagonal_method
 from garkcli.methodfile.load import load, loads
-from garkcli.stability.algebraic import algebraic_stability, is_positive_semidefinite
+from garkcli.stability.algebraic import (
+    algebraic_stability,
+    is_positive_semidefinite,
+)
 from garkcli.stability.ssp import ssp_coefficient
 from garkcli.tableau.forms import gark
 from garkcli.tableau.pointwise import in_points
@@ -45,7 +48,9 @@ SSP_3_2 = "methods: [{A: [[0,0,0],[1/2,0,0],[1/2,1/2,0]], b: [1/3,1/3,1/3]}]"
         ("lobatto-iiic", True),
     ],
 )
-def test_the_classical_families(name: str, expected: bool, stages: int) -> None:
+def test_the_classical_families(
+    name: str, expected: bool, stages: int
+) -> None:
     """Burrage and Butcher (1979); Hairer, Wanner, section IV.12."""
     found = algebraic_stability(gark([diagonal_method(name, stages)], {}))
     assert found is not None
@@ -105,7 +110,9 @@ def test_optimal_ssp_methods(text: str, expected: int) -> None:
         ("gauss", 2, 0),
     ],
 )
-def test_classical_methods(name: str, stages: int | None, expected: int) -> None:
+def test_classical_methods(
+    name: str, stages: int | None, expected: int
+) -> None:
     """Kraaijevanger (1991)."""
     found = ssp_coefficient(gark([diagonal_method(name, stages)], {}))
     assert found is not None
@@ -125,7 +132,10 @@ def explicit(draw: st.DrawFn) -> Tableau:
     """Random explicit methods with entries that are not negative."""
     s = draw(st.integers(1, 4))
     entry = st.fractions(min_value=0, max_value=1, max_denominator=6)
-    A = [[str(draw(entry)) if j < i else "0" for j in range(s)] for i in range(s)]
+    A = [
+        [str(draw(entry)) if j < i else "0" for j in range(s)]
+        for i in range(s)
+    ]
     b = [str(draw(entry)) for _ in range(s)]
     return loads(f"methods: [{{A: {A}, b: {b}}}]").tableau
 
@@ -147,10 +157,14 @@ def test_the_conditions_by_floating_point(tableau: Tableau) -> None:
 
     def smallest(r: float) -> float:
         inverse = np.linalg.inv(np.eye(s + 1) + r * K)
-        return float(min((K @ inverse).min(), (inverse @ np.ones(s + 1)).min()))
+        return float(
+            min((K @ inverse).min(), (inverse @ np.ones(s + 1)).min())
+        )
 
     radius = 5.0 if found.value is None else float(found.value.ball(64))
     if radius > 0.01:
         assert smallest(radius * 0.999) >= -1e-9
     if found.value is not None:
-        assert min(smallest(radius + t) for t in (1e-3, 1e-2, 0.1, 0.5, 1.0)) < 0
+        assert (
+            min(smallest(radius + t) for t in (1e-3, 1e-2, 0.1, 0.5, 1.0)) < 0
+        )

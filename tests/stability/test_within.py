@@ -9,8 +9,14 @@ from hypothesis import strategies as st
 
 from garkcli.families.registry import diagonal_method
 from garkcli.methodfile.load import loads
-from garkcli.properties.last_stage import is_stiffly_accurate as has_new_value_as_stage
-from garkcli.stability.linear import is_a_stable, is_l_stable, stability_function
+from garkcli.properties.last_stage import (
+    is_stiffly_accurate as has_new_value_as_stage,
+)
+from garkcli.stability.linear import (
+    is_a_stable,
+    is_l_stable,
+    stability_function,
+)
 from garkcli.stability.summary import stability_of_rounded
 from garkcli.stability.within import is_stiffly_accurate, stability_within
 from garkcli.tableau.forms import additive, gark
@@ -50,7 +56,9 @@ def test_a_digit_off_is_decided_as_exactly(digit: int, sign: int) -> None:
     """With one digit of the first γ wrong the verdict is the exact one, or open: it is lost one way."""
     text = sdirk("0.4358665215")
     wrong = f"{fmpq(4358665215, 10**10) + fmpq(sign, 10**digit)}"
-    tableau = loads(text.replace("[0.4358665215, 0, 0]", f"[{wrong}, 0, 0]")).tableau
+    tableau = loads(
+        text.replace("[0.4358665215, 0, 0]", f"[{wrong}, 0, 0]")
+    ).tableau
     (found,) = stability_of_rounded(tableau, TOLERANCE).linear
     exact = is_a_stable(stability_function(tableau))
     assert exact == (sign > 0)
@@ -65,7 +73,10 @@ def test_symmetric_methods_are_left_open() -> None:
     assert found.a_stable is None
 
 
-@given(st.sampled_from(["radau-iia", "radau-ia", "lobatto-iiic"]), st.integers(2, 2))
+@given(
+    st.sampled_from(["radau-iia", "radau-ia", "lobatto-iiic"]),
+    st.integers(2, 2),
+)
 def test_exact_methods_are_decided_alike(name: str, stages: int) -> None:
     """Where something is decided for all neighbours it is what holds exactly."""
     tableau = gark([diagonal_method(name, stages)], {})
@@ -79,7 +90,10 @@ def test_exact_methods_are_decided_alike(name: str, stages: int) -> None:
 def test_explicit_methods_are_decided(name: str) -> None:
     """A polynomial is unbounded, rounded or not."""
     tableau = gark([diagonal_method(name, None)], {})
-    assert stability_within(tableau, [fmpq(1)], fmpq(1, 10**12), 1).a_stable is False
+    assert (
+        stability_within(tableau, [fmpq(1)], fmpq(1, 10**12), 1).a_stable
+        is False
+    )
 
 
 @pytest.mark.parametrize(
@@ -108,7 +122,9 @@ def test_a_pole_on_the_left_that_stays_decides() -> None:
     assert found.a_stable is False
 
 
-@pytest.mark.parametrize(("units", "expected"), [(fmpq(9, 10), None), (fmpq(20), True)])
+@pytest.mark.parametrize(
+    ("units", "expected"), [(fmpq(9, 10), None), (fmpq(20), True)]
+)
 def test_coefficients_that_are_added_add_their_rounding(
     units: fmpq, expected: bool | None
 ) -> None:

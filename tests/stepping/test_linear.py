@@ -49,7 +49,12 @@ def gark_of(*names: tuple[str, int]) -> Tableau:
     N = range(len(methods))
     return gark(
         methods,
-        {(l, m): collocation(methods[l], methods[m]) for l in N for m in N if l != m},
+        {
+            (l, m): collocation(methods[l], methods[m])
+            for l in N
+            for m in N
+            if l != m
+        },
     )
 
 
@@ -65,7 +70,9 @@ def determinant(R: Matrix) -> object:
 
 def float_matrix(R: Matrix) -> np.ndarray:
     """Rounded."""
-    return np.array([[float(x) for x in row] for row in enclosure(R, 80).tolist()])
+    return np.array(
+        [[float(x) for x in row] for row in enclosure(R, 80).tolist()]
+    )
 
 
 def dense_step(tableau: Tableau, problem: Oscillator, h: float) -> np.ndarray:
@@ -79,7 +86,9 @@ def dense_step(tableau: Tableau, problem: Oscillator, h: float) -> np.ndarray:
                 float(space.modulus[k].p) / float(space.modulus[k].q)
                 for k in range(space.stages + 1)
             ]
-            change.append(np.vander(np.roots(coefficients[::-1]), increasing=True))
+            change.append(
+                np.vander(np.roots(coefficients[::-1]), increasing=True)
+            )
         else:
             change.append(np.eye(space.stages))
     sizes = [space.stages for space in tableau.spaces]
@@ -91,14 +100,20 @@ def dense_step(tableau: Tableau, problem: Oscillator, h: float) -> np.ndarray:
         seen = slice(2 * start[colour.space], 2 * start[colour.space + 1])
         to_values = np.linalg.inv(change[colour.space])
         b = (
-            np.array([[float(x) for x in enclosure((colour.b,), 80).tolist()[0]]])
+            np.array(
+                [[float(x) for x in enclosure((colour.b,), 80).tolist()[0]]]
+            )
             @ to_values
         )
         weights[:, seen] += np.kron(b, L)
         for k in range(len(sizes)):
             if (k, m) in tableau.blocks:
-                block = change[k] @ float_matrix(tableau.blocks[k, m]) @ to_values
-                system[2 * start[k] : 2 * start[k + 1], seen] -= h * np.kron(block, L)
+                block = (
+                    change[k] @ float_matrix(tableau.blocks[k, m]) @ to_values
+                )
+                system[2 * start[k] : 2 * start[k + 1], seen] -= h * np.kron(
+                    block, L
+                )
     stages = np.linalg.solve(system, np.kron(np.ones((total, 1)), np.eye(2)))
     return np.eye(2) + h * weights @ stages
 
@@ -124,7 +139,9 @@ TABLEAUS = {
     "one colour": gark_of(("radau-iia", 3)),
     "explicit": gark_of(("rk4", 4)),
     "gark": GAUSS_LOBATTO,
-    "three colours": gark_of(("gauss", 2), ("lobatto-iiia", 3), ("radau-iia", 2)),
+    "three colours": gark_of(
+        ("gauss", 2), ("lobatto-iiia", 3), ("radau-iia", 2)
+    ),
     "pair": pair(GAUSS_LOBATTO),
     "pair of one": pair(gark_of(("radau-ia", 2))),
     "semi-separable": symplectic_pair(GAUSS_LOBATTO, [0], [0, 1]),
@@ -148,7 +165,9 @@ def test_step_is_that_of_a_dense_computation(name: str, omega: fmpq) -> None:
     tableau = TABLEAUS[name]
     problem = default(tableau, omega)
     exact = float_matrix(linear_step(tableau, problem).at(H))
-    assert exact == pytest.approx(dense_step(tableau, problem, float(H)), abs=1e-12)
+    assert exact == pytest.approx(
+        dense_step(tableau, problem, float(H)), abs=1e-12
+    )
 
 
 def test_radicals_and_families_make_the_same_rectangular_method() -> None:
@@ -176,9 +195,16 @@ def test_gauss_step_is_the_pade_approximant(s: int) -> None:
     ]
     # on an eigenvector L is iω: P(ihω) = C + iS with real C, S, and R(h) is the rotation by P/P̄
     x = omega * H
-    C = sum(((-1) ** (k // 2) * P[k] * x**k for k in range(0, s + 1, 2)), fmpq(0))
-    S = sum(((-1) ** (k // 2) * P[k] * x**k for k in range(1, s + 1, 2)), fmpq(0))
-    cosine, sine = (C * C - S * S) / (C * C + S * S), 2 * C * S / (C * C + S * S)
+    C = sum(
+        ((-1) ** (k // 2) * P[k] * x**k for k in range(0, s + 1, 2)), fmpq(0)
+    )
+    S = sum(
+        ((-1) ** (k // 2) * P[k] * x**k for k in range(1, s + 1, 2)), fmpq(0)
+    )
+    cosine, sine = (
+        (C * C - S * S) / (C * C + S * S),
+        2 * C * S / (C * C + S * S),
+    )
     R = linear_step(tableau, default(tableau, omega)).at(H)
     rotation = ((cosine, sine / omega), (-omega * sine, cosine))
     assert rotation == R
@@ -186,7 +212,8 @@ def test_gauss_step_is_the_pade_approximant(s: int) -> None:
 
 
 @pytest.mark.parametrize(
-    "name", ["pair", "pair of one", "semi-separable", "separable", "in radicals"]
+    "name",
+    ["pair", "pair of one", "semi-separable", "separable", "in radicals"],
 )
 def test_pairs_are_symplectic(name: str) -> None:
     """Det R(h) = 1 exactly, which for a plane is symplecticity; energy is not conserved exactly."""
@@ -204,7 +231,10 @@ def test_other_methods_are_not_symplectic(name: str) -> None:
 
 
 @settings(max_examples=25, deadline=None)
-@given(st.fractions(0, 1, max_denominator=9), st.fractions(-1, 2, max_denominator=9))
+@given(
+    st.fractions(0, 1, max_denominator=9),
+    st.fractions(-1, 2, max_denominator=9),
+)
 def test_one_method_on_all_terms_does_not_see_the_split(
     kinetic: object, potential: object
 ) -> None:
@@ -252,7 +282,9 @@ def test_visible_order(name: str, order: int) -> None:
 def test_visible_order_within_a_tolerance() -> None:
     """A weight that is off by 1e-12 is of order 0 exactly, and of order 2 within 1e-10."""
     b = (fmpq(1, 2), fmpq(1, 2) + fmpq(1, 10**12))
-    tableau = spelled_out([[((fmpq(0), fmpq(0)), (fmpq(1), fmpq(0)))]], [b], [None])
+    tableau = spelled_out(
+        [[((fmpq(0), fmpq(0)), (fmpq(1), fmpq(0)))]], [b], [None]
+    )
     step = linear_step(tableau, default(tableau))
     assert visible_order(step) == 0
     assert visible_order(step, fmpq(1, 10**10)) == 2
@@ -273,7 +305,8 @@ def test_precision_is_what_was_asked_for() -> None:
     tableau = TABLEAUS["separable"]
     step = linear_step(tableau, default(tableau))
     assert all(
-        x.rel_accuracy_bits() >= 500 for x in enclosure(step.at(H), 500).entries()
+        x.rel_accuracy_bits() >= 500
+        for x in enclosure(step.at(H), 500).entries()
     )
 
 

@@ -46,7 +46,8 @@ def test_rk4_with_time() -> None:
         k3 = f(t + h / 2, x + h / 2 * k2[0], v + h / 2 * k2[1])
         k4 = f(t + h, x + h * k3[0], v + h * k3[1])
         sums = [
-            a + 2 * b + 2 * c + d for a, b, c, d in zip(k1, k2, k3, k4, strict=True)
+            a + 2 * b + 2 * c + d
+            for a, b, c, d in zip(k1, k2, k3, k4, strict=True)
         ]
         x, v = x + h / 6 * sums[0], v + h / 6 * sums[1]
     found = integrate(bind(rk4(), loads_problem(PENDULUM)).at(), fmpq(1, 8), 4)
@@ -75,7 +76,9 @@ def test_an_imex_method_with_time() -> None:
 
 @pytest.mark.parametrize("family", ["rk4", "gauss", "lobatto-iiia"])
 @pytest.mark.parametrize(
-    "solved", [loads_problem(PENDULUM), problem("van-der-pol", 1)], ids=["t", "no t"]
+    "solved",
+    [loads_problem(PENDULUM), problem("van-der-pol", 1)],
+    ids=["t", "no t"],
 )
 def test_balls_and_floats(family: str, solved: Problem) -> None:
     """The two programs of one method differ by round-off."""

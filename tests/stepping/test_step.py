@@ -41,8 +41,13 @@ H = fmpq(1, 10)
 
 def coupled(s: int, t: int, rule: Any = collocation) -> Tableau:
     """Gauss s × Lobatto IIIA t."""
-    one, other = diagonal_method("gauss", s), diagonal_method("lobatto-iiia", t)
-    return gark([one, other], {(0, 1): rule(one, other), (1, 0): rule(other, one)})
+    one, other = (
+        diagonal_method("gauss", s),
+        diagonal_method("lobatto-iiia", t),
+    )
+    return gark(
+        [one, other], {(0, 1): rule(one, other), (1, 0): rule(other, one)}
+    )
 
 
 RECTANGULAR = symplectic_pair(coupled(2, 3), [0], [1])
@@ -54,7 +59,9 @@ HEUN = gark(
 )
 
 
-def plain_step(tableau: Tableau, problem: Hamiltonian, h: float) -> list[float]:
+def plain_step(
+    tableau: Tableau, problem: Hamiltonian, h: float
+) -> list[float]:
     """Every stage of every colour by fixed-point iteration, with no thought for structure."""
     entries, d = numeric_entries(tableau), problem.dimension
     A = {
@@ -76,7 +83,9 @@ def plain_step(tableau: Tableau, problem: Hamiltonian, h: float) -> list[float]:
     def field(m: int, y: Any) -> Any:
         out, groups = np.zeros(2 * d), {"q": y[:d], "p": y[d:]}
         for group, part, offset in (("q", "yq", 0), ("p", "yp", d)):
-            made = function(m, group) if tableau.colours[m].part in part else None
+            made = (
+                function(m, group) if tableau.colours[m].part in part else None
+            )
             if made is not None:
                 depends, gradient = made
                 arguments = [x for g in depends for x in groups[g]]
@@ -86,11 +95,15 @@ def plain_step(tableau: Tableau, problem: Hamiltonian, h: float) -> list[float]:
     F = [np.array([field(m, y0)] * len(b[m])) for m in range(tableau.size)]
     for _ in range(80):
         Y = [
-            y0 + h * sum(A[l, m] @ F[m] for m in range(tableau.size) if (l, m) in A)
+            y0
+            + h
+            * sum(A[l, m] @ F[m] for m in range(tableau.size) if (l, m) in A)
             for l in range(tableau.size)
         ]
         F = [
-            np.array([field(m, y) for y in Y[m] + np.zeros((len(b[m]), 2 * d))])
+            np.array(
+                [field(m, y) for y in Y[m] + np.zeros((len(b[m]), 2 * d))]
+            )
             for m in range(tableau.size)
         ]
     return (y0 + h * sum(b[m] @ F[m] for m in range(tableau.size))).tolist()
@@ -110,7 +123,9 @@ def plain_step(tableau: Tableau, problem: Hamiltonian, h: float) -> list[float]:
         (with_linear(RECTANGULAR, ["V1"]), "henon-heiles"),
     ],
 )
-def test_step_is_that_of_a_plain_iteration(tableau: Tableau, name: str) -> None:
+def test_step_is_that_of_a_plain_iteration(
+    tableau: Tableau, name: str
+) -> None:
     """General, GARK, separable, rectangular, semi-separable, explicit and Nyström: the same step to
     round-off.
     """
@@ -133,7 +148,8 @@ def test_digits_are_correct() -> None:
     with ctx.workprec(420):
         for short, long in ((30, 60), (60, 120)):
             assert max(
-                abs(a - b) for a, b in zip(ends[short], ends[long], strict=True)
+                abs(a - b)
+                for a, b in zip(ends[short], ends[long], strict=True)
             ) < arb(10) ** (1 - short)
 
 
@@ -174,7 +190,9 @@ def test_components_come_in_order() -> None:
     """Two cycles and a vertex: each after what it needs, and a long path without recursion."""
     graph = {1: [2], 2: [1, 3], 3: [4], 4: [5], 5: [4]}
     assert [sorted(x) for x in components(graph)] == [[1, 2], [3], [4, 5]]
-    assert len(components({k: [k + 1] for k in range(5000)} | {5000: []})) == 5001
+    assert (
+        len(components({k: [k + 1] for k in range(5000)} | {5000: []})) == 5001
+    )
 
 
 @pytest.mark.parametrize(
@@ -210,10 +228,12 @@ def symplecticity(tableau: Tableau, problem: Hamiltonian) -> float:
         for i, u in enumerate(columns):
             for j, v in enumerate(columns):
                 form = sum(
-                    (u[k] * v[k + d] - u[k + d] * v[k] for k in range(d)), arb(0)
+                    (u[k] * v[k + d] - u[k + d] * v[k] for k in range(d)),
+                    arb(0),
                 )
                 worst = max(
-                    worst, abs(float(form - (int(j == i + d) - int(i == j + d))))
+                    worst,
+                    abs(float(form - (int(j == i + d) - int(i == j + d)))),
                 )
     return worst
 
@@ -229,7 +249,10 @@ def test_energy_stays_near_its_start() -> None:
         energy = [p * p / 2 + 1 - math.cos(q) for q, p in path]
         return [abs(x - energy[0]) for x in energy]
 
-    ours, theirs = errors(RECTANGULAR, swing), errors(RK4, hamiltonian("pendulum", 1))
+    ours, theirs = (
+        errors(RECTANGULAR, swing),
+        errors(RK4, hamiltonian("pendulum", 1)),
+    )
     assert max(ours[2000:]) < 1.01 * max(ours[:2000]) < 1e-3
     assert theirs[-1] > 50 * max(ours)
 
@@ -239,7 +262,9 @@ def test_compensated_sums_keep_the_last_digits() -> None:
     four digits.
     """
     (px,) = symbols(("x",), "p")
-    free = Hamiltonian("free", ("x",), (px**2 / 2,), (fmpq(0), fmpq(1, 3)), fmpq(1))
+    free = Hamiltonian(
+        "free", ("x",), (px**2 / 2,), (fmpq(0), fmpq(1, 3)), fmpq(1)
+    )
     q, _ = integrate(bind(RK4, free).at(), fmpq(1, 10), 30_000)
     assert q == pytest.approx(1000, abs=3e-13)
     plain = 0.0
@@ -254,7 +279,11 @@ def test_states_before_a_failure_are_seen() -> None:
     """
     x, px = (symbols(("x",), group)[0] for group in GROUPS)
     fall = Hamiltonian(
-        "fall", ("x",), (px**2 / 2 - sympy.sqrt(x),), (fmpq(1), fmpq(-2)), fmpq(1)
+        "fall",
+        ("x",),
+        (px**2 / 2 - sympy.sqrt(x),),
+        (fmpq(1), fmpq(-2)),
+        fmpq(1),
     )
     made = bind(RK4, fall).at()
     seen: list[list[float]] = []
@@ -275,7 +304,8 @@ def test_units_do_not_matter(tableau: Tableau, mass: fmpq) -> None:
     terms = (px**2 / (2 * m), -m * sympy.cos(x))
     heavy = Hamiltonian("heavy", ("x",), terms, (fmpq(1), mass / 2), fmpq(1))
     floats, exact = (
-        integrate(bind(tableau, heavy).at(digits), H / 2, 40) for digits in (15, 40)
+        integrate(bind(tableau, heavy).at(digits), H / 2, 40)
+        for digits in (15, 40)
     )
     assert floats == pytest.approx([float(y) for y in exact], rel=2e-15)
 
@@ -283,7 +313,9 @@ def test_units_do_not_matter(tableau: Tableau, mass: fmpq) -> None:
 def test_balls_around_zero_have_powers() -> None:
     """A ball of a position at zero, where Kepler's field is smooth: no digit is lost."""
     field = vector_field(hamiltonian("kepler", 2), 1, "p")
-    x, y = function(field.components, field.arguments, True)(arb(1), arb(0, 1e-12))
+    x, y = function(field.components, field.arguments, True)(
+        arb(1), arb(0, 1e-12)
+    )
     assert abs(x + 1) < 1e-11
     assert abs(y) < 1e-11
 
@@ -294,12 +326,18 @@ def test_failing_step_says_where() -> None:
         StepFailed, match=r"step 1 of size 1000000: .*residual"
     ) as caught:
         integrate(
-            bind(pair(coupled(2, 3)), hamiltonian("generic", 2)).at(), fmpq(10**6), 3
+            bind(pair(coupled(2, 3)), hamiltonian("generic", 2)).at(),
+            fmpq(10**6),
+            3,
         )
     assert (caught.value.number, caught.value.h) == (1, 10**6)
     assert caught.value.help
     falling = Hamiltonian(
-        "fall", ("x",), (1 / symbols(("x",), "q")[0],), (fmpq(0), fmpq(0)), fmpq(1)
+        "fall",
+        ("x",),
+        (1 / symbols(("x",), "q")[0],),
+        (fmpq(0), fmpq(0)),
+        fmpq(1),
     )
     with pytest.raises(StepFailed, match="step 1") as left:
         integrate(bind(RK4, falling).at(), H, 1)
@@ -311,7 +349,11 @@ def test_failing_step_says_where() -> None:
     [
         (RECTANGULAR, "generic", r"H\{1\} of generic depends on q"),
         (SEMI, "generic", r"H\{2\} of generic depends on p"),
-        (with_linear(pair(coupled(2, 3)), ["V1"]), "generic", "colour V1 to be linear"),
+        (
+            with_linear(pair(coupled(2, 3)), ["V1"]),
+            "generic",
+            "colour V1 to be linear",
+        ),
         (HEUN, "generic", "colour 2 depends on what colour 1 drives"),
     ],
 )

@@ -82,7 +82,11 @@ class Lagrangian:
         return tuple(
             sympy.lambdify(
                 y,
-                [L, [L.diff(x) for x in y], [[L.diff(x, z) for z in y] for x in y]],
+                [
+                    L,
+                    [L.diff(x) for x in y],
+                    [[L.diff(x, z) for z in y] for x in y],
+                ],
                 modules="mpmath",
                 cse=True,
             )
@@ -104,12 +108,16 @@ class Lagrangian:
             return -L
         p = symbols(self.variables, "p")
         somewhere = {
-            x: sympy.Rational(k, 7) for k, x in enumerate((*self.q, *p), start=1)
+            x: sympy.Rational(k, 7)
+            for k, x in enumerate((*self.q, *p), start=1)
         }
         momenta = tuple(zip(self.v, p, strict=True))
-        for v in sympy.solve([L.diff(w) - x for w, x in momenta], self.v, dict=True):
+        for v in sympy.solve(
+            [L.diff(w) - x for w, x in momenta], self.v, dict=True
+        ):
             if all(
-                abs(L.diff(w).subs(v).subs(somewhere) - somewhere[x]).n() < 1e-9
+                abs(L.diff(w).subs(v).subs(somewhere) - somewhere[x]).n()
+                < 1e-9
                 for w, x in momenta
             ):
                 return (sum(x * w for w, x in momenta) - L).subs(v)
@@ -148,7 +156,10 @@ PLANE = {
         ((1 + Y**2) * U**2 + (1 + X**2) * W**2) / 2 - X * Y,
         -sympy.cos(X - 2 * Y) - Y**4,
     ),
-    "separable": ((U**2 + U * W + W**2) / 2, -(X**2) * Y + Y**3 / 3 - sympy.exp(X) / 2),
+    "separable": (
+        (U**2 + U * W + W**2) / 2,
+        -(X**2) * Y + Y**3 / 3 - sympy.exp(X) / 2,
+    ),
 }
 START = (fmpq(2, 5), fmpq(-1, 5), fmpq(1, 2), fmpq(3, 10))
 
@@ -237,7 +248,9 @@ class Case:
         self, digits: int, count: int = 3, tableau: Tableau | None = None
     ) -> list[Any]:
         """(q, p) after 0, 1, … steps, in mpmath's numbers, shape (count + 1, 2, d)."""
-        made = bind(tableau or self.pair, hamiltonian(self.lagrangian)).at(digits)
+        made = bind(tableau or self.pair, hamiltonian(self.lagrangian)).at(
+            digits
+        )
         return [
             np.array(list(map(number, y)), object).reshape(2, -1)
             for y in trajectory(made, H, count)
@@ -251,23 +264,31 @@ CASES = {
     "interpolation": Case(built(interpolation, GAUSS_LOBATTO), ("two", 1)),
     "symplectic collocation": Case(symplectic(GAUSS_LOBATTO), ("two", 1)),
     "three terms": Case(built(collocation, THREE), ("three", 1)),
-    "three terms, interpolated": Case(built(interpolation, THREE), ("three", 1)),
+    "three terms, interpolated": Case(
+        built(interpolation, THREE), ("three", 1)
+    ),
     "plane": Case(built(collocation, GAUSS_LOBATTO), ("two", 2)),
-    "plane, interpolation": Case(built(interpolation, GAUSS_LOBATTO[::-1]), ("two", 2)),
+    "plane, interpolation": Case(
+        built(interpolation, GAUSS_LOBATTO[::-1]), ("two", 2)
+    ),
     "semi-separable": Case(
         built(collocation, GAUSS_LOBATTO), ("semi-separable", 1), full=False
     ),
     "semi-separable by the general pair": Case(
         built(interpolation, GAUSS_LOBATTO), ("semi-separable", 1)
     ),
-    "semi-separable, zero weight": Case(FLAWED, ("semi-separable", 2), full=False),
+    "semi-separable, zero weight": Case(
+        FLAWED, ("semi-separable", 2), full=False
+    ),
     "rectangular": Case(
         built(collocation, GAUSS_LOBATTO), ("separable", 1), full=False
     ),
     "rectangular in the plane": Case(
         built(interpolation, GAUSS_LOBATTO), ("separable", 2), full=False
     ),
-    "separable by the general pair": Case(symplectic(GAUSS_LOBATTO), ("separable", 1)),
+    "separable by the general pair": Case(
+        symplectic(GAUSS_LOBATTO), ("separable", 1)
+    ),
 }
 SOME = ("collocation", "three terms", "plane", "semi-separable", "rectangular")
 
@@ -308,14 +329,17 @@ class Discrete:
         small = False
         for _ in range(40):
             value, force = mpf(0), np.array([mpf(0)] * d, object)
-            residual = np.concatenate([rows.T @ multiplier, q0 - q1 + rows @ V])
+            residual = np.concatenate(
+                [rows.T @ multiplier, q0 - q1 + rows @ V]
+            )
             matrix = np.full((n + d, n + d), mpf(0), object)
             matrix[:n, n:], matrix[n:, :n] = rows.T, rows
             for term, b, J in self.stages:
                 at = J @ V
                 at[:d] += q0
                 L, slope, curvature = (
-                    np.array(x, object) for x in self.lagrangian.derivatives[term](*at)
+                    np.array(x, object)
+                    for x in self.lagrangian.derivatives[term](*at)
                 )
                 value += h * b * L[()]
                 force += slope[:d] * (h * b)
@@ -324,7 +348,11 @@ class Discrete:
             if small:
                 return value, force + multiplier, -multiplier
             change = np.array(
-                list(mpmath.lu_solve(mpmath.matrix(matrix.tolist()), list(residual))),
+                list(
+                    mpmath.lu_solve(
+                        mpmath.matrix(matrix.tolist()), list(residual)
+                    )
+                ),
                 object,
             )
             V, multiplier = V - change[:n], multiplier - change[n:]
@@ -341,9 +369,15 @@ def rational(x: fmpq) -> mpf:
 
 def discrete(tableau: Tableau, L: Lagrangian) -> Discrete:
     """L_d from the entries of ``tableau``."""
-    entries, d, h = numeric_entries(tableau, DIGITS + 10), len(L.variables), rational(H)
+    entries, d, h = (
+        numeric_entries(tableau, DIGITS + 10),
+        len(L.variables),
+        rational(H),
+    )
     sizes = [len(entries.b[m]) for m in L.moving]
-    unit = np.array([[mpf(int(i == j)) for j in range(d)] for i in range(d)], object)
+    unit = np.array(
+        [[mpf(int(i == j)) for j in range(d)] for i in range(d)], object
+    )
 
     def spread(row: Sequence[Any]) -> Any:
         """A row of n coefficients as a matrix on V, shape (d, n d)."""
@@ -363,7 +397,11 @@ def discrete(tableau: Tableau, L: Lagrangian) -> Discrete:
                 for j in range(s)
             ]
             stages.append(
-                (l, number(b), np.vstack([spread(positions), spread(velocities)]))
+                (
+                    l,
+                    number(b),
+                    np.vstack([spread(positions), spread(velocities)]),
+                )
             )
     return Discrete(
         L,
@@ -393,11 +431,17 @@ def imbalances(case: Case, path: Sequence[Any]) -> tuple[float, float]:
     momenta.
     """
     made = discrete(case.tableau, case.lagrangian)
-    slopes = [made.extremum(now[0], then[0])[1:] for now, then in pairwise(path)]
-    stationarity = [size(before[1] + after[0]) for before, after in pairwise(slopes)]
+    slopes = [
+        made.extremum(now[0], then[0])[1:] for now, then in pairwise(path)
+    ]
+    stationarity = [
+        size(before[1] + after[0]) for before, after in pairwise(slopes)
+    ]
     momenta = [
         max(size(before + now[1]), size(after - then[1]))
-        for (before, after), (now, then) in zip(slopes, pairwise(path), strict=True)
+        for (before, after), (now, then) in zip(
+            slopes, pairwise(path), strict=True
+        )
     ]
     return max(stationarity), max(momenta)
 
@@ -430,13 +474,20 @@ def test_derivatives_are_those_of_the_discrete_lagrangian(name: str) -> None:
         def slope(action: Callable[[Any], mpf], shift: Any = shift) -> mpf:
             return (action(shift) - action(-shift)) / (2 * tiny)
 
-        assert abs(slope(lambda z: made.extremum(q0 + z, q1)[0]) - before[k]) < 1e-20
-        assert abs(slope(lambda z: made.extremum(q0, q1 + z)[0]) - after[k]) < 1e-20
+        assert (
+            abs(slope(lambda z: made.extremum(q0 + z, q1)[0]) - before[k])
+            < 1e-20
+        )
+        assert (
+            abs(slope(lambda z: made.extremum(q0, q1 + z)[0]) - after[k])
+            < 1e-20
+        )
         assert (
             abs(
                 slope(
                     lambda z: (
-                        made.extremum(q0, q1 + z)[0] + made.extremum(q1 + z, q2)[0]
+                        made.extremum(q0, q1 + z)[0]
+                        + made.extremum(q1 + z, q2)[0]
                     )
                 )
             )
@@ -456,15 +507,27 @@ def test_discrete_lagrangians_known_in_closed_form() -> None:
     )
     one, separable = lagrangian("one", 1), lagrangian("separable", 1)
     velocity = (q1[0] - q0[0]) / h
-    midpoint, *_ = discrete(gark(methods(("gauss", 1)), {}), one).extremum(q0, q1)
-    assert (
-        abs(midpoint - h * one.derivatives[0]((q0[0] + q1[0]) / 2, velocity)[0]) < 1e-45
+    midpoint, *_ = discrete(gark(methods(("gauss", 1)), {}), one).extremum(
+        q0, q1
     )
-    trapezoidal = built(collocation, methods(("gauss", 1), ("lobatto-iiia", 2)))
-    verlet, *_ = discrete(trapezoidal, separable).extremum(q0, q1)
-    potential = sum(separable.derivatives[1](q[0], velocity)[0] for q in (q0, q1)) / 2
     assert (
-        abs(verlet - h * (separable.derivatives[0](q0[0], velocity)[0] + potential))
+        abs(
+            midpoint - h * one.derivatives[0]((q0[0] + q1[0]) / 2, velocity)[0]
+        )
+        < 1e-45
+    )
+    trapezoidal = built(
+        collocation, methods(("gauss", 1), ("lobatto-iiia", 2))
+    )
+    verlet, *_ = discrete(trapezoidal, separable).extremum(q0, q1)
+    potential = (
+        sum(separable.derivatives[1](q[0], velocity)[0] for q in (q0, q1)) / 2
+    )
+    assert (
+        abs(
+            verlet
+            - h * (separable.derivatives[0](q0[0], velocity)[0] + potential)
+        )
         < 1e-45
     )
 
@@ -488,7 +551,8 @@ def tableaux(draw: st.DrawFn) -> Tableau:
     b = [
         (
             *weights[1:],
-            weights[0] + (0 if sum(weights) > fmpq(1, 2) else 1 - sum(weights)),
+            weights[0]
+            + (0 if sum(weights) > fmpq(1, 2) else 1 - sum(weights)),
         )
         for weights in b
     ]
@@ -506,7 +570,8 @@ def test_any_tableau_has_a_variational_pair(tableau: Tableau) -> None:
 
 @pytest.mark.parametrize("name", SOME)
 @pytest.mark.parametrize(
-    ("digits", "error"), [(FLOAT_DIGITS, fmpq(1, 10**4)), (MANY, fmpq(1, 10**20))]
+    ("digits", "error"),
+    [(FLOAT_DIGITS, fmpq(1, 10**4)), (MANY, fmpq(1, 10**20))],
 )
 def test_perturbed_conjugate_is_not_variational(
     name: str, digits: int, error: fmpq
@@ -516,16 +581,26 @@ def test_perturbed_conjugate_is_not_variational(
     """
     case = CASES[name]
     right = case.pair
-    where = next(key for key in right.blocks if right.colours[key[1]].part == "p")
+    where = next(
+        key for key in right.blocks if right.colours[key[1]].part == "p"
+    )
     first, *rest = right.blocks[where]
     wrong = replace(
-        right, blocks={**right.blocks, where: ((first[0] + error, *first[1:]), *rest)}
+        right,
+        blocks={
+            **right.blocks,
+            where: ((first[0] + error, *first[1:]), *rest),
+        },
     )
     found = imbalances(case, case.path(digits, tableau=wrong))
-    assert min(found) > 1e-4 * float(rational(error)) > 100 * TOLERANCES[digits]
+    assert (
+        min(found) > 1e-4 * float(rational(error)) > 100 * TOLERANCES[digits]
+    )
 
 
-@pytest.mark.parametrize("name", ["one method", "collocation", "three terms", "plane"])
+@pytest.mark.parametrize(
+    "name", ["one method", "collocation", "three terms", "plane"]
+)
 def test_gark_method_is_not_variational(name: str) -> None:
     """The same method for positions and momenta, without its conjugate."""
     case = CASES[name]

@@ -62,7 +62,9 @@ def full_graph(seed: int) -> Tableau:
 
     A = [
         [
-            tuple(tuple(samples.small(dice) for _ in range(s)) for _ in range(r))
+            tuple(
+                tuple(samples.small(dice) for _ in range(s)) for _ in range(r)
+            )
             for s in stages
         ]
         for r in stages
@@ -103,7 +105,10 @@ def test_twice_is_the_identity_for_partitioned_methods(seed: int) -> None:
     """A pair of unrelated position and momentum blocks comes back after two conjugations."""
     dice = Random(seed)
     tableau = pair(full_graph(seed))
-    blocks = {edge: _random_like(block, dice) for edge, block in tableau.blocks.items()}
+    blocks = {
+        edge: _random_like(block, dice)
+        for edge, block in tableau.blocks.items()
+    }
     unrelated = replace(tableau, blocks=blocks)
     assert conjugate(conjugate(unrelated)) == unrelated
     assert conjugate(tableau) == tableau
@@ -155,7 +160,12 @@ def assert_exchanged(Q: Tableau) -> None:
     for l in range(Q.size):
         for m in range(Q.size):
             reach = min(one.B[l], one.B[m])
-            C_hat, D_hat, C, D = other.C[l][m], other.D[l][m], one.C[m][l], one.D[m][l]
+            C_hat, D_hat, C, D = (
+                other.C[l][m],
+                other.D[l][m],
+                one.C[m][l],
+                one.D[m][l],
+            )
             assert C_hat is not None
             assert D_hat is not None
             assert C is not None
@@ -179,7 +189,9 @@ def test_conjugation_exchanges_stage_order_and_d_of_mixtures(
     """The same for random combinations of the rules."""
     dice = Random(seed)
     weights = [samples.small(dice) for _ in range(3)]
-    rule = samples.mixture(*(str(x) for x in (*weights, 1 - sum(weights, fmpq(0)))))
+    rule = samples.mixture(
+        *(str(x) for x in (*weights, 1 - sum(weights, fmpq(0))))
+    )
     assert_exchanged(samples.everywhere(rule, *names))
 
 
@@ -201,10 +213,14 @@ def test_renumbering_commutes_with_everything(seed: int) -> None:
         for m in range(3):
             k, n = permutation[l], permutation[m]
             assert other.block(l, m) == tableau.block(k, n)
-            assert conjugate(other).block(l, m) == conjugate(tableau).block(k, n)
+            assert conjugate(other).block(l, m) == conjugate(tableau).block(
+                k, n
+            )
             assert pair(other).block(l, m + 3) == pair(tableau).block(k, n + 3)
     C, found = simplifying(tableau, 5).C, simplifying(other, 5).C
-    assert found == tuple(tuple(C[k][n] for n in permutation) for k in permutation)
+    assert found == tuple(
+        tuple(C[k][n] for n in permutation) for k in permutation
+    )
 
 
 @given(seeds, st.sampled_from([full_graph, *SPELLED.values()]))
@@ -220,7 +236,10 @@ def test_numbering_of_stages_does_not_matter(
     assert simplifying(other, 6) == simplifying(tableau, 6)
     assert is_symplectic(other) == is_symplectic(tableau)
     if all(all(colour.b) for colour in tableau.colours):
-        assert find_order(pair(other), 6).order == find_order(pair(tableau), 6).order
+        assert (
+            find_order(pair(other), 6).order
+            == find_order(pair(tableau), 6).order
+        )
 
 
 def test_a_zero_weight_is_named() -> None:
@@ -236,7 +255,9 @@ def test_symplecticity_divides_by_no_weight() -> None:
     """A tableau with a zero weight can be told to be symplectic or not."""
     assert not is_symplectic(gark([samples.method("explicit-midpoint")], {}))
     used = ((fmpq(1, 2), fmpq(1)), (fmpq(7), fmpq(3)))
-    assert not is_symplectic(spelled_out([[used]], [(fmpq(1), fmpq(0))], [None]))
+    assert not is_symplectic(
+        spelled_out([[used]], [(fmpq(1), fmpq(0))], [None])
+    )
     unused = ((fmpq(1, 2), fmpq(0)), (fmpq(7), fmpq(3)))
     assert is_symplectic(spelled_out([[unused]], [(fmpq(1), fmpq(0))], [None]))
 
@@ -246,7 +267,10 @@ def test_a_structure_divides_by_fewer_weights() -> None:
     methods = [samples.method("gauss 2"), samples.method("explicit-midpoint")]
     Q = gark(
         methods,
-        {(0, 1): collocation(*methods), (1, 0): collocation(methods[1], methods[0])},
+        {
+            (0, 1): collocation(*methods),
+            (1, 0): collocation(methods[1], methods[0]),
+        },
     )
     assert is_symplectic(symplectic_pair(Q, [0], [1]))
     with pytest.raises(ZeroWeight, match="colour 2"):
@@ -286,15 +310,23 @@ def test_shared_stages_are_told_apart_by_their_conjugates() -> None:
     b = (fmpq(1, 2), fmpq(1, 2))
     shared = additive([A_1, A_2], [b, b], None)
     twice = conjugate(conjugate(shared))
-    assert [shared.block(l, m) for l in (0, 1) for m in (0, 1)] == [A_1, A_2] * 2
-    assert [twice.block(l, m) for l in (0, 1) for m in (0, 1)] == [A_1, A_2] * 2
+    assert [shared.block(l, m) for l in (0, 1) for m in (0, 1)] == [
+        A_1,
+        A_2,
+    ] * 2
+    assert [twice.block(l, m) for l in (0, 1) for m in (0, 1)] == [
+        A_1,
+        A_2,
+    ] * 2
     assert find_order(twice).order == find_order(shared).order == 2
 
 
 def test_one_block_by_hand() -> None:
     """Â = 1 − a b_m / b_l for one stage each."""
     here, other = PointSpace((fmpq(1, 2),)), PointSpace((fmpq(1, 3),))
-    block = conjugate_block(((fmpq(1, 5),),), here, (fmpq(2),), other, (fmpq(3),))
+    block = conjugate_block(
+        ((fmpq(1, 5),),), here, (fmpq(2),), other, (fmpq(3),)
+    )
     assert block == ((3 - fmpq(1, 5) * 3 / 2,),)
 
 
@@ -308,7 +340,9 @@ def test_one_block_by_hand() -> None:
 def test_edges_turn_round(make: Callable[[], Tableau]) -> None:
     """Colour l of the conjugate sees colour m where m saw l."""
     tableau = make()
-    assert set(conjugate(tableau).edges()) == {(m, l) for l, m in tableau.edges()}
+    assert set(conjugate(tableau).edges()) == {
+        (m, l) for l, m in tableau.edges()
+    }
     assert conjugate(conjugate(tableau)) == tableau
 
 
@@ -319,7 +353,11 @@ def test_the_form_of_a_block_is_the_weights_of_products(
     """In every stage space the entries of ``form`` are b(e_i ⊙ A e_j)."""
     tableau = mixed((here, there), seed)
     for l, m in tableau.edges():
-        space, b, block = tableau.space(l), tableau.colours[l].b, tableau.block(l, m)
+        space, b, block = (
+            tableau.space(l),
+            tableau.colours[l].b,
+            tableau.block(l, m),
+        )
         assert block is not None
         images = transpose(block)
         assert space.form(b, block) == tuple(
@@ -363,7 +401,9 @@ def test_zero_weights_at_points() -> None:
     """They are named one by one, as long as they are few."""
     space = PointSpace((fmpq(0),) * 6)
     assert (
-        space.zero_weights((fmpq(1), fmpq(0), fmpq(1), fmpq(0), fmpq(1), fmpq(1)))
+        space.zero_weights(
+            (fmpq(1), fmpq(0), fmpq(1), fmpq(0), fmpq(1), fmpq(1))
+        )
         == "b_2 = b_4 = 0"
     )
     assert space.zero_weights((fmpq(0),) * 6) == "b_1 = b_2 = b_3 = … = 0"

@@ -77,7 +77,8 @@ def integral(f: Vector, x: fmpq) -> fmpq:
 def test_collocation_is_its_definition(l: Method, m: Method) -> None:
     """Eq. (coll): a_ij = ∫_0^{c_i} L_j, entry by entry."""
     wanted = tuple(
-        tuple(integral(lagrange(m.c, j), c) for j in range(m.stages)) for c in l.c
+        tuple(integral(lagrange(m.c, j), c) for j in range(m.stages))
+        for c in l.c
     )
     assert collocation(l, m) == wanted
 
@@ -85,7 +86,9 @@ def test_collocation_is_its_definition(l: Method, m: Method) -> None:
 @given(point_methods(), point_methods())
 def test_interpolation_is_its_definition(l: Method, m: Method) -> None:
     """Eq. (interp): L^{m}(c^{l}) A^{m,m}, entry by entry."""
-    L = tuple(tuple(value(lagrange(m.c, j), c) for j in range(m.stages)) for c in l.c)
+    L = tuple(
+        tuple(value(lagrange(m.c, j), c) for j in range(m.stages)) for c in l.c
+    )
     wanted = tuple(
         tuple(
             sum((x * m.A[k][j] for k, x in enumerate(row)), fmpq(0))
@@ -120,7 +123,8 @@ def test_combinations_are_sums(l: str, m: str, weights: list[fmpq]) -> None:
     for i in range(here.stages):
         for j in range(there.stages):
             assert found[i][j] == sum(
-                (w * A[i][j] for w, A in zip(weights, blocks, strict=True)), fmpq(0)
+                (w * A[i][j] for w, A in zip(weights, blocks, strict=True)),
+                fmpq(0),
             )
     assert combination(terms[::-1], here, there) == found
 
@@ -131,7 +135,9 @@ def test_combinations_integrate_low_degrees(l: str, m: str, tau: fmpq) -> None:
     1.
     """
     here, there = samples.method(l), samples.method(m)
-    block = combination([(tau, interpolation), (1 - tau, collocation)], here, there)
+    block = combination(
+        [(tau, interpolation), (1 - tau, collocation)], here, there
+    )
     if not isinstance(here.space, PolynomialSpace) or not isinstance(
         there.space, PolynomialSpace
     ):
@@ -182,7 +188,10 @@ def test_rules_differ_where_the_method_is_no_collocation_method() -> None:
     ia = samples.method("radau-ia 2")
     assert interpolation(ia, ia) == ia.A
     assert collocation(ia, ia) != ia.A
-    iiib, iiia = samples.method("lobatto-iiib 3"), samples.method("lobatto-iiia 3")
+    iiib, iiia = (
+        samples.method("lobatto-iiib 3"),
+        samples.method("lobatto-iiia 3"),
+    )
     assert collocation(iiib, iiib) == iiia.A
 
 
@@ -225,7 +234,9 @@ def test_symplectic_rules_keep_the_smaller_order(
     orders = [find_order(gark([method], {})).order for method in methods]
     base = build_on(methods, orders, 0, 1)
     assert orders[base] == min(orders)
-    Q = gark(methods, symplectic_blocks(PAIR_RULES[rule], methods, base, 1 - base))
+    Q = gark(
+        methods, symplectic_blocks(PAIR_RULES[rule], methods, base, 1 - base)
+    )
     assert find_order(Q).order == find_order(pair(Q)).order == min(orders)
 
 
@@ -238,9 +249,15 @@ def test_what_a_symplectic_rule_builds_on() -> None:
         for name in ("lobatto-iiia 3", "gauss 2", "gauss 1", "gauss 2")
     ]
     orders = [4, 4, 2, 4]
-    assert build_on(methods, orders, 0, 2) == build_on(methods, orders, 2, 0) == 2
-    assert build_on(methods, orders, 0, 1) == build_on(methods, orders, 1, 0) == 1
-    assert build_on(methods, orders, 1, 3) == build_on(methods, orders, 3, 1) == 1
+    assert (
+        build_on(methods, orders, 0, 2) == build_on(methods, orders, 2, 0) == 2
+    )
+    assert (
+        build_on(methods, orders, 0, 1) == build_on(methods, orders, 1, 0) == 1
+    )
+    assert (
+        build_on(methods, orders, 1, 3) == build_on(methods, orders, 3, 1) == 1
+    )
 
 
 def test_coinciding_nodes() -> None:
@@ -254,7 +271,10 @@ def test_coinciding_nodes() -> None:
 
 def test_zero_weights() -> None:
     """A conjugate rule divides by the weights of l, not by those of m."""
-    midpoint, gauss = samples.method("explicit-midpoint"), samples.method("gauss 2")
+    midpoint, gauss = (
+        samples.method("explicit-midpoint"),
+        samples.method("gauss 2"),
+    )
     with pytest.raises(ZeroWeight, match="b_1 = 0"):
         conjugate_rule(collocation)(midpoint, gauss)
     block: Matrix = conjugate_rule(collocation)(gauss, midpoint)
@@ -277,7 +297,9 @@ def test_all_combinations_are_consistent(seed: int) -> None:
     """Weights that sum to 1 give A^{l,m} 𝟙 = c^{l} where all rules do."""
     dice = Random(seed)
     weights = [samples.small(dice) for _ in range(3)]
-    rule = samples.mixture(*(str(x) for x in (*weights, 1 - sum(weights, fmpq(0)))))
+    rule = samples.mixture(
+        *(str(x) for x in (*weights, 1 - sum(weights, fmpq(0))))
+    )
     tableau = samples.everywhere(rule, "gauss 2", "lobatto-iiia 3")
     found = simplifying(tableau, 3).C
     assert all(x is not None and x >= 1 for row in found for x in row)
@@ -285,7 +307,9 @@ def test_all_combinations_are_consistent(seed: int) -> None:
 
 def unrelated_nodes(count: int, first_denominator: int) -> Vector:
     """Distinct fractions whose denominators have little in common."""
-    return tuple(fmpq(k, first_denominator + 2 * k) for k in range(1, count + 1))
+    return tuple(
+        fmpq(k, first_denominator + 2 * k) for k in range(1, count + 1)
+    )
 
 
 def at_nodes(c: Vector) -> Method:
@@ -363,13 +387,17 @@ def test_what_would_fill_the_memory_is_refused() -> None:
 def test_many_nodes_of_one_denominator_are_not_refused() -> None:
     """100 nodes k/100 share their denominator: the estimate knows."""
     m = at_nodes(tuple(fmpq(k, 100) for k in range(100)))
-    assert image(collocation(samples.method("gauss 2"), m), (fmpq(1),) * 100) == (0, 1)
+    assert image(
+        collocation(samples.method("gauss 2"), m), (fmpq(1),) * 100
+    ) == (0, 1)
 
 
 def test_the_conjugate_of_long_entries_is_an_involution() -> None:
     """Conjugated twice, blocks whose denominators have nothing in common are what they were."""
     m, l = at_nodes(unrelated_nodes(20, 10**40)), samples.method("gauss 2")
-    tableau = gark([l, m], {(0, 1): collocation(l, m), (1, 0): collocation(m, l)})
+    tableau = gark(
+        [l, m], {(0, 1): collocation(l, m), (1, 0): collocation(m, l)}
+    )
     once = conjugate(tableau)
     assert once.block(0, 1) != tableau.block(0, 1)
     assert conjugate(once).blocks == tableau.blocks

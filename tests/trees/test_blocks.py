@@ -42,9 +42,9 @@ def test_blocks_have_texts_and_trees() -> None:
     """The text and the trees of blocks are those of the table."""
     table = TreeTable.upto(3, 5)
     blocks = list(iter_blocks(3, 5, 50))
-    assert [text for block in blocks for text in block.notation()] == table.notation(
-        table.ids(5)
-    )
+    assert [
+        text for block in blocks for text in block.notation()
+    ] == table.notation(table.ids(5))
     assert [u for block in blocks for u in block.trees()] == [
         table.tree(i) for i in table.ids(5)
     ]
@@ -76,7 +76,10 @@ def test_blocks_beyond_64_bits() -> None:
 @pytest.mark.parametrize("only", [None, (0, 1), (2,)])
 @pytest.mark.parametrize("using", [(), (1,), (0, 2)])
 def test_selection(
-    order: int, root: int | None, only: tuple[int, ...] | None, using: tuple[int, ...]
+    order: int,
+    root: int | None,
+    only: tuple[int, ...] | None,
+    using: tuple[int, ...],
 ) -> None:
     """Selecting is filtering: by root colour, by the colours allowed, by the colours that must
     occur.

@@ -7,20 +7,46 @@ from hypothesis import given, settings
 from hypothesis import strategies as st
 
 from garkcli.trees import count
-from garkcli.trees.count import Admissible, count_by_root, count_trees, counts_upto
+from garkcli.trees.count import (
+    Admissible,
+    count_by_root,
+    count_trees,
+    counts_upto,
+)
 
 
 @pytest.mark.parametrize(
     ("colours", "counts"),
     [
-        (1, [1, 1, 2, 4, 9, 20, 48, 115, 286, 719, 1842, 4766, 12486, 32973, 87811]),
+        (
+            1,
+            [
+                1,
+                1,
+                2,
+                4,
+                9,
+                20,
+                48,
+                115,
+                286,
+                719,
+                1842,
+                4766,
+                12486,
+                32973,
+                87811,
+            ],
+        ),
         (2, [2, 4, 14, 52, 214, 916, 4116, 18996, 89894, 433196]),
         (4, [4, 16, 104, 752, 5996, 50512, 444256, 4027360]),
     ],
 )
 def test_known_counts(colours: int, counts: list[int]) -> None:
     """Rooted trees (OEIS A000081) and rooted trees with two and four colours of vertices."""
-    assert [count_trees(colours, n) for n in range(1, len(counts) + 1)] == counts
+    assert [
+        count_trees(colours, n) for n in range(1, len(counts) + 1)
+    ] == counts
 
 
 def test_large_orders_are_exact() -> None:
@@ -56,7 +82,9 @@ def test_a_linear_colour_grows_tall_trees_only() -> None:
 
 def test_no_edges_no_trees() -> None:
     """Colours that see nothing have single vertices only."""
-    assert counts_upto(Admissible.of(2, [[False, False], [False, False]]), 3) == [
+    assert counts_upto(
+        Admissible.of(2, [[False, False], [False, False]]), 3
+    ) == [
         (1, 1),
         (0, 0),
         (0, 0),
@@ -74,7 +102,10 @@ def test_no_edges_no_trees() -> None:
     ],
 )
 def test_senseless_questions_are_refused(
-    colours: int, order: int, edges: list[list[bool]] | None, linear: tuple[int, ...]
+    colours: int,
+    order: int,
+    edges: list[list[bool]] | None,
+    linear: tuple[int, ...],
 ) -> None:
     """No colours, order 0, a matrix of the wrong shape, an unknown linear colour: each a
     ValueError.
@@ -154,4 +185,7 @@ def test_thousands_of_vertices_are_soon_counted() -> None:
     for d in range(1, order + 1):
         for k in range(d, order + 1, d):
             c[k] += d * t[d]
-    assert sum(c[k] * f[order - k] for k in range(1, order + 1)) == order * f[order]
+    assert (
+        sum(c[k] * f[order - k] for k in range(1, order + 1))
+        == order * f[order]
+    )

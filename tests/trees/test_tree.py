@@ -11,7 +11,9 @@ from garkcli.trees.tree import Tree
 
 trees = st.recursive(
     st.builds(Tree, st.integers(0, 3)),
-    lambda inner: st.builds(Tree, st.integers(0, 3), st.lists(inner, max_size=4)),
+    lambda inner: st.builds(
+        Tree, st.integers(0, 3), st.lists(inner, max_size=4)
+    ),
     max_leaves=12,
 )
 
@@ -23,7 +25,9 @@ def test_symmetry_sees_colours() -> None:
 
 
 @given(trees, st.randoms(use_true_random=False))
-def test_the_order_of_branches_does_not_matter(tree: Tree, dice: random.Random) -> None:
+def test_the_order_of_branches_does_not_matter(
+    tree: Tree, dice: random.Random
+) -> None:
     """A tree is equal to, and hashes as, any shuffling of its branches at every vertex."""
 
     def shuffled(u: Tree) -> Tree:

@@ -22,7 +22,9 @@ if TYPE_CHECKING:
     Blocks: TypeAlias = dict[tuple[int, int], Floats]
 
 
-def stages(u: Tree, rows: list[int], blocks: Blocks, sizes: list[int]) -> Floats:
+def stages(
+    u: Tree, rows: list[int], blocks: Blocks, sizes: list[int]
+) -> Floats:
     """𝒜^[u] by its definition."""
     product = np.ones(sizes[u.root])
     for v in u.branches:
@@ -32,7 +34,9 @@ def stages(u: Tree, rows: list[int], blocks: Blocks, sizes: list[int]) -> Floats
     return product
 
 
-def method(seed: int, rows: list[int], sizes: list[int]) -> tuple[Blocks, list[Floats]]:
+def method(
+    seed: int, rows: list[int], sizes: list[int]
+) -> tuple[Blocks, list[Floats]]:
     """Random blocks and weights."""
     rng = np.random.default_rng(seed)
     size_of = dict(zip(rows, sizes, strict=True))
@@ -57,7 +61,10 @@ def test_weights_are_the_definition(seed: int) -> None:
         for u in map(table.tree, range(len(table)))
     ]
     np.testing.assert_allclose(
-        elementary_weights(table, rows, blocks, b), expected, rtol=1e-12, atol=1e-13
+        elementary_weights(table, rows, blocks, b),
+        expected,
+        rtol=1e-12,
+        atol=1e-13,
     )
 
 
@@ -73,7 +80,10 @@ def test_weights_of_admissible_trees(monkeypatch: pytest.MonkeyPatch) -> None:
     del blocks[0, 0]
     monkeypatch.setattr(module, "CHUNK", 5)
     np.testing.assert_allclose(
-        elementary_weights(table, [0, 1], blocks, b), expected, rtol=1e-12, atol=1e-14
+        elementary_weights(table, [0, 1], blocks, b),
+        expected,
+        rtol=1e-12,
+        atol=1e-14,
     )
 
 

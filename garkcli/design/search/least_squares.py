@@ -142,7 +142,9 @@ class _Run:
         residuals, jacobians = self.system(moved)
         squares = _sum_of_squares(residuals)
         better = squares < self.squares
-        predicted = _sum_of_squares(self.residuals + _applied(self.jacobians, change))
+        predicted = _sum_of_squares(
+            self.residuals + _applied(self.jacobians, change)
+        )
         gain = (self.squares - squares) / (self.squares - predicted)
         self.x = np.where(better, moved, self.x)
         self.residuals = np.where(better, residuals, self.residuals)
@@ -217,7 +219,9 @@ def _solve(matrices: Array, damping: Array, right: Array) -> Array:
     for k in range(size):
         matrices[k, k] += amount
     for k in range(size):
-        pivot = np.sqrt(matrices[k, k])  # NaN where rounding has made it negative
+        pivot = np.sqrt(
+            matrices[k, k]
+        )  # NaN where rounding has made it negative
         matrices[k, k] = pivot
         column = matrices[k + 1 :, k]
         column /= pivot

@@ -107,6 +107,8 @@ class RationalFunction:
         value = value / q
         derivatives = []
         for unknown, (of_p, of_q) in self._derivatives:
-            change = of_p.at(points, constant) - value * of_q.at(points, constant)
+            change = of_p.at(points, constant) - value * of_q.at(
+                points, constant
+            )
             derivatives.append((unknown, change / q))
         return Slope(value, tuple(derivatives))

@@ -49,7 +49,9 @@ def recognised(numbers: Mapping[str, arb], bits: int) -> Recognised | None:
         else:
             values[name] = value
     if not irrational:
-        return Recognised(values, fmpq_poly([0, 1]), RealRoot.rational(fmpq(0)))
+        return Recognised(
+            values, fmpq_poly([0, 1]), RealRoot.rational(fmpq(0))
+        )
     found = _generator(irrational, bits)
     if found is None:
         return None
@@ -136,7 +138,10 @@ def minimal_polynomial(number: arb, bits: int) -> fmpz_poly | None:
         if relation is not None:
             polynomial = fmpz_poly(relation)
             _, factors = polynomial.factor()
-            return min((f for f, _ in factors), key=lambda f: _size_at(f, number, bits))
+            return min(
+                (f for f, _ in factors),
+                key=lambda f: _size_at(f, number, bits),
+            )
     return None
 
 
@@ -155,7 +160,9 @@ def _relation(numbers: Sequence[arb], bits: int) -> list[fmpz] | None:
     size = len(numbers)
     kept = 7 * bits // 8
     with ctx.workprec(bits):
-        scaled = [(x * arb(2) ** kept + arb(0.5)).floor().mid() for x in numbers]
+        scaled = [
+            (x * arb(2) ** kept + arb(0.5)).floor().mid() for x in numbers
+        ]
     rows = []
     for k, x in enumerate(scaled):
         row = [fmpz(int(k == j)) for j in range(size)]

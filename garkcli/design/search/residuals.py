@@ -55,12 +55,15 @@ class Residuals:
         self.unknowns = len(ring.names)
         self.table = TreeTable.upto(tableau.size, order, edges, linear)
         self.blocks = {
-            key: _functions(block, ring) for key, block in tableau.blocks.items()
+            key: _functions(block, ring)
+            for key, block in tableau.blocks.items()
         }
         weights = [colour.b for colour in tableau.colours]
         self.weights = [_functions([row], ring)[0] for row in weights]
         one = ring.constant(fmpq(1))
-        self.more = [RationalFunction(ring.quotient(x, one), ring) for x in more]
+        self.more = [
+            RationalFunction(ring.quotient(x, one), ring) for x in more
+        ]
 
     def __len__(self) -> int:
         return len(self.table) + len(self.more)
@@ -131,7 +134,9 @@ class Generators:
         zero = as_ball(fmpq(0))
         unknowns, count = points.shape
         values = np.full((len(self.functions), count), zero, object)
-        gradients = np.full((len(self.functions), unknowns, count), zero, object)
+        gradients = np.full(
+            (len(self.functions), unknowns, count), zero, object
+        )
         for number, function in enumerate(self.functions):
             slope = function.at(points, as_ball)
             values[number] = slope.value
@@ -179,7 +184,8 @@ class _Evaluation:
             for key, block in system.blocks.items()
         }
         self.weights = [
-            [x.at(points, self.constant) for x in row] for row in system.weights
+            [x.at(points, self.constant) for x in row]
+            for row in system.weights
         ]
         self.vectors: dict[tuple[int, int], _Vectors] = {}
         self.applied: dict[tuple[int, int, int], _Vectors] = {}
@@ -216,7 +222,9 @@ class _Evaluation:
         values = self._zeros(1, space.stages, points)
         for i, x in enumerate(space.one):
             values[:, i] = self.constant(x)  # type: ignore[arg-type]
-        derivatives = self._zeros(1, space.stages, self.system.unknowns, points)
+        derivatives = self._zeros(
+            1, space.stages, self.system.unknowns, points
+        )
         return _Vectors(values, derivatives)
 
     def _apply(self, order: int) -> None:
@@ -255,7 +263,9 @@ class _Evaluation:
         first = segment.stems.start
         # vectors of an order and root colour are in the order of their ids
         stems = self.vectors[stem_order, root].part(table.stem[ids] - first)
-        applied = self.applied[space, segment.branch_order, segment.branch_root]
+        applied = self.applied[
+            space, segment.branch_order, segment.branch_root
+        ]
         branches = applied.part(table.branch[ids] - segment.branches.start)
         made = self._product(space, stems, branches)
         self._close(root, ids, made)
@@ -279,8 +289,12 @@ class _Evaluation:
             derivatives += u.values[:, :, None] * v.derivatives
             return _Vectors(values, derivatives)
         values = self._modular(stages, u.values, v.values)
-        derivatives = self._modular(stages, u.derivatives, v.values[:, :, None])
-        derivatives += self._modular(stages, v.derivatives, u.values[:, :, None])
+        derivatives = self._modular(
+            stages, u.derivatives, v.values[:, :, None]
+        )
+        derivatives += self._modular(
+            stages, v.derivatives, u.values[:, :, None]
+        )
         return _Vectors(values, derivatives)
 
     def _modular(self, space: PolynomialSpace, u: Array, v: Array) -> Array:
@@ -293,7 +307,9 @@ class _Evaluation:
                 out[:, i + j] += u[:, i] * v[:, j]
         for k in range(2 * s - 2, s - 1, -1):
             for j in range(s):
-                out[:, k - s + j] -= self.constant(space.modulus[j]) * out[:, k]
+                out[:, k - s + j] -= (
+                    self.constant(space.modulus[j]) * out[:, k]
+                )
         return out[:, :s]
 
     def _close(self, root: int, ids: slice, vectors: _Vectors) -> None:

@@ -166,7 +166,9 @@ class _Run:
         self._seen: list[Start] = []
         self._texts: set[tuple[str, ...]] = set()
 
-    def take(self, solved: Sequence[Timed], first: int, size: int) -> Iterator[Result]:
+    def take(
+        self, solved: Sequence[Timed], first: int, size: int
+    ) -> Iterator[Result]:
         """The solutions of some batches: those that are new are proved."""
         new: list[tuple[int, Start]] = []
         for number, timed in enumerate(solved):
@@ -188,7 +190,9 @@ class _Run:
         if len(self.result.methods) >= self.most:
             return False
         for other in self._seen:
-            if all(abs(a - b) <= SAME for a, b in zip(point, other, strict=True)):
+            if all(
+                abs(a - b) <= SAME for a, b in zip(point, other, strict=True)
+            ):
                 return False
         self._seen.append(point)
         return True

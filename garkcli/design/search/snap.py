@@ -58,7 +58,9 @@ def nodes_of(tableau: Tableau, ring: Parameters) -> Iterator[RationalFunction]:
 
 def unknowns_of(ring: Parameters) -> list[RationalFunction]:
     """The unknowns as functions of themselves."""
-    return [RationalFunction(ring.parameter(name), ring) for name in ring.names]
+    return [
+        RationalFunction(ring.parameter(name), ring) for name in ring.names
+    ]
 
 
 def snapped(
@@ -109,7 +111,11 @@ def fixed_nearby(
             break
         present = _value(function, x)
         value = next(
-            (fmpq(round(present * q), q) for q in DENOMINATORS if _is_near(present, q)),
+            (
+                fmpq(round(present * q), q)
+                for q in DENOMINATORS
+                if _is_near(present, q)
+            ),
             None,
         )
         if value is None:
@@ -152,7 +158,9 @@ def values_near(present: float) -> Iterator[list[fmpq]]:
     """
     short = []
     for q in DENOMINATORS:
-        for p in range(ceil((present - REACH) * q), floor((present + REACH) * q) + 1):
+        for p in range(
+            ceil((present - REACH) * q), floor((present + REACH) * q) + 1
+        ):
             value = fmpq(p, q)
             if value not in short:
                 short.append(value)
@@ -188,7 +196,9 @@ def _moved(
         end = np.ascontiguousarray(minima.points[:, k : k + 1])
         if not minima.succeeded[k] or np.max(np.abs(end)) > LARGEST:
             continue
-        _, jacobians = Fixings(conditions, [*fixed, Fixed(function, value)]).at(end)
+        _, jacobians = Fixings(
+            conditions, [*fixed, Fixed(function, value)]
+        ).at(end)
         if len(rank(jacobians[:, :, 0])) > before:
             return value, end
     return None

@@ -99,7 +99,9 @@ class Want:
     meaning: Callable[[Asked], Meaning]
 
 
-def numerators(functions: Iterable[object], ring: Parameters) -> list[fmpq_mpoly]:
+def numerators(
+    functions: Iterable[object], ring: Parameters
+) -> list[fmpq_mpoly]:
     """Polynomials that are zero where rational functions are; without those that always are."""
     found = []
     for x in functions:

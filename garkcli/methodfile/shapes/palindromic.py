@@ -3,7 +3,13 @@
 import re
 from dataclasses import replace
 
-from garkcli.methodfile.shapes.layout import ZERO, Layout, Shape, Texts, refuse_shape
+from garkcli.methodfile.shapes.layout import (
+    ZERO,
+    Layout,
+    Shape,
+    Texts,
+    refuse_shape,
+)
 
 
 def _applied(layout: Layout) -> Layout:
@@ -36,7 +42,8 @@ def _mirror(rows: list[list[str]], b: tuple[str, ...], i: int, j: int) -> None:
     opposite = rows[k][l]
     if rows[i][j] == ZERO and opposite == ZERO:
         raise refuse_shape(
-            "no explicit shape is palindromic", "take full, dirk or symplectic-dirk"
+            "no explicit shape is palindromic",
+            "take full, dirk or symplectic-dirk",
         )
     if not opposite.startswith("a"):
         return

@@ -55,6 +55,8 @@ def layout_of(stages: int, names: Sequence[str]) -> Layout:
     for place, name in enumerate(names):
         shape = find_shape(name)
         if shape.begins and place:
-            raise refuse_shape(f"{name} stands after {names[0]}", f"begin with {name}")
+            raise refuse_shape(
+                f"{name} stands after {names[0]}", f"begin with {name}"
+            )
         layout = shape.applied(layout)
     return with_nodes(layout)

@@ -18,9 +18,14 @@ def _applied(layout: Layout) -> Layout:
     numbers = range(1, layout.stages + 1)
     drifts = tuple(f"a{join}{i}" for i in numbers)
     kicks = tuple(f"b{join}{i}" for i in numbers)
-    return Layout("prk", (_lower(drifts, 1), _lower(kicks, 0)), (drifts, kicks))
+    return Layout(
+        "prk", (_lower(drifts, 1), _lower(kicks, 0)), (drifts, kicks)
+    )
 
 
 SHAPE = Shape(
-    "splitting", "a1 h of the first part, b1 h of the second, and so on", _applied, True
+    "splitting",
+    "a1 h of the first part, b1 h of the second, and so on",
+    _applied,
+    True,
 )

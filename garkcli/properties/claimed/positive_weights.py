@@ -16,7 +16,8 @@ def _decide(subject: Subject) -> Verdict:
         if not isinstance(space, PointSpace):
             if not are_positive(space, colour.b):
                 return Verdict(
-                    False, f"b{{{colour.name}}} has an entry that is not positive"
+                    False,
+                    f"b{{{colour.name}}} has an entry that is not positive",
                 )
             is_open = is_open or bool(tolerance)
             continue

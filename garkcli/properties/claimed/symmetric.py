@@ -28,7 +28,9 @@ def _decide(subject: Subject) -> Verdict:
 
 def _reduced_verdict(subject: Subject) -> Verdict:
     """Where no renumbering does: stages that do nothing, and equal ones, may be in its way."""
-    obstacle = Verdict(False, "no renumbering of the stages gives the adjoint method")
+    obstacle = Verdict(
+        False, "no renumbering of the stages gives the adjoint method"
+    )
     tableau = subject.tableau
     if is_plainly_irreducible(tableau, subject.tolerance):
         return obstacle
@@ -40,7 +42,9 @@ def _reduced_verdict(subject: Subject) -> Verdict:
         return obstacle
     holds = symmetry(settled, subject.tolerance).holds
     if holds is None:
-        return Verdict.undecided("there are too many renumberings once it is reduced")
+        return Verdict.undecided(
+            "there are too many renumberings once it is reduced"
+        )
     if holds:
         return Verdict(True, "once it is reduced")
     return obstacle
@@ -68,7 +72,11 @@ def _is_idle(tableau: Tableau, k: int) -> bool:
     own = [m for m, colour in enumerate(tableau.colours) if colour.space == k]
     if any(any(tableau.colours[m].b) for m in own):
         return False
-    seen = [block for (j, m), block in tableau.blocks.items() if m in own and j != k]
+    seen = [
+        block
+        for (j, m), block in tableau.blocks.items()
+        if m in own and j != k
+    ]
     return not any(any(row) for block in seen for row in block)
 
 
