@@ -92,7 +92,7 @@ def test_stage_order() -> None:
 
 
 def test_an_implicit_explicit_method() -> None:
-    """Four stages of order 3 with an L-stable implicit part, Alexander's γ, proved from its file."""
+    """Four stages of order 3, R(∞) = 0 of the implicit part, Alexander's γ; the order proved from the file."""
     family = loads_family(IMEX)
     found = find_parameters(family)
     assert taken(found, "gamma") == pytest.approx([0.4358665215])
