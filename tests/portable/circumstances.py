@@ -48,6 +48,8 @@ MEASURED = (
     "tests/stepping",
     "tests/convergence",
     "tests/longtime",
+    "tests/backward",
+    "tests/design/test_search.py",
     "tests/problems",
     "tests/trees",
     "tests/report",
