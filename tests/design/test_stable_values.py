@@ -178,9 +178,9 @@ def test_random_families(
 ) -> None:
     """Of two stages with entries linear in t, one with a pole: sets against single values."""
     a, b, c, d, w = (f"({p} + {q}*t)/2" for p, q in entries)
-    compare(
-        f"A: [[{a}, {b}/(t - 3)], [{c}, {d}]]\nb: [{w}, 1 - {w}]\n", wanted
-    )
+    if any(entries[1]):  # 0/(t - 3) is 0 for every t
+        b = f"{b}/(t - 3)"
+    compare(f"A: [[{a}, {b}], [{c}, {d}]]\nb: [{w}, 1 - {w}]\n", wanted)
 
 
 @settings(max_examples=12)
