@@ -94,6 +94,6 @@ class Differentials:
             else:
                 import sympy
 
-                value = sympy.sympify(self.energies[term])
+                value = sympy.Integer(0) + self.energies[term]
             self._derivatives[key] = value
         return self._derivatives[key]

@@ -162,7 +162,7 @@ def _expanded(formula: Formula, power: int) -> Formula:
     """
     import sympy
 
-    expression = sympy.sympify(formula)
+    expression = sympy.Integer(0) + formula
     cure = f"ask for --order {power} at most, or choose a simpler problem"
     size = int(expression.count_ops())
     if size > MAX_OPERATIONS:
