@@ -84,7 +84,7 @@ def peak_of_children() -> float:
     return resource.getrusage(resource.RUSAGE_CHILDREN).ru_maxrss / UNIT
 
 
-def report(what: str, ratio: float, target: float, detail: str) -> None:
-    """Print one line and hold the ratio against its target."""
+def assert_ratio(what: str, ratio: float, target: float, detail: str) -> None:
+    """Print one line; fail where the ratio is more than its target."""
     print(f"\n  {what}: {ratio:.3g} (target {target:g}); {detail}")
     assert ratio <= target, f"{what}: {ratio:.3g} is more than {target:g}"

@@ -8,7 +8,12 @@ from pathlib import Path
 
 import pytest
 
-from tests.benchmarks.measuring import GARK, peak_of_children, report, seconds
+from tests.benchmarks.measuring import (
+    GARK,
+    assert_ratio,
+    peak_of_children,
+    seconds,
+)
 
 
 @pytest.mark.parametrize(
@@ -39,13 +44,13 @@ def test_collocation_pair(
         lambda: subprocess.run(command, check=True, capture_output=True), 3
     )
     memory = peak_of_children()
-    report(
+    assert_ratio(
         f"gark check, Gauss {gauss} and Lobatto {gauss + 1} / {limit:g} s",
         time / limit,
         1.0,
         f"{time:.3f} s",
     )
-    report(
+    assert_ratio(
         f"its memory / {megabytes:g} MB",
         memory / megabytes,
         1.0,

@@ -19,9 +19,9 @@ from garkcli.tableau.tableau import Tableau
 from garkcli.transfer import PAIR_RULES, RULES
 from tests.benchmarks.measuring import (
     GARK,
+    assert_ratio,
     interleaved,
     process,
-    report,
     seconds,
 )
 from tests.catalogue.catalogue import entries
@@ -103,7 +103,7 @@ def test_a_directory_costs_its_certificates(directory: Path) -> None:
     detail = (
         f"{whole:.2f} s, certificates {orders:.2f} s, start-up {start:.2f} s"
     )
-    report(
+    assert_ratio(
         f"gark check of {FILES} files / certificates and start-up",
         whole / (orders + start),
         4.0,
@@ -120,7 +120,9 @@ def test_two_workers_cost_little_more(tmp_path: Path) -> None:
     command = [*GARK, "check", "-q", str(tmp_path)]
     two, one = interleaved(process([*command, "-j", "2"]), process(command), 4)
     detail = f"{two:.2f} s, {one:.2f} s"
-    report("processor time of gark check -j 2 / -j 1", two / one, 1.2, detail)
+    assert_ratio(
+        "processor time of gark check -j 2 / -j 1", two / one, 1.2, detail
+    )
 
 
 def test_the_catalogue_in_one_call(tmp_path: Path) -> None:
@@ -140,7 +142,7 @@ def test_the_catalogue_in_one_call(tmp_path: Path) -> None:
     time = perf_counter() - start
     assert done.returncode == 0, done.stdout[-2000:]
     assert "94 files, 94 claims: all hold" in done.stdout
-    report(
+    assert_ratio(
         "gark check -j 2 of the catalogue / 20 s",
         time / 20,
         1.0,

@@ -11,7 +11,7 @@ from garkcli import find_order, load, loads_family
 from garkcli.design.search.least_squares import MAX_STEPS
 from garkcli.design.search.run import results
 from garkcli.design.search.search import Search
-from tests.benchmarks.measuring import GARK, report, seconds
+from tests.benchmarks.measuring import GARK, assert_ratio, seconds
 
 
 def explicit(stages: int) -> str:
@@ -31,14 +31,14 @@ def test_six_stages_of_order_five() -> None:
     starts = list(search.starts(0, 1000))
     solved = len(search.solve(starts))
     spent = seconds(lambda: search.solve(starts), 2)
-    report(
+    assert_ratio(
         "a start of 6 stages, order 5 / 20 ms",
         spent / 20,
         1.0,
         f"{spent:.2f} ms",
     )
     share = solved / 1000
-    report(
+    assert_ratio(
         "30 % / starts that succeed", 0.3 / share, 1.0, f"{100 * share:.1f} %"
     )
 
@@ -67,7 +67,7 @@ def test_against_one_start_at_a_time() -> None:
     ours = seconds(lambda: search.solve(starts), 2) / 200
     theirs = seconds(one_by_one, 1) / 5
     detail = f"{1000 * ours:.1f} ms, {1000 * theirs:.1f} ms"
-    report("a start / a start of scipy", ours / theirs, 1 / 5, detail)
+    assert_ratio("a start / a start of scipy", ours / theirs, 1 / 5, detail)
 
 
 def test_seven_stages_of_order_six(tmp_path: Path) -> None:
@@ -95,7 +95,7 @@ def test_seven_stages_of_order_six(tmp_path: Path) -> None:
     subprocess.run(
         [*GARK, "check", str(found)], check=True, stdout=subprocess.DEVNULL
     )
-    report(
+    assert_ratio(
         "7 stages, order 6, exact / 300 s", spent / 300, 1.0, f"{spent:.1f} s"
     )
 
@@ -117,6 +117,6 @@ def test_five_diagonally_implicit_stages() -> None:
     result = list(results(Search(loads_family(text), 4), 200, most=1))[-1]
     assert result.methods[0].proof == "exact"
     share = result.successes / 200
-    report(
+    assert_ratio(
         "60 % / starts that succeed", 0.6 / share, 1.0, f"{100 * share:.1f} %"
     )

@@ -7,9 +7,9 @@ import pytest
 from tests.benchmarks.measuring import (
     GARK,
     PYTHON,
+    assert_ratio,
     interleaved,
     process,
-    report,
 )
 
 SYMPY = process([*PYTHON, "-c", "import sympy"])
@@ -22,7 +22,7 @@ SYMPY = process([*PYTHON, "-c", "import sympy"])
 def test_startup(arguments: list[str], target: float) -> None:
     """A check of the collocation example, and the help, cost a fraction of importing sympy."""
     ours, sympys = interleaved(process([*GARK, *arguments]), SYMPY)
-    report(
+    assert_ratio(
         f"gark {' '.join(arguments)} / import sympy",
         ours / sympys,
         target,

@@ -15,7 +15,7 @@ from garkcli import load, loads
 from garkcli.problems.builtin import hamiltonian
 from garkcli.stepping.integrator import bind
 from garkcli.stepping.step import Stepper, trajectory
-from tests.benchmarks.measuring import ROOT, interleaved, report
+from tests.benchmarks.measuring import ROOT, assert_ratio, interleaved
 from tests.catalogue.method_files import method_file
 
 STEPS = 1_000_000
@@ -44,7 +44,7 @@ def test_pendulum_against_leapfrog() -> None:
     ours, theirs = interleaved(
         lambda: Stepper(made, fmpq(1, 10)).advance(STEPS), leapfrog, 3
     )
-    report(
+    assert_ratio(
         "rectangular pendulum / leapfrog loop",
         ours / theirs,
         40,
@@ -71,7 +71,7 @@ def test_kepler_against_scipy() -> None:
     detail = (
         f"{seconds:.2f} s to {error:.1e}, {best[0]:.1f} s to {best[1]:.1e}"
     )
-    report(
+    assert_ratio(
         "Kepler to 1e-8, time a digit / scipy",
         _a_digit(ours[110]) / _a_digit(best),
         1.0,
@@ -80,7 +80,7 @@ def test_kepler_against_scipy() -> None:
     (seconds, error), fastest = ours[60], min(theirs)
     assert error < fastest[1]
     detail = f"{seconds:.2f} s to {error:.1e}, {fastest[0]:.1f} s to {fastest[1]:.1e}"
-    report(
+    assert_ratio(
         "Kepler at equal error, time / scipy",
         seconds / fastest[0],
         1.0,
