@@ -45,10 +45,15 @@ help_option: Callable[[F], F] = click.option(
 """The option that shows the help of its command."""
 
 
-def digits_option(help: str) -> Callable[[F], F]:
-    """``--digits`` of a command that shows numbers exactly without it."""
+def digits_option(help: str, default: int | None = None) -> Callable[[F], F]:
+    """``--digits``; without a default the command shows numbers exactly unless it is given."""
     return click.option(
-        "--digits", type=click.IntRange(1, 1000), metavar="N", help=help
+        "--digits",
+        type=click.IntRange(1, 1000),
+        default=default,
+        show_default=default is not None,
+        metavar="N",
+        help=help,
     )
 
 

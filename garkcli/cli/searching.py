@@ -2,11 +2,12 @@
 
 from __future__ import annotations
 
-from collections.abc import Iterator, Mapping, Sequence
+from collections.abc import Iterator, Sequence
 from contextlib import contextmanager
 from pathlib import Path
 from typing import TYPE_CHECKING, Any
 
+from garkcli.cli.design_options import CLAIMS
 from garkcli.cli.signals import INTERRUPTED
 from garkcli.cli.streams import say_problem
 from garkcli.design.search.run import MOST, Crew, Result, Timed, results
@@ -23,14 +24,10 @@ from garkcli.report import search_data, search_text
 if TYPE_CHECKING:
     from concurrent.futures import ProcessPoolExecutor
 
+    from garkcli.cli.design_options import Wanted
     from garkcli.cli.options import Output
     from garkcli.design.design import Whose
 
-CLAIMS = {
-    "method": "order",
-    "conjugate": "conjugate-order",
-    "pair": "pair-order",
-}
 HEADS = {
     "exact": "exact",
     "exists": "proved to exist, with these decimals",
@@ -39,32 +36,25 @@ HEADS = {
 
 
 def search(
-    family: FamilyFile,
-    order: int | None,
-    whose: Whose,
-    wanted: Mapping[str, Any],
-    output: Output,
+    family: FamilyFile, wanted: Wanted, starts: int, output: Output
 ) -> int:
     """Search for methods, report them and write their files.
 
     Args:
         family: of methods.
-        order: of ``--order``.
-        whose: which order is meant.
-        wanted: the options ``starts``, ``seed``, ``most``, ``jobs``, ``emit`` and ``emit_all``.
+        wanted: what the options ask for.
+        starts: how many.
         output: where the report goes.
     """
-    if order is None:
-        raise UsageProblem(
-            "a search is for an order", "say which by --order P"
-        )
+    if wanted.order is None:
+        message = "a search is for an order"
+        raise UsageProblem(message, "say which by --order P")
     _check_places(wanted)
-    looking = Search(family, order, whose)
-    result, ended = _searched(looking, family, wanted, output)
+    looking = Search(family, wanted.order, wanted.whose)
+    result, ended = _searched(family, looking, wanted, starts, output)
     files = _written(family, looking, result, wanted)
-    render = (
-        search_data.render if output.format == "json" else search_text.render
-    )
+    as_json = output.format == "json"
+    render = search_data.render if as_json else search_text.render
     output.write(render(family.source, looking, result, files, output.width))
     if ended is not None:
         return ended
@@ -72,36 +62,35 @@ def search(
     return 0 if result.methods else 3
 
 
-def _check_places(wanted: Mapping[str, Any]) -> None:
-    if wanted["emit"] is not None:
-        refuse_unwritable(wanted["emit"])
-    if wanted["emit_all"] is not None:
-        folder = Path(wanted["emit_all"])
+def _check_places(wanted: Wanted) -> None:
+    """Refuse places that cannot be written to, before the work."""
+    if wanted.emit is not None:
+        refuse_unwritable(wanted.emit)
+    if wanted.emit_all is not None:
+        folder = Path(wanted.emit_all)
         try:
             folder.mkdir(parents=True, exist_ok=True)
         except OSError as error:
-            raise UsageProblem(
-                f"cannot make the folder {folder}: {error.strerror}",
-                "choose another place",
-            ) from None
+            message = f"cannot make the folder {folder}: {error.strerror}"
+            raise UsageProblem(message, "choose another place") from None
 
 
 def _searched(
-    looking: Search,
     family: FamilyFile,
-    wanted: Mapping[str, Any],
+    looking: Search,
+    wanted: Wanted,
+    starts: int,
     output: Output,
 ) -> tuple[Result, int | None]:
     """The result, and the exit code where an interrupt or a lost worker ends the search."""
-    count = wanted["starts"]
+    seed, most = wanted.seed or 0, wanted.most or MOST
     result, ended = Result(), None
     with watching(output.may_show_progress) as show:
         try:
-            with _crew(family, looking, wanted["jobs"] or 1) as crew:
-                numbers = wanted["seed"] or 0, wanted["most"] or MOST
-                for result in results(looking, count, *numbers, crew):
+            with _crew(family, looking, wanted.jobs or 1) as crew:
+                for result in results(looking, starts, seed, most, crew):
                     what = f"starts, {len(result.methods)} methods found"
-                    show(what, result.starts, count)
+                    show(what, result.starts, starts)
         except KeyboardInterrupt:
             ended = INTERRUPTED
         except WorkerLost as error:
@@ -183,30 +172,33 @@ def _prove(solution: tuple[int, list[float]]) -> Timed:
 
 
 def _written(
-    family: FamilyFile,
-    looking: Search,
-    result: Result,
-    wanted: Mapping[str, Any],
+    family: FamilyFile, looking: Search, result: Result, wanted: Wanted
 ) -> list[str | None]:
     """Write the files that are asked for; where each method is."""
-    files: list[str | None] = [None] * len(result.methods)
-    if wanted["emit"] is not None and result.methods:
-        files[0] = wanted["emit"]
-    if wanted["emit_all"] is not None:
-        stem = Path(family.source).name.split(".")[0] or "method"
-        for k in range(len(files)):
-            name = f"{stem}-{k + 1}.gark.yaml"
-            files[k] = str(Path(wanted["emit_all"]) / name)
-    for path, method in zip(files, result.methods, strict=True):
+    methods, seed = result.methods, wanted.seed or 0
+    files = _places(family, len(methods), wanted)
+    for path, method in zip(files, methods, strict=True):
         if path is not None:
-            text = _file_text(family, looking, method, wanted["seed"] or 0)
-            write_whole(path, [text])
-    if wanted["emit"] is not None and wanted["emit_all"] is not None and files:
-        text = _file_text(
-            family, looking, result.methods[0], wanted["seed"] or 0
-        )
-        write_whole(wanted["emit"], [text])
+            write_whole(path, [_file_text(family, looking, method, seed)])
+    if methods and wanted.emit is not None and wanted.emit != files[0]:
+        # the first method is in the folder, and in a file of its own
+        text = _file_text(family, looking, methods[0], seed)
+        write_whole(wanted.emit, [text])
     return files
+
+
+def _places(
+    family: FamilyFile, count: int, wanted: Wanted
+) -> list[str | None]:
+    """Where the file of each method goes; all into the folder where there is one."""
+    if wanted.emit_all is not None:
+        folder = Path(wanted.emit_all)
+        stem = Path(family.source).name.split(".")[0] or "method"
+        names = (f"{stem}-{k}.gark.yaml" for k in range(1, count + 1))
+        return [str(folder / name) for name in names]
+    if wanted.emit is not None and count:
+        return [wanted.emit, *[None] * (count - 1)]
+    return [None] * count
 
 
 def _file_text(
@@ -214,10 +206,9 @@ def _file_text(
 ) -> str:
     """A method file with its claim and how it was found."""
     claim = f"{CLAIMS[looking.whose]}: {method.order}"
-    head = (
-        f"found by gark design {family.source} --order {looking.order}, "
-        f"start {method.start} of seed {seed}\n{HEADS[method.proof]}: {claim}"
-    )
+    source = f"gark design {family.source} --order {looking.order}"
+    start = f"start {method.start} of seed {seed}"
+    head = f"found by {source}, {start}\n{HEADS[method.proof]}: {claim}"
     if not method.is_exact:
         head += f", residuals below {method.residual} before rounding"
     text = with_values(family, method.values, head, claim)

@@ -1,0 +1,195 @@
+"""The options of ``gark design``."""
+
+from __future__ import annotations
+
+from collections.abc import Callable
+from dataclasses import dataclass
+from typing import TYPE_CHECKING, Any, TypeVar
+
+import click
+
+from garkcli.cli.options import PATH, digits_option
+from garkcli.errors import UsageProblem
+
+if TYPE_CHECKING:
+    from garkcli.design.design import Whose
+    from garkcli.design.stable_values import Wanted as Stability
+
+F = TypeVar("F", bound=Callable[..., Any])
+
+CLAIMS = {
+    "method": "order",
+    "conjugate": "conjugate-order",
+    "pair": "pair-order",
+}
+"""What a file claims of the order found, by whose it is."""
+
+_OF_THE_ORDER = (
+    click.option(
+        "--order",
+        type=click.IntRange(1, 60),
+        metavar="P",
+        help="The order wanted; by default as far as some value reaches.",
+    ),
+    click.option(
+        "--pair",
+        "is_pair",
+        is_flag=True,
+        help="The order of the symplectic pair.",
+    ),
+    click.option(
+        "--conjugate",
+        "is_conjugate",
+        is_flag=True,
+        help="The order of the conjugate.",
+    ),
+    click.option(
+        "--seconds",
+        type=click.FloatRange(min=0, min_open=True),
+        default=60,
+        show_default=True,
+        metavar="T",
+        help="After so many an order is left undecided.",
+    ),
+    digits_option("Digits of numbers without simple radicals.", default=12),
+    click.option(
+        "--emit",
+        type=PATH,
+        metavar="FILE",
+        help="Write the first method found as a method file with its claim.",
+    ),
+)
+_OF_STABILITY = (
+    click.option(
+        "--p-stable",
+        "stability",
+        flag_value="p-stable",
+        help="The exact set of values of one parameter for which the method is P-stable.",
+    ),
+    click.option(
+        "--a-stable",
+        "stability",
+        flag_value="a-stable",
+        help="The same for A-stability.",
+    ),
+    click.option(
+        "--l-stable",
+        "stability",
+        flag_value="l-stable",
+        help="The same for L-stability.",
+    ),
+)
+_OF_THE_SEARCH = (
+    click.option(
+        "--search",
+        "starts",
+        type=click.IntRange(1, 10_000_000),
+        metavar="N",
+        help="Search from N random starts instead, and prove what is found.",
+    ),
+    click.option(
+        "--seed",
+        type=int,
+        metavar="S",
+        help="With --search: of the starts; 0 by default.",
+    ),
+    click.option(
+        "--most",
+        type=click.IntRange(1, 100_000),
+        metavar="K",
+        help="With --search: methods to find at most; 5 by default.",
+    ),
+    click.option(
+        "-j",
+        "--jobs",
+        type=click.IntRange(1, 1000),
+        metavar="N",
+        help="With --search: processes.",
+    ),
+    click.option(
+        "--emit-all",
+        type=PATH,
+        metavar="DIR",
+        help="With --search: write every method found into a folder.",
+    ),
+)
+
+
+def design_options(function: F) -> F:
+    """All options of the command but ``--set``, ``--choose`` and those that every command has; they
+    make one ``Wanted``.
+    """
+    options = (*_OF_THE_ORDER, *_OF_STABILITY, *_OF_THE_SEARCH)
+    for option in reversed(options):
+        function = option(function)
+    return function
+
+
+@dataclass(frozen=True)
+class Wanted:
+    """What is asked for, by the names of the options.
+
+    Attributes:
+        order: the order wanted, or None for as far as some value reaches.
+        is_pair, is_conjugate: whose order it is; of the method where neither is given.
+        seconds: after which an order is left undecided.
+        digits: of numbers without simple radicals.
+        emit: the file of the first method found, if any.
+        stability: the kind of stability whose values are asked for instead of an order.
+        starts: of a search instead, or None where there is none.
+        seed, most, jobs, emit_all: of the search; None where they were not given.
+    """
+
+    order: int | None
+    is_pair: bool
+    is_conjugate: bool
+    seconds: float
+    digits: int
+    emit: str | None
+    stability: Stability | None
+    starts: int | None
+    seed: int | None
+    most: int | None
+    jobs: int | None
+    emit_all: str | None
+
+    @property
+    def whose(self) -> Whose:
+        """Which order is meant."""
+        if self.is_pair:
+            return "pair"
+        return "conjugate" if self.is_conjugate else "method"
+
+    def check(self) -> None:
+        """Refuse options that do not go together, before anything is read.
+
+        Raises:
+            UsageProblem: two of them do not.
+        """
+        of_search = {
+            "--seed": self.seed,
+            "--most": self.most,
+            "--jobs": self.jobs,
+            "--emit-all": self.emit_all,
+        }
+        for option, value in of_search.items():
+            if self.starts is None and value is not None:
+                message = f"{option} goes with --search"
+                raise UsageProblem(message, "add --search N")
+        if self.is_pair and self.is_conjugate:
+            message = "--pair and --conjugate are two methods"
+            raise UsageProblem(message, "ask for one")
+
+    def check_stability(self) -> None:
+        """Refuse what a set of values does not have.
+
+        Raises:
+            UsageProblem: an order, a file or a search is asked for too.
+        """
+        others = (self.order, self.emit, self.starts)
+        if all(option is None for option in others):
+            return
+        message = f"--{self.stability} gives a set of values, "
+        message += "--order, --emit, --search do not"
+        cure = "ask for one; --set takes a value that was found"
+        raise UsageProblem(message, cure)
