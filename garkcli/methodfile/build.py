@@ -32,8 +32,9 @@ from garkcli.methodfile.description import (
     TableauText,
     block_name,
 )
-from garkcli.methodfile.numbers import Entry, Numbers, Row, Values
+from garkcli.methodfile.numbers import Entry, Numbers, Row
 from garkcli.methodfile.source import Source
+from garkcli.methodfile.values import Values
 from garkcli.order.certificate import find_order
 from garkcli.tableau.conjugate import conjugate
 from garkcli.tableau.forms import (

@@ -4,44 +4,36 @@ from __future__ import annotations
 
 from collections.abc import Iterator, Mapping, Sequence
 from dataclasses import dataclass
-from typing import Any, cast
 
-from flint import fmpq, fmpq_mpoly, fmpz_poly
+from flint import fmpq_mpoly
 from yaml.nodes import Node
 
 from garkcli.design.wants.want import numerators, sign_polynomial
-from garkcli.errors import ExpressionError, LimitExceeded, MethodError
-from garkcli.exact.domain import Domain, perfect_root
-from garkcli.exact.field import ZERO, Number
-from garkcli.exact.nodes import AlgebraicRoot, Expression, Name, Root
-from garkcli.exact.parametric import Parameters, Parametric, fraction
-from garkcli.exact.rewriting import roots_in
-from garkcli.exact.roots import RealRoot
+from garkcli.errors import MethodError
+from garkcli.exact.field import ZERO
+from garkcli.exact.parametric import Parameters, Parametric
 from garkcli.methodfile.description import (
     ArkText,
     ButcherText,
     Description,
+    FamilyText,
     MethodsText,
     PrkText,
     TableauText,
 )
+from garkcli.methodfile.family_values import FamilyValues
 from garkcli.methodfile.load import (
     NO_SETTINGS,
     built,
     described,
     read_method_text,
 )
-from garkcli.methodfile.numbers import Free, Numbers, Values
+from garkcli.methodfile.numbers import Row
 from garkcli.methodfile.reader import Reader
 from garkcli.methodfile.source import one_line
 from garkcli.methodfile.wishes import meaning_of, read_wishes
-from garkcli.tableau.family import Family, Radical
+from garkcli.tableau.family import Family
 from garkcli.tableau.tableau import Tableau
-
-MAX_DEGREE = 200
-"""Largest degree of a coefficient in the parameters."""
-ROOT = "_root"
-"""What the names of unknowns begin with that stand for radicals."""
 
 
 @dataclass(frozen=True, repr=False, kw_only=True)
@@ -102,18 +94,19 @@ def loads_family(
     numbers = reader.numbers
     if not numbers.free:
         reader.source.close()
-        raise MethodError(
-            f"{source} has no free parameter",
-            'write parameters: {tau: free} in place of a value, or "?" for an entry',
-        )
+        message = f"{source} has no free parameter"
+        cure = "write parameters: {tau: free} in place of a value, "
+        cure += 'or "?" for an entry'
+        raise MethodError(message, cure)
     wishes = read_wishes(reader.source, numbers, reader.design)
     tableau, values = built(reader, description, FamilyValues)
     ring = values.domain.ring
     meaning = meaning_of(wishes, tableau, ring, values, reader.source)
-    ranges = {}
-    for name, free in numbers.free.items():
-        ranges[name] = _ends(free, values)
+    ranges = {name: values.ends(x) for name, x in numbers.free.items()}
     reader.source.close()
+    places = {name: _place(text, x) for name, x in numbers.places.items()}
+    of_nodes = _of_nodes(description, tableau)
+    of_wishes = numerators(meaning.zeros, ring)
     return FamilyFile(
         source=source,
         text=text,
@@ -123,23 +116,23 @@ def loads_family(
         parameters=tuple(numbers.free),
         ranges=ranges,
         radicals=tuple(values.domain.radicals),
-        relations=(
-            *_of_nodes(description, tableau),
-            *numerators(meaning.zeros, ring),
-        ),
+        relations=(*of_nodes, *of_wishes),
         nonzero=meaning.nonzero,
-        positive=tuple(sign_polynomial(x, ring) for x in meaning.positive),
-        not_negative=tuple(
-            sign_polynomial(x, ring) for x in meaning.not_negative
-        ),
+        positive=_signs(meaning.positive, ring),
+        not_negative=_signs(meaning.not_negative, ring),
         order=wishes.order,
         wanted_at=reader.design_place(),
         settings=settings,
-        places={
-            name: _place(text, node) for name, node in numbers.places.items()
-        },
+        places=places,
         shape=_shape(reader),
     )
+
+
+def _signs(
+    numbers: Sequence[object], ring: Parameters
+) -> tuple[fmpq_mpoly, ...]:
+    """Polynomials with the signs of rational functions."""
+    return tuple(sign_polynomial(x, ring) for x in numbers)
 
 
 def _of_nodes(
@@ -149,9 +142,9 @@ def _of_nodes(
     for l in _with_given_nodes(description):
         colour = tableau.colours[l]
         rows = colour.space
-        block = tableau.blocks.get((rows, l)) or tableau.blocks.get(
-            (rows, 1 - l)
-        )
+        # of a pair (q, p) the stages of a colour have the block of the other one
+        block = tableau.blocks.get((rows, l))
+        block = block or tableau.blocks.get((rows, 1 - l))
         if block is None:
             continue
         for node, row in zip(colour.c, block, strict=True):
@@ -163,26 +156,27 @@ def _of_nodes(
 def _with_given_nodes(description: Description) -> list[int]:
     """The colours whose nodes stand in the file."""
     content = description.content
+    is_general = description.structure == "general"
     given: Sequence[object]
     match content:
         case TableauText():
-            given = list(content.c)
+            given = content.c
         case ArkText():
             given = [content.c] * len(content.A)
+        case PrkText() if is_general:
+            given = [content.q.c, content.p.c]
         case PrkText():
             # the rows of q.A are the stages of the forces
-            parts = [content.q.c, content.p.c]
-            given = (
-                parts if description.structure == "general" else parts[::-1]
-            )
+            given = [content.p.c, content.q.c]
+        case MethodsText() if is_general:
+            given = [_given_nodes(method) for method in content.methods]
         case MethodsText():
-            methods = content.methods
-            given = [
-                x.c if isinstance(x, ButcherText) else None for x in methods
-            ]
-            if description.structure != "general":
-                return []
+            given = []
     return [l for l, nodes in enumerate(given) if nodes is not None]
+
+
+def _given_nodes(method: ButcherText | FamilyText) -> Row | None:
+    return method.c if isinstance(method, ButcherText) else None
 
 
 def _shape(reader: Reader) -> tuple[tuple[int, int], str] | None:
@@ -223,10 +217,10 @@ def with_values(
             changes.append((place, _scalar(given[name])))
     if family.shape is not None:
         place, tableau = family.shape
-        lines = [
-            f"  {name}: {_scalar(value)}" for name, value in given.items()
-        ]
-        changes.append((place, "\n".join(["parameters:", *lines, tableau])))
+        lines = ["parameters:"]
+        for name, value in given.items():
+            lines.append(f"  {name}: {_scalar(value)}")
+        changes.append((place, "\n".join([*lines, tableau])))
     if family.wanted_at is not None:
         # its names are those of unknowns, which the file has no more
         changes.append((family.wanted_at, ""))
@@ -242,117 +236,3 @@ def _scalar(value: str) -> str:
     """A value as YAML has it in any place."""
     is_plain = value.replace("/", "").replace("-", "").isdigit()
     return value if is_plain else f'"{value}"'
-
-
-def _ends(free: Free, values: FamilyValues) -> tuple[fmpq | None, fmpq | None]:
-    ends = []
-    for entry in (free.smallest, free.largest):
-        value = None
-        if entry is not None:
-            value = values.plain(entry.expression)
-            if value is None:
-                message = f"{entry.where}: a rational number is expected"
-                values.numbers.source.fault(
-                    entry.node, message, "write [1/4, 1]"
-                )
-        ends.append(value)
-    smallest, largest = ends
-    return smallest, largest
-
-
-class FamilyValues(Values):
-    """The coefficients of a file as rational functions of its free parameters.
-
-    Radicals are unknowns of their own, with the relation that they satisfy.
-    """
-
-    def __init__(self, numbers: Numbers) -> None:
-        self.numbers = numbers
-        self.printed = ()
-        self._values: dict[int, Number] = {}
-        names = list(numbers.free)
-        self.domain = _FamilyDomain(
-            names, [x.expression for x in numbers.entries]
-        )
-        known: dict[int, Number] = {}
-        for entry in numbers.entries:
-            key = id(entry.expression)
-            try:
-                if key not in known:
-                    known[key] = self.domain.evaluate(entry.expression)
-                self._values[id(entry)] = known[key]
-            except ExpressionError as error:
-                numbers.source.expression_fault(entry.node, entry.where, error)
-
-    def plain(self, expression: Expression) -> fmpq | None:
-        """The value of an expression where it is a rational number."""
-        if any(roots_in(expression)):
-            return None
-        try:
-            value = self.domain.evaluate(expression)
-        except ExpressionError:
-            return None
-        return value if isinstance(value, fmpq) else None
-
-
-class _FamilyDomain(Domain):
-    """Evaluates expressions to rational functions of parameters."""
-
-    def __init__(
-        self, names: list[str], expressions: list[Expression]
-    ) -> None:
-        found: dict[Root | AlgebraicRoot, None] = {}
-        for expression in expressions:
-            found.update(dict.fromkeys(roots_in(expression)))
-        self._names = {
-            root: f"{ROOT}{i}" for i, root in enumerate(found, start=1)
-        }
-        self.ring = Parameters([*names, *self._names.values()])
-        self.radicals: list[Radical] = []
-        self._values = {}
-        self._are_real = True
-        self.field = None
-        for root in found:  # the inner ones first
-            self._values[root] = self._root(root)
-
-    def _root(self, root: Root | AlgebraicRoot) -> Number:
-        if isinstance(root, AlgebraicRoot):
-            return self._root_of_polynomial(root)
-        radicand = self.evaluate(root.radicand)
-        if isinstance(radicand, fmpq):
-            rational = perfect_root(root, radicand)
-            if rational is not None:
-                return rational
-        name = self._names[root]
-        unknown = self.ring.parameter(name)
-        relation = cast(
-            "Parametric", unknown**root.index - cast("Any", radicand)
-        )
-        is_even = root.index % 2 == 0
-        self.radicals.append(
-            Radical(name, relation.numerator, is_positive=is_even)
-        )
-        return cast("Number", unknown)
-
-    def _root_of_polynomial(self, root: AlgebraicRoot) -> Number:
-        name = self._names[root]
-        unknown = self.ring.parameter(name).numerator
-        relation = self.ring.constant(fmpq(0))
-        for coefficient in reversed(root.coefficients):
-            relation = relation * unknown + coefficient
-        meant = RealRoot(fmpz_poly(list(root.coefficients)), root.number)
-        self.radicals.append(Radical(name, relation, meant=meant))
-        return cast("Number", self.ring.parameter(name))
-
-    def evaluate(self, expression: Expression) -> Number:
-        if isinstance(expression, Name):
-            return cast("Number", self.ring.parameter(expression.name))
-        return super().evaluate(expression)
-
-    def _power(self, number: Number, exponent: int, at: Expression) -> Number:
-        numerator, denominator = fraction(number, self.ring)
-        degree = numerator.total_degree() + denominator.total_degree()
-        if degree > 0 and degree * abs(exponent) > MAX_DEGREE:
-            message = f"a degree of more than {MAX_DEGREE} in the parameters"
-            raise LimitExceeded(message, "write it smaller", at.start, at.end)
-        return super()._power(number, exponent, at)

@@ -17,7 +17,7 @@ from garkcli.methodfile.build import (
 )
 from garkcli.methodfile.description import Description
 from garkcli.methodfile.finding import STDIN, SUFFIX, find_files
-from garkcli.methodfile.numbers import Numbers, Values
+from garkcli.methodfile.numbers import Numbers
 from garkcli.methodfile.parameters import refuse_free
 from garkcli.methodfile.reader import Reader
 from garkcli.methodfile.source import (
@@ -27,6 +27,7 @@ from garkcli.methodfile.source import (
     Source,
     one_line,
 )
+from garkcli.methodfile.values import Values
 from garkcli.tableau.tableau import Tableau
 
 NO_SETTINGS: Mapping[str, str] = {}

@@ -11,9 +11,10 @@ from garkcli.design.wants.want import Asked, Meaning, Want
 from garkcli.errors import GarkError, counted, did_you_mean
 from garkcli.exact.nodes import Name
 from garkcli.exact.parametric import Parameters
-from garkcli.methodfile.numbers import Entry, Free, Numbers, Values
+from garkcli.methodfile.numbers import Entry, Free, Numbers
 from garkcli.methodfile.parameters import read_range
 from garkcli.methodfile.source import Source
+from garkcli.methodfile.values import Values
 from garkcli.tableau.tableau import Tableau
 
 KEYS = ("order", "fix", "range", *WANTS)

@@ -1,0 +1,125 @@
+"""The coefficients of files with free parameters: rational functions of these, radicals unknowns
+of their own.
+"""
+
+from __future__ import annotations
+
+from typing import Any, cast
+
+from flint import fmpq, fmpz_poly
+
+from garkcli.errors import ExpressionError, LimitExceeded
+from garkcli.exact.domain import Domain, perfect_root
+from garkcli.exact.field import Number
+from garkcli.exact.nodes import AlgebraicRoot, Expression, Name, Root
+from garkcli.exact.parametric import Parameters, Parametric, fraction
+from garkcli.exact.rewriting import roots_in
+from garkcli.exact.roots import RealRoot
+from garkcli.methodfile.numbers import Entry, Free, Numbers
+from garkcli.methodfile.values import Values
+from garkcli.tableau.family import Radical
+
+MAX_DEGREE = 200
+"""Largest degree of a coefficient in the parameters."""
+ROOT = "_root"
+"""What the names of unknowns begin with that stand for radicals."""
+
+
+class FamilyValues(Values):
+    """The coefficients of a file as rational functions of its free parameters.
+
+    Radicals are unknowns of their own, with the relation that they satisfy.
+    """
+
+    def __init__(self, numbers: Numbers) -> None:
+        self.numbers = numbers
+        self.printed = ()
+        self._values: dict[int, Number] = {}
+        expressions = [entry.expression for entry in numbers.entries]
+        self.domain = _FamilyDomain(list(numbers.free), expressions)
+        self._evaluate(numbers, self.domain)
+
+    def ends(self, free: Free) -> tuple[fmpq | None, fmpq | None]:
+        """Between which rational numbers a parameter may lie; one that is none is noted."""
+        smallest = self._end(free.smallest)
+        return smallest, self._end(free.largest)
+
+    def _end(self, entry: Entry | None) -> fmpq | None:
+        if entry is None:
+            return None
+        value = self._plain(entry.expression)
+        if value is None:
+            message = f"{entry.where}: a rational number is expected"
+            self.numbers.source.fault(entry.node, message, "write [1/4, 1]")
+        return value
+
+    def _plain(self, expression: Expression) -> fmpq | None:
+        """The value of an expression where it is a rational number."""
+        if any(roots_in(expression)):
+            return None
+        try:
+            value = self.domain.evaluate(expression)
+        except ExpressionError:
+            return None
+        return value if isinstance(value, fmpq) else None
+
+
+class _FamilyDomain(Domain):
+    """Evaluates expressions to rational functions of parameters."""
+
+    def __init__(
+        self, names: list[str], expressions: list[Expression]
+    ) -> None:
+        found: dict[Root | AlgebraicRoot, None] = {}
+        for expression in expressions:
+            found.update(dict.fromkeys(roots_in(expression)))
+        self._names: dict[Root | AlgebraicRoot, str] = {}
+        for i, root in enumerate(found, start=1):
+            self._names[root] = f"{ROOT}{i}"
+        self.ring = Parameters([*names, *self._names.values()])
+        self.radicals: list[Radical] = []
+        self._values = {}
+        self._are_real = True
+        self.field = None
+        for root in found:  # the inner ones first
+            self._values[root] = self._root(root)
+
+    def _root(self, root: Root | AlgebraicRoot) -> Number:
+        if isinstance(root, AlgebraicRoot):
+            return self._root_of_polynomial(root)
+        radicand = self.evaluate(root.radicand)
+        if isinstance(radicand, fmpq):
+            rational = perfect_root(root, radicand)
+            if rational is not None:
+                return rational
+        name = self._names[root]
+        unknown = self.ring.parameter(name)
+        # θ^n = r; of an even root the positive θ is meant
+        difference = unknown**root.index - cast("Any", radicand)
+        relation = cast("Parametric", difference).numerator
+        is_even = root.index % 2 == 0
+        self.radicals.append(Radical(name, relation, is_positive=is_even))
+        return cast("Number", unknown)
+
+    def _root_of_polynomial(self, root: AlgebraicRoot) -> Number:
+        name = self._names[root]
+        unknown = self.ring.parameter(name).numerator
+        relation = self.ring.constant(fmpq(0))
+        for coefficient in reversed(root.coefficients):
+            relation = relation * unknown + coefficient
+        meant = RealRoot(fmpz_poly(list(root.coefficients)), root.number)
+        self.radicals.append(Radical(name, relation, meant=meant))
+        return cast("Number", self.ring.parameter(name))
+
+    def evaluate(self, expression: Expression) -> Number:
+        if isinstance(expression, Name):
+            return cast("Number", self.ring.parameter(expression.name))
+        return super().evaluate(expression)
+
+    def _power(self, number: Number, exponent: int, at: Expression) -> Number:
+        numerator, denominator = fraction(number, self.ring)
+        degree = numerator.total_degree() + denominator.total_degree()
+        if degree > 0 and degree * abs(exponent) > MAX_DEGREE:
+            message = f"a degree of more than {MAX_DEGREE} in the parameters"
+            raise LimitExceeded(message, "write it smaller", at.start, at.end)
+        return super()._power(number, exponent, at)

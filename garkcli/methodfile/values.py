@@ -1,0 +1,94 @@
+"""The coefficients of a file as numbers, all of them in one exact domain."""
+
+from __future__ import annotations
+
+from collections.abc import Iterable
+
+from garkcli.errors import ExpressionError, LimitExceeded, UndefinedValue
+from garkcli.exact.domain import Domain
+from garkcli.exact.field import Number
+from garkcli.exact.matrix import Matrix, Vector
+from garkcli.exact.nodes import Expression
+from garkcli.exact.rewriting import roots_in
+from garkcli.methodfile.numbers import Entry, Numbers, Row, Rows
+from garkcli.methodfile.source import Source
+
+
+class Values:
+    """The exact values of all coefficients of a file, in their common domain.
+
+    Attributes:
+        printed: each different coefficient, as it is written and its value.
+    """
+
+    def __init__(self, numbers: Numbers) -> None:
+        self._values: dict[int, Number] = {}
+        self.printed: tuple[tuple[Expression, Number], ...] = ()
+        # equal texts of a file share one expression, which is evaluated once
+        expressions: dict[int, Expression] = {}
+        for entry in numbers.entries:
+            expressions[id(entry.expression)] = entry.expression
+        try:
+            domain = Domain(expressions.values())
+        except (UndefinedValue, LimitExceeded) as error:
+            self._find_culprits(numbers, error)
+            return
+        known = self._evaluate(numbers, domain)
+        written = [(expressions[key], known[key]) for key in known]
+        self.printed = tuple(written)
+        _note_faults(numbers.source, numbers.of_parameters)
+
+    def _evaluate(self, numbers: Numbers, domain: Domain) -> dict[int, Number]:
+        """The values of the expressions by their identity, each found once; what has none is
+        noted.
+        """
+        known: dict[int, Number] = {}
+        for entry in numbers.entries:
+            key = id(entry.expression)
+            try:
+                if key not in known:
+                    known[key] = domain.evaluate(entry.expression)
+                self._values[id(entry)] = known[key]
+            except ExpressionError as error:
+                numbers.source.expression_fault(entry.node, entry.where, error)
+        return known
+
+    def _find_culprits(self, numbers: Numbers, error: ExpressionError) -> None:
+        """Note each coefficient that has no real value; failing that, what is wrong with all of
+        them together.
+
+        No field is made for any of them: there may be many, and each may be large.
+        """
+        source = numbers.source
+        before = len(source.faults)
+        _note_faults(source, numbers.of_parameters)
+        _note_faults(source, numbers.entries)
+        if len(source.faults) > before:
+            return
+        with_roots = (
+            x for x in numbers.entries if any(roots_in(x.expression))
+        )
+        source.fault(next(with_roots).node, error.message, error.help)
+
+    def number(self, entry: Entry) -> Number:
+        """The value of a coefficient."""
+        return self._values[id(entry)]
+
+    def vector(self, row: Row) -> Vector:
+        """The values of a row."""
+        return tuple(self._values[id(entry)] for entry in row)
+
+    def matrix(self, rows: Rows) -> Matrix:
+        """The values of a matrix."""
+        return tuple(self.vector(row) for row in rows)
+
+
+def _note_faults(source: Source, entries: Iterable[Entry]) -> None:
+    """Note each coefficient that has no real value; no field is made for any of them."""
+    for entry in entries:
+        try:
+            domain = Domain([entry.expression], only_check=True)
+            if not any(roots_in(entry.expression)):
+                domain.evaluate(entry.expression)
+        except ExpressionError as own:
+            source.expression_fault(entry.node, entry.where, own)
