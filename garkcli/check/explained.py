@@ -136,5 +136,13 @@ def value_text(number: Number, digits: int = 17) -> str:
     shown = to_decimal(number, 60)
     magnitude = shown.lstrip("-")
     if isinstance(number, fmpq) and read_decimal(magnitude) == abs(number):
-        return shown
+        return _without_zeros(shown)
     return to_decimal(number, digits)
+
+
+def _without_zeros(text: str) -> str:
+    """A decimal without the zeros at the end of its fraction."""
+    mantissa, *exponent = text.split("e")
+    if "." in mantissa:
+        mantissa = mantissa.rstrip("0").rstrip(".")
+    return "e".join([mantissa, *exponent])

@@ -74,16 +74,22 @@ def decimal(number: fmpq) -> str:
     """A positive rational as people write tolerances: ``1e-13``, or a fraction where it is no such
     decimal.
 
-    >>> decimal(fmpq(1, 10**13)), decimal(fmpq(5, 10**8)), decimal(fmpq(1, 3))
-    ('1e-13', '5e-8', '1/3')
+    >>> decimal(fmpq(1, 10**13)), decimal(fmpq(441, 10**10)), decimal(fmpq(1, 3))
+    ('1e-13', '4.41e-8', '1/3')
     """
+    if number >= 1:
+        return plain_decimal(number)
+    scaled = number
     exponent = 0
-    while number.q != 1 and exponent < 400:
-        number *= 10
+    while scaled.q != 1 and exponent < 400:
+        scaled *= 10
         exponent += 1
-    if number.q == 1 and exponent:
-        return f"{number}e-{exponent}"
-    return str(number / fmpq(10) ** exponent)
+    if scaled.q != 1 or not exponent:
+        return str(number)
+    first, *rest = str(scaled)
+    exponent -= len(rest)
+    mantissa = f"{first}.{''.join(rest)}" if rest else first
+    return f"{mantissa}e-{exponent}"
 
 
 def plain_decimal(number: fmpq) -> str:

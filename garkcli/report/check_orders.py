@@ -28,6 +28,7 @@ _BESIDE_WIDTH = 74
 """Text and tree stand beside each other where both together are shorter than that."""
 _LONGEST = 60
 """Longer values are shown in decimals."""
+_WIDTH = 80
 _ONE_LINE = 50
 """Value and residual that are shorter together share a line."""
 
@@ -111,7 +112,10 @@ def _order(
         return [f"{head}   {every}; no further was looked"]
     failed = f"fails at order {witness.tree.order}"
     if witness in shown.witnesses:
-        return [f"{head}   {failed}, as above"]
+        line = f"{head}   {failed}, as above"
+        if len(line) <= _WIDTH:
+            return [line]
+        return [head, f"      {failed}, as above"]
     shown.witnesses.append(witness)
     text = _failure(failed, witness, tableau, shown.digits)
     lines = [paint.dots(line) for line in indented(text, " " * 6)]
@@ -156,7 +160,8 @@ def suggestion_lines(
     if tolerance is not None:
         effect = f"rounding by {decimal(tolerance)} makes residuals up to {rounding}"
         return [
-            f"{hint} {effect}: the tolerance is too tight;",
+            f"{hint} {effect}:",
+            "        the tolerance is too tight;",
             f"        {cure}",
         ]
     small = f"up to order {found.order} the residuals are at most {rounding}"

@@ -83,12 +83,17 @@ def misprint_lines(
 
 
 def _repair_lines(order: str, repair: str) -> list[str]:
-    """What would mend the method, in one line where it fits and in two otherwise."""
+    """What would mend the method, in one line where it fits and in two or three otherwise."""
     start = f"{_MARGIN}{order} would hold with"
     line = f"{start} {repair}"
     if len(line) <= WIDTH:
         return [line]
-    return [start, f"{_MARGIN}  {repair}"]
+    inner = f"{_MARGIN}  "
+    line = f"{inner}{repair}"
+    if len(line) <= WIDTH:
+        return [start, line]
+    new, instead, old = line.partition(" instead of ")
+    return [start, new, f"{inner}{instead.lstrip()}{old}"]
 
 
 def _blocks(

@@ -1,9 +1,11 @@
 """The report for people: numbers of every kind, colour only where it is asked for."""
 
 import re
+from pathlib import Path
 
 import pytest
 
+from garkcli.check.check_file import check_file
 from garkcli.check.claims import verify
 from garkcli.check.deciding import analyse
 from garkcli.check.outcome import Outcome
@@ -232,3 +234,34 @@ def test_long_places_have_a_line_of_their_own() -> None:
     assert max(map(len, found)) <= 80
     short = outcome(text.format("Gauss"))
     assert render([short], Paint()).splitlines()[0] == "m.gark.yaml: Gauss"
+
+
+DECIMALS = """\
+A:
+  - [0, 0, 0, 0]
+  - [0.33333333333333333, 0, 0, 0]
+  - [-0.33333333338333333, 1, 0, 0]
+  - [1, -1, 1, 0]
+b: [0.125, 0.375, 0.375, 0.125]
+tolerance: 1e-12
+expect: {order: 4}
+"""
+
+
+def test_long_decimals_fit_a_screen(
+    tmp_path: Path, monkeypatch: pytest.MonkeyPatch
+) -> None:
+    """Entries are shown with the digits that a file would have, and no line is wider than 80
+    columns, of a misprint and of a tolerance that is too tight.
+    """
+    monkeypatch.chdir(tmp_path)
+    tight = DECIMALS.replace("33333338333333", "33333333333333")
+    tight = tight.replace("1e-12", "1e-18")
+    for text, shown in (
+        (DECIMALS, "instead of -0.33333333338333333\n"),
+        (tight, "the tolerance is too tight;\n"),
+    ):
+        Path("m.gark.yaml").write_text(text, encoding="utf-8")
+        found = render([check_file("m.gark.yaml")], Paint())
+        assert shown in found
+        assert max(map(len, found.splitlines())) <= 80
