@@ -10,8 +10,9 @@ if TYPE_CHECKING:
 
 # least part of its size that a coordinate moves in a step to have a direction
 _MOVES = 2.0**-40
-# times that a position has turned back when its motion is called bounded
-_OFTEN = 8
+# times that a position has turned back when its motion is called bounded: what only passes by
+# turns once
+_BOUND = 2
 # how many times its former bound a position is when it has left that
 _FAR = 2.0
 
@@ -20,7 +21,7 @@ class Excursions:
     """Counts the turns of all coordinates, and keeps how far each position went up to its last one,
     in pieces.
 
-    A position has escaped at the end when it had turned back often, and is now twice as far from
+    A position has escaped at the end when it had turned back twice, and is now twice as far from
     zero as it ever was before it or its momentum turned for the last time. An angle that begins to
     rotate does not escape: its momentum goes on oscillating.
     """
@@ -52,9 +53,9 @@ class Excursions:
         none has.
         """
         d = len(self._positions)
-        is_often = self._turned[:d] >= _OFTEN
+        was_bound = self._turned[:d] >= _BOUND
         is_far = abs(self._positions) > _FAR * self._bounds
-        has_escaped = is_often & is_far
+        has_escaped = was_bound & is_far
         steps = self._last_turns[has_escaped]
         if not steps.size:
             return None

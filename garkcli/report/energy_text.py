@@ -164,7 +164,9 @@ def _drift(history: InvariantHistory, run: LongRun) -> str:
         rate = measured(drift, uncertainty, 3)
         total = measured(in_all, uncertain_in_all, 3)
         return f"{rate} per unit of time, {total} in all"
-    if is_seen or history.verdict == "drifts":
+    if not is_seen and history.verdict == "drifts":
+        return "not at one rate in this run"
+    if is_seen:
         rate = f"{drift:.2e} ± {uncertainty:.0e}"
         return f"{rate} per unit of time, {in_all:.2e} in all"
     if uncertain_in_all <= _NEARLY * history.round_off:
@@ -248,8 +250,8 @@ def _reason(history: InvariantHistory, run: LongRun) -> str:
     if history.shape == "line":
         return f"the slope is {_times(history)} times its uncertainty"
     if history.shape == "curve":
-        is_rising = bool(history.drift and history.drift > 0)
-        verb = "rises" if is_rising else "falls"
+        # the fitted slope of what is no line may be nothing but rounding
+        verb = "rises" if history.errors[-1] > 0 else "falls"
         return f"it {verb} all along, by more than it oscillates"
     return "it moves to another level and stays there"
 

@@ -24,11 +24,13 @@ from garkcli.longtime.history import (
 from garkcli.longtime.longtime import long_run, usual
 from garkcli.methodfile.load import load, loads
 from garkcli.methodfile.problem import loads_problem
+from garkcli.page.paint import Paint
 from garkcli.problems.builtin import hamiltonian
 from garkcli.problems.hamiltonian import Hamiltonian
 from garkcli.problems.oscillator import Oscillator, terms_of
 from garkcli.problems.problem import quantities_function
 from garkcli.problems.vectorfield import symbols
+from garkcli.report.energy_text import Report, text_of
 from garkcli.stepping.fields import with_joined_terms
 from garkcli.stepping.integrator import bind
 from garkcli.stepping.step import StepFailed, trajectory
@@ -398,6 +400,23 @@ def test_an_orbit_that_escapes_is_unstable() -> None:
     assert result.steps == 40_000
     assert result.energy.drift is None
     assert run(LEAPFROG, "kepler", 400, fmpq(1, 20)).escaped is None
+
+
+def test_an_orbit_that_escapes_soon_is_unstable() -> None:
+    """Also where it has gone round but once: Ralston's method with a large step. Euler's has the
+    planet leave at once, which is a drift: it has never been seen to be bound. Its slope is nothing
+    but rounding, and not shown.
+    """
+    once = run(RALSTON, "kepler", 100, fmpq(1, 5))
+    assert once.is_unstable
+    assert once.energy.drift is None
+    never = run(EULER, "kepler", 400, fmpq(1, 5))
+    assert never.escaped is None
+    assert (never.energy.verdict, never.energy.shape) == ("drifts", "curve")
+    assert never.energy.max_error > 1
+    shown = "\n".join(text_of(Report("Euler", never, None), Paint()))
+    assert "it rises all along" in shown
+    assert "not at one rate in this run" in shown
 
 
 def test_rotation_is_no_escape() -> None:
