@@ -86,10 +86,10 @@ def decimal(number: fmpq) -> str:
         exponent += 1
     if scaled.q != 1 or not exponent:
         return str(number)
-    first, *rest = str(scaled)
-    exponent -= len(rest)
-    mantissa = f"{first}.{''.join(rest)}" if rest else first
-    return f"{mantissa}e-{exponent}"
+    digits = str(scaled)
+    first, rest = digits[0], digits[1:]
+    mantissa = f"{first}.{rest}" if rest else first
+    return f"{mantissa}e-{exponent - len(rest)}"
 
 
 def plain_decimal(number: fmpq) -> str:
