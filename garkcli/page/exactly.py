@@ -16,7 +16,7 @@ from garkcli.exact.polynomial_text import (
     root_text,
 )
 from garkcli.exact.roots import RealRoot
-from garkcli.page.record import TEXT, Schema, one_of
+from garkcli.page.schema import TEXT, Schema, one_of
 
 ROOT_OF: Schema = {
     "type": "object",

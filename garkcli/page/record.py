@@ -4,76 +4,13 @@ from __future__ import annotations
 
 from collections.abc import Callable, Iterable
 from dataclasses import dataclass
-from typing import Any, Generic, TypeAlias, TypeVar
+from typing import Any, Generic, TypeVar
+
+from garkcli.page.json_text import to_json
+from garkcli.page.schema import Schema, array, nullable
 
 Whole = TypeVar("Whole")
 Owner = TypeVar("Owner")
-Schema: TypeAlias = dict[str, Any]
-
-TEXT: Schema = {"type": "string"}
-EXACT: Schema = {
-    "type": "string",
-    "description": "An exact number, such as 1/2 - sqrt(3)/6.",
-}
-INTEGER: Schema = {"type": "integer"}
-FLAG: Schema = {"type": "boolean"}
-NULL: Schema = {"type": "null"}
-TRUE: Schema = {"const": True}
-COUNT: Schema = {"type": "integer", "minimum": 0}
-POSITION: Schema = {"type": "integer", "minimum": 1}
-"""A number of a line, a stage or an order, from 1."""
-NUMERAL: Schema = {
-    "type": "string",
-    "description": "An exact number, or a decimal where digits were asked for.",
-}
-NUMBER: Schema = {
-    "type": ["number", "null"],
-    "description": "A float; null beyond the range of floats, or where there is none.",
-}
-SIZE: Schema = {
-    "type": ["number", "null"],
-    "minimum": 0,
-    "description": "A float; null beyond the range of floats.",
-}
-
-
-def nullable(schema: Schema) -> Schema:
-    """The same, or null."""
-    kind = schema.get("type")
-    if kind in ("string", "boolean", "integer", "number"):
-        return {**schema, "type": [kind, "null"]}
-    return one_of(NULL, schema)
-
-
-def array(items: Schema) -> Schema:
-    """A list of these."""
-    return {"type": "array", "items": items}
-
-
-def counts_of(what: str) -> Schema:
-    """A number for each of numbered things, by their numbers from 1."""
-    return {
-        "type": "object",
-        "description": f"By {what}.",
-        "patternProperties": {"^[1-9][0-9]*$": COUNT},
-        "additionalProperties": False,
-    }
-
-
-def one_of(*schemas: Schema) -> Schema:
-    """One of these, and of no two of them."""
-    return {"oneOf": [*schemas]}
-
-
-def published(title: str, schema: Schema) -> Schema:
-    """The schema of a whole document. Fields may be added to documents; those that are there never
-    change their meaning.
-    """
-    head = {
-        "$schema": "http://json-schema.org/draft-07/schema#",
-        "title": title,
-    }
-    return {**head, **schema}
 
 
 @dataclass(frozen=True)
@@ -91,6 +28,11 @@ class Field(Generic[Whole]):
     schema: Schema
     value: Callable[[Whole], object]
     is_optional: bool = False
+
+
+def schema_named(name: str) -> Field[Any]:
+    """The first field of a report: the name of the schema that it follows."""
+    return Field("schema", {"const": name}, lambda _: name)
 
 
 class Record(Generic[Whole]):
@@ -120,6 +62,11 @@ class Record(Generic[Whole]):
                 found[field.name] = value
         return found
 
+    def text(self, whole: Whole) -> str:
+        """The object as a JSON document."""
+        document = to_json(self.data(whole))
+        return f"{document}\n"
+
     @property
     def schema(self) -> Schema:
         """The JSON Schema (draft-07) of such objects."""
@@ -131,11 +78,9 @@ class Record(Generic[Whole]):
             "required": required,
             "properties": {field.name: field.schema for field in self.fields},
         }
-        return (
-            schema
-            if self.is_open
-            else {**schema, "additionalProperties": False}
-        )
+        if not self.is_open:
+            schema["additionalProperties"] = False
+        return schema
 
     def with_rows(self, name: str, row: Record[Any]) -> Schema:
         """The schema of these objects with a last field, a list that is written row by row."""

@@ -11,17 +11,14 @@ from collections.abc import Sequence
 from typing import TYPE_CHECKING, Any
 
 from garkcli.exact.display import decimal
-from garkcli.page.json_text import to_json
-from garkcli.page.record import (
+from garkcli.page.record import Field, Record, inside, schema_named
+from garkcli.page.schema import (
     COUNT,
     FLAG,
     POSITION,
     TEXT,
-    Field,
-    Record,
     Schema,
     array,
-    inside,
     nullable,
     published,
 )
@@ -40,7 +37,7 @@ SCHEMA = "gark/check/1"
 
 def render(outcomes: Sequence[Outcome]) -> str:
     """The report as JSON text."""
-    return to_json(as_data(outcomes)) + "\n"
+    return _REPORT.text(outcomes)
 
 
 def as_data(outcomes: Sequence[Outcome]) -> dict[str, Any]:
@@ -160,7 +157,7 @@ _SUMMARY: Record[Sequence[Outcome]] = Record(
 )
 _FILE: Schema = {"oneOf": [_UNREADABLE.schema, _CHECKED.schema]}
 _REPORT: Record[Sequence[Outcome]] = Record(
-    Field("schema", {"const": SCHEMA}, lambda _: SCHEMA),
+    schema_named(SCHEMA),
     Field("files", array(_FILE), _files),
     Field("summary", _SUMMARY.schema, _SUMMARY.data),
     is_open=True,

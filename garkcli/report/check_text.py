@@ -7,12 +7,16 @@ from collections.abc import Sequence
 from flint import fmpq
 
 from garkcli.check.analysis import Analysis
-from garkcli.check.explained import BOUND, SHARP_BOUND, bound_numbers
 from garkcli.check.outcome import Claim, Outcome
 from garkcli.errors import excerpt
 from garkcli.exact.display import decimal
-from garkcli.page.paint import Paint, aligned, counted, folded, indented
+from garkcli.page.paint import Paint, counted, folded, indented
 from garkcli.page.plain import inert, printable
+from garkcli.report.check_conditions import (
+    labelled,
+    simplifying_lines,
+    structure_lines,
+)
 from garkcli.report.check_orders import (
     LABEL,
     order_lines,
@@ -22,8 +26,6 @@ from garkcli.report.check_orders import (
 from garkcli.tableau.tableau import Tableau
 
 _WIDTH = 80
-_NAMED_BLOCKS = 4
-"""How many blocks with wrong row sums are named; the others are counted."""
 
 
 def render(
@@ -164,8 +166,8 @@ def _full(
         from garkcli.report.hints import misprint_lines
 
         lines += misprint_lines(analysis.misprint, tableau, paint)
-    lines += ["", *_conditions(analysis)]
-    lines += ["", *_properties(analysis, paint)]
+    lines += ["", *simplifying_lines(analysis)]
+    lines += ["", *structure_lines(analysis, paint)]
     lines += ["", *_more_properties(outcome, analysis)]
     if outcome.constants is not None:
         from garkcli.report.hints import constants_lines
@@ -213,91 +215,6 @@ def _domain(tableau: Tableau) -> str:
     return f"decided in a number field of degree {tableau.degree}"
 
 
-def _conditions(analysis: Analysis) -> list[str]:
-    found = analysis.simplifying
-    limit = analysis.limit
-    quadrature = "  ".join(_capped(found.B, limit))
-    rows = _labelled("B(r)", [quadrature])
-    for label, table in (("C(eta)", found.C), ("D(zeta)", found.D)):
-        cells = [_capped(row, limit) for row in table]
-        rows += _labelled(label, aligned(cells))
-    rows += _bound("bound", found.bound, BOUND, analysis.bound)
-    sharper = analysis.sharp_bound
-    rows += _bound("sharper bound", found.sharp_bound, SHARP_BOUND, sharper)
-    rows += _labelled("", [bound_numbers(found)])
-    both = analysis.pair_simplifying
-    bound, sharper_of_pair = analysis.pair_bound, analysis.pair_sharp_bound
-    if (
-        both is None
-        or both is found
-        or bound is None
-        or sharper_of_pair is None
-    ):
-        return rows
-    rows += _bound("pair bound", both.bound, BOUND, bound)
-    rows += _bound(
-        "pair, sharper", both.sharp_bound, SHARP_BOUND, sharper_of_pair
-    )
-    return rows + _labelled("", [bound_numbers(both)])
-
-
-def _labelled(label: str, texts: Sequence[str]) -> list[str]:
-    """Lines beside a label."""
-    lines = []
-    for text in texts:
-        lines.append(f"  {label:{LABEL}}{text}")
-        label = ""
-    return lines
-
-
-def _capped(numbers: Sequence[int | None], limit: int) -> list[str]:
-    """Numbers of conditions that hold; those at the limit may be larger."""
-    cells = []
-    for number in numbers:
-        cell = str(number)
-        if number is None:
-            cell = "-"
-        elif number >= limit:
-            cell = f">={number}"
-        cells.append(cell)
-    return cells
-
-
-def _bound(label: str, computed: int, formula: str, bound: int) -> list[str]:
-    """A bound with its formula.
-
-    Args:
-        label: which bound.
-        computed: what the formula gives.
-        formula: it, in letters.
-        bound: as far as the order bears it out, within a tolerance.
-    """
-    equation = f"{computed} = {formula}"
-    if bound == computed:
-        return _labelled(label, [equation])
-    doubt = f"{bound}   {computed} is not decided within the tolerance,"
-    return _labelled(label, [doubt, equation])
-
-
-def _properties(analysis: Analysis, paint: Paint) -> list[str]:
-    names = [colour.name for colour in analysis.tableau.colours]
-    near = ""
-    if analysis.tolerance is not None:
-        near = f" within {decimal(analysis.tolerance)}"
-    text = _consistent(analysis.inconsistent, names, "A", near, paint)
-    lines = _labelled("consistent", [text])
-    if analysis.conjugate is not None:
-        text = _consistent(
-            analysis.conjugate_inconsistent, names, "Â", near, paint
-        )
-        lines += _labelled("conjugate nodes", [text])
-    own = "its own conjugate"
-    if analysis.tableau.is_partitioned:
-        own = "each part the conjugate of the other"
-    symplectic = f"yes{near}, {own}" if analysis.symplectic else "no"
-    return lines + _labelled("symplectic", [symplectic])
-
-
 def _more_properties(outcome: Outcome, analysis: Analysis) -> list[str]:
     """What the method is like: what is worth a word, or everything where that was asked for."""
     from garkcli.report.check_properties import (
@@ -309,31 +226,8 @@ def _more_properties(outcome: Outcome, analysis: Analysis) -> list[str]:
         return every_property_lines(analysis.subject)
     lines = []
     for label, text in property_lines(analysis.subject):
-        lines += _labelled(label, folded(text, _WIDTH - 2 - LABEL, ""))
+        lines += labelled(label, folded(text, _WIDTH - 2 - LABEL, ""))
     return lines
-
-
-def _consistent(
-    wrong: Sequence[tuple[int, int]],
-    names: Sequence[str],
-    letter: str,
-    near: str,
-    paint: Paint,
-) -> str:
-    if not wrong:
-        yes = paint("good", "yes" + near)
-        return f"{yes}, {letter}{{l,m}}𝟙 = c{{l}} for every block"
-    sums = []
-    for l, m in wrong[:_NAMED_BLOCKS]:
-        colours = f"{names[l]},{names[m]}"
-        sums.append(f"{letter}{{{colours}}}𝟙")
-    blocks = ", ".join(sums)
-    others = len(wrong) - len(sums)
-    if others:
-        blocks += f" and {others} more"
-    no = paint("bad", "no")
-    verb = "differs" if len(wrong) == 1 else "differ"
-    return f"{no}: {blocks} {verb} from c"
 
 
 def _missing(outcome: Outcome, paint: Paint) -> list[str]:

@@ -8,13 +8,12 @@ from typing import Any, NamedTuple, TypeAlias
 from garkcli.exact.display import decimal
 from garkcli.order.conditions import Condition
 from garkcli.page.json_text import to_json
-from garkcli.page.record import (
+from garkcli.page.record import Field, Record, schema_named
+from garkcli.page.schema import (
     FLAG,
     NUMERAL,
     POSITION,
     TEXT,
-    Field,
-    Record,
     Schema,
     array,
     nullable,
@@ -115,7 +114,7 @@ def _members(row: ConditionRow) -> list[str] | None:
     return [format_tree(u) for u in row.members] or None
 
 
-_ABOUT: Field[_Scope] = Field("schema", {"const": SCHEMA}, lambda _: SCHEMA)
+_ABOUT: Field[_Scope] = schema_named(SCHEMA)
 _OF_METHOD: tuple[Field[_Scope], ...] = (
     Field("colours", array(TEXT), _names),
     Field("tolerance", nullable(TEXT), _tolerance),

@@ -18,18 +18,15 @@ from garkcli.convergence.result import (
 from garkcli.page.asciiplot import terminal_curves, terminal_plot
 from garkcli.page.figures import rounded, scientific
 from garkcli.page.paint import Paint, aligned, indented
-from garkcli.problems.hamiltonian import FLOAT_DIGITS, Hamiltonian
-from garkcli.problems.oscillator import Oscillator
-from garkcli.problems.problem import Problem
-from garkcli.problems.righthandside import RightHandSide
+from garkcli.problems.hamiltonian import FLOAT_DIGITS
 from garkcli.report.convergence_data import csv_of, invariant_names
+from garkcli.report.problem_text import describe
 
 WIDTH = 80
 """Columns of a terminal."""
 NO_TIME = "no seconds where floats do not reach the error: the counts are for more digits"
 WORK = ("steps", "evaluations", "iterations", "Jacobians", "seconds")
 """What is counted, as column heads."""
-_LONGEST = 80  # characters of a Hamiltonian that are still shown
 _LONGEST_HEAD = 40  # characters of the name of an invariant above a column
 _INDENT = 2
 _GAP = "   "
@@ -76,65 +73,6 @@ def _text(
         lines.append("")
         lines += indented(plot.splitlines())
     return lines
-
-
-def describe(problem: Oscillator | Problem) -> str:
-    """A problem and its split in one line."""
-    if isinstance(problem, Hamiltonian):
-        return _described(problem)
-    if isinstance(problem, RightHandSide):
-        return _described_fields(problem)
-    energies = [_energy(k, v) for k, v in problem.shares]
-    return f"q̈ = −ω²q, ω = {problem.omega}; {_numbered(energies)}"
-
-
-def _numbered(energies: Sequence[str]) -> str:
-    """The terms of a Hamiltonian by the numbers of their colours."""
-    numbered = enumerate(energies, start=1)
-    terms = [f"H{{{l}}}: {text}" for l, text in numbered]
-    return ", ".join(terms)
-
-
-def _energy(k: object, v: object) -> str:
-    terms = []
-    for share, energy in ((k, "½p²"), (v, "½ω²q²")):
-        if share == 1:
-            terms.append(energy)
-        elif share != 0:
-            terms.append(f"{share}·{energy}")
-    return " + ".join(terms) or "0"
-
-
-def _described(problem: Hamiltonian) -> str:
-    texts = [str(term).replace("**", "^") for term in problem.terms]
-    if sum(map(len, texts)) > _LONGEST:
-        count = len(texts)
-        terms = f"{count} terms" if count > 1 else "one term"
-        positions = ", ".join(problem.variables)
-        return f"{problem.name}, H in {terms} of {positions} and their momenta"
-    return f"{problem.name}; {_numbered(texts)}"
-
-
-def _described_fields(problem: RightHandSide) -> str:
-    name = problem.name
-    if problem.stiffness is not None:
-        name += f", stiffness {problem.stiffness}"
-    fields = []
-    for l, term in enumerate(problem.terms, start=1):
-        components = ", ".join(str(x).replace("**", "^") for x in term)
-        fields.append(
-            f"f{{{l}}}: ({components})"
-            if len(term) > 1
-            else f"f{{{l}}}: {components}"
-        )
-    if sum(map(len, fields)) <= _LONGEST:
-        return f"{name}; {', '.join(fields)}"
-    sides = (
-        f"{len(fields)} right-hand sides"
-        if len(fields) > 1
-        else "one right-hand side"
-    )
-    return f"{name}, {sides} of {', '.join(problem.variables)}"
 
 
 def _tables(result: Convergence) -> list[list[str]]:

@@ -10,8 +10,8 @@ from flint import arb
 from garkcli.convergence.result import Convergence, Cost, Row, Verdict
 from garkcli.exact.display import to_float
 from garkcli.page.figures import for_programs
-from garkcli.page.json_text import to_json
-from garkcli.page.record import (
+from garkcli.page.record import Field, Record, inside, schema_named
+from garkcli.page.schema import (
     COUNT,
     EXACT,
     FLAG,
@@ -19,11 +19,8 @@ from garkcli.page.record import (
     POSITION,
     SIZE,
     TEXT,
-    Field,
-    Record,
     Schema,
     array,
-    inside,
     nullable,
     one_of,
     published,
@@ -44,13 +41,13 @@ SCHEMA_OF_SEVERAL = "gark/converge-comparison/1"
 def json_of(result: Convergence, name: str, with_work: bool) -> str:
     """One test as JSON."""
     form = _REPORTS[type(result.problem)]
-    return to_json(form.data(_Test(result, name, with_work))) + "\n"
+    return form.text(_Test(result, name, with_work))
 
 
 def json_of_several(entries: Sequence[Entry], with_work: bool) -> str:
     """Several tests as JSON."""
     tried = [_Tried(entry, with_work) for entry in entries]
-    return to_json(_COMPARISON.data(tried)) + "\n"
+    return _COMPARISON.text(tried)
 
 
 def converge_report_schema() -> Schema:
@@ -218,7 +215,7 @@ _RESULT: tuple[Field[Convergence], ...] = (
 _STEPS: Schema = array(one_of(_STEP.schema, _WORKED_STEP.schema))
 _REPORTS: dict[type[Stepped], Record[_Test]] = {
     kind: Record(
-        Field("schema", {"const": SCHEMA}, lambda _: SCHEMA),
+        schema_named(SCHEMA),
         *inside(lambda x: x.result, inside(_problem, [NAME])),
         Field("name", TEXT, lambda x: x.name),
         *inside(lambda x: x.result, (*inside(_problem, terms), *_RESULT)),
@@ -264,7 +261,7 @@ _SUMMARY: Record[Sequence[_Tried]] = Record(
     Field("files", COUNT, len), Field("failed", COUNT, _failed)
 )
 _COMPARISON: Record[Sequence[_Tried]] = Record(
-    Field("schema", {"const": SCHEMA_OF_SEVERAL}, lambda _: SCHEMA_OF_SEVERAL),
+    schema_named(SCHEMA_OF_SEVERAL),
     Field("results", _RESULTS, _results),
     Field("summary", _SUMMARY.schema, _SUMMARY.data),
 )

@@ -9,19 +9,16 @@ from garkcli.design.choices import Choice
 from garkcli.design.design import Design, Found, Kind, Step, Whose
 from garkcli.design.solutions import value_at
 from garkcli.page.exactly import ALGEBRAIC, root_data
-from garkcli.page.json_text import to_json
-from garkcli.page.record import (
+from garkcli.page.record import Field, Record, inside, schema_named
+from garkcli.page.schema import (
     COUNT,
     FLAG,
     INTEGER,
     NULL,
     POSITION,
     TEXT,
-    Field,
-    Record,
     Schema,
     array,
-    inside,
     nullable,
     one_of,
     published,
@@ -35,9 +32,7 @@ def render(
     source: str, design: Design, digits: int, choices: Sequence[Choice] = ()
 ) -> str:
     """The design as JSON text."""
-    return (
-        to_json(_REPORT.data(_Shown(source, design, digits, choices))) + "\n"
-    )
+    return _REPORT.text(_Shown(source, design, digits, choices))
 
 
 def design_report_schema() -> Schema:
@@ -174,7 +169,7 @@ _CHOICE: Record[Choice] = Record(
     Field("dimension", INTEGER, lambda x: x.after),
 )
 _REPORT: Record[_Shown] = Record(
-    Field("schema", {"const": SCHEMA}, lambda _: SCHEMA),
+    schema_named(SCHEMA),
     Field("file", TEXT, lambda x: x.source),
     Field("name", TEXT, lambda x: x.design.family.name),
     Field("of", {"enum": [*get_args(Whose)]}, lambda x: x.design.whose),

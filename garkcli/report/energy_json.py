@@ -11,8 +11,8 @@ from garkcli.longtime.history import InvariantHistory, LongRun, Verdict
 from garkcli.longtime.stability import Stability
 from garkcli.longtime.symplecticity import Defect, Symplecticity
 from garkcli.longtime.trend import Shape
-from garkcli.page.json_text import to_json
-from garkcli.page.record import (
+from garkcli.page.record import Field, Record, inside, schema_named
+from garkcli.page.schema import (
     COUNT,
     EXACT,
     FLAG,
@@ -20,10 +20,7 @@ from garkcli.page.record import (
     POSITION,
     SIZE,
     TEXT,
-    Field,
-    Record,
     Schema,
-    inside,
     nullable,
     one_of,
     published,
@@ -37,7 +34,7 @@ SCHEMA = "gark/energy/1"
 def json_of(report: Report) -> str:
     """The report as JSON text."""
     form = _REPORTS[type(report.run.problem)]
-    return to_json(form.data(report)) + "\n"
+    return form.text(report)
 
 
 def energy_report_schema() -> Schema:
@@ -148,7 +145,7 @@ _CLAIM: Record[Claim] = Record(
 )
 _REPORTS: dict[type[Stepped], Record[Report]] = {
     kind: Record(
-        Field("schema", {"const": SCHEMA}, lambda _: SCHEMA),
+        schema_named(SCHEMA),
         *inside(lambda x: x.run, inside(_problem, [NAME, *terms])),
         Field("name", TEXT, lambda x: x.name),
         *inside(lambda x: x.run, _RUN),

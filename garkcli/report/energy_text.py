@@ -14,7 +14,7 @@ from garkcli.page.bandplot import terminal_band
 from garkcli.page.figures import measured
 from garkcli.page.paint import Paint, counted, indented
 from garkcli.problems.hamiltonian import FLOAT_DIGITS
-from garkcli.report.convergence import describe
+from garkcli.report.problem_text import describe
 
 FATES = {
     "elliptic": "the energy error is bounded for all time",

@@ -4,9 +4,9 @@ from __future__ import annotations
 
 from typing import Any
 
-from garkcli.page.json_text import to_json
 from garkcli.page.paint import Paint, folded
-from garkcli.page.record import TEXT, Field, Record, Schema, published
+from garkcli.page.record import Field, Record, schema_named
+from garkcli.page.schema import TEXT, Schema, published
 from garkcli.properties.definitions import Definition
 
 SCHEMA = "gark/explain/1"
@@ -14,7 +14,7 @@ _WIDTH = 80
 _MARGIN = 11
 
 _REPORT: Record[Definition] = Record(
-    Field("schema", {"const": SCHEMA}, lambda _: SCHEMA),
+    schema_named(SCHEMA),
     Field("key", TEXT, lambda x: x.key),
     Field("definition", TEXT, lambda x: x.text),
     Field("values", TEXT, lambda x: x.values.replace("`", "")),
@@ -37,7 +37,7 @@ def as_data(found: Definition) -> dict[str, Any]:
 def render(found: Definition, format: str, paint: Paint) -> str:
     """The explanation as text, or as JSON."""
     if format == "json":
-        return to_json(as_data(found)) + "\n"
+        return _REPORT.text(found)
     lines = [paint("strong", found.key)]
     lines += ["  " + line for line in folded(found.text, _WIDTH - 2, "")]
     parts = [

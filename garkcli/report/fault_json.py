@@ -3,7 +3,8 @@
 from __future__ import annotations
 
 from garkcli.errors import Fault
-from garkcli.page.record import POSITION, TEXT, Field, Record, nullable
+from garkcli.page.record import Field, Record
+from garkcli.page.schema import POSITION, TEXT, nullable
 
 FAULT: Record[Fault] = Record(
     Field("line", nullable(POSITION), lambda x: x.line or None),

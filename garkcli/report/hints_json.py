@@ -6,7 +6,8 @@ from collections.abc import Sequence
 from typing import TYPE_CHECKING, Any
 
 from garkcli.exact.display import to_text
-from garkcli.page.record import (
+from garkcli.page.record import Field, Record, inside
+from garkcli.page.schema import (
     COUNT,
     EXACT,
     FLAG,
@@ -14,11 +15,8 @@ from garkcli.page.record import (
     POSITION,
     SIZE,
     TEXT,
-    Field,
-    Record,
     Schema,
     array,
-    inside,
     nullable,
 )
 from garkcli.trees.notation import format_tree

@@ -7,9 +7,9 @@ from textwrap import wrap
 from typing import NamedTuple
 
 from garkcli.families.registry import Family
-from garkcli.page.json_text import to_json
 from garkcli.page.paint import Paint, indented
-from garkcli.page.record import TEXT, Field, Record, Schema, published
+from garkcli.page.record import Field, Record, schema_named
+from garkcli.page.schema import TEXT, Schema, published
 
 SCHEMA = "gark/list/1"
 _WIDTH = 80
@@ -24,7 +24,7 @@ def render(
 ) -> str:
     """The lists as text or JSON."""
     if format == "json":
-        return to_json(_REPORT.data(_Lists(families, rules, problems))) + "\n"
+        return _REPORT.text(_Lists(families, rules, problems))
     lines = [paint("strong", f"{'families':<20} {'stages':<8} order")]
     lines += [
         f"  {x.name:<18} {_stages(x):<8} {x.order:<7} {x.summary}"
@@ -71,7 +71,7 @@ _NAMED: Record[tuple[str, str]] = Record(
     Field("summary", TEXT, lambda x: x[1]),
 )
 _REPORT: Record[_Lists] = Record(
-    Field("schema", {"const": SCHEMA}, lambda _: SCHEMA),
+    schema_named(SCHEMA),
     _FAMILY.every("families", lambda x: x.families.values()),
     _NAMED.every("transfer", lambda x: x.rules.items()),
     _NAMED.every("problems", lambda x: x.problems.items()),

@@ -11,15 +11,13 @@ from garkcli.backward.hamiltonian import HamiltonianTerm
 from garkcli.backward.summary import BackwardAnalysis, Reached
 from garkcli.exact.display import decimal, to_decimal, to_text
 from garkcli.exact.field import Number
-from garkcli.page.json_text import to_json
-from garkcli.page.record import (
+from garkcli.page.record import Field, Record, schema_named
+from garkcli.page.schema import (
     COUNT,
     FLAG,
     NUMERAL,
     POSITION,
     TEXT,
-    Field,
-    Record,
     Schema,
     array,
     nullable,
@@ -128,7 +126,7 @@ def as_data(report: ModifiedReport) -> dict[str, Any]:
 
 def render_json(report: ModifiedReport) -> str:
     """The report as JSON text."""
-    return to_json(as_data(report)) + "\n"
+    return _REPORT.text(report)
 
 
 def modified_report_schema() -> Schema:
@@ -200,7 +198,7 @@ _FORMULA: Record[ModifiedFormula] = Record(
     _POWER.every("terms", lambda x: x.terms),
 )
 _REPORT: Record[ModifiedReport] = Record(
-    Field("schema", {"const": SCHEMA}, lambda _: SCHEMA),
+    schema_named(SCHEMA),
     Field("file", TEXT, lambda x: x.file),
     Field("name", TEXT, lambda x: x.name),
     Field(

@@ -12,21 +12,19 @@ from garkcli.backward.energy import ModifiedEnergy, ModifiedRun
 from garkcli.convergence.result import Row
 from garkcli.exact.display import to_float
 from garkcli.page.figures import scientific
-from garkcli.page.json_text import to_json
 from garkcli.page.paint import Paint, folded, indented
-from garkcli.page.record import (
+from garkcli.page.record import Field, Record, schema_named
+from garkcli.page.schema import (
     COUNT,
     EXACT,
     FLAG,
     POSITION,
     TEXT,
-    Field,
-    Record,
     Schema,
     nullable,
     published,
 )
-from garkcli.report.convergence import describe
+from garkcli.report.problem_text import describe
 
 SCHEMA = "gark/modified-energy/1"
 _WIDTH = 80
@@ -46,7 +44,7 @@ class ModifiedEnergyReport:
 def render(report: ModifiedEnergyReport, format: str, paint: Paint) -> str:
     """The report as text, JSON or CSV."""
     if format == "json":
-        return to_json(_REPORT.data(report)) + "\n"
+        return _REPORT.text(report)
     if format == "csv":
         return _csv(report.run)
     return "\n".join(text_of(report, paint)) + "\n"
@@ -159,7 +157,7 @@ _ENERGY: Record[ModifiedEnergy] = Record(
     _ROW.every("rows", lambda x: x.rows),
 )
 _REPORT: Record[ModifiedEnergyReport] = Record(
-    Field("schema", {"const": SCHEMA}, lambda _: SCHEMA),
+    schema_named(SCHEMA),
     Field("name", TEXT, lambda x: x.name),
     Field("problem", TEXT, lambda x: x.run.problem.name),
     Field("t_end", EXACT, lambda x: str(x.run.t_end)),

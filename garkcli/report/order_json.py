@@ -6,7 +6,8 @@ from typing import TYPE_CHECKING
 
 from garkcli.exact.display import decimal, to_text
 from garkcli.order.certificate import Order
-from garkcli.page.record import (
+from garkcli.page.record import Field, Record
+from garkcli.page.schema import (
     COUNT,
     EXACT,
     INTEGER,
@@ -14,8 +15,6 @@ from garkcli.page.record import (
     SIZE,
     TEXT,
     TRUE,
-    Field,
-    Record,
     Schema,
     array,
     nullable,

@@ -4,7 +4,8 @@ from __future__ import annotations
 
 from typing import Any, TypeAlias
 
-from garkcli.page.record import EXACT, TEXT, Field, array, nullable
+from garkcli.page.record import Field
+from garkcli.page.schema import EXACT, TEXT, array, nullable
 from garkcli.problems.hamiltonian import Hamiltonian
 from garkcli.problems.oscillator import Oscillator
 from garkcli.problems.problem import Problem

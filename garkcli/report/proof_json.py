@@ -22,17 +22,14 @@ from garkcli.exact.polynomial import Polynomial
 from garkcli.exact.roots import real_roots
 from garkcli.order.certificate import Witness
 from garkcli.order.proof import Proof
-from garkcli.page.json_text import to_json
-from garkcli.page.record import (
+from garkcli.page.record import Field, Record, inside, schema_named
+from garkcli.page.schema import (
     COUNT,
     FLAG,
     POSITION,
     TEXT,
-    Field,
-    Record,
     Schema,
     array,
-    inside,
     one_of,
     published,
 )
@@ -51,7 +48,7 @@ DIGITS_OF_ROOT = 100
 
 def render(proof: MethodProof) -> str:
     """The proof as JSON text."""
-    return to_json(_REPORT.data(proof)) + "\n"
+    return _REPORT.text(proof)
 
 
 def certificate_schema() -> Schema:
@@ -183,7 +180,7 @@ _PAIR: Record[MethodProof] = Record(
     Field("colour_of", array(POSITION), _colours_of_pair),
 )
 _REPORT: Record[MethodProof] = Record(
-    Field("schema", {"const": SCHEMA}, lambda _: SCHEMA),
+    schema_named(SCHEMA),
     Field("name", TEXT, lambda x: x.name),
     Field("version", TEXT, lambda _: __version__),
     _FIELD.or_null("field", lambda x: x.method.tableau.field),

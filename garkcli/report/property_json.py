@@ -6,15 +6,14 @@ from typing import TYPE_CHECKING, Any
 
 from garkcli.exact.display import to_text
 from garkcli.page.exactly import ROOT_OF, root_data
-from garkcli.page.record import (
+from garkcli.page.record import Field, Record
+from garkcli.page.schema import (
     COUNT,
     EXACT,
     FLAG,
     POSITION,
     TEXT,
     TRUE,
-    Field,
-    Record,
     Schema,
     array,
     nullable,

@@ -10,17 +10,14 @@ from garkcli.design.design import Whose
 from garkcli.design.search.run import Result
 from garkcli.design.search.search import Proof, Search
 from garkcli.design.search.told import Method
-from garkcli.page.json_text import to_json
-from garkcli.page.record import (
+from garkcli.page.record import Field, Record, inside, schema_named
+from garkcli.page.schema import (
     COUNT,
     FLAG,
     POSITION,
     TEXT,
-    Field,
-    Record,
     Schema,
     array,
-    inside,
     nullable,
     published,
 )
@@ -63,7 +60,7 @@ def render(
     """
     methods = map(_Written, result.methods, files)
     shown = _Shown(source, search, result, tuple(methods))
-    return to_json(_REPORT.data(shown)) + "\n"
+    return _REPORT.text(shown)
 
 
 def search_report_schema() -> Schema:
@@ -104,7 +101,7 @@ _RESULT: Record[Result] = Record(
     Field("seconds", _SECONDS, lambda x: round(x.seconds, 3)),
 )
 _REPORT: Record[_Shown] = Record(
-    Field("schema", {"const": SCHEMA}, lambda _: SCHEMA),
+    schema_named(SCHEMA),
     Field("file", TEXT, lambda x: x.source),
     Field("name", TEXT, lambda x: x.search.family.name),
     Field("of", {"enum": [*get_args(Whose)]}, lambda x: x.search.whose),

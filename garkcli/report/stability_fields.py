@@ -17,15 +17,14 @@ from garkcli.exact.polynomial_text import (
 )
 from garkcli.exact.roots import RealRoot
 from garkcli.page.exactly import ALGEBRAIC, ROOT_OF, root_data
-from garkcli.page.record import (
+from garkcli.page.record import Field, Record
+from garkcli.page.schema import (
     COUNT,
     EXACT,
     FLAG,
     NULL,
     POSITION,
     TEXT,
-    Field,
-    Record,
     Schema,
     array,
     nullable,

@@ -6,15 +6,12 @@ from collections.abc import Sequence
 from itertools import product
 
 from garkcli.exact.display import decimal
-from garkcli.page.json_text import to_json
-from garkcli.page.record import (
+from garkcli.page.record import Field, Record, inside, schema_named
+from garkcli.page.schema import (
     FLAG,
     TEXT,
-    Field,
-    Record,
     Schema,
     array,
-    inside,
     nullable,
     one_of,
     published,
@@ -45,7 +42,7 @@ SCHEMA = "gark/stability/1"
 
 def json_of(reports: Sequence[StabilityReport]) -> str:
     """All reports as JSON text."""
-    return to_json(_REPORT.data(reports)) + "\n"
+    return _REPORT.text(reports)
 
 
 def stability_report_schema() -> Schema:
@@ -168,6 +165,6 @@ _FILE: Schema = one_of(
     *(form.schema for form in _FORMS.values()),
 )
 _REPORT: Record[Sequence[StabilityReport]] = Record(
-    Field("schema", {"const": SCHEMA}, lambda _: SCHEMA),
+    schema_named(SCHEMA),
     Field("files", array(_FILE), lambda xs: [_form(x).data(x) for x in xs]),
 )

@@ -18,7 +18,7 @@ from garkcli.exact.roots import RealRoot
 from garkcli.page.exactly import ALGEBRAIC, root_data
 from garkcli.page.json_text import to_json
 from garkcli.page.plain import printable
-from garkcli.page.record import (
+from garkcli.page.schema import (
     FLAG,
     TEXT,
     Schema,

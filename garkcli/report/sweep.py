@@ -13,7 +13,7 @@ from typing import Any
 from garkcli.errors import UsageProblem, counted
 from garkcli.page.json_text import to_json
 from garkcli.page.plain import printable
-from garkcli.page.record import COUNT, FLAG, TEXT, Schema, array, published
+from garkcli.page.schema import COUNT, FLAG, TEXT, Schema, array, published
 from garkcli.sweep.columns import Value, columns
 from garkcli.sweep.plan import Plan
 from garkcli.sweep.ranking import best_first, kept, pareto_front

@@ -10,12 +10,11 @@ from typing import Any, NamedTuple
 from garkcli.page.json_text import to_json
 from garkcli.page.latex import fragment
 from garkcli.page.paint import Paint, counted
-from garkcli.page.record import (
+from garkcli.page.record import Field, Record, schema_named
+from garkcli.page.schema import (
     FLAG,
     POSITION,
     TEXT,
-    Field,
-    Record,
     Schema,
     array,
     counts_of,
@@ -152,7 +151,7 @@ def _by_order(subject: Subject) -> dict[str, int] | None:
 
 
 _HEAD: Record[Subject] = Record(
-    Field("schema", {"const": SCHEMA}, lambda _: SCHEMA),
+    schema_named(SCHEMA),
     Field("order", POSITION, lambda x: x.orders[-1]),
     Field("upto", FLAG, lambda x: len(x.orders) > 1),
     *SUBJECT.fields,

@@ -9,7 +9,8 @@ from typing import TYPE_CHECKING
 
 from garkcli.errors import UsageProblem
 from garkcli.page.paint import counted
-from garkcli.page.record import COUNT, POSITION, TEXT, Field, Record, array
+from garkcli.page.record import Field, Record
+from garkcli.page.schema import COUNT, POSITION, TEXT, array
 from garkcli.trees.count import Admissible, counts_upto
 from garkcli.trees.free import Structure
 from garkcli.trees.notation import format_tree

@@ -10,17 +10,14 @@ from typing import Any, NamedTuple
 from flint import arb
 
 from garkcli.exact.display import to_float
-from garkcli.page.json_text import to_json
-from garkcli.page.record import (
+from garkcli.page.record import Field, Record, inside, schema_named
+from garkcli.page.schema import (
     FLAG,
     NUMBER,
     NUMERAL,
     TEXT,
-    Field,
-    Record,
     Schema,
     array,
-    inside,
     nullable,
     published,
 )
@@ -34,7 +31,7 @@ SCHEMA = "gark/tableau/1"
 
 def render(tableau: Tableau, entries: Entries, name: str) -> str:
     """The tableau as JSON text."""
-    return to_json(_REPORT.data(_Shown(tableau, entries, name))) + "\n"
+    return _REPORT.text(_Shown(tableau, entries, name))
 
 
 def tableau_report_schema() -> Schema:
@@ -87,7 +84,7 @@ _FLOATS: Record[Entries] = Record(
     *_entry_fields(NUMBER, lambda _, x: _float(x))
 )
 _REPORT: Record[_Shown] = Record(
-    Field("schema", {"const": SCHEMA}, lambda _: SCHEMA),
+    schema_named(SCHEMA),
     Field("name", TEXT, lambda x: x.name),
     Field("exact", FLAG, lambda x: x.entries.is_exact),
     Field("colours", array(COLOUR.schema), lambda x: colours_data(x.tableau)),

@@ -10,16 +10,8 @@ from typing import NamedTuple, TypeAlias
 from garkcli.page.json_text import to_json
 from garkcli.page.latex import fragment
 from garkcli.page.paint import Paint, counted, folded
-from garkcli.page.record import (
-    COUNT,
-    FLAG,
-    POSITION,
-    TEXT,
-    Field,
-    Record,
-    Schema,
-    counts_of,
-)
+from garkcli.page.record import Field, Record, schema_named
+from garkcli.page.schema import COUNT, FLAG, POSITION, TEXT, Schema, counts_of
 from garkcli.trees.drawing import draw_text, tikz
 from garkcli.trees.notation import format_latex, parse_tree
 from garkcli.trees.tree import Tree
@@ -148,7 +140,7 @@ _ROW: Record[TreeRow] = Record(
     Field("gamma", POSITION, lambda x: x.gamma),
 )
 _HEAD: Record[_Found] = Record(
-    Field("schema", {"const": SCHEMA}, lambda _: SCHEMA),
+    schema_named(SCHEMA),
     Field("colours", POSITION, lambda x: x.query.colours),
     Field("order", POSITION, lambda x: x.query.order),
     Field("upto", FLAG, lambda x: x.query.upto),

@@ -7,15 +7,8 @@ from dataclasses import dataclass
 import pytest
 from jsonschema import Draft7Validator
 
-from garkcli.page.record import (
-    COUNT,
-    TEXT,
-    Field,
-    Record,
-    array,
-    inside,
-    nullable,
-)
+from garkcli.page.record import Field, Record, inside
+from garkcli.page.schema import COUNT, TEXT, array, nullable
 
 
 @dataclass(frozen=True)

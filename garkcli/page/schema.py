@@ -1,0 +1,72 @@
+"""Fragments of JSON Schema (draft-07): what a value of a report may be."""
+
+from __future__ import annotations
+
+from typing import Any, TypeAlias
+
+Schema: TypeAlias = dict[str, Any]
+
+TEXT: Schema = {"type": "string"}
+EXACT: Schema = {
+    "type": "string",
+    "description": "An exact number, such as 1/2 - sqrt(3)/6.",
+}
+INTEGER: Schema = {"type": "integer"}
+FLAG: Schema = {"type": "boolean"}
+NULL: Schema = {"type": "null"}
+TRUE: Schema = {"const": True}
+COUNT: Schema = {"type": "integer", "minimum": 0}
+POSITION: Schema = {"type": "integer", "minimum": 1}
+"""A number of a line, a stage or an order, from 1."""
+NUMERAL: Schema = {
+    "type": "string",
+    "description": "An exact number, or a decimal where digits were asked for.",
+}
+NUMBER: Schema = {
+    "type": ["number", "null"],
+    "description": "A float; null beyond the range of floats, or where there is none.",
+}
+SIZE: Schema = {
+    "type": ["number", "null"],
+    "minimum": 0,
+    "description": "A float; null beyond the range of floats.",
+}
+
+
+def nullable(schema: Schema) -> Schema:
+    """The same, or null."""
+    kind = schema.get("type")
+    if kind in ("string", "boolean", "integer", "number"):
+        return {**schema, "type": [kind, "null"]}
+    return one_of(NULL, schema)
+
+
+def array(items: Schema) -> Schema:
+    """A list of these."""
+    return {"type": "array", "items": items}
+
+
+def counts_of(what: str) -> Schema:
+    """A number for each of numbered things, by their numbers from 1."""
+    return {
+        "type": "object",
+        "description": f"By {what}.",
+        "patternProperties": {"^[1-9][0-9]*$": COUNT},
+        "additionalProperties": False,
+    }
+
+
+def one_of(*schemas: Schema) -> Schema:
+    """One of these, and of no two of them."""
+    return {"oneOf": [*schemas]}
+
+
+def published(title: str, schema: Schema) -> Schema:
+    """The schema of a whole document. Fields may be added to documents; those that are there never
+    change their meaning.
+    """
+    head = {
+        "$schema": "http://json-schema.org/draft-07/schema#",
+        "title": title,
+    }
+    return {**head, **schema}

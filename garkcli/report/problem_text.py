@@ -1,0 +1,72 @@
+"""A problem and its split in one line."""
+
+from __future__ import annotations
+
+from collections.abc import Sequence
+
+from garkcli.problems.hamiltonian import Hamiltonian
+from garkcli.problems.oscillator import Oscillator
+from garkcli.problems.problem import Problem
+from garkcli.problems.righthandside import RightHandSide
+
+_LONGEST = 80
+"""Characters of the terms that are still shown; longer ones are counted."""
+
+
+def describe(problem: Oscillator | Problem) -> str:
+    """A problem and its split in one line."""
+    if isinstance(problem, Hamiltonian):
+        return _described(problem)
+    if isinstance(problem, RightHandSide):
+        return _described_fields(problem)
+    energies = [_energy(k, v) for k, v in problem.shares]
+    return f"q̈ = −ω²q, ω = {problem.omega}; {_numbered(energies)}"
+
+
+def _numbered(energies: Sequence[str]) -> str:
+    """The terms of a Hamiltonian by the numbers of their colours."""
+    numbered = enumerate(energies, start=1)
+    terms = [f"H{{{l}}}: {text}" for l, text in numbered]
+    return ", ".join(terms)
+
+
+def _energy(k: object, v: object) -> str:
+    terms = []
+    for share, energy in ((k, "½p²"), (v, "½ω²q²")):
+        if share == 1:
+            terms.append(energy)
+        elif share != 0:
+            terms.append(f"{share}·{energy}")
+    return " + ".join(terms) or "0"
+
+
+def _described(problem: Hamiltonian) -> str:
+    texts = [str(term).replace("**", "^") for term in problem.terms]
+    if sum(map(len, texts)) > _LONGEST:
+        count = len(texts)
+        terms = f"{count} terms" if count > 1 else "one term"
+        positions = ", ".join(problem.variables)
+        return f"{problem.name}, H in {terms} of {positions} and their momenta"
+    return f"{problem.name}; {_numbered(texts)}"
+
+
+def _described_fields(problem: RightHandSide) -> str:
+    name = problem.name
+    if problem.stiffness is not None:
+        name += f", stiffness {problem.stiffness}"
+    fields = []
+    for l, term in enumerate(problem.terms, start=1):
+        components = ", ".join(str(x).replace("**", "^") for x in term)
+        fields.append(
+            f"f{{{l}}}: ({components})"
+            if len(term) > 1
+            else f"f{{{l}}}: {components}"
+        )
+    if sum(map(len, fields)) <= _LONGEST:
+        return f"{name}; {', '.join(fields)}"
+    sides = (
+        f"{len(fields)} right-hand sides"
+        if len(fields) > 1
+        else "one right-hand side"
+    )
+    return f"{name}, {sides} of {', '.join(problem.variables)}"
