@@ -7,7 +7,7 @@ from dataclasses import dataclass
 import pytest
 from jsonschema import Draft7Validator
 
-from garkcli.page.record import Field, Record, inside
+from garkcli.page.record import Field, Record, inside, schema_named
 from garkcli.page.schema import COUNT, TEXT, array, nullable
 
 
@@ -85,3 +85,14 @@ def test_null_is_allowed_of_any_schema() -> None:
         assert allowed(None)
         assert not allowed({"mood": "good"})
         assert not Draft7Validator(schema).is_valid(None)
+
+
+def test_a_report_begins_with_the_name_of_its_schema() -> None:
+    """The schema admits that name alone, and the text is the document with a final newline."""
+    report: Record[_Stage] = Record(schema_named("a/1"), *_STAGE.fields)
+    assert report.text(_Stage(3)) == (
+        '{\n  "schema": "a/1",\n  "number": 3\n}\n'
+    )
+    check = Draft7Validator(report.schema)
+    assert check.is_valid({"schema": "a/1", "number": 3})
+    assert not check.is_valid({"schema": "a/2", "number": 3})
