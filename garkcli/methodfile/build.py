@@ -4,19 +4,14 @@ from __future__ import annotations
 
 from collections.abc import Callable, Mapping
 from dataclasses import dataclass, field
-from typing import TYPE_CHECKING, TypeAlias, TypeVar
+from typing import TYPE_CHECKING, TypeVar
 
 from yaml.nodes import Node
 
-from garkcli.errors import (
-    GarkError,
-    MethodError,
-    MethodFileError,
-    ShapeMismatch,
-)
-from garkcli.exact.field import ONE, ZERO, Number
-from garkcli.exact.matrix import Matrix
+from garkcli.errors import GarkError, MethodFileError
+from garkcli.exact.matrix import Matrix, Vector
 from garkcli.families.registry import diagonal_method
+from garkcli.methodfile.blocks import BlockBuilder
 from garkcli.methodfile.description import (
     ArkText,
     ButcherText,
@@ -27,15 +22,12 @@ from garkcli.methodfile.description import (
     MatrixText,
     MethodsText,
     PrkText,
-    RuleText,
     Structure,
     TableauText,
-    block_name,
 )
-from garkcli.methodfile.numbers import Entry, Numbers, Row
+from garkcli.methodfile.numbers import Entry, Numbers, Row, Rows
 from garkcli.methodfile.source import Source
 from garkcli.methodfile.values import Values
-from garkcli.order.certificate import find_order
 from garkcli.tableau.conjugate import conjugate
 from garkcli.tableau.forms import (
     additive,
@@ -51,20 +43,11 @@ from garkcli.tableau.method import Method, butcher
 from garkcli.tableau.polynomial_space import PolynomialSpace
 from garkcli.tableau.stages import StageSpace
 from garkcli.tableau.tableau import Tableau
-from garkcli.transfer import (
-    PAIR_RULES,
-    RULES,
-    Rule,
-    build_on,
-    combination,
-    symplectic_blocks,
-)
 
 if TYPE_CHECKING:
     from garkcli.methodfile.printed import Printed
 
 T = TypeVar("T")
-Blocks: TypeAlias = dict[tuple[int, int], Matrix]
 
 
 @dataclass(frozen=True, repr=False, kw_only=True)
@@ -122,11 +105,7 @@ class Builder:
             case TableauText():
                 tableau = self._spelled_out(content)
             case ArkText():
-                A = [self.values.matrix(rows) for rows in content.A]
-                b = [self.values.vector(row) for row in content.b]
-                tableau = additive(
-                    A, b, self.values.vector(content.c) if content.c else None
-                )
+                tableau = self._additive(content)
             case PrkText():
                 tableau = self._prk(content, description.structure)
         if description.is_conjugate:
@@ -143,47 +122,47 @@ class Builder:
             self.source.fault(node, error.message, error.help)
             raise self.source.error() from None
 
+    def _vector(self, row: Row | None) -> Vector | None:
+        """The values of a row that may be left out."""
+        return None if row is None else self.values.vector(row)
+
+    def _matrix(self, rows: Rows | None) -> Matrix | None:
+        """The values of a block that may be null."""
+        return None if rows is None else self.values.matrix(rows)
+
     def _spelled_out(self, text: TableauText) -> Tableau:
-        A = [
-            [
-                None if rows is None else self.values.matrix(rows)
-                for rows in row
-            ]
-            for row in text.A
-        ]
+        A = [[self._matrix(block) for block in row] for row in text.A]
         b = [self.values.vector(row) for row in text.b]
-        c = [
-            None if row is None else self.values.vector(row) for row in text.c
-        ]
+        c = [self._vector(row) for row in text.c]
         return spelled_out(A, b, c, text.linear)
 
-    def _prk(self, text: PrkText, structure: Structure) -> Tableau:
-        q, p = (
-            (
-                self.values.matrix(part.A),
-                self.values.vector(part.b),
-                self.values.vector(part.c) if part.c else None,
-            )
-            for part in (text.q, text.p)
-        )
-        if structure == "general":
-            return partitioned(
-                butcher(q[0], q[1], q[2]), butcher(p[0], p[1], p[2])
-            )
-        tableau = separable_prk(q, p)
-        return (
-            with_linear(tableau, ["q"]) if structure == "nystrom" else tableau
-        )
+    def _additive(self, text: ArkText) -> Tableau:
+        A = [self.values.matrix(rows) for rows in text.A]
+        b = [self.values.vector(row) for row in text.b]
+        return additive(A, b, self._vector(text.c))
 
-    # -- methods and transfer
-    # -------------------------------------------------------------------------------
+    def _prk(self, text: PrkText, structure: Structure) -> Tableau:
+        q, p = self._part(text.q), self._part(text.p)
+        if structure == "general":
+            return partitioned(butcher(*q), butcher(*p))
+        tableau = separable_prk(q, p)
+        if structure == "nystrom":
+            return with_linear(tableau, ["q"])
+        return tableau
+
+    def _part(self, text: ButcherText) -> tuple[Matrix, Vector, Vector | None]:
+        """A, b and c of one part."""
+        A = self.values.matrix(text.A)
+        return A, self.values.vector(text.b), self._vector(text.c)
 
     def _methods(self, text: MethodsText, structure: Structure) -> Tableau:
-        methods = [
-            self._diagonal(l, method) for l, method in enumerate(text.methods)
-        ]
-        tableau = gark(methods, self._transfer(text, methods, structure))
-        if structure == "general":
+        methods: list[Method] = []
+        for l, method in enumerate(text.methods):
+            methods.append(self._diagonal(l, method))
+        is_general = structure == "general"
+        blocks = BlockBuilder(self.source, self.values, text, methods)
+        tableau = gark(methods, blocks.built(is_general))
+        if is_general:
             return tableau
         velocities, forces = [0], [1]
         if structure == "semi-separable":
@@ -202,117 +181,8 @@ class Builder:
             from garkcli.tableau.pointwise import method_in_points
 
             return method_in_points(method, self.values.vector(self.nodes[l]))
-        c = self.values.vector(text.c) if text.c is not None else None
-        return butcher(
-            self.values.matrix(text.A),
-            self.values.vector(text.b),
-            c,
-            text.name,
-        )
-
-    def _transfer(
-        self, text: MethodsText, methods: list[Method], structure: Structure
-    ) -> Blocks:
-        """The off-diagonal blocks that the structure needs."""
-        needed = [
-            (l, m)
-            for l in range(len(methods))
-            for m in range(len(methods))
-            if l != m
-        ]
-        if structure != "general":
-            needed = [(1, 0)]
-        orders = _Orders(methods)
-        blocks: Blocks = {}
-        for l, m in needed:
-            block = (
-                text.transfer.blocks.get((l, m))
-                or _pair_rule(text, m, l)
-                or text.transfer.default
-            )
-            try:
-                if block is None:
-                    raise MethodError(
-                        "it has no rule",
-                        "give it one, or a default, under transfer",
-                    )
-                if isinstance(block, MatrixText):
-                    blocks[l, m] = self._matrix(block, methods, l, m)
-                else:
-                    blocks[l, m] = self._by_rule(block, methods, orders, l, m)
-            except GarkError as error:
-                node = (
-                    block.node if block is not None else text.methods[0].node
-                )
-                message = f"{block_name(l, m)}: {error.message}"
-                self.source.fault(node, message, error.help)
-        self.source.close()
-        return blocks
-
-    def _matrix(
-        self, block: MatrixText, methods: list[Method], l: int, m: int
-    ) -> Matrix:
-        rows, columns = methods[l].stages, methods[m].stages
-        found_rows, found_columns = len(block.rows), len(block.rows[0])
-        if (found_rows, found_columns) != (rows, columns):
-            found = f"a matrix of {found_rows} by {found_columns}"
-            message = f"{found} should be {rows} by {columns}"
-            cure = f"a row for each stage of method {l + 1},"
-            cure += f" a column for each of method {m + 1}"
-            raise ShapeMismatch(message, cure)
-        return self.values.matrix(block.rows)
-
-    def _by_rule(
-        self,
-        text: RuleText,
-        methods: list[Method],
-        orders: _Orders,
-        l: int,
-        m: int,
-    ) -> Matrix:
-        rule, weight = text.terms[0]
-        if weight is None and rule in PAIR_RULES:
-            base = build_on(
-                methods, [orders[k] for k in range(len(methods))], l, m
-            )
-            other = l if base == m else m
-            return symplectic_blocks(PAIR_RULES[rule], methods, base, other)[
-                l, m
-            ]
-        if weight is None:
-            return RULES[rule](methods[l], methods[m])
-        terms: list[tuple[Number, Rule]] = [
-            (self.values.number(tau), RULES[name])
-            for name, tau in text.terms
-            if tau is not None
-        ]
-        total = sum((tau for tau, _ in terms), start=ZERO)
-        if total != ONE:
-            raise MethodError(
-                f"the weights of the combination sum to {total}, not to 1",
-                "weights that sum to 1 keep the block consistent",
-            )
-        return combination(terms, methods[l], methods[m])
-
-
-class _Orders:
-    """The orders of the diagonal methods, found when first asked for."""
-
-    def __init__(self, methods: list[Method]) -> None:
-        self.methods = methods
-        self._found: dict[int, int] = {}
-
-    def __getitem__(self, l: int) -> int:
-        if l not in self._found:
-            self._found[l] = find_order(gark([self.methods[l]], {})).order
-        return self._found[l]
-
-
-def _pair_rule(text: MethodsText, l: int, m: int) -> RuleText | None:
-    """The rule given for the block (l, m), when it makes the opposite block too."""
-    block = text.transfer.blocks.get((l, m))
-    is_pair = isinstance(block, RuleText) and block.terms[0][0] in PAIR_RULES
-    return block if is_pair and isinstance(block, RuleText) else None
+        A, b, c = self._part(text)
+        return butcher(A, b, c, text.name)
 
 
 def families_of(description: Description) -> dict[int, Method]:
@@ -342,11 +212,12 @@ def nodes_to_spell_out(
     if not isinstance(content, MethodsText):
         return {}
     blocks = content.transfer.blocks
-    beside = [
-        key for key, block in blocks.items() if isinstance(block, MatrixText)
-    ]
+    beside: dict[int, None] = {}
+    for (l, m), block in blocks.items():
+        if isinstance(block, MatrixText):
+            beside |= {l: None, m: None}
     rows: dict[int, Row] = {}
-    for k in dict.fromkeys(k for key in beside for k in key):
+    for k in beside:
         text = content.methods[k]
         if not isinstance(text, FamilyText):
             continue
@@ -373,7 +244,7 @@ def _family_nodes(
         cure = "make the block by a rule, or spell the method out"
         numbers.source.fault(text.node, message, cure)
         return None
-    return tuple(
-        Entry(node, text.node, f"node {i} of {text.name}")
-        for i, node in enumerate(nodes, start=1)
-    )
+    entries: list[Entry] = []
+    for i, node in enumerate(nodes, start=1):
+        entries.append(Entry(node, text.node, f"node {i} of {text.name}"))
+    return tuple(entries)
