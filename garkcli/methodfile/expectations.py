@@ -10,7 +10,8 @@ from typing import TYPE_CHECKING, TypeAlias
 from yaml.nodes import Node, ScalarNode, SequenceNode
 
 from garkcli.methodfile.description import ClaimText
-from garkcli.methodfile.source import Source, is_null, shortened
+from garkcli.methodfile.source import Source, is_null
+from garkcli.methodfile.words import shortened
 from garkcli.properties.keys import KEYS
 
 if TYPE_CHECKING:

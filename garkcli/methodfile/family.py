@@ -30,8 +30,8 @@ from garkcli.methodfile.load import (
 )
 from garkcli.methodfile.numbers import Row
 from garkcli.methodfile.reader import Reader
-from garkcli.methodfile.source import one_line
 from garkcli.methodfile.wishes import meaning_of, read_wishes
+from garkcli.methodfile.words import one_line
 from garkcli.tableau.family import Family
 from garkcli.tableau.tableau import Tableau
 

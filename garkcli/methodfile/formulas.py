@@ -15,8 +15,9 @@ from garkcli.exact.nodes import Expression, Literal
 from garkcli.exact.rewriting import names_in, size_of
 from garkcli.exact.values import Value, value_of
 from garkcli.methodfile.numbers import MAX_SIZE
-from garkcli.methodfile.source import Source, is_null, shortened
+from garkcli.methodfile.source import Source, is_null
 from garkcli.methodfile.spellings import explained, is_misread
+from garkcli.methodfile.words import shortened
 from garkcli.problems.translate import Translator
 
 BITS = 320

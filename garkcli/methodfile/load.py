@@ -20,14 +20,9 @@ from garkcli.methodfile.finding import STDIN, SUFFIX, find_files
 from garkcli.methodfile.numbers import Numbers
 from garkcli.methodfile.parameters import refuse_free
 from garkcli.methodfile.reader import Reader
-from garkcli.methodfile.source import (
-    MAX_BYTES,
-    METHOD_FILE,
-    FileKind,
-    Source,
-    one_line,
-)
+from garkcli.methodfile.source import MAX_BYTES, METHOD_FILE, FileKind, Source
 from garkcli.methodfile.values import Values
+from garkcli.methodfile.words import one_line
 from garkcli.tableau.tableau import Tableau
 
 NO_SETTINGS: Mapping[str, str] = {}

@@ -13,7 +13,7 @@ from garkcli.exact.expression import parse
 from garkcli.exact.field import ZERO
 from garkcli.exact.nodes import Expression, Literal, Name
 from garkcli.exact.rewriting import depth_of, size_of, substitute
-from garkcli.methodfile.source import Source, shortened
+from garkcli.methodfile.source import Source
 from garkcli.methodfile.spellings import (
     explained,
     first_list_in_rows,
@@ -23,6 +23,7 @@ from garkcli.methodfile.spellings import (
     printed_row,
 )
 from garkcli.methodfile.unknowns import UNKNOWN, is_bare_unknown, name_of_place
+from garkcli.methodfile.words import shortened
 
 MAX_SIZE = 2_000
 """Most operations of one coefficient, those of the parameters in it written out."""

@@ -9,7 +9,8 @@ from garkcli.exact.expression import FUNCTIONS
 from garkcli.exact.field import ZERO
 from garkcli.exact.nodes import Expression, Literal, Name
 from garkcli.methodfile.numbers import Entry, Free, Numbers
-from garkcli.methodfile.source import key_nodes, shortened
+from garkcli.methodfile.source import key_nodes
+from garkcli.methodfile.words import shortened
 
 
 def read_parameters(numbers: Numbers, node: Node | None) -> None:

@@ -15,14 +15,9 @@ from garkcli.methodfile.description import FORMS as METHOD_FORMS
 from garkcli.methodfile.formulas import Formulas, bad_name
 from garkcli.methodfile.load import read_text
 from garkcli.methodfile.sides import STIFFNESS, Sides, SidesMaker, read_sides
-from garkcli.methodfile.source import (
-    PROBLEM_FILE,
-    Source,
-    keys_of,
-    one_line,
-    shortened,
-)
+from garkcli.methodfile.source import PROBLEM_FILE, Source, keys_of
 from garkcli.methodfile.terms import Maker, ProblemText
+from garkcli.methodfile.words import one_line, shortened
 from garkcli.problems.vectorfield import TIME
 
 if TYPE_CHECKING:

@@ -5,42 +5,37 @@ met.
 from __future__ import annotations
 
 import re
-from collections.abc import Mapping, Sequence
+from collections.abc import Mapping
 from typing import TYPE_CHECKING, Literal, cast
 
 from flint import fmpq
-from yaml.nodes import MappingNode, Node, ScalarNode, SequenceNode
+from yaml.nodes import Node
 
-from garkcli.errors import LimitExceeded, UnknownFamily, nearest
+from garkcli.errors import LimitExceeded
 from garkcli.exact.expression import read_decimal
-from garkcli.families.registry import FAMILIES, require_member
 from garkcli.methodfile import expectations
 from garkcli.methodfile.description import (
     FORMS,
-    MAX_ENTRIES,
     PLAIN,
     STRUCTURES,
     ArkText,
-    ButcherText,
     Description,
-    FamilyText,
     Form,
     MethodsText,
     PrkText,
     Structure,
     TableauText,
-    TransferText,
-    block_name,
-    of_colour,
 )
+from garkcli.methodfile.diagonal import DiagonalReader
 from garkcli.methodfile.expectations import NUMBERS
 from garkcli.methodfile.numbers import Numbers
 from garkcli.methodfile.parameters import (
     read_parameters,
     refuse_unknown_settings,
 )
-from garkcli.methodfile.source import Source, keys_of, shortened
-from garkcli.methodfile.spelled_out import SpelledOutReader, are_too_many
+from garkcli.methodfile.source import Source, keys_of
+from garkcli.methodfile.spelled_out import SpelledOutReader
+from garkcli.methodfile.words import shortened
 from garkcli.transfer import RULES
 
 if TYPE_CHECKING:
@@ -65,42 +60,41 @@ KEYS = (
 )
 """The keys of a method file."""
 _START = "give A and b, or one of the keys methods, tableau, ark, prk"
-_CURES = (
-    dict.fromkeys(
-        (*NUMBERS, "symplectic"),
-        "claims go under expect, for instance expect: {order: 4}",
-    )
-    | dict.fromkeys(
-        ("family", "stages"), "write methods: [{family: gauss, stages: 2}]"
-    )
-    | dict.fromkeys(("blocks", "default"), "it goes under transfer")
-    | dict.fromkeys(("q", "p"), "it goes under prk: {q: {A, b}, p: {A, b}}")
-    | dict.fromkeys(
-        ("bhat", "b_hat", "bh", "b2", "b*", "b^"),
-        "embedded weights make another method: give it a file of its own",
-    )
-    | dict.fromkeys(RULES, "write it under transfer")
-)
+_HOMES = {
+    "claims go under expect, for instance expect: {order: 4}": (
+        *NUMBERS,
+        "symplectic",
+    ),
+    "write methods: [{family: gauss, stages: 2}]": ("family", "stages"),
+    "it goes under transfer": ("blocks", "default"),
+    "it goes under prk: {q: {A, b}, p: {A, b}}": ("q", "p"),
+    "embedded weights make another method: give it a file of its own": (
+        "bhat",
+        "b_hat",
+        "bh",
+        "b2",
+        "b*",
+        "b^",
+    ),
+    "write it under transfer": tuple(RULES),
+}
+_CURES = {key: cure for cure, keys in _HOMES.items() for key in keys}
 """Keys that are expected elsewhere than at the top of the file, and where."""
 _DECIMAL = re.compile(
     r"([0-9]+(\.[0-9]*)?|\.[0-9]+)([eE][+-]?[0-9]+)?", re.ASCII
 )
 
 
-_METHODS = "write a list: [{family: gauss, stages: 2}, …]"
-
-
-def _written_out(node: ScalarNode) -> str:
-    """The cure for a method that is a mere word."""
-    word = nearest(str(node.value), FAMILIES) or "gauss"
-    family = FAMILIES[word]
-    if family.smallest == family.largest:
-        return f"write {{family: {word}}}"
-    return f"write for instance {{family: {word}, stages: {max(2, family.smallest)}}}"
-
-
 class Reader:
-    """Reads one file."""
+    """Reads one file.
+
+    Attributes:
+        source: the file, where faults are noted.
+        numbers: its coefficients.
+        shaped: the tableau of its ``unknown``; None without that.
+        keys: at the top of the file.
+        design: what stands under ``design``; None without that.
+    """
 
     def __init__(self, source: Source, settings: Mapping[str, str]) -> None:
         self.source = source
@@ -115,20 +109,13 @@ class Reader:
         """The description; None, with faults noted in the source, where there is none."""
         source = self.source
         root = source.compose()
-        if root is None:
-            return None
-        keys = keys_of(root)
-        if keys & {"hamiltonian", "lagrangian"} and not keys & set(FORMS):
-            cure = "give it beside a method file: gark converge METHOD --problem FILE"
-            source.fault(
-                root, "this is a problem file, not a method file", cure
-            )
+        if root is None or self._is_problem_file(root):
             return None
         entries = source.mapping(root, "the file", KEYS, _CURES)
         self.keys = frozenset(entries)
         self.design = entries.get("design")
         self._root = root
-        self._version(entries.get("gark"))
+        source.check_version(entries.get("gark"))
         text = {}
         for key in ("name", "description", "reference"):
             if key in entries:
@@ -162,6 +149,17 @@ class Reader:
             **text,
         )
 
+    def _is_problem_file(self, root: Node) -> bool:
+        """Note a file of the other kind."""
+        keys = keys_of(root)
+        if not keys & {"hamiltonian", "lagrangian"} or keys & set(FORMS):
+            return False
+        message = "this is a problem file, not a method file"
+        cure = "give it beside a method file: "
+        cure += "gark converge METHOD --problem FILE"
+        self.source.fault(root, message, cure)
+        return True
+
     def _node_of(self, form: Form, entries: dict[str, Node]) -> Node:
         """Where the coefficients stand."""
         for key in (form, "unknown"):
@@ -191,11 +189,6 @@ class Reader:
         end = self.design.end_mark.index
         return start, start + len(self.source.text[start:end].rstrip())
 
-    def _version(self, node: Node | None) -> None:
-        if node is not None and self.source.scalar(node, "gark") != "1":
-            message = "gark: this program reads version 1 of the format"
-            self.source.fault(node, message, "write gark: 1")
-
     def _tolerance(self, node: Node | None) -> fmpq | None:
         """A rational number between 0 and 1; no parameters, as it is no coefficient."""
         if node is None:
@@ -218,17 +211,15 @@ class Reader:
         self, root: Node, entries: dict[str, Node]
     ) -> Form | Literal["unknown"] | None:
         """Which form the coefficients have; A, b and c at the top are those of a tableau."""
-        present: list[str] = [
-            key for key in (*FORMS, "unknown") if key in entries
-        ]
+        forms = (*FORMS, "unknown")
+        present: list[str] = [key for key in forms if key in entries]
         plain = [key for key in PLAIN if key in entries]
         if plain:
             present.append(plain[0])
+        cure = f"keep one of {', '.join(present)}"
         for key in present[1:]:
-            message = (
-                f"{key}: the coefficients are given by {present[0]} already"
-            )
-            cure = f"keep one of {', '.join(present)}"
+            message = f"{key}: the coefficients are given by "
+            message += f"{present[0]} already"
             self.source.fault(entries[key], message, cure)
         if not present:
             # a key that belongs elsewhere was noted with its cure, which is where to begin
@@ -241,44 +232,36 @@ class Reader:
             return cast("Form", present[0])  # or "unknown"
         missing = [key for key in ("A", "b") if key not in entries]
         if missing:
-            message = (
-                f"{' and '.join(missing)} missing beside {', '.join(plain)}"
-            )
-            self.source.fault(
-                entries[plain[0]], message, "give A, b and perhaps c"
-            )
+            lacking, given = " and ".join(missing), ", ".join(plain)
+            message = f"{lacking} missing beside {given}"
+            cure = "give A, b and perhaps c"
+            self.source.fault(entries[plain[0]], message, cure)
             return None
         return "tableau"
 
     def _structure(self, form: Form, entries: dict[str, Node]) -> Structure:
+        """Which vector fields the problem has; noted where it does not go with the form."""
         node = entries.get("structure")
-        word = None
-        if node is not None:
-            word = self.source.choice(node, "structure", STRUCTURES)
-        if (
-            node is not None
-            and form in {"tableau", "ark"}
-            and word != "general"
-        ):
+        if node is None:
+            is_split = self.shaped is not None and form == "prk"
+            return "separable" if is_split else "general"
+        word = self.source.choice(node, "structure", STRUCTURES)
+        if form in {"tableau", "ark"} and word != "general":
             cure = "use methods, tableau or prk"
             if form == "tableau":
                 cure = "write absent blocks as null"
             self.source.fault(node, f"structure does not go with {form}", cure)
-        if node is not None and form == "prk" and word == "semi-separable":
-            message = (
-                "a prk cannot be semi-separable: that takes two Hamiltonians"
-            )
+        if form == "prk" and word == "semi-separable":
+            message = "a prk cannot be semi-separable: "
+            message += "that takes two Hamiltonians"
             self.source.fault(node, message, "use methods")
-        if self.shaped is not None and form == "prk" and word is None:
-            return "separable"
         return cast("Structure", word or "general")
 
     def _is_conjugate(self, node: Node | None) -> bool:
         if node is None:
             return False
-        return (
-            self.source.choice(node, "conjugate", ("true", "false")) == "true"
-        )
+        word = self.source.choice(node, "conjugate", ("true", "false"))
+        return word == "true"
 
     def _refuse_misplaced(self, form: Form, entries: dict[str, Node]) -> None:
         for key, home in (("transfer", "methods"), ("linear", "tableau")):
@@ -295,117 +278,13 @@ class Reader:
             return self.spelled_out.tableau_of(entries, entries.get("linear"))
         node = entries[form]
         if form == "methods":
-            return self._methods(node, structure, entries.get("transfer"))
+            reader = DiagonalReader(self.source, self.numbers)
+            return reader.read(node, structure, entries.get("transfer"))
         if form == "tableau":
             return self.spelled_out.tableau(node, entries.get("linear"))
-        from garkcli.methodfile.ark_prk import (
-            ArkReader,
-            PrkReader,
-        )  # rare forms
+        # rare forms
+        from garkcli.methodfile.ark_prk import ArkReader, PrkReader
 
         if form == "ark":
             return ArkReader(self.source, self.numbers).read(node)
         return PrkReader(self.source, self.numbers).read(node, structure)
-
-    def _methods(
-        self, node: Node, structure: Structure, transfer: Node | None
-    ) -> MethodsText | None:
-        source = self.source
-        if keys_of(node) & {"A", "b", "family", "stages"}:
-            items = [node]  # one method needs no brackets around it
-        else:
-            items = source.items(node, "methods", _METHODS)
-        if are_too_many(source, items, node):
-            return None
-        methods = [
-            self._method(item, l) for l, item in enumerate(items, start=1)
-        ]
-        if not items and isinstance(node, SequenceNode):
-            cure = "list at least one diagonal method"
-            source.fault(node, "methods is empty", cure)
-        if structure != "general" and len(items) != 2:
-            message = (
-                f"structure: {structure} is for two colours, not {len(items)}"
-            )
-            source.fault(node, message)
-        if len(items) > 1 and transfer is None:
-            cure = "write transfer: collocation (or interpolation)"
-            source.fault(
-                node, "two colours or more need a transfer rule", cure
-            )
-        rules = TransferText(None, {})
-        if transfer is not None:
-            from garkcli.methodfile.transfers import TransferReader
-
-            reader = TransferReader(source, self.numbers)
-            rules = reader.read(transfer, len(items))
-        found = tuple(method for method in methods if method is not None)
-        if not found or len(found) < len(methods):
-            return None
-        if self._is_too_large(found, node):
-            return None
-        return MethodsText(found, rules)
-
-    def _is_too_large(
-        self, methods: Sequence[FamilyText | ButcherText], node: Node
-    ) -> bool:
-        """Note blocks between the methods that together have too many entries to be made."""
-        stages = [
-            x.stages if isinstance(x, FamilyText) else len(x.b)
-            for x in methods
-        ]
-        inside = sum(s * s for s in stages)
-        entries = sum(stages) ** 2 - inside
-        if entries <= MAX_ENTRIES:
-            return False
-        where = "in the blocks between the methods"
-        message = f"{entries} entries {where} (limit {MAX_ENTRIES})"
-        self.source.fault(node, message, "use fewer methods, or fewer stages")
-        return True
-
-    def _method(self, node: Node, l: int) -> FamilyText | ButcherText | None:
-        keys, where = keys_of(node), f"method {l}"
-        if isinstance(node, ScalarNode):
-            message = f"{where}: a mapping is expected here"
-            self.source.fault(node, message, _written_out(node))
-            return None
-        # of anything but a mapping there are no keys
-        if "stages" in keys and not keys & {"family", "A", "b"}:
-            cure = "write for instance family: gauss"
-            self.source.fault(node, f"{where}: family missing", cure)
-            return None
-        if "family" not in keys and isinstance(node, MappingNode):
-            k = l - 1
-            names = (block_name(k, k), of_colour("b", k), of_colour("c", k))
-            return self.spelled_out.butcher(node, where, names)
-        before = len(self.source.faults)
-        form = "write for instance {family: gauss, stages: 2}"
-        keys_of_family = ("family", "stages", "name")
-        entries = self.source.mapping(node, where, keys_of_family, form=form)
-        if "family" not in entries or len(self.source.faults) > before:
-            return None
-        return self._family(node, where, entries)
-
-    def _family(
-        self, node: Node, where: str, entries: dict[str, Node]
-    ) -> FamilyText | None:
-        """A member of a family, which exists."""
-        name = self.source.scalar(entries["family"], f"{where}, family")
-        has_stages = "stages" in entries
-        stages = None
-        if has_stages:
-            node_of_stages = entries["stages"]
-            stages = self.source.whole(
-                node_of_stages, f"{where}, stages", smallest=1
-            )
-        if name is None or (
-            name in FAMILIES and has_stages and stages is None
-        ):
-            return None
-        try:
-            return FamilyText(node, name, require_member(name, stages))
-        except UnknownFamily as error:
-            at_stages = name in FAMILIES and has_stages
-            place = entries["stages" if at_stages else "family"]
-            self.source.fault(place, error.message, error.help)
-            return None

@@ -12,9 +12,10 @@ from flint import arb, ctx, fmpq
 from yaml.nodes import MappingNode, Node, ScalarNode, SequenceNode
 
 from garkcli.methodfile.formulas import BITS, Formulas, nearby
-from garkcli.methodfile.source import Source, shortened
+from garkcli.methodfile.source import Source
 from garkcli.methodfile.termreader import Term, TermReader
 from garkcli.methodfile.terms import ProblemText
+from garkcli.methodfile.words import shortened
 from garkcli.problems.vectorfield import TIME
 
 if TYPE_CHECKING:

@@ -12,11 +12,11 @@ from garkcli.errors import (
     Fault,
     MethodFileError,
     did_you_mean,
-    nearest,
     printable,
 )
 from garkcli.methodfile.causes import MAX_PLACES, Found, place_of, told_once
 from garkcli.methodfile.composing import composed, folded_place
+from garkcli.methodfile.words import meant_key, shortened
 
 MAX_BYTES = 1_000_000
 """Largest file that is read."""
@@ -27,6 +27,8 @@ MAX_FAULTS_READ = 1_000
 
 
 _NO_CURES: Mapping[str, str] = {}
+_PYTHON = "tag:yaml.org,2002:python"
+"""What tags begin with that make objects of Python."""
 
 
 @dataclass(frozen=True)
@@ -121,9 +123,8 @@ class Source:
             return mark.line + 1, mark.column + 1 + offset
         if node.style in {"|", ">"} or node.end_mark.line > mark.line:
             return folded_place(self.text, node, offset)
-        return mark.line + 1, mark.column + 1 + (
-            node.style in {"'", '"'}
-        ) + offset
+        is_quoted = node.style in {"'", '"'}
+        return mark.line + 1, mark.column + 1 + is_quoted + offset
 
     def expression_fault(
         self, node: Node, where: str, error: ExpressionError, cause: str = ""
@@ -145,11 +146,8 @@ class Source:
         one.
         """
         if not self._found:
-            self.fault(
-                None,
-                f"this is not a {self.kind.name}",
-                f"see {self.kind.page}",
-            )
+            message = f"this is not a {self.kind.name}"
+            self.fault(None, message, f"see {self.kind.page}")
         once = dict.fromkeys(self._found)
         faults = told_once(sorted(once, key=place_of))
         if len(faults) > MAX_FAULTS:
@@ -162,9 +160,8 @@ class Source:
     def compose(self) -> MappingNode | None:
         """The root of the file; None, with faults noted, where there is no mapping."""
         if len(self.text) > MAX_BYTES:
-            self.fault(
-                None, f"a file of more than {MAX_BYTES} characters", "split it"
-            )
+            message = f"a file of more than {MAX_BYTES} characters"
+            self.fault(None, message, "split it")
             return None
         root = composed(self.text)
         if isinstance(root, Fault):
@@ -213,18 +210,17 @@ class Source:
                 continue
             key = key_node.value
             if key in entries:
-                message = (
-                    f"{where}: the key {shortened(key)} stands here twice"
-                )
-                self.fault(key_node, message, "keep one of them")
+                twice = f"the key {shortened(key)} stands here twice"
+                self.fault(key_node, f"{where}: {twice}", "keep one of them")
             elif not known or key in known:
                 entries[key] = value
             else:
                 unknown.append(key_node)
-                meant = (
-                    _meant(key, known) if len(unknown) <= MAX_FAULTS else ""
-                )
-                if meant and key not in cures and meant not in given:
+                # no more are told, so no more are compared with the known ones
+                if len(unknown) > MAX_FAULTS or key in cures:
+                    continue
+                meant = meant_key(key, known)
+                if meant and meant not in given:
                     entries[meant] = value
         self._unknown_keys(unknown, where, known, cures)
         return entries
@@ -248,7 +244,7 @@ class Source:
             message = f"{where}: unknown {noun} {names}"
             if first not in cures:
                 cure = did_you_mean(first, known)
-                meant = _meant(first, known)
+                meant = meant_key(first, known)
                 if meant:
                     cure = f"did you mean {meant!r}?"
             self.fault(nodes[0], message, cure)
@@ -256,6 +252,12 @@ class Source:
             count = len(unknown) - MAX_FAULTS
             message = f"{where}: and {count} more unknown keys"
             self.fault(unknown[MAX_FAULTS], message, "mend these first")
+
+    def check_version(self, node: Node | None) -> None:
+        """Note a version of the format that is not read; a file need not say which it is."""
+        if node is not None and self.scalar(node, "gark") != "1":
+            message = "gark: this program reads version 1 of the format"
+            self.fault(node, message, "write gark: 1")
 
     def items(self, node: Node, where: str, cure: str = "") -> list[Node]:
         """The items of a list."""
@@ -304,30 +306,6 @@ class Source:
         return None
 
 
-_PYTHON = "tag:yaml.org,2002:python"
-_OTHER_WORDS = {
-    "weights": "b",
-    "weight": "b",
-    "nodes": "c",
-    "abscissae": "c",
-    "abscissas": "c",
-    "matrix": "A",
-    "coefficients": "A",
-    "title": "name",
-    "method": "methods",
-    "params": "parameters",
-    "butcher": "tableau",
-    "claims": "expect",
-}
-"""What people call keys besides their names."""
-
-
-def _meant(key: str, known: Sequence[str]) -> str:
-    """The key that an unknown one stands for; empty where it is none of them."""
-    other = _OTHER_WORDS.get(key.lower(), "")
-    return other if other in known else nearest(key, known)
-
-
 def keys_of(node: Node) -> set[str]:
     """The keys of a mapping that are plain texts; none for anything else."""
     if not isinstance(node, MappingNode):
@@ -342,25 +320,6 @@ def key_nodes(node: Node) -> dict[str, ScalarNode]:
         if isinstance(key, ScalarNode):
             found.setdefault(str(key.value), key)
     return found
-
-
-def one_line(text: str) -> str:
-    r"""A name as it can stand in a heading: blanks for line ends and for what a terminal would act
-    on.
-
-    >>> one_line("Gauss 2\n  and \x1b more")
-    'Gauss 2 and more'
-    """
-    signs = [x if x.isprintable() else " " for x in text]
-    words = "".join(signs).split()
-    return " ".join(words)
-
-
-def shortened(text: str, length: int = 60) -> str:
-    """``text`` in quotes, cut where it is long."""
-    if len(text) > length:
-        text = text[:length] + "…"
-    return repr(text)
 
 
 def is_null(node: Node) -> bool:

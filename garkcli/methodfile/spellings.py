@@ -10,7 +10,8 @@ from collections.abc import Sequence
 from yaml.nodes import Node, ScalarNode, SequenceNode
 
 from garkcli.errors import ExpressionError, UndefinedValue
-from garkcli.methodfile.source import Source, shortened
+from garkcli.methodfile.source import Source
+from garkcli.methodfile.words import shortened
 
 
 def is_triangle(lengths: Sequence[int]) -> bool:

@@ -18,9 +18,10 @@ from garkcli.exact.domain import Domain
 from garkcli.exact.expression import parse
 from garkcli.exact.rewriting import roots_in
 from garkcli.methodfile.load import read_text
-from garkcli.methodfile.source import FileKind, Source, one_line, shortened
+from garkcli.methodfile.source import FileKind, Source
 from garkcli.methodfile.sweep_methods import MethodsReader
 from garkcli.methodfile.sweep_text import SweepText, one_or_more
+from garkcli.methodfile.words import one_line, shortened
 
 SWEEP_FILE = FileKind(
     "sweep file",

@@ -16,9 +16,10 @@ from garkcli.exact.nodes import Expression, Name
 from garkcli.exact.rewriting import substitute
 from garkcli.families.registry import FAMILIES, MAX_STAGES, require_member
 from garkcli.methodfile.load import NO_SETTINGS, described, read_text
-from garkcli.methodfile.source import METHOD_FILE, Source, shortened
+from garkcli.methodfile.source import METHOD_FILE, Source
 from garkcli.methodfile.sweep_text import SweepText, TemplateText, one_or_more
 from garkcli.methodfile.transfers import ALL_RULES
+from garkcli.methodfile.words import shortened
 from garkcli.transfer import RULES
 
 _SPAN = re.compile(r"([0-9]{1,3})\.\.([0-9]{1,3})")

@@ -14,8 +14,9 @@ from yaml.nodes import Node
 from garkcli.errors import NoLegendreTransform
 from garkcli.methodfile.expansion import too_long
 from garkcli.methodfile.formulas import BITS, PLACES, Formulas, nearby
-from garkcli.methodfile.source import Source, shortened
+from garkcli.methodfile.source import Source
 from garkcli.methodfile.termreader import Term, TermReader
+from garkcli.methodfile.words import shortened
 
 if TYPE_CHECKING:
     from garkcli.problems.hamiltonian import Hamiltonian

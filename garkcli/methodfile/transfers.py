@@ -14,7 +14,8 @@ from garkcli.methodfile.description import (
     block_name,
 )
 from garkcli.methodfile.numbers import Numbers
-from garkcli.methodfile.source import Source, key_nodes, keys_of, shortened
+from garkcli.methodfile.source import Source, key_nodes, keys_of
+from garkcli.methodfile.words import shortened
 from garkcli.transfer import PAIR_RULES, RULES
 
 ALL_RULES = (*RULES, *PAIR_RULES)

@@ -1,0 +1,156 @@
+"""YAML nodes to the form ``methods``: diagonal methods and the rules between them."""
+
+from __future__ import annotations
+
+from collections.abc import Sequence
+
+from yaml.nodes import MappingNode, Node, ScalarNode, SequenceNode
+
+from garkcli.errors import UnknownFamily, nearest
+from garkcli.families.registry import FAMILIES, require_member
+from garkcli.methodfile.description import (
+    MAX_ENTRIES,
+    ButcherText,
+    FamilyText,
+    MethodsText,
+    Structure,
+    TransferText,
+    block_name,
+    of_colour,
+)
+from garkcli.methodfile.numbers import Numbers
+from garkcli.methodfile.source import Source, keys_of
+from garkcli.methodfile.spelled_out import SpelledOutReader, are_too_many
+
+_FORM = "write a list: [{family: gauss, stages: 2}, …]"
+_FORM_OF_FAMILY = "write for instance {family: gauss, stages: 2}"
+
+
+class DiagonalReader:
+    """Reads the diagonal methods of one file."""
+
+    def __init__(self, source: Source, numbers: Numbers) -> None:
+        self.source = source
+        self.numbers = numbers
+        self._spelled_out = SpelledOutReader(source, numbers)
+
+    def read(
+        self, node: Node, structure: Structure, transfer: Node | None
+    ) -> MethodsText | None:
+        """The form ``methods``; None where it does not make a method."""
+        source = self.source
+        if keys_of(node) & {"A", "b", "family", "stages"}:
+            items = [node]  # one method needs no brackets around it
+        else:
+            items = source.items(node, "methods", _FORM)
+        if are_too_many(source, items, node):
+            return None
+        methods: list[FamilyText | ButcherText] = []
+        for l, item in enumerate(items, start=1):
+            method = self._method(item, l)
+            if method is not None:
+                methods.append(method)
+        if not items and isinstance(node, SequenceNode):
+            cure = "list at least one diagonal method"
+            source.fault(node, "methods is empty", cure)
+        if structure != "general" and len(items) != 2:
+            wanted = f"structure: {structure} is for two colours"
+            source.fault(node, f"{wanted}, not {len(items)}")
+        rules = self._rules(node, len(items), transfer)
+        if not methods or len(methods) < len(items):
+            return None
+        if self._is_too_large(methods, node):
+            return None
+        return MethodsText(tuple(methods), rules)
+
+    def _rules(
+        self, node: Node, colours: int, transfer: Node | None
+    ) -> TransferText:
+        """How the blocks between the methods are made."""
+        if transfer is None:
+            if colours > 1:
+                message = "two colours or more need a transfer rule"
+                cure = "write transfer: collocation (or interpolation)"
+                self.source.fault(node, message, cure)
+            return TransferText(None, {})
+        from garkcli.methodfile.transfers import TransferReader
+
+        reader = TransferReader(self.source, self.numbers)
+        return reader.read(transfer, colours)
+
+    def _is_too_large(
+        self, methods: Sequence[FamilyText | ButcherText], node: Node
+    ) -> bool:
+        """Note blocks between the methods that together have too many entries to be made."""
+        stages = [_stages(method) for method in methods]
+        inside = sum(s * s for s in stages)
+        entries = sum(stages) ** 2 - inside
+        if entries <= MAX_ENTRIES:
+            return False
+        where = "in the blocks between the methods"
+        message = f"{entries} entries {where} (limit {MAX_ENTRIES})"
+        self.source.fault(node, message, "use fewer methods, or fewer stages")
+        return True
+
+    def _method(self, node: Node, l: int) -> FamilyText | ButcherText | None:
+        """The method of colour ``l``, counted from 1."""
+        keys, where = keys_of(node), f"method {l}"
+        if isinstance(node, ScalarNode):
+            message = f"{where}: a mapping is expected here"
+            self.source.fault(node, message, _written_out(node))
+            return None
+        # of anything but a mapping there are no keys
+        if "stages" in keys and not keys & {"family", "A", "b"}:
+            cure = "write for instance family: gauss"
+            self.source.fault(node, f"{where}: family missing", cure)
+            return None
+        if "family" not in keys and isinstance(node, MappingNode):
+            k = l - 1
+            names = (block_name(k, k), of_colour("b", k), of_colour("c", k))
+            return self._spelled_out.butcher(node, where, names)
+        before = len(self.source.faults)
+        allowed = ("family", "stages", "name")
+        entries = self.source.mapping(
+            node, where, allowed, form=_FORM_OF_FAMILY
+        )
+        if "family" not in entries or len(self.source.faults) > before:
+            return None
+        return self._family(node, where, entries)
+
+    def _family(
+        self, node: Node, where: str, entries: dict[str, Node]
+    ) -> FamilyText | None:
+        """A member of a family, which exists."""
+        name = self.source.scalar(entries["family"], f"{where}, family")
+        place = entries.get("stages")
+        stages = None
+        if place is not None:
+            stages = self.source.whole(place, f"{where}, stages", smallest=1)
+        is_known = name in FAMILIES
+        is_faulty = place is not None and stages is None
+        if name is None or (is_known and is_faulty):
+            return None
+        try:
+            return FamilyText(node, name, require_member(name, stages))
+        except UnknownFamily as error:
+            # a known family lacks members with so many stages
+            if place is None or not is_known:
+                place = entries["family"]
+            self.source.fault(place, error.message, error.help)
+            return None
+
+
+def _stages(method: FamilyText | ButcherText) -> int:
+    if isinstance(method, FamilyText):
+        return method.stages
+    return len(method.b)
+
+
+def _written_out(node: ScalarNode) -> str:
+    """The cure for a method that is a mere word."""
+    word = nearest(str(node.value), FAMILIES) or "gauss"
+    family = FAMILIES[word]
+    if family.smallest == family.largest:
+        return f"write {{family: {word}}}"
+    stages = max(2, family.smallest)
+    return f"write for instance {{family: {word}, stages: {stages}}}"
