@@ -8,6 +8,8 @@ from __future__ import annotations
 from importlib import import_module
 from typing import TYPE_CHECKING, Any
 
+from garkcli.version import __version__ as __version__
+
 if TYPE_CHECKING:
     from garkcli.api.arguments import of_methods
     from garkcli.api.arrays import from_arrays
@@ -59,8 +61,6 @@ if TYPE_CHECKING:
     simplifying = of_methods(_simplifying.simplifying)
     symplectic_pair = of_methods(_forms.symplectic_pair)
     symplecticity_defects = of_methods(_symplecticity.symplecticity_defects)
-
-__version__ = "0.1.0"
 
 _HOMES = {
     "analyse": "api.methods",

@@ -107,6 +107,11 @@ _OF_THE_SEARCH = (
         help="With --search: processes.",
     ),
     click.option(
+        "--scheduler",
+        metavar="ADDRESS",
+        help="With --search: work on the Dask cluster there; needs garkcli[cluster].",
+    ),
+    click.option(
         "--emit-all",
         type=PATH,
         metavar="DIR",
@@ -137,7 +142,7 @@ class Wanted:
         emit: the file of the first method found, if any.
         stability: the kind of stability whose values are asked for instead of an order.
         starts: of a search instead, or None where there is none.
-        seed, most, jobs, emit_all: of the search; None where they were not given.
+        seed, most, jobs, scheduler, emit_all: of the search; None where they were not given.
     """
 
     order: int | None
@@ -151,6 +156,7 @@ class Wanted:
     seed: int | None
     most: int | None
     jobs: int | None
+    scheduler: str | None
     emit_all: str | None
 
     @property
@@ -170,6 +176,7 @@ class Wanted:
             "--seed": self.seed,
             "--most": self.most,
             "--jobs": self.jobs,
+            "--scheduler": self.scheduler,
             "--emit-all": self.emit_all,
         }
         for option, value in of_search.items():

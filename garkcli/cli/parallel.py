@@ -10,7 +10,8 @@ from functools import partial
 
 from garkcli.check.check_file import check_file
 from garkcli.check.outcome import Outcome
-from garkcli.crew import MOST_WORKERS, Crew
+from garkcli.crew.hiring import hired
+from garkcli.crew.work import in_order
 from garkcli.errors import Fault
 from garkcli.methodfile.load import NO_SETTINGS
 
@@ -36,12 +37,10 @@ def check_files(
         settings=settings,
     )
     work: Work = partial(_checked, check)
-    jobs = min(jobs, len(paths), MOST_WORKERS)
-    if jobs < 2 or "-" in paths:
-        yield from map(work, paths)
-        return
-    with Crew(work, paths, jobs, _ended) as crew:
-        yield from crew.outcomes()
+    # standard input is this process's
+    jobs = 1 if "-" in paths else min(jobs, len(paths))
+    with hired(work, _ended, jobs) as workers:
+        yield from in_order(workers, paths)
 
 
 def _checked(check: Work, path: str) -> Outcome:

@@ -2,31 +2,27 @@
 
 from __future__ import annotations
 
-from collections.abc import Iterator, Sequence
-from contextlib import contextmanager
 from pathlib import Path
-from typing import TYPE_CHECKING, Any
+from typing import TYPE_CHECKING
 
 from garkcli.cli.design_options import CLAIMS
 from garkcli.cli.signals import INTERRUPTED
 from garkcli.cli.streams import say_problem
-from garkcli.design.search.run import MOST, Crew, Result, Timed, results
-from garkcli.design.search.run import prove as prove_in
-from garkcli.design.search.run import solve as solve_in
+from garkcli.crew.hiring import hired
+from garkcli.crew.work import WorkerLost
+from garkcli.design.search.run import MOST, Result, Task, Timed, results
 from garkcli.design.search.search import Search
 from garkcli.design.search.told import TOLERANCE, Method
 from garkcli.errors import UsageProblem
-from garkcli.methodfile.family import FamilyFile, loads_family, with_values
+from garkcli.methodfile.family import FamilyFile, with_values
+from garkcli.methodfile.search_file import FileSearch
 from garkcli.page.progress import watching
 from garkcli.page.writing import refuse_unwritable, write_whole
 from garkcli.report import search_data, search_text
 
 if TYPE_CHECKING:
-    from concurrent.futures import ProcessPoolExecutor
-
     from garkcli.cli.design_options import Wanted
     from garkcli.cli.options import Output
-    from garkcli.design.design import Whose
 
 HEADS = {
     "exact": "exact",
@@ -46,12 +42,14 @@ def search(
         starts: how many.
         output: where the report goes.
     """
-    if wanted.order is None:
-        message = "a search is for an order"
-        raise UsageProblem(message, "say which by --order P")
+    order = wanted.order or family.order
+    if order is None:
+        cure = "say which by --order P, or in the file by design: {order: P}"
+        raise UsageProblem("a search is for an order", cure)
     _check_places(wanted)
-    looking = Search(family, wanted.order, wanted.whose)
-    result, ended = _searched(family, looking, wanted, starts, output)
+    asked = FileSearch.of(family, order, wanted.whose)
+    looking = asked.search
+    result, ended = _searched(asked, wanted, starts, output)
     files = _written(family, looking, result, wanted)
     as_json = output.format == "json"
     render = search_data.render if as_json else search_text.render
@@ -76,19 +74,17 @@ def _check_places(wanted: Wanted) -> None:
 
 
 def _searched(
-    family: FamilyFile,
-    looking: Search,
-    wanted: Wanted,
-    starts: int,
-    output: Output,
+    asked: FileSearch, wanted: Wanted, starts: int, output: Output
 ) -> tuple[Result, int | None]:
     """The result, and the exit code where an interrupt or a lost worker ends the search."""
     seed, most = wanted.seed or 0, wanted.most or MOST
+    place = wanted.jobs or 1, wanted.scheduler or ""
+    looking = asked.search
     result, ended = Result(), None
     with watching(output.may_show_progress) as show:
         try:
-            with _crew(family, looking, wanted.jobs or 1) as crew:
-                for result in results(looking, starts, seed, most, crew):
+            with hired(asked.do, _lost, *place) as workers:
+                for result in results(looking, starts, seed, most, workers):
                     what = f"starts, {len(result.methods)} methods found"
                     show(what, result.starts, starts)
         except KeyboardInterrupt:
@@ -100,75 +96,12 @@ def _searched(
     return result, ended
 
 
-@contextmanager
-def _crew(
-    family: FamilyFile, looking: Search, jobs: int
-) -> Iterator[Crew | None]:
-    """Workers where there are several; none is left behind."""
-    if jobs < 2:
-        yield None
-        return
-    import multiprocessing
-    from concurrent.futures import ProcessPoolExecutor
-    from concurrent.futures.process import BrokenProcessPool
-
-    given = family.text, family.source, dict(family.settings)
-    setting = given, looking.order, looking.whose
-    pool = ProcessPoolExecutor(jobs, initializer=_begin, initargs=setting)
-    try:
-        yield _Several(pool, jobs)
-    except BrokenProcessPool:
-        raise WorkerLost(
-            "a process of the search was ended from outside",
-            "where memory is short use fewer --jobs",
-        ) from None
-    finally:
-        pool.shutdown(wait=False, cancel_futures=True)
-        for child in multiprocessing.active_children():
-            child.kill()
-
-
-class WorkerLost(UsageProblem):
-    """A worker was ended by a signal; what it was at is not known."""
-
-
-class _Several:
-    """Workers that have read the file for themselves."""
-
-    def __init__(self, pool: ProcessPoolExecutor, size: int) -> None:
-        self.pool = pool
-        self.size = size
-
-    def solve(self, batches: Sequence[list[list[float]]]) -> list[Timed]:
-        return list(self.pool.map(_solve, batches))
-
-    def prove(
-        self, solutions: Sequence[tuple[int, list[float]]]
-    ) -> list[Timed]:
-        return list(self.pool.map(_prove, solutions))
-
-
-_WORKING: list[Search] = []
-"""What a worker searches for."""
-
-
-def _begin(given: tuple[Any, ...], order: int, whose: Whose) -> None:
-    """A worker reads the file; an interrupt is for the process that has the terminal."""
-    import signal
-
-    signal.signal(signal.SIGINT, signal.SIG_IGN)
-    for name in ("SIGTERM", "SIGHUP"):
-        if hasattr(signal, name):
-            signal.signal(getattr(signal, name), signal.SIG_DFL)
-    _WORKING[:] = [Search(loads_family(*given), order, whose)]
-
-
-def _solve(batch: list[list[float]]) -> Timed:
-    return solve_in(_WORKING[0], batch)
-
-
-def _prove(solution: tuple[int, list[float]]) -> Timed:
-    return prove_in(_WORKING[0], solution)
+def _lost(_task: Task, why: str) -> Timed:
+    """A piece of a search that ended its process; the others' are kept."""
+    raise WorkerLost(
+        f"a process of the search was ended {why}",
+        "where memory is short use fewer --jobs",
+    )
 
 
 def _written(

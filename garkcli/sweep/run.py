@@ -7,7 +7,7 @@ from collections.abc import Iterator, Sequence
 from dataclasses import dataclass
 from functools import partial
 
-from garkcli.crew import MOST_WORKERS, Crew
+from garkcli.crew.hiring import hired
 from garkcli.errors import UsageProblem
 from garkcli.sweep.plan import Criteria, Plan, Point
 from garkcli.sweep.row import crashed_row
@@ -76,23 +76,7 @@ def sweep(
 def _results(
     criteria: Criteria, tasks: list[list[Point]], jobs: int, scheduler: str
 ) -> Iterator[Result]:
-    if scheduler:
-        from garkcli.sweep.cluster import on_cluster
-
-        yield from on_cluster(criteria, tasks, scheduler)
-        return
-    jobs = min(jobs, len(tasks), MOST_WORKERS)
-    if jobs < 2:
-        yield from (rows_of(criteria, points) for points in tasks)
-        return
-    yield from _side_by_side(criteria, tasks, jobs)
-
-
-def _side_by_side(
-    criteria: Criteria, tasks: Sequence[Sequence[Point]], jobs: int
-) -> Iterator[Result]:
     """Tasks that end their worker are done again, a method each; then it is known which does."""
-    work = partial(rows_of, criteria)
     ended: list[Sequence[Point]] = []
 
     def crashed(points: Sequence[Point], why: str) -> Result:
@@ -101,13 +85,11 @@ def _side_by_side(
             return "", 0.0
         return lines([crashed_row(criteria, points[0], why)]), 0.0
 
-    with Crew(work, tasks, jobs, crashed) as crew:
-        for _, result in crew.as_they_come():
+    work = partial(rows_of, criteria)
+    jobs = min(jobs, len(tasks))
+    with hired(work, crashed, jobs, scheduler) as workers:
+        for _, result in workers.as_they_come(tasks):
             yield result
-    singles: list[Sequence[Point]] = [
-        [point] for points in ended for point in points
-    ]
-    if singles:
-        with Crew(work, singles, jobs, crashed) as crew:
-            for _, result in crew.as_they_come():
-                yield result
+        singles = [[point] for points in ended for point in points]
+        for _, result in workers.as_they_come(singles):
+            yield result

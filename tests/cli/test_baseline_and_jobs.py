@@ -414,7 +414,7 @@ def test_a_fault_in_one_file_stops_nothing(
 
 def test_more_workers_than_a_system_waits_for() -> None:
     """``-j 256`` takes as many workers as Windows can wait for, and no more than there are files."""
-    from garkcli.cli.parallel import MOST_WORKERS
+    from garkcli.crew.processes import MOST_WORKERS
 
     assert MOST_WORKERS <= 61
     alone, many = (

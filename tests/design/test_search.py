@@ -15,7 +15,7 @@ from hypothesis import given, settings
 from hypothesis import strategies as st
 
 from garkcli import find_order, loads, loads_family, search_methods
-from garkcli.cli.searching import WorkerLost
+from garkcli.crew.work import Alone, WorkerLost
 from garkcli.design.search.krawczyk import is_proved
 from garkcli.design.search.least_squares import damped_step, least_squares
 from garkcli.design.search.points import Fixings, polished, rank
@@ -25,7 +25,7 @@ from garkcli.design.search.recognise import (
     recognised,
 )
 from garkcli.design.search.residuals import Generators, Residuals
-from garkcli.design.search.run import Alone, Result, results
+from garkcli.design.search.run import Result, Solution, results
 from garkcli.design.search.search import BITS, Search
 from garkcli.design.search.snap import values_near
 from garkcli.design.search.told import decimals
@@ -456,16 +456,17 @@ def test_an_interrupt_keeps_what_is_found(
     """Interrupted in the second proof, or a worker lost: the first method is reported and written."""
     path = tmp_path / "family.yaml"
     path.write_text(SDIRK2, encoding="utf-8")
-    proved: Callable[..., Any] = Alone.prove
+    work: Callable[..., Any] = Alone.as_they_come
     calls: list[int] = []
 
-    def prove(self: Alone, solutions: Any) -> Any:
-        calls.append(1)
-        if len(calls) > 1:
-            raise end
-        return proved(self, solutions)
+    def until(self: Alone[Any, Any], tasks: Any) -> Any:
+        if isinstance(tasks[0], Solution):
+            calls.append(1)
+            if len(calls) > 1:
+                raise end
+        return work(self, tasks)
 
-    monkeypatch.setattr(Alone, "prove", prove)
+    monkeypatch.setattr(Alone, "as_they_come", until)
     arguments = [
         "--order",
         "3",

@@ -219,32 +219,6 @@ def test_killed_and_resumed(spec: Path) -> None:
     assert len({row["key"] for row in found}) == len(found) == 8 * 42
 
 
-@pytest.mark.skipif(os.name == "nt", reason="there are no such signals")
-def test_a_cluster_that_loses_a_worker(spec: Path) -> None:
-    """On a local Dask cluster a worker is killed half-way: every row is there, and once."""
-    distributed = pytest.importorskip("dask.distributed")
-    rows = spec.with_suffix(".jsonl")
-    spec.write_text(LONG, encoding="utf-8")
-    plan = load_plan(str(spec))
-    with distributed.LocalCluster(
-        n_workers=2, threads_per_worker=1, dashboard_address=None
-    ) as cluster:
-        killed = victim = next(iter(cluster.workers.values())).pid
-        with RowStore(str(rows), False) as store:
-            for progress in running.sweep(
-                plan, store, 1, cluster.scheduler_address
-            ):
-                if progress.done and victim:
-                    os.kill(victim, signal.SIGKILL)
-                    victim = 0
-        assert killed not in {
-            worker.pid for worker in cluster.workers.values()
-        }
-    assert progress.done == len(plan) == 8 * 42
-    found = rows_in(rows)
-    assert len({row["key"] for row in found}) == len(found) == len(plan)
-
-
 def test_without_dask(spec: Path, monkeypatch: pytest.MonkeyPatch) -> None:
     """What is missing is said, with the cure."""
     monkeypatch.setitem(sys.modules, "dask.distributed", None)

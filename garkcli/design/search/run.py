@@ -4,10 +4,12 @@ from __future__ import annotations
 
 from collections.abc import Iterator, Sequence
 from dataclasses import dataclass, field
+from functools import partial
 from itertools import islice
 from time import process_time
-from typing import Protocol, TypeAlias
+from typing import TypeAlias
 
+from garkcli.crew.work import Alone, Workers, in_order
 from garkcli.design.design import Whose
 from garkcli.design.search.search import Search
 from garkcli.design.search.told import Method, told
@@ -50,48 +52,43 @@ class Timed:
     seconds: float
 
 
-class Crew(Protocol):
-    """Who does the work: this process, or several."""
+@dataclass(frozen=True)
+class Batch:
+    """Work: the solutions that some starts lead to, as ``Search.solve`` has them."""
 
-    size: int
+    starts: list[Start]
 
-    def solve(self, batches: Sequence[list[Start]]) -> list[Timed]:
-        """``Search.solve`` of each batch."""
-
-    def prove(self, solutions: Sequence[tuple[int, Start]]) -> list[Timed]:
-        """The method that each solution makes, or None."""
-
-
-class Alone:
-    """The work done in this process, one thing after the other."""
-
-    size = 1
-
-    def __init__(self, search: Search) -> None:
-        self.search = search
-
-    def solve(self, batches: Sequence[list[Start]]) -> list[Timed]:
-        """``Search.solve`` of each batch."""
-        return [solve(self.search, batch) for batch in batches]
-
-    def prove(self, solutions: Sequence[tuple[int, Start]]) -> list[Timed]:
-        """The method that each solution makes, or None."""
-        return [prove(self.search, one) for one in solutions]
+    def result(self, search: Search) -> object:
+        """What comes of it."""
+        return search.solve(self.starts)
 
 
-def solve(search: Search, batch: list[Start]) -> Timed:
-    """The solutions that the starts of a batch lead to, with the time."""
+@dataclass(frozen=True)
+class Solution:
+    """Work: the method that a solution in floats makes, or None.
+
+    Attributes:
+        start: the number of the start that led to it.
+        point: values of the unknowns.
+    """
+
+    start: int
+    point: Start
+
+    def result(self, search: Search) -> object:
+        """What comes of it."""
+        find = search.find(self.start, self.point)
+        return None if find is None else told(find, search.family.parameters)
+
+
+Task: TypeAlias = Batch | Solution
+
+
+def do(search: Search, task: Task) -> Timed:
+    """Do a piece of a search, with the time that it takes."""
     before = process_time()
-    solved = search.solve(batch)
-    return Timed(solved, process_time() - before)
-
-
-def prove(search: Search, solution: tuple[int, Start]) -> Timed:
-    """The method that a solution makes, with the time."""
-    before = process_time()
-    find = search.find(*solution)
-    made = None if find is None else told(find, search.family.parameters)
-    return Timed(made, process_time() - before)
+    result = task.result(search)
+    return Timed(result, process_time() - before)
 
 
 MOST = 5
@@ -130,7 +127,7 @@ def results(
     starts: int,
     seed: int = 0,
     most: int = MOST,
-    crew: Crew | None = None,
+    workers: Workers[Task, Timed] | None = None,
 ) -> Iterator[Result]:
     """Search from random starts; the same object again and again, with more and more in it.
 
@@ -139,52 +136,63 @@ def results(
         starts: how many.
         seed: of the starts.
         most: methods that are looked for at most; other successes are counted.
-        crew: who does the work.
+        workers: who does the work; what is found does not hang on that.
     """
-    crew = crew or Alone(search)
-    run = _Run(search, crew, most)
+    workers = workers or Alone(partial(do, search))
+    run = _Run(search, workers, most)
     coming = search.starts(seed, starts)
-    largest = max(1, min(search.batch, -(-starts // crew.size)))
-    size = min(FIRST, largest)
-    while group := list(islice(coming, size * crew.size)):
-        batches = [group[k : k + size] for k in range(0, len(group), size)]
-        solved = crew.solve(batches)
-        first = run.result.starts
-        run.result.starts += len(group)
-        yield from run.take(solved, first, size)
-        size = min(2 * size, largest)
+    size = FIRST
+    while True:
+        together = workers.size
+        size = max(1, min(size, search.batch, -(-starts // together)))
+        group = list(islice(coming, size * together))
+        if not group:
+            return
+        yield from run.take(group, size)
+        size *= 2
 
 
 class _Run:
     """What is known in the middle of a search."""
 
-    def __init__(self, search: Search, crew: Crew, most: int) -> None:
+    def __init__(
+        self, search: Search, workers: Workers[Task, Timed], most: int
+    ) -> None:
         self.search = search
-        self.crew = crew
+        self.workers = workers
         self.most = most
         self.result = Result()
         self._seen: list[Start] = []
         self._texts: set[tuple[str, ...]] = set()
 
-    def take(
-        self, solved: Sequence[Timed], first: int, size: int
-    ) -> Iterator[Result]:
-        """The solutions of some batches: those that are new are proved."""
-        new: list[tuple[int, Start]] = []
-        for number, timed in enumerate(solved):
-            self.result.seconds += timed.seconds
+    def take(self, group: Sequence[Start], size: int) -> Iterator[Result]:
+        """The solutions of some starts, so many at a time: those that are new are proved."""
+        parts = range(0, len(group), size)
+        batches = [Batch(list(group[k : k + size])) for k in parts]
+        first = self.result.starts + 1
+        new: list[Solution] = []
+        for place, timed in zip(parts, self._done(batches), strict=True):
+            self.result.starts = (
+                min(first + place + size, first + len(group)) - 1
+            )
             assert isinstance(timed.result, list)
             for k, point in timed.result:
                 self.result.successes += 1
                 if self._is_new(point):
-                    new.append((first + number * size + k + 1, point))
-        yield self.result
+                    new.append(Solution(first + place + k, point))
+            yield self.result
         while new and len(self.result.methods) < self.most:
-            now, new = new[: self.crew.size], new[self.crew.size :]
-            for timed in self.crew.prove(now):
-                self.result.seconds += timed.seconds
+            together = self.workers.size
+            now, new = new[:together], new[together:]
+            for timed in self._done(now):
                 self._keep(timed.result)
             yield self.result
+
+    def _done(self, tasks: Sequence[Task]) -> Iterator[Timed]:
+        """What comes of tasks, in their order."""
+        for timed in in_order(self.workers, tasks):
+            self.result.seconds += timed.seconds
+            yield timed
 
     def _is_new(self, point: Start) -> bool:
         if len(self.result.methods) >= self.most:

@@ -5,7 +5,9 @@ from __future__ import annotations
 from collections import deque
 from collections.abc import Callable, Iterator, Sequence
 from contextlib import contextmanager, suppress
-from typing import TYPE_CHECKING, Generic, TypeVar
+from typing import TYPE_CHECKING, Generic
+
+from garkcli.crew.work import Item, Outcome
 
 if TYPE_CHECKING:  # slow to import, and of no use to work that is not shared
     from multiprocessing.connection import Connection
@@ -16,8 +18,6 @@ MOST_WORKERS = 60
 """Windows waits for 63 things at a time, a few of which are its own."""
 BATCH = 8
 """Items that a worker has at hand: it should not wait while another's outcome is read."""
-Item = TypeVar("Item")
-Outcome = TypeVar("Outcome")
 
 
 class _Worker(Generic[Item, Outcome]):
@@ -57,19 +57,17 @@ class _Worker(Generic[Item, Outcome]):
 
 
 class Crew(Generic[Item, Outcome]):
-    """Workers, and what is left for them.
+    """Processes side by side, whatever becomes of one of them, and what is left for them.
 
     Args:
         work: from an item to its outcome; both travel between processes.
-        items: the work there is.
-        size: how many workers.
+        size: how many workers at most; as many begin as there is work for.
         crashed: the outcome of an item that ended its worker, and how.
     """
 
     def __init__(
         self,
         work: Callable[[Item], Outcome],
-        items: Sequence[Item],
         size: int,
         crashed: Callable[[Item, str], Outcome],
     ) -> None:
@@ -86,9 +84,9 @@ class Crew(Generic[Item, Outcome]):
         )
         self.context: BaseContext = multiprocessing.get_context(method)
         self.work = work
-        self.items = items
+        self.items: Sequence[Item] = ()
         self.crashed = crashed
-        self.waiting = deque(range(len(items)))
+        self.waiting: deque[int] = deque()
         self.size = size
         self.workers: list[_Worker[Item, Outcome]] = []
 
@@ -99,20 +97,19 @@ class Crew(Generic[Item, Outcome]):
         for worker in self.workers:
             worker.end()
 
-    def outcomes(self) -> Iterator[Outcome]:
-        """Every outcome, in the order of the items."""
-        ready: dict[int, Outcome] = {}
-        following = 0
-        for number, outcome in self.as_they_come():
-            ready[number] = outcome
-            while following in ready:
-                yield ready.pop(following)
-                following += 1
+    def as_they_come(
+        self, items: Sequence[Item]
+    ) -> Iterator[tuple[int, Outcome]]:
+        """Every outcome with the number of its item, as soon as it is there.
 
-    def as_they_come(self) -> Iterator[tuple[int, Outcome]]:
-        """Every outcome with the number of its item, as soon as it is there."""
+        More items may follow once all of these are done.
+        """
         from multiprocessing.connection import Connection, wait
 
+        self.items = items
+        self.waiting = deque(range(len(items)))
+        for worker in self.workers:
+            self._supply(worker)
         self._hire()
         while any(worker.items for worker in self.workers):
             by_connection = {

@@ -1,0 +1,165 @@
+"""Workers of a Dask cluster: what a lost worker had is done again by others.
+
+Outcomes go to the process that asked, each item's once, however often the cluster did it.
+"""
+
+from __future__ import annotations
+
+import logging
+from collections.abc import Callable, Iterator, Sequence
+from contextlib import ExitStack, contextmanager
+from itertools import islice
+from threading import Lock
+from types import TracebackType
+from typing import Any, Generic
+
+from garkcli.crew.work import Item, Outcome, WorkerLost
+from garkcli.errors import UsageProblem
+from garkcli.exact.pickling import register
+from garkcli.version import __version__
+
+WINDOW = 400
+"""Items that the cluster has at a time."""
+TIMEOUT = 20
+"""Seconds to wait for a scheduler."""
+_ONE_AT_A_TIME = Lock()
+"""Of a worker with several threads: the precision of python-flint is one for all of them."""
+
+
+class Cluster(Generic[Item, Outcome]):
+    """The workers of a Dask scheduler, for as long as it is entered.
+
+    Args:
+        work: from an item to its outcome; both travel to and from the workers.
+        scheduler: its address, such as ``tcp://host:8786``.
+        crashed: the outcome of an item that ended several workers, and how.
+
+    Raises:
+        UsageProblem: Dask is not installed, nobody answers there, or workers have no garkcli or
+            another version of it.
+        WorkerLost: the scheduler is gone.
+    """
+
+    def __init__(
+        self,
+        work: Callable[[Item], Outcome],
+        scheduler: str,
+        crashed: Callable[[Item, str], Outcome],
+    ) -> None:
+        self.work = work
+        self.scheduler = scheduler
+        self.crashed = crashed
+        self._client: Any = None
+        self._quiet = ExitStack()
+
+    def __enter__(self) -> Cluster[Item, Outcome]:
+        try:
+            from dask.distributed import Client
+        except ImportError:
+            raise UsageProblem(
+                "--scheduler needs Dask", "install garkcli[cluster]"
+            ) from None
+        register()
+        self._quiet.enter_context(_without_logs())
+        try:
+            self._client = Client(
+                self.scheduler, timeout=TIMEOUT, set_as_default=False
+            )
+        except (OSError, ValueError) as error:
+            self._quiet.close()
+            what = str(error).splitlines()[0]
+            raise UsageProblem(
+                f"no Dask scheduler answers at {self.scheduler}: {what}",
+                "dask scheduler starts one",
+            ) from None
+        return self
+
+    def __exit__(
+        self,
+        kind: type[BaseException] | None,
+        error: BaseException | None,
+        traceback: TracebackType | None,
+    ) -> None:
+        self._client.close()
+        self._quiet.close()
+
+    @property
+    def size(self) -> int:
+        """How many workers there are now, and at least one: workers may come later."""
+        return max(1, len(self._client.nthreads()))
+
+    def as_they_come(
+        self, items: Sequence[Item]
+    ) -> Iterator[tuple[int, Outcome]]:
+        """Every outcome with the number of its item, as soon as it is there."""
+        from dask.distributed import as_completed
+
+        running: dict[str, int] = {}
+        waiting = iter(range(len(items)))
+
+        def submit(number: int) -> Any:
+            arguments = __version__, self.work, items[number]
+            future = self._client.submit(_done, *arguments, pure=False)
+            running[future.key] = number
+            return future
+
+        first = [submit(k) for k in islice(waiting, WINDOW)]
+        pool = as_completed(first, loop=self._client.loop)
+        for future in pool:
+            number = running.pop(future.key)
+            yield number, self._outcome(future, items[number])
+            future.release()
+            for following in islice(waiting, 1):
+                pool.add(submit(following))
+
+    def _outcome(self, future: Any, item: Item) -> Outcome:
+        """What came of an item."""
+        from dask.distributed import KilledWorker
+
+        if future.status not in {"finished", "error"}:
+            raise WorkerLost(
+                f"the Dask scheduler at {self.scheduler} is gone",
+                "start it again",
+            )
+        fault = future.exception() if future.status == "error" else None
+        if isinstance(fault, KilledWorker):
+            return self.crashed(item, "on the cluster, several times")
+        if isinstance(fault, ModuleNotFoundError):
+            raise UsageProblem(
+                f"a worker of {self.scheduler} cannot do the work: {fault}",
+                f"install garkcli {__version__} on all workers",
+            )
+        version: str
+        outcome: Outcome
+        version, outcome = future.result()
+        if version != __version__:
+            raise UsageProblem(
+                f"a worker of {self.scheduler} has garkcli {version}",
+                f"install garkcli {__version__} on all workers",
+            )
+        return outcome
+
+
+@contextmanager
+def _without_logs() -> Iterator[None]:
+    """What becomes of a lost connection is said here, in a line; Dask would log tracebacks too."""
+    handlers = logging.getLogger("distributed").handlers
+    levels = [handler.level for handler in handlers]
+    for handler in handlers:
+        handler.setLevel(logging.CRITICAL)
+    try:
+        yield
+    finally:
+        for handler, level in zip(handlers, levels, strict=True):
+            handler.setLevel(level)
+
+
+def _done(
+    version: str, work: Callable[[Item], Outcome], item: Item
+) -> tuple[str, Outcome | None]:
+    """What a worker does: its version, and the outcome where that is the one asked for."""
+    if version != __version__:
+        return __version__, None
+    register()
+    with _ONE_AT_A_TIME:
+        return __version__, work(item)

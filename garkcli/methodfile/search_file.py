@@ -1,0 +1,66 @@
+"""The search of a file with unknowns, as it travels between processes."""
+
+from __future__ import annotations
+
+from collections.abc import Mapping
+from dataclasses import dataclass
+from functools import lru_cache
+
+from garkcli.design.design import Whose
+from garkcli.design.search.run import Task, Timed, do
+from garkcli.design.search.search import Search
+from garkcli.methodfile.family import FamilyFile, loads_family
+
+
+@dataclass(frozen=True)
+class FileSearch:
+    """What is looked for, without a number that only one process knows.
+
+    Attributes:
+        text: of the file.
+        source: what it is called.
+        settings: values that are given, name and text.
+        order: that is wanted.
+        whose: of the method, its conjugate or its pair.
+    """
+
+    text: str
+    source: str
+    settings: tuple[tuple[str, str], ...]
+    order: int
+    whose: Whose = "method"
+
+    @classmethod
+    def of(
+        cls, family: FamilyFile, order: int, whose: Whose = "method"
+    ) -> FileSearch:
+        """The search of a file that is read already."""
+        settings: Mapping[str, str] = family.settings
+        given = tuple(settings.items())
+        return cls(family.text, family.source, given, order, whose)
+
+    @property
+    def family(self) -> FamilyFile:
+        """The file, read once in each process."""
+        return _family(self.text, self.source, self.settings)
+
+    @property
+    def search(self) -> Search:
+        """What looks for it, made once in each process."""
+        return _search(self)
+
+    def do(self, task: Task) -> Timed:
+        """Do a piece of it, with the time that it takes."""
+        return do(self.search, task)
+
+
+@lru_cache(maxsize=4)
+def _family(
+    text: str, source: str, settings: tuple[tuple[str, str], ...]
+) -> FamilyFile:
+    return loads_family(text, source, dict(settings))
+
+
+@lru_cache(maxsize=4)
+def _search(asked: FileSearch) -> Search:
+    return Search(asked.family, asked.order, asked.whose)
