@@ -77,8 +77,15 @@ def _is_whole(file: object) -> bool:
         return False
     if "errors" in file:
         return True
+    if not all(_is_order(file.get(order)) for order in ORDERS):
+        return False
     claims = file.get("claims")
     return isinstance(claims, list) and all(map(_is_whole_claim, claims))
+
+
+def _is_order(value: object) -> bool:
+    """Whether it is an order, or none; True is no number here."""
+    return value is None or type(value) is int
 
 
 def _is_whole_claim(claim: object) -> bool:

@@ -291,6 +291,9 @@ def test_a_baseline_of_many_at_a_time(tmp_path: Path) -> None:
         '[{"file": "a", "claims": 5}]',
         '[{"file": "a", "claims": [{"claim": [], "holds": true}]}]',
         '[{"file": "a", "claims": [{"claim": "order", "holds": "yes"}]}]',
+        '[{"file": "a", "order": "4", "claims": []}]',
+        '[{"file": "a", "order": true, "claims": []}]',
+        '[{"file": "a", "pair_order": NaN, "claims": []}]',
     ],
 )
 def test_a_damaged_baseline_is_refused(files: str, tmp_path: Path) -> None:

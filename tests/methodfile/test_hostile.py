@@ -534,7 +534,11 @@ def test_an_interrupt_ends_workers(tmp_path: Path) -> None:
     """^C during a check of many files by two workers: exit code 130, no traceback, no worker and no
     file left.
     """
-    slow = "methods: [{family: gauss, stages: 20}, {family: lobatto-iiia, stages: 21}]\ntransfer: collocation\n"
+    # minutes of work in all, so that none of it is done before a busy machine gets to the ^C
+    methods = (
+        "[{family: gauss, stages: 90}, {family: lobatto-iiia, stages: 91}]"
+    )
+    slow = f"methods: {methods}\ntransfer: collocation\n"
     for k in range(40):
         (tmp_path / f"m{k}.gark.yaml").write_text(slow)
     code, err = interrupted(
