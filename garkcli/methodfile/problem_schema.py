@@ -9,7 +9,7 @@ from __future__ import annotations
 from collections.abc import Iterable
 
 from garkcli.exact.formula import RESERVED
-from garkcli.methodfile.problem import (
+from garkcli.methodfile.problem_text import (
     KEYS,
     MAX_INVARIANTS,
     MAX_TERMS,

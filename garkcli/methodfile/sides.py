@@ -6,27 +6,21 @@ from __future__ import annotations
 
 from collections.abc import Sequence
 from itertools import chain
-from typing import TYPE_CHECKING, TypeAlias
+from typing import TYPE_CHECKING
 
 from flint import arb, ctx, fmpq
-from yaml.nodes import MappingNode, Node, ScalarNode, SequenceNode
+from yaml.nodes import Node
 
 from garkcli.methodfile.formulas import BITS, Formulas, nearby
+from garkcli.methodfile.problem_text import STIFFNESS, ProblemText
 from garkcli.methodfile.source import Source
 from garkcli.methodfile.termreader import Term, TermReader
-from garkcli.methodfile.terms import ProblemText
 from garkcli.methodfile.words import shortened
 from garkcli.problems.vectorfield import TIME
 
 if TYPE_CHECKING:
     from garkcli.problems.righthandside import RightHandSide
 
-STIFFNESS = "stiffness"
-"""The parameter that ``--stiffness`` sets."""
-Side: TypeAlias = tuple[tuple[str, Node, str], ...]
-"""The right-hand sides of one term: variable, formula, and what this is called."""
-Sides: TypeAlias = tuple[Side, ...]
-"""Those of all terms."""
 _SHOWN = 8  # most missing names that are told
 _TRIES = (
     fmpq(1, 3),
@@ -303,51 +297,3 @@ class SidesMaker:
 def _decimal(x: fmpq | arb) -> str:
     """A few digits of a number."""
     return str(arb(x).str(6, radius=False))
-
-
-def read_sides(
-    source: Source, node: Node, names: tuple[str, ...], most: int
-) -> Sides:
-    """The right-hand sides of each term: variables, formulas, and what these are called.
-
-    Args:
-        source: where faults are noted.
-        node: what ``rhs`` has.
-        names: of the variables; none where they have faults, and are not judged.
-        most: terms.
-    """
-    if not isinstance(node, SequenceNode):
-        return (_side(source, node, "rhs", names),)
-    items = source.items(node, "rhs")
-    if not items:
-        source.fault(
-            node, "rhs is empty", "give right-hand sides for each term"
-        )
-    if len(items) > most:
-        source.fault(
-            node, f"rhs: {len(items)} terms (limit {most})", "use fewer"
-        )
-        return ()
-    numbered = enumerate(items, start=1)
-    return tuple(
-        _side(source, item, f"f{{{l}}}", names) for l, item in numbered
-    )
-
-
-def _side(
-    source: Source, node: Node, where: str, names: tuple[str, ...]
-) -> Side:
-    """Of one term; a formula alone is that of the only variable."""
-    if isinstance(node, ScalarNode) and len(names) == 1:
-        return ((names[0], node, where),)
-    if not isinstance(node, MappingNode):
-        example = ", ".join(f"{x}: …" for x in names[:2])
-        message = (
-            f"{where}: right-hand sides by the names of variables are expected"
-        )
-        source.fault(node, message, f"write {{{example}}}")
-        return ()
-    entries = source.mapping(node, where, names)
-    return tuple(
-        (name, x, f"{where} of {name}") for name, x in entries.items()
-    )

@@ -5,7 +5,7 @@ derivatives.
 from __future__ import annotations
 
 from collections.abc import Container, Mapping, Sequence
-from dataclasses import dataclass, replace
+from dataclasses import replace
 from typing import TYPE_CHECKING, Any
 
 from flint import arb, ctx, fmpq
@@ -14,6 +14,7 @@ from yaml.nodes import Node
 from garkcli.errors import NoLegendreTransform
 from garkcli.methodfile.expansion import too_long
 from garkcli.methodfile.formulas import BITS, PLACES, Formulas, nearby
+from garkcli.methodfile.problem_text import ProblemText
 from garkcli.methodfile.source import Source
 from garkcli.methodfile.termreader import Term, TermReader
 from garkcli.methodfile.words import shortened
@@ -22,36 +23,6 @@ if TYPE_CHECKING:
     from garkcli.problems.hamiltonian import Hamiltonian
 
 _SHOWN = 8  # most missing names that are told
-
-
-@dataclass(frozen=True)
-class ProblemText:
-    """What a problem file says; formulas are still nodes, each with what it is called in messages.
-
-    Attributes:
-        name: what people call it.
-        variables: names of the positions.
-        are_named: whether these are all; if not, other names are not judged.
-        form: hamiltonian, lagrangian or rhs.
-        terms: one formula a term; none of rhs.
-        sides: the right-hand sides of a term by the names of variables, each with its formula;
-            empty for the other forms.
-        initial: the mapping of initial values, where the file has one.
-        exact: the mapping of the exact solution, where the file has one.
-        t_end: the final time.
-        invariants: names, and formulas.
-    """
-
-    name: str
-    variables: tuple[str, ...]
-    are_named: bool
-    form: str
-    terms: tuple[tuple[Node, str], ...]
-    initial: Node | None
-    t_end: fmpq
-    invariants: tuple[tuple[str, Node], ...]
-    sides: tuple[tuple[tuple[str, Node, str], ...], ...] = ()
-    exact: Node | None = None
 
 
 class Maker:

@@ -12,12 +12,12 @@ import pytest
 
 from garkcli.exact.formula import FUNCTIONS, parse_formula
 from garkcli.methodfile.formulas import PLACES
-from garkcli.methodfile.problem import (
+from garkcli.methodfile.problem import loads_problem
+from garkcli.methodfile.problem_text import (
     KEYS,
     MAX_INVARIANTS,
     MAX_TERMS,
     MAX_VARIABLES,
-    loads_problem,
 )
 from tests.cli.harness import gark
 

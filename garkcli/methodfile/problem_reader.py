@@ -1,0 +1,202 @@
+"""YAML nodes to a ``ProblemText``: every key and name checked, faults collected as they are met."""
+
+from __future__ import annotations
+
+from pathlib import Path
+
+from flint import fmpq
+from yaml.nodes import Node, ScalarNode, SequenceNode
+
+from garkcli.methodfile.description import FORMS as METHOD_FORMS
+from garkcli.methodfile.formulas import Formulas
+from garkcli.methodfile.problem_text import (
+    DEFAULT_T_END,
+    FORMS,
+    KEYS,
+    MAX_INVARIANTS,
+    MAX_TERMS,
+    STIFFNESS,
+    ProblemText,
+    Sides,
+)
+from garkcli.methodfile.sides_reader import read_sides
+from garkcli.methodfile.source import Source, keys_of
+from garkcli.methodfile.variables import Variables, read_variables
+from garkcli.methodfile.words import one_line
+
+_WITH_ARTICLE = {
+    "hamiltonian": "a hamiltonian",
+    "lagrangian": "a lagrangian",
+    "rhs": "an rhs",
+}
+
+
+class ProblemReader:
+    """Reads what a file says, as far as no names but its own are needed.
+
+    Args:
+        source: the file, where faults are noted.
+        stiffness: given in place of its own.
+
+    Attributes:
+        formulas: of the file, its parameters known once it is read.
+    """
+
+    def __init__(self, source: Source, stiffness: fmpq | None) -> None:
+        self.source, self.stiffness = source, stiffness
+        given = {} if stiffness is None else {STIFFNESS: stiffness}
+        self.formulas = Formulas(source, given)
+
+    def read(self) -> ProblemText | None:
+        """The text; None where it makes no sense to go on."""
+        source = self.source
+        root = source.compose()
+        if root is None or self._is_method_file(root):
+            return None
+        entries = source.mapping(root, "the file", KEYS)
+        source.check_version(entries.get("gark"))
+        for key in ("description", "reference"):
+            if key in entries:
+                source.scalar(entries[key], key)
+        before = len(source.faults)
+        variables = read_variables(source, root, entries.get("variables"))
+        form = self._form(root, entries)
+        variables.refuse_clashes(form or "hamiltonian")
+        are_named = len(source.faults) == before
+        parameters = entries.get("parameters")
+        self.formulas.read_parameters(parameters)
+        variables.refuse_taken(form or "hamiltonian", parameters)
+        self._check_start(root, entries, variables, form)
+        self._check_stiffness(root, form)
+        if form is None:
+            return None
+        names = tuple(variables.places)
+        terms: list[tuple[Node, str]] = []
+        sides: Sides = ()
+        if form == "rhs":
+            known = names if are_named else ()
+            sides = read_sides(source, entries[form], known, MAX_TERMS)
+        else:
+            terms = self._terms(entries[form], form)
+        return ProblemText(
+            name=self._name(entries.get("name")),
+            variables=names,
+            are_named=are_named,
+            form=form,
+            terms=tuple(terms),
+            initial=entries.get("initial"),
+            t_end=self._t_end(entries.get("t_end")),
+            invariants=tuple(self._invariants(entries, form)),
+            sides=sides,
+            exact=entries.get("exact"),
+        )
+
+    def _is_method_file(self, root: Node) -> bool:
+        """Note a file of the other kind."""
+        keys = keys_of(root)
+        if not keys & set(METHOD_FORMS) or keys & set(FORMS):
+            return False
+        message = "this is a method file, not a problem file"
+        self.source.fault(root, message, "see docs/problem-file.md")
+        return True
+
+    def _form(self, root: Node, entries: dict[str, Node]) -> str | None:
+        """Which of the three forms the file has; None where it has none."""
+        present = [key for key in FORMS if key in entries]
+        if not present:
+            message = "no hamiltonian, no lagrangian and no rhs"
+            cure = "write one of them, "
+            cure += "a formula or a list with one for each colour"
+            self.source.fault(root, message, cure)
+            return None
+        if len(present) > 1:
+            message = " and ".join(_WITH_ARTICLE[key] for key in present)
+            self.source.fault(entries[present[1]], message, "keep one of them")
+        return present[0]
+
+    def _check_start(
+        self,
+        root: Node,
+        entries: dict[str, Node],
+        variables: Variables,
+        form: str | None,
+    ) -> None:
+        """Refuse a file without initial values, and a solution of what has none."""
+        is_rhs = form == "rhs"
+        if "initial" not in entries and not (is_rhs and "exact" in entries):
+            cure = f"write {variables.example_start(form)}"
+            self.source.fault(root, "initial missing", cure)
+        if "exact" in entries and not is_rhs and form is not None:
+            message = f"exact is for rhs, and this is a {form}"
+            self.source.fault(entries["exact"], message, "leave it out")
+
+    def _check_stiffness(self, root: Node, form: str | None) -> None:
+        """Refuse a stiffness that would change nothing."""
+        if self.stiffness is None:
+            return
+        if form is not None and form != "rhs":
+            message = f"--stiffness is for rhs, and this is a {form}"
+            self.source.fault(root, message, "leave it out")
+        elif STIFFNESS not in self.formulas.values:
+            cure = f"write parameters: {{{STIFFNESS}: 1}} and use it in rhs"
+            message = f"--stiffness, but no parameter called {STIFFNESS}"
+            self.source.fault(root, message, cure)
+
+    def _name(self, node: Node | None) -> str:
+        text = None if node is None else self.source.scalar(node, "name")
+        return shown_name(text or Path(self.source.name).stem)
+
+    def _terms(self, node: Node, form: str) -> list[tuple[Node, str]]:
+        """The formulas of a Hamiltonian or Lagrangian, each with what it is called."""
+        if isinstance(node, ScalarNode):
+            return [(node, form)]
+        items = self.source.items(node, form)
+        if not items and isinstance(node, SequenceNode):
+            cure = "give a formula for each term"
+            self.source.fault(node, f"{form} is empty", cure)
+        if len(items) > MAX_TERMS:
+            message = f"{form}: {len(items)} terms (limit {MAX_TERMS})"
+            self.source.fault(node, message, "use fewer")
+            return []
+        letter = form[0].upper()
+        terms: list[tuple[Node, str]] = []
+        for l, item in enumerate(items, start=1):
+            terms.append((item, f"{letter}{{{l}}}"))
+        return terms
+
+    def _t_end(self, node: Node | None) -> fmpq:
+        if node is None:
+            return DEFAULT_T_END
+        found = self.formulas.constant(node, "t_end")
+        if found is None:
+            return DEFAULT_T_END
+        _, value = found
+        if not isinstance(value, fmpq) or value <= 0:
+            message = "t_end: a positive rational number is expected"
+            self.source.fault(node, message, "such as 2 or 5/2")
+            return DEFAULT_T_END
+        return value
+
+    def _invariants(
+        self, entries: dict[str, Node], form: str
+    ) -> list[tuple[str, Node]]:
+        """The first integrals that the file names, with their formulas."""
+        node = entries.get("invariants")
+        if node is None:
+            return []
+        formulas = self.source.mapping(node, "invariants", ())
+        if len(formulas) > MAX_INVARIANTS:
+            message = f"{len(formulas)} invariants (limit {MAX_INVARIANTS})"
+            self.source.fault(node, message, "use fewer")
+            return []
+        for name, formula in formulas.items():
+            if form != "rhs" and name.lower() in {"energy", "h"}:
+                message = f"invariants: {name} is reported always"
+                self.source.fault(formula, message, "leave it out")
+        return [(shown_name(name), x) for name, x in formulas.items()]
+
+
+def shown_name(text: str) -> str:
+    """A name as it is shown: one line of printable signs, not too long."""
+    plain = one_line(text)
+    return plain if len(plain) <= 60 else f"{plain[:59]}…"
