@@ -9,13 +9,13 @@ from __future__ import annotations
 from collections.abc import Iterable
 
 from garkcli.exact.formula import RESERVED
+from garkcli.methodfile.coefficient_schema import Schema
 from garkcli.methodfile.problem_text import (
     KEYS,
     MAX_INVARIANTS,
     MAX_TERMS,
     MAX_VARIABLES,
 )
-from garkcli.methodfile.schema import Schema
 from garkcli.problems.vectorfield import TIME
 
 _CLASHING = {

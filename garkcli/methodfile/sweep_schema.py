@@ -7,7 +7,7 @@ from __future__ import annotations
 from collections.abc import Iterable, Mapping
 
 from garkcli.families.registry import FAMILIES
-from garkcli.methodfile.schema import Schema
+from garkcli.methodfile.coefficient_schema import Schema
 from garkcli.methodfile.sweep_file import KEYS
 from garkcli.methodfile.transfers import ALL_RULES
 from garkcli.transfer import RULES
