@@ -89,6 +89,10 @@ class Record(Generic[Whole]):
         required = [*schema["required"], name]
         return {**schema, "required": required, "properties": properties}
 
+    def whole(self, name: str, part: Callable[[Owner], Whole]) -> Field[Owner]:
+        """A field with this object of a part that is always there."""
+        return Field(name, self.schema, self._of(part))
+
     def or_null(
         self, name: str, part: Callable[[Owner], Whole | None]
     ) -> Field[Owner]:

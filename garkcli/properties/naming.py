@@ -17,7 +17,9 @@ _SHORT = 24
 def number_text(number: Number) -> str:
     """A number as it is, or its first digits."""
     text = to_text(number)
-    return text if len(text) <= _SHORT else f"about {to_decimal(number, 6)}"
+    if len(text) <= _SHORT:
+        return text
+    return f"about {to_decimal(number, 6)}"
 
 
 def entry_name(tableau: Tableau, space: int, m: int, i: int, j: int) -> str:
@@ -28,14 +30,18 @@ def entry_name(tableau: Tableau, space: int, m: int, i: int, j: int) -> str:
     >>> entry_name(gark([diagonal_method("heun", None)], {}), 0, 0, 1, 0)
     'A{1,1}, row 2, entry 1,'
     """
-    names = [colour.name for colour in tableau.colours]
-    seer = next(x.name for x in tableau.colours if x.space == space)
-    return f"A{{{seer},{names[m]}}}, row {i + 1}, entry {j + 1},"
+    seer, *_ = _names_of(tableau, space)
+    seen = tableau.colours[m].name
+    row = i + 1
+    entry = j + 1
+    return f"A{{{seer},{seen}}}, row {row}, entry {entry},"
 
 
 def weight_name(tableau: Tableau, m: int, j: int) -> str:
     """A weight of a colour."""
-    return f"b{{{tableau.colours[m].name}}}, entry {j + 1},"
+    name = tableau.colours[m].name
+    entry = j + 1
+    return f"b{{{name}}}, entry {entry},"
 
 
 def stages_name(tableau: Tableau, vertices: Iterable[Vertex]) -> str:
@@ -51,19 +57,25 @@ def stages_name(tableau: Tableau, vertices: Iterable[Vertex]) -> str:
         by_space.setdefault(space, []).append(stage + 1)
     parts = []
     for space, stages in by_space.items():
-        part = ("stage " if len(stages) == 1 else "stages ") + ranges(stages)
-        parts.append(part + _of_colours(tableau, space))
+        noun = "stage" if len(stages) == 1 else "stages"
+        numbers = ranges(stages)
+        whose = _of_colours(tableau, space)
+        parts.append(f"{noun} {numbers}{whose}")
     return " and ".join(parts)
+
+
+def _names_of(tableau: Tableau, space: int) -> list[str]:
+    """The colours that share a stage space."""
+    return [x.name for x in tableau.colours if x.space == space]
 
 
 def _of_colours(tableau: Tableau, space: int) -> str:
     if len(tableau.spaces) == 1:
         return ""
-    names = [
-        colour.name for colour in tableau.colours if colour.space == space
-    ]
+    names = _names_of(tableau, space)
     word = "colour" if len(names) == 1 else "colours"
-    return f" of {word} {', '.join(names)}"
+    listed = ", ".join(names)
+    return f" of {word} {listed}"
 
 
 def ranges(numbers: Sequence[int]) -> str:
@@ -78,7 +90,10 @@ def ranges(numbers: Sequence[int]) -> str:
             runs[-1].append(number)
         else:
             runs.append([number])
-    texts = [
-        str(run[0]) if len(run) == 1 else f"{run[0]}-{run[-1]}" for run in runs
-    ]
+    texts = []
+    for first, *others in runs:
+        text = str(first)
+        if others:
+            text += f"-{others[-1]}"
+        texts.append(text)
     return ", ".join(texts)

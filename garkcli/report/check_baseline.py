@@ -14,7 +14,10 @@ def render(found: Sequence[Regression], files: int) -> str:
     lines = []
     for x in found:
         change = f"{x.before} -> {x.now}"
-        lines.append(printable(f"{x.file}: {x.what} got worse: {change}"))
+        line = f"{x.file}: {x.what} got worse: {change}"
+        lines.append(printable(line))
     how_many = str(len(found) or "nothing")
-    lines.append(f"{counted(files, 'file')}: {how_many} got worse")
-    return inert("\n".join(lines)) + "\n"
+    of_these = counted(files, "file")
+    lines.append(f"{of_these}: {how_many} got worse")
+    text = "\n".join(lines)
+    return inert(text) + "\n"

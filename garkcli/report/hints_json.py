@@ -3,7 +3,7 @@
 from __future__ import annotations
 
 from collections.abc import Sequence
-from typing import TYPE_CHECKING, Any
+from typing import TYPE_CHECKING
 
 from garkcli.exact.display import to_text
 from garkcli.page.record import Field, Record, inside
@@ -22,6 +22,8 @@ from garkcli.page.schema import (
 from garkcli.trees.notation import format_tree
 
 if TYPE_CHECKING:
+    from flint import arb
+
     from garkcli.check.analysis import Analysis
     from garkcli.check.outcome import Outcome
     from garkcli.exact.field import Number
@@ -32,6 +34,7 @@ if TYPE_CHECKING:
 
 BLOCK: Schema = {**array(POSITION), "minItems": 1, "maxItems": 2}
 """The colours of a block A^{l,m}, or the one of weights b^{l}."""
+_BLOCKS: Schema = array(BLOCK)
 _CLAIMS: Schema = {"enum": ["order", "conjugate-order", "pair-order"]}
 
 
@@ -41,6 +44,7 @@ def blocks(found: Sequence[tuple[int, int]]) -> list[list[int]]:
 
 
 def _block(*colours: int | None) -> list[int]:
+    """The colours of a block, or the one of weights, counted from 1."""
     return [l + 1 for l in colours if l is not None]
 
 
@@ -49,15 +53,21 @@ def _is_of_weights(repair: Repair) -> bool:
 
 
 def _weights(repair: Repair) -> list[int] | None:
-    return _block(repair.l, repair.m) if _is_of_weights(repair) else None
+    if not _is_of_weights(repair):
+        return None
+    return _block(repair.l, repair.m)
 
 
 def _matrix(repair: Repair) -> list[int] | None:
-    return None if _is_of_weights(repair) else _block(repair.l, repair.m)
+    if _is_of_weights(repair):
+        return None
+    return _block(repair.l, repair.m)
 
 
 def _row(repair: Repair) -> int | None:
-    return None if repair.i is None else repair.i + 1
+    if repair.i is None:
+        return None
+    return repair.i + 1
 
 
 _REPAIR: Record[Repair] = Record(
@@ -70,12 +80,24 @@ _REPAIR: Record[Repair] = Record(
 )
 
 
-def _repairs(found: Blame | Misprint) -> list[dict[str, Any]]:
-    return [_REPAIR.data(repair) for repair in found.repairs]
-
-
 def _culprit(blame: Blame) -> list[int] | None:
-    return None if blame.culprit is None else _block(*blame.culprit)
+    if blame.culprit is None:
+        return None
+    return _block(*blame.culprit)
+
+
+def _in_every(blame: Blame) -> list[list[int]]:
+    return blocks(blame.in_every)
+
+
+def _in_none(blame: Blame) -> list[list[int]]:
+    return blocks(blame.in_none)
+
+
+def _upper(ball: arb) -> float:
+    """A float that the number does not exceed, but for the rounding of the last digit."""
+    bound = ball.upper()
+    return float(bound)
 
 
 _BLAME: Record[Blame] = Record(
@@ -85,46 +107,51 @@ _BLAME: Record[Blame] = Record(
     Field("conditions", COUNT, lambda x: x.total),
     Field("only_coupling", FLAG, lambda x: x.only_coupling),
     Field("culprit", nullable(BLOCK), _culprit),
-    Field("in_every", array(BLOCK), lambda x: blocks(x.in_every)),
-    Field("in_none", array(BLOCK), lambda x: blocks(x.in_none)),
-    Field("repairs", array(_REPAIR.schema), _repairs),
+    Field("in_every", _BLOCKS, _in_every),
+    Field("in_none", _BLOCKS, _in_none),
+    _REPAIR.every("repairs", lambda x: x.repairs),
     Field("restores", array(TEXT), lambda x: list(x.restores)),
 )
 _MISPRINT: Record[Misprint] = Record(
     Field("order", COUNT, lambda x: x.order),
-    Field("residual", SIZE, lambda x: float(x.residual.upper())),
-    Field("explained", SIZE, lambda x: float(x.explained.upper())),
-    Field("repairs", array(_REPAIR.schema), _repairs),
+    Field("residual", SIZE, lambda x: _upper(x.residual)),
+    Field("explained", SIZE, lambda x: _upper(x.explained)),
+    _REPAIR.every("repairs", lambda x: x.repairs),
 )
 _SUGGESTION: Record[Suggestion] = Record(
     Field("line", TEXT, lambda x: x.line),
     Field("order", COUNT, lambda x: x.order),
-    Field("rounding", SIZE, lambda x: float(x.rounding.upper())),
-    Field("genuine", SIZE, lambda x: float(x.genuine.upper())),
+    Field("rounding", SIZE, lambda x: _upper(x.rounding)),
+    Field("genuine", SIZE, lambda x: _upper(x.genuine)),
 )
 
 
 def _exact(number: Number | None) -> str | None:
-    return None if number is None else to_text(number)
+    if number is None:
+        return None
+    return to_text(number)
 
 
 def _worst(norms: Norms) -> str | None:
-    return None if norms.worst is None else format_tree(norms.worst)
+    if norms.worst is None:
+        return None
+    return format_tree(norms.worst)
 
 
+_TEXT_OR_NULL = nullable(TEXT)
 _NORMS: Record[Norms] = Record(
     Field("trees", COUNT, lambda x: x.trees),
-    Field("two_norm_squared", nullable(TEXT), lambda x: _exact(x.two_squared)),
+    Field("two_norm_squared", _TEXT_OR_NULL, lambda x: _exact(x.two_squared)),
     Field("two_norm", SIZE, lambda x: x.two),
     Field("inf_norm", SIZE, lambda x: x.largest),
-    Field("worst", nullable(TEXT), _worst),
-    Field("worst_value", nullable(TEXT), lambda x: _exact(x.worst_value)),
+    Field("worst", _TEXT_OR_NULL, _worst),
+    Field("worst_value", _TEXT_OR_NULL, lambda x: _exact(x.worst_value)),
 )
 _CONSTANTS: Record[ErrorConstants] = Record(
     Field("order", POSITION, lambda x: x.order),
     Field("exact", FLAG, lambda x: x.is_exact),
-    Field("all", _NORMS.schema, lambda x: _NORMS.data(x.all)),
-    Field("coupling", _NORMS.schema, lambda x: _NORMS.data(x.coupling)),
+    _NORMS.whole("all", lambda x: x.all),
+    _NORMS.whole("coupling", lambda x: x.coupling),
 )
 
 
@@ -132,12 +159,16 @@ def _analysis(outcome: Outcome) -> Analysis | None:
     return outcome.analysis
 
 
+_OF_MISPRINT: Field[Analysis] = _MISPRINT.optional(
+    "misprint", lambda x: x.misprint
+)
+_OF_SUGGESTION: Field[Analysis] = _SUGGESTION.optional(
+    "suggestion", lambda x: x.suggestion
+)
 HINTS: tuple[Field[Outcome], ...] = (
     _BLAME.optional("blame", lambda x: x.blame),
-    *inside(_analysis, [_MISPRINT.optional("misprint", lambda x: x.misprint)]),
+    *inside(_analysis, [_OF_MISPRINT]),
     _CONSTANTS.optional("error_constants", lambda x: x.constants),
-    *inside(
-        _analysis, [_SUGGESTION.optional("suggestion", lambda x: x.suggestion)]
-    ),
+    *inside(_analysis, [_OF_SUGGESTION]),
 )
 """Each is left out where there is nothing to say."""

@@ -5,7 +5,7 @@ from __future__ import annotations
 from typing import Any, TypeAlias
 
 from garkcli.page.record import Field
-from garkcli.page.schema import EXACT, TEXT, array, nullable
+from garkcli.page.schema import EXACT, TEXT, Schema, array, nullable
 from garkcli.problems.hamiltonian import Hamiltonian
 from garkcli.problems.oscillator import Oscillator
 from garkcli.problems.problem import Problem
@@ -16,11 +16,16 @@ Stepped: TypeAlias = Oscillator | Problem
 
 def name_of(problem: Stepped) -> str:
     """What --problem calls it."""
-    return "oscillator" if isinstance(problem, Oscillator) else problem.name
+    if isinstance(problem, Oscillator):
+        return "oscillator"
+    return problem.name
 
 
 def _split(problem: Oscillator) -> list[list[str]]:
-    return [[str(k), str(v)] for k, v in problem.shares]
+    pairs = []
+    for kinetic, potential in problem.shares:
+        pairs.append([str(kinetic), str(potential)])
+    return pairs
 
 
 def _hamiltonians(problem: Hamiltonian) -> list[str]:
@@ -28,23 +33,31 @@ def _hamiltonians(problem: Hamiltonian) -> list[str]:
 
 
 def _sides(problem: RightHandSide) -> list[list[str]]:
-    return [[str(x) for x in term] for term in problem.terms]
+    sides = []
+    for term in problem.terms:
+        components = [str(x) for x in term]
+        sides.append(components)
+    return sides
 
 
 def _stiffness(problem: RightHandSide) -> str | None:
-    return None if problem.stiffness is None else str(problem.stiffness)
+    if problem.stiffness is None:
+        return None
+    return str(problem.stiffness)
 
 
+_LISTS: Schema = array(array(EXACT))
+_LISTS_OF_TEXT: Schema = array(array(TEXT))
 NAME: Field[Stepped] = Field("problem", TEXT, name_of)
 _OSCILLATOR: tuple[Field[Oscillator], ...] = (
     Field("omega", EXACT, lambda x: str(x.omega)),
-    Field("split", array(array(EXACT)), _split),
+    Field("split", _LISTS, _split),
 )
 _HAMILTONIAN: tuple[Field[Hamiltonian], ...] = (
     Field("hamiltonian", array(TEXT), _hamiltonians),
 )
 _RIGHT_HAND_SIDE: tuple[Field[RightHandSide], ...] = (
-    Field("right_hand_sides", array(array(TEXT)), _sides),
+    Field("right_hand_sides", _LISTS_OF_TEXT, _sides),
     Field("stiffness", nullable(EXACT), _stiffness),
 )
 TERMS: dict[type[Stepped], tuple[Field[Any], ...]] = {

@@ -56,27 +56,39 @@ def certificate_schema() -> Schema:
     return published("certificate of gark certificate", _REPORT.schema)
 
 
+def _texts(polynomial: fmpq_poly) -> list[str]:
+    """The coefficients of a polynomial, lowest first."""
+    return [str(a) for a in polynomial.coeffs()]
+
+
 def _coefficients(field: NumberField) -> list[str]:
     """The minimal polynomial of θ, lowest coefficient first."""
-    return [str(field.modulus[k]) for k in range(field.degree + 1)]
+    return _texts(field.modulus)
 
 
 def _theta_between(field: NumberField) -> list[str]:
     """An interval around θ."""
     theta = field.element(fmpq_poly([0, 1]))
-    mantissa, exponent = to_ball(theta, DIGITS_OF_ROOT + 10).mid().man_exp()
-    near = fmpq(mantissa) * fmpq(2) ** int(exponent)
+    ball = to_ball(theta, DIGITS_OF_ROOT + 10)
+    mantissa, exponent = ball.mid().man_exp()
+    power = fmpq(2) ** int(exponent)
+    near = fmpq(mantissa) * power
     unit = fmpq(1, 10**DIGITS_OF_ROOT)
-    rounded = unit * (near / unit).floor()
-    return [str(rounded - unit), str(rounded + 2 * unit)]
+    units = (near / unit).floor()
+    rounded = unit * units
+    low = rounded - unit
+    high = rounded + 2 * unit
+    return [str(low), str(high)]
 
 
 def _between_nodes(modulus: fmpq_poly) -> list[fmpq]:
     """Points to the left of the nodes, between neighbours, and to the right."""
-    nodes = [root for root, _ in real_roots(Polynomial.from_flint(modulus))]
+    polynomial = Polynomial.from_flint(modulus)
+    nodes = [root for root, _ in real_roots(polynomial)]
     left_ends = [None, *nodes]
     right_ends = [*nodes, None]
-    return [between(a, b) for a, b in zip(left_ends, right_ends, strict=True)]
+    gaps = zip(left_ends, right_ends, strict=True)
+    return [between(a, b) for a, b in gaps]
 
 
 def _number(number: Number, degree: int) -> str | list[str]:
@@ -88,19 +100,21 @@ def _number(number: Number, degree: int) -> str | list[str]:
 def _between(space: StageSpace) -> list[str] | None:
     if not isinstance(space, PolynomialSpace):
         return None
-    return [str(x) for x in _between_nodes(space.modulus)]
+    points = _between_nodes(space.modulus)
+    return [str(x) for x in points]
 
 
 def _modulus(space: StageSpace) -> list[str] | None:
     if not isinstance(space, PolynomialSpace):
         return None
-    return [str(space.modulus[k]) for k in range(space.stages + 1)]
+    return _texts(space.modulus)
 
 
 def _colours_of_pair(proof: MethodProof) -> list[int]:
     """Which colour of the method each colour of the pair comes from."""
     assert proof.pair is not None
-    size, doubled = proof.method.tableau.size, proof.pair.tableau.size
+    size = proof.method.tableau.size
+    doubled = proof.pair.tableau.size
     return [index % size + 1 for index in range(doubled)]
 
 
@@ -134,12 +148,27 @@ _COLOUR: Record[_In[Colour]] = Record(
     Field("linear", FLAG, lambda x: x.part.is_linear),
     Field("b", array(_NUMBER), lambda x: x.numbers(x.part.b)),
 )
+
+
+def _space_of(block: _In[_Block]) -> int:
+    space, _ = block.part[0]
+    return space + 1
+
+
+def _colour_of(block: _In[_Block]) -> int:
+    _, colour = block.part[0]
+    return colour + 1
+
+
+def _rows_of(block: _In[_Block]) -> list[list[str | list[str]]]:
+    _, rows = block.part
+    return [block.numbers(row) for row in rows]
+
+
 _BLOCK: Record[_In[_Block]] = Record(
-    Field("space", POSITION, lambda x: x.part[0][0] + 1),
-    Field("colour", POSITION, lambda x: x.part[0][1] + 1),
-    Field(
-        "A", array(array(_NUMBER)), lambda x: [x.numbers(r) for r in x.part[1]]
-    ),
+    Field("space", POSITION, _space_of),
+    Field("colour", POSITION, _colour_of),
+    Field("A", array(array(_NUMBER)), _rows_of),
 )
 _WITNESS: Record[_In[Witness]] = Record(
     Field("tree", TEXT, lambda x: format_tree(x.part.tree)),
@@ -152,42 +181,70 @@ def _parts(tableau: Tableau, parts: Iterable[Part]) -> list[_In[Part]]:
     return [_In(part, tableau.degree) for part in parts]
 
 
+def _colours(proof: Proof) -> list[_In[Colour]]:
+    tableau = proof.tableau
+    return _parts(tableau, tableau.colours)
+
+
+def _blocks(proof: Proof) -> list[_In[_Block]]:
+    tableau = proof.tableau
+    blocks = sorted(tableau.blocks.items())
+    return _parts(tableau, blocks)
+
+
 def _witness(proof: Proof) -> _In[Witness] | None:
     """The tree that fails; None where the search ended at its limit."""
     witness = proof.order.witness
-    return None if witness is None else _In(witness, proof.tableau.degree)
+    if witness is None:
+        return None
+    return _In(witness, proof.tableau.degree)
 
 
 def _spanning(proof: Proof) -> list[list[list[str]]]:
-    return [
-        [[format_tree(tree) for tree in trees] for trees in by_colour]
-        for by_colour in proof.spanning
-    ]
+    """The trees that span, order by order and colour by colour."""
+    written = []
+    for by_colour in proof.spanning:
+        of_order = []
+        for trees in by_colour:
+            texts = [format_tree(tree) for tree in trees]
+            of_order.append(texts)
+        written.append(of_order)
+    return written
 
 
+_TREES: Schema = array(array(array(TEXT)))
 _PROOF: Record[Proof] = Record(
     _SPACE.every("spaces", lambda x: x.tableau.spaces),
-    _COLOUR.every("colours", lambda x: _parts(x.tableau, x.tableau.colours)),
-    _BLOCK.every(
-        "blocks", lambda x: _parts(x.tableau, sorted(x.tableau.blocks.items()))
-    ),
+    _COLOUR.every("colours", _colours),
+    _BLOCK.every("blocks", _blocks),
     Field("order", COUNT, lambda x: x.order.order),
-    Field("spanning", array(array(array(TEXT))), _spanning),
+    Field("spanning", _TREES, _spanning),
     _WITNESS.or_null("witness", _witness),
 )
 _PAIR: Record[MethodProof] = Record(
     *inside(lambda x: x.pair, _PROOF.fields),
     Field("colour_of", array(POSITION), _colours_of_pair),
 )
+
+
+def _pair(proof: MethodProof) -> MethodProof | None:
+    """Whose pair is told; None where there is no pair."""
+    if proof.pair is None:
+        return None
+    return proof
+
+
+def _obstacle(proof: MethodProof) -> str | None:
+    return proof.obstacle or None
+
+
 _REPORT: Record[MethodProof] = Record(
     schema_named(SCHEMA),
     Field("name", TEXT, lambda x: x.name),
     Field("version", TEXT, lambda _: __version__),
     _FIELD.or_null("field", lambda x: x.method.tableau.field),
-    Field("method", _PROOF.schema, lambda x: _PROOF.data(x.method)),
+    _PROOF.whole("method", lambda x: x.method),
     _PROOF.optional("conjugate", lambda x: x.conjugate),
-    _PAIR.optional("pair", lambda x: None if x.pair is None else x),
-    Field(
-        "no_conjugate", TEXT, lambda x: x.obstacle or None, is_optional=True
-    ),
+    _PAIR.optional("pair", _pair),
+    Field("no_conjugate", TEXT, _obstacle, is_optional=True),
 )

@@ -147,8 +147,8 @@ def _svg_caption(lines: Lines, middle: float, top: float) -> list[str]:
     base = top + 2
     for line in lines:
         base += CAPTION_STEP
-        place = _pixels(x=middle, y=base)
         text = escape(line)
+        place = _pixels(x=middle, y=base)
         written.append(f'<text {place} fill="#222222">{text}</text>')
     return written
 
