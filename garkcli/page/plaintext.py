@@ -14,7 +14,7 @@ PHRASES = {" · ": " * ", "½": "1/2 "}
 """Signs that read differently among others than alone; they come first."""
 SIGNS = {
     # letters and operators
-    "Â": "A^",
+    "Â": "Ahat",  # A^ would look like a power
     "ℚ": "Q",
     "𝟙": " 1",
     "ᵀ": "^T",

@@ -12,6 +12,9 @@ from garkcli.page.paint import Paint, aligned, indented
 from garkcli.tableau.pointwise import Cell, Entries
 from garkcli.tableau.tableau import Tableau
 
+_MARGIN = " " * 4
+_GAP = "  "
+
 
 def cell_text(cell: Cell, digits: int) -> str:
     """An entry as text: exact, or rounded to ``digits`` significant digits."""
@@ -83,7 +86,7 @@ def render(
         paint: colour or none.
         width: columns of the terminal.
     """
-    lines = [paint("strong", title)]
+    lines = [paint("strong", line) for line in _title_lines(title, width)]
     if about := remark(entries):
         lines.append(about)
     lines.append("")
@@ -94,6 +97,21 @@ def render(
     else:
         lines += _listing(tableau, entries, width)
     return "\n".join(lines) + "\n"
+
+
+def _title_lines(title: str, width: int) -> list[str]:
+    """The title, in several lines where it is long; names of files are left whole."""
+    if len(title) <= width:
+        return [title]
+    from textwrap import wrap  # slow to import, and most titles fit
+
+    return wrap(
+        title,
+        width,
+        subsequent_indent="  ",
+        break_long_words=False,
+        break_on_hyphens=False,
+    )
 
 
 def _grid(tableau: Tableau, entries: Entries) -> list[str]:
@@ -176,11 +194,61 @@ def _listing(tableau: Tableau, entries: Entries, width: int) -> list[str]:
             if block is None:
                 continue
             cells = [_texts(row, digits) for row in block]
-            rows = aligned(cells, right=False)
-            lines.append(f"A{{{row_name},{name}}} =")
-            lines += indented(rows, " " * 4)
-            lines.append("")
+            title = f"A{{{row_name},{name}}}"
+            lines += _block(title, cells, width)
     return lines[:-1]
+
+
+def _block(name: str, cells: Sequence[Sequence[str]], width: int) -> list[str]:
+    """A block beneath its name: whole where it fits, else as many of its columns at a time as do.
+
+    Args:
+        name: what the block is called.
+        cells: its entries.
+        width: columns of the terminal. An entry that is longer has lines of its own.
+    """
+    count = len(cells[0])
+    groups = _columns_that_fit(cells, width)
+    lines = []
+    for group in groups:
+        title = name
+        if len(group) < count:
+            title += f", {_numbers(group)} of {count}"
+        beside = [row[group.start : group.stop] for row in cells]
+        rows = aligned(beside, _GAP, right=False)
+        lines.append(f"{title} =")
+        lines += indented(rows, _MARGIN)
+        lines.append("")
+    return lines
+
+
+def _columns_that_fit(
+    cells: Sequence[Sequence[str]], width: int
+) -> list[range]:
+    """The columns of a block in groups that each fit between the margin and ``width``."""
+    gap = len(_GAP)
+    room = width - len(_MARGIN) + gap  # the last column has no gap behind it
+    groups = []
+    start = 0
+    used = 0
+    for j, column in enumerate(zip(*cells, strict=True)):
+        taken = max(map(len, column)) + gap
+        if used and used + taken > room:
+            groups.append(range(start, j))
+            start = j
+            used = 0
+        used += taken
+    groups.append(range(start, len(cells[0])))
+    return groups
+
+
+def _numbers(columns: range) -> str:
+    """Columns by their numbers from 1."""
+    first, last = columns.start + 1, columns.stop
+    if first == last:
+        return f"column {first}"
+    joint = "and" if last == first + 1 else "to"
+    return f"columns {first} {joint} {last}"
 
 
 def _vector(name: str, texts: Sequence[str], width: int) -> list[str]:

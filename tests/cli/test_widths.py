@@ -42,6 +42,10 @@ OF_FILES = [
     ("check", "tests/examples/failing/collocation-misprinted.gark.yaml"),
     ("tableau", "methods/collocation-conjugate.gark.yaml"),
     ("conjugate", "methods/collocation.gark.yaml", "--pair"),
+    ("conjugate", "methods/interpolation-conjugate.gark.yaml"),
+    ("conjugate", "methods/three-colours.gark.yaml"),
+    ("tableau", "methods/gauss6-lobatto7.gark.yaml"),
+    ("tableau", "methods/collocation.gark.yaml", "--digits", "40"),
     ("stability", "methods/ark-ars222.gark.yaml"),
     ("stability", "methods/rectangular.gark.yaml"),
     ("converge", "methods/stoermer-verlet.gark.yaml"),
@@ -90,6 +94,13 @@ def test_breaking_loses_no_word(text: str, width: int) -> None:
     assert " ".join(lines).split() == line.split()
     for one in lines:
         assert len(one) <= width or len(one.split()) == 1
+
+
+def test_the_conjugate_is_no_power_in_ascii() -> None:
+    """Â is a letter with a hat: A^ before the colours of a block would be read as an exponent."""
+    found = plain_line("conjugate nodes  yes, Â{l,m}𝟙 = c{l} for every block")
+    assert "Ahat{l,m} 1 = c{l}" in found
+    assert "^" not in found
 
 
 def test_gaps_between_columns_keep_two_blanks() -> None:

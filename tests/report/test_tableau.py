@@ -224,3 +224,61 @@ def test_long_nodes_and_weights_go_on_in_the_next_line() -> None:
         len(x.split(",")) for part in vectors for x in re.split(r"\nb", part)
     ]
     assert counts == [6, 6, 7, 7]
+
+
+def blocks_of(text: str) -> dict[str, list[list[str]]]:
+    """The blocks of a listing by their names, those in groups of columns put together again."""
+    found: dict[str, list[list[str]]] = {}
+    for part in text.split("\n\n"):
+        head, *lines = part.splitlines()
+        name = re.match(r"A\{.*?\}", head)
+        if name is None:
+            continue
+        rows = found.setdefault(name[0], [[] for _ in lines])
+        for row, line in zip(rows, lines, strict=True):
+            row += re.split(" {2,}", line.strip())
+    return found
+
+
+@pytest.mark.parametrize(
+    "run",
+    [
+        ("tableau", "methods/gauss6-lobatto7.gark.yaml"),
+        ("conjugate", "methods/three-colours.gark.yaml"),
+    ],
+    ids=lambda run: run[0],
+)
+def test_wide_blocks_are_printed_some_columns_at_a_time(
+    run: tuple[str, str],
+) -> None:
+    """Together the groups of columns are the blocks of the JSON report, entry by entry; a block
+    that fits 80 columns is printed whole.
+    """
+    text = gark(*run).out
+    report = json.loads(gark(*run, "--format", "json").out)
+    names = [colour["name"] for colour in report["colours"]]
+    expected = {}
+    for l, row in zip(names, report["A"], strict=True):
+        for m, block in zip(names, row, strict=True):
+            expected[f"A{{{l},{m}}}"] = block
+    assert blocks_of(text) == expected
+    for name, block in expected.items():
+        columns = zip(*block, strict=True)
+        widths = [max(map(len, column)) for column in columns]
+        gaps = 2 * (len(widths) - 1)
+        fits = 4 + sum(widths) + gaps <= 80
+        assert (f"{name} =" in text) == fits
+        assert (f"{name}, column" in text) != fits
+
+
+def test_the_columns_of_a_group_are_named() -> None:
+    """Three of seven columns, the next three, and the last, each group within 80 columns."""
+    text = gark("tableau", "methods/gauss6-lobatto7.gark.yaml").out
+    heads = re.findall(r"^A\{1,2\}, (.*) =$", text, re.MULTILINE)
+    assert heads == [
+        "columns 1 to 3 of 7",
+        "columns 4 to 6 of 7",
+        "column 7 of 7",
+    ]
+    text = gark("conjugate", "methods/three-colours.gark.yaml").out
+    assert "A{1,3}, columns 2 and 3 of 3 =" in text
