@@ -76,6 +76,7 @@ def command(
     see docs/sweep.md. Each criterion is decided exactly, as gark check and gark stability do. The
     rows are written one by one: a sweep that is ended at any moment goes on with --resume.
     """
+    from garkcli.page.progress import watching
     from garkcli.report.sweep import SweepReport, write_parquet
     from garkcli.sweep.load import load_plan
     from garkcli.sweep.run import sweep
@@ -86,8 +87,9 @@ def command(
         _refuse_plot(plan, plot)
     path = rows if rows is not None else str(Path(spec).with_suffix(".jsonl"))
     with RowStore(path, resume) as store:
-        for progress in sweep(plan, store, jobs, scheduler):
-            last = progress
+        with watching(output.may_show_progress) as show:
+            for last in sweep(plan, store, jobs, scheduler):
+                show("methods", last.before + last.done, last.total)
         report = SweepReport(spec, plan, store.rows, top)
     _tell(last, path, output)
     output.write(_rendered(report, output))

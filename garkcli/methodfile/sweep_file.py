@@ -20,6 +20,7 @@ from garkcli.exact.rewriting import roots_in
 from garkcli.methodfile.load import read_text
 from garkcli.methodfile.source import FileKind, Source
 from garkcli.methodfile.sweep_methods import MethodsReader
+from garkcli.methodfile.sweep_search import FREE, is_free, read_search
 from garkcli.methodfile.sweep_text import SweepText, one_or_more
 from garkcli.methodfile.words import one_line, shortened
 
@@ -35,6 +36,7 @@ KEYS = (
     "transfer",
     "files",
     "parameters",
+    "search",
     "columns",
     "where",
     "best",
@@ -95,6 +97,8 @@ class _Reader:
         found.name = found.name or Path(source.name).stem
         if "parameters" in entries:
             self._grids(entries["parameters"])
+        if "search" in entries:
+            found.search = read_search(source, entries["search"])
         methods = MethodsReader(source, found)
         if "methods" in entries:
             methods.read(entries["methods"], entries.get("transfer"))
@@ -136,6 +140,9 @@ class _Reader:
             if not _NAME.fullmatch(name):
                 message = f"{where} cannot be the name of a parameter"
                 self.source.fault(values, message, "use letters, digits and _")
+                continue
+            if is_free(values):
+                self.found.free += (name,)
                 continue
             if isinstance(values, MappingNode):
                 found = self._steps(values, where)
@@ -190,20 +197,30 @@ class _Reader:
         return value
 
     def _refuse_unused(self, entries: Mapping[str, Node]) -> None:
+        if not self.found.templates:
+            return
         used = {name for x in self.found.templates for name in x.parameters}
-        for name in self.found.grids:
-            if name not in used and self.found.templates:
-                message = f"parameters: no method has {name}"
-                self.source.fault(
-                    entries["parameters"], message, "leave it out, or use it"
-                )
+        for name in self.found.grids.keys() - used:
+            message = f"parameters: no method has {name}"
+            self.source.fault(
+                entries["parameters"], message, "leave it out, or use it"
+            )
+        if "search" in entries and not any(
+            template.order for template in self.found.templates
+        ):
+            message = "search: no method has an unknown that is left to it"
+            cure = (
+                f"write parameters: {{tau: {FREE}}}, or a file with unknowns"
+            )
+            self.source.fault(entries["search"], message, cure)
 
     def _refuse_large(self, root: Node) -> None:
         total = 0
+        search = self.found.search
+        seeds = 1 if search is None else len(search.seeds)
         for template in self.found.templates:
-            total += prod(
-                len(self.found.grids[x]) for x in template.parameters
-            )
+            count = prod(len(self.found.grids[x]) for x in template.parameters)
+            total += count * (seeds if template.order else 1)
         if total > MOST_METHODS:
             message = f"{total} methods (limit {MOST_METHODS})"
             self.source.fault(root, message, "make several sweeps")

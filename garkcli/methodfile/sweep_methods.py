@@ -15,6 +15,7 @@ from garkcli.exact.expression import parse
 from garkcli.exact.nodes import Expression, Name
 from garkcli.exact.rewriting import substitute
 from garkcli.families.registry import FAMILIES, MAX_STAGES, require_member
+from garkcli.methodfile.family import loads_family
 from garkcli.methodfile.load import NO_SETTINGS, described, read_text
 from garkcli.methodfile.source import METHOD_FILE, Source
 from garkcli.methodfile.sweep_text import SweepText, TemplateText, one_or_more
@@ -38,8 +39,14 @@ class MethodsReader:
         self.source = source
         self.found = found
 
+    @property
+    def _names(self) -> set[str]:
+        """Parameters that weights may use."""
+        return {*self.found.grids, *self.found.free}
+
     def read(self, node: Node, transfer: Node | None) -> None:
         """The entries of ``methods`` with each rule of ``transfer``."""
+        self._at = node
         choices = [
             self._choices(item) for item in self.source.items(node, "methods")
         ]
@@ -71,19 +78,20 @@ class MethodsReader:
     ) -> None:
         """One template out of families and a rule."""
         used = tuple(name for name in self.found.grids if name in names)
+        free = [name for name in self.found.free if name in names]
         members = [
             f'{{family: "{family}", stages: {s}}}' for family, s in methods
         ]
         lines = [f"methods: [{', '.join(members)}]"]
         if rule:
             lines.append(f"transfer: {rule}")
-        if used:
-            lines.insert(
-                0, f"parameters: {{{', '.join(f'{x}: free' for x in used)}}}"
-            )
+        if used or free:
+            given = ", ".join(f"{name}: free" for name in (*used, *free))
+            lines.insert(0, f"parameters: {{{given}}}")
         title = " + ".join(f"{family} {s}" for family, s in methods)
         name = f"{title}; {shown}" if shown else title
-        template = TemplateText(name, "\n".join(lines) + "\n", used)
+        order = self._order(self._at, name, free) if free else 0
+        template = TemplateText(name, "\n".join(lines) + "\n", used, order)
         if template not in self.found.templates:
             self.found.templates.append(template)
 
@@ -160,7 +168,7 @@ class MethodsReader:
                 text = self._weight(weight, f"transfer, weight of {rule}")
                 if text is not None:
                     terms.append((rule, text))
-                    names |= set(_NAME.findall(text)) & self.found.grids.keys()
+                    names |= set(_NAME.findall(text)) & self._names
             rule = (
                 "{"
                 + ", ".join(f'{rule}: "{text}"' for rule, text in terms)
@@ -177,7 +185,7 @@ class MethodsReader:
         text = self.source.scalar(node, where)
         if text is None:
             return None
-        known: dict[str, Expression] = {x: Name(x) for x in self.found.grids}
+        known: dict[str, Expression] = {x: Name(x) for x in self._names}
         try:
             substitute(parse(text), known)
         except ExpressionError as error:
@@ -193,13 +201,33 @@ class MethodsReader:
                 continue
             text, source = read_text(str(folder / name), METHOD_FILE)
             reader, _ = described(text, source, NO_SETTINGS)
-            has = reader.numbers.places
+            has = {**reader.numbers.places, **reader.numbers.free}
             used = tuple(x for x in self.found.grids if x in has)
             missing = [x for x in reader.numbers.free if x not in used]
-            if missing:
+            order = 0
+            if missing and self.found.search is None:
                 message = f"files: {shortened(name)} has the free parameter {missing[0]}"
                 cure = (
                     f"give it values: parameters: {{{missing[0]}: [1/4, 1/2]}}"
+                    ", or search: {seeds: 1..100}"
                 )
                 self.source.fault(item, message, cure)
-            self.found.templates.append(TemplateText(name, text, used))
+            elif missing:
+                first = {x: self.found.grids[x][0] for x in used}
+                family = loads_family(text, source, first)
+                order = self._order(item, name, missing, family.order or 0)
+            self.found.templates.append(TemplateText(name, text, used, order))
+
+    def _order(
+        self, node: Node, name: str, unknowns: Sequence[str], own: int = 0
+    ) -> int:
+        """The order that is searched for: that of ``search``, or the file's own."""
+        search = self.found.search
+        if search is None:
+            message = f"{shortened(name)} leaves {unknowns[0]} to a search"
+            self.source.fault(node, message, "write search: {seeds: 1..100}")
+        elif not (search.order or own):
+            message = f"{shortened(name)}: a search is for an order"
+            cure = "write search: {order: 4}, or in a file design: {order: 4}"
+            self.source.fault(node, message, cure)
+        return 0 if search is None else search.order or own

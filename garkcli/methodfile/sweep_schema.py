@@ -9,6 +9,7 @@ from collections.abc import Iterable, Mapping
 from garkcli.families.registry import FAMILIES
 from garkcli.methodfile.coefficient_schema import Schema
 from garkcli.methodfile.sweep_file import KEYS
+from garkcli.methodfile.sweep_search import FREE
 from garkcli.methodfile.transfers import ALL_RULES
 from garkcli.transfer import RULES
 
@@ -50,6 +51,7 @@ def sweep_file_schema(kinds: Mapping[str, str]) -> Schema:
             "type": "object",
             "additionalProperties": _grid(),
         },
+        "search": _search(),
         "columns": {"description": "What is told of each method.", **columns},
         "where": _conditions(kinds),
         "best": {"description": "Columns to sort by, best first.", **columns},
@@ -110,7 +112,24 @@ def _grid() -> Schema:
             "steps": {"type": "integer", "minimum": 1},
         },
     }
-    return {"anyOf": [steps, *_one_or_more(_RATIONAL)["anyOf"]]}
+    choices = [{"const": FREE}, steps, *_one_or_more(_RATIONAL)["anyOf"]]
+    return {"anyOf": choices}
+
+
+def _search() -> Schema:
+    seeds = {"type": "string", "pattern": r"^[0-9]{1,9}\.\.[0-9]{1,9}$"}
+    number = {"type": "integer", "minimum": 1}
+    return {
+        "description": "How parameters and unknowns without values are searched for.",
+        "type": "object",
+        "additionalProperties": False,
+        "required": ["seeds"],
+        "properties": {
+            "seeds": {"anyOf": [{"type": "integer", "minimum": 0}, seeds]},
+            "starts": number,
+            "order": number,
+        },
+    }
 
 
 def _conditions(kinds: Mapping[str, str]) -> Schema:

@@ -3,17 +3,29 @@
 from __future__ import annotations
 
 from dataclasses import dataclass, field
+from typing import TYPE_CHECKING
 
 from yaml.nodes import Node, SequenceNode
+
+if TYPE_CHECKING:
+    from garkcli.methodfile.sweep_search import SearchText
 
 
 @dataclass(frozen=True)
 class TemplateText:
-    """A method file of a sweep, made or read, and the parameters that are given values in it."""
+    """A method file of a sweep, made or read.
+
+    Attributes:
+        name: what it is called.
+        text: of the file.
+        parameters: that are given values in it.
+        order: that is searched for by other unknowns of it; 0 where there are none.
+    """
 
     name: str
     text: str
     parameters: tuple[str, ...]
+    order: int = 0
 
 
 @dataclass
@@ -24,6 +36,8 @@ class SweepText:
         name: of the sweep.
         templates: the method files.
         grids: the values of each parameter, as text.
+        free: parameters of ``methods`` that are left to the search.
+        search: how unknowns are searched for, if they are.
         columns: the criteria.
         conditions: column, relation and bound.
         best: columns to sort by.
@@ -33,6 +47,8 @@ class SweepText:
     name: str = ""
     templates: list[TemplateText] = field(default_factory=list)
     grids: dict[str, tuple[str, ...]] = field(default_factory=dict)
+    free: tuple[str, ...] = ()
+    search: SearchText | None = None
     columns: list[str] = field(default_factory=list)
     conditions: list[tuple[str, str, bool | float]] = field(
         default_factory=list

@@ -7,6 +7,7 @@ import io
 import json
 from collections.abc import Iterator, Mapping, Sequence
 from dataclasses import dataclass
+from functools import cached_property
 from textwrap import wrap
 from typing import Any
 
@@ -16,10 +17,18 @@ from garkcli.page.plain import printable
 from garkcli.page.schema import COUNT, FLAG, TEXT, Schema, array, published
 from garkcli.sweep.columns import Value, columns
 from garkcli.sweep.plan import Plan
-from garkcli.sweep.ranking import best_first, kept, pareto_front
+from garkcli.sweep.ranking import best_first, distinct, kept, pareto_front
 from garkcli.sweep.row import Row
 
 SCHEMA = "gark/sweep/1"
+WORDS = {
+    "exact": "exact",
+    "exists": "proved to exist",
+    "numerical": "numerical",
+}
+"""What is known of a find, as rows and as people have it."""
+FOUND = ("seed", "proof", "values")
+"""What tables have of finds beside the criteria."""
 
 
 @dataclass(frozen=True)
@@ -44,16 +53,26 @@ class SweepReport:
         keys = (point.key for point in self.plan.points())
         return [self.rows[key] for key in keys if key in self.rows]
 
+    @cached_property
+    def kept(self) -> list[Row]:
+        """The rows that are kept, one of each method that was found several times."""
+        return distinct(kept(self.done))
+
+    @property
+    def repeated(self) -> int:
+        """How many more of the kept rows have a method that another has."""
+        return len(kept(self.done)) - len(self.kept)
+
     @property
     def best(self) -> list[Row]:
         """The kept rows, best first."""
-        found = kept(self.done)
+        found = self.kept
         return best_first(found, self.plan.best) if self.plan.best else found
 
     @property
     def front(self) -> list[Row]:
         """The Pareto front."""
-        return pareto_front(kept(self.done), self.plan.pareto)
+        return pareto_front(self.kept, self.plan.pareto)
 
     @property
     def failed(self) -> list[Row]:
@@ -65,6 +84,8 @@ def render_text(report: SweepReport, width: int) -> str:
     """The best methods and the front, for people."""
     plan, best, failed = report.plan, report.best, report.failed
     found = f"{counted(len(plan), 'method')}, {len(best)} kept"
+    if report.repeated:
+        found += f", {report.repeated} found again"
     lines = [f"{printable(plan.name)}: {found}"]
     if failed:
         reason = printable(str(failed[0]["failure"]))
@@ -102,13 +123,25 @@ def _entries(plan: Plan, rows: Sequence[Row], width: int) -> Iterator[str]:
         values = [
             f"{name} {_shown(row, name)}" for name in plan.criteria.columns
         ]
-        indent = " " * 9
-        yield from wrap(
-            ", ".join(values),
-            width,
-            initial_indent=indent,
-            subsequent_indent=indent,
-        )
+        lines = [", ".join(values)]
+        if "proof" in row:
+            word = WORDS[str(row["proof"])]
+            lines.insert(0, f"{word}: {_values(row)}")
+        for line in lines:
+            yield from wrap(
+                line,
+                width,
+                initial_indent=" " * 9,
+                subsequent_indent=" " * 9,
+                break_on_hyphens=False,
+            )
+
+
+def _values(row: Row) -> str:
+    """The values of the unknowns that were found."""
+    values = row["values"]
+    assert isinstance(values, dict)
+    return ", ".join(f"{name} = {value}" for name, value in values.items())
 
 
 def _shown(row: Row, name: str) -> str:
@@ -129,6 +162,7 @@ def render_json(report: SweepReport) -> str:
         "name": plan.name,
         "methods": len(plan),
         "kept": len(report.best),
+        "repeated": report.repeated,
         "failed": len(report.failed),
         "columns": list(plan.criteria.columns),
         "best": report.best[: report.top],
@@ -157,7 +191,10 @@ def render_csv(report: SweepReport) -> str:
 
 
 def _flat_names(plan: Plan) -> list[str]:
-    return ["key", "method", *plan.grids, *plan.criteria.columns]
+    names = ["key", "method", *plan.grids]
+    if plan.has_searches:
+        names += FOUND
+    return [*names, *plan.criteria.columns]
 
 
 def _flat(plan: Plan, row: Row) -> dict[str, Value]:
@@ -170,6 +207,12 @@ def _flat(plan: Plan, row: Row) -> dict[str, Value]:
     }
     for name in plan.grids:
         flat[name] = settings.get(name)
+    if plan.has_searches:
+        seed, proof = row.get("seed"), row.get("proof")
+        assert not isinstance(seed, dict)
+        assert not isinstance(proof, dict)
+        values = _values(row) if "values" in row else None
+        flat |= {"seed": seed, "proof": proof, "values": values}
     for name in plan.criteria.columns:
         value = row.get(name)
         assert not isinstance(value, dict)
@@ -228,6 +271,7 @@ def sweep_report_schema() -> Schema:
         "name": TEXT,
         "methods": COUNT,
         "kept": COUNT,
+        "repeated": COUNT,
         "failed": COUNT,
         "columns": array(TEXT),
         "best": array(_row_schema()),
@@ -250,9 +294,15 @@ def _row_schema() -> Schema:
         "method": TEXT,
         "parameters": {"type": "object", "additionalProperties": TEXT},
     }
+    found: dict[str, Schema] = {
+        "seed": COUNT,
+        "proof": {"enum": list(WORDS)},
+        "values": {"type": "object", "additionalProperties": TEXT},
+    }
+    criteria = dict.fromkeys(columns(), _VALUE)
     return {
         "type": "object",
         "required": list(fields),
-        "properties": {**fields, **dict.fromkeys(columns(), _VALUE)},
+        "properties": {**fields, **found, **criteria},
         "additionalProperties": False,
     }

@@ -5,6 +5,8 @@ from __future__ import annotations
 from typing import cast
 
 from garkcli.methodfile.sweep_file import read_sweep
+from garkcli.methodfile.sweep_search import SearchText
+from garkcli.methodfile.sweep_text import TemplateText
 from garkcli.sweep.columns import columns, property_kind
 from garkcli.sweep.plan import Condition, Criteria, Plan, Relation, Template
 
@@ -21,9 +23,16 @@ def load_plan(path: str) -> Plan:
         Condition(name, cast(Relation, relation), bound)
         for name, relation, bound in text.conditions
     )
-    templates = tuple(
-        Template(x.name, x.text, x.parameters) for x in text.templates
-    )
+    search = text.search or SearchText(range(0))
+    templates = tuple(_template(x, search) for x in text.templates)
     criteria = Criteria(tuple(text.columns), conditions)
     best, pareto = tuple(text.best), tuple(text.pareto)
     return Plan(text.name, templates, text.grids, criteria, best, pareto)
+
+
+def _template(given: TemplateText, search: SearchText) -> Template:
+    """A method file, with its searches where unknowns are left to them."""
+    plain = given.name, given.text, given.parameters
+    if not given.order:
+        return Template(*plain)
+    return Template(*plain, given.order, search.seeds, search.starts)

@@ -63,11 +63,22 @@ class Template:
         name: what it is called in rows.
         text: of the file.
         parameters: their names.
+        order: that its other unknowns are searched for; 0 where it has none.
+        seeds: of the searches, a method each.
+        starts: of each search.
     """
 
     name: str
     text: str
     parameters: tuple[str, ...]
+    order: int = 0
+    seeds: range = range(0)
+    starts: int = 0
+
+    @property
+    def is_searched(self) -> bool:
+        """Whether methods are what is found in place of what is given."""
+        return self.order > 0
 
 
 @dataclass(frozen=True)
@@ -78,11 +89,13 @@ class Point:
         key: no other method of the sweep has it.
         template: its file.
         settings: the values of the parameters, as text.
+        seed: of the search for the other unknowns, where there is one.
     """
 
     key: str
     template: Template
     settings: Mapping[str, str]
+    seed: int | None = None
 
 
 @dataclass(frozen=True)
@@ -105,6 +118,8 @@ class Criteria:
     def fingerprint(self, template: Template) -> str:
         """What rows of a template have that were made by the same criteria of the same file."""
         text = f"{self._as_text}\n{template.text}"
+        if template.is_searched:
+            text += f"\norder {template.order}, {template.starts} starts"
         return hashlib.sha256(text.encode()).hexdigest()[:12]
 
 
@@ -141,7 +156,10 @@ class Plan:
         return self._starts[-1]
 
     def _size(self, template: Template) -> int:
-        return math.prod(len(self.grids[name]) for name in template.parameters)
+        count = math.prod(
+            len(self.grids[name]) for name in template.parameters
+        )
+        return count * len(template.seeds) if template.is_searched else count
 
     def points(self) -> Iterator[Point]:
         """Every method, those of a template one after the other."""
@@ -149,18 +167,29 @@ class Plan:
             for index in range(self._size(template)):
                 yield self._point(template, index)
 
+    @property
+    def has_searches(self) -> bool:
+        """Whether some methods are searched for."""
+        return any(template.is_searched for template in self.templates)
+
     def _point(self, template: Template, index: int) -> Point:
         settings = {}
+        seed = None
+        if template.is_searched:
+            index, place = divmod(index, len(template.seeds))
+            seed = template.seeds[place]
         for name in reversed(template.parameters):
             values = self.grids[name]
             index, place = divmod(index, len(values))
             settings[name] = values[place]
         in_order = {name: settings[name] for name in template.parameters}
         values_text = ", ".join(f"{name}={x}" for name, x in in_order.items())
-        key = (
-            f"{template.name}; {values_text}" if values_text else template.name
+        parts = (
+            [template.name, values_text] if values_text else [template.name]
         )
-        return Point(key, template, in_order)
+        if seed is not None:
+            parts.append(f"seed {seed}")
+        return Point("; ".join(parts), template, in_order, seed)
 
     def more_is_better(self, name: str) -> bool:
         """Whether larger values of a column come first."""

@@ -2,6 +2,7 @@
 
 from __future__ import annotations
 
+import json
 from collections.abc import Iterable, Sequence
 
 from garkcli.sweep.columns import Value, columns
@@ -12,6 +13,16 @@ from garkcli.sweep.row import Row
 def kept(rows: Iterable[Row]) -> list[Row]:
     """The rows of methods that fulfil all conditions."""
     return [row for row in rows if row["kept"] is True]
+
+
+def distinct(rows: Iterable[Row]) -> list[Row]:
+    """The first row of each method: several seeds may find the same."""
+    found: dict[str, Row] = {}
+    for row in rows:
+        what = [row.get(name) for name in ("method", "parameters", "values")]
+        known_by = json.dumps(what) if "values" in row else str(row["key"])
+        found.setdefault(known_by, row)
+    return list(found.values())
 
 
 def best_first(rows: Sequence[Row], by: Sequence[str]) -> list[Row]:

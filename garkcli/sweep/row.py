@@ -9,18 +9,19 @@ from typing import TypeAlias
 from flint import fmpq
 
 from garkcli.design.member import member
-from garkcli.errors import GarkError, MethodError, MethodFileError
+from garkcli.errors import GarkError, MethodError, MethodFileError, counted
 from garkcli.exact.field import Number
 from garkcli.methodfile.family import FamilyFile, loads_family
 from garkcli.methodfile.load import loads
 from garkcli.sweep.columns import Value, columns
 from garkcli.sweep.judged import Judged
 from garkcli.sweep.plan import Criteria, Point
+from garkcli.sweep.searched import first_find, method_found
 from garkcli.tableau.tableau import Tableau
 
 Row: TypeAlias = "dict[str, Value | dict[str, str]]"
 """``key``, ``spec``, ``kept``, ``method``, ``parameters``, then columns; ``failure`` where there is
-no such method.
+no such method. What was searched for has ``seed``, and ``proof`` and ``values`` where it was found.
 """
 
 
@@ -31,7 +32,11 @@ def row_of(criteria: Criteria, point: Point) -> Row:
     """
     row = _start(criteria, point)
     try:
-        judged = Judged(_tableau(point))
+        is_searched = point.template.is_searched
+        tableau = _searched(point, row) if is_searched else _tableau(point)
+        if tableau is None:
+            return {**row, "kept": not criteria.conditions}
+        judged = Judged(tableau)
         for condition in criteria.conditions:
             value = columns()[condition.column].value(judged)
             row[condition.column] = value
@@ -55,13 +60,14 @@ def crashed_row(criteria: Criteria, point: Point, why: str) -> Row:
 
 
 def _start(criteria: Criteria, point: Point) -> Row:
-    return {
+    row: Row = {
         "key": point.key,
         "spec": criteria.fingerprint(point.template),
         "kept": False,
         "method": point.template.name,
         "parameters": dict(point.settings),
     }
+    return row if point.seed is None else {**row, "seed": point.seed}
 
 
 def _message(error: Exception) -> str:
@@ -85,6 +91,20 @@ def _tableau(point: Point) -> Tableau:
     if method.tolerance is not None:
         raise MethodError("its coefficients are rounded", "give exact ones")
     return method.tableau
+
+
+def _searched(point: Point, row: Row) -> Tableau | None:
+    """The method that is found from the seed of a row, told in the row.
+
+    None where its coefficients are not known exactly: then nothing else is told of it.
+    """
+    found = first_find(point)
+    if found is None:
+        starts = counted(point.template.starts, "start")
+        raise MethodError(f"nothing found from {starts}", "take more")
+    row["proof"] = found.proof
+    row["values"] = dict(found.values)
+    return method_found(point, found) if found.is_exact else None
 
 
 @lru_cache(maxsize=32)

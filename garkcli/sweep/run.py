@@ -64,7 +64,9 @@ def sweep(
             )
     progress = Progress(len(plan), len(plan) - len(missing))
     yield progress
-    tasks = [missing[k : k + CHUNK] for k in range(0, len(missing), CHUNK)]
+    quick = [x for x in missing if not x.template.is_searched]
+    tasks = [quick[k : k + CHUNK] for k in range(0, len(quick), CHUNK)]
+    tasks += [[x] for x in missing if x.template.is_searched]
     for text, seconds in _results(plan.criteria, tasks, jobs, scheduler):
         for line in text.splitlines():
             store.add(json.loads(line))

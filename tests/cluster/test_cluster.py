@@ -27,14 +27,16 @@ pytestmark = pytest.mark.skipif(
     os.name == "nt", reason="there are no such signals"
 )
 
-SPEC = """methods:
+SPEC = """files: explicit.yaml
+search: {seeds: 1..4}
+methods:
   - {family: [gauss, radau-iia], stages: 1..2}
   - {family: lobatto-iiia, stages: [2, 3]}
 transfer: [collocation, {interpolation: tau, collocation: 1 - tau}]
 parameters: {tau: {from: 0, to: 1, steps: 40}}
 columns: [order, pair-order, stages]
 """
-"""336 methods."""
+"""336 methods that are given and four that are searched for."""
 EXPLICIT = """unknown: {stages: 4, shape: explicit}
 design: {order: 4}
 """
@@ -65,6 +67,7 @@ def test_a_sweep_that_loses_a_worker(cluster: Any, tmp_path: Path) -> None:
     """Every row is there, and once."""
     spec = tmp_path / "spec.yaml"
     spec.write_text(SPEC, encoding="utf-8")
+    (tmp_path / "explicit.yaml").write_text(EXPLICIT, encoding="utf-8")
     rows, killed = spec.with_suffix(".jsonl"), 0
     plan = load_plan(str(spec))
     with RowStore(str(rows), False) as store:
@@ -72,9 +75,11 @@ def test_a_sweep_that_loses_a_worker(cluster: Any, tmp_path: Path) -> None:
             if progress.done and not killed:
                 killed = kill_one(cluster)
     assert killed not in processes(cluster)
-    assert progress.done == len(plan) == 8 * 42
+    assert progress.done == len(plan) == 8 * 42 + 4
     found = [json.loads(x) for x in rows.read_text("utf-8").splitlines()]
     assert len({row["key"] for row in found}) == len(found) == len(plan)
+    searched = [row["order"] for row in found if "seed" in row]
+    assert searched == [4] * 4
 
 
 def told(result: Result) -> tuple[object, ...]:
