@@ -1,5 +1,6 @@
 """Settings that all tests share."""
 
+import gc
 import os
 import sys
 
@@ -12,6 +13,13 @@ sys.dont_write_bytecode = False
 # the same examples every time: what passes here passes there; see docs/fuzzing.md
 IS_RANDOM = os.environ.get("GARK_RANDOM_EXAMPLES") == "1"
 settings.register_profile(
-    "gark", deadline=None, max_examples=40, derandomize=not IS_RANDOM
+    "gark", deadline=None, max_examples=25, derandomize=not IS_RANDOM
 )
 settings.load_profile("gark")
+
+
+def pytest_collection_finish() -> None:
+    """Keep the garbage collector from what stays until the end: modules and thousands of tests."""
+    gc.collect()
+    gc.freeze()
+    gc.set_threshold(50_000)  # as gark has it

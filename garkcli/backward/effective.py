@@ -77,17 +77,24 @@ def effective_order(equation: ModifiedEquation) -> EffectiveOrder:
         if is_large:
             is_unique = False  # nobody has looked
             continue
-        matrix = _bracket_with_delta(forest, k)
-        rank = matrix.rank()
+        sides: list[list[fmpq]] = []
+        if any(residual):
+            sides = _rational_sides(residual, equation.tableau.field)
+        extended = _bracket_with_delta(forest, k, sides)
+        rank = rank_of_all = extended.rank()
+        if sides and rank_of_all == extended.ncols():
+            rank = len(columns)  # independent columns: no second elimination
+        elif sides:
+            rank = _bracket_with_delta(forest, k).rank()
         commuting = len(columns) - rank
         is_unique &= commuting == (1 if k == 1 else 0)  # 1: δ itself
-        if not any(residual):
+        if not sides:
             continue
-        sides = _rational_sides(residual, equation.tableau.field)
-        if _with_columns(matrix, sides).rank() > rank:
+        if rank_of_all > rank:
             return EffectiveOrder(k, is_unique)
         if len(rows) * len(columns) > MAX_SOLVED:
             return EffectiveOrder(k + 1, False)
+        matrix = _bracket_with_delta(forest, k)
         solution = _solve(matrix, sides, equation.tableau.field)
         change: list[Number] = [ZERO] * len(field)
         change[columns.start : columns.stop] = [-x for x in solution]
@@ -95,11 +102,15 @@ def effective_order(equation: ModifiedEquation) -> EffectiveOrder:
     return EffectiveOrder(equation.max_order, False)
 
 
-def _bracket_with_delta(forest: Forest, order: int) -> fmpz_mat:
-    """χ ↦ [χ, δ] from trees of an order to those of the next."""
+def _bracket_with_delta(
+    forest: Forest, order: int, sides: Sequence[Sequence[fmpq]] = ()
+) -> fmpz_mat:
+    """χ ↦ [χ, δ] from trees of an order to those of the next, and then right-hand sides, each
+    multiplied by its common denominator.
+    """
     rows = forest.of_order(order + 1)
     columns = forest.of_order(order)
-    matrix = fmpz_mat(len(rows), len(columns))
+    matrix = fmpz_mat(len(rows), len(columns) + len(sides))
     for i, number in enumerate(rows):
         for cut in forest.cuts[number]:
             if forest.order(cut.branch) == 1:
@@ -110,6 +121,10 @@ def _bracket_with_delta(forest: Forest, order: int) -> fmpz_mat:
                 j = cut.branch - columns.start
                 before = matrix[i, j]
                 matrix[i, j] = before - cut.times
+    for j, side in enumerate(sides, start=len(columns)):
+        common = lcm(*[int(x.q) for x in side])
+        for i, x in enumerate(side):
+            matrix[i, j] = (x * common).p
     return matrix
 
 
@@ -120,23 +135,6 @@ def _rational_sides(
     degree = field.degree if field else 1
     rows = [coordinates(number, degree) for number in right]
     return [list(column) for column in zip(*rows, strict=True)]
-
-
-def _with_columns(
-    matrix: fmpz_mat, sides: Sequence[Sequence[fmpq]]
-) -> fmpz_mat:
-    """A matrix with multiples of columns appended that have integer entries."""
-    rows, columns = matrix.nrows(), matrix.ncols()
-    appended = []
-    for side in sides:
-        denominators = [int(x.q) for x in side]
-        common = lcm(*denominators)
-        appended.append([(x * common).p for x in side])
-    entries = []
-    for i, row in enumerate(matrix.tolist()):
-        entries += row
-        entries += [side[i] for side in appended]
-    return fmpz_mat(rows, columns + len(sides), entries)
 
 
 def _solve(

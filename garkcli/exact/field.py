@@ -133,11 +133,15 @@ class Algebraic:
             return fmpq_poly([other])
         return None
 
+    def _of_sum(self, poly: fmpq_poly) -> Number:
+        """The element of a polynomial whose degree is small already."""
+        return Algebraic(self.field, poly) if poly.degree() > 0 else poly[0]
+
     def __add__(self, other: object) -> Number:
         poly = self._poly_of(other)
         if poly is None:
             return NotImplemented
-        return self.field.element(self.poly + poly)
+        return self._of_sum(self.poly + poly)
 
     __radd__ = __add__
 
@@ -145,7 +149,7 @@ class Algebraic:
         poly = self._poly_of(other)
         if poly is None:
             return NotImplemented
-        return self.field.element(self.poly - poly)
+        return self._of_sum(self.poly - poly)
 
     def __rsub__(self, other: object) -> Number:
         return -(self - other)

@@ -117,9 +117,15 @@ def sign_at(p: Polynomial, root: RealRoot) -> int:
     value = root.exact
     if value is not None:
         return sign(p(value))
-    if not p or vanishes_at(p, root):
+    if not p:
         return 0
-    bits = FIRST_BITS
+    with precision(FIRST_BITS):
+        ball = p.enclosed_at(root.ball(FIRST_BITS))
+    if ball > 0 or ball < 0:  # most often; no gcd is needed
+        return 1 if ball > 0 else -1
+    if vanishes_at(p, root):
+        return 0
+    bits = 2 * FIRST_BITS
     while True:
         with precision(bits):
             ball = p.enclosed_at(root.ball(bits))

@@ -189,10 +189,12 @@ def _first_failure(p: Polynomial) -> RealRoot | None:
     """The r ≥ 0 from which p is negative: 0, a root where it changes sign, or None for never."""
     if not p:
         return None
-    lowest = next(a for a in p.coefficients if a)
+    signs = [sign(a) for a in p.coefficients if a]
     origin = RealRoot.rational(ZERO)
-    if sign(lowest) < 0:
+    if signs[0] < 0:
         return origin
+    if min(signs) > 0:  # a sum of powers that are positive where r is
+        return None
     for root, power in real_roots(p):
         if root > origin and power % 2 == 1:
             return root

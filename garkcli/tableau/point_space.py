@@ -4,7 +4,7 @@ from __future__ import annotations
 
 from collections.abc import Iterator, Sequence
 from dataclasses import dataclass
-from functools import cached_property
+from functools import cached_property, lru_cache
 from itertools import combinations
 from math import prod
 from typing import cast
@@ -132,7 +132,8 @@ def _scaled_rows(factors: Vector, rows: Matrix) -> Matrix:
     return tuple(scaled)
 
 
-def _common_denominator(nodes: Sequence[fmpq]) -> fmpz:
+@lru_cache(maxsize=16)  # blocks both ways, and to many colours, ask again
+def _common_denominator(nodes: tuple[fmpq, ...]) -> fmpz:
     """What the Lagrange polynomials of rational nodes are divided by, in common.
 
     L_i = ∏ (x − c_j) / ∏ (c_i − c_j) over j ≠ i: the least common multiple of the numerators of the

@@ -66,7 +66,7 @@ def assert_no_contradiction(found: Analysis) -> None:
         )
 
 
-@settings(max_examples=60)
+@settings(max_examples=30)
 @given(
     st.sampled_from(SMALL),
     st.sampled_from([3, 5, 8, 12, 16]),
@@ -99,7 +99,7 @@ def random_method(dice: Random) -> Tableau:
     return gark([butcher(tuple(tuple(row) for row in rows), tuple(b))], {})
 
 
-@settings(max_examples=80)
+@settings(max_examples=40)
 @given(st.integers(0, 2**32 - 1), st.integers(5, 11))
 def test_nearly_symplectic_methods(seed: int, exponent: int) -> None:
     """Small weights make the conjugate many times less certain than the method."""

@@ -6,6 +6,7 @@ import json
 import os
 import subprocess
 import sys
+from functools import cache
 from pathlib import Path
 
 import pytest
@@ -200,6 +201,12 @@ def process(
     )
 
 
+@cache
+def one_by_one() -> Run:
+    """``gark check methods`` without a second process."""
+    return gark("check", "methods", "-j", "1")
+
+
 @pytest.mark.parametrize(
     ("options", "paths"),
     [
@@ -233,22 +240,22 @@ def test_two_at_a_time_say_the_same(
     """Methods, failing and unreadable files give the same report, in the same order, one by one and
     by twos.
     """
-    one, two = process(*options, *paths), process(*options, "-j", "2", *paths)
-    assert one.stdout == two.stdout != ""
-    assert one.stderr == two.stderr == ""
+    one = gark("check", *options, *paths)
+    two = process(*options, "-j", "2", *paths)
+    assert one.out == two.stdout != ""
+    assert one.err == two.stderr == ""
     expected = 0 if paths == ("tests/examples/valid",) else 2
     expected = max(expected, int("tests/examples/failing" in paths))
-    assert one.returncode == two.returncode == expected
+    assert one.code == two.returncode == expected
 
 
 def test_standard_input_among_many() -> None:
     """``-`` is read once, in its place among the files, with ``-j`` as without."""
     paths = ("methods/collocation.gark.yaml", "-", "tests/examples/failing")
-    one, two = (
-        process(*paths, *jobs, "--format", "json", stdin=HOLDS)
-        for jobs in ((), ("-j", "2"))
-    )
-    assert one.stdout == two.stdout
+    options = ("--format", "json")
+    one = gark("check", *paths, *options, stdin=HOLDS)
+    two = process(*paths, *options, "-j", "2", stdin=HOLDS)
+    assert one.out == two.stdout
     files = [(x["file"], x["ok"]) for x in json.loads(two.stdout)["files"]]
     assert files[0] == (paths[0], True)
     assert files[1] == ("<stdin>", True)
@@ -257,10 +264,10 @@ def test_standard_input_among_many() -> None:
 
 def test_as_many_as_there_are_processors() -> None:
     """``-j 0`` gives the report of ``-j 1``; fewer than none are a usage error."""
-    alone, many = process("methods", "-j", "1"), process("methods", "-j", "0")
-    assert (alone.returncode, alone.stdout) == (many.returncode, many.stdout)
-    assert alone.returncode == 0
-    assert process("methods", "-j", "-1").returncode == 2
+    alone, many = one_by_one(), process("methods", "-j", "0")
+    assert (alone.code, alone.out) == (many.returncode, many.stdout)
+    assert alone.code == 0
+    assert gark("check", "methods", "-j", "-1").code == 2
 
 
 def test_a_baseline_of_many_at_a_time(tmp_path: Path) -> None:
@@ -272,14 +279,9 @@ def test_a_baseline_of_many_at_a_time(tmp_path: Path) -> None:
         ).returncode
         == 0
     )
-    run = process("methods", "--baseline", str(base))
-    assert (
-        run.returncode,
-        run.stdout.splitlines()[-1].partition(": ")[2],
-    ) == (
-        0,
-        "nothing got worse",
-    )
+    run = gark("check", "methods", "--baseline", str(base))
+    last = run.out.splitlines()[-1]
+    assert (run.code, last.partition(": ")[2]) == (0, "nothing got worse")
 
 
 @pytest.mark.parametrize(
@@ -420,11 +422,8 @@ def test_more_workers_than_a_system_waits_for() -> None:
     from garkcli.crew.processes import MOST_WORKERS
 
     assert MOST_WORKERS <= 61
-    alone, many = (
-        process("methods", "-j", "1"),
-        process("methods", "-j", "256"),
-    )
-    assert (alone.returncode, alone.stdout) == (many.returncode, many.stdout)
+    alone, many = one_by_one(), process("methods", "-j", "256")
+    assert (alone.code, alone.out) == (many.returncode, many.stdout)
 
 
 # -- paths that cannot be looked at

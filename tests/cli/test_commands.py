@@ -7,6 +7,7 @@ import os
 import re
 import sys
 import xml.etree.ElementTree as ET
+from functools import cache
 from importlib import import_module
 from pathlib import Path
 
@@ -17,7 +18,7 @@ from jsonschema import Draft7Validator
 
 from garkcli.cli.main import COMMANDS
 from garkcli.methodfile.load import load, loads
-from tests.cli.harness import ROOT, gark
+from tests.cli.harness import ROOT, Run, gark
 
 COLLOCATION = "methods/collocation.gark.yaml"
 VERLET = "methods/stoermer-verlet.gark.yaml"
@@ -96,6 +97,12 @@ def test_every_format_of_every_command_is_tried() -> None:
     assert tried == known
 
 
+@cache
+def shown(arguments: tuple[str, ...]) -> Run:
+    """A run that shows its report, one for all tests of it."""
+    return gark(*arguments)
+
+
 def data(*arguments: str) -> dict[str, object]:
     """The JSON report of a run that succeeds."""
     run = gark(*arguments, "--format", "json")
@@ -112,7 +119,7 @@ def test_every_command_runs_in_every_format(
     """The report is on stdout, in the format asked for; nothing but notes is on stderr; the exit
     code is 0.
     """
-    run = gark(*arguments)
+    run = shown(arguments)
     assert run.code == 0, run.err
     assert (
         run.out.endswith("\n") or arguments[-1] == "github"
@@ -141,7 +148,7 @@ def test_a_report_in_a_file_is_the_report_on_stdout(
     target = tmp_path / "report"
     run = gark(*arguments, "-o", str(target))
     assert (run.code, run.out) == (0, "")
-    assert target.read_text(encoding="utf-8") == gark(*arguments).out
+    assert target.read_text(encoding="utf-8") == shown(arguments).out
     assert [path.name for path in tmp_path.iterdir()] == ["report"]
 
 

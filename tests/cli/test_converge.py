@@ -290,4 +290,3 @@ ark:
     assert "conditions of order 3 are missed by little" in alone.out
     both = gark("converge", str(rounded), str(toleranced))
     assert (both.code, both.err.count(hint)) == (0, 1)
-    assert gark("converge", str(toleranced)).code == 0

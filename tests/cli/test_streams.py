@@ -182,7 +182,8 @@ def shell(
 def test_a_process_without_utf_8(variables: dict[str, str]) -> None:
     """The program writes Greek into a pipe of another encoding, without a fault."""
     done = shell(
-        "$GARK trees -N 2 -n 3; $GARK --help; $GARK check methods", **variables
+        "$GARK trees -N 2 -n 3; $GARK --help; $GARK check methods/rk4.gark.yaml",
+        **variables,
     )
     assert (done.returncode, done.stderr) == (0, b"")
     assert done.stdout.count(b"?") == 1  # that of the help

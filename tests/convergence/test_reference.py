@@ -30,8 +30,17 @@ def test_period_of_kepler() -> None:
             )
 
 
-@pytest.mark.parametrize("digits", [16, 25, 40])
-@pytest.mark.parametrize("t_end", [fmpq(1, 10), fmpq(2), fmpq(30)])
+@pytest.mark.parametrize(
+    ("digits", "t_end"),
+    [
+        (16, fmpq(30)),
+        (25, fmpq(30)),
+        (16, fmpq(2)),
+        (40, fmpq(2)),
+        (25, fmpq(1, 10)),
+    ],
+    ids=str,
+)
 def test_linear_springs(digits: int, t_end: fmpq) -> None:
     """The split oscillator is x'' = −x + 25/4 (y − x), y'' = −25/4 (y − x): solved by its
     eigenvectors.
@@ -97,7 +106,7 @@ def test_collision_has_no_solution(
     """
     from dataclasses import replace
 
-    monkeypatch.setattr(module, "MAX_TRIED", 1000)
+    monkeypatch.setattr(module, "MAX_TRIED", 200)
     problem = replace(
         hamiltonian("kepler", 1), initial=(fmpq(1), fmpq(0), fmpq(0), fmpq(0))
     )

@@ -56,7 +56,7 @@ EXPRESSIONS = st.recursive(
 POINTS = st.tuples(*[st.integers(1, 40).map(lambda k: fmpq(k, 16))] * 3)
 
 
-@settings(max_examples=150, deadline=None)
+@settings(max_examples=60, deadline=None)
 @given(st.lists(EXPRESSIONS, min_size=1, max_size=4), POINTS)
 def test_values_are_those_of_sympy(
     expressions: list[Any], point: tuple[fmpq, ...]

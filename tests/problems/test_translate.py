@@ -24,7 +24,7 @@ def translated(text: str) -> sympy.Expr:
     return PLAIN.translate(parse_formula(text))
 
 
-@settings(deadline=None, max_examples=200)
+@settings(deadline=None, max_examples=80)
 @given(FORMULAS)
 def test_values_stay(expression: Expression) -> None:
     """Translated, differentiated once by nothing, and written as code for balls, a formula has the
