@@ -23,6 +23,7 @@ if TYPE_CHECKING:
 
     from garkcli.design.choices import Choice
     from garkcli.design.design import Design
+    from garkcli.design.minimise.result import Minimum
     from garkcli.design.stable_values import Wanted as Stability
     from garkcli.methodfile.family import FamilyFile
 
@@ -69,11 +70,17 @@ def command(
         chosen = _walk(_found(family, wanted), choices)
         family = load_family(file, {**settings, **choices})
     found = _found(family, wanted)
-    output.write(_rendered(file, found, chosen, wanted.digits, output))
-    if wanted.emit is not None:
-        _emit(family, found, wanted.emit)
     order = wanted.order or family.order
     is_reached = order is None or found.reaches(order)
+    minimum = None
+    if wanted.objective is not None and is_reached:
+        from garkcli.cli.minimising import least
+
+        minimum = least(found, wanted.objective, wanted.seconds)
+    text = _rendered(file, found, chosen, minimum, wanted.digits, output)
+    output.write(text)
+    if wanted.emit is not None:
+        _emit(family, found, minimum, wanted.emit)
     return _exit_code(found.last.kind == "undecided", is_reached)
 
 
@@ -88,6 +95,7 @@ def _rendered(
     file: str,
     found: Design,
     chosen: list[Choice],
+    minimum: Minimum | None,
     digits: int,
     output: Output,
 ) -> str:
@@ -95,10 +103,15 @@ def _rendered(
     if output.format == "json":
         from garkcli.report import design_data
 
-        return design_data.render(file, found, digits, chosen)
+        return design_data.render(file, found, digits, chosen, minimum)
     from garkcli.report import design_text
 
-    return design_text.render(file, found, digits, output.width, chosen)
+    text = design_text.render(file, found, digits, output.width, chosen)
+    if minimum is None:
+        return text
+    from garkcli.report import minimum_text
+
+    return text + minimum_text.render(minimum, digits, output.width)
 
 
 def _walk(known: Design, choices: Mapping[str, str]) -> list[Choice]:
@@ -166,12 +179,19 @@ def _stable_values(
     return _exit_code(is_open, bool(found.found))
 
 
-def _emit(family: FamilyFile, found: Design, path: str) -> None:
-    """Write the first method among the solutions.
+def _emit(
+    family: FamilyFile, found: Design, minimum: Minimum | None, path: str
+) -> None:
+    """Write the best method, or the first among the solutions.
 
     Raises:
-        UsageProblem: no order has finitely many.
+        UsageProblem: there is no minimum; or no order has finitely many.
     """
+    if minimum is not None:
+        from garkcli.cli.minimising import emit
+
+        emit(family, minimum, path)
+        return
     from garkcli.design.chosen import first_method
     from garkcli.methodfile.family import with_values
     from garkcli.page.writing import write_whole

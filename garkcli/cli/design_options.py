@@ -9,6 +9,7 @@ from typing import TYPE_CHECKING, Any, TypeVar
 import click
 
 from garkcli.cli.options import PATH, digits_option
+from garkcli.design.minimise.registry import OBJECTIVES
 from garkcli.errors import UsageProblem
 
 if TYPE_CHECKING:
@@ -57,6 +58,15 @@ _OF_THE_ORDER = (
         type=PATH,
         metavar="FILE",
         help="Write the first method found as a method file with its claim.",
+    ),
+)
+_OF_THE_BEST = (
+    click.option(
+        "--minimise",
+        "objective",
+        type=click.Choice(OBJECTIVES),
+        metavar="WHAT",
+        help=f"The best methods of the highest order: {', '.join(OBJECTIVES)}.",
     ),
 )
 _OF_STABILITY = (
@@ -124,7 +134,8 @@ def design_options(function: F) -> F:
     """All options of the command but ``--set``, ``--choose`` and those that every command has; they
     make one ``Wanted``.
     """
-    options = (*_OF_THE_ORDER, *_OF_STABILITY, *_OF_THE_SEARCH)
+    of_orders = (*_OF_THE_ORDER, *_OF_THE_BEST)
+    options = (*of_orders, *_OF_STABILITY, *_OF_THE_SEARCH)
     for option in reversed(options):
         function = option(function)
     return function
@@ -140,6 +151,7 @@ class Wanted:
         seconds: after which an order is left undecided.
         digits: of numbers without simple radicals.
         emit: the file of the first method found, if any.
+        objective: what is minimised over the methods of the highest order, if anything.
         stability: the kind of stability whose values are asked for instead of an order.
         starts: of a search instead, or None where there is none.
         seed, most, jobs, scheduler, emit_all: of the search; None where they were not given.
@@ -151,6 +163,7 @@ class Wanted:
     seconds: float
     digits: int
     emit: str | None
+    objective: str | None
     stability: Stability | None
     starts: int | None
     seed: int | None
@@ -183,6 +196,9 @@ class Wanted:
             if self.starts is None and value is not None:
                 message = f"{option} goes with --search"
                 raise UsageProblem(message, "add --search N")
+        if self.starts is not None and self.objective is not None:
+            message = "--minimise compares all methods, --search finds some"
+            raise UsageProblem(message, "leave one of them out")
         if self.is_pair and self.is_conjugate:
             message = "--pair and --conjugate are two methods"
             raise UsageProblem(message, "ask for one")
@@ -193,10 +209,10 @@ class Wanted:
         Raises:
             UsageProblem: an order, a file or a search is asked for too.
         """
-        others = (self.order, self.emit, self.starts)
+        others = (self.order, self.emit, self.starts, self.objective)
         if all(option is None for option in others):
             return
         message = f"--{self.stability} gives a set of values, "
-        message += "--order, --emit, --search do not"
+        message += "--order, --emit, --search, --minimise do not"
         cure = "ask for one; --set takes a value that was found"
         raise UsageProblem(message, cure)

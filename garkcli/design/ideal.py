@@ -35,6 +35,8 @@ class Ideal:
         deadline: the reading of ``time.monotonic`` at which bases are given up; None for never.
 
     Attributes:
+        nonzero: as given.
+        deadline: as given.
         basis: a reduced Gröbner basis, primitive over ℤ; empty for the zero ideal.
         is_proved: whether it is one of the ideal; else of an ideal that is known to contain it, so
             that its zeros are zeros, and perhaps not all of them.
@@ -47,7 +49,8 @@ class Ideal:
         deadline: float | None = None,
     ) -> None:
         self.ring = ring
-        self._deadline = deadline
+        self.nonzero = tuple(nonzero)
+        self.deadline = deadline
         self._has_unit = bool(nonzero)
         names = [*ring.names, UNIT] if nonzero else list(ring.names)
         self._context = fmpz_mpoly_ctx.get(names, Ordering.degrevlex)
@@ -67,9 +70,7 @@ class Ideal:
     def _integral(self, polynomial: fmpq_mpoly) -> fmpz_mpoly:
         """A multiple of a polynomial over ℤ, in the context of the basis."""
         terms = polynomial.to_dict()
-        denominator = fmpz(1)
-        for a in terms.values():
-            denominator = denominator.lcm(a.q)
+        denominator = integral_scale(polynomial)
         tail = (0,) if self._has_unit else ()
         whole = {(*e, *tail): (a * denominator).p for e, a in terms.items()}
         return self._context.from_dict(whole)
@@ -89,7 +90,7 @@ class Ideal:
             return self
         grown = copy(self)
         grown.basis = groebner_basis(
-            [*self.basis, *new], self._context, self._deadline
+            [*self.basis, *new], self._context, self.deadline
         )
         return grown
 
@@ -155,6 +156,12 @@ class Ideal:
                     return size
         return 0
 
+    @property
+    def degree(self) -> int:
+        """How many complex zeros there are, with multiplicities; the ideal has dimension 0."""
+        leading = [_leading(p) for p in self.basis]
+        return len(_standard(leading, self.variables))
+
     def quotient(self) -> list[fmpq_mat]:
         """The algebra ℚ[t]/ideal: multiplication by each unknown as a matrix of its columns.
 
@@ -176,6 +183,14 @@ class Ideal:
                 columns.append(column)
             matrices.append(fmpq_mat(columns).transpose())
         return matrices
+
+
+def integral_scale(polynomial: fmpq_mpoly) -> fmpz:
+    """The common denominator of the coefficients."""
+    denominator = fmpz(1)
+    for a in polynomial.to_dict().values():
+        denominator = denominator.lcm(a.q)
+    return denominator
 
 
 _Terms: TypeAlias = dict[Exponents, fmpq]

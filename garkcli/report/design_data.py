@@ -7,6 +7,7 @@ from typing import Any, NamedTuple, get_args
 
 from garkcli.design.choices import Choice
 from garkcli.design.design import Design, Found, Kind, Step, Whose
+from garkcli.design.minimise.result import Minimum
 from garkcli.design.solutions import value_at
 from garkcli.page.exactly import ALGEBRAIC, root_data
 from garkcli.page.record import Field, Record, inside, schema_named
@@ -23,16 +24,21 @@ from garkcli.page.schema import (
     one_of,
     published,
 )
+from garkcli.report import minimum_data
 from garkcli.trees.notation import format_tree
 
 SCHEMA = "gark/design/1"
 
 
 def render(
-    source: str, design: Design, digits: int, choices: Sequence[Choice] = ()
+    source: str,
+    design: Design,
+    digits: int,
+    choices: Sequence[Choice] = (),
+    minimum: Minimum | None = None,
 ) -> str:
-    """The design as JSON text."""
-    return _REPORT.text(_Shown(source, design, digits, choices))
+    """The design as JSON text, with the minimum of an objective where there is one."""
+    return _REPORT.text(_Shown(source, design, digits, choices, minimum))
 
 
 def design_report_schema() -> Schema:
@@ -47,6 +53,14 @@ class _Shown(NamedTuple):
     design: Design
     digits: int
     choices: Sequence[Choice]
+    minimum: Minimum | None
+
+    @property
+    def objective(self) -> minimum_data.Shown | None:
+        """What was minimised."""
+        if self.minimum is None:
+            return None
+        return minimum_data.Shown(self.minimum, self.digits)
 
     @property
     def last(self) -> _StepOf:
@@ -177,4 +191,5 @@ _REPORT: Record[_Shown] = Record(
     _CHOICE.every("choices", lambda x: x.choices),
     *inside(lambda x: x.last, _STEP.fields),
     _STEP.every("orders", lambda x: x.steps),
+    minimum_data.OBJECTIVE.optional("objective", lambda x: x.objective),
 )

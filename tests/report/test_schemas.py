@@ -84,7 +84,12 @@ RUNS: dict[str, list[tuple[str, ...]]] = {
     ],
     "modified-energy": [("energy", COLLOCATION, "--modified", "--t-end", "1")],
     "design-search": [("design", FAMILY, "--order", "3", "--search", "4")],
-    "design": [(FAMILY,), (FAMILY, "--order", "4"), (FAMILY, "--pair")],
+    "design": [
+        (FAMILY,),
+        (FAMILY, "--order", "4"),
+        (FAMILY, "--pair"),
+        (FAMILY, "--order", "2", "--minimise", "error"),
+    ],
     "design-stability": [
         ("design", FAMILY, option, *of)
         for option in ("--a-stable", "--l-stable", "--p-stable")

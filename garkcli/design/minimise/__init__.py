@@ -1,0 +1,1 @@
+"""Which methods of a family are best, by an objective."""

@@ -1,0 +1,158 @@
+"""The least value of a rational function on a part of the line, exactly.
+
+Candidates are the zeros of the derivative, single points, ends that belong to the set, and the
+limits at ends that do not. Values at algebraic numbers are algebraic numbers, compared as such.
+"""
+
+from __future__ import annotations
+
+from collections.abc import Callable, Sequence
+from dataclasses import dataclass
+from typing import cast
+
+from flint import fmpq
+
+from garkcli.design.solutions import value_at
+from garkcli.exact.cells import Interval, Point, sign_of, where
+from garkcli.exact.field import NumberField
+from garkcli.exact.polynomial import Polynomial, gcd
+from garkcli.exact.roots import RealRoot, real_roots
+
+
+@dataclass(frozen=True)
+class Conditions:
+    """Which numbers are allowed.
+
+    Attributes:
+        nonzero, positive, not_negative: polynomials with that sign there.
+    """
+
+    nonzero: Sequence[Polynomial] = ()
+    positive: Sequence[Polynomial] = ()
+    not_negative: Sequence[Polynomial] = ()
+
+    def hold(self, t: Point) -> bool:
+        """Whether a number is allowed."""
+        return (
+            all(sign_of(p, t) for p in self.nonzero)
+            and all(sign_of(p, t) > 0 for p in self.positive)
+            and all(sign_of(p, t) >= 0 for p in self.not_negative)
+        )
+
+    @property
+    def intervals(self) -> tuple[Interval, ...]:
+        """The allowed numbers."""
+        everything = [*self.nonzero, *self.positive, *self.not_negative]
+        return where(self.hold, everything)
+
+
+@dataclass(frozen=True)
+class At:
+    """The value at an allowed number."""
+
+    value: RealRoot
+    t: RealRoot
+
+
+@dataclass(frozen=True)
+class Toward:
+    """The limit at an end that is not allowed.
+
+    Attributes:
+        value: the limit.
+        end: the end; None for infinity.
+        is_right: whether it is the right end of an interval.
+    """
+
+    value: RealRoot
+    end: RealRoot | None
+    is_right: bool
+
+
+@dataclass(frozen=True)
+class OnLine:
+    """What there is to be compared.
+
+    Attributes:
+        attained: values at critical points and ends.
+        limits: at ends that do not belong to the set.
+        gradient: the numerator of the derivative in lowest terms, primitive; 0 of a constant.
+    """
+
+    attained: tuple[At, ...]
+    limits: tuple[Toward, ...]
+    gradient: Polynomial
+
+
+def on_line(
+    numerator: Polynomial, denominator: Polynomial, allowed: Conditions
+) -> OnLine:
+    """The candidates for the least value of N/D.
+
+    Args:
+        numerator: N, rational.
+        denominator: D, rational; N/D is bounded below where D is zero.
+        allowed: where.
+    """
+    common = gcd(numerator, denominator)
+    N, D = numerator // common, denominator // common
+    gradient = _derivative(N, D)
+    value = _value(N, D)
+    attained: dict[RealRoot, At] = {}
+    limits = []
+    if gradient:
+        for root, _ in real_roots(gradient):
+            if allowed.hold(root):
+                attained[root] = At(value(root), root)
+    for interval in allowed.intervals:
+        ends = (
+            (interval.start, interval.has_start, False),
+            (interval.end, interval.has_end, True),
+        )
+        for end, is_allowed, is_right in ends:
+            if end is not None and is_allowed:
+                attained[end] = At(value(end), end)
+                continue
+            limit = _limit(N, D, end, value)
+            if limit is not None:
+                limits.append(Toward(limit, end, is_right))
+    return OnLine(tuple(attained.values()), tuple(limits), gradient)
+
+
+def _derivative(N: Polynomial, D: Polynomial) -> Polynomial:
+    """The numerator of (N/D)′ in lowest terms."""
+    numerator = N.derivative() * D - N * D.derivative()
+    if not numerator:
+        return numerator
+    square = D * D
+    return numerator // gcd(numerator, square)
+
+
+def _value(N: Polynomial, D: Polynomial) -> Callable[[RealRoot], RealRoot]:
+    """N/D at a number that is no zero of D."""
+
+    def value(t: RealRoot) -> RealRoot:
+        if t.exact is not None:
+            quotient = N(t.exact) / D(t.exact)
+            return RealRoot.rational(cast("fmpq", quotient))
+        modulus = Polynomial.from_flint(t.polynomial).monic().to_flint()
+        field = NumberField(modulus, ())
+        over = field.element(N.to_flint())
+        under = field.element(D.to_flint())
+        return value_at(over / under, t)
+
+    return value
+
+
+def _limit(
+    N: Polynomial,
+    D: Polynomial,
+    end: RealRoot | None,
+    value: Callable[[RealRoot], RealRoot],
+) -> RealRoot | None:
+    """The limit of N/D at an end; None where it is infinite."""
+    if end is not None:
+        return None if sign_of(D, end) == 0 else value(end)
+    if N.degree > D.degree:
+        return None
+    return RealRoot.rational(cast("fmpq", N[D.degree] / D.leading))

@@ -1,0 +1,1 @@
+"""What may be minimised: a file each."""

@@ -1,0 +1,311 @@
+"""A set of solutions in parts, each with rational coordinates as far as there are any.
+
+An unknown that is in an equation with degree one, A v + B = 0, is −B/A where A is not zero; where
+it is, the equations A = B = 0 make another part. Products are taken apart in the same way. So each
+solution is in one part, and no part is lost.
+"""
+
+from __future__ import annotations
+
+from collections.abc import Iterable, Iterator, Mapping, Sequence
+from dataclasses import dataclass, replace
+from typing import TypeAlias, cast
+
+from flint import fmpq, fmpq_mpoly, fmpz_mpoly
+
+from garkcli.design.ideal import Ideal, integral_scale
+from garkcli.design.member import value_of
+from garkcli.exact.field import Number
+from garkcli.exact.parametric import Mixed, Parameters, Parametric, fraction
+
+Values: TypeAlias = dict[str, Mixed]
+
+
+@dataclass(frozen=True)
+class Part:
+    """Solutions with common coordinates.
+
+    Attributes:
+        ring: the coordinates, unknowns that are left.
+        values: every unknown as a rational function of them.
+        nonzero: polynomials in the coordinates that are zero at no solution of this part.
+        ideal: of what the coordinates satisfy; trivial where they are free. Some of its zeros may
+            be zeros of ``nonzero``.
+    """
+
+    ring: Parameters
+    values: Mapping[str, Mixed]
+    nonzero: tuple[fmpq_mpoly, ...]
+    ideal: Ideal
+
+    @property
+    def is_free(self) -> bool:
+        """Whether every value of the coordinates is a solution, but for zeros of ``nonzero``."""
+        return self.ideal.is_trivial
+
+    @property
+    def dimension(self) -> int:
+        """Of its complex points."""
+        return self.ideal.dimension
+
+    @property
+    def equations(self) -> list[fmpq_mpoly]:
+        """What the coordinates satisfy."""
+        return [_rational(p, self.ring) for p in self.ideal.basis]
+
+    def expressed(self, polynomial: fmpq_mpoly, ring: Parameters) -> Mixed:
+        """A polynomial in all unknowns, ``ring``, as a function of the coordinates."""
+        values = cast("Mapping[str, Number]", self.values)
+        return cast("Mixed", value_of(polynomial, ring, values))
+
+
+def parts_of(ideal: Ideal, deadline: float | None) -> Iterator[Part]:
+    """The zeros of an ideal in parts.
+
+    Args:
+        ideal: of what is asked of all unknowns.
+        deadline: the reading of ``time.monotonic`` at which it is given up; None for never.
+
+    Raises:
+        NotDecided: a Gröbner basis takes too long.
+    """
+    splitting = _Splitting(ideal.ring, deadline)
+    nonzero = _factors(ideal.nonzero)
+    polynomials = without_unit(ideal)
+    yield from splitting.all_parts(polynomials, nonzero)
+
+
+def parts_within(part: Part, zeros: Iterable[fmpq_mpoly]) -> Iterator[Part]:
+    """The parts of a part at which further polynomials in its coordinates are zero."""
+    splitting = _Splitting(part.ring, part.ideal.deadline)
+    polynomials = [*part.equations, *zeros]
+    for smaller in splitting.all_parts(polynomials, part.nonzero):
+        known = cast("Mapping[str, Number]", smaller.values)
+        values: Values = {}
+        for name, x in part.values.items():
+            over, under = fraction(x, part.ring)
+            numerator = value_of(over, part.ring, known)
+            denominator = value_of(under, part.ring, known)
+            values[name] = cast("Mixed", numerator / denominator)
+        yield replace(smaller, values=values)
+
+
+def without_unit(ideal: Ideal) -> list[fmpq_mpoly]:
+    """Polynomials with the zeros of an ideal: its basis with 1/Π nonzero in place of the unknown
+    that stands for it, times a power of Π.
+    """
+    context = ideal.ring.context
+    product = context.constant(fmpq(1))
+    for factor in ideal.nonzero:
+        product *= factor * integral_scale(factor)
+    size = len(ideal.ring.names)
+    found = []
+    for p in ideal.basis:
+        terms = [(tuple(map(int, e)), a) for e, a in p.to_dict().items()]
+        highest = max(sum(e[size:]) for e, _ in terms)
+        total = context.constant(fmpq(0))
+        for e, a in terms:
+            monomial = context.from_dict({e[:size]: fmpq(a)})
+            total += monomial * product ** (highest - sum(e[size:]))
+        if total:
+            found.append(total)
+    return found
+
+
+def _factors(polynomials: Sequence[fmpq_mpoly]) -> list[fmpq_mpoly]:
+    """The irreducible factors, each once."""
+    found: dict[str, fmpq_mpoly] = {}
+    for p in polynomials:
+        for factor, _ in p.factor()[1]:
+            found[str(factor)] = factor
+    return list(found.values())
+
+
+@dataclass(frozen=True)
+class _Linear:
+    """A v + B, a polynomial in which v has degree one."""
+
+    name: str
+    A: fmpq_mpoly
+    B: fmpq_mpoly
+    cost: tuple[bool, int, int, int]
+
+
+@dataclass(frozen=True)
+class _Splitting:
+    """Takes solution sets apart; polynomials are in the ring of all unknowns."""
+
+    ring: Parameters
+    deadline: float | None
+
+    def all_parts(
+        self, polynomials: Sequence[fmpq_mpoly], nonzero: Sequence[fmpq_mpoly]
+    ) -> Iterator[Part]:
+        """The parts of the common zeros at which others are not zero."""
+        names = self.ring.names
+        unknowns: Values = {}
+        for name in names:
+            unknowns[name] = cast("Mixed", self.ring.parameter(name))
+        yield from self.parts(polynomials, nonzero, unknowns, names)
+
+    def parts(
+        self,
+        polynomials: Sequence[fmpq_mpoly],
+        nonzero: Sequence[fmpq_mpoly],
+        values: Values,
+        left: Sequence[str],
+    ) -> Iterator[Part]:
+        """The parts of the common zeros at which others are not zero.
+
+        Args:
+            polynomials: that are zero.
+            nonzero: irreducible ones that are not.
+            values: of the unknowns, functions of those that are left.
+            left: the names of these.
+        """
+        simpler = [self._without(p, nonzero) for p in polynomials]
+        ideal = Ideal(self.ring, (), self.deadline).with_zeros(simpler)
+        if ideal.is_everything:
+            return
+        basis = [_rational(p, self.ring) for p in ideal.basis]
+        zeros = []
+        for p in basis:
+            factors = [x for x in _factors([p]) if x not in nonzero]
+            if len(factors) != 1:
+                yield from self._factored(
+                    factors, basis, nonzero, values, left
+                )
+                return
+            zeros += factors
+        if any(
+            p.total_degree() > q.total_degree()
+            for p, q in zip(basis, zeros, strict=True)
+        ):
+            yield from self.parts(zeros, nonzero, values, left)
+            return
+        linear = self._linear(zeros, nonzero, left)
+        if linear is None:
+            yield self._part(zeros, nonzero, values, left)
+            return
+        if linear.cost[0]:
+            both = [linear.A, linear.B]
+            yield from self.parts([*zeros, *both], nonzero, values, left)
+            nonzero = [*nonzero, *_factors([linear.A])]
+        yield from self._substituted(linear, zeros, nonzero, values, left)
+
+    def _without(
+        self, p: fmpq_mpoly, nonzero: Sequence[fmpq_mpoly]
+    ) -> fmpq_mpoly:
+        """Each factor once, but those that are not zero."""
+        product = self.ring.constant(fmpq(1))
+        for factor in _factors([p]):
+            if factor not in nonzero:
+                product *= factor
+        return product if p else p
+
+    def _factored(
+        self,
+        factors: Sequence[fmpq_mpoly],
+        polynomials: Sequence[fmpq_mpoly],
+        nonzero: Sequence[fmpq_mpoly],
+        values: Values,
+        left: Sequence[str],
+    ) -> Iterator[Part]:
+        """One factor after the other is zero, those before it are not."""
+        for k, factor in enumerate(factors):
+            others = [*nonzero, *factors[:k]]
+            yield from self.parts([*polynomials, factor], others, values, left)
+
+    def _linear(
+        self,
+        zeros: Sequence[fmpq_mpoly],
+        nonzero: Sequence[fmpq_mpoly],
+        left: Sequence[str],
+    ) -> _Linear | None:
+        """The simplest way to express an unknown by others; None where there is none."""
+        found = []
+        for p in zeros:
+            degrees = p.degrees()
+            for index in range(len(self.ring.names)):
+                if degrees[index] != 1:
+                    continue
+                A = p.derivative(index)
+                v = self.ring.context.gen(index)
+                is_new = any(x not in nonzero for x in _factors([A]))
+                degree = int(p.total_degree())
+                cost = (is_new, len(A.to_dict()), degree, -index)
+                name = self.ring.names[index]
+                found.append(_Linear(name, A, p - A * v, cost))
+        usable = [x for x in found if x.name in left]
+        return min(usable, key=lambda x: x.cost, default=None)
+
+    def _substituted(
+        self,
+        linear: _Linear,
+        zeros: Sequence[fmpq_mpoly],
+        nonzero: Sequence[fmpq_mpoly],
+        values: Values,
+        left: Sequence[str],
+    ) -> Iterator[Part]:
+        """The parts with v = −B/A."""
+        ring = self.ring
+        instead: Values = {}
+        for name in ring.names:
+            instead[name] = cast("Mixed", ring.parameter(name))
+        instead[linear.name] = ring.quotient(-linear.B, linear.A)
+
+        def at(x: Mixed) -> Mixed:
+            numerator, denominator = fraction(x, ring)
+            known = cast("Mapping[str, Number]", instead)
+            over = value_of(numerator, ring, known)
+            under = value_of(denominator, ring, known)
+            return cast("Mixed", over / under)
+
+        def numerator_at(p: fmpq_mpoly) -> fmpq_mpoly:
+            known = cast("Mapping[str, Number]", instead)
+            return fraction(value_of(p, ring, known), ring)[0]
+
+        smaller = [p for p in map(numerator_at, zeros) if p]
+        others = [numerator_at(p) for p in nonzero]
+        if not all(others):
+            return
+        expressed = {name: at(x) for name, x in values.items()}
+        names = [name for name in left if name != linear.name]
+        yield from self.parts(smaller, _factors(others), expressed, names)
+
+    def _part(
+        self,
+        zeros: Sequence[fmpq_mpoly],
+        nonzero: Sequence[fmpq_mpoly],
+        values: Values,
+        left: Sequence[str],
+    ) -> Part:
+        """In a ring of the unknowns that are left alone."""
+        ring = Parameters(left)
+        kept = [self.ring.names.index(name) for name in left]
+
+        def moved(p: fmpq_mpoly) -> fmpq_mpoly:
+            terms = {
+                tuple(int(e[i]) for i in kept): a
+                for e, a in p.to_dict().items()
+            }
+            return ring.context.from_dict(terms)
+
+        def moved_value(x: Mixed) -> Mixed:
+            if not isinstance(x, Parametric):
+                return x
+            return ring.quotient(moved(x.numerator), moved(x.denominator))
+
+        ideal = Ideal(ring, (), self.deadline)
+        return Part(
+            ring,
+            {name: moved_value(x) for name, x in values.items()},
+            tuple(moved(p) for p in nonzero),
+            ideal.with_zeros([moved(p) for p in zeros]),
+        )
+
+
+def _rational(p: fmpz_mpoly, ring: Parameters) -> fmpq_mpoly:
+    """The same polynomial over ℚ."""
+    terms = {tuple(map(int, e)): fmpq(a) for e, a in p.to_dict().items()}
+    return ring.context.from_dict(terms)

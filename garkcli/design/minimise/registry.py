@@ -1,0 +1,30 @@
+"""What may be minimised, by its name: a file each."""
+
+from __future__ import annotations
+
+from functools import cache
+from importlib import import_module
+from typing import TYPE_CHECKING
+
+if TYPE_CHECKING:
+    from garkcli.design.minimise.objective import Objective
+
+OBJECTIVES = (
+    "error",
+    "error-coupling",
+    "coefficients",
+)
+"""Every one of them, in the order of the documentation."""
+
+
+@cache
+def find_objective(key: str) -> Objective:
+    """What a name means; its file is loaded when it is asked for.
+
+    >>> find_objective("error").key
+    'error'
+    """
+    name = key.removeprefix("-").replace("-", "_")
+    found = import_module(f"garkcli.design.minimise.objectives.{name}")
+    objective: Objective = found.OBJECTIVE
+    return objective

@@ -1,0 +1,79 @@
+"""What a minimisation has found."""
+
+from __future__ import annotations
+
+from dataclasses import dataclass
+from typing import Literal, TypeAlias
+
+from garkcli.design.design import Design, Found, Step
+from garkcli.design.minimise.line import Toward
+from garkcli.design.minimise.objective import Objective
+from garkcli.exact.polynomial import Polynomial
+from garkcli.exact.roots import RealRoot
+
+Extent: TypeAlias = Literal["all", "critical-points", "found"]
+"""Among what a minimum is the least: all methods; all critical points, while what happens at
+infinity and at values that are left out is open; or some of them.
+"""
+
+
+@dataclass(frozen=True)
+class Candidate:
+    """A method with its objective.
+
+    Attributes:
+        value: of the objective; None where it is infinite.
+        found: the method and its conjugates over ℚ.
+        index: which of the real roots of ``found`` it is.
+        is_constant: whether the objective is the same at all methods near it.
+    """
+
+    value: RealRoot
+    found: Found
+    index: int
+    is_constant: bool = False
+
+
+@dataclass(frozen=True)
+class Limit:
+    """What the objective comes near to without reaching it there.
+
+    Attributes:
+        value: the limit.
+        parameter: which tends to the end.
+        toward: the end.
+    """
+
+    value: RealRoot
+    parameter: str
+    toward: Toward
+
+
+@dataclass(frozen=True)
+class Minimum:
+    """The methods with the least value of an objective.
+
+    Attributes:
+        objective: what was minimised.
+        design: of the family.
+        step: whose methods were compared.
+        extent: among what it is the least.
+        value: the least value, or the infimum; None where no method was found.
+        minimisers: the methods with it; none where it is not attained.
+        limits: where it is approached, if it is not attained.
+        candidates: how many values were compared.
+        gradient: the numerator of the derivative by the one parameter; None where there are
+            several, or no derivative.
+        parameter: that one.
+    """
+
+    objective: Objective
+    design: Design
+    step: Step
+    extent: Extent
+    value: RealRoot | None
+    minimisers: tuple[Candidate, ...]
+    limits: tuple[Limit, ...]
+    candidates: int
+    gradient: Polynomial | None = None
+    parameter: str | None = None

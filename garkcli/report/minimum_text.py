@@ -1,0 +1,131 @@
+"""``gark design --minimise`` for people."""
+
+from __future__ import annotations
+
+from collections.abc import Iterator
+from textwrap import wrap
+
+from garkcli.design.minimise.result import Candidate, Limit, Minimum
+from garkcli.design.solutions import value_at
+from garkcli.errors import counted
+from garkcli.exact.polynomial import Polynomial
+from garkcli.exact.polynomial_text import (
+    polynomial_text,
+    root_decimal,
+    root_text,
+)
+from garkcli.exact.roots import RealRoot
+
+INDENT = " " * 4
+SHOWN = 10
+"""Most minimisers that are shown; JSON has all."""
+
+
+def render(minimum: Minimum, digits: int, width: int) -> str:
+    """The minimum as text, to stand below the design.
+
+    Args:
+        minimum: what was found.
+        digits: of numbers without simple radicals.
+        width: columns to fill.
+    """
+    lines = [""]
+    order = minimum.step.order
+    summary = minimum.objective.summary.format(next=order + 1)
+    head = f"{minimum.objective.key}: {summary}"
+    lines += wrap(head, width, initial_indent="  ", subsequent_indent=INDENT)
+    lines += _lines(minimum, digits, width)
+    return "\n".join(lines) + "\n"
+
+
+def _lines(minimum: Minimum, digits: int, width: int) -> Iterator[str]:
+    if minimum.value is None:
+        yield f"  no method of order {minimum.step.order} was found"
+        return
+    value = _value_text(minimum.value, digits)
+    if not minimum.minimisers:
+        yield f"  no minimum: it comes near {value}"
+        for limit in minimum.limits:
+            yield f"{INDENT}as {_toward(limit, digits)}"
+        return
+    yield from wrap(
+        f"least value {value}, {_among(minimum)}",
+        width,
+        initial_indent="  ",
+        subsequent_indent=INDENT,
+    )
+    for candidate in minimum.minimisers[:SHOWN]:
+        yield ""
+        yield from _candidate(minimum, candidate, digits, width)
+    more = len(minimum.minimisers) - SHOWN
+    if more > 0:
+        yield f"  and {counted(more, 'method')} more, see --format json"
+
+
+def _among(minimum: Minimum) -> str:
+    """What was compared."""
+    order = minimum.step.order
+    match minimum.extent:
+        case "all":
+            return f"of all methods of order {order}"
+        case "critical-points":
+            points = counted(minimum.candidates, "critical point")
+            return (
+                f"the least of {points}, which are all there are; whether it is less towards"
+                " infinity or where denominators vanish is open"
+            )
+        case "found":
+            return "the least of what was found"
+
+
+def _candidate(
+    minimum: Minimum, candidate: Candidate, digits: int, width: int
+) -> Iterator[str]:
+    found = candidate.found
+    root = found.solution.real[candidate.index]
+    for name in minimum.design.family.parameters:
+        value = value_at(found.solution.values[name], root)
+        text = f"{name} = {_number_text(value, digits)}"
+        yield from wrap(
+            text,
+            width,
+            initial_indent=INDENT,
+            subsequent_indent=INDENT + "  ",
+        )
+    if candidate.is_constant:
+        yield f"{INDENT}and others: the value is the same at all methods near it"
+    if found.order is not None:
+        least = "at least " if found.order.is_lower_bound else ""
+        order = f"{least}{found.order.order}"
+        yield (
+            f"{INDENT}order {order} of the {minimum.design.whose}, by a certificate of its own"
+        )
+
+
+def _toward(limit: Limit, digits: int) -> str:
+    toward = limit.toward
+    end = "∞" if toward.is_right else "-∞"
+    if toward.end is not None:
+        end = _number_text(toward.end, digits)
+    return f"{limit.parameter} → {end}"
+
+
+def _value_text(value: RealRoot, digits: int) -> str:
+    """Radicals where there are simple ones, and decimals."""
+    decimals = root_decimal(value, digits)
+    simple = root_text(value)
+    if simple is None:
+        return f"{decimals}…"
+    return simple if simple == decimals else f"{simple} = {decimals}…"
+
+
+def _number_text(value: RealRoot, digits: int) -> str:
+    """Radicals where there are simple ones; else decimals and the polynomial."""
+    simple = root_text(value)
+    if value.exact is not None:
+        return str(simple)
+    decimals = root_decimal(value, digits)
+    if simple is not None:
+        return f"{simple} = {decimals}…"
+    polynomial = polynomial_text(Polynomial.from_flint(value.polynomial), "x")
+    return f"{decimals}…, a root of {polynomial}"

@@ -1,0 +1,267 @@
+"""``gark design --minimise``: the best methods of a family, exactly."""
+
+from __future__ import annotations
+
+import json
+from fractions import Fraction
+from pathlib import Path
+
+import pytest
+from flint import fmpq
+
+from garkcli import find_order, load, loads
+from garkcli.design.design import Whose, find_parameters
+from garkcli.design.minimise.minimise import minimise
+from garkcli.design.minimise.registry import OBJECTIVES, find_objective
+from garkcli.design.minimise.result import Candidate, Minimum
+from garkcli.design.minimise.squared_error import (
+    squared_coupling_error,
+    squared_error,
+)
+from garkcli.design.solutions import value_at
+from garkcli.exact.display import to_ball
+from garkcli.exact.polynomial_text import root_text
+from garkcli.methodfile.family import loads_family
+from garkcli.order.constants import error_constants
+from garkcli.tableau.forms import pair
+from garkcli.tableau.pointwise import numeric_entries
+from tests.cli.harness import gark
+
+TAU = """parameters: {tau: free}
+methods:
+  - {family: gauss, stages: 2}
+  - {family: lobatto-iiia, stages: 3}
+transfer: {interpolation: tau, collocation: 1 - tau}
+"""
+EXPLICIT2 = """parameters: {c: free}
+A: [[0, 0], [c, 0]]
+b: [1 - 1/(2*c), 1/(2*c)]
+"""
+
+
+def least(
+    text: str,
+    objective: str,
+    order: int | None = None,
+    whose: Whose = "method",
+) -> Minimum:
+    """The minimum over a family."""
+    design = find_parameters(loads_family(text), order, whose)
+    return minimise(design, find_objective(objective), 60)
+
+
+def floats(minimum: Minimum, candidate: Candidate) -> dict[str, float]:
+    """The parameters of one method."""
+    found = candidate.found
+    root = found.solution.real[candidate.index]
+    return {
+        name: float(value_at(found.solution.values[name], root).ball(80))
+        for name in minimum.design.family.parameters
+    }
+
+
+def value(minimum: Minimum) -> str | None:
+    """The least value in radicals."""
+    assert minimum.value is not None
+    return root_text(minimum.value)
+
+
+@pytest.mark.parametrize(
+    ("path", "is_pair"),
+    [
+        ("methods/rk4.gark.yaml", False),
+        ("methods/collocation.gark.yaml", True),
+        ("methods/semi-separable.gark.yaml", False),
+        ("methods/prk-lobatto-iiia-iiib.gark.yaml", False),
+    ],
+)
+def test_squared_errors_without_trees(path: str, is_pair: bool) -> None:
+    """Σ e(u)² is that of the list of all trees, exactly: of point and polynomial spaces, of blocks
+    that are missing and of the symplectic pair.
+    """
+    tableau = load(path).tableau
+    if is_pair:
+        tableau = pair(tableau)
+    for order in range(1, 5 if is_pair else 6):
+        listed = error_constants(tableau, order)
+        assert listed is not None
+        everything = squared_error(tableau, order, None)
+        coupling = squared_coupling_error(tableau, order, None)
+        assert (
+            everything.numerator / everything.denominator
+            == listed.all.two_squared
+        )
+        assert (
+            coupling.numerator / coupling.denominator
+            == listed.coupling.two_squared
+        )
+
+
+def test_two_explicit_stages() -> None:
+    """A. Ralston (1962): c_2 = 2/3. The error is (c/2 − 1/3)²/4 + 1/36, and the gradient of it is
+    a multiple of 3c − 2.
+    """
+    minimum = least(EXPLICIT2, "error")
+    assert minimum.extent == "all"
+    assert value(minimum) == "1/36"
+    [candidate] = minimum.minimisers
+    assert floats(minimum, candidate) == {"c": 2 / 3}
+    assert minimum.gradient is not None
+    assert minimum.gradient.monic()(fmpq(2, 3)) == 0
+
+
+def test_unknown_entries() -> None:
+    """The same from three unknowns: b_1 and b_2 are functions of c_2."""
+    minimum = least("unknown: {stages: 2, shape: explicit}\n", "error", 2)
+    [candidate] = minimum.minimisers
+    found = floats(minimum, candidate)
+    assert found == pytest.approx({"c2": 2 / 3, "b1": 1 / 4, "b2": 3 / 4})
+
+
+@pytest.mark.parametrize(
+    ("whose", "objective"),
+    [("method", "error"), ("method", "error-coupling"), ("pair", "error")],
+)
+def test_free_transfer(whose: Whose, objective: str) -> None:
+    """Where a τ is left: at rational τ beside the minimiser the list of all trees has larger
+    errors, and nearly the least at one with ten digits.
+    """
+    minimum = least(TAU, objective, None, whose)
+    [candidate] = minimum.minimisers
+    assert minimum.extent == "all"
+    assert minimum.value is not None
+    tau = floats(minimum, candidate)["tau"]
+
+    def error(shift: Fraction) -> float:
+        t = Fraction(round(tau * 10**10), 10**10) + shift
+        method = loads(TAU.replace("tau: free", f"tau: {t}"))
+        made = method.tableau if whose == "method" else pair(method.tableau)
+        listed = error_constants(made, minimum.step.order + 1)
+        assert listed is not None
+        norms = listed.all if objective == "error" else listed.coupling
+        return norms.two**2
+
+    here = error(Fraction(0))
+    assert here == pytest.approx(float(minimum.value.ball(80)), rel=1e-9)
+    assert here < error(Fraction(1, 100))
+    assert here < error(Fraction(-1, 100))
+
+
+def test_three_explicit_stages() -> None:
+    """Two free nodes: the derivatives of the four error coefficients, written down by hand, are
+    orthogonal to these there. All critical points are found, the ends are left open.
+    """
+    minimum = least("unknown: {stages: 3, shape: explicit}\n", "error", 3)
+    assert minimum.extent == "critical-points"
+    [candidate] = minimum.minimisers
+    found = floats(minimum, candidate)
+    c2, c3 = found["c2"], found["c3"]
+    e = [
+        ((c2 + c3) / 3 - c2 * c3 / 2 - 1 / 4) / 6,
+        c3 / 6 - 1 / 8,
+        (c2 / 6 - 1 / 12) / 2,
+        -1 / 24,
+    ]
+    by_c2 = [(1 / 3 - c3 / 2) / 6, 0, 1 / 12, 0]
+    by_c3 = [(1 / 3 - c2 / 2) / 6, 1 / 6, 0, 0]
+    for slopes in (by_c2, by_c3):
+        total = sum(x * y for x, y in zip(e, slopes, strict=True))
+        assert abs(total) < 1e-15
+    assert minimum.value is not None
+    squared = sum(x * x for x in e)
+    assert float(minimum.value.ball(80)) == pytest.approx(squared, rel=1e-12)
+
+
+def test_finitely_many() -> None:
+    """Of the two SDIRK methods of order 3 that with γ = 1/2 − √3/6 has the smaller coefficients."""
+    minimum = least("unknown: {stages: 2, shape: sdirk}\n", "coefficients", 3)
+    [candidate] = minimum.minimisers
+    gamma = floats(minimum, candidate)["gamma"]
+    assert gamma == pytest.approx(0.5 - 3**0.5 / 6)
+    entries = [gamma, 1 - 2 * gamma, gamma, 1 / 2, 1 / 2]
+    assert minimum.value is not None
+    assert float(minimum.value.ball(80)) == pytest.approx(
+        sum(x * x for x in entries)
+    )
+    assert (minimum.extent, minimum.candidates) == ("all", 2)
+
+
+def test_zero_is_least() -> None:
+    """Three midpoint rules: the error of order 3 is zero at the triple jump, b_1 = 1/(2 − ∛2)."""
+    text = "unknown: {stages: 3, shape: [symplectic-dirk, palindromic]}\n"
+    minimum = least(text, "error", 2)
+    [candidate] = minimum.minimisers
+    found = floats(minimum, candidate)
+    assert found["b1"] == pytest.approx(1 / (2 - 2 ** (1 / 3)))
+    assert value(minimum) == "0"
+    assert candidate.found.order is not None
+    assert candidate.found.order.order == 4
+
+
+@pytest.mark.parametrize(
+    ("allowed", "at", "least_value"),
+    [
+        ("{free: true, range: [1, 2]}", 1.0, "5/144"),
+        ("{free: true, range: [1/4, 1/2]}", 0.5, "17/576"),
+    ],
+)
+def test_ends_of_a_range(allowed: str, at: float, least_value: str) -> None:
+    """Without a critical point within the range an end of it is least."""
+    text = EXPLICIT2.replace("{c: free}", f"{{c: {allowed}}}")
+    minimum = least(text, "error")
+    [candidate] = minimum.minimisers
+    assert floats(minimum, candidate) == {"c": at}
+    assert value(minimum) == least_value
+
+
+def test_no_minimum() -> None:
+    """With c = 2/3 + 1/s² the least error of Ralston is not reached for any s."""
+    text = """parameters: {s: free}
+A: [[0, 0], [2/3 + 1/s**2, 0]]
+b: [1 - 1/(2*(2/3 + 1/s**2)), 1/(2*(2/3 + 1/s**2))]
+"""
+    minimum = least(text, "error")
+    assert value(minimum) == "1/36"
+    assert minimum.minimisers == ()
+    ends = [(x.toward.end, x.toward.is_right) for x in minimum.limits]
+    assert ends == [(None, False), (None, True)]
+
+
+def test_coefficients_at_irrational_nodes() -> None:
+    """Σ a² + Σ b² of families by name is that of the entries at their nodes, in floats."""
+    minimum = least(TAU, "coefficients")
+    [candidate] = minimum.minimisers
+    tau = floats(minimum, candidate)["tau"]
+    t = Fraction(tau).limit_denominator(10**12)
+    method = loads(TAU.replace("tau: free", f"tau: {t}"))
+    entries = numeric_entries(method.tableau, 25)
+    rows = list(entries.b)
+    for blocks in entries.A:
+        for block in blocks:
+            rows += block or ()
+    total = sum(float(to_ball(x, 25)) ** 2 for row in rows for x in row)
+    assert minimum.value is not None
+    assert float(minimum.value.ball(80)) == pytest.approx(total)
+
+
+def test_emitted_file(tmp_path: Path) -> None:
+    """The minimiser as a root of its polynomial, proved again by ``gark check``; JSON has it with
+    the gradient.
+    """
+    (tmp_path / "tau.yaml").write_text(TAU, encoding="utf-8")
+    command = "design tau.yaml --minimise error --pair --format json"
+    out = gark(*command.split(), "--emit", "best.yaml", cwd=tmp_path)
+    objective = json.loads(out.out)["objective"]
+    assert objective["among"] == "all"
+    assert objective["gradient"] in objective["minimisers"][0]["values"][
+        "tau"
+    ]["root_of"].replace("x", "tau")
+    assert gark("check", "best.yaml", cwd=tmp_path).code == 0
+    method = load(str(tmp_path / "best.yaml"))
+    assert find_order(pair(method.tableau)).order == 4
+
+
+def test_every_objective_has_a_file() -> None:
+    """The list of names and the files agree."""
+    for key in OBJECTIVES:
+        assert find_objective(key).key == key
