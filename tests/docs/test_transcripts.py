@@ -26,6 +26,7 @@ PAGES = [
     ROOT / "docs" / "design.md",
     ROOT / "docs" / "sweep.md",
     ROOT / "docs" / "search.md",
+    ROOT / "docs" / "found.md",
 ]
 
 

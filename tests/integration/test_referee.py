@@ -23,7 +23,7 @@ from garkcli.report.proof_json import render
 
 ROOT = Path(__file__).resolve().parents[2]
 SCRIPT = ROOT / "tools" / "referee.py"
-METHODS = sorted((ROOT / "methods").glob("*.yaml"))
+METHODS = sorted((ROOT / "methods").rglob("*.gark.yaml"))
 
 
 def _referee() -> ModuleType:

@@ -1,0 +1,108 @@
+"""The gallery of finds: what its files claim beyond what ``gark check`` proves of them."""
+
+from __future__ import annotations
+
+from pathlib import Path
+
+import pytest
+from flint import ctx, fmpq
+
+from garkcli import load, loads
+from garkcli.exact.display import to_ball
+from garkcli.order.constants import error_constants
+from garkcli.problems.oscillator import Oscillator, terms_of
+from garkcli.stability.oscillator import oscillator_stability
+from garkcli.tableau.forms import pair
+from garkcli.tableau.tableau import Tableau
+
+FOUND = Path(__file__).resolve().parents[2] / "methods" / "found"
+
+
+def tableau_of(name: str) -> Tableau:
+    """The tableau of a find."""
+    return load(FOUND / f"{name}.gark.yaml").tableau
+
+
+def gauss_lobatto(stages: int, transfer: str) -> Tableau:
+    """Gauss s and Lobatto IIIA s + 1."""
+    return loads(
+        f"methods: [{{family: gauss, stages: {stages}}},"
+        f" {{family: lobatto-iiia, stages: {stages + 1}}}]\n"
+        f"transfer: {transfer}"
+    ).tableau
+
+
+@pytest.mark.parametrize(
+    "name",
+    [
+        "p-stable-gauss2-lobatto3",
+        "p-stable-gauss3-lobatto4",
+        "p-stable-least-error-gauss2-lobatto3",
+    ],
+)
+def test_the_pairs_are_p_stable(name: str) -> None:
+    """The claim of the file is on the method; here it is decided for its symplectic pair."""
+    tableau = pair(tableau_of(name))
+    problem = Oscillator.default(terms_of(tableau), fmpq(1))
+    assert oscillator_stability(tableau, problem).is_p_stable
+
+
+@pytest.mark.parametrize("s", [1, 2, 3, 4])
+def test_interpolation_is_made_of_collocation_and_its_conjugate(
+    s: int,
+) -> None:
+    """A^{2,1} by −s and s + 1, A^{1,2} by s + 1 and −s, exactly."""
+    interpolation = gauss_lobatto(s, "interpolation").blocks
+    one = f"{{collocation: -{s}, conjugate-collocation: {s + 1}}}"
+    other = f"{{collocation: {s + 1}, conjugate-collocation: -{s}}}"
+    assert gauss_lobatto(s, one).blocks[1, 0] == interpolation[1, 0]
+    assert gauss_lobatto(s, other).blocks[0, 1] == interpolation[0, 1]
+    assert gauss_lobatto(s, one).blocks[0, 1] != interpolation[0, 1]
+
+
+def squares(s: fmpq, t: fmpq) -> fmpq:
+    """The sum of squares that the page prints, for rational s and t."""
+    u, v = s - 1, 3 * (t - 1) / 2
+    return (
+        fmpq(13, 69984) * (u**4 + v**4)
+        + fmpq(5, 13122) * u**2 * v**2
+        + fmpq(89, 12960) * (u**2 + v**2)
+        - u * v / 1458
+        + fmpq(7, 810) * (u + v)
+        + fmpq(153379, 4665600)
+    )
+
+
+def test_the_least_principal_error() -> None:
+    """The sum of squares is the printed polynomial; the finds have the values that the page has.
+
+    Between the polynomial at rational numbers near the algebraic s and t and the exact constants
+    there is no difference of first order, where it has its minimum.
+    """
+    s, t = fmpq(-3), fmpq(1, 2)
+    text = (
+        f'{{blocks: {{"1,2": {{interpolation: {s}, collocation: {1 - s}}},'
+        f' "2,1": {{interpolation: {t}, collocation: {1 - t}}}}}}}'
+    )
+    constants = error_constants(pair(gauss_lobatto(2, text)), 5)
+    assert constants is not None
+    assert constants.all.two_squared == squares(s, t)
+    near = {
+        "least-error-gauss2-lobatto3": (
+            fmpq(366973, 1000000),
+            fmpq(577982, 1000000),
+        ),
+        "p-stable-least-error-gauss2-lobatto3": (
+            fmpq(383465, 1000000),
+            fmpq(1),
+        ),
+    }
+    for name, (a, b) in near.items():
+        found = error_constants(pair(tableau_of(name)), 5)
+        assert found is not None
+        assert found.all.two_squared is not None
+        with ctx.workprec(200):
+            excess = squares(a, b) - to_ball(found.all.two_squared)
+        assert 0 < excess < 1e-13
+        h = fmpq(1, 1000)
+        assert squares(a, b) < min(squares(a - h, b), squares(a + h, b))
