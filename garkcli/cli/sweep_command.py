@@ -77,7 +77,7 @@ def command(
     rows are written one by one: a sweep that is ended at any moment goes on with --resume.
     """
     from garkcli.page.progress import watching
-    from garkcli.report.sweep import SweepReport, write_parquet
+    from garkcli.report.sweep import SweepReport, refuse_parquet, write_parquet
     from garkcli.sweep.load import load_plan
     from garkcli.sweep.run import sweep
     from garkcli.sweep.store import RowStore
@@ -85,6 +85,8 @@ def command(
     plan = load_plan(spec)
     if plot is not None:
         _refuse_plot(plan, plot)
+    if parquet is not None:
+        refuse_parquet(parquet)
     path = rows if rows is not None else str(Path(spec).with_suffix(".jsonl"))
     with RowStore(path, resume) as store:
         with watching(output.may_show_progress) as show:

@@ -20,6 +20,8 @@ from garkcli.methodfile.words import meant_key, shortened
 
 MAX_BYTES = 1_000_000
 """Largest file that is read."""
+_MOST_DIGITS = 6
+"""Of a whole number that counts something."""
 MAX_FAULTS = 200
 """Most faults of one file that are reported one by one."""
 MAX_FAULTS_READ = 1_000
@@ -287,8 +289,11 @@ class Source:
         is_number = text.isascii() and text.isdigit()
         is_padded = text.startswith("0") and text != "0"
         is_plain = is_number and not is_padded
-        if not is_plain or len(text) > 6 or int(text) < smallest:
+        is_long = is_plain and len(text) > _MOST_DIGITS
+        if not is_plain or is_long or int(text) < smallest:
             wanted = f"a whole number of at least {smallest} is expected"
+            if is_long:
+                wanted = f"a whole number of at most {_MOST_DIGITS} digits is expected"
             self.fault(node, f"{where}: {wanted}, not {shortened(text)}")
             return None
         return int(text)

@@ -23,7 +23,7 @@ from garkcli.methodfile.transfers import ALL_RULES
 from garkcli.methodfile.words import shortened
 from garkcli.transfer import RULES
 
-_SPAN = re.compile(r"([0-9]{1,3})\.\.([0-9]{1,3})")
+_SPAN = re.compile(r"([0-9]{1,9})\.\.([0-9]{1,9})")
 _NAME = re.compile(r"[A-Za-z_][A-Za-z_0-9]*")
 
 
@@ -146,7 +146,8 @@ class MethodsReader:
                     message = (
                         f"methods, stages: {span[0]} is no range of stages"
                     )
-                    self.source.fault(item, message, "write 1..4")
+                    cure = f"write 1..4, up to {MAX_STAGES}"
+                    self.source.fault(item, message, cure)
                 found += range(first, min(last, MAX_STAGES) + 1)
                 continue
             whole = self.source.whole(item, "methods, stages", 1)

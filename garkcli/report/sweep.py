@@ -226,20 +226,34 @@ def _cell(value: Value) -> object:
     return "" if value is None else value
 
 
+def refuse_parquet(path: str) -> None:
+    """Refuse a file that could not be written, before the work is done.
+
+    Raises:
+        UsageProblem: pyarrow is not installed, or there is no such folder.
+    """
+    from importlib.util import find_spec
+
+    from garkcli.page.writing import refuse_unwritable
+
+    if find_spec("pyarrow") is None:
+        raise UsageProblem(
+            "--parquet needs pyarrow",
+            "install garkcli[parquet], or take --format csv",
+        )
+    refuse_unwritable(path)
+
+
 def write_parquet(report: SweepReport, path: str) -> None:
     """The kept rows, best first, as a Parquet file; infinite numbers are those of floats.
 
     Raises:
-        UsageProblem: pyarrow is not installed.
+        UsageProblem: pyarrow is not installed, or the file cannot be written.
     """
-    try:
-        import pyarrow as pa
-        import pyarrow.parquet as pq
-    except ImportError:
-        raise UsageProblem(
-            "--parquet needs pyarrow",
-            "install garkcli[parquet], or take --format csv",
-        ) from None
+    refuse_parquet(path)
+    import pyarrow as pa
+    import pyarrow.parquet as pq
+
     from garkcli.page.writing import write_whole
 
     rows = [_flat(report.plan, row) for row in report.best]

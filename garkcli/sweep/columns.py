@@ -9,6 +9,7 @@ from __future__ import annotations
 from collections.abc import Callable, Mapping
 from dataclasses import dataclass
 from functools import cache, partial
+from math import isfinite
 from typing import TypeAlias
 
 from garkcli.exact.display import to_ball
@@ -43,6 +44,13 @@ class Column:
     value: Callable[[Judged], Value]
     text: str
     more_is_better: bool = True
+
+
+def is_value(value: object) -> bool:
+    """Whether a column may have it."""
+    if isinstance(value, float):
+        return isfinite(value)
+    return value is None or isinstance(value, (bool, int)) or value == INFINITY
 
 
 def _error(constants: ErrorConstants | None, is_largest: bool) -> float | None:

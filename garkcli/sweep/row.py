@@ -4,7 +4,7 @@ from __future__ import annotations
 
 from collections.abc import Mapping
 from functools import lru_cache
-from typing import TypeAlias
+from typing import Any, TypeAlias, TypeGuard
 
 from flint import fmpq
 
@@ -13,7 +13,7 @@ from garkcli.errors import GarkError, MethodError, MethodFileError, counted
 from garkcli.exact.field import Number
 from garkcli.methodfile.family import FamilyFile, loads_family
 from garkcli.methodfile.load import loads
-from garkcli.sweep.columns import Value, columns
+from garkcli.sweep.columns import Value, columns, is_value
 from garkcli.sweep.judged import Judged
 from garkcli.sweep.plan import Criteria, Point
 from garkcli.sweep.searched import first_find, method_found
@@ -23,6 +23,31 @@ Row: TypeAlias = "dict[str, Value | dict[str, str]]"
 """``key``, ``spec``, ``kept``, ``method``, ``parameters``, then columns; ``failure`` where there is
 no such method. What was searched for has ``seed``, and ``proof`` and ``values`` where it was found.
 """
+
+
+_TEXTS = ("key", "spec", "method")
+_SETTINGS = ("parameters", "values")
+
+
+def is_row(row: Any) -> TypeGuard[Row]:
+    """Whether what was read from a file is a row, every value of its kind."""
+    if not isinstance(row, dict) or not isinstance(row.get("kept"), bool):
+        return False
+    texts = [row.get(name) for name in _TEXTS]
+    if not all(isinstance(text, str) for text in texts):
+        return False
+    settings = [row.get(name, {}) for name in _SETTINGS]
+    if not all(map(_is_settings, settings)):
+        return False
+    if not isinstance(row.get("failure", ""), str):
+        return False
+    return all(is_value(row.get(name)) for name in columns())
+
+
+def _is_settings(found: object) -> bool:
+    return isinstance(found, dict) and all(
+        isinstance(value, str) for value in found.values()
+    )
 
 
 def row_of(criteria: Criteria, point: Point) -> Row:

@@ -13,7 +13,7 @@ from contextlib import suppress
 from types import TracebackType
 
 from garkcli.errors import UsageProblem
-from garkcli.sweep.row import Row
+from garkcli.sweep.row import Row, is_row
 
 _BLOCK = 1 << 16
 
@@ -44,8 +44,9 @@ class RowStore:
                 f"{path} cannot be written: {why}", "choose another --rows"
             ) from None
         try:
-            self._lock()
-            self._read(is_resumed)
+            if self._is_file():
+                self._lock()
+                self._read(is_resumed)
         except BaseException:
             os.close(self._file)
             raise
@@ -61,9 +62,19 @@ class RowStore:
     ) -> None:
         os.close(self._file)
 
+    def _is_file(self) -> bool:
+        """Whether there may be rows; False of the null device, which takes all and keeps none."""
+        status = os.fstat(self._file)
+        if stat.S_ISREG(status.st_mode):
+            return True
+        with suppress(OSError):
+            if os.path.samestat(status, os.stat(os.devnull)):
+                return False
+        raise UsageProblem(
+            f"{self.path} is not a regular file", "choose another --rows"
+        )
+
     def _lock(self) -> None:
-        if not stat.S_ISREG(os.fstat(self._file).st_mode):
-            return  # a device is nobody's
         with suppress(ImportError):
             import fcntl
 
@@ -99,9 +110,9 @@ class RowStore:
     def _row(self, line: bytes, number: int) -> Row:
         try:
             row = json.loads(line)
-        except ValueError:
+        except (ValueError, RecursionError):
             row = None
-        if isinstance(row, dict) and isinstance(row.get("key"), str):
+        if is_row(row):
             return row
         raise UsageProblem(
             f"{self.path}, line {number}: this is no row of a sweep",

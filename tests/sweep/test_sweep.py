@@ -107,6 +107,52 @@ def test_resumed(spec: Path) -> None:
     assert "16 rows added" in grown.err
 
 
+def row_like(key: str, order: int) -> Row:
+    """A row as a file has it."""
+    return {
+        "key": key,
+        "spec": "0",
+        "kept": True,
+        "method": key,
+        "parameters": {},
+        "order": order,
+    }
+
+
+@pytest.mark.parametrize(
+    "line",
+    [
+        "[" * 100_000,
+        "[1, 2]",
+        '{"key": "a"}',
+        json.dumps({**row_like("a", 1), "kept": "yes"}),
+        json.dumps({**row_like("a", 1), "parameters": {"t": 1}}),
+        json.dumps({**row_like("a", 1), "order": "4"}),
+        json.dumps({**row_like("a", 1), "error": float("nan")}),
+        json.dumps({**row_like("a", 1), "failure": []}),
+    ],
+)
+def test_damaged_rows_are_refused(line: str, tmp_path: Path) -> None:
+    """A line that is no row, whatever is wrong with it, is named: nothing is made of it."""
+    path = tmp_path / "rows.jsonl"
+    good = json.dumps(row_like("b", 1))
+    path.write_text(f"{good}\n{line}\n", encoding="utf-8")
+    with pytest.raises(UsageProblem, match="line 2: this is no row"):
+        RowStore(str(path), is_resumed=True)
+
+
+@pytest.mark.skipif(os.name == "nt", reason="there are no such devices")
+def test_rows_are_a_regular_file(tmp_path: Path) -> None:
+    """What is endless or never comes is not read; the null device has no rows and keeps none."""
+    pipe = tmp_path / "pipe"
+    os.mkfifo(pipe)
+    for path in ("/dev/zero", str(pipe)):
+        with pytest.raises(UsageProblem, match="not a regular file"):
+            RowStore(path, is_resumed=True)
+    with RowStore(os.devnull, is_resumed=False) as store:
+        store.add(row_like("a", 1))
+
+
 @settings(max_examples=30)
 @given(st.data())
 def test_cut_anywhere(data: st.DataObject) -> None:
@@ -115,7 +161,7 @@ def test_cut_anywhere(data: st.DataObject) -> None:
 
     with tempfile.TemporaryDirectory() as folder:
         path = Path(folder) / "rows.jsonl"
-        rows: list[Row] = [{"key": f"{k}é", "order": k} for k in range(6)]
+        rows = [row_like(f"{k}é", k) for k in range(6)]
         with RowStore(str(path), is_resumed=False) as store:
             for row in rows:
                 store.add(row)
@@ -141,6 +187,18 @@ def test_rows_of_others(spec: Path, tmp_path: Path) -> None:
     assert (no_row.code, "line 1: this is no row" in no_row.err) == (2, True)
     gone = gark("sweep", str(spec), "--rows", str(tmp_path / "no" / "rows"))
     assert (gone.code, "cannot be written" in gone.err) == (2, True)
+
+
+def test_numbers_that_are_too_large_are_told_as_such(spec: Path) -> None:
+    """One fault each, which names the limit."""
+    text = SPEC.replace("steps: 2", "steps: 10000000")
+    text = text.replace("1..2", "1..3000")
+    spec.write_text(text, encoding="utf-8")
+    with pytest.raises(MethodFileError) as caught:
+        load_plan(str(spec))
+    first, second = (fault.message for fault in caught.value.faults)
+    assert "1..3000 is no range of stages" in first
+    assert "a whole number of at most 6 digits" in second
 
 
 @pytest.mark.skipif(os.name == "nt", reason="there are no such locks")
