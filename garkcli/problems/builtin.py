@@ -6,14 +6,13 @@ A problem is added by an entry here, and its test.
 
 from __future__ import annotations
 
-from collections.abc import Callable, Mapping
-from dataclasses import dataclass
-from typing import TypeAlias
+from collections.abc import Mapping
 
 from flint import fmpq
 
 from garkcli.errors import UsageProblem, did_you_mean
 from garkcli.problems import stiff
+from garkcli.problems.entry import BuiltIn, mechanical, stiff_one
 from garkcli.problems.generic import (
     generic,
     generic_rhs,
@@ -24,48 +23,14 @@ from garkcli.problems.generic import (
 from garkcli.problems.hamiltonian import Hamiltonian
 from garkcli.problems.mechanical import (
     Mechanical,
+    angular_momentum,
     cosine,
+    heights_of_rods,
     kepler_potential,
     rods,
     springs,
 )
 from garkcli.problems.problem import Problem
-from garkcli.problems.righthandside import RightHandSide
-
-Maker: TypeAlias = Callable[[int, int], Problem]
-"""Makes a problem of a number of terms and a seed."""
-StiffMaker: TypeAlias = Callable[[int, fmpq], RightHandSide]
-"""Makes a problem of a number of terms and a stiffness."""
-
-
-@dataclass(frozen=True)
-class BuiltIn:
-    """A built-in problem.
-
-    Attributes:
-        name: what ``--problem`` takes.
-        summary: one line for ``gark list``.
-        formula: H, or the sum of the right-hand sides, for people.
-        sees: which trees it sees, for people.
-        make: makes it.
-        takes_seed: whether its coefficients depend on the seed.
-        is_hamiltonian: whether it is; otherwise its terms are right-hand sides.
-        stiff: makes it with a stiffness, where it has one to be chosen.
-    """
-
-    name: str
-    summary: str
-    formula: str
-    sees: str
-    make: Maker
-    takes_seed: bool = False
-    is_hamiltonian: bool = True
-    stiff: StiffMaker | None = None
-
-    @property
-    def takes_stiffness(self) -> bool:
-        """Whether it has a stiffness to be chosen."""
-        return self.stiff is not None
 
 
 def problem(
@@ -100,9 +65,8 @@ def check_stiffness(name: str) -> None:
         UsageProblem: it would change nothing.
     """
     if not built_in(name).takes_stiffness:
-        takers = ", ".join(
-            x.name for x in PROBLEMS.values() if x.takes_stiffness
-        )
+        entries = PROBLEMS.values()
+        takers = ", ".join(x.name for x in entries if x.takes_stiffness)
         raise UsageProblem(
             f"--stiffness is for the problems {takers}, not for {name}",
             "leave it out, or choose one of these",
@@ -155,31 +119,11 @@ def check_seed(name: str, seed: int | None) -> None:
         )
 
 
-def _mechanical(
-    name: str, summary: str, energy: str, sees: str, made: Mechanical
-) -> BuiltIn:
-    def make(terms: int, _: int) -> Hamiltonian:
-        return made.problem(name, terms)
-
-    return BuiltIn(name, summary, energy, sees, make)
-
-
-def _stiff(
-    name: str, summary: str, formula: str, sees: str, made: StiffMaker
-) -> BuiltIn:
-    def make(terms: int, _: int) -> RightHandSide:
-        return made(terms, fmpq(1))
-
-    return BuiltIn(
-        name, summary, formula, sees, make, is_hamiltonian=False, stiff=made
-    )
-
-
 _ALTERNATING = "alternating trees in which velocities do not branch"
 _TENTHS = (fmpq(1, 10), fmpq(1000))  # a step size and a time
 
 _ENTRIES = (
-    _mechanical(
+    mechanical(
         "oscillator",
         "½p² and parts of ½ω²q²; sees the unbranched trees only",
         "½p² + ½ω²q², the step map taken exactly",
@@ -188,7 +132,7 @@ _ENTRIES = (
             ("q",), lambda q: (q**2 / 2,), (fmpq(1), fmpq(1, 2)), fmpq(4)
         ),
     ),
-    _mechanical(
+    mechanical(
         "split-oscillator",
         "two springs of frequencies 1 and 5/2; sees the unbranched trees only",
         "½|p|² + ½x² + ½(5/2)²(y − x)²",
@@ -201,7 +145,7 @@ _ENTRIES = (
             long_run=_TENTHS,
         ),
     ),
-    _mechanical(
+    mechanical(
         "pendulum",
         "½p² + 1 − cos q",
         "½p² + 1 − cos q",
@@ -214,7 +158,7 @@ _ENTRIES = (
             long_run=_TENTHS,
         ),
     ),
-    _mechanical(
+    mechanical(
         "kepler",
         "½|p|² − 1/|q|, eccentricity 3/5; with angular momentum",
         "½|p|² − 1/|q|, eccentricity 3/5, with angular momentum",
@@ -222,20 +166,14 @@ _ENTRIES = (
         Mechanical(
             ("x", "y"),
             kepler_potential,
-            (
-                fmpq(2, 5),
-                fmpq(0),
-                fmpq(0),
-                fmpq(2),
-            ),  # eccentricity 3/5, period 2π
+            # at the pericentre, with eccentricity 3/5 and period 2π
+            (fmpq(2, 5), fmpq(0), fmpq(0), fmpq(2)),
             fmpq(2),
-            invariants=lambda x, y, px, py: (
-                ("angular momentum", x * py - y * px),
-            ),
+            invariants=angular_momentum,
             long_run=(fmpq(1, 50), fmpq(1000)),
         ),
     ),
-    _mechanical(
+    mechanical(
         "henon-heiles",
         "½|p|² + ½|q|² + x²y − y³/3",
         "½|p|² + ½|q|² + x²y − y³/3",
@@ -248,7 +186,7 @@ _ENTRIES = (
             long_run=_TENTHS,
         ),
     ),
-    _mechanical(
+    mechanical(
         "fput",
         "three masses between walls, on springs with quadratic and cubic forces",
         "three masses between walls, α = 1/4, β = 1/2",
@@ -261,37 +199,34 @@ _ENTRIES = (
             long_run=_TENTHS,
         ),
     ),
-    _mechanical(
+    mechanical(
         "double-pendulum",
         "two rods; the kinetic energy depends on the angles",
         "two rods, by the Legendre transform of their Lagrangian",
         "all; what depends on positions alone has only velocities as branches",
         Mechanical(
             ("a", "b"),
-            lambda a, b: (
-                1 - cosine(a),
-                2 - cosine(a) - cosine(b),
-            ),  # of the upper and the lower mass
+            heights_of_rods,
             (fmpq(1), fmpq(-1, 2), fmpq(1), fmpq(1, 2)),
             fmpq(2),
             kinetic=rods,
         ),
     ),
-    _stiff(
+    stiff_one(
         "prothero-robinson",
         "stiff about a solution that is known; not Hamiltonian",
         "ẏ = φ'(t) − λ (y − φ(t)), φ = cos t, λ the stiffness: φ' and the rest",
         "those that branch into time alone",
         stiff.prothero_robinson,
     ),
-    _stiff(
+    stiff_one(
         "van-der-pol",
         "its smooth solution; stiff and non-stiff parts; not Hamiltonian",
         "ẏ = z, ż = σ ((1 − y²) z − y), σ the stiffness: z and the rest",
         "all, with at most 3 branches at a vertex of the stiff part",
         stiff.van_der_pol,
     ),
-    _stiff(
+    stiff_one(
         "reaction-diffusion",
         "eight cells in a line; reaction and diffusion; not Hamiltonian",
         "u̇ᵢ = rᵢ uᵢ (1 − uᵢ) + k (uᵢ₋₁ − 2uᵢ + uᵢ₊₁), k the stiffness: reaction and diffusion",

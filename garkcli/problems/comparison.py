@@ -15,10 +15,11 @@ def merge_terms(problem: Problem, terms: int) -> Problem:
     >>> [str(x) for x in merge_terms(hamiltonian("pendulum", 2), 1).terms]
     ['px**2/2 - cos(x) + 1']
     """
-    kept = terms - 1
+    last = terms - 1
     if isinstance(problem, Hamiltonian):
-        first, rest = problem.terms[:kept], problem.terms[kept:]
-        return replace(problem, terms=(*first, sum(rest)))
-    sides = problem.terms[kept:]
-    merged = tuple(sum(components) for components in zip(*sides, strict=True))
-    return replace(problem, terms=(*problem.terms[:kept], merged))
+        kept, added = problem.terms[:last], problem.terms[last:]
+        return replace(problem, terms=(*kept, sum(added)))
+    first, rest = problem.terms[:last], problem.terms[last:]
+    by_component = zip(*rest, strict=True)
+    merged = tuple(map(sum, by_component))
+    return replace(problem, terms=(*first, merged))

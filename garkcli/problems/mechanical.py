@@ -8,17 +8,30 @@ from __future__ import annotations
 
 from collections.abc import Callable
 from dataclasses import dataclass
-from typing import Any
+from typing import Any, TypeAlias
 
 from flint import arb, fmpq
 
 from garkcli.problems.hamiltonian import Hamiltonian
 from garkcli.problems.vectorfield import symbols
 
+Expressions: TypeAlias = tuple[Any, ...]
+"""Of sympy, which is imported when they are needed."""
+Invariants: TypeAlias = tuple[tuple[str, Any], ...]
+"""Names, and expressions in positions and momenta."""
+Energy: TypeAlias = Callable[[Expressions, Expressions], Any]
+"""An expression in positions and momenta."""
 
-def half_square(_: tuple[Any, ...], p: tuple[Any, ...]) -> Any:
+
+def half_square(_: Expressions, p: Expressions) -> Any:
     """The kinetic energy ½|p|² of unit masses."""
-    return sum(x**2 for x in p) / 2
+    squares = [x**2 for x in p]
+    return sum(squares) / 2
+
+
+def no_invariants(*_: Any) -> Invariants:
+    """Nothing is known to be conserved besides H."""
+    return ()
 
 
 @dataclass(frozen=True)
@@ -36,16 +49,17 @@ class Mechanical:
     """
 
     variables: tuple[str, ...]
-    potentials: Callable[..., tuple[Any, ...]]
+    potentials: Callable[..., Expressions]
     initial: tuple[fmpq, ...]
     t_end: fmpq
-    kinetic: Callable[[tuple[Any, ...], tuple[Any, ...]], Any] = half_square
-    invariants: Callable[..., tuple[tuple[str, Any], ...]] = lambda *_: ()
+    kinetic: Energy = half_square
+    invariants: Callable[..., Invariants] = no_invariants
     long_run: tuple[fmpq, fmpq] | None = None
 
     def problem(self, name: str, terms: int) -> Hamiltonian:
         """The problem in ``terms`` terms."""
-        q, p = symbols(self.variables, "q"), symbols(self.variables, "p")
+        q = symbols(self.variables, "q")
+        p = symbols(self.variables, "p")
         return Hamiltonian(
             name,
             self.variables,
@@ -57,18 +71,21 @@ class Mechanical:
         )
 
     def _split(
-        self, q: tuple[Any, ...], p: tuple[Any, ...], terms: int
-    ) -> tuple[Any, ...]:
+        self, q: Expressions, p: Expressions, terms: int
+    ) -> Expressions:
+        """T, and the parts of V or equal shares of it."""
         import sympy
 
-        T, parts = self.kinetic(q, p), self.potentials(*q)
+        T = self.kinetic(q, p)
+        parts = self.potentials(*q)
         V = sum(parts)
         if terms == 1:
             return (T + V,)
         if terms - 1 == len(parts):
             return (T, *parts)
-        share = sympy.expand(V / (terms - 1))
-        return (T, *(share,) * (terms - 1))
+        shares = terms - 1
+        share = sympy.expand(V / shares)
+        return (T, *[share] * shares)
 
 
 def cosine(x: Any) -> Any:
@@ -78,14 +95,20 @@ def cosine(x: Any) -> Any:
     return sympy.cos(x)
 
 
-def kepler_potential(x: Any, y: Any) -> tuple[Any, ...]:
+def kepler_potential(x: Any, y: Any) -> Expressions:
     """−1/|q|."""
     import sympy
 
-    return (-1 / sympy.sqrt(x**2 + y**2),)
+    distance = sympy.sqrt(x**2 + y**2)
+    return (-1 / distance,)
 
 
-def springs(*q: Any) -> tuple[Any, ...]:
+def angular_momentum(x: Any, y: Any, px: Any, py: Any) -> Invariants:
+    """Of a mass in the plane, about the origin."""
+    return (("angular momentum", x * py - y * px),)
+
+
+def springs(*q: Any) -> Expressions:
     """Springs between walls with quadratic and cubic forces, α = 1/4, β = 1/2: V = Σ r²/2 + αr³/3 +
     βr⁴/4.
     """
@@ -97,7 +120,14 @@ def springs(*q: Any) -> tuple[Any, ...]:
     return (V,)
 
 
-def rods(q: tuple[Any, ...], _: tuple[Any, ...]) -> Any:
+def heights_of_rods(a: Any, b: Any) -> Expressions:
+    """V of the upper and of the lower mass at the ends of two rods of length 1."""
+    upper = 1 - cosine(a)
+    lower = 2 - cosine(a) - cosine(b)
+    return upper, lower
+
+
+def rods(q: Expressions, _: Expressions) -> Any:
     """T of two rods of length 1 with masses 1, in absolute angles: its mass matrix depends on their
     difference.
     """
@@ -106,6 +136,10 @@ def rods(q: tuple[Any, ...], _: tuple[Any, ...]) -> Any:
     from garkcli.problems.lagrangian import legendre_transform
     from garkcli.problems.mass import velocities
 
-    (a, b), (u, w) = q, velocities(("a", "b"))
-    kinetic = u**2 + w**2 / 2 + u * w * sympy.cos(a - b)
-    return legendre_transform(kinetic, ("a", "b"), dict.fromkeys(q, arb(0)))
+    names = ("a", "b")
+    a, b = q
+    u, w = velocities(names)
+    coupling = u * w * sympy.cos(a - b)
+    kinetic = u**2 + w**2 / 2 + coupling
+    origin = dict.fromkeys(q, arb(0))
+    return legendre_transform(kinetic, names, origin)

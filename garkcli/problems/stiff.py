@@ -27,9 +27,12 @@ def prothero_robinson(terms: int, stiffness: fmpq) -> RightHandSide:
     import sympy
 
     variables = ("y",)
-    ((y,), (t,)) = (symbols(variables, group) for group in ("y", TIME))
+    (y,) = symbols(variables, "y")
+    (t,) = symbols(variables, TIME)
     solution = sympy.cos(t)
-    parts = [(solution.diff(t),), (-_rational(stiffness) * (y - solution),)]
+    slope = solution.diff(t)
+    pull = -_rational(stiffness) * (y - solution)
+    parts = [(slope,), (pull,)]
     return RightHandSide(
         "prothero-robinson",
         variables,
@@ -53,11 +56,14 @@ def van_der_pol(terms: int, stiffness: fmpq) -> RightHandSide:
     start = fmpq(-2, 3)
     for power, coefficient in enumerate(_SMOOTH_START, start=1):
         start += coefficient * small**power
-    force = _rational(stiffness) * ((1 - y**2) * z - y)
+    damping = (1 - y**2) * z
+    force = _rational(stiffness) * (damping - y)
+    zero = 0 * z
+    parts = [(z, zero), (zero, force)]
     return RightHandSide(
         "van-der-pol",
         variables,
-        shared([(z, 0 * z), (0 * z, force)], terms),
+        shared(parts, terms),
         (fmpq(2), start),
         fmpq(1, 2),
         long_run=(fmpq(1, 100), fmpq(100)),
@@ -79,22 +85,25 @@ def reaction_diffusion(terms: int, stiffness: fmpq) -> RightHandSide:
     """
     import sympy
 
-    variables = tuple(f"u{i}" for i in range(1, CELLS + 1))
+    variables = tuple(f"u{i + 1}" for i in range(CELLS))
     u = symbols(variables, "y")
     rates = [fmpq(CELLS + i, 2 * CELLS) for i in range(CELLS)]
-    reaction = tuple(
-        _rational(r) * x * (1 - x) for r, x in zip(rates, u, strict=True)
-    )
+    reaction = []
+    for r, x in zip(rates, u, strict=True):
+        growth = _rational(r) * x
+        reaction.append(growth * (1 - x))
     k = _rational(stiffness)
     diffusion = []
     for i, x in enumerate(u):
+        # the first and the last cell have one neighbour
         neighbours = [u[j] for j in (i - 1, i + 1) if 0 <= j < CELLS]
         flows = sympy.Add(*neighbours) - len(neighbours) * x
         diffusion.append(k * flows)
+    parts = [tuple(reaction), tuple(diffusion)]
     return RightHandSide(
         "reaction-diffusion",
         variables,
-        shared([reaction, tuple(diffusion)], terms),
+        shared(parts, terms),
         _balanced(rates, stiffness),
         fmpq(2),
         stiffness=stiffness,
@@ -107,15 +116,19 @@ def _balanced(rates: Sequence[fmpq], stiffness: fmpq) -> tuple[fmpq, ...]:
     """
     level = fmpq(1, 4)
     growth = [r * level * (1 - level) for r in rates]
-    mean = sum(growth, fmpq(0)) / len(growth)
+    mean = _mean(growth)
     w, flow = [fmpq(0)], fmpq(0)
     for g in growth[:-1]:
-        flow += (
-            mean - g
-        )  # what flows on to the right has to make up for all cells so far
+        # what flows on to the right has to make up for all cells so far
+        flow += mean - g
         w.append(w[-1] + flow)
-    middle = sum(w, fmpq(0)) / len(w)
+    middle = _mean(w)
     return tuple(level + (x - middle) / stiffness for x in w)
+
+
+def _mean(numbers: Sequence[fmpq]) -> fmpq:
+    total = sum(numbers, fmpq(0))
+    return total / len(numbers)
 
 
 def shared(
@@ -124,16 +137,15 @@ def shared(
     """The parts in ``terms`` terms: the last one in equal shares where there are fewer parts, the
     last ones added up where there are more.
     """
-    kept = list(parts[: terms - 1])
-    rest = tuple(
-        sum(components) for components in zip(*parts[terms - 1 :], strict=True)
-    )
     if terms <= len(parts):
+        kept, added = parts[: terms - 1], parts[terms - 1 :]
+        by_component = zip(*added, strict=True)
+        rest = tuple(map(sum, by_component))
         return (*kept, rest)
-    kept = list(parts[:-1])
+    *kept, last = parts
     left = terms - len(kept)
-    share = tuple(component / left for component in parts[-1])
-    return (*kept, *(share,) * left)
+    share = tuple(component / left for component in last)
+    return (*kept, *[share] * left)
 
 
 def _rational(x: fmpq) -> Any:
