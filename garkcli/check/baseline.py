@@ -9,10 +9,14 @@ import stat
 from collections.abc import Mapping
 from dataclasses import dataclass
 from pathlib import Path, PurePath
-from typing import Any
+from typing import Any, TypeAlias
 
 from garkcli.errors import UsageProblem
 
+File: TypeAlias = Mapping[str, Any]
+"""What a JSON report says of one file."""
+Earlier: TypeAlias = Mapping[str, File]
+"""The files of an earlier report by path."""
 SCHEMA = "gark/check/1"
 """The name of the report that a baseline is."""
 ORDERS = ("order", "conjugate_order", "pair_order")
@@ -33,7 +37,7 @@ MAX_BYTES = 256 * 2**20
 _CURE = "make one with gark check --format json -o FILE"
 
 
-def read_baseline(path: str) -> Mapping[str, Mapping[str, Any]]:
+def read_baseline(path: str) -> Earlier:
     """The files of an earlier report by path.
 
     Raises:
@@ -46,11 +50,14 @@ def read_baseline(path: str) -> Mapping[str, Mapping[str, Any]]:
     if not isinstance(report, dict) or report.get("schema") != SCHEMA:
         raise _refused(path, "not a report of gark check")
     files = report.get("files")
-    if not isinstance(files, list) or not all(
-        _is_whole(file) for file in files
-    ):
+    if not isinstance(files, list) or not all(map(_is_whole, files)):
         raise _refused(path, "a damaged report of gark check")
-    return {PurePath(file["file"]).as_posix(): file for file in files}
+    return {_path_of(file): file for file in files}
+
+
+def _path_of(file: File) -> str:
+    """Its path, written the same way on every system."""
+    return PurePath(file["file"]).as_posix()
 
 
 def _text(path: str) -> str:
@@ -97,35 +104,32 @@ def _is_whole_claim(claim: object) -> bool:
 
 
 def regressions(
-    report: Mapping[str, Any], baseline: Mapping[str, Mapping[str, Any]]
+    report: Mapping[str, Any], baseline: Earlier
 ) -> list[Regression]:
     """Everything in a JSON report that is worse than in ``baseline``; a file that is new must be
     right.
     """
     found: list[Regression] = []
     for now in report["files"]:
-        before = baseline.get(PurePath(now["file"]).as_posix())
+        before = baseline.get(_path_of(now))
         found += _new_file(now) if before is None else _changed(now, before)
     return found
 
 
-def _new_file(now: Mapping[str, Any]) -> list[Regression]:
+def _new_file(now: File) -> list[Regression]:
     file = now["file"]
     if "errors" in now:
         return [Regression(file, "new file", "none", "unreadable")]
     found: list[Regression] = []
     for claim in now["claims"]:
         if not claim["holds"]:
+            name, truth = claim["claim"], claim["found"]
             before = f"new, expected {claim['expected']}"
-            found.append(
-                Regression(file, claim["claim"], before, claim["found"])
-            )
+            found.append(Regression(file, name, before, truth))
     return found
 
 
-def _changed(
-    now: Mapping[str, Any], before: Mapping[str, Any]
-) -> list[Regression]:
+def _changed(now: File, before: File) -> list[Regression]:
     file = now["file"]
     if "errors" in before:
         return []  # no worse; where it can be read now better, whatever its claims say
@@ -139,13 +143,11 @@ def _changed(
         if claim["holds"] or failed_before:
             continue
         earlier = "held" if name in held else "not claimed"
-        found.append(
-            Regression(file, name, earlier, f"found {claim['found']}")
-        )
+        truth = f"found {claim['found']}"
+        found.append(Regression(file, name, earlier, truth))
     for order in ORDERS:
         old, new = before.get(order), now[order]
         if type(old) is int and (new is None or new < old):
-            found.append(
-                Regression(file, order.replace("_", " "), str(old), str(new))
-            )
+            what = order.replace("_", " ")
+            found.append(Regression(file, what, str(old), str(new)))
     return found

@@ -3,7 +3,9 @@
 from __future__ import annotations
 
 import os
-from dataclasses import replace
+from collections.abc import Mapping, Sequence
+from dataclasses import dataclass, replace
+from typing import TYPE_CHECKING, Any
 
 import click
 
@@ -17,6 +19,10 @@ from garkcli.cli.options import (
     settings_option,
 )
 from garkcli.report.check_formats import FORMATS
+
+if TYPE_CHECKING:
+    from garkcli.check.baseline import Earlier
+    from garkcli.check.outcome import Outcome
 
 
 @click.command("check", context_settings=CONTEXT)
@@ -72,16 +78,12 @@ from garkcli.report.check_formats import FORMATS
 @common(["auto", *FORMATS])
 def command(
     files: tuple[str, ...],
-    max_order: int,
-    error_constants: bool,
-    wants_properties: bool,
     explain: str | None,
     baseline: str | None,
-    require_claims: bool,
-    jobs: int,
     digits: int | None,
     settings: dict[str, str],
     output: Output,
+    **options: Any,
 ) -> int:
     """Everything known about each method, and its claims.
 
@@ -99,49 +101,82 @@ def command(
         return _explain(explain, output)
     if not files:
         raise _no_file()
-    from garkcli.cli.parallel import check_files
-    from garkcli.methodfile.finding import find_files
-    from garkcli.page.progress import tracked
-
     earlier = None
     if baseline is not None:
         from garkcli.check.baseline import read_baseline
 
         earlier = read_baseline(baseline)
+    outcomes = _outcomes(files, settings, Wanted(**options), output)
+    if earlier is not None:
+        return _compare(outcomes, earlier, output)
+    chosen = _format(output)
+    render = FORMATS[chosen]
+    report = render(outcomes, output.paint, output.verbosity, digits)
+    output.write(report, chosen)
+    return max(outcome.exit_code for outcome in outcomes)
+
+
+@dataclass(frozen=True)
+class Wanted:
+    """What is found of each file, by the names of the options.
+
+    Attributes:
+        max_order: where the search for orders stops.
+        error_constants: whether the norms of the principal error are found.
+        wants_properties: whether every property is told, not only those that are claimed.
+        require_claims: whether a file without a claim fails.
+        jobs: how many files at a time; 0 for as many as there are processors.
+    """
+
+    max_order: int
+    error_constants: bool
+    wants_properties: bool
+    require_claims: bool
+    jobs: int
+
+
+def _outcomes(
+    files: tuple[str, ...],
+    settings: Mapping[str, str],
+    wanted: Wanted,
+    output: Output,
+) -> list[Outcome]:
+    """The outcome of each file that is meant, in order."""
+    from garkcli.cli.parallel import check_files
+    from garkcli.methodfile.finding import find_files
+    from garkcli.page.progress import tracked
+
     paths = list(find_files(files))
     refuse_settings_of_several(settings, paths)
+    jobs = wanted.jobs or os.cpu_count() or 1
     running = check_files(
-        paths,
-        max_order,
-        error_constants,
-        jobs or os.cpu_count() or 1,
-        settings,
+        paths, wanted.max_order, wanted.error_constants, jobs, settings
     )
-    outcomes = list(
-        tracked(running, len(paths), "checking", output.verbosity >= 0)
-    )
-    if require_claims:
-        outcomes = [
-            replace(outcome, needs_claims=True) for outcome in outcomes
-        ]
-    if wants_properties:
-        outcomes = [
-            replace(outcome, wants_properties=True) for outcome in outcomes
-        ]
-    if earlier is not None:
-        from garkcli.check.baseline import regressions
-        from garkcli.report import check_baseline
-        from garkcli.report.check_json import as_data
+    shows_bar = output.verbosity >= 0
+    outcomes = tracked(running, len(paths), "checking", shows_bar)
+    return [_as_wanted(outcome, wanted) for outcome in outcomes]
 
-        worse = regressions(as_data(outcomes), earlier)
-        output.write(check_baseline.render(worse, len(outcomes)))
-        return int(bool(worse))
-    chosen = _format(output)
-    output.write(
-        FORMATS[chosen](outcomes, output.paint, output.verbosity, digits),
-        chosen,
+
+def _as_wanted(outcome: Outcome, wanted: Wanted) -> Outcome:
+    """The outcome with what it is to tell, and what fails it."""
+    return replace(
+        outcome,
+        needs_claims=wanted.require_claims,
+        wants_properties=wanted.wants_properties,
     )
-    return max(outcome.exit_code for outcome in outcomes)
+
+
+def _compare(
+    outcomes: Sequence[Outcome], earlier: Earlier, output: Output
+) -> int:
+    """Write what is worse than in an earlier report."""
+    from garkcli.check.baseline import regressions
+    from garkcli.report import check_baseline
+    from garkcli.report.check_json import as_data
+
+    worse = regressions(as_data(outcomes), earlier)
+    output.write(check_baseline.render(worse, len(outcomes)))
+    return int(bool(worse))
 
 
 def _no_file() -> click.MissingParameter:

@@ -8,6 +8,7 @@ from typing import TYPE_CHECKING, Any
 
 import click
 
+from garkcli.cli.companion import companion, companion_options
 from garkcli.cli.options import (
     CONTEXT,
     PATH,
@@ -51,18 +52,7 @@ if TYPE_CHECKING:
     default=None,
     help="A row for each colouring, or a row for all of them (without FILE).",
 )
-@click.option(
-    "--conjugate",
-    "which",
-    flag_value="conjugate",
-    help="Of the symplectic conjugate of FILE.",
-)
-@click.option(
-    "--pair",
-    "which",
-    flag_value="pair",
-    help="Of the symplectic pair of FILE.",
-)
+@companion_options
 @click.option(
     "--failing", is_flag=True, help="Only conditions of FILE that do not hold."
 )
@@ -228,15 +218,9 @@ def _chosen(
 ) -> Valued:
     from garkcli.methodfile.load import load
     from garkcli.report.conditions_data import Valued
-    from garkcli.tableau.conjugate import conjugate
-    from garkcli.tableau.forms import pair
 
     method = load(file, settings)
-    tableau = method.tableau
-    if which == "conjugate":
-        tableau = conjugate(tableau)
-    elif which == "pair":
-        tableau = pair(tableau)
+    tableau = companion(method.tableau, which)
     return Valued(tableau, method.tolerance, only_failing)
 
 

@@ -4,7 +4,6 @@ from __future__ import annotations
 
 from collections.abc import Mapping
 from dataclasses import dataclass
-from pathlib import Path
 from typing import TYPE_CHECKING, Any
 
 import click
@@ -24,14 +23,13 @@ from garkcli.cli.options import (
     refuse_settings_of_several,
     settings_option,
 )
+from garkcli.cli.plotting import check_plot, plot_option, save_plot
 from garkcli.cli.problems import (
     ProblemType,
     note_changing,
-    plot_option,
     problem_options,
 )
 from garkcli.cli.stepping import (
-    check_plot,
     given_positive,
     positive,
     refuse_misplaced,
@@ -43,6 +41,7 @@ from garkcli.errors import UsageProblem
 if TYPE_CHECKING:
     from matplotlib.figure import Figure
 
+    from garkcli.convergence.result import Convergence
     from garkcli.report.convergence_data import Entry
 
 AXES = ("h", "evaluations", "seconds")
@@ -86,7 +85,7 @@ def _moved(_: click.Context, option: click.Parameter, value: object) -> None:
     "--drift", is_flag=True, hidden=True, expose_value=False, callback=_moved
 )
 @click.option("--step", hidden=True, expose_value=False, callback=_moved)
-@plot_option
+@plot_option("Draw into FILE: .png, .svg or .pdf.")
 @settings_option
 @common(["text", "json", "csv"])
 def command(
@@ -237,17 +236,21 @@ def _one(
     output.write(report.render(result, method.name, format, paint, shown.work))
     hint_rounding(method, tableau, result, output)
     if shown.plot is not None:
-        from garkcli.plots.convergence_plot import (
-            comparison_figure,
-            convergence_figure,
-        )
-
-        if shown.against == "h" and not shown.work:
-            figure = convergence_figure(result, method.name)
-        else:
-            figure = comparison_figure([(method.name, result)], shown.against)
-        _save(figure, shown, output)
+        figure = _figure(result, method.name, shown)
+        save_plot(figure, shown.plot, output)
     return int(result.verdict == "disagree")
+
+
+def _figure(result: Convergence, name: str, shown: Shown) -> Figure:
+    """The errors of one method: over step sizes with their slopes, or over their costs."""
+    from garkcli.plots.convergence_plot import (
+        comparison_figure,
+        convergence_figure,
+    )
+
+    if shown.against == "h" and not shown.work:
+        return convergence_figure(result, name)
+    return comparison_figure([(name, result)], shown.against)
 
 
 def _several(
@@ -262,23 +265,18 @@ def _several(
         report.render(entries, format, paint, shown.work, shown.against)
     )
     if shown.plot is not None:
-        _draw(entries, shown, output)
+        _draw(entries, shown.plot, shown.against, output)
     return max(entry.exit_code for entry in entries)
 
 
-def _draw(entries: list[Entry], shown: Shown, output: Output) -> None:
+def _draw(
+    entries: list[Entry], path: str, against: str, output: Output
+) -> None:
     """The results in one figure, unless every test failed."""
     results = [(x.name, x.result) for x in entries if x.result is not None]
     if not results:
-        output.note(f"nothing to draw into {shown.plot}")
+        output.note(f"nothing to draw into {path}")
         return
     from garkcli.plots.convergence_plot import comparison_figure
 
-    _save(comparison_figure(results, shown.against), shown, output)
-
-
-def _save(figure: Figure, shown: Shown, output: Output) -> None:
-    from garkcli.plots.saving import save
-
-    save(figure, Path(shown.plot or ""))
-    output.note(f"wrote {shown.plot}")
+    save_plot(comparison_figure(results, against), path, output)

@@ -6,10 +6,12 @@ from typing import TYPE_CHECKING
 
 import click
 
+from garkcli.cli.companion import companion, companion_options
 from garkcli.cli.options import (
     CONTEXT,
     PATH,
     Output,
+    check_document,
     common,
     digits_option,
     document_option,
@@ -36,18 +38,7 @@ if TYPE_CHECKING:
     metavar="n",
     help="Trees of up to n vertices: powers of h up to n - 1.",
 )
-@click.option(
-    "--conjugate",
-    "which",
-    flag_value="conjugate",
-    help="Of the symplectic conjugate of FILE.",
-)
-@click.option(
-    "--pair",
-    "which",
-    flag_value="pair",
-    help="Of the symplectic pair of FILE.",
-)
+@companion_options
 @click.option(
     "--equation",
     is_flag=True,
@@ -91,10 +82,7 @@ def command(
     from garkcli.report.modified import render
     from garkcli.report.modified_data import ModifiedReport
 
-    if document and output.format != "latex":
-        raise UsageProblem(
-            "--document goes with --format latex", "add --format latex"
-        )
+    check_document(document, output.format)
     method = load(file, settings)
     tableau = _chosen(method, which)
     formula = None
@@ -114,9 +102,8 @@ def command(
         file, method.name, found, which or "", digits, equation, formula
     )
     is_long = output.verbosity >= 0
-    output.write(
-        render(report, output.format, output.paint, is_long, document)
-    )
+    format, paint = output.format, output.paint
+    output.write(render(report, format, paint, is_long, document))
     return 0
 
 
@@ -149,18 +136,9 @@ def _chosen(method: MethodFile, which: str | None) -> Tableau:
     Raises:
         UsageProblem: the pair or the conjugate of rounded coefficients.
     """
-    from garkcli.tableau.conjugate import conjugate
-    from garkcli.tableau.forms import pair
-
-    if which is None:
-        return method.tableau
-    if method.tolerance is not None:
+    if which is not None and method.tolerance is not None:
         raise UsageProblem(
             f"--{which}: rounding goes on into the coefficients of it",
             "give exact coefficients, without tolerance",
         )
-    return (
-        conjugate(method.tableau)
-        if which == "conjugate"
-        else pair(method.tableau)
-    )
+    return companion(method.tableau, which)

@@ -119,6 +119,17 @@ document_option: Callable[[F], F] = click.option(
 """The option of commands that write LaTeX."""
 
 
+def check_document(is_document: bool, format: str) -> None:
+    """Refuse ``--document`` where no LaTeX is written.
+
+    Raises:
+        UsageProblem: it would change nothing.
+    """
+    if is_document and format != "latex":
+        message = "--document goes with --format latex"
+        raise UsageProblem(message, "add --format latex")
+
+
 def common(formats: Sequence[str]) -> Callable[[F], F]:
     """``--format``, ``-o``, ``-q``, ``-v``, ``--color``; they arrive as one ``Output``."""
 

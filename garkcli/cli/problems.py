@@ -10,7 +10,6 @@ from typing import TYPE_CHECKING, Any, TypeVar
 import click
 from click.shell_completion import CompletionItem
 
-from garkcli.cli.options import PATH
 from garkcli.errors import UsageProblem, did_you_mean
 
 if TYPE_CHECKING:
@@ -106,14 +105,6 @@ seed_option: Callable[[F], F] = click.option(
 t_end_option: Callable[[F], F] = click.option(
     "--t-end", metavar="T", help="The final time; each problem has its own."
 )
-plot_option: Callable[[F], F] = click.option(
-    "--plot",
-    type=PATH,
-    metavar="FILE",
-    help="Draw into FILE: .png, .svg or .pdf.",
-)
-
-
 stiffness_option: Callable[[F], F] = click.option(
     "--stiffness",
     metavar="S",

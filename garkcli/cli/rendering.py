@@ -4,7 +4,7 @@ from __future__ import annotations
 
 from flint import fmpq
 
-from garkcli.cli.options import Output
+from garkcli.cli.options import Output, check_document
 from garkcli.errors import UsageProblem
 from garkcli.page.plain import printable
 from garkcli.tableau.pointwise import Entries, entries, in_points
@@ -37,10 +37,7 @@ def write_tableau(
     Raises:
         UsageProblem: no preamble belongs to the format, or no method file says the tableau.
     """
-    if is_document and output.format != "latex":
-        raise UsageProblem(
-            "--document goes with --format latex", "add --format latex"
-        )
+    check_document(is_document, output.format)
     if output.format == "yaml":
         output.write(_method_file(tableau, name, digits, tolerance))
         return

@@ -10,12 +10,13 @@ import click
 
 from garkcli.cli.options import (
     CONTEXT,
-    PATH,
     Output,
     common,
+    digits_option,
     refuse_settings_of_several,
     settings_option,
 )
+from garkcli.cli.plotting import check_plot, plot_option, save_plot
 from garkcli.errors import UsageProblem, did_you_mean
 
 if TYPE_CHECKING:
@@ -43,20 +44,8 @@ if TYPE_CHECKING:
     multiple=True,
     help="Two colours: the additive SSP radius for r2 = Q r1 too; repeatable.",
 )
-@click.option(
-    "--digits",
-    type=click.IntRange(1, 1000),
-    default=12,
-    show_default=True,
-    metavar="N",
-    help="Digits of numbers that have no simple radicals.",
-)
-@click.option(
-    "--plot",
-    type=PATH,
-    metavar="FILE",
-    help="Draw regions or traces into FILE: .png, .svg, .pdf.",
-)
+@digits_option("Digits of numbers that have no simple radicals.", default=12)
+@plot_option("Draw regions or traces into FILE: .png, .svg, .pdf.")
 @click.option(
     "--order-star", is_flag=True, help="With --plot: |R(z)| > |exp z| instead."
 )
@@ -106,19 +95,15 @@ def command(
             )
     output.write(render(reports, output.format, output.paint))
     if plot is not None:
-        from garkcli.plots.saving import save
         from garkcli.plots.stability_plot import stability_figure
 
-        save(stability_figure(reports, order_star), Path(plot))
-        output.note(f"wrote {plot}")
+        save_plot(stability_figure(reports, order_star), plot, output)
     return 0
 
 
 def _check_plot(plot: str) -> None:
     """Refuse a picture that could not be written, before the work."""
-    from garkcli.plots.saving import check_suffix
-
-    check_suffix(Path(plot))
+    check_plot(plot)
     if not Path(plot).parent.is_dir():
         raise UsageProblem(
             f"cannot write {plot}: there is no such folder",

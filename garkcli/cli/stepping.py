@@ -5,7 +5,6 @@ options.
 from __future__ import annotations
 
 from collections.abc import Mapping
-from pathlib import Path
 from typing import TYPE_CHECKING
 
 from garkcli.cli.options import Output
@@ -70,13 +69,10 @@ def refuse_misplaced(
     """
     from garkcli.problems.builtin import PROBLEMS, check_seed, check_stiffness
 
-    given = next(
-        (option for option, value in of_oscillator.items() if value), None
-    )
+    given = [option for option, value in of_oscillator.items() if value]
     if problem != "oscillator" and given:
-        raise UsageProblem(
-            f"{given} is for the oscillator, not for {problem}", "leave it out"
-        )
+        message = f"{given[0]} is for the oscillator, not for {problem}"
+        raise UsageProblem(message, "leave it out")
     check_seed(problem, seed)
     if stiffness is not None and problem in PROBLEMS:
         check_stiffness(problem)
@@ -85,18 +81,6 @@ def refuse_misplaced(
 def given_positive(option: str, text: str | None) -> fmpq | None:
     """The ``positive`` number that was given for ``option``, if any was."""
     return None if text is None else positive(option, text)
-
-
-def check_plot(path: str | None) -> None:
-    """Refuse a picture of another kind, before the work.
-
-    Raises:
-        UsageProblem: its suffix is none of those that can be drawn.
-    """
-    if path is not None:
-        from garkcli.plots.saving import check_suffix
-
-        check_suffix(Path(path))
 
 
 def oscillator(

@@ -3,7 +3,7 @@
 from __future__ import annotations
 
 import sys
-from collections.abc import Iterable, Iterator
+from collections.abc import Iterator
 from contextlib import contextmanager
 from dataclasses import dataclass
 from typing import TYPE_CHECKING, Any
@@ -12,6 +12,7 @@ import click
 
 from garkcli.cli.options import CONTEXT, PATH, Output, common, document_option
 from garkcli.cli.streams import is_terminal, say
+from garkcli.cli.tree_lists import counts_of, draw_sheet, rows_of
 from garkcli.cli.tree_options import (
     colours_option,
     kind_asked,
@@ -20,14 +21,11 @@ from garkcli.cli.tree_options import (
 from garkcli.errors import UsageProblem
 
 if TYPE_CHECKING:
-    from garkcli.report.trees import Query, TreeRow
+    from garkcli.report.trees import Query
     from garkcli.trees.symplectic import Kind
-    from garkcli.trees.tree import Tree
 
 MANY = 1_000_000
 """So many lines are asked for twice."""
-MAX_PICTURES = 2000
-"""Most trees on one sheet of pictures."""
 
 
 @click.command("trees", context_settings=CONTEXT)
@@ -158,9 +156,8 @@ def _rooted_trees(wanted: Wanted, output: Output) -> None:
     elif wanted.svg is not None:
         from garkcli.trees.notation import parse_tree
 
-        trees = (parse_tree(row.tree) for row in _rows(query, orders))
-        _draw(wanted.svg, trees, colours > 1)
-        output.note(f"wrote {wanted.svg}")
+        trees = (parse_tree(row.tree) for row in rows_of(query, orders))
+        draw_sheet(wanted.svg, trees, colours > 1, output)
     else:
         _list(query, orders, wanted, output)
 
@@ -173,11 +170,10 @@ def _count(query: Query, output: Output) -> None:
         raise UsageProblem(
             "--count knows no --colours-used", "leave one of them out"
         )
-    counts = _counts(query)
+    counts = counts_of(query)
+    format, paint = output.format, output.paint
     with _any_digits():
-        output.write(
-            report.render_counts(query, counts, output.format, output.paint)
-        )
+        output.write(report.render_counts(query, counts, format, paint))
 
 
 def _list(query: Query, orders: range, wanted: Wanted, output: Output) -> None:
@@ -185,14 +181,15 @@ def _list(query: Query, orders: range, wanted: Wanted, output: Output) -> None:
     from garkcli.page.progress import tracked
     from garkcli.report import trees as report
 
-    totals = _totals(query)
+    totals = None
     count_all = None
-    if totals is not None:
+    if not query.used:
+        totals = counts_of(query)
         kept = [report.kept(query, by_root) for _, by_root in totals]
         count_all = sum(map(sum, kept))
     _refuse_millions(count_all, wanted.yes)
     rows = tracked(
-        _rows(query, orders), count_all, "trees", output.may_show_progress
+        rows_of(query, orders), count_all, "trees", output.may_show_progress
     )
     pieces = report.render(
         query, rows, totals, output.format, output.paint, wanted.document
@@ -234,8 +231,7 @@ def _free_trees(kind: Kind, wanted: Wanted, output: Output) -> None:
             output.write(report.render_class_counts(subject, format, paint))
     elif wanted.svg is not None:
         trees = (found.representative for found in subject.classes())
-        _draw(wanted.svg, trees, subject.has_colours)
-        output.note(f"wrote {wanted.svg}")
+        draw_sheet(wanted.svg, trees, subject.has_colours, output)
     else:
         lines = subject.independent
         _refuse_millions(lines, wanted.yes)
@@ -252,10 +248,8 @@ def _single(
     text: str, svg: str | None, is_document: bool, output: Output
 ) -> None:
     """One tree, given in bracket text."""
-    from garkcli.page.writing import write_whole
     from garkcli.report import trees as report
     from garkcli.trees.notation import NotationError, format_tree, parse_tree
-    from garkcli.trees.svg import draw_svg_sheet
 
     try:
         tree = parse_tree(text)
@@ -265,8 +259,7 @@ def _single(
     colours = 1 + max(tree.colours)
     written = format_tree(tree, colours > 1)
     if svg is not None:
-        write_whole(svg, [draw_svg_sheet([tree], [written])])
-        output.note(f"wrote {svg}")
+        draw_sheet(svg, [tree], colours > 1, output)
         return
     row = report.TreeRow(
         written, tree.root, tree.order, tree.symmetry, tree.density
@@ -305,56 +298,3 @@ def _colours(text: str | None, colours: int) -> tuple[int, ...]:
             raise UsageProblem(f"--colours-used {text}: {wanted}", "write 1,2")
         used.add(int(number) - 1)
     return tuple(sorted(used))
-
-
-def _counts(query: Query) -> list[tuple[int, tuple[int, ...]]]:
-    """For each order the number of trees by root colour."""
-    from garkcli.trees.count import Admissible, count_by_root, counts_upto
-
-    if not query.upto:
-        return [(query.order, count_by_root(query.colours, query.order))]
-    return [
-        *enumerate(
-            counts_upto(Admissible.of(query.colours), query.order), start=1
-        )
-    ]
-
-
-def _totals(query: Query) -> list[tuple[int, tuple[int, ...]]] | None:
-    return None if query.used else _counts(query)
-
-
-def _rows(query: Query, orders: range) -> Iterator[TreeRow]:
-    from garkcli.report.trees import TreeRow
-    from garkcli.trees.blocks import select
-
-    root = None if query.root is None else query.root - 1
-    for n in orders:
-        blocks = select(
-            query.colours, n, root=root, using=query.used, block_size=1 << 14
-        )
-        for block in blocks:
-            columns = block.columns
-            yield from map(
-                TreeRow,
-                block.notation(colours=query.colours > 1),
-                columns.root.tolist(),
-                [n] * len(block),
-                columns.sigma.tolist(),
-                columns.gamma.tolist(),
-            )
-
-
-def _draw(path: str, listed: Iterable[Tree], coloured: bool) -> None:
-    from itertools import islice
-
-    from garkcli.page.writing import write_whole
-    from garkcli.trees.notation import format_tree
-    from garkcli.trees.svg import draw_svg_sheet
-
-    trees = list(islice(listed, MAX_PICTURES + 1))
-    if len(trees) > MAX_PICTURES:
-        message = f"more than {MAX_PICTURES} trees do not fit on a sheet"
-        raise UsageProblem(message, "draw one order or one root")
-    labels = [format_tree(tree, coloured) for tree in trees]
-    write_whole(path, [draw_svg_sheet(trees, labels)])

@@ -1,0 +1,41 @@
+"""``--plot``: what is refused before the work, and the figure after it."""
+
+from __future__ import annotations
+
+from collections.abc import Callable
+from pathlib import Path
+from typing import TYPE_CHECKING, Any, TypeVar
+
+import click
+
+from garkcli.cli.options import PATH, Output
+
+if TYPE_CHECKING:
+    from matplotlib.figure import Figure
+
+F = TypeVar("F", bound=Callable[..., Any])
+
+
+def plot_option(help: str) -> Callable[[F], F]:
+    """``--plot``, with what it draws."""
+    return click.option("--plot", type=PATH, metavar="FILE", help=help)
+
+
+def check_plot(path: str | None) -> None:
+    """Refuse a picture of another kind, before the work.
+
+    Raises:
+        UsageProblem: its suffix is none of those that can be drawn.
+    """
+    if path is not None:
+        from garkcli.plots.saving import check_suffix
+
+        check_suffix(Path(path))
+
+
+def save_plot(figure: Figure, path: str, output: Output) -> None:
+    """Write the figure, and say so."""
+    from garkcli.plots.saving import save
+
+    save(figure, Path(path))
+    output.note(f"wrote {path}")

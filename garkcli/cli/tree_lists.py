@@ -1,0 +1,73 @@
+"""The trees that are asked for: their numbers, their rows, a sheet of pictures."""
+
+from __future__ import annotations
+
+from collections.abc import Iterable, Iterator
+from itertools import islice
+from typing import TYPE_CHECKING
+
+from garkcli.errors import UsageProblem
+
+if TYPE_CHECKING:
+    from garkcli.cli.options import Output
+    from garkcli.report.trees import Query, TreeRow
+    from garkcli.trees.tree import Tree
+
+MAX_PICTURES = 2000
+"""Most trees on one sheet of pictures."""
+BLOCK_SIZE = 1 << 14
+"""So many trees are made at a time."""
+
+
+def counts_of(query: Query) -> list[tuple[int, tuple[int, ...]]]:
+    """For each order the number of trees by root colour."""
+    from garkcli.trees.count import Admissible, count_by_root, counts_upto
+
+    if not query.upto:
+        return [(query.order, count_by_root(query.colours, query.order))]
+    admissible = Admissible.of(query.colours)
+    return list(enumerate(counts_upto(admissible, query.order), start=1))
+
+
+def rows_of(query: Query, orders: Iterable[int]) -> Iterator[TreeRow]:
+    """A row for each tree of these orders."""
+    from garkcli.report.trees import TreeRow
+    from garkcli.trees.blocks import select
+
+    root = None if query.root is None else query.root - 1
+    colours, used = query.colours, query.used
+    for n in orders:
+        blocks = select(
+            colours, n, root=root, using=used, block_size=BLOCK_SIZE
+        )
+        for block in blocks:
+            columns = block.columns
+            yield from map(
+                TreeRow,
+                block.notation(colours=colours > 1),
+                columns.root.tolist(),
+                [n] * len(block),
+                columns.sigma.tolist(),
+                columns.gamma.tolist(),
+            )
+
+
+def draw_sheet(
+    path: str, listed: Iterable[Tree], has_colours: bool, output: Output
+) -> None:
+    """Draw trees into a file, and say so.
+
+    Raises:
+        UsageProblem: they are too many for a sheet.
+    """
+    from garkcli.page.writing import write_whole
+    from garkcli.trees.notation import format_tree
+    from garkcli.trees.svg import draw_svg_sheet
+
+    trees = list(islice(listed, MAX_PICTURES + 1))
+    if len(trees) > MAX_PICTURES:
+        message = f"more than {MAX_PICTURES} trees do not fit on a sheet"
+        raise UsageProblem(message, "draw one order or one root")
+    labels = [format_tree(tree, has_colours) for tree in trees]
+    write_whole(path, [draw_svg_sheet(trees, labels)])
+    output.note(f"wrote {path}")
