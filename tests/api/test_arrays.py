@@ -23,8 +23,9 @@ from garkcli import (
 from garkcli.errors import MethodError
 from garkcli.exact.display import to_text
 from garkcli.families.registry import FAMILIES
+from tests.oracles.draws import fractions
 
-FRACTIONS = st.fractions(min_value=-3, max_value=3, max_denominator=12)
+FRACTIONS = fractions(-3, 3, 12)
 
 
 @st.composite
@@ -36,7 +37,7 @@ def arrays(draw: st.DrawFn) -> tuple[list[list[Fraction]], list[Fraction]]:
 
 
 @given(arrays())
-@settings(max_examples=60, deadline=None)
+@settings(max_examples=25, deadline=None)
 def test_arrays_are_the_file_that_says_the_same(
     given_arrays: tuple[list[list[Fraction]], list[Fraction]],
 ) -> None:
@@ -50,7 +51,7 @@ def test_arrays_are_the_file_that_says_the_same(
 
 
 @given(arrays())
-@settings(max_examples=40, deadline=None)
+@settings(max_examples=25, deadline=None)
 def test_entries_go_round(
     given_arrays: tuple[list[list[Fraction]], list[Fraction]],
 ) -> None:
@@ -67,7 +68,7 @@ def test_entries_go_round(
 
 
 @given(st.floats(-10, 10, allow_subnormal=False), st.integers(0, 14))
-@settings(max_examples=100)
+@settings(max_examples=50)
 def test_a_short_float_is_the_decimal_it_prints(x: float, digits: int) -> None:
     """A float of a decimal of at most 15 digits is that decimal, exactly, and no other."""
     text = f"{x:.{digits}e}"

@@ -166,24 +166,13 @@ def test_usage(options: tuple[str, ...], said: str) -> None:
 
 
 def test_figures_are_written(tmp_path: Path) -> None:
-    """In each format; nothing else is left behind."""
-    for suffix in ("png", "svg", "pdf"):
-        run = gark(
-            "energy",
-            RECTANGULAR,
-            "--problem",
-            "kepler",
-            *SHORT,
-            "--plot",
-            str(tmp_path / f"a.{suffix}"),
-        )
-        assert run.code == 0
-        assert f"wrote {tmp_path}" in run.err
-    assert sorted(x.name for x in tmp_path.iterdir()) == [
-        "a.pdf",
-        "a.png",
-        "a.svg",
-    ]
+    """Nothing else is left behind; the test of the same name of gark converge tries all formats."""
+    plot = str(tmp_path / "a.png")
+    arguments = ("--problem", "kepler", *SHORT, "--plot", plot)
+    run = gark("energy", RECTANGULAR, *arguments)
+    assert run.code == 0
+    assert f"wrote {tmp_path}" in run.err
+    assert [x.name for x in tmp_path.iterdir()] == ["a.png"]
 
 
 def test_csv_keeps_the_extremes() -> None:

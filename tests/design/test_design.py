@@ -236,7 +236,7 @@ def _text(entries: list[tuple[int, int]], weight: Fraction) -> str:
     )
 
 
-@settings(max_examples=40)
+@settings(max_examples=25)
 @given(
     st.lists(_ENTRY, min_size=4, max_size=4),
     st.fractions(Fraction(1, 4), Fraction(3, 4), max_denominator=4),

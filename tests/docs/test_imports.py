@@ -32,10 +32,15 @@ def is_for_types_only(node: ast.AST) -> bool:
 
 def executed(node: ast.AST) -> Iterator[ast.AST]:
     """All nodes below ``node`` but for what only type checkers read."""
-    for child in ast.iter_child_nodes(node):
-        if not is_for_types_only(child):
-            yield child
-            yield from executed(child)
+    pending = [node]
+    while pending:
+        for child in ast.iter_child_nodes(pending.pop()):
+            is_statement = not isinstance(
+                child, ast.expr
+            )  # which imports nothing
+            if is_statement and not is_for_types_only(child):
+                yield child
+                pending.append(child)
 
 
 def imported_modules(text: str, modules: Mapping[str, Path]) -> set[str]:

@@ -22,6 +22,7 @@ from garkcli.exact.matrix import (
     solve,
     transpose,
 )
+from tests.oracles.draws import fractions
 
 FIELDS = {
     "sqrt(3)": (Domain([parse("sqrt(3)")]), 2),
@@ -29,9 +30,7 @@ FIELDS = {
     "cbrt(2)": (Domain([parse("cbrt(2)")]), 3),
     "sqrt(2 + sqrt(2))": (Domain([parse("sqrt(2 + sqrt(2))")]), 4),
 }
-rationals = st.fractions(-6, 6, max_denominator=6).map(
-    lambda x: fmpq(x.numerator, x.denominator)
-)
+rationals = fractions(-6, 6, 6).map(lambda x: fmpq(x.numerator, x.denominator))
 
 
 @st.composite

@@ -12,6 +12,7 @@ from garkcli.exact.expression import parse
 from garkcli.exact.field import Algebraic, Number, NumberField
 from garkcli.exact.linear_map import LinearMap, _has_denominators_apart, _sum
 from garkcli.exact.matrix import Matrix, Vector, dot
+from tests.oracles.draws import fractions
 
 FIELDS = {
     "rational": None,
@@ -19,9 +20,7 @@ FIELDS = {
     "cbrt(2)": Domain([parse("cbrt(2)")]).field,
     "sqrt(2 + sqrt(2))": Domain([parse("sqrt(2 + sqrt(2))")]).field,
 }
-rationals = st.fractions(-4, 4, max_denominator=6).map(
-    lambda x: fmpq(x.numerator, x.denominator)
-)
+rationals = fractions(-4, 4, 6).map(lambda x: fmpq(x.numerator, x.denominator))
 
 
 @st.composite

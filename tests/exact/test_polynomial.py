@@ -18,10 +18,9 @@ from garkcli.exact.roots import (
     sign,
     sign_at,
 )
+from tests.oracles.draws import fractions
 
-SMALL = st.fractions(min_value=-5, max_value=5, max_denominator=12).map(
-    lambda x: fmpq(x.numerator, x.denominator)
-)
+SMALL = fractions(-5, 5, 12).map(lambda x: fmpq(x.numerator, x.denominator))
 
 
 def number(text: str) -> Number:

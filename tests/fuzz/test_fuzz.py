@@ -36,11 +36,12 @@ from tests.fuzz.problem_inputs import (
     problem_seeds,
     written_problem,
 )
+from tests.oracles.draws import fractions
 
 SLOWEST = 5.0
 """Seconds of the processor that no file may take before its verdict."""
 FUZZ = settings(
-    max_examples=int(os.environ.get("GARK_FUZZ_EXAMPLES", "150")),
+    max_examples=int(os.environ.get("GARK_FUZZ_EXAMPLES", "60")),
     deadline=None,  # that is of a clock; ``faults_of`` has the other
     derandomize=True,
     database=None,
@@ -50,7 +51,7 @@ FUZZ = settings(
 
 NUMBERS = st.one_of(
     st.integers(-3, 12),
-    st.fractions(-3, 3, max_denominator=12).map(str),
+    fractions(-3, 3, 12).map(str),
     st.sampled_from([word.strip('"') for word in RADICALS]),
     st.floats(),
     st.sampled_from(["tau", "1 - tau", "free", ">= 2"]),
@@ -186,7 +187,7 @@ def offset_of_fault(text: str) -> int:
     return 0
 
 
-@pytest.mark.parametrize("seed", range(10))
+@pytest.mark.parametrize("seed", range(6))
 def test_method_files(seed: int) -> None:
     """Three hundred damaged files a seed: a method or its faults, each with a place in the file,
     and soon.
@@ -204,7 +205,7 @@ def test_method_files(seed: int) -> None:
     assert 0 < refused < 300
 
 
-@pytest.mark.parametrize("seed", range(5))
+@pytest.mark.parametrize("seed", range(3))
 def test_problem_files(seed: int) -> None:
     """A hundred damaged problem files a seed: a problem or its faults, each with a place, and
     soon.
@@ -229,9 +230,9 @@ def test_what_is_damaged_was_good() -> None:
     assert not any(faults_of(text, loads_problem) for text in problem_seeds())
     good = sum(
         not faults_of(written_problem(Random(seed)), loads_problem)
-        for seed in range(100)
+        for seed in range(40)
     )
-    assert 20 < good < 80
+    assert 8 < good < 32
 
 
 @dataclass(frozen=True)

@@ -239,7 +239,7 @@ def _additive(draw: st.DrawFn) -> str:
     return f"ark: {{A: [{', '.join(blocks)}], b: [{', '.join(weights)}]}}\n"
 
 
-@settings(max_examples=30)
+@settings(max_examples=20)
 @given(_additive())
 def test_random_methods_are_proved(
     tmp_path_factory: pytest.TempPathFactory, text: str

@@ -43,7 +43,7 @@ def oscillation(parts: list[tuple[float, float, float]]) -> Floats:
 
 
 @given(waves, st.floats(-1, 1))
-@settings(max_examples=300, deadline=None)
+@settings(max_examples=100, deadline=None)
 def test_slope_of_a_line_through_oscillations(
     parts: list[tuple[float, float, float]], slope: float
 ) -> None:
@@ -59,7 +59,7 @@ def test_slope_of_a_line_through_oscillations(
 
 
 @given(waves)
-@settings(max_examples=300, deadline=None)
+@settings(max_examples=100, deadline=None)
 def test_oscillations_do_not_drift(
     parts: list[tuple[float, float, float]],
 ) -> None:
@@ -80,7 +80,7 @@ def test_oscillations_do_not_drift(
     st.floats(0, 2),
     st.floats(20, 300),
 )
-@settings(max_examples=300, deadline=None)
+@settings(max_examples=100, deadline=None)
 def test_slow_modulation_is_no_drift(
     depth: float, periods: float, phase: float, offset: float, frequency: float
 ) -> None:

@@ -48,7 +48,7 @@ def problem(lagrangian: str, variables: list[str]) -> str:
 
 
 @given(FORMULAS, FORMULAS)
-@settings(max_examples=150, deadline=None)
+@settings(max_examples=60, deadline=None)
 def test_terms_are_not_underestimated(
     numerator: Any, denominator: Any
 ) -> None:

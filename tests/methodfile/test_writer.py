@@ -71,7 +71,7 @@ def test_a_spelled_out_file_loads_as_the_same_tableau(
 
 
 @given(st.data())
-@settings(max_examples=50)
+@settings(max_examples=25)
 def test_a_partitioned_file_loads_as_the_same_tableau(
     data: st.DataObject,
 ) -> None:

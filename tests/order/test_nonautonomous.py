@@ -99,7 +99,7 @@ METHODS = [
 ]
 
 
-@settings(max_examples=40)
+@settings(max_examples=25)
 @given(st.sampled_from(METHODS), st.integers(0, 2**32 - 1))
 def test_the_order_is_that_of_steps_as_power_series(
     coefficients: tuple[str, str], seed: int

@@ -98,9 +98,18 @@ def test_a_pipe_is_written_through(tmp_path: Path) -> None:
 
 @posix
 @pytest.mark.parametrize(
-    "name", ["/dev/stdout", "/dev/fd/1", "/proc/self/fd/1", "link"]
+    ("name", "redirection"),
+    [
+        ("/dev/stdout", ">"),
+        ("/dev/fd/1", ">"),
+        ("/proc/self/fd/1", ">"),
+        ("link", ">"),
+        ("/dev/stdout", ">>"),
+        ("link", ">>"),
+        ("/dev/fd/1", "| cat >"),
+        ("link", "| cat >"),
+    ],
 )
-@pytest.mark.parametrize("redirection", [">", ">>", "| cat >"])
 def test_the_devices_of_streams(
     name: str, redirection: str, tmp_path: Path
 ) -> None:

@@ -37,6 +37,13 @@ def test_every_dependency_has_a_floor() -> None:
     assert len(names) == len(declared["dependencies"]) + len(test)
 
 
+@pytest.fixture
+def _no_other_pythons(monkeypatch: pytest.MonkeyPatch) -> None:
+    """Nobody looks for them, which starts each."""
+    monkeypatch.setenv("GARK_PYTHONS", sys.executable)
+
+
+@pytest.mark.usefixtures("_no_other_pythons")
 def test_all_paths_are_there() -> None:
     """What a circumstance tests is part of the suite; names are different."""
     found = list(circumstances())
@@ -45,6 +52,7 @@ def test_all_paths_are_there() -> None:
     assert all(x.venv.folder.parent.name == ".portable" for x in found)
 
 
+@pytest.mark.usefixtures("_no_other_pythons")
 def test_beginnings_choose() -> None:
     """Several words, each the beginning of several names; a word of no name is said."""
     assert [x.name for x in chosen("floors,newest")] == ["newest", "floors"]

@@ -12,6 +12,7 @@ from hypothesis import assume, given, settings
 from hypothesis import strategies as st
 
 from garkcli.problems.straightline import FUNCTIONS, code_of, function
+from tests.oracles.draws import fractions
 
 X = sympy.symbols("x y z", positive=True)
 DIGITS = 40
@@ -19,7 +20,7 @@ DIGITS = 40
 
 def numbers() -> st.SearchStrategy[Any]:
     """Small rational numbers as sympy has them."""
-    return st.fractions(-3, 3, max_denominator=7).map(
+    return fractions(-3, 3, 7).map(
         lambda x: sympy.Rational(x.numerator, x.denominator)
     )
 

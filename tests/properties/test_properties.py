@@ -36,9 +36,10 @@ from garkcli.stability.linear import stability_function
 from garkcli.tableau.forms import gark
 from garkcli.tableau.pointwise import in_points
 from garkcli.tableau.tableau import Tableau
+from tests.oracles.draws import fractions
 
 Rows = list[list[Fraction]]
-ENTRY = st.fractions(min_value=-2, max_value=2, max_denominator=4)
+ENTRY = fractions(-2, 2, 4)
 
 
 @st.composite

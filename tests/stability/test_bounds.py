@@ -33,9 +33,10 @@ from garkcli.stability.linear import (
 from garkcli.stability.ssp import ssp_coefficient
 from garkcli.stability.within import stability_within
 from garkcli.tableau.tableau import Tableau
+from tests.oracles.draws import fractions
 
 TOLERANCE = fmpq(1, 10**10)
-ENTRY = st.fractions(min_value=0, max_value=1, max_denominator=6)
+ENTRY = fractions(0, 1, 6)
 KNOWN = {
     "heun": ([["0", "0"], ["1", "0"]], ["1/2", "1/2"], 2),
     "rk4": (

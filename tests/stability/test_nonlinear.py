@@ -18,6 +18,7 @@ from garkcli.stability.ssp import ssp_coefficient
 from garkcli.tableau.forms import gark
 from garkcli.tableau.pointwise import in_points
 from garkcli.tableau.tableau import Tableau
+from tests.oracles.draws import fractions
 
 SSP_10_4 = (
     "methods: [{A: ["
@@ -131,7 +132,7 @@ def test_backward_euler_has_no_limit() -> None:
 def explicit(draw: st.DrawFn) -> Tableau:
     """Random explicit methods with entries that are not negative."""
     s = draw(st.integers(1, 4))
-    entry = st.fractions(min_value=0, max_value=1, max_denominator=6)
+    entry = fractions(0, 1, 6)
     A = [
         [str(draw(entry)) if j < i else "0" for j in range(s)]
         for i in range(s)
@@ -140,7 +141,7 @@ def explicit(draw: st.DrawFn) -> Tableau:
     return loads(f"methods: [{{A: {A}, b: {b}}}]").tableau
 
 
-@settings(max_examples=80)
+@settings(max_examples=40)
 @given(explicit())
 def test_the_conditions_by_floating_point(tableau: Tableau) -> None:
     """A little below the radius all entries are positive, a little above one is not."""

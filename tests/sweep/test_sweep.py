@@ -153,7 +153,7 @@ def test_rows_are_a_regular_file(tmp_path: Path) -> None:
         store.add(row_like("a", 1))
 
 
-@settings(max_examples=30)
+@settings(max_examples=20)
 @given(st.data())
 def test_cut_anywhere(data: st.DataObject) -> None:
     """A file that was cut at any byte has, once resumed, each row once and no other."""

@@ -35,6 +35,7 @@ from garkcli.tableau.polynomial_space import PolynomialSpace
 from garkcli.tableau.tableau import Colour, Tableau
 from garkcli.transfer import collocation
 from tests.oracles import samples
+from tests.oracles.draws import fractions
 from tests.oracles.points import at_points, method_at, numbers, value
 from tests.oracles.stages import product
 
@@ -57,7 +58,7 @@ NODES_OF = {
 }
 names = st.sampled_from(sorted(NODES_OF))
 seeds = st.integers(0, 10**6)
-rationals = st.fractions(-9, 9, max_denominator=12).map(
+rationals = fractions(-9, 9, 12).map(
     lambda x: fmpq(x.numerator, x.denominator)
 )
 

@@ -33,6 +33,7 @@ from garkcli.transfer import (
     symplectic_blocks,
 )
 from tests.oracles import samples
+from tests.oracles.draws import fractions
 from tests.oracles.points import lagrange, numbers, value
 from tests.oracles.stages import image
 
@@ -47,9 +48,7 @@ NAMES = [
     "kutta",
 ]
 names = st.sampled_from(NAMES)
-rationals = st.fractions(-5, 5, max_denominator=9).map(
-    lambda x: fmpq(x.numerator, x.denominator)
-)
+rationals = fractions(-5, 5, 9).map(lambda x: fmpq(x.numerator, x.denominator))
 
 
 @st.composite

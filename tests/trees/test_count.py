@@ -146,7 +146,7 @@ def one_by_one(admissible: Admissible, order: int) -> list[tuple[int, ...]]:
     order=st.integers(1, 30),
     short=st.integers(1, 7),
 )
-@settings(max_examples=60, deadline=None)
+@settings(max_examples=30, deadline=None)
 def test_blocks_make_no_difference(
     data: st.DataObject, colours: int, order: int, short: int
 ) -> None:

