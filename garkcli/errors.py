@@ -12,6 +12,7 @@ GarkError                     what is wrong, and the cure
 │   └── UnknownFamily         no such family, or not with that many stages
 ├── NoLegendreTransform       a Lagrangian whose Hamiltonian is not found
 ├── MethodFileError           one or more faults of a method or problem file, each with its position
+│   └── HasFreeParameters     a family of methods where one method is expected
 └── UsageProblem              options that do not go together with the method at hand
 """
 
@@ -233,6 +234,10 @@ class MethodFileError(GarkError):
             if fault.help:
                 parts.append(f"      help: {fault.help}")
         return "\n".join(parts)
+
+
+class HasFreeParameters(MethodFileError):
+    """A family of methods where one method is expected; nothing else is wrong with the file."""
 
 
 EXCERPT_WIDTH = 72

@@ -9,7 +9,7 @@ from garkcli.check.analysis import Analysis
 from garkcli.check.claims import verify
 from garkcli.check.deciding import analyse
 from garkcli.check.outcome import Claim, Outcome
-from garkcli.errors import MethodFileError
+from garkcli.errors import HasFreeParameters, MethodFileError
 from garkcli.methodfile.build import MethodFile
 from garkcli.methodfile.expectations import highest_order
 from garkcli.methodfile.load import NO_SETTINGS, load
@@ -50,6 +50,10 @@ def check_file(
     """
     try:
         method = load(path, settings)
+    except HasFreeParameters as error:
+        from garkcli.check.every_file import check_every
+
+        return check_every(error, limit, want_constants, settings)
     except MethodFileError as error:
         return Outcome(
             error.source, error.source, faults=error.faults, text=error.text

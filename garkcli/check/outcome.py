@@ -9,6 +9,7 @@ from garkcli.check.analysis import Analysis
 from garkcli.errors import Fault
 
 if TYPE_CHECKING:
+    from garkcli.check.every_value import EveryValue
     from garkcli.order.blame import Blame
     from garkcli.order.constants import ErrorConstants
 
@@ -45,6 +46,7 @@ class Outcome:
         name: the name it gives itself, or its path.
         structure: which vector fields the problem has.
         analysis: the truth; None where the file cannot be read as a method.
+        every: what holds for every value, of a file with free parameters; it has no analysis.
         claims: every claim of the file.
         faults: why it cannot be read; empty where it can.
         text: the file as read, for showing lines of it.
@@ -60,6 +62,7 @@ class Outcome:
     name: str
     structure: str = "general"
     analysis: Analysis | None = None
+    every: EveryValue | None = None
     claims: tuple[Claim, ...] = ()
     faults: tuple[Fault, ...] = ()
     text: str = ""
@@ -75,25 +78,26 @@ class Outcome:
         return tuple(claim for claim in self.claims if not claim.holds)
 
     @property
+    def is_read(self) -> bool:
+        """Whether the file could be read, as a method or as a family of them."""
+        return self.analysis is not None or self.every is not None
+
+    @property
     def makes_no_claim(self) -> bool:
         """Whether the file is a method and nothing is claimed of it."""
-        return self.analysis is not None and not self.claims
+        return self.is_read and not self.claims
 
     @property
     def ok(self) -> bool:
         """Whether the file is a method, every claim holds, and there is one where one is needed."""
         missing = self.needs_claims and self.makes_no_claim
-        return (
-            self.analysis is not None
-            and not self.failed_claims
-            and not missing
-        )
+        return self.is_read and not self.failed_claims and not missing
 
     @property
     def exit_code(self) -> int:
         """0 where all holds, 1 where a claim fails, 2 where the file cannot be read, 3 where the
         program failed.
         """
-        if self.analysis is None:
+        if not self.is_read:
             return 3 if self.is_crash else 2
         return 0 if self.ok else 1

@@ -28,7 +28,8 @@ class NumberField:
 
     Args:
         modulus: the minimal polynomial of θ, irreducible over ℚ.
-        radicals: each radical of the source as ``(expression, element)``; they generate K.
+        radicals: each radical of the source as ``(expression, element)``; they generate K. Without
+            them elements are written in θ.
     """
 
     def __init__(
@@ -63,6 +64,11 @@ class NumberField:
         """A multiple of a product that depends on smaller ones does so too: only chosen products
         are extended.
         """
+        if not self.radicals:
+            powers = tuple((0,) * k for k in range(self.degree))
+            size = range(self.degree)
+            unit = [[fmpq(i == j) for j in size] for i in size]
+            return powers, fmpq_mat(unit)
         chosen: list[Word] = []
         columns: list[list[fmpq]] = []
         level: dict[Word, fmpq_poly] = {(): fmpq_poly([1])}
@@ -103,6 +109,10 @@ class NumberField:
         self, word: Word, latex: bool = False
     ) -> Iterator[tuple[str, int]]:
         """The radicals of a word of ``monomials`` as text, each with its exponent."""
+        if not self.radicals:
+            if word:
+                yield r"\theta" if latex else "theta", len(word)
+            return
         for index, power in Counter(word).items():
             radical, _ = self.radicals[index]
             yield format_expression(radical, latex), power

@@ -21,7 +21,7 @@ from typing import TypeAlias, cast
 from flint import fmpq, fmpq_mat, fmpq_poly, fmpz
 
 from garkcli.exact.field import ZERO, Algebraic, NumberField
-from garkcli.exact.matrix import Matrix, Vector, to_flint
+from garkcli.exact.matrix import Matrix, Vector, apply, apply_left, to_flint
 
 _Parts: TypeAlias = list[tuple[int, fmpq_mat]]
 """Pairs (k, A_k)."""
@@ -59,6 +59,25 @@ class LinearMap:
     def pullbacks(self, functionals: Sequence[Vector]) -> list[Vector]:
         """wᵀ A for each of the functionals."""
         return _products(functionals, self._parts, self.field)
+
+
+class EntrywiseMap:
+    """The same for entries that are rational functions of parameters.
+
+    Args:
+        rows: the matrix A.
+    """
+
+    def __init__(self, rows: Matrix) -> None:
+        self._rows = rows
+
+    def images(self, vectors: Sequence[Vector]) -> list[Vector]:
+        """A v for each of the vectors."""
+        return [apply(self._rows, v) for v in vectors]
+
+    def pullbacks(self, functionals: Sequence[Vector]) -> list[Vector]:
+        """wᵀ A for each of the functionals."""
+        return [apply_left(w, self._rows) for w in functionals]
 
 
 def _rational_rows_apart(rows: Matrix) -> Sequence[_Rational] | None:

@@ -7,20 +7,43 @@ and a method with them goes through the same constructions as one with numbers.
 
 from __future__ import annotations
 
-from collections.abc import Iterable, Sequence
+import re
+from collections.abc import Iterable, Iterator, Sequence
+from contextlib import contextmanager
+from dataclasses import dataclass
 from typing import TypeAlias, cast
 
-from flint import Ordering, fmpq, fmpq_mpoly, fmpq_mpoly_ctx, fmpz
+from flint import Ordering, fmpq, fmpq_mpoly, fmpq_mpoly_ctx, fmpz, fmpz_mpoly
 
+_NAME = re.compile(r"[A-Za-z_]\w*")
 Mixed: TypeAlias = "fmpq | Parametric"
 """A rational number or a rational function."""
 
 
+@dataclass(frozen=True)
+class Rule:
+    """What a power of an unknown is equal to, such as sqrt(3)² = 3.
+
+    Attributes:
+        index: of the unknown.
+        degree: of the power.
+        instead: a polynomial of a smaller degree in it, without unknowns of later rules.
+    """
+
+    index: int
+    degree: int
+    instead: fmpq_mpoly
+
+
 class Parameters:
-    """The ring ℚ[t_1, …, t_k].
+    """The ring ℚ[t_1, …, t_k], or a quotient of it.
 
     Args:
         names: of the parameters.
+
+    Attributes:
+        rules: what is equal in it besides; none for the ring itself.
+        shown: how unknowns are written that are no parameters, such as sqrt(3).
 
     >>> ring = Parameters(["t"])
     >>> t = ring.parameter("t")
@@ -31,6 +54,9 @@ class Parameters:
     def __init__(self, names: Sequence[str]) -> None:
         self.names = tuple(names)
         self.context = fmpq_mpoly_ctx.get(self.names, Ordering.lex)
+        self.rules: tuple[Rule, ...] = ()
+        self.shown: dict[str, str] = {}
+        self._told_apart: dict[str, fmpq_mpoly] | None = None
 
     def parameter(self, name: str) -> Parametric:
         """A parameter as a number."""
@@ -38,6 +64,13 @@ class Parameters:
         return Parametric(
             self, self.context.gen(index), self.constant(fmpq(1))
         )
+
+    def text(self, polynomial: fmpq_mpoly | fmpz_mpoly) -> str:
+        """A polynomial as people read it."""
+        found = str(polynomial)
+        if not self.shown:
+            return found
+        return _NAME.sub(lambda x: self.shown.get(x[0], x[0]), found)
 
     def constant(self, number: fmpq) -> fmpq_mpoly:
         """A number as a polynomial."""
@@ -47,6 +80,9 @@ class Parameters:
         self, numerator: fmpq_mpoly, denominator: fmpq_mpoly
     ) -> Mixed:
         """The quotient in lowest terms, its denominator with leading coefficient 1."""
+        if self.rules:
+            numerator = self.reduced(numerator)
+            denominator = self.reduced(denominator)
         common = numerator.gcd(denominator)
         if not common.is_one():
             numerator, denominator = numerator // common, denominator // common
@@ -56,6 +92,41 @@ class Parameters:
         if numerator.is_constant() and denominator.is_one():
             return numerator.leading_coefficient() if numerator else fmpq(0)
         return Parametric(self, numerator, denominator)
+
+    def reduced(self, polynomial: fmpq_mpoly) -> fmpq_mpoly:
+        """An equal polynomial of the smallest degrees."""
+        for rule in reversed(self.rules):
+            while polynomial.degrees()[rule.index] >= rule.degree:
+                polynomial = self._rewritten(polynomial, rule)
+        return polynomial
+
+    def _rewritten(self, polynomial: fmpq_mpoly, rule: Rule) -> fmpq_mpoly:
+        total = self.constant(fmpq(0))
+        for exponents, a in polynomial.to_dict().items():
+            powers = [int(e) for e in exponents]
+            times, powers[rule.index] = divmod(powers[rule.index], rule.degree)
+            rest = self.context.from_dict({tuple(powers): a})
+            total += rest * rule.instead**times
+        return total
+
+    @contextmanager
+    def telling_apart(self) -> Iterator[dict[str, fmpq_mpoly]]:
+        """Collect what is taken for different from 0 meanwhile.
+
+        What is decided then for the parameters as unknowns is true wherever none of these
+        polynomials is zero: each question has the same answer there (D. Duval, *Algebraic numbers:
+        an example of dynamic evaluation*, J. Symb. Comput. 18, 1994).
+        """
+        before, self._told_apart = self._told_apart, {}
+        try:
+            yield self._told_apart
+        finally:
+            self._told_apart = before
+
+    def tell_apart(self, polynomial: fmpq_mpoly) -> None:
+        """Note that a polynomial is taken for different from 0."""
+        if self._told_apart is not None and not polynomial.is_constant():
+            self._told_apart[str(polynomial)] = polynomial
 
 
 class Parametric:
@@ -120,6 +191,7 @@ class Parametric:
 
     def inverse(self) -> Mixed:
         """1/self."""
+        self.ring.tell_apart(self.numerator)
         return self.ring.quotient(self.denominator, self.numerator)
 
     def __truediv__(self, other: object) -> Mixed:
@@ -127,6 +199,7 @@ class Parametric:
         if parts is None:
             return NotImplemented
         p, q = parts
+        self.ring.tell_apart(p)
         return self.ring.quotient(self.numerator * q, self.denominator * p)
 
     def __rtruediv__(self, other: object) -> Mixed:
@@ -142,13 +215,13 @@ class Parametric:
         return result
 
     def __bool__(self) -> bool:
+        self.ring.tell_apart(self.numerator)
         return True  # zero is a plain number
 
     def __eq__(self, other: object) -> bool:
-        if not isinstance(other, Parametric):
+        if self._parts(other) is None:
             return False
-        same = self.numerator == other.numerator
-        return same and self.denominator == other.denominator
+        return not self - other
 
     def __hash__(self) -> int:
         return hash((str(self.numerator), str(self.denominator)))
@@ -159,9 +232,10 @@ class Parametric:
         return max(int(a.height_bits()) for a in coefficients)
 
     def __repr__(self) -> str:
+        numerator = self.ring.text(self.numerator)
         if self.denominator.is_one():
-            return str(self.numerator)
-        return f"({self.numerator})/({self.denominator})"
+            return numerator
+        return f"({numerator})/({self.ring.text(self.denominator)})"
 
 
 def fraction(

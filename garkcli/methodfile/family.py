@@ -15,10 +15,12 @@ from garkcli.exact.parametric import Parameters, Parametric
 from garkcli.methodfile.description import (
     ArkText,
     ButcherText,
+    ClaimText,
     Description,
     FamilyText,
     MethodsText,
     PrkText,
+    Structure,
     TableauText,
 )
 from garkcli.methodfile.family_values import FamilyValues
@@ -30,7 +32,7 @@ from garkcli.methodfile.load import (
 )
 from garkcli.methodfile.numbers import Row
 from garkcli.methodfile.reader import Reader
-from garkcli.methodfile.wishes import meaning_of, read_wishes
+from garkcli.methodfile.wishes import Wishes, meaning_of, read_wishes
 from garkcli.methodfile.words import one_line
 from garkcli.tableau.family import Family
 from garkcli.tableau.tableau import Tableau
@@ -48,6 +50,8 @@ class FamilyFile(Family):
         shape: where ``unknown: …`` stands, and the tableau that it means as keys of a method file;
             None where the file has no shape.
         wanted_at: where ``design: …`` stands; None where there is none.
+        structure: which vector fields the problem has.
+        claims: what ``expect`` says.
     """
 
     source: str
@@ -56,6 +60,8 @@ class FamilyFile(Family):
     places: Mapping[str, tuple[int, int]]
     shape: tuple[tuple[int, int], str] | None = None
     wanted_at: tuple[int, int] | None = None
+    structure: Structure = "general"
+    claims: tuple[ClaimText, ...] = ()
 
 
 def load_family(
@@ -74,6 +80,7 @@ def loads_family(
     text: str,
     source: str = "<text>",
     settings: Mapping[str, str] = NO_SETTINGS,
+    is_design: bool = True,
 ) -> FamilyFile:
     r"""Read a method file with free parameters from its text.
 
@@ -81,6 +88,7 @@ def loads_family(
         text: of the file.
         source: what to call it.
         settings: values of parameters, by name, in place of those in the file.
+        is_design: whether what stands under ``design`` is meant; else it is passed over.
 
     Raises:
         MethodFileError: every fault of the file, with positions.
@@ -98,7 +106,9 @@ def loads_family(
         cure = "write parameters: {tau: free} in place of a value, "
         cure += 'or "?" for an entry'
         raise MethodError(message, cure)
-    wishes = read_wishes(reader.source, numbers, reader.design)
+    wishes = Wishes()
+    if is_design:
+        wishes = read_wishes(reader.source, numbers, reader.design)
     tableau, values = built(reader, description, FamilyValues)
     ring = values.domain.ring
     meaning = meaning_of(wishes, tableau, ring, values, reader.source)
@@ -125,6 +135,8 @@ def loads_family(
         settings=settings,
         places=places,
         shape=_shape(reader),
+        structure=description.structure,
+        claims=description.claims,
     )
 
 

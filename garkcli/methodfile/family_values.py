@@ -13,7 +13,7 @@ from garkcli.exact.domain import Domain, perfect_root
 from garkcli.exact.field import Number
 from garkcli.exact.nodes import AlgebraicRoot, Expression, Name, Root
 from garkcli.exact.parametric import Parameters, Parametric, fraction
-from garkcli.exact.rewriting import roots_in
+from garkcli.exact.rewriting import format_expression, roots_in
 from garkcli.exact.roots import RealRoot
 from garkcli.methodfile.numbers import Entry, Free, Numbers
 from garkcli.methodfile.values import Values
@@ -98,7 +98,10 @@ class _FamilyDomain(Domain):
         difference = unknown**root.index - cast("Any", radicand)
         relation = cast("Parametric", difference).numerator
         is_even = root.index % 2 == 0
-        self.radicals.append(Radical(name, relation, is_positive=is_even))
+        text = format_expression(root)
+        self.radicals.append(
+            Radical(name, relation, is_positive=is_even, text=text)
+        )
         return cast("Number", unknown)
 
     def _root_of_polynomial(self, root: AlgebraicRoot) -> Number:
@@ -108,7 +111,8 @@ class _FamilyDomain(Domain):
         for coefficient in reversed(root.coefficients):
             relation = relation * unknown + coefficient
         meant = RealRoot(fmpz_poly(list(root.coefficients)), root.number)
-        self.radicals.append(Radical(name, relation, meant=meant))
+        text = format_expression(root)
+        self.radicals.append(Radical(name, relation, meant=meant, text=text))
         return cast("Number", self.ring.parameter(name))
 
     def evaluate(self, expression: Expression) -> Number:

@@ -8,7 +8,7 @@ import sys
 from collections.abc import Callable, Mapping
 from typing import TypeVar
 
-from garkcli.errors import Fault, MethodFileError
+from garkcli.errors import Fault, HasFreeParameters, MethodFileError
 from garkcli.methodfile.build import (
     Builder,
     MethodFile,
@@ -155,7 +155,8 @@ def loads(
     1
     """
     reader, description = described(text, source, settings)
-    refuse_free(reader.numbers)
+    if reader.numbers.free:
+        raise _free(reader)
     tableau, values = built(reader, description, Values)
     return MethodFile(
         source=source,
@@ -171,6 +172,16 @@ def loads(
         description=description.description,
         printed=values.printed,
     )
+
+
+def _free(reader: Reader) -> MethodFileError:
+    """The error of a family of methods, with whatever else is wrong with it."""
+    is_faulty = bool(reader.source.faults)
+    refuse_free(reader.numbers)
+    error = reader.source.error()
+    if is_faulty:
+        return error
+    return HasFreeParameters(error.source, error.faults, error.text)
 
 
 def described(

@@ -9,7 +9,7 @@ from __future__ import annotations
 from flint import fmpq
 
 from garkcli.exact.field import Number
-from garkcli.exact.linear_map import LinearMap
+from garkcli.exact.linear_map import EntrywiseMap, LinearMap
 from garkcli.exact.matrix import Vector, dot
 from garkcli.order.tolerance import form_within, functional_within
 from garkcli.tableau.conjugate import symplectic_defect
@@ -23,7 +23,7 @@ class Defects:
 
     def __init__(self, tableau: Tableau) -> None:
         self.tableau = tableau
-        self._maps: dict[Edge, LinearMap] = {}
+        self._maps: dict[Edge, LinearMap | EntrywiseMap] = {}
         # for each colour the powers c⁰, c¹, … of its nodes
         self._powers: list[list[Vector]] = []
         for l in range(tableau.size):
@@ -71,11 +71,14 @@ class Defects:
         right = there.times(b_m, rest)
         return _minus_part(left, right, k)
 
-    def _map(self, l: int, m: int) -> LinearMap:
+    def _map(self, l: int, m: int) -> LinearMap | EntrywiseMap:
         key = self.tableau.colours[l].space, m
         if key not in self._maps:
             block = self.tableau.blocks[key]
-            self._maps[key] = LinearMap(block, self.tableau.field)
+            if self.tableau.has_parameters:
+                self._maps[key] = EntrywiseMap(block)
+            else:
+                self._maps[key] = LinearMap(block, self.tableau.field)
         return self._maps[key]
 
 

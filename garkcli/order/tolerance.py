@@ -72,6 +72,8 @@ def within(number: Number, tolerance: fmpq) -> bool:
     >>> within(fmpq(-1, 10), fmpq(1, 10)), within(fmpq(2, 19), fmpq(1, 10))
     (True, False)
     """
+    if not tolerance:
+        return not number
     if not isinstance(number, Algebraic):
         return bool(abs(number) <= tolerance)
     digits = 17

@@ -69,7 +69,8 @@ def _left_pole(Q: Polynomial) -> str:
     before = ctx.prec
     try:
         ctx.prec = _BITS
-        balls = [acb(to_ball(a, 30)) for a in Q.coefficients]
+        # roots of higher multiplicity cannot be enclosed
+        balls = [acb(to_ball(a, 30)) for a in Q.square_free().coefficients]
         roots: list[acb] = acb_poly(balls).roots(
             tol=arb(2) ** -60, maxprec=4 * _BITS
         )

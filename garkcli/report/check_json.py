@@ -22,6 +22,7 @@ from garkcli.page.schema import (
     nullable,
     published,
 )
+from garkcli.report.every_json import EVERY_FIELDS, EVERY_VERDICTS
 from garkcli.report.fault_json import FAULT
 from garkcli.report.hints_json import BLOCK, HINTS, blocks
 from garkcli.report.order_json import SIMPLIFYING, order_fields
@@ -127,6 +128,14 @@ _CHECKED: Record[Outcome] = Record(
     *HINTS,
     _CLAIM.every("claims", lambda x: x.claims),
 )
+_EVERY: Record[Outcome] = Record(
+    *_HEAD,
+    Field("ok", FLAG, lambda x: x.ok),
+    Field("structure", _STRUCTURE, lambda x: x.structure),
+    *inside(lambda x: x.every, EVERY_FIELDS),
+    EVERY_VERDICTS,
+    _CLAIM.every("claims", lambda x: x.claims),
+)
 _UNREADABLE: Record[Outcome] = Record(
     *_HEAD,
     Field("ok", {"const": False}, lambda x: x.ok),
@@ -138,6 +147,8 @@ def _files(outcomes: Sequence[Outcome]) -> list[dict[str, Any]]:
     found = []
     for outcome in outcomes:
         record = _UNREADABLE if outcome.analysis is None else _CHECKED
+        if outcome.every is not None:
+            record = _EVERY
         found.append(record.data(outcome))
     return found
 
@@ -155,7 +166,7 @@ _SUMMARY: Record[Sequence[Outcome]] = Record(
     Field("failed", COUNT, _failed),
     Field("without_claims", COUNT, _without_claims),
 )
-_FILE: Schema = {"oneOf": [_UNREADABLE.schema, _CHECKED.schema]}
+_FILE: Schema = {"oneOf": [_UNREADABLE.schema, _CHECKED.schema, _EVERY.schema]}
 _REPORT: Record[Sequence[Outcome]] = Record(
     schema_named(SCHEMA),
     Field("files", array(_FILE), _files),

@@ -3,12 +3,16 @@
 from __future__ import annotations
 
 from collections.abc import Sequence
+from typing import TYPE_CHECKING
 
 from garkcli.check.analysis import AnyOrder
 from garkcli.check.findings import findings
 from garkcli.check.outcome import Outcome
 from garkcli.page.plain import printable
 from garkcli.report.check_text import no_claims
+
+if TYPE_CHECKING:
+    from garkcli.check.every_value import EveryValue
 
 
 def render(outcomes: Sequence[Outcome]) -> str:
@@ -34,7 +38,9 @@ def render(outcomes: Sequence[Outcome]) -> str:
 
 def _row(outcome: Outcome) -> str:
     analysis = outcome.analysis
-    if analysis is None:
+    if outcome.every is not None:
+        cells = _every(outcome, outcome.every)
+    elif analysis is None:
         cells = [f"`{_code(outcome.file)}`", "unreadable", "", "", "", "", ""]
     else:
         claims, failed = len(outcome.claims), len(outcome.failed_claims)
@@ -51,6 +57,26 @@ def _row(outcome: Outcome) -> str:
             _claims(claims, failed),
         ]
     return f"| {' | '.join(cells)} |"
+
+
+def _every(outcome: Outcome, found: EveryValue) -> list[str]:
+    """A file with free parameters: what holds for every value."""
+    from garkcli.check.every_words import fact_text  # few tables have them
+
+    name = found.parameters[0]
+    bound = fact_text(found.simplifying.of(lambda x: x.bound), name)
+    orders = [
+        "" if order is None else str(order.order)
+        for order in (found.order, found.conjugate, found.pair)
+    ]
+    claims, failed = len(outcome.claims), len(outcome.failed_claims)
+    return [
+        f"`{_code(outcome.file)}`",
+        *orders,
+        _cell(bound.partition(";")[0]),
+        _cell(fact_text(found.symplectic, name)),
+        _claims(claims, failed),
+    ]
 
 
 def _claims(claims: int, failed: int) -> str:

@@ -3,6 +3,7 @@
 from __future__ import annotations
 
 from collections.abc import Sequence
+from typing import TYPE_CHECKING
 
 from flint import fmpq
 
@@ -24,6 +25,9 @@ from garkcli.report.check_orders import (
     suggestion_lines,
 )
 from garkcli.tableau.tableau import Tableau
+
+if TYPE_CHECKING:
+    from garkcli.check.every_value import EveryValue
 
 _WIDTH = 80
 
@@ -64,6 +68,9 @@ def render(
 def _outcome(
     outcome: Outcome, paint: Paint, full: bool, quiet: bool, digits: int | None
 ) -> str:
+    if outcome.every is not None:
+        lines = _every(outcome, outcome.every, paint, full, quiet)
+        return "\n".join(lines)
     analysis = outcome.analysis
     if analysis is None:
         return faults_text(outcome, paint)
@@ -79,6 +86,28 @@ def _outcome(
 
         lines += blame_lines(outcome.blame, analysis.tableau, paint)
     return "\n".join(lines)
+
+
+def _every(
+    outcome: Outcome, found: EveryValue, paint: Paint, full: bool, quiet: bool
+) -> list[str]:
+    """A file with free parameters."""
+    from garkcli.report.every_text import every_line, every_lines
+
+    claims = [_claim(outcome, claim, paint) for claim in outcome.claims]
+    if not full:
+        lines = []
+        if not (quiet and outcome.ok):
+            lines.append(every_line(outcome, found, paint))
+        lines += [_claim(outcome, x, paint) for x in outcome.failed_claims]
+        return lines + _missing(outcome, paint)
+    lines = [paint("strong", line) for line in _title(outcome)]
+    lines += every_lines(outcome, found, paint)
+    missing = _missing(outcome, paint)
+    for block in (missing, claims):
+        if block:
+            lines += ["", *block]
+    return lines
 
 
 def _summary(outcomes: Sequence[Outcome], paint: Paint) -> str:
@@ -250,7 +279,7 @@ def _claim(outcome: Outcome, claim: Claim, paint: Paint) -> str:
     left = _WIDTH - margin
     told = [f"{said}  {place}"]
     if len(told[0]) > left:
-        told = [said, place]
+        told = [*folded(said, left, ""), place]
     if claim.why:
         told += folded(claim.why, left, "")
     first, *rest = told

@@ -21,12 +21,14 @@ class Radical:
         relation: a polynomial that is zero at it.
         is_positive: whether only its positive zero is meant: that of an even root.
         meant: the zero that is meant, where it is one of several real ones.
+        text: the root as it is written.
     """
 
     name: str
     relation: fmpq_mpoly
     is_positive: bool = False
     meant: RealRoot | None = None
+    text: str = ""
 
 
 @dataclass(frozen=True, repr=False, kw_only=True)

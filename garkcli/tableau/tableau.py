@@ -5,11 +5,13 @@ from __future__ import annotations
 from collections.abc import Iterator, Mapping
 from dataclasses import dataclass
 from functools import cached_property
+from itertools import chain
 from typing import Literal, TypeAlias
 
 from garkcli.errors import ShapeMismatch, counted
 from garkcli.exact.field import Algebraic, NumberField
 from garkcli.exact.matrix import Matrix, Vector
+from garkcli.exact.parametric import Parametric
 from garkcli.tableau.stages import StageSpace
 
 Part: TypeAlias = Literal["y", "q", "p"]
@@ -131,16 +133,25 @@ class Tableau:
     @cached_property
     def field(self) -> NumberField | None:
         """The number field of the coefficients; None when all are rational."""
-        rows: list[Vector] = []
-        for colour in self.colours:
-            rows += [colour.b, colour.c]
-        for block in self.blocks.values():
-            rows += block
-        for row in rows:
+        for row in self._rows():
             for x in row:
                 if isinstance(x, Algebraic):
                     return x.field
         return None
+
+    @cached_property
+    def has_parameters(self) -> bool:
+        """Whether a coefficient is a rational function of free parameters."""
+        numbers = chain.from_iterable(self._rows())
+        return any(isinstance(x, Parametric) for x in numbers)
+
+    def _rows(self) -> Iterator[Vector]:
+        """All coefficients."""
+        for colour in self.colours:
+            yield colour.b
+            yield colour.c
+        for block in self.blocks.values():
+            yield from block
 
     @property
     def degree(self) -> int:

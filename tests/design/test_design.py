@@ -309,7 +309,8 @@ def test_as_a_command(tmp_path: Path) -> None:
     wrong = gark("design", str(path), "--set", "h=1/2")
     assert (wrong.code, "no parameter 'h'" in wrong.err) == (2, True)
     assert gark("design", str(path), "--set", "g").code == 2
-    refused = gark("check", str(path))
+    assert gark("check", str(path)).code == 0
+    refused = gark("energy", str(path))
     assert (
         refused.code,
         "gark design finds values" in refused.out + refused.err,

@@ -18,8 +18,8 @@ def _meaning(asked: Asked) -> Meaning:
     nonzero = []
     for l in asked.colours:
         A, b = asked.diagonal(l, "R-infinity")
-        below = _coefficients(A)
-        above = _coefficients(_minus_rows(A, b))
+        below = characteristic_coefficients(A)
+        above = characteristic_coefficients(_minus_rows(A, b))
         degree = max(k for k, x in enumerate(below) if x)
         if not degree:
             raise MethodError(
@@ -41,7 +41,7 @@ def _minus_rows(A: Matrix, b: Vector) -> Matrix:
     )
 
 
-def _coefficients(A: Matrix) -> list[Any]:
+def characteristic_coefficients(A: Matrix) -> list[Any]:
     """Those of det(I − zA) = Σ c_k z^k, by Faddeev's and Le Verrier's recursion."""
     s = len(A)
     stages = range(s)

@@ -1,0 +1,268 @@
+"""What is true of a family for every value of its parameters, and of which values it is not.
+
+A question about coefficients that are rational functions is answered once, with the parameters as
+unknowns; the polynomials that were taken for different from zero on the way are kept. Wherever
+none of them is zero the answer is the same. The answer that counts is the ordinary one for some
+rational values there. With one parameter the finitely many others are looked at one by one.
+"""
+
+from __future__ import annotations
+
+from collections.abc import Callable, Sequence
+from dataclasses import dataclass, field, replace
+from typing import Any
+
+from flint import fmpq_mpoly
+
+from garkcli.check.every_family import EveryFamily, exact_value
+from garkcli.errors import GarkError
+from garkcli.exact.cells import Interval
+from garkcli.exact.parametric import Parameters
+from garkcli.exact.roots import RealRoot
+from garkcli.tableau.family_points import ring_of
+from garkcli.tableau.tableau import Tableau
+
+MOST_SPECIAL = 60
+"""Most single values that are looked at."""
+
+
+MOST_ASKED = 60
+"""How often a question is asked where polynomials are zero."""
+
+
+@dataclass(frozen=True)
+class Fact:
+    """An answer for a family.
+
+    Attributes:
+        value: for every value of the parameters but those below; None where there is none.
+        special: single values of the one parameter, each with the answer there.
+        open: several parameters: polynomials; where one is zero the answer may be another.
+        zeros: several parameters: polynomials at whose common zeros, real ones if there are any,
+            and only there, an order is higher, or what is else not true is.
+        elsewhere: several parameters: polynomials, each with the answer wherever it is zero.
+        unknown: single values of the one parameter that are not decided.
+        where: of what is true on whole intervals of the one parameter, these; else None.
+        is_undecided: whether no answer is known that holds but for these.
+        differs: whether two values are known for which it is not the same.
+        why: these two, or what is in the way of knowing it.
+    """
+
+    value: Any
+    special: tuple[tuple[RealRoot, Any], ...] = ()
+    open: tuple[str, ...] = ()
+    zeros: tuple[str, ...] = ()
+    elsewhere: tuple[tuple[str, Any], ...] = ()
+    unknown: tuple[RealRoot, ...] = ()
+    where: tuple[Interval, ...] | None = None
+    is_undecided: bool = False
+    differs: bool = False
+    why: str = ""
+
+    @property
+    def is_everywhere(self) -> bool:
+        """Whether the answer is the same for every value."""
+        others = (
+            *self.special,
+            *self.elsewhere,
+            *self.open,
+            *self.zeros,
+            *self.unknown,
+        )
+        is_one = self.where is None and not self.is_undecided
+        return is_one and not others
+
+    def of(self, part: Callable[[Any], Any]) -> Fact:
+        """The same of a part of the answer."""
+
+        def of(whole: Any) -> Any:
+            return None if whole is None else part(whole)
+
+        value = of(self.value)
+        special = [(x, of(other)) for x, other in self.special]
+        elsewhere = [(p, of(other)) for p, other in self.elsewhere]
+        return replace(
+            self,
+            value=value,
+            special=tuple(x for x in special if x[1] != value),
+            elsewhere=tuple(x for x in elsewhere if x[1] != value),
+        )
+
+
+@dataclass
+class Budget:
+    """How often a question may still be asked."""
+
+    left: int
+
+
+@dataclass(frozen=True)
+class Question:
+    """Something to be asked of a tableau, whatever its coefficients are.
+
+    Attributes:
+        ask: the answer; compared by ``==``.
+    """
+
+    ask: Callable[[Tableau], Any]
+    _none: tuple[type[Exception], ...] = field(
+        default=(GarkError, ZeroDivisionError), repr=False
+    )
+
+    def at(self, tableau: Tableau) -> Any:
+        """The answer; None where it has no meaning."""
+        try:
+            return self.ask(tableau)
+        except self._none:
+            return None
+
+
+def find(
+    family: EveryFamily,
+    ask: Callable[[Tableau], Any],
+    is_of_stages: bool = False,
+    budget: Budget | None = None,
+) -> Fact:
+    """The answer to a question that only compares coefficients with each other.
+
+    Args:
+        family: of methods.
+        ask: the question.
+        is_of_stages: whether it is about entries, stage by stage.
+        budget: how often it may be asked; None for the usual.
+    """
+    budget = budget or Budget(MOST_ASKED)
+    budget.left -= 1
+    question = Question(ask)
+    try:
+        if is_of_stages:
+            value, told = _asked_in_points(family, question)
+        else:
+            value, told = _asked(question, family.tableau, family.ring)
+    except TypeError:
+        # numbers have signs, rational functions have none; stage algebras have no entries
+        return by_samples(family, question)
+    factors = _factors(family, told)
+    if family.has_one:
+        return _one_by_one(family, question, value, factors)
+    for _, method in family.samples(factors):
+        if question.at(method) != value:
+            return Fact(None, is_undecided=True, why=NOT_DECIDED)
+        break
+
+    def again(smaller: EveryFamily) -> Fact:
+        return find(smaller, ask, is_of_stages, budget)
+
+    return _zero_by_zero(family, value, factors, again, budget)
+
+
+def _zero_by_zero(
+    family: EveryFamily,
+    value: Any,
+    factors: Sequence[fmpq_mpoly],
+    again: Callable[[EveryFamily], Fact],
+    budget: Budget,
+) -> Fact:
+    """The answer wherever a polynomial is zero, where that gives a parameter its value."""
+    elsewhere, open_ = [], []
+    for p in factors:
+        smaller = family.where_zero(p) if budget.left > 0 else None
+        fact = None if smaller is None else again(smaller)
+        if fact is None or not fact.is_everywhere:
+            open_.append(family.ring.text(p))
+        elif fact.value != value:
+            elsewhere.append((family.ring.text(p), fact.value))
+    return Fact(value, open=tuple(open_), elsewhere=tuple(elsewhere))
+
+
+def _asked(
+    question: Question, tableau: Tableau, ring: Parameters
+) -> tuple[Any, list[fmpq_mpoly]]:
+    """The answer with the parameters as unknowns, and what was taken for different from zero."""
+    with ring.telling_apart() as told:
+        value = question.at(tableau)
+    return value, list(told.values())
+
+
+def _asked_in_points(
+    family: EveryFamily, question: Question
+) -> tuple[Any, list[fmpq_mpoly]]:
+    """The same with a coordinate for each stage.
+
+    Raises:
+        TypeError: there are no simple nodes, or several parameters beside them.
+    """
+    tableau = family.in_points
+    if tableau is family.tableau:
+        return _asked(question, tableau, family.ring)
+    if tableau is None or not family.has_one:
+        raise TypeError
+    ring = ring_of(tableau)
+    value, told = _asked(question, tableau, ring)
+    return value, [family.norm(p, ring) for p in told]
+
+
+NOT_DECIDED = "gark check --set judges single methods"
+
+
+def _one_by_one(
+    family: EveryFamily,
+    question: Question,
+    value: Any,
+    factors: Sequence[fmpq_mpoly],
+) -> Fact:
+    """The answer at the values at which a polynomial is zero besides."""
+    for _, method in family.samples(factors):
+        if question.at(method) != value:
+            return Fact(None, is_undecided=True, why=NOT_DECIDED)
+        break
+    special, unknown = [], []
+    for number, root in enumerate(family.roots(factors)):
+        exact = exact_value(root)
+        if exact is None or number >= MOST_SPECIAL:
+            unknown.append(root)
+            continue
+        there = question.at(family.at(exact))
+        if there != value:
+            special.append((root, there))
+    return Fact(value, tuple(special), unknown=tuple(unknown))
+
+
+def by_samples(family: EveryFamily, question: Question) -> Fact:
+    """That the answers differ is known from two of them; that they do not is not."""
+    first: tuple[str, Any] | None = None
+    for values, method in family.samples():
+        found = question.at(method)
+        at = ", ".join(f"{name} = {x}" for name, x in values.items())
+        if first is None:
+            first = at, found
+        elif found != first[1]:
+            why = f"{told(first[1])} at {first[0]}, {told(found)} at {at}"
+            return Fact(None, is_undecided=True, differs=True, why=why)
+    return Fact(None, is_undecided=True, why=NOT_DECIDED)
+
+
+def told(value: object) -> str:
+    """An answer in a word."""
+    if isinstance(value, bool):
+        return "yes" if value else "no"
+    return "no meaning" if value is None else str(value)
+
+
+def _factors(
+    family: EveryFamily, polynomials: Sequence[fmpq_mpoly]
+) -> list[fmpq_mpoly]:
+    """The irreducible factors of all of them but of poles and numbers, each once."""
+    known = {str(f) for p in family.poles for f, _ in p.factor()[1]}
+    ring = family.ring
+    roots = {rule.index for rule in ring.rules}
+    found: dict[str, fmpq_mpoly] = {}
+    for p in polynomials:
+        for factor, _ in p.factor()[1]:
+            # what has roots of numbers alone is a number, and not zero
+            is_number = {
+                k for k, e in enumerate(factor.degrees()) if e
+            } <= roots
+            if str(factor) not in known and not is_number:
+                found[str(factor)] = factor
+    return list(found.values())

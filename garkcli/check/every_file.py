@@ -1,0 +1,62 @@
+"""A file with free parameters, checked: what holds for every value of them."""
+
+from __future__ import annotations
+
+from collections.abc import Mapping
+
+from garkcli.check.every_claims import verify_every
+from garkcli.check.every_value import every_value
+from garkcli.check.outcome import Outcome
+from garkcli.errors import (
+    Fault,
+    GarkError,
+    HasFreeParameters,
+    MethodFileError,
+)
+from garkcli.methodfile.expectations import highest_order
+from garkcli.methodfile.family import loads_family
+
+
+def check_every(
+    file: HasFreeParameters,
+    limit: int,
+    want_constants: bool,
+    settings: Mapping[str, str],
+) -> Outcome:
+    """Check a file whose parameters are free.
+
+    Args:
+        file: with its text.
+        limit: where the search for orders stops, unless a claim of the file reaches further.
+        want_constants: whether error constants were asked for, which need values.
+        settings: values of other parameters.
+    """
+    try:
+        family = loads_family(
+            file.text, file.source, settings, is_design=False
+        )
+        reach = max(limit, highest_order(family.claims) + 1)
+        found = every_value(family, reach)
+    except MethodFileError as error:
+        faults = error.faults
+        return Outcome(file.source, file.source, faults=faults, text=file.text)
+    except GarkError as error:
+        return _refused(file, error.message, error.help)
+    if want_constants:
+        name = found.parameters[0]
+        message = "error constants are numbers, and a parameter is free"
+        return _refused(file, message, f"choose a value: --set {name}=1/2")
+    return Outcome(
+        file=family.source,
+        name=family.name,
+        structure=family.structure,
+        every=found,
+        claims=verify_every(family.claims, found),
+        text=file.text,
+    )
+
+
+def _refused(file: HasFreeParameters, message: str, cure: str) -> Outcome:
+    """What is not said for every value."""
+    faults = (Fault(message, cure),)
+    return Outcome(file.source, file.source, faults=faults, text=file.text)

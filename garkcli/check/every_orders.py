@@ -1,0 +1,163 @@
+"""The order that a family has for every value, and the values for which it has a higher one."""
+
+from __future__ import annotations
+
+from dataclasses import dataclass, replace
+from time import monotonic
+
+from flint import fmpq, fmpq_mpoly
+
+from garkcli.check.every_facts import Fact
+from garkcli.check.every_family import EveryFamily
+from garkcli.design.conditions import FamilyConditions
+from garkcli.design.design import (
+    TABLEAUS,
+    Whose,
+    is_admissible,
+    order_of,
+)
+from garkcli.design.groebner import NotDecided
+from garkcli.design.ideal import Ideal
+from garkcli.design.solutions import solutions, value_at
+from garkcli.exact.field import Number
+from garkcli.exact.roots import RealRoot
+from garkcli.order.conditions import elementary_weight
+from garkcli.tableau.tableau import Tableau
+from garkcli.trees.tree import Tree
+
+SECONDS = 10.0
+"""After so many it is left open for which values the next order is reached."""
+
+
+@dataclass(frozen=True)
+class EveryOrder:
+    """An order of a family.
+
+    Attributes:
+        tableau: whose order it is, for every value.
+        fact: the order for every value, with the single values that have another; ``zeros`` are
+            the polynomials whose common zeros have a higher one.
+        witness: a tree whose condition is not met by every value; None where the limit was reached.
+        value: its elementary weight, a rational function of the parameters.
+        dimension: of the set of values, real and complex, with the next order; −1 where it is
+            empty, None where that was not decided.
+        poles: polynomials: where one is zero a weight is, and there is no conjugate.
+    """
+
+    tableau: Tableau
+    fact: Fact
+    witness: Tree | None
+    value: Number | None
+    dimension: int | None
+    poles: tuple[str, ...]
+
+    @property
+    def order(self) -> int:
+        """The order for every value."""
+        found = self.fact.value
+        assert isinstance(found, int)
+        return found
+
+    @property
+    def residual(self) -> Number:
+        """By how much the condition of the witness is missed, a function of the parameters."""
+        assert self.witness is not None
+        assert self.value is not None
+        return self.value - fmpq(1, self.witness.density)
+
+
+def every_order(family: EveryFamily, whose: Whose, limit: int) -> EveryOrder:
+    """The order for every value, of the method, its conjugate or its pair.
+
+    Args:
+        family: of methods.
+        whose: which order.
+        limit: the order at which to stop.
+
+    Raises:
+        ZeroWeight: a weight is zero for every value, and there is no conjugate.
+    """
+    ring = family.ring
+    tableau = TABLEAUS[whose](family.tableau)
+    conditions = FamilyConditions(tableau, ring)
+    start = Ideal(ring, conditions.denominators, monotonic() + SECONDS)
+    start = start.with_zeros(family.relations)
+    lost = [] if whose == "method" else family.weights
+    poles = tuple(map(ring.text, lost))
+    for k in range(1, limit + 1):
+        missed = [
+            condition
+            for condition in conditions.of_order(k)
+            if not start.contains(condition.polynomial)
+        ]
+        if not missed:
+            continue
+        zeros = [condition.polynomial for condition in missed]
+        fact, dimension = _higher(family, whose, k - 1, start, zeros)
+        if family.has_one and lost:
+            fact = _without(fact, family.roots(lost))
+        witness = missed[0].tree
+        value = elementary_weight(tableau, witness)
+        return EveryOrder(tableau, fact, witness, value, dimension, poles)
+    return EveryOrder(tableau, Fact(limit), None, None, None, poles)
+
+
+def _without(fact: Fact, roots: list[RealRoot]) -> Fact:
+    """The order where at single values there is no such method."""
+    kept = [x for x in fact.special if x[0] not in roots]
+    none = [(root, None) for root in roots]
+    return replace(fact, special=tuple(sorted([*kept, *none], key=_place)))
+
+
+def _place(special: tuple[RealRoot, object]) -> RealRoot:
+    return special[0]
+
+
+def _higher(
+    family: EveryFamily,
+    whose: Whose,
+    order: int,
+    start: Ideal,
+    zeros: list[fmpq_mpoly],
+) -> tuple[Fact, int | None]:
+    """The order with the values that have a higher one, and how many dimensions these have."""
+    try:
+        ideal = start.with_zeros(zeros)
+    except NotDecided:
+        return Fact(order, zeros=tuple(map(family.ring.text, zeros))), None
+    dimension = ideal.dimension
+    if dimension < 0:
+        return Fact(order), dimension
+    if dimension == 0:
+        found = _real(family, whose, ideal)
+        if family.has_one or not found:
+            return Fact(order, tuple(found)), dimension
+    return Fact(order, zeros=_texts(family, ideal)), dimension
+
+
+def _texts(family: EveryFamily, ideal: Ideal) -> tuple[str, ...]:
+    """The polynomials of an ideal but for what roots satisfy."""
+    known = {str(p) for p in family.relations}
+    texts = [p for p in ideal.polynomials if str(p) not in known]
+    return tuple(family.ring.text(p) for p in texts)
+
+
+def _real(
+    family: EveryFamily, whose: Whose, ideal: Ideal
+) -> list[tuple[RealRoot, int | None]]:
+    """The real solutions that the file admits, each with its order.
+
+    Each is known by the value of its first parameter.
+    """
+    found = []
+    for solution in solutions(ideal):
+        order = order_of(family.family, whose, solution)
+        for root in solution.real:
+            values = {
+                name: value_at(solution.values[name], root)
+                for name in family.family.parameters
+            }
+            if is_admissible(family.family, solution, root):
+                least = None if order is None else order.order
+                found.append((next(iter(values.values())), least))
+    return sorted(found, key=_place)

@@ -1,0 +1,220 @@
+"""Properties of a family: for every value of its parameters, or for which.
+
+Most of them ask only which coefficients are zero or equal. Those that take signs are decided for
+one parameter between the zeros of the polynomials whose signs matter; A-, L- and P-stability by
+``garkcli.design.stable_values``.
+"""
+
+from __future__ import annotations
+
+from collections.abc import Callable, Iterator
+from itertools import chain
+from typing import Any
+
+from flint import fmpq, fmpq_mpoly
+
+from garkcli.check.every_facts import Fact, Question, by_samples, find
+from garkcli.check.every_family import EveryFamily, exact_value, in_one
+from garkcli.design.stable_values import Wanted, stable_values
+from garkcli.design.wants.r_infinity import characteristic_coefficients
+from garkcli.errors import GarkError
+from garkcli.exact.cells import Interval, Point, where
+from garkcli.exact.field import ONE
+from garkcli.exact.matrix import identity
+from garkcli.exact.parametric import fraction
+from garkcli.exact.polynomial import Polynomial
+from garkcli.exact.roots import RealRoot, real_roots
+from garkcli.order.simplifying import Simplifying, simplifying
+from garkcli.properties.subject import Subject
+from garkcli.tableau.conjugate import symplectic_defect
+from garkcli.tableau.tableau import Tableau
+
+COMPARING = (
+    "explicit",
+    "diagonally-implicit",
+    "sdirk",
+    "esdirk",
+    "fully-implicit",
+    "implicit-stages",
+    "stiffly-accurate",
+    "fsal",
+    "symmetric",
+    "reducible",
+    "stage-order",
+)
+"""Those that ask which coefficients are zero or equal."""
+STABLE: dict[str, Wanted] = {
+    "a-stable": "a-stable",
+    "l-stable": "l-stable",
+    "p-stable": "p-stable",
+}
+"""Those whose values are found by a decomposition of the plane."""
+
+
+_NOTHING = Simplifying((), (), ())
+
+
+def find_property(family: EveryFamily, key: str, limit: int) -> Fact:
+    """What is true of a property.
+
+    Args:
+        family: of methods.
+        key: of the property.
+        limit: at which the search for B, C and D stops.
+    """
+    ask = _asking(key, limit)
+    if key in COMPARING:
+        return find(family, ask, is_of_stages=True)
+    if family.has_one and key in STABLE:
+        return _stable(family, STABLE[key])
+    if family.has_one and key in SIGNS:
+        if key == "algebraically-stable" and not _is_complete(family.tableau):
+            return Fact(None)
+        return _by_signs(family, ask, SIGNS[key](family.tableau))
+    return _refuted(family, ask)
+
+
+def _is_complete(tableau: Tableau) -> bool:
+    colours = range(tableau.size)
+    return all(
+        tableau.block(l, m) is not None for l in colours for m in colours
+    )
+
+
+def _asking(key: str, limit: int) -> Callable[[Tableau], Any]:
+    """The question after a property."""
+
+    def ask(tableau: Tableau) -> Any:
+        # the order is asked for with rounded coefficients only, B, C and D for one property
+        known = _NOTHING
+        if key == "stage-order":
+            known = simplifying(tableau, limit)
+        subject = Subject(tableau, 1, known, limit)
+        value = subject.verdict(key).value
+        return value if isinstance(value, (bool, int)) else str(value)
+
+    return ask
+
+
+def _refuted(family: EveryFamily, ask: Callable[[Tableau], Any]) -> Fact:
+    """Two methods that differ show that no answer is right for every value."""
+    return by_samples(family, Question(ask))
+
+
+def _stable(family: EveryFamily, wanted: Wanted) -> Fact:
+    """The set of values with a kind of stability."""
+    try:
+        found = stable_values(family.family, wanted)
+    except GarkError:
+        return Fact(None)
+    return _of_set(family, found.found, found.undecided)
+
+
+def _of_set(
+    family: EveryFamily,
+    found: tuple[Interval, ...],
+    unknown: tuple[RealRoot, ...] = (),
+) -> Fact:
+    """What holds on a set: for every value that the file admits, for none, or on the set."""
+    if not found:
+        return Fact(False, unknown=unknown)
+    if _is_all(family, found):
+        return Fact(True, unknown=unknown)
+    return Fact(None, unknown=unknown, where=found)
+
+
+def _is_all(family: EveryFamily, found: tuple[Interval, ...]) -> bool:
+    """Whether a set is every value with a method."""
+    [(least, greatest)] = family.family.ranges.values()
+    poles = {root for p in family.poles for root in _roots(p)}
+    here: RealRoot | None = None
+    for number, interval in enumerate(found):
+        is_gap = interval.start is not None and not interval.has_start
+        if number == 0:
+            is_first = _same(interval.start, least) and (
+                least is None or not is_gap
+            )
+            if not is_first and not (is_gap and interval.start in poles):
+                return False
+        elif interval.start != here or interval.start not in poles:
+            return False
+        here = interval.end
+    last = found[-1]
+    return _same(last.end, greatest) and (greatest is None or last.has_end)
+
+
+def _same(end: RealRoot | None, bound: fmpq | None) -> bool:
+    if end is None or bound is None:
+        return end is None and bound is None
+    return end == RealRoot.rational(bound)
+
+
+def _roots(p: fmpq_mpoly) -> Iterator[RealRoot]:
+    for root, _ in real_roots(in_one(p)):
+        yield root
+
+
+def _by_signs(
+    family: EveryFamily, ask: Callable[[Tableau], Any], numbers: list[object]
+) -> Fact:
+    """What hangs on the signs of rational functions of the one parameter."""
+    question = Question(ask)
+    critical: list[Polynomial] = []
+    critical += [in_one(p) for p in family.poles]
+    for x in numbers:
+        parts = fraction(x, family.ring)
+        critical += [in_one(p) for p in parts if p]
+    for end in next(iter(family.family.ranges.values())):
+        if end is not None:
+            critical.append(Polynomial([-end, 1]))
+    unknown: list[RealRoot] = []
+
+    def holds(t: Point) -> bool:
+        root = t if isinstance(t, RealRoot) else RealRoot.rational(t)
+        if not family.is_inside(root):
+            return False
+        exact = exact_value(root)
+        if exact is None:
+            unknown.append(root)
+            return False
+        return question.at(family.at(exact)) is True
+
+    found = where(holds, critical)
+    return _of_set(family, found, tuple(unknown))
+
+
+def _weights(tableau: Tableau) -> list[object]:
+    """Whether all are positive hangs on these: det(1 − z G), G the diagonal form of the weights."""
+    numbers: list[object] = []
+    for l, colour in enumerate(tableau.colours):
+        gram = tableau.space(l).form(colour.b, identity(len(colour.b)))
+        numbers += characteristic_coefficients(gram)
+    return numbers
+
+
+def _nodes(tableau: Tableau) -> list[object]:
+    numbers: list[object] = []
+    for colour in tableau.colours:
+        numbers += [*colour.c, *(ONE - x for x in colour.c)]
+    return numbers
+
+
+def _algebraic(tableau: Tableau) -> list[object]:
+    """Whether M is positive semidefinite hangs on the signs in det(1 − z M)."""
+    rows: list[tuple[Any, ...]] = []
+    colours = range(tableau.size)
+    for l in colours:
+        blocks = [symplectic_defect(tableau, l, m) for m in colours]
+        rows += [
+            tuple(chain.from_iterable(parts))
+            for parts in zip(*blocks, strict=True)
+        ]
+    return [*characteristic_coefficients(tuple(rows)), *_weights(tableau)]
+
+
+SIGNS: dict[str, Callable[[Tableau], list[object]]] = {
+    "positive-weights": _weights,
+    "nodes-in-unit-interval": _nodes,
+    "algebraically-stable": _algebraic,
+}
+"""Those that hang on signs: of which numbers."""

@@ -1,0 +1,175 @@
+"""Everything that holds for every value of the free parameters of a file, as one value."""
+
+from __future__ import annotations
+
+from dataclasses import dataclass, field
+
+from flint import fmpq_mpoly
+
+from garkcli.check.analysis import inconsistent_blocks
+from garkcli.check.every_facts import Fact, find
+from garkcli.check.every_family import EveryFamily, every_family
+from garkcli.check.every_orders import EveryOrder, every_order
+from garkcli.check.every_properties import find_property
+from garkcli.design.ideal import Ideal
+from garkcli.errors import ZeroWeight
+from garkcli.exact.field import ONE
+from garkcli.exact.parametric import Parametric
+from garkcli.methodfile.family import FamilyFile, loads_family
+from garkcli.order.simplifying import simplifying
+from garkcli.tableau.conjugate import (
+    are_opposite,
+    is_symplectic,
+    symplectic_defect,
+)
+from garkcli.tableau.forms import pair
+from garkcli.tableau.tableau import Tableau
+
+TOLD = ("stiffly-accurate", "fsal", "symmetric")
+"""Properties that are told where they hold for every value."""
+
+
+@dataclass(frozen=True, repr=False)
+class EveryValue:
+    """What holds for every value.
+
+    Attributes:
+        file: as it was read.
+        family: with what the file fixes put in.
+        limit: where the searches for orders and for B, C and D stop.
+        order: that of the method.
+        conjugate: that of its symplectic conjugate; None where a weight is zero for every value.
+        pair: that of the symplectic pair; None likewise.
+        obstacle: why there is no conjugate; empty where there is one.
+        simplifying: B, C and D.
+        inconsistent: the blocks with A^{l,m} 𝟙 ≠ c^{l}, as (l, m) counted from 0.
+        symplectic: whether it is its own conjugate.
+    """
+
+    file: FamilyFile
+    family: EveryFamily
+    limit: int
+    order: EveryOrder
+    conjugate: EveryOrder | None
+    pair: EveryOrder | None
+    obstacle: str
+    simplifying: Fact
+    inconsistent: Fact
+    symplectic: Fact
+    _known: dict[str, Fact] = field(default_factory=dict)
+
+    def __reduce__(self) -> tuple[object, ...]:
+        # polynomials of python-flint do not go between processes; files do
+        file = self.file
+        read = (file.text, file.source, dict(file.settings), self.limit)
+        return _again, read
+
+    @property
+    def parameters(self) -> tuple[str, ...]:
+        """The names of the free parameters."""
+        return self.family.family.parameters
+
+    @property
+    def tableau(self) -> Tableau:
+        """The method, its entries rational functions."""
+        return self.family.tableau
+
+    def verdict(self, key: str) -> Fact:
+        """What is true of a property; each is decided once."""
+        if key not in self._known:
+            self._known[key] = find_property(self.family, key, self.limit)
+        return self._known[key]
+
+    def pair_simplifying(self) -> Fact:
+        """B, C and D of the pair."""
+        limit = self.limit
+        return find(self.family, lambda x: simplifying(pair(x), limit))
+
+    @property
+    def holding(self) -> list[str]:
+        """The properties that are told, of those that hold for every value."""
+        found = {key: self.verdict(key) for key in TOLD}
+        return [
+            key
+            for key, fact in found.items()
+            if fact.is_everywhere and fact.value is True
+        ]
+
+
+def every_value(file: FamilyFile, limit: int) -> EveryValue:
+    """Decide what holds for every value of the parameters of a file.
+
+    Args:
+        file: with free parameters; what it asks of them under ``design`` is not meant.
+        limit: where the searches for orders and for B, C and D stop.
+
+    Raises:
+        MethodError: it is asked of the parameters what is no value of one of them, or a root
+            depends on them.
+    """
+    family = every_family(file)
+    conjugate, both, obstacle = None, None, ""
+    order = every_order(family, "method", limit)
+    try:
+        conjugate = every_order(family, "conjugate", limit)
+        both = every_order(family, "pair", limit)
+    except ZeroWeight as error:
+        obstacle = error.message
+    return EveryValue(
+        file=file,
+        family=family,
+        limit=limit,
+        order=order,
+        conjugate=conjugate,
+        pair=both,
+        obstacle=obstacle,
+        simplifying=find(family, lambda x: simplifying(x, limit)),
+        inconsistent=find(family, inconsistent_blocks),
+        symplectic=_symplectic(family),
+    )
+
+
+def _again(
+    text: str, source: str, settings: dict[str, str], limit: int
+) -> EveryValue:
+    file = loads_family(text, source, settings, is_design=False)
+    return every_value(file, limit)
+
+
+def _symplectic(family: EveryFamily) -> Fact:
+    """Whether every value makes a symplectic method; else the common zeros of which polynomials."""
+    found = find(family, is_symplectic)
+    if found.value is not False or not found.open:
+        return found
+    ideal = Ideal(family.ring, family.poles).with_zeros(
+        [*family.relations, *_defects(family)]
+    )
+    if ideal.is_everything:
+        return Fact(False)
+    known = {str(p) for p in family.relations}
+    zeros = [p for p in ideal.polynomials if str(p) not in known]
+    return Fact(False, zeros=tuple(map(family.ring.text, zeros)))
+
+
+def _defects(family: EveryFamily) -> list[fmpq_mpoly]:
+    """What is zero where a method is symplectic."""
+    tableau, ring = family.tableau, family.ring
+    numbers: list[object] = []
+    for l, one in enumerate(tableau.colours):
+        for m, other in enumerate(tableau.colours):
+            if one.space == other.space and {one.part, other.part} == {
+                "q",
+                "p",
+            }:
+                numbers += [x - y for x, y in zip(one.b, other.b, strict=True)]
+            if not are_opposite(one, other):
+                continue
+            if (tableau.block(l, m) is None) != (tableau.block(m, l) is None):
+                return [ring.constant(ONE)]
+            if tableau.block(l, m) is not None:
+                for row in symplectic_defect(tableau, l, m):
+                    numbers += row
+    zeros = [x.numerator for x in numbers if isinstance(x, Parametric)]
+    if any(x and not isinstance(x, Parametric) for x in numbers):
+        return [ring.constant(ONE)]
+    return zeros

@@ -1,0 +1,215 @@
+"""What holds for every value of free parameters, against methods with values."""
+
+from __future__ import annotations
+
+import pickle
+
+import jsonschema  # type: ignore[import-untyped]
+import pytest
+from flint import fmpq
+
+from garkcli.check.check_file import check_file
+from garkcli.check.deciding import analyse
+from garkcli.check.every_facts import Fact
+from garkcli.check.every_properties import COMPARING, SIGNS, STABLE
+from garkcli.check.every_value import EveryValue, every_value
+from garkcli.check.outcome import Outcome
+from garkcli.exact.cells import Interval
+from garkcli.exact.roots import RealRoot
+from garkcli.methodfile.family import loads_family
+from garkcli.methodfile.load import loads
+from garkcli.page.paint import Paint
+from garkcli.report.check_json import as_data, check_report_schema
+from garkcli.report.check_text import render
+
+SDIRK = "parameters: {g: free}\nA: [[g, 0], [1 - 2*g, g]]\nb: [1/2, 1/2]\n"
+TAU = """parameters: {tau: free}
+methods:
+  - {family: gauss, stages: 2}
+  - {family: lobatto-iiia, stages: 3}
+transfer: {interpolation: tau, collocation: 1 - tau}
+"""
+WEIGHT = "parameters: {w: free}\nA: [[0, 0], [1/(2*w), 0]]\nb: [1 - w, w]\n"
+LIMIT = 12
+
+
+@pytest.fixture(scope="module", params=[SDIRK, TAU, WEIGHT])
+def found(request: pytest.FixtureRequest) -> tuple[str, EveryValue]:
+    """A file of one parameter with what holds for every value."""
+    text = request.param
+    family = loads_family(text, is_design=False)
+    return text, every_value(family, LIMIT)
+
+
+VALUES = ("0", "1/4", "1/2", "1", "1/3", "-1/2", "5/3", "1/2 + sqrt(3)/6")
+
+
+def holds_in(intervals: tuple[Interval, ...], root: RealRoot) -> bool:
+    """Whether a number lies in a set."""
+    for x in intervals:
+        is_after = x.start is None or x.start < root
+        is_before = x.end is None or root < x.end
+        is_end = (x.has_start and x.start == root) or (
+            x.has_end and x.end == root
+        )
+        if (is_after and is_before) or is_end:
+            return True
+    return False
+
+
+def at(fact: Fact, root: RealRoot) -> object:
+    """What a fact says of one value of the parameter."""
+    if fact.where is not None:
+        return holds_in(fact.where, root)
+    for special, value in fact.special:
+        if special == root:
+            return value
+    return fact.value
+
+
+def root_of(value: str) -> RealRoot:
+    """A value as a root of its polynomial."""
+    if "sqrt" in value:
+        from flint import fmpz_poly
+
+        return RealRoot(fmpz_poly([1, -6, 6]), 1)
+    return RealRoot.rational(
+        fmpq(*map(int, value.partition("/")[::2]))
+        if "/" in value
+        else fmpq(int(value))
+    )
+
+
+@pytest.mark.parametrize("value", VALUES)
+def test_every_value_agrees_with_each(
+    found: tuple[str, EveryValue], value: str
+) -> None:
+    """Orders, B, C and D, symplecticity and properties of a method with a value are what is said
+    of that value: by the ordinary certificate, without any polynomial in the parameter.
+    """
+    text, every = found
+    [name] = every.parameters
+    if every.family.poles and value == "0":
+        return  # there is no such method
+    method = loads(text, settings={name: value})
+    ordinary = analyse(method.tableau, LIMIT)
+    root = root_of(value)
+    assert at(every.order.fact, root) == ordinary.order.order
+    assert every.conjugate is not None
+    assert every.pair is not None
+    conjugate, pair = ordinary.conjugate_order, ordinary.pair_order
+    expected = None if conjugate is None else conjugate.order
+    assert at(every.conjugate.fact, root) == expected
+    expected = None if pair is None else pair.order
+    assert at(every.pair.fact, root) == expected
+    assert at(every.simplifying, root) == ordinary.simplifying
+    assert at(every.symplectic, root) == ordinary.symplectic
+    for key in (*COMPARING, *STABLE, *SIGNS):
+        fact = every.verdict(key)
+        assert not fact.is_undecided, key
+        assert root not in fact.unknown
+        assert at(fact, root) == ordinary.subject.verdict(key).value, key
+
+
+def checked(tmp_path: object, text: str) -> Outcome:
+    """The outcome of a text."""
+    from pathlib import Path
+
+    path = Path(str(tmp_path), "family.yaml")
+    path.write_text(text, encoding="utf-8")
+    return check_file(str(path))
+
+
+def test_claims_are_decided_for_every_value(tmp_path: object) -> None:
+    """A claim that some value does not meet fails and says for which; one on more than every value
+    needs holds.
+    """
+    claims = 'expect: {order: 2, a-stable: true, sdirk: true, B: [">= 2"]}\n'
+    outcome = checked(tmp_path, SDIRK + claims)
+    by_name = {x.claim: x for x in outcome.claims}
+    assert [x.holds for x in outcome.claims] == [False, False, False, True]
+    polynomial = "6*g^2 - 6*g + 1 = 0"
+    assert f"3 where {polynomial}" in by_name["order"].found
+    assert "1/4 ≤ g alone" in by_name["a-stable"].found
+    assert by_name["sdirk"].found == "true; false where g = 0"
+    assert outcome.exit_code == 1
+    claims = 'expect: {order: ">= 2", positive-weights: true}\n'
+    assert checked(tmp_path, SDIRK + claims).exit_code == 0
+
+
+def test_ranges_are_what_every_value_means(tmp_path: object) -> None:
+    """Values outside of a range do not count, its ends do."""
+    inside = SDIRK.replace("free", "{free: true, range: [1/4, 3/4]}")
+    claims = "expect: {order: 2, a-stable: true, sdirk: true}\n"
+    outcome = checked(tmp_path, inside + claims)
+    found = {x.claim: x.holds for x in outcome.claims}
+    assert found == {"order": True, "a-stable": True, "sdirk": True}
+
+
+def test_witness_has_its_polynomial(tmp_path: object) -> None:
+    """The condition that not every value meets is told by its residual, and where it is met with
+    the command that finds the values; nothing is wider than 80 columns.
+    """
+    text = render([checked(tmp_path, SDIRK)], Paint(False), digits=None)
+    assert "off by -g^2 + g - 1/6" in text
+    assert "order 3 where 6*g^2 - 6*g + 1 = 0" in text
+    assert "--order 3" in text
+    assert "symplectic       no; yes where g = 1/4" in text
+
+
+def test_unknown_entries_have_values_that_follow(tmp_path: object) -> None:
+    """A given node fixes an unknown of its row; what the others are free for is told."""
+    text = 'A: [[0, 0], ["?", "?"]]\nb: ["?", "?"]\nc: [0, 2/3]\n'
+    outcome = checked(tmp_path, text)
+    every = outcome.every
+    assert every is not None
+    assert len(every.parameters) == 3
+    assert every.order.fact.zeros == ("b1 + b2 - 1",)
+    assert every.inconsistent.value == ()
+
+
+def test_roots_of_numbers_stay_what_they_are(tmp_path: object) -> None:
+    """With sqrt(3) beside a parameter the identity of its square is used: (3 + √3)/6 makes order 3
+    with a weight that is free for stages that are equal.
+    """
+    text = """parameters: {w: free}
+A: [[(3 + sqrt(3))/6, 0, 0], [(3 + sqrt(3))/6, 0, 0], [-sqrt(3)/3, 0, (3 + sqrt(3))/6]]
+b: [w, 1/2 - w, 1/2]
+"""
+    every = checked(tmp_path, text).every
+    assert every is not None
+    assert every.order.order == 3
+    assert every.simplifying.value.B == (4,)
+
+
+def test_roots_of_parameters_are_refused(tmp_path: object) -> None:
+    """A root that depends on a parameter, and error constants, need a value: the cure is told."""
+    outcome = checked(tmp_path, SDIRK.replace("1 - 2*g", "sqrt(g)"))
+    assert outcome.exit_code == 2
+    assert "--set" in outcome.faults[0].help
+
+
+def test_report_is_as_its_schema_says(tmp_path: object) -> None:
+    """JSON of families of one parameter and of several is valid; an outcome goes between
+    processes.
+    """
+    schema = check_report_schema()
+    several = "unknown: {stages: 2, shape: explicit}\n"
+    outcomes = [checked(tmp_path, text) for text in (SDIRK, several)]
+    data = as_data(outcomes)
+    jsonschema.validate(data, schema)
+    assert data["files"][0]["order"]["order"] == 2
+    again = pickle.loads(pickle.dumps(outcomes[0]))
+    assert as_data([again]) == as_data(outcomes[:1])
+
+
+def test_patterns_of_several_parameters_are_decided(tmp_path: object) -> None:
+    """Where an entry may be zero the question is asked again without it: explicit methods are
+    explicit for every value, reducible where an unknown is zero.
+    """
+    several = "unknown: {stages: 2, shape: explicit}\n"
+    every = checked(tmp_path, several).every
+    assert every is not None
+    assert every.verdict("explicit").is_everywhere
+    assert ("c2", True) in every.verdict("reducible").elsewhere
+    assert every.verdict("positive-weights").differs
