@@ -7,15 +7,14 @@ from typing import TYPE_CHECKING, Any
 
 from garkcli.exact.display import to_text
 from garkcli.page.exactly import ALGEBRAIC, root_data
-from garkcli.page.record import (
+from garkcli.page.record import Field, Record
+from garkcli.page.schema import (
     COUNT,
     FLAG,
     INTEGER,
     POSITION,
     TEXT,
     TRUE,
-    Field,
-    Record,
     Schema,
     array,
     nullable,
