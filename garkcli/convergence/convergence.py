@@ -69,20 +69,18 @@ def converge(
     >>> round(result.observed_order, 1), result.verdict
     (4.0, 'agree')
     """
-    problem = problem or _seeing_every_tree(tableau)
-    usual = usual_time(problem)
-    t_end = usual if t_end is None else t_end
-    if steps is not None:
-        check_steps(problem, t_end, steps)  # before any work is done
+    problem, t_end = _problem_and_time(tableau, problem, t_end, steps)
     predicted = order_of(_with_time(tableau, problem), tolerance)
     solver = _solver(tableau, problem, t_end, tolerance, predicted, watch)
     rows, plateau = _rows(solver, steps, is_timed)
     fitted = rows[: len(rows) - plateau]
     stiff = _stiffness(solver, tableau, rows, tolerance)
     observed = observed_order(fitted) if stiff is None else stiff_order(fitted)
+    is_exact = tolerance is None
     short_time, short_order = None, None
-    if tolerance is None and _is_off(solver, observed):
-        short_time, short_order = _over_short_times(solver, min(t_end, usual))
+    if is_exact and _is_off(solver, observed):
+        longest = min(t_end, usual_time(problem))
+        short_time, short_order = _over_short_times(solver, longest)
     return Convergence(
         solver.problem,
         t_end,
@@ -93,10 +91,24 @@ def converge(
         solver.visible,
         short_time,
         short_order,
-        tolerance is None or _has_settled(fitted),
+        is_exact or _has_settled(fitted),
         steps is not None,
         stiff,
     )
+
+
+def _problem_and_time(
+    tableau: Tableau,
+    problem: Oscillator | Problem | None,
+    t_end: fmpq | None,
+    steps: Sequence[fmpq] | None,
+) -> tuple[Oscillator | Problem, fmpq]:
+    """What was asked for, or the defaults; given steps are checked before any work is done."""
+    problem = problem or _seeing_every_tree(tableau)
+    t_end = usual_time(problem) if t_end is None else t_end
+    if steps is not None:
+        check_steps(problem, t_end, steps)
+    return problem, t_end
 
 
 def _with_times(solver: Solver, rows: Sequence[Row]) -> tuple[Row, ...]:

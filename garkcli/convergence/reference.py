@@ -35,7 +35,7 @@ MAX_STEPS = 1_000_000
 _CALLS = 200  # of a watch in one run
 _STAGES = 60  # beyond, a step costs more than fewer of them save
 _SPARE = 10  # digits that round-off may grow by
-_CREDIT = 1e-6
+_CREDIT = 1e-6  # part of a change that its later run is wrong by at least
 _FAR = 0.01  # part of the solution by which runs differ that have found none
 # of the number of steps, from one run to the next
 _LEAST_FACTOR, _LARGEST_FACTOR = 1.3, 8
@@ -134,69 +134,127 @@ def _kept(problem: Problem, t_end: fmpq) -> Reference:
 def _solved(
     problem: Problem, t_end: fmpq, digits: int, steps: int, watch: Watch | None
 ) -> tuple[tuple[arb, ...], int]:
-    """From ``steps`` on more and more of one method, until the last change says that the
-    error is small.
+    """The solution by more and more steps of one method, from ``steps`` on, until the last change
+    says that the error is small; and how many steps these were.
+
+    Raises:
+        UsageProblem: none is found; see ``Reference.to``.
+    """
+    runs = _Runs(problem, t_end, digits, watch)
+    fewer, before = 0, None
+    enough = max(MAX_TRIED // 2, _REFINED * steps)
+    while True:
+        y = runs.end(steps)
+        if y is None:
+            steps, before = 4 * steps, None
+            continue
+        if before is None:
+            before, fewer, steps = y, steps, ceil(1.5 * steps)
+            continue
+        change = runs.change(before, fewer, y, steps)
+        if change.is_small:
+            return tuple(y), steps
+        if fewer > enough and change.is_far:
+            raise UsageProblem(
+                f"no solution is found at t = {t_end}: "
+                f"{fewer} and {steps} steps end far from each other",
+                "choose an earlier final time: it comes near a singularity, "
+                "or depends on its start too much",
+            )
+        before, fewer = y, steps
+        steps = ceil(steps * change.factor)
+
+
+@dataclass(frozen=True)
+class _Change:
+    """What more steps change.
+
+    Attributes:
+        is_small: whether the error that is left is as small as it has to be.
+        is_far: whether it is so large that the runs have nothing to do with each other.
+        factor: how many times more steps are likely to be enough.
+    """
+
+    is_small: bool
+    is_far: bool
+    factor: float
+
+
+class _Runs:
+    """A problem solved with different numbers of steps by one method.
 
     Hamiltonian problems are solved by Gauss methods. Others may be stiff: there those of Radau IIA
     are, which damp what is off the smooth solution.
-
-    From n to m > n steps an error falls by (n/m)^2s when h is small enough, and by more than
-    (n/m)^s long before. The change bounds the larger of the two errors, so the smaller one is taken
-    to be (n/m)^s of it; but no less than ``_CREDIT``, because round-off does not fall, whatever the
-    problem makes of it.
     """
-    from garkcli.families.registry import diagonal_method
-    from garkcli.tableau.forms import gark
 
-    stages = min(_STAGES, max(6, 2 * digits // 5))
-    spare = _SPARE
-    family = "gauss"
-    if isinstance(problem, RightHandSide):
-        family = "radau-iia"
-        largest = max(1.0, float(steepness(problem) * arb(t_end)))
-        spare += ceil(log10(largest))  # what a stiff field makes of round-off
-    method = gark([diagonal_method(family, stages)], {})
-    integrator = bind(method, problem).at(digits + spare)
-    what = f"reference solution, {digits} digits"
-    before: list[Any] = []
-    fewer, enough = 0, max(MAX_TRIED // 2, _REFINED * steps)
-    while True:
+    def __init__(
+        self, problem: Problem, t_end: fmpq, digits: int, watch: Watch | None
+    ) -> None:
+        from garkcli.families.registry import diagonal_method
+        from garkcli.tableau.forms import gark
+
+        self.problem = problem
+        self.t_end = t_end
+        self.digits = digits
+        self.watch = watch
+        self.stages = min(_STAGES, max(6, 2 * digits // 5))
+        spare = _SPARE
+        family = "gauss"
+        if isinstance(problem, RightHandSide):
+            family = "radau-iia"
+            largest = max(1.0, float(steepness(problem) * arb(t_end)))
+            # what a stiff field makes of round-off
+            spare += ceil(log10(largest))
+        method = gark([diagonal_method(family, self.stages)], {})
+        self.integrator = bind(method, problem).at(digits + spare)
+
+    def end(self, steps: int) -> list[Any] | None:
+        """The state at the final time; None where a step fails and shorter ones may not.
+
+        Raises:
+            UsageProblem: these are more steps than are taken, or shorter ones would fail too.
+        """
         if steps > MAX_STEPS:
             raise UsageProblem(
-                f"the solution at t = {t_end} is not found to {digits} digits in {MAX_STEPS} steps",
+                f"the solution at t = {self.t_end} is not found to "
+                f"{self.digits} digits in {MAX_STEPS} steps",
                 "choose an earlier final time",
             )
+        h = self.t_end / steps
+        what = f"reference solution, {self.digits} digits"
         try:
-            y = run(integrator, t_end / steps, steps, watch, what).y
+            return run(self.integrator, h, steps, self.watch, what).y
         except StepFailed as failure:
             if steps > MAX_TRIED:
-                raise _no_solution(t_end, failure) from None
-            steps, before = 4 * steps, []
-            continue
-        if not before:
-            before, fewer, steps = y, steps, ceil(1.5 * steps)
-            continue
-        with ctx.workprec(integrator.bits):
-            size = magnitude(y, problem)
+                raise _no_solution(self.t_end, failure) from None
+            return None
+
+    def change(
+        self, before: Sequence[Any], fewer: int, y: Sequence[Any], steps: int
+    ) -> _Change:
+        """What ``steps`` steps, which end at ``y``, change of ``fewer`` ones, which end at
+        ``before``.
+
+        From n to m > n steps an error falls by (n/m)^2s when h is small enough, and by more than
+        (n/m)^s long before. The change bounds the larger of the two errors, so the smaller one is
+        taken to be (n/m)^s of it; but no less than ``_CREDIT``, because round-off does not fall,
+        whatever the problem makes of it.
+        """
+        s = self.stages
+        with ctx.workprec(self.integrator.bits):
+            size = magnitude(y, self.problem)
             pairs = zip(y, before, strict=True)
             change = max((abs(a - b) for a, b in pairs), key=float)
-            goal = arb(10) ** -digits * size
+            goal = arb(10) ** -self.digits * size
             ratio = arb(fewer) / steps
-            left = change * max(ratio**stages, arb(_CREDIT))
+            left = change * max(ratio**s, arb(_CREDIT))
             if left <= goal:  # both are 0 where the solution rests at 0
-                return tuple(y), steps
-            if fewer > enough and change > _FAR * size:
-                raise UsageProblem(
-                    f"no solution is found at t = {t_end}: "
-                    f"{fewer} and {steps} steps end far from each other",
-                    "choose an earlier final time: it comes near a singularity, "
-                    "or depends on its start too much",
-                )
-            excess = float((change * ratio ** (2 * stages) / goal).mid())
-        before, fewer = y, steps
-        factor = 1.1 * excess ** (1 / stages) if excess > 0 else _LEAST_FACTOR
+                return _Change(True, False, 1.0)
+            is_far = bool(change > _FAR * size)
+            excess = float((change * ratio ** (2 * s) / goal).mid())
+        factor = 1.1 * excess ** (1 / s) if excess > 0 else _LEAST_FACTOR
         factor = min(max(factor, _LEAST_FACTOR), _LARGEST_FACTOR)
-        steps = ceil(steps * factor)
+        return _Change(False, is_far, factor)
 
 
 def _no_solution(t_end: fmpq, failure: StepFailed) -> UsageProblem:
