@@ -231,11 +231,13 @@ def broken(line: str, width: int) -> list[str]:
 
 
 def _last_place(line: str, width: int, start: int) -> re.Match[str] | None:
-    """The blanks after ``start`` at which to break a line; None where it has none."""
-    blanks = _BLANKS.finditer(line, start)
+    """The blanks after ``start`` at which to break a line: the first ones where none come in time,
+    None where there are none.
+    """
+    blanks = list(_BLANKS.finditer(line, start, len(line.rstrip())))
     fitting = [m for m in blanks if _columns(line[: m.start()]) <= width]
     gaps = [m for m in fitting if len(m[0]) > 1 and m.start() > width // 2]
-    return max(gaps or fitting, key=re.Match.start, default=None)
+    return max(gaps or fitting or blanks[:1], key=re.Match.start, default=None)
 
 
 def _columns(line: str) -> int:
