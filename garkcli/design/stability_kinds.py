@@ -102,7 +102,7 @@ class AStability:
         self.plane = step_plane(tableau, members.family.ring, fields)
         self.Q = self.plane.denominator
         self.P = self.plane.numerators[0][0]
-        self.E = _squared_modulus(self.Q) - _squared_modulus(self.P)
+        self.E = squared_modulus(self.Q) - squared_modulus(self.P)
         u, v = _real_and_imaginary(self.Q)
         self.essential: list[Polynomial] = []
         self.critical = projected(curves([self.E]), [ZERO])
@@ -140,21 +140,10 @@ class PStability:
         check_structure(tableau, self.problem)
         fields = [self.problem.matrix(colour) for colour in tableau.colours]
         self.plane = step_plane(tableau, members.family.ring, fields)
-        D = self.plane.denominator
-        (a, b), (c, d) = self.plane.numerators
-        # times D²: 1, tr M and det M; b and c are odd in z, all others even
-        whole = D * D
-        trace = (a + d) * D
-        area = a * d - b * c
-        both = whole + area
-        conditions = [whole - area, both - trace, both + trace]
-        self.signs = [_in_square(p) for p in conditions]
-        z, _ = PLANE.gens()
-        self.essential = projected(
-            curves([_in_square(D), *self.signs]), [ZERO]
-        )
-        others = [D, a + d, area, z * b, z * c]
-        deciding = [*self.signs, *map(_in_square, others)]
+        self.signs, others = oscillator_curves(self.plane)
+        poles = in_square(self.plane.denominator)
+        self.essential = projected(curves([poles, *self.signs]), [ZERO])
+        deciding = [*self.signs, *others]
         self.critical = projected(curves(deciding), [ZERO])
 
     def decide(self, value: Number) -> bool:
@@ -171,6 +160,28 @@ class PStability:
 
     def conditions(self, x: fmpq) -> list[Polynomial]:
         return [at_y(p, x) for p in self.signs]
+
+
+def oscillator_curves(
+    plane: StepPlane,
+) -> tuple[list[fmpq_mpoly], list[fmpq_mpoly]]:
+    """What decides on the oscillator, in x = z² and t.
+
+    Returns:
+        the conditions on the eigenvalues, not negative where they are bounded; the denominator, the
+        trace, the determinant and the entries off the diagonal, as far as they vanish.
+    """
+    D = plane.denominator
+    (a, b), (c, d) = plane.numerators
+    # times D²: 1, tr M and det M; b and c are odd in z, all others even
+    whole = D * D
+    trace = (a + d) * D
+    area = a * d - b * c
+    both = whole + area
+    conditions = [whole - area, both - trace, both + trace]
+    z, _ = PLANE.gens()
+    others = [D, a + d, area, z * b, z * c]
+    return list(map(in_square, conditions)), list(map(in_square, others))
 
 
 def _first_gap(intervals: Sequence[Interval]) -> fmpq | None:
@@ -205,14 +216,14 @@ def _real_and_imaginary(p: fmpq_mpoly) -> tuple[fmpq_mpoly, fmpq_mpoly]:
     return PLANE.from_dict(real), PLANE.from_dict(imaginary)
 
 
-def _squared_modulus(p: fmpq_mpoly) -> fmpq_mpoly:
+def squared_modulus(p: fmpq_mpoly) -> fmpq_mpoly:
     """|p(iy)|² in x = y²."""
     u, v = _real_and_imaginary(p)
     x, _ = PLANE.gens()
     return u * u + x * v * v
 
 
-def _in_square(p: fmpq_mpoly) -> fmpq_mpoly:
+def in_square(p: fmpq_mpoly) -> fmpq_mpoly:
     """A polynomial with even powers of z only, in x = z²."""
     terms: dict[tuple[int, ...], fmpq] = {}
     for (j, k), a in p.to_dict().items():

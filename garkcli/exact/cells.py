@@ -155,3 +155,10 @@ def _simplest(low: fmpq, high: fmpq) -> fmpq:
         return whole + fmpq(1) / denominator
     farther = 1 / (low - whole)
     return whole + 1 / _simplest(1 / rest, farther)
+
+
+def first_end(intervals: Sequence[Interval]) -> RealRoot | None:
+    """The end of the interval that begins at 0; 0 where none does, None for ∞."""
+    if not intervals or intervals[0].start != RealRoot.rational(fmpq(0)):
+        return RealRoot.rational(fmpq(0))
+    return intervals[0].end

@@ -17,7 +17,7 @@ from garkcli.exact.polynomial_text import (
     root_decimal,
     root_text,
 )
-from garkcli.exact.roots import RealRoot, real_roots
+from garkcli.exact.roots import RealRoot
 from garkcli.properties.property import Verdict
 from garkcli.properties.subject import MISSING_BLOCKS
 from garkcli.stability.linear import (
@@ -113,29 +113,3 @@ def ends_text(gap: Interval | None, variable: str) -> str:
 def _number(root: RealRoot | None) -> str:
     assert root is not None
     return root_text(root) or root_decimal(root, 12)
-
-
-def first_end(intervals: Sequence[Interval]) -> RealRoot | None:
-    """The end of the interval that begins at 0; 0 where none does, None for ∞."""
-    if not intervals or intervals[0].start != RealRoot.rational(ZERO):
-        return RealRoot.rational(ZERO)
-    return intervals[0].end
-
-
-def square_root(x: RealRoot) -> RealRoot:
-    """The square root of a number ≥ 0: squaring keeps the order of positive numbers.
-
-    >>> from flint import fmpq
-    >>> square_root(RealRoot.rational(fmpq(9, 4))).exact
-    3/2
-    """
-    origin = RealRoot.rational(ZERO)
-    if x == origin:
-        return origin
-    p = Polynomial.from_flint(x.polynomial)
-    smaller = sum(1 for root, _ in real_roots(p) if origin < root < x)
-    squares = Polynomial(
-        [p[k // 2] if k % 2 == 0 else ZERO for k in range(2 * p.degree + 1)]
-    )
-    positive = [root for root, _ in real_roots(squares) if root > origin]
-    return positive[smaller]

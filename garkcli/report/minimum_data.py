@@ -17,7 +17,6 @@ from garkcli.exact.polynomial_text import (
     polynomial_text,
     root_decimal,
 )
-from garkcli.exact.roots import RealRoot
 from garkcli.page.exactly import ALGEBRAIC, root_data
 from garkcli.page.record import Field, Record
 from garkcli.page.schema import (
@@ -87,13 +86,18 @@ class _Toward(NamedTuple):
         return "infinity" if toward.is_right else "-infinity"
 
 
-def _exact(value: RealRoot | None, digits: int) -> object:
-    return None if value is None else root_data(value, digits)
+def _exact(shown: Shown) -> object:
+    value = shown.minimum.value
+    if value is not None:
+        return root_data(value, shown.digits)
+    return "infinity" if shown.minimum.is_infinite else None
 
 
 def _decimal(shown: Shown) -> str | None:
     value = shown.minimum.value
-    return None if value is None else root_decimal(value, shown.digits)
+    if value is not None:
+        return root_decimal(value, shown.digits)
+    return "infinity" if shown.minimum.is_infinite else None
 
 
 def _gradient(shown: Shown) -> str | None:
@@ -122,7 +126,7 @@ OBJECTIVE: Record[Shown] = Record(
     Field(
         "exact",
         nullable(ALGEBRAIC),
-        lambda x: _exact(x.minimum.value, x.digits),
+        _exact,
     ),
     Field("among", {"enum": [*get_args(Extent)]}, lambda x: x.minimum.extent),
     Field("compared", COUNT, lambda x: x.minimum.candidates),

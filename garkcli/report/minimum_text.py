@@ -5,6 +5,7 @@ from __future__ import annotations
 from collections.abc import Iterator
 from textwrap import wrap
 
+from garkcli.design.minimise.objective import Level
 from garkcli.design.minimise.result import Candidate, Limit, Minimum
 from garkcli.design.solutions import value_at
 from garkcli.errors import counted
@@ -39,17 +40,20 @@ def render(minimum: Minimum, digits: int, width: int) -> str:
 
 
 def _lines(minimum: Minimum, digits: int, width: int) -> Iterator[str]:
-    if minimum.value is None:
+    if minimum.value is None and not minimum.is_infinite:
         yield f"  no method of order {minimum.step.order} was found"
         return
+    best, none = "least", "no minimum"
+    if isinstance(minimum.objective, Level):
+        best, none = "greatest", "no maximum"
     value = _value_text(minimum.value, digits)
     if not minimum.minimisers:
-        yield f"  no minimum: it comes near {value}"
+        yield f"  {none}: it comes near {value}"
         for limit in minimum.limits:
             yield f"{INDENT}as {_toward(limit, digits)}"
         return
     yield from wrap(
-        f"least value {value}, {_among(minimum)}",
+        f"{best} value {value}, {_among(minimum)}",
         width,
         initial_indent="  ",
         subsequent_indent=INDENT,
@@ -75,7 +79,7 @@ def _among(minimum: Minimum) -> str:
                 " infinity or where denominators vanish is open"
             )
         case "found":
-            return "the least of what was found"
+            return "the best of what was found"
 
 
 def _candidate(
@@ -110,8 +114,10 @@ def _toward(limit: Limit, digits: int) -> str:
     return f"{limit.parameter} → {end}"
 
 
-def _value_text(value: RealRoot, digits: int) -> str:
+def _value_text(value: RealRoot | None, digits: int) -> str:
     """Radicals where there are simple ones, and decimals."""
+    if value is None:
+        return "∞"
     decimals = root_decimal(value, digits)
     simple = root_text(value)
     if simple is None:

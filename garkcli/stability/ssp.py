@@ -145,6 +145,25 @@ def _frozen(rows: list[list[Number]]) -> Matrix:
     return tuple(tuple(row) for row in rows)
 
 
+def conditions_at(tableau: Tableau) -> list[Polynomial]:
+    """All polynomials in r that decide, with equal fields for all colours, also those that are
+    zero: as many for each tableau of the same size.
+
+    Args:
+        tableau: all of its stage spaces have nodes, no block is missing.
+    """
+    whole, parts = stacked(tableau, [ONE] * tableau.size)
+    n = len(whole)
+    minus_whole = scale(-ONE, whole)
+    denominator = reciprocal_characteristic(minus_whole)
+    found = [denominator]
+    for part in parts:
+        for column in transpose(part):
+            found += _entries(denominator, minus_whole, column, n)
+    found += _entries(denominator, minus_whole, (ONE,) * n, n)
+    return found
+
+
 def _conditions(
     whole: Matrix, parts: Sequence[Matrix]
 ) -> Iterator[Polynomial]:

@@ -265,3 +265,128 @@ def test_every_objective_has_a_file() -> None:
     """The list of names and the files agree."""
     for key in OBJECTIVES:
         assert find_objective(key).key == key
+
+
+RANGE3 = "[0, 0, 0], [2*a, 0, 0], [0, 1/2, 0]"
+
+
+@pytest.mark.parametrize(
+    ("text", "objective", "order", "known", "at"),
+    [
+        ("unknown: {stages: 2, shape: explicit}", "-ssp", 2, "1", {"c2": 1}),
+        (
+            "parameters: {g: free}\nA: [[g, 0], [1 - 2*g, g]]\nb: [1/2, 1/2]",
+            "-ssp",
+            2,
+            "4",
+            {"g": 1 / 4},
+        ),
+        (
+            "unknown: {stages: 2, shape: sdirk}",
+            "-ssp",
+            3,
+            "1 + sqrt(3)",
+            {"gamma": 1 / 2 - 3**0.5 / 6},
+        ),
+        (
+            "parameters: {a: free}\nA: [[0, 0], [a, 0]]\nb: [0, 1]",
+            "-stability-interval",
+            1,
+            "8",
+            {"a": 1 / 8},
+        ),
+        (
+            f"parameters: {{a: free}}\nA: [{RANGE3}]\nb: [0, 0, 1]",
+            "-imaginary-interval",
+            2,
+            "2",
+            {"a": 1 / 4},
+        ),
+        (
+            "unknown: {stages: 3, shape: splitting}\n"
+            "design: {fix: {b3: 0, a3: a1, b2: b1}}",
+            "-stability-interval",
+            2,
+            "4",
+            {"a1": 1 / 4, "a2": 1 / 2},
+        ),
+    ],
+)
+def test_greatest_levels(
+    text: str, objective: str, order: int, known: str, at: dict[str, float]
+) -> None:
+    """Optimal SSP methods (S. Gottlieb, C.-W. Shu, 1998; L. Ferracina, M. N. Spijker, 2008), the
+    Chebyshev polynomial on the real axis, P. J. van der Houwen's 2 on the imaginary one, and two
+    Verlet steps as the most stable symmetric splitting.
+    """
+    best = least(text, objective, order)
+    assert best.extent == "all"
+    assert value(best) == known
+    [candidate] = best.minimisers
+    found = floats(best, candidate)
+    assert {name: found[name] for name in at} == pytest.approx(at)
+
+
+def test_a_maximum_with_an_irrational_value() -> None:
+    """R = 1 + z + z²/2 + a z³ is longest stable on the real axis for a = 1/16: the interval ends
+    where R = −1, in floats by bisection.
+    """
+    text = f"parameters: {{a: free}}\nA: [{RANGE3}]\nb: [0, 0, 1]"
+    best = least(text, "-real-interval", 2)
+    [candidate] = best.minimisers
+    assert floats(best, candidate) == {"a": 1 / 16}
+    low, high = 6.0, 7.0
+    for _ in range(60):
+        x = (low + high) / 2
+        is_stable = 1 - x + x**2 / 2 - x**3 / 16 >= -1
+        low, high = (x, high) if is_stable else (low, x)
+    assert best.value is not None
+    assert float(best.value.ball(80)) == pytest.approx(low)
+
+
+def test_infinite_levels() -> None:
+    """The θ-method is A-stable for θ ≥ 1/2: one of them stands for all."""
+    text = "parameters: {t: free}\nA: [[0, 0], [1 - t, t]]\nb: [1 - t, t]\n"
+    best = least(text, "-real-interval", 1)
+    assert best.is_infinite
+    assert best.extent == "all"
+    [candidate] = best.minimisers
+    assert candidate.is_constant
+    assert floats(best, candidate)["t"] > 0.5
+
+
+def test_no_maximum() -> None:
+    """With a = 1/8 + 1/s² the Chebyshev polynomial is approached as s grows."""
+    text = "parameters: {s: free}\nA: [[0, 0], [1/8 + 1/s**2, 0]]\nb: [0, 1]"
+    best = least(text, "-real-interval", 1)
+    assert value(best) == "8"
+    assert best.minimisers == ()
+    ends = [(x.toward.end, x.toward.is_right) for x in best.limits]
+    assert ends == [(None, False), (None, True)]
+
+
+def test_by_trial() -> None:
+    """Two free nodes: the optimal SSP method of three stages and order 3 is found, with no claim
+    that it is the best.
+    """
+    best = least("unknown: {stages: 3, shape: explicit}", "-ssp", 3)
+    assert best.extent == "found"
+    [candidate] = best.minimisers
+    found = floats(best, candidate)
+    assert (found["c2"], found["c3"]) == (1, 0.5)
+    assert value(best) == "1"
+
+
+def test_symmetric_splitting() -> None:
+    """R. I. McLachlan (1995): the smallest error of five maps and order 2 is at
+    1/2 − ∛(2√326 + 36)/12 + 1/(6∛(2√326 + 36)) = 0.1931833275037836.
+    """
+    text = """unknown: {stages: 3, shape: splitting}
+design: {order: 2, fix: {b3: 0, a3: a1, b2: b1}}
+"""
+    minimum = least(text, "error")
+    [candidate] = minimum.minimisers
+    root = (2 * 326**0.5 + 36) ** (1 / 3)
+    known = 1 / 2 - root / 12 + 1 / (6 * root)
+    assert floats(minimum, candidate)["a1"] == pytest.approx(known, abs=1e-15)
+    assert known == pytest.approx(0.1931833275037836, abs=1e-15)

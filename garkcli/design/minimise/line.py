@@ -42,8 +42,12 @@ class Conditions:
     @property
     def intervals(self) -> tuple[Interval, ...]:
         """The allowed numbers."""
-        everything = [*self.nonzero, *self.positive, *self.not_negative]
-        return where(self.hold, everything)
+        return where(self.hold, self.polynomials)
+
+    @property
+    def polynomials(self) -> list[Polynomial]:
+        """All of them."""
+        return [*self.nonzero, *self.positive, *self.not_negative]
 
 
 @dataclass(frozen=True)
@@ -59,12 +63,12 @@ class Toward:
     """The limit at an end that is not allowed.
 
     Attributes:
-        value: the limit.
+        value: the limit; None where it is infinite.
         end: the end; None for infinity.
         is_right: whether it is the right end of an interval.
     """
 
-    value: RealRoot
+    value: RealRoot | None
     end: RealRoot | None
     is_right: bool
 

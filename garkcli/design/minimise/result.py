@@ -7,7 +7,7 @@ from typing import Literal, TypeAlias
 
 from garkcli.design.design import Design, Found, Step
 from garkcli.design.minimise.line import Toward
-from garkcli.design.minimise.objective import Objective
+from garkcli.design.minimise.objective import Level, Objective
 from garkcli.exact.polynomial import Polynomial
 from garkcli.exact.roots import RealRoot
 
@@ -28,7 +28,7 @@ class Candidate:
         is_constant: whether the objective is the same at all methods near it.
     """
 
-    value: RealRoot
+    value: RealRoot | None
     found: Found
     index: int
     is_constant: bool = False
@@ -39,12 +39,12 @@ class Limit:
     """What the objective comes near to without reaching it there.
 
     Attributes:
-        value: the limit.
+        value: the limit; None where it is infinite.
         parameter: which tends to the end.
         toward: the end.
     """
 
-    value: RealRoot
+    value: RealRoot | None
     parameter: str
     toward: Toward
 
@@ -58,7 +58,9 @@ class Minimum:
         design: of the family.
         step: whose methods were compared.
         extent: among what it is the least.
-        value: the least value, or the infimum; None where no method was found.
+        value: the least value, or the infimum, of a level the greatest or the supremum; None where
+            no method was found, or where it is infinite.
+        is_infinite: whether it is.
         minimisers: the methods with it; none where it is not attained.
         limits: where it is approached, if it is not attained.
         candidates: how many values were compared.
@@ -67,7 +69,7 @@ class Minimum:
         parameter: that one.
     """
 
-    objective: Objective
+    objective: Objective | Level
     design: Design
     step: Step
     extent: Extent
@@ -77,3 +79,4 @@ class Minimum:
     candidates: int
     gradient: Polynomial | None = None
     parameter: str | None = None
+    is_infinite: bool = False

@@ -1,6 +1,8 @@
 """The imaginary stability interval."""
 
-from garkcli.properties.linear import first_end, no_meaning, square_root
+from garkcli.exact.cells import first_end
+from garkcli.exact.root_number import square_root
+from garkcli.properties.linear import no_meaning
 from garkcli.properties.property import Property, Size, Verdict
 from garkcli.properties.subject import Subject
 

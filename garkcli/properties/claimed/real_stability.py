@@ -1,6 +1,7 @@
 """The real stability interval."""
 
-from garkcli.properties.linear import first_end, no_meaning
+from garkcli.exact.cells import first_end
+from garkcli.properties.linear import no_meaning
 from garkcli.properties.property import Property, Size, Verdict
 from garkcli.properties.subject import Subject
 

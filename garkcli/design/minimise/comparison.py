@@ -1,0 +1,294 @@
+"""What methods of a solution set are compared by, and the best of them."""
+
+from __future__ import annotations
+
+from abc import ABC, abstractmethod
+from collections.abc import Callable, Iterator, Mapping, Sequence
+from dataclasses import dataclass, field
+from typing import Any, cast
+
+from flint import fmpq, fmpq_mpoly, fmpq_poly
+
+from garkcli.design.design import (
+    Design,
+    Found,
+    Step,
+    is_admissible,
+    order_of,
+)
+from garkcli.design.groebner import NotDecided
+from garkcli.design.member import member, value_of
+from garkcli.design.minimise.climbing import GRID, climbed
+from garkcli.design.minimise.line import Conditions
+from garkcli.design.minimise.objective import Level, Objective, Size
+from garkcli.design.minimise.parts import Part
+from garkcli.design.minimise.result import (
+    Candidate,
+    Extent,
+    Limit,
+    Minimum,
+)
+from garkcli.design.solutions import Solution, solutions
+from garkcli.errors import UsageProblem, counted
+from garkcli.exact.field import Number, NumberField
+from garkcli.exact.parametric import fraction
+from garkcli.exact.polynomial import Polynomial
+from garkcli.exact.roots import RealRoot, real_roots
+from garkcli.tableau.tableau import Tableau
+
+MOST_POINTS = 60
+"""Critical points, complex ones included, that are told apart; degrees of number fields are up to
+that.
+"""
+
+
+@dataclass
+class Comparison(ABC):
+    """Collects values that are compared.
+
+    Attributes:
+        design: of a family.
+        step: whose methods are compared.
+        extent: among what the best is the best.
+        candidates: methods with their values.
+        limits: values that are approached.
+        gradients: the numerators of derivatives, by the coordinate.
+    """
+
+    design: Design
+    step: Step
+    objective: Objective | Level
+    extent: Extent = "all"
+    candidates: list[Candidate] = field(default_factory=list)
+    limits: list[Limit] = field(default_factory=list)
+    gradients: list[tuple[str, Polynomial]] = field(default_factory=list)
+
+    def result(self) -> Minimum:
+        """The best of what was collected."""
+        values = [x.value for x in self.candidates]
+        values += [x.value for x in self.limits]
+        best = self.best(values) if values else None
+        minimisers = [x for x in self.candidates if x.value == best]
+        limits = [x for x in self.limits if x.value == best]
+        extent = self.extent
+        if self.step.ideal is not None and not self.step.ideal.is_proved:
+            extent = "found"
+        name, gradient = None, None
+        if len(self.gradients) == 1:
+            [(name, gradient)] = self.gradients
+        return Minimum(
+            objective=self.objective,
+            design=self.design,
+            step=self.step,
+            extent="all" if self.is_bound(best) else extent,
+            value=self.shown(best),
+            minimisers=tuple(map(self._certified, minimisers)),
+            limits=() if minimisers else tuple(limits),
+            candidates=len(self.candidates),
+            gradient=gradient,
+            parameter=name,
+            is_infinite=bool(values) and best is None,
+        )
+
+    @abstractmethod
+    def best(self, values: Sequence[Size]) -> Size:
+        """The best of some values."""
+
+    @abstractmethod
+    def is_bound(self, value: Size) -> bool:
+        """Whether no method can have a better one, whatever was compared."""
+
+    def shown(self, value: Size) -> Size:
+        """What people mean by a value."""
+        return value
+
+    @abstractmethod
+    def value_of(self, solution: Solution, index: int) -> Size:
+        """The value of one method."""
+
+    @abstractmethod
+    def over_line(self, part: Part) -> None:
+        """The candidates of a part with one free coordinate."""
+
+    @abstractmethod
+    def over_variety(self, part: Part) -> None:
+        """The candidates of a part of larger dimension."""
+
+    def _certified(self, candidate: Candidate) -> Candidate:
+        """With its order by the ordinary certificate."""
+        solution = candidate.found.solution
+        order = order_of(self.design.family, self.design.whose, solution)
+        accepted = (candidate.index,)
+        found = Found(solution, order, accepted)
+        return Candidate(
+            candidate.value, found, candidate.index, candidate.is_constant
+        )
+
+    def selection(self) -> None:
+        """Finitely many solutions, which have been found already."""
+        for found in self.step.found:
+            if found.order is None:
+                continue
+            for index in found.accepted:
+                self.add(found.solution, index)
+
+    def over(self, part: Part) -> None:
+        """The candidates of one part."""
+        if part.dimension == 0:
+            for solution in _points(part):
+                self._add_admissible(self.whole(part, solution))
+        elif part.is_free and part.dimension == 1:
+            self.over_line(part)
+        else:
+            self.over_variety(part)
+
+    def whole(self, part: Part, solution: Solution) -> Solution:
+        """A solution in the coordinates of a part as one in all unknowns."""
+        values: dict[str, Number] = {}
+        for name, x in part.values.items():
+            over, under = fraction(x, part.ring)
+            numerator = value_of(over, part.ring, solution.values)
+            values[name] = numerator / value_of(
+                under, part.ring, solution.values
+            )
+        return Solution(
+            solution.modulus,
+            solution.field,
+            values,
+            solution.multiplicity,
+            solution.real,
+        )
+
+    def _add_admissible(self, solution: Solution) -> None:
+        for index, root in enumerate(solution.real):
+            if is_admissible(self.design.family, solution, root):
+                self.add(solution, index)
+
+    def add(
+        self, solution: Solution, index: int, is_constant: bool = False
+    ) -> None:
+        """A method with its value."""
+        value = self.value_of(solution, index)
+        found = Found(solution, None, (index,))
+        self.candidates.append(Candidate(value, found, index, is_constant))
+
+    def tableau(self, part: Part) -> Tableau:
+        """The tableau with the coordinates of a part."""
+        values = cast("Mapping[str, Number]", part.values)
+        ring = self.design.family.ring
+        return member(self.design.tableau, ring, values)
+
+    def by_trial(self, part: Part, rank: Callable[[Size], Any]) -> None:
+        """A good method of a part with several free coordinates, which proves nothing of others.
+
+        Args:
+            part: where there is one.
+            rank: larger for better values.
+        """
+        self.extent = "found"
+        names = part.ring.names
+        if not part.is_free or len(names) > max(GRID):
+            raise UsageProblem(
+                f"--minimise {self.objective.key}: not decided for"
+                f" {counted(len(names), 'coordinate')}",
+                "choose values for some unknowns with --choose",
+            )
+
+        def tried(point: tuple[fmpq, ...]) -> Any:
+            solution = self._at_point(part, point)
+            return (
+                None
+                if solution is None
+                else (rank(self.value_of(solution, 0)),)
+            )
+
+        point = climbed(tried, len(names))
+        if point is not None:
+            solution = self._at_point(part, point)
+            assert solution is not None
+            self.add(solution, 0)
+
+    def _at_point(
+        self, part: Part, point: tuple[fmpq, ...]
+    ) -> Solution | None:
+        """The method at rational coordinates; None where there is none within the ranges."""
+        values: dict[str, Number] = dict(
+            zip(part.ring.names, point, strict=True)
+        )
+        if not all(value_of(p, part.ring, values) for p in part.nonzero):
+            return None
+        origin = RealRoot.rational(fmpq(0))
+        here = Solution(fmpq_poly([0, 1]), None, values, 1, (origin,))
+        solution = self.whole(part, here)
+        if not is_admissible(self.design.family, solution, origin):
+            return None
+        return solution
+
+    def conditions(self, part: Part) -> Conditions:
+        """Which values of the one coordinate are allowed."""
+        family = self.design.family
+        positive = [*family.positive]
+        not_negative = [*family.not_negative, *self.ends()]
+        signs = {}
+        for sign, polynomials in (
+            ("positive", positive),
+            ("not_negative", not_negative),
+        ):
+            signs[sign] = [
+                in_one(_sign_of(part, p, self.design)) for p in polynomials
+            ]
+        nonzero = [in_one(p) for p in part.nonzero]
+        return Conditions(nonzero, **signs)
+
+    def ends(self) -> Iterator[fmpq_mpoly]:
+        """Polynomials that are not negative within the ranges of the file."""
+        family = self.design.family
+        for name, (least, greatest) in family.ranges.items():
+            unknown = family.ring.context.gen(family.ring.names.index(name))
+            if least is not None:
+                yield unknown - least
+            if greatest is not None:
+                yield greatest - unknown
+
+
+def _points(part: Part) -> Iterator[Solution]:
+    """The solutions of a part of dimension 0."""
+    if not part.ring.names:
+        origin = RealRoot.rational(fmpq(0))
+        yield Solution(fmpq_poly([0, 1]), None, {}, 1, (origin,))
+        return
+    if part.ideal.degree > MOST_POINTS:
+        raise NotDecided
+    for solution in solutions(part.ideal):
+        values = [
+            value_of(p, part.ring, solution.values) for p in part.nonzero
+        ]
+        if all(values):
+            yield solution
+
+
+def _sign_of(part: Part, p: fmpq_mpoly, design: Design) -> fmpq_mpoly:
+    """A polynomial in the coordinates with the sign of one in all unknowns."""
+    over, under = fraction(part.expressed(p, design.family.ring), part.ring)
+    return over * under
+
+
+def in_one(p: fmpq_mpoly) -> Polynomial:
+    """A polynomial in one variable."""
+    powers = {int(k): fmpq(a) for (k,), a in p.to_dict().items()}
+    highest = max(powers, default=-1)
+    return Polynomial([powers.get(k, fmpq(0)) for k in range(highest + 1)])
+
+
+def at_root(name: str, root: RealRoot) -> Solution:
+    """A real number as the value of an unknown, in the field that it generates."""
+    monic = Polynomial.from_flint(root.polynomial).monic()
+    modulus = monic.to_flint()
+    value: Number
+    if root.exact is not None:
+        number_field, value = None, root.exact
+    else:
+        number_field = NumberField(modulus, ())
+        value = number_field.from_coordinates([fmpq(0), fmpq(1)])
+    roots = tuple(x for x, _ in real_roots(monic))
+    return Solution(modulus, number_field, {name: value}, 1, roots)

@@ -1,0 +1,42 @@
+"""The SSP coefficient."""
+
+from collections.abc import Sequence
+from itertools import chain
+
+from flint import fmpq_mpoly
+
+from garkcli.design.minimise.objective import Level, Size
+from garkcli.design.minimise.sampled import in_plane
+from garkcli.errors import UsageProblem
+from garkcli.exact.parametric import Parameters
+from garkcli.stability.ssp import conditions_at, ssp_coefficient
+from garkcli.tableau.tableau import Tableau
+
+
+def _value(tableau: Tableau) -> Size:
+    found = ssp_coefficient(tableau)
+    if found is None:
+        raise UsageProblem(
+            "-ssp: some blocks are missing, or the nodes have no simple radicals",
+            "spell the tableau out",
+        )
+    return found.value
+
+
+def _curves(tableau: Tableau, ring: Parameters) -> Sequence[fmpq_mpoly]:
+    """D det(I + rK) and d (I + rK)⁻¹ v are polynomials, of degree one in each row of K."""
+    rows = chain.from_iterable(tableau.blocks.values())
+    entries = list(chain.from_iterable(rows))
+    for colour in tableau.colours:
+        entries += colour.b
+    size = 2 + sum(space.stages for space in tableau.spaces)
+    return in_plane(tableau, ring, entries, size, conditions_at)
+
+
+OBJECTIVE = Level(
+    "-ssp",
+    "the SSP coefficient",
+    _value,
+    _curves,
+)
+"""J. F. B. M. Kraaijevanger, *Contractivity of Runge–Kutta methods*, BIT 31, 1991."""

@@ -1,0 +1,132 @@
+"""The least value of a rational function of the coefficients."""
+
+from __future__ import annotations
+
+from collections.abc import Sequence
+from dataclasses import dataclass
+from functools import cmp_to_key
+from itertools import combinations
+from typing import Any
+
+from flint import fmpq, fmpq_mpoly
+
+from garkcli.design.design import Found
+from garkcli.design.groebner import NotDecided
+from garkcli.design.member import member
+from garkcli.design.minimise.comparison import Comparison, at_root, in_one
+from garkcli.design.minimise.critical import critical_equations
+from garkcli.design.minimise.line import on_line
+from garkcli.design.minimise.objective import ORIGIN, Objective, Size
+from garkcli.design.minimise.parts import Part, parts_within
+from garkcli.design.minimise.result import Candidate, Limit
+from garkcli.design.solutions import Solution, value_at
+from garkcli.exact.cells import between
+from garkcli.exact.parametric import fraction
+from garkcli.exact.roots import RealRoot
+
+
+def _order(a: RealRoot, b: RealRoot) -> int:
+    """Larger where it is smaller."""
+    return (a < b) - (b < a)
+
+
+def _smallness(value: Size) -> Any:
+    """Larger for smaller values."""
+    assert value is not None
+    return cmp_to_key(_order)(value)
+
+
+CUTS = (fmpq(1, 2), fmpq(1, 3), fmpq(2, 3), fmpq(1), fmpq(1, 4), fmpq(3, 4))
+"""Values of coordinates at which methods are looked for."""
+
+
+@dataclass
+class Smallest(Comparison):
+    """Critical points, ends and limits of N/D."""
+
+    objective: Objective
+
+    def best(self, values: Sequence[Size]) -> Size:
+        return min(x for x in values if x is not None)
+
+    def is_bound(self, value: Size) -> bool:
+        return value == ORIGIN  # they are sums of squares
+
+    def value_of(self, solution: Solution, index: int) -> Size:
+        ring = self.design.family.ring
+        tableau = member(self.design.tableau, ring, solution.values)
+        made = self.objective.formula(tableau, self.step.order, None)
+        number = made.numerator / made.denominator
+        return value_at(number, solution.real[index])
+
+    def _formula(self, part: Part) -> tuple[fmpq_mpoly, fmpq_mpoly]:
+        """The objective as a function of the coordinates of a part."""
+        tableau = self.tableau(part)
+        made = self.objective.formula(tableau, self.step.order, part.ring)
+        quotient = part.ring.quotient(made.numerator, made.denominator)
+        return fraction(quotient, part.ring)
+
+    def over_line(self, part: Part) -> None:
+        """All candidates of a part with one free coordinate."""
+        [name] = part.ring.names
+        allowed = self.conditions(part)
+        numerator, denominator = self._formula(part)
+        N, D = in_one(numerator), in_one(denominator)
+        found = on_line(N, D, allowed)
+        self.gradients.append((name, found.gradient))
+        if not found.gradient:
+            for interval in allowed.intervals:
+                t = between(interval.start, interval.end)
+                root = RealRoot.rational(t)
+                solution = self.whole(part, at_root(name, root))
+                self.add(solution, 0, is_constant=True)
+            return
+        for one in found.attained:
+            solution = self.whole(part, at_root(name, one.t))
+            known = Found(solution, None, (one.t.number,))
+            self.candidates.append(Candidate(one.value, known, one.t.number))
+        for toward in found.limits:
+            self.limits.append(Limit(toward.value, name, toward))
+
+    def over_variety(self, part: Part) -> None:
+        """The critical points of a part of larger dimension, and those on its edges."""
+        if self.extent == "all":
+            self.extent = "critical-points"
+        try:
+            numerator, denominator = self._formula(part)
+            critical = critical_equations(part, numerator, denominator)
+            self._over_smaller(part, critical)
+        except NotDecided:
+            self.by_trial(part, _smallness)
+            return
+        for end in (*self.design.family.not_negative, *self.ends()):
+            edge, _ = fraction(
+                part.expressed(end, self.design.family.ring), part.ring
+            )
+            if not edge.is_constant():
+                self._over_smaller(part, [edge])
+
+    def _over_smaller(self, part: Part, zeros: list[fmpq_mpoly]) -> None:
+        """The candidates of a subset of a part."""
+        for smaller in parts_within(part, zeros):
+            if smaller.dimension < part.dimension:
+                self.over(smaller)
+                continue
+            self._over_constant(smaller)
+
+    def _over_constant(self, part: Part) -> None:
+        """Some methods of a part without rational coordinates on which the objective is constant,
+        at least near each of them.
+        """
+        self.extent = "found"
+        names = part.ring.names
+        gens = part.ring.context.gens()
+        for value in CUTS:
+            for chosen in combinations(range(len(names)), part.dimension):
+                cuts = [gens[i] - value for i in chosen]
+                before = len(self.candidates)
+                for smaller in parts_within(part, cuts):
+                    if smaller.dimension == 0:
+                        self.over(smaller)
+                if len(self.candidates) > before:
+                    return
