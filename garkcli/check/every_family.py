@@ -73,11 +73,15 @@ class EveryFamily:
 
         None where the nodes have no simple radicals, or there are roots among the coefficients.
         """
-        if all(isinstance(x, PointSpace) for x in self.tableau.spaces):
-            return self.tableau
+        return self.printed(self.tableau)
+
+    def printed(self, tableau: Tableau) -> Tableau | None:
+        """The same of a tableau that is made of this one, such as the conjugate."""
+        if all(isinstance(x, PointSpace) for x in tableau.spaces):
+            return tableau
         if len(self.family.parameters) != len(self.ring.names):
             return None
-        return family_in_points(self.tableau, self.ring)
+        return family_in_points(tableau, self.ring)
 
     @cached_property
     def relations(self) -> list[fmpq_mpoly]:
@@ -242,7 +246,7 @@ def every_family(family: Family) -> EveryFamily:
         )
     names = [*left, *(radical.name for radical in family.radicals)]
     ring = Parameters(names)
-    ring.shown = {x.name: x.text for x in family.radicals}
+    ring.shown = {x.name: (x.text, x.latex) for x in family.radicals}
     ring.rules = tuple(rules_of(family, ring))
     values: dict[str, object] = {x: ring.parameter(x) for x in names}
     for name in reversed(fixed):

@@ -23,7 +23,7 @@ from garkcli.cli.tree_options import (
     kind_asked,
     symplectic_options,
 )
-from garkcli.errors import UsageProblem
+from garkcli.errors import HasFreeParameters, UsageProblem
 
 if TYPE_CHECKING:
     from garkcli.order.conditions import Condition
@@ -76,7 +76,8 @@ def command(settings: dict[str, str], output: Output, **options: Any) -> int:
     Without FILE the conditions that every method has to meet: a row for each tree shape, to hold
     for all colours (text and latex), or a row for each coloured tree (json and csv). With FILE
     every condition of that method with its exact value, the required value and the residual;
-    identical conditions are listed once.
+    identical conditions are listed once. Values of a file with free parameters are rational
+    functions of these.
 
     With --symplectic one condition of each class of those that are equivalent for symplectic
     methods; with FILE for its symplectic pair, unless it is symplectic itself.
@@ -95,7 +96,7 @@ def command(settings: dict[str, str], output: Output, **options: Any) -> int:
         )
     valued = None
     if wanted.file is not None:
-        valued = _chosen(wanted.file, settings, wanted.which, wanted.failing)
+        valued = _chosen(wanted.file, settings, wanted)
     subject = None
     if asked is not None:
         subject = _subject(asked, wanted, valued)
@@ -213,15 +214,32 @@ def _arranged(
 def _chosen(
     file: str,
     settings: Mapping[str, str],
-    which: str | None,
-    only_failing: bool,
+    wanted: Wanted,
 ) -> Valued:
     from garkcli.methodfile.load import load
     from garkcli.report.conditions_data import Valued
 
-    method = load(file, settings)
-    tableau = companion(method.tableau, which)
-    return Valued(tableau, method.tolerance, only_failing)
+    try:
+        method = load(file, settings)
+    except HasFreeParameters as error:
+        return _for_every_value(error, settings, wanted)
+    tableau = companion(method.tableau, wanted.which)
+    return Valued(tableau, method.tolerance, wanted.failing)
+
+
+def _for_every_value(
+    error: HasFreeParameters, settings: Mapping[str, str], wanted: Wanted
+) -> Valued:
+    """A file with free parameters: residuals are rational functions of them."""
+    from garkcli.cli.every import read_family, refuse_numbers
+    from garkcli.report.conditions_data import Valued
+
+    _, family = read_family(error, settings)
+    sort = wanted.sort == "worst"
+    refuse_numbers(family, {"--digits": wanted.digits, "--sort worst": sort})
+    tableau = companion(family.tableau, wanted.which)
+    parameters = family.family.parameters
+    return Valued(tableau, None, wanted.failing, parameters)
 
 
 def _subject(asked: Kind, wanted: Wanted, valued: Valued | None) -> Subject:

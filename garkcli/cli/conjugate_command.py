@@ -4,6 +4,7 @@ from __future__ import annotations
 
 import click
 
+from garkcli.cli.companion import companion
 from garkcli.cli.options import (
     CONTEXT,
     PATH,
@@ -13,6 +14,7 @@ from garkcli.cli.options import (
     document_option,
     settings_option,
 )
+from garkcli.errors import HasFreeParameters, UsageProblem
 
 
 @click.command("conjugate", context_settings=CONTEXT)
@@ -39,21 +41,25 @@ def command(
 
     With --format yaml it is a method file that loads again; conjugated again it gives the original
     blocks exactly. Where the nodes have no simple radicals that file says `conjugate: true` instead
-    of entries.
+    of entries. Entries of a file with free parameters are rational functions of these.
     """
     from garkcli.methodfile.load import load
-    from garkcli.tableau.conjugate import conjugate
-    from garkcli.tableau.forms import pair
 
-    method = load(file, settings)
-    name = f"symplectic {'pair' if is_pair else 'conjugate'} of {method.name}"
-    made = pair(method.tableau) if is_pair else conjugate(method.tableau)
+    which = "pair" if is_pair else "conjugate"
+    try:
+        method = load(file, settings)
+    except HasFreeParameters as error:
+        from garkcli.cli.every import write_family
+
+        write_family(error, settings, which, digits, output, document)
+        return 0
+    name = f"symplectic {which} of {method.name}"
+    made = companion(method.tableau, which)
     from garkcli.cli.rendering import write_tableau
 
     if output.format != "yaml" or digits is not None or document:
         write_tableau(made, name, digits, output, method.tolerance, document)
         return 0
-    from garkcli.errors import UsageProblem
     from garkcli.methodfile.writer import (
         can_spell_out,
         write_conjugate_of,

@@ -17,10 +17,10 @@ from garkcli.cli.options import (
     settings_option,
 )
 from garkcli.cli.plotting import check_plot, plot_option, save_plot
-from garkcli.errors import UsageProblem, did_you_mean
+from garkcli.errors import HasFreeParameters, UsageProblem, did_you_mean
 
 if TYPE_CHECKING:
-    from collections.abc import Sequence
+    from collections.abc import Mapping, Sequence
 
     from flint import fmpq
 
@@ -66,6 +66,7 @@ def command(
 
     The stability function with A-, L- and A(α)-stability; the trace on the harmonic oscillator,
     its intervals of stability, P-stability, phase lag; algebraic stability; the SSP coefficient.
+    Of a file with free parameters R(z) with these, and for which values it is stable.
     """
     from garkcli.methodfile.finding import find_files
     from garkcli.methodfile.load import load
@@ -84,7 +85,17 @@ def command(
     paths = list(find_files(files))
     refuse_settings_of_several(settings, paths)
     for file in paths:
-        method = load(file, settings)
+        try:
+            method = load(file, settings)
+        except HasFreeParameters as error:
+            if len(paths) > 1:
+                raise
+            wants_numbers = {
+                "--slow": slow,
+                "--ratio": ratio,
+                "--plot": plot,
+            }
+            return _for_every_value(error, settings, wants_numbers, output)
         if slow is None or fast is None:
             reports.append(_whole_report(file, method, digits, ratios))
         else:
@@ -98,6 +109,23 @@ def command(
         from garkcli.plots.stability_plot import stability_figure
 
         save_plot(stability_figure(reports, order_star), plot, output)
+    return 0
+
+
+def _for_every_value(
+    error: HasFreeParameters,
+    settings: dict[str, str],
+    wants_numbers: Mapping[str, object],
+    output: Output,
+) -> int:
+    """A file with free parameters: R(z), and for which values it is stable."""
+    from garkcli.cli.every import read_family, refuse_numbers
+    from garkcli.report.every_stability import every_stability, render
+
+    file, family = read_family(error, settings)
+    refuse_numbers(family, wants_numbers)
+    found = every_stability(file.source, file.name, family)
+    output.write(render(found, output.format))
     return 0
 
 

@@ -13,6 +13,7 @@ from garkcli.cli.options import (
     document_option,
     settings_option,
 )
+from garkcli.errors import HasFreeParameters
 
 
 @click.command("tableau", context_settings=CONTEXT)
@@ -32,12 +33,19 @@ def command(
 
     Entries are exact where the nodes are rational or quadratic numbers, decimals otherwise. With
     --format yaml it is a method file that loads again. LaTeX shows a method for positions and
-    momenta as two arrays, Q and P.
+    momenta as two arrays, Q and P. Entries of a file with free parameters are rational functions of
+    these.
     """
     from garkcli.cli.rendering import write_tableau
     from garkcli.methodfile.load import load
 
-    method = load(file, settings)
+    try:
+        method = load(file, settings)
+    except HasFreeParameters as error:
+        from garkcli.cli.every import write_family
+
+        write_family(error, settings, None, digits, output, document)
+        return 0
     write_tableau(
         method.tableau, method.name, digits, output, method.tolerance, document
     )

@@ -6,6 +6,7 @@ from flint import arb, ctx, fmpq
 
 from garkcli.exact.enclosing import enclose
 from garkcli.exact.field import Algebraic, Number
+from garkcli.exact.parametric import Parametric
 
 
 def to_text(number: Number) -> str:
@@ -13,8 +14,10 @@ def to_text(number: Number) -> str:
     return str(number)
 
 
-def to_latex(number: Number) -> str:
+def to_latex(number: Number | Parametric) -> str:
     r"""The number in LaTeX, for instance ``\frac{1}{2}-\frac{\sqrt{3}}{6}``."""
+    if isinstance(number, Parametric):
+        return number.latex()
     if not isinstance(number, Algebraic):
         return _latex_term(number, "").removeprefix("+")
     text = ""

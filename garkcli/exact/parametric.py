@@ -43,7 +43,7 @@ class Parameters:
 
     Attributes:
         rules: what is equal in it besides; none for the ring itself.
-        shown: how unknowns are written that are no parameters, such as sqrt(3).
+        shown: how unknowns are written that are no parameters, such as sqrt(3), and in LaTeX.
 
     >>> ring = Parameters(["t"])
     >>> t = ring.parameter("t")
@@ -55,7 +55,7 @@ class Parameters:
         self.names = tuple(names)
         self.context = fmpq_mpoly_ctx.get(self.names, Ordering.lex)
         self.rules: tuple[Rule, ...] = ()
-        self.shown: dict[str, str] = {}
+        self.shown: dict[str, tuple[str, str]] = {}
         self._told_apart: dict[str, fmpq_mpoly] | None = None
 
     def parameter(self, name: str) -> Parametric:
@@ -70,7 +70,28 @@ class Parameters:
         found = str(polynomial)
         if not self.shown:
             return found
-        return _NAME.sub(lambda x: self.shown.get(x[0], x[0]), found)
+        return _NAME.sub(lambda x: self._shown(x[0]), found)
+
+    def _shown(self, name: str) -> str:
+        return self.shown[name][0] if name in self.shown else name
+
+    def latex(self, polynomial: fmpq_mpoly) -> str:
+        """A polynomial in LaTeX."""
+        text = ""
+        for exponents, a in polynomial.to_dict().items():
+            powers = ""
+            for name, exponent in zip(self.names, exponents, strict=True):
+                if int(exponent):
+                    powers += self._power_latex(name, int(exponent))
+            sign = "-" if a < 0 else "+"
+            text += sign + _coefficient_latex(abs(a), powers)
+        return text.removeprefix("+") or "0"
+
+    def _power_latex(self, name: str, exponent: int) -> str:
+        letter = _letter(name)
+        if name in self.shown:
+            _, letter = self.shown[name]
+        return letter if exponent == 1 else f"{letter}^{{{exponent}}}"
 
     def constant(self, number: fmpq) -> fmpq_mpoly:
         """A number as a polynomial."""
@@ -127,6 +148,33 @@ class Parameters:
         """Note that a polynomial is taken for different from 0."""
         if self._told_apart is not None and not polynomial.is_constant():
             self._told_apart[str(polynomial)] = polynomial
+
+
+_GREEK = {
+    *("alpha", "beta", "gamma", "delta", "epsilon", "zeta", "eta", "theta"),
+    *("iota", "kappa", "lambda", "mu", "nu", "xi", "pi", "rho", "sigma"),
+    *("tau", "upsilon", "phi", "chi", "psi", "omega"),
+}
+
+
+def _letter(name: str) -> str:
+    """The name of a parameter in LaTeX: a21 is an a with indices."""
+    letters = name.rstrip("0123456789_")
+    index = name[len(letters) :].strip("_").replace("_", ",")
+    head = letters.replace("_", r"\_")
+    if head in _GREEK:
+        head = f"\\{head} "
+    elif len(head) > 1:
+        head = rf"\mathrm{{{head}}}"
+    return f"{head.strip()}_{{{index}}}" if index else head
+
+
+def _coefficient_latex(a: fmpq, powers: str) -> str:
+    """A positive multiple of powers, as one fraction."""
+    top = f"{a.p}{powers}"
+    if powers and a.p == 1:
+        top = powers
+    return top if a.q == 1 else rf"\frac{{{top}}}{{{a.q}}}"
 
 
 class Parametric:
@@ -230,6 +278,13 @@ class Parametric:
         """Bits of its longest coefficient."""
         coefficients = [*self.numerator.coeffs(), *self.denominator.coeffs()]
         return max(int(a.height_bits()) for a in coefficients)
+
+    def latex(self) -> str:
+        """The function in LaTeX."""
+        numerator = self.ring.latex(self.numerator)
+        if self.denominator.is_one():
+            return numerator
+        return rf"\frac{{{numerator}}}{{{self.ring.latex(self.denominator)}}}"
 
     def __repr__(self) -> str:
         numerator = self.ring.text(self.numerator)

@@ -69,8 +69,7 @@ class Polynomial:
 
     def to_flint(self) -> fmpq_poly:
         """The same polynomial for python-flint; its coefficients are rational."""
-        rational = [a for a in self.coefficients if isinstance(a, fmpq)]
-        return fmpq_poly(rational)
+        return fmpq_poly(list(self.coefficients))  # type: ignore[arg-type]
 
     def __bool__(self) -> bool:
         return bool(self.coefficients)

@@ -99,8 +99,9 @@ class _FamilyDomain(Domain):
         relation = cast("Parametric", difference).numerator
         is_even = root.index % 2 == 0
         text = format_expression(root)
+        latex = format_expression(root, latex=True)
         self.radicals.append(
-            Radical(name, relation, is_positive=is_even, text=text)
+            Radical(name, relation, is_even, text=text, latex=latex)
         )
         return cast("Number", unknown)
 
@@ -112,7 +113,10 @@ class _FamilyDomain(Domain):
             relation = relation * unknown + coefficient
         meant = RealRoot(fmpz_poly(list(root.coefficients)), root.number)
         text = format_expression(root)
-        self.radicals.append(Radical(name, relation, meant=meant, text=text))
+        latex = format_expression(root, latex=True)
+        self.radicals.append(
+            Radical(name, relation, meant=meant, text=text, latex=latex)
+        )
         return cast("Number", self.ring.parameter(name))
 
     def evaluate(self, expression: Expression) -> Number:

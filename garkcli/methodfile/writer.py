@@ -32,6 +32,7 @@ def write_tableau_file(
     tolerance: fmpq | None = None,
     note: str = "",
     text: NumberText = to_text,
+    parameters: Sequence[str] = (),
 ) -> str:
     """A method file with every block of ``tableau`` spelled out.
 
@@ -41,10 +42,13 @@ def write_tableau_file(
         tolerance: the rounding of its coefficients, or None.
         note: a comment above it.
         text: how a coefficient is written.
+        parameters: what it says of each parameter in the coefficients, such as ``tau: free``.
     """
     lines = [f"# {line}" for line in note.splitlines()]
     lines.append("gark: 1")
     lines.append(f"name: {quoted(name)}")
+    if parameters:
+        lines.append(f"parameters: {{{', '.join(parameters)}}}")
     if _is_prk(tableau):
         lines += _prk(tableau, text)
     elif _is_ark(tableau):

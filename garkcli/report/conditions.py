@@ -6,6 +6,7 @@ from collections.abc import Iterable, Iterator, Sequence
 
 from garkcli.exact.display import decimal, to_decimal, to_latex, to_text
 from garkcli.exact.field import Number
+from garkcli.exact.parametric import Parametric
 from garkcli.order.conditions import Condition
 from garkcli.page.latex import fragment, number
 from garkcli.page.paint import Paint, counted, folded, indented
@@ -149,6 +150,8 @@ def _names(valued: Valued) -> Iterator[str]:
 
 
 def _verdict(failed: int, valued: Valued) -> str:
+    if valued.parameters:
+        return _of_every_value(failed)
     if failed == 1:
         return "1 fails"
     if failed:
@@ -156,6 +159,14 @@ def _verdict(failed: int, valued: Valued) -> str:
     if valued.tolerance is None:
         return "all hold"
     return f"all hold within {decimal(valued.tolerance)}"
+
+
+def _of_every_value(failed: int) -> str:
+    """How many conditions not every value of free parameters meets."""
+    if not failed:
+        return "all hold for every value"
+    verb = "does" if failed == 1 else "do"
+    return f"{failed} {verb} not hold for every value"
 
 
 def _lines(row: ConditionRow, paint: Paint, width: int) -> Iterator[str]:
@@ -192,8 +203,15 @@ def _mark(condition: Condition | None, paint: Paint) -> str:
     """Whether a condition holds, exactly or within the tolerance."""
     if condition is None:
         return ""
+    if _is_parametric(condition.residual):
+        return paint("note", "varies") + " "
     holds = "holds  " if condition.is_exact else "within "
     return paint.verdict(condition.holds, holds, "FAILS  ")
+
+
+def _is_parametric(number: object) -> bool:
+    """Whether a number depends on free parameters."""
+    return isinstance(number, Parametric)
 
 
 def _multiplicity(row: ConditionRow) -> str:
@@ -214,7 +232,8 @@ def _miss(condition: Condition, digits: int | None) -> str:
     value = shown(condition.value, digits)
     residual = shown(condition.residual, digits)
     longest = max(len(value), len(residual))
-    if digits is None and longest > MOST_DIGITS:
+    is_number = not _is_parametric(condition.value)
+    if digits is None and longest > MOST_DIGITS and is_number:
         value = f"about {to_decimal(condition.value, 8)}"
         residual = to_decimal(condition.residual, 4)
     return f"is {value}, off by {residual}  ({kind} condition)"
@@ -226,7 +245,8 @@ def _latex_values(condition: Condition, digits: int | None) -> tuple[str, str]:
     if digits is not None:
         return _latex_decimal(value, digits), _latex_decimal(residual, digits)
     lengths = (len(to_text(value)), len(to_text(residual)))
-    if max(lengths) > MOST_DIGITS:
+    is_number = not _is_parametric(value)
+    if max(lengths) > MOST_DIGITS and is_number:
         about = _latex_decimal(value, 8)
         return rf"\approx {about}", _latex_decimal(residual, 4)
     return to_latex(value), to_latex(residual)

@@ -63,11 +63,13 @@ class Valued:
         tableau: the method.
         tolerance: the rounding of its coefficients, or None.
         only_failing: whether conditions that hold are counted but not shown.
+        parameters: the free ones, of which values are rational functions.
     """
 
     tableau: Tableau
     tolerance: fmpq | None = None
     only_failing: bool = False
+    parameters: tuple[str, ...] = ()
 
     @property
     def names(self) -> list[str]:

@@ -61,7 +61,7 @@ def _where(fact: Fact) -> list[dict[str, Any]] | None:
     return [_INTERVAL.data(x) for x in fact.where]
 
 
-_FACT: Record[Fact] = Record(
+FACT: Record[Fact] = Record(
     Field("decided", FLAG, lambda x: not x.is_undecided or x.differs),
     Field("every_value", FLAG, lambda x: x.is_everywhere),
     Field("value", _VALUE, lambda x: x.value),
@@ -99,7 +99,7 @@ _WITNESS: Schema = {
 _ORDER: Record[EveryOrder] = Record(
     Field("order", COUNT, lambda x: x.order),
     Field("witness", _WITNESS, _witness),
-    Field("fact", _FACT.schema, lambda x: _FACT.data(x.fact)),
+    Field("fact", FACT.schema, lambda x: FACT.data(x.fact)),
     Field("dimension", nullable(INTEGER), lambda x: x.dimension),
     Field("weights", array(TEXT), lambda x: list(x.poles)),
 )
@@ -107,7 +107,7 @@ _ORDER: Record[EveryOrder] = Record(
 
 
 def _part(part: Callable[[Any], Any]) -> Callable[[EveryValue], object]:
-    return lambda x: _FACT.data(x.simplifying.of(part))
+    return lambda x: FACT.data(x.simplifying.of(part))
 
 
 def _blocks(found: Any) -> list[list[int]]:
@@ -118,7 +118,7 @@ def _colours(found: EveryValue) -> list[str]:
     return [colour.name for colour in found.tableau.colours]
 
 
-_FACTS: Schema = _FACT.schema
+_FACTS: Schema = FACT.schema
 EVERY_FIELDS: tuple[Field[EveryValue], ...] = (
     Field("every_value", TRUE, lambda _: True),
     Field("unknowns", array(TEXT), lambda x: list(x.parameters)),
@@ -134,9 +134,9 @@ EVERY_FIELDS: tuple[Field[EveryValue], ...] = (
     Field(
         "inconsistent_blocks",
         _FACTS,
-        lambda x: _FACT.data(x.inconsistent.of(_blocks)),
+        lambda x: FACT.data(x.inconsistent.of(_blocks)),
     ),
-    Field("symplectic", _FACTS, lambda x: _FACT.data(x.symplectic)),
+    Field("symplectic", _FACTS, lambda x: FACT.data(x.symplectic)),
 )
 """What was found of a family."""
 
@@ -145,7 +145,7 @@ def _verdicts(outcome: Outcome) -> dict[str, Any] | None:
     found = outcome.every
     if found is None or not outcome.wants_properties:
         return None
-    return {key: _FACT.data(found.verdict(key)) for key in KEYS}
+    return {key: FACT.data(found.verdict(key)) for key in KEYS}
 
 
 EVERY_VERDICTS: Field[Outcome] = Field(

@@ -20,6 +20,7 @@ REPORTS = {
     "conjugate": _TABLEAU,
     "reduce": _TABLEAU,
     "stability": "garkcli.report.stability_json:stability_report_schema",
+    "stability-every": "garkcli.report.every_stability:every_stability_schema",
     "design": "garkcli.report.design_data:design_report_schema",
     "design-search": "garkcli.report.search_data:search_report_schema",
     "design-stability": "garkcli.report.stable_values:stable_values_schema",

@@ -10,6 +10,7 @@ from typing import Any, NamedTuple
 from flint import arb
 
 from garkcli.exact.display import to_float
+from garkcli.exact.parametric import Parametric
 from garkcli.page.record import Field, Record, inside, schema_named
 from garkcli.page.schema import (
     FLAG,
@@ -49,7 +50,9 @@ class _Shown(NamedTuple):
     name: str
 
 
-def _float(cell: Cell) -> float:
+def _float(cell: Cell | Parametric) -> float | None:
+    if isinstance(cell, Parametric):
+        return None
     return float(cell) if isinstance(cell, arb) else to_float(cell)
 
 

@@ -21,7 +21,7 @@ class Radical:
         relation: a polynomial that is zero at it.
         is_positive: whether only its positive zero is meant: that of an even root.
         meant: the zero that is meant, where it is one of several real ones.
-        text: the root as it is written.
+        text, latex: the root as it is written.
     """
 
     name: str
@@ -29,6 +29,7 @@ class Radical:
     is_positive: bool = False
     meant: RealRoot | None = None
     text: str = ""
+    latex: str = ""
 
 
 @dataclass(frozen=True, repr=False, kw_only=True)

@@ -88,7 +88,8 @@ def _with_roots(ring: Parameters, roots: Sequence[Root]) -> Parameters:
         radicand = Domain([]).evaluate(root.radicand)
         square = larger.constant(cast("fmpq", radicand))
         rules.append(Rule(len(ring.names) + k, 2, square))
-        larger.shown[name] = format_expression(root)
+        latex = format_expression(root, latex=True)
+        larger.shown[name] = format_expression(root), latex
     larger.rules = tuple(rules)
     return larger
 

@@ -36,7 +36,7 @@ COMMANDS: dict[str, list[str]] = {
         "json",
     ],
 }
-EVERY_VALUE = {"check"}
+EVERY_VALUE = {"check", "tableau", "conjugate", "conditions", "stability"}
 """Commands that say what holds for every value."""
 
 
