@@ -57,6 +57,10 @@ def command(
 
     wanted = Wanted(**options)
     wanted.check()
+    if wanted.emit is not None:
+        from garkcli.page.writing import refuse_unwritable
+
+        refuse_unwritable(wanted.emit)
     family = load_family(file, settings)
     if wanted.stability is not None:
         wanted.check_stability()

@@ -17,7 +17,7 @@ from garkcli.errors import UsageProblem
 from garkcli.methodfile.family import FamilyFile, with_values
 from garkcli.methodfile.search_file import FileSearch
 from garkcli.page.progress import watching
-from garkcli.page.writing import refuse_unwritable, write_whole
+from garkcli.page.writing import write_whole
 from garkcli.report import search_data, search_text
 
 if TYPE_CHECKING:
@@ -46,7 +46,7 @@ def search(
     if order is None:
         cure = "say which by --order P, or in the file by design: {order: P}"
         raise UsageProblem("a search is for an order", cure)
-    _check_places(wanted)
+    _make_folder(wanted)
     asked = FileSearch.of(family, order, wanted.whose)
     looking = asked.search
     result, ended = _searched(asked, wanted, starts, output)
@@ -60,17 +60,16 @@ def search(
     return 0 if result.methods else 3
 
 
-def _check_places(wanted: Wanted) -> None:
-    """Refuse places that cannot be written to, before the work."""
-    if wanted.emit is not None:
-        refuse_unwritable(wanted.emit)
-    if wanted.emit_all is not None:
-        folder = Path(wanted.emit_all)
-        try:
-            folder.mkdir(parents=True, exist_ok=True)
-        except OSError as error:
-            message = f"cannot make the folder {folder}: {error.strerror}"
-            raise UsageProblem(message, "choose another place") from None
+def _make_folder(wanted: Wanted) -> None:
+    """Make the folder of --emit-all, or refuse it, before the work."""
+    if wanted.emit_all is None:
+        return
+    folder = Path(wanted.emit_all)
+    try:
+        folder.mkdir(parents=True, exist_ok=True)
+    except OSError as error:
+        message = f"cannot make the folder {folder}: {error.strerror}"
+        raise UsageProblem(message, "choose another place") from None
 
 
 def _searched(

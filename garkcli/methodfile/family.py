@@ -28,6 +28,7 @@ from garkcli.methodfile.load import (
     NO_SETTINGS,
     built,
     described,
+    loads,
     read_method_text,
 )
 from garkcli.methodfile.numbers import Row
@@ -76,6 +77,17 @@ def load_family(
     return loads_family(*read_method_text(path), settings)
 
 
+def _without_unknowns(source: str, settings: Mapping[str, str]) -> MethodError:
+    """A method where a family is expected."""
+    if settings:
+        message = f"{source} has no free parameter left"
+        return MethodError(message, "gark check --set judges one method")
+    message = f"{source} has no free parameter"
+    cure = "write parameters: {tau: free} in place of a value, "
+    cure += 'or "?" for an entry'
+    return MethodError(message, cure)
+
+
 def loads_family(
     text: str,
     source: str = "<text>",
@@ -101,11 +113,9 @@ def loads_family(
     reader, description = described(text, source, settings)
     numbers = reader.numbers
     if not numbers.free:
-        reader.source.close()
-        message = f"{source} has no free parameter"
-        cure = "write parameters: {tau: free} in place of a value, "
-        cure += 'or "?" for an entry'
-        raise MethodError(message, cure)
+        # where the file or a setting has a fault, that is what is told
+        loads(text, source, settings)
+        raise _without_unknowns(source, settings)
     wishes = Wishes()
     if is_design:
         wishes = read_wishes(reader.source, numbers, reader.design)

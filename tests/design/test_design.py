@@ -305,7 +305,11 @@ def test_as_a_command(tmp_path: Path) -> None:
     assert gark("design", str(path), "--emit", str(made)).code == 0
     assert gark("check", str(made)).code == 0
     fixed = gark("design", str(path), "--set", "g=1/2")
-    assert (fixed.code, "no free parameter" in fixed.err) == (2, True)
+    assert (fixed.code, "no free parameter left" in fixed.err) == (2, True)
+    zero = gark("design", str(path), "--set", "g=1/0")
+    assert (zero.code, "division by zero" in zero.err) == (2, True)
+    nowhere = gark("design", str(path), "--emit", str(tmp_path / "no" / "x"))
+    assert (nowhere.code, nowhere.out) == (2, "")
     wrong = gark("design", str(path), "--set", "h=1/2")
     assert (wrong.code, "no parameter 'h'" in wrong.err) == (2, True)
     assert gark("design", str(path), "--set", "g").code == 2
