@@ -27,6 +27,9 @@ import sys
 from fractions import Fraction
 from itertools import pairwise
 
+MOST_STAGES = 10_000
+UNREADABLE = (ArithmeticError, AttributeError, LookupError, OSError, TypeError, ValueError)
+
 
 class NotProved(Exception):
     """What does not hold."""
@@ -138,6 +141,7 @@ class Space:
 
     def __init__(self, data):
         self.stages = data["stages"]
+        demand(0 < self.stages <= MOST_STAGES, "an impossible number of stages")
         self.one = [Fraction(1)] * self.stages
         self.modulus = [Fraction(a) for a in data.get("modulus", [])]
         if self.modulus:
@@ -215,10 +219,15 @@ class Tableau:
         self.field, self.data, self.known = field, data, {}
         self.spaces = [Space(x) for x in data["spaces"]]
         self.colours = data["colours"]
+        demand({c["drives"] for c in self.colours} in ({"y"}, {"q", "p"}), "colours drive nothing")
+        known = range(1, len(self.spaces) + 1)
+        demand(all(c["space"] in known for c in self.colours), "a colour without a stage space")
         self.b = [[field.read(x) for x in colour["b"]] for colour in self.colours]
         self.blocks = {}
         for block in data["blocks"]:
             k, m = block["space"] - 1, block["colour"] - 1
+            is_place = k + 1 in known and 0 <= m < len(self.colours)
+            demand(is_place and (k, m) not in self.blocks, "a block in no place of its own")
             rows = [[field.read(x) for x in row] for row in block["A"]]
             shape = {len(row) for row in rows}, len(rows)
             demand(shape == ({self.space(m).stages}, self.spaces[k].stages), "a block misfits")
@@ -256,6 +265,7 @@ class Tableau:
         """Points 1, 2, 3. Returns the number of spanning trees."""
         listed = []
         for k, by_colour in enumerate(self.data["spanning"], start=1):
+            demand(len(by_colour) == len(self.colours), "no trees for some colours")
             listed.append([[read_tree(text) for text in trees] for trees in by_colour])
             for l, trees in enumerate(listed[-1]):
                 for tree in trees:
@@ -298,6 +308,15 @@ class Tableau:
                 if {one["drives"], other["drives"]} in ({"q", "p"}, {"y"}):
                     yield l, m
 
+    def kinds(self, drives=None):
+        """What tells the colours apart but for their coefficients."""
+        return [(drives or c["drives"], bool(c["linear"])) for c in self.colours]
+
+    def check_form(self):
+        """The symplectic form has a word on every block."""
+        seen = {(self.colours[l]["space"] - 1, m) for l, m in self.pairs()}
+        demand(seen >= self.blocks.keys(), "a block that the symplectic form does not know")
+
     def fits(self, l, m, forth, back):
         """Whether b_l(f · forth g) + b_m(back f · g) = b_l(f) b_m(g) for all stage values f, g."""
         if forth is None or back is None:
@@ -313,6 +332,9 @@ class Tableau:
 
 
 def check_conjugate(method, other):
+    demand(method.kinds() == other.kinds(), "the conjugate has other colours")
+    method.check_form()
+    other.check_form()
     for l in range(len(method.colours)):
         is_same = (method.space(l).modulus, method.b[l]) == (other.space(l).modulus, other.b[l])
         demand(is_same, "the conjugate has other weights or nodes")
@@ -323,6 +345,12 @@ def check_conjugate(method, other):
 
 def check_pair(method, pair):
     of = [index - 1 for index in pair.data["colour_of"]]
+    is_plain = method.kinds()[0][0] == "y"
+    every = [method.kinds("q"), method.kinds("p")] if is_plain else [method.kinds()]
+    wanted = sorted((i, *kind) for kinds in every for i, kind in enumerate(kinds))
+    found = sorted((i, *kind) for i, kind in zip(of, pair.kinds(), strict=True))
+    demand(found == wanted, "the pair has other colours")
+    pair.check_form()
     for l in range(len(pair.colours)):
         here, there = pair.space(l).modulus, method.space(of[l]).modulus
         demand((here, pair.b[l]) == (there, method.b[of[l]]), "the pair has other weights or nodes")
@@ -343,14 +371,18 @@ def referee(path):
     field = Field(data["field"])
     names = [name for name in ("method", "conjugate", "pair") if name in data]
     tableaus = {name: Tableau(field, data[name]) for name in names}
-    print(f"{path}: {data['name']}")
+    demand("method" in data, "there is no method in it")
+    print(f"{path}: {''.join(c if c.isprintable() else '?' for c in data['name'])}")
     for name, tableau in tableaus.items():
         if name != "method":
             check = check_pair if name == "pair" else check_conjugate
             check(tableaus["method"], tableau)
         count = tableau.prove()
         least = "" if data[name]["witness"] else "at least "
-        print(f"  {name}: order {least}{data[name]['order']}, proved by {count} trees")
+        linear = [str(l) for l, c in enumerate(tableau.colours, start=1) if c["linear"]]
+        where = f", where the vector field is linear: {', '.join(linear)}" if linear else ""
+        order = len(data[name]["spanning"])
+        print(f"  {name}: order {least}{order}, proved by {count} trees{where}")
 
 
 def main(paths):
@@ -362,8 +394,11 @@ def main(paths):
         except NotProved as error:
             print(f"{path}: not proved: {error}")
             code = max(code, 1)
-        except (OSError, LookupError, TypeError, ValueError, RecursionError) as error:
-            print(f"{path}: no proof can be read: {error!r}")
+        except UNREADABLE as error:
+            print(f"{path}: no proof can be read: {error!a}")
+            code = 2
+        except (MemoryError, RecursionError):
+            print(f"{path}: no proof can be read: it is too large")
             code = 2
     return code
 

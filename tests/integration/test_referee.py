@@ -72,7 +72,7 @@ def test_the_referee_shares_no_code() -> None:
         if isinstance(node, ast.ImportFrom):
             imported.add(str(node.module))
     assert imported == {"fractions", "itertools", "json", "re", "sys"}
-    assert sum(bool(line.strip()) for line in text.splitlines()) < 300
+    assert sum(bool(line.strip()) for line in text.splitlines()) < 350
 
 
 @pytest.mark.parametrize(
@@ -203,6 +203,92 @@ def test_a_false_proof_is_found_out(
         pytest.skip("no node polynomial")
     change(data)
     assert judged(data, tmp_path) == 1
+
+
+def _no_trees(data: dict[str, Any]) -> None:
+    data["method"] |= {"spanning": [[]] * 50, "order": 50, "witness": None}
+
+
+def _no_method(data: dict[str, Any]) -> None:
+    del data["method"]
+
+
+def _driving_nothing(data: dict[str, Any]) -> None:
+    for name in ("method", "conjugate"):
+        for colour in data[name]["colours"]:
+            colour["drives"] = "z"
+    data["conjugate"] = data["method"]
+
+
+def _linear_conjugate(data: dict[str, Any]) -> None:
+    data["conjugate"]["colours"][0]["linear"] = True
+
+
+def _linear_pair(data: dict[str, Any]) -> None:
+    data["pair"]["colours"][0]["linear"] = True
+
+
+def _another_colour(data: dict[str, Any]) -> None:
+    data["pair"]["colour_of"] = [1, 1, 2, 2]
+
+
+def _no_space(data: dict[str, Any]) -> None:
+    data["method"]["colours"][-1]["space"] = 0
+
+
+def _block_twice(data: dict[str, Any]) -> None:
+    first = data["method"]["blocks"][0]
+    data["method"]["blocks"].append(json.loads(json.dumps(first)))
+    first["A"][0][0] = "7"
+
+
+def _endless(data: dict[str, Any]) -> None:
+    data["method"]["spaces"][0]["stages"] = 10**12
+
+
+@pytest.mark.parametrize(
+    "change",
+    [
+        _no_trees,
+        _no_method,
+        _driving_nothing,
+        _linear_conjugate,
+        _linear_pair,
+        _another_colour,
+        _no_space,
+        _block_twice,
+        _endless,
+    ],
+)
+def test_a_proof_with_gaps_is_none(
+    change: Callable[[dict[str, Any]], None], tmp_path: Path
+) -> None:
+    """Whatever a proof leaves out is missed: colours without trees, a form that pairs nothing,
+    fewer conditions by a colour that is said to be linear.
+    """
+    data = certificate(COLLOCATION)
+    change(data)
+    assert judged(data, tmp_path) == 1
+
+
+@pytest.mark.parametrize("entry", ["1/0", "x", 1e999, None, [], {"a": 1}])
+def test_what_is_no_number_is_no_proof(entry: object, tmp_path: Path) -> None:
+    """No traceback, and nothing is proved."""
+    data = certificate(COLLOCATION)
+    data["method"]["blocks"][0]["A"][0][0] = entry
+    assert judged(data, tmp_path) in {1, 2}
+
+
+def test_what_is_assumed_is_said(
+    tmp_path: Path, capsys: pytest.CaptureFixture[str]
+) -> None:
+    """Colours whose vector field is linear are named, and a name cannot write lines of its own."""
+    text = "tableau: {A: [[0, 0], [1/2, 0]], b: [1/3, 2/3]}\nlinear: [1]\n"
+    data = certificate(text) | {"name": "x\n  method: order 9"}
+    assert judged(data, tmp_path) == 0
+    first, second, *_ = capsys.readouterr().out.splitlines()
+    assert first.endswith("x?  method: order 9")
+    assert second.endswith("where the vector field is linear: 1")
 
 
 @pytest.mark.parametrize("ends", [("2", "3"), ("-10", "10")])
