@@ -19,7 +19,8 @@ run: $(READY) ## check the paper's methods and run the oscillator convergence te
 	$(BIN)/gark check methods
 	$(BIN)/gark converge methods/rectangular.gark.yaml --problem oscillator
 
-test: lint types layers pytest ## linter, types, layers of imports, and all tests
+test: $(READY) ## linter, types, layers of imports, and all tests, side by side
+	$(MAKE) --no-print-directory --jobs=2 --keep-going lint layers types pytest
 
 lint: $(READY)
 	$(BIN)/ruff check .

@@ -2,8 +2,12 @@
 
 from __future__ import annotations
 
+from itertools import count
+
+import pytest
 from flint import fmpq
 
+from garkcli.convergence import work
 from garkcli.convergence.convergence import converge
 from garkcli.convergence.work import cost_of, work_of
 from garkcli.families.registry import diagonal_method
@@ -31,6 +35,19 @@ def test_explicit_method_is_counted_by_hand() -> None:
     assert y == integrate(
         bind(RK4, hamiltonian("pendulum", 1)).at(), fmpq(1, 10), 50
     )
+
+
+def test_clocks_that_tick_seldom_have_the_mean(
+    monkeypatch: pytest.MonkeyPatch,
+) -> None:
+    """A clock that moves once in two hundred looks shows no single run: a hundred of them took a
+    tick.
+    """
+    looks = count()
+    monkeypatch.setattr(work, "process_time", lambda: next(looks) // 200)
+    made = bind(RK4, hamiltonian("pendulum", 1)).at()
+    _, cost = work_of(made, fmpq(1, 10), 1)
+    assert cost.seconds == pytest.approx(1 / 100)
 
 
 def test_implicit_method_iterates() -> None:

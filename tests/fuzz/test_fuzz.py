@@ -7,7 +7,6 @@ from __future__ import annotations
 import os
 import warnings
 from collections.abc import Callable
-from dataclasses import dataclass
 from random import Random
 from time import process_time, sleep
 from typing import Any
@@ -235,28 +234,35 @@ def test_what_is_damaged_was_good() -> None:
     assert 8 < good < 32
 
 
-@dataclass(frozen=True)
-class Faulty(Cases):
-    """A loader that does what none may do with the third input, and sleeps over the first."""
+MISDEEDS = {
+    "2": "raises",
+    "4": "warns",
+    "6": "fills the memory",
+    "8": "has no faults",
+    "10": "works on",
+}
+"""What a loader does with some inputs and may not."""
 
-    misdeed: str = ""
+
+class Faulty(Cases):
+    """A loader with misdeeds, which sleeps over the first input."""
 
     def load(self, text: str) -> Tableau | None:
         """Nothing is loaded."""
-        if text.startswith("0"):
+        if text == "0":
             sleep(3 * self.seconds)
-        elif text.startswith("2"):
-            while self.misdeed == "works on":
-                pass
-            if self.misdeed == "fills the memory":
-                bytearray(2**30)
-            if self.misdeed == "warns":
+        match MISDEEDS.get(text):
+            case "raises":
+                raise ValueError
+            case "warns":
                 warnings.warn("soon gone", DeprecationWarning, stacklevel=1)
-            raise (
-                ValueError
-                if self.misdeed == "raises"
-                else MethodFileError("m", ())
-            )
+            case "fills the memory":
+                bytearray(2**30)
+            case "has no faults":
+                raise MethodFileError("m", ())
+            case "works on":
+                while True:
+                    pass
         return None
 
     def reader(self) -> Callable[[int], str]:
@@ -264,29 +270,25 @@ class Faulty(Cases):
         return str
 
 
-@pytest.mark.parametrize(
-    ("misdeed", "error"),
-    [
-        ("works on", "longer than 0.2 s"),
-        ("raises", "ValueError"),
-        ("warns", "DeprecationWarning"),
-        ("fills the memory", "MemoryError"),
-        ("has no faults", "without a place"),
-    ],
-)
-def test_faults_of_the_loader_are_found(misdeed: str, error: str) -> None:
+def test_faults_of_the_loader_are_found() -> None:
     """In workers every misdeed is a fault, at its number, and the next number follows; sleep takes
     no processor.
     """
-    found = run(Faulty(1, seconds=0.2, misdeed=misdeed), range(4))
-    assert [case.number for case in found] == [0, 1, 2, 3]
-    assert [case.kind for case in found] == [
-        "loaded",
-        "loaded",
-        "fault",
-        "loaded",
-    ]
-    assert error in found[2].error
+    found = run(Faulty(1, seconds=0.2), range(12))
+    assert [case.number for case in found] == [*range(12)]
+    assert {case.number for case in found if case.kind != "loaded"} == {
+        *map(int, MISDEEDS)
+    }
+    errors = {
+        MISDEEDS[str(case.number)]: case.error
+        for case in found
+        if case.kind == "fault"
+    }
+    assert "ValueError" in errors["raises"]
+    assert "DeprecationWarning" in errors["warns"]
+    assert "MemoryError" in errors["fills the memory"]
+    assert "without a place" in errors["has no faults"]
+    assert "longer than 0.2 s" in errors["works on"]
 
 
 @pytest.mark.parametrize("are_problems", [False, True])
