@@ -72,6 +72,11 @@ def _among(minimum: Minimum) -> str:
     match minimum.extent:
         case "all":
             return f"of all methods of order {order}"
+        case "nearly":
+            return (
+                f"the least of {counted(minimum.candidates, 'critical point')}; no method of order"
+                f" {order} has one that is less by more than 1e-9 of it"
+            )
         case "critical-points":
             points = counted(minimum.candidates, "critical point")
             return (

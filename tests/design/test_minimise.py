@@ -7,10 +7,11 @@ from fractions import Fraction
 from pathlib import Path
 
 import pytest
-from flint import fmpq
+from flint import fmpq, fmpq_mpoly
 
 from garkcli import find_order, load, loads
 from garkcli.design.design import Whose, find_parameters
+from garkcli.design.minimise.bound import is_nowhere_less
 from garkcli.design.minimise.minimise import minimise
 from garkcli.design.minimise.registry import OBJECTIVES, find_objective
 from garkcli.design.minimise.result import Candidate, Minimum
@@ -21,6 +22,7 @@ from garkcli.design.minimise.squared_error import (
 from garkcli.design.solutions import value_at
 from garkcli.exact.display import to_ball
 from garkcli.exact.polynomial_text import root_text
+from garkcli.exact.projection import PLANE
 from garkcli.methodfile.family import loads_family
 from garkcli.order.constants import error_constants
 from garkcli.tableau.forms import pair
@@ -149,10 +151,10 @@ def test_free_transfer(whose: Whose, objective: str) -> None:
 
 def test_three_explicit_stages() -> None:
     """Two free nodes: the derivatives of the four error coefficients, written down by hand, are
-    orthogonal to these there. All critical points are found, the ends are left open.
+    orthogonal to these there. That no method is less is proved up to rounding.
     """
     minimum = least("unknown: {stages: 3, shape: explicit}\n", "error", 3)
-    assert minimum.extent == "critical-points"
+    assert minimum.extent == "nearly"
     [candidate] = minimum.minimisers
     found = floats(minimum, candidate)
     c2, c3 = found["c2"], found["c3"]
@@ -390,3 +392,57 @@ design: {order: 2, fix: {b3: 0, a3: a1, b2: b1}}
     known = 1 / 2 - root / 12 + 1 / (6 * root)
     assert floats(minimum, candidate)["a1"] == pytest.approx(known, abs=1e-15)
     assert known == pytest.approx(0.1931833275037836, abs=1e-15)
+
+
+def test_entries_without_nodes() -> None:
+    """The same methods with unknown entries: nodes are made coordinates, and the least value is the
+    same number.
+    """
+    entries = """A: [[0, 0, 0], ["?", 0, 0], ["?", "?", 0]]
+b: ["?", "?", "?"]
+"""
+    minimum = least(entries, "error", 3)
+    other = least("unknown: {stages: 3, shape: explicit}\n", "error", 3)
+    assert minimum.value == other.value
+    [candidate] = minimum.minimisers
+    found = floats(minimum, candidate)
+    [known] = other.minimisers
+    assert found["a21"] == pytest.approx(floats(other, known)["c2"])
+
+
+def test_methods_of_higher_order_among_them() -> None:
+    """Three stages, order 2: the error is zero at the methods of order 3, a set of dimension 2 of
+    which some are shown.
+    """
+    text = "unknown: {stages: 3, shape: explicit}\n"
+    minimum = least(text, "error", 2)
+    assert value(minimum) == "0"
+    assert minimum.extent == "all"
+    for candidate in minimum.minimisers:
+        assert candidate.found.order is not None
+        assert candidate.found.order.order == 3
+
+
+X, Y = PLANE.gens()
+MOTZKIN = X**4 * Y**2 + X**2 * Y**4 - 3 * X**2 * Y**2 + 1
+
+
+@pytest.mark.parametrize(
+    ("numerator", "bound", "is_bound"),
+    [
+        (X**2 + Y**2 + 1, fmpq(1), True),
+        (X**2 + Y**2 + 1, fmpq(11, 10), False),
+        ((X * Y - 1) ** 2 + Y**2, fmpq(0), True),
+        ((X * Y - 1) ** 2 + Y**2, fmpq(1, 1000), False),
+        (MOTZKIN, fmpq(0), True),
+        (MOTZKIN, fmpq(1, 1000), False),
+    ],
+)
+def test_bounds_in_the_plane(
+    numerator: fmpq_mpoly, bound: fmpq, is_bound: bool
+) -> None:
+    """Also where an infimum is approached along xy = 1 and not reached, and of T. Motzkin's
+    polynomial, which is not negative and no sum of squares.
+    """
+    one = PLANE.constant(fmpq(1))
+    assert is_nowhere_less(numerator, one, bound) is is_bound

@@ -53,6 +53,7 @@ class Comparison(ABC):
         candidates: methods with their values.
         limits: values that are approached.
         gradients: the numerators of derivatives, by the coordinate.
+        parts: of the solution set.
     """
 
     design: Design
@@ -62,6 +63,7 @@ class Comparison(ABC):
     candidates: list[Candidate] = field(default_factory=list)
     limits: list[Limit] = field(default_factory=list)
     gradients: list[tuple[str, Polynomial]] = field(default_factory=list)
+    parts: list[Part] = field(default_factory=list)
 
     def result(self) -> Minimum:
         """The best of what was collected."""
@@ -70,17 +72,17 @@ class Comparison(ABC):
         best = self.best(values) if values else None
         minimisers = [x for x in self.candidates if x.value == best]
         limits = [x for x in self.limits if x.value == best]
-        extent = self.extent
+        extent = self.extent_of(best) if values else self.extent
         if self.step.ideal is not None and not self.step.ideal.is_proved:
             extent = "found"
         name, gradient = None, None
-        if len(self.gradients) == 1:
+        if len(self.gradients) == 1 and len(self.parts) == 1:
             [(name, gradient)] = self.gradients
         return Minimum(
             objective=self.objective,
             design=self.design,
             step=self.step,
-            extent="all" if self.is_bound(best) else extent,
+            extent=extent,
             value=self.shown(best),
             minimisers=tuple(map(self._certified, minimisers)),
             limits=() if minimisers else tuple(limits),
@@ -95,8 +97,8 @@ class Comparison(ABC):
         """The best of some values."""
 
     @abstractmethod
-    def is_bound(self, value: Size) -> bool:
-        """Whether no method can have a better one, whatever was compared."""
+    def extent_of(self, best: Size) -> Extent:
+        """Among what the best value is the best."""
 
     def shown(self, value: Size) -> Size:
         """What people mean by a value."""

@@ -11,7 +11,7 @@ from garkcli.design.minimise.comparison import Comparison, at_root
 from garkcli.design.minimise.levels import MOST_DEGREE, height, on_levels
 from garkcli.design.minimise.objective import Level, Size
 from garkcli.design.minimise.parts import Part
-from garkcli.design.minimise.result import Candidate, Limit
+from garkcli.design.minimise.result import Candidate, Extent, Limit
 from garkcli.design.solutions import Solution
 from garkcli.exact.field import Algebraic, Number
 from garkcli.exact.polynomial import Polynomial
@@ -27,8 +27,8 @@ class Highest(Comparison):
     def best(self, values: Sequence[Size]) -> Size:
         return max(values, key=height)
 
-    def is_bound(self, value: Size) -> bool:
-        return value is None
+    def extent_of(self, best: Size) -> Extent:
+        return "all" if best is None else self.extent
 
     def shown(self, value: Size) -> Size:
         return self.objective.shown(value)

@@ -12,6 +12,7 @@ from time import monotonic
 
 from garkcli.design.design import Design, Step
 from garkcli.design.minimise.comparison import Comparison
+from garkcli.design.minimise.coordinates import nodes_as_coordinates
 from garkcli.design.minimise.highest import Highest
 from garkcli.design.minimise.objective import Either, Level, Objective
 from garkcli.design.minimise.parts import parts_of
@@ -58,7 +59,9 @@ def minimise(
         comparison.selection()
     else:
         assert step.ideal is not None
-        for part in parts_of(step.ideal, deadline):
+        nodes = nodes_as_coordinates(design.tableau, step.ideal.ring)
+        for part in parts_of(step.ideal, deadline, nodes):
+            comparison.parts.append(part)
             comparison.over(part)
     return comparison.result()
 

@@ -15,6 +15,7 @@ from flint import fmpq, fmpq_mpoly, fmpz_mpoly
 
 from garkcli.design.ideal import Ideal, integral_scale
 from garkcli.design.member import value_of
+from garkcli.design.minimise.coordinates import Changes
 from garkcli.exact.field import Number
 from garkcli.exact.parametric import Mixed, Parameters, Parametric, fraction
 
@@ -59,20 +60,26 @@ class Part:
         return cast("Mixed", value_of(polynomial, ring, values))
 
 
-def parts_of(ideal: Ideal, deadline: float | None) -> Iterator[Part]:
+def parts_of(
+    ideal: Ideal, deadline: float | None, changes: Changes | None = None
+) -> Iterator[Part]:
     """The zeros of an ideal in parts.
 
     Args:
         ideal: of what is asked of all unknowns.
         deadline: the reading of ``time.monotonic`` at which it is given up; None for never.
+        changes: unknowns that are replaced by others.
 
     Raises:
         NotDecided: a Gröbner basis takes too long.
     """
-    splitting = _Splitting(ideal.ring, deadline)
-    nonzero = _factors(ideal.nonzero)
-    polynomials = without_unit(ideal)
-    yield from splitting.all_parts(polynomials, nonzero)
+    changed = changes or Changes(ideal.ring, ideal.ring, {})
+    splitting = _Splitting(changed.ring, deadline)
+    nonzero = _factors([changed.polynomial(p) for p in ideal.nonzero])
+    polynomials = [changed.polynomial(p) for p in without_unit(ideal)]
+    yield from splitting.parts(
+        polynomials, nonzero, changed.values(), changed.ring.names
+    )
 
 
 def parts_within(part: Part, zeros: Iterable[fmpq_mpoly]) -> Iterator[Part]:

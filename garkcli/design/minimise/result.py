@@ -11,9 +11,10 @@ from garkcli.design.minimise.objective import Level, Objective
 from garkcli.exact.polynomial import Polynomial
 from garkcli.exact.roots import RealRoot
 
-Extent: TypeAlias = Literal["all", "critical-points", "found"]
-"""Among what a minimum is the least: all methods; all critical points, while what happens at
-infinity and at values that are left out is open; or some of them.
+Extent: TypeAlias = Literal["all", "nearly", "critical-points", "found"]
+"""Among what a minimum is the least: all methods; all critical points, and no method is less by
+more than 10⁻⁹ of it; all critical points, while what happens at infinity and at values that are
+left out is open; or some methods.
 """
 
 

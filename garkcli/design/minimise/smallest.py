@@ -13,12 +13,13 @@ from flint import fmpq, fmpq_mpoly
 from garkcli.design.design import Found
 from garkcli.design.groebner import NotDecided
 from garkcli.design.member import member
+from garkcli.design.minimise.bound import is_nowhere_less
 from garkcli.design.minimise.comparison import Comparison, at_root, in_one
 from garkcli.design.minimise.critical import critical_equations
 from garkcli.design.minimise.line import on_line
 from garkcli.design.minimise.objective import ORIGIN, Objective, Size
 from garkcli.design.minimise.parts import Part, parts_within
-from garkcli.design.minimise.result import Candidate, Limit
+from garkcli.design.minimise.result import Candidate, Extent, Limit
 from garkcli.design.solutions import Solution, value_at
 from garkcli.exact.cells import between
 from garkcli.exact.parametric import fraction
@@ -40,6 +41,12 @@ CUTS = (fmpq(1, 2), fmpq(1, 3), fmpq(2, 3), fmpq(1), fmpq(1, 4), fmpq(3, 4))
 """Values of coordinates at which methods are looked for."""
 
 
+SLACK = fmpq(1, 10**9)
+"""By how much of it an irrational least value may be missed."""
+BITS = 128
+"""Of such a value, more than enough for that."""
+
+
 @dataclass
 class Smallest(Comparison):
     """Critical points, ends and limits of N/D."""
@@ -49,8 +56,31 @@ class Smallest(Comparison):
     def best(self, values: Sequence[Size]) -> Size:
         return min(x for x in values if x is not None)
 
-    def is_bound(self, value: Size) -> bool:
-        return value == ORIGIN  # they are sums of squares
+    def extent_of(self, best: Size) -> Extent:
+        if best == ORIGIN:
+            return "all"  # they are sums of squares
+        assert best is not None
+        if self.extent == "all":
+            return "all"
+        if not all(self._is_bounded(part, best) for part in self.parts):
+            return self.extent
+        return "all" if best.exact is not None else "nearly"
+
+    def _is_bounded(self, part: Part, best: RealRoot) -> bool:
+        """Whether no method of a part has a smaller value, of irrational ones by more than
+        rounding.
+        """
+        if part.dimension == 0 or (part.is_free and part.dimension == 1):
+            return True
+        if not part.is_free or part.dimension > 2:
+            return False
+        value = best.exact
+        if value is None:
+            mantissa, exponent = best.ball(BITS).mid().man_exp()
+            about = fmpq(mantissa) * fmpq(2) ** int(exponent)
+            value = about * (1 - SLACK)
+        numerator, denominator = self._formula(part)
+        return bool(is_nowhere_less(numerator, denominator, value))
 
     def value_of(self, solution: Solution, index: int) -> Size:
         ring = self.design.family.ring
