@@ -3,6 +3,7 @@
 from __future__ import annotations
 
 from collections.abc import Callable, Sequence
+from contextlib import suppress
 from dataclasses import dataclass, replace
 from time import monotonic
 from typing import Literal, TypeAlias
@@ -141,12 +142,13 @@ def find_parameters(
         has_other_engine = order is not None and find_msolve() is not None
         deadline = now + seconds
         first = now + SHARE * seconds if has_other_engine else deadline
-    start = Ideal(family.ring, nonzero, first).with_zeros(relations)
+    start = Ideal(family.ring, nonzero, deadline).with_zeros(relations)
     steps: list[Step] = []
     ideal = start
     for k in range(1, (order or DEFAULT_LIMIT) + 1):
-        wanted = family.relations if k == 1 else ()
-        step = _step(conditions, ideal, k, start, wanted)
+        step = _step(
+            _Stage(conditions, start, k, family.relations, first), ideal
+        )
         if step.kind == "undecided" and order is not None:
             step = _at_once(
                 conditions, start, order, deadline, family.relations
@@ -164,31 +166,95 @@ def find_parameters(
     return Design(family, whose, tableau, tuple(steps))
 
 
-def _step(
-    conditions: FamilyConditions,
-    ideal: Ideal,
-    order: int,
-    start: Ideal,
-    wanted: Sequence[fmpq_mpoly],
-) -> Step:
-    """What one order more asks of the parameters, and whatever else is wanted."""
-    try:
-        ideal = ideal.with_zeros(wanted)
+NO_TIME = 0.0
+"""A deadline for what is small alone."""
+
+
+@dataclass(frozen=True)
+class _Stage:
+    """What has to be decided of one order.
+
+    Attributes:
+        conditions: of the family.
+        start: the ideal without any.
+        order: that is asked for.
+        wanted: what else has to vanish.
+        deadline: until which it is tried.
+    """
+
+    conditions: FamilyConditions
+    start: Ideal
+    order: int
+    wanted: Sequence[fmpq_mpoly]
+    deadline: float | None
+
+    @property
+    def half(self) -> float | None:
+        """When half of the time that is left is over."""
+        if self.deadline is None:
+            return None
+        now = monotonic()
+        return now + max(0.0, self.deadline - now) / 2
+
+    def one_by_one(self, ideal: Ideal, deadline: float | None) -> Step:
+        """The conditions of the order one after the other, beginning with the ideal of those of
+        lower ones: small steps from one Gröbner basis to the next, and the first condition that
+        cannot be met is known.
+        """
+        ideal = ideal.until(deadline)
+        if self.order == 1:
+            ideal = ideal.with_zeros(self.wanted)
         if ideal.is_everything:
-            return Step(order, "none", ideal)
-        # one condition after the other: small steps from one Gröbner basis to the next, and the
-        # first condition that cannot be met is known
-        for condition in conditions.of_order(order):
+            return Step(self.order, "none", ideal)
+        for condition in self.conditions.of_order(self.order):
             ideal = ideal.with_zeros([condition.polynomial])
             if ideal.is_everything:
-                return Step(order, "none", ideal, condition.tree)
-    except NotDecided:
-        return Step(order, "undecided", None)
-    if ideal is start:
-        return Step(order, "every-value", ideal)
-    if ideal.dimension > 0:
-        return Step(order, "family", ideal)
-    return Step(order, "solutions", ideal)
+                return Step(self.order, "none", ideal, condition.tree)
+        return self._told(ideal)
+
+    def from_the_start(self, deadline: float | None) -> Step:
+        """All conditions up to the order at once: bases in between may be larger than the last."""
+        start = self.start.until(deadline)
+        polynomials = list(self.wanted)
+        for k in range(1, self.order):
+            lower = self.conditions.of_order(k)
+            polynomials += [condition.polynomial for condition in lower]
+        last = self.conditions.of_order(self.order)
+        added = [condition.polynomial for condition in last]
+        ideal = start.with_zeros([*polynomials, *added])
+        if not ideal.is_everything:
+            return self._told(ideal)
+        for count, condition in enumerate(last, start=1):
+            part = start.with_zeros([*polynomials, *added[:count]])
+            if part.is_everything:
+                return Step(self.order, "none", part, condition.tree)
+        raise AssertionError("the last part is the whole")
+
+    def _told(self, ideal: Ideal) -> Step:
+        ideal = ideal.until(self.start.deadline)
+        if ideal.basis == self.start.basis:
+            return Step(self.order, "every-value", ideal)
+        if ideal.dimension > 0:
+            return Step(self.order, "family", ideal)
+        return Step(self.order, "solutions", ideal)
+
+
+def _step(stage: _Stage, ideal: Ideal) -> Step:
+    """What one order more asks of the parameters, and whatever else is wanted.
+
+    Which way is quick is not known before: both are tried with small bases, then in the time that
+    there is.
+    """
+    ways: tuple[Callable[[], Step], ...] = (
+        lambda: stage.one_by_one(ideal, NO_TIME),
+        lambda: stage.from_the_start(NO_TIME),
+        lambda: stage.from_the_start(stage.half),
+        lambda: stage.one_by_one(ideal, stage.deadline),
+    )
+    for way in ways:
+        with suppress(NotDecided):
+            return way()
+    return Step(stage.order, "undecided", None)
 
 
 def _at_once(

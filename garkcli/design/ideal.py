@@ -18,10 +18,15 @@ from flint import (
     fmpz_mpoly_vec,
 )
 
-from garkcli.design.groebner import groebner_basis, unproved_basis
+from garkcli.design.groebner import (
+    Exponents,
+    divides,
+    groebner_basis,
+    leading,
+    unproved_basis,
+)
 from garkcli.exact.parametric import Parameters
 
-Exponents: TypeAlias = tuple[int, ...]
 UNIT = "_unit"
 """The unknown that keeps a product from being zero: UNIT · product = 1."""
 
@@ -74,6 +79,12 @@ class Ideal:
         tail = (0,) if self._has_unit else ()
         whole = {(*e, *tail): (a * denominator).p for e, a in terms.items()}
         return self._context.from_dict(whole)
+
+    def until(self, deadline: float | None) -> Ideal:
+        """The same ideal with another deadline."""
+        same = copy(self)
+        same.deadline = deadline
+        return same
 
     def with_zeros(self, polynomials: Iterable[fmpq_mpoly]) -> Ideal:
         """The ideal with further polynomials.
@@ -148,27 +159,26 @@ class Ideal:
         """
         if self.is_everything:
             return -1
-        leading = [_support(p) for p in self.basis]
+        supports = [_support(p) for p in self.basis]
         for size in range(self.variables, 0, -1):
             for chosen in combinations(range(self.variables), size):
                 kept = set(chosen)
-                if not any(support <= kept for support in leading):
+                if not any(support <= kept for support in supports):
                     return size
         return 0
 
     @property
     def degree(self) -> int:
         """How many complex zeros there are, with multiplicities; the ideal has dimension 0."""
-        leading = [_leading(p) for p in self.basis]
-        return len(_standard(leading, self.variables))
+        first = [leading(p) for p in self.basis]
+        return len(_standard(first, self.variables))
 
     def quotient(self) -> list[fmpq_mat]:
         """The algebra ℚ[t]/ideal: multiplication by each unknown as a matrix of its columns.
 
         The ideal has dimension 0.
         """
-        leading = [_leading(p) for p in self.basis]
-        monomials = _standard(leading, self.variables)
+        monomials = _standard([leading(p) for p in self.basis], self.variables)
         index = {e: k for k, e in enumerate(monomials)}
         lower = [_monic(p) for p in self.basis]
         matrices = []
@@ -196,18 +206,14 @@ def integral_scale(polynomial: fmpq_mpoly) -> fmpz:
 _Terms: TypeAlias = dict[Exponents, fmpq]
 
 
-def _leading(p: fmpz_mpoly) -> Exponents:
-    return tuple(int(x) for x in p.monoms()[0])
-
-
 def _support(p: fmpz_mpoly) -> set[int]:
     """The unknowns in the leading monomial."""
-    return {i for i, exponent in enumerate(_leading(p)) if exponent}
+    return {i for i, exponent in enumerate(leading(p)) if exponent}
 
 
 def _monic(p: fmpz_mpoly) -> tuple[Exponents, _Terms]:
     """The leading monomial, and what it is equal to modulo p."""
-    first = _leading(p)
+    first = leading(p)
     scale = fmpq(p.leading_coefficient())
     rest = {}
     for exponents, a in p.to_dict().items():
@@ -217,7 +223,7 @@ def _monic(p: fmpz_mpoly) -> tuple[Exponents, _Terms]:
     return first, rest
 
 
-def _standard(leading: Sequence[Exponents], variables: int) -> list[Exponents]:
+def _standard(first: Sequence[Exponents], variables: int) -> list[Exponents]:
     """The monomials that no leading one divides, finitely many, the constant first."""
     found: list[Exponents] = []
     level = [(0,) * variables]
@@ -227,14 +233,10 @@ def _standard(leading: Sequence[Exponents], variables: int) -> list[Exponents]:
         for e in level:
             for i in range(variables):
                 raised = (*e[:i], e[i] + 1, *e[i + 1 :])
-                if not any(_divides(x, raised) for x in leading):
+                if not any(divides(x, raised) for x in first):
                     following[raised] = None
         level = list(following)
     return found
-
-
-def _divides(a: Exponents, b: Exponents) -> bool:
-    return all(x <= y for x, y in zip(a, b, strict=True))
 
 
 def _normal_form(
@@ -245,7 +247,7 @@ def _normal_form(
     while terms:
         exponents, a = terms.popitem()
         for first, instead in lower:
-            if _divides(first, exponents):
+            if divides(first, exponents):
                 shift = tuple(
                     x - y for x, y in zip(exponents, first, strict=True)
                 )

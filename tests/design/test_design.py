@@ -6,16 +6,19 @@ import json
 from collections.abc import Mapping
 from fractions import Fraction
 from itertools import product
+from math import prod
 from pathlib import Path
+from typing import Any
 
 import pytest
-from flint import fmpq
+from flint import Ordering, fmpq, fmpz_mpoly_ctx, fmpz_mpoly_vec
 from hypothesis import given, settings
 from hypothesis import strategies as st
 
 from garkcli import find_order, loads, pair
 from garkcli.design.chosen import first_method
 from garkcli.design.design import Design, find_parameters
+from garkcli.design.groebner import reduced_basis
 from garkcli.design.solutions import value_at
 from garkcli.methodfile.family import loads_family, with_values
 from garkcli.report import design_data
@@ -322,3 +325,46 @@ def test_as_a_command(tmp_path: Path) -> None:
         2,
         True,
     )
+
+
+CLASSICAL = (
+    "1/2 1/2 1/2 1 0 1 1/6 1/3 1/3 1/6",
+    "1/3 2/3 1 1 -1 1 1/8 3/8 3/8 1/8",
+)
+"""Kutta's methods: c2, c3, a32, c4, a42, a43 and the weights."""
+
+
+def test_explicit_methods_of_four_stages() -> None:
+    """Order 4: a family of dimension 2; no value has order 5. One condition after the other leads to
+    bases that are too large; all of them at once do not.
+    """
+    family = loads_family("unknown: {stages: 4, shape: explicit}\n")
+    *_, four, five = find_parameters(family, 5, seconds=60).steps
+    assert (four.kind, five.kind) == ("family", "none")
+    assert four.ideal is not None
+    assert four.ideal.dimension == 2
+    for values in CLASSICAL:
+        known = [Fraction(x) for x in values.split()]
+        for p in four.ideal.polynomials:
+            terms = [(int(a), e) for e, a in p.to_dict().items()]
+            assert not sum(
+                a * prod(x ** int(k) for x, k in zip(known, e, strict=True))
+                for a, e in terms
+            )
+
+
+def test_reduced_bases() -> None:
+    """That of an ideal is unique: python-flint makes the same from any other basis of it."""
+    context = fmpz_mpoly_ctx.get(["x", "y", "z"], Ordering.degrevlex)
+    x, y, z = context.gens()
+    given = [2 * x**2 - 3 * y * z + 1, x * y - z**2, y**3 - 5 * x * z + y]
+    vector: Any = fmpz_mpoly_vec(given, context)
+    found = list(vector.buchberger_naive())
+    made = reduced_basis([*reversed(found), found[0] * y], context)
+    theirs = fmpz_mpoly_vec(found, context).autoreduction(groebner=True)
+    assert len(made) > 3
+    assert {str(p) for p in made} == {
+        str(p if p.leading_coefficient() > 0 else -p) for p in theirs
+    }
+    degrees = [p.total_degree() for p in made]
+    assert degrees == sorted(degrees)
