@@ -23,6 +23,7 @@ from garkcli.convergence.solver import NoUniqueStep
 from garkcli.convergence.work import MAX_DIGITS, REACHED, cost_of, work_of
 from garkcli.errors import UsageProblem
 from garkcli.exact.matrix import Matrix
+from garkcli.problems.expr import rational
 from garkcli.problems.hamiltonian import FLOAT_DIGITS, Hamiltonian
 from garkcli.problems.oscillator import Oscillator
 from garkcli.problems.vectorfield import symbols
@@ -246,12 +247,8 @@ def _errors_of(power: arb_mat, omega: fmpq, t: fmpq) -> tuple[arb, arb]:
 
 def hamiltonian_of(oscillator: Oscillator, t_end: fmpq) -> Hamiltonian:
     """The oscillator as a problem to be stepped, from q(0) = 1, p(0) = ω/2."""
-    import sympy
-
-    def rational(x: fmpq) -> sympy.Rational:
-        return sympy.Rational(int(x.p), int(x.q))
-
-    (q,), (p,) = symbols(("q",), "q"), symbols(("q",), "p")
+    (q,) = symbols(("q",), "q")
+    (p,) = symbols(("q",), "p")
     omega = rational(oscillator.omega)
     terms = []
     for k, v in oscillator.shares:

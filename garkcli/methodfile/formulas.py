@@ -18,6 +18,7 @@ from garkcli.methodfile.numbers import MAX_SIZE
 from garkcli.methodfile.source import Source, is_null
 from garkcli.methodfile.spellings import explained, is_misread
 from garkcli.methodfile.words import shortened
+from garkcli.problems.expr import rational
 from garkcli.problems.translate import Translator
 
 BITS = 320
@@ -154,8 +155,6 @@ class Formulas:
 
     def read_parameters(self, node: Node | None) -> None:
         """Read ``parameters``; each may use those before it."""
-        import sympy
-
         if node is None:
             return
         for name, value_node in self.source.mapping(
@@ -176,7 +175,7 @@ class Formulas:
             if found is not None:
                 expression, value = found
             if isinstance(value, fmpq):
-                self.made[name] = sympy.Rational(int(value.p), int(value.q))
+                self.made[name] = rational(value)
             else:
                 assert expression is not None
                 self.made[name] = self.translator({}).translate(expression)

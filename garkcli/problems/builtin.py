@@ -24,11 +24,15 @@ from garkcli.problems.hamiltonian import Hamiltonian
 from garkcli.problems.mechanical import (
     Mechanical,
     angular_momentum,
-    cosine,
-    heights_of_rods,
+    henon_heiles_potential,
     kepler_potential,
+    numbers,
+    pendulum_potential,
     rods,
+    rods_potential,
+    spring,
     springs,
+    two_springs,
 )
 from garkcli.problems.problem import Problem
 
@@ -128,9 +132,7 @@ _ENTRIES = (
         "½p² and parts of ½ω²q²; sees the unbranched trees only",
         "½p² + ½ω²q², the step map taken exactly",
         "the unbranched trees",
-        Mechanical(
-            ("q",), lambda q: (q**2 / 2,), (fmpq(1), fmpq(1, 2)), fmpq(4)
-        ),
+        Mechanical(("q",), spring, numbers("1 1/2"), fmpq(4)),
     ),
     mechanical(
         "split-oscillator",
@@ -139,8 +141,8 @@ _ENTRIES = (
         "the unbranched trees",
         Mechanical(
             ("x", "y"),
-            lambda x, y: (x**2 / 2, 25 * (y - x) ** 2 / 8),
-            (fmpq(1), fmpq(1, 2), fmpq(0), fmpq(1)),
+            two_springs,
+            numbers("1 1/2 0 1"),
             fmpq(2),
             long_run=_TENTHS,
         ),
@@ -152,8 +154,8 @@ _ENTRIES = (
         _ALTERNATING,
         Mechanical(
             ("x",),
-            lambda x: (1 - cosine(x),),
-            (fmpq(1), fmpq(1, 2)),
+            pendulum_potential,
+            numbers("1 1/2"),
             fmpq(4),
             long_run=_TENTHS,
         ),
@@ -167,7 +169,7 @@ _ENTRIES = (
             ("x", "y"),
             kepler_potential,
             # at the pericentre, with eccentricity 3/5 and period 2π
-            (fmpq(2, 5), fmpq(0), fmpq(0), fmpq(2)),
+            numbers("2/5 0 0 2"),
             fmpq(2),
             invariants=angular_momentum,
             long_run=(fmpq(1, 50), fmpq(1000)),
@@ -180,8 +182,8 @@ _ENTRIES = (
         _ALTERNATING,
         Mechanical(
             ("x", "y"),
-            lambda x, y: ((x**2 + y**2) / 2 + x**2 * y - y**3 / 3,),
-            (fmpq(0), fmpq(3, 10), fmpq(2, 5), fmpq(1, 10)),
+            henon_heiles_potential,
+            numbers("0 3/10 2/5 1/10"),
             fmpq(4),
             long_run=_TENTHS,
         ),
@@ -194,7 +196,7 @@ _ENTRIES = (
         Mechanical(
             ("x", "y", "z"),
             springs,
-            (fmpq(1), fmpq(1, 2), fmpq(-1, 4), fmpq(0), fmpq(1, 2), fmpq(0)),
+            numbers("1 1/2 -1/4 0 1/2 0"),
             fmpq(2),
             long_run=_TENTHS,
         ),
@@ -206,8 +208,8 @@ _ENTRIES = (
         "all; what depends on positions alone has only velocities as branches",
         Mechanical(
             ("a", "b"),
-            heights_of_rods,
-            (fmpq(1), fmpq(-1, 2), fmpq(1), fmpq(1, 2)),
+            rods_potential,
+            numbers("1 -1/2 1 1/2"),
             fmpq(2),
             kinetic=rods,
         ),

@@ -17,9 +17,8 @@ def merge_terms(problem: Problem, terms: int) -> Problem:
     """
     last = terms - 1
     if isinstance(problem, Hamiltonian):
-        kept, added = problem.terms[:last], problem.terms[last:]
-        return replace(problem, terms=(*kept, sum(added)))
-    first, rest = problem.terms[:last], problem.terms[last:]
-    by_component = zip(*rest, strict=True)
-    merged = tuple(map(sum, by_component))
-    return replace(problem, terms=(*first, merged))
+        total = sum(problem.terms[last:])
+        return replace(problem, terms=(*problem.terms[:last], total))
+    by_component = zip(*problem.terms[last:], strict=True)
+    totals = tuple(map(sum, by_component))
+    return replace(problem, terms=(*problem.terms[:last], totals))

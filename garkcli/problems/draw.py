@@ -37,7 +37,8 @@ class Draw:
 
     def between(self, low: int, high: int) -> int:
         """A whole number from ``low`` to ``high``, both included."""
-        return low + self.word() * (high - low + 1) // _WORD
+        count = high - low + 1
+        return low + self.word() * count // _WORD
 
     def sign(self) -> int:
         """−1 or 1."""

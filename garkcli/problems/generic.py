@@ -2,12 +2,10 @@
 
 from __future__ import annotations
 
-from collections.abc import Sequence
-from typing import Any
-
 from flint import fmpq
 
 from garkcli.problems.draw import Draw
+from garkcli.problems.expr import Expr, Exprs, Vector, dot
 from garkcli.problems.hamiltonian import Hamiltonian
 from garkcli.problems.righthandside import RightHandSide
 from garkcli.problems.vectorfield import symbols
@@ -21,6 +19,8 @@ VARIABLES = ("x", "y")
 UNKNOWNS = ("x", "y", "z")
 """Those of right-hand sides."""
 _FORMS = 3  # powers of linear forms in each term
+# step and time; the solutions need not exist for longer
+_LONG_RUN = (fmpq(1, 100), fmpq(1))
 
 
 def generic(terms: int, seed: int) -> Hamiltonian:
@@ -38,22 +38,24 @@ def generic(terms: int, seed: int) -> Hamiltonian:
 def semi_separable(terms: int, seed: int) -> Hamiltonian:
     """H^{1}(q, p) + Σ_l U^{l}(q), for methods that give forces to all terms but the first."""
     draw = Draw(seed)
-    split = [polynomial(draw, (*_positions(), *_momenta()), terms)]
-    split += [polynomial(draw, _positions(), terms) for _ in range(terms - 1)]
+    q, p = _positions(), _momenta()
+    split = [polynomial(draw, (*q, *p), terms)]
+    while len(split) < terms:
+        split.append(polynomial(draw, q, terms))
     return _problem("generic-semi-separable", split, draw)
 
 
 def separable(terms: int, seed: int) -> Hamiltonian:
     """T(p) + Σ_l U^{l}(q): velocities and forces alternate, and nothing else is missing."""
     draw = Draw(seed)
-    return _separated(
-        "generic-separable", polynomial(draw, _momenta(), terms), terms, draw
-    )
+    kinetic = polynomial(draw, _momenta(), terms)
+    return _separated("generic-separable", kinetic, terms, draw)
 
 
 def nystrom(terms: int, seed: int) -> Hamiltonian:
     """½|p|² + Σ_l U^{l}(q): velocities are linear, so that they do not branch."""
-    kinetic = sum(p**2 for p in _momenta()) / 2
+    squares = [p**2 for p in _momenta()]
+    kinetic = sum(squares) / 2
     return _separated("generic-nystrom", kinetic, terms, Draw(seed))
 
 
@@ -79,32 +81,29 @@ def generic_rhs(
         "generic-rhs",
         UNKNOWNS,
         tuple(split),
-        tuple(fmpq(draw.between(-10, 10), 50) for _ in UNKNOWNS),
+        _near_zero(draw, len(UNKNOWNS)),
         fmpq(1),
         is_generic=True,
-        long_run=(
-            fmpq(1, 100),
-            fmpq(1),
-        ),  # the solutions need not exist for longer
+        long_run=_LONG_RUN,
     )
 
 
-def _right_hand_side(
-    draw: Draw, y: Sequence[Any], terms: int, degree: int
-) -> tuple[Any, ...]:
+def _right_hand_side(draw: Draw, y: Vector, terms: int, degree: int) -> Exprs:
     """Σ_k v_k (1 + a_k·y)^degree, as many expressions as there are unknowns."""
     import sympy
 
     total = [sympy.Integer(0) for _ in y]
     for _ in range(_FORMS):
         form = _form(draw, y)
+        power = form**degree
         for i in range(len(y)):
             numerator = draw.sign() * draw.between(5, 20)
-            total[i] += sympy.Rational(numerator, 100 * terms) * form**degree
+            factor = sympy.Rational(numerator, 100 * terms)
+            total[i] += factor * power
     return tuple(total)
 
 
-def _form(draw: Draw, variables: Sequence[Any]) -> Any:
+def _form(draw: Draw, variables: Vector) -> Expr:
     """1 + a·y with random a."""
     import sympy
 
@@ -112,21 +111,22 @@ def _form(draw: Draw, variables: Sequence[Any]) -> Any:
     for _variable in variables:
         numerator = draw.sign() * draw.between(3, 12)
         slopes.append(sympy.Rational(numerator, 20))
-    return 1 + sum(a * x for a, x in zip(slopes, variables, strict=True))
+    return 1 + dot(slopes, variables)
 
 
-def _separated(name: str, kinetic: Any, terms: int, draw: Draw) -> Hamiltonian:
+def _separated(
+    name: str, kinetic: Expr, terms: int, draw: Draw
+) -> Hamiltonian:
+    """T + Σ U, in one term where there is no other."""
+    q = _positions()
     if terms == 1:
-        return _problem(
-            name, [kinetic + polynomial(draw, _positions(), terms)], draw
-        )
-    potentials = [
-        polynomial(draw, _positions(), terms) for _ in range(terms - 1)
-    ]
+        total = kinetic + polynomial(draw, q, terms)
+        return _problem(name, [total], draw)
+    potentials = [polynomial(draw, q, terms) for _ in range(terms - 1)]
     return _problem(name, [kinetic, *potentials], draw)
 
 
-def _problem(name: str, split: Sequence[Any], draw: Draw) -> Hamiltonian:
+def _problem(name: str, split: Vector, draw: Draw) -> Hamiltonian:
     return Hamiltonian(
         name,
         VARIABLES,
@@ -134,22 +134,19 @@ def _problem(name: str, split: Sequence[Any], draw: Draw) -> Hamiltonian:
         start(draw),
         fmpq(1),
         is_generic=True,
-        long_run=(
-            fmpq(1, 100),
-            fmpq(1),
-        ),  # the solutions need not exist for longer
+        long_run=_LONG_RUN,
     )
 
 
-def _positions() -> tuple[Any, ...]:
+def _positions() -> Exprs:
     return symbols(VARIABLES, "q")
 
 
-def _momenta() -> tuple[Any, ...]:
+def _momenta() -> Exprs:
     return symbols(VARIABLES, "p")
 
 
-def polynomial(draw: Draw, variables: Sequence[Any], terms: int) -> Any:
+def polynomial(draw: Draw, variables: Vector, terms: int) -> Expr:
     """Σ_k c_k (1 + a_k·y)^8 in the symbols y, one of ``terms`` terms of a Hamiltonian.
 
     Powers of linear forms span all polynomials; three of them a term are enough for no derivative
@@ -168,5 +165,10 @@ def polynomial(draw: Draw, variables: Sequence[Any], terms: int) -> Any:
 
 def start(draw: Draw) -> tuple[fmpq, ...]:
     """q(0), then p(0), each at most 1/5 from zero."""
-    count = 2 * len(VARIABLES)
-    return tuple(fmpq(draw.between(-10, 10), 50) for _ in range(count))
+    return _near_zero(draw, 2 * len(VARIABLES))
+
+
+def _near_zero(draw: Draw, count: int) -> tuple[fmpq, ...]:
+    """Random numbers, each at most 1/5 from zero."""
+    numerators = [draw.between(-10, 10) for _ in range(count)]
+    return tuple(fmpq(n, 50) for n in numerators)

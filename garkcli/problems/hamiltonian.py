@@ -10,10 +10,10 @@ from __future__ import annotations
 
 from dataclasses import dataclass, replace
 from functools import cache
-from typing import Any
 
 from flint import fmpq
 
+from garkcli.problems.expr import Expr, Exprs, Invariants
 from garkcli.problems.vectorfield import (
     GROUPS,
     Group,
@@ -46,10 +46,10 @@ class Hamiltonian:
 
     name: str
     variables: tuple[str, ...]
-    terms: tuple[Any, ...]
+    terms: Exprs
     initial: tuple[fmpq, ...]
     t_end: fmpq
-    invariants: tuple[tuple[str, Any], ...] = ()
+    invariants: Invariants = ()
     is_generic: bool = False
     long_run: tuple[fmpq, fmpq] | None = None
 
@@ -59,7 +59,7 @@ class Hamiltonian:
         return len(self.variables)
 
     @property
-    def energy(self) -> Any:
+    def energy(self) -> Expr:
         """H, a sympy expression."""
         return sum(self.terms)
 
@@ -69,7 +69,7 @@ class Hamiltonian:
         return Layout(GROUPS, self.dimension)
 
     @property
-    def quantities(self) -> tuple[tuple[str, Any], ...]:
+    def quantities(self) -> Invariants:
         """What is conserved: the energy, then the invariants; a name and an expression each."""
         return (("energy", self.energy), *self.invariants)
 
@@ -87,7 +87,9 @@ def vector_field(
 
     H = problem.terms[term]
     q, p = (symbols(problem.variables, group) for group in GROUPS)
-    sign, by = (1, p) if drives == "q" else (-1, q)
-    components = tuple(sign * sympy.diff(H, x) for x in by)
+    if drives == "q":
+        components = tuple(sympy.diff(H, x) for x in p)
+    else:
+        components = tuple(-sympy.diff(H, x) for x in q)
     depends = occurring(components, problem.variables, GROUPS)
     return VectorField(components, problem.variables, depends)

@@ -9,12 +9,8 @@ semi-separable and separable cases).
 
 from __future__ import annotations
 
-from collections.abc import Mapping
-from typing import Any
-
-from flint import arb
-
 from garkcli.errors import NoLegendreTransform
+from garkcli.problems.expr import Expr, Place
 from garkcli.problems.inversion import by_solving
 from garkcli.problems.mass import (
     Lagrangian,
@@ -27,8 +23,8 @@ from garkcli.problems.vectorfield import symbols
 
 
 def legendre_transform(
-    L: Any, variables: tuple[str, ...], start: Mapping[Any, arb]
-) -> Any:
+    L: Expr, variables: tuple[str, ...], start: Place
+) -> Expr:
     """The Hamiltonian of a Lagrangian, sympy expressions both.
 
     Lagrangians that are quadratic in the velocities are transformed exactly: with L = ½ v·Mv + b·v
@@ -57,9 +53,9 @@ def legendre_transform(
         return -L
     if len(present) < len(v):
         missing = ", ".join(str(x) for x in v if x not in present)
+        others = ", ".join(map(str, present))
         raise NoLegendreTransform(
-            f"the mass matrix is singular: {missing} does not occur beside "
-            f"{', '.join(map(str, present))}",
+            f"the mass matrix is singular: {missing} does not occur beside {others}",
             f"each term has all velocities or none; move {missing} into this term, "
             f"or write the Hamiltonian",
         )
@@ -69,7 +65,7 @@ def legendre_transform(
     return by_solving(lagrangian)
 
 
-def _of_quadratic(lagrangian: Lagrangian) -> Any:
+def _of_quadratic(lagrangian: Lagrangian) -> Expr:
     """H = ½ (p − b)·M⁻¹(p − b) − c, block by block of M."""
     import sympy
 
@@ -82,12 +78,11 @@ def _of_quadratic(lagrangian: Lagrangian) -> Any:
     H = [-lagrangian.L.xreplace(at_rest)]
     for block in coupled(M):
         own = [[M[i][j] for j in block] for i in block]
-        inverse, divisor = inverse_of(
-            own, [v[i] for i in block], lagrangian.start
-        )
+        names = [v[i] for i in block]
+        inverse, divisor = inverse_of(own, names, lagrangian.start)
         products = []
-        for a, i in enumerate(block):
-            for b, j in enumerate(block):
-                products.append(inverse[a][b] * shifted[i] * shifted[j])
+        for row, i in zip(inverse, block, strict=True):
+            for entry, j in zip(row, block, strict=True):
+                products.append(entry * shifted[i] * shifted[j])
         H.append(sympy.Add(*products) / (2 * divisor))
     return sympy.Add(*H)

@@ -2,15 +2,23 @@
 
 from __future__ import annotations
 
-from collections.abc import Mapping, Sequence
 from dataclasses import dataclass
 from functools import cache
 from typing import Any, TypeAlias
 
-from flint import arb, ctx, fmpq, fmpq_mat
+from flint import arb, ctx, fmpq_mat
 
 from garkcli.errors import NoLegendreTransform
 from garkcli.graph import components
+from garkcli.problems.expr import (
+    Expr,
+    ExprMatrix,
+    Exprs,
+    Place,
+    Vector,
+    number,
+    rational,
+)
 from garkcli.problems.straightline import function
 
 MAX_COUPLED = 5
@@ -23,7 +31,7 @@ BITS = 300
 
 
 @cache
-def velocities(variables: tuple[str, ...]) -> tuple[Any, ...]:
+def velocities(variables: tuple[str, ...]) -> Exprs:
     """The sympy symbols of the velocities, shape (d,): that of ``x`` is ``vx``."""
     import sympy
 
@@ -42,11 +50,11 @@ class Lagrangian:
         start: what is known at the start.
     """
 
-    L: Any
-    gradient: Sequence[Any]
-    M: Sequence[Sequence[Any]]
+    L: Expr
+    gradient: Vector
+    M: ExprMatrix
     variables: tuple[str, ...]
-    start: Mapping[Any, arb]
+    start: Place
 
     @property
     def is_quadratic(self) -> bool:
@@ -57,7 +65,7 @@ class Lagrangian:
 
 
 def differentiated(
-    L: Any, variables: tuple[str, ...], start: Mapping[Any, arb]
+    L: Expr, variables: tuple[str, ...], start: Place
 ) -> Lagrangian:
     """``L`` with its derivatives by the velocities."""
     v = velocities(variables)
@@ -66,7 +74,7 @@ def differentiated(
     return Lagrangian(L, gradient, M, variables, start)
 
 
-def coupled(M: Sequence[Sequence[Any]]) -> list[list[int]]:
+def coupled(M: ExprMatrix) -> list[list[int]]:
     """The sets of velocities that entries of M couple, each in order."""
     after: dict[int, list[int]] = {}
     for i, row in enumerate(M):
@@ -78,8 +86,8 @@ def coupled(M: Sequence[Sequence[Any]]) -> list[list[int]]:
 
 
 def inverse_of(
-    M: Sequence[Sequence[Any]], names: Sequence[Any], start: Mapping[Any, arb]
-) -> tuple[list[list[Any]], Any]:
+    M: ExprMatrix, names: Vector, start: Place
+) -> tuple[list[list[Expr]], Expr]:
     """The inverse of a symmetric matrix as a matrix and its divisor: the adjugate and the
     determinant, or 1.
 
@@ -105,23 +113,21 @@ def inverse_of(
         )
     minors = _Minors(M)
     det = minors.determinant()
-    if det == 0 or enclosed([det], start)[0].contains(0):
+    if det == 0:
+        raise singular
+    (at_start,) = enclosed([det], start)
+    if at_start.contains(0):
         raise singular
     return minors.adjugate(), det
 
 
-def _inverse_of_numbers(M: Sequence[Sequence[Any]]) -> list[list[Any]] | None:
+def _inverse_of_numbers(M: ExprMatrix) -> list[list[Expr]] | None:
     """The inverse of a matrix of rational numbers; None where it is singular."""
-    import sympy
-
-    n = len(M)
-    entries = [x for row in M for x in row]
-    matrix = fmpq_mat(n, n, [fmpq(int(x.p), int(x.q)) for x in entries])
+    matrix = fmpq_mat([[number(x) for x in row] for row in M])
     if not matrix.det():
         return None
-    numbers = matrix.inv().entries()
-    inverse = [sympy.Rational(int(x.p), int(x.q)) for x in numbers]
-    return [inverse[i : i + n] for i in range(0, n * n, n)]
+    rows = matrix.inv().tolist()
+    return [[rational(x) for x in row] for row in rows]
 
 
 _Places: TypeAlias = tuple[int, ...]
@@ -131,16 +137,16 @@ _Places: TypeAlias = tuple[int, ...]
 class _Minors:
     """The minors of a symmetric matrix, each computed once."""
 
-    def __init__(self, M: Sequence[Sequence[Any]]) -> None:
+    def __init__(self, M: ExprMatrix) -> None:
         self._M = M
         self._every = tuple(range(len(M)))
         self._known: dict[tuple[_Places, _Places], Any] = {}
 
-    def determinant(self) -> Any:
+    def determinant(self) -> Expr:
         """That of the matrix."""
         return self._of(self._every, self._every)
 
-    def adjugate(self) -> list[list[Any]]:
+    def adjugate(self) -> list[list[Expr]]:
         """The determinant times the inverse; symmetric, so one of each pair of entries is made."""
         rows = []
         for i in self._every:
@@ -153,7 +159,7 @@ class _Minors:
             rows.append(row)
         return rows
 
-    def _of(self, rows: _Places, columns: _Places) -> Any:
+    def _of(self, rows: _Places, columns: _Places) -> Expr:
         """The determinant of some rows and columns, by its first row."""
         import sympy
 
@@ -164,8 +170,9 @@ class _Minors:
             total = 0
             for k, j in enumerate(columns):
                 remaining = columns[:k] + columns[k + 1 :]
-                rest = self._of(tuple(others), remaining)
-                total += (-1) ** k * self._M[first][j] * rest
+                minor = self._of(tuple(others), remaining)
+                entry = self._M[first][j]
+                total += (-1) ** k * entry * minor
             self._known[rows, columns] = total
         return self._known[rows, columns]
 
@@ -173,7 +180,7 @@ class _Minors:
         return self._every[:i] + self._every[i + 1 :]
 
 
-def enclosed(expressions: Sequence[Any], at: Mapping[Any, arb]) -> list[arb]:
+def enclosed(expressions: Vector, at: Place) -> list[arb]:
     """The expressions, enclosed; not finite where they have no value, or kinks."""
     import sympy
 
@@ -182,13 +189,13 @@ def enclosed(expressions: Sequence[Any], at: Mapping[Any, arb]) -> list[arb]:
         return [arb("nan")] * len(made)
     with ctx.workprec(BITS):
         try:
-            values = function(made, tuple(at), True)(*at.values())
-            return [arb(x) for x in values]
+            evaluate = function(made, tuple(at), True)
+            return [arb(x) for x in evaluate(*at.values())]
         except (ArithmeticError, ValueError):
             return [arb("nan")] * len(made)
 
 
-def is_smooth(expression: Any) -> bool:
+def is_smooth(expression: Expr) -> bool:
     """Whether a sympy expression is real and has no |x|, which sympy makes of roots of squares."""
     import sympy
 

@@ -12,24 +12,21 @@ from typing import Any, TypeAlias
 
 from flint import arb, fmpq
 
+from garkcli.problems.expr import Expr, Exprs, Invariants
 from garkcli.problems.hamiltonian import Hamiltonian
 from garkcli.problems.vectorfield import symbols
 
-Expressions: TypeAlias = tuple[Any, ...]
-"""Of sympy, which is imported when they are needed."""
-Invariants: TypeAlias = tuple[tuple[str, Any], ...]
-"""Names, and expressions in positions and momenta."""
-Energy: TypeAlias = Callable[[Expressions, Expressions], Any]
+Energy: TypeAlias = Callable[[Exprs, Exprs], Any]
 """An expression in positions and momenta."""
 
 
-def half_square(_: Expressions, p: Expressions) -> Any:
+def half_square(_: Exprs, p: Exprs) -> Expr:
     """The kinetic energy ½|p|² of unit masses."""
     squares = [x**2 for x in p]
     return sum(squares) / 2
 
 
-def no_invariants(*_: Any) -> Invariants:
+def no_invariants(*_: Expr) -> Invariants:
     """Nothing is known to be conserved besides H."""
     return ()
 
@@ -49,7 +46,7 @@ class Mechanical:
     """
 
     variables: tuple[str, ...]
-    potentials: Callable[..., Expressions]
+    potentials: Callable[..., Exprs]
     initial: tuple[fmpq, ...]
     t_end: fmpq
     kinetic: Energy = half_square
@@ -70,9 +67,7 @@ class Mechanical:
             long_run=self.long_run,
         )
 
-    def _split(
-        self, q: Expressions, p: Expressions, terms: int
-    ) -> Expressions:
+    def _split(self, q: Exprs, p: Exprs, terms: int) -> Exprs:
         """T, and the parts of V or equal shares of it."""
         import sympy
 
@@ -88,14 +83,46 @@ class Mechanical:
         return (T, *[share] * shares)
 
 
-def cosine(x: Any) -> Any:
-    """Cos x."""
+def numbers(text: str) -> tuple[fmpq, ...]:
+    """Rational numbers separated by blanks: q(0), then p(0).
+
+    >>> numbers("1 -1/2")
+    (1, -1/2)
+    """
+    return tuple(map(fmpq, text.split()))
+
+
+def spring(q: Expr) -> Exprs:
+    """½ω²q² with ω = 1."""
+    return (q**2 / 2,)
+
+
+def two_springs(x: Expr, y: Expr) -> Exprs:
+    """½x² and ½(5/2)²(y − x)²."""
+    length = y - x
+    return x**2 / 2, 25 * length**2 / 8
+
+
+def pendulum_potential(x: Expr) -> Exprs:
+    """1 − cos q."""
+    return (_height(x),)
+
+
+def _height(angle: Expr) -> Expr:
+    """How far the end of a rod of length 1 is above its lowest place."""
     import sympy
 
-    return sympy.cos(x)
+    return 1 - sympy.cos(angle)
 
 
-def kepler_potential(x: Any, y: Any) -> Expressions:
+def henon_heiles_potential(x: Expr, y: Expr) -> Exprs:
+    """½|q|² + x²y − y³/3."""
+    springs = (x**2 + y**2) / 2
+    cubic = x**2 * y - y**3 / 3
+    return (springs + cubic,)
+
+
+def kepler_potential(x: Expr, y: Expr) -> Exprs:
     """−1/|q|."""
     import sympy
 
@@ -103,12 +130,12 @@ def kepler_potential(x: Any, y: Any) -> Expressions:
     return (-1 / distance,)
 
 
-def angular_momentum(x: Any, y: Any, px: Any, py: Any) -> Invariants:
+def angular_momentum(x: Expr, y: Expr, px: Expr, py: Expr) -> Invariants:
     """Of a mass in the plane, about the origin."""
     return (("angular momentum", x * py - y * px),)
 
 
-def springs(*q: Any) -> Expressions:
+def springs(*q: Expr) -> Exprs:
     """Springs between walls with quadratic and cubic forces, α = 1/4, β = 1/2: V = Σ r²/2 + αr³/3 +
     βr⁴/4.
     """
@@ -116,18 +143,19 @@ def springs(*q: Any) -> Expressions:
     V = 0
     for a, b in zip(left, right, strict=True):
         r = b - a
-        V += r**2 / 2 + r**3 / 12 + r**4 / 8
+        V += r**2 / 2
+        V += r**3 / 12  # α/3
+        V += r**4 / 8  # β/4
     return (V,)
 
 
-def heights_of_rods(a: Any, b: Any) -> Expressions:
+def rods_potential(a: Expr, b: Expr) -> Exprs:
     """V of the upper and of the lower mass at the ends of two rods of length 1."""
-    upper = 1 - cosine(a)
-    lower = 2 - cosine(a) - cosine(b)
-    return upper, lower
+    upper = _height(a)
+    return upper, upper + _height(b)
 
 
-def rods(q: Expressions, _: Expressions) -> Any:
+def rods(q: Exprs, _: Exprs) -> Expr:
     """T of two rods of length 1 with masses 1, in absolute angles: its mass matrix depends on their
     difference.
     """

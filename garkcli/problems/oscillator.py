@@ -8,6 +8,7 @@ momentum part only.
 from __future__ import annotations
 
 from dataclasses import dataclass
+from typing import TypeAlias
 
 from flint import fmpq
 
@@ -17,6 +18,9 @@ from garkcli.exact.expression import parse
 from garkcli.exact.field import ONE, ZERO
 from garkcli.exact.matrix import Matrix
 from garkcli.tableau.tableau import Colour, Tableau
+
+Shares: TypeAlias = tuple[tuple[fmpq, fmpq], ...]
+"""(k_l, v_l) for each term of a split."""
 
 
 @dataclass(frozen=True)
@@ -36,7 +40,7 @@ class Oscillator:
     """
 
     omega: fmpq
-    shares: tuple[tuple[fmpq, fmpq], ...]
+    shares: Shares
 
     def __post_init__(self) -> None:
         if self.omega <= 0:
@@ -73,7 +77,8 @@ class Oscillator:
     def matrix(self, colour: Colour) -> Matrix:
         """L with (q, p)˙ = L (q, p) for the vector field of ``colour``, shape (2, 2)."""
         k, v = self.drives(colour)
-        return ((ZERO, k), (-self.omega * self.omega * v, ZERO))
+        stiffness = self.omega * self.omega * v
+        return ((ZERO, k), (-stiffness, ZERO))
 
 
 def terms_of(tableau: Tableau) -> int:
@@ -81,7 +86,7 @@ def terms_of(tableau: Tableau) -> int:
     return 1 + max(colour.term for colour in tableau.colours)
 
 
-def parse_shares(text: str, terms: int) -> tuple[tuple[fmpq, fmpq], ...]:
+def parse_shares(text: str, terms: int) -> Shares:
     """Read ``kinetic:potential`` for each term, separated by commas.
 
     Raises:
@@ -99,10 +104,11 @@ def parse_shares(text: str, terms: int) -> tuple[tuple[fmpq, fmpq], ...]:
         )
     shares = []
     for part in parts:
-        numbers = part.split(":")
-        if len(numbers) != 2:
+        texts = part.split(":")
+        if len(texts) != 2:
             raise UsageProblem(f"{part.strip()!r} is no pair of shares", cure)
-        shares.append((_share(numbers[0]), _share(numbers[1])))
+        kinetic, potential = map(_share, texts)
+        shares.append((kinetic, potential))
     return Oscillator(ONE, tuple(shares)).shares  # checks the sums
 
 
@@ -157,18 +163,21 @@ def check_structure(tableau: Tableau, problem: Oscillator) -> None:
     driven = [problem.drives(colour) for colour in tableau.colours]
     for l, (k_l, v_l) in enumerate(driven):
         for m, (k_m, v_m) in enumerate(driven):
-            is_seen = k_l * v_m or v_l * k_m  # the product L^l L^m is not zero
-            if is_seen and tableau.block(l, m) is None:
-                l_name, m_name = (
-                    tableau.colours[l].name,
-                    tableau.colours[m].name,
-                )
-                raise UsageProblem(
-                    f"with this split the field of colour {l_name} depends on what colour {m_name} "
-                    f"drives, which its stages do not see",
-                    f"give the shares that the structure is for with --split, such as "
-                    f"{example_shares(terms)}",
-                )
+            is_needed = k_l * v_m or v_l * k_m  # L^l L^m is not zero
+            if is_needed and tableau.block(l, m) is None:
+                raise _unseen(tableau, l, m)
+
+
+def _unseen(tableau: Tableau, l: int, m: int) -> UsageProblem:
+    """Colour l depends on what colour m drives, and its stages do not see it."""
+    one = tableau.colours[l].name
+    other = tableau.colours[m].name
+    example = example_shares(terms_of(tableau))
+    return UsageProblem(
+        f"with this split the field of colour {one} depends on what colour {other} "
+        f"drives, which its stages do not see",
+        f"give the shares that the structure is for with --split, such as {example}",
+    )
 
 
 def _check_colour(tableau: Tableau, term: int, part: str, energy: str) -> None:

@@ -5,6 +5,7 @@ from __future__ import annotations
 from collections.abc import Callable
 from typing import Any, TypeAlias
 
+from garkcli.problems.expr import Exprs
 from garkcli.problems.hamiltonian import (
     FLOAT_DIGITS,
     Hamiltonian,
@@ -25,10 +26,13 @@ def field_of(problem: Problem, term: int, drives: Group) -> VectorField:
     return right_hand_side(problem, term)
 
 
-def unknowns(problem: Problem) -> tuple[Any, ...]:
+def unknowns(problem: Problem) -> Exprs:
     """The symbols of a state, time excluded."""
-    groups = [g for g in problem.layout.groups if g != TIME]
-    return tuple(x for g in groups for x in symbols(problem.variables, g))
+    found: Exprs = ()
+    for group in problem.layout.groups:
+        if group != TIME:
+            found += symbols(problem.variables, group)
+    return found
 
 
 def quantities_function(

@@ -7,10 +7,10 @@ no text is ever evaluated.
 from __future__ import annotations
 
 from dataclasses import dataclass, replace
-from typing import Any
 
 from flint import arb, fmpq
 
+from garkcli.problems.expr import Exprs, Invariants, rational
 from garkcli.problems.straightline import function
 from garkcli.problems.vectorfield import (
     TIME,
@@ -48,11 +48,11 @@ class RightHandSide:
 
     name: str
     variables: tuple[str, ...]
-    terms: tuple[tuple[Any, ...], ...]
+    terms: tuple[Exprs, ...]
     initial: tuple[fmpq, ...]
     t_end: fmpq
-    invariants: tuple[tuple[str, Any], ...] = ()
-    exact: tuple[Any, ...] | None = None
+    invariants: Invariants = ()
+    exact: Exprs | None = None
     is_generic: bool = False
     long_run: tuple[fmpq, fmpq] | None = None
     stiffness: fmpq | None = None
@@ -71,18 +71,21 @@ class RightHandSide:
     @property
     def layout(self) -> Layout:
         """y, and t where it occurs."""
-        groups: tuple[Group, ...] = ("y", TIME) if self.has_time else ("y",)
+        groups: tuple[Group, ...] = ("y",)
+        if self.has_time:
+            groups = ("y", TIME)
         return Layout(groups, self.dimension)
 
     @property
-    def quantities(self) -> tuple[tuple[str, Any], ...]:
+    def quantities(self) -> Invariants:
         """What is conserved: a name and an expression each."""
         return self.invariants
 
     @property
-    def total(self) -> tuple[Any, ...]:
+    def total(self) -> Exprs:
         """Σ_l f^{l}, d expressions."""
-        return tuple(sum(parts) for parts in zip(*self.terms, strict=True))
+        by_component = zip(*self.terms, strict=True)
+        return tuple(map(sum, by_component))
 
     def unsplit(self) -> RightHandSide:
         """The same problem in one term."""
@@ -107,20 +110,19 @@ def solution(problem: RightHandSide, time: arb) -> list[arb]:
     """The exact solution at one time, enclosed at the precision in force."""
     assert problem.exact is not None
     by = symbols(problem.variables, TIME)
-    return [arb(x) for x in function(problem.exact, by, True)(arb(time))]
+    evaluate = function(problem.exact, by, True)
+    return [arb(x) for x in evaluate(arb(time))]
 
 
 def starts_exactly(problem: RightHandSide) -> bool:
     """Whether the exact solution starts at the rational numbers y(0): irrational ones are rounded
     to ``EXACT_DIGITS``.
     """
-    import sympy
-
     assert problem.exact is not None
     (t,) = symbols(problem.variables, TIME)
     at_start = [x.subs(t, 0) for x in problem.exact]
-    pairs = zip(at_start, problem.initial, strict=True)
-    return all(x == sympy.Rational(int(y.p), int(y.q)) for x, y in pairs)
+    initial = [rational(x) for x in problem.initial]
+    return at_start == initial
 
 
 def steepness(problem: RightHandSide) -> arb:
@@ -130,10 +132,13 @@ def steepness(problem: RightHandSide) -> arb:
     from garkcli.problems.mass import enclosed
 
     by = symbols(problem.variables, "y")
-    at = dict(zip(by, map(arb, problem.initial), strict=True))
-    at |= dict.fromkeys(symbols(problem.variables, TIME), arb(0))
+    start = map(arb, problem.initial)
+    at = dict(zip(by, start, strict=True))
+    (time,) = symbols(problem.variables, TIME)
+    at[time] = arb(0)
     norm = arb(0)
     for component in problem.total:
         row = enclosed([component.diff(x) for x in by], at)
-        norm = norm.max(sum(map(abs, row), arb(0)))
+        total = sum(map(abs, row), arb(0))
+        norm = norm.max(total)
     return norm.mid() if norm.is_finite() else arb(1)

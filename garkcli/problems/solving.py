@@ -4,13 +4,13 @@ asks.
 
 from __future__ import annotations
 
-from typing import Any
+from garkcli.problems.expr import Expr
 
 MAX_SIZE = 300
 """Most operations of an equation that is solved."""
 
 
-def solutions(f: Any, u: Any, c: Any) -> list[Any]:
+def solutions(f: Expr, u: Expr, c: Expr) -> list[Expr]:
     """Expressions for u that may solve f(u) = c; some do not, and some solutions are not found.
 
     Functions that hold u alone are undone from outside in; what is left is solved where it is a
@@ -31,13 +31,15 @@ def solutions(f: Any, u: Any, c: Any) -> list[Any]:
         return []
     if f == u:
         return [c]
-    if f.is_Add or f.is_Mul:
-        free, rest = f.as_independent(u, as_Add=f.is_Add)
-        if f.is_Add and free != 0:
+    if f.is_Add:
+        free, rest = f.as_independent(u, as_Add=True)
+        if free != 0:
             return solutions(rest, u, c - free)
-        if f.is_Mul and free != 1:
+    if f.is_Mul:
+        free, rest = f.as_independent(u, as_Add=False)
+        if free != 1:
             return solutions(rest, u, c / free)
-    found: list[Any] = []
+    found: list[Expr] = []
     inner = [x for x in f.args if u in x.free_symbols]
     if len(inner) == 1:
         for value in _undone(f, inner[0], c):
@@ -47,7 +49,7 @@ def solutions(f: Any, u: Any, c: Any) -> list[Any]:
     return found
 
 
-def _undone(f: Any, inner: Any, c: Any) -> list[Any]:
+def _undone(f: Expr, inner: Expr, c: Expr) -> list[Expr]:
     """The values of ``inner`` with which f = c."""
     import sympy
 
@@ -60,7 +62,8 @@ def _undone(f: Any, inner: Any, c: Any) -> list[Any]:
         inverse = getattr(sympy, _INVERSES[name])
         return [inverse(c)]
     if name == "cos":
-        return [sympy.acos(c), -sympy.acos(c)]
+        angle = sympy.acos(c)
+        return [angle, -angle]
     if name == "sinh":
         root = sympy.sqrt(c**2 + 1)
         return [sympy.log(c + root)]
@@ -68,7 +71,8 @@ def _undone(f: Any, inner: Any, c: Any) -> list[Any]:
         root = sympy.sqrt(c**2 - 1)
         return [sympy.log(c + root), sympy.log(c - root)]
     if name == "tanh":
-        return [sympy.log((1 + c) / (1 - c)) / 2]
+        ratio = (1 + c) / (1 - c)
+        return [sympy.log(ratio) / 2]
     return []
 
 
@@ -83,18 +87,19 @@ _INVERSES = {
 }
 
 
-def _root(exponent: Any, c: Any) -> list[Any]:
+def _root(exponent: Expr, c: Expr) -> list[Expr]:
     """The real x with x**exponent = c."""
-    root = c ** (1 / exponent)
+    inverse = 1 / exponent
+    root = c**inverse
     if exponent.p % 2 == 0:
         return [root, -root]
     if exponent.q % 2:  # an odd root: of a negative number too
-        of_negative = -((-c) ** (1 / exponent))
-        return [root, of_negative]
+        of_positive = (-c) ** inverse
+        return [root, -of_positive]
     return [root]
 
 
-def _by_polynomial(f: Any, u: Any) -> list[Any]:
+def _by_polynomial(f: Expr, u: Expr) -> list[Expr]:
     """The zeros of a fraction: its numerator is a polynomial in u of small degree, with one square
     root at most.
     """
@@ -108,28 +113,36 @@ def _by_polynomial(f: Any, u: Any) -> list[Any]:
         polynomial = sympy.Poly(sympy.expand(numerator), u)
     except sympy.PolynomialError:
         return []
-    coefficients = {n: x for (n,), x in polynomial.terms()}
-    if any(u in x.free_symbols for x in coefficients.values()):
-        return []
-    degrees = set(coefficients)
     zero = sympy.Integer(0)
-    c0, c1, c2, _, c4 = (coefficients.get(n, zero) for n in range(5))
+    coefficients = dict.fromkeys(range(5), zero)
+    degrees = set()
+    for (n,), x in polynomial.terms():
+        if u in x.free_symbols:
+            return []
+        degrees.add(n)
+        coefficients[n] = x
+    c0, c1, c2, _, c4 = (coefficients[n] for n in range(5))
     if degrees <= {0, 1, 2}:
         return _quadratic(c2, c1, c0)
+    found = []
     if degrees <= {0, 2, 4}:
-        squares = _quadratic(c4, c2, c0)
-        return [sign * sympy.sqrt(x) for x in squares for sign in (1, -1)]
-    return []
+        for square in _quadratic(c4, c2, c0):
+            root = sympy.sqrt(square)
+            found += [root, -root]
+    return found
 
 
-def _without_root(f: Any, u: Any) -> Any:
+def _without_root(f: Expr, u: Expr) -> Expr:
     """What is zero where f = P + Q √S is: P² − S Q². f itself where it has no root of u, and None
     where it has several, or is no polynomial in its root.
     """
     import sympy
 
-    powers = [x for x in f.atoms(sympy.Pow) if u in x.free_symbols]
-    roots = [x for x in powers if x.exp.is_Rational and x.exp.q == 2]
+    roots = []
+    for x in f.atoms(sympy.Pow):
+        is_root = x.exp.is_Rational and x.exp.q == 2
+        if is_root and u in x.free_symbols:
+            roots.append(x)
     if not roots:
         return f
     square = roots[0].base
@@ -137,12 +150,12 @@ def _without_root(f: Any, u: Any) -> Any:
         return None
     r = sympy.Dummy("r")
     replaced = f.xreplace({x: r**x.exp.p for x in roots})
-    numerator = sympy.together(replaced).as_numer_denom()[0]
+    numerator, _ = sympy.together(replaced).as_numer_denom()
     try:
         terms = sympy.Poly(sympy.expand(numerator), r).terms()
     except sympy.PolynomialError:
         return None
-    parts: tuple[list[Any], list[Any]] = ([], [])  # of P and of Q
+    parts: tuple[list[Expr], list[Expr]] = ([], [])  # of P and of Q
     for (n,), coefficient in terms:
         term = coefficient * square ** (n // 2)
         parts[n % 2].append(term)
@@ -150,12 +163,14 @@ def _without_root(f: Any, u: Any) -> Any:
     return P**2 - square * Q**2
 
 
-def _quadratic(a: Any, b: Any, c: Any) -> list[Any]:
+def _quadratic(a: Expr, b: Expr, c: Expr) -> list[Expr]:
+    """The zeros of a u² + b u + c, where it is not constant."""
     import sympy
 
     if a == 0:
         return [-c / b] if b != 0 else []
-    root = sympy.sqrt(b**2 - 4 * a * c)
+    discriminant = b**2 - 4 * a * c
+    root = sympy.sqrt(discriminant)
     first = (-b + root) / (2 * a)
     second = (-b - root) / (2 * a)
     return [first, second]

@@ -4,21 +4,19 @@ exist.
 
 from __future__ import annotations
 
-from collections.abc import Mapping, Sequence
-from typing import Any
-
 from flint import arb, arb_mat, ctx
 
 from garkcli.errors import NoLegendreTransform
+from garkcli.problems.expr import Expr, Place, Vector
 from garkcli.problems.mass import BITS, enclosed, is_smooth, velocities
 from garkcli.problems.vectorfield import symbols
 
 
 def initial_momenta(
-    lagrangians: Sequence[Any],
-    hamiltonians: Sequence[Any],
+    lagrangians: Vector,
+    hamiltonians: Vector,
     variables: tuple[str, ...],
-    start: Mapping[Any, arb],
+    start: Place,
 ) -> list[arb]:
     """p(0) with which q̇(0) is the given velocity, shape (d,).
 
@@ -37,8 +35,9 @@ def initial_momenta(
     v, p = velocities(variables), symbols(variables, "p")
     moving = [L for L in lagrangians if L.free_symbols & set(v)]
     if len(moving) == 1:
-        return enclosed([moving[0].diff(x) for x in v], start)
-    H = sum(hamiltonians)
+        (L,) = moving
+        return enclosed([L.diff(x) for x in v], start)
+    H: Expr = sum(hamiltonians)
     gradient = [H.diff(x) for x in p]
     hessian = [g.diff(y) for g in gradient for y in p]
     if any(x.free_symbols & set(p) for x in hessian):
@@ -47,17 +46,19 @@ def initial_momenta(
             "found",
             "give the initial momenta instead of velocities",
         )
+    # q̇(0) = ∂²H/∂p² p(0) + ∂H/∂p at p = 0
     d = len(p)
     places = {x: y for x, y in start.items() if x not in v}
-    values = enclosed(hessian, places)
     at_rest = dict.fromkeys(p, 0)
-    offsets = enclosed([g.xreplace(at_rest) for g in gradient], places)
+    offsets = [g.xreplace(at_rest) for g in gradient]
     with ctx.workprec(BITS):
-        matrix = arb_mat(d, d, values)
-        pairs = zip(v, offsets, strict=True)
-        right = arb_mat(d, 1, [start[x] - y for x, y in pairs])
+        matrix = arb_mat(d, d, enclosed(hessian, places))
+        pairs = zip(v, enclosed(offsets, places), strict=True)
+        rest = [start[x] - y for x, y in pairs]
+        right = arb_mat(d, 1, rest)
         try:
-            return [arb(x) for x in matrix.solve(right).entries()]
+            momenta = matrix.solve(right).entries()
+            return [arb(x) for x in momenta]
         except ZeroDivisionError:
             raise NoLegendreTransform(
                 "the velocities do not determine the momenta at the start",
@@ -66,7 +67,7 @@ def initial_momenta(
 
 
 def missing_derivative(
-    made: Any, by: Sequence[Any], start: Mapping[Any, arb]
+    made: Expr, by: Vector, start: Place
 ) -> tuple[str, str] | None:
     """What is wrong with a derivative of an expression at the start, and the cure; None where all
     derivatives exist.
@@ -83,9 +84,10 @@ def missing_derivative(
     if all(x.is_finite() for x in enclosed(gradient, start)):
         return None
     # one operation that fails spoils them all: the guilty one is undefined on its own
-    failing = (
-        str(x)
-        for x, g in zip(by, gradient, strict=True)
-        if not enclosed([g], start)[0].is_finite()
-    )
-    return f"no derivative by {next(failing, by[0])}", "start elsewhere"
+    guilty = by[0]
+    for x, g in zip(by, gradient, strict=True):
+        (alone,) = enclosed([g], start)
+        if not alone.is_finite():
+            guilty = x
+            break
+    return f"no derivative by {guilty}", "start elsewhere"

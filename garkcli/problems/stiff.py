@@ -8,10 +8,10 @@ the last part.
 from __future__ import annotations
 
 from collections.abc import Sequence
-from typing import Any
 
 from flint import fmpq
 
+from garkcli.problems.expr import Exprs, rational
 from garkcli.problems.righthandside import RightHandSide
 from garkcli.problems.vectorfield import TIME, symbols
 
@@ -31,7 +31,7 @@ def prothero_robinson(terms: int, stiffness: fmpq) -> RightHandSide:
     (t,) = symbols(variables, TIME)
     solution = sympy.cos(t)
     slope = solution.diff(t)
-    pull = -_rational(stiffness) * (y - solution)
+    pull = -rational(stiffness) * (y - solution)
     parts = [(slope,), (pull,)]
     return RightHandSide(
         "prothero-robinson",
@@ -57,7 +57,7 @@ def van_der_pol(terms: int, stiffness: fmpq) -> RightHandSide:
     for power, coefficient in enumerate(_SMOOTH_START, start=1):
         start += coefficient * small**power
     damping = (1 - y**2) * z
-    force = _rational(stiffness) * (damping - y)
+    force = rational(stiffness) * (damping - y)
     zero = 0 * z
     parts = [(z, zero), (zero, force)]
     return RightHandSide(
@@ -85,18 +85,19 @@ def reaction_diffusion(terms: int, stiffness: fmpq) -> RightHandSide:
     """
     import sympy
 
-    variables = tuple(f"u{i + 1}" for i in range(CELLS))
+    cells = range(CELLS)
+    variables = tuple(f"u{i + 1}" for i in cells)
     u = symbols(variables, "y")
-    rates = [fmpq(CELLS + i, 2 * CELLS) for i in range(CELLS)]
+    rates = [fmpq(CELLS + i, 2 * CELLS) for i in cells]
     reaction = []
     for r, x in zip(rates, u, strict=True):
-        growth = _rational(r) * x
+        growth = rational(r) * x
         reaction.append(growth * (1 - x))
-    k = _rational(stiffness)
+    k = rational(stiffness)
     diffusion = []
     for i, x in enumerate(u):
         # the first and the last cell have one neighbour
-        neighbours = [u[j] for j in (i - 1, i + 1) if 0 <= j < CELLS]
+        neighbours = [u[j] for j in (i - 1, i + 1) if j in cells]
         flows = sympy.Add(*neighbours) - len(neighbours) * x
         diffusion.append(k * flows)
     parts = [tuple(reaction), tuple(diffusion)]
@@ -131,24 +132,16 @@ def _mean(numbers: Sequence[fmpq]) -> fmpq:
     return total / len(numbers)
 
 
-def shared(
-    parts: Sequence[tuple[Any, ...]], terms: int
-) -> tuple[tuple[Any, ...], ...]:
+def shared(parts: Sequence[Exprs], terms: int) -> tuple[Exprs, ...]:
     """The parts in ``terms`` terms: the last one in equal shares where there are fewer parts, the
     last ones added up where there are more.
     """
     if terms <= len(parts):
-        kept, added = parts[: terms - 1], parts[terms - 1 :]
-        by_component = zip(*added, strict=True)
+        last = terms - 1
+        by_component = zip(*parts[last:], strict=True)
         rest = tuple(map(sum, by_component))
-        return (*kept, rest)
-    *kept, last = parts
+        return (*parts[:last], rest)
+    *kept, rest = parts
     left = terms - len(kept)
-    share = tuple(component / left for component in last)
+    share = tuple(component / left for component in rest)
     return (*kept, *[share] * left)
-
-
-def _rational(x: fmpq) -> Any:
-    import sympy
-
-    return sympy.Rational(int(x.p), int(x.q))

@@ -18,6 +18,7 @@ from typing import Any
 from flint import arb, fmpq
 
 from garkcli.exact import formula
+from garkcli.problems.expr import Expr, Exprs, Vector, number
 
 _LONG = 300  # characters from which a part of an expression is given a name
 _WRITTEN = 3  # powers up to the third are products, which cost less than **
@@ -67,7 +68,9 @@ class Code:
         """Assignments to names that start with ``prefix``, and the names or short texts of the
         results.
         """
-        names = {f"a{i}": name for i, name in enumerate(arguments)}
+        names: dict[str, str] = {}
+        for i, name in enumerate(arguments):
+            names[f"a{i}"] = name
         for i in range(len(self.temporaries)):
             names[f"t{i}"] = f"{prefix}t{i}"
         for i, x in enumerate(self.constants):
@@ -75,7 +78,8 @@ class Code:
 
         lines = []
         for i, text in enumerate(self.temporaries):
-            lines.append(f"{prefix}t{i} = {text.format_map(names)}")
+            made = text.format_map(names)
+            lines.append(f"{prefix}t{i} = {made}")
         results = []
         for i, text in enumerate(self.results):
             made = text.format_map(names)
@@ -111,14 +115,16 @@ def _float(x: fmpq) -> str:
 def constant_name(x: fmpq) -> str:
     """The name that the texts for balls have for a rational constant."""
     sign = "m" if x < 0 else ""
+    p = abs(int(x.p))
+    q = int(x.q)
     # hexadecimal: Python writes no more than 4300 decimal digits
-    return f"k{sign}{abs(int(x.p)):x}_{int(x.q):x}"
+    return f"k{sign}{p:x}_{q:x}"
 
 
 @cache
 def code_of(
-    expressions: tuple[Any, ...],
-    arguments: tuple[Any, ...],
+    expressions: Exprs,
+    arguments: Exprs,
     is_for_balls: bool,
 ) -> Code:
     """The code of sympy expressions in the symbols ``arguments``.
@@ -134,11 +140,11 @@ def code_of(
     writer = _Writer(names, is_for_balls)
     for symbol, expression in found:
         writer.symbols[symbol] = writer.named(writer.text(expression))
-    results = tuple("0" if x == 0 else writer.text(x) for x in reduced)
+    results = ["0" if x == 0 else writer.text(x) for x in reduced]
     return Code(
         len(arguments),
         tuple(writer.temporaries),
-        results,
+        tuple(results),
         tuple(writer.constants),
         is_for_balls,
     )
@@ -147,7 +153,7 @@ def code_of(
 class _Writer:
     """Writes expressions and collects their constants."""
 
-    def __init__(self, symbols: dict[Any, str], is_for_balls: bool) -> None:
+    def __init__(self, symbols: dict[Expr, str], is_for_balls: bool) -> None:
         self.symbols = symbols
         self.constants: dict[fmpq | None, str] = {}
         self.temporaries: list[str] = []
@@ -160,7 +166,7 @@ class _Writer:
         self.temporaries.append(text)
         return f"{{t{len(self.temporaries) - 1}}}"
 
-    def text(self, x: Any) -> str:
+    def text(self, x: Expr) -> str:
         """The text of ``x``, closed in parentheses where it is not a single name or call; never a
         long one.
         """
@@ -169,7 +175,7 @@ class _Writer:
             return text
         return self.named(text)  # Python nests no more than 200 deep
 
-    def _text(self, x: Any) -> str:
+    def _text(self, x: Expr) -> str:
         import sympy
 
         if x.is_Symbol:
@@ -177,16 +183,19 @@ class _Writer:
                 raise TypeError(f"{x} is no argument")
             return self.symbols[x]
         if x.is_Rational:
-            return self._constant(fmpq(int(x.p), int(x.q)))
+            return self._constant(number(x))
         if x is sympy.pi:
             return self._constant(None)
         if x is sympy.E:
+            exp = self._name("exp")
             one = self._constant(fmpq(1))
-            return f"{self._name('exp')}({one})"
+            return f"{exp}({one})"
         if x.is_Add:
-            return "(" + self._sum(x.as_ordered_terms()) + ")"
+            total = self._sum(x.as_ordered_terms())
+            return f"({total})"
         if x.is_Mul:
-            return "(" + self._product(x) + ")"
+            product = self._product(x)
+            return f"({product})"
         if x.is_Pow:
             return self._power(x.base, x.exp)
         name = type(x).__name__
@@ -199,9 +208,10 @@ class _Writer:
         return f"ball_{function}" if self.is_for_balls else function
 
     def _constant(self, x: fmpq | None) -> str:
-        return self.constants.setdefault(x, f"{{k{len(self.constants)}}}")
+        name = f"{{k{len(self.constants)}}}"
+        return self.constants.setdefault(x, name)
 
-    def _sum(self, terms: Sequence[Any]) -> str:
+    def _sum(self, terms: Vector) -> str:
         """Terms without a minus sign first."""
         made = ""
         for term in sorted(terms, key=lambda x: x.could_extract_minus_sign()):
@@ -213,17 +223,12 @@ class _Writer:
                 made += f" + {self.text(term)}"
         return made
 
-    def _product(self, x: Any) -> str:
+    def _product(self, x: Expr) -> str:
         """Factors over factors, so that a negative power costs one division."""
         above, below = [], []
         for factor in x.as_ordered_factors():
-            exponent = factor.exp if factor.is_Pow else None
-            if (
-                exponent is not None
-                and exponent.is_Rational
-                and exponent.is_negative
-            ):
-                below.append(self._power(factor.base, -exponent))
+            if factor.is_Pow and _is_negative(factor.exp):
+                below.append(self._power(factor.base, -factor.exp))
             else:
                 above.append(factor)
         sign = ""
@@ -231,17 +236,20 @@ class _Writer:
             sign = "-"
             above = above[1:]
         texts = [self.text(factor) for factor in above]
-        numerator = "*".join(texts) if texts else self._constant(fmpq(1))
+        numerator = "*".join(texts)
+        if not texts:
+            numerator = self._constant(fmpq(1))
         return sign + "/".join([numerator, *below])
 
-    def _power(self, base: Any, exponent: Any) -> str:
-        if exponent.is_Rational and exponent.is_negative:
+    def _power(self, base: Expr, exponent: Expr) -> str:
+        if _is_negative(exponent):
             one = self._constant(fmpq(1))
-            return f"({one}/{self._power(base, -exponent)})"
+            inverse = self._power(base, -exponent)
+            return f"({one}/{inverse})"
         text = self.text(base)
         if not exponent.is_Rational or exponent.q > 2:
-            raised_to = self.text(exponent)
-            return f"{self._name('power')}({text}, {raised_to})"
+            power = self._name("power")
+            return f"{power}({text}, {self.text(exponent)})"
         if exponent.q == 1:
             return self._integer_power(self.named(text), int(exponent.p))
         # x^(n + 1/2) is x^n √x
@@ -268,9 +276,14 @@ class _Writer:
         return f"({half}*{half})"
 
 
+def _is_negative(exponent: Expr) -> bool:
+    """Whether it is a negative rational number."""
+    return bool(exponent.is_Rational and exponent.is_negative)
+
+
 def function(
-    expressions: tuple[Any, ...],
-    arguments: tuple[Any, ...],
+    expressions: Exprs,
+    arguments: Exprs,
     is_for_balls: bool,
 ) -> Callable[..., list[Any]]:
     """The expressions as one function of numbers, one after the other, to a list of numbers.

@@ -17,6 +17,7 @@ from garkcli.exact.formula import CONSTANTS, Call, RealPower
 from garkcli.exact.nodes import Chain, Expression, Literal, Name, Power, Root
 from garkcli.exact.rewriting import format_expression, names_in, parts
 from garkcli.exact.values import FLOAT_BITS, Value, exponent_of, value_of
+from garkcli.problems.expr import Expr, rational
 
 MAX_SIZE = 100_000
 """Most operations of all second derivatives of a problem together, as they are written out."""
@@ -61,7 +62,7 @@ class Translator:
                 cure = "exponents are constants"
                 raise UndefinedValue(message, cure, name.start, name.end)
 
-    def translate(self, expression: Expression) -> Any:
+    def translate(self, expression: Expression) -> Expr:
         """The sympy expression of a formula whose names are all known.
 
         Raises:
@@ -72,26 +73,24 @@ class Translator:
 
         self.check_constants(expression)
         made = self._node(expression)
-        if made.has(sympy.I, sympy.zoo, sympy.nan, sympy.oo, -sympy.oo):
-            raise UndefinedValue(
-                "this is no real number", "", expression.start, expression.end
-            )
+        start, end = expression.start, expression.end
+        infinities = sympy.oo, -sympy.oo
+        if made.has(sympy.I, sympy.zoo, sympy.nan, *infinities):
+            message = "this is no real number"
+            raise UndefinedValue(message, "", start, end)
         numbers = made.atoms(sympy.Rational)
         if any(abs(x) > 1 << FLOAT_BITS for x in numbers):
-            message = (
-                f"the constants together make a number above 2^{FLOAT_BITS}"
-            )
-            raise LimitExceeded(
-                message, "choose other units", expression.start, expression.end
-            )
+            number = f"a number above 2^{FLOAT_BITS}"
+            message = f"the constants together make {number}"
+            raise LimitExceeded(message, "choose other units", start, end)
         return made
 
-    def _node(self, expression: Expression) -> Any:
+    def _node(self, expression: Expression) -> Expr:
         import sympy
 
         match expression:
             case Literal(value=value):
-                return sympy.Rational(int(value.p), int(value.q))
+                return rational(value)
             case Name(name=name):
                 if name == "pi":
                     return sympy.pi
@@ -108,8 +107,7 @@ class Translator:
                 whole = sympy.Integer(exponent)
                 return self._power(self._node(base), whole, expression)
             case RealPower(base=base, exponent=exponent):
-                e = exponent_of(exponent, self.values)
-                fraction = sympy.Rational(int(e.p), int(e.q))
+                fraction = rational(exponent_of(exponent, self.values))
                 return self._power(self._node(base), fraction, expression)
             case Root(radicand=radicand, index=index):
                 return self._root(self._node(radicand), index, expression)
@@ -121,7 +119,9 @@ class Translator:
                 return made.replace(sympy.cot, lambda u: 1 / sympy.tan(u))
         raise TypeError(f"no expression: {expression!r}")
 
-    def _product(self, signs: str, factors: list[Any], at: Expression) -> Any:
+    def _product(
+        self, signs: str, factors: list[Expr], at: Expression
+    ) -> Expr:
         import sympy
 
         if sum(map(_bits, factors)) > 2 * MAX_BITS:
@@ -131,54 +131,44 @@ class Translator:
             made.append(1 / factor if sign == "/" else factor)
         return sympy.Mul(*made)
 
-    def _power(self, base: Any, exponent: Any, at: Expression) -> Any:
+    def _power(self, base: Expr, exponent: Expr, at: Expression) -> Expr:
         if _bits(base) * abs(exponent) > 2 * MAX_BITS:
             raise too_many_bits(at)
         made = base**exponent
-        if (
-            made.is_Pow
-            and made.exp.is_Rational
-            and abs(made.exp) > MAX_EXPONENT
-        ):
-            message = (
-                f"the exponents are {made.exp} together (limit {MAX_EXPONENT})"
-            )
+        is_power = made.is_Pow and made.exp.is_Rational
+        if is_power and abs(made.exp) > MAX_EXPONENT:
+            found = f"the exponents are {made.exp} together"
+            message = f"{found} (limit {MAX_EXPONENT})"
             raise LimitExceeded(message, "use smaller ones", at.start, at.end)
         return _without_kinks(made, at)
 
-    def _root(self, radicand: Any, index: int, at: Root) -> Any:
+    def _root(self, radicand: Expr, index: int, at: Root) -> Expr:
         import sympy
 
         if index == 2:
             return _without_kinks(sympy.sqrt(radicand), at)
         if radicand.free_symbols:
             inner = _shortened(format_expression(at.radicand))
+            message = "only square roots are taken of variables"
             cure = f"where it is positive, write ({inner})**(1/{index})"
-            raise UndefinedValue(
-                "only square roots are taken of variables",
-                cure,
-                at.start,
-                at.end,
-            )
+            raise UndefinedValue(message, cure, at.start, at.end)
         power = sympy.Rational(1, index)
         if radicand.is_negative:
             return -((-radicand) ** power)
         return radicand**power
 
 
-def _without_kinks(made: Any, at: Expression) -> Any:
+def _without_kinks(made: Expr, at: Expression) -> Expr:
     """Refuse |x|, which sympy finds in sqrt(x**2)."""
     import sympy
 
     if made.has(sympy.Abs):
         kink = next(iter(made.atoms(sympy.Abs)))
         inner = _shortened(str(kink.args[0]))
-        raise UndefinedValue(
-            f"this has |{inner}|, which has no derivative at 0",
-            "write it without the root where the sign is known, or add a number under the root",
-            at.start,
-            at.end,
-        )
+        message = f"this has |{inner}|, which has no derivative at 0"
+        cure = "write it without the root where the sign is known, "
+        cure += "or add a number under the root"
+        raise UndefinedValue(message, cure, at.start, at.end)
     return made
 
 
@@ -187,15 +177,16 @@ def _shortened(text: str) -> str:
     return text if len(text) < 30 else "…"
 
 
-def _bits(x: Any) -> int:
+def _bits(x: Expr) -> int:
     """The bits of the rational factor of an expression."""
-    number = x.as_coeff_Mul()[0]
-    if not number.is_Rational:
+    factor, _ = x.as_coeff_Mul()
+    if not factor.is_Rational:
         return 1
-    return int(number.p).bit_length() + int(number.q).bit_length()
+    numerator = int(factor.p).bit_length()
+    return numerator + int(factor.q).bit_length()
 
 
-def size_of_derivatives(expression: Any) -> int:
+def size_of_derivatives(expression: Expr) -> int:
     """About how many operations all second derivatives of a sympy expression have, as sympy writes
     them out.
 
@@ -226,14 +217,14 @@ class _Sizes:
     second: int
 
 
-def _sizes(x: Any, known: dict[Any, _Sizes]) -> _Sizes:
+def _sizes(x: Expr, known: dict[Expr, _Sizes]) -> _Sizes:
     """The sizes of x; ``known`` are those of parts."""
     if x not in known:
         known[x] = _sizes_of(x, known)
     return known[x]
 
 
-def _sizes_of(x: Any, known: dict[Any, _Sizes]) -> _Sizes:
+def _sizes_of(x: Expr, known: dict[Expr, _Sizes]) -> _Sizes:
     n = len(x.free_symbols)
     if not x.args:
         return _Sizes(1, n, first=n, second=0)
@@ -251,7 +242,9 @@ def _sizes_of(x: Any, known: dict[Any, _Sizes]) -> _Sizes:
     # f(u): f'' u_a u_b + f' u_ab, with f' and f'' three operations longer than u
     outer = 3 + own
     first = slopes + k * outer
-    second = curvatures + 2 * k * k * outer + 2 * k * slopes
+    second = curvatures
+    second += 2 * k * k * outer
+    second += 2 * k * slopes
     return _Sizes(1 + own, n, first, second)
 
 

@@ -14,6 +14,7 @@ from typing import Any, Final, Literal, TypeAlias
 from flint import arb, ctx, fmpq
 
 from garkcli.problems.draw import Draw
+from garkcli.problems.expr import Expr, Exprs
 from garkcli.problems.straightline import function
 
 Group: TypeAlias = Literal["q", "p", "y", "t"]
@@ -56,7 +57,7 @@ class Layout:
 
 
 @cache
-def symbols(variables: tuple[str, ...], group: Group) -> tuple[Any, ...]:
+def symbols(variables: tuple[str, ...], group: Group) -> Exprs:
     """The sympy symbols of a group: positions and unknowns are called like the variables, shape
     (d,); time is one symbol.
     """
@@ -79,7 +80,7 @@ class VectorField:
             only.
     """
 
-    components: tuple[Any, ...]
+    components: Exprs
     variables: tuple[str, ...]
     depends: tuple[Group, ...]
 
@@ -111,12 +112,12 @@ class VectorField:
             largest = max(largest, degree)
         return largest
 
-    def derivative(self, group: Group) -> tuple[tuple[Any, ...], ...]:
+    def derivative(self, group: Group) -> tuple[Exprs, ...]:
         """The Jacobian by a group, sympy expressions, shape (d, size of the group)."""
         return _derivative(self, group)
 
     @property
-    def arguments(self) -> tuple[Any, ...]:
+    def arguments(self) -> Exprs:
         """The symbols of what it depends on, in the order of the groups."""
         return tuple(
             x for g in self.depends for x in symbols(self.variables, g)
@@ -129,23 +130,21 @@ def occurring(
     groups: Iterable[Group],
 ) -> tuple[Group, ...]:
     """Those of ``groups`` that occur in expressions."""
-    free: set[Any] = set()
+    free: set[Expr] = set()
     for component in components:
         free |= component.free_symbols
-    return tuple(
-        g for g in groups if not free.isdisjoint(symbols(variables, g))
-    )
+    absent = {g for g in groups if free.isdisjoint(symbols(variables, g))}
+    return tuple(g for g in groups if g not in absent)
 
 
 @cache
-def _derivative(
-    field: VectorField, group: Group
-) -> tuple[tuple[Any, ...], ...]:
+def _derivative(field: VectorField, group: Group) -> tuple[Exprs, ...]:
     by = symbols(field.variables, group)
-    return tuple(tuple(f.diff(x) for x in by) for f in field.components)
+    rows = ([f.diff(x) for x in by] for f in field.components)
+    return tuple(map(tuple, rows))
 
 
-def is_constant(x: Any) -> bool:
+def is_constant(x: Expr) -> bool:
     """Whether an expression depends on nothing, be it written with symbols that cancel."""
     import sympy
 
@@ -157,14 +156,16 @@ def is_constant(x: Any) -> bool:
     if _degree(x) is not None:
         return not sympy.expand(x).free_symbols
     # what has one value wherever it was tried is left to sympy, unless that would take long
-    return bool(x.count_ops() < _SIMPLE) and not sympy.simplify(x).free_symbols
+    if x.count_ops() >= _SIMPLE:
+        return False
+    return not sympy.simplify(x).free_symbols
 
 
 _SIMPLE = 200  # operations
 _TRIES = 8  # random places where two values are looked for
 
 
-def _differs(x: Any, names: tuple[Any, ...]) -> bool:
+def _differs(x: Expr, names: Exprs) -> bool:
     """Whether two values of an expression lie in balls that do not overlap, which proves that it is
     no constant.
     """
@@ -173,7 +174,8 @@ def _differs(x: Any, names: tuple[Any, ...]) -> bool:
     with ctx.workprec(200):
         value = function((x,), names, True)
         for _ in range(_TRIES):
-            place = [arb(fmpq(draw.between(1, 999), 1000)) for _ in names]
+            numerators = [draw.between(1, 999) for _ in names]
+            place = [arb(fmpq(n, 1000)) for n in numerators]
             try:
                 (ball,) = value(*place)
             except (ArithmeticError, ValueError):  # not defined here
@@ -187,7 +189,7 @@ def _differs(x: Any, names: tuple[Any, ...]) -> bool:
     return False
 
 
-def _degree(x: Any) -> int | None:
+def _degree(x: Expr) -> int | None:
     """The degree of a polynomial as it is written; None for another expression."""
     if not x.free_symbols:
         return 0
