@@ -24,6 +24,7 @@ if TYPE_CHECKING:
     from garkcli.design.choices import Choice
     from garkcli.design.design import Design
     from garkcli.design.minimise.result import Minimum
+    from garkcli.design.springs_kind import TwoSprings
     from garkcli.design.stable_values import Wanted as Stability
     from garkcli.methodfile.family import FamilyFile
 
@@ -172,7 +173,8 @@ def _stable_values(
     from garkcli.design.stable_values import stable_values
     from garkcli.report import stable_values as report
 
-    found = stable_values(family, kind, wanted.whose)
+    two_springs = _two_springs(family, wanted)
+    found = stable_values(family, kind, wanted.whose, two_springs)
     file, digits = family.source, wanted.digits
     if output.format == "json":
         text = report.render_json(file, found, digits)
@@ -181,6 +183,26 @@ def _stable_values(
     output.write(text)
     is_open = not found.found and bool(found.undecided)
     return _exit_code(is_open, bool(found.found))
+
+
+def _two_springs(family: FamilyFile, wanted: Wanted) -> TwoSprings | None:
+    """The springs that the options mean, if any.
+
+    Raises:
+        UsageProblem: a number is none or negative, or there is no such colour.
+    """
+    if wanted.slow is None or wanted.fast is None:
+        return None
+    from garkcli.cli.stepping import square, term_of
+    from garkcli.design.design import TABLEAUS
+    from garkcli.design.springs_kind import TwoSprings
+
+    tableau = TABLEAUS[wanted.whose](family.tableau)
+    slow = square("--slow", wanted.slow)
+    fast = term_of(tableau, wanted.fast)
+    if wanted.up_to is None:
+        return TwoSprings(slow, fast)
+    return TwoSprings(slow, fast, square("--up-to", wanted.up_to))
 
 
 def _emit(

@@ -88,6 +88,21 @@ _OF_STABILITY = (
         flag_value="l-stable",
         help="The same for L-stability.",
     ),
+    click.option(
+        "--slow",
+        metavar="A",
+        help="With --p-stable: a slow and a fast spring, the slow one of (hω)² = A.",
+    ),
+    click.option(
+        "--fast",
+        metavar="COLOUR",
+        help="With --slow: the colour of the fast spring.",
+    ),
+    click.option(
+        "--up-to",
+        metavar="X",
+        help="With --slow: fast springs of (hω)² up to X only.",
+    ),
 )
 _OF_THE_SEARCH = (
     click.option(
@@ -153,6 +168,7 @@ class Wanted:
         emit: the file of the first method found, if any.
         objective: what is minimised over the methods of the highest order, if anything.
         stability: the kind of stability whose values are asked for instead of an order.
+        slow, fast, up_to: of two springs, as they were written; None where they were not given.
         starts: of a search instead, or None where there is none.
         seed, most, jobs, scheduler, emit_all: of the search; None where they were not given.
     """
@@ -165,6 +181,9 @@ class Wanted:
     emit: str | None
     objective: str | None
     stability: Stability | None
+    slow: str | None
+    fast: str | None
+    up_to: str | None
     starts: int | None
     seed: int | None
     most: int | None
@@ -196,12 +215,25 @@ class Wanted:
             if self.starts is None and value is not None:
                 message = f"{option} goes with --search"
                 raise UsageProblem(message, "add --search N")
+        self._check_springs()
         if self.starts is not None and self.objective is not None:
             message = "--minimise compares all methods, --search finds some"
             raise UsageProblem(message, "leave one of them out")
         if self.is_pair and self.is_conjugate:
             message = "--pair and --conjugate are two methods"
             raise UsageProblem(message, "ask for one")
+
+    def _check_springs(self) -> None:
+        if (self.slow is None) != (self.fast is None):
+            raise UsageProblem(
+                "--slow and --fast belong together", "give both"
+            )
+        if self.up_to is not None and self.slow is None:
+            message = "--up-to is a bound for the fast one of two springs"
+            raise UsageProblem(message, "give --slow and --fast too")
+        if self.slow is not None and self.stability != "p-stable":
+            message = "--slow and --fast say on which springs"
+            raise UsageProblem(message, "add --p-stable")
 
     def check_stability(self) -> None:
         """Refuse what a set of values does not have.

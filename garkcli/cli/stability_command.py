@@ -17,7 +17,7 @@ from garkcli.cli.options import (
     settings_option,
 )
 from garkcli.cli.plotting import check_plot, plot_option, save_plot
-from garkcli.errors import HasFreeParameters, UsageProblem, did_you_mean
+from garkcli.errors import HasFreeParameters, UsageProblem
 
 if TYPE_CHECKING:
     from collections.abc import Mapping, Sequence
@@ -178,6 +178,7 @@ def _springs_report(
     with_plane: bool,
 ) -> StabilityReport:
     """The two springs that the options ask for."""
+    from garkcli.cli.stepping import term_of
     from garkcli.report.stability_data import StabilityReport
     from garkcli.stability.slow_interval import slow_interval
     from garkcli.stability.summary import Stability
@@ -189,12 +190,7 @@ def _springs_report(
             "give exact coefficients, without tolerance",
         )
     tableau = method.tableau
-    names = [colour.name for colour in tableau.colours]
-    if fast not in names:
-        raise UsageProblem(
-            f"--fast: no colour {fast!r}", did_you_mean(fast, names)
-        )
-    split = springs(tableau, tableau.colours[names.index(fast)].term)
+    split = springs(tableau, term_of(tableau, fast))
     low, high = _strengths(slow)
     nothing = Stability(tableau, (), None, None)
     report = StabilityReport(file, method.name, nothing, digits=digits)
@@ -214,15 +210,11 @@ def _springs_report(
 
 def _strengths(slow: str) -> tuple[fmpq, fmpq]:
     """The ends of --slow, the same twice for one number."""
-    from garkcli.cli.stepping import rational
+    from garkcli.cli.stepping import rational, square
 
     first, dots, last = slow.partition("..")
-    low = rational("--slow", first)
+    low = square("--slow", first)
     high = rational("--slow", last) if dots else low
-    if low < 0:
-        raise UsageProblem(
-            f"--slow {slow}: a square is not negative", "give 0 or more"
-        )
     if dots and not low < high:
         raise UsageProblem(
             f"--slow {slow}: the ends are not in ascending order",

@@ -8,7 +8,7 @@ from collections.abc import Mapping
 from typing import TYPE_CHECKING
 
 from garkcli.cli.options import Output
-from garkcli.errors import UsageProblem
+from garkcli.errors import UsageProblem, did_you_mean
 
 if TYPE_CHECKING:
     from flint import fmpq
@@ -141,3 +141,31 @@ def rational(option: str, text: str) -> fmpq:
             f"{option} {text}: a rational number is expected", "such as 1/2"
         )
     return number
+
+
+def square(option: str, text: str) -> fmpq:
+    """The rational number, not negative, that was given for ``option``.
+
+    Raises:
+        UsageProblem: it is none.
+    """
+    number = rational(option, text)
+    if number < 0:
+        raise UsageProblem(
+            f"{option} {text}: a square is not negative", "give 0 or more"
+        )
+    return number
+
+
+def term_of(tableau: Tableau, colour: str) -> int:
+    """The term of the colour that was given for --fast, counted from 0.
+
+    Raises:
+        UsageProblem: there is no such colour.
+    """
+    names = [x.name for x in tableau.colours]
+    if colour not in names:
+        raise UsageProblem(
+            f"--fast: no colour {colour!r}", did_you_mean(colour, names)
+        )
+    return tableau.colours[names.index(colour)].term

@@ -75,8 +75,6 @@ class Kind(Protocol):
     critical: list[Polynomial]
     essential: list[Polynomial]
 
-    def __init__(self, members: Members, tableau: Tableau) -> None: ...
-
     def decide(self, value: Number) -> bool:
         """By the ordinary engine."""
 
@@ -121,7 +119,7 @@ class AStability:
         if tableau is None:
             return None
         found = imaginary_set(stability_function(tableau))
-        return _first_gap(found)
+        return first_gap(found)
 
     def conditions(self, x: fmpq) -> list[Polynomial]:
         return [at_y(self.E, x)]
@@ -156,10 +154,21 @@ class PStability:
         tableau = self.members.at(value)
         if tableau is None:
             return None
-        return _first_gap(oscillator_stability(tableau, self.problem).stable)
+        return first_gap(oscillator_stability(tableau, self.problem).stable)
 
     def conditions(self, x: fmpq) -> list[Polynomial]:
         return [at_y(p, x) for p in self.signs]
+
+
+def eigenvalue_conditions(plane: StepPlane) -> list[fmpq_mpoly]:
+    """1 − det M and 1 + det M ∓ tr M, times D²: none is negative where all powers are bounded."""
+    D = plane.denominator
+    (a, b), (c, d) = plane.numerators
+    whole = D * D
+    trace = (a + d) * D
+    area = a * d - b * c
+    both = whole + area
+    return [whole - area, both - trace, both + trace]
 
 
 def oscillator_curves(
@@ -173,18 +182,14 @@ def oscillator_curves(
     """
     D = plane.denominator
     (a, b), (c, d) = plane.numerators
-    # times D²: 1, tr M and det M; b and c are odd in z, all others even
-    whole = D * D
-    trace = (a + d) * D
-    area = a * d - b * c
-    both = whole + area
-    conditions = [whole - area, both - trace, both + trace]
+    # b and c are odd in z, all others even
     z, _ = PLANE.gens()
-    others = [D, a + d, area, z * b, z * c]
+    others = [D, a + d, a * d - b * c, z * b, z * c]
+    conditions = eigenvalue_conditions(plane)
     return list(map(in_square, conditions)), list(map(in_square, others))
 
 
-def _first_gap(intervals: Sequence[Interval]) -> fmpq | None:
+def first_gap(intervals: Sequence[Interval]) -> fmpq | None:
     """A rational x ≥ 0 in the first open gap of a set of intervals; None where there is none."""
     end: RealRoot | None = RealRoot.rational(ZERO)
     for interval in intervals:

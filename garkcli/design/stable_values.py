@@ -24,6 +24,7 @@ from typing import Literal, TypeAlias
 from flint import fmpq
 
 from garkcli.design.design import TABLEAUS, Whose
+from garkcli.design.springs_kind import SpringStability, TwoSprings
 from garkcli.design.stability_kinds import (
     AStability,
     Kind,
@@ -36,6 +37,7 @@ from garkcli.exact.polynomial import Polynomial
 from garkcli.exact.root_number import number_of
 from garkcli.exact.roots import RealRoot, sign_at
 from garkcli.tableau.family import Family
+from garkcli.tableau.tableau import Tableau
 
 Wanted: TypeAlias = Literal["p-stable", "a-stable", "l-stable"]
 
@@ -54,6 +56,7 @@ class StableValues:
         found: the set, in ascending order. Where a point of ``undecided`` is an end, it is left
             out; where it is inside, it is taken in.
         undecided: single values that are left open.
+        two_springs: what P-stability is meant on; None for the oscillator.
     """
 
     family: Family
@@ -61,6 +64,7 @@ class StableValues:
     wanted: Wanted
     found: tuple[Interval, ...]
     undecided: tuple[RealRoot, ...]
+    two_springs: TwoSprings | None = None
 
     @property
     def parameter(self) -> str:
@@ -76,7 +80,10 @@ class StableValues:
 
 
 def stable_values(
-    family: Family, wanted: Wanted, whose: Whose = "method"
+    family: Family,
+    wanted: Wanted,
+    whose: Whose = "method",
+    two_springs: TwoSprings | None = None,
 ) -> StableValues:
     """The set of values of the one free parameter.
 
@@ -85,6 +92,7 @@ def stable_values(
         wanted: P-stability on the oscillator that is split as usual, A-stability or L-stability
             with all vector fields equal.
         whose: of the method, its symplectic conjugate, or its symplectic pair.
+        two_springs: P-stability is meant on them.
 
     Raises:
         UsageProblem: the stability has no meaning for the method, there are several parameters, or
@@ -95,14 +103,26 @@ def stable_values(
     tableau = TABLEAUS[whose](family.tableau)
     members = Members(family, whose)
     if wanted == "p-stable":
-        found, undecided = _decided(family, PStability(members, tableau))
-        return StableValues(family, whose, wanted, found, undecided)
+        oscillating = _oscillating(members, tableau, two_springs)
+        found, undecided = _decided(family, oscillating)
+        return StableValues(
+            family, whose, wanted, found, undecided, two_springs
+        )
     kind = AStability(members, tableau)
     found, undecided = _decided(family, kind)
     if wanted == "l-stable":
         found = _damped(kind, found)
         undecided = tuple(t for t in undecided if kind.is_damped(t))
     return StableValues(family, whose, wanted, found, undecided)
+
+
+def _oscillating(
+    members: Members, tableau: Tableau, two_springs: TwoSprings | None
+) -> Kind:
+    """What P-stability is decided by."""
+    if two_springs is None:
+        return PStability(members, tableau)
+    return SpringStability(members, tableau, two_springs)
 
 
 def _decided(

@@ -8,10 +8,11 @@ them.
 
 from __future__ import annotations
 
-from collections.abc import Iterable, Iterator, Sequence
+from collections.abc import Callable, Iterable, Iterator, Sequence
 from dataclasses import dataclass
 from itertools import chain, count, islice
-from typing import cast
+from math import isqrt
+from typing import TypeAlias, cast
 
 from flint import fmpq, fmpq_mpoly
 
@@ -25,13 +26,16 @@ from garkcli.stability.step_function import unreduced
 from garkcli.stepping.stage_system import stage_system
 from garkcli.tableau.tableau import Tableau
 
+Step: TypeAlias = "tuple[Polynomial, tuple[Polynomial, ...]]"
+"""D and the entries of N, row by row."""
+
 
 @dataclass(frozen=True)
 class StepPlane:
     """M = N/D without a common factor of D and all entries of N.
 
     Attributes:
-        denominator: D, with y for z.
+        denominator: D, with y for z, or for what else the step is a function of.
         numerators: shape (d, d).
         poles: polynomials in t: where one is zero there is no method.
     """
@@ -51,13 +55,35 @@ def step_plane(
         ring: the parameter.
         fields: y ↦ L^m y for each colour, rational.
     """
+    unknowns = len(stage_system(tableau, fields).W)
+
+    def step(method: Tableau) -> Step:
+        found = unreduced(stage_system(method, fields))
+        return found.denominator, tuple(chain.from_iterable(found.numerators))
+
+    return through_members(tableau, ring, unknowns, step)
+
+
+def through_members(
+    tableau: Tableau,
+    ring: Parameters,
+    unknowns: int,
+    step: Callable[[Tableau], Step],
+) -> StepPlane:
+    """A step whose denominator is the determinant of as many equations as there are unknowns.
+
+    Args:
+        tableau: entries are rational numbers and rational functions of the parameter.
+        ring: the parameter.
+        unknowns: the number of equations of the stages.
+        step: of a member, before common factors are divided out; polynomials in y.
+    """
     rows = chain.from_iterable(tableau.blocks.values())
     entries = list(chain.from_iterable(rows))
     weights = list(chain.from_iterable(colour.b for colour in tableau.colours))
     of_blocks = common_denominator(entries, ring)
     of_weights = common_denominator(weights, ring)
-    unknowns = len(stage_system(tableau, fields).W)
-    # each row of I − zW times the one denominator, each entry of N times the other
+    # each row of the equations times the one denominator, each entry of N times the other
     degree = unknowns * _degree(entries, of_blocks, ring)
     degree += _degree(weights, of_weights, ring)
     allowed = _values_without(of_blocks * of_weights)
@@ -65,15 +91,13 @@ def step_plane(
     [name] = ring.names
     denominators, numerators = [], []
     for t in points:
-        method = member(tableau, ring, {name: t})
-        step = unreduced(stage_system(method, fields))
+        denominator, entries_of_step = step(member(tableau, ring, {name: t}))
         scale = _at(of_blocks, t) ** unknowns * _at(of_weights, t)
-        denominators.append(step.denominator * scale)
-        parts = chain.from_iterable(step.numerators)
-        numerators.append([p * scale for p in parts])
+        denominators.append(denominator * scale)
+        numerators.append([p * scale for p in entries_of_step])
     D = _through(points, denominators)
     N = [_through(points, values) for values in zip(*numerators, strict=True)]
-    return _in_lowest_terms(D, N, len(fields[0]), (of_blocks, of_weights))
+    return _in_lowest_terms(D, N, isqrt(len(N)), (of_blocks, of_weights))
 
 
 def _in_lowest_terms(

@@ -6,6 +6,7 @@ from collections.abc import Iterator
 from textwrap import wrap
 from typing import Any
 
+from garkcli.design.springs_kind import TwoSprings
 from garkcli.design.stable_values import StableValues, Wanted
 from garkcli.exact.cells import Interval
 from garkcli.exact.polynomial import Polynomial
@@ -20,6 +21,7 @@ from garkcli.page.json_text import to_json
 from garkcli.page.plain import printable
 from garkcli.page.schema import (
     FLAG,
+    POSITION,
     TEXT,
     Schema,
     array,
@@ -50,6 +52,9 @@ def render_text(
     name = values.parameter
     stable = _STABLE[values.wanted]
     lines = [printable(source), f"  {printable(values.family.name)}"]
+    if values.two_springs is not None:
+        stable = "stable"
+        lines += [f"  {_springs_text(values.two_springs)}"]
     if not values.found:
         none = "no value that is decided" if values.undecided else "no value"
         lines += [f"  the {values.whose} is {stable} for {none} of {name}"]
@@ -69,6 +74,26 @@ def render_text(
         for root in values.undecided:
             lines += _point(root, name, digits, width)
     return "\n".join(lines) + "\n"
+
+
+def _springs_text(two_springs: TwoSprings) -> str:
+    """What is asked of the method."""
+    text = f"two springs, (hω_slow)² = {two_springs.slow}, "
+    greatest = two_springs.greatest
+    if greatest is None:
+        return text + "every (hω_fast)²"
+    return text + f"every (hω_fast)² up to {greatest}"
+
+
+def _springs_data(two_springs: TwoSprings | None) -> dict[str, Any] | None:
+    if two_springs is None:
+        return None
+    greatest = two_springs.greatest
+    return {
+        "slow": str(two_springs.slow),
+        "fast": two_springs.fast + 1,
+        "up_to": None if greatest is None else str(greatest),
+    }
 
 
 def _interval(
@@ -139,6 +164,7 @@ def render_json(source: str, values: StableValues, digits: int) -> str:
         "of": values.whose,
         "unknowns": [values.parameter],
         "wanted": values.wanted,
+        "springs": _springs_data(values.two_springs),
         "set": found,
         "undecided": [root_data(root, digits) for root in values.undecided],
     }
@@ -170,6 +196,11 @@ def stable_values_schema() -> Schema:
             "of": {"enum": ["method", "conjugate", "pair"]},
             "unknowns": array(TEXT),
             "wanted": {"enum": list(_STABLE)},
+            "springs": nullable(
+                _object(
+                    {"slow": TEXT, "fast": POSITION, "up_to": nullable(TEXT)}
+                )
+            ),
             "set": array(one_of(point, _object(ends))),
             "undecided": array(ALGEBRAIC),
         }

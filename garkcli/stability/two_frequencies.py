@@ -116,15 +116,7 @@ def two_frequencies(
         UsageProblem: the split is not one that the structure of the tableau is for.
     """
     check_structure(tableau, _like_an_oscillator(split))
-    unknowns = len(_system(tableau, split, slow, ZERO).W)
-    points = [fmpq(k) for k in range(unknowns + 1)]
-    rows = []
-    for x in points:
-        system = _system(tableau, split, slow, x)
-        rows.append(_determinants(system))
-    columns = zip(*rows, strict=True)
-    determinants = [interpolated(points, column) for column in columns]
-    D, a, b, c, d = _reduced(determinants)
+    D, a, b, c, d = _reduced(line_of_determinants(tableau, split, slow))
     trace = Ratio.of(a + d, D)
     determinant = Ratio.of(a * d - b * c, D * D)
     over, under = trace.numerator, trace.denominator
@@ -135,6 +127,30 @@ def two_frequencies(
         discriminant=under * under * 4 - over * over,
         stable=stable_set(trace, determinant, (b, c), D),
     )
+
+
+def unknowns_of(tableau: Tableau, split: SplitSprings) -> int:
+    """The number of equations of the stages.
+
+    Raises:
+        UsageProblem: the split is not one that the structure of the tableau is for.
+    """
+    check_structure(tableau, _like_an_oscillator(split))
+    return len(_system(tableau, split, ZERO, ZERO).W)
+
+
+def line_of_determinants(
+    tableau: Tableau, split: SplitSprings, slow: fmpq
+) -> list[Polynomial]:
+    """det(I − W) and, times it, the entries of M, as polynomials in x for one slow frequency."""
+    unknowns = len(_system(tableau, split, slow, ZERO).W)
+    points = [fmpq(k) for k in range(unknowns + 1)]
+    rows = []
+    for x in points:
+        system = _system(tableau, split, slow, x)
+        rows.append(_determinants(system))
+    columns = zip(*rows, strict=True)
+    return [interpolated(points, column) for column in columns]
 
 
 def plane_of_determinants(
