@@ -30,6 +30,7 @@ if TYPE_CHECKING:
     from garkcli.check.proof import prove_method
     from garkcli.convergence import convergence as _convergence
     from garkcli.design.design import find_parameters
+    from garkcli.design.minimise.minimise import minimise
     from garkcli.design.search.run import search_methods
     from garkcli.errors import GarkError, MethodFileError
     from garkcli.longtime import longtime as _longtime
@@ -91,6 +92,7 @@ _HOMES = {
     "loads_problem": "methodfile.problem",
     "long_run": "longtime.longtime",
     "method_of": "api.methods",
+    "minimise": "design.minimise.minimise",
     "MethodFile": "methodfile.build",
     "MethodFileError": "errors",
     "modified_formula": "backward.formulas",
@@ -161,6 +163,7 @@ __all__ = [
     "loads_problem",
     "long_run",
     "method_of",
+    "minimise",
     "modified_formula",
     "modified_run",
     "pair",

@@ -84,6 +84,8 @@ def command(
         minimum = least(found, wanted.objective, wanted.seconds)
     text = _rendered(file, found, chosen, minimum, wanted.digits, output)
     output.write(text)
+    if minimum is None and wanted.objective is not None and is_reached:
+        return _exit_code(is_undecided=True, is_reached=True)
     if wanted.emit is not None:
         _emit(family, found, minimum, wanted.emit)
     return _exit_code(found.last.kind == "undecided", is_reached)

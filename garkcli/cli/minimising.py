@@ -5,11 +5,13 @@ from __future__ import annotations
 from typing import TYPE_CHECKING
 
 from garkcli.cli.design_options import CLAIMS
+from garkcli.cli.streams import say_problem
 from garkcli.design.chosen import values_text
 from garkcli.design.groebner import NotDecided
 from garkcli.design.minimise.minimise import minimise
-from garkcli.design.minimise.registry import find_objective
+from garkcli.design.minimise.objective import Level
 from garkcli.errors import UsageProblem
+from garkcli.exact.polynomial_text import root_decimal, root_text
 from garkcli.methodfile.family import with_values
 from garkcli.page.writing import write_whole
 
@@ -18,16 +20,21 @@ if TYPE_CHECKING:
     from garkcli.design.minimise.result import Minimum
     from garkcli.methodfile.family import FamilyFile
 
+DIGITS = 15
+"""Of claims without simple radicals."""
 
-def least(design: Design, name: str, seconds: float) -> Minimum:
-    """The minimum of the objective of that name."""
+
+def least(design: Design, name: str, seconds: float) -> Minimum | None:
+    """The minimum of the objective of that name; None, and it is said why, where it is open."""
     try:
-        return minimise(design, find_objective(name), seconds)
+        return minimise(design, name, seconds)
     except NotDecided:
-        raise UsageProblem(
-            f"--minimise {name}: not decided in the time of --seconds",
-            "choose values for some unknowns with --choose",
-        ) from None
+        problem = UsageProblem(
+            f"--minimise {name}: not decided, there are too many unknowns",
+            "choose values for some of them with --choose",
+        )
+        say_problem(problem)
+        return None
 
 
 def emit(family: FamilyFile, minimum: Minimum, path: str) -> None:
@@ -46,6 +53,25 @@ def emit(family: FamilyFile, minimum: Minimum, path: str) -> None:
     if found.order is not None:
         order = found.order.order
     claim = f"{CLAIMS[minimum.design.whose]}: {order}"
-    head = f"found by gark design {family.source} --minimise {name}: {claim}"
+    whose = minimum.design.whose
+    options = "" if whose == "method" else f" --{whose}"
+    options += f" --order {minimum.step.order} --minimise {name}"
+    head = f"found by gark design {family.source}{options}: {claim}"
+    if whose == "method":
+        claim += _claim(minimum)
     text = with_values(family, values_text(values, root), head, claim)
     write_whole(path, [text])
+
+
+def _claim(minimum: Minimum) -> str:
+    """What a method file may claim of the greatest level."""
+    objective = minimum.objective
+    if not isinstance(objective, Level) or objective.claim is None:
+        return ""
+    if minimum.is_infinite:
+        return f", {objective.claim}: infinity"
+    if minimum.value is None:
+        return ""
+    exact = root_text(minimum.value)
+    decimals = root_decimal(minimum.value, DIGITS)
+    return f", {objective.claim}: {exact or decimals}"

@@ -446,3 +446,36 @@ def test_bounds_in_the_plane(
     """
     one = PLANE.constant(fmpq(1))
     assert is_nowhere_less(numerator, one, bound) is is_bound
+
+
+def test_emitted_claims(tmp_path: Path) -> None:
+    """A level that files can claim is claimed, and ``gark check`` proves it."""
+    (tmp_path / "sdirk.yaml").write_text(
+        "unknown: {stages: 2, shape: sdirk}\n"
+    )
+    command = "design sdirk.yaml --order 3 --minimise -ssp --emit best.yaml"
+    assert gark(*command.split(), cwd=tmp_path).code == 0
+    text = (tmp_path / "best.yaml").read_text(encoding="utf-8")
+    assert text.endswith("expect: {order: 3, ssp-coefficient: 1 + sqrt(3)}\n")
+    assert gark("check", "best.yaml", cwd=tmp_path).code == 0
+
+
+def test_what_is_refused(tmp_path: Path) -> None:
+    """Objectives without a meaning for the method, and options that do not go together: exit code
+    2; what is not decided: 3.
+    """
+    (tmp_path / "e.yaml").write_text(EXPLICIT2)
+    text = "unknown: {stages: 4, shape: explicit}\n"
+    (tmp_path / "many.yaml").write_text(text)
+    asked = "design e.yaml --minimise"
+    for options, said in (
+        ("error-coupling", "has one colour"),
+        ("error --search 3", "--search finds some"),
+        ("error --a-stable", "gives a set of values"),
+        ("colour", "'colour' is not one of"),
+    ):
+        run = gark(*asked.split(), *options.split(), cwd=tmp_path)
+        assert (run.code, said in run.err) == (2, True)
+    many = "design many.yaml --order 2 --minimise -ssp"
+    run = gark(*many.split(), cwd=tmp_path)
+    assert (run.code, "not decided" in run.err) == (3, True)

@@ -29,7 +29,6 @@ from garkcli.design.minimise.result import (
     Minimum,
 )
 from garkcli.design.solutions import Solution, solutions
-from garkcli.errors import UsageProblem, counted
 from garkcli.exact.field import Number, NumberField
 from garkcli.exact.parametric import fraction
 from garkcli.exact.polynomial import Polynomial
@@ -186,15 +185,14 @@ class Comparison(ABC):
         Args:
             part: where there is one.
             rank: larger for better values.
+
+        Raises:
+            NotDecided: it has more coordinates than are tried, or it is curved.
         """
         self.extent = "found"
         names = part.ring.names
         if not part.is_free or len(names) > max(GRID):
-            raise UsageProblem(
-                f"--minimise {self.objective.key}: not decided for"
-                f" {counted(len(names), 'coordinate')}",
-                "choose values for some unknowns with --choose",
-            )
+            raise NotDecided
 
         def tried(point: tuple[fmpq, ...]) -> Any:
             solution = self._at_point(part, point)

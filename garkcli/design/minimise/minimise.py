@@ -16,6 +16,7 @@ from garkcli.design.minimise.coordinates import nodes_as_coordinates
 from garkcli.design.minimise.highest import Highest
 from garkcli.design.minimise.objective import Either, Level, Objective
 from garkcli.design.minimise.parts import parts_of
+from garkcli.design.minimise.registry import find_objective
 from garkcli.design.minimise.result import Minimum
 from garkcli.design.minimise.smallest import Smallest
 from garkcli.errors import UsageProblem
@@ -38,14 +39,14 @@ def step_to_minimise(design: Design) -> Step:
 
 def minimise(
     design: Design,
-    objective: Objective | Level | Either,
+    objective: str | Objective | Level | Either,
     seconds: float | None = None,
 ) -> Minimum:
     """The methods of the highest order with the least value of an objective.
 
     Args:
         design: of a family.
-        objective: what is to be small.
+        objective: what is to be small, or its name: one of ``registry.OBJECTIVES``.
         seconds: after which it is given up; None for never.
 
     Raises:
@@ -54,6 +55,8 @@ def minimise(
     """
     step = step_to_minimise(design)
     deadline = None if seconds is None else monotonic() + seconds
+    if isinstance(objective, str):
+        objective = find_objective(objective)
     comparison = _comparison(design, step, objective)
     if step.kind == "solutions":
         comparison.selection()

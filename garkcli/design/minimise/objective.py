@@ -51,6 +51,7 @@ class Level:
         value: the level y of one method, by the ordinary engine.
         curves: of a tableau of one parameter t: the polynomials in y and t, in ``PLANE``.
         is_square: whether what people mean is √y.
+        claim: the name by which method files claim it, if they can.
     """
 
     key: str
@@ -58,6 +59,7 @@ class Level:
     value: Callable[[Tableau], Size]
     curves: Callable[[Tableau, Parameters], Sequence[fmpq_mpoly]]
     is_square: bool = False
+    claim: str | None = None
 
     def shown(self, y: Size) -> Size:
         """What people mean by a level."""

@@ -34,5 +34,6 @@ OBJECTIVE = Level(
     _value,
     _curves,
     is_square=True,
+    claim="imaginary-stability",
 )
 """E. Hairer, G. Wanner, *Solving Ordinary Differential Equations II*, section IV.2."""

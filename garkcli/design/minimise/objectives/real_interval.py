@@ -34,5 +34,6 @@ OBJECTIVE = Level(
     "the x with |R| ≤ 1 on [−x, 0], the vector fields all equal",
     _value,
     _curves,
+    claim="real-stability",
 )
 """E. Hairer, G. Wanner, *Solving Ordinary Differential Equations II*, section IV.2."""

@@ -38,5 +38,6 @@ OBJECTIVE = Level(
     "the SSP coefficient",
     _value,
     _curves,
+    claim="ssp-coefficient",
 )
 """J. F. B. M. Kraaijevanger, *Contractivity of Runge–Kutta methods*, BIT 31, 1991."""
