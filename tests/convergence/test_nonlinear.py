@@ -64,11 +64,11 @@ def test_observed_order_is_the_exact_one(
 def test_order_twelve_is_seen() -> None:
     """Gauss 6 × Lobatto IIIA 7 on generic, from h = 1/8: errors of 1e-25 have slope 12."""
     tableau = pair(coupled(6, 7))
-    steps = [fmpq(1, 8 * 2**k) for k in range(4)]
+    steps = [fmpq(1, 8 * 2**k) for k in range(3)]
     result = converge(tableau, hamiltonian("generic", 2), steps=steps)
     assert (result.predicted_order, result.visible_order) == (12, 12)
     assert result.observed_order == pytest.approx(12, abs=0.05)
-    assert result.rows[-1].digits > 30
+    assert result.rows[-1].digits > 25
     assert result.agrees
 
 

@@ -107,6 +107,7 @@ def test_collision_has_no_solution(
     from dataclasses import replace
 
     monkeypatch.setattr(module, "MAX_TRIED", 200)
+    monkeypatch.setattr(module, "_REFINED", 8)
     problem = replace(
         hamiltonian("kepler", 1), initial=(fmpq(1), fmpq(0), fmpq(0), fmpq(0))
     )
