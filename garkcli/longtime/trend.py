@@ -25,8 +25,16 @@ another level is undecided: it may be the first of many, or the last.
 from __future__ import annotations
 
 from dataclasses import dataclass
-from math import ceil, floor, sqrt
+from math import sqrt
 from typing import TYPE_CHECKING, Literal, TypeAlias
+
+from garkcli.longtime.windows import (
+    OF_EIGHTHS,
+    OF_HALVES,
+    OF_QUARTERS,
+    Sums,
+    Windows,
+)
 
 if TYPE_CHECKING:
     from garkcli.arrays import Floats
@@ -46,16 +54,6 @@ CERTAIN = 10.0
 Of 480 runs of symplectic methods on systems of two planets none comes to that, see
 docs/energy.md.
 """
-_WHOLE = ((0.0, 1.0),)
-_HALVES = tuple((k / 4, (k + 2) / 4) for k in range(3))
-_QUARTERS = tuple((k / 8, (k + 2) / 8) for k in range(7))
-_EIGHTHS = tuple((k / 8, (k + 1) / 8) for k in range(8))
-_WINDOWS = (*_WHOLE, *_HALVES, *_QUARTERS, *_EIGHTHS)
-_OF_HALVES, _OF_QUARTERS, _OF_EIGHTHS = (
-    slice(1, 4),
-    slice(4, 11),
-    slice(11, 19),
-)
 # (length / quarter)^(3/2): how much less noise there is in the slope of all than of a quarter
 _SHORTENING = 8.0
 # 99 percent of Student's t with the five degrees of freedom that seven overlapping quarters have
@@ -66,7 +64,6 @@ _CLIMBS = 4
 # how many times their range the first or the last eighth is away from the others
 _APART = 3.0
 _FLOAT = 2.0**-42  # rounding of the sums, of the largest error
-_FLOAT_SQUARED = 2.0**-40  # rounding of sums of squares, of the mean square
 
 
 @dataclass(frozen=True)
@@ -88,21 +85,6 @@ class Trend:
     move: float = 0.0
 
 
-@dataclass(frozen=True)
-class _Windows:
-    """What is fitted to the windows of one signal.
-
-    Attributes:
-        slopes: of the lines, per run, shape (windows,).
-        levels: of the lines, in the middle.
-        heights: root mean squares of what oscillates around the lines.
-    """
-
-    slopes: Floats
-    levels: Floats
-    heights: Floats
-
-
 class Trends:
     """Collects several signals of the same length, in pieces, and finds the trend of each.
 
@@ -112,83 +94,11 @@ class Trends:
     """
 
     def __init__(self, count: int, signals: int) -> None:
-        import numpy as np
-
-        windows = len(_WINDOWS)
-        self.count = count
-        self._largest = np.zeros(signals)
-        # numbers of the first step inside each window, and of the step after the last
-        self._bounds: list[tuple[int, int]] = []
-        for a, b in _WINDOWS:
-            begin = floor(a * count) + 1
-            stop = ceil(b * count)
-            self._bounds.append((begin, stop))
-        # Σ w, Σ w u, Σ w u² with u = s − ½
-        self._weights = np.zeros((windows, 3))
-        # the first error of each window: x = e − start is of the size of what happens in it
-        self._starts = np.zeros((windows, signals))
-        # Σ w x, Σ w u x, Σ w x²
-        self._sums = np.zeros((windows, 3, signals))
-        # half of the run, least and greatest
-        self._ranges = np.zeros((2, 2, signals))
-        self._ranges[:, 0] = np.inf
-        self._ranges[:, 1] = -np.inf
+        self._sums = Sums(count, signals)
 
     def add(self, first: int, errors: Floats) -> None:
         """The errors e_first, e_{first+1}, …, shape (m, signals)."""
-        import numpy as np
-
-        largest = np.abs(errors).max(axis=0)
-        np.maximum(self._largest, largest, out=self._largest)
-        self._add_to_ranges(first, errors)
-        for k in range(len(_WINDOWS)):
-            self._add_to_window(k, first, errors)
-
-    def _add_to_ranges(self, first: int, errors: Floats) -> None:
-        import numpy as np
-
-        middle = self.count // 2
-        starts = (0, middle)
-        ends = (middle + 1, self.count + 1)
-        for half in range(2):
-            begin = max(starts[half] - first, 0)
-            stop = max(ends[half] - first, 0)
-            part = errors[begin:stop]
-            if not len(part):
-                continue
-            least, greatest = self._ranges[half]
-            low = part.min(axis=0)
-            high = part.max(axis=0)
-            np.minimum(least, low, out=least)
-            np.maximum(greatest, high, out=greatest)
-
-    def _add_to_window(self, k: int, first: int, errors: Floats) -> None:
-        import numpy as np
-
-        a, b = _WINDOWS[k]
-        begin, stop = self._bounds[k]
-        start = max(begin, first)
-        end = min(stop, first + len(errors))
-        if start >= end:
-            return
-        part = errors[start - first : end - first]
-        if start == begin:
-            self._starts[k] = part[0]
-        x = part - self._starts[k]
-        place = np.arange(start, end) / self.count
-        s = (place - a) / (b - a)
-        u = s - 0.5
-        # the weight w(s) of this module's heading, scaled to 1 in the middle
-        product = s * (1.0 - s)
-        w = np.exp(4.0 - 1.0 / product)
-        wu = w * u
-        weights = self._weights[k]
-        weights[0] += w.sum()
-        weights[1] += w @ u
-        weights[2] += w @ (u * u)
-        sums = self._sums[k]
-        sums[:2] += np.stack([w, wu]) @ x
-        sums[2] += w @ (x * x)
+        self._sums.add(first, errors)
 
     def of(self, signal: int, noise: float = 0.0) -> Trend:
         """The trend of one signal, all of whose errors have been added; ``LEAST`` at least.
@@ -197,8 +107,9 @@ class Trends:
             signal: which one.
             noise: what the errors are good to; no trend is smaller.
         """
-        found = self._fitted(signal)
-        least = noise + _FLOAT * float(self._largest[signal])
+        found = self._sums.fitted(signal)
+        largest = float(self._sums.largest[signal])
+        least = noise + _FLOAT * largest
         slope = float(found.slopes[0])
         uncertainty = _uncertainty(found) + least
         move = self._move(signal, found, least)
@@ -214,37 +125,17 @@ class Trends:
             finding, shape = "undecided", "step"
         elif (move := _net(found, least)) > 0.0:
             finding, shape = "undecided", "curve"
-        return Trend(
-            slope / self.count, uncertainty / self.count, finding, shape, move
-        )
+        count = self._sums.count
+        slope_per_step = slope / count
+        its_uncertainty = uncertainty / count
+        return Trend(slope_per_step, its_uncertainty, finding, shape, move)
 
-    def _fitted(self, signal: int) -> _Windows:
-        """The lines through all windows."""
-        import numpy as np
-
-        W, Wu, Wuu = self._weights.T
-        X, Xu, Xx = self._sums[:, :, signal].T
-        # the normal equations of level + slope · u, by Cramer's rule
-        determinants = W * Wuu - Wu * Wu
-        numerators = W * Xu - Wu * X
-        slopes = numerators / determinants
-        levels = (X - slopes * Wu) / W
-        squares = Xx / W
-        products = levels * X + slopes * Xu
-        explained = products / W
-        left = squares - explained
-        is_rounding = left < _FLOAT_SQUARED * squares
-        left[is_rounding] = 0.0
-        lengths = np.array([b - a for a, b in _WINDOWS])
-        levels += self._starts[:, signal]
-        return _Windows(slopes / lengths, levels, np.sqrt(left))
-
-    def _move(self, signal: int, found: _Windows, least: float) -> float:
+    def _move(self, signal: int, found: Windows, least: float) -> float:
         """How far the first or last eighth lies apart, or one half of the run leaves the range of
         the other; 0 where neither does.
         """
         move = _move_of_an_end(found, least)
-        first, second = self._ranges[:, :, signal].tolist()
+        first, second = self._sums.ranges[:, :, signal].tolist()
         for one, other in ((first, second), (second, first)):
             low, high = one
             lowest, highest = other
@@ -255,55 +146,61 @@ class Trends:
         return move
 
 
-def _move_of_an_end(found: _Windows, least: float) -> float:
+def _move_of_an_end(found: Windows, least: float) -> float:
     """How far the first or the last eighth lies apart from the others; 0 where neither does."""
-    levels = found.levels[_OF_EIGHTHS]
-    height = float(found.heights[_OF_EIGHTHS].max())
-    first, last = levels[0], levels[-1]
+    levels = found.levels[OF_EIGHTHS].tolist()
+    heights = found.heights[OF_EIGHTHS]
+    height = float(heights.max())
+    first, *after_first = levels
+    *before_last, last = levels
     move = 0.0
-    for one, others in ((first, levels[1:]), (last, levels[:-1])):
-        low = float(others.min())
-        high = float(others.max())
-        away = float(max(one - high, low - one))
+    for one, others in ((first, after_first), (last, before_last)):
+        low = min(others)
+        high = max(others)
+        away = max(one - high, low - one)
         usual = _APART * (high - low) + height
         if away > usual + least:
             move = max(move, away)
     return move
 
 
-def _uncertainty(found: _Windows) -> float:
+def _uncertainty(found: Windows) -> float:
     """Of the slope of the whole run, per run, but for rounding."""
     import numpy as np
 
     slope = found.slopes[0]
-    of_halves = found.slopes[_OF_HALVES] - slope
-    of_quarters = found.slopes[_OF_QUARTERS] - slope
+    of_halves = found.slopes[OF_HALVES] - slope
+    of_quarters = found.slopes[OF_QUARTERS] - slope
     farthest = np.abs(of_halves).max()
     halves = float(farthest)
     variance = float(np.mean(of_quarters**2))
-    noise = _SIGMAS * sqrt(variance) / _SHORTENING
-    heights = found.heights[_OF_QUARTERS]
+    of_a_quarter = _SIGMAS * sqrt(variance)
+    noise = of_a_quarter / _SHORTENING
+    heights = found.heights[OF_QUARTERS]
     modulation = float(heights.max() - heights.min())
     return max(halves, noise) + modulation
 
 
-def _climbs(found: _Windows, least: float) -> bool:
+def _climbs(found: Windows, least: float) -> bool:
     """Whether the levels keep rising, or falling, by more than the signal oscillates: clearly so
     from eighth to eighth, or by its height from eighth to eighth and clearly so in all.
     """
     import numpy as np
 
-    levels = found.levels[_OF_EIGHTHS]
-    heights = found.heights[_OF_EIGHTHS]
+    levels = found.levels[OF_EIGHTHS]
+    heights = found.heights[OF_EIGHTHS]
     moves = np.diff(levels)
     around = heights[1:] + heights[:-1]
-    if _goes_on(moves, _CLEAR * around + least):
+    clear = _CLEAR * around + least
+    if _goes_on(moves, clear):
         return True
-    net = float(levels[-1] - levels[0])
+    first, *_, last = levels.tolist()
+    net = last - first
     height = float(heights.max())
     if abs(net) <= CERTAIN * height:
         return False
-    return _goes_on(moves, around / 2 + least)
+    by_its_height = around / 2 + least
+    return _goes_on(moves, by_its_height)
 
 
 def _goes_on(moves: Floats, clear: Floats) -> bool:
@@ -317,17 +214,17 @@ def _goes_on(moves: Floats, clear: Floats) -> bool:
     return max(rises, falls) >= _CLIMBS
 
 
-def _net(found: _Windows, least: float) -> float:
+def _net(found: Windows, least: float) -> float:
     """How far apart the first and the last level are, if that is clear and more than half of what
     all levels vary; 0 if not.
     """
-    levels = found.levels[_OF_EIGHTHS]
-    heights = found.heights[_OF_EIGHTHS]
-    net = abs(float(levels[-1] - levels[0]))
-    around = float(heights[-1] + heights[0])
-    low, high = float(levels.min()), float(levels.max())
+    levels: list[float] = found.levels[OF_EIGHTHS].tolist()
+    heights: list[float] = found.heights[OF_EIGHTHS].tolist()
+    net = abs(levels[-1] - levels[0])
+    around = heights[-1] + heights[0]
+    range_of_all = max(levels) - min(levels)
     is_clear = net > _CLEAR * around + least
-    is_most = net > (high - low) / 2
+    is_most = net > range_of_all / 2
     if is_clear and is_most:
         return net
     return 0.0

@@ -62,39 +62,52 @@ def _stages(found: tuple[Tableau, Colour]) -> int:
 
 
 def _tolerance(found: Analysis) -> str | None:
-    return None if found.tolerance is None else decimal(found.tolerance)
+    if found.tolerance is None:
+        return None
+    return decimal(found.tolerance)
+
+
+def _inconsistent(found: Analysis) -> list[list[int]]:
+    return blocks(found.inconsistent)
 
 
 def _conjugate_consistent(found: Analysis) -> bool | None:
-    return (
-        None if found.conjugate is None else not found.conjugate_inconsistent
-    )
+    if found.conjugate is None:
+        return None
+    return not found.conjugate_inconsistent
+
+
+def _colours(found: Analysis) -> list[dict[str, Any]]:
+    return colours_data(found.tableau)
+
+
+def _name(found: tuple[Tableau, Colour]) -> str:
+    _, colour = found
+    return colour.name
 
 
 COLOUR: Record[tuple[Tableau, Colour]] = Record(
-    Field("name", TEXT, lambda x: x[1].name),
+    Field("name", TEXT, _name),
     Field("stages", POSITION, _stages),
 )
 """A colour of a tableau."""
 _ANALYSIS: tuple[Field[Analysis], ...] = (
     Field("exact", FLAG, lambda x: x.tolerance is None),
     Field("tolerance", nullable(TEXT), _tolerance),
-    Field("colours", array(COLOUR.schema), lambda x: colours_data(x.tableau)),
+    Field("colours", array(COLOUR.schema), _colours),
     Field("consistent", FLAG, lambda x: not x.inconsistent),
-    Field(
-        "inconsistent_blocks", array(BLOCK), lambda x: blocks(x.inconsistent)
-    ),
+    Field("inconsistent_blocks", array(BLOCK), _inconsistent),
     Field("conjugate_consistent", nullable(FLAG), _conjugate_consistent),
     Field("symplectic", FLAG, lambda x: x.symplectic),
     *inside(lambda x: x.order, order_fields()),
     *inside(lambda x: x.conjugate_order, order_fields("conjugate_")),
     *inside(lambda x: x.pair_order, order_fields("pair_")),
     *inside(lambda x: x.nonautonomous_order, order_fields("nonautonomous_")),
-    Field("simplifying", SIMPLIFYING.schema, SIMPLIFYING.data),
+    SIMPLIFYING.whole("simplifying", lambda x: x),
     Field("pair_bound", nullable(COUNT), lambda x: x.pair_bound),
     Field("sharp_bound", COUNT, lambda x: x.sharp_bound),
     Field("pair_sharp_bound", nullable(COUNT), lambda x: x.pair_sharp_bound),
-    Field("properties", PROPERTIES.schema, PROPERTIES.data),
+    PROPERTIES.whole("properties", lambda x: x),
 )
 """What was found of a method."""
 
@@ -112,6 +125,7 @@ def _errors(outcome: Outcome) -> list[dict[str, Any]]:
     return [FAULT.data(fault) for fault in outcome.faults]
 
 
+_ERRORS: Schema = {**array(FAULT.schema), "minItems": 1}
 _STRUCTURE: Schema = {
     "enum": ["general", "semi-separable", "separable", "nystrom"]
 }
@@ -139,7 +153,7 @@ _EVERY: Record[Outcome] = Record(
 _UNREADABLE: Record[Outcome] = Record(
     *_HEAD,
     Field("ok", {"const": False}, lambda x: x.ok),
-    Field("errors", {**array(FAULT.schema), "minItems": 1}, _errors),
+    Field("errors", _ERRORS, _errors),
 )
 
 
@@ -170,6 +184,6 @@ _FILE: Schema = {"oneOf": [_UNREADABLE.schema, _CHECKED.schema, _EVERY.schema]}
 _REPORT: Record[Sequence[Outcome]] = Record(
     schema_named(SCHEMA),
     Field("files", array(_FILE), _files),
-    Field("summary", _SUMMARY.schema, _SUMMARY.data),
+    _SUMMARY.whole("summary", lambda x: x),
     is_open=True,
 )

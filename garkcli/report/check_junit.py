@@ -35,8 +35,10 @@ def _suite(outcome: Outcome) -> ET.Element:
     if outcome.faults:
         _add_error(readable, outcome.faults)
     for claim in outcome.claims:
-        case = _case(suite, _clean(f"{claim.claim}: {claim.expected}"))
-        case.set("line", str(claim.line))
+        title = _clean(f"{claim.claim}: {claim.expected}")
+        line = str(claim.line)
+        case = _case(suite, title)
+        case.set("line", line)
         if not claim.holds:
             _add_failure(case, outcome, claim)
     tests = 1 + len(outcome.claims)
@@ -69,19 +71,19 @@ def _add_error(case: ET.Element, faults: Sequence[Fault]) -> None:
         lines.append(line.rstrip("; "))
     message = _clean(faults[0].message)
     error = ET.SubElement(case, "error", message=message)
-    error.text = _clean("\n".join(lines))
+    everything = "\n".join(lines)
+    error.text = _clean(everything)
 
 
 def _add_failure(case: ET.Element, outcome: Outcome, claim: Claim) -> None:
     """What was found in place of a claim, and why."""
-    message = f"expected {claim.expected}, found {claim.found}"
-    failure = ET.SubElement(
-        case, "failure", message=_clean(message), type="claim"
-    )
+    message = _clean(f"expected {claim.expected}, found {claim.found}")
+    failure = ET.SubElement(case, "failure", message=message, type="claim")
     witness = claim_witness(outcome, claim.claim)
     hint = claim_hint(outcome, claim.claim)
     details = filter(None, (witness, hint))
-    failure.text = _clean("\n".join(details)) or None
+    text = "\n".join(details)
+    failure.text = _clean(text) or None
 
 
 def _clean(text: str) -> str:

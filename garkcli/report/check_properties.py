@@ -5,7 +5,7 @@ from __future__ import annotations
 from collections.abc import Sequence
 from typing import TYPE_CHECKING
 
-from garkcli.page.paint import folded
+from garkcli.page.paint import folded, indented
 from garkcli.properties.keys import KEYS
 from garkcli.properties.naming import number_text, stages_name
 
@@ -34,11 +34,14 @@ _ODDITIES = {
 
 def property_lines(subject: Subject) -> list[tuple[str, str]]:
     """The block of a plain check, as labels with texts: only what has meaning and is not usual."""
-    lines = [("stages", _whole(subject))]
+    whole = _whole(subject)
+    lines = [("stages", whole)]
     kinds = {shape.name for shape in subject.shapes if shape is not None}
     if kinds - {subject.shape.name}:
-        lines.append(("by colour", _by_colour(subject)))
-    lines.append(("stage order", _stage_order(subject)))
+        by_colour = _by_colour(subject)
+        lines.append(("by colour", by_colour))
+    stage_order = _stage_order(subject)
+    lines.append(("stage order", stage_order))
     told = [_told(subject, key) for key in _NAMES if _is(subject, key, True)]
     for key, (odd_value, text) in _ODDITIES.items():
         if _is(subject, key, odd_value):
@@ -62,7 +65,8 @@ def _told(subject: Subject, key: str) -> str:
     reflections = subject.symmetry.reflections
     if not reflections:
         return "symmetric once reduced"
-    return f"symmetric ({_reflected(subject.tableau, reflections)})"
+    renumbering = _reflected(subject.tableau, reflections)
+    return f"symmetric ({renumbering})"
 
 
 def _reflected(tableau: Tableau, reflections: Sequence[Reflection]) -> str:
@@ -71,25 +75,34 @@ def _reflected(tableau: Tableau, reflections: Sequence[Reflection]) -> str:
         return "x → 1 − x"
     parts = []
     for space, reflection in enumerate(reflections):
-        name = stages_name(tableau, [(space, 0)]).partition(" of ")[2]
+        stage = stages_name(tableau, [(space, 0)])
+        _, _, colours = stage.partition(" of ")
         moved = _moved(reflection)
-        parts.append(f"{name}: {moved}" if name else moved)
+        if colours:
+            moved = f"{colours}: {moved}"
+        parts.append(moved)
     return "; ".join(parts)
 
 
 def _moved(reflection: Reflection) -> str:
     if reflection.images is None:
         return "x → 1 − x"
-    pairs = [
-        f"{i + 1}↔{j + 1}" for i, j in enumerate(reflection.images) if i < j
-    ]
-    return "stages " + ", ".join(pairs) if pairs else "each stage its own"
+    pairs = []
+    for i, j in enumerate(reflection.images, start=1):
+        image = j + 1
+        if i < image:
+            pairs.append(f"{i}↔{image}")
+    if not pairs:
+        return "each stage its own"
+    moved = ", ".join(pairs)
+    return f"stages {moved}"
 
 
 def _named(shape: Shape) -> str:
     if shape.gamma is None:
         return shape.name
-    return f"{shape.name}, γ = {number_text(shape.gamma)}"
+    gamma = number_text(shape.gamma)
+    return f"{shape.name}, γ = {gamma}"
 
 
 def _whole(subject: Subject) -> str:
@@ -102,7 +115,8 @@ def _whole(subject: Subject) -> str:
     if len(shape.systems) == 1 and len(shape.systems[0]) == total:
         return text
     for system in shape.systems:
-        text += f"; {stages_name(tableau, system)} together"
+        stages = stages_name(tableau, system)
+        text += f"; {stages} together"
     return text
 
 
@@ -112,7 +126,8 @@ def _by_colour(subject: Subject) -> str:
     for name, shape in zip(names, subject.shapes, strict=True):
         if shape is None:
             continue
-        by_kind.setdefault(_named(shape), []).append(name)
+        kind = _named(shape)
+        by_kind.setdefault(kind, []).append(name)
     texts = []
     for kind, found in by_kind.items():
         colours = ", ".join(found)
@@ -127,31 +142,34 @@ def _stage_order(subject: Subject) -> str:
     if verdict.is_at_least:
         text = f"at least {text}"
     if len(set(found)) > 1:
-        text += f"   by colour {', '.join(map(str, found))}"
+        numbers = ", ".join(map(str, found))
+        text += f"   by colour {numbers}"
     return text
 
 
 def every_property_lines(subject: Subject) -> list[str]:
     """All properties, a line each, with what decides them."""
     longest = max(map(len, KEYS))
+    margin = " " * (longest + 4)
     lines = []
     for key in KEYS:
         verdict = subject.verdict(key)
         text = _value(verdict)
         if verdict.why and verdict.value is not True:
             text += f": {verdict.why}"
-        margin = longest + 4
-        first, *others = folded(text, _WIDTH - margin, "")
+        first, *others = folded(text, _WIDTH - len(margin), "")
         lines.append(f"  {key:{longest}}  {first}")
-        lines += [" " * margin + line for line in others]
+        lines += indented(others, margin)
     return lines
 
 
 def _value(verdict: Verdict) -> str:
     if verdict.value is None:
         return "not decided" if verdict.is_undecided else "no meaning"
-    if isinstance(verdict.value, bool):
-        return "yes" if verdict.value else "no"
+    if verdict.value is True:
+        return "yes"
+    if verdict.value is False:
+        return "no"
     text = str(verdict.value)
     if verdict.is_at_least:
         return f"at least {text}"

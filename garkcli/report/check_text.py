@@ -79,7 +79,8 @@ def _outcome(
     lines = []
     if not (quiet and outcome.ok):
         lines.append(_line(outcome, analysis, paint))
-    lines += [_claim(outcome, claim, paint) for claim in outcome.failed_claims]
+    failed = outcome.failed_claims
+    lines += [_claim(outcome, claim, paint) for claim in failed]
     lines += _missing(outcome, paint)
     if outcome.blame is not None:
         from garkcli.report.hints import blame_lines
@@ -133,28 +134,34 @@ def faults_text(outcome: Outcome, paint: Paint) -> str:
     """Every fault of a file that cannot be read, with a caret under the text."""
     source = outcome.text.splitlines()
     file = printable(outcome.file)
-    error, caret = paint("bad", "error"), paint("bad", "^")
+    error = paint("bad", "error")
+    caret = paint("bad", "^")
     cure = paint("note", "help")
     lines: list[str] = []
     for fault in outcome.faults:
         place = file
         if fault.line:
             place += f":{fault.line}:{fault.column}"
-        lines.append(f"{place}: {error}: {printable(fault.message)}")
+        message = printable(fault.message)
+        lines.append(f"{place}: {error}: {message}")
         if 0 < fault.line <= len(source):
             shown = source[fault.line - 1]
             lines += excerpt(shown, fault.line, fault.column, caret)
         if fault.help:
-            lines.append(f"      {cure}: {printable(fault.help)}")
+            advice = printable(fault.help)
+            lines.append(f"      {cure}: {advice}")
     return "\n".join(lines)
 
 
 def _line(outcome: Outcome, analysis: Analysis, paint: Paint) -> str:
     mark = paint.verdict(outcome.ok, "ok  ", "FAIL")
     file = printable(outcome.file)
-    found = f"order {order_number(analysis.order)}"
-    if analysis.pair_order is not None and not analysis.tableau.is_partitioned:
-        found += f", pair {order_number(analysis.pair_order)}"
+    number = order_number(analysis.order)
+    found = f"order {number}"
+    pair_order = analysis.pair_order
+    if pair_order is not None and not analysis.tableau.is_partitioned:
+        number = order_number(pair_order)
+        found += f", pair {number}"
     claims = counted(len(outcome.claims), "claim")
     return f"{mark} {file}: {found}  ({claims})"
 
@@ -169,7 +176,8 @@ def _wrapped(text: str, width: int = 78) -> list[str]:
 
 def _title(outcome: Outcome) -> list[str]:
     """The file and the name of the method: below each other where they are long."""
-    file, name = printable(outcome.file), printable(outcome.name)
+    file = printable(outcome.file)
+    name = printable(outcome.name)
     if outcome.name == outcome.file:
         return [file]
     title = f"{file}: {name}"
@@ -206,8 +214,9 @@ def _full(
     if missing:
         lines += ["", *missing]
     if outcome.claims:
-        claims = [_claim(outcome, claim, paint) for claim in outcome.claims]
-        lines += ["", *claims]
+        lines.append("")
+    for claim in outcome.claims:
+        lines.append(_claim(outcome, claim, paint))
     if outcome.blame is not None:
         from garkcli.report.hints import blame_lines
 
@@ -230,11 +239,13 @@ def _kind(tableau: Tableau, structure: str, tolerance: fmpq | None) -> str:
 def _stage_counts(tableau: Tableau) -> list[str]:
     """The numbers of stages: of each colour, or of positions and of momenta."""
     if not tableau.is_partitioned:
-        return [str(tableau.space(l).stages) for l in range(tableau.size)]
+        spaces = map(tableau.space, range(tableau.size))
+        return [str(space.stages) for space in spaces]
     counts = []
     for part in ("q", "p"):
         stages = map(str, tableau.stages_of(part))
-        counts.append(f"{part}: {' + '.join(stages)}")
+        total = " + ".join(stages)
+        counts.append(f"{part}: {total}")
     return counts
 
 
@@ -254,8 +265,10 @@ def _more_properties(outcome: Outcome, analysis: Analysis) -> list[str]:
     if outcome.wants_properties:
         return every_property_lines(analysis.subject)
     lines = []
+    room = _WIDTH - 2 - LABEL
     for label, text in property_lines(analysis.subject):
-        lines += labelled(label, folded(text, _WIDTH - 2 - LABEL, ""))
+        shown = folded(text, room, "")
+        lines += labelled(label, shown)
     return lines
 
 
@@ -263,9 +276,8 @@ def _missing(outcome: Outcome, paint: Paint) -> list[str]:
     """The line on a file that has to make a claim and makes none."""
     if not (outcome.needs_claims and outcome.makes_no_claim):
         return []
-    return [
-        f"  {paint('bad', 'NO CLAIM')}         write what holds under expect"
-    ]
+    verdict = paint("bad", "NO CLAIM")
+    return [f"  {verdict}         write what holds under expect"]
 
 
 def _claim(outcome: Outcome, claim: Claim, paint: Paint) -> str:
@@ -284,5 +296,6 @@ def _claim(outcome: Outcome, claim: Claim, paint: Paint) -> str:
         told += folded(claim.why, left, "")
     first, *rest = told
     verdict = paint("bad", "CLAIM FAILS")
-    lines = [f"  {verdict}      {first}", *indented(rest, " " * margin)]
+    lines = [f"  {verdict}      {first}"]
+    lines += indented(rest, " " * margin)
     return "\n".join(lines)

@@ -102,22 +102,24 @@ class _Step(NamedTuple):
         measured = dict(self.errors)
         if self.row.energy_error is not None:
             measured = {"energy": self.row.energy_error, **measured}
-        below = [
-            name
-            for name, x in measured.items()
-            if x.contains(0) and not x.is_zero()
-        ]
+        below = []
+        for name, x in measured.items():
+            if x.contains(0) and not x.is_zero():
+                below.append(name)
         return below or None
 
 
 def _number(ball: arb) -> float:
-    return float(for_programs(ball, DIGITS))
+    digits = for_programs(ball, DIGITS)
+    return float(digits)
 
 
 def _energy_error(step: _Step) -> float | None:
     """None where there is no energy."""
     error = step.row.energy_error
-    return None if error is None else _number(error)
+    if error is None:
+        return None
+    return _number(error)
 
 
 def _place(order: float | None) -> float | None:
@@ -127,6 +129,12 @@ def _place(order: float | None) -> float | None:
     return round(order, SLOPE_DIGITS) + 0.0
 
 
+_BELOW_ROUND_OFF: Field[_Step] = Field(
+    "below_round_off",
+    array(TEXT),
+    lambda x: x.below_round_off,
+    is_optional=True,
+)
 _ERRORS: Schema = {"type": "object", "additionalProperties": SIZE}
 _STEP: Record[_Step] = Record(
     Field("h", SIZE, lambda x: to_float(x.row.h)),
@@ -136,12 +144,7 @@ _STEP: Record[_Step] = Record(
     Field("energy_error", SIZE, _energy_error),
     Field("digits", nullable(POSITION), lambda x: x.row.digits),
     Field("invariant_errors", _ERRORS, lambda x: x.in_numbers),
-    Field(
-        "below_round_off",
-        array(TEXT),
-        lambda x: x.below_round_off,
-        is_optional=True,
-    ),
+    _BELOW_ROUND_OFF,
 )
 _COST: Record[Cost] = Record(
     Field("steps", COUNT, lambda x: x.steps),
@@ -169,15 +172,16 @@ _SHORT: Record[Convergence] = Record(
 
 def _resolution(result: Convergence) -> float | None:
     """The smallest h ‖∂f/∂y‖ in a few digits."""
-    return (
-        None
-        if result.stiff is None
-        else float(f"{result.stiff.resolution:.3g}")
-    )
+    if result.stiff is None:
+        return None
+    three_digits = f"{result.stiff.resolution:.3g}"
+    return float(three_digits)
 
 
 def _stage_order(result: Convergence) -> int | None:
-    return None if result.stiff is None else result.stiff.stage_order
+    if result.stiff is None:
+        return None
+    return result.stiff.stage_order
 
 
 _STIFF: Record[Convergence] = Record(
@@ -189,7 +193,9 @@ _STIFF: Record[Convergence] = Record(
 
 
 def _if_stiff(result: Convergence) -> Convergence | None:
-    return None if result.stiff is None else result
+    if result.stiff is None:
+        return None
+    return result
 
 
 def _problem(result: Convergence) -> Stepped:
@@ -197,9 +203,12 @@ def _problem(result: Convergence) -> Stepped:
 
 
 def _if_short(result: Convergence) -> Convergence | None:
-    return None if result.short_time is None else result
+    if result.short_time is None:
+        return None
+    return result
 
 
+_VERDICT: Schema = {"enum": [*get_args(Verdict)]}
 _RESULT: tuple[Field[Convergence], ...] = (
     Field("t_end", EXACT, lambda x: str(x.t_end)),
     Field("predicted_order", COUNT, lambda x: x.predicted_order),
@@ -207,7 +216,7 @@ _RESULT: tuple[Field[Convergence], ...] = (
     Field("visible_order_is_exact", FLAG, lambda x: x.visible.is_sharp),
     Field("observed_order", NUMBER, lambda x: _place(x.observed_order)),
     Field("agrees", FLAG, lambda x: x.agrees),
-    Field("verdict", {"enum": [*get_args(Verdict)]}, lambda x: x.verdict),
+    Field("verdict", _VERDICT, lambda x: x.verdict),
     Field("plateau", COUNT, lambda x: x.plateau),
     _SHORT.optional("short", _if_short),
     _STIFF.optional("stiff", _if_stiff),
@@ -247,21 +256,23 @@ def _results(tried: Sequence[_Tried]) -> list[dict[str, Any]]:
 def _form(tried: _Tried) -> Record[_Tried]:
     """The fields of a method that was tested, or was not."""
     result = tried.entry.result
-    return _UNTESTED if result is None else _TESTED[type(result.problem)]
+    if result is None:
+        return _UNTESTED
+    kind = type(result.problem)
+    return _TESTED[kind]
 
 
 def _failed(tried: Sequence[_Tried]) -> int:
     return sum(x.entry.exit_code != 0 for x in tried)
 
 
-_RESULTS: Schema = array(
-    one_of(_UNTESTED.schema, *(form.schema for form in _TESTED.values()))
-)
+_OF_TESTED = [form.schema for form in _TESTED.values()]
+_RESULTS: Schema = array(one_of(_UNTESTED.schema, *_OF_TESTED))
 _SUMMARY: Record[Sequence[_Tried]] = Record(
     Field("files", COUNT, len), Field("failed", COUNT, _failed)
 )
 _COMPARISON: Record[Sequence[_Tried]] = Record(
     schema_named(SCHEMA_OF_SEVERAL),
     Field("results", _RESULTS, _results),
-    Field("summary", _SUMMARY.schema, _SUMMARY.data),
+    _SUMMARY.whole("summary", lambda x: x),
 )

@@ -53,16 +53,22 @@ class _Quantity(NamedTuple):
     def drift_in_all(self) -> float | None:
         """What the drift adds up to."""
         drift = self.history.drift
-        return None if drift is None else drift * self.end
+        if drift is None:
+            return None
+        return drift * self.end
 
 
 def _float(x: fmpq | None) -> float | None:
-    return None if x is None else to_float(x)
+    if x is None:
+        return None
+    return to_float(x)
 
 
 def _turns(run: LongRun) -> int | None:
     """None where the steps are exact: nothing is counted then."""
-    return None if run.digits is None else run.turns
+    if run.digits is None:
+        return None
+    return run.turns
 
 
 def _has_blown_up(run: LongRun) -> bool:
@@ -86,9 +92,10 @@ def _measured(report: Report) -> _Measured | None:
 def _determinant(measured: _Measured) -> str | None:
     """The determinant of M minus 1, of the step map of the oscillator."""
     stability = measured.stability
-    return (
-        None if stability is None else to_decimal(stability.determinant - 1, 4)
-    )
+    if stability is None:
+        return None
+    difference = stability.determinant - 1
+    return to_decimal(difference, 4)
 
 
 def _quantities(run: LongRun) -> list[_Quantity]:
@@ -99,6 +106,8 @@ def _problem(run: LongRun) -> Stepped:
     return run.problem
 
 
+_VERDICT: Schema = {"enum": [*get_args(Verdict)]}
+_TREND: Schema = {"enum": [*get_args(Shape)]}
 _QUANTITY: Record[_Quantity] = Record(
     Field("name", TEXT, lambda x: x.history.name),
     Field("initial", NUMBER, lambda x: x.history.initial),
@@ -109,10 +118,8 @@ _QUANTITY: Record[_Quantity] = Record(
     Field("oscillation", SIZE, lambda x: x.history.amplitude),
     Field("round_off", SIZE, lambda x: x.history.round_off),
     Field("rounded_coefficients", SIZE, lambda x: x.history.coefficients),
-    Field(
-        "verdict", {"enum": [*get_args(Verdict)]}, lambda x: x.history.verdict
-    ),
-    Field("trend", {"enum": [*get_args(Shape)]}, lambda x: x.history.shape),
+    Field("verdict", _VERDICT, lambda x: x.history.verdict),
+    Field("trend", _TREND, lambda x: x.history.shape),
     Field("t_end_to_decide", SIZE, lambda x: _float(x.history.longer)),
 )
 _RUN: tuple[Field[LongRun], ...] = (

@@ -25,23 +25,39 @@ def render(
     """The lists as text or JSON."""
     if format == "json":
         return _REPORT.text(_Lists(families, rules, problems))
-    lines = [paint("strong", f"{'families':<20} {'stages':<8} order")]
-    lines += [
-        f"  {x.name:<18} {_stages(x):<8} {x.order:<7} {x.summary}"
-        for x in families.values()
-    ]
+    lines = _families(families, paint)
     for title, entries in (("transfer rules", rules), ("problems", problems)):
-        width = max(len(name) for name in entries) + 4
         lines += ["", paint("strong", title)]
-        for name, summary in entries.items():
-            first, *rest = wrap(summary, _WIDTH - width)
-            lines.append(f"  {name}".ljust(width) + first)
-            lines += indented(rest, " " * width)
+        lines += _entries(entries)
     lines += [
         "",
         "A problem of your own is a file: --problem FILE.yaml, see docs/problem-file.md.",
     ]
     return "\n".join(lines) + "\n"
+
+
+def _families(families: Mapping[str, Family], paint: Paint) -> list[str]:
+    """A line for each family, below their heads."""
+    head = f"{'families':<20} {'stages':<8} order"
+    lines = [paint("strong", head)]
+    for family in families.values():
+        stages = _stages(family)
+        about = f"{family.order:<7} {family.summary}"
+        lines.append(f"  {family.name:<18} {stages:<8} {about}")
+    return lines
+
+
+def _entries(entries: Mapping[str, str]) -> list[str]:
+    """Names with their summaries beside them."""
+    width = max(map(len, entries)) + 4
+    margin = " " * width
+    lines = []
+    for name, summary in entries.items():
+        first, *rest = wrap(summary, _WIDTH - width)
+        label = f"  {name}".ljust(width)
+        lines.append(label + first)
+        lines += indented(rest, margin)
+    return lines
 
 
 class _Lists(NamedTuple):
@@ -53,11 +69,10 @@ class _Lists(NamedTuple):
 
 
 def _stages(family: Family) -> str:
-    return (
-        str(family.smallest)
-        if family.largest == family.smallest
-        else f">= {family.smallest}"
-    )
+    smallest = str(family.smallest)
+    if family.largest == family.smallest:
+        return smallest
+    return f">= {smallest}"
 
 
 _FAMILY: Record[Family] = Record(

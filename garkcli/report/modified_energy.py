@@ -53,18 +53,22 @@ def render(report: ModifiedEnergyReport, format: str, paint: Paint) -> str:
 def text_of(report: ModifiedEnergyReport, paint: Paint) -> list[str]:
     """The lines of the report."""
     run = report.run
+    problem = describe(run.problem)
     lines = [paint("strong", report.name)]
-    lines += indented(folded(describe(run.problem), _WIDTH - 2, "  "))
+    lines += indented(folded(problem, _WIDTH - 2, "  "))
     lines.append(f"  to t = {run.t_end}, {run.digits} digits")
     lines.append(
         "  root mean square of H(t) - H(0), and with the modified terms of H"
     )
-    label = max(len(str(row.h)) for row in run.energies[0].rows) + 2
-    label = max(label, 8)
-    beside = max(1, (_WIDTH - 2 - label) // _ERROR)
+    rows = run.energies[0].rows
+    longest = max(len(str(row.h)) for row in rows)
+    label = max(longest + 2, 8)
+    room = _WIDTH - 2 - label
+    beside = max(1, room // _ERROR)
     for first in range(0, len(run.energies), beside):
+        some = run.energies[first : first + beside]
         lines.append("")
-        lines += _block(run.energies[first : first + beside], label)
+        lines += _block(some, label)
     lines.append("")
     for energy in run.energies:
         lines += _verdict(energy, paint)
@@ -73,40 +77,44 @@ def text_of(report: ModifiedEnergyReport, paint: Paint) -> list[str]:
 
 def _block(energies: Sequence[ModifiedEnergy], label: int) -> list[str]:
     """Some of the errors beside each other, with so many columns for the step size."""
-    heading = _cell("h", -label)
+    heading = "h".ljust(label)
     for energy in energies:
-        heading += _cell(_title(energy), 10) + _cell("slope", 7)
+        heading += _title(energy).rjust(10)
+        heading += "slope".rjust(7)
     lines = [f"  {heading}"]
     columns = [energy.rows for energy in energies]
     for rows in zip(*columns, strict=True):
-        line = _cell(str(rows[0].h), -label)
+        line = str(rows[0].h).ljust(label)
         for row in rows:
-            line += _cell(scientific(row.error), 10) + _cell(_slope(row), 7)
+            line += scientific(row.error).rjust(10)
+            line += _slope(row).rjust(7)
         lines.append(f"  {line.rstrip()}")
     return lines
 
 
-def _cell(text: str, width: int) -> str:
-    """A text to the right of its column, to the left for a negative width."""
-    return text.rjust(width) if width > 0 else text.ljust(-width)
-
-
 def _title(energy: ModifiedEnergy) -> str:
-    return f"to h^{energy.power}" if energy.power else "H"
+    if not energy.power:
+        return "H"
+    return f"to h^{energy.power}"
 
 
 def _slope(row: Row) -> str:
-    return "" if row.slope is None else f"{row.slope:.3f}"
+    if row.slope is None:
+        return ""
+    return f"{row.slope:.3f}"
 
 
 def _verdict(energy: ModifiedEnergy, paint: Paint) -> Iterator[str]:
     """The exact order beside the observed one."""
-    least = "at least " if energy.is_lower_bound else ""
     word = energy.verdict
     shown = "DISAGREE" if word == "disagree" else word
     painted = paint(_STYLES[word], shown)
-    found = f"{painted}: {_observed(energy)}"
-    yield f"  {_title(energy):<8}{found}, order {least}{energy.exact_order}"
+    observed = _observed(energy)
+    exact = str(energy.exact_order)
+    if energy.is_lower_bound:
+        exact = f"at least {exact}"
+    title = _title(energy)
+    yield f"  {title:<8}{painted}: {observed}, order {exact}"
 
 
 def _observed(energy: ModifiedEnergy) -> str:
@@ -114,23 +122,32 @@ def _observed(energy: ModifiedEnergy) -> str:
         return "no error above round-off"
     found = f"observed {energy.observed_order:.3f}"
     if energy.uncertainty is not None:
-        found += f" ± {max(1, ceil(1000 * energy.uncertainty)) / 1000:.3f}"
-    return found if energy.has_settled else f"{found}, slopes have not settled"
+        thousandths = ceil(1000 * energy.uncertainty)
+        rounded_up = max(1, thousandths) / 1000
+        found += f" ± {rounded_up:.3f}"
+    if not energy.has_settled:
+        found += ", slopes have not settled"
+    return found
 
 
 def _csv(run: ModifiedRun) -> str:
     stream = io.StringIO()
     writer = csv.writer(stream, lineterminator="\n")
-    writer.writerow(["h", *(f"error_{x.power}" for x in run.energies)])
-    for rows in zip(*(x.rows for x in run.energies), strict=True):
+    names = [f"error_{energy.power}" for energy in run.energies]
+    writer.writerow(["h", *names])
+    columns = [energy.rows for energy in run.energies]
+    for rows in zip(*columns, strict=True):
         errors = [repr(to_float_error(row)) for row in rows]
-        writer.writerow([repr(to_float(rows[0].h)), *errors])
+        h = to_float(rows[0].h)
+        writer.writerow([repr(h), *errors])
     return stream.getvalue()
 
 
 def to_float_error(row: Row) -> float:
     """The middle of an error, as it is shown."""
-    return float(str(row.error.mid().str(6, radius=False)))
+    middle = row.error.mid()
+    shown = middle.str(6, radius=False)
+    return float(shown)
 
 
 def modified_energy_schema() -> Schema:
@@ -138,22 +155,20 @@ def modified_energy_schema() -> Schema:
     return published("report of gark energy --modified", _REPORT.schema)
 
 
+_NUMBER_OR_NULL: Schema = nullable(_NUMBER)
+_VERDICT: Schema = {"enum": [*_STYLES]}
 _ROW: Record[Row] = Record(
     Field("h", EXACT, lambda x: str(x.h)),
     Field("error", _NUMBER, to_float_error),
-    Field("slope", nullable(_NUMBER), lambda x: x.slope),
+    Field("slope", _NUMBER_OR_NULL, lambda x: x.slope),
 )
 _ENERGY: Record[ModifiedEnergy] = Record(
     Field("power", COUNT, lambda x: x.power),
     Field("exact_order", COUNT, lambda x: x.exact_order),
     Field("exact_order_is_lower_bound", FLAG, lambda x: x.is_lower_bound),
-    Field("observed_order", nullable(_NUMBER), lambda x: x.observed_order),
-    Field("uncertainty", nullable(_NUMBER), lambda x: x.uncertainty),
-    Field(
-        "verdict",
-        {"enum": ["agree", "disagree", "undecided"]},
-        lambda x: x.verdict,
-    ),
+    Field("observed_order", _NUMBER_OR_NULL, lambda x: x.observed_order),
+    Field("uncertainty", _NUMBER_OR_NULL, lambda x: x.uncertainty),
+    Field("verdict", _VERDICT, lambda x: x.verdict),
     _ROW.every("rows", lambda x: x.rows),
 )
 _REPORT: Record[ModifiedEnergyReport] = Record(

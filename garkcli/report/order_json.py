@@ -43,42 +43,40 @@ def order_fields(prefix: str = "") -> tuple[Field[AnyOrder], ...]:
     """
     number = nullable(COUNT) if prefix else COUNT
     is_bound = f"{prefix}order_is_lower_bound"
+    largest = f"{prefix}order_largest_residual"
     return (
         Field(f"{prefix}order", number, lambda x: x.order),
         _WITNESS.or_null(f"{prefix}witness", lambda x: x.witness),
-        Field(
-            is_bound,
-            TRUE,
-            lambda x: x.is_lower_bound or None,
-            is_optional=True,
-        ),
-        Field(
-            f"{prefix}order_largest_residual",
-            SIZE,
-            _residual,
-            is_optional=True,
-        ),
+        Field(is_bound, TRUE, _is_bound, is_optional=True),
+        Field(largest, SIZE, _residual, is_optional=True),
         Field(f"{prefix}order_tolerance", TEXT, _tolerance, is_optional=True),
         Field(f"{prefix}order_undecided", TRUE, _undecided, is_optional=True),
     )
 
 
+def _is_bound(order: AnyOrder) -> bool | None:
+    return order.is_lower_bound or None
+
+
 def _residual(order: AnyOrder) -> float | None:
     """The largest residual of an order within a tolerance."""
-    return (
-        None
-        if isinstance(order, Order)
-        else float(order.largest_residual.upper())
-    )
+    if isinstance(order, Order):
+        return None
+    bound = order.largest_residual.upper()
+    return float(bound)
 
 
 def _tolerance(order: AnyOrder) -> str | None:
-    return None if isinstance(order, Order) else decimal(order.tolerance)
+    if isinstance(order, Order):
+        return None
+    return decimal(order.tolerance)
 
 
 def _undecided(order: AnyOrder) -> bool | None:
     """True where the next order is left open."""
-    return None if isinstance(order, Order) else order.undecided or None
+    if isinstance(order, Order):
+        return None
+    return order.undecided or None
 
 
 _TABLE: Schema = array(array(nullable(INTEGER)))

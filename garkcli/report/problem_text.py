@@ -41,8 +41,8 @@ def _energy(k: object, v: object) -> str:
 
 
 def _described(problem: Hamiltonian) -> str:
-    texts = [str(term).replace("**", "^") for term in problem.terms]
-    if sum(map(len, texts)) > _LONGEST:
+    texts = [_formula(term) for term in problem.terms]
+    if not _is_short(texts):
         count = len(texts)
         terms = f"{count} terms" if count > 1 else "one term"
         positions = ", ".join(problem.variables)
@@ -56,17 +56,25 @@ def _described_fields(problem: RightHandSide) -> str:
         name += f", stiffness {problem.stiffness}"
     fields = []
     for l, term in enumerate(problem.terms, start=1):
-        components = ", ".join(str(x).replace("**", "^") for x in term)
-        fields.append(
-            f"f{{{l}}}: ({components})"
-            if len(term) > 1
-            else f"f{{{l}}}: {components}"
-        )
-    if sum(map(len, fields)) <= _LONGEST:
-        return f"{name}; {', '.join(fields)}"
-    sides = (
-        f"{len(fields)} right-hand sides"
-        if len(fields) > 1
-        else "one right-hand side"
-    )
-    return f"{name}, {sides} of {', '.join(problem.variables)}"
+        components = [_formula(x) for x in term]
+        side = ", ".join(components)
+        if len(components) > 1:
+            side = f"({side})"
+        fields.append(f"f{{{l}}}: {side}")
+    if _is_short(fields):
+        shown = ", ".join(fields)
+        return f"{name}; {shown}"
+    sides = "one right-hand side"
+    if len(fields) > 1:
+        sides = f"{len(fields)} right-hand sides"
+    variables = ", ".join(problem.variables)
+    return f"{name}, {sides} of {variables}"
+
+
+def _formula(expression: object) -> str:
+    """An expression of sympy with powers as people write them."""
+    return str(expression).replace("**", "^")
+
+
+def _is_short(texts: Sequence[str]) -> bool:
+    return sum(map(len, texts)) <= _LONGEST

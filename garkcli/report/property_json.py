@@ -2,7 +2,7 @@
 
 from __future__ import annotations
 
-from typing import TYPE_CHECKING, Any
+from typing import TYPE_CHECKING, Any, NamedTuple
 
 from garkcli.exact.display import to_text
 from garkcli.page.exactly import ROOT_OF, root_data
@@ -47,7 +47,9 @@ def _stage_order_is_open(found: Analysis) -> bool | None:
 
 
 def _kind(found: Shape | None) -> str | None:
-    return None if found is None else found.kind
+    if found is None:
+        return None
+    return found.kind
 
 
 def _gamma(found: Shape | None) -> str | None:
@@ -57,18 +59,39 @@ def _gamma(found: Shape | None) -> str | None:
 
 
 def _undecided(found: Analysis) -> list[str]:
-    return [
-        key
-        for key in KEYS
-        if find(key).is_cheap and found.subject.verdict(key).is_undecided
-    ]
+    cheap = [key for key in KEYS if find(key).is_cheap]
+    verdict = found.subject.verdict
+    return [key for key in cheap if verdict(key).is_undecided]
 
 
-_OF_COLOUR: Record[tuple[Subject, int]] = Record(
-    Field("name", TEXT, lambda x: x[0].tableau.colours[x[1]].name),
-    Field("kind", _KIND, lambda x: _kind(x[0].shapes[x[1]])),
-    Field("gamma", nullable(EXACT), lambda x: _gamma(x[0].shapes[x[1]])),
-    Field("stage_order", COUNT, lambda x: x[0].stage_orders[x[1]]),
+class _Colour(NamedTuple):
+    """One colour of a method."""
+
+    subject: Subject
+    number: int
+
+    @property
+    def name(self) -> str:
+        """As the file calls it."""
+        colour = self.subject.tableau.colours[self.number]
+        return colour.name
+
+    @property
+    def shape(self) -> Shape | None:
+        """Which of its stages depend on which; None where it has no block of its own."""
+        return self.subject.shapes[self.number]
+
+    @property
+    def stage_order(self) -> int:
+        """Of its stages."""
+        return self.subject.stage_orders[self.number]
+
+
+_OF_COLOUR: Record[_Colour] = Record(
+    Field("name", TEXT, lambda x: x.name),
+    Field("kind", _KIND, lambda x: _kind(x.shape)),
+    Field("gamma", nullable(EXACT), lambda x: _gamma(x.shape)),
+    Field("stage_order", COUNT, lambda x: x.stage_order),
 )
 _STAGES: Schema = {
     "type": "object",
@@ -87,9 +110,9 @@ _RENUMBERED: Schema = {
 }
 
 
-def _by_colour(found: Analysis) -> list[dict[str, Any]]:
-    colours = range(found.tableau.size)
-    return [_OF_COLOUR.data((found.subject, l)) for l in colours]
+def _by_colour(found: Analysis) -> list[_Colour]:
+    numbers = range(found.tableau.size)
+    return [_Colour(found.subject, l) for l in numbers]
 
 
 def _names(tableau: Tableau, space: int) -> list[str]:
@@ -117,32 +140,35 @@ def _renumbering(found: Analysis) -> list[dict[str, Any]] | None:
     reflections = found.subject.symmetry.reflections
     if not reflections:
         return None
-    return [
-        {
-            "colours": _names(found.tableau, space),
-            "stages": "1 - x"
-            if x.images is None
-            else [i + 1 for i in x.images],
-        }
-        for space, x in enumerate(reflections)
-    ]
+    renumbered = []
+    for space, reflection in enumerate(reflections):
+        names = _names(found.tableau, space)
+        stages: object = "1 - x"
+        if reflection.images is not None:
+            stages = [i + 1 for i in reflection.images]
+        renumbered.append({"colours": names, "stages": stages})
+    return renumbered
+
+
+def _implicit_stages(found: Analysis) -> int | None:
+    return found.subject.shape.implicit_stages
+
+
+def _stage_order(found: Analysis) -> int:
+    return min(found.subject.stage_orders)
 
 
 PROPERTIES: Record[Analysis] = Record(
     *map(_truth, ("explicit", "diagonally-implicit", "sdirk", "esdirk")),
     Field("gamma", nullable(EXACT), lambda x: _gamma(x.subject.shape)),
     _truth("fully-implicit"),
-    Field(
-        "implicit_stages",
-        nullable(COUNT),
-        lambda x: x.subject.shape.implicit_stages,
-    ),
+    Field("implicit_stages", nullable(COUNT), _implicit_stages),
     Field("solved_together", array(array(_STAGES)), _together),
     *map(_truth, ("stiffly-accurate", "fsal", "symmetric")),
     Field("renumbering", nullable(array(_RENUMBERED)), _renumbering),
     Field("symplectic", FLAG, lambda x: x.symplectic),
     _truth("reducible"),
-    Field("stage_order", COUNT, lambda x: min(x.subject.stage_orders)),
+    Field("stage_order", COUNT, _stage_order),
     Field(
         "stage_order_is_lower_bound",
         TRUE,
@@ -151,7 +177,7 @@ PROPERTIES: Record[Analysis] = Record(
     ),
     *map(_truth, ("nodes-in-unit-interval", "positive-weights")),
     _truth("algebraically-stable"),
-    Field("by_colour", array(_OF_COLOUR.schema), _by_colour),
+    _OF_COLOUR.every("by_colour", _by_colour),
     Field("undecided", array(TEXT), _undecided),
 )
 """The properties that every check decides."""
@@ -162,7 +188,9 @@ def _value(found: Verdict) -> Any:
     value = found.value
     if not isinstance(value, Size):
         return value
-    return "infinity" if value.root is None else root_data(value.root)
+    if value.root is None:
+        return "infinity"
+    return root_data(value.root)
 
 
 _VALUE: Schema = one_of(

@@ -57,13 +57,17 @@ class Shown(NamedTuple, Generic[Part]):
 
     def root(self, root: RealRoot | None) -> object:
         """An algebraic number; None stays None."""
-        return None if root is None else root_data(root, self.digits)
+        if root is None:
+            return None
+        return root_data(root, self.digits)
 
     def radius(self, found: SspCoefficient | None) -> object:
         """A radius of absolute monotonicity, which may be infinite; None where not decided."""
         if found is None:
             return None
-        return "infinity" if found.value is None else self.root(found.value)
+        if found.value is None:
+            return "infinity"
+        return self.root(found.value)
 
 
 def _record(**schemas: Schema) -> Schema:
@@ -91,12 +95,23 @@ def ratio(found: Ratio | StabilityFunction, variable: str) -> dict[str, str]:
 
 
 def _factor(found: tuple[Polynomial, int]) -> str:
-    return polynomial_text(found[0], "x")
+    factor, _ = found
+    return polynomial_text(factor, "x")
+
+
+def _numerator(R: Fraction) -> str:
+    over, _ = _multivariate(R)
+    return over
+
+
+def _denominator(R: Fraction) -> str:
+    _, under = _multivariate(R)
+    return under
 
 
 FRACTION: Record[Fraction] = Record(
-    Field("numerator", TEXT, lambda x: _multivariate(x)[0]),
-    Field("denominator", TEXT, lambda x: _multivariate(x)[1]),
+    Field("numerator", TEXT, _numerator),
+    Field("denominator", TEXT, _denominator),
     Field("lowest_terms", FLAG, lambda x: x.is_reduced),
 )
 _FACTOR: Record[tuple[Polynomial, int]] = Record(
@@ -108,16 +123,18 @@ _FACTOR: Record[tuple[Polynomial, int]] = Record(
 def _multivariate(R: Fraction) -> list[str]:
     """Numerator and denominator in z1, z2, …"""
     parts = integral_parts(R)
-    names = [f"z{k + 1}" for k in range(parts[0].variables)]
+    count = parts[0].variables
+    names = [f"z{k}" for k in range(1, count + 1)]
     return [multivariate_text(p, names) for p in parts]
 
 
 # intervals
 
-_END: Schema = _record(to=nullable(ALGEBRAIC))
+_ROOT_OR_NULL: Schema = nullable(ALGEBRAIC)
+_END: Schema = _record(to=_ROOT_OR_NULL)
 _INTERVAL: Record[Shown[Interval]] = Record(
-    Field("from", nullable(ALGEBRAIC), lambda x: x.root(x.part.start)),
-    Field("to", nullable(ALGEBRAIC), lambda x: x.root(x.part.end)),
+    Field("from", _ROOT_OR_NULL, lambda x: x.root(x.part.start)),
+    Field("to", _ROOT_OR_NULL, lambda x: x.root(x.part.end)),
     Field("from_included", FLAG, lambda x: x.part.has_start),
     Field("to_included", FLAG, lambda x: x.part.has_end),
 )
@@ -132,10 +149,13 @@ def _bounds(found: Bounds) -> dict[str, str | None]:
     low, high = found.low, found.high
     if low is None:
         return {"at_least": "infinity", "at_most": None}
-    down = fmpq((low * PLACES).floor()) / PLACES
-    up = None if high is None else fmpq((high * PLACES).ceil()) / PLACES
-    at_most = None if up is None else plain_decimal(up)
-    return {"at_least": plain_decimal(down), "at_most": at_most}
+    places_down = (low * PLACES).floor()
+    at_least = plain_decimal(fmpq(places_down) / PLACES)
+    at_most = None
+    if high is not None:
+        places_up = (high * PLACES).ceil()
+        at_most = plain_decimal(fmpq(places_up) / PLACES)
+    return {"at_least": at_least, "at_most": at_most}
 
 
 def _end(
@@ -144,11 +164,16 @@ def _end(
     """The first interval, by its end: in −z on the real axis, in y² on the imaginary one."""
     if intervals is None:
         return None
-    return {"to": shown.root(intervals[0].end) if intervals else "0"}
+    if not intervals:
+        return {"to": "0"}
+    end = intervals[0].end
+    return {"to": shown.root(end)}
 
 
 def _ray(shown: Shown[Any], ray: Ray | None) -> dict[str, object] | None:
-    return None if ray is None else {"to": shown.root(ray.end)}
+    if ray is None:
+        return None
+    return {"to": shown.root(ray.end)}
 
 
 def _intervals(
@@ -172,7 +197,9 @@ def _sector(shown: Shown[LinearStability]) -> dict[str, object] | None:
 
 def _limit(shown: Shown[LinearStability]) -> str | None:
     limit = shown.part.R.at_infinity()
-    return None if limit is None else to_text(limit)
+    if limit is None:
+        return None
+    return to_text(limit)
 
 
 def _real_interval(shown: Shown[LinearStability]) -> object:
@@ -218,29 +245,44 @@ OF_COLOUR: Record[Shown[LinearStability]] = Record(
 
 def _explicit(shown: Shown[Colours]) -> str | None:
     pair, names = shown.part.pair, shown.part.names
-    return None if pair is None else names[pair.explicit]
+    if pair is None:
+        return None
+    return names[pair.explicit]
 
 
 def _implicit(shown: Shown[Colours]) -> str | None:
     pair, names = shown.part.pair, shown.part.names
-    return None if pair is None else names[pair.implicit]
+    if pair is None:
+        return None
+    return names[pair.implicit]
 
 
+def _direction(shown: Shown[AdditiveRadius]) -> list[str]:
+    return [str(ratio) for ratio in shown.part.ratios]
+
+
+def _radius(shown: Shown[AdditiveRadius]) -> object:
+    return shown.radius(shown.part.radius)
+
+
+def _real_ray(shown: Shown[Colours]) -> dict[str, object] | None:
+    return _ray(shown, shown.part.real)
+
+
+def _imaginary_ray(shown: Shown[Colours]) -> dict[str, object] | None:
+    return _ray(shown, shown.part.imaginary)
+
+
+_END_OR_NULL: Schema = nullable(_END)
 RADIUS: Record[Shown[AdditiveRadius]] = Record(
-    Field(
-        "direction", array(EXACT), lambda x: [str(r) for r in x.part.ratios]
-    ),
-    Field("radius", nullable(ALGEBRAIC), lambda x: x.radius(x.part.radius)),
+    Field("direction", array(EXACT), _direction),
+    Field("radius", _ROOT_OR_NULL, _radius),
 )
 IMEX: Record[Shown[Colours]] = Record(
     Field("explicit", TEXT, _explicit),
     Field("implicit", TEXT, _implicit),
-    Field("real_interval", nullable(_END), lambda x: _ray(x, x.part.real)),
-    Field(
-        "imaginary_interval",
-        nullable(_END),
-        lambda x: _ray(x, x.part.imaginary),
-    ),
+    Field("real_interval", _END_OR_NULL, _real_ray),
+    Field("imaginary_interval", _END_OR_NULL, _imaginary_ray),
 )
 
 
@@ -248,24 +290,32 @@ IMEX: Record[Shown[Colours]] = Record(
 
 
 def _discriminant(shown: Shown[OscillatorStability]) -> str:
-    return polynomial_text(integral([shown.part.discriminant])[0], "x")
+    [discriminant] = integral([shown.part.discriminant])
+    return polynomial_text(discriminant, "x")
 
 
 def _phase_constant(shown: Shown[OscillatorStability]) -> str | None:
     constant = shown.part.phase.constant
-    return None if constant is None else to_text(constant)
+    if constant is None:
+        return None
+    return to_text(constant)
 
 
 def _conserved(shown: Shown[OscillatorStability]) -> dict[str, str] | None:
     form = shown.part.conserved
     if form is None:
         return None
-    texts = [polynomial_text(p, "z") for p in integral(form)]
-    return dict(zip(("qq", "qp", "pp"), texts, strict=True))
+    qq, qp, pp = (polynomial_text(p, "z") for p in integral(form))
+    return {"qq": qq, "qp": qp, "pp": pp}
 
 
-def _slow_ends(found: SlowInterval) -> dict[str, str]:
+def _slow_ends(shown: Shown[SlowInterval]) -> dict[str, str]:
+    found = shown.part
     return {"from": str(found.low), "to": str(found.high)}
+
+
+def _always_stable(shown: Shown[SlowInterval]) -> bool | None:
+    return shown.part.is_stable_for_all
 
 
 def _open_points(shown: Shown[SlowInterval]) -> list[object]:
@@ -290,17 +340,10 @@ SPRINGS: tuple[Field[Shown[TwoFrequencies]], ...] = (
     _FACTOR.every("factors", lambda x: factors(x.part.discriminant)),
     _INTERVAL.every("stable", _intervals),
 )
+_FROM_TO: Schema = _record(**{"from": EXACT, "to": EXACT})
 SLOW_INTERVAL: tuple[Field[Shown[SlowInterval]], ...] = (
-    Field(
-        "slow",
-        _record(**{"from": EXACT, "to": EXACT}),
-        lambda x: _slow_ends(x.part),
-    ),
+    Field("slow", _FROM_TO, _slow_ends),
     _INTERVAL.every("stable", _intervals),
-    Field(
-        "stable_for_every_fast",
-        nullable(FLAG),
-        lambda x: x.part.is_stable_for_all,
-    ),
+    Field("stable_for_every_fast", nullable(FLAG), _always_stable),
     Field("open_points", array(ALGEBRAIC), _open_points),
 )
