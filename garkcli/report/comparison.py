@@ -53,12 +53,13 @@ def render(
         return json_of_several(entries, with_work)
     if format == "csv":
         return csv_of_several(entries, with_work)
-    return "\n".join(_text(entries, paint, with_work, against)) + "\n"
+    lines = _text(entries, paint, with_work, against)
+    return "\n".join(lines) + "\n"
 
 
 def letters(count: int) -> list[str]:
     """A, B, …, Z, a, …, z, and numbers beyond: short names of methods."""
-    numbers = [str(k + 1) for k in range(count)]
+    numbers = [str(k) for k in range(1, count + 1)]
     single = [*ascii_uppercase, *ascii_lowercase]
     names = single + numbers[len(single) :]
     return names[:count]
@@ -75,12 +76,9 @@ def _about(result: Convergence) -> str:
     if isinstance(problem, Oscillator):
         return f"oscillator; q̈ = −ω²q, ω = {problem.omega}"
     if isinstance(problem, RightHandSide):
-        stiff = problem.stiffness
-        return (
-            problem.name
-            if stiff is None
-            else f"{problem.name}, stiffness {stiff}"
-        )
+        if problem.stiffness is None:
+            return problem.name
+        return f"{problem.name}, stiffness {problem.stiffness}"
     text = str(problem.energy).replace("**", "^")
     if len(text) > _LONGEST:
         return problem.name
@@ -92,9 +90,10 @@ def _text(
 ) -> list[str]:
     count = len(entries)
     named = list(zip(letters(count), entries, strict=True))
-    tested = [
-        (letter, x.result) for letter, x in named if x.result is not None
-    ]
+    tested = []
+    for letter, entry in named:
+        if entry.result is not None:
+            tested.append((letter, entry.result))
     lines = [paint("strong", f"{count} methods")]
     if tested:
         results = [result for _, result in tested]
@@ -140,7 +139,8 @@ def _names(named: Sequence[tuple[str, Entry]], paint: Paint) -> list[str]:
         margin = " " * (_INDENT + len(letter) + _INDENT)
         left = WIDTH - len(margin)
         first, *others = wrap(text, left) or [""]
-        head = f"  {paint('strong', letter)}  {first}"
+        painted = paint("strong", letter)
+        head = f"  {painted}  {first}"
         lines.append(head.rstrip())
         lines += indented(others, margin)
     return lines

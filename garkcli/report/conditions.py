@@ -129,13 +129,16 @@ def _text(
             order = row.tree.order
             yield paint("strong", f"order {order}") + "\n"
         yield from _lines(row, paint, width)
-    verdict = "" if valued is None or not count else _verdict(failed, valued)
+    verdict = ""
+    if valued is not None and count:
+        verdict = _verdict(failed, valued)
     if subject is not None:
         ending = f"; {verdict}" if verdict else ""
         yield from summary_lines(subject, ending, width)
     else:
         ending = f", {verdict}" if verdict else ""
-        yield f"{counted(count, 'condition')}{ending}\n"
+        conditions = counted(count, "condition")
+        yield f"{conditions}{ending}\n"
 
 
 def _names(valued: Valued) -> Iterator[str]:
@@ -173,8 +176,8 @@ def _lines(row: ConditionRow, paint: Paint, width: int) -> Iterator[str]:
     """One row: on one line where there is no value and it fits, below each other otherwise."""
     tree = format_tree(row.tree, not row.is_shape)
     sizes = f"σ = {row.tree.symmetry}  γ = {row.tree.density}"
-    formula = f"{row.formula}   {_multiplicity(row)}"
-    formula = formula.rstrip()
+    multiplicity = _multiplicity(row)
+    formula = f"{row.formula}   {multiplicity}".rstrip()
     one = f"  {tree:<22} {sizes:<17} {formula}"
     condition = row.condition
     if condition is None and len(one) <= width:
@@ -191,8 +194,8 @@ def _lines(row: ConditionRow, paint: Paint, width: int) -> Iterator[str]:
         below += folded(formula, width - 6, " " * 4)
         lines += indented(below, " " * 6)
     if condition is not None and not condition.is_exact:
-        miss = f"      {_miss(condition, row.digits)}"
-        lines += folded(miss, width, " " * 8)
+        miss = _miss(condition, row.digits)
+        lines += folded(f"      {miss}", width, " " * 8)
     members = map(format_tree, row.members)
     lines += member_lines(members, width)
     for line in lines:
@@ -219,10 +222,13 @@ def _multiplicity(row: ConditionRow) -> str:
     if row.stands_for:
         return f"stands for {row.stands_for}"
     if row.condition is not None:
+        if not row.condition.twins:
+            return ""
         trees = len(row.condition.trees)
-        return f"({trees} times)" if row.condition.twins else ""
+        return f"({trees} times)"
     if row.is_shape:
-        return f"∀ {','.join(vertex_letters(row.tree))}"
+        letters = ",".join(vertex_letters(row.tree))
+        return f"∀ {letters}"
     return ""
 
 
@@ -241,14 +247,18 @@ def _miss(condition: Condition, digits: int | None) -> str:
 
 def _latex_values(condition: Condition, digits: int | None) -> tuple[str, str]:
     """The value and the residual, in decimals where they are long or ``digits`` are asked for."""
-    value, residual = condition.value, condition.residual
+    value = condition.value
+    residual = condition.residual
     if digits is not None:
-        return _latex_decimal(value, digits), _latex_decimal(residual, digits)
-    lengths = (len(to_text(value)), len(to_text(residual)))
+        shown_value = _latex_decimal(value, digits)
+        shown_residual = _latex_decimal(residual, digits)
+        return shown_value, shown_residual
+    texts = (to_text(value), to_text(residual))
     is_number = not _is_parametric(value)
-    if max(lengths) > MOST_DIGITS and is_number:
+    if max(map(len, texts)) > MOST_DIGITS and is_number:
         about = _latex_decimal(value, 8)
-        return rf"\approx {about}", _latex_decimal(residual, 4)
+        shown_residual = _latex_decimal(residual, 4)
+        return rf"\approx {about}", shown_residual
     return to_latex(value), to_latex(residual)
 
 
@@ -290,9 +300,10 @@ def _latex_head(row: ConditionRow) -> str:
 
 def _latex_cells(row: ConditionRow) -> list[str]:
     has_colours = not row.is_shape
+    tree = format_latex(row.tree, has_colours)
     cells = [
         picture(row.tree, colours=has_colours),
-        f"${format_latex(row.tree, has_colours)}$",
+        f"${tree}$",
         str(row.tree.order),
         str(row.tree.density),
         f"${row.latex}$",

@@ -25,8 +25,10 @@ def blame_lines(blame: Blame, tableau: Tableau, paint: Paint) -> list[str]:
     names = blame.names or own
     has_colours = len(names) > 1
     hint = paint("note", "hint")
-    lines = [f"  {hint}: {_failing(blame, has_colours)}"]
-    lines += indented(_suspects(blame, names), _MARGIN)
+    failing = _failing(blame, has_colours)
+    suspects = _suspects(blame, names)
+    lines = [f"  {hint}: {failing}"]
+    lines += indented(suspects, _MARGIN)
     for place, repair in enumerate(blame.repairs[:_SHOWN_REPAIRS]):
         text = repair_text(repair, own)
         lines += _repair_lines("the claimed order", text)
@@ -39,16 +41,17 @@ def blame_lines(blame: Blame, tableau: Tableau, paint: Paint) -> list[str]:
 def _suspects(blame: Blame, names: Sequence[str]) -> list[str]:
     """Which blocks take part in all conditions that fail, and which in none."""
     letter = "Â" if blame.of == "conjugate-order" else "A"
+    culprits = [] if blame.culprit is None else [blame.culprit]
+    culprit = _blocks(culprits, names, letter)
+    in_every = _blocks(blame.in_every, names, letter)
+    in_none = _blocks(blame.in_none, names, letter)
     texts = []
-    if blame.culprit is not None and len(names) > 1:
-        culprit = _blocks([blame.culprit], names, letter)
+    if culprit and len(names) > 1:
         texts.append(f"{culprit} {_CULPRIT}")
     elif len(blame.in_every) > 1:
-        blocks = _blocks(blame.in_every, names, letter)
-        texts.append(f"in every one of them: {blocks}")
-    if blame.in_none:
-        blocks = _blocks(blame.in_none, names, letter)
-        texts.append(f"in none of them: {blocks}")
+        texts.append(f"in every one of them: {in_every}")
+    if in_none:
+        texts.append(f"in none of them: {in_none}")
     return texts
 
 
@@ -70,15 +73,17 @@ def misprint_lines(
 ) -> list[str]:
     """Why no tolerance is proposed: an entry looks misprinted, and which."""
     names = [colour.name for colour in tableau.colours]
-    residual, explained = size(found.residual), size(found.explained)
+    residual = size(found.residual)
+    explained = size(found.explained)
+    order = f"order {found.order}"
     hint = paint("note", "hint")
-    small = f"up to order {found.order} the residuals are at most {residual}"
+    small = f"up to {order} the residuals are at most {residual}"
     known = f"the digits in the file explain {explained}"
     lines = [f"  {hint}: {small},"]
     lines.append(f"{_MARGIN}{known}: an entry looks misprinted")
     for repair in found.repairs[:_SHOWN_REPAIRS]:
         text = repair_text(repair, names)
-        lines += _repair_lines(f"order {found.order}", text)
+        lines += _repair_lines(order, text)
     return lines
 
 
@@ -93,7 +98,8 @@ def _repair_lines(order: str, repair: str) -> list[str]:
     if len(line) <= WIDTH:
         return [start, line]
     new, instead, old = line.partition(" instead of ")
-    return [start, new, f"{inner}{instead.lstrip()}{old}"]
+    joint = instead.lstrip()
+    return [start, new, f"{inner}{joint}{old}"]
 
 
 def _blocks(
@@ -101,7 +107,9 @@ def _blocks(
 ) -> str:
     found = []
     for l, m in blocks:
-        colours = f"{names[l]},{names[m]}"
+        row = names[l]
+        column = names[m]
+        colours = f"{row},{column}"
         found.append(f"{letter}{{{colours}}}")
     return ", ".join(found)
 
@@ -125,8 +133,9 @@ def _norm_lines(label: str, norms: Norms, colours: bool) -> list[str]:
     line = f"    {label:<15}{trees}   {sizes}"
     if norms.worst is None:
         return [line]
-    worst = f"at {format_tree(norms.worst, colours)}"
-    whole = f"{line} {worst}"
+    tree = format_tree(norms.worst, colours)
+    whole = f"{line} at {tree}"
     if len(whole) <= WIDTH:
         return [whole]
-    return [line, *folded(f"{_MARGIN}{worst}", WIDTH, f"{_MARGIN}   ")]
+    below = folded(f"{_MARGIN}at {tree}", WIDTH, f"{_MARGIN}   ")
+    return [line, *below]

@@ -25,9 +25,11 @@ def colours_text(found: Colours, digits: int, paint: Paint) -> Iterator[str]:
     names = [f"z{k}" for k in numbers]
     meanings = [f"z{k} = hλ{k}" for k in numbers]
     title = paint("strong", "every colour")
-    yield f"  {title}, {', '.join(meanings)}"
+    meaning = ", ".join(meanings)
+    yield f"  {title}, {meaning}"
     variables = ", ".join(names)
-    yield from line(f"R({variables})", _fraction_text(found, names))
+    fraction = _fraction_text(found, names)
+    yield from line(f"R({variables})", fraction)
     yield from _radii_text(found.radii, digits)
     if found.pair is not None:
         yield ""
@@ -53,7 +55,8 @@ def _fraction_text(found: Colours, names: list[str]) -> str:
             f"too large: {found.lines} lines determine it (limit {MOST_LINES})"
         )
     P, Q = integral_parts(found.R)
-    top, bottom = multivariate_text(P, names), multivariate_text(Q, names)
+    top = multivariate_text(P, names)
+    bottom = multivariate_text(Q, names)
     text = over(top, bottom)
     if len(text) > LONGEST_FRACTION:
         terms = f"{len(P.terms)} terms over {len(Q.terms)}"
@@ -65,8 +68,10 @@ def _fraction_text(found: Colours, names: list[str]) -> str:
 
 def integral_parts(R: Fraction) -> tuple[Multivariate, Multivariate]:
     """Numerator and denominator with integers as coefficients, where they are rational."""
-    P, Q = R.numerator, R.denominator
-    coefficients = [a for _, a in (*P.terms, *Q.terms)]
+    P = R.numerator
+    Q = R.denominator
+    terms = (*P.terms, *Q.terms)
+    coefficients = [coefficient for _, coefficient in terms]
     scale = integral_scale(coefficients)
     unit = (0,) * P.variables
     constant = Multivariate.of(P.variables, {unit: scale})

@@ -6,7 +6,6 @@ from collections.abc import Iterator, Sequence
 
 from garkcli.exact.cells import Interval
 from garkcli.exact.display import decimal, to_text
-from garkcli.exact.polynomial import Polynomial
 from garkcli.exact.polynomial_text import integral, polynomial_text, root_text
 from garkcli.page.paint import Paint
 from garkcli.page.plain import printable
@@ -39,14 +38,7 @@ from garkcli.stability.within import StabilityWithin
 
 def text_of(report: StabilityReport, paint: Paint) -> Iterator[str]:
     """The lines of one report."""
-    file, name = printable(report.file), printable(report.name)
-    if name == file:
-        yield paint("strong", file)
-    elif len(file) + len(name) + 2 <= WIDTH:
-        yield f"{file}: {paint('strong', name)}"
-    else:
-        yield f"{file}:"
-        yield f"  {paint('strong', name)}"
+    yield from _title(report, paint)
     within = report.found.tolerance
     if within is None:
         yield "  decided exactly"
@@ -61,11 +53,10 @@ def text_of(report: StabilityReport, paint: Paint) -> Iterator[str]:
         yield from _springs_text(report.springs, report.digits)
         return
     found = report.found
+    several = len(found.linear) > 1
     for linear in found.linear:
         yield ""
-        yield from _linear_text(
-            linear, len(found.linear) > 1, report.digits, paint
-        )
+        yield from _linear_text(linear, several, report.digits, paint)
     if within is not None:
         yield from _rounded_text(found, paint)
         return
@@ -80,6 +71,20 @@ def text_of(report: StabilityReport, paint: Paint) -> Iterator[str]:
         yield from _oscillator_text(found.oscillator, report.digits, paint)
     yield ""
     yield from _nonlinear_text(found, paint)
+
+
+def _title(report: StabilityReport, paint: Paint) -> Iterator[str]:
+    """The file and the name of the method: below each other where they are long."""
+    file = printable(report.file)
+    name = printable(report.name)
+    painted = paint("strong", name)
+    if name == file:
+        yield painted
+    elif len(f"{file}: {name}") <= WIDTH:
+        yield f"{file}: {painted}"
+    else:
+        yield f"{file}:"
+        yield f"  {painted}"
 
 
 def _linear_text(
@@ -101,10 +106,12 @@ def _linear_text(
     R = found.R
     yield from line("R(z)", quotient(R.numerator, R.denominator, "z"))
     limit = R.at_infinity()
-    yield from line("R(∞)", "unbounded" if limit is None else to_text(limit))
+    at_infinity = "unbounded" if limit is None else to_text(limit)
+    yield from line("R(∞)", at_infinity)
     a_stable = decided(found.a_stable, paint)
     if not found.a_stable:
-        a_stable += f": {_why_not_a_stable(found)}"
+        reason = _why_not_a_stable(found)
+        a_stable += f": {reason}"
     yield from line("A-stable", a_stable)
     yield from line("L-stable", decided(found.l_stable, paint))
     yield from line("A(α)-stable", _sector_text(found.sector, digits))
@@ -132,13 +139,15 @@ def _sector_text(sector: Sector | None, digits: int) -> str:
     if simple == "0":
         return "α = 90°"
     angle = degrees(sector.cosine, digits)
-    return f"α = {angle}°, cos α {equation(sector.cosine, 'x', digits)}"
+    cosine = equation(sector.cosine, "x", digits)
+    return f"α = {angle}°, cos α {cosine}"
 
 
 def _oscillator_text(
     found: OscillatorStability, digits: int, paint: Paint
 ) -> Iterator[str]:
-    yield f"  {paint('strong', 'oscillator')}, z = hω, x = z²"
+    title = paint("strong", "oscillator")
+    yield f"  {title}, z = hω, x = z²"
     yield from line("trace", _ratio(found.trace))
     yield from line("determinant", _ratio(found.determinant))
     [discriminant] = integral([found.discriminant])
@@ -146,7 +155,8 @@ def _oscillator_text(
     yield from _stable_text(found.stable, digits)
     p_stable = paint.verdict(found.is_p_stable)
     if not found.is_p_stable:
-        p_stable += f": {_why_not_p_stable(found, digits)}"
+        reason = _why_not_p_stable(found, digits)
+        p_stable += f": {reason}"
     yield from line("P-stable", p_stable)
     yield from line("phase lag", _phase_text(found))
     yield from line("conserved form", _conserved_text(found))
@@ -197,13 +207,16 @@ def _conserved_text(found: OscillatorStability) -> str:
         factor = polynomial_text(p, "z")
         if len(p.coefficients) > 1:
             parts.append(f"({factor}) {name}")
+        elif factor == "1":
+            parts.append(name)
         elif p:
-            parts.append(name if p == Polynomial([1]) else f"{factor} {name}")
+            parts.append(f"{factor} {name}")
     return " + ".join(parts)
 
 
 def _nonlinear_text(found: Stability, paint: Paint) -> Iterator[str]:
-    yield f"  {paint('strong', 'nonlinear')}"
+    title = paint("strong", "nonlinear")
+    yield f"  {title}"
     label = "algebraically stable"
     if found.algebraic is None:
         meaning = "has no meaning: colours do not see one another"
@@ -216,7 +229,8 @@ def _nonlinear_text(found: Stability, paint: Paint) -> Iterator[str]:
         reasons.append("B A + Aᵀ B − b bᵀ is not positive semidefinite")
     verdict = paint.verdict(found.algebraic.holds)
     if reasons:
-        verdict += f": {', '.join(reasons)}"
+        told = ", ".join(reasons)
+        verdict += f": {told}"
     yield from line(label, verdict)
 
 
@@ -243,22 +257,22 @@ def _slow_text(
     yield f"  for every a = (hω_slow)² from {found.low} to {found.high}"
     yield from _stable_text(found.stable, digits)
     for x in found.open_points:
-        single = (
-            f"x = {number(x, digits)} alone, a root of {minimal_text(x, 'x')}"
-        )
+        point = number(x, digits)
+        polynomial = minimal_text(x, "x")
+        single = f"x = {point} alone, a root of {polynomial}"
         yield from line("not decided", single)
-    yield from line(
-        "stable for all x > 0", decided(found.is_stable_for_all, paint)
-    )
+    verdict = decided(found.is_stable_for_all, paint)
+    yield from line("stable for all x > 0", verdict)
 
 
 def _within_text(found: StabilityWithin, digits: int) -> Iterator[str]:
     """What is known of rounded coefficients besides A- and L-stability."""
-    yield from line("real axis", bounds_text(found.real, digits, "−z ≤ "))
-    yield from line(
-        "imaginary axis", bounds_text(found.imaginary, digits, "y² ≤ ")
-    )
-    yield from line("SSP coefficient", bounds_text(found.ssp, digits))
+    real = bounds_text(found.real, digits, "−z ≤ ")
+    imaginary = bounds_text(found.imaginary, digits, "y² ≤ ")
+    ssp = bounds_text(found.ssp, digits)
+    yield from line("real axis", real)
+    yield from line("imaginary axis", imaginary)
+    yield from line("SSP coefficient", ssp)
 
 
 def _rounded_text(found: Stability, paint: Paint) -> Iterator[str]:
@@ -267,7 +281,7 @@ def _rounded_text(found: Stability, paint: Paint) -> Iterator[str]:
     if not found.linear:
         yield "  oscillator: not decided for rounded coefficients"
         return
-    yield f"  {paint('strong', 'nonlinear')}"
-    yield from line(
-        "algebraically stable", decided(found.algebraic_within, paint)
-    )
+    title = paint("strong", "nonlinear")
+    verdict = decided(found.algebraic_within, paint)
+    yield f"  {title}"
+    yield from line("algebraically stable", verdict)

@@ -74,8 +74,9 @@ def line(label: str, text: str) -> list[str]:
     width = WIDTH - LABEL - 4
     pieces = wrap(text, width, break_long_words=False, break_on_hyphens=False)
     first, *others = pieces or [""]
-    head = f"    {label.ljust(LABEL)}{first}"
-    return [head.rstrip(), *indented(others, " " * (LABEL + 4))]
+    margin = " " * (LABEL + 4)
+    head = f"    {label}".ljust(len(margin)) + first
+    return [head.rstrip(), *indented(others, margin)]
 
 
 def quotient(
@@ -83,7 +84,9 @@ def quotient(
 ) -> str:
     """A fraction of two polynomials."""
     p, q = integral([numerator, denominator])
-    return over(polynomial_text(p, variable), polynomial_text(q, variable))
+    top = polynomial_text(p, variable)
+    bottom = polynomial_text(q, variable)
+    return over(top, bottom)
 
 
 def over(numerator: str, denominator: str) -> str:
@@ -100,7 +103,8 @@ def equation(root: RealRoot, variable: str, digits: int) -> str:
     if simple is not None:
         return f"= {simple}"
     polynomial = minimal_text(root, variable)
-    return f"= {root_decimal(root, digits)}…, a root of {polynomial}"
+    decimals = root_decimal(root, digits)
+    return f"= {decimals}…, a root of {polynomial}"
 
 
 def minimal_text(root: RealRoot, variable: str) -> str:
@@ -118,7 +122,9 @@ def number(root: RealRoot, digits: int) -> str:
     if simple is not None and root.exact is not None:
         return simple
     decimals = root_decimal(root, digits)
-    return decimals if simple is None else f"{simple} = {decimals}"
+    if simple is None:
+        return decimals
+    return f"{simple} = {decimals}"
 
 
 def real_text(intervals: Sequence[Interval], digits: int) -> str:
@@ -130,9 +136,11 @@ def real_text(intervals: Sequence[Interval], digits: int) -> str:
         return "z ≤ 0"
     if first.is_point:
         return "z = 0 only"
-    text = f"−z ≤ {number(first.end, digits)}"
+    end = number(first.end, digits)
+    text = f"−z ≤ {end}"
     if root_text(first.end) is None:
-        text += f", a root of {minimal_text(first.end, 'x')}"
+        polynomial = minimal_text(first.end, "x")
+        text += f", a root of {polynomial}"
     return text + _further(intervals)
 
 
@@ -149,7 +157,8 @@ def imaginary_text(intervals: Sequence[Interval], digits: int) -> str:
     if first.end is None:
         return "all y"
     end = square_root(first.end, digits)
-    text = f"|y| ≤ {end}, y² {equation(first.end, 'x', digits)}"
+    square = equation(first.end, "x", digits)
+    text = f"|y| ≤ {end}, y² {square}"
     return text + _further(intervals)
 
 
@@ -179,21 +188,22 @@ def interval_text(interval: Interval, digits: int) -> str:
     ends = [interval.start]
     if interval.end is not None:
         right = "≤" if interval.has_end else "<"
-        end, end_of_z = (
-            number(interval.end, digits),
-            square_root(interval.end, digits),
-        )
+        end = number(interval.end, digits)
+        end_of_z = square_root(interval.end, digits)
         text += f" {right} {end}, z to {end_of_z}"
         ends.append(interval.end)
     for x in ends:
         if root_text(x) is None:
-            text += f"; a root of {minimal_text(x, 'x')}"
+            polynomial = minimal_text(x, "x")
+            text += f"; a root of {polynomial}"
     return text
 
 
 def decided(holds: bool | None, paint: Paint) -> str:
     """A verdict, or that there is none."""
-    return "not decided" if holds is None else paint.verdict(holds)
+    if holds is None:
+        return "not decided"
+    return paint.verdict(holds)
 
 
 def bounds_text(found: Bounds, digits: int, before: str = "") -> str:
@@ -202,14 +212,17 @@ def bounds_text(found: Bounds, digits: int, before: str = "") -> str:
     if low is None:
         return "no limit"
     if high is None:
-        beyond = (
-            f" beyond {before}{_digits(arb(low), digits)}" if low > 0 else ""
-        )
-        return f"not decided{beyond}"
+        text = "not decided"
+        if low > 0:
+            least = _digits(arb(low), digits)
+            text += f" beyond {before}{least}"
+        return text
     if low == high:
         return f"{before}{low}"
-    middle, radius = (low + high) / 2, (high - low) / 2
-    return before + _digits(arb(middle, radius), digits)
+    middle = (low + high) / 2
+    radius = (high - low) / 2
+    known = _digits(arb(middle, radius), digits)
+    return f"{before}{known}"
 
 
 def _digits(ball: arb, digits: int) -> str:

@@ -61,11 +61,14 @@ def render(
         yield from _json(query, rows, counts)
     elif format == "ndjson":
         for row in rows:
-            yield to_json(_ROW.data(row), indent=None, ascii_only=True) + "\n"
+            line = _json_line(row)
+            yield f"{line}\n"
     elif format == "csv":
         yield "tree,root,order,sigma,gamma\n"
         for row in rows:
-            yield f'"{row.tree}",{row.root + 1},{row.order},{row.sigma},{row.gamma}\n'
+            root = row.root + 1
+            sizes = f"{row.order},{row.sigma},{row.gamma}"
+            yield f'"{row.tree}",{root},{sizes}\n'
     elif format == "latex":
         yield from fragment(_latex(rows, query.colours > 1), is_document)
     else:
@@ -88,11 +91,12 @@ def render_counts(
                 yield f"{n},{root},{count}\n"
         return
     for n, by_root in counts:
-        total = str(sum(kept(query, by_root)))
+        total = sum(kept(query, by_root))
         if format == "latex":
             yield f"{n} & {total} \\\\\n"
             continue
-        yield f"order {n}: {paint('strong', total)}\n"
+        painted = paint("strong", str(total))
+        yield f"order {n}: {painted}\n"
         if query.colours > 1:
             for root, count in _roots(query, by_root):
                 yield f"  root colour {root}: {count}\n"
@@ -129,7 +133,15 @@ class _Found(NamedTuple):
         """The trees of each order, where there are several."""
         if not self.query.upto:
             return None
-        return {str(n): sum(kept(self.query, row)) for n, row in self.counts}
+        totals = {}
+        for n, row in self.counts:
+            totals[str(n)] = sum(kept(self.query, row))
+        return totals
+
+    @property
+    def total(self) -> int:
+        """All trees."""
+        return sum(self.by_root.values())
 
 
 _ROW: Record[TreeRow] = Record(
@@ -144,15 +156,13 @@ _HEAD: Record[_Found] = Record(
     Field("colours", POSITION, lambda x: x.query.colours),
     Field("order", POSITION, lambda x: x.query.order),
     Field("upto", FLAG, lambda x: x.query.upto),
-    Field("count", COUNT, lambda x: sum(x.by_root.values())),
+    Field("count", COUNT, lambda x: x.total),
     Field("by_root", counts_of("root colour"), lambda x: x.by_root),
 )
-_COUNTED: Record[_Found] = Record(
-    *_HEAD.fields,
-    Field(
-        "by_order", counts_of("order"), lambda x: x.by_order, is_optional=True
-    ),
+_BY_ORDER: Field[_Found] = Field(
+    "by_order", counts_of("order"), lambda x: x.by_order, is_optional=True
 )
+_COUNTED: Record[_Found] = Record(*_HEAD.fields, _BY_ORDER)
 
 
 def rooted_schemas() -> list[Schema]:
@@ -166,16 +176,20 @@ def _json(
     if counts is None:
         rows = list(rows)
         counts = _counted(query, rows)
-    head = to_json(
-        _HEAD.data(_Found(query, counts)), indent=None, ascii_only=True
-    )
-    yield head[:-1] + ', "trees": ['
+    found = _HEAD.data(_Found(query, counts))
+    head = to_json(found, indent=None, ascii_only=True)
+    unclosed = head.removesuffix("}")
+    yield f'{unclosed}, "trees": ['
     separator = "\n"
     for row in rows:
-        line = to_json(_ROW.data(row), indent=None, ascii_only=True)
-        yield separator + line
+        yield separator + _json_line(row)
         separator = ",\n"
     yield "\n]}\n"
+
+
+def _json_line(row: TreeRow) -> str:
+    data = _ROW.data(row)
+    return to_json(data, indent=None, ascii_only=True)
 
 
 def _counted(query: Query, rows: Sequence[TreeRow]) -> Counts:
@@ -191,20 +205,21 @@ def _text(
     query: Query, rows: Iterable[TreeRow], counts: Counts | None, paint: Paint
 ) -> Iterator[str]:
     many = query.colours > 1
-    for (n, root), group in groupby(
-        rows, key=lambda row: (row.order, row.root)
-    ):
+    groups = groupby(rows, key=lambda row: (row.order, row.root))
+    for (n, root), group in groups:
         heading = f"order {n}"
         if many:
             heading += f", root colour {root + 1}"
-        yield paint("strong", heading) + "\n"
+        painted = paint("strong", heading)
+        yield f"{painted}\n"
         for row in group:
             yield from map(paint.dots, _entry(row, many))
     if counts is not None:
         total = 0
         for _, by_root in counts:
             total += sum(kept(query, by_root))
-        yield counted(total, "tree") + "\n"
+        trees = counted(total, "tree")
+        yield f"{trees}\n"
 
 
 def _entry(row: TreeRow, many: bool) -> Iterator[str]:

@@ -33,7 +33,7 @@ def algebraic_within(tableau: Tableau, tolerance: fmpq) -> bool | None:
         everything = list(chain.from_iterable(weights))
         if any(b < 0 for b in everything):
             return False
-        form = _form(tableau, weights, tolerance)
+        form = form_within(tableau, tolerance)
         found = is_positive(form)
         if found and not all(b > 0 or b.is_zero() for b in everything):
             return None
@@ -52,11 +52,13 @@ def _balls(row: Vector, tolerance: fmpq) -> list[arb]:
     return found
 
 
-def _form(
-    tableau: Tableau, weights: list[list[arb]], tolerance: fmpq
-) -> list[list[arb]]:
-    """B A + Aᵀ B − b bᵀ over all colours and stages."""
+def form_within(tableau: Tableau, tolerance: fmpq) -> list[list[arb]]:
+    """M = B A + Aᵀ B − b bᵀ over all colours and stages, of all methods within a tolerance.
+
+    The precision is that of the caller.
+    """
     blocks = _blocks(tableau, tolerance)
+    weights = [_balls(colour.b, tolerance) for colour in tableau.colours]
     places = []
     for l, row in enumerate(weights):
         places += [(l, i) for i in range(len(row))]

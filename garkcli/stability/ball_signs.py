@@ -34,9 +34,11 @@ def mirrored(coefficients: Iterable[arb]) -> list[arb]:
 
 def squared_on_axis(p: Sequence[arb]) -> list[arb]:
     """|p(iy)|² as a polynomial in x = y²: the squares of the real part and of the imaginary one."""
+    even = mirrored(p[0::2])
+    odd = mirrored(p[1::2])
     x = arb_poly([0, 1])
-    real = arb_poly(mirrored(p[0::2]))
-    imaginary = arb_poly(mirrored(p[1::2]))
+    real = arb_poly(even)
+    imaginary = arb_poly(odd)
     total = real * real
     total += x * imaginary * imaginary
     return [total[k] for k in range(len(total))]
@@ -45,14 +47,15 @@ def squared_on_axis(p: Sequence[arb]) -> list[arb]:
 def difference(a: Sequence[arb], b: Sequence[arb]) -> list[arb]:
     """The coefficients of a − b, as many as the longer one has."""
     size = max(len(a), len(b))
-    upper, lower = _padded(a, size), _padded(b, size)
-    pairs = zip(upper, lower, strict=True)
+    pairs = zip(_padded(a, size), _padded(b, size), strict=True)
     return [x - y for x, y in pairs]
 
 
 def _padded(p: Sequence[arb], size: int) -> list[arb]:
+    """So many coefficients, zeros at the end."""
     missing = size - len(p)
-    return [*p, *[arb(0)] * missing]
+    zeros = [arb(0)] * missing
+    return [*p, *zeros]
 
 
 def is_positive(coefficients: Sequence[arb]) -> bool | None:
@@ -102,8 +105,9 @@ def poles_are_right(Q: Sequence[arb]) -> bool | None:
         return True
     if all(x < 0 for x in column):
         return True
-    is_open = any(x.contains(0) for x in column)
-    return None if is_open else False
+    if any(x.contains(0) for x in column):
+        return None
+    return False
 
 
 def _next_row(upper: list[arb], lower: list[arb]) -> list[arb]:

@@ -87,10 +87,8 @@ class ImexPair:
     @cached_property
     def has_fixed_poles(self) -> bool:
         """Whether the poles in z_I do not depend on z_E."""
-        powers = (
-            exponents[self.explicit]
-            for exponents, _ in self.R.denominator.terms
-        )
+        terms = self.R.denominator.terms
+        powers = [exponents[self.explicit] for exponents, _ in terms]
         return not any(powers)
 
     @cached_property
@@ -102,7 +100,11 @@ class ImexPair:
     @cached_property
     def _enclosed(self) -> _Enclosed:
         _, (u, v) = self.parts
-        return _Enclosed(_in_balls(self.margin), _in_balls(u), _in_balls(v))
+        return _Enclosed(
+            E=_in_balls(self.margin),
+            u=_in_balls(u),
+            v=_in_balls(v),
+        )
 
     def is_damped(self, a: fmpq, b: fmpq) -> bool:
         """Whether |R(a + ib, z_I)| ≤ 1 for all z_I in the closed left half plane, decided.
@@ -132,14 +134,16 @@ class ImexPair:
         if found is not None:
             return found
         _, (real, imaginary) = self.parts
-        exact_u, exact_v = _at(real, a, b), _at(imaginary, a, b)
+        exact_u = _at(real, a, b)
+        exact_v = _at(imaginary, a, b)
         return _exact_poles_are_right(exact_u, exact_v)
 
     def real_ray(self) -> Ray | None:
         """The z_E ≤ 0 from 0 on with all z_I damped; None where that is not decided."""
         # R has real coefficients: E is even in y, and a polynomial in y²
         by_y = [_on_axis(p, axis=0) for p in self.margin.by_last()]
-        return self._ray(by_y[::2], is_in_squares=True)
+        by_squares = by_y[::2]
+        return self._ray(by_squares, is_in_squares=True)
 
     def imaginary_ray(self) -> Ray | None:
         """The same for z_E = ib, b ≥ 0; b < 0 is its mirror image."""
@@ -186,7 +190,8 @@ def imex_pair(tableau: Tableau, R: Fraction | None) -> ImexPair | None:
     """
     if tableau.size != 2 or R is None:
         return None
-    first, second = (_is_explicit(tableau, l) for l in (0, 1))
+    first = _is_explicit(tableau, 0)
+    second = _is_explicit(tableau, 1)
     if first == second:
         return None
     explicit = 0 if first else 1
@@ -199,10 +204,12 @@ def _is_explicit(tableau: Tableau, l: int) -> bool:
     assert block is not None
     neighbours = {}
     for i, row in enumerate(block):
-        neighbours[i] = [j for j, x in enumerate(row) if x]
-        if i in neighbours[i]:
+        needed = [j for j, x in enumerate(row) if x]
+        if i in needed:
             return False
-    return all(len(component) == 1 for component in components(neighbours))
+        neighbours[i] = needed
+    sizes = map(len, components(neighbours))
+    return all(size == 1 for size in sizes)
 
 
 def is_nonnegative(p: Polynomial) -> bool:
@@ -215,6 +222,7 @@ def is_nonnegative(p: Polynomial) -> bool:
         return True
     if sign(p.leading) < 0 or p.degree % 2:
         return False
+    # the sign changes at the roots of odd multiplicity
     return not any(power % 2 for _, power in real_roots(p))
 
 
@@ -227,19 +235,22 @@ def _critical(E: Sequence[Polynomial]) -> list[Polynomial] | None:
     count = (2 * degree - 1) * highest + 1
     if count > MOST_POINTS:
         return None
-    points = [fmpq(k - count // 2, 4) for k in range(count)]
-    return critical_polynomials(lambda x: _member(E, x), points)
+    first = -(count // 2)
+    quarters = range(first, first + count)
+    points = [fmpq(k, 4) for k in quarters]
 
+    def member(x: fmpq) -> Polynomial:
+        return Polynomial([coefficient(x) for coefficient in E])
 
-def _member(E: Sequence[Polynomial], x: fmpq) -> Polynomial:
-    return Polynomial([coefficient(x) for coefficient in E])
+    return critical_polynomials(member, points)
 
 
 def _on_axis(p: Multivariate, axis: int) -> Polynomial:
     """A polynomial in (a, b) on half of an axis: a = −x, b = 0, or a = 0, b = x."""
-    toward_imaginary = [ZERO, ONE]
-    toward_left = [-ONE, ZERO]
-    return p.along(toward_imaginary if axis else toward_left)
+    direction = [-ONE, ZERO]
+    if axis:
+        direction = [ZERO, ONE]
+    return p.along(direction)
 
 
 def _split(
@@ -299,7 +310,9 @@ def _values(by_y: Sequence[_Terms], a: fmpq, b: fmpq) -> list[arb]:
 
 def _at(p: Multivariate, a: fmpq, b: fmpq) -> Polynomial:
     """A polynomial in (a, b, y) as one in y."""
-    return Polynomial([coefficient((a, b)) for coefficient in p.by_last()])
+    point = (a, b)
+    coefficients = [coefficient(point) for coefficient in p.by_last()]
+    return Polynomial(coefficients)
 
 
 def _ball_poles_are_right(u: Sequence[arb], v: Sequence[arb]) -> bool | None:
@@ -307,7 +320,9 @@ def _ball_poles_are_right(u: Sequence[arb], v: Sequence[arb]) -> bool | None:
     degree = max(len(u), len(v)) - 1
     real, imaginary = _turned(u, v, degree, arb(0))
     index = cauchy_index(real, imaginary)
-    return None if index is None else index == degree
+    if index is None:
+        return None
+    return index == degree
 
 
 def _exact_poles_are_right(u: Polynomial, v: Polynomial) -> bool:
@@ -316,17 +331,22 @@ def _exact_poles_are_right(u: Polynomial, v: Polynomial) -> bool:
     if degree < 1:
         return True
     real, imaginary = _turned(u.coefficients, v.coefficients, degree, ZERO)
-    f, g = Polynomial(real), Polynomial(imaginary)
-    return gcd(f, g).degree == 0 and exact_cauchy_index(f, g) == degree
+    f = Polynomial(real)
+    g = Polynomial(imaginary)
+    if gcd(f, g).degree > 0:
+        return False
+    return exact_cauchy_index(f, g) == degree
 
 
 def _turned(
     u: Sequence[Any], v: Sequence[Any], degree: int, zero: Any
 ) -> tuple[list[Any], list[Any]]:
     """U + iv times the conjugate of its leading coefficient, so that u alone has the degree."""
-    u = [*u, *[zero] * (degree + 1 - len(u))]
-    v = [*v, *[zero] * (degree + 1 - len(v))]
-    c, s = u[degree], v[degree]
+    count = degree + 1
+    u = [*u, *[zero] * (count - len(u))]
+    v = [*v, *[zero] * (count - len(v))]
+    c = u[degree]
+    s = v[degree]
     pairs = list(zip(u, v, strict=True))
     real = [c * x + s * y for x, y in pairs]
     imaginary = [c * y - s * x for x, y in pairs]

@@ -71,9 +71,10 @@ def _summands(tableau: Tableau, shares: Sequence[Number]) -> StageSystem:
     blocks: dict[tuple[int, int], Matrix] = {}
     for edge, block in tableau.blocks.items():
         blocks[edge] = tuple(_ones(row) for row in block)
-    colours = [
-        replace(colour, b=_ones(colour.b)) for colour in tableau.colours
-    ]
+    colours = []
+    for colour in tableau.colours:
+        ones = _ones(colour.b)
+        colours.append(replace(colour, b=ones))
     counted = replace(tableau, blocks=blocks, colours=tuple(colours))
     sizes: list[Matrix] = []
     for w in shares:
@@ -93,7 +94,8 @@ def _widened(row: Vector, counts: Vector, tolerance: fmpq) -> list[arb]:
     for x, count in zip(row, counts, strict=True):
         ball = to_ball(x, DIGITS)
         if count:
-            radius = to_ball(count, DIGITS) * arb(tolerance)
+            times = to_ball(count, DIGITS)
+            radius = times * arb(tolerance)
             ball += arb(0, radius.upper())
         found.append(ball)
     return found
@@ -106,7 +108,8 @@ def _denominator(W: list[list[arb]], pattern: Matrix) -> arb_poly:
         edges[i] = [j for j, x in enumerate(row) if x]
     Q = arb_poly([1])
     for component in components(edges):
-        block = [[W[i][j] for j in component] for i in component]
+        rows = [W[i] for i in component]
+        block = [[row[j] for j in component] for row in rows]
         from_lowest = _characteristic(arb_mat(block))
         reciprocal = from_lowest[::-1]
         Q = Q * arb_poly(reciprocal)

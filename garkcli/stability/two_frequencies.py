@@ -93,10 +93,13 @@ def springs(tableau: Tableau, fast: int) -> SplitSprings:
         message = f"term {fast + 1} leaves no term for the other spring"
         raise UsageProblem(message, "give another colour with --fast")
     share = fmpq(1, len(slow_terms))
-    numbers = range(terms)
-    kinetic = [ONE if l == 0 else ZERO for l in numbers]
-    slow = [share if l in slow_terms else ZERO for l in numbers]
-    strong = [ONE if l == fast else ZERO for l in numbers]
+    kinetic = [ZERO] * terms
+    kinetic[0] = ONE
+    slow = [ZERO] * terms
+    for l in slow_terms:
+        slow[l] = share
+    strong = [ZERO] * terms
+    strong[fast] = ONE
     return SplitSprings(tuple(kinetic), tuple(slow), tuple(strong))
 
 
@@ -116,16 +119,15 @@ def two_frequencies(
         UsageProblem: the split is not one that the structure of the tableau is for.
     """
     check_structure(tableau, _like_an_oscillator(split))
-    D, a, b, c, d = _reduced(line_of_determinants(tableau, split, slow))
-    trace = Ratio.of(a + d, D)
-    determinant = Ratio.of(a * d - b * c, D * D)
-    over, under = trace.numerator, trace.denominator
+    determinants = line_of_determinants(tableau, split, slow)
+    M = _reduced(determinants)
+    N, D = M.trace.numerator, M.trace.denominator
     return TwoFrequencies(
         slow=slow,
-        trace=trace,
-        determinant=determinant,
-        discriminant=under * under * 4 - over * over,
-        stable=stable_set(trace, determinant, (b, c), D),
+        trace=M.trace,
+        determinant=M.determinant,
+        discriminant=D * D * 4 - N * N,
+        stable=M.stable(),
     )
 
 
@@ -179,26 +181,50 @@ def plane_of_determinants(
 
 def stable_where(determinants: Sequence[Polynomial]) -> tuple[Interval, ...]:
     """The x ≥ 0 with all powers of M bounded, from det(I − W) and the entries of M times it."""
-    D, a, b, c, d = _reduced(determinants)
-    trace = Ratio.of(a + d, D)
-    determinant = Ratio.of(a * d - b * c, D * D)
-    return stable_set(trace, determinant, (b, c), D)
+    return _reduced(determinants).stable()
 
 
-def _reduced(polynomials: Sequence[Polynomial]) -> list[Polynomial]:
-    """Polynomials without their common factor: roots of it are no poles of M."""
+@dataclass(frozen=True)
+class _StepMatrix:
+    """M over its common denominator, all polynomials in x.
+
+    Attributes:
+        trace: tr M.
+        determinant: det M.
+        off_diagonal: the entries of M off the diagonal, times the denominator.
+        denominator: the poles of M are its roots.
+    """
+
+    trace: Ratio
+    determinant: Ratio
+    off_diagonal: tuple[Polynomial, Polynomial]
+    denominator: Polynomial
+
+    def stable(self) -> tuple[Interval, ...]:
+        """The x ≥ 0 with all powers of M bounded."""
+        return stable_set(
+            self.trace, self.determinant, self.off_diagonal, self.denominator
+        )
+
+
+def _reduced(polynomials: Sequence[Polynomial]) -> _StepMatrix:
+    """M from det(I − W) and its entries times that, without their common factor: roots of it are
+    no poles of M.
+    """
     common = polynomials[0]
     for p in polynomials:
         common = gcd(common, p)
-    return [p // common for p in polynomials]
+    D, a, b, c, d = (p // common for p in polynomials)
+    trace = Ratio.of(a + d, D)
+    determinant = Ratio.of(a * d - b * c, D * D)
+    return _StepMatrix(trace, determinant, (b, c), D)
 
 
 def _like_an_oscillator(split: SplitSprings) -> Oscillator:
     """A split with the same terms in play, for the check of the structure."""
     shares = []
-    for kinetic, slow, fast in zip(
-        split.kinetic, split.slow, split.fast, strict=True
-    ):
+    terms = zip(split.kinetic, split.slow, split.fast, strict=True)
+    for kinetic, slow, fast in terms:
         force = (slow + fast) / 2
         shares.append((kinetic, force))
     return Oscillator(ONE, tuple(shares))
@@ -222,8 +248,11 @@ def _determinants(system: StageSystem) -> Sequence[Number]:
             # det(I − W + e bᵀ) = D + D bᵀ (I − W)⁻¹ e
             column = tuple(row[j] for row in system.E)
             rank_one = outer(column, weights)
-            increment = _determinant(subtract(system.W, rank_one)) - D
-            entries.append(D + increment if i == j else increment)
+            changed = subtract(system.W, rank_one)
+            entry = _determinant(changed) - D
+            if i == j:
+                entry += D
+            entries.append(entry)
     return (D, *entries)
 
 
