@@ -283,9 +283,11 @@ class _Meter:
 
     def _have_settled(self, table: Sequence[Sequence[Row]]) -> bool:
         columns = zip(*table, strict=True)
-        return all(
-            _energy(0, 0, True, tuple(rows)).has_settled for rows in columns
-        )
+        for rows in columns:
+            energy = _energy(0, 0, True, tuple(rows))
+            if not energy.has_settled:
+                return False
+        return True
 
     def errors(self, count: int) -> list[arb]:
         """The root mean square over time, by the trapezoidal rule, of H̃(y_n) − H̃(y_0) for each
@@ -293,9 +295,11 @@ class _Meter:
         """
         integrator = self.bound.at(self.digits)
         h = self.t_end / count
-        problem = self.bound.problem
-        q, p = (symbols(problem.variables, group) for group in ("q", "p"))
-        path = self.watch(trajectory(integrator, h, count), count + 1)
+        variables = self.bound.problem.variables
+        q = symbols(variables, "q")
+        p = symbols(variables, "p")
+        steps = trajectory(integrator, h, count)
+        path = self.watch(steps, count + 1)
         with ctx.workprec(integrator.bits):
             values_of = function(tuple(self.formulas), (*q, *p), True)
             squares = [arb(0) for _ in self.powers]
@@ -308,9 +312,8 @@ class _Meter:
                     # the trapezoidal rule; the change is 0 at the start
                     squares[k] += square / 2 if n == count else square
             sizes = [abs(x) for x in start]
-            noise = (
-                sum(sizes, arb(1)) * arb(10) ** (_LOST - self.digits) * count
-            )
+            rounding = arb(10) ** (_LOST - self.digits)
+            noise = sum(sizes, arb(1)) * rounding * count
             means = [(x / count).sqrt() for x in squares]
             return [_enclosed(x, noise) for x in means]
 
@@ -335,6 +338,7 @@ def _places(x: arb) -> int:
     >>> _places(arb("1e-30"))
     30
     """
-    _, exponent = x.mid().man_exp()
-    bits = x.mid().man_exp()[0].bit_length() + int(exponent)
-    return max(0, round(-bits * log10(2)))
+    mantissa, exponent = x.mid().man_exp()
+    bits = mantissa.bit_length() + int(exponent)
+    places = round(-bits * log10(2))
+    return max(0, places)

@@ -77,7 +77,8 @@ class FreeTree:
 
     def _from_representative(self) -> Iterator[tuple[Tree, int]]:
         """The rooting at every vertex, with the sign of its distance."""
-        structure, start = self.structure, self.representative
+        structure = self.structure
+        start = self.representative
         waiting = [(start, start.branches, 1)]
         while waiting:
             here, onward, sign = waiting.pop()
@@ -120,7 +121,9 @@ def hamiltonian_structure(tableau: Tableau) -> Structure | None:
             return None  # H^{l} would be quadratic in one part alone
     quadratic = frozenset(term for term, linear in is_linear.items() if linear)
     structure = Structure(tuple(natures), quadratic)
-    seen = set(tableau.edges())
-    below = structure.admissible.branches
-    meant = {(l, m) for l, row in enumerate(below) for m in row}
-    return structure if seen == meant else None
+    meant = set()
+    for l, row in enumerate(structure.admissible.branches):
+        meant |= {(l, m) for m in row}
+    if set(tableau.edges()) != meant:
+        return None
+    return structure

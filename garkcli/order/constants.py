@@ -151,18 +151,21 @@ def _in_floats(tableau: Tableau, order: int) -> ErrorConstants:
     values = elementary_weights(table, rows, blocks, weights)[last]
     gamma = table.gamma[last].astype(float)
     sigma = table.sigma[last].astype(float)
-    e = (values - 1.0 / gamma) / sigma
+    residuals = values - 1.0 / gamma
+    coefficients = np.abs(residuals / sigma)
     mixes = _mixes(table)[last]
 
     def norms(chosen: Mask) -> Norms:
-        sizes = np.where(chosen, np.abs(e), 0.0)
+        sizes = np.where(chosen, coefficients, 0.0)
         worst = None
         if sizes.any():
-            worst = table.tree(ids.start + int(sizes.argmax()))
+            place = int(sizes.argmax())
+            worst = table.tree(ids.start + place)
+        sum_of_squares = (sizes**2).sum()
         return Norms(
             trees=int(chosen.sum()),
             two_squared=None,
-            two=float(np.sqrt((sizes**2).sum())),
+            two=float(np.sqrt(sum_of_squares)),
             largest=float(sizes.max(initial=0.0)),
             worst=worst,
             worst_value=None,

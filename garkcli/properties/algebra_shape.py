@@ -12,6 +12,7 @@ from __future__ import annotations
 
 from collections.abc import Iterable, Sequence
 from dataclasses import dataclass
+from itertools import product
 from typing import TypeAlias
 
 from flint import fmpq, fmpq_poly, nmod_poly
@@ -66,13 +67,16 @@ def shape_of_families(
     spaces = None if blocks is None else _spaces(tableau, blocks)
     if blocks is None or spaces is None:
         return None
-    vertices = tuple((k, i) for k, space in spaces.items() for i in space.kept)
+    vertices = []
+    for k, space in spaces.items():
+        vertices += [(k, i) for i in space.kept]
     if len(vertices) < 2:
         return None
     owners = {m: tableau.colours[m].space for m in colours}
     if not any(_has_centre(spaces, blocks, owners, p) for p in PRIMES):
         return None
-    return Shape("fully implicit", len(vertices), (vertices,), None, "")
+    together = tuple(vertices)
+    return Shape("fully implicit", len(together), (together,), None, "")
 
 
 def _rational_blocks(
@@ -81,7 +85,7 @@ def _rational_blocks(
     """The blocks between some colours; None where one does not exist or is irrational."""
     indices = sorted({tableau.colours[l].space for l in colours})
     found: Blocks = {}
-    for place in [(k, m) for k in indices for m in colours]:
+    for place in product(indices, colours):
         block = tableau.blocks.get(place)
         if block is None or not _is_rational(block):
             return None
@@ -124,13 +128,16 @@ def _space(
     both = sees_nothing.gcd(is_unseen)
     gone = sees_nothing * is_unseen / both
     dropped = set()
-    for factor, _ in gone.factor()[1]:
+    _, factors = gone.factor()
+    for factor, _ in factors:
         if factor.degree() > 1:
             return None
-        dropped.add(roots_below(M, -factor[0] / factor[1]))
-    kept = tuple(i for i in range(M.degree()) if i not in dropped)
+        node = -factor[0] / factor[1]
+        dropped.add(roots_below(M, node))
+    kept = [i for i in range(M.degree()) if i not in dropped]
     left = M / gone
-    return _Space(M, left / left[left.degree()], kept)
+    leading = left[left.degree()]
+    return _Space(M, left / leading, tuple(kept))
 
 
 def _poly(coefficients: Iterable[Number]) -> fmpq_poly:
@@ -142,8 +149,9 @@ def _divided(M: fmpq_poly, values: Vector) -> fmpq_poly:
     y = c_j it is its value on M/(x − c_j).
     """
     s = M.degree()
-    product = _poly(values[::-1]) * M
-    return fmpq_poly([product[s + n] for n in range(s)])
+    reversed_values = _poly(values[::-1])
+    shifted = reversed_values * M
+    return fmpq_poly([shifted[s + n] for n in range(s)])
 
 
 def _has_centre(
@@ -161,29 +169,32 @@ def _has_centre(
         seers = dict(left)
         seen = dict(left)
         for (k, m), block in blocks.items():
-            if centre not in {k, owners[m]}:
+            owner = owners[m]
+            if centre not in {k, owner}:
                 continue
             rows = [_residues(row, p) for row in block]
-            M = _modulo(spaces[owners[m]].M, p)
-            if owners[m] == centre:
+            M = _modulo(spaces[owner].M, p)
+            if owner == centre:
                 others = M // nmod_poly([-r, 1], p)
-                column = [_pairing(row, others) % p for row in rows]
-                seers[k] = seers[k].gcd(nmod_poly(column, p))
+                entries = [_pairing(row, others) % p for row in rows]
+                column = nmod_poly(entries, p)
+                seers[k] = seers[k].gcd(column)
             if k == centre:
-                values = nmod_poly(_at(rows, r, p)[::-1], p)
+                sights = _at(rows, r, p)
+                values = nmod_poly(sights[::-1], p)
                 of_node = (values * M).right_shift(M.degree())
-                seen[owners[m]] = seen[owners[m]].gcd(of_node)
+                seen[owner] = seen[owner].gcd(of_node)
     except ZeroDivisionError:  # p divides a denominator
         return False
-    return all(q.degree() == 0 for q in (*seers.values(), *seen.values()))
+    hidden = (*seers.values(), *seen.values())
+    return all(q.degree() == 0 for q in hidden)
 
 
 def _root(left: dict[int, nmod_poly], p: int) -> tuple[int | None, int]:
     """A stage space and a root modulo p of the polynomial of its nodes; None for none."""
     for k, q in left.items():
-        roots = q.roots()
-        if roots:
-            return k, int(roots[0][0]) % p
+        for root, _ in q.roots():
+            return k, int(root) % p
     return None, 0
 
 
@@ -209,9 +220,8 @@ def _residues(numbers: Iterable[Number], p: int) -> list[int]:
 
 
 def _pairing(row: Sequence[int], polynomial: nmod_poly) -> int:
-    return sum(
-        a * int(b) for a, b in zip(row, polynomial.coeffs(), strict=False)
-    )
+    pairs = zip(row, polynomial.coeffs(), strict=False)
+    return sum(a * int(b) for a, b in pairs)
 
 
 def _at(rows: Sequence[Sequence[int]], r: int, p: int) -> list[int]:
@@ -219,6 +229,7 @@ def _at(rows: Sequence[Sequence[int]], r: int, p: int) -> list[int]:
     total = [0] * len(rows[0])
     power = 1
     for row in rows:
-        total = [(t + power * a) % p for t, a in zip(total, row, strict=True)]
+        pairs = zip(total, row, strict=True)
+        total = [(t + power * a) % p for t, a in pairs]
         power = power * r % p
     return total

@@ -25,30 +25,33 @@ def is_nonzero_at(
     value of A L_j at x_i. For a rational x_i that is a polynomial in x_j.
     """
     k, m = place
-    here, there = tableau.spaces[k], tableau.space(m)
-    if not isinstance(here, PolynomialSpace) or not isinstance(
-        there, PolynomialSpace
-    ):
+    here = tableau.spaces[k]
+    there = tableau.space(m)
+    if not isinstance(here, PolynomialSpace):
         return None
-    row_node, column_node = nodes_of(here)[i], nodes_of(there)[j]
+    if not isinstance(there, PolynomialSpace):
+        return None
+    row_node = nodes_of(here)[i]
+    column_node = nodes_of(there)[j]
     block = tableau.blocks[place]
     if column_node.exact is not None:
         others = there.modulus // fmpq_poly([-column_node.exact, 1])
-        column = apply(block, [others[n] for n in range(there.stages)])
-        return not vanishes_at(Polynomial(column), row_node)
+        coefficients = [others[n] for n in range(there.stages)]
+        entry = Polynomial(apply(block, coefficients))
+        return not vanishes_at(entry, row_node)
     if row_node.exact is not None:
         powers = [row_node.exact**n for n in range(here.stages)]
         values = apply_left(powers, block)
-        return not vanishes_at(_divided(there.modulus, values), column_node)
+        entry = _divided(there.modulus, values)
+        return not vanishes_at(entry, column_node)
     return None
 
 
 @lru_cache(maxsize=32)
 def nodes_of(space: PolynomialSpace) -> list[RealRoot]:
     """The nodes in ascending order."""
-    return [
-        node for node, _ in real_roots(Polynomial.from_flint(space.modulus))
-    ]
+    M = Polynomial.from_flint(space.modulus)
+    return [node for node, _ in real_roots(M)]
 
 
 def _divided(M: fmpq_poly, values: Iterable[Number]) -> Polynomial:
@@ -59,7 +62,8 @@ def _divided(M: fmpq_poly, values: Iterable[Number]) -> Polynomial:
     known = list(values)
     total = Polynomial([])
     for n in range(1, M.degree() + 1):
-        total = total + Polynomial(known[:n][::-1]) * M[n]
+        descending = known[:n][::-1]
+        total = total + Polynomial(descending) * M[n]
     return total
 
 
@@ -93,7 +97,9 @@ def common_nodes(
     for m, row in enumerate(wanted):
         block = tableau.blocks.get((k, m))
         for j, value in enumerate(row):
-            column = [] if block is None else [entries[j] for entries in block]
+            column: list[Number] = []
+            if block is not None:
+                column = [entries[j] for entries in block]
             found = gcd(found, Polynomial(column) - value)
             if found.degree == 0:
                 return found

@@ -22,7 +22,7 @@ from garkcli.exact.matrix import (
     solve,
 )
 from garkcli.exact.signs import roots_below
-from garkcli.properties.pattern import is_nonzero
+from garkcli.properties.pattern import Vertex, is_nonzero
 from garkcli.stability.algebraic import negative_pivot
 from garkcli.tableau.point_space import PointSpace
 from garkcli.tableau.polynomial_space import PolynomialSpace
@@ -57,15 +57,16 @@ def reduced(tableau: Tableau) -> Tableau | None:
 def _at_points(tableau: Tableau) -> Tableau | None:
     if all(isinstance(space, PointSpace) for space in tableau.spaces):
         return tableau
-    from garkcli.tableau.pointwise import (
-        in_points,
-    )  # nodes of families are radicals
+    # nodes of families are radicals
+    from garkcli.tableau.pointwise import in_points
 
     return in_points(tableau)
 
 
 def _once(tableau: Tableau) -> Tableau:
-    return _merged(_without(tableau, _that_matter(tableau)))
+    kept = _that_matter(tableau)
+    smaller = _without(tableau, kept)
+    return _merged(smaller)
 
 
 def _sizes(tableau: Tableau) -> list[int]:
@@ -92,23 +93,27 @@ def is_plainly_irreducible(tableau: Tableau, tolerance: fmpq = ZERO) -> bool:
         tableau: the method.
         tolerance: the rounding of its coefficients, which must not be able to change the answer.
     """
-    spaces = range(len(tableau.spaces))
-    return all(
-        _has_weights(tableau, k, tolerance)
-        and _tells_apart(tableau, k, tolerance)
-        for k in spaces
-    )
+    for k, _ in enumerate(tableau.spaces):
+        if not _has_weights(tableau, k, tolerance):
+            return False
+        if not _tells_apart(tableau, k, tolerance):
+            return False
+    return True
 
 
 def _has_weights(tableau: Tableau, k: int, tolerance: fmpq) -> bool:
+    """Whether each stage of a space has a weight that is not zero, for some colour."""
     space = tableau.spaces[k]
     rows = [colour.b for colour in tableau.colours if colour.space == k]
     if isinstance(space, PointSpace):
-        stages = range(space.stages)
-        return all(
-            any(is_nonzero(b[i], tolerance) for b in rows) for i in stages
-        )
-    return not tolerance and any(
+        for i in range(space.stages):
+            weights = [b[i] for b in rows]
+            if not any(is_nonzero(weight, tolerance) for weight in weights):
+                return False
+        return True
+    if tolerance:
+        return False
+    return any(
         _is_gaussian(space, b) or _is_regular(space.gram(b)) for b in rows
     )
 
@@ -135,22 +140,20 @@ def _is_gaussian(space: StageSpace, b: Vector) -> bool:
     to degree 2s − 2. With the nodes 0 and 1 among them, degree 2s − 3 is enough: L_i² is replaced
     by x(1 − x) g², x g² or (1 − x) g² with g zero at the other inner nodes.
     """
-    s = space.stages
-    gram = space.gram(b)
-    moments = [*gram[0], *(row[-1] for row in gram[1:])]
-    known = [moment == fmpq(1, k) for k, moment in enumerate(moments, start=1)]
+    first, *others = space.gram(b)
+    moments = [*first, *(row[-1] for row in others)]
+    numbered = enumerate(moments, start=1)
+    known = [moment == fmpq(1, k) for k, moment in numbered]
     if all(known):
         return True
     if not all(known[:-1]) or not isinstance(space, PolynomialSpace):
         return False
     M = space.modulus
-    has_ends = s > 1 and not M(0) and not M(1)
+    has_ends = space.stages > 1 and not M(0) and not M(1)
+    if not has_ends or roots_below(M, ZERO):
+        return False
     reflected = M(fmpq_poly([1, -1]))
-    return (
-        has_ends
-        and not roots_below(M, ZERO)
-        and not roots_below(reflected, ZERO)
-    )
+    return not roots_below(reflected, ZERO)
 
 
 def _tells_apart(tableau: Tableau, k: int, tolerance: fmpq) -> bool:
@@ -173,12 +176,9 @@ def _tells_apart(tableau: Tableau, k: int, tolerance: fmpq) -> bool:
 
 def _that_matter(tableau: Tableau) -> list[list[int]]:
     """For each space the stages that have an influence on the step."""
-    reached = {
-        (colour.space, i)
-        for colour in tableau.colours
-        for i, weight in enumerate(colour.b)
-        if weight
-    }
+    reached: set[Vertex] = set()
+    for colour in tableau.colours:
+        reached |= _with_entries(colour.space, colour.b)
     waiting = list(reached)
     while waiting:
         k, i = waiting.pop()
@@ -186,9 +186,7 @@ def _that_matter(tableau: Tableau) -> list[list[int]]:
             block = tableau.blocks.get((k, m))
             if block is None:
                 continue
-            seen = {
-                (colour.space, j) for j, entry in enumerate(block[i]) if entry
-            }
+            seen = _with_entries(colour.space, block[i])
             waiting += seen - reached
             reached |= seen
     kept = []
@@ -198,25 +196,29 @@ def _that_matter(tableau: Tableau) -> list[list[int]]:
     return kept
 
 
+def _with_entries(space: int, row: Vector) -> set[Vertex]:
+    """The stages of a space whose entries in a row are not zero."""
+    return {(space, j) for j, entry in enumerate(row) if entry}
+
+
 def _without(tableau: Tableau, kept: Sequence[Sequence[int]]) -> Tableau:
     """The tableau with the given stages alone."""
-    spaces = tuple(
-        PointSpace(_chosen(space.nodes, stages))
-        for space, stages in zip(tableau.spaces, kept, strict=True)
-    )
-    colours = tuple(
-        replace(
-            x, b=_chosen(x.b, kept[x.space]), c=_chosen(x.c, kept[x.space])
-        )
-        for x in tableau.colours
-    )
-    blocks = {
-        (k, m): tuple(
-            _chosen(block[i], kept[tableau.colours[m].space]) for i in kept[k]
-        )
-        for (k, m), block in tableau.blocks.items()
-    }
-    return Tableau(spaces, colours, blocks)
+    spaces = []
+    for space, stages in zip(tableau.spaces, kept, strict=True):
+        nodes = _chosen(space.nodes, stages)
+        spaces.append(PointSpace(nodes))
+    colours = []
+    for colour in tableau.colours:
+        stages = kept[colour.space]
+        b = _chosen(colour.b, stages)
+        c = _chosen(colour.c, stages)
+        colours.append(replace(colour, b=b, c=c))
+    blocks = {}
+    for (k, m), block in tableau.blocks.items():
+        columns = kept[tableau.colours[m].space]
+        rows = [_chosen(block[i], columns) for i in kept[k]]
+        blocks[k, m] = tuple(rows)
+    return Tableau(tuple(spaces), tuple(colours), blocks)
 
 
 def _chosen(row: Vector, stages: Sequence[int]) -> Vector:
@@ -226,25 +228,27 @@ def _chosen(row: Vector, stages: Sequence[int]) -> Vector:
 def _merged(tableau: Tableau) -> Tableau:
     """The tableau with one stage for each class of equal ones; their weights are added."""
     classes = _equal_stages(tableau)
-    spaces = tuple(
-        PointSpace(tuple(space.nodes[members[0]] for members in found))
-        for space, found in zip(tableau.spaces, classes, strict=True)
-    )
-    colours = tuple(
-        replace(
-            x,
-            b=_summed(x.b, classes[x.space]),
-            c=tuple(x.c[members[0]] for members in classes[x.space]),
-        )
-        for x in tableau.colours
-    )
+    firsts = [_firsts(found) for found in classes]
+    spaces = []
+    for space, stages in zip(tableau.spaces, firsts, strict=True):
+        nodes = _chosen(space.nodes, stages)
+        spaces.append(PointSpace(nodes))
+    colours = []
+    for colour in tableau.colours:
+        b = _summed(colour.b, classes[colour.space])
+        c = _chosen(colour.c, firsts[colour.space])
+        colours.append(replace(colour, b=b, c=c))
     blocks = {}
     for (k, m), block in tableau.blocks.items():
         columns = classes[tableau.colours[m].space]
-        blocks[k, m] = tuple(
-            _summed(block[members[0]], columns) for members in classes[k]
-        )
-    return Tableau(spaces, colours, blocks)
+        rows = [_summed(block[i], columns) for i in firsts[k]]
+        blocks[k, m] = tuple(rows)
+    return Tableau(tuple(spaces), tuple(colours), blocks)
+
+
+def _firsts(classes: Sequence[Sequence[int]]) -> list[int]:
+    """A stage of each class."""
+    return [members[0] for members in classes]
 
 
 def _summed(row: Vector, classes: Sequence[Sequence[int]]) -> Vector:
@@ -259,14 +263,16 @@ def _summed(row: Vector, classes: Sequence[Sequence[int]]) -> Vector:
 
 def _equal_stages(tableau: Tableau) -> list[list[list[int]]]:
     """For each space its stages in classes of equal ones, the coarsest partition that is stable."""
-    classes = [[list(range(space.stages))] for space in tableau.spaces]
+    numbers = range(len(tableau.spaces))
+    classes = []
+    for space in tableau.spaces:
+        stages = list(range(space.stages))
+        classes.append([stages])
     while True:
-        finer = [
-            _split(tableau, k, classes) for k in range(len(tableau.spaces))
-        ]
-        if [len(found) for found in finer] == [
-            len(found) for found in classes
-        ]:
+        finer = [_split(tableau, k, classes) for k in numbers]
+        sizes_before = [len(found) for found in classes]
+        sizes = [len(found) for found in finer]
+        if sizes == sizes_before:
             return finer
         classes = finer
 
@@ -279,11 +285,7 @@ def _split(
     for members in classes[k]:
         by_sight: list[tuple[list[object], list[int]]] = []
         for i in members:
-            sight: list[object] = [tableau.spaces[k].nodes[i]]
-            for m, colour in enumerate(tableau.colours):
-                block = tableau.blocks.get((k, m))
-                if block is not None:
-                    sight.append(_summed(block[i], classes[colour.space]))
+            sight = _sight(tableau, k, i, classes)
             # compared, not hashed: that of a fraction is slow to be had first
             alike = next((x for seen, x in by_sight if seen == sight), None)
             if alike is None:
@@ -292,3 +294,16 @@ def _split(
                 alike.append(i)
         found += [alike for _, alike in by_sight]
     return sorted(found)
+
+
+def _sight(
+    tableau: Tableau, k: int, i: int, classes: list[list[list[int]]]
+) -> list[object]:
+    """What stage i of a space sees: its node, and the sums of its entries over each class."""
+    sight: list[object] = [tableau.spaces[k].nodes[i]]
+    for m, colour in enumerate(tableau.colours):
+        block = tableau.blocks.get((k, m))
+        if block is not None:
+            sums = _summed(block[i], classes[colour.space])
+            sight.append(sums)
+    return sight

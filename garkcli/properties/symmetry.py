@@ -169,12 +169,14 @@ def _keys(
             if block is None:
                 continue
             row = sum(block[i], ZERO)
+            total = sum(colour.b, ZERO)
             sums.append(row)
-            turned.append(sum(colour.b, ZERO) - row)
-        weights = [
-            colour.b[i] for colour in tableau.colours if colour.space == k
-        ]
-        keys.append(((*sums, *weights), (*turned, *weights)))
+            turned.append(total - row)
+        colours = [x for x in tableau.colours if x.space == k]
+        weights = [colour.b[i] for colour in colours]
+        own = (*sums, *weights)
+        image = (*turned, *weights)
+        keys.append((own, image))
     return keys
 
 
@@ -183,10 +185,11 @@ def _fitting(
 ) -> list[list[bool]]:
     """For each pair of stages whether one may turn into the other; sums are as long as stages."""
     allowed = (3 * len(keys) + 3) * tolerance
-    return [
-        [_are_close((image,), (other,), allowed) for other, _ in keys]
-        for _, image in keys
-    ]
+    fits = []
+    for _, image in keys:
+        close = [_are_close((image,), (other,), allowed) for other, _ in keys]
+        fits.append(close)
+    return fits
 
 
 def _involutions(fits: list[list[bool]]) -> Iterator[Reflection]:

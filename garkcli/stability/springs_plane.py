@@ -60,8 +60,10 @@ def springs_plane(
     """
     zero, one = fmpq(0), fmpq(1)
     W, B, E = _floats(tableau, split, zero, zero)
-    W_a, B_a, _ = _floats(tableau, split, one, zero)
-    W_x, B_x, _ = _floats(tableau, split, zero, one)
+    W_one, B_one, _ = _floats(tableau, split, one, zero)
+    W_a, B_a = W_one - W, B_one - B
+    W_one, B_one, _ = _floats(tableau, split, zero, one)
+    W_x, B_x = W_one - W, B_one - B
     slow = np.linspace(0.0, slow_end, points)
     fast = np.linspace(0.0, fast_end, points)
     half = np.empty((points, points))
@@ -69,13 +71,15 @@ def springs_plane(
     for i, s in enumerate(slow):
         for j, f in enumerate(fast):
             a, x = s * s, f * f
-            matrix = unit - (W + a * (W_a - W) + x * (W_x - W))
-            weights = B + a * (B_a - B) + x * (B_x - B)
+            matrix = unit - (W + a * W_a + x * W_x)
+            weights = B + a * B_a + x * B_x
             try:
-                M = np.eye(2) + weights @ np.linalg.solve(matrix, E)
-                half[i, j] = abs(np.trace(M)) / 2
+                solved = np.linalg.solve(matrix, E)
             except np.linalg.LinAlgError:
                 half[i, j] = np.inf
+                continue
+            M = np.eye(2) + weights @ solved
+            half[i, j] = abs(np.trace(M)) / 2
     return SpringsPlane(fast, slow, half)
 
 

@@ -58,12 +58,14 @@ def draw_svg_sheet(
         middle = left + widths[column] / 2
         rows = sum(heights[: row + 1])
         base = MARGIN + rows + row * foot
-        body += _svg_tree(vertices, middle, base - RADIUS)
+        ground = base - RADIUS
+        body += _svg_tree(vertices, middle, ground)
         body += _svg_caption(lines[k], middle, base)
     feet = len(heights) * foot - ROW_GAP
+    width = sum(widths)
     height = MARGIN + sum(heights) + feet
-    document = _svg_head(sum(widths), height) + body
-    document += ["</svg>", ""]
+    head = _svg_head(width, height)
+    document = [*head, *body, "</svg>", ""]
     return "\n".join(document)
 
 
@@ -114,13 +116,12 @@ def _svg_tree(vertices: Vertices, middle: float, ground: float) -> list[str]:
     edges: list[str] = []
     dots: list[str] = []
     for v, x, y in zip(vertices, xs, ys, strict=True):
-        if v.parent >= 0:
-            x0 = xs[v.parent]
-            y0 = ys[v.parent]
-            start = _pixels(x1=x0, y1=y0)
-            end = _pixels(x2=x, y2=y)
-            edges.append(f"<line {start} {end}/>")
         dots += _svg_dot(v.colour, x, y)
+        if v.parent < 0:
+            continue
+        start = _pixels(x1=xs[v.parent], y1=ys[v.parent])
+        end = _pixels(x2=x, y2=y)
+        edges.append(f"<line {start} {end}/>")
     group = '<g stroke="#333333" stroke-width="1.6">'
     return [group, *edges, "</g>", *dots]
 

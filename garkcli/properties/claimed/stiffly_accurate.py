@@ -23,14 +23,18 @@ def _decide(subject: Subject) -> Verdict:
 
 def _missed(tableau: Tableau) -> str:
     """Where the last stage differs from the weights."""
-    if not isinstance(tableau.spaces[-1], PointSpace):
+    space = tableau.spaces[-1]
+    if not isinstance(space, PointSpace):
         return "at no node the stage has the weights as its rows"
-    k, i = len(tableau.spaces) - 1, tableau.spaces[-1].stages - 1
-    m, j = missed_entries(tableau, k, i, new_value(tableau))[0]
-    entry = number_text(tableau.blocks[k, m][i][j])
+    k = len(tableau.spaces) - 1
+    i = space.stages - 1
+    (m, j), *_ = missed_entries(tableau, k, i, new_value(tableau))
+    block = tableau.blocks[k, m]
+    entry = number_text(block[i][j])
     weight = number_text(tableau.colours[m].b[j])
     name = entry_name(tableau, k, m, i, j)
-    return f"{name} is {entry}, {weight_name(tableau, m, j)} is {weight}"
+    name_of_weight = weight_name(tableau, m, j)
+    return f"{name} is {entry}, {name_of_weight} is {weight}"
 
 
 PROPERTY = Property(
