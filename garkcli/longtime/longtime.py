@@ -135,7 +135,9 @@ def _judged(
         states.append((number * step, y))
     times = record.kept_numbers * h
     escape = judge.escape
-    escaped = None if escape is None else escape * step
+    escaped = None
+    if escape is not None:
+        escaped = escape * step
     return LongRun(
         bound.problem,
         step,
@@ -203,7 +205,9 @@ class _Judge:
             return None
         error = float(record.kept_errors[-1, 0])
         is_wrong = abs(error) > _LARGE * record.measure.scale
-        return record.excursions.escape if is_wrong else None
+        if not is_wrong:
+            return None
+        return record.excursions.escape
 
     def history(self, k: int, noise: float) -> InvariantHistory:
         """Of the invariant ``k``, whose errors are good to ``noise``."""

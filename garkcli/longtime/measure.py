@@ -47,9 +47,11 @@ class Measure:
             lambda: quantities_function(problem, digits)
         )
         number = arb if self._bits else to_float
-        start: list[Any] = self._precisely(
-            lambda: [number(x) for x in problem.initial]
-        )
+
+        def initial_state() -> list[Any]:
+            return [number(x) for x in problem.initial]
+
+        start: list[Any] = self._precisely(initial_state)
         summands: list[Any] = []
         self._lengths = []
         for _, expression in problem.quantities:

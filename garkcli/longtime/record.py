@@ -62,7 +62,8 @@ class Record:
         if count >= points:
             spans = max((points - 2) // (2 * signals), 1)
             self._span = ceil((count + 1) / spans)
-        self._wanted = {count * part // _PARTS for part in range(_PARTS + 1)}
+        parts = range(_PARTS + 1)
+        self._wanted = {count * part // _PARTS for part in parts}
         self._numbers: list[int] = []
         self._errors: list[Floats] = []
         self._last: Floats = np.zeros((0, 0))
@@ -113,9 +114,8 @@ class Record:
             return
         start = self.done + 1
         errors = self.measure.errors(states)
-        is_inside = (
-            np.abs(errors) <= BLOW_UP * self.measure.scale
-        )  # and no nan
+        most = BLOW_UP * self.measure.scale
+        is_inside = np.abs(errors) <= most  # and no nan
         outside = np.flatnonzero(~is_inside.all(axis=1))
         if outside.size:
             self.blew_up = True

@@ -10,6 +10,7 @@ from __future__ import annotations
 
 from collections.abc import Sequence
 from dataclasses import dataclass
+from itertools import chain
 from typing import Any, TypeAlias
 
 from flint import arb, ctx, fmpq
@@ -89,25 +90,32 @@ def symplecticity_defects(
 
 def _exactly(x: Any) -> fmpq | arb:
     """A float as the rational number it is."""
-    return fmpq(*x.as_integer_ratio()) if isinstance(x, float) else x
+    if not isinstance(x, float):
+        exact: fmpq | arb = x
+        return exact
+    numerator, denominator = x.as_integer_ratio()
+    return fmpq(numerator, denominator)
 
 
 def _defect(
     method: Integrator, step: fmpq, time: fmpq, y: Sequence[Any]
 ) -> Defect:
+    """MᵀJM − J of the step from y, with M by central differences of two widths."""
     delta = fmpq(1, 10**_DECADES)
     with ctx.workprec(method.bits):
         M = _jacobian(method, step, y, delta)
         coarse = _jacobian(method, step, y, 2 * delta)
-        entries = [a for row in M for a in row]
-        coarse_entries = [b for row in coarse for b in row]
+        entries = list(chain.from_iterable(M))
+        coarse_entries = chain.from_iterable(coarse)
         pairs = zip(entries, coarse_entries, strict=True)
         change = max(abs(a - b) for a, b in pairs)
         largest = max(map(abs, entries))
-        size = sum((abs(arb(x)) for x in y), arb(1))
+        sizes = [abs(arb(x)) for x in y]
+        size = sum(sizes, arb(1))
         # what the last digits of a step make of a difference of 10^-_DECADES
         last_digit = arb(10) ** (_DECADES - method.digits)
         solved = last_digit * size
+        # each entry of MᵀJM is a sum of as many products as M has rows
         terms = _SAFETY * len(M)
         error = terms * largest * (change + solved)
         deviation = _deviation(M)
@@ -117,6 +125,8 @@ def _defect(
 def _jacobian(
     method: Integrator, step: fmpq, y: Sequence[Any], delta: fmpq
 ) -> Jacobian:
+    """∂y₁/∂y by central differences with the width ``delta``."""
+
     def moved(i: int, by: fmpq) -> list[Any]:
         """One step from ``y`` with its entry ``i`` changed."""
         start = list(y)

@@ -55,11 +55,10 @@ def algebraic_stability(tableau: Tableau) -> AlgebraicStability | None:
     for l, colour in enumerate(tableau.colours):
         gram = tableau.space(l).gram(colour.b)
         grams.append(gram)
+    M = contractivity(tableau)
     return AlgebraicStability(
-        weights_are_positive=all(
-            is_positive_semidefinite(gram) for gram in grams
-        ),
-        form_is_positive=is_positive_semidefinite(contractivity(tableau)),
+        weights_are_positive=all(map(is_positive_semidefinite, grams)),
+        form_is_positive=is_positive_semidefinite(M),
     )
 
 
@@ -72,10 +71,12 @@ def contractivity(tableau: Tableau) -> Matrix:
 
 def _form(tableau: Tableau, l: int, m: int) -> Matrix:
     """B^l A^{l,m} + (A^{m,l})ᵀ B^m − b^l (b^m)ᵀ, in the bases of the two stage spaces."""
-    there, back = tableau.block(l, m), tableau.block(m, l)
+    there = tableau.block(l, m)
+    back = tableau.block(m, l)
     assert there is not None
     assert back is not None
-    weights, others = tableau.colours[l].b, tableau.colours[m].b
+    weights = tableau.colours[l].b
+    others = tableau.colours[m].b
     outgoing = tableau.space(l).form(weights, there)
     incoming = transpose(tableau.space(m).form(others, back))
     both = add_matrices(outgoing, incoming)

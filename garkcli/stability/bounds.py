@@ -66,15 +66,17 @@ def first_failure(coefficients: Sequence[arb]) -> Bounds:
         return OPEN
     if len(kept) == 1 or _is_positive_everywhere(kept):
         return UNLIMITED
-    return _bounded_behind(arb_poly(kept), _passed(arb_poly(kept)))
+    p = arb_poly(kept)
+    return _bounded_behind(p, _passed(p))
 
 
 def _is_positive_everywhere(coefficients: Sequence[arb]) -> bool:
     """Whether it is positive on [0, 1], and reversed on [0, 1]; False if that is not seen."""
-    return all(
-        _passed(arb_poly(list(p)), up_to_one=True) == 1
-        for p in (coefficients, coefficients[::-1])
-    )
+    near = arb_poly(list(coefficients))
+    if _passed(near, up_to_one=True) < 1:
+        return False
+    far = arb_poly(list(coefficients[::-1]))
+    return _passed(far, up_to_one=True) == 1
 
 
 def _passed(p: arb_poly, up_to_one: bool = False) -> fmpq:
@@ -88,7 +90,8 @@ def _passed(p: arb_poly, up_to_one: bool = False) -> fmpq:
     while pieces:
         low, high, depth = pieces.pop()
         tried += 1
-        middle, radius = (low + high) / 2, (high - low) / 2
+        middle = (low + high) / 2
+        radius = (high - low) / 2
         if p(arb(middle, radius)) > 0:
             continue
         if depth == FINEST or tried > MOST_PIECES:

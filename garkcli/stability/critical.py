@@ -33,7 +33,8 @@ def critical_polynomials(
     """
     members = [member(x) for x in points]
     degree = max(p.degree for p in members)
-    leading = interpolated(points, [p[degree] for p in members])
+    at_points = [p[degree] for p in members]
+    leading = interpolated(points, at_points)
     for k in range(degree):
         values = [_with_derivative(p, degree, k) for p in members]
         double = interpolated(points, values)
@@ -65,4 +66,7 @@ def roots_between(
         if p:
             norm = Polynomial.from_flint(p.norm())
             found |= {root for root, _ in real_roots(norm)}
-    return sorted(x for x in found if low < x and (high is None or x < high))
+    inside = [x for x in found if low < x]
+    if high is not None:
+        inside = [x for x in inside if x < high]
+    return sorted(inside)

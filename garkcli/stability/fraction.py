@@ -132,7 +132,9 @@ def _in_lowest_terms(P: Multivariate, Q: Multivariate) -> Fraction:
 
 
 def _direction(point: Sequence[int], offset: int) -> list[Number]:
-    return [ONE, *(fmpq(offset + i) for i in point)]
+    """(1, o + i_2, …, o + i_N)."""
+    others = [fmpq(offset + i) for i in point]
+    return [ONE, *others]
 
 
 def _cancelled(
@@ -145,11 +147,13 @@ def _cancelled(
     degree that a denominator can have, for that is no less than on a line.
     """
     axes = Q.variables - 1
-    over, under = {}, {}
+    over = {}
+    under = {}
     degree = 0
     for point in lattice(axes, max(P.degree, Q.degree)):
         direction = _direction(point, offset)
-        top, bottom = P.along(direction), Q.along(direction)
+        top = P.along(direction)
+        bottom = Q.along(direction)
         common = gcd(top, bottom)
         lowest = bottom // common
         scale = ONE / lowest[0]

@@ -43,8 +43,9 @@ class Ratio:
     def of(cls, numerator: Polynomial, denominator: Polynomial) -> Ratio:
         """The quotient in lowest terms."""
         common = gcd(numerator, denominator)
-        over, under = numerator // common, denominator // common
-        unit = ONE / under[0] if under[0] else ONE / under.leading
+        over = numerator // common
+        under = denominator // common
+        unit = ONE / (under[0] or under.leading)
         return cls(over * unit, under * unit)
 
     @property
@@ -113,7 +114,8 @@ class OscillatorStability:
         reduced = [p // common for p in form]
         numbers = chain.from_iterable(p.coefficients for p in reduced)
         first = next(x for x in numbers if x)
-        alpha, beta, gamma = (p * (ONE / first) for p in reduced)
+        unit = ONE / first
+        alpha, beta, gamma = (p * unit for p in reduced)
         return alpha, beta, gamma
 
 
@@ -131,9 +133,8 @@ def oscillator_stability(
     """
     unit = Oscillator(ONE, problem.shares)
     check_structure(tableau, unit)
-    return analysed(
-        tableau, [unit.matrix(colour) for colour in tableau.colours]
-    )
+    fields = [unit.matrix(colour) for colour in tableau.colours]
+    return analysed(tableau, fields)
 
 
 def analysed(
@@ -198,6 +199,7 @@ def stable_set(
         signs = [sign_of(p, x) for p in (area, right, left)]
         if min(signs) < 0:
             return False
+        # det M = 1 and tr M = ±2: the eigenvalues are both 1, or both −1
         is_double = signs[0] == 0 and 0 in signs[1:]
         return not is_double or sign_of(defect, x) == 0
 
@@ -221,7 +223,9 @@ def phase_error(trace: Ratio, determinant: Ratio) -> PhaseError:
     """
     N, D = trace.numerator, trace.denominator
     P, Q = determinant.numerator, determinant.denominator
-    over, under = N * N * Q, D * D * P * 4
+    # cos² θ = over/under; both are 4 at x = 0, since M is I there
+    over = N * N * Q
+    under = D * D * P * 4
     terms = 16
     limit = 4 * (over.degree + under.degree) + 40
     while terms <= limit:
@@ -231,9 +235,10 @@ def phase_error(trace: Ratio, determinant: Ratio) -> PhaseError:
         if leading is not None:
             if leading == 1:  # θ − z is no small part of z
                 return PhaseError(0, None)
-            # −2 z · c z^(order+1) = leading term; under is 4 at x = 0
+            # −2 z · c z^(order+1) is the leading term over that of under
+            order = 2 * leading - 2
             constant = known[leading] / (under[0] * -2)
-            return PhaseError(2 * leading - 2, constant)
+            return PhaseError(order, constant)
         terms *= 2
     return PhaseError(None, ZERO)
 
@@ -243,6 +248,7 @@ def _cosine_squared(terms: int) -> Polynomial:
     coefficients = [ONE]
     term = fmpq(1)
     for k in range(1, terms):
-        term = term * -4 / ((2 * k - 1) * (2 * k))
+        factorials = (2 * k - 1) * (2 * k)
+        term = term * -4 / factorials
         coefficients.append(term / 2)
     return Polynomial(coefficients)

@@ -69,7 +69,8 @@ def _critical_cosines(R: StabilityFunction) -> list[RealRoot] | None:
         return None
     points = [fmpq(k, count + 1) for k in range(1, count + 1)]
     critical = critical_polynomials(lambda c: _on_ray(R, c), points)
-    zero, one = RealRoot.rational(ZERO), RealRoot.rational(ONE)
+    zero = RealRoot.rational(ZERO)
+    one = RealRoot.rational(ONE)
     return roots_between(critical, zero, one)
 
 
@@ -116,4 +117,5 @@ def _is_bounded_at(R: StabilityFunction, c: fmpq) -> bool:
     if any(root > origin for root, _ in real_roots(poles)):
         return False
     powers = [power for root, power in real_roots(ray) if root > origin]
+    # at a root of even multiplicity E is zero and does not change its sign
     return all(power % 2 == 0 for power in powers)

@@ -63,14 +63,15 @@ class SlowInterval:
         if len(self.stable) != 1:
             return False
         [interval] = self.stable
-        if (
-            interval.start != RealRoot.rational(ZERO)
-            or interval.end is not None
-        ):
+        if interval.start != RealRoot.rational(ZERO):
+            return False
+        if interval.end is not None:
             return False
         if not interval.has_start and self.low > 0:
             return False
-        return None if self.open_points else True
+        if self.open_points:
+            return None
+        return True
 
 
 def slow_interval(
@@ -92,8 +93,9 @@ def slow_interval(
     undecided: list[RealRoot] = []
     ends = RealRoot.rational(low), RealRoot.rational(high)
     stable_at = []
+    length = high - low
     for k in range(WITNESSES + 1):
-        a = low + (high - low) * fmpq(k, WITNESSES)
+        a = low + length * fmpq(k, WITNESSES)
         determinants = [_with_slow(p, a) for p in plane]
         stable_at.append(stable_where(determinants))
 
@@ -106,7 +108,8 @@ def slow_interval(
         if number is None:
             undecided.append(root)
             return True
-        found = stable_where([_with_fast(p, number) for p in plane])
+        determinants = [_with_fast(p, number) for p in plane]
+        found = stable_where(determinants)
         return any(_contains(interval, *ends) for interval in found)
 
     found = where(is_stable, critical, start=ZERO)
@@ -146,7 +149,9 @@ def _in_plane(p: Multivariate) -> fmpq_mpoly:
 
 def _with_slow(p: Multivariate, a: Number) -> Polynomial:
     """A polynomial in (a, x) as one in x."""
-    return Polynomial([coefficient((a,)) for coefficient in p.by_last()])
+    point = (a,)
+    coefficients = [coefficient(point) for coefficient in p.by_last()]
+    return Polynomial(coefficients)
 
 
 def _with_fast(p: Multivariate, x: Number) -> Polynomial:

@@ -36,7 +36,8 @@ def step_function(system: StageSystem) -> StepFunction:
 
 def unreduced(system: StageSystem) -> StepFunction:
     """M(z) with the denominator det(I − zW), whatever could be cancelled."""
-    n, d = len(system.W), len(system.B)
+    n = len(system.W)
+    d = len(system.B)
     denominator = reciprocal_characteristic(system.W)
     # without a stage the step does nothing
     columns = transpose(system.E) if n else ((),) * d

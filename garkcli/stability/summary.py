@@ -4,6 +4,7 @@ from __future__ import annotations
 
 from collections.abc import Sequence
 from dataclasses import dataclass
+from itertools import product, starmap
 
 from flint import fmpq
 
@@ -112,13 +113,17 @@ def stability(
     True
     """
     linear = _linear(tableau)
-    has_several = bool(linear) and tableau.size > 1
+    oscillator = _oscillator(tableau, problem)
+    algebraic = algebraic_stability(tableau)
+    colours = None
+    if linear and tableau.size > 1:
+        colours = several_colours(tableau, ratios)
     return Stability(
         tableau=tableau,
         linear=linear,
-        oscillator=_oscillator(tableau, problem),
-        algebraic=algebraic_stability(tableau),
-        colours=several_colours(tableau, ratios) if has_several else None,
+        oscillator=oscillator,
+        algebraic=algebraic,
+        colours=colours,
     )
 
 
@@ -161,25 +166,26 @@ def stability_of_rounded(tableau: Tableau, tolerance: fmpq) -> Stability:
 
 
 def _linear(tableau: Tableau) -> tuple[LinearStability, ...]:
-    return tuple(
-        linear_stability(tableau, name, shares)
-        for name, shares in _directions(tableau)
-    )
+    found = []
+    for name, shares in _directions(tableau):
+        one = linear_stability(tableau, name, shares)
+        found.append(one)
+    return tuple(found)
 
 
 def _directions(tableau: Tableau) -> list[tuple[str, list[Number]]]:
     """The directions of (λ_1, …, λ_N) that are looked at, with their names."""
-    colours = range(tableau.size)
-    is_complete = all(
-        tableau.block(l, m) is not None for l in colours for m in colours
-    )
+    blocks = starmap(tableau.block, product(range(tableau.size), repeat=2))
+    is_complete = all(block is not None for block in blocks)
     if tableau.is_partitioned or not is_complete:
         return []
-    found: list[tuple[str, list[Number]]] = [("all", [ONE] * tableau.size)]
+    alike: list[Number] = [ONE] * tableau.size
+    found = [("all", alike)]
     if tableau.size > 1:
-        for l in colours:
-            shares: list[Number] = [ONE if m == l else ZERO for m in colours]
-            found.append((tableau.colours[l].name, shares))
+        for l, colour in enumerate(tableau.colours):
+            alone: list[Number] = [ZERO] * tableau.size
+            alone[l] = ONE
+            found.append((colour.name, alone))
     return found
 
 
@@ -206,9 +212,9 @@ def _oscillator(
 ) -> OscillatorStability | None:
     if problem is not None:
         return oscillator_stability(tableau, problem)
+    unit = fmpq(1)
     try:
-        return oscillator_stability(
-            tableau, Oscillator.default(terms_of(tableau), fmpq(1))
-        )
+        usual = Oscillator.default(terms_of(tableau), unit)
+        return oscillator_stability(tableau, usual)
     except UsageProblem:
         return None

@@ -143,7 +143,8 @@ def _poles_are_right(R: BallFraction) -> bool | None:
 
 def _real_end(R: BallFraction) -> Bounds:
     """The end of the interval of −z on which |R| ≤ 1."""
-    P, Q = arb_poly(mirrored(R.P)), arb_poly(mirrored(R.Q))
+    P = arb_poly(mirrored(R.P))
+    Q = arb_poly(mirrored(R.Q))
     margin = Q * Q - P * P
     # the constants of P and Q are 1: that of the margin is zero
     others = [margin[k] for k in range(1, len(margin))]

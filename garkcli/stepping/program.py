@@ -12,6 +12,7 @@ from __future__ import annotations
 
 from collections.abc import Mapping
 from dataclasses import dataclass, replace
+from itertools import product
 
 from garkcli.problems.straightline import Code
 from garkcli.problems.vectorfield import Layout
@@ -127,11 +128,9 @@ class _ProgramWriter:
         """The function whose loop has this ``body``."""
         y = names("y", self.layout.total)
         lost = names("e", self.layout.total)
-        components: list[str] = []
-        for stage in self.unknowns:
-            components += [
-                self.stages.component(stage, i) for i in range(self.d)
-            ]
+        components = []
+        for stage, i in product(self.unknowns, range(self.d)):
+            components.append(self.stages.component(stage, i))
         missed = [f"m{c}" for c in components]
         changed = [f"n{c}" for c in components]
         state = ", ".join((*y, *lost, *missed, *changed))
@@ -180,14 +179,14 @@ class _ProgramWriter:
             self._add(i)
         y = names("y", self.layout.unknowns)
         total = " + ".join(y)
-        total_of_all = f"({total})"
+        state = ", ".join(y)
         if self.is_for_balls:
-            write(f"if not {total_of_all}.is_finite():")
+            write(f"if not ({total}).is_finite():")
         else:
-            write(f"if not isfinite{total_of_all}:")
+            write(f"if not isfinite({total}):")
         write(" raise NotSolved(number, inf)")
         write("if record:")
-        write(f" record([{', '.join(y)}])")
+        write(f" record([{state}])")
 
     def _write_increments(self) -> None:
         """The increments d = y_1 − y_0, group after group."""

@@ -63,9 +63,13 @@ def stage_system(
             so that the unknowns are the same for all; None for the L^m themselves.
     """
     d = len(fields[0])
-    terms = list(_terms(fields, fields if pattern is None else pattern))
+    if pattern is None:
+        pattern = fields
+    terms = list(_terms(fields, pattern))
     first, n = _first_unknowns(tableau, terms)
-    W, E, B = _zeros(n, n), _zeros(n, d), _zeros(d, n)
+    W = _zeros(n, n)
+    E = _zeros(n, d)
+    B = _zeros(d, n)
     for term in terms:
         colour = tableau.colours[term.colour]
         column = first[colour.space, term.seen]
