@@ -46,7 +46,6 @@ class Outcome:
         name: the name it gives itself, or its path.
         structure: which vector fields the problem has.
         analysis: the truth; None where the file cannot be read as a method.
-        every: what holds for every value, of a file with free parameters; it has no analysis.
         claims: every claim of the file.
         faults: why it cannot be read; empty where it can.
         text: the file as read, for showing lines of it.
@@ -56,13 +55,13 @@ class Outcome:
         needs_claims: whether a file that makes no claim fails.
         is_crash: whether the program failed, not the file; ``faults`` say how.
         wants_properties: whether all properties were asked for.
+        every: what holds for every value, of a file with free parameters; it has no analysis.
     """
 
     file: str
     name: str
     structure: str = "general"
     analysis: Analysis | None = None
-    every: EveryValue | None = None
     claims: tuple[Claim, ...] = ()
     faults: tuple[Fault, ...] = ()
     text: str = ""
@@ -71,6 +70,7 @@ class Outcome:
     is_crash: bool = False
     needs_claims: bool = False
     wants_properties: bool = False
+    every: EveryValue | None = None
 
     @property
     def failed_claims(self) -> tuple[Claim, ...]:

@@ -80,7 +80,8 @@ def render(found: EveryStability, format: str) -> str:
 def every_stability_schema() -> Schema:
     """The JSON Schema of these reports."""
     return published(
-        "report of gark stability on free parameters", _REPORT.schema
+        "report of gark stability for every value of parameters",
+        _REPORT.schema,
     )
 
 

@@ -77,6 +77,7 @@ RUNS: dict[str, list[tuple[str, ...]]] = {
         (COLLOCATION, "--slow", "0..1/4", "--fast", "2"),
         (IMEX, "--ratio", "2"),
     ],
+    "stability-every": [("stability", FAMILY)],
     "modified": [
         *((file, "-n", "3") for file in FILES if file not in SLOW),
         (VERLET, "-n", "3", "--problem", "pendulum"),
