@@ -8,10 +8,10 @@ root, see ``garkcli.exact.tower``.
 from __future__ import annotations
 
 from collections.abc import Iterable
-from functools import partial
+from functools import cache, partial
 from typing import TYPE_CHECKING, TypeAlias
 
-from flint import arb, ctx, fmpq, fmpq_poly
+from flint import arb, ctx, fmpq, fmpq_poly, fmpz
 
 from garkcli.errors import LimitExceeded, UndefinedValue
 from garkcli.exact.enclosing import OPERATIONS, enclose
@@ -238,17 +238,41 @@ def _enclosures(roots: tuple[Radical, ...]) -> list[arb]:
     return [enclose(root) for root in roots]
 
 
-def square_free(number: fmpq) -> fmpq:
-    """An integer of the square class of ``number``, free of small square factors.
+SMALL = 1000
+"""Below this are the primes whose squares are taken out of radicands."""
 
-    >>> square_free(fmpq(4, 3)), square_free(fmpq(12))
-    (3, 3)
+
+@cache
+def _small_primes() -> tuple[int, ...]:
+    found: list[int] = []
+    for n in range(2, SMALL):
+        if all(n % p for p in found):
+            found.append(n)
+    return tuple(found)
+
+
+def square_free(number: fmpq) -> fmpq:
+    """An integer of the square class of ``number``: without squares of small primes, nor that of a
+    number without small primes where nothing else is left.
+
+    >>> square_free(fmpq(4, 3)), square_free(fmpq(12)), square_free(fmpq(-3 * 27233**2))
+    (3, 3, -3)
     """
-    n = number.p * number.q
-    for p in (2, 3, 5, 7, 11, 13, 17, 19, 23, 29, 31):
-        while n % (p * p) == 0:
-            n //= p * p
-    return fmpq(n)
+    rest = number.p * number.q
+    free = fmpz(1 if rest > 0 else -1)
+    rest = abs(rest)
+    for p in _small_primes():
+        if rest < p * p:
+            break
+        power = 0
+        while rest % p == 0:
+            rest //= p
+            power += 1
+        if power % 2:
+            free *= p
+    if rest.isqrt() ** 2 == rest:
+        rest = fmpz(1)
+    return fmpq(free * rest)
 
 
 def _check_sign(root: Root) -> None:

@@ -10,7 +10,7 @@ from hypothesis import given
 from hypothesis import strategies as st
 
 from garkcli.exact.display import to_float
-from garkcli.exact.domain import Domain
+from garkcli.exact.domain import Domain, square_free
 from garkcli.exact.expression import parse
 from garkcli.exact.field import Algebraic, Number, coordinates
 from garkcli.exact.matrix import (
@@ -208,3 +208,20 @@ def test_rationals_are_plain(x: Fraction, y: Fraction) -> None:
     norm = (a + b * root) * (a - b * root)
     assert isinstance(norm, fmpq)
     assert norm == a * a - 3 * b * b
+
+
+@given(
+    st.fractions(-4, 4, max_denominator=200).filter(bool),
+    st.fractions(1, 10**6, max_denominator=1500),
+)
+def test_square_classes(number: Fraction, factor: Fraction) -> None:
+    """Numbers whose ratio is a square have the same square-free integer."""
+    times = number * factor**2
+    small, large = (fmpq(x.numerator, x.denominator) for x in (number, times))
+    found = square_free(small)
+    assert found == square_free(large)
+    assert found.q == 1
+    assert int(found.p) * number > 0
+    ratio = found / small
+    assert ratio.p.isqrt() ** 2 == ratio.p
+    assert ratio.q.isqrt() ** 2 == ratio.q
