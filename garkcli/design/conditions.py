@@ -16,10 +16,12 @@ from __future__ import annotations
 from collections.abc import Iterator
 from dataclasses import dataclass
 from itertools import chain
+from time import monotonic
 
 from flint import fmpq, fmpq_mpoly
 
 from garkcli.design.coefficient_span import CoefficientSpan, Polynomials
+from garkcli.design.groebner import NotDecided
 from garkcli.exact.matrix import Vector
 from garkcli.exact.parametric import Parameters, common_denominator, fraction
 from garkcli.tableau.polynomial_space import PolynomialSpace
@@ -58,11 +60,14 @@ class FamilyConditions:
 
     Attributes:
         denominators: polynomials that are not zero at any method of the family.
+        deadline: the reading of ``time.monotonic`` at which conditions are given up; None for
+            never.
     """
 
     def __init__(self, tableau: Tableau, ring: Parameters) -> None:
         self.tableau = tableau
         self.ring = ring
+        self.deadline: float | None = None
         self._one = ring.constant(fmpq(1))
         self._zero = ring.constant(fmpq(0))
         weights = [colour.b for colour in tableau.colours]
@@ -101,7 +106,11 @@ class FamilyConditions:
         return tuple(made)
 
     def of_order(self, order: int) -> Iterator[Condition]:
-        """Conditions that generate those of all trees of an order, together with lower ones."""
+        """Conditions that generate those of all trees of an order, together with lower ones.
+
+        Raises:
+            NotDecided: the time was not enough; they may be asked for again.
+        """
         for l in range(self.tableau.size):
             weights = self._weights[l]
             for member in self._stage_vectors(l, order):
@@ -118,8 +127,10 @@ class FamilyConditions:
         forests = self._forests[seeing.space]
         while len(forests) < order:
             k = len(forests)
-            new_branches = self._new_branches(seeing.space, k)
-            branches.append(self._spanning(new_branches))
+            # branches without forests: the time was over between the two
+            if len(branches) == k:
+                new_branches = self._new_branches(seeing.space, k)
+                branches.append(self._spanning(new_branches))
             new_forests = self._new_forests(seeing.space, k)
             forests.append(self._spanning(new_forests))
         has_one_branch = seeing.is_linear and order > 1
@@ -177,6 +188,8 @@ class FamilyConditions:
         span = CoefficientSpan()
         kept = []
         for member in members:
+            if self.deadline is not None and monotonic() > self.deadline:
+                raise NotDecided
             coordinates = (member.scale, *member.vector)
             if span.insert(coordinates):
                 kept.append(member)

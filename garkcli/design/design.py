@@ -142,6 +142,7 @@ def find_parameters(
         has_other_engine = order is not None and find_msolve() is not None
         deadline = now + seconds
         first = now + SHARE * seconds if has_other_engine else deadline
+    conditions.deadline = first
     start = Ideal(family.ring, nonzero, deadline).with_zeros(relations)
     steps: list[Step] = []
     ideal = start
@@ -266,11 +267,12 @@ def _at_once(
 ) -> Step:
     """All conditions up to an order in one system, by msolve."""
     polynomials = list(wanted)
-    for k in range(1, order + 1):
-        polynomials += [
-            condition.polynomial for condition in conditions.of_order(k)
-        ]
+    conditions.deadline = deadline
     try:
+        for k in range(1, order + 1):
+            polynomials += [
+                condition.polynomial for condition in conditions.of_order(k)
+            ]
         ideal = start.with_zeros_unproved(polynomials, deadline)
     except NotDecided:
         return Step(order, "undecided", None)

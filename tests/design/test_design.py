@@ -5,7 +5,7 @@ from __future__ import annotations
 import json
 from collections.abc import Mapping
 from fractions import Fraction
-from itertools import product
+from itertools import count, product
 from math import prod
 from pathlib import Path
 from typing import Any
@@ -16,9 +16,11 @@ from hypothesis import given, settings
 from hypothesis import strategies as st
 
 from garkcli import find_order, loads, pair
+from garkcli.design import conditions
 from garkcli.design.chosen import first_method
+from garkcli.design.conditions import FamilyConditions
 from garkcli.design.design import Design, find_parameters
-from garkcli.design.groebner import reduced_basis
+from garkcli.design.groebner import NotDecided, reduced_basis
 from garkcli.design.solutions import value_at
 from garkcli.methodfile.family import loads_family, with_values
 from garkcli.report import design_data
@@ -285,6 +287,29 @@ def test_too_little_time() -> None:
     text += f"A: [{', '.join(rows)}]\nb: [u, v, w]\n"
     found = find_parameters(loads_family(text), 6, seconds=0.5)
     assert kinds(found)[-1] == "undecided"
+
+
+def test_conditions_are_given_up_in_time(
+    monkeypatch: pytest.MonkeyPatch,
+) -> None:
+    """Wherever the time is over while the conditions are made, the same ones are found later."""
+    family = loads_family(SDIRK3)
+
+    def texts(made: FamilyConditions) -> list[str]:
+        return [str(x.polynomial) for x in made.of_order(4)]
+
+    expected = texts(FamilyConditions(family.tableau, family.ring))
+    for steps in range(9):
+        readings = count()
+        monkeypatch.setattr(
+            conditions, "monotonic", lambda now=readings: next(now)
+        )
+        made = FamilyConditions(family.tableau, family.ring)
+        made.deadline = steps
+        with pytest.raises(NotDecided):
+            texts(made)
+        made.deadline = None
+        assert texts(made) == expected
 
 
 def test_as_a_command(tmp_path: Path) -> None:
