@@ -9,6 +9,7 @@ from garkcli.design.minimise.result import (
     Extent,
     Limit,
     Minimum,
+    Proof,
 )
 from garkcli.design.solutions import value_at
 from garkcli.exact.polynomial import Polynomial
@@ -112,7 +113,7 @@ _VALUES: Schema = {"type": "object", "additionalProperties": ALGEBRAIC}
 _MINIMISER: Record[_One] = Record(
     Field("values", _VALUES, lambda x: x.values),
     Field("order", nullable(COUNT), lambda x: x.order),
-    Field("proof", {"const": "exact"}, lambda _: "exact"),
+    Field("proof", {"enum": [*get_args(Proof)]}, lambda x: x.candidate.proof),
     Field("constant", FLAG, lambda x: x.candidate.is_constant),
 )
 _LIMIT: Record[_Toward] = Record(

@@ -6,6 +6,7 @@ from collections.abc import Iterator
 from textwrap import wrap
 
 from garkcli.design.minimise.objective import Level
+from garkcli.design.minimise.refining import DECIMALS
 from garkcli.design.minimise.result import Candidate, Limit, Minimum
 from garkcli.design.solutions import value_at
 from garkcli.errors import counted
@@ -18,6 +19,8 @@ from garkcli.exact.polynomial_text import (
 from garkcli.exact.roots import RealRoot
 
 INDENT = " " * 4
+LONG = 40
+"""Fractions of more characters are shown as decimals; JSON and files have them."""
 SHOWN = 10
 """Most minimisers that are shown; JSON has all."""
 
@@ -73,10 +76,7 @@ def _among(minimum: Minimum) -> str:
         case "all":
             return f"of all methods of order {order}"
         case "nearly":
-            return (
-                f"the least of {counted(minimum.candidates, 'critical point')}; no method of order"
-                f" {order} has one that is less by more than 1e-9 of it"
-            )
+            return f"and no method of order {order} has one that is less by more than 1e-9 of it"
         case "critical-points":
             points = counted(minimum.candidates, "critical point")
             return (
@@ -101,6 +101,12 @@ def _candidate(
             initial_indent=INDENT,
             subsequent_indent=INDENT + "  ",
         )
+    if candidate.proof == "exists":
+        yield (
+            f"{INDENT}within 1e-{DECIMALS} of a critical point that exists, by Krawczyk's test"
+        )
+    if candidate.proof == "numerical":
+        yield f"{INDENT}better than what was tried around it"
     if candidate.is_constant:
         yield f"{INDENT}and others: the value is the same at all methods near it"
     if found.order is not None:
@@ -127,15 +133,18 @@ def _value_text(value: RealRoot | None, digits: int) -> str:
     simple = root_text(value)
     if simple is None:
         return f"{decimals}…"
+    if len(simple) > LONG:
+        return f"{decimals}…"
     return simple if simple == decimals else f"{simple} = {decimals}…"
 
 
 def _number_text(value: RealRoot, digits: int) -> str:
     """Radicals where there are simple ones; else decimals and the polynomial."""
     simple = root_text(value)
-    if value.exact is not None:
-        return str(simple)
     decimals = root_decimal(value, digits)
+    if value.exact is not None:
+        text = str(simple)
+        return text if len(text) <= LONG else f"{decimals}…"
     if simple is not None:
         return f"{simple} = {decimals}…"
     polynomial = polynomial_text(Polynomial.from_flint(value.polynomial), "x")

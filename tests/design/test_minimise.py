@@ -377,6 +377,39 @@ def test_by_trial() -> None:
     found = floats(best, candidate)
     assert (found["c2"], found["c3"]) == (1, 0.5)
     assert value(best) == "1"
+    assert candidate.proof == "numerical"
+
+
+def test_beside_a_critical_point() -> None:
+    """The smallest coefficients of three stages and order 3, without time for a Gröbner basis: the
+    gradient by finite differences of the exact sums of squares vanishes at c_2 and c_3, up to
+    the second differences, and no method is less.
+    """
+    text = "unknown: {stages: 3, shape: explicit}"
+    design = find_parameters(loads_family(text), 3)
+    minimum = minimise(design, "coefficients", 1e-9)
+    [candidate] = minimum.minimisers
+    assert (candidate.proof, minimum.extent) == ("exists", "nearly")
+    solution = candidate.found.solution
+    c2, c3 = (Fraction(str(solution.values[x])) for x in ("c2", "c3"))
+
+    def size(c2: Fraction, c3: Fraction) -> Fraction:
+        b2 = (Fraction(1, 3) - c3 / 2) / (c2 * (c2 - c3))
+        b3 = (Fraction(1, 3) - c2 / 2) / (c3 * (c3 - c2))
+        a32 = 1 / (6 * b3 * c2)
+        entries = (c2, c3 - a32, a32, 1 - b2 - b3, b2, b3)
+        return sum((x * x for x in entries), Fraction(0))
+
+    h = Fraction(1, 10**6)
+    here = size(c2, c3)
+    for right, left in (
+        (size(c2 + h, c3), size(c2 - h, c3)),
+        (size(c2, c3 + h), size(c2, c3 - h)),
+    ):
+        assert abs(right - left) / (2 * h) < h
+        assert right + left > 2 * here
+    assert minimum.value is not None
+    assert minimum.value.exact == fmpq(here.numerator, here.denominator)
 
 
 def test_symmetric_splitting() -> None:

@@ -4,7 +4,7 @@ from __future__ import annotations
 
 from abc import ABC, abstractmethod
 from collections.abc import Callable, Iterator, Mapping, Sequence
-from dataclasses import dataclass, field
+from dataclasses import dataclass, field, replace
 from typing import Any, cast
 
 from flint import fmpq, fmpq_mpoly, fmpq_poly
@@ -27,6 +27,7 @@ from garkcli.design.minimise.result import (
     Extent,
     Limit,
     Minimum,
+    Proof,
 )
 from garkcli.design.solutions import Solution, solutions
 from garkcli.exact.field import Number, NumberField
@@ -121,9 +122,7 @@ class Comparison(ABC):
         order = order_of(self.design.family, self.design.whose, solution)
         accepted = (candidate.index,)
         found = Found(solution, order, accepted)
-        return Candidate(
-            candidate.value, found, candidate.index, candidate.is_constant
-        )
+        return replace(candidate, found=found)
 
     def selection(self) -> None:
         """Finitely many solutions, which have been found already."""
@@ -166,12 +165,17 @@ class Comparison(ABC):
                 self.add(solution, index)
 
     def add(
-        self, solution: Solution, index: int, is_constant: bool = False
+        self,
+        solution: Solution,
+        index: int,
+        is_constant: bool = False,
+        proof: Proof = "exact",
     ) -> None:
         """A method with its value."""
         value = self.value_of(solution, index)
         found = Found(solution, None, (index,))
-        self.candidates.append(Candidate(value, found, index, is_constant))
+        candidate = Candidate(value, found, index, is_constant, proof)
+        self.candidates.append(candidate)
 
     def tableau(self, part: Part) -> Tableau:
         """The tableau with the coordinates of a part."""
@@ -179,8 +183,11 @@ class Comparison(ABC):
         ring = self.design.family.ring
         return member(self.design.tableau, ring, values)
 
-    def by_trial(self, part: Part, rank: Callable[[Size], Any]) -> None:
-        """A good method of a part with several free coordinates, which proves nothing of others.
+    def tried(
+        self, part: Part, rank: Callable[[Size], Any]
+    ) -> tuple[fmpq, ...] | None:
+        """The coordinates of a good method of a part with several free ones, which proves nothing
+        of others; None where none is found.
 
         Args:
             part: where there is one.
@@ -194,23 +201,15 @@ class Comparison(ABC):
         if not part.is_free or len(names) > max(GRID):
             raise NotDecided
 
-        def tried(point: tuple[fmpq, ...]) -> Any:
-            solution = self._at_point(part, point)
-            return (
-                None
-                if solution is None
-                else (rank(self.value_of(solution, 0)),)
-            )
+        def ranked(point: tuple[fmpq, ...]) -> Any:
+            solution = self.at_point(part, point)
+            if solution is None:
+                return None
+            return (rank(self.value_of(solution, 0)),)
 
-        point = climbed(tried, len(names))
-        if point is not None:
-            solution = self._at_point(part, point)
-            assert solution is not None
-            self.add(solution, 0)
+        return climbed(ranked, len(names))
 
-    def _at_point(
-        self, part: Part, point: tuple[fmpq, ...]
-    ) -> Solution | None:
+    def at_point(self, part: Part, point: tuple[fmpq, ...]) -> Solution | None:
         """The method at rational coordinates; None where there is none within the ranges."""
         values: dict[str, Number] = dict(
             zip(part.ring.names, point, strict=True)

@@ -50,6 +50,15 @@ def critical_equations(
     return zeros
 
 
+def without_factors(p: fmpq_mpoly, denominator: fmpq_mpoly) -> fmpq_mpoly:
+    """A polynomial without the factors that it has in common with another one."""
+    while True:
+        common = p.gcd(denominator)
+        if common.is_constant() or not p:
+            return p
+        p = p // common
+
+
 def _determinant(rows: Sequence[Sequence[fmpq_mpoly]]) -> fmpq_mpoly:
     """By the first row."""
     if len(rows) == 1:

@@ -11,7 +11,7 @@ from garkcli.design.minimise.comparison import Comparison, at_root
 from garkcli.design.minimise.levels import MOST_DEGREE, height, on_levels
 from garkcli.design.minimise.objective import Level, Size
 from garkcli.design.minimise.parts import Part
-from garkcli.design.minimise.result import Candidate, Extent, Limit
+from garkcli.design.minimise.result import Candidate, Extent, Limit, Proof
 from garkcli.design.solutions import Solution
 from garkcli.exact.field import Algebraic, Number
 from garkcli.exact.polynomial import Polynomial
@@ -41,11 +41,15 @@ class Highest(Comparison):
         return self.objective.value(member(self.design.tableau, ring, values))
 
     def add(
-        self, solution: Solution, index: int, is_constant: bool = False
+        self,
+        solution: Solution,
+        index: int,
+        is_constant: bool = False,
+        proof: Proof = "exact",
     ) -> None:
         """A method with its value; those of number fields that are too large are left out."""
         try:
-            super().add(solution, index, is_constant)
+            super().add(solution, index, is_constant, proof)
         except TooLarge:
             self.extent = "found"
 
@@ -73,7 +77,11 @@ class Highest(Comparison):
 
     def over_variety(self, part: Part) -> None:
         """A good method by trial."""
-        self.by_trial(part, height)
+        point = self.tried(part, height)
+        if point is not None:
+            solution = self.at_point(part, point)
+            assert solution is not None
+            self.add(solution, 0, proof="numerical")
 
 
 class TooLarge(Exception):

@@ -21,6 +21,11 @@ from garkcli.design.minimise.result import Minimum
 from garkcli.design.minimise.smallest import Smallest
 from garkcli.errors import UsageProblem
 
+SHARE = 0.25
+"""The part of the time in which critical points are looked for by Gröbner bases; what is tried
+where that is not enough takes about as long.
+"""
+
 
 def step_to_minimise(design: Design) -> Step:
     """The step of the highest order that has methods.
@@ -54,7 +59,7 @@ def minimise(
         NotDecided: a Gröbner basis takes too long.
     """
     step = step_to_minimise(design)
-    deadline = None if seconds is None else monotonic() + seconds
+    deadline = None if seconds is None else monotonic() + SHARE * seconds
     if isinstance(objective, str):
         objective = find_objective(objective)
     comparison = _comparison(design, step, objective)

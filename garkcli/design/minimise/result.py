@@ -17,6 +17,12 @@ more than 10⁻⁹ of it; all critical points, while what happens at infinity an
 left out is open; or some methods.
 """
 
+Proof: TypeAlias = Literal["exact", "exists", "numerical"]
+"""What is known of a method as a best one: that it is critical, or else compared with all; that a
+critical point is proved to exist beside it; or that it is better than those around it. As a method
+it is exact in any case.
+"""
+
 
 @dataclass(frozen=True)
 class Candidate:
@@ -27,12 +33,14 @@ class Candidate:
         found: the method and its conjugates over ℚ.
         index: which of the real roots of ``found`` it is.
         is_constant: whether the objective is the same at all methods near it.
+        proof: what is known of it.
     """
 
     value: RealRoot | None
     found: Found
     index: int
     is_constant: bool = False
+    proof: Proof = "exact"
 
 
 @dataclass(frozen=True)

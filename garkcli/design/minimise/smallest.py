@@ -6,7 +6,7 @@ from collections.abc import Sequence
 from dataclasses import dataclass
 from functools import cmp_to_key
 from itertools import combinations
-from typing import Any
+from typing import Any, cast
 
 from flint import fmpq, fmpq_mpoly
 
@@ -15,11 +15,15 @@ from garkcli.design.groebner import NotDecided
 from garkcli.design.member import member
 from garkcli.design.minimise.bound import is_nowhere_less
 from garkcli.design.minimise.comparison import Comparison, at_root, in_one
-from garkcli.design.minimise.critical import critical_equations
+from garkcli.design.minimise.critical import (
+    critical_equations,
+    without_factors,
+)
 from garkcli.design.minimise.line import on_line
 from garkcli.design.minimise.objective import ORIGIN, Objective, Size
 from garkcli.design.minimise.parts import Part, parts_within
-from garkcli.design.minimise.result import Candidate, Extent, Limit
+from garkcli.design.minimise.refining import critical_point_near
+from garkcli.design.minimise.result import Candidate, Extent, Limit, Proof
 from garkcli.design.solutions import Solution, value_at
 from garkcli.exact.cells import between
 from garkcli.exact.parametric import fraction
@@ -43,8 +47,24 @@ CUTS = (fmpq(1, 2), fmpq(1, 3), fmpq(2, 3), fmpq(1), fmpq(1, 4), fmpq(3, 4))
 
 SLACK = fmpq(1, 10**9)
 """By how much of it an irrational least value may be missed."""
-BITS = 128
-"""Of such a value, more than enough for that."""
+SHORT = 64
+"""Bits of a rational value up to which it is a bound itself."""
+
+
+def _is_short(best: RealRoot) -> bool:
+    value = best.exact
+    return value is not None and int(value.height_bits()) <= SHORT
+
+
+def _bound(best: RealRoot) -> fmpq:
+    """A short value itself, else a short number that is less by ``SLACK`` of it at most."""
+    if best.exact is not None and _is_short(best):
+        return best.exact
+    mantissa, exponent = best.ball(SHORT).mid().man_exp()
+    about = fmpq(mantissa) * fmpq(2) ** int(exponent)
+    low = RealRoot.rational(about * (1 - SLACK))
+    high = RealRoot.rational(about * (1 - SLACK / 2))
+    return between(low, high)
 
 
 @dataclass
@@ -64,7 +84,7 @@ class Smallest(Comparison):
             return "all"
         if not all(self._is_bounded(part, best) for part in self.parts):
             return self.extent
-        return "all" if best.exact is not None else "nearly"
+        return "all" if _is_short(best) else "nearly"
 
     def _is_bounded(self, part: Part, best: RealRoot) -> bool:
         """Whether no method of a part has a smaller value, of irrational ones by more than
@@ -74,11 +94,7 @@ class Smallest(Comparison):
             return True
         if not part.is_free or part.dimension > 2:
             return False
-        value = best.exact
-        if value is None:
-            mantissa, exponent = best.ball(BITS).mid().man_exp()
-            about = fmpq(mantissa) * fmpq(2) ** int(exponent)
-            value = about * (1 - SLACK)
+        value = _bound(best)
         numerator, denominator = self._formula(part)
         return bool(is_nowhere_less(numerator, denominator, value))
 
@@ -127,7 +143,7 @@ class Smallest(Comparison):
             critical = critical_equations(part, numerator, denominator)
             self._over_smaller(part, critical)
         except NotDecided:
-            self.by_trial(part, _smallness)
+            self._by_trial(part)
             return
         for end in (*self.design.family.not_negative, *self.ends()):
             edge, _ = fraction(
@@ -135,6 +151,25 @@ class Smallest(Comparison):
             )
             if not edge.is_constant():
                 self._over_smaller(part, [edge])
+
+    def _by_trial(self, part: Part) -> None:
+        """A good method by trial, or a better one next to a critical point near it."""
+        point = self.tried(part, _smallness)
+        if point is None:
+            return
+        numerator, denominator = self._formula(part)
+        gradient = [
+            without_factors(p, denominator)
+            for p in critical_equations(part, numerator, denominator)
+        ]
+        nonzero = [*part.nonzero, denominator]
+        refined = critical_point_near(point, gradient, nonzero, part.ring)
+        for coordinates, proof in ((refined, "exists"), (point, "numerical")):
+            if coordinates is None:
+                continue
+            solution = self.at_point(part, coordinates)
+            if solution is not None:
+                self.add(solution, 0, proof=cast("Proof", proof))
 
     def _over_smaller(self, part: Part, zeros: list[fmpq_mpoly]) -> None:
         """The candidates of a subset of a part."""
