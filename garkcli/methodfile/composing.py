@@ -9,6 +9,7 @@ same answer on every machine.
 from __future__ import annotations
 
 from collections.abc import Iterator
+from typing import Any
 
 import yaml
 from yaml.nodes import MappingNode, Node, ScalarNode, SequenceNode
@@ -48,6 +49,17 @@ class _Composer(yaml.SafeLoader):
         if not needed:
             self._settled = self.tokens_taken
         return needed
+
+    def check_token(self, *choices: Any) -> bool:
+        """Whether the next token is one of ``choices``, or whether there is one; as PyYAML has it,
+        without a call for a token that is settled.
+        """
+        if self.tokens_taken != self._settled:
+            while self.need_more_tokens():
+                self.fetch_more_tokens()
+        if not self.tokens:
+            return False
+        return not choices or isinstance(self.tokens[0], choices)
 
     def _next_event(self) -> yaml.Event:
         event: yaml.Event = self.peek_event()  # type: ignore[no-untyped-call]

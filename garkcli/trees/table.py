@@ -29,6 +29,8 @@ if TYPE_CHECKING:
 
 MAX_TREES = 40_000_000
 """The largest table that is made, in trees: some 35 bytes each."""
+MOST_KEPT = 10_000
+"""Most branches of a table that are kept as :class:`Tree`."""
 
 
 class TableTooLarge(UsageProblem):
@@ -52,6 +54,11 @@ class TreeTable:
     starts: tuple[tuple[int, ...], ...]
     segments: tuple[Segment, ...]
     _texts: dict[bool, Texts] = field(
+        default_factory=dict, repr=False, compare=False
+    )
+
+    # those that are branches of trees asked for, up to MOST_KEPT
+    _branches: dict[int, Tree] = field(
         default_factory=dict, repr=False, compare=False
     )
 
@@ -147,10 +154,19 @@ class TreeTable:
         branches = []
         u = tree_id
         while (last := int(branch[u])) >= 0:
-            branches.append(self.tree(last))
+            branches.append(self._branch_tree(last))
             u = int(stem[u])
         root = int(self.columns.root[u])
         return Tree(root, branches)
+
+    def _branch_tree(self, tree_id: int) -> Tree:
+        """The tree with an id; one that many trees have as a branch is made once."""
+        known = self._branches.get(tree_id)
+        if known is None:
+            known = self.tree(tree_id)
+            if len(self._branches) < MOST_KEPT:
+                self._branches[tree_id] = known
+        return known
 
     def notation(
         self, ids: Iterable[int] | Column, colours: bool = True
