@@ -4,6 +4,7 @@ from __future__ import annotations
 
 from collections.abc import Iterator
 from dataclasses import replace
+from typing import TypeAlias
 
 from yaml.nodes import MappingNode, Node, SequenceNode
 
@@ -16,10 +17,11 @@ from garkcli.methodfile.description import (
     of_colour,
 )
 from garkcli.methodfile.numbers import Numbers, Row, Rows
-from garkcli.methodfile.source import Source, key_nodes
+from garkcli.methodfile.source import Entries, Source, key_nodes
 from garkcli.methodfile.spelled_out import (
     CURES,
     EXAMPLE,
+    Weights,
     are_too_many,
     depth_of_lists,
     entries_in,
@@ -27,6 +29,8 @@ from garkcli.methodfile.spelled_out import (
     method_name,
 )
 
+Matrices: TypeAlias = tuple[Rows, ...]
+"""A matrix a colour."""
 _FORM_OF_PRK = "give q: {A, b} and p: {A, b}"
 
 
@@ -53,7 +57,9 @@ class ArkReader:
         if "c" in entries:
             c = self.numbers.row(entries["c"], "c")
         if len(b) != colours:
-            message = f"b has {counted(len(b), 'row')} for {counted(colours, 'colour')}"
+            found = counted(len(b), "row")
+            wanted = counted(colours, "colour")
+            message = f"b has {found} for {wanted}"
             cure = "give a row a colour, or a single shared row"
             source.fault(entries["b"], message, cure)
             return None
@@ -64,7 +70,7 @@ class ArkReader:
         self._check_lengths(entries, b, c, stages)
         return ArkText(A, b, c)
 
-    def _matrices(self, node: Node) -> tuple[Rows, ...] | None:
+    def _matrices(self, node: Node) -> Matrices | None:
         """The matrices as they stand; None where A is no list of matrices."""
         source = self.source
         items = source.items(node, "A")
@@ -82,9 +88,7 @@ class ArkReader:
             matrices.append(self.numbers.matrix(item, of_colour("A", m)))
         return tuple(matrices)
 
-    def _fitted(
-        self, matrices: tuple[Rows, ...], node: Node, stages: int
-    ) -> tuple[Rows, ...]:
+    def _fitted(self, matrices: Matrices, node: Node, stages: int) -> Matrices:
         """The matrices, each as large as the first."""
         shape = (stages, stages)
         why = "the colours of an ark share stages"
@@ -92,12 +96,11 @@ class ArkReader:
         fitted: list[Rows] = []
         for m, rows in enumerate(matrices):
             where = of_colour("A", m)
-            fitted.append(
-                self.numbers.fitted(rows, items[m], where, shape, why)
-            )
+            A = self.numbers.fitted(rows, items[m], where, shape, why)
+            fitted.append(A)
         return tuple(fitted)
 
-    def _weights(self, node: Node, colours: int) -> tuple[Row, ...]:
+    def _weights(self, node: Node, colours: int) -> Weights:
         """The weights of each colour; the same row for all where there is a single one."""
         items = self.source.items(node, "b")
         if not any(isinstance(item, SequenceNode) for item in items):
@@ -109,8 +112,8 @@ class ArkReader:
 
     def _check_lengths(
         self,
-        entries: dict[str, Node],
-        b: tuple[Row, ...],
+        entries: Entries,
+        b: Weights,
         c: Row | None,
         stages: int,
     ) -> None:
@@ -118,17 +121,18 @@ class ArkReader:
         wanted = counted(stages, "stage")
         for name, row in _rows_of_weights(b):
             if len(row) != stages:
-                message = f"{name} has {entries_in(len(row))} for {wanted}"
-                self.source.fault(
-                    entries["b"], message, "give a weight a stage"
-                )
+                found = entries_in(len(row))
+                message = f"{name} has {found} for {wanted}"
+                cure = "give a weight a stage"
+                self.source.fault(entries["b"], message, cure)
         if c is not None and len(c) != stages:
-            message = f"c has {entries_in(len(c))} for {wanted}"
+            found = entries_in(len(c))
+            message = f"c has {found} for {wanted}"
             cure = "give a node a stage, or leave c out"
             self.source.fault(entries["c"], message, cure)
 
 
-def _rows_of_weights(b: tuple[Row, ...]) -> Iterator[tuple[str, Row]]:
+def _rows_of_weights(b: Weights) -> Iterator[tuple[str, Row]]:
     """The rows of weights with what they are called; a shared row once."""
     is_shared = all(row is b[0] for row in b)
     if is_shared:
@@ -161,7 +165,8 @@ class PrkReader:
         # the velocity stages belong to the weights of q, the force stages to those of p
         s_v, s_f = len(q.b), len(p.b)
         if structure == "general" and s_v != s_f:
-            message = f"prk: q has {counted(s_v, 'weight')} and p has {s_f}"
+            found = counted(s_v, "weight")
+            message = f"prk: q has {found} and p has {s_f}"
             cure = "a general problem needs one set of stages; or structure: separable"
             source.fault(node, message, cure)
             return None
@@ -195,11 +200,12 @@ class PrkReader:
         """A part whose matrix has the shape that the weights of both ask for."""
         keys = key_nodes(text.node)
         place = keys.get("A", text.node)
-        A = self.numbers.fitted(text.A, place, f"{part}.A", shape, why)
+        where = f"{part}.A"
+        A = self.numbers.fitted(text.A, place, where, shape, why)
         rows, _ = shape
         if text.c is not None and len(text.c) != rows:
-            message = f"{part}.c has {entries_in(len(text.c))} for "
-            message += counted(rows, "node")
+            found = entries_in(len(text.c))
+            message = f"{part}.c has {found} for {counted(rows, 'node')}"
             place = keys.get("c", text.node)
             self.source.fault(place, message, "give one of each")
         return replace(text, A=A)

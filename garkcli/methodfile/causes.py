@@ -5,9 +5,12 @@ from __future__ import annotations
 from collections import Counter
 from collections.abc import Sequence
 from dataclasses import dataclass, replace
+from typing import TypeAlias
 
 from garkcli.errors import Fault, counted
 
+Place: TypeAlias = tuple[int, int]
+"""Line and column, from 1."""
 MAX_PLACES = 3
 """Most further places that are named where one cause shows in many."""
 
@@ -27,7 +30,7 @@ class Found:
     is_one: bool = False
 
 
-def place_of(found: Found) -> tuple[int, int]:
+def place_of(found: Found) -> Place:
     """Line and column of a fault."""
     return found.fault.line, found.fault.column
 
@@ -36,27 +39,28 @@ def told_once(found: Sequence[Found]) -> list[Fault]:
     """The faults in file order; those of one cause at their first place, which names the others."""
     causes = Counter(one.cause for one in found)
     first: dict[object, Fault] = {}
-    places: dict[object, dict[tuple[int, int], None]] = {}
+    places: dict[object, list[Place]] = {}
     for number, one in enumerate(found):
-        together = one.cause and (one.is_one or causes[one.cause] > MAX_PLACES)
-        key: object = one.cause if together else number
+        key: object = number
+        is_often = causes[one.cause] > MAX_PLACES
+        if one.cause and (one.is_one or is_often):
+            key = one.cause
         first.setdefault(key, one.fault)
-        places.setdefault(key, {})[place_of(one)] = None
+        places.setdefault(key, []).append(place_of(one))
     told: list[Fault] = []
     for key, fault in first.items():
-        _, *others = places[key]
+        _, *others = dict.fromkeys(places[key])
         message = fault.message + _elsewhere(others)
         told.append(replace(fault, message=message))
     return told
 
 
-def _elsewhere(others: Sequence[tuple[int, int]]) -> str:
+def _elsewhere(others: Sequence[Place]) -> str:
     """Where else a cause shows: ``(also at 4:12 and in 3 more places)``."""
     if not others:
         return ""
-    places = ", ".join(
-        f"{line}:{column}" for line, column in others[:MAX_PLACES]
-    )
+    named = others[:MAX_PLACES]
+    places = ", ".join(f"{line}:{column}" for line, column in named)
     left = len(others) - MAX_PLACES
     if left > 0:
         return f" (also at {places} and in {counted(left, 'more place')})"

@@ -86,6 +86,8 @@ class MatrixText:
 
 
 BlockText: TypeAlias = RuleText | MatrixText
+BlockTexts: TypeAlias = dict[tuple[int, int], BlockText]
+"""Blocks by their colours l and m, counted from 0."""
 
 
 @dataclass(frozen=True)
@@ -93,7 +95,7 @@ class TransferText:
     """A rule for all off-diagonal blocks, with exceptions; colours count from 0."""
 
     default: RuleText | None
-    blocks: dict[tuple[int, int], BlockText]
+    blocks: BlockTexts
 
 
 @dataclass(frozen=True)

@@ -19,7 +19,7 @@ from garkcli.methodfile.description import (
     of_colour,
 )
 from garkcli.methodfile.numbers import Numbers
-from garkcli.methodfile.source import Source, keys_of
+from garkcli.methodfile.source import Entries, Source, keys_of
 from garkcli.methodfile.spelled_out import SpelledOutReader, are_too_many
 
 _FORM = "write a list: [{family: gauss, stages: 2}, …]"
@@ -118,7 +118,7 @@ class DiagonalReader:
         return self._family(node, where, entries)
 
     def _family(
-        self, node: Node, where: str, entries: dict[str, Node]
+        self, node: Node, where: str, entries: Entries
     ) -> FamilyText | None:
         """A member of a family, which exists."""
         name = self.source.scalar(entries["family"], f"{where}, family")

@@ -7,13 +7,15 @@ from __future__ import annotations
 from collections.abc import Mapping, Sequence
 from dataclasses import dataclass
 from math import comb, prod
-from typing import Any, TypeAlias
+from typing import TypeAlias
+
+from garkcli.problems.expr import Expr, Vector
 
 MAX_TERMS = 3_000
 """Most terms of an equation for a velocity, multiplied out over its common denominator."""
 
 
-def too_long(lagrangian: Any, velocities: Sequence[Any]) -> Any:
+def too_long(lagrangian: Expr, velocities: Vector) -> Expr:
     """The first velocity whose equation p = ∂L/∂v would be too long to be solved; None where there
     is none.
 
@@ -40,14 +42,15 @@ def too_long(lagrangian: Any, velocities: Sequence[Any]) -> Any:
     return None
 
 
-def _undone(f: Any, v: Any) -> Any:
+def _undone(f: Expr, v: Expr) -> Expr:
     """What is left of f(v) = c to be multiplied out, once the functions that hold v alone are
     undone.
     """
     while f != v:
         if f.is_Add or f.is_Mul:
-            free, rest = f.as_independent(v, as_Add=f.is_Add)
-            neutral = 0 if f.is_Add else 1
+            is_sum = f.is_Add
+            free, rest = f.as_independent(v, as_Add=is_sum)
+            neutral = 0 if is_sum else 1
             if free != neutral:
                 f = rest
                 continue
@@ -58,7 +61,7 @@ def _undone(f: Any, v: Any) -> Any:
     return f
 
 
-def _terms(f: Any, v: Any) -> int:
+def _terms(f: Expr, v: Expr) -> int:
     """The terms of the numerator of f multiplied out; squared where a square root has to be squared
     away.
     """
@@ -66,12 +69,13 @@ def _terms(f: Any, v: Any) -> int:
 
     found = _fraction(f)
     terms = found.terms
-    if any(_is_square_root(x, v) for x in f.atoms(sympy.Pow)):
+    powers = f.atoms(sympy.Pow)
+    if any(_is_square_root(x, v) for x in powers):
         terms **= 2
     return max(terms, found.inside)
 
 
-def _is_square_root(power: Any, v: Any) -> bool:
+def _is_square_root(power: Expr, v: Expr) -> bool:
     """Whether a power is an odd one of a square root, and v stands in it."""
     exponent = power.exp
     if v not in power.free_symbols:
@@ -79,8 +83,10 @@ def _is_square_root(power: Any, v: Any) -> bool:
     return bool(exponent.is_Rational and exponent.q == 2)
 
 
-Factors: TypeAlias = Mapping[Any, tuple[int, int]]
-"""The factors of a denominator: the terms and the exponent of each."""
+Size: TypeAlias = tuple[int, int]
+"""Terms and exponent of a factor."""
+Factors: TypeAlias = Mapping[Expr, Size]
+"""The factors of a denominator."""
 
 
 @dataclass(frozen=True)
@@ -98,7 +104,7 @@ class _Fraction:
     inside: int = 1
 
 
-def _fraction(f: Any) -> _Fraction:
+def _fraction(f: Expr) -> _Fraction:
     parts = [_fraction(x) for x in f.args]
     inside = max((x.inside for x in parts), default=1)
     if f.is_Add:
@@ -119,7 +125,7 @@ def _fraction(f: Any) -> _Fraction:
 
 def _sum(parts: Sequence[_Fraction], inside: int) -> _Fraction:
     """Over the least common denominator."""
-    common: dict[Any, tuple[int, int]] = {}
+    common: dict[Expr, Size] = {}
     for part in parts:
         for base, (size, power) in part.factors.items():
             _, known = common.get(base, (size, 0))
@@ -131,7 +137,7 @@ def _sum(parts: Sequence[_Fraction], inside: int) -> _Fraction:
 
 
 def _product(parts: Sequence[_Fraction], inside: int) -> _Fraction:
-    factors: dict[Any, tuple[int, int]] = {}
+    factors: dict[Expr, Size] = {}
     for part in parts:
         for base, (size, power) in part.factors.items():
             _, known = factors.get(base, (size, 0))
@@ -140,16 +146,18 @@ def _product(parts: Sequence[_Fraction], inside: int) -> _Fraction:
     return _Fraction(terms, factors, inside)
 
 
-def _integer_power(f: Any, base: _Fraction, inside: int) -> _Fraction:
+def _integer_power(f: Expr, base: _Fraction, inside: int) -> _Fraction:
     exponent = int(f.exp)
     times = abs(exponent)
-    raised = {x: (size, times * n) for x, (size, n) in base.factors.items()}
+    raised: dict[Expr, Size] = {}
+    for x, (size, n) in base.factors.items():
+        raised[x] = size, times * n
     if exponent > 0:
         terms = _power(base.terms, exponent)
         return _Fraction(terms, raised, inside)
     # the denominator of the base comes into the numerator, and the other way round
     terms = _missing(raised, {})
-    below: dict[Any, tuple[int, int]] = {}
+    below: dict[Expr, Size] = {}
     if f.base.free_symbols:
         below[f.base] = base.terms, times
     return _Fraction(terms, below, inside)

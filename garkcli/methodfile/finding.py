@@ -43,9 +43,8 @@ def _below(folder: str) -> list[str]:
     for place, _, names in os.walk(folder, onerror=keep):
         methods = [name for name in names if name.endswith(SUFFIX)]
         found += [os.path.join(place, name) for name in methods]
-    from pathlib import (
-        Path,
-    )  # slow to import, and of no use to a check of one file
+    # slow to import, and of no use to a check of one file
+    from pathlib import Path
 
     # as pathlib writes them: without ./ before
     return sorted(str(Path(path)) for path in found)

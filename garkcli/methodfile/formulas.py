@@ -11,13 +11,13 @@ from yaml.nodes import Node
 
 from garkcli.errors import ExpressionError, LimitExceeded, did_you_mean
 from garkcli.exact.formula import CONSTANTS, RESERVED, parse_formula
-from garkcli.exact.nodes import Expression, Literal
+from garkcli.exact.nodes import Expression, Literal, Name
 from garkcli.exact.rewriting import names_in, size_of
 from garkcli.exact.values import Value, value_of
 from garkcli.methodfile.numbers import MAX_SIZE
 from garkcli.methodfile.source import Source, is_null
 from garkcli.methodfile.spellings import explained, is_misread
-from garkcli.methodfile.words import shortened
+from garkcli.methodfile.words import shortened, unquoted
 from garkcli.problems.expr import rational
 from garkcli.problems.translate import Translator
 
@@ -64,9 +64,8 @@ class Formulas:
         if text is None:
             return None
         if is_null(node):
-            self.source.fault(
-                node, f"{where}: nothing is here", "write a formula"
-            )
+            message = f"{where}: nothing is here"
+            self.source.fault(node, message, "write a formula")
             return None
         if is_misread(self.source, node, text, where):
             return None
@@ -78,12 +77,10 @@ class Formulas:
         except ExpressionError as error:
             self.source.expression_fault(node, where, *explained(error, text))
             return None
-        return (
-            expression
-            if names is None
-            or self._are_known(expression, node, where, names, noun)
-            else None
-        )
+        if names is None:
+            return expression
+        are_known = self._are_known(expression, node, where, names, noun)
+        return expression if are_known else None
 
     def _are_known(
         self,
@@ -93,24 +90,17 @@ class Formulas:
         names: Mapping[str, str],
         noun: str,
     ) -> bool:
-        allowed = {
-            *self.values,
-            *CONSTANTS,
-            *(x for x, cure in names.items() if not cure),
-        }
-        strangers = {
-            x.name: x
-            for x in reversed([*names_in(expression)])
-            if x.name not in allowed
-        }
+        """Whether all names have a meaning; each that has none is noted at its first place."""
+        own = {name for name, cure in names.items() if not cure}
+        allowed = {*self.values, *CONSTANTS, *own}
+        strangers: dict[str, Name] = {}
+        for found in reversed([*names_in(expression)]):
+            if found.name not in allowed:
+                strangers[found.name] = found
         for name, place in strangers.items():
+            message = f"{where}: {shortened(name)} is no {noun}"
             cure = names.get(name) or did_you_mean(name, sorted(allowed))
-            self.source.fault(
-                node,
-                f"{where}: {shortened(name)} is no {noun}",
-                cure,
-                place.start,
-            )
+            self.source.fault(node, message, cure, place.start)
         return not strangers
 
     def constant(
@@ -118,16 +108,10 @@ class Formulas:
     ) -> tuple[Expression, Value] | None:
         """A formula of parameters alone, and its value."""
         expression = self.parsed(node, where, {})
-        value = (
-            None
-            if expression is None
-            else self.value(expression, node, where, {})
-        )
-        return (
-            None
-            if expression is None or value is None
-            else (expression, value)
-        )
+        if expression is None:
+            return None
+        value = self.value(expression, node, where, {})
+        return None if value is None else (expression, value)
 
     def value(
         self,
@@ -157,15 +141,13 @@ class Formulas:
         """Read ``parameters``; each may use those before it."""
         if node is None:
             return
-        for name, value_node in self.source.mapping(
-            node, "parameters", ()
-        ).items():
-            where = f"parameters: {shortened(name)[1:-1]}"
+        entries = self.source.mapping(node, "parameters", ())
+        for name, value_node in entries.items():
+            where = f"parameters: {unquoted(name)}"
             message = bad_name(name)
             if message:
-                self.source.fault(
-                    value_node, f"{where} {message}", "choose another name"
-                )
+                cure = "choose another name"
+                self.source.fault(value_node, f"{where} {message}", cure)
             found = self.constant(value_node, where)
             if name in self.given:
                 found = (Literal(self.given[name]), self.given[name])
@@ -180,9 +162,10 @@ class Formulas:
                 assert expression is not None
                 self.made[name] = self.translator({}).translate(expression)
             self.values[name] = value
-            self._sizes[name] = (
-                1 if expression is None else size_of(expression, self._sizes)
-            )
+            size = 1
+            if expression is not None:
+                size = size_of(expression, self._sizes)
+            self._sizes[name] = size
 
 
 def bad_name(name: str) -> str:
@@ -210,8 +193,9 @@ def nearby(value: Value) -> fmpq:
 
 
 def _rational(value: arb) -> fmpq:
-    mantissa, exponent = (int(x) for x in value.mid().man_exp())
-    return fmpq(mantissa * 2 ** max(exponent, 0), 2 ** max(-exponent, 0))
+    """The middle of a ball, which is a whole number times a power of 2."""
+    mantissa, exponent = map(int, value.mid().man_exp())
+    return mantissa * fmpq(2) ** exponent
 
 
 def _simplest(low: fmpq, high: fmpq) -> fmpq:
@@ -221,6 +205,10 @@ def _simplest(low: fmpq, high: fmpq) -> fmpq:
     if high < 0:
         return -_simplest(-high, -low)
     floor = low.floor()
-    if fmpq(floor) == low or floor + 1 <= high:
-        return fmpq(floor if fmpq(floor) == low else floor + 1)
-    return floor + 1 / _simplest(1 / (high - floor), 1 / (low - floor))
+    if fmpq(floor) == low:
+        return low
+    if floor + 1 <= high:
+        return fmpq(floor + 1)
+    # both ends have the same whole part: the rest is the inverse of a number above 1
+    inverse = _simplest(1 / (high - floor), 1 / (low - floor))
+    return floor + 1 / inverse

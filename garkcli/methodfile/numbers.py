@@ -13,7 +13,7 @@ from garkcli.exact.expression import parse
 from garkcli.exact.field import ZERO
 from garkcli.exact.nodes import Expression, Literal, Name
 from garkcli.exact.rewriting import depth_of, size_of, substitute
-from garkcli.methodfile.source import Source
+from garkcli.methodfile.source import Entries, Source
 from garkcli.methodfile.spellings import (
     explained,
     first_list_in_rows,
@@ -74,7 +74,7 @@ class Numbers:
     of_parameters: list[Entry] = field(default_factory=list)
     settings: Mapping[str, str] = field(default_factory=dict)
     free: dict[str, Free] = field(default_factory=dict)
-    places: dict[str, Node] = field(default_factory=dict)
+    places: Entries = field(default_factory=dict)
     _sizes: dict[str, int] = field(default_factory=dict)
     _depths: dict[str, int] = field(default_factory=dict)
     _read: dict[str, Expression] = field(default_factory=dict)

@@ -28,9 +28,8 @@ def read_parameters(numbers: Numbers, node: Node | None) -> None:
         where = f"parameters: {name}"
         value: Expression = Literal(ZERO)
         if name in FUNCTIONS:
-            source.fault(
-                key, f"{where} is a function already", "choose another name"
-            )
+            message = f"{where} is a function already"
+            source.fault(key, message, "choose another name")
         elif not name.isidentifier() or not name.isascii():
             message = f"{where} cannot be the name of a parameter"
             source.fault(key, message, "use letters, digits and _")
@@ -59,19 +58,17 @@ def _free(numbers: Numbers, node: Node, where: str) -> Free:
         return Free(node)
     source = numbers.source
     entries = source.mapping(node, where, ("free", "range"))
-    says_free = (
-        "free" in entries and source.scalar(entries["free"], where) == "true"
-    )
-    if not says_free:
+    word = None
+    if "free" in entries:
+        word = source.scalar(entries["free"], where)
+    if word != "true":
+        message = f"{where} is a mapping that does not say free: true"
         cure = "write {free: true, range: [1/4, 1]}, or give it a value"
-        source.fault(
-            node, f"{where} is a mapping that does not say free: true", cure
-        )
+        source.fault(node, message, cure)
     if "range" not in entries:
         return Free(node)
-    return Free(
-        node, *read_range(numbers, entries["range"], f"{where}, range")
-    )
+    ends = read_range(numbers, entries["range"], f"{where}, range")
+    return Free(node, *ends)
 
 
 def read_range(
@@ -91,18 +88,25 @@ def read_range(
 def refuse_free(numbers: Numbers) -> None:
     """Note the unknowns without a value, those of entries as one: a method has a value for each."""
     family = "the file describes a family of methods"
-    entries = [(name, x) for name, x in numbers.free.items() if x.where]
+    of_entries: list[str] = []
     for name, free in numbers.free.items():
         if free.where:
+            of_entries.append(name)
             continue
-        cure = f"gark design finds values; --set {name}=1/2 chooses one"
         message = f"parameters: {name} is free: {family}"
-        numbers.source.fault(free.node, message, cure)
-    for name, free in entries[:1]:
-        others = f", and {len(entries) - 1} more" if len(entries) > 1 else ""
-        message = f"{free.where} is unknown{others}: {family}"
-        cure = f"gark design finds values; --set {name}=1/2 chooses one"
-        numbers.source.fault(free.node, message, cure)
+        numbers.source.fault(free.node, message, _value_for(name))
+    if not of_entries:
+        return
+    first, *others = of_entries
+    free = numbers.free[first]
+    more = f", and {len(others)} more" if others else ""
+    message = f"{free.where} is unknown{more}: {family}"
+    numbers.source.fault(free.node, message, _value_for(first))
+
+
+def _value_for(name: str) -> str:
+    """What to do about an unknown where a method is needed."""
+    return f"gark design finds values; --set {name}=1/2 chooses one"
 
 
 def refuse_unknown_settings(numbers: Numbers) -> None:
@@ -110,9 +114,8 @@ def refuse_unknown_settings(numbers: Numbers) -> None:
     known = list(numbers.parameters)
     for name in numbers.settings:
         if name not in known:
-            cure = (
-                did_you_mean(name, known) if known else "it has no parameters"
-            )
-            numbers.source.fault(
-                None, f"no parameter {shortened(name)} to be set", cure
-            )
+            cure = "it has no parameters"
+            if known:
+                cure = did_you_mean(name, known)
+            message = f"no parameter {shortened(name)} to be set"
+            numbers.source.fault(None, message, cure)

@@ -20,7 +20,7 @@ from garkcli.methodfile.problem_text import (
     Sides,
 )
 from garkcli.methodfile.sides_reader import read_sides
-from garkcli.methodfile.source import Source, keys_of
+from garkcli.methodfile.source import Entries, Source, keys_of
 from garkcli.methodfile.variables import Variables, read_variables
 from garkcli.methodfile.words import one_line
 
@@ -100,7 +100,7 @@ class ProblemReader:
         self.source.fault(root, message, "see docs/problem-file.md")
         return True
 
-    def _form(self, root: Node, entries: dict[str, Node]) -> str | None:
+    def _form(self, root: Node, entries: Entries) -> str | None:
         """Which of the three forms the file has; None where it has none."""
         present = [key for key in FORMS if key in entries]
         if not present:
@@ -117,7 +117,7 @@ class ProblemReader:
     def _check_start(
         self,
         root: Node,
-        entries: dict[str, Node],
+        entries: Entries,
         variables: Variables,
         form: str | None,
     ) -> None:
@@ -178,7 +178,7 @@ class ProblemReader:
         return value
 
     def _invariants(
-        self, entries: dict[str, Node], form: str
+        self, entries: Entries, form: str
     ) -> list[tuple[str, Node]]:
         """The first integrals that the file names, with their formulas."""
         node = entries.get("invariants")

@@ -33,7 +33,7 @@ from garkcli.methodfile.parameters import (
     read_parameters,
     refuse_unknown_settings,
 )
-from garkcli.methodfile.source import Source, keys_of
+from garkcli.methodfile.source import Entries, Source, keys_of
 from garkcli.methodfile.spelled_out import SpelledOutReader
 from garkcli.methodfile.words import shortened
 from garkcli.transfer import RULES
@@ -160,14 +160,14 @@ class Reader:
         self.source.fault(root, message, cure)
         return True
 
-    def _node_of(self, form: Form, entries: dict[str, Node]) -> Node:
+    def _node_of(self, form: Form, entries: Entries) -> Node:
         """Where the coefficients stand."""
         for key in (form, "unknown"):
             if key in entries:
                 return entries[key]
         return entries["b"]
 
-    def _shaped(self, root: Node, entries: dict[str, Node]) -> Shaped | None:
+    def _shaped(self, root: Node, entries: Entries) -> Shaped | None:
         """``unknown`` of the file."""
         from garkcli.methodfile.shaped import ShapeReader  # few files have it
 
@@ -208,7 +208,7 @@ class Reader:
         return value
 
     def _form(
-        self, root: Node, entries: dict[str, Node]
+        self, root: Node, entries: Entries
     ) -> Form | Literal["unknown"] | None:
         """Which form the coefficients have; A, b and c at the top are those of a tableau."""
         forms = (*FORMS, "unknown")
@@ -239,7 +239,7 @@ class Reader:
             return None
         return "tableau"
 
-    def _structure(self, form: Form, entries: dict[str, Node]) -> Structure:
+    def _structure(self, form: Form, entries: Entries) -> Structure:
         """Which vector fields the problem has; noted where it does not go with the form."""
         node = entries.get("structure")
         if node is None:
@@ -263,14 +263,14 @@ class Reader:
         word = self.source.choice(node, "conjugate", ("true", "false"))
         return word == "true"
 
-    def _refuse_misplaced(self, form: Form, entries: dict[str, Node]) -> None:
+    def _refuse_misplaced(self, form: Form, entries: Entries) -> None:
         for key, home in (("transfer", "methods"), ("linear", "tableau")):
             if key in entries and form != home:
                 message = f"{key} goes with {home}, not with {form}"
                 self.source.fault(entries[key], message, "leave it out")
 
     def _content(
-        self, form: Form, structure: Structure, entries: dict[str, Node]
+        self, form: Form, structure: Structure, entries: Entries
     ) -> MethodsText | TableauText | ArkText | PrkText | None:
         if self.shaped is not None:
             return self.shaped.content

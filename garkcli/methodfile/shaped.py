@@ -58,18 +58,16 @@ class ShapeReader:
             key: the word ``unknown`` in the file.
             node: its value.
         """
-        entries = self.source.mapping(
-            node, "unknown", ("stages", "shape"), form=FORM
-        )
-        missing = [name for name in ("stages", "shape") if name not in entries]
+        keys = ("stages", "shape")
+        entries = self.source.mapping(node, "unknown", keys, form=FORM)
+        missing = [key for key in keys if key not in entries]
         if missing:
-            message = f"unknown: {' and '.join(missing)} missing"
+            both = " and ".join(missing)
             if not self.source.faults:
-                self.source.fault(node, message, FORM)
+                self.source.fault(node, f"unknown: {both} missing", FORM)
             return None
-        stages = self.source.whole(
-            entries["stages"], "unknown, stages", smallest=1
-        )
+        where = "unknown, stages"
+        stages = self.source.whole(entries["stages"], where, smallest=1)
         names = self._names(entries["shape"])
         if stages is None or not names:
             return None
@@ -98,10 +96,9 @@ class ShapeReader:
             if word is None:
                 return []
             if word not in SHAPES:
+                message = f"unknown, shape: {word} is no shape"
                 cure = did_you_mean(word, SHAPES)
-                self.source.fault(
-                    item, f"unknown, shape: {word} is no shape", cure
-                )
+                self.source.fault(item, message, cure)
                 return []
             names.append(word)
         if not names:
@@ -122,51 +119,51 @@ class ShapeReader:
     ) -> TableauText | ArkText | PrkText:
         matrices: list[Rows] = []
         for colour, texts in enumerate(layout.A):
-            matrices.append(self._matrix(texts, node, of_colour("A", colour)))
+            where = of_colour("A", colour)
+            matrices.append(self._matrix(texts, node, where))
         weights: list[Row] = []
         for colour, row in enumerate(layout.b):
-            weights.append(self._row(row, node, of_colour("b", colour)))
+            where = of_colour("b", colour)
+            weights.append(self._row(row, node, where))
+        A, b = matrices[0], weights[0]
         if layout.kind == "prk":
-            q, p = (
-                ButcherText(node, "", A, b, None)
-                for A, b in zip(matrices, weights, strict=True)
-            )
+            q = ButcherText(node, "", A, b, None)
+            p = ButcherText(node, "", matrices[1], weights[1], None)
             return PrkText(q, p)
         if layout.kind == "ark":
-            return ArkText(
-                tuple(matrices), (weights[0],) * len(matrices), None
-            )
-        return TableauText(((matrices[0],),), (weights[0],), (None,), ())
+            shared = (b,) * len(matrices)
+            return ArkText(tuple(matrices), shared, None)
+        return TableauText(((A,),), (b,), (None,), ())
 
     def _matrix(self, texts: Texts, node: Node, where: str) -> Rows:
         rows = []
         for i, row in enumerate(texts, start=1):
-            rows.append(self._row(row, node, f"{where}, row {i}"))
+            place = f"{where}, row {i}"
+            rows.append(self._row(row, node, place))
         return tuple(rows)
 
     def _row(self, texts: Sequence[str], node: Node, where: str) -> Row:
         entries = []
         for j, text in enumerate(texts, start=1):
-            entries.append(
-                self.numbers.written(text, node, f"{where}, entry {j}")
-            )
+            place = f"{where}, entry {j}"
+            entries.append(self.numbers.written(text, node, place))
         return tuple(entries)
 
 
 def spelled(layout: Layout) -> str:
     """The layout as keys of a method file."""
+    matrices = [_matrix_text(rows) for rows in layout.A]
+    weights = [_row_text(row) for row in layout.b]
+    A, b = matrices[0], weights[0]
     if layout.kind == "prk":
-        parts = []
-        for name, rows, weights in zip("qp", layout.A, layout.b, strict=True):
-            parts.append(
-                f"  {name}: {{A: {_matrix_text(rows)}, b: {_row_text(weights)}}}"
-            )
-        return "\n".join(["prk:", *parts])
-    b = _row_text(layout.b[0])
+        lines = ["prk:"]
+        for part, A, b in zip("qp", matrices, weights, strict=True):
+            lines.append(f"  {part}: {{A: {A}, b: {b}}}")
+        return "\n".join(lines)
     if layout.kind == "ark":
-        matrices = ", ".join(_matrix_text(rows) for rows in layout.A)
-        return f"ark:\n  A: [{matrices}]\n  b: {b}"
-    return f"A: {_matrix_text(layout.A[0])}\nb: {b}"
+        inside = ", ".join(matrices)
+        return f"ark:\n  A: [{inside}]\n  b: {b}"
+    return f"A: {A}\nb: {b}"
 
 
 def _matrix_text(rows: Texts) -> str:

@@ -6,27 +6,33 @@ from __future__ import annotations
 
 from collections.abc import Sequence
 from itertools import chain
-from typing import TYPE_CHECKING
+from typing import TYPE_CHECKING, TypeAlias
 
 from flint import arb, ctx, fmpq
 from yaml.nodes import Node
 
 from garkcli.methodfile.formulas import BITS, Formulas, nearby
-from garkcli.methodfile.problem_text import STIFFNESS, ProblemText
-from garkcli.methodfile.source import Source
-from garkcli.methodfile.termreader import Term, TermReader
-from garkcli.methodfile.words import shortened
+from garkcli.methodfile.problem_text import STIFFNESS, ProblemText, Side
+from garkcli.methodfile.source import Entries, Source
+from garkcli.methodfile.termreader import (
+    Term,
+    TermReader,
+    formulas_of_invariants,
+    named,
+)
+from garkcli.methodfile.words import unquoted
 from garkcli.problems.vectorfield import TIME
 
 if TYPE_CHECKING:
     from garkcli.problems.righthandside import RightHandSide
 
 _SHOWN = 8  # most missing names that are told
-_TRIES = (
-    fmpq(1, 3),
-    fmpq(2, 3),
-    fmpq(1),
-)  # of the time, where a solution is tried
+# parts of the time, where a solution is tried
+_TRIES = fmpq(1, 3), fmpq(2, 3), fmpq(1)
+ByName: TypeAlias = dict[str, Term]
+"""Formulas by the variables that they are of."""
+Start: TypeAlias = dict[str, fmpq]
+"""Initial values by the variables."""
 
 
 class SidesMaker:
@@ -41,7 +47,8 @@ class SidesMaker:
         self.reader = TermReader(source, formulas)
         self.y = symbols(text.variables, "y")
         (self.t,) = symbols(text.variables, TIME)
-        self._symbols = {str(x): x for x in (*self.y, self.t)}
+        every = (*self.y, self.t)
+        self._symbols = {str(x): x for x in every}
 
     def problem(self) -> RightHandSide:
         """The problem.
@@ -73,10 +80,7 @@ class SidesMaker:
             tuple(self._components(term) for term in terms),
             tuple(start[name] for name in self.text.variables),
             self.text.t_end,
-            tuple(
-                (x.where.removeprefix("invariants: "), x.made)
-                for x in invariants
-            ),
+            named(invariants),
             None if exact is None else self._components(exact),
             stiffness=self._stiffness,
         )
@@ -90,15 +94,15 @@ class SidesMaker:
         found = self.formulas.values.get(STIFFNESS)
         return found if isinstance(found, fmpq) else None
 
-    def _components(self, term: dict[str, Term]) -> tuple[object, ...]:
+    def _components(self, term: ByName) -> tuple[object, ...]:
         """D expressions: 0 for what is left out."""
         import sympy
 
         zero = sympy.Integer(0)
-        names = self.text.variables
-        return tuple(term[x].made if x in term else zero for x in names)
+        made = {name: x.made for name, x in term.items()}
+        return tuple(made.get(name, zero) for name in self.text.variables)
 
-    def _side(self, side: Sequence[tuple[str, Node, str]]) -> dict[str, Term]:
+    def _side(self, side: Side) -> ByName:
         """The formulas of one term by the names of variables."""
         names = dict.fromkeys(self._symbols, "")
         noun = "variable or parameter, nor t"
@@ -106,10 +110,10 @@ class SidesMaker:
 
     def _by_name(
         self,
-        items: Sequence[tuple[str, Node, str]],
+        items: Side,
         names: dict[str, str],
         noun: str,
-    ) -> dict[str, Term]:
+    ) -> ByName:
         known = names if self.text.are_named else None
         found = {}
         for name, node, where in items:
@@ -122,15 +126,12 @@ class SidesMaker:
     def _invariants(self) -> list[Term]:
         names = dict.fromkeys(map(str, self.y), "")
         names[TIME] = "an invariant depends on the variables alone"
-        items = [
-            (node, f"invariants: {name}")
-            for name, node in self.text.invariants
-        ]
+        items = formulas_of_invariants(self.text)
         known = names if self.text.are_named else None
         noun = "variable or parameter"
         return self.reader.terms(items, self._symbols, known, noun)
 
-    def _exact(self) -> dict[str, Term] | None:
+    def _exact(self) -> ByName | None:
         """The exact solution by names; None where there is none, or it has faults."""
         node = self.text.exact
         if node is None:
@@ -138,21 +139,19 @@ class SidesMaker:
         before = len(self.source.faults)
         variables = self.text.variables if self.text.are_named else ()
         entries = self.source.mapping(node, "exact", variables)
-        items = [(name, x, f"exact: {name}") for name, x in entries.items()]
-        names = dict.fromkeys(
-            map(str, self.y), "the solution is a formula in t"
-        )
+        items: list[tuple[str, Node, str]] = []
+        for name, formula in entries.items():
+            items.append((name, formula, f"exact: {name}"))
+        unknowns = map(str, self.y)
+        names = dict.fromkeys(unknowns, "the solution is a formula in t")
         names[TIME] = ""
-        found = self._by_name(items, names, "parameter, nor t")
+        found = self._by_name(tuple(items), names, "parameter, nor t")
         if self.text.are_named:
-            self._refuse_missing(
-                node, "exact", entries, f"a formula, such as {{}}: cos({TIME})"
-            )
+            cure = f"a formula, such as {{}}: cos({TIME})"
+            self._refuse_missing(node, "exact", entries, cure)
         return found if len(self.source.faults) == before else None
 
-    def _initial(
-        self, exact: dict[str, Term] | None
-    ) -> dict[str, fmpq] | None:
+    def _initial(self, exact: ByName | None) -> Start | None:
         """The initial values by name; None where they are not complete."""
         started = None if exact is None else self._start_of(exact)
         node = self.text.initial
@@ -161,16 +160,15 @@ class SidesMaker:
         before = len(self.source.faults)
         variables = self.text.variables if self.text.are_named else ()
         entries = self.source.mapping(node, "initial", variables)
-        values = {}
+        values: Start = {}
         for name, x in entries.items():
-            where = f"initial: {name if self.text.are_named else shortened(name)[1:-1]}"
-            value = self.formulas.rational(x, where)
+            shown = name if self.text.are_named else unquoted(name)
+            value = self.formulas.rational(x, f"initial: {shown}")
             if value is not None:
                 values[name] = value
         if self.text.are_named and len(self.source.faults) == before:
-            self._refuse_missing(
-                node, "initial", entries, "a number, such as {}: 1/2"
-            )
+            cure = "a number, such as {}: 1/2"
+            self._refuse_missing(node, "initial", entries, cure)
         if len(self.source.faults) > before or not self.text.are_named:
             return None
         if exact is not None and started is not None:
@@ -179,21 +177,20 @@ class SidesMaker:
 
     def _refuse_other_start(
         self,
-        exact: dict[str, Term],
-        started: dict[str, fmpq],
-        values: dict[str, fmpq],
+        exact: ByName,
+        started: Start,
+        values: Start,
     ) -> None:
         """Note where the exact solution does not begin at the initial values."""
         for name, term in exact.items():
-            if values[name] != started[name]:
-                self.source.fault(
-                    term.node,
-                    f"{term.where} starts at {_decimal(started[name])}, but initial has "
-                    f"{_decimal(values[name])}",
-                    "leave initial out, or correct one of them",
-                )
+            own, given = started[name], values[name]
+            if own != given:
+                message = f"{term.where} starts at {_decimal(own)}, "
+                message += f"but initial has {_decimal(given)}"
+                cure = "leave initial out, or correct one of them"
+                self.source.fault(term.node, message, cure)
 
-    def _start_of(self, exact: dict[str, Term]) -> dict[str, fmpq] | None:
+    def _start_of(self, exact: ByName) -> Start | None:
         """The exact solution at t = 0; None where it has no value there, which is noted."""
         found = {}
         for name, term in exact.items():
@@ -205,20 +202,17 @@ class SidesMaker:
         return found if len(found) == len(exact) else None
 
     def _refuse_missing(
-        self, node: Node, where: str, given: dict[str, Node], cure: str
+        self, node: Node, where: str, given: Entries, cure: str
     ) -> None:
         missing = [x for x in self.text.variables if x not in given]
         if missing:
             more = ", …" if len(missing) > _SHOWN else ""
             names = ", ".join(missing[:_SHOWN])
             message = f"{where}: no value for {names}{more}"
-            self.source.fault(
-                node, message, f"give each {cure.format(missing[0])}"
-            )
+            example = cure.format(missing[0])
+            self.source.fault(node, message, f"give each {example}")
 
-    def _check_jacobians(
-        self, terms: Sequence[Term], start: dict[str, fmpq]
-    ) -> None:
+    def _check_jacobians(self, terms: Sequence[Term], start: Start) -> None:
         """Note right-hand sides that have no derivative at the start: Newton's method needs it."""
         from garkcli.problems.start import missing_derivative
 
@@ -235,62 +229,56 @@ class SidesMaker:
     def _refuse_constants(
         self,
         all_terms: Sequence[Term],
-        terms: Sequence[dict[str, Term]],
+        terms: Sequence[ByName],
         invariants: Sequence[Term],
     ) -> None:
         """Note right-hand sides with which nothing moves, and invariants that depend on nothing."""
         from garkcli.problems.vectorfield import is_constant
 
-        sums = [
-            sum(term[name].made for term in terms if name in term)
-            for name in self.text.variables
-        ]
-        if all(x == 0 for x in sums):
-            self.source.fault(
-                all_terms[0].node,
-                "nothing moves: the right-hand sides sum to 0",
-                "write the derivative of a variable",
-            )
+        moves = False
+        for name in self.text.variables:
+            parts = [term[name].made for term in terms if name in term]
+            moves = moves or sum(parts) != 0
+        if not moves:
+            message = "nothing moves: the right-hand sides sum to 0"
+            cure = "write the derivative of a variable"
+            self.source.fault(all_terms[0].node, message, cure)
         for invariant in invariants:
             if is_constant(invariant.made):
-                self.source.fault(
-                    invariant.node,
-                    f"{invariant.where} is constant: it depends on no variable",
-                    "write a first integral in the variables, or leave it out",
-                )
+                why = "it depends on no variable"
+                message = f"{invariant.where} is constant: {why}"
+                cure = "write a first integral in the variables, "
+                cure += "or leave it out"
+                self.source.fault(invariant.node, message, cure)
 
-    def _check_solution(
-        self, problem: RightHandSide, exact: dict[str, Term]
-    ) -> None:
+    def _check_solution(self, problem: RightHandSide, exact: ByName) -> None:
         """Note a solution whose derivative differs from the right-hand sides at a later time, with
         balls that prove it.
         """
         from garkcli.problems.mass import enclosed
 
-        places = dict(zip(self.y, problem.exact or (), strict=True))
+        solution = problem.exact or ()
+        places = dict(zip(self.y, solution, strict=True))
+        totals = dict(zip(problem.variables, problem.total, strict=True))
         for part in _TRIES:
             time = part * problem.t_end
             at = {self.t: arb(time)}
-            for name, total in zip(
-                problem.variables, problem.total, strict=True
-            ):
+            for name, total in totals.items():
                 term = exact[name]
                 slope = term.made.diff(self.t)
                 field = total.xreplace(places)
                 has, needs = enclosed([slope, field], at)
                 if not (has.is_finite() and needs.is_finite()):
                     message = f"{term.where} has no value at t = {time}"
-                    self.source.fault(
-                        term.node, message, "give an earlier t_end"
-                    )
+                    cure = "give an earlier t_end"
+                    self.source.fault(term.node, message, cure)
                     return
                 if not has.overlaps(needs):
-                    self.source.fault(
-                        term.node,
-                        f"{term.where} is no solution: at t = {time} its derivative is "
-                        f"{_decimal(has)}, the right-hand sides give {_decimal(needs)}",
-                        "correct it, or leave exact out",
-                    )
+                    message = f"{term.where} is no solution: at t = {time} "
+                    message += f"its derivative is {_decimal(has)}, "
+                    message += f"the right-hand sides give {_decimal(needs)}"
+                    cure = "correct it, or leave exact out"
+                    self.source.fault(term.node, message, cure)
                     return
 
 

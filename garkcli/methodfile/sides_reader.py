@@ -31,7 +31,8 @@ def read_sides(
         return ()
     sides: list[Side] = []
     for l, item in enumerate(items, start=1):
-        sides.append(_side(source, item, f"f{{{l}}}", names))
+        where = f"f{{{l}}}"
+        sides.append(_side(source, item, where, names))
     return tuple(sides)
 
 
@@ -42,7 +43,8 @@ def _side(
     if isinstance(node, ScalarNode) and len(names) == 1:
         return ((names[0], node, where),)
     if not isinstance(node, MappingNode):
-        example = ", ".join(f"{x}: …" for x in names[:2])
+        shown = [f"{name}: …" for name in names[:2]]
+        example = ", ".join(shown)
         wanted = "right-hand sides by the names of variables are expected"
         message = f"{where}: {wanted}"
         source.fault(node, message, f"write {{{example}}}")

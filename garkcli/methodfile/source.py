@@ -4,6 +4,7 @@ from __future__ import annotations
 
 from collections.abc import Iterable, Mapping, Sequence
 from dataclasses import dataclass
+from typing import TypeAlias
 
 from yaml.nodes import MappingNode, Node, ScalarNode, SequenceNode
 
@@ -28,6 +29,8 @@ MAX_FAULTS_READ = 1_000
 """After so many faults a file is read no further."""
 
 
+Entries: TypeAlias = dict[str, Node]
+"""The values of a mapping by their keys."""
 _NO_CURES: Mapping[str, str] = {}
 _PYTHON = "tag:yaml.org,2002:python"
 """What tags begin with that make objects of Python."""
@@ -185,7 +188,7 @@ class Source:
         allowed: Iterable[str],
         cures: Mapping[str, str] = _NO_CURES,
         form: str = "",
-    ) -> dict[str, Node]:
+    ) -> Entries:
         """The entries of a mapping by key; doubled and unknown keys are noted.
 
         A key that is misspelt is read as the one it was meant to be, so that a slip of the finger
@@ -204,7 +207,7 @@ class Source:
             return {}
         known = list(allowed)
         given = keys_of(node)
-        entries: dict[str, Node] = {}
+        entries: Entries = {}
         unknown: list[ScalarNode] = []
         for key_node, value in node.value:
             if not isinstance(key_node, ScalarNode):

@@ -3,6 +3,7 @@
 from __future__ import annotations
 
 from collections.abc import Sequence
+from typing import TypeAlias
 
 from yaml.nodes import MappingNode, Node, SequenceNode
 
@@ -15,8 +16,16 @@ from garkcli.methodfile.description import (
     of_colour,
 )
 from garkcli.methodfile.numbers import Numbers, Row, Rows
-from garkcli.methodfile.source import Source, is_null
+from garkcli.methodfile.source import Entries, Source, is_null
 
+Weights: TypeAlias = tuple[Row, ...]
+"""A row a colour."""
+NodeRows: TypeAlias = tuple[Row | None, ...]
+"""The same of nodes, None where they are left out."""
+BlockRow: TypeAlias = tuple[Rows | None, ...]
+"""The blocks A^{l,m} of one colour l, None for absent ones."""
+Names: TypeAlias = tuple[str, str, str]
+"""What A, b and c are called in messages."""
 _ANOTHER_METHOD = (
     "embedded weights make another method: give it a file of its own"
 )
@@ -56,7 +65,7 @@ def _holds_a_number(node: Node) -> bool:
 
 
 def lacks_coefficients(
-    source: Source, node: Node, where: str, entries: dict[str, Node], cure: str
+    source: Source, node: Node, where: str, entries: Entries, cure: str
 ) -> bool:
     """Note that A or b is missing."""
     missing = [key for key in ("A", "b") if key not in entries]
@@ -91,7 +100,7 @@ class SpelledOutReader:
         self.numbers = numbers
 
     def butcher(
-        self, node: Node, where: str, names: tuple[str, str, str]
+        self, node: Node, where: str, names: Names
     ) -> ButcherText | None:
         """A method spelled out; ``names`` are what its A, b and c are called in messages."""
         keys = ("name", "A", "b", "c")
@@ -106,7 +115,7 @@ class SpelledOutReader:
         return ButcherText(node, name, *found)
 
     def _method(
-        self, entries: dict[str, Node], names: tuple[str, str, str]
+        self, entries: Entries, names: Names
     ) -> tuple[Rows, Row, Row | None] | None:
         """A, b and c of a method of one colour; None where they do not make one."""
         numbers = self.numbers
@@ -131,8 +140,8 @@ class SpelledOutReader:
         why = f"{name_of_b} has {entries_in(stages)}"
         A = numbers.fitted(A, entries["A"], name_of_A, shape, why)
         if c is not None and len(c) != stages:
-            message = f"{name_of_c} has {entries_in(len(c))} for "
-            message += counted(stages, "stage")
+            wanted = counted(stages, "stage")
+            message = f"{name_of_c} has {entries_in(len(c))} for {wanted}"
             cure = "give a node a stage, or leave c out"
             self.source.fault(entries["c"], message, cure)
         return A, b, c
@@ -146,7 +155,7 @@ class SpelledOutReader:
         return self.tableau_of(entries, linear)
 
     def tableau_of(
-        self, entries: dict[str, Node], linear: Node | None
+        self, entries: Entries, linear: Node | None
     ) -> TableauText | None:
         """A, b and c of one colour or of several, told apart by how deep A is nested."""
         A, b = entries["A"], entries["b"]
@@ -175,17 +184,18 @@ class SpelledOutReader:
         return self._blocks(entries, linear)
 
     def _one_colour(
-        self, entries: dict[str, Node], linear: Node | None
+        self, entries: Entries, linear: Node | None
     ) -> TableauText | None:
         """A tableau of a single block."""
         found = self._method(entries, ("A", "b", "c"))
         if found is None:
             return None
         A, b, c = found
-        return TableauText(((A,),), (b,), (c,), self._linear(linear, 1))
+        linear_colours = self._linear(linear, 1)
+        return TableauText(((A,),), (b,), (c,), linear_colours)
 
     def _blocks(
-        self, entries: dict[str, Node], linear: Node | None
+        self, entries: Entries, linear: Node | None
     ) -> TableauText | None:
         """A tableau block by block."""
         b = self._weights(entries["b"])
@@ -198,39 +208,39 @@ class SpelledOutReader:
             message = f"A has {found} of blocks and b {colours} of weights"
             self.source.fault(entries["A"], message, "both have one a colour")
             return None
-        A = tuple(self._block_row(l, row, b) for l, row in enumerate(rows))
+        A: list[BlockRow] = []
+        for l, row in enumerate(rows):
+            A.append(self._block_row(l, row, b))
         c = self._node_rows(entries.get("c"), b)
         if not b or not all(b):
             return None
         if any(len(row) != colours for row in A):
             return None
-        return TableauText(A, b, c, self._linear(linear, colours))
+        linear_colours = self._linear(linear, colours)
+        return TableauText(tuple(A), b, c, linear_colours)
 
-    def _weights(self, node: Node) -> tuple[Row, ...] | None:
+    def _weights(self, node: Node) -> Weights | None:
         """The weights of each colour; None where there are too many colours."""
         items = self.source.items(node, "b")
         if are_too_many(self.source, items, node):
             return None
         if isinstance(node, SequenceNode) and not items:
-            self.source.fault(
-                node, "b is empty", "give a row of weights a colour"
-            )
+            cure = "give a row of weights a colour"
+            self.source.fault(node, "b is empty", cure)
         rows: list[Row] = []
         for l, item in enumerate(items):
             rows.append(self.numbers.row(item, of_colour("b", l)))
         return tuple(rows)
 
-    def _block_row(
-        self, l: int, node: Node, b: tuple[Row, ...]
-    ) -> tuple[Rows | None, ...]:
+    def _block_row(self, l: int, node: Node, b: Weights) -> BlockRow:
         """The blocks A^{l,m} of one colour l."""
         colours = len(b)
-        items = self.source.items(node, f"A, row {l + 1} of blocks")
+        where = f"row {l + 1} of blocks"
+        items = self.source.items(node, f"A, {where}")
         if len(items) != colours:
-            message = (
-                f"row {l + 1} of blocks has {counted(len(items), 'block')}"
-            )
-            message += f" for {counted(colours, 'colour')}"
+            found = counted(len(items), "block")
+            wanted = counted(colours, "colour")
+            message = f"{where} has {found} for {wanted}"
             cure = "write null for a block that does not exist"
             self.source.fault(node, message, cure)
         blocks: list[Rows | None] = []
@@ -238,24 +248,21 @@ class SpelledOutReader:
             blocks.append(self._block(item, l, m, b))
         return tuple(blocks)
 
-    def _block(
-        self, node: Node, l: int, m: int, b: tuple[Row, ...]
-    ) -> Rows | None:
+    def _block(self, node: Node, l: int, m: int, b: Weights) -> Rows | None:
         """The block A^{l,m}, a row for each weight of l, a column for each of m; None for null."""
         if is_null(node):
             return None
         where = block_name(l, m)
         block = self.numbers.matrix(node, where)
-        rows, columns = len(b[l]), len(b[m])
-        if not rows or not columns:
+        shape = len(b[l]), len(b[m])
+        if 0 in shape:
             return block
+        rows, columns = shape
         why = f"{of_colour('b', l)} has {entries_in(rows)}"
         why += f" and {of_colour('b', m)} has {columns}"
-        return self.numbers.fitted(block, node, where, (rows, columns), why)
+        return self.numbers.fitted(block, node, where, shape, why)
 
-    def _node_rows(
-        self, node: Node | None, b: tuple[Row, ...]
-    ) -> tuple[Row | None, ...]:
+    def _node_rows(self, node: Node | None, b: Weights) -> NodeRows:
         """The nodes of each colour, None where they are left out."""
         colours = len(b)
         if node is None:
@@ -267,18 +274,21 @@ class SpelledOutReader:
             return (None,) * colours
         rows: list[Row | None] = []
         for l, item in enumerate(items):
-            if is_null(item):
-                rows.append(None)
-                continue
-            where = of_colour("c", l)
-            row = self.numbers.row(item, where)
-            stages = len(b[l])
-            if row and stages and len(row) != stages:
-                message = f"{where} has {entries_in(len(row))}, "
-                message += f"{of_colour('b', l)} has {stages}"
-                self.source.fault(item, message, "both have one a stage")
-            rows.append(row)
+            rows.append(self._node_row(item, l, len(b[l])))
         return tuple(rows)
+
+    def _node_row(self, node: Node, l: int, stages: int) -> Row | None:
+        """The nodes of one colour, as many as it has weights."""
+        if is_null(node):
+            return None
+        where = of_colour("c", l)
+        row = self.numbers.row(node, where)
+        if row and stages and len(row) != stages:
+            found = entries_in(len(row))
+            weights = of_colour("b", l)
+            message = f"{where} has {found}, {weights} has {stages}"
+            self.source.fault(node, message, "both have one a stage")
+        return row
 
     def _linear(self, node: Node | None, colours: int) -> tuple[int, ...]:
         """The colours that are linear, numbered from 0."""

@@ -4,7 +4,6 @@ from __future__ import annotations
 
 from collections.abc import Mapping, Sequence
 from dataclasses import dataclass
-from typing import Any
 
 from flint import arb, ctx, fmpq
 from yaml.nodes import Node
@@ -12,7 +11,9 @@ from yaml.nodes import Node
 from garkcli.errors import ExpressionError
 from garkcli.exact.nodes import Expression
 from garkcli.methodfile.formulas import BITS, Formulas
+from garkcli.methodfile.problem_text import ProblemText
 from garkcli.methodfile.source import Source
+from garkcli.problems.expr import Expr, Invariants
 from garkcli.transfer import LOG10_2
 
 MAX_BITS = 4_000
@@ -28,7 +29,7 @@ class Term:
     node: Node
     where: str
     expression: Expression
-    made: Any
+    made: Expr
 
 
 @dataclass(frozen=True)
@@ -41,7 +42,7 @@ class TermReader:
     def terms(
         self,
         items: Sequence[tuple[Node, str]],
-        symbols: Mapping[str, Any],
+        symbols: Mapping[str, Expr],
         names: Mapping[str, str] | None,
         noun: str,
     ) -> list[Term]:
@@ -54,9 +55,10 @@ class TermReader:
                 the variables have faults: then nothing is translated.
             noun: what a name can be here.
         """
-        allowed = {
-            x: symbols[x] for x, cure in (names or {}).items() if not cure
-        }
+        allowed: dict[str, Expr] = {}
+        for name, cure in (names or {}).items():
+            if not cure:
+                allowed[name] = symbols[name]
         translator = self.formulas.translator(allowed)
         found = []
         for node, where in items:
@@ -101,12 +103,25 @@ class TermReader:
         for term in terms:
             longest = 0
             for x in term.made.atoms(sympy.Rational):
-                bits = max(abs(int(x.p)), int(x.q)).bit_length()
-                longest = max(longest, bits)
+                largest = max(abs(int(x.p)), int(x.q))
+                longest = max(longest, largest.bit_length())
             if longest > MAX_BITS:
                 digits = int(longest * LOG10_2)
-                message = (
-                    f"{term.where}: a coefficient of about {digits} digits"
-                )
+                found = f"a coefficient of about {digits} digits"
+                message = f"{term.where}: {found}"
                 cure = "choose units in which coefficients are shorter"
                 self.source.fault(term.node, message, cure)
+
+
+def formulas_of_invariants(text: ProblemText) -> list[tuple[Node, str]]:
+    """The formulas of first integrals, each with what it is called in messages."""
+    return [(node, f"invariants: {name}") for name, node in text.invariants]
+
+
+def named(invariants: Sequence[Term]) -> Invariants:
+    """First integrals with the names that the file has for them."""
+    found: list[tuple[str, Expr]] = []
+    for term in invariants:
+        name = term.where.removeprefix("invariants: ")
+        found.append((name, term.made))
+    return tuple(found)

@@ -4,9 +4,10 @@ derivatives.
 
 from __future__ import annotations
 
-from collections.abc import Container, Mapping, Sequence
+from collections.abc import Container, Sequence
 from dataclasses import replace
-from typing import TYPE_CHECKING, Any
+from itertools import chain
+from typing import TYPE_CHECKING
 
 from flint import arb, ctx, fmpq
 from yaml.nodes import Node
@@ -16,13 +17,20 @@ from garkcli.methodfile.expansion import too_long
 from garkcli.methodfile.formulas import BITS, PLACES, Formulas, nearby
 from garkcli.methodfile.problem_text import ProblemText
 from garkcli.methodfile.source import Source
-from garkcli.methodfile.termreader import Term, TermReader
-from garkcli.methodfile.words import shortened
+from garkcli.methodfile.termreader import (
+    Term,
+    TermReader,
+    formulas_of_invariants,
+    named,
+)
+from garkcli.methodfile.words import unquoted
+from garkcli.problems.expr import Expr, Place, Vector
 
 if TYPE_CHECKING:
     from garkcli.problems.hamiltonian import Hamiltonian
 
 _SHOWN = 8  # most missing names that are told
+_GOOD = 10.0**-PLACES  # the radius of momenta that may be taken for the start
 
 
 class Maker:
@@ -36,10 +44,8 @@ class Maker:
 
         self.source, self.formulas, self.text = source, formulas, text
         self.reader = TermReader(source, formulas)
-        self.q, self.p = (
-            symbols(text.variables, "q"),
-            symbols(text.variables, "p"),
-        )
+        self.q = symbols(text.variables, "q")
+        self.p = symbols(text.variables, "p")
         self.v = velocities(text.variables)
         self.is_lagrangian = text.form == "lagrangian"
 
@@ -62,7 +68,8 @@ class Maker:
         assert start is not None
         if self.is_lagrangian:
             terms, start = self._transformed(terms, start)
-        at = {str(x): start[str(x)] for x in (*self.q, *self.p)}
+        names = [str(x) for x in (*self.q, *self.p)]
+        at = {name: start[name] for name in names}
         self._check_fields(terms, at)
         self.reader.check_values(invariants, at)
         self._refuse_constants(terms, invariants)
@@ -73,10 +80,7 @@ class Maker:
             tuple(x.made for x in terms),
             tuple(at.values()),
             self.text.t_end,
-            tuple(
-                (x.where.removeprefix("invariants: "), x.made)
-                for x in invariants
-            ),
+            named(invariants),
         )
 
     def _initial(self) -> dict[str, fmpq] | None:
@@ -88,36 +92,38 @@ class Maker:
             self._read_unnamed(node)
             return None
         before = len(self.source.faults)
+        # a Lagrangian starts with velocities or with momenta
         motions = [self.p, self.v] if self.is_lagrangian else [self.p]
-        names = [str(x) for group in (self.q, *motions) for x in group]
+        names = [str(x) for x in chain(self.q, *motions)]
         entries = self.source.mapping(node, "initial", names)
-        values = {}
+        values: dict[str, fmpq] = {}
         for name, x in entries.items():
             value = self.formulas.rational(x, f"initial: {name}")
             if value is not None:
                 values[name] = value
         given = [
-            group for group in motions if any(str(x) in entries for x in group)
+            x for x in motions if not entries.keys().isdisjoint(map(str, x))
         ]
         if len(given) > 1:
             cure = "give all velocities or all momenta"
             self.source.fault(node, "initial: velocities and momenta", cure)
         elif len(self.source.faults) == before:
-            self._refuse_missing(
-                node, given[0] if given else motions[-1], entries
-            )
+            (motion,) = given or motions[-1:]
+            self._refuse_missing(node, motion, entries)
         return values if len(self.source.faults) == before else None
 
     def _read_unnamed(self, node: Node) -> None:
         """Note what is wrong with the numbers alone, where the names are not known."""
         for name, x in self.source.mapping(node, "initial", ()).items():
-            self.formulas.rational(x, f"initial: {shortened(name)[1:-1]}")
+            where = f"initial: {unquoted(name)}"
+            self.formulas.rational(x, where)
 
     def _refuse_missing(
-        self, node: Node, motion: Sequence[Any], given: Container[str]
+        self, node: Node, motion: Vector, given: Container[str]
     ) -> None:
         """Note positions, and momenta or velocities, without a value."""
-        missing = [str(x) for x in (*self.q, *motion) if str(x) not in given]
+        needed = map(str, (*self.q, *motion))
+        missing = [name for name in needed if name not in given]
         if missing:
             more = ", …" if len(missing) > _SHOWN else ""
             names = ", ".join(missing[:_SHOWN])
@@ -126,13 +132,15 @@ class Maker:
             self.source.fault(node, message, cure)
 
     def _names(
-        self, motion: Sequence[Any], other: Sequence[Any], cure: str
+        self, motion: Vector, other: Vector, cure: str
     ) -> dict[str, str]:
         """For names that may stand in a formula nothing, for others the cure."""
-        names = {
-            str(y): cure.format(x) for x, y in zip(motion, other, strict=True)
-        }
-        return names | {str(x): "" for x in (*self.q, *motion)}
+        names: dict[str, str] = {}
+        for x, y in zip(motion, other, strict=True):
+            names[str(y)] = cure.format(x)
+        for x in (*self.q, *motion):
+            names[str(x)] = ""
+        return names
 
     def _terms(self) -> list[Term]:
         if self.is_lagrangian:
@@ -149,10 +157,7 @@ class Maker:
 
     def _invariants(self) -> list[Term]:
         names = self._names(self.p, self.v, "invariants have momenta: {}")
-        items = [
-            (node, f"invariants: {name}")
-            for name, node in self.text.invariants
-        ]
+        items = formulas_of_invariants(self.text)
         return self._formulas(items, names, "variable, momentum or parameter")
 
     def _formulas(
@@ -161,7 +166,8 @@ class Maker:
         names: dict[str, str],
         noun: str,
     ) -> list[Term]:
-        symbols = {str(x): x for x in (*self.q, *self.p, *self.v)}
+        every = (*self.q, *self.p, *self.v)
+        symbols = {str(x): x for x in every}
         known = names if self.text.are_named else None
         return self.reader.terms(items, symbols, known, noun)
 
@@ -169,19 +175,19 @@ class Maker:
         self, lagrangians: list[Term], start: dict[str, fmpq]
     ) -> tuple[list[Term], dict[str, fmpq]]:
         """The Hamiltonian terms, and the start with momenta."""
-        moving = [x for x in lagrangians if x.made.free_symbols & set(self.v)]
+        velocities = set(self.v)
+        moving = [x for x in lagrangians if x.made.free_symbols & velocities]
         if not moving:
             names = ", ".join(map(str, self.v[:3]))
             message = "the Lagrangian has no velocities"
             cure = f"the kinetic energy has {names}"
             self.source.fault(lagrangians[0].node, message, cure)
         has_velocities = str(self.v[0]) in start
+        at: dict[Expr, arb] = {}
         with ctx.workprec(BITS):
-            at = {
-                x: arb(start[str(x)])
-                for x in (*self.q, *self.p, *self.v)
-                if str(x) in start
-            }
+            for x in (*self.q, *self.p, *self.v):
+                if str(x) in start:
+                    at[x] = arb(start[str(x)])
         # with several moving terms the velocity of each is not q̇(0), only their sum is
         is_one = len(moving) == 1 or not has_velocities
         known = at if is_one else {x: at[x] for x in self.q}
@@ -195,7 +201,7 @@ class Maker:
             start = start | self._momenta(lagrangians, found, at, moving[0])
         return found, start
 
-    def _transform(self, term: Term, known: Mapping[Any, arb]) -> Term | None:
+    def _transform(self, term: Term, known: Place) -> Term | None:
         """The Hamiltonian of one term; None where it is not found, which is noted."""
         from garkcli.problems.lagrangian import legendre_transform
         from garkcli.problems.mass import WRITE_HAMILTONIAN
@@ -205,44 +211,41 @@ class Maker:
             message = f"{term.where}: p = ∂L/∂v was not solved for {unsolved}, it is too long"
             self.source.fault(term.node, message, WRITE_HAMILTONIAN)
             return None
+        variables = self.text.variables
         try:
-            return replace(
-                term,
-                made=legendre_transform(term.made, self.text.variables, known),
-            )
+            made = legendre_transform(term.made, variables, known)
         except NoLegendreTransform as error:
-            self.source.fault(
-                term.node, f"{term.where}: {error.message}", error.help
-            )
+            message = f"{term.where}: {error.message}"
+            self.source.fault(term.node, message, error.help)
             return None
+        return replace(term, made=made)
 
     def _momenta(
         self,
         lagrangians: Sequence[Term],
         hamiltonians: Sequence[Term],
-        at: Mapping[Any, arb],
+        at: Place,
         moving: Term,
     ) -> dict[str, fmpq]:
         """The momenta by name that belong to the velocities at the start."""
         from garkcli.problems.start import initial_momenta
 
-        L, H = (
-            [x.made for x in terms] for terms in (lagrangians, hamiltonians)
-        )
+        L = [term.made for term in lagrangians]
+        H = [term.made for term in hamiltonians]
         try:
             momenta = initial_momenta(L, H, self.text.variables, at)
         except NoLegendreTransform as error:
-            self.source.fault(
-                self.text.initial, f"initial: {error.message}", error.help
-            )
+            message = f"initial: {error.message}"
+            self.source.fault(self.text.initial, message, error.help)
             self.source.close()
-        if not all(x.is_finite() and x.rad() < 10.0**-PLACES for x in momenta):
-            message = f"{moving.where}: the momenta do not exist at the initial values"
-            self.source.fault(moving.node, message, "start elsewhere")
-            self.source.close()
-        return {
-            str(x): nearby(y) for x, y in zip(self.p, momenta, strict=True)
-        }
+        found: dict[str, fmpq] = {}
+        for p, value in zip(self.p, momenta, strict=True):
+            if not (value.is_finite() and value.rad() < _GOOD):
+                message = f"{moving.where}: the momenta do not exist at the initial values"
+                self.source.fault(moving.node, message, "start elsewhere")
+                self.source.close()
+            found[str(p)] = nearby(value)
+        return found
 
     def _refuse_constants(
         self, terms: Sequence[Term], invariants: Sequence[Term]
@@ -252,20 +255,20 @@ class Maker:
         """
         from garkcli.problems.vectorfield import is_constant
 
-        if is_constant(sum(x.made for x in terms)):
+        total = sum(x.made for x in terms)
+        if is_constant(total):
             parts = "the sum of its terms" if len(terms) > 1 else "it"
-            self.source.fault(
-                terms[0].node,
-                f"the Hamiltonian is constant: {parts} depends on no variable, and nothing moves",
-                "write it in positions and momenta",
-            )
+            why = f"{parts} depends on no variable, and nothing moves"
+            message = f"the Hamiltonian is constant: {why}"
+            cure = "write it in positions and momenta"
+            self.source.fault(terms[0].node, message, cure)
         for invariant in invariants:
             if is_constant(invariant.made):
-                self.source.fault(
-                    invariant.node,
-                    f"{invariant.where} is constant: it depends on no variable",
-                    "write a first integral in positions and momenta, or leave it out",
-                )
+                why = "it depends on no variable"
+                message = f"{invariant.where} is constant: {why}"
+                cure = "write a first integral in positions and momenta, "
+                cure += "or leave it out"
+                self.source.fault(invariant.node, message, cure)
 
     def _check_fields(
         self, terms: Sequence[Term], start: dict[str, fmpq]
@@ -273,13 +276,12 @@ class Maker:
         """Note terms that have no derivative at the start."""
         from garkcli.problems.start import missing_derivative
 
+        y = (*self.q, *self.p)
         with ctx.workprec(BITS):
-            at = {x: arb(start[str(x)]) for x in (*self.q, *self.p)}
+            at = {x: arb(start[str(x)]) for x in y}
         for term in terms:
-            missing = missing_derivative(term.made, (*self.q, *self.p), at)
+            missing = missing_derivative(term.made, y, at)
             if missing is not None:
-                self.source.fault(
-                    term.node,
-                    f"{term.where} at the initial values: {missing[0]}",
-                    missing[1],
-                )
+                what, cure = missing
+                message = f"{term.where} at the initial values: {what}"
+                self.source.fault(term.node, message, cure)

@@ -8,6 +8,7 @@ from yaml.nodes import MappingNode, Node, ScalarNode, SequenceNode
 
 from garkcli.methodfile.description import (
     BlockText,
+    BlockTexts,
     MatrixText,
     RuleText,
     TransferText,
@@ -24,6 +25,15 @@ _BLOCK_OR_COLOUR = re.compile(r"[1-9][0-9 ,]*")
 _BLOCK = re.compile(r"\s*([1-9][0-9]{0,3})\s*,\s*([1-9][0-9]{0,3})\s*")
 
 
+def _block_of(key: str) -> tuple[int, int]:
+    """The colours of a key such as ``1,2``, counted from 0; twice the same where it is none."""
+    found = _BLOCK.fullmatch(key)
+    if found is None:
+        return 0, 0
+    l, m = map(int, found.groups())
+    return l - 1, m - 1
+
+
 class TransferReader:
     """Reads ``transfer``."""
 
@@ -36,38 +46,30 @@ class TransferReader:
         keys = keys_of(node)
         if not keys & {"default", "blocks"}:
             # without quotes {1,2: rule} has the keys 1 and 2
-            keys_in_order = key_nodes(node).values()
-            numbered = [
-                x for x in keys_in_order if _BLOCK_OR_COLOUR.fullmatch(x.value)
-            ]
-            if numbered:
-                message = "transfer: single blocks stand under blocks"
-                cure = 'write transfer: {default: …, blocks: {"1,2": …}}'
-                self.source.fault(numbered[0], message, cure)
-                return TransferText(None, {})
+            for key in key_nodes(node).values():
+                if _BLOCK_OR_COLOUR.fullmatch(key.value):
+                    message = "transfer: single blocks stand under blocks"
+                    cure = 'write transfer: {default: …, blocks: {"1,2": …}}'
+                    self.source.fault(key, message, cure)
+                    return TransferText(None, {})
             return TransferText(self._rule(node, "transfer"), {})
         entries = self.source.mapping(node, "transfer", ("default", "blocks"))
         default = None
         if "default" in entries:
             default = self._rule(entries["default"], "transfer, default")
-        blocks: dict[tuple[int, int], BlockText] = {}
+        blocks: BlockTexts = {}
         if "blocks" in entries:
             blocks = self._blocks(entries["blocks"], colours)
         return TransferText(default, blocks)
 
-    def _blocks(
-        self, node: Node, colours: int
-    ) -> dict[tuple[int, int], BlockText]:
+    def _blocks(self, node: Node, colours: int) -> BlockTexts:
         """The blocks that are given one by one; keys such as ``1,2`` count colours from 1."""
-        blocks: dict[tuple[int, int], BlockText] = {}
+        blocks: BlockTexts = {}
         keys = key_nodes(node)
         form = 'write for instance {"1,2": interpolation}'
         entries = self.source.mapping(node, "transfer, blocks", (), form=form)
         for key, value in entries.items():
-            place = _BLOCK.fullmatch(key)
-            l, m = 0, 0
-            if place:
-                l, m = int(place[1]) - 1, int(place[2]) - 1
+            l, m = _block_of(key)
             if l == m or max(l, m) >= colours:
                 shown = shortened(key)
                 wanted = f"off-diagonal block of {colours} colours"
@@ -96,13 +98,12 @@ class TransferReader:
         if isinstance(node, ScalarNode):
             rule = self.source.choice(node, where, ALL_RULES)
             return RuleText(node, ((rule, None),)) if rule else None
-        mixed = sorted(keys_of(node) & set(PAIR_RULES))
-        if mixed:
-            what = (
-                "makes both blocks of a pair of colours and cannot be combined"
-            )
-            message = f"{where}: {mixed[0]} {what}"
-            self.source.fault(node, message, f"write {mixed[0]} on its own")
+        of_pairs = sorted(keys_of(node) & set(PAIR_RULES))
+        if of_pairs:
+            first = of_pairs[0]
+            why = "makes both blocks of a pair of colours"
+            message = f"{where}: {first} {why} and cannot be combined"
+            self.source.fault(node, message, f"write {first} on its own")
             return None
         form = "write one of the rules, for instance transfer: collocation"
         entries = self.source.mapping(node, where, RULES, form=form)

@@ -29,27 +29,34 @@ def name_of_place(where: str) -> str | None:
     found = _PLACE.fullmatch(where)
     if found is None:
         return None
-    letter = found["letter"].lower()
-    colours = found["colours"].split(",") if found["colours"] else []
+    part, letter, colours, row, entry = found.groups()
+    letter = letter.lower()
     # one value in place of a row of one is its only entry
-    indices = [found["entry"] or "1"]
+    indices = [entry or "1"]
     if letter == "a":
-        indices.insert(0, found["row"] or "1")
-    groups = [letter + _together(colours), _together(indices)]
-    name = "_".join(groups) if colours else "".join(groups)
-    return f"{found['part']}_{name}" if found["part"] else name
+        indices = [row or "1", *indices]
+    name = letter
+    if colours:
+        name += _together(colours.split(",")) + "_"
+    name += _together(indices)
+    return f"{part}_{name}" if part else name
 
 
 def is_bare_unknown(node: Node) -> bool:
     """Whether a ? stands there without quotes, which YAML takes for the sign of a key."""
     if not isinstance(node, MappingNode) or len(node.value) != 1:
         return False
-    return all(
-        isinstance(x, ScalarNode) and not x.value for x in node.value[0]
-    )
+    key, value = node.value[0]
+    return _is_empty(key) and _is_empty(value)
+
+
+def _is_empty(node: Node) -> bool:
+    return isinstance(node, ScalarNode) and not node.value
 
 
 def _together(indices: _Indices) -> str:
     """Indices one after the other, with _ between them where one has two digits."""
-    is_plain = all(len(index) == 1 for index in indices)
-    return ("" if is_plain else "_").join(indices)
+    join = ""
+    if any(len(index) > 1 for index in indices):
+        join = "_"
+    return join.join(indices)

@@ -9,7 +9,7 @@ from yaml.nodes import MappingNode, Node, ScalarNode, SequenceNode
 from garkcli.exact.formula import RESERVED
 from garkcli.methodfile.formulas import bad_name
 from garkcli.methodfile.problem_text import MAX_VARIABLES
-from garkcli.methodfile.source import Source
+from garkcli.methodfile.source import Entries, Source
 from garkcli.methodfile.words import shortened
 from garkcli.problems.vectorfield import TIME
 
@@ -26,7 +26,7 @@ class Variables:
     """
 
     source: Source
-    places: dict[str, Node]
+    places: Entries
 
     def refuse_clashes(self, form: str) -> None:
         """Refuse a variable that is the momentum or velocity of another, or has one with a name of
@@ -85,7 +85,7 @@ def read_variables(source: Source, root: Node, node: Node | None) -> Variables:
         root: of the file, the place of what is missing.
         node: one name or a list of them; None where the file has none.
     """
-    places: dict[str, Node] = {}
+    places: Entries = {}
     found = Variables(source, places)
     if node is None:
         cure = "name the positions, for instance variables: [x, y]"

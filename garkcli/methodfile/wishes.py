@@ -68,7 +68,9 @@ def read_wishes(source: Source, numbers: Numbers, node: Node | None) -> Wishes:
     order = None
     if "order" in entries:
         order = source.whole(entries["order"], "design: order", smallest=1)
-    fixed = _fixed(source, numbers, entries["fix"]) if "fix" in entries else []
+    fixed: list[tuple[Entry, Entry]] = []
+    if "fix" in entries:
+        fixed = _fixed(source, numbers, entries["fix"])
     if "range" in entries:
         _ranges(source, numbers, entries["range"])
     wishes = []
@@ -83,20 +85,17 @@ def _fixed(
 ) -> list[tuple[Entry, Entry]]:
     """``fix: {c2: 2*gamma}``: unknowns with their values, which may have other unknowns."""
     fixed = []
-    for name, value in source.mapping(
-        node, "design: fix", (), form=FORM
-    ).items():
+    entries = source.mapping(node, "design: fix", (), form=FORM)
+    for name, value in entries.items():
+        where = f"design: fix: {name}"
         if name in numbers.settings:
             continue
         if name not in numbers.free:
-            known = list(numbers.free)
-            cure = did_you_mean(name, known)
-            source.fault(
-                value, f"design: fix: {name} is no unknown of the file", cure
-            )
+            cure = did_you_mean(name, list(numbers.free))
+            source.fault(value, f"{where} is no unknown of the file", cure)
             continue
-        entry = numbers.entry(value, f"design: fix: {name}")
-        unknown = Entry(Name(name), value, f"design: fix: {name}")
+        entry = numbers.entry(value, where)
+        unknown = Entry(Name(name), value, where)
         numbers.entries.append(unknown)
         fixed.append((unknown, entry))
     return fixed
@@ -104,9 +103,8 @@ def _fixed(
 
 def _ranges(source: Source, numbers: Numbers, node: Node) -> None:
     """``range: {gamma: [1/4, 1]}``: where unknowns without a line of their own may lie."""
-    for name, value in source.mapping(
-        node, "design: range", (), form=FORM
-    ).items():
+    entries = source.mapping(node, "design: range", (), form=FORM)
+    for name, value in entries.items():
         where = f"design: range: {name}"
         if name in numbers.free:
             known = numbers.free[name]
@@ -124,15 +122,17 @@ def _wishes(
     if not isinstance(node, MappingNode):
         found = _value(source, numbers, want, node)
         return [] if found is None else [Wish(node, want, found, None)]
+    where = f"design: {want.key}"
     wishes = []
-    for name, value in source.mapping(node, f"design: {want.key}", ()).items():
+    for name, value in source.mapping(node, where, ()).items():
         if not name.isdigit() or int(name) < 1:
-            message = f"design: {want.key}: {name} is no colour"
+            message = f"{where}: {name} is no colour"
             source.fault(value, message, "colours count from 1: {2: true}")
             continue
         found = _value(source, numbers, want, value)
         if found is not None:
-            wishes.append(Wish(value, want, found, int(name) - 1))
+            colour = int(name) - 1
+            wishes.append(Wish(value, want, found, colour))
     return wishes
 
 

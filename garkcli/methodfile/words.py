@@ -41,6 +41,11 @@ def one_line(text: str) -> str:
     return " ".join(words)
 
 
+def unquoted(name: str) -> str:
+    """A name of the file without quotes, cut where it is long."""
+    return shortened(name)[1:-1]
+
+
 def shortened(text: str, length: int = 60) -> str:
     """``text`` in quotes, cut where it is long."""
     if len(text) > length:

@@ -2,7 +2,7 @@
 
 from __future__ import annotations
 
-from collections.abc import Callable, Iterator, Sequence
+from collections.abc import Callable, Iterable, Iterator, Sequence
 from dataclasses import replace
 from typing import TypeAlias
 
@@ -102,7 +102,8 @@ def _rounded_tableau(tableau: Tableau, entries: Entries) -> Tableau:
         c = rounded(entries.c[l])
         colours.append(replace(colour, b=b, c=c))
         nodes[colour.space] = c
-    spaces = tuple(PointSpace(nodes[k]) for k in range(len(tableau.spaces)))
+    ordered = [nodes[k] for k in range(len(tableau.spaces))]
+    spaces = tuple(map(PointSpace, ordered))
     blocks: dict[tuple[int, int], Matrix] = {}
     for l, m in tableau.edges():
         block = entries.A[l][m] or ()
@@ -154,13 +155,11 @@ def _is_prk(tableau: Tableau) -> bool:
 def _is_ark(tableau: Tableau) -> bool:
     """Whether several vector fields share all stages and nodes, and none is linear."""
     colours = tableau.colours
-    is_shared = (
-        len(tableau.spaces) == 1 and len({colour.c for colour in colours}) == 1
-    )
+    if len(colours) == 1 or len(tableau.spaces) > 1:
+        return False
+    nodes = {colour.c for colour in colours}
     is_plain = not any(colour.is_linear for colour in colours)
-    return (
-        len(colours) > 1 and is_shared and is_plain and _is_complete(tableau)
-    )
+    return len(nodes) == 1 and is_plain and _is_complete(tableau)
 
 
 def _is_complete(tableau: Tableau) -> bool:
@@ -169,26 +168,34 @@ def _is_complete(tableau: Tableau) -> bool:
 
 def _ark(tableau: Tableau, text: NumberText) -> list[str]:
     """The form ``ark``: one matrix a colour, all on the same stages."""
-    lines = ["ark:", f"  c: {_row(tableau.colours[0].c, text)}", "  A:"]
+    nodes = tableau.colours[0].c
+    lines = ["ark:", f"  c: {_row(nodes, text)}", "  A:"]
     for m in range(tableau.size):
         lines.append(f"    -  # A^{{{m + 1}}}")
-        lines += [f"      - {_row(row, text)}" for row in tableau.blocks[0, m]]
+        lines += _items(tableau.blocks[0, m], 6, text)
     lines.append("  b:")
-    lines += [f"    - {_row(colour.b, text)}" for colour in tableau.colours]
-    return lines
+    weights = [colour.b for colour in tableau.colours]
+    return [*lines, *_items(weights, 4, text)]
+
+
+def _items(
+    rows: Iterable[Vector], indent: int, text: NumberText
+) -> Iterator[str]:
+    """A list of rows, a line each."""
+    for row in rows:
+        yield " " * indent + f"- {_row(row, text)}"
 
 
 def _blocks(tableau: Tableau, text: NumberText) -> list[str]:
     """The form ``tableau``: nodes, blocks and weights, and which colours are linear."""
     colours = tableau.colours
-    lines = ["tableau:", "  c:"]
-    lines += [f"    - {_row(colour.c, text)}" for colour in colours]
-    lines.append("  A:")
+    nodes = [colour.c for colour in colours]
+    weights = [colour.b for colour in colours]
+    lines = ["tableau:", "  c:", *_items(nodes, 4, text), "  A:"]
     for l in range(tableau.size):
         for m in range(tableau.size):
             lines += _block(tableau, l, m, text)
-    lines.append("  b:")
-    lines += [f"    - {_row(colour.b, text)}" for colour in colours]
+    lines += ["  b:", *_items(weights, 4, text)]
     numbered = enumerate(colours, start=1)
     linear = [str(l) for l, colour in numbered if colour.is_linear]
     if linear:
@@ -208,8 +215,7 @@ def _block(
         yield f"{dash} null{comment}"
         return
     yield f"{dash}{comment}"
-    for row in block:
-        yield f"        - {_row(row, text)}"
+    yield from _items(block, 8, text)
 
 
 def _prk(tableau: Tableau, text: NumberText) -> list[str]:
@@ -223,7 +229,7 @@ def _prk(tableau: Tableau, text: NumberText) -> list[str]:
         nodes = tableau.colours[seen_at].c
         lines.append(f"  {part}:")
         lines.append("    A:")
-        lines += [f"      - {_row(row, text)}" for row in block]
+        lines += _items(block, 6, text)
         lines.append(f"    b: {_row(weights, text)}")
         lines.append(f"    c: {_row(nodes, text)}")
     structure = "separable"
@@ -268,7 +274,8 @@ def write_conjugate_of(method: MethodFile, name: str) -> str:
     root = Source(method.source, method.text).compose()
     if root is None:
         raise ValueError("the text of a method file")
-    entries: list[tuple[Node, Node]] = [(_scalar("name"), _scalar(name))]
+    title: tuple[Node, Node] = (_scalar("name"), _scalar(name))
+    entries = [title]
     for key, value in root.value:
         if key.value not in _DROPPED:
             entries.append((key, value))

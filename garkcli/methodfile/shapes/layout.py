@@ -3,14 +3,16 @@
 from __future__ import annotations
 
 import re
-from collections.abc import Callable, Iterable
+from collections.abc import Callable, Iterable, Iterator
 from dataclasses import dataclass, replace
+from itertools import chain
 from typing import Literal, TypeAlias
 
 from garkcli.errors import MethodError
 
 Kind: TypeAlias = Literal["tableau", "ark", "prk"]
-Texts: TypeAlias = tuple[tuple[str, ...], ...]
+TextRow: TypeAlias = tuple[str, ...]
+Texts: TypeAlias = tuple[TextRow, ...]
 ZERO = "0"
 _NAME = re.compile(r"[A-Za-z_][A-Za-z0-9_]*")
 _OWN = re.compile(r"[ae][0-9_]+")
@@ -39,10 +41,11 @@ class Layout:
     @property
     def unknowns(self) -> tuple[str, ...]:
         """The names in it, each once, row by row."""
-        texts = [text for rows in self.A for row in rows for text in row]
-        texts += [text for row in self.b for text in row]
-        names = [name for text in texts for name in _NAME.findall(text)]
-        return tuple(dict.fromkeys(names))
+        names: dict[str, None] = {}
+        for rows in (*self.A, self.b):
+            for text in _entries(rows):
+                names |= dict.fromkeys(_NAME.findall(text))
+        return tuple(names)
 
     def with_entries(self, entry: Callable[[int, int, str], str]) -> Layout:
         """The layout with the entries of its last matrix changed.
@@ -51,15 +54,23 @@ class Layout:
             entry: from a row and a column, counted from 0, and the text there to another.
         """
         *others, last = self.A
-        changed = []
+        changed: list[TextRow] = []
         for i, row in enumerate(last):
-            texts = [entry(i, j, text) for j, text in enumerate(row)]
+            texts: list[str] = []
+            for j, text in enumerate(row):
+                texts.append(entry(i, j, text))
             changed.append(tuple(texts))
         return replace(self, A=(*others, tuple(changed)))
 
     def with_weights(self, weights: Iterable[str]) -> Layout:
         """The layout with other weights for all of its colours."""
-        return replace(self, b=(tuple(weights),) * len(self.b))
+        row = tuple(weights)
+        return replace(self, b=(row,) * len(self.b))
+
+
+def _entries(rows: Texts) -> Iterator[str]:
+    """Every entry, row by row."""
+    return chain.from_iterable(rows)
 
 
 @dataclass(frozen=True)
@@ -83,7 +94,10 @@ def full_layout(stages: int) -> Layout:
     """Every entry an unknown of its own, named by its place."""
     join = "" if stages < 10 else "_"
     numbers = range(1, stages + 1)
-    rows = [tuple(f"a{join}{i}{join}{j}" for j in numbers) for i in numbers]
+    rows: list[TextRow] = []
+    for i in numbers:
+        row = [f"a{join}{i}{join}{j}" for j in numbers]
+        rows.append(tuple(row))
     weights = tuple(f"b{join}{i}" for i in numbers)
     return Layout("tableau", (tuple(rows),), (weights,))
 
@@ -101,18 +115,20 @@ def with_nodes(layout: Layout) -> Layout:
 
 
 def _with_nodes(rows: Texts, layout: Layout) -> Texts:
-    everything = [text for block in layout.A for row in block for text in row]
-    everything += layout.b[0]
-    changed = []
+    everything = list(layout.b[0])
+    for block in layout.A:
+        everything += _entries(block)
+    join = "" if layout.stages < 10 else "_"
+    changed: list[TextRow] = []
     for i, row in enumerate(rows, start=1):
-        first, rest = row[0], [x for x in row[1:] if x != ZERO]
-        is_own = bool(_OWN.fullmatch(first))
+        first, *others = row
         uses = [text for text in everything if first in _NAME.findall(text)]
-        if not is_own or len(uses) > 1:
+        if not _OWN.fullmatch(first) or len(uses) > 1:
             changed.append(row)
             continue
-        node = f"c{'_' if layout.stages >= 10 else ''}{i}"
-        changed.append((" - ".join([node, *rest]), *row[1:]))
+        rest = [x for x in others if x != ZERO]
+        difference = " - ".join([f"c{join}{i}", *rest])
+        changed.append((difference, *others))
     return tuple(changed)
 
 

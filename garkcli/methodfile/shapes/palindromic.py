@@ -20,39 +20,47 @@ def _applied(layout: Layout) -> Layout:
             "leave one of them out",
         )
     s = layout.stages
-    mirrored = {}
+    (weights,) = layout.b
+    (matrix,) = layout.A
+    mirrored: dict[str, str] = {}
     for i in range(s // 2, s):
-        mirrored[layout.b[0][i]] = layout.b[0][s - 1 - i]
+        mirrored[weights[i]] = weights[s - 1 - i]
+
+    def name_of(found: re.Match[str]) -> str:
+        name = found[0]
+        return mirrored.get(name, name)
 
     def renamed(text: str) -> str:
-        return re.sub(r"\w+", lambda x: mirrored.get(x[0], x[0]), text)
+        return re.sub(r"\w+", name_of, text)
 
-    b = tuple(renamed(text) for text in layout.b[0])
-    rows = [[renamed(text) for text in row] for row in layout.A[0]]
+    b = tuple(map(renamed, weights))
+    rows = [[renamed(text) for text in row] for row in matrix]
     for i in range(s):
         for j in range(s):
             _mirror(rows, b, i, j)
-    matrix: Texts = tuple(tuple(row) for row in rows)
-    return replace(layout, A=(matrix,), b=(b,))
+    made: Texts = tuple(map(tuple, rows))
+    return replace(layout, A=(made,), b=(b,))
 
 
 def _mirror(rows: list[list[str]], b: tuple[str, ...], i: int, j: int) -> None:
     """Write the entry at the place opposite of (i, j), where that is an unknown of its own."""
-    k, l = len(b) - 1 - i, len(b) - 1 - j
-    opposite = rows[k][l]
-    if rows[i][j] == ZERO and opposite == ZERO:
+    last = len(b) - 1
+    k, l = last - i, last - j
+    entry, opposite = rows[i][j], rows[k][l]
+    if entry == ZERO and opposite == ZERO:
         raise refuse_shape(
             "no explicit shape is palindromic",
             "take full, dirk or symplectic-dirk",
         )
     if not opposite.startswith("a"):
         return
-    if rows[i][j] == ZERO:
-        rows[k][l] = b[j]
+    weight = b[j]
+    if entry == ZERO:
+        rows[k][l] = weight
     elif (i, j) == (k, l):
-        rows[k][l] = f"{b[j]}/2"
+        rows[k][l] = f"{weight}/2"
     elif (i, j) < (k, l):
-        rows[k][l] = f"{b[j]} - {rows[i][j]}"
+        rows[k][l] = f"{weight} - {entry}"
 
 
 SHAPE = Shape("palindromic", "the same method backwards", _applied)

@@ -1,15 +1,22 @@
 """Splitting methods: the maps of two parts in turn."""
 
-from garkcli.methodfile.shapes.layout import ZERO, Layout, Shape, Texts
+from garkcli.methodfile.shapes.layout import (
+    ZERO,
+    Layout,
+    Shape,
+    TextRow,
+    Texts,
+)
 
 
 def _lower(weights: tuple[str, ...], reach: int) -> Texts:
     """Rows of weights up to the diagonal, or before it."""
     stages = range(len(weights))
-    rows = []
+    rows: list[TextRow] = []
     for i in stages:
-        texts = [weights[j] if j < i + reach else ZERO for j in stages]
-        rows.append(tuple(texts))
+        end = i + reach
+        zeros = (ZERO,) * (len(weights) - end)
+        rows.append((*weights[:end], *zeros))
     return tuple(rows)
 
 
@@ -18,9 +25,8 @@ def _applied(layout: Layout) -> Layout:
     numbers = range(1, layout.stages + 1)
     drifts = tuple(f"a{join}{i}" for i in numbers)
     kicks = tuple(f"b{join}{i}" for i in numbers)
-    return Layout(
-        "prk", (_lower(drifts, 1), _lower(kicks, 0)), (drifts, kicks)
-    )
+    A = _lower(drifts, 1), _lower(kicks, 0)
+    return Layout("prk", A, (drifts, kicks))
 
 
 SHAPE = Shape(
