@@ -642,7 +642,7 @@ def test_a_fault_of_our_own(jobs: tuple[str, ...]) -> None:
         if line.endswith("error: internal fault: RuntimeError: broken")
     ]
     helps = [line for line in lines if "please report it" in line]
-    count = len(list((ROOT / "methods").glob("*.gark.yaml")))
+    count = len(list((ROOT / "methods").rglob("*.gark.yaml")))
     assert len(told) == len(helps) == count
     assert "Traceback" not in run.stdout + run.stderr
 
