@@ -281,8 +281,10 @@ class Tableau:
         k, value = order_of(tree), self.value(tree)
         demand(k == self.data["order"] + 1, "the witness has another order")
         demand(self.field.is_nonzero(value + Fraction(-1, k)), "the witness does not fail")
-        weight = self.field.read(self.data["witness"]["value"])
-        demand(value * Fraction(k, density(tree)) == weight, "the witness has another value")
+        weight, required = (self.data["witness"][x] for x in ("value", "required"))
+        is_told = value * Fraction(k, density(tree)) == self.field.read(weight)
+        demand(is_told, "the witness has another value")
+        demand(self.field.read(required) == Fraction(1, density(tree)), "it requires another one")
 
     def check_span(self, l, k, listed):
         """The hull of order k holds all products of listed branches and forests."""

@@ -63,16 +63,21 @@ RADICALS = (ROOT / "methods" / "collocation-conjugate.gark.yaml").read_text(
 
 
 def test_the_referee_shares_no_code() -> None:
-    """It imports the standard library alone and is short."""
+    """It imports the standard library alone and is short, docstrings and empty lines aside."""
     text = SCRIPT.read_text(encoding="utf-8")
+    told = set()
     imported = set()
     for node in ast.walk(ast.parse(text)):
         if isinstance(node, ast.Import):
             imported |= {alias.name for alias in node.names}
         if isinstance(node, ast.ImportFrom):
             imported.add(str(node.module))
+        if isinstance(node, ast.Expr) and isinstance(node.value, ast.Constant):
+            told |= set(range(node.lineno, node.value.end_lineno + 1))  # type: ignore[operator]
     assert imported == {"fractions", "itertools", "json", "re", "sys"}
-    assert sum(bool(line.strip()) for line in text.splitlines()) < 350
+    lines = enumerate(text.splitlines(), start=1)
+    code = [line for number, line in lines if number not in told]
+    assert sum(bool(line.strip()) for line in code) < 300
 
 
 @pytest.mark.parametrize(
@@ -151,6 +156,11 @@ def _other_value(data: dict[str, Any]) -> None:
     data["method"]["witness"]["value"] = "1/7"
 
 
+def _other_requirement(data: dict[str, Any]) -> None:
+    """The witness has another required value."""
+    data["method"]["witness"]["required"] = "1/7"
+
+
 def _other_weight(data: dict[str, Any]) -> None:
     data["pair"]["colours"][0]["b"][0] = "2/3"
 
@@ -179,6 +189,7 @@ def _coinciding_nodes(data: dict[str, Any]) -> None:
         _claim_more,
         _claim_less,
         _true_witness,
+        _other_requirement,
         _other_value,
         _other_weight,
         _other_block("method"),
