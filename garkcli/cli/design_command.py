@@ -3,11 +3,12 @@
 from __future__ import annotations
 
 from collections.abc import Mapping
-from typing import TYPE_CHECKING, Any
+from dataclasses import replace
+from typing import TYPE_CHECKING, Any, NamedTuple
 
 import click
 
-from garkcli.cli.design_options import CLAIMS, Wanted, design_options
+from garkcli.cli.design_options import Wanted, design_options
 from garkcli.cli.options import (
     CONTEXT,
     PATH,
@@ -25,6 +26,7 @@ if TYPE_CHECKING:
     from garkcli.design.design import Design
     from garkcli.design.minimise.result import Minimum
     from garkcli.design.springs_kind import TwoSprings
+    from garkcli.design.stable_values import StableValues
     from garkcli.design.stable_values import Wanted as Stability
     from garkcli.methodfile.family import FamilyFile
 
@@ -54,6 +56,7 @@ def command(
     not proved. The same seed has the same finds everywhere. Exit code 3: nothing was found, which
     says nothing of what there is.
     """
+    from garkcli.design.stable_values import stable_sets
     from garkcli.methodfile.family import load_family
 
     wanted = Wanted(**options)
@@ -63,31 +66,45 @@ def command(
 
         refuse_unwritable(wanted.emit)
     family = load_family(file, settings)
-    if wanted.stability is not None:
+    is_of_springs = wanted.slow is not None
+    if wanted.stability is not None and (
+        wanted.order is None or is_of_springs
+    ):
         wanted.check_stability()
         return _stable_values(family, wanted, wanted.stability, output)
+    given: list[str] = []
+    if wanted.stability is not None:
+        given.append(wanted.stability)
+        family = replace(family, stable=(*family.stable, wanted.stability))
+    wanted.check_one_by_one(family.stable)
     if wanted.starts is not None:
         from garkcli.cli.searching import search
 
         return search(family, wanted, wanted.starts, output)
+    if wanted.emit_all is not None:
+        from garkcli.cli.emitting import make_folder
+
+        make_folder(wanted.emit_all)
     chosen: list[Choice] = []
     if choices:
         chosen = _walk(_found(family, wanted), choices)
         family = load_family(file, {**settings, **choices})
+        family = replace(family, stable=(*family.stable, *given))
     found = _found(family, wanted)
     order = wanted.order or family.order
+    sets = stable_sets(found)
     is_reached = order is None or found.reaches(order)
+    is_reached = is_reached and all(x.found for x in sets)
     minimum = None
     if wanted.objective is not None and is_reached:
         from garkcli.cli.minimising import least
 
         minimum = least(found, wanted.objective, wanted.seconds)
-    text = _rendered(file, found, chosen, minimum, wanted.digits, output)
-    output.write(text)
+    report = Report(file, found, chosen, minimum, sets, wanted.digits)
+    output.write(_rendered(report, output))
     if minimum is None and wanted.objective is not None and is_reached:
         return _exit_code(is_undecided=True, is_reached=True)
-    if wanted.emit is not None:
-        _emit(family, found, minimum, wanted.emit)
+    _emit(family, found, minimum, wanted, output)
     return _exit_code(found.last.kind == "undecided", is_reached)
 
 
@@ -98,22 +115,36 @@ def _found(family: FamilyFile, wanted: Wanted) -> Design:
     return find_parameters(family, wanted.order, wanted.whose, wanted.seconds)
 
 
-def _rendered(
-    file: str,
-    found: Design,
-    chosen: list[Choice],
-    minimum: Minimum | None,
-    digits: int,
-    output: Output,
-) -> str:
+class Report(NamedTuple):
+    """What is told.
+
+    Attributes:
+        file: its path.
+        found: for which values the method has the order.
+        chosen: what each value of --choose leaves.
+        minimum: of an objective, where one was asked for.
+        sets: the values that are as stable as is wanted, where all have the order.
+        digits: of numbers without simple radicals.
+    """
+
+    file: str
+    found: Design
+    chosen: list[Choice]
+    minimum: Minimum | None
+    sets: tuple[StableValues, ...]
+    digits: int
+
+
+def _rendered(report: Report, output: Output) -> str:
     """The report in the format asked for."""
+    file, found, chosen, minimum, sets, digits = report
     if output.format == "json":
         from garkcli.report import design_data
 
-        return design_data.render(file, found, digits, chosen, minimum)
+        return design_data.render(file, found, digits, chosen, minimum, sets)
     from garkcli.report import design_text
 
-    text = design_text.render(file, found, digits, output.width, chosen)
+    text = design_text.render(file, found, digits, output.width, chosen, sets)
     if minimum is None:
         return text
     from garkcli.report import minimum_text
@@ -208,31 +239,24 @@ def _two_springs(family: FamilyFile, wanted: Wanted) -> TwoSprings | None:
 
 
 def _emit(
-    family: FamilyFile, found: Design, minimum: Minimum | None, path: str
+    family: FamilyFile,
+    found: Design,
+    minimum: Minimum | None,
+    wanted: Wanted,
+    output: Output,
 ) -> None:
-    """Write the best method, or the first among the solutions.
-
-    Raises:
-        UsageProblem: there is no minimum; or no order has finitely many.
-    """
-    if minimum is not None:
+    """Write the best method, or those among the solutions."""
+    if wanted.emit is not None and minimum is not None:
         from garkcli.cli.minimising import emit
 
-        emit(family, minimum, path)
+        emit(family, minimum, wanted.emit)
         return
-    from garkcli.design.chosen import first_method
-    from garkcli.methodfile.family import with_values
-    from garkcli.page.writing import write_whole
+    from garkcli.cli import emitting
 
-    chosen = first_method(found)
-    if chosen is None:
-        message = "there is no single method to be written: "
-        message += "no order has finitely many"
-        cure = "choose values with --set, or ask for a higher order"
-        raise UsageProblem(message, cure)
-    claim = f"{CLAIMS[found.whose]}: {chosen.order}"
-    head = f"found by gark design {family.source}: {claim}"
-    write_whole(path, [with_values(family, chosen.values, head, claim)])
+    if wanted.emit is not None:
+        emitting.emit(family, found, wanted.emit)
+    if wanted.emit_all is not None:
+        emitting.emit_all(family, found, wanted.emit_all, output)
 
 
 def _exit_code(is_undecided: bool, is_reached: bool) -> int:

@@ -140,7 +140,7 @@ _OF_THE_SEARCH = (
         "--emit-all",
         type=PATH,
         metavar="DIR",
-        help="With --search: write every method found into a folder.",
+        help="Write every method found into a folder.",
     ),
 )
 
@@ -170,7 +170,8 @@ class Wanted:
         stability: the kind of stability whose values are asked for instead of an order.
         slow, fast, up_to: of two springs, as they were written; None where they were not given.
         starts: of a search instead, or None where there is none.
-        seed, most, jobs, scheduler, emit_all: of the search; None where they were not given.
+        seed, most, jobs, scheduler: of the search; None where they were not given.
+        emit_all: the folder of all methods found, if any.
     """
 
     order: int | None
@@ -209,7 +210,6 @@ class Wanted:
             "--most": self.most,
             "--jobs": self.jobs,
             "--scheduler": self.scheduler,
-            "--emit-all": self.emit_all,
         }
         for option, value in of_search.items():
             if self.starts is None and value is not None:
@@ -219,6 +219,9 @@ class Wanted:
         if self.starts is not None and self.objective is not None:
             message = "--minimise compares all methods, --search finds some"
             raise UsageProblem(message, "leave one of them out")
+        if self.emit_all is not None and self.objective is not None:
+            message = "--minimise finds one method, --emit-all writes several"
+            raise UsageProblem(message, "--emit FILE writes the one")
         if self.is_pair and self.is_conjugate:
             message = "--pair and --conjugate are two methods"
             raise UsageProblem(message, "ask for one")
@@ -234,17 +237,38 @@ class Wanted:
         if self.slow is not None and self.stability != "p-stable":
             message = "--slow and --fast say on which springs"
             raise UsageProblem(message, "add --p-stable")
+        if self.slow is not None and self.order is not None:
+            message = "two springs give a set of values, --order does not"
+            raise UsageProblem(message, "ask for one")
+
+    def check_one_by_one(self, stable: tuple[str, ...]) -> None:
+        """Refuse what does not look at stability, where that is wanted too.
+
+        Raises:
+            UsageProblem: a search or a minimum is asked for.
+        """
+        options = {
+            "--search": self.starts,
+            "--minimise": self.objective,
+        }
+        for option, value in options.items():
+            if stable and value is not None:
+                message = f"{stable[0]} is decided for exact solutions, {option} has others"
+                cure = "leave it out, and ask gark check of what is found"
+                raise UsageProblem(message, cure)
 
     def check_stability(self) -> None:
         """Refuse what a set of values does not have.
 
         Raises:
-            UsageProblem: an order, a file or a search is asked for too.
+            UsageProblem: a file or a search is asked for too.
         """
-        others = (self.order, self.emit, self.starts, self.objective)
+        others = (self.emit, self.emit_all, self.starts, self.objective)
         if all(option is None for option in others):
             return
         message = f"--{self.stability} gives a set of values, "
-        message += "--order, --emit, --search, --minimise do not"
-        cure = "ask for one; --set takes a value that was found"
+        message += "--emit, --search, --minimise do not"
+        cure = (
+            "ask for one; with --order solutions of that order are looked at"
+        )
         raise UsageProblem(message, cure)

@@ -2,10 +2,11 @@
 
 from __future__ import annotations
 
-from pathlib import Path
+from itertools import islice
 from typing import TYPE_CHECKING
 
 from garkcli.cli.design_options import CLAIMS
+from garkcli.cli.emitting import file_names, make_folder
 from garkcli.cli.signals import INTERRUPTED
 from garkcli.cli.streams import say_problem
 from garkcli.crew.hiring import hired
@@ -46,7 +47,8 @@ def search(
     if order is None:
         cure = "say which by --order P, or in the file by design: {order: P}"
         raise UsageProblem("a search is for an order", cure)
-    _make_folder(wanted)
+    if wanted.emit_all is not None:
+        make_folder(wanted.emit_all)
     asked = FileSearch.of(family, order, wanted.whose)
     looking = asked.search
     result, ended = _searched(asked, wanted, starts, output)
@@ -58,18 +60,6 @@ def search(
         return ended
     # that nothing was found says nothing of what there is
     return 0 if result.methods else 3
-
-
-def _make_folder(wanted: Wanted) -> None:
-    """Make the folder of --emit-all, or refuse it, before the work."""
-    if wanted.emit_all is None:
-        return
-    folder = Path(wanted.emit_all)
-    try:
-        folder.mkdir(parents=True, exist_ok=True)
-    except OSError as error:
-        message = f"cannot make the folder {folder}: {error.strerror}"
-        raise UsageProblem(message, "choose another place") from None
 
 
 def _searched(
@@ -124,10 +114,7 @@ def _places(
 ) -> list[str | None]:
     """Where the file of each method goes; all into the folder where there is one."""
     if wanted.emit_all is not None:
-        folder = Path(wanted.emit_all)
-        stem = Path(family.source).name.split(".")[0] or "method"
-        names = (f"{stem}-{k}.gark.yaml" for k in range(1, count + 1))
-        return [str(folder / name) for name in names]
+        return list(islice(file_names(wanted.emit_all, family.source), count))
     if wanted.emit is not None and count:
         return [wanted.emit, *[None] * (count - 1)]
     return [None] * count

@@ -2,6 +2,7 @@
 
 from __future__ import annotations
 
+from collections.abc import Iterator
 from dataclasses import dataclass
 
 from flint import fmpq_mat, fmpq_poly
@@ -29,28 +30,45 @@ class Chosen:
     """A method of a family.
 
     Attributes:
-        values: of the free parameters, as text.
+        elements: the free parameters as elements of the field of the solution.
+        root: the real root of its modulus that is meant.
         order: its exact order, of whatever was asked for.
     """
 
-    values: dict[str, str]
+    elements: dict[str, Number]
+    root: RealRoot
     order: int
+
+    @property
+    def values(self) -> dict[str, str]:
+        """The free parameters as text.
+
+        Raises:
+            MethodError: they cannot be written in a method file.
+        """
+        return values_text(self.elements, self.root)
+
+
+def accepted_methods(design: Design) -> Iterator[Chosen]:
+    """The real solutions that are taken, of the highest order that has any."""
+    names = design.family.parameters
+    for step in reversed(design.steps):
+        taken = [
+            (found, found.order, found.solution.real[index])
+            for found in step.found
+            for index in found.accepted
+        ]
+        for found, order, root in taken:
+            if order is not None:
+                values = {name: found.solution.values[name] for name in names}
+                yield Chosen(values, root, order.order)
+        if taken:
+            return
 
 
 def first_method(design: Design) -> Chosen | None:
-    """The first real solution within its ranges at the highest order that has one.
-
-    Raises:
-        MethodError: its values cannot be written in a method file.
-    """
-    for step in reversed(design.steps):
-        for found in step.found:
-            if found.order is not None and found.accepted:
-                root = found.solution.real[found.accepted[0]]
-                names = design.family.parameters
-                values = {name: found.solution.values[name] for name in names}
-                return Chosen(values_text(values, root), found.order.order)
-    return None
+    """The first of them; None where there is none."""
+    return next(accepted_methods(design), None)
 
 
 def values_text(values: dict[str, Number], root: RealRoot) -> dict[str, str]:

@@ -16,6 +16,7 @@ from garkcli.design.ideal import Ideal
 from garkcli.design.member import member, value_of
 from garkcli.design.msolve import find_msolve
 from garkcli.design.solutions import Solution, solutions, value_at
+from garkcli.design.stable_solutions import is_stable, method_at
 from garkcli.errors import ZeroWeight
 from garkcli.exact.field import Algebraic, Number
 from garkcli.exact.polynomial import Polynomial
@@ -41,12 +42,17 @@ class Found:
         solution: the values of the parameters, with their conjugates over ℚ.
         order: the exact order of the method that they make; None where a weight or a denominator is
             zero, and then there is no such method.
-        accepted: which of the real roots of the solution are within the ranges of the file.
+        accepted: which of the real roots of the solution are within the ranges of the file, and as
+            stable as is wanted.
+        unstable: which of them would be, but are not stable.
+        open: which of them are not decided to be stable, as their field is too large.
     """
 
     solution: Solution
     order: Order | None
     accepted: tuple[int, ...]
+    unstable: tuple[int, ...] = ()
+    open: tuple[int, ...] = ()
 
 
 @dataclass(frozen=True)
@@ -293,8 +299,28 @@ def _found(family: Family, whose: Whose, step: Step) -> tuple[Found, ...]:
             if is_admissible(family, solution, root):
                 accepted.append(index)
         order = order_of(family, whose, solution)
-        found.append(Found(solution, order, tuple(accepted)))
+        one = Found(solution, order, tuple(accepted))
+        if family.stable and order is not None:
+            one = _stable(family, whose, one)
+        found.append(one)
     return tuple(found)
+
+
+def _stable(family: Family, whose: Whose, found: Found) -> Found:
+    """A solution of which those real roots are accepted that are as stable as is wanted."""
+    sorted_: dict[bool | None, list[int]] = {True: [], False: [], None: []}
+    for index in found.accepted:
+        root = found.solution.real[index]
+        tableau = method_at(family, found.solution, root)
+        verdict = None
+        if tableau is not None:
+            meant = TABLEAUS[whose](tableau)
+            verdict = all(is_stable(key, meant) for key in family.stable)
+        sorted_[verdict].append(index)
+    accepted, unstable, left = (
+        tuple(sorted_[key]) for key in (True, False, None)
+    )
+    return replace(found, accepted=accepted, unstable=unstable, open=left)
 
 
 def order_of(family: Family, whose: Whose, solution: Solution) -> Order | None:

@@ -19,11 +19,11 @@ from __future__ import annotations
 
 from collections.abc import Sequence
 from dataclasses import dataclass
-from typing import Literal, TypeAlias
+from typing import Literal, TypeAlias, get_args
 
 from flint import fmpq
 
-from garkcli.design.design import TABLEAUS, Whose
+from garkcli.design.design import TABLEAUS, Design, Whose
 from garkcli.design.springs_kind import SpringStability, TwoSprings
 from garkcli.design.stability_kinds import (
     AStability,
@@ -77,6 +77,17 @@ class StableValues:
         if len(self.found) != 1:
             return False
         return self.found[0].start is None and self.found[0].end is None
+
+
+def stable_sets(design: Design) -> tuple[StableValues, ...]:
+    """Where every value has the highest order that was looked at: the values that have each kind
+    of stability that is wanted; nothing where solutions are looked at one by one.
+    """
+    family = design.family
+    if design.last.kind != "every-value" or len(family.ring.names) > 1:
+        return ()
+    wanted = [key for key in get_args(Wanted) if key in family.stable]
+    return tuple(stable_values(family, key, design.whose) for key in wanted)
 
 
 def stable_values(

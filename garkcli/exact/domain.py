@@ -8,7 +8,7 @@ root, see ``garkcli.exact.tower``.
 from __future__ import annotations
 
 from collections.abc import Iterable
-from functools import cache, partial
+from functools import partial
 from typing import TYPE_CHECKING, TypeAlias
 
 from flint import arb, ctx, fmpq, fmpq_poly, fmpz
@@ -38,6 +38,10 @@ MAX_RADICALS = 32
 """Most different radicals of one file."""
 MAX_DEGREE = 48
 """Largest degree of the number field of one file."""
+TRIAL_LIMIT = 1000
+"""Primes below are always found in radicands."""
+MOST_BITS_FACTORED = 100
+"""Numbers without smaller primes are factored up to so many bits, which takes milliseconds."""
 MAX_PRECISION = 8192
 """Bits to which a nested radicand is evaluated before its sign is decided exactly."""
 
@@ -238,41 +242,33 @@ def _enclosures(roots: tuple[Radical, ...]) -> list[arb]:
     return [enclose(root) for root in roots]
 
 
-SMALL = 1000
-"""Below this are the primes whose squares are taken out of radicands."""
-
-
-@cache
-def _small_primes() -> tuple[int, ...]:
-    found: list[int] = []
-    for n in range(2, SMALL):
-        if all(n % p for p in found):
-            found.append(n)
-    return tuple(found)
-
-
 def square_free(number: fmpq) -> fmpq:
-    """An integer of the square class of ``number``: without squares of small primes, nor that of a
-    number without small primes where nothing else is left.
+    """An integer of the square class of ``number``, which is not 0, free of square factors.
+
+    Squares of primes beyond ``TRIAL_LIMIT`` are only found where what is left without smaller
+    primes has ``MOST_BITS_FACTORED`` bits at most, or is a square itself.
 
     >>> square_free(fmpq(4, 3)), square_free(fmpq(12)), square_free(fmpq(-3 * 27233**2))
     (3, 3, -3)
     """
-    rest = number.p * number.q
-    free = fmpz(1 if rest > 0 else -1)
-    rest = abs(rest)
-    for p in _small_primes():
-        if rest < p * p:
-            break
-        power = 0
-        while rest % p == 0:
-            rest //= p
-            power += 1
-        if power % 2:
-            free *= p
-    if rest.isqrt() ** 2 == rest:
-        rest = fmpz(1)
-    return fmpq(free * rest)
+    n = number.p * number.q
+    factors = abs(n).factor(trial_limit=TRIAL_LIMIT)
+    kept = fmpz(1 if n > 0 else -1)
+    for factor, exponent in factors:
+        if exponent % 2:
+            kept *= _without_squares(factor)
+    return fmpq(kept)
+
+
+def _without_squares(factor: fmpz) -> fmpz:
+    """A prime, or what is left without small primes."""
+    if factor.bit_length() <= MOST_BITS_FACTORED:
+        kept = fmpz(1)
+        for prime, exponent in factor.factor():
+            kept *= prime ** (exponent % 2)
+        return kept
+    root = factor.isqrt()
+    return fmpz(1) if root * root == factor else factor
 
 
 def _check_sign(root: Root) -> None:

@@ -141,6 +141,7 @@ def loads_family(
         positive=_signs(meaning.positive, ring),
         not_negative=_signs(meaning.not_negative, ring),
         order=wishes.order,
+        stable=meaning.stable,
         wanted_at=reader.design_place(),
         settings=settings,
         places=places,

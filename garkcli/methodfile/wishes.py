@@ -192,4 +192,5 @@ def meaning_of(
         nonzero=tuple(x for one in meanings for x in one.nonzero),
         positive=tuple(x for one in meanings for x in one.positive),
         not_negative=tuple(x for one in meanings for x in one.not_negative),
+        stable=tuple(x for one in meanings for x in one.stable),
     )

@@ -9,6 +9,7 @@ from garkcli.design.choices import Choice
 from garkcli.design.design import Design, Found, Kind, Step, Whose
 from garkcli.design.minimise.result import Minimum
 from garkcli.design.solutions import value_at
+from garkcli.design.stable_values import StableValues
 from garkcli.page.exactly import ALGEBRAIC, root_data
 from garkcli.page.record import Field, Record, inside, schema_named
 from garkcli.page.schema import (
@@ -25,6 +26,7 @@ from garkcli.page.schema import (
     published,
 )
 from garkcli.report import minimum_data
+from garkcli.report.stable_values import set_data, set_schema
 from garkcli.trees.notation import format_tree
 
 SCHEMA = "gark/design/1"
@@ -36,9 +38,13 @@ def render(
     digits: int,
     choices: Sequence[Choice] = (),
     minimum: Minimum | None = None,
+    sets: Sequence[StableValues] = (),
 ) -> str:
-    """The design as JSON text, with the minimum of an objective where there is one."""
-    return _REPORT.text(_Shown(source, design, digits, choices, minimum))
+    """The design as JSON text, with the minimum of an objective where there is one, and with the
+    sets of values that are as stable as is wanted.
+    """
+    shown = _Shown(source, design, digits, choices, minimum, sets)
+    return _REPORT.text(shown)
 
 
 def design_report_schema() -> Schema:
@@ -54,6 +60,12 @@ class _Shown(NamedTuple):
     digits: int
     choices: Sequence[Choice]
     minimum: Minimum | None
+    sets: Sequence[StableValues]
+
+    @property
+    def stable(self) -> list[dict[str, Any]] | None:
+        """The sets of values that are as stable as is wanted."""
+        return [set_data(x, self.digits) for x in self.sets] or None
 
     @property
     def objective(self) -> minimum_data.Shown | None:
@@ -117,6 +129,15 @@ def _others(found: Found) -> int:
     return found.solution.degree - len(found.solution.real)
 
 
+def _stable(found: _Root) -> bool | None:
+    """Whether it is as stable as is wanted; None where nothing is, or it is not decided."""
+    if not found.shown.design.family.stable:
+        return None
+    if found.number in found.found.unstable:
+        return False
+    return True if found.number in found.found.accepted else None
+
+
 _VALUES: Schema = {"type": "object", "additionalProperties": ALGEBRAIC}
 _FOUND: tuple[Field[Found], ...] = (
     Field("multiplicity", POSITION, lambda x: x.solution.multiplicity),
@@ -126,6 +147,7 @@ _REAL: Record[_Root] = Record(
     Field("values", _VALUES, lambda x: x.values),
     Field("real", {"const": True}, lambda _: True),
     Field("admissible", FLAG, lambda x: x.number in x.found.accepted),
+    Field("stable", nullable(FLAG), _stable, is_optional=True),
     *inside(lambda x: x.found, _FOUND),
 )
 _NOT_REAL: Record[Found] = Record(
@@ -192,4 +214,5 @@ _REPORT: Record[_Shown] = Record(
     *inside(lambda x: x.last, _STEP.fields),
     _STEP.every("orders", lambda x: x.steps),
     minimum_data.OBJECTIVE.optional("objective", lambda x: x.objective),
+    Field("stable", array(set_schema()), lambda x: x.stable, is_optional=True),
 )

@@ -9,6 +9,8 @@ from textwrap import wrap
 from garkcli.design.choices import Choice
 from garkcli.design.design import Design, Found, Step
 from garkcli.design.solutions import value_at
+from garkcli.design.stable_solutions import NAMES
+from garkcli.design.stable_values import StableValues
 from garkcli.errors import counted
 from garkcli.exact.polynomial import Polynomial
 from garkcli.exact.polynomial_text import (
@@ -18,11 +20,13 @@ from garkcli.exact.polynomial_text import (
 )
 from garkcli.exact.roots import RealRoot
 from garkcli.page.plain import printable
+from garkcli.report.stable_values import set_lines
 from garkcli.trees.notation import format_tree
 
 INDENT = " " * 17
 MAX_POLYNOMIALS = 12
 """Most polynomials of a family that are shown; JSON has all."""
+_ONE_BY_ONE = ("solutions", "none", "undecided")
 _TIMES = {1: "", 2: "; a double solution", 3: "; a triple solution"}
 
 
@@ -32,6 +36,7 @@ def render(
     digits: int,
     width: int,
     choices: Sequence[Choice] = (),
+    sets: Sequence[StableValues] = (),
 ) -> str:
     """The design as text.
 
@@ -41,6 +46,7 @@ def render(
         digits: of numbers without simple radicals.
         width: columns to fill.
         choices: of values that led to it.
+        sets: where every value has the order, those that are as stable as is wanted.
     """
     family = design.family
     lines = [printable(source), f"  {printable(family.name)}"]
@@ -53,6 +59,12 @@ def render(
     for _, group in groupby(design.steps, key=_kind_of):
         steps = list(group)
         lines += _of_steps(design, steps, digits, width)
+    for values in sets:
+        lines += ["", *set_lines(values, digits, width)]
+    if family.stable and not sets and design.last.kind not in _ONE_BY_ONE:
+        kinds = ", ".join(NAMES[key] for key in family.stable)
+        text = f"  {kinds}: decided for single solutions, or for one parameter: --set"
+        lines += ["", *wrap(text, width, subsequent_indent="  ")]
     return "\n".join(lines) + "\n"
 
 
@@ -161,11 +173,22 @@ def _solutions(
 def _verdict(design: Design, found: Found, index: int) -> str:
     if found.order is None:
         return "no method: a weight or a denominator is zero there"
+    order = _order(design, found)
+    if index in found.unstable:
+        kinds = " and ".join(NAMES[key] for key in design.family.stable)
+        return f"{order}; not {kinds}, which is wanted"
+    if index in found.open:
+        return f"{order}; stability not decided, as its field is too large"
     if index not in found.accepted:
         return "not of this file: out of a range, a sign not wanted, or another root"
+    stable = "".join(f", {NAMES[key]}" for key in design.family.stable)
+    return f"{order}, by a certificate of its own{stable}"
+
+
+def _order(design: Design, found: Found) -> str:
+    assert found.order is not None
     least = "at least " if found.order.is_lower_bound else ""
-    order = f"{least}{found.order.order}"
-    return f"order {order} of the {design.whose}, by a certificate of its own"
+    return f"order {least}{found.order.order} of the {design.whose}"
 
 
 def _value(

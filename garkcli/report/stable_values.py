@@ -49,9 +49,16 @@ def render_text(
         digits: of numbers without simple radicals.
         width: columns to fill.
     """
+    lines = [printable(source), f"  {printable(values.family.name)}"]
+    lines += set_lines(values, digits, width)
+    return "\n".join(lines) + "\n"
+
+
+def set_lines(values: StableValues, digits: int, width: int) -> list[str]:
+    """The set, without its file."""
     name = values.parameter
     stable = _STABLE[values.wanted]
-    lines = [printable(source), f"  {printable(values.family.name)}"]
+    lines: list[str] = []
     if values.two_springs is not None:
         stable = "stable"
         lines += [f"  {_springs_text(values.two_springs)}"]
@@ -73,7 +80,7 @@ def render_text(
         ]
         for root in values.undecided:
             lines += _point(root, name, digits, width)
-    return "\n".join(lines) + "\n"
+    return lines
 
 
 def _springs_text(two_springs: TwoSprings) -> str:
@@ -169,6 +176,22 @@ def render_json(source: str, values: StableValues, digits: int) -> str:
         "undecided": [root_data(root, digits) for root in values.undecided],
     }
     return to_json(data) + "\n"
+
+
+def set_data(values: StableValues, digits: int) -> dict[str, Any]:
+    """The set as a part of another report."""
+    return {
+        "wanted": values.wanted,
+        "set": [_interval_data(x, digits) for x in values.found],
+        "undecided": [root_data(root, digits) for root in values.undecided],
+    }
+
+
+def set_schema() -> Schema:
+    """The JSON Schema of ``set_data``."""
+    properties = stable_values_schema()["properties"]
+    parts = ("wanted", "set", "undecided")
+    return _object({name: properties[name] for name in parts})
 
 
 def _interval_data(interval: Interval, digits: int) -> dict[str, Any]:

@@ -49,6 +49,7 @@ class Family:
         positive: those that are positive at the solutions that are taken.
         not_negative: those that are at least 0 there.
         order: which is wanted of them, where the file says so.
+        stable: kinds of stability that the solutions that are taken have.
     """
 
     name: str
@@ -62,6 +63,7 @@ class Family:
     positive: tuple[fmpq_mpoly, ...] = ()
     not_negative: tuple[fmpq_mpoly, ...] = ()
     order: int | None = None
+    stable: tuple[str, ...] = ()
 
     def __repr__(self) -> str:
         return f"<Family {self.name}: {', '.join(self.parameters)}>"

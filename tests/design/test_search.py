@@ -436,7 +436,6 @@ def test_nothing_found_and_misuse(tmp_path: Path) -> None:
     cases: list[tuple[list[str], str]] = [
         (["--search", "3"], "--order"),
         (["--seed", "3"], "--search"),
-        (["--emit-all", "x"], "--search"),
     ]
     for arguments, word in cases:
         wrong = gark("design", str(path), *arguments)

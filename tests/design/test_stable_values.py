@@ -240,7 +240,9 @@ def test_as_a_command(tmp_path: Path) -> None:
     )
     explicit = gark("design", str(path), "--a-stable")
     assert (explicit.code, "for no value of t" in explicit.out) == (1, True)
-    both = gark("design", str(path), "--a-stable", "--order", "2")
+    one = gark("design", str(path), "--a-stable", "--order", "2")
+    assert (one.code, "not A-stable, which is wanted" in one.out) == (1, True)
+    both = gark("design", str(path), "--a-stable", "--emit", str(path) + "x")
     assert (both.code, "ask for one" in both.err) == (2, True)
     path.write_text(
         "parameters: {t: free, u: free}\nA: [[t]]\nb: [u]\n", encoding="utf-8"

@@ -13,6 +13,9 @@ WANTS = (
     "stage-order",
     "positive-weights",
     "nodes-in-unit-interval",
+    "a-stable",
+    "l-stable",
+    "p-stable",
 )
 """Every one of them, in the order of the documentation."""
 

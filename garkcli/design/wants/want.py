@@ -74,12 +74,14 @@ class Meaning:
         nonzero: polynomials that are not.
         positive: rational functions that are positive at the solutions that are taken.
         not_negative: those that are at least 0.
+        stable: kinds of stability that the solutions that are taken have.
     """
 
     zeros: tuple[object, ...] = ()
     nonzero: tuple[fmpq_mpoly, ...] = ()
     positive: tuple[object, ...] = ()
     not_negative: tuple[object, ...] = ()
+    stable: tuple[str, ...] = ()
 
 
 @dataclass(frozen=True)
@@ -97,6 +99,19 @@ class Want:
     kind: Kind
     summary: str
     meaning: Callable[[Asked], Meaning]
+
+
+def refuse_colours(asked: Asked, key: str) -> None:
+    """Refuse a single colour where the whole method is meant.
+
+    Raises:
+        MethodError: one was named.
+    """
+    if len(asked.colours) < asked.tableau.size:
+        raise MethodError(
+            f"design: {key} is meant of the whole method",
+            f"write {key}: true",
+        )
 
 
 def numerators(
