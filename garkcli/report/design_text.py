@@ -98,8 +98,10 @@ def _of_steps(
         case "undecided":
             yield f"{head}not decided in the time of --seconds"
             if step.ideal is not None:
-                yield f"{INDENT}msolve finds that no value has it, which is no proof"
-            yield f"{INDENT}values for some unknowns, by --set, make it decidable"
+                said = "msolve finds that no value has it, which is no proof"
+                yield from _said(said, width)
+            said = "values for some unknowns, by --set, make it decidable"
+            yield from _said(said, width)
         case "family":
             yield f"{head}{_family(step)}"
             yield from _polynomials(step, width)
@@ -114,16 +116,27 @@ def _of_steps(
         and not step.ideal.is_proved
         and step.kind != "undecided"
     ):
-        yield f"{INDENT}found by msolve: each is proved, that there are no others is not"
+        said = (
+            "found by msolve: each is proved, that there are no others is not"
+        )
+        yield from _said(said, width)
 
 
 def _witness(design: Design, step: Step, width: int) -> Iterator[str]:
     if step.witness is None:
-        yield f"{INDENT}what is wanted besides cannot be met, not even by complex values"
+        said = (
+            "what is wanted besides cannot be met, not even by complex values"
+        )
+        yield from _said(said, width)
         return
     text = "with the conditions before it, that of "
     tree = format_tree(step.witness, colours=design.tableau.size > 1)
     text += f"{tree} cannot be met, not even by complex values"
+    yield from _said(text, width)
+
+
+def _said(text: str, width: int) -> Iterator[str]:
+    """A sentence beside the orders, in as many lines as it takes."""
     for line in wrap(text, width - len(INDENT)):
         yield INDENT + line
 
@@ -160,7 +173,8 @@ def _solutions(
         solution.multiplicity, f"; {solution.multiplicity} times"
     )
     for index, root in enumerate(solution.real):
-        yield f"{INDENT}{_verdict(design, found, index)}{times}"
+        said = f"{_verdict(design, found, index)}{times}"
+        yield from _said(said, width)
         for name in design.family.parameters:
             value = value_at(solution.values[name], root)
             yield from _value(name, value, digits, width)

@@ -23,7 +23,7 @@ from garkcli.design.design import Design, find_parameters
 from garkcli.design.groebner import NotDecided, reduced_basis
 from garkcli.design.solutions import value_at
 from garkcli.methodfile.family import loads_family, with_values
-from garkcli.report import design_data
+from garkcli.report import design_data, design_text
 from tests.cli.harness import gark
 
 TAU = """parameters: {{tau: free}}
@@ -287,6 +287,20 @@ def test_too_little_time() -> None:
     text += f"A: [{', '.join(rows)}]\nb: [u, v, w]\n"
     found = find_parameters(loads_family(text), 6, seconds=0.5)
     assert kinds(found)[-1] == "undecided"
+
+
+def test_reports_fit_a_screen() -> None:
+    """Whatever is said of a solution goes on in the next line where it is long."""
+    ranged = SDIRK2.replace("free", "{free: true, range: [1/2, 1]}")
+    double = TAU.format("gauss", 2, "lobatto-iiia", 4)
+    for text, whose, said in (
+        (ranged, "method", "not of this file: out of a range"),
+        (double, "pair", "a double solution"),
+    ):
+        found = find_parameters(loads_family(text), 4, whose)
+        lines = design_text.render("f", found, 12, 80).splitlines()
+        assert said in " ".join(line.strip() for line in lines)
+        assert max(map(len, lines)) <= 80
 
 
 def test_conditions_are_given_up_in_time(
