@@ -14,6 +14,7 @@ from garkcli.problems.oscillator import Oscillator, terms_of
 from garkcli.stability.oscillator import oscillator_stability
 from garkcli.tableau.forms import pair
 from garkcli.tableau.tableau import Tableau
+from tests.catalogue.catalogue import entries, tableau
 
 FOUND = Path(__file__).resolve().parents[2] / "methods" / "found"
 
@@ -106,3 +107,39 @@ def test_the_least_principal_error() -> None:
         assert 0 < excess < 1e-13
         h = fmpq(1, 1000)
         assert squares(a, b) < min(squares(a - h, b), squares(a + h, b))
+
+
+@pytest.mark.parametrize(
+    ("name", "published", "order"),
+    [
+        ("imex6-order4", ["sundials_ARK436L2SA", "LIRK4_Calvo"], 5),
+        ("imex4-order3", ["sundials_ARK324L2SA", "sciml_ARS343"], 4),
+    ],
+)
+def test_the_error_is_less_than_that_of_published_pairs(
+    name: str, published: list[str], order: int
+) -> None:
+    """The norm over all trees, of as many stages and the same order."""
+    known = entries()
+    found = error_constants(tableau_of(name), order)
+    assert found is not None
+    assert found.all.two_squared is not None
+    for other in published:
+        constants = error_constants(tableau(known[other]), order)
+        assert constants is not None
+        assert found.all.two < constants.all.two
+        assert found.all.largest < constants.all.largest
+
+
+@pytest.mark.parametrize("name", ["imex6-order4", "imex4-order3"])
+def test_the_parts_are_those_of_the_pair(name: str) -> None:
+    """What is claimed of a part alone is claimed of the same coefficients."""
+    whole = tableau_of(name)
+    implicit = tableau_of(f"{name}-implicit")
+    # numbers of two fields are compared as they are written
+    assert str(implicit.blocks[0, 0]) == str(whole.blocks[0, 1])
+    assert str(implicit.colours[0].b) == str(whole.colours[1].b)
+    if name == "imex6-order4":
+        explicit = tableau_of("imex6-order4-explicit")
+        assert explicit.blocks[0, 0] == whole.blocks[0, 0]
+        assert explicit.colours[0].b == whole.colours[0].b
