@@ -102,8 +102,10 @@ class BlockBuilder:
 
     def _matrix(self, text: MatrixText, l: int, m: int) -> Matrix:
         """A block that the file spells out."""
-        rows, columns = self.methods[l].stages, self.methods[m].stages
-        found_rows, found_columns = len(text.rows), len(text.rows[0])
+        rows = self.methods[l].stages
+        columns = self.methods[m].stages
+        found_rows = len(text.rows)
+        found_columns = len(text.rows[0])
         if (found_rows, found_columns) != (rows, columns):
             found = f"a matrix of {found_rows} by {found_columns}"
             message = f"{found} should be {rows} by {columns}"
@@ -119,7 +121,8 @@ class BlockBuilder:
             return self._combined(text, l, m)
         if rule in PAIR_RULES:
             return self._of_both(rule, l, m)
-        return RULES[rule](self.methods[l], self.methods[m])
+        make = RULES[rule]
+        return make(self.methods[l], self.methods[m])
 
     def _of_both(self, rule: str, l: int, m: int) -> Matrix:
         """A block by a rule that makes it together with the opposite one."""

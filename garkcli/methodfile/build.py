@@ -142,7 +142,8 @@ class Builder:
         return additive(A, b, self._vector(text.c))
 
     def _prk(self, text: PrkText, structure: Structure) -> Tableau:
-        q, p = self._part(text.q), self._part(text.p)
+        q = self._part(text.q)
+        p = self._part(text.p)
         if structure == "general":
             return partitioned(butcher(*q), butcher(*p))
         tableau = separable_prk(q, p)
@@ -153,7 +154,8 @@ class Builder:
     def _part(self, text: ButcherText) -> tuple[Matrix, Vector, Vector | None]:
         """A, b and c of one part."""
         A = self.values.matrix(text.A)
-        return A, self.values.vector(text.b), self._vector(text.c)
+        b = self.values.vector(text.b)
+        return A, b, self._vector(text.c)
 
     def _methods(self, text: MethodsText, structure: Structure) -> Tableau:
         methods: list[Method] = []
@@ -246,5 +248,6 @@ def _family_nodes(
         return None
     entries: list[Entry] = []
     for i, node in enumerate(nodes, start=1):
-        entries.append(Entry(node, text.node, f"node {i} of {text.name}"))
+        where = f"node {i} of {text.name}"
+        entries.append(Entry(node, text.node, where))
     return tuple(entries)

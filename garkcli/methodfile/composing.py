@@ -22,13 +22,19 @@ MAX_NESTING = 12
 """Deepest nesting of lists and mappings; files need six."""
 
 
+def position(mark: Any) -> tuple[int, int]:
+    """Line and column of a mark of PyYAML, from 1; those of the start where there is none."""
+    if mark is None:
+        return 1, 1
+    return mark.line + 1, mark.column + 1
+
+
 class TooLargeError(Exception):
+    """A file beyond the limits: where, what there is too much of, and the cure."""
+
     def __init__(self, at: Node | yaml.Event, message: str, cure: str) -> None:
         super().__init__(message)
-        mark = at.start_mark
-        self.line, self.column = 1, 1
-        if mark:
-            self.line, self.column = mark.line + 1, mark.column + 1
+        self.line, self.column = position(at.start_mark)
         self.message, self.cure = message, cure
 
 
@@ -106,20 +112,18 @@ _YAML_CURES = (
 def yaml_fault(error: yaml.MarkedYAMLError) -> Fault:
     """What PyYAML complains about, where, and its cure."""
     mark = error.problem_mark or error.context_mark
-    place = (mark.line + 1, mark.column + 1) if mark else (1, 1)
     context = str(error.context or "")
     problem = str(error.problem or context)
     if context.startswith("found "):  # here the context says what is wrong
         problem = context.partition(";")[0]
-    cure = next((cure for words, cure in _YAML_CURES if words in problem), "")
+    cures = [cure for words, cure in _YAML_CURES if words in problem]
+    cure = cures[0] if cures else ""
     if "parsing a flow" in context and error.context_mark:
-        opened = (
-            f"{error.context_mark.line + 1}:{error.context_mark.column + 1}"
-        )
-        cure = f"the bracket at {opened} is open: close it, and put commas between its values"
-    return Fault(
-        printable(f"this is not YAML: {problem}"), printable(cure), *place
-    )
+        line, column = position(error.context_mark)
+        bracket = f"the bracket at {line}:{column} is open"
+        cure = f"{bracket}: close it, and put commas between its values"
+    message = printable(f"this is not YAML: {problem}")
+    return Fault(message, printable(cure), *position(mark))
 
 
 def composed(text: str) -> Node | Fault | None:

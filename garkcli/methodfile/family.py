@@ -6,7 +6,6 @@ from collections.abc import Iterator, Mapping, Sequence
 from dataclasses import dataclass
 
 from flint import fmpq_mpoly
-from yaml.nodes import Node
 
 from garkcli.design.wants.want import numerators, sign_polynomial
 from garkcli.errors import MethodError
@@ -33,6 +32,7 @@ from garkcli.methodfile.load import (
 )
 from garkcli.methodfile.numbers import Row
 from garkcli.methodfile.reader import Reader
+from garkcli.methodfile.source import Extent, extent
 from garkcli.methodfile.wishes import Wishes, meaning_of, read_wishes
 from garkcli.methodfile.words import one_line
 from garkcli.tableau.family import Family
@@ -58,9 +58,9 @@ class FamilyFile(Family):
     source: str
     text: str
     settings: Mapping[str, str]
-    places: Mapping[str, tuple[int, int]]
-    shape: tuple[tuple[int, int], str] | None = None
-    wanted_at: tuple[int, int] | None = None
+    places: Mapping[str, Extent]
+    shape: tuple[Extent, str] | None = None
+    wanted_at: Extent | None = None
     structure: Structure = "general"
     claims: tuple[ClaimText, ...] = ()
 
@@ -124,7 +124,7 @@ def loads_family(
     meaning = meaning_of(wishes, tableau, ring, values, reader.source)
     ranges = {name: values.ends(x) for name, x in numbers.free.items()}
     reader.source.close()
-    places = {name: _place(text, x) for name, x in numbers.places.items()}
+    places = {name: extent(text, x, x) for name, x in numbers.places.items()}
     of_nodes = _of_nodes(description, tableau)
     of_wishes = numerators(meaning.zeros, ring)
     return FamilyFile(
@@ -202,7 +202,7 @@ def _given_nodes(method: ButcherText | FamilyText) -> Row | None:
     return method.c if isinstance(method, ButcherText) else None
 
 
-def _shape(reader: Reader) -> tuple[tuple[int, int], str] | None:
+def _shape(reader: Reader) -> tuple[Extent, str] | None:
     """Where a shape stands in the file, and what it means."""
     if reader.shaped is None:
         return None
@@ -212,12 +212,6 @@ def _shape(reader: Reader) -> tuple[tuple[int, int], str] | None:
     if reader.shaped.form == "prk" and "structure" not in reader.keys:
         text += "\nstructure: separable"
     return reader.shaped.place, text
-
-
-def _place(text: str, node: Node) -> tuple[int, int]:
-    """From where to where a value stands in the text of its file."""
-    start, end = node.start_mark.index, node.end_mark.index
-    return start, start + len(text[start:end].rstrip())
 
 
 def with_values(

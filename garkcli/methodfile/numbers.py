@@ -88,33 +88,28 @@ class Numbers:
 
     def entry(self, node: Node, where: str) -> Entry:
         """One coefficient; a faulty one is noted and read as zero, so that reading goes on."""
-        expression: Expression = Literal(ZERO)
-        if is_bare_unknown(node):
-            cure = f'quote it: "{UNKNOWN}"'
-            self.source.fault(
-                node,
-                f"YAML reads a bare {UNKNOWN} as a key",
-                cure,
-                where=where,
-            )
-            entry = Entry(expression, node, where)
-            self.entries.append(entry)
-            return entry
-        text = self.source.scalar(node, where)
-        if text == UNKNOWN:
-            expression = self._unknown(node, where)
-        elif text is not None and not is_misread(
-            self.source, node, text, where
-        ):
-            try:
-                expression = self._expression(text)
-            except ExpressionError as error:
-                self.source.expression_fault(
-                    node, where, *explained(error, text)
-                )
-        entry = Entry(expression, node, where)
+        entry = Entry(self._read_entry(node, where), node, where)
         self.entries.append(entry)
         return entry
+
+    def _read_entry(self, node: Node, where: str) -> Expression:
+        """What a coefficient means; zero where it is faulty."""
+        if is_bare_unknown(node):
+            message = f"YAML reads a bare {UNKNOWN} as a key"
+            cure = f'quote it: "{UNKNOWN}"'
+            self.source.fault(node, message, cure, where=where)
+            return Literal(ZERO)
+        text = self.source.scalar(node, where)
+        if text == UNKNOWN:
+            return self._unknown(node, where)
+        if text is None or is_misread(self.source, node, text, where):
+            return Literal(ZERO)
+        try:
+            return self._expression(text)
+        except ExpressionError as error:
+            told = explained(error, text)
+            self.source.expression_fault(node, where, *told)
+            return Literal(ZERO)
 
     def _unknown(self, node: Node, where: str) -> Expression:
         """An entry without a value: an unknown named by its place, or the value given for it."""
@@ -294,12 +289,12 @@ class Numbers:
             message = f"{where} is {found} and should be {wanted}"
             self.source.fault(node, message, why)
             return rows
-        if is_square and count + 1 == stages and is_triangle([0, *lengths]):
-            found = counted(count, "row")
-            message = f"{where} has {found} for {counted(stages, 'stage')}"
-            cure = (
-                "begin with the empty row of the first stage: [[], [1/2], …]"
-            )
+        lacks_a_row = is_square and count + 1 == stages
+        if lacks_a_row and is_triangle([0, *lengths]):
+            found, wanted = counted(count, "row"), counted(stages, "stage")
+            message = f"{where} has {found} for {wanted}"
+            cure = "begin with the empty row of the first stage: "
+            cure += "[[], [1/2], …]"
             self.source.fault(node, message, cure)
             return rows
         self._uneven(lengths, node, where, columns)

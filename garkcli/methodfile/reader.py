@@ -9,7 +9,7 @@ from collections.abc import Mapping
 from typing import TYPE_CHECKING, Literal, cast
 
 from flint import fmpq
-from yaml.nodes import Node
+from yaml.nodes import MappingNode, Node
 
 from garkcli.errors import LimitExceeded
 from garkcli.exact.expression import read_decimal
@@ -33,7 +33,14 @@ from garkcli.methodfile.parameters import (
     read_parameters,
     refuse_unknown_settings,
 )
-from garkcli.methodfile.source import Entries, Source, keys_of
+from garkcli.methodfile.source import (
+    Entries,
+    Extent,
+    Source,
+    extent,
+    key_of,
+    keys_of,
+)
 from garkcli.methodfile.spelled_out import SpelledOutReader
 from garkcli.methodfile.words import shortened
 from garkcli.transfer import RULES
@@ -103,7 +110,7 @@ class Reader:
         self.shaped: Shaped | None = None
         self.keys: frozenset[str] = frozenset()
         self.design: Node | None = None
-        self._root: Node | None = None
+        self._root: MappingNode | None = None
 
     def read(self) -> Description | None:
         """The description; None, with faults noted in the source, where there is none."""
@@ -167,7 +174,7 @@ class Reader:
                 return entries[key]
         return entries["b"]
 
-    def _shaped(self, root: Node, entries: Entries) -> Shaped | None:
+    def _shaped(self, root: MappingNode, entries: Entries) -> Shaped | None:
         """``unknown`` of the file."""
         from garkcli.methodfile.shaped import ShapeReader  # few files have it
 
@@ -177,17 +184,15 @@ class Reader:
             self.source.fault(entries["parameters"], message, cure)
         content = entries["unknown"]
         # the key as it stands there, misspelt perhaps
-        key = next(x for x, y in root.value if y is content)
+        key = key_of(root, content)
         return ShapeReader(self.source, self.numbers).read(key, content)
 
-    def design_place(self) -> tuple[int, int] | None:
+    def design_place(self) -> Extent | None:
         """From where to where ``design: …`` stands; None where there is none."""
         if self.design is None or self._root is None:
             return None
-        key = next(x for x, y in self._root.value if y is self.design)
-        start = key.start_mark.index
-        end = self.design.end_mark.index
-        return start, start + len(self.source.text[start:end].rstrip())
+        key = key_of(self._root, self.design)
+        return extent(self.source.text, key, self.design)
 
     def _tolerance(self, node: Node | None) -> fmpq | None:
         """A rational number between 0 and 1; no parameters, as it is no coefficient."""

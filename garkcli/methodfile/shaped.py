@@ -20,7 +20,7 @@ from garkcli.methodfile.description import (
 from garkcli.methodfile.numbers import Free, Numbers, Row, Rows
 from garkcli.methodfile.shapes.layout import Layout, Texts
 from garkcli.methodfile.shapes.registry import SHAPES, layout_of
-from garkcli.methodfile.source import Source
+from garkcli.methodfile.source import Extent, Source, extent
 
 FORM = "write unknown: {stages: 3, shape: sdirk}"
 MAX_STAGES = 20
@@ -41,7 +41,7 @@ class Shaped:
     form: Form
     content: TableauText | ArkText | PrkText
     layout: Layout
-    place: tuple[int, int]
+    place: Extent
 
 
 class ShapeReader:
@@ -82,9 +82,7 @@ class ShapeReader:
             return None
         for name in layout.unknowns:
             self._define(name, node)
-        start, end = key.start_mark.index, node.end_mark.index
-        text = self.source.text[start:end].rstrip()
-        place = start, start + len(text)
+        place = extent(self.source.text, key, node)
         return Shaped(layout.kind, self._content(layout, node), layout, place)
 
     def _names(self, node: Node) -> list[str]:

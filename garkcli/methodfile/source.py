@@ -16,7 +16,7 @@ from garkcli.errors import (
     printable,
 )
 from garkcli.methodfile.causes import MAX_PLACES, Found, place_of, told_once
-from garkcli.methodfile.composing import composed, folded_place
+from garkcli.methodfile.composing import composed, folded_place, position
 from garkcli.methodfile.words import meant_key, shortened
 
 MAX_BYTES = 1_000_000
@@ -31,6 +31,8 @@ MAX_FAULTS_READ = 1_000
 
 Entries: TypeAlias = dict[str, Node]
 """The values of a mapping by their keys."""
+Extent: TypeAlias = tuple[int, int]
+"""From where to where something stands in the text of a file."""
 _NO_CURES: Mapping[str, str] = {}
 _PYTHON = "tag:yaml.org,2002:python"
 """What tags begin with that make objects of Python."""
@@ -107,7 +109,9 @@ class Source:
         Raises:
             MethodFileError: there are ``MAX_FAULTS_READ`` of them; no file is read further.
         """
-        line, column = (1, 1) if node is None else self._place(node, offset)
+        line, column = 1, 1
+        if node is not None:
+            line, column = self._place(node, offset)
         text = f"{where}: {message}" if where else message
         is_one = bool(cause) or "'" in message
         cause = cause or (f"{message}: {cure}" if where else "")
@@ -123,13 +127,14 @@ class Source:
 
     def _place(self, node: Node, offset: int) -> tuple[int, int]:
         """Line and column of the text of a value, ``offset`` characters into it."""
-        mark = node.start_mark
+        line, column = position(node.start_mark)
         if not isinstance(node, ScalarNode):
-            return mark.line + 1, mark.column + 1 + offset
-        if node.style in {"|", ">"} or node.end_mark.line > mark.line:
+            return line, column + offset
+        is_block = node.style in {"|", ">"}
+        if is_block or node.end_mark.line >= line:
             return folded_place(self.text, node, offset)
         is_quoted = node.style in {"'", '"'}
-        return mark.line + 1, mark.column + 1 + is_quoted + offset
+        return line, column + is_quoted + offset
 
     def expression_fault(
         self, node: Node, where: str, error: ExpressionError, cause: str = ""
@@ -244,7 +249,8 @@ class Source:
             together.setdefault(cure or str(number), []).append(key_node)
         for cure, nodes in together.items():
             first = nodes[0].value
-            names = ", ".join(shortened(x.value) for x in nodes[:MAX_PLACES])
+            shown = [shortened(x.value) for x in nodes[:MAX_PLACES]]
+            names = ", ".join(shown)
             noun = "key" if len(nodes) == 1 else "keys"
             message = f"{where}: unknown {noun} {names}"
             if first not in cures:
@@ -297,7 +303,8 @@ class Source:
             wanted = f"a whole number of at least {smallest} is expected"
             if is_long:
                 wanted = f"a whole number of at most {_MOST_DIGITS} digits is expected"
-            self.fault(node, f"{where}: {wanted}, not {shortened(text)}")
+            message = f"{where}: {wanted}, not {shortened(text)}"
+            self.fault(node, message)
             return None
         return int(text)
 
@@ -328,6 +335,24 @@ def key_nodes(node: Node) -> dict[str, ScalarNode]:
         if isinstance(key, ScalarNode):
             found.setdefault(str(key.value), key)
     return found
+
+
+def key_of(root: MappingNode, value: Node) -> Node:
+    """The key of a value, as it stands in the file."""
+    for key, other in root.value:
+        if other is value:
+            found: Node = key
+            return found
+    raise LookupError("the value is none of the mapping")
+
+
+def extent(text: str, first: Node, last: Node) -> Extent:
+    """From where to where in the text of a file the values from ``first`` to ``last`` stand,
+    without the blanks after them.
+    """
+    start, end = first.start_mark.index, last.end_mark.index
+    written = text[start:end].rstrip()
+    return start, start + len(written)
 
 
 def is_null(node: Node) -> bool:
