@@ -44,6 +44,15 @@ def test_reference_is_the_help() -> None:
     assert found == wanted
 
 
+def test_every_command_is_in_the_tables() -> None:
+    """The README and the head of the page have each command there is."""
+    head, _, _ = PAGE.read_text(encoding="utf-8").partition(MARK)
+    readme = (PAGE.parents[1] / "README.md").read_text(encoding="utf-8")
+    for text in (head, readme):
+        rows = "".join(x for x in text.splitlines() if x.startswith("| `gark"))
+        assert [x for x in COMMANDS if f"`gark {x}" not in rows] == []
+
+
 def test_no_help_shows_a_mark_of_its_layout() -> None:
     """The sign that keeps lines as they are does its work and is not seen; the example keeps its
     lines.
