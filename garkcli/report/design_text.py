@@ -27,6 +27,14 @@ INDENT = " " * 17
 MAX_POLYNOMIALS = 12
 """Most polynomials of a family that are shown; JSON has all."""
 _ONE_BY_ONE = ("solutions", "none", "undecided")
+MAX_LINES = 24
+"""And the most lines of them, the first polynomial aside."""
+MAX_LENGTH = 300
+"""Longer polynomials are told by their degree where a number is their root."""
+UNDECIDED = (
+    "fewer unknowns make it decidable: values for some by --set or design: fix, a shape with"
+    " fewer such as palindromic; --search N looks for methods and decides nothing"
+)
 _TIMES = {1: "", 2: "; a double solution", 3: "; a triple solution"}
 
 
@@ -100,8 +108,7 @@ def _of_steps(
             if step.ideal is not None:
                 said = "msolve finds that no value has it, which is no proof"
                 yield from _said(said, width)
-            said = "values for some unknowns, by --set, make it decidable"
-            yield from _said(said, width)
+            yield from _said(UNDECIDED, width)
         case "family":
             yield f"{head}{_family(step)}"
             yield from _polynomials(step, width)
@@ -137,7 +144,7 @@ def _witness(design: Design, step: Step, width: int) -> Iterator[str]:
 
 def _said(text: str, width: int) -> Iterator[str]:
     """A sentence beside the orders, in as many lines as it takes."""
-    for line in wrap(text, width - len(INDENT)):
+    for line in wrap(text, width - len(INDENT), break_on_hyphens=False):
         yield INDENT + line
 
 
@@ -152,16 +159,22 @@ def _family(step: Step) -> str:
 def _polynomials(step: Step, width: int) -> Iterator[str]:
     assert step.ideal is not None
     polynomials = step.ideal.polynomials
+    indent = INDENT + "  "
+    shown: list[str] = []
+    more = len(polynomials)
     for p in polynomials[:MAX_POLYNOMIALS]:
-        indent = INDENT + "  "
-        yield from wrap(
+        lines = wrap(
             str(p),
             width,
             initial_indent=indent,
             subsequent_indent=indent + "  ",
         )
-    more = len(polynomials) - MAX_POLYNOMIALS
-    if more > 0:
+        if shown and len(shown) + len(lines) > MAX_LINES:
+            break
+        shown += lines
+        more -= 1
+    yield from shown
+    if more:
         yield f"{INDENT}  and {counted(more, 'polynomial')} more, see --format json"
 
 
@@ -224,4 +237,6 @@ def _number(value: RealRoot, digits: int) -> str:
     if simple is not None:
         return f"{simple} = {decimals}…"
     polynomial = polynomial_text(Polynomial.from_flint(value.polynomial), "x")
+    if len(polynomial) > MAX_LENGTH:
+        polynomial = f"a polynomial of degree {value.polynomial.degree()}"
     return f"{decimals}…, a root of {polynomial}"

@@ -407,3 +407,25 @@ def test_reduced_bases() -> None:
     }
     degrees = [p.total_degree() for p in made]
     assert degrees == sorted(degrees)
+
+
+def test_long_polynomials_are_not_shown(tmp_path: Path) -> None:
+    """A root of a long polynomial has its degree in the text and its polynomial in JSON; of many
+    long conditions the first are shown; what is not decided comes with the cure.
+    """
+    path = tmp_path / "long.yaml"
+    entry = " + ".join(f"{k + 1}{'0' * 110}{k + 7}*t**{k}" for k in range(4))
+    path.write_text(
+        f"parameters: {{t: free}}\nA: [['{entry}']]\nb: [1]\n", "utf-8"
+    )
+    command = ("design", str(path), "--order", "2")
+    assert "a root of a polynomial of degree 3\n" in gark(*command).out
+    data = json.loads(gark(*command, "--format", "json").out)
+    assert "x^3" in str(data["solutions"][0]["values"]["t"])
+    path.write_text("unknown: {stages: 3, shape: sdirk}\n", "utf-8")
+    run = gark("design", str(path), "--order", "3")
+    assert "polynomials more, see --format json" in run.out
+    assert len(run.out.splitlines()) < 50
+    path.write_text("unknown: {stages: 3, shape: full}\n", "utf-8")
+    run = gark("design", str(path), "--order", "6", "--seconds", "0.01")
+    assert (run.code, "a shape with" in run.out) == (3, True)
