@@ -31,19 +31,23 @@ def reciprocal_characteristic(W: Matrix) -> Polynomial:
     result = Polynomial([1])
     for component in components(neighbours):
         rows = [W[i] for i in component]
-        entries = [tuple(row[j] for j in component) for row in rows]
-        block = tuple(entries)
-        result = result * _dense(block)
+        block = [tuple(row[j] for j in component) for row in rows]
+        result = result * _dense(tuple(block))
     return result
 
 
 def _dense(W: Matrix) -> Polynomial:
-    if len(W) == 1:
-        return Polynomial([ONE, -W[0][0]])
+    """The same of one component."""
+    size = len(W)
+    if size == 1:
+        [[entry]] = W
+        return Polynomial([ONE, -entry])
     if is_rational(W):
-        characteristic = to_flint(W, len(W)).charpoly()
-        return Polynomial.from_flint(characteristic).reversed(len(W))
-    return Polynomial(_from_traces(_traces(W)))
+        characteristic = to_flint(W, size).charpoly()
+        from_lowest = Polynomial.from_flint(characteristic)
+        return from_lowest.reversed(size)
+    coefficients = _from_traces(_traces(W))
+    return Polynomial(coefficients)
 
 
 def _traces(W: Matrix) -> list[Number]:

@@ -139,7 +139,10 @@ def from_lines(
     axes = len(next(iter(lines)))
     terms: dict[Exponents, Number] = {}
     for k in range(degree + 1):
-        values = {point: lines[point][k] for point in lattice(axes, k)}
+        values = {}
+        for point in lattice(axes, k):
+            line = lines[point]
+            values[point] = line[k]
         part = _interpolated(values, axes, offset, k)
         for exponents, a in part.items():
             first = k - sum(exponents)
@@ -160,7 +163,8 @@ def through_points(
     (((1, 0), 2), ((0, 0), 1))
     """
     axes = len(next(iter(values)))
-    return Multivariate.of(axes, _interpolated(values, axes, 0, degree))
+    terms = _interpolated(values, axes, 0, degree)
+    return Multivariate.of(axes, terms)
 
 
 def _interpolated(
@@ -200,8 +204,10 @@ def _take_differences(
 def _newton_basis(offset: int, degree: int) -> list[Polynomial]:
     """The polynomials (x − o)(x − o − 1) … / i!, of degree i."""
     basis = [Polynomial([1])]
+    last = basis[0]
     for i in range(degree):
-        factor = Polynomial([-(offset + i), 1])
-        product_so_far = basis[-1] * factor
-        basis.append(product_so_far * fmpq(1, i + 1))
+        zero = offset + i
+        factor = Polynomial([-zero, 1])
+        last = last * factor * fmpq(1, i + 1)
+        basis.append(last)
     return basis

@@ -15,7 +15,9 @@ Dyadic: TypeAlias = tuple[int, int]
 
 
 def _rational(number: fmpq) -> Made:
-    return fmpq, (int(number.p), int(number.q))
+    numerator = int(number.p)
+    denominator = int(number.q)
+    return fmpq, (numerator, denominator)
 
 
 def _polynomial(poly: fmpq_poly) -> Made:
@@ -23,12 +25,15 @@ def _polynomial(poly: fmpq_poly) -> Made:
 
 
 def _integer_polynomial(poly: fmpz_poly) -> Made:
-    return fmpz_poly, ([int(x) for x in poly.coeffs()],)
+    coefficients = [int(x) for x in poly.coeffs()]
+    return fmpz_poly, (coefficients,)
 
 
 def _matrix(matrix: fmpq_mat) -> Made:
-    rows, columns = matrix.nrows(), matrix.ncols()
-    return fmpq_mat, (rows, columns, matrix.entries())
+    rows = matrix.nrows()
+    columns = matrix.ncols()
+    entries = matrix.entries()
+    return fmpq_mat, (rows, columns, entries)
 
 
 def _ball(ball: arb) -> Made:

@@ -86,22 +86,27 @@ def _sum_text(terms: Iterable[tuple[Number, str]]) -> str:
 
 def _factor_text(a: Number) -> tuple[bool, str]:
     text = to_text(a)
-    is_single = " " not in text
-    if is_single and text.startswith("-"):
-        return True, text[1:]
-    return False, text if is_single else f"({text})"
+    if " " in text:
+        return False, f"({text})"
+    is_negative = text.startswith("-")
+    return is_negative, text.removeprefix("-")
 
 
 def power_text(variable: str, k: int, exponent: str = "") -> str:
+    """x^k, with another exponent in its place where one is given; empty for k = 0."""
     if k == 0:
         return ""
-    return variable if k == 1 else f"{variable}^{exponent or k}"
+    if k == 1:
+        return variable
+    return f"{variable}^{exponent or k}"
 
 
 def _term(factor: str, power: str) -> str:
     if not power:
         return factor
-    return power if factor == "1" else f"{factor}*{power}"
+    if factor == "1":
+        return power
+    return f"{factor}*{power}"
 
 
 def root_text(root: RealRoot) -> str | None:

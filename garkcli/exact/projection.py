@@ -23,9 +23,11 @@ def curves(polynomials: Iterable[fmpq_mpoly]) -> list[fmpq_mpoly]:
     """The irreducible factors of polynomials in the plane, each once; constants are left out."""
     found: dict[str, fmpq_mpoly] = {}
     for p in polynomials:
-        if p:
-            for factor, _ in p.factor()[1]:
-                found[str(factor)] = factor
+        if not p:
+            continue
+        _, factors = p.factor()
+        for factor, _ in factors:
+            found[str(factor)] = factor
     return [curve for curve in found.values() if not curve.is_constant()]
 
 
@@ -42,13 +44,15 @@ def projected(
     critical: list[fmpq_mpoly] = []
     crossing = []
     for curve in found:
-        degree = curve.degrees()[0]
+        degree, _ = curve.degrees()
         if degree == 0:
             critical.append(curve)
             continue
         crossing.append(curve)
         critical.append(leading(curve))
-        critical += [curve.compose(PLANE.constant(end), t) for end in ends]
+        for end in ends:
+            y = PLANE.constant(end)
+            critical.append(curve.compose(y, t))
         if degree > 1:
             critical.append(curve.discriminant("y"))
     critical += [f.resultant(g, "y") for f, g in combinations(crossing, 2)]
@@ -57,15 +61,17 @@ def projected(
 
 def leading(p: fmpq_mpoly) -> fmpq_mpoly:
     """The coefficient of the highest power of y, a polynomial in t."""
-    return coefficient_of(p, p.degrees()[0])
+    degree, _ = p.degrees()
+    return coefficient_of(p, degree)
 
 
 def coefficient_of(p: fmpq_mpoly, power: int) -> fmpq_mpoly:
     """The coefficient of a power of y, a polynomial in t."""
-    terms = p.to_dict()
-    return PLANE.from_dict(
-        {(0, k): c for (j, k), c in terms.items() if j == power}
-    )
+    terms: dict[tuple[int, ...], fmpq] = {}
+    for (j, k), coefficient in p.to_dict().items():
+        if j == power:
+            terms[0, k] = coefficient
+    return PLANE.from_dict(terms)
 
 
 def in_t(p: fmpq_mpoly) -> Polynomial:

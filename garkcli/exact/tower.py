@@ -51,7 +51,8 @@ class Tower:
         for k in count():
             generator = multiply_y + multiply_theta * k
             characteristic = fmpq_poly(generator.charpoly().coeffs())
-            if characteristic.gcd(characteristic.derivative()).degree() == 0:
+            common = characteristic.gcd(characteristic.derivative())
+            if common.degree() == 0:
                 break
         multiples = [k * x for x in self.combination]
         combination = (*multiples, 1)
@@ -64,7 +65,8 @@ class Tower:
         self, relation: Sequence[fmpq_poly]
     ) -> tuple[fmpq_mat, fmpq_mat]:
         """The matrices of multiplication by y and by θ, on the basis θ^i y^j, i running first."""
-        d, n = self.degree, len(relation)
+        d = self.degree
+        n = len(relation)
         size = d * n
         y = fmpq_mat(size, size)
         theta = fmpq_mat(size, size)

@@ -113,7 +113,8 @@ def _applied(sign: str, left: Value, right: Value, at: Expression) -> Value:
     if sign == "/":
         _check_divisor(right, at)
     if isinstance(left, arb) or isinstance(right, arb):
-        left, right = arb(left), arb(right)
+        left = arb(left)
+        right = arb(right)
     found: Value = OPERATIONS[sign](left, right)
     return found
 
@@ -126,7 +127,8 @@ def _check_divisor(number: Value, at: Expression) -> None:
         return
     what = ""
     if not isinstance(at, Literal):
-        what = f"{_cut(format_expression(at))} is 0 here"
+        divisor = _cut(format_expression(at))
+        what = f"{divisor} is 0 here"
     raise UndefinedValue("division by zero", what, at.start, at.end)
 
 
@@ -145,11 +147,12 @@ def _power(
         _check_divisor(base, of)
     if exponent.q == 1:
         n = int(exponent.p)
-        if isinstance(base, fmpq):
-            if base.height_bits() * abs(n) > MAX_BITS:
-                raise too_many_bits(at)
-            return base**n
-        return _bounded(base**n, at)
+        if not isinstance(base, fmpq):
+            return _bounded(base**n, at)
+        bits = base.height_bits() * abs(n)
+        if bits > MAX_BITS:
+            raise too_many_bits(at)
+        return base**n
     if isinstance(base, fmpq) and not base:
         return fmpq(0)
     if not arb(base) > 0:

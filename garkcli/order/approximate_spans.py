@@ -94,9 +94,8 @@ class ApproximateSpans(OrderByOrder[_Hull]):
                 required = arb(1) / order
                 worst = arb(0)
                 for member in hull.members:
-                    defect = abs(
-                        scalar_product(weights, member.vector) - required
-                    )
+                    weight = scalar_product(weights, member.vector)
+                    defect = abs(weight - required)
                     worst = worst.max(defect)
                     tree = Tree(l, member.branches)
                     size = defect * order / tree.density

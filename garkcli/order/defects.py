@@ -101,10 +101,9 @@ def is_symplectic_within(tableau: Tableau, tolerance: fmpq) -> bool:
             parts = {one.part, other.part}
             is_canonical = parts == {"q", "p"}
             if is_canonical and one.space == other.space:
+                space = tableau.space(l)
                 difference = _minus_part(one.b, other.b, 1)
-                if not functional_within(
-                    tableau.space(l), difference, tolerance
-                ):
+                if not functional_within(space, difference, tolerance):
                     return False
             if not is_canonical and parts != {"y"}:
                 continue  # velocities among each other, or forces: the form pairs none

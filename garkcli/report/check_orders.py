@@ -99,10 +99,8 @@ def _order(
     number = paint("strong", order_number(order))
     head = f"  {label:{LABEL}}{number}"
     if not isinstance(order, Order):
-        tolerance, largest = (
-            decimal(order.tolerance),
-            size(order.largest_residual),
-        )
+        tolerance = decimal(order.tolerance)
+        largest = size(order.largest_residual)
         head += f"   within {tolerance}, residuals up to {largest}"
         if order.undecided:
             return _undecided(head, order)
@@ -128,14 +126,14 @@ def _failure(
     """The tree that fails, how far off its condition is, and its drawing where it fits."""
     has_colours = tableau.size > 1
     tree = format_tree(witness.tree, has_colours)
-    text = [
-        f"{failed}: {tree}",
-        *_residual(witness, digits),
-        *_legend(witness, tableau),
-    ]
+    text = [f"{failed}: {tree}"]
+    text += _residual(witness, digits)
+    text += _legend(witness, tableau)
     picture = draw_text(witness.tree, has_colours, width=_TREE_WIDTH)
-    widths = [max(map(len, lines)) for lines in (text, picture)]
-    return beside(text, picture) if sum(widths) < _BESIDE_WIDTH else text
+    width = max(map(len, text)) + max(map(len, picture))
+    if width >= _BESIDE_WIDTH:
+        return text
+    return beside(text, picture)
 
 
 def _undecided(head: str, order: RoundedOrder) -> list[str]:
@@ -173,7 +171,10 @@ def suggestion_lines(
 
 def size(ball: arb) -> str:
     """A bound in two digits."""
-    return "0" if ball == 0 else ball.upper().str(2, radius=False)
+    if ball == 0:
+        return "0"
+    text: str = ball.upper().str(2, radius=False)
+    return text
 
 
 def _legend(witness: Witness, tableau: Tableau) -> list[str]:
@@ -184,16 +185,19 @@ def _legend(witness: Witness, tableau: Tableau) -> list[str]:
         return []
     used = sorted(witness.tree.colours)
     meanings = [f"{numbers[l]} is {names[l]}" for l in used]
-    return [f"colour {', '.join(meanings)}"]
+    legend = ", ".join(meanings)
+    return [f"colour {legend}"]
 
 
 def _residual(witness: Witness, digits: int | None) -> list[str]:
     """The value, what it should be, and the difference; long ones in decimals."""
     if digits is not None:
-        numbers = (witness.value, witness.required, witness.residual)
-        value, required, residual = (to_decimal(x, digits) for x in numbers)
+        value = to_decimal(witness.value, digits)
+        required = to_decimal(witness.required, digits)
+        residual = to_decimal(witness.residual, digits)
         return [f"{value} instead of {required}, off by {residual}"]
-    value, residual = to_text(witness.value), to_text(witness.residual)
+    value = to_text(witness.value)
+    residual = to_text(witness.residual)
     required = str(witness.required)
     if max(len(value), len(residual)) > _LONGEST:
         value = to_decimal(witness.value, 8)

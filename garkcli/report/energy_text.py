@@ -247,9 +247,11 @@ def _bounded(history: InvariantHistory, run: LongRun) -> str:
 def _reason(history: InvariantHistory, run: LongRun) -> str:
     if run.stability is not None:
         fate = FATES[run.stability.fate]
-        return f"det R(h) − 1 = {_determinant(run.stability)}, {fate}"
+        difference = _determinant(run.stability)
+        return f"det R(h) − 1 = {difference}, {fate}"
     if history.shape == "line":
-        return f"the slope is {_times(history)} times its uncertainty"
+        times = _times(history)
+        return f"the slope is {times} times its uncertainty"
     if history.shape == "curve":
         # the fitted slope of what is no line may be nothing but rounding
         verb = "rises" if history.errors[-1] > 0 else "falls"
@@ -267,11 +269,10 @@ def _times(history: InvariantHistory) -> str:
 
 
 def _determinant(stability: Stability) -> str:
-    return (
-        "0"
-        if stability.is_symplectic
-        else to_decimal(stability.determinant - 1, 4)
-    )
+    if stability.is_symplectic:
+        return "0"
+    difference = stability.determinant - 1
+    return to_decimal(difference, 4)
 
 
 def _symplectic(
@@ -281,7 +282,8 @@ def _symplectic(
     if stability is not None and not stability.is_symplectic:
         is_refuted = True
     if found.is_proved:
-        word = f"{paint('good', 'yes')}, by its coefficients"
+        yes = paint("good", "yes")
+        word = f"{yes}, by its coefficients"
     elif is_refuted:
         word = paint("strong", "no")
     else:
@@ -291,7 +293,8 @@ def _symplectic(
     texts = []
     if stability is not None:
         ending = ", exactly" if stability.is_symplectic else ""
-        texts.append(f"det R(h) − 1 = {_determinant(stability)}{ending}")
+        difference = _determinant(stability)
+        texts.append(f"det R(h) − 1 = {difference}{ending}")
     texts += _measured(found)
     lines = [f"  symplectic       {word}"]
     lines += indented(texts, _HANGING)

@@ -44,7 +44,9 @@ _ELSEWHERE: Record[tuple[str, Any]] = Record(
 
 
 def _end(root: Any) -> object:
-    return None if root is None else root_data(root)
+    if root is None:
+        return None
+    return root_data(root)
 
 
 _INTERVAL: Record[Interval] = Record(
@@ -61,6 +63,10 @@ def _where(fact: Fact) -> list[dict[str, Any]] | None:
     return [_INTERVAL.data(x) for x in fact.where]
 
 
+def _unknown(fact: Fact) -> list[object]:
+    return [root_data(root) for root in fact.unknown]
+
+
 FACT: Record[Fact] = Record(
     Field("decided", FLAG, lambda x: not x.is_undecided or x.differs),
     Field("every_value", FLAG, lambda x: x.is_everywhere),
@@ -69,11 +75,7 @@ FACT: Record[Fact] = Record(
     _ELSEWHERE.every("elsewhere", lambda x: x.elsewhere),
     Field("zeros", array(TEXT), lambda x: list(x.zeros)),
     Field("open", array(TEXT), lambda x: list(x.open)),
-    Field(
-        "unknown",
-        array(ALGEBRAIC),
-        lambda x: [root_data(root) for root in x.unknown],
-    ),
+    Field("unknown", array(ALGEBRAIC), _unknown),
     Field("where", array(_INTERVAL.schema), _where, is_optional=True),
     Field("why", TEXT, lambda x: x.why or None, is_optional=True),
 )
@@ -99,7 +101,7 @@ _WITNESS: Schema = {
 _ORDER: Record[EveryOrder] = Record(
     Field("order", COUNT, lambda x: x.order),
     Field("witness", _WITNESS, _witness),
-    Field("fact", FACT.schema, lambda x: FACT.data(x.fact)),
+    FACT.whole("fact", lambda x: x.fact),
     Field("dimension", nullable(INTEGER), lambda x: x.dimension),
     Field("weights", array(TEXT), lambda x: list(x.poles)),
 )
@@ -111,7 +113,14 @@ def _part(part: Callable[[Any], Any]) -> Callable[[EveryValue], object]:
 
 
 def _blocks(found: Any) -> list[list[int]]:
-    return [[l + 1, m + 1] for l, m in found]
+    numbers = []
+    for l, m in found:
+        numbers.append([l + 1, m + 1])
+    return numbers
+
+
+def _inconsistent(found: EveryValue) -> Fact:
+    return found.inconsistent.of(_blocks)
 
 
 def _colours(found: EveryValue) -> list[str]:
@@ -123,7 +132,7 @@ EVERY_FIELDS: tuple[Field[EveryValue], ...] = (
     Field("every_value", TRUE, lambda _: True),
     Field("unknowns", array(TEXT), lambda x: list(x.parameters)),
     Field("colours", array(TEXT), _colours),
-    Field("order", _ORDER.schema, lambda x: _ORDER.data(x.order)),
+    _ORDER.whole("order", lambda x: x.order),
     _ORDER.or_null("conjugate_order", lambda x: x.conjugate),
     _ORDER.or_null("pair_order", lambda x: x.pair),
     Field("B", _FACTS, _part(lambda x: list(x.B))),
@@ -131,12 +140,8 @@ EVERY_FIELDS: tuple[Field[EveryValue], ...] = (
     Field("D", _FACTS, _part(lambda x: [list(row) for row in x.D])),
     Field("bound", _FACTS, _part(lambda x: x.bound)),
     Field("sharp_bound", _FACTS, _part(lambda x: x.sharp_bound)),
-    Field(
-        "inconsistent_blocks",
-        _FACTS,
-        lambda x: FACT.data(x.inconsistent.of(_blocks)),
-    ),
-    Field("symplectic", _FACTS, lambda x: FACT.data(x.symplectic)),
+    FACT.whole("inconsistent_blocks", _inconsistent),
+    FACT.whole("symplectic", lambda x: x.symplectic),
 )
 """What was found of a family."""
 

@@ -12,7 +12,7 @@ from garkcli.check.explained import BOUND, SHARP_BOUND
 from garkcli.check.outcome import Outcome
 from garkcli.exact.display import to_text
 from garkcli.order.simplifying import Simplifying
-from garkcli.page.paint import Paint, aligned, counted, folded
+from garkcli.page.paint import Paint, aligned, counted, folded, indented
 from garkcli.page.plain import printable
 from garkcli.properties.keys import KEYS
 from garkcli.report.check_orders import LABEL
@@ -46,7 +46,8 @@ def every_line(outcome: Outcome, found: EveryValue, paint: Paint) -> str:
     mark = paint.verdict(outcome.ok, "ok  ", "FAIL")
     claims = counted(len(outcome.claims), "claim")
     order = f"order {found.order.order} for every value"
-    return f"{mark} {printable(outcome.file)}: {order}  ({claims})"
+    file = printable(outcome.file)
+    return f"{mark} {file}: {order}  ({claims})"
 
 
 def _kind(found: EveryValue) -> list[str]:
@@ -59,7 +60,8 @@ def _kind(found: EveryValue) -> list[str]:
     if more > 0:
         shown += f" and {more} more"
     verb = "is" if len(names) == 1 else "are"
-    text = f"{counted(tableau.size, 'colour')}, stages {stages}; {shown} {verb} free:"
+    colours = counted(tableau.size, "colour")
+    text = f"{colours}, stages {stages}; {shown} {verb} free:"
     return folded(f"  {text} what holds for every value", _WIDTH, "  ")
 
 
@@ -103,10 +105,8 @@ def _order(
         lines[0] += f"   fails at order {witness.order}, as above"
     else:
         shown.append(failure)
-        text = (
-            f"not every value meets that of {tree} of order {witness.order}: "
-        )
-        lines += _indented(f"{text}off by {residual}")
+        text = f"not every value meets that of {tree} of order {witness.order}"
+        lines += _indented(f"{text}: off by {residual}")
     lines += _higher(order, found, command)
     if order.poles:
         zero = " or ".join(f"{p} = 0" for p in order.poles[:_NAMED])
@@ -141,7 +141,8 @@ def _with_order(value: object) -> str:
 def _indented(text: str) -> list[str]:
     """A text under the number that it is about."""
     margin = " " * 6
-    return [margin + line for line in folded(text, _WIDTH - 6, "  ")]
+    lines = folded(text, _WIDTH - len(margin), "  ")
+    return indented(lines, margin)
 
 
 def _conditions(found: EveryValue) -> list[str]:
@@ -154,9 +155,10 @@ def _conditions(found: EveryValue) -> list[str]:
         ("C(eta)", simplifying.C),
         ("D(zeta)", simplifying.D),
     ):
-        rows = [["-" if x is None else str(x) for x in row] for row in table]
+        rows = [[_cell(number) for number in row] for row in table]
         lines += _table(label, aligned(rows))
-    lines += _labelled("bound", f"{simplifying.bound} = {BOUND}")
+    bound = simplifying.bound
+    lines += _labelled("bound", f"{bound} = {BOUND}")
     sharp = simplifying.sharp_bound
     lines += _labelled("sharper bound", f"{sharp} = {SHARP_BOUND}")
     others = found.simplifying
@@ -168,12 +170,21 @@ def _conditions(found: EveryValue) -> list[str]:
     return lines
 
 
+def _cell(number: int | None) -> str:
+    """How many conditions of a block hold; a dash where there is no block."""
+    if number is None:
+        return "-"
+    return str(number)
+
+
 def _tables_text(found: object) -> str:
     """B, C and D in a line."""
     assert isinstance(found, Simplifying)
+    B = list(found.B)
     C = [list(row) for row in found.C]
     D = [list(row) for row in found.D]
-    return f"B {list(found.B)}, C {C}, D {D}".replace("None", "-")
+    text = f"B {B}, C {C}, D {D}"
+    return text.replace("None", "-")
 
 
 def _table(label: str, rows: Sequence[str]) -> list[str]:
@@ -185,12 +196,10 @@ def _table(label: str, rows: Sequence[str]) -> list[str]:
 
 
 def _labelled(label: str, text: str) -> list[str]:
-    margin = LABEL + 2
-    first, *rest = folded(text, _WIDTH - margin, "")
-    return [
-        f"  {label:{LABEL}}{first}",
-        *(" " * margin + line for line in rest),
-    ]
+    margin = " " * (LABEL + 2)
+    first, *rest = folded(text, _WIDTH - len(margin), "")
+    lines = [f"  {label:{LABEL}}{first}"]
+    return lines + indented(rest, margin)
 
 
 def _properties(outcome: Outcome, found: EveryValue) -> list[str]:
@@ -209,14 +218,17 @@ def _properties(outcome: Outcome, found: EveryValue) -> list[str]:
         return lines
     lines.append("")
     longest = max(map(len, KEYS))
+    margin = " " * (longest + 4)
     for key in KEYS:
-        text = fact_text(found.verdict(key), name, _property)
-        margin = longest + 4
-        first, *rest = folded(text, _WIDTH - margin, "")
+        verdict = found.verdict(key)
+        text = fact_text(verdict, name, _property)
+        first, *rest = folded(text, _WIDTH - len(margin), "")
         lines.append(f"  {key:{longest}}  {first}")
-        lines += [" " * margin + line for line in rest]
+        lines += indented(rest, margin)
     return lines
 
 
 def _property(value: object) -> str:
-    return "no meaning" if value is None else told(value)
+    if value is None:
+        return "no meaning"
+    return told(value)

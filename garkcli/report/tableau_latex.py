@@ -48,10 +48,10 @@ def _displays(tableau: Tableau, entries: Entries) -> Iterator[str]:
     arrays = []
     columns = 0
     for letter, part in (("Q", "q"), ("P", "p")):
-        driven = [
-            m for m in range(tableau.size) if tableau.colours[m].part == part
-        ]
-        array = _array(entries, _stages_of(tableau, driven), driven)
+        numbered = enumerate(tableau.colours)
+        driven = [m for m, colour in numbered if colour.part == part]
+        stages = _stages_of(tableau, driven)
+        array = _array(entries, stages, driven)
         arrays.append([f"{letter}: \\quad", *array])
         columns += sum(len(entries.b[m]) for m in driven)
     if columns <= MAX_BESIDE:
@@ -100,7 +100,8 @@ def _array(
     weights = []
     for m in colours:
         weights += [_cell(x, entries) for x in entries.b[m]]
-    lines.append("  & " + " & ".join(weights))
+    row = " & ".join(weights)
+    lines.append(f"  & {row}")
     lines.append("\\end{array}")
     return lines
 

@@ -126,7 +126,8 @@ def _grid(tableau: Tableau, entries: Entries) -> list[str]:
     for cells in zip(*columns, strict=True):
         padded = map(str.rjust, cells, widths)
         lines.append(" | ".join(padded))
-    rule = "-+-".join("-" * width for width in widths)
+    dashes = ["-" * width for width in widths]
+    rule = "-+-".join(dashes)
     out = [lines[0], rule]
     start = 1
     for l in shown:
@@ -185,8 +186,10 @@ def _listing(tableau: Tableau, entries: Entries, width: int) -> list[str]:
     names = [colour.name for colour in tableau.colours]
     lines: list[str] = []
     for name, nodes, weights in zip(names, entries.c, entries.b, strict=True):
-        lines += _vector(f"c{{{name}}}", _texts(nodes, digits), width)
-        lines += _vector(f"b{{{name}}}", _texts(weights, digits), width)
+        c = _texts(nodes, digits)
+        b = _texts(weights, digits)
+        lines += _vector(f"c{{{name}}}", c, width)
+        lines += _vector(f"b{{{name}}}", b, width)
         lines.append("")
     for l in distinct_rows(tableau):
         row_name = names[l]
