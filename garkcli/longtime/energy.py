@@ -200,6 +200,7 @@ def _scaled(R: Matrix, omega: fmpq, bits: int) -> arb_mat:
 
 def _energy_errors(R: Matrix, omega: fmpq, count: int) -> Floats:
     """H(z_n) − H(z_0) for n = 0 … count; shorter, or not finite at the end, when it blows up."""
+    # some 2 √N products of matrices in a row, which may lose about half a bit each
     bits = 128 + isqrt(count)
     while (errors := _at_precision(R, omega, count, bits)) is None:
         bits *= 2

@@ -236,6 +236,7 @@ def _critical(E: Sequence[Polynomial]) -> list[Polynomial] | None:
     if degree < 1:
         return []
     highest = max(coefficient.degree for coefficient in E)
+    # the discriminant is a determinant of 2 · degree − 1 rows of coefficients
     count = (2 * degree - 1) * highest + 1
     if count > MOST_POINTS:
         return None

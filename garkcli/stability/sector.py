@@ -63,6 +63,8 @@ def largest_sector(R: StabilityFunction) -> Sector | None:
 def _critical_cosines(R: StabilityFunction) -> list[RealRoot] | None:
     """The cosines in (0, 1) at which |R| ≤ 1 on the ray may begin or end to hold, ascending."""
     stages = max(R.numerator.degree, R.denominator.degree)
+    # E/r has this degree in r, and coefficients of degree ``stages`` in c; its discriminant is a
+    # determinant of 2 · highest − 1 rows of them
     highest = 2 * stages - 1
     count = (2 * highest - 1) * stages + 1
     if count > MOST_POINTS:

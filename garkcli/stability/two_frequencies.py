@@ -72,7 +72,8 @@ class TwoFrequencies:
 
 
 def springs(tableau: Tableau, fast: int) -> SplitSprings:
-    """The fast spring to one term, the slow one to the others that may have potential energy.
+    """The fast spring to one term, the slow one to the others that may have potential energy. All
+    kinetic energy is in the first term.
 
     Args:
         tableau: the method.
