@@ -85,19 +85,17 @@ def _is_float(x: Any) -> bool:
 def _float_text(x: Any, where: str, is_rounded: bool) -> str:
     value = float(x)
     if not isfinite(value):
-        raise MethodError(
-            f"{where}: {value} is no number", "coefficients are finite"
-        )
+        message = f"{where}: {value} is no number"
+        raise MethodError(message, "coefficients are finite")
     if value != x:
         cure = "give the text of the number, or a Fraction"
         raise MethodError(f"{where}: {x} has more digits than a float", cure)
     text = repr(value)
-    mantissa = text.lower().partition("e")[0]
+    mantissa, *_ = text.lower().partition("e")
     significant = mantissa.replace(".", "").lstrip("-0").rstrip("0")
     is_long = len(significant) > FLOAT_DIGITS
-    is_subnormal = (
-        0 < abs(value) < float_info.min
-    )  # such floats keep fewer digits
+    # subnormal floats keep fewer digits
+    is_subnormal = 0 < abs(value) < float_info.min
     if (is_long or is_subnormal) and not is_rounded:
         message = f"{where}: {text} is a rounded number"
         raise MethodError(message, _CURE_OF_ROUNDED)
@@ -138,9 +136,8 @@ def _unreadable(x: Any, where: str) -> MethodError:
         cure = "give it exactly, as a Rational or a text"
         message = f"{where}: {_shown(x)} is a rounded number"
         return MethodError(message, cure)
-    message = (
-        f"{where}: {_shown(x)} is made of more than rationals and real roots"
-    )
+    made_of = "more than rationals and real roots"
+    message = f"{where}: {_shown(x)} is made of {made_of}"
     return MethodError(message, _CURE)
 
 

@@ -60,9 +60,8 @@ def check_file(
         )
 
     def units() -> Mapping[Number, fmpq]:
-        from garkcli.methodfile.printed import (
-            printed_units,
-        )  # few methods are asked
+        # few methods are asked
+        from garkcli.methodfile.printed import printed_units
 
         return printed_units(method.printed)
 

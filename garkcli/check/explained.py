@@ -101,20 +101,19 @@ def claim_hint(outcome: Outcome, claim: str) -> str:
     if found is not None:
         return f"with the line {found.line} the order is {found.order}"
     if analysis.misprint is not None and analysis.misprint.repairs:
-        (repair, *_) = analysis.misprint.repairs
-        return f"an entry looks misprinted: {repair_text(repair, names)}"
+        first = repair_text(analysis.misprint.repairs[0], names)
+        return f"an entry looks misprinted: {first}"
     if blame is not None and blame.of == claim and blame.repairs:
-        repair = blame.repairs[0]
-        return (
-            f"the claimed order would hold with {repair_text(repair, names)}"
-        )
+        first = repair_text(blame.repairs[0], names)
+        return f"the claimed order would hold with {first}"
     return ""
 
 
 def repair_text(repair: Repair, names: Sequence[str]) -> str:
     """An entry, as it should be and as it is."""
     place = place_text(repair, names)
-    new, old = value_text(repair.new), value_text(repair.old)
+    new = value_text(repair.new)
+    old = value_text(repair.old)
     return f"{place} = {new} instead of {old}"
 
 
@@ -124,8 +123,9 @@ def place_text(repair: Repair, names: Sequence[str]) -> str:
     seer = names[repair.l]
     if repair.m is None or repair.i is None:
         return f"b{{{seer}}}, {entry}"
-    block = f"A{{{seer},{names[repair.m]}}}"
-    return f"{block}, row {repair.i + 1}, {entry}"
+    seen = names[repair.m]
+    row = f"row {repair.i + 1}"
+    return f"A{{{seer},{seen}}}, {row}, {entry}"
 
 
 def value_text(number: Number, digits: int = 17) -> str:

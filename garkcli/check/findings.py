@@ -69,9 +69,8 @@ def _unreadable(outcome: Outcome) -> Iterator[Part]:
 
 def _failed_claims(outcome: Outcome) -> Iterator[Part]:
     for claim in outcome.failed_claims:
-        message = (
-            f"{claim.claim}: expected {claim.expected}, found {claim.found}"
-        )
+        difference = f"expected {claim.expected}, found {claim.found}"
+        message = f"{claim.claim}: {difference}"
         witness = claim_witness(outcome, claim.claim)
         if witness:
             message = f"{message}; {witness}"

@@ -165,9 +165,8 @@ def _check(asked: Asked) -> None:
     if asked.omega:
         positive("--omega", asked.omega)
     if asked.against not in (None, "h") and not asked.work:
-        message = (
-            f"--against {asked.against} is not known without measuring it"
-        )
+        option = f"--against {asked.against}"
+        message = f"{option} is not known without measuring it"
         raise UsageProblem(message, "add --work")
     check_plot(asked.plot)
 

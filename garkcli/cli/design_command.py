@@ -175,9 +175,8 @@ def _walk(known: Design, choices: Mapping[str, str]) -> list[Choice]:
     try:
         return walk_down(known, values)
     except NotDecided:
-        message = (
-            "--choose: what is left is not decided in the time of --seconds"
-        )
+        message = "--choose: what is left is not decided "
+        message += "in the time of --seconds"
         raise UsageProblem(message, "choose with --set") from None
 
 

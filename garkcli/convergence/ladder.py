@@ -30,16 +30,16 @@ LARGEST = 1 / 32
 """The part of the solution that an error of the default ladder is at most."""
 STIFF = 30
 """h ‖∂f/∂y‖ from which on steps do not resolve a problem."""
-_NEAR = 0.125  # how far, in parts of the order, the first slope of a ladder may be off
-_STEADY = 0.02  # change between two slopes at which they have settled
-_EXTRAPOLATED = (
-    0.06  # change between two extrapolated orders at which they have
-)
-_SURE = 0.005  # change between two extrapolated orders that is enough, wherever the slopes are
-_FLAT = 0.25  # how far a slope on the plateau is below the order
-_ABOVE = (
-    300  # how many times the error of the plateau an error has to be to count
-)
+# how far, in parts of the order, the first slope of a ladder may be off
+_NEAR = 0.125
+# changes between two slopes, and between two extrapolated orders, at which they have settled
+_STEADY, _EXTRAPOLATED = 0.02, 0.06
+# change between two extrapolated orders that is enough, wherever the slopes are
+_SURE = 0.005
+# how far a slope on the plateau is below the order
+_FLAT = 0.25
+# how many times the error of the plateau an error has to be to count
+_ABOVE = 300
 
 
 def default_rows(solver: Solver, is_timed: bool) -> tuple[list[Row], int]:
@@ -152,7 +152,9 @@ def has_settled(rows: Sequence[Row]) -> bool:
     before, last = rows[-2].slope, rows[-1].slope
     estimated = observed_order(rows[:-1])
     observed = observed_order(rows)
-    if before is None or last is None or estimated is None or observed is None:
+    if before is None or last is None:
+        return False
+    if estimated is None or observed is None:
         return False
     if abs(observed - round(observed)) > CLOSE / 2:
         return False

@@ -53,9 +53,8 @@ LINEAR_ONLY = (
 _FIRST_BITS = 128
 # balls are as exact as the smallest errors need
 _DECADES = (6, 12, 24, 48, 96, 192, 384)
-_AGREEING = (
-    8  # digits of an error by which steps and the step map have to agree
-)
+# digits of an error by which steps and the step map have to agree
+_AGREEING = 8
 
 
 @dataclass

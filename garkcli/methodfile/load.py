@@ -94,26 +94,22 @@ def read_text(path: str, kind: FileKind) -> tuple[str, str]:
     except (
         OSError
     ) as error:  # among them names that are too long, and links in a circle
-        raise MethodFileError(
-            path, [Fault(f"cannot be read: {error.strerror}")]
-        ) from None
+        fault = Fault(f"cannot be read: {error.strerror}")
+        raise MethodFileError(path, [fault]) from None
     if not stat.S_ISREG(status.st_mode):
-        raise MethodFileError(
-            path, [Fault("not a regular file", f"give a {kind.name}")]
-        )
+        fault = Fault("not a regular file", f"give a {kind.name}")
+        raise MethodFileError(path, [fault])
     try:
         with open(path, "rb") as stream:
             # no more than there is: to clear a megabyte takes longer than to read most files
             size = min(status.st_size, MAX_BYTES)
             data = stream.read(size + 1)
-            if (
-                len(data) > size
-            ):  # it has grown, or is one whose size no system knows
+            # it may have grown, or be one whose size no system knows
+            if len(data) > size:
                 data += stream.read(MAX_BYTES - size)
     except OSError as error:
-        raise MethodFileError(
-            path, [Fault(f"cannot be read: {error.strerror}")]
-        ) from None
+        fault = Fault(f"cannot be read: {error.strerror}")
+        raise MethodFileError(path, [fault]) from None
     return _decoded(path, data), path
 
 
@@ -197,9 +193,8 @@ def described(
     description = reader.read()
     if description is None:
         if not reader.numbers.free:
-            Values(
-                reader.numbers
-            )  # what is wrong with the numbers is told in the same run
+            # what is wrong with the numbers is told in the same run
+            Values(reader.numbers)
         raise reading.error()
     return reader, description
 

@@ -204,14 +204,12 @@ def is_misread(source: Source, node: Node, text: str, where: str) -> bool:
     kind = str(node.tag).rpartition(":")[2]
     message, cure = "", ""
     if kind in _WORDS:
-        message = (
-            f"{text or 'nothing'!r} is no number: YAML reads it as {kind}"
-        )
+        word = repr(text or "nothing")
+        message = f"{word} is no number: YAML reads it as {kind}"
         cure = "write a number, such as 1/2"
     elif _READ_DIFFERENTLY.fullmatch(text):
-        message = (
-            f"{text} means different numbers to different readers of YAML"
-        )
+        readers = "different readers of YAML"
+        message = f"{text} means different numbers to {readers}"
         cure = "write the number in plain decimal digits"
         if "_" in text:
             cure = "leave out the _"

@@ -167,10 +167,10 @@ def _spare_blanks(line: str) -> Iterator[int]:
 
 def _forms(line: str, encoding: str) -> Iterator[tuple[str, str]]:
     """Each sign of a line with its form, spelled letters and exponents apart from letters."""
-    raised = (
-        ""  # the sign of a running exponent or index, which is written once
-    )
-    ended = False  # whether a spelled letter or an exponent ends here: a letter needs a gap
+    # the sign of a running exponent or index, which is written once
+    raised = ""
+    # whether a spelled letter or an exponent ends here: a letter needs a gap
+    ended = False
     last = ""
     for sign in line:
         form = sign if _has(encoding, sign) else ascii_form(sign)

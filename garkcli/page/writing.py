@@ -159,9 +159,8 @@ def _temporary(target: Path) -> Iterator[tuple[BinaryIO, Path]]:
     try:
         yield stream, Path(name)
     finally:
-        with suppress(
-            OSError
-        ):  # after a failed write the rest cannot be written either
+        # after a failed write the rest cannot be written either
+        with suppress(OSError):
             stream.close()
         with suppress(OSError):
             Path(name).unlink()
