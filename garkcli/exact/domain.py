@@ -11,7 +11,7 @@ from collections.abc import Iterable
 from functools import partial
 from typing import TYPE_CHECKING, TypeAlias
 
-from flint import arb, ctx, fmpq, fmpq_poly, fmpz
+from flint import arb, ctx, fmpq, fmpq_poly
 
 from garkcli.errors import LimitExceeded, UndefinedValue
 from garkcli.exact.enclosing import OPERATIONS, enclose
@@ -24,6 +24,12 @@ from garkcli.exact.nodes import (
     Name,
     Power,
     Root,
+)
+from garkcli.exact.radicands import (
+    even_root_fault,
+    perfect_root,
+    rational_square_root,
+    square_free,
 )
 from garkcli.exact.rewriting import roots_in
 
@@ -38,10 +44,6 @@ MAX_RADICALS = 32
 """Most different radicals of one file."""
 MAX_DEGREE = 48
 """Largest degree of the number field of one file."""
-TRIAL_LIMIT = 1000
-"""Primes below are always found in radicands."""
-MOST_BITS_FACTORED = 100
-"""Numbers without smaller primes are factored up to so many bits, which takes milliseconds."""
 MAX_PRECISION = 8192
 """Bits to which a nested radicand is evaluated before its sign is decided exactly."""
 
@@ -169,7 +171,7 @@ class Domain:
         d = square_free(radicands[0])
         scales: list[fmpq] = []
         for radicand in radicands:
-            scale = _square_root(radicand / d)
+            scale = rational_square_root(radicand / d)
             if not scale:
                 return False
             scales.append(scale)
@@ -242,39 +244,10 @@ def _enclosures(roots: tuple[Radical, ...]) -> list[arb]:
     return [enclose(root) for root in roots]
 
 
-def square_free(number: fmpq) -> fmpq:
-    """An integer of the square class of ``number``, which is not 0, free of square factors.
-
-    Squares of primes beyond ``TRIAL_LIMIT`` are only found where what is left without smaller
-    primes has ``MOST_BITS_FACTORED`` bits at most, or is a square itself.
-
-    >>> square_free(fmpq(4, 3)), square_free(fmpq(12)), square_free(fmpq(-3 * 27233**2))
-    (3, 3, -3)
-    """
-    n = number.p * number.q
-    factors = abs(n).factor(trial_limit=TRIAL_LIMIT)
-    kept = fmpz(1 if n > 0 else -1)
-    for factor, exponent in factors:
-        if exponent % 2:
-            kept *= _without_squares(factor)
-    return fmpq(kept)
-
-
-def _without_squares(factor: fmpz) -> fmpz:
-    """A prime, or what is left without small primes."""
-    if factor.bit_length() <= MOST_BITS_FACTORED:
-        kept = fmpz(1)
-        for prime, exponent in factor.factor():
-            kept *= prime ** (exponent % 2)
-        return kept
-    root = factor.isqrt()
-    return fmpz(1) if root * root == factor else factor
-
-
 def _check_sign(root: Root) -> None:
     """Refuse an even root of a negative nested radicand."""
     if _sign(root.radicand) < 0 and root.index % 2 == 0:
-        raise _even_root(root)
+        raise even_root_fault(root)
 
 
 def _sign(expression: Expression) -> int:
@@ -296,26 +269,6 @@ def _sign(expression: Expression) -> int:
         start, end = expression.start, expression.end
         raise LimitExceeded(message, "write it simpler", start, end)
     return 0
-
-
-def perfect_root(root: Root, radicand: fmpq) -> fmpq | None:
-    """The value of a root of a perfect power; None where the radicand is none.
-
-    Raises:
-        UndefinedValue: an even root of a negative number.
-    """
-    if radicand < 0 and root.index % 2 == 0:
-        raise _even_root(root)
-    p = abs(radicand.p).root(root.index)
-    q = radicand.q.root(root.index)
-    candidate = fmpq(-p if radicand < 0 else p, q)
-    return candidate if candidate**root.index == radicand else None
-
-
-def _even_root(root: Root) -> UndefinedValue:
-    message = "an even root of a negative number"
-    cure = "coefficients are real numbers"
-    return UndefinedValue(message, cure, root.start, root.end)
 
 
 def _apply(sign: str, left: Number, right: Number, at: Expression) -> Number:
@@ -343,10 +296,3 @@ def too_many_bits(at: Expression) -> LimitExceeded:
     """The fault of a number that is too long to compute with."""
     message = f"a number of more than {MAX_BITS} bits"
     return LimitExceeded(message, "write it smaller", at.start, at.end)
-
-
-def _square_root(number: fmpq) -> fmpq | None:
-    p = number.p.isqrt()
-    q = number.q.isqrt()
-    is_square = fmpq(p, q) ** 2 == number
-    return fmpq(p, q) if is_square else None

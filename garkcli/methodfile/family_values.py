@@ -9,10 +9,11 @@ from typing import Any, cast
 from flint import fmpq, fmpz_poly
 
 from garkcli.errors import ExpressionError, LimitExceeded
-from garkcli.exact.domain import Domain, perfect_root
+from garkcli.exact.domain import Domain
 from garkcli.exact.field import Number
 from garkcli.exact.nodes import AlgebraicRoot, Expression, Name, Root
 from garkcli.exact.parametric import Parameters, Parametric, fraction
+from garkcli.exact.radicands import perfect_root
 from garkcli.exact.rewriting import format_expression, roots_in
 from garkcli.exact.roots import RealRoot
 from garkcli.methodfile.numbers import Entry, Free, Numbers

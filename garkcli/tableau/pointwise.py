@@ -15,7 +15,7 @@ from flint import arb, arb_mat, ctx, fmpq_poly
 
 from garkcli.errors import LimitExceeded
 from garkcli.exact.display import to_ball
-from garkcli.exact.domain import Domain, square_free
+from garkcli.exact.domain import Domain
 from garkcli.exact.enclosing import enclose
 from garkcli.exact.field import ONE, ZERO, Algebraic, Number
 from garkcli.exact.matrix import (
@@ -27,6 +27,7 @@ from garkcli.exact.matrix import (
     multiply,
 )
 from garkcli.exact.nodes import Chain, Expression, Literal, Root
+from garkcli.exact.radicands import square_free
 from garkcli.tableau.method import Method
 from garkcli.tableau.point_space import PointSpace
 from garkcli.tableau.polynomial_space import PolynomialSpace
