@@ -27,7 +27,7 @@ if TYPE_CHECKING:
     from garkcli.design.minimise.result import Minimum
     from garkcli.design.springs_kind import TwoSprings
     from garkcli.design.stable_values import StableValues
-    from garkcli.design.stable_values import Wanted as Stability
+    from garkcli.design.stable_values import Wanted as Kind
     from garkcli.methodfile.family import FamilyFile
 
 
@@ -58,6 +58,7 @@ def command(
     """
     from garkcli.design.stable_values import stable_sets
     from garkcli.methodfile.family import load_family
+    from garkcli.tableau.family import Stability
 
     wanted = Wanted(**options)
     wanted.check()
@@ -72,11 +73,11 @@ def command(
     ):
         wanted.check_stability()
         return _stable_values(family, wanted, wanted.stability, output)
-    given: list[str] = []
+    given: list[Stability] = []
     if wanted.stability is not None:
-        given.append(wanted.stability)
-        family = replace(family, stable=(*family.stable, wanted.stability))
-    wanted.check_one_by_one(family.stable)
+        given.append(Stability(wanted.stability))
+        family = replace(family, stable=(*family.stable, *given))
+    wanted.check_one_by_one([x.kind for x in family.stable])
     if wanted.starts is not None:
         from garkcli.cli.searching import search
 
@@ -199,7 +200,7 @@ def _chosen_value(name: str, text: str) -> fmpq:
 
 
 def _stable_values(
-    family: FamilyFile, wanted: Wanted, kind: Stability, output: Output
+    family: FamilyFile, wanted: Wanted, kind: Kind, output: Output
 ) -> int:
     """The set of values with a kind of stability."""
     from garkcli.design.stable_values import stable_values

@@ -2,7 +2,7 @@
 
 from __future__ import annotations
 
-from collections.abc import Callable
+from collections.abc import Callable, Sequence
 from dataclasses import dataclass
 from typing import TYPE_CHECKING, Any, TypeVar
 
@@ -241,7 +241,7 @@ class Wanted:
             message = "two springs give a set of values, --order does not"
             raise UsageProblem(message, "ask for one")
 
-    def check_one_by_one(self, stable: tuple[str, ...]) -> None:
+    def check_one_by_one(self, stable: Sequence[str]) -> None:
         """Refuse what does not look at stability, where that is wanted too.
 
         Raises:

@@ -83,7 +83,8 @@ def _text(family: FamilyFile, found: Design, chosen: Chosen) -> str:
     """A method file with the claims that are known of it."""
     claims = [f"{CLAIMS[found.whose]}: {chosen.order}"]
     if found.whose == "method":
-        claims += [f"{key}: true" for key in found.family.stable]
+        whole = [x for x in found.family.stable if x.colour is None]
+        claims += [f"{x.kind}: true" for x in whole]
     claim = ", ".join(claims)
     head = f"found by gark design {family.source}: {claim}"
     return with_values(family, chosen.values, head, claim)

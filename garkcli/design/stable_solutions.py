@@ -2,8 +2,6 @@
 
 from __future__ import annotations
 
-from collections.abc import Callable
-
 from flint import fmpq
 
 from garkcli.design.member import member
@@ -19,17 +17,11 @@ from garkcli.stability.linear import (
     stability_function,
 )
 from garkcli.stability.oscillator import oscillator_stability
-from garkcli.tableau.family import Family
+from garkcli.tableau.family import Family, Stability
 from garkcli.tableau.tableau import Tableau
 
 MOST_DEGREE = 6
 """Solutions of a larger degree are left open."""
-NAMES = {
-    "a-stable": "A-stable",
-    "l-stable": "L-stable",
-    "p-stable": "P-stable",
-}
-"""The kinds of stability that may be wanted, as people write them."""
 
 
 def method_at(
@@ -57,21 +49,21 @@ def _at(value: Number, u: Number) -> Number:
     return total
 
 
-def is_stable(key: str, tableau: Tableau) -> bool:
+def is_stable(wanted: Stability, tableau: Tableau) -> bool:
     """Whether a method has a kind of stability; not where it has no meaning for it."""
-    try:
-        return _DECIDED[key](tableau)
-    except UsageProblem:
-        return False
+    if wanted.kind == "p-stable":
+        return _is_p_stable(tableau)
+    shares: list[Number] = [ONE] * tableau.size
+    if wanted.colour is not None:
+        shares = [ZERO] * tableau.size
+        shares[wanted.colour] = ONE
+    R = stability_function(tableau, shares)
+    return is_l_stable(R) if wanted.kind == "l-stable" else is_a_stable(R)
 
 
 def _is_p_stable(tableau: Tableau) -> bool:
     problem = Oscillator.default(terms_of(tableau), fmpq(1))
-    return oscillator_stability(tableau, problem).is_p_stable
-
-
-_DECIDED: dict[str, Callable[[Tableau], bool]] = {
-    "a-stable": lambda x: is_a_stable(stability_function(x)),
-    "l-stable": lambda x: is_l_stable(stability_function(x)),
-    "p-stable": _is_p_stable,
-}
+    try:
+        return oscillator_stability(tableau, problem).is_p_stable
+    except UsageProblem:
+        return False

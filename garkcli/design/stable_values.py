@@ -86,7 +86,8 @@ def stable_sets(design: Design) -> tuple[StableValues, ...]:
     family = design.family
     if design.last.kind != "every-value" or len(family.ring.names) > 1:
         return ()
-    wanted = [key for key in get_args(Wanted) if key in family.stable]
+    asked = {x.kind for x in family.stable if x.colour is None}
+    wanted = [kind for kind in get_args(Wanted) if kind in asked]
     return tuple(stable_values(family, key, design.whose) for key in wanted)
 
 

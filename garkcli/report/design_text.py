@@ -9,7 +9,6 @@ from textwrap import wrap
 from garkcli.design.choices import Choice
 from garkcli.design.design import Design, Found, Step
 from garkcli.design.solutions import value_at
-from garkcli.design.stable_solutions import NAMES
 from garkcli.design.stable_values import StableValues
 from garkcli.errors import counted
 from garkcli.exact.polynomial import Polynomial
@@ -70,7 +69,7 @@ def render(
     for values in sets:
         lines += ["", *set_lines(values, digits, width)]
     if family.stable and not sets and design.last.kind not in _ONE_BY_ONE:
-        kinds = ", ".join(NAMES[key] for key in family.stable)
+        kinds = ", ".join(map(str, family.stable))
         text = f"  {kinds}: decided for single solutions, or for one parameter: --set"
         lines += ["", *wrap(text, width, subsequent_indent="  ")]
     return "\n".join(lines) + "\n"
@@ -202,13 +201,13 @@ def _verdict(design: Design, found: Found, index: int) -> str:
         return "no method: a weight or a denominator is zero there"
     order = _order(design, found)
     if index in found.unstable:
-        kinds = " and ".join(NAMES[key] for key in design.family.stable)
+        kinds = " and ".join(map(str, design.family.stable))
         return f"{order}; not {kinds}, which is wanted"
     if index in found.open:
         return f"{order}; stability not decided, as its field is too large"
     if index not in found.accepted:
         return "not of this file: out of a range, a sign not wanted, or another root"
-    stable = "".join(f", {NAMES[key]}" for key in design.family.stable)
+    stable = "".join(f", {kind}" for kind in design.family.stable)
     return f"{order}, by a certificate of its own{stable}"
 
 

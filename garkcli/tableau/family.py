@@ -32,6 +32,28 @@ class Radical:
     latex: str = ""
 
 
+@dataclass(frozen=True)
+class Stability:
+    """A kind of stability that is wanted.
+
+    Attributes:
+        kind: ``a-stable``, ``l-stable`` or ``p-stable``.
+        colour: of which diagonal method, counted from 0; None for the whole.
+    """
+
+    kind: str
+    colour: int | None = None
+
+    def __str__(self) -> str:
+        """As people write it, such as A-stable."""
+        name = self.kind[0].upper() + self.kind[1:]
+        return (
+            name
+            if self.colour is None
+            else f"{name} in colour {self.colour + 1}"
+        )
+
+
 @dataclass(frozen=True, repr=False, kw_only=True)
 class Family:
     """A family of methods.
@@ -63,7 +85,7 @@ class Family:
     positive: tuple[fmpq_mpoly, ...] = ()
     not_negative: tuple[fmpq_mpoly, ...] = ()
     order: int | None = None
-    stable: tuple[str, ...] = ()
+    stable: tuple[Stability, ...] = ()
 
     def __repr__(self) -> str:
         return f"<Family {self.name}: {', '.join(self.parameters)}>"

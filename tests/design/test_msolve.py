@@ -6,7 +6,7 @@ import sys
 from pathlib import Path
 
 import pytest
-from flint import Ordering, fmpz_mpoly_ctx
+from flint import Ordering, fmpq, fmpz_mpoly, fmpz_mpoly_ctx
 
 from garkcli.design import design, groebner, msolve
 from garkcli.design.design import Design, find_parameters
@@ -160,6 +160,80 @@ def test_classical_methods_of_four_stages(name: str) -> None:
         assert values == {
             "c4": "1", "a32": "1", "a42": "-1", "a43": "1", "b1": "1/8", "b2": "3/8", "b3": "3/8", "b4": "1/8",
         }  # fmt: skip
+
+
+RK4 = {"c2": "1/2", "c3": "1/2", "c4": "1", "a32": "1/2", "a42": "0", "a43": "1",
+       "b1": "1/6", "b2": "1/3", "b3": "1/3", "b4": "1/6"}  # fmt: skip
+KUTTA = {"c2": "1/3", "c3": "2/3", "c4": "1", "a32": "1", "a42": "-1", "a43": "1",
+         "b1": "1/8", "b2": "3/8", "b3": "3/8", "b4": "1/8"}  # fmt: skip
+
+
+def test_explicit_methods_of_four_stages_and_order_four(
+    monkeypatch: pytest.MonkeyPatch,
+) -> None:
+    """All of them: a family of dimension 2 with c₄ = 1 (W. Kutta 1901), among them both classical
+    methods, and not what has another c₄.
+    """
+    found = _by_msolve(EXPLICIT4, 4, monkeypatch)
+    family = found.family
+    ideal = found.last.ideal
+    assert ideal is not None
+    assert (found.last.kind, ideal.dimension) == ("family", 2)
+    ring = family.ring
+    assert ideal.contains(ring.parameter("c4").numerator - 1)
+    for classical in (RK4, KUTTA):
+        point = [fmpq(*map(int, classical[x].split("/"))) for x in ring.names]
+        assert not any(fmpq_at(p, point) for p in ideal.polynomials)
+    point[ring.names.index("c4")] += 1
+    assert any(fmpq_at(p, point) for p in ideal.polynomials)
+
+
+def fmpq_at(p: fmpz_mpoly, point: list[fmpq]) -> fmpq:
+    """A polynomial at a point; an unknown that keeps denominators from vanishing has none."""
+    total = fmpq(0)
+    for exponents, a in p.to_dict().items():
+        term = fmpq(a)
+        for x, exponent in zip(point, exponents, strict=False):
+            term *= x ** int(exponent)
+        total += term
+    return total
+
+
+IMEX4 = """unknown: {{stages: 4, shape: [imex, stiffly-accurate]}}
+design: {{R-infinity: {{2: 0}}, fix: {{{}}}}}
+"""
+
+
+def has_alexander(found: Design) -> bool:
+    """Whether 6γ³ − 18γ² + 9γ − 1 is zero at all methods that are found."""
+    ideal = found.last.ideal
+    assert ideal is not None
+    g = found.family.ring.parameter("gamma").numerator
+    return ideal.contains(6 * g**3 - 18 * g**2 + 9 * g - 1)
+
+
+def test_implicit_explicit_methods_of_four_stages() -> None:
+    """Order 3, stiffly accurate with R(∞) = 0 of the implicit part and c₂ = γ, from twelve unknowns: a
+    proved family of dimension 3 with c₄ = 1, in which γ is a root of 6γ³ − 18γ² + 9γ − 1 as in the
+    method of U. Ascher, S. Ruuth, R. Spiteri (1997).
+    """
+    family = loads_family(IMEX4.format("c2: gamma"))
+    found = find_parameters(family, 3, seconds=30)
+    ideal = found.last.ideal
+    assert ideal is not None
+    assert (found.last.kind, ideal.dimension) == ("family", 3)
+    assert ideal.is_proved
+    assert ideal.contains(family.ring.parameter("c4").numerator - 1)
+    assert has_alexander(found)
+
+
+def test_implicit_explicit_methods_by_msolve(
+    monkeypatch: pytest.MonkeyPatch,
+) -> None:
+    """The same γ without a choice of nodes, where the first stage has no weight."""
+    found = _by_msolve(IMEX4.format("b1: 0"), 3, monkeypatch)
+    assert found.last.kind == "family"
+    assert has_alexander(found)
 
 
 def test_no_stiffly_accurate_sdirk() -> None:

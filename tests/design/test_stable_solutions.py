@@ -19,7 +19,11 @@ from garkcli.exact.roots import RealRoot
 from garkcli.methodfile.family import loads_family
 from garkcli.methodfile.load import loads
 from garkcli.report.schemas import report_schema
-from garkcli.stability.linear import is_a_stable, stability_function
+from garkcli.stability.linear import (
+    is_a_stable,
+    is_l_stable,
+    stability_function,
+)
 from tests.cli.harness import gark
 
 SDIRK = "parameters: {g: free}\nA: [[g, 0], [1 - 2*g, g]]\nb: [1/2, 1/2]\n"
@@ -76,15 +80,40 @@ def test_order_and_stability_as_a_command(tmp_path: Path) -> None:
     ]
 
 
-def test_wishes_for_stability_are_of_the_whole_method(tmp_path: Path) -> None:
-    """One colour is refused with its cure; so is a search, which has no exact solutions."""
-    text = "unknown: {stages: 2, shape: imex}\ndesign: {a-stable: {2: true}}\n"
+def test_wishes_that_have_no_meaning(tmp_path: Path) -> None:
+    """P-stability of one colour is refused with its cure; so is a search, whose methods need not be
+    exact.
+    """
+    text = "unknown: {stages: 2, shape: imex}\ndesign: {p-stable: {2: true}}\n"
     with pytest.raises(MethodFileError, match="meant of the whole method"):
         loads_family(text)
     path = tmp_path / "family.yaml"
     path.write_text(THREE, encoding="utf-8")
     refused = gark("design", str(path), "--order", "4", "--search", "3")
     assert (refused.code, "gark check" in refused.err) == (2, True)
+
+
+IMEX = """unknown: {stages: 4, shape: [imex, stiffly-accurate]}
+design:
+  order: 3
+  R-infinity: {2: 0}
+  l-stable: {2: true}
+  fix: {b1: 0, c2: gamma, c3: (1 + gamma)/2, e42: e43, e32: 2/5}
+"""
+
+
+def test_implicit_explicit_methods_with_an_l_stable_part() -> None:
+    """Four stages of order 3: of the three γ with R(∞) = 0, the roots of 6γ³ − 18γ² + 9γ − 1, one
+    makes the implicit part L-stable, 0.4358… (R. Alexander 1977); its method is proved.
+    """
+    found = find_parameters(loads_family(IMEX))
+    [one] = found.last.found
+    assert (one.accepted, one.unstable) == ((1,), (0, 2))
+    [chosen] = accepted_methods(found)
+    assert chosen.order == 3
+    method = loads(IMEX.split("design")[0], settings=chosen.values)
+    R = stability_function(method.tableau, [fmpq(0), fmpq(1)])
+    assert is_l_stable(R)
 
 
 def test_all_solutions_are_written(tmp_path: Path) -> None:

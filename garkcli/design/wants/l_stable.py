@@ -1,12 +1,11 @@
 """L-stable methods."""
 
-from garkcli.design.wants.want import Asked, Meaning, Want, refuse_colours
+from garkcli.design.wants.want import Asked, Meaning, Want, stability
 
 
 def _meaning(asked: Asked) -> Meaning:
     """Decided at each solution, in its number field."""
-    refuse_colours(asked, "l-stable")
-    return Meaning(stable=("l-stable",))
+    return stability(asked, "l-stable")
 
 
 WANT = Want("l-stable", "flag", "A-stable with R(∞) = 0", _meaning)

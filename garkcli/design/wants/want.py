@@ -11,6 +11,7 @@ from flint import fmpq, fmpq_mpoly
 from garkcli.errors import MethodError
 from garkcli.exact.matrix import Matrix, Vector
 from garkcli.exact.parametric import Parameters, fraction
+from garkcli.tableau.family import Stability
 from garkcli.tableau.point_space import PointSpace
 from garkcli.tableau.tableau import Tableau
 
@@ -81,7 +82,7 @@ class Meaning:
     nonzero: tuple[fmpq_mpoly, ...] = ()
     positive: tuple[object, ...] = ()
     not_negative: tuple[object, ...] = ()
-    stable: tuple[str, ...] = ()
+    stable: tuple[Stability, ...] = ()
 
 
 @dataclass(frozen=True)
@@ -101,17 +102,13 @@ class Want:
     meaning: Callable[[Asked], Meaning]
 
 
-def refuse_colours(asked: Asked, key: str) -> None:
-    """Refuse a single colour where the whole method is meant.
-
-    Raises:
-        MethodError: one was named.
-    """
+def stability(asked: Asked, kind: str) -> Meaning:
+    """A kind of stability, of the whole method or of one colour; decided at each solution."""
+    colour = None
     if len(asked.colours) < asked.tableau.size:
-        raise MethodError(
-            f"design: {key} is meant of the whole method",
-            f"write {key}: true",
-        )
+        [colour] = asked.colours
+        asked.diagonal(colour, kind)
+    return Meaning(stable=(Stability(kind, colour),))
 
 
 def numerators(
