@@ -30,8 +30,8 @@ def least(design: Design, name: str, seconds: float) -> Minimum | None:
         return minimise(design, name, seconds)
     except NotDecided:
         problem = UsageProblem(
-            f"--minimise {name}: not decided, there are too many unknowns",
-            "choose values for some of them with --choose",
+            f"--minimise {name}: not decided, the solution set is too large or curved",
+            "choose values for some unknowns with --choose",
         )
         say_problem(problem)
         return None

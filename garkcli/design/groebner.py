@@ -99,6 +99,22 @@ def divides(a: Exponents, b: Exponents) -> bool:
     return all(x <= y for x, y in zip(a, b, strict=True))
 
 
+def groebner_basis_apart(
+    polynomials: Sequence[fmpz_mpoly],
+    context: fmpz_mpoly_ctx,
+    deadline: float,
+) -> list[fmpz_mpoly]:
+    """The same without a step in this process: reducing polynomials of many terms with one another
+    may take long by itself.
+
+    Raises:
+        NotDecided: the time was not enough.
+    """
+    texts = [_terms(p) for p in polynomials]
+    found = _within_time(_basis, (texts, tuple(context.names())), deadline)
+    return [_polynomial(p, context) for p in found]
+
+
 def unproved_basis(
     polynomials: Sequence[fmpz_mpoly],
     context: fmpz_mpoly_ctx,

@@ -22,11 +22,14 @@ from garkcli.design.groebner import (
     Exponents,
     divides,
     groebner_basis,
+    groebner_basis_apart,
     leading,
     unproved_basis,
 )
 from garkcli.exact.parametric import Parameters
 
+FEW_TERMS = 150
+"""Of all polynomials together, for which no process is started."""
 UNIT = "_unit"
 """The unknown that keeps a product from being zero: UNIT · product = 1."""
 
@@ -99,10 +102,30 @@ class Ideal:
                 new.append(rest)
         if not new or self.is_everything:
             return self
-        grown = copy(self)
-        grown.basis = groebner_basis(
-            [*self.basis, *new], self._context, self.deadline
+        return self._with_basis(
+            groebner_basis([*self.basis, *new], self._context, self.deadline)
         )
+
+    def with_zeros_apart(self, polynomials: Sequence[fmpq_mpoly]) -> Ideal:
+        """The same; where polynomials have many terms all of it in a process, which the deadline
+        ends.
+
+        Raises:
+            NotDecided: its basis is beyond the limits.
+        """
+        size = sum(len(p.to_dict()) for p in polynomials)
+        if self.deadline is None or size <= FEW_TERMS:
+            return self.with_zeros(polynomials)
+        new = [self._integral(p) for p in polynomials if p]
+        return self._with_basis(
+            groebner_basis_apart(
+                [*self.basis, *new], self._context, self.deadline
+            )
+        )
+
+    def _with_basis(self, basis: list[fmpz_mpoly]) -> Ideal:
+        grown = copy(self)
+        grown.basis = basis
         return grown
 
     def with_zeros_unproved(

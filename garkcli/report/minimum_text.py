@@ -3,6 +3,7 @@
 from __future__ import annotations
 
 from collections.abc import Iterator
+from fractions import Fraction
 from textwrap import wrap
 
 from garkcli.design.minimise.objective import Level
@@ -135,7 +136,12 @@ def _value_text(value: RealRoot | None, digits: int) -> str:
         return f"{decimals}…"
     if len(simple) > LONG:
         return f"{decimals}…"
-    return simple if simple == decimals else f"{simple} = {decimals}…"
+    if simple == decimals:
+        return simple
+    is_whole = value.exact is not None and Fraction(decimals) == Fraction(
+        simple
+    )
+    return f"{simple} = {decimals}" + ("" if is_whole else "…")
 
 
 def _number_text(value: RealRoot, digits: int) -> str:

@@ -9,10 +9,12 @@ from __future__ import annotations
 
 from collections.abc import Iterable, Iterator, Mapping, Sequence
 from dataclasses import dataclass, replace
+from time import monotonic
 from typing import TypeAlias, cast
 
 from flint import fmpq, fmpq_mpoly, fmpz_mpoly
 
+from garkcli.design.groebner import NotDecided
 from garkcli.design.ideal import Ideal, integral_scale
 from garkcli.design.member import value_of
 from garkcli.design.minimise.coordinates import Changes
@@ -170,8 +172,11 @@ class _Splitting:
             values: of the unknowns, functions of those that are left.
             left: the names of these.
         """
+        if self.deadline is not None and monotonic() > self.deadline:
+            raise NotDecided
         simpler = [self._without(p, nonzero) for p in polynomials]
-        ideal = Ideal(self.ring, (), self.deadline).with_zeros(simpler)
+        nothing = Ideal(self.ring, (), self.deadline)
+        ideal = nothing.with_zeros_apart(simpler)
         if ideal.is_everything:
             return
         basis = [_rational(p, self.ring) for p in ideal.basis]

@@ -47,6 +47,8 @@ CUTS = (fmpq(1, 2), fmpq(1, 3), fmpq(2, 3), fmpq(1), fmpq(1, 4), fmpq(3, 4))
 
 SLACK = fmpq(1, 10**9)
 """By how much of it an irrational least value may be missed."""
+MOST_COORDINATES = 4
+"""Coordinates of which the objective is written out as a function."""
 SHORT = 64
 """Bits of a rational value up to which it is a bound itself."""
 
@@ -139,6 +141,8 @@ class Smallest(Comparison):
         if self.extent == "all":
             self.extent = "critical-points"
         try:
+            if len(part.ring.names) > MOST_COORDINATES:
+                raise NotDecided
             numerator, denominator = self._formula(part)
             critical = critical_equations(part, numerator, denominator)
             self._over_smaller(part, critical)

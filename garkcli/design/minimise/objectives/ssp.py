@@ -10,6 +10,7 @@ from garkcli.design.minimise.sampled import in_plane
 from garkcli.errors import UsageProblem
 from garkcli.exact.parametric import Parameters
 from garkcli.stability.ssp import conditions_at, ssp_coefficient
+from garkcli.tableau.point_space import PointSpace
 from garkcli.tableau.tableau import Tableau
 
 
@@ -25,6 +26,11 @@ def _value(tableau: Tableau) -> Size:
 
 def _curves(tableau: Tableau, ring: Parameters) -> Sequence[fmpq_mpoly]:
     """D det(I + rK) and d (I + rK)⁻¹ v are polynomials, of degree one in each row of K."""
+    if not all(isinstance(x, PointSpace) for x in tableau.spaces):
+        raise UsageProblem(
+            "-ssp: families by name have no rational entries",
+            "spell the tableau out, stage by stage",
+        )
     rows = chain.from_iterable(tableau.blocks.values())
     entries = list(chain.from_iterable(rows))
     for colour in tableau.colours:
