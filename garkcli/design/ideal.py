@@ -168,10 +168,21 @@ class Ideal:
 
     @property
     def polynomials(self) -> list[fmpz_mpoly]:
-        """The basis without what keeps denominators from vanishing."""
+        """The basis without what keeps denominators from vanishing.
+
+        Where the ideal has UNIT as a polynomial in the others, as it has beside radicals, that
+        stands in its place, and these polynomials generate all that have no UNIT.
+        """
         if not self._has_unit:
             return self.basis
         unit = self.variables - 1
+        for p in self.basis:
+            scale = _alone(p, unit)
+            if scale:
+                instead = scale * self._context.gen(unit) - p
+                others = [q for q in self.basis if q is not p]
+                found = [_put(q, unit, instead, scale) for q in others]
+                return [q for q in found if q]
         return [p for p in self.basis if not p.degrees()[unit]]
 
     @property
@@ -216,6 +227,33 @@ class Ideal:
                 columns.append(column)
             matrices.append(fmpq_mat(columns).transpose())
         return matrices
+
+
+def _alone(p: fmpz_mpoly, variable: int) -> int:
+    """The coefficient of an unknown in p if no other monomial has it; else 0."""
+    having = [(e, a) for e, a in p.to_dict().items() if e[variable]]
+    if len(having) != 1:
+        return 0
+    [(exponents, a)] = having
+    return int(a) if sum(exponents) == 1 else 0
+
+
+def _put(
+    p: fmpz_mpoly, variable: int, numerator: fmpz_mpoly, denominator: int
+) -> fmpz_mpoly:
+    """A primitive multiple of p with numerator/denominator in place of an unknown."""
+    context = p.context()
+    degree = p.degrees()[variable]
+    total = context.constant(0)
+    for exponents, a in p.to_dict().items():
+        k = int(exponents[variable])
+        others = (*exponents[:variable], 0, *exponents[variable + 1 :])
+        term = context.from_dict({others: a})
+        total += term * numerator**k * denominator ** (degree - k)
+    if not total:
+        return total
+    primitive: fmpz_mpoly = total.primitive()[1]
+    return primitive if primitive.leading_coefficient() > 0 else -primitive
 
 
 def integral_scale(polynomial: fmpq_mpoly) -> fmpz:

@@ -5,9 +5,10 @@ from __future__ import annotations
 from pathlib import Path
 
 import pytest
-from flint import ctx, fmpq
+from flint import Ordering, ctx, fmpq, fmpq_mpoly_ctx
 
-from garkcli import load, loads
+from garkcli import find_parameters, load, load_family, loads
+from garkcli.design.ideal import Ideal
 from garkcli.exact.display import to_ball
 from garkcli.order.constants import error_constants
 from garkcli.problems.oscillator import Oscillator, terms_of
@@ -17,6 +18,7 @@ from garkcli.tableau.tableau import Tableau
 from tests.catalogue.catalogue import entries, tableau
 
 FOUND = Path(__file__).resolve().parents[2] / "methods" / "found"
+ASKS = FOUND / "asks"
 
 
 def tableau_of(name: str) -> Tableau:
@@ -143,3 +145,22 @@ def test_the_parts_are_those_of_the_pair(name: str) -> None:
         explicit = tableau_of("imex6-order4-explicit")
         assert explicit.blocks[0, 0] == whole.blocks[0, 0]
         assert explicit.colours[0].b == whole.colours[0].b
+
+
+def test_the_polynomials_of_the_family_of_transfers_are_all() -> None:
+    """With irrational nodes too the listed polynomials have the dimension that is told, and are in
+    the ideal.
+    """
+    family = load_family(ASKS / "every-transfer-gauss2-lobatto3.yaml")
+    ideal = find_parameters(family, 4, "pair").last.ideal
+    assert ideal is not None
+    assert ideal.dimension == 2
+    size = len(family.ring.names)
+    context = fmpq_mpoly_ctx.get(family.ring.names, Ordering.degrevlex)
+    listed = []
+    for p in ideal.polynomials:
+        terms = {e[:size]: fmpq(a) for e, a in p.to_dict().items()}
+        assert all(not any(e[size:]) for e in p.to_dict())
+        listed.append(context.from_dict(terms))
+    assert all(ideal.contains(p) for p in listed)
+    assert Ideal(family.ring).with_zeros(listed).dimension == 2
