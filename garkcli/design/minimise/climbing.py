@@ -55,15 +55,21 @@ def _shortened(known: Rank, point: Point) -> Point:
     """With short numbers near by in place of others, where that makes it no worse."""
     for q in DENOMINATORS:
         others = tuple(_near(x, q) for x in point)
-        if others != point and known(others) and known(others) >= known(point):
+        if others != point and _is_as_good(known, others, point):
             return others
     for i, x in enumerate(point):
         for q in DENOMINATORS:
             other = (*point[:i], _near(x, q), *point[i + 1 :])
-            if known(other) and known(other) >= known(point):
+            if _is_as_good(known, other, point):
                 point = other
                 break
     return point
+
+
+def _is_as_good(known: Rank, other: Point, point: Point) -> bool:
+    """Whether there is a method at another point that is not worse."""
+    rank = known(other)
+    return rank is not None and bool(rank >= known(point))
 
 
 def _near(x: fmpq, q: int) -> fmpq:
@@ -87,8 +93,10 @@ def _climbed(known: Rank, point: Point) -> Point:
 
 def _neighbours(point: Point, step: fmpq) -> Iterator[Point]:
     """The points around a point, with one or two coordinates changed."""
-    for signs in product((-1, 0, 1), repeat=len(point)):
-        if 0 < sum(map(abs, signs)) <= 2:
+    size = len(point)
+    for signs in product((-1, 0, 1), repeat=size):
+        changed = size - signs.count(0)
+        if changed in {1, 2}:
             moved = zip(point, signs, strict=True)
             yield tuple(x + k * step for x, k in moved)
 

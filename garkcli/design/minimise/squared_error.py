@@ -163,11 +163,15 @@ class _Sums:
         total = cleared.one * 0
         for l, b in enumerate(cleared.weights):
             x = self._of_trees(l, order)
+            # (b v)² − 2 (b v) (E w / order) + (E w / order)²
+            scale = E * fmpq(1, order)
             rows = [_dot(b, row) for row in x.vv]
+            mixed = _dot(b, x.vw) * scale
             total += _dot(b, rows)
-            total += _dot(b, x.vw) * E * fmpq(-2, order)
-            total += x.ww * E * E * fmpq(1, order * order)
-        denominator = E * cleared.D ** (order - 1)
+            total -= mixed * 2
+            total += x.ww * scale * scale
+        power = cleared.D ** (order - 1)
+        denominator = E * power
         return Quotient(total, denominator * denominator)
 
     def _of_trees(self, l: int, order: int) -> Tensor:
@@ -222,8 +226,10 @@ class _Sums:
             if order % m:
                 continue
             for branch in self._all_branches(k, order // m):
-                x = squared(algebra.power(branch.value, m))
-                weight = factors[m] / fmpq(branch.symmetry) ** (2 * m)
+                power = algebra.power(branch.value, m)
+                x = squared(power)
+                symmetries = fmpq(branch.symmetry) ** (2 * m)
+                weight = factors[m] / symmetries
                 total = total.plus(x.times(weight))
         return total
 
@@ -245,8 +251,9 @@ class _Sums:
                 colour.space, order - 1, order - 1, most
             ):
                 v = _applied(block, forest.value.v)
-                w = forest.value.w * D * fmpq(1, order)
-                yield _Branch(Pair(v, w), forest.symmetry)
+                w = forest.value.w * D
+                value = Pair(v, w * fmpq(1, order))
+                yield _Branch(value, forest.symmetry)
 
     def _all_forests(
         self, k: int, order: int, largest: int, most: int

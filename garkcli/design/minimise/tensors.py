@@ -75,7 +75,7 @@ class TensorAlgebra:
     def product(self, u: Row, v: Row) -> Row:
         """The product of two stage vectors."""
         if not isinstance(self.space, PolynomialSpace):
-            return tuple(x * y for x, y in zip(u, v, strict=True))
+            return multiplied(u, v)
         raised = self._convolved([(u, v)])
         return self._reduced(raised)
 
@@ -84,9 +84,9 @@ class TensorAlgebra:
         out = [self.zero] * (2 * s - 1)
         for u, v in pairs:
             for i, x in enumerate(u):
-                for j, y in enumerate(v):
+                for j, y in enumerate(v, start=i):
                     if x and y:
-                        out[i + j] += x * y
+                        out[j] += x * y
         return out
 
     def _reduced(self, out: list[Entry]) -> Row:
@@ -94,38 +94,47 @@ class TensorAlgebra:
         space = self.space
         assert isinstance(space, PolynomialSpace)
         s = space.stages
-        for k in range(2 * s - 2, s - 1, -1):
-            for j in range(s):
-                out[k - s + j] -= out[k] * space.modulus[j]
+        lower = [space.modulus[j] for j in range(s)]
+        for k in reversed(range(s, 2 * s - 1)):
+            highest = out[k]
+            for j, a in enumerate(lower, start=k - s):
+                out[j] -= highest * a
         return tuple(out[:s])
 
     def multiplied(self, a: Tensor, b: Tensor) -> Tensor:
         """The product of two tensors."""
+        vv = self._squares(a.vv, b.vv)
         vw = self.product(a.vw, b.vw)
-        return Tensor(self._squares(a.vv, b.vv), vw, a.ww * b.ww)
+        ww = a.ww * b.ww
+        return Tensor(vv, vw, ww)
 
     def _squares(self, a: Square, b: Square) -> Square:
         if not isinstance(self.space, PolynomialSpace):
-            return tuple(
-                tuple(x * y for x, y in zip(u, v, strict=True))
-                for u, v in zip(a, b, strict=True)
-            )
+            pairs_of_rows = zip(a, b, strict=True)
+            return tuple(multiplied(u, v) for u, v in pairs_of_rows)
         # rows are polynomials in y, the column of rows one in x
         s = self.space.stages
         rows = []
         for k in range(2 * s - 1):
-            first, last = max(0, k - s + 1), min(k, s - 1)
-            pairs = [(a[i], b[k - i]) for i in range(first, last + 1)]
-            rows.append(self._reduced(self._convolved(pairs)))
+            first = max(0, k - s + 1)
+            last = min(k, s - 1)
+            pairs = []
+            for i in range(first, last + 1):
+                pair = a[i], b[k - i]
+                pairs.append(pair)
+            raised = self._convolved(pairs)
+            rows.append(self._reduced(raised))
         columns = zip(*rows, strict=True)
         reduced = [self._reduced(list(column)) for column in columns]
         return tuple(zip(*reduced, strict=True))
 
     def power(self, x: Pair, k: int) -> Pair:
         """The k-th power of an element of S."""
-        v, w = x.v, x.w
+        v = x.v
+        w = x.w
         for _ in range(k - 1):
-            v, w = self.product(v, x.v), w * x.w
+            v = self.product(v, x.v)
+            w = w * x.w
         return Pair(v, w)
 
     @cached_property
@@ -138,5 +147,12 @@ class TensorAlgebra:
 
 def squared(x: Pair) -> Tensor:
     """The tensor x ⊗ x."""
-    rows = tuple(scaled(x.v, a) for a in x.v)
-    return Tensor(rows, scaled(x.v, x.w), x.w * x.w)
+    vv = tuple(scaled(x.v, a) for a in x.v)
+    vw = scaled(x.v, x.w)
+    ww = x.w * x.w
+    return Tensor(vv, vw, ww)
+
+
+def multiplied(u: Row, v: Row) -> Row:
+    """The product, entry by entry."""
+    return tuple(x * y for x, y in zip(u, v, strict=True))
