@@ -55,7 +55,7 @@ def small(slow: fmpq, greatest: fmpq | None) -> StableValues:
     return stable_values(family, "p-stable", "method", wanted)
 
 
-@settings(max_examples=15)
+@settings(max_examples=10)
 @given(
     st.fractions(-1, 2, max_denominator=6),
     st.sampled_from([fmpq(1, 2), fmpq(2)]),
