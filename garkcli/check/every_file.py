@@ -17,6 +17,10 @@ from garkcli.methodfile.expectations import highest_order
 from garkcli.methodfile.family import loads_family
 
 
+MOST_PARAMETERS = 30
+"""Free parameters of a file that is checked: with 27 it takes ten seconds, with 35 minutes."""
+
+
 def check_every(
     file: HasFreeParameters,
     limit: int,
@@ -35,6 +39,13 @@ def check_every(
         family = loads_family(
             file.text, file.source, settings, is_design=False
         )
+        count = len(family.parameters)
+        if count > MOST_PARAMETERS:
+            message = f"{count} free parameters (limit {MOST_PARAMETERS})"
+            cure = (
+                "give values to some by --set; gark design asks for one order"
+            )
+            return _refused(file, message, cure)
         reach = max(limit, highest_order(family.claims) + 1)
         found = every_value(family, reach)
     except MethodFileError as error:

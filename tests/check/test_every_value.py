@@ -189,6 +189,14 @@ def test_roots_of_parameters_are_refused(tmp_path: object) -> None:
     assert "--set" in outcome.faults[0].help
 
 
+def test_too_many_parameters_are_refused(tmp_path: object) -> None:
+    """Six implicit stages of unknowns would take hours: the limit and the cure are told."""
+    outcome = checked(tmp_path, "unknown: {stages: 6, shape: full}")
+    [fault] = outcome.faults
+    assert fault.message == "42 free parameters (limit 30)"
+    assert "--set" in fault.help
+
+
 def test_report_is_as_its_schema_says(tmp_path: object) -> None:
     """JSON of families of one parameter and of several is valid; an outcome goes between
     processes.
