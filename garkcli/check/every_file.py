@@ -16,7 +16,6 @@ from garkcli.errors import (
 from garkcli.methodfile.expectations import highest_order
 from garkcli.methodfile.family import loads_family
 
-
 MOST_PARAMETERS = 30
 """Free parameters of a file that is checked: with 27 it takes ten seconds, with 35 minutes."""
 
