@@ -56,7 +56,6 @@ def command(
     not proved. The same seed has the same finds everywhere. Exit code 3: nothing was found, which
     says nothing of what there is.
     """
-    from garkcli.design.stable_values import stable_sets
     from garkcli.methodfile.family import load_family
     from garkcli.tableau.family import Stability
 
@@ -91,6 +90,19 @@ def command(
         chosen = _walk(_found(family, wanted), choices)
         family = load_family(file, {**settings, **choices})
         family = replace(family, stable=(*family.stable, *given))
+    return _told(file, family, chosen, wanted, output)
+
+
+def _told(
+    file: str,
+    family: FamilyFile,
+    chosen: list[Choice],
+    wanted: Wanted,
+    output: Output,
+) -> int:
+    """Find the values, write the report and the files, and return the exit code."""
+    from garkcli.design.stable_values import stable_sets
+
     found = _found(family, wanted)
     order = wanted.order or family.order
     sets = stable_sets(found)

@@ -16,8 +16,9 @@ from garkcli.methodfile.description import (
     Structure,
     of_colour,
 )
+from garkcli.methodfile.nodes import key_nodes
 from garkcli.methodfile.numbers import Numbers, Row, Rows
-from garkcli.methodfile.source import Entries, Source, key_nodes
+from garkcli.methodfile.source import Entries, Source
 from garkcli.methodfile.spelled_out import (
     CURES,
     EXAMPLE,

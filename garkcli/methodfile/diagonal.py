@@ -18,8 +18,9 @@ from garkcli.methodfile.description import (
     block_name,
     of_colour,
 )
+from garkcli.methodfile.nodes import keys_of
 from garkcli.methodfile.numbers import Numbers
-from garkcli.methodfile.source import Entries, Source, keys_of
+from garkcli.methodfile.source import Entries, Source
 from garkcli.methodfile.spelled_out import SpelledOutReader, are_too_many
 
 _FORM = "write a list: [{family: gauss, stages: 2}, …]"

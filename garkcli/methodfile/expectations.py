@@ -10,7 +10,8 @@ from typing import TYPE_CHECKING, TypeAlias
 from yaml.nodes import Node, ScalarNode, SequenceNode
 
 from garkcli.methodfile.description import ClaimText
-from garkcli.methodfile.source import Source, is_null
+from garkcli.methodfile.nodes import is_null
+from garkcli.methodfile.source import Source
 from garkcli.methodfile.words import shortened
 from garkcli.properties.keys import KEYS
 

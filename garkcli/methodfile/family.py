@@ -30,9 +30,9 @@ from garkcli.methodfile.load import (
     loads,
     read_method_text,
 )
+from garkcli.methodfile.nodes import Extent, extent
 from garkcli.methodfile.numbers import Row
 from garkcli.methodfile.reader import Reader
-from garkcli.methodfile.source import Extent, extent
 from garkcli.methodfile.wishes import Wishes, meaning_of, read_wishes
 from garkcli.methodfile.words import one_line
 from garkcli.tableau.family import Family

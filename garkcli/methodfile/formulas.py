@@ -14,8 +14,9 @@ from garkcli.exact.formula import CONSTANTS, RESERVED, parse_formula
 from garkcli.exact.nodes import Expression, Literal, Name
 from garkcli.exact.rewriting import names_in, size_of
 from garkcli.exact.values import Value, value_of
+from garkcli.methodfile.nodes import is_null
 from garkcli.methodfile.numbers import MAX_SIZE
-from garkcli.methodfile.source import Source, is_null
+from garkcli.methodfile.source import Source
 from garkcli.methodfile.spellings import explained, is_misread
 from garkcli.methodfile.words import shortened, unquoted
 from garkcli.problems.expr import rational

@@ -8,8 +8,8 @@ from garkcli.errors import did_you_mean
 from garkcli.exact.expression import FUNCTIONS
 from garkcli.exact.field import ZERO
 from garkcli.exact.nodes import Expression, Literal, Name
+from garkcli.methodfile.nodes import key_nodes
 from garkcli.methodfile.numbers import Entry, Free, Numbers
-from garkcli.methodfile.source import key_nodes
 from garkcli.methodfile.words import shortened
 
 

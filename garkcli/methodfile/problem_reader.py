@@ -9,6 +9,7 @@ from yaml.nodes import Node, ScalarNode, SequenceNode
 
 from garkcli.methodfile.description import FORMS as METHOD_FORMS
 from garkcli.methodfile.formulas import Formulas
+from garkcli.methodfile.nodes import keys_of
 from garkcli.methodfile.problem_text import (
     DEFAULT_T_END,
     FORMS,
@@ -20,7 +21,7 @@ from garkcli.methodfile.problem_text import (
     Sides,
 )
 from garkcli.methodfile.sides_reader import read_sides
-from garkcli.methodfile.source import Entries, Source, keys_of
+from garkcli.methodfile.source import Entries, Source
 from garkcli.methodfile.variables import Variables, read_variables
 from garkcli.methodfile.words import one_line
 

@@ -28,19 +28,13 @@ from garkcli.methodfile.description import (
 )
 from garkcli.methodfile.diagonal import DiagonalReader
 from garkcli.methodfile.expectations import NUMBERS
+from garkcli.methodfile.nodes import Extent, extent, key_of, keys_of
 from garkcli.methodfile.numbers import Numbers
 from garkcli.methodfile.parameters import (
     read_parameters,
     refuse_unknown_settings,
 )
-from garkcli.methodfile.source import (
-    Entries,
-    Extent,
-    Source,
-    extent,
-    key_of,
-    keys_of,
-)
+from garkcli.methodfile.source import Entries, Source
 from garkcli.methodfile.spelled_out import SpelledOutReader
 from garkcli.methodfile.words import shortened
 from garkcli.transfer import RULES

@@ -17,10 +17,11 @@ from garkcli.methodfile.description import (
     TableauText,
     of_colour,
 )
+from garkcli.methodfile.nodes import Extent, extent
 from garkcli.methodfile.numbers import Free, Numbers, Row, Rows
 from garkcli.methodfile.shapes.layout import Layout, Texts
 from garkcli.methodfile.shapes.registry import SHAPES, layout_of
-from garkcli.methodfile.source import Extent, Source, extent
+from garkcli.methodfile.source import Source
 
 FORM = "write unknown: {stages: 3, shape: sdirk}"
 MAX_STAGES = 20

@@ -17,6 +17,7 @@ from garkcli.errors import (
 )
 from garkcli.methodfile.causes import MAX_PLACES, Found, place_of, told_once
 from garkcli.methodfile.composing import composed, folded_place, position
+from garkcli.methodfile.nodes import keys_of
 from garkcli.methodfile.words import meant_key, shortened
 
 MAX_BYTES = 1_000_000
@@ -31,8 +32,6 @@ MAX_FAULTS_READ = 1_000
 
 Entries: TypeAlias = dict[str, Node]
 """The values of a mapping by their keys."""
-Extent: TypeAlias = tuple[int, int]
-"""From where to where something stands in the text of a file."""
 _NO_CURES: Mapping[str, str] = {}
 _PYTHON = "tag:yaml.org,2002:python"
 """What tags begin with that make objects of Python."""
@@ -319,44 +318,3 @@ class Source:
         message = f"{where}: {shortened(text)} is not known"
         self.fault(node, message, did_you_mean(text, words))
         return None
-
-
-def keys_of(node: Node) -> set[str]:
-    """The keys of a mapping that are plain texts; none for anything else."""
-    if not isinstance(node, MappingNode):
-        return set()
-    return {key.value for key, _ in node.value if isinstance(key, ScalarNode)}
-
-
-def key_nodes(node: Node) -> dict[str, ScalarNode]:
-    """Where the keys of a mapping stand, the first of equal ones."""
-    found: dict[str, ScalarNode] = {}
-    for key, _ in node.value if isinstance(node, MappingNode) else ():
-        if isinstance(key, ScalarNode):
-            found.setdefault(str(key.value), key)
-    return found
-
-
-def key_of(root: MappingNode, value: Node) -> Node:
-    """The key of a value, as it stands in the file."""
-    for key, other in root.value:
-        if other is value:
-            found: Node = key
-            return found
-    raise LookupError("the value is none of the mapping")
-
-
-def extent(text: str, first: Node, last: Node) -> Extent:
-    """From where to where in the text of a file the values from ``first`` to ``last`` stand,
-    without the blanks after them.
-    """
-    start, end = first.start_mark.index, last.end_mark.index
-    written = text[start:end].rstrip()
-    return start, start + len(written)
-
-
-def is_null(node: Node) -> bool:
-    """Whether the value is YAML's null."""
-    return (
-        isinstance(node, ScalarNode) and node.tag == "tag:yaml.org,2002:null"
-    )

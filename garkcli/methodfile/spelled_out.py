@@ -15,8 +15,9 @@ from garkcli.methodfile.description import (
     block_name,
     of_colour,
 )
+from garkcli.methodfile.nodes import is_null
 from garkcli.methodfile.numbers import Numbers, Row, Rows
-from garkcli.methodfile.source import Entries, Source, is_null
+from garkcli.methodfile.source import Entries, Source
 
 Weights: TypeAlias = tuple[Row, ...]
 """A row a colour."""

@@ -14,8 +14,9 @@ from garkcli.methodfile.description import (
     TransferText,
     block_name,
 )
+from garkcli.methodfile.nodes import key_nodes, keys_of
 from garkcli.methodfile.numbers import Numbers
-from garkcli.methodfile.source import Source, key_nodes, keys_of
+from garkcli.methodfile.source import Source
 from garkcli.methodfile.words import shortened
 from garkcli.transfer import PAIR_RULES, RULES
 

@@ -149,6 +149,18 @@ def _value(
     return True if word == "true" else None
 
 
+def _colours_of(wish: Wish, size: int, source: Source) -> tuple[int, ...]:
+    """The colours that a wish is about; none where the method lacks the one it names."""
+    if wish.colour is None:
+        return tuple(range(size))
+    if wish.colour < size:
+        return (wish.colour,)
+    message = f"design: {wish.want.key}: no colour {wish.colour + 1}"
+    cure = f"the method has {counted(size, 'colour')}"
+    source.fault(wish.node, message, cure)
+    return ()
+
+
 def meaning_of(
     wishes: Wishes,
     tableau: Tableau,
@@ -170,16 +182,9 @@ def meaning_of(
         difference = values.number(unknown) - values.number(given)
         meanings.append(Meaning(zeros=(difference,)))
     for wish in wishes.wishes:
-        colours = tuple(range(tableau.size))
-        if wish.colour is not None:
-            if wish.colour >= tableau.size:
-                message = (
-                    f"design: {wish.want.key}: no colour {wish.colour + 1}"
-                )
-                cure = f"the method has {counted(tableau.size, 'colour')}"
-                source.fault(wish.node, message, cure)
-                continue
-            colours = (wish.colour,)
+        colours = _colours_of(wish, tableau.size, source)
+        if not colours:
+            continue
         value = wish.value
         number = values.number(value) if isinstance(value, Entry) else value
         try:
