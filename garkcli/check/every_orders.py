@@ -9,13 +9,9 @@ from flint import fmpq, fmpq_mpoly
 
 from garkcli.check.every_facts import Fact
 from garkcli.check.every_family import EveryFamily
+from garkcli.design.admissible import is_admissible
 from garkcli.design.conditions import FamilyConditions
-from garkcli.design.design import (
-    TABLEAUS,
-    Whose,
-    is_admissible,
-    order_of,
-)
+from garkcli.design.design import TABLEAUS, Whose, order_of
 from garkcli.design.groebner import NotDecided
 from garkcli.design.ideal import Ideal
 from garkcli.design.solutions import solutions, value_at

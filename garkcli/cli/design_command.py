@@ -57,40 +57,47 @@ def command(
     says nothing of what there is.
     """
     from garkcli.methodfile.family import load_family
-    from garkcli.tableau.family import Stability
 
     wanted = Wanted(**options)
     wanted.check()
-    if wanted.emit is not None:
-        from garkcli.page.writing import refuse_unwritable
-
-        refuse_unwritable(wanted.emit)
     family = load_family(file, settings)
-    is_of_springs = wanted.slow is not None
-    if wanted.stability is not None and (
-        wanted.order is None or is_of_springs
-    ):
+    kind, is_of_springs = wanted.stability, wanted.slow is not None
+    if kind is not None and (wanted.order is None or is_of_springs):
         wanted.check_stability()
-        return _stable_values(family, wanted, wanted.stability, output)
-    given: list[Stability] = []
-    if wanted.stability is not None:
-        given.append(Stability(wanted.stability))
-        family = replace(family, stable=(*family.stable, *given))
+        return _stable_values(family, wanted, kind, output)
+    family = _as_stable(family, kind)
     wanted.check_one_by_one([x.kind for x in family.stable])
+    _prepare_places(wanted)
     if wanted.starts is not None:
         from garkcli.cli.searching import search
 
         return search(family, wanted, wanted.starts, output)
+    chosen: list[Choice] = []
+    if choices:
+        chosen = _walk(_found(family, wanted), choices)
+        family = _as_stable(load_family(file, {**settings, **choices}), kind)
+    return _told(file, family, chosen, wanted, output)
+
+
+def _prepare_places(wanted: Wanted) -> None:
+    """Refuse places that cannot be written to, before the work."""
+    if wanted.emit is not None:
+        from garkcli.page.writing import refuse_unwritable
+
+        refuse_unwritable(wanted.emit)
     if wanted.emit_all is not None:
         from garkcli.cli.emitting import make_folder
 
         make_folder(wanted.emit_all)
-    chosen: list[Choice] = []
-    if choices:
-        chosen = _walk(_found(family, wanted), choices)
-        family = load_family(file, {**settings, **choices})
-        family = replace(family, stable=(*family.stable, *given))
-    return _told(file, family, chosen, wanted, output)
+
+
+def _as_stable(family: FamilyFile, kind: Kind | None) -> FamilyFile:
+    """A family of which methods with a kind of stability are wanted, if any."""
+    from garkcli.tableau.family import Stability
+
+    if kind is None:
+        return family
+    return replace(family, stable=(*family.stable, Stability(kind)))
 
 
 def _told(

@@ -6,7 +6,7 @@ from itertools import islice
 from typing import TYPE_CHECKING
 
 from garkcli.cli.design_options import CLAIMS
-from garkcli.cli.emitting import file_names, make_folder
+from garkcli.cli.emitting import file_names
 from garkcli.cli.signals import INTERRUPTED
 from garkcli.cli.streams import say_problem
 from garkcli.crew.hiring import hired
@@ -47,8 +47,6 @@ def search(
     if order is None:
         cure = "say which by --order P, or in the file by design: {order: P}"
         raise UsageProblem("a search is for an order", cure)
-    if wanted.emit_all is not None:
-        make_folder(wanted.emit_all)
     asked = FileSearch.of(family, order, wanted.whose)
     looking = asked.search
     result, ended = _searched(asked, wanted, starts, output)

@@ -125,8 +125,8 @@ def loads_family(
     ranges = {name: values.ends(x) for name, x in numbers.free.items()}
     reader.source.close()
     places = {name: extent(text, x, x) for name, x in numbers.places.items()}
-    of_nodes = _of_nodes(description, tableau)
-    of_wishes = numerators(meaning.zeros, ring)
+    zeros = [*_of_nodes(description, tableau)]
+    zeros += numerators(meaning.zeros, ring)
     return FamilyFile(
         source=source,
         text=text,
@@ -136,7 +136,7 @@ def loads_family(
         parameters=tuple(numbers.free),
         ranges=ranges,
         radicals=tuple(values.domain.radicals),
-        relations=(*of_nodes, *of_wishes),
+        relations=tuple(zeros),
         nonzero=meaning.nonzero,
         positive=_signs(meaning.positive, ring),
         not_negative=_signs(meaning.not_negative, ring),

@@ -16,11 +16,12 @@ from garkcli.methodfile.build import (
     nodes_to_spell_out,
 )
 from garkcli.methodfile.description import Description
+from garkcli.methodfile.file_kind import METHOD_FILE, FileKind
 from garkcli.methodfile.finding import STDIN, SUFFIX, find_files
 from garkcli.methodfile.numbers import Numbers
 from garkcli.methodfile.parameters import refuse_free
 from garkcli.methodfile.reader import Reader
-from garkcli.methodfile.source import MAX_BYTES, METHOD_FILE, FileKind, Source
+from garkcli.methodfile.source import MAX_BYTES, Source
 from garkcli.methodfile.values import Values
 from garkcli.methodfile.words import one_line
 from garkcli.tableau.tableau import Tableau

@@ -3,7 +3,6 @@
 from __future__ import annotations
 
 from collections.abc import Iterable, Mapping, Sequence
-from dataclasses import dataclass
 from typing import TypeAlias
 
 from yaml.nodes import MappingNode, Node, ScalarNode, SequenceNode
@@ -17,6 +16,7 @@ from garkcli.errors import (
 )
 from garkcli.methodfile.causes import MAX_PLACES, Found, place_of, told_once
 from garkcli.methodfile.composing import composed, folded_place, position
+from garkcli.methodfile.file_kind import METHOD_FILE, FileKind
 from garkcli.methodfile.nodes import keys_of
 from garkcli.methodfile.words import meant_key, shortened
 
@@ -35,37 +35,6 @@ Entries: TypeAlias = dict[str, Node]
 _NO_CURES: Mapping[str, str] = {}
 _PYTHON = "tag:yaml.org,2002:python"
 """What tags begin with that make objects of Python."""
-
-
-@dataclass(frozen=True)
-class FileKind:
-    """What a file is for.
-
-    Attributes:
-        name: what people call it.
-        smallest: what the smallest one has.
-        start: how one begins.
-        page: where it is described.
-    """
-
-    name: str
-    smallest: str
-    start: str
-    page: str
-
-
-METHOD_FILE = FileKind(
-    "method file",
-    "the smallest file has A and b, or methods",
-    "start with A: and b:, or with methods:",
-    "docs/method-file.md",
-)
-PROBLEM_FILE = FileKind(
-    "problem file",
-    "the smallest file has variables, hamiltonian and initial",
-    "start with variables:",
-    "docs/problem-file.md",
-)
 
 
 class Source:

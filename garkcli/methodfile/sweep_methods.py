@@ -16,8 +16,9 @@ from garkcli.exact.nodes import Expression, Name
 from garkcli.exact.rewriting import substitute
 from garkcli.families.registry import FAMILIES, MAX_STAGES, require_member
 from garkcli.methodfile.family import loads_family
+from garkcli.methodfile.file_kind import METHOD_FILE
 from garkcli.methodfile.load import NO_SETTINGS, described, read_text
-from garkcli.methodfile.source import METHOD_FILE, Source
+from garkcli.methodfile.source import Source
 from garkcli.methodfile.sweep_text import SweepText, TemplateText, one_or_more
 from garkcli.methodfile.transfers import ALL_RULES
 from garkcli.methodfile.words import shortened

@@ -2,7 +2,9 @@
 
 from __future__ import annotations
 
-from dataclasses import dataclass
+from dataclasses import dataclass, fields
+from itertools import chain
+from typing import Any
 
 from yaml.nodes import MappingNode, Node
 
@@ -192,10 +194,13 @@ def meaning_of(
             meanings.append(wish.want.meaning(asked))
         except GarkError as error:
             source.fault(wish.node, error.message, error.help)
-    return Meaning(
-        zeros=tuple(x for one in meanings for x in one.zeros),
-        nonzero=tuple(x for one in meanings for x in one.nonzero),
-        positive=tuple(x for one in meanings for x in one.positive),
-        not_negative=tuple(x for one in meanings for x in one.not_negative),
-        stable=tuple(x for one in meanings for x in one.stable),
-    )
+    return _together(meanings)
+
+
+def _together(meanings: list[Meaning]) -> Meaning:
+    """What several wishes mean, together."""
+    together: dict[str, Any] = {}
+    for field in fields(Meaning):
+        parts = [getattr(one, field.name) for one in meanings]
+        together[field.name] = tuple(chain.from_iterable(parts))
+    return Meaning(**together)

@@ -9,11 +9,11 @@ from typing import Any, cast
 
 from flint import fmpq, fmpq_mpoly, fmpq_poly
 
+from garkcli.design.admissible import is_admissible
 from garkcli.design.design import (
     Design,
     Found,
     Step,
-    is_admissible,
     order_of,
 )
 from garkcli.design.groebner import NotDecided

@@ -9,11 +9,11 @@ from typing import TYPE_CHECKING, Literal, TypeAlias
 
 from flint import arb, ctx, fmpq, fmpq_mpoly
 
+from garkcli.design.admissible import is_admissible
 from garkcli.design.design import (
     TABLEAUS,
     Found,
     Whose,
-    is_admissible,
     order_of,
 )
 from garkcli.design.member import value_of
