@@ -42,6 +42,7 @@ def legendre_transform(
     Raises:
         NoLegendreTransform: the mass matrix is singular, or no solution was found.
 
+    >>> from flint import arb
     >>> from sympy import cos
     >>> (x,), (v,) = symbols(("x",), "q"), velocities(("x",))
     >>> legendre_transform(v**2 / 2 - cos(x), ("x",), {x: arb(0)})
