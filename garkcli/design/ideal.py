@@ -4,7 +4,6 @@ from __future__ import annotations
 
 from collections.abc import Iterable, Sequence
 from copy import copy
-from itertools import combinations
 from typing import Any, TypeAlias
 
 from flint import (
@@ -18,6 +17,7 @@ from flint import (
     fmpz_mpoly_vec,
 )
 
+from garkcli.design.covering import least_meeting
 from garkcli.design.groebner import (
     Exponents,
     divides,
@@ -189,17 +189,13 @@ class Ideal:
     def dimension(self) -> int:
         """The dimension of the set of its complex zeros; −1 where there are none.
 
-        It is the largest number of unknowns of which no monomial is a leading one.
+        It is the largest number of unknowns of which no monomial is a leading one: each leading
+        monomial has one of the others.
         """
         if self.is_everything:
             return -1
-        supports = [_support(p) for p in self.basis]
-        for size in range(self.variables, 0, -1):
-            for chosen in combinations(range(self.variables), size):
-                kept = set(chosen)
-                if not any(support <= kept for support in supports):
-                    return size
-        return 0
+        supports = {frozenset(_support(p)) for p in self.basis}
+        return self.variables - least_meeting(supports)
 
     @property
     def degree(self) -> int:
