@@ -65,9 +65,10 @@ class Cluster(Generic[Item, Outcome]):
             self._client = Client(
                 self.scheduler, timeout=TIMEOUT, set_as_default=False
             )
-        except (OSError, ValueError) as error:
+        except (AssertionError, OSError, TypeError, ValueError) as error:
+            # an address of another kind: what is raised depends on the kind
             self._quiet.close()
-            what = str(error).splitlines()[0]
+            what = (str(error) or type(error).__name__).splitlines()[0]
             raise UsageProblem(
                 f"no Dask scheduler answers at {self.scheduler}: {what}",
                 "dask scheduler starts one",

@@ -108,6 +108,7 @@ class Crew(Generic[Item, Outcome]):
 
         self.items = items
         self.waiting = deque(range(len(items)))
+        self._leave_the_dead()
         for worker in self.workers:
             self._supply(worker)
         self._hire()
@@ -127,6 +128,13 @@ class Crew(Generic[Item, Outcome]):
                 worker.items.popleft()
                 self._supply(worker)
                 yield number, outcome
+
+    def _leave_the_dead(self) -> None:
+        """Workers that died when they had nothing to do: no item is to blame for it."""
+        dead = [x for x in self.workers if not x.process.is_alive()]
+        for worker in dead:
+            worker.end()
+            self.workers.remove(worker)
 
     def _hire(self) -> None:
         """As many workers as there is work for."""

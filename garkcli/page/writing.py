@@ -14,7 +14,7 @@ from typing import BinaryIO
 from garkcli.errors import UsageProblem
 
 _OWN_STREAM = re.compile(
-    r"/dev/(?:fd/)?(\d+|stdout|stderr)|/proc/self/fd/(\d+)"
+    r"/dev/(?:fd/)?(\d{1,9}|stdout|stderr)|/proc/self/fd/(\d{1,9})"
 )
 _MOST_LINKS = 40
 """As many links in a row as Linux follows."""

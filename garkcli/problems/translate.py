@@ -163,7 +163,8 @@ def _without_kinks(made: Expr, at: Expression) -> Expr:
     import sympy
 
     if made.has(sympy.Abs):
-        kink = next(iter(made.atoms(sympy.Abs)))
+        kinks = made.atoms(sympy.Abs)
+        kink = min(kinks, key=sympy.default_sort_key)
         inner = _shortened(str(kink.args[0]))
         message = f"this has |{inner}|, which has no derivative at 0"
         cure = "write it without the root where the sign is known, "

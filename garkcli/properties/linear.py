@@ -65,23 +65,37 @@ def obstacle_to_a_stability(R: StabilityFunction) -> str:
 
 
 def _left_pole(Q: Polynomial) -> str:
-    """The root of Q with the smallest real part, to some digits."""
+    """The root of Q with the smallest real part, to some digits; of several the first above ℝ."""
     before = ctx.prec
     try:
-        ctx.prec = _BITS
         # roots of higher multiplicity cannot be enclosed
-        balls = [acb(to_ball(a, 30)) for a in Q.square_free().coefficients]
-        roots: list[acb] = acb_poly(balls).roots(
-            tol=arb(2) ** -60, maxprec=4 * _BITS
-        )
-        upper = [z for z in roots if not z.imag < 0]
-        pole = min(upper, key=lambda z: z.real.mid())
+        upper = [z for z in _roots(Q.square_free()) if not z.imag < 0]
+        least = min(upper, key=lambda z: z.real.mid())
+        as_far = [z for z in upper if z.real.overlaps(least.real)]
+        pole = min(as_far, key=lambda z: z.imag.mid())
         real = ball_decimal(pole.real, _DIGITS)
         if pole.imag.contains(0):
             return real
         return f"{real} ± {ball_decimal(pole.imag, _DIGITS)}i"
     finally:
         ctx.prec = before
+
+
+def _roots(Q: Polynomial) -> list[acb]:
+    """Enclosures of the roots, which are simple: with more bits until they are told apart."""
+    bits = _BITS
+    while True:
+        ctx.prec = bits
+        digits = bits * 3 // 10
+        balls = [acb(to_ball(a, digits)) for a in Q.coefficients]
+        try:
+            roots: list[acb] = acb_poly(balls).roots(
+                tol=arb(2) ** -60, maxprec=4 * bits
+            )
+        except ValueError:
+            bits *= 2
+        else:
+            return roots
 
 
 def first_gap(intervals: Sequence[Interval]) -> Interval | None:

@@ -185,3 +185,9 @@ def test_no_place_is_said_before_the_work(
         assert run.code == 2
         assert run.err.startswith("gark: cannot write ")
         assert why in run.err
+
+
+def test_a_stream_of_a_number_that_no_system_has() -> None:
+    """It is a place that cannot be written to, and no fault of the program."""
+    with pytest.raises(UsageProblem, match="cannot write"):
+        write_whole("/dev/fd/99999999999", ["a"])

@@ -151,3 +151,9 @@ def test_long_products_have_longer_derivatives() -> None:
     ]
     assert 7 < sizes[1] / sizes[0] < 9
     assert 7 < sizes[2] / sizes[1] < 9
+
+
+def test_of_several_kinks_the_same_one_is_told() -> None:
+    """Of √(x²y²) sympy makes |x| and |y|, in a set, which has no first one."""
+    with pytest.raises(UndefinedValue, match=r"this has \|x\|"):
+        translated("sqrt(x**2*y**2)")

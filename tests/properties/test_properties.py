@@ -470,3 +470,36 @@ def test_reducible_methods_are_symmetric_as_what_they_do(
     smaller = reduced(tableau)
     assert smaller is not None
     assert stability_symmetric(smaller) is expected
+
+
+@pytest.mark.parametrize("between", ["[[1]]", "[[0]]"])
+def test_stages_that_no_step_depends_on_leave_the_symmetry(
+    between: str,
+) -> None:
+    """The midpoint rule beside two methods without weights, which may see each other."""
+    tableau = loads(
+        f"""
+        methods: [{{A: [[1/2]], b: [1]}}, {{A: [[0]], b: [0]}}, {{A: [[0]], b: [0]}}]
+        transfer:
+          default: collocation
+          blocks:
+            {{"1,2": [[0]], "1,3": [[0]], "2,1": [[1/2]], "3,1": [[1/2]],
+             "2,3": {between}, "3,2": {between}}}
+        """
+    ).tableau
+    assert symmetric_verdict(tableau) is True
+
+
+@pytest.mark.parametrize(
+    ("A", "pole"),
+    [
+        ("[[-1, 0], [0, -1 - 1/10**40]]", "-1"),
+        ("[[-1, 1], [-1, -1]]", "-0.5 ± 0.5i"),
+    ],
+)
+def test_the_pole_that_is_told(A: str, pole: str) -> None:
+    """Poles that 128 bits do not tell apart are found, and one of a pair is shown."""
+    tableau = loads(f"{{A: {A}, b: [1/2, 1/2]}}").tableau
+    found = find_property(tableau, "a-stable")
+    assert found.value is False
+    assert f"a pole at z = {pole}" in found.why

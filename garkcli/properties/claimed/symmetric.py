@@ -58,26 +58,31 @@ def _with_idle_stages_in_the_middle(tableau: Tableau) -> Tableau:
     """
     half = fmpq(1, 2)
     blocks = dict(tableau.blocks)
-    idle = [k for k in range(len(tableau.spaces)) if _is_idle(tableau, k)]
+    matters = _that_matter(tableau)
+    idle = [
+        k
+        for k, space in enumerate(tableau.spaces)
+        if k not in matters and space.stages == 1
+    ]
     for k, m in tableau.blocks:
         if k in idle:
             blocks[k, m] = (tuple(half * b for b in tableau.colours[m].b),)
     return replace(tableau, blocks=blocks) if idle else tableau
 
 
-def _is_idle(tableau: Tableau, k: int) -> bool:
-    """Whether a stage space has one stage, of weight zero, that no stage of another sees."""
-    if tableau.spaces[k].stages > 1:
-        return False
-    own = [m for m, colour in enumerate(tableau.colours) if colour.space == k]
-    if any(any(tableau.colours[m].b) for m in own):
-        return False
-    seen = [
-        block
-        for (j, m), block in tableau.blocks.items()
-        if m in own and j != k
-    ]
-    return not any(any(row) for block in seen for row in block)
+def _that_matter(tableau: Tableau) -> set[int]:
+    """The stage spaces with weights, and those that stages of these see."""
+    matters: set[int] = set()
+    reached = {colour.space for colour in tableau.colours if any(colour.b)}
+    while reached:
+        matters |= reached
+        seen = {
+            tableau.colours[m].space
+            for (k, m), block in tableau.blocks.items()
+            if k in reached and any(any(row) for row in block)
+        }
+        reached = seen - matters
+    return matters
 
 
 PROPERTY = Property(
