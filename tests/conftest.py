@@ -4,7 +4,8 @@ import gc
 import os
 import sys
 
-from hypothesis import settings
+from hypothesis import given, settings
+from hypothesis import strategies as st
 
 # The suite starts gark some hundred times: byte code is kept, whatever the environment says.
 os.environ.pop("PYTHONDONTWRITEBYTECODE", None)
@@ -18,8 +19,16 @@ settings.register_profile(
 settings.load_profile("gark")
 
 
+@given(st.none())
+def draw_nothing(_: None) -> None:
+    """What hypothesis does before a first test is done."""
+
+
 def pytest_collection_finish() -> None:
     """Keep the garbage collector from what stays until the end: modules and thousands of tests."""
+    # older hypothesis asks the collector who holds its generator of random numbers, before a first
+    # test, and does not see what is frozen
+    draw_nothing()
     gc.collect()
     gc.freeze()
     gc.set_threshold(50_000)  # as gark has it
