@@ -52,6 +52,8 @@ def _lines(minimum: Minimum, digits: int, width: int) -> Iterator[str]:
         best, none = "greatest", "no maximum"
     value = _value_text(minimum.value, digits)
     if not minimum.minimisers:
+        if minimum.extent in {"critical-points", "found"}:
+            none += " of what was found"
         yield f"  {none}: it comes near {value}"
         for limit in minimum.limits:
             yield f"{INDENT}as {_toward(limit, digits)}"

@@ -14,6 +14,7 @@ from garkcli.design.design import Whose, find_parameters
 from garkcli.design.minimise import smallest
 from garkcli.design.minimise.bound import is_nowhere_less
 from garkcli.design.minimise.minimise import minimise
+from garkcli.design.minimise.objective import Level
 from garkcli.design.minimise.registry import OBJECTIVES, find_objective
 from garkcli.design.minimise.result import Candidate, Minimum
 from garkcli.design.minimise.squared_error import (
@@ -24,6 +25,7 @@ from garkcli.design.solutions import value_at
 from garkcli.exact.display import to_ball
 from garkcli.exact.polynomial_text import root_text
 from garkcli.exact.projection import PLANE
+from garkcli.exact.roots import RealRoot
 from garkcli.methodfile.family import loads_family
 from garkcli.order.constants import error_constants
 from garkcli.tableau.forms import pair
@@ -366,6 +368,70 @@ def test_no_maximum() -> None:
     assert best.minimisers == ()
     ends = [(x.toward.end, x.toward.is_right) for x in best.limits]
     assert ends == [(None, False), (None, True)]
+
+
+FOLD = """unknown: {stages: 2, shape: splitting}
+design: {fix: {a1: 2, a2: -1}}
+"""
+
+
+def test_a_jump_at_an_end() -> None:
+    """The step is bounded up to near hω = 4 as b_1 grows above 1/2 + 3√2/8, where it has a double
+    eigenvalue and jumps down: no maximum. The same by traces of the step in floats.
+    """
+    best = least(FOLD, "-oscillator-interval", 1)
+    assert (best.extent, value(best)) == ("all", "4")
+    assert best.minimisers == ()
+    edge = 1 / 2 + 3 * 2**0.5 / 8
+    ends = [x.toward.end for x in best.limits]
+    assert [float(x.ball(80)) for x in ends if x is not None] == [
+        pytest.approx(1 - edge),
+        pytest.approx(edge),
+    ]
+
+    def bounded_up_to(b1: float) -> float:
+        z, trace = 0.0, 2.0
+        while abs(trace) <= 2:
+            z += 1e-3
+            x, b2 = z * z, 1 - b1
+            # drifts of 2 and −1, kicks of b_1 and b_2
+            first = ((1.0, 2.0), (-b1 * x, 1 - 2 * b1 * x))
+            second = ((1.0, -1.0), (-b2 * x, 1 + b2 * x))
+            rows, columns = first, list(zip(*second, strict=True))
+            trace = sum(
+                rows[k][0] * columns[k][0] + rows[k][1] * columns[k][1]
+                for k in range(2)
+            )
+        return z
+
+    assert bounded_up_to(edge - 1e-5) < 3
+    assert bounded_up_to(edge + 1e-5) == pytest.approx(4, abs=2e-2)
+
+
+SEVENTH = """parameters: {t: {free: true, range: [-3, 1/4]}}
+A: [[0, 0], ["1/4 + (2*t**7+2*t+1)**2/(100*t)", 0]]
+b: [1/2, 1/2]
+"""
+
+
+@pytest.mark.parametrize("allowed", ["[-3, 1/4]", "[1/10, 3]"])
+def test_critical_numbers_of_a_large_degree(allowed: str) -> None:
+    """At the root of 2t⁷ + 2t + 1 it is R = 1 + z + z²/8 with the interval 8, in one range and not
+    in the other. No root of such a degree is put in, and so nothing is said of all methods, nor
+    that those near the one that is shown have its value.
+    """
+    text = SEVENTH.replace("[-3, 1/4]", allowed)
+    best = least(text, "-real-interval", 1)
+    assert best.extent == "found"
+    assert not any(x.is_constant for x in best.minimisers)
+    method = "A: [[0, 0], [1/4, 0]]\nb: [1/2, 1/2]\n"
+    there = find_objective("-real-interval")
+    assert isinstance(there, Level)
+    assert there.value(loads(method).tableau) == RealRoot.rational(fmpq(8))
+    zs = [-8 * k / 1000 for k in range(1001)]
+    assert max(abs(1 + z + z * z / 8) for z in zs) == 1.0
+    assert best.value is not None
+    assert best.value < RealRoot.rational(fmpq(8))
 
 
 def test_by_trial() -> None:

@@ -68,9 +68,8 @@ class Highest(Comparison):
         for one in found.attained:
             solution = self.whole(part, at_root(name, one.t))
             known = Found(solution, None, (one.t.number,))
-            candidate = Candidate(
-                one.level, known, one.t.number, one.is_sample
-            )
+            is_constant = found.is_greatest and one.is_sample
+            candidate = Candidate(one.level, known, one.t.number, is_constant)
             self.candidates.append(candidate)
         for toward in found.limits:
             self.limits.append(Limit(toward.value, name, toward))

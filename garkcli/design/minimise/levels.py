@@ -3,9 +3,10 @@
 The level L(t) is the first y > 0 at which the sign of a polynomial p(y, t) changes, or 0, or
 infinite. Between the t of ``garkcli.exact.projection`` and those where a curve p = 0 has a
 horizontal tangent L is one branch of a curve, and that is monotone. So the greatest value is
-reached at such a t, or it is approached at an end that is left out. That is then decided once more,
-without this argument: with the greatest value m found so far, L − m has one sign between the t at
-which p(m, t) = 0 for some p, and one t each decides.
+reached at such a t, or it is approached there without being reached: L may jump. That is then
+decided once more, without this argument: with the greatest value m found so far, L − m has one sign
+between the t at which p(m, t) = 0 for some p, and one t each decides. L at a critical t itself is
+computed there, or nothing is said of it.
 """
 
 from __future__ import annotations
@@ -50,13 +51,16 @@ class Levels:
 
     Attributes:
         attained: the greatest level at critical numbers and between them, once for each interval.
-        limits: at ends that are left out, where a larger one is approached.
+        limits: of a larger one that is approached where it is not attained.
         is_decided: whether nothing larger is to be found.
+        is_greatest: whether no interval has a larger one: at a sample with the greatest level it
+            is then the same nearby.
     """
 
     attained: tuple[HighAt, ...]
     limits: tuple[Toward, ...]
     is_decided: bool
+    is_greatest: bool = False
 
 
 def height(level: Size) -> tuple[bool, RealRoot]:
@@ -80,7 +84,7 @@ def on_levels(
     ends = allowed.polynomials
     critical = [*projected(found, [ZERO]), *_stationary(found), *ends]
     attained = []
-    is_decided = True
+    open_points = set()
     points = _roots(critical)
     for t in _in_turn(points):
         if not allowed.hold(t):
@@ -91,27 +95,32 @@ def on_levels(
             continue
         number = number_of(t, MOST_DEGREE)
         if number is None:
-            is_decided = False
+            open_points.add(t)
         else:
             attained.append(HighAt(level(number), t))
+    is_decided = not open_points
     if not attained:
         return Levels((), (), is_decided)
     greatest = max((x.level for x in attained), key=height)
+    best = _representatives(attained, greatest)
     if greatest is None:
-        return Levels(_representatives(attained, greatest), (), True)
+        return Levels(best, (), is_decided=True, is_greatest=True)
     crossing = _crossing(found, greatest)
     if crossing is None:
-        return Levels(_representatives(attained, greatest), (), False)
+        return Levels(best, (), is_decided=False)
     points = _roots([*critical, *crossing])
     for left, right in _cells(points):
         sample = between(left, right)
         if allowed.hold(sample) and height(level(sample)) > height(greatest):
-            limits = _approached(level, found, allowed, critical)
-            return Levels(
-                _representatives(attained, greatest), limits, is_decided
+            limits = tuple(
+                toward
+                for toward in _approached(level, found, allowed, critical)
+                if height(toward.value) > height(greatest)
+                and toward.end not in open_points
             )
-    # the sign of L − m decides, whatever was left out above
-    return Levels(_representatives(attained, greatest), (), True)
+            return Levels(best, limits, is_decided)
+    # the sign of L − m decides between critical t, not what L is at one that was left out
+    return Levels(best, (), is_decided, is_greatest=True)
 
 
 def _approached(
@@ -120,14 +129,12 @@ def _approached(
     allowed: Conditions,
     critical: Sequence[Polynomial],
 ) -> tuple[Toward, ...]:
-    """The limits at ends that are left out, where the level grows towards these."""
+    """The limits at ends of intervals, allowed or not, where the level grows towards these."""
     limits = []
     for left, right in _cells(_roots(critical)):
         if not allowed.hold(between(left, right)):
             continue
         for end, is_right in ((left, False), (right, True)):
-            if end is not None and allowed.hold(end):
-                continue
             near = _Near(level, found, critical, (left, right), is_right)
             if near.is_growing():
                 limits.append(Toward(near.limit(), end, is_right))
