@@ -4,6 +4,7 @@ from __future__ import annotations
 
 import json
 from collections.abc import Callable
+from dataclasses import replace
 from pathlib import Path
 from typing import Any
 
@@ -16,6 +17,7 @@ from hypothesis import strategies as st
 
 from garkcli import find_order, loads, loads_family, search_methods
 from garkcli.crew.work import Alone, WorkerLost
+from garkcli.design.design import find_parameters
 from garkcli.design.search.krawczyk import is_proved
 from garkcli.design.search.least_squares import damped_step, least_squares
 from garkcli.design.search.points import Fixings, polished, rank
@@ -39,6 +41,10 @@ SDIRK2 = "parameters: {g: free}\nA: [[g, 0], [1 - 2*g, g]]\nb: [1/2, 1/2]\n"
 RATIONAL = "parameters: {t: free, u: free}\nA: [[1/(1 + t**2), u], [t*u, u/t]]\nb: [1/t, 1 - 1/t]\n"
 RADICAL = "parameters: {t: free}\nA: [[t, 0], [sqrt(3)/3, t]]\nb: [1/2, 1/2]\n"
 NINTH = "parameters: {t: free}\nA: [[t**9 + t/3]]\nb: [1]\n"
+HALF = fmpq(1, 2)
+UNBOUNDED = """unknown: {stages: 2, shape: sdirk}
+design: {R-infinity: 0, fix: {gamma: 0}}
+"""
 TWICE = """parameters: {t: free}
 prk:
   q: {A: [[t**9 + t/3]], b: [1]}
@@ -341,6 +347,50 @@ def test_existence_is_proved_or_not(tmp_path: Path) -> None:
         words = {"exists": "proved to exist", "numerical": "numerical"}
         assert words[proof] in target.read_text(encoding="utf-8")
         assert words[proof] in gark(*arguments).out
+
+
+@pytest.mark.parametrize(
+    ("group", "wanted", "proof"),
+    [
+        ("positive", lambda t: 1 - t, "exists"),
+        ("positive", lambda t: t - 1, None),
+        ("not_negative", lambda t: 1 - t, "exists"),
+        ("not_negative", lambda t: t - 1, None),
+        ("not_negative", lambda t: t**9 + t / 3 - HALF, "numerical"),
+        ("nonzero", lambda t: t - 1, "exists"),
+        ("nonzero", lambda t: t**9 + t / 3 - HALF, None),
+    ],
+)
+def test_signs_of_what_is_not_exact(
+    group: str, wanted: Callable[[Any], Any], proof: str | None
+) -> None:
+    """What is to be positive, not negative or not zero decides about a root of degree 9 too; the
+    signs at it in floats by bisection. Zero to all digits is nowhere a proof.
+    """
+    family = loads_family(NINTH)
+    t = family.ring.context.gen(0)
+    signed = replace(family, **{group: (wanted(t),)})  # type: ignore[arg-type]
+    finds = finished(Search(signed, 2), 6).methods
+    assert [x.proof for x in finds] == ([] if proof is None else [proof])
+    low, high = 0.0, 1.0
+    for _ in range(60):
+        x = (low + high) / 2
+        low, high = (x, high) if x**9 + x / 3 < 0.5 else (low, x)
+    sign = wanted(fmpq(*low.as_integer_ratio()))
+    if abs(sign) < fmpq(1, 10**12):
+        assert proof != "exists"
+    else:
+        assert (proof == "exists") == (sign > 0 or group == "nonzero")
+
+
+def test_what_must_not_vanish_decides_exact_finds() -> None:
+    """γ = 0 makes R(∞) infinite: where R(∞) = 0 is wanted no start leads to a method, as the
+    equations alone have solutions, and exactly there is none.
+    """
+    family = loads_family(UNBOUNDED)
+    assert finished(Search(family, 1), 2).methods == []
+    assert finished(Search(replace(family, nonzero=()), 1), 2).methods
+    assert find_parameters(family, 1).steps[-1].kind == "none"
 
 
 def test_krawczyk_needs_a_zero() -> None:

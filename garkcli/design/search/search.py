@@ -7,7 +7,7 @@ from dataclasses import dataclass
 from functools import cached_property
 from typing import TYPE_CHECKING, Literal, TypeAlias
 
-from flint import arb, ctx, fmpq, fmpq_mpoly
+from flint import arb, fmpq, fmpq_mpoly
 
 from garkcli.design.admissible import is_admissible
 from garkcli.design.design import (
@@ -17,6 +17,7 @@ from garkcli.design.design import (
     order_of,
 )
 from garkcli.design.member import value_of
+from garkcli.design.search.inside import Inside
 from garkcli.design.search.krawczyk import is_proved
 from garkcli.design.search.least_squares import least_squares
 from garkcli.design.search.points import Fixings, polished
@@ -182,21 +183,31 @@ class Search:
                 break
         if best is not None:
             return best
-        if x is None:
-            x = polished(free, point, BITS)
-        return None if x is None else self._inexact(start, system, x)
+        find = None if x is None else self._inexact(start, system, x)
+        if find is not None:
+            return find
+        # short numbers may be outside where the point is not
+        x = polished(free, point, BITS)
+        return None if x is None else self._inexact(start, free, x)
 
     def _inexact(self, start: int, system: Fixings, x: Array) -> Find | None:
         """A find whose numbers are not known exactly."""
-        if not self._is_inside(x):
+        answer = self._inside.decided(x)
+        if answer == "no":
             return None
         generators = self._generators
         proving = Fixings(generators, system.fixed)
         proof: Proof = "numerical"
-        if is_proved(proving, x, BITS, generators.denominators):
+        if answer == "yes" and is_proved(
+            proving, x, BITS, generators.denominators
+        ):
             proof = "exists"
         digits = dict(zip(self.family.ring.names, x[:, 0], strict=True))
         return Find(start, proof, self.order, None, digits)
+
+    @cached_property
+    def _inside(self) -> Inside:
+        return Inside(self.family, BITS)
 
     @cached_property
     def _generators(self) -> Generators:
@@ -208,31 +219,6 @@ class Search:
     def _relations(self) -> list[fmpq_mpoly]:
         relations = [radical.relation for radical in self.family.radicals]
         return [*relations, *self.family.relations]
-
-    def _is_inside(self, x: Array) -> bool:
-        """Whether all numbers within 2^(−bits/2) of a point are in their ranges and the roots that
-        are meant.
-        """
-        with ctx.workprec(BITS):
-            around = arb(0, arb(1) / arb(2) ** (BITS // 2))
-            values = dict(
-                zip(self.family.ring.names, x[:, 0] + around, strict=True)
-            )
-            for name, (least, greatest) in self.family.ranges.items():
-                if least is not None and not values[name] > arb(least):
-                    return False
-                if greatest is not None and not values[name] < arb(greatest):
-                    return False
-            for radical in self.family.radicals:
-                value = values[radical.name]
-                if radical.is_positive and not value > 0:
-                    return False
-                meant = radical.meant
-                if meant is not None and not meant.ball(BITS // 2).overlaps(
-                    value
-                ):
-                    return False
-        return True
 
     def _degenerate(self, start: int, point: list[float]) -> Find | None:
         """A solution at which the conditions are degenerate.
@@ -277,6 +263,9 @@ class Search:
         )
         ring = self.family.ring
         if any(value_of(x, ring, solution.values) for x in self._relations):
+            return None
+        nonzero = self.family.nonzero
+        if not all(value_of(p, ring, solution.values) for p in nonzero):
             return None
         if not is_admissible(self.family, solution, guess.root):
             return None
