@@ -11,8 +11,10 @@ from flint import fmpq, fmpq_mpoly
 
 from garkcli import find_order, load, loads
 from garkcli.design.design import Whose, find_parameters
+from garkcli.design.groebner import NotDecided
 from garkcli.design.minimise import smallest
 from garkcli.design.minimise.bound import is_nowhere_less
+from garkcli.design.minimise.climbing import climbed
 from garkcli.design.minimise.minimise import minimise
 from garkcli.design.minimise.objective import Level
 from garkcli.design.minimise.registry import OBJECTIVES, find_objective
@@ -579,3 +581,49 @@ def test_what_is_refused(tmp_path: Path) -> None:
     many = "design many.yaml --order 2 --minimise -ssp"
     run = gark(*many.split(), cwd=tmp_path)
     assert (run.code, "not decided" in run.err) == (3, True)
+
+
+def test_what_gets_better_for_ever() -> None:
+    """A trial ends where each step is better than the one before it, after 64 moves of 1/8 from the
+    best of the grid; a deadline that is over ends it at once, and says so.
+    """
+    end = climbed(lambda point: (point[0],), 1)
+    assert end == (2 + fmpq(64, 8),)
+    with pytest.raises(NotDecided):
+        climbed(lambda point: (point[0],), 1, deadline=0.0)
+    top = climbed(lambda point: (-((point[0] - fmpq(1, 7)) ** 2),), 1)
+    assert top == (fmpq(1, 7),)
+
+
+@pytest.mark.parametrize(
+    ("head", "rest"),
+    [("[1, 1]", ""), ("[1, 2]", "design: {nodes-in-unit-interval: true}\n")],
+)
+def test_a_range_of_one_number(head: str, rest: str) -> None:
+    """Of order 1 with the second node 1 alone: its error is that of the list of all trees."""
+    matrix = "A: [[0, 0], [g, 0]]\nb: [1, 0]\n"
+    text = f"parameters: {{g: {{free: true, range: {head}}}}}\n{matrix}{rest}"
+    minimum = least(text, "error", 1)
+    [candidate] = minimum.minimisers
+    assert floats(minimum, candidate) == {"g": 1.0}
+    assert not candidate.is_constant
+    listed = error_constants(loads(matrix.replace("g", "1")).tableau, 2)
+    assert listed is not None
+    assert minimum.value is not None
+    assert minimum.value.exact == listed.all.two_squared
+
+
+def test_a_critical_point_on_an_edge() -> None:
+    """s⁴ + r² + (1 − r)² with s ≥ 0 is least at s = 0 and r = 1/2, which is critical and on the
+    edge: one method.
+    """
+    text = """parameters: {s: {free: true, range: [0, 1]}, r: free}
+A: [[0, 0], ["s**2", 0]]
+b: [r, 1 - r]
+"""
+    minimum = least(text, "coefficients", 1)
+    assert value(minimum) == "1/2"
+    [candidate] = minimum.minimisers
+    assert floats(minimum, candidate) == {"s": 0.0, "r": 0.5}
+    # the other edge has s = 1 and r = 1/2, of value 3/2
+    assert minimum.candidates == 2

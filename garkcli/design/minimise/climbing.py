@@ -10,9 +10,12 @@ from __future__ import annotations
 from collections.abc import Callable, Iterator
 from functools import cache
 from itertools import product
+from time import monotonic
 from typing import Any, TypeAlias
 
 from flint import fmpq
+
+from garkcli.design.groebner import NotDecided
 
 Point: TypeAlias = tuple[fmpq, ...]
 Rank: TypeAlias = Callable[[Point], Any]
@@ -33,16 +36,31 @@ NEAR = fmpq(1, 100)
 """How far they may be."""
 HALVINGS = 12
 """Steps are 1/8, 1/16, …, so many."""
+MOVES = 64
+"""With one step: a value that is still better then may get better for ever, and it ends there."""
 
 
-def climbed(rank: Rank, coordinates: int) -> Point | None:
-    """A point that none of its neighbours is better than; None where the grid has no method.
+def climbed(
+    rank: Rank, coordinates: int, deadline: float | None = None
+) -> Point | None:
+    """A point that none of its neighbours is better than, or that ``MOVES`` moves led to; None
+    where the grid has no method.
 
     Args:
         rank: of a point.
         coordinates: up to 4.
+        deadline: the reading of ``time.monotonic`` at which it is given up; None for never.
+
+    Raises:
+        NotDecided: it takes too long.
     """
-    known = cache(rank)
+
+    @cache
+    def known(point: Point) -> Any:
+        if deadline is not None and monotonic() > deadline:
+            raise NotDecided
+        return rank(point)
+
     values = [_rational(x) for x in GRID[coordinates]]
     starts = [x for x in product(values, repeat=coordinates) if known(x)]
     starts.sort(key=known, reverse=True)
@@ -81,12 +99,14 @@ def _near(x: fmpq, q: int) -> fmpq:
 def _climbed(known: Rank, point: Point) -> Point:
     step = fmpq(1, 8)
     for _ in range(HALVINGS):
-        while True:
+        for _ in range(MOVES):
             others = [x for x in _neighbours(point, step) if known(x)]
             best = max(others, key=known, default=point)
             if not known(best) > known(point):
                 break
             point = best
+        else:
+            return point
         step /= 2
     return point
 

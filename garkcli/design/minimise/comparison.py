@@ -22,6 +22,7 @@ from garkcli.design.minimise.climbing import GRID, climbed
 from garkcli.design.minimise.line import Conditions
 from garkcli.design.minimise.objective import Level, Objective, Size
 from garkcli.design.minimise.parts import Part
+from garkcli.design.minimise.repeats import without_repeats
 from garkcli.design.minimise.result import (
     Candidate,
     Extent,
@@ -54,6 +55,7 @@ class Comparison(ABC):
         limits: values that are approached.
         gradients: the numerators of derivatives, by the coordinate.
         parts: of the solution set.
+        deadline: the reading of ``time.monotonic`` at which it is given up; None for never.
     """
 
     design: Design
@@ -64,9 +66,12 @@ class Comparison(ABC):
     limits: list[Limit] = field(default_factory=list)
     gradients: list[tuple[str, Polynomial]] = field(default_factory=list)
     parts: list[Part] = field(default_factory=list)
+    deadline: float | None = None
 
     def result(self) -> Minimum:
         """The best of what was collected."""
+        if self.step.kind != "solutions":  # these are different already
+            self.candidates = without_repeats(self.candidates)
         values = [x.value for x in self.candidates]
         values += [x.value for x in self.limits]
         best = self.best(values) if values else None
@@ -194,7 +199,7 @@ class Comparison(ABC):
             rank: larger for better values.
 
         Raises:
-            NotDecided: it has more coordinates than are tried, or it is curved.
+            NotDecided: it has more coordinates than are tried, it is curved, or it takes too long.
         """
         self.extent = "found"
         names = part.ring.names
@@ -207,7 +212,7 @@ class Comparison(ABC):
                 return None
             return (rank(self.value_of(solution, 0)),)
 
-        return climbed(ranked, len(names))
+        return climbed(ranked, len(names), self.deadline)
 
     def at_point(self, part: Part, point: tuple[fmpq, ...]) -> Solution | None:
         """The method at rational coordinates; None where there is none within the ranges."""

@@ -56,13 +56,15 @@ def minimise(
 
     Raises:
         UsageProblem: the objective has no meaning for the methods, or nothing was decided.
-        NotDecided: a Gröbner basis takes too long.
+        NotDecided: a Gröbner basis or a trial takes too long.
     """
     step = step_to_minimise(design)
-    deadline = None if seconds is None else monotonic() + SHARE * seconds
+    now = monotonic()
+    deadline = None if seconds is None else now + SHARE * seconds
     if isinstance(objective, str):
         objective = find_objective(objective)
     comparison = _comparison(design, step, objective)
+    comparison.deadline = None if seconds is None else now + seconds
     if step.kind == "solutions":
         comparison.selection()
     else:

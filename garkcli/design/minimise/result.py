@@ -19,8 +19,8 @@ left out is open; or some methods.
 
 Proof: TypeAlias = Literal["exact", "exists", "numerical"]
 """What is known of a method as a best one: that it is critical, or else compared with all; that a
-critical point is proved to exist beside it; or that it is better than those around it. As a method
-it is exact in any case.
+critical point is proved to exist beside it; or that it is better than what was tried around it. As
+a method it is exact in any case.
 """
 
 

@@ -25,7 +25,7 @@ from garkcli.design.minimise.parts import Part, parts_within
 from garkcli.design.minimise.refining import critical_point_near
 from garkcli.design.minimise.result import Candidate, Extent, Limit, Proof
 from garkcli.design.solutions import Solution, value_at
-from garkcli.exact.cells import between
+from garkcli.exact.cells import Interval, between
 from garkcli.exact.parametric import fraction
 from garkcli.exact.roots import RealRoot
 
@@ -124,10 +124,7 @@ class Smallest(Comparison):
         self.gradients.append((name, found.gradient))
         if not found.gradient:
             for interval in allowed.intervals:
-                t = between(interval.start, interval.end)
-                root = RealRoot.rational(t)
-                solution = self.whole(part, at_root(name, root))
-                self.add(solution, 0, is_constant=True)
+                self._over_interval(part, name, interval)
             return
         for one in found.attained:
             solution = self.whole(part, at_root(name, one.t))
@@ -135,6 +132,18 @@ class Smallest(Comparison):
             self.candidates.append(Candidate(one.value, known, one.t.number))
         for toward in found.limits:
             self.limits.append(Limit(toward.value, name, toward))
+
+    def _over_interval(
+        self, part: Part, name: str, interval: Interval
+    ) -> None:
+        """One method for an interval on which the objective is constant."""
+        if interval.is_point:
+            assert interval.start is not None
+            root = interval.start
+        else:
+            root = RealRoot.rational(between(interval.start, interval.end))
+        solution = self.whole(part, at_root(name, root))
+        self.add(solution, root.number, is_constant=not interval.is_point)
 
     def over_variety(self, part: Part) -> None:
         """The critical points of a part of larger dimension, and those on its edges."""
