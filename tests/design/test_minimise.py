@@ -9,14 +9,20 @@ from pathlib import Path
 import pytest
 from flint import fmpq, fmpq_mpoly
 
-from garkcli import find_order, load, loads
+from garkcli import find_order, load, loads, search_methods
 from garkcli.design.design import Whose, find_parameters
 from garkcli.design.groebner import NotDecided
+from garkcli.design.ideal import Ideal
 from garkcli.design.minimise import smallest
 from garkcli.design.minimise.bound import is_nowhere_less
 from garkcli.design.minimise.climbing import climbed
+from garkcli.design.minimise.critical import (
+    critical_equations,
+    is_of_one_dimension,
+)
 from garkcli.design.minimise.minimise import minimise
 from garkcli.design.minimise.objective import Level
+from garkcli.design.minimise.parts import Part
 from garkcli.design.minimise.registry import OBJECTIVES, find_objective
 from garkcli.design.minimise.result import Candidate, Minimum
 from garkcli.design.minimise.squared_error import (
@@ -24,7 +30,9 @@ from garkcli.design.minimise.squared_error import (
     squared_error,
 )
 from garkcli.design.solutions import value_at
+from garkcli.errors import UsageProblem
 from garkcli.exact.display import to_ball
+from garkcli.exact.parametric import Parameters
 from garkcli.exact.polynomial_text import root_text
 from garkcli.exact.projection import PLANE
 from garkcli.exact.roots import RealRoot
@@ -627,3 +635,41 @@ b: [r, 1 - r]
     assert floats(minimum, candidate) == {"s": 0.0, "r": 0.5}
     # the other edge has s = 1 and r = 1/2, of value 3/2
     assert minimum.candidates == 2
+
+
+def test_components_of_several_dimensions() -> None:
+    """On the plane x = 0 and the line y = z = 0, taken as one part, (x − 1)² + (y − 1)² is critical
+    on the line at (1, 0, 0), which the minors miss: they are not taken for all there are there, but
+    on a sphere.
+    """
+    ring = Parameters(["x", "y", "z"])
+    x, y, z = ring.context.gens()
+    one = ring.constant(fmpq(1))
+    N = (x - 1) ** 2 + (y - 1) ** 2
+
+    def part_of(*zeros: fmpq_mpoly) -> Part:
+        values = {name: ring.parameter(name) for name in ring.names}
+        return Part(ring, values, (), Ideal(ring, ()).with_zeros(list(zeros)))
+
+    both = part_of(x * y, x * z)
+    missed = critical_equations(both, N, one)
+    on_line = N.compose(x, y * 0, z * 0).derivative(0)
+    point = (1, 0, 0)
+    assert on_line(*point) == 0
+    assert any(p(*point) != 0 for p in missed)
+    assert not is_of_one_dimension(both)
+    sphere = part_of(x**2 + y**2 + z**2 - 1)
+    assert is_of_one_dimension(sphere)
+
+
+def test_stability_is_not_looked_at() -> None:
+    """A family that is to be stable is refused, in a minimum and in a search, as on the command
+    line.
+    """
+    text = "unknown: {stages: 2, shape: sdirk}\ndesign: {a-stable: true}\n"
+    family = loads_family(text)
+    design = find_parameters(family, 2)
+    with pytest.raises(UsageProblem, match="A-stable is decided for exact"):
+        minimise(design, "error")
+    with pytest.raises(UsageProblem, match="A-stable is decided for exact"):
+        search_methods(family, 2, starts=1)

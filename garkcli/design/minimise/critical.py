@@ -2,7 +2,7 @@
 
 On the zeros of f_1, …, f_m of codimension c these are the points where the gradients of the
 function and of the f_i have rank c at most: where all minors of size c + 1 are zero. Points at
-which the set is not smooth are among them.
+which the set is not smooth are among them. Of components of a larger codimension not all are.
 """
 
 from __future__ import annotations
@@ -48,6 +48,14 @@ def critical_equations(
             minor = [[row[j] for j in columns] for row in rows]
             zeros.append(_determinant(minor))
     return zeros
+
+
+def is_of_one_dimension(part: Part) -> bool:
+    """Whether no component of a part is known to be able to have a smaller dimension than another:
+    as many equations as the codimension have none (F. S. Macaulay, 1916).
+    """
+    codimension = len(part.ring.names) - part.dimension
+    return part.is_free or len(part.equations) == codimension
 
 
 def without_factors(p: fmpq_mpoly, denominator: fmpq_mpoly) -> fmpq_mpoly:

@@ -55,9 +55,15 @@ def minimise(
         seconds: after which it is given up; None for never.
 
     Raises:
-        UsageProblem: the objective has no meaning for the methods, or nothing was decided.
+        UsageProblem: the objective has no meaning for the methods, nothing was decided, or the
+            family is to be stable.
         NotDecided: a Gröbner basis or a trial takes too long.
     """
+    if design.family.stable:
+        raise UsageProblem(
+            f"{design.family.stable[0]} is decided for exact solutions, a minimum has others",
+            "leave it out, and ask gark check of what is found",
+        )
     step = step_to_minimise(design)
     now = monotonic()
     deadline = None if seconds is None else now + SHARE * seconds

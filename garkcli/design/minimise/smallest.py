@@ -17,6 +17,7 @@ from garkcli.design.minimise.bound import is_nowhere_less
 from garkcli.design.minimise.comparison import Comparison, at_root, in_one
 from garkcli.design.minimise.critical import (
     critical_equations,
+    is_of_one_dimension,
     without_factors,
 )
 from garkcli.design.minimise.line import on_line
@@ -147,7 +148,9 @@ class Smallest(Comparison):
 
     def over_variety(self, part: Part) -> None:
         """The critical points of a part of larger dimension, and those on its edges."""
-        if self.extent == "all":
+        if not is_of_one_dimension(part):
+            self.extent = "found"
+        elif self.extent == "all":
             self.extent = "critical-points"
         try:
             if len(part.ring.names) > MOST_COORDINATES:

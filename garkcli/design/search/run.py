@@ -13,6 +13,7 @@ from garkcli.crew.work import Alone, Workers, in_order
 from garkcli.design.design import Whose
 from garkcli.design.search.search import Search
 from garkcli.design.search.told import Method, told
+from garkcli.errors import UsageProblem
 from garkcli.tableau.family import Family
 
 Start: TypeAlias = list[float]
@@ -115,7 +116,13 @@ def search_methods(
 
     Raises:
         ZeroWeight: a weight is zero for every value, and there is no conjugate.
+        UsageProblem: the family is to be stable.
     """
+    if family.stable:
+        raise UsageProblem(
+            f"{family.stable[0]} is decided for exact solutions, a search has others",
+            "leave it out, and ask gark check of what is found",
+        )
     result = Result()
     for found in results(Search(family, order, whose), starts, seed, most):
         result = found
