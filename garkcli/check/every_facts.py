@@ -252,17 +252,16 @@ def told(value: object) -> str:
 def _factors(
     family: EveryFamily, polynomials: Sequence[fmpq_mpoly]
 ) -> list[fmpq_mpoly]:
-    """The irreducible factors of all of them but of poles and numbers, each once."""
+    """The irreducible factors of all of them but of poles, numbers, and what is zero for no value
+    that the file admits, each once.
+    """
     known = {str(f) for p in family.poles for f, _ in p.factor()[1]}
-    ring = family.ring
-    roots = {rule.index for rule in ring.rules}
     found: dict[str, fmpq_mpoly] = {}
     for p in polynomials:
         for factor, _ in p.factor()[1]:
             # what has roots of numbers alone is a number, and not zero
-            is_number = {
-                k for k, e in enumerate(factor.degrees()) if e
-            } <= roots
-            if str(factor) not in known and not is_number:
+            if str(factor) in known or family.is_number(factor):
+                continue
+            if family.can_vanish(factor):
                 found[str(factor)] = factor
     return list(found.values())

@@ -7,8 +7,9 @@ from dataclasses import dataclass, replace
 from functools import cached_property
 from itertools import product
 
-from flint import fmpq, fmpq_mpoly
+from flint import fmpq, fmpq_mpoly, fmpz_mpoly
 
+from garkcli.check.every_ranges import FREE, can_vanish, carried, is_within
 from garkcli.check.every_relations import (
     is_linear,
     moved_rules,
@@ -101,8 +102,39 @@ class EveryFamily:
             for b in numbers:
                 if isinstance(b, Parametric):
                     for factor, _ in b.numerator.factor()[1]:
-                        found[str(factor)] = factor
+                        if not self.is_number(factor):
+                            found[str(factor)] = factor
         return list(found.values())
+
+    @property
+    def lost(self) -> list[fmpq_mpoly]:
+        """Those of the weights that may be zero for values that the file admits."""
+        poles = {str(f) for p in self.poles for f, _ in p.factor()[1]}
+        return [
+            p
+            for p in self.weights
+            if str(p) not in poles and self.can_vanish(p)
+        ]
+
+    def common_zeros(
+        self, polynomials: Sequence[fmpq_mpoly | fmpz_mpoly]
+    ) -> tuple[str, ...]:
+        """Polynomials as text, but for what roots of numbers satisfy; none where one of them is
+        zero for no value that the file admits.
+        """
+        ring = self.ring
+        texts = []
+        for p in polynomials:
+            terms = {
+                tuple(map(int, e[: len(ring.names)])): fmpq(a)
+                for e, a in p.to_dict().items()
+            }
+            reduced = ring.reduced(ring.context.from_dict(terms))
+            if not self.can_vanish(reduced):
+                return ()
+            if reduced:
+                texts.append(ring.text(reduced if ring.rules else p))
+        return tuple(dict.fromkeys(texts))
 
     def at(self, value: Number) -> Tableau:
         """The method for a value of the one parameter."""
@@ -113,10 +145,17 @@ class EveryFamily:
         """Whether there is a method for a value of the one parameter, and the file admits it."""
         if any(not sign_at(in_one(p), value) for p in self.poles):
             return False
-        [(least, greatest)] = self.family.ranges.values()
-        below = least is not None and value < RealRoot.rational(least)
-        above = greatest is not None and RealRoot.rational(greatest) < value
-        return not below and not above
+        [ends] = self.family.ranges.values()
+        return is_within(value, ends)
+
+    def can_vanish(self, p: fmpq_mpoly) -> bool:
+        """Whether a polynomial may be zero for values that the file admits."""
+        return can_vanish(p, self.ring, self.family.ranges)
+
+    def is_number(self, p: fmpq_mpoly) -> bool:
+        """Whether there are at most roots of numbers in a polynomial."""
+        roots = {rule.index for rule in self.ring.rules}
+        return {k for k, e in enumerate(p.degrees()) if e} <= roots
 
     def norm(self, p: fmpq_mpoly, ring: Parameters) -> fmpq_mpoly:
         """A polynomial in the one parameter that is zero where one with roots of nodes is.
@@ -141,12 +180,14 @@ class EveryFamily:
         return sorted(root for root in found if self.is_inside(root))
 
     def where_zero(self, p: fmpq_mpoly) -> EveryFamily | None:
-        """The methods with a zero of a polynomial; None where it gives no parameter its value."""
-        names = self.family.parameters
+        """The methods with a zero of a polynomial; None where it gives no parameter its value, or
+        the range of that one is none of another.
+        """
+        names = ranged_last(self.family)
         if not any(is_linear(p, self.ring, name) for name in names):
             return None
         fixed = solved([p], self.ring, names)
-        left = [name for name in names if name not in fixed]
+        left = [name for name in self.family.parameters if name not in fixed]
         if not left:
             return None
         values: dict[str, object] = {}
@@ -160,9 +201,10 @@ class EveryFamily:
             values[name] = value_of(value, self.ring, values)
         try:
             tableau = member(self.tableau, self.ring, values)  # type: ignore[arg-type]
-        except ZeroDivisionError:
+            followed = {name: values[name] for name in fixed}
+            ranges = carried(followed, self.family.ranges, left)
+        except (ZeroDivisionError, MethodError):
             return None
-        ranges = {name: self.family.ranges[name] for name in left}
         made = replace(
             self.family,
             tableau=tableau,
@@ -214,6 +256,12 @@ class EveryFamily:
                 yield x
 
 
+def ranged_last(family: Family) -> list[str]:
+    """The parameters, those without a range first: they are put in first."""
+    ranges = family.ranges
+    return sorted(family.parameters, key=lambda name: ranges[name] != FREE)
+
+
 def in_one(p: fmpq_mpoly) -> Polynomial:
     """A polynomial in the one unknown of its ring."""
     powers = {int(k): fmpq(a) for (k,), a in p.to_dict().items()}
@@ -237,7 +285,7 @@ def every_family(family: Family) -> EveryFamily:
         if least is not None and least == greatest:
             index = family.ring.names.index(name)
             relations.append(family.ring.context.gen(index) - least)
-    fixed = solved(relations, family.ring, family.parameters)
+    fixed = solved(relations, family.ring, ranged_last(family))
     left = [x for x in family.parameters if x not in fixed]
     if not left:
         raise MethodError(
@@ -251,13 +299,21 @@ def every_family(family: Family) -> EveryFamily:
     values: dict[str, object] = {x: ring.parameter(x) for x in names}
     for name in reversed(fixed):
         values[name] = value_of(fixed[name], family.ring, values)
+    followed = {name: values[name] for name in fixed}
+    ranges = carried(followed, family.ranges, left)
+    if any(
+        least is not None and least == most for least, most in ranges.values()
+    ):
+        # ranges that meet in one number fix a parameter
+        narrowed = {**family.ranges, **ranges}
+        return every_family(replace(family, ranges=narrowed))
     tableau = member(family.tableau, family.ring, values)  # type: ignore[arg-type]
     made = replace(
         family,
         tableau=tableau,
         ring=ring,
         parameters=tuple(left),
-        ranges={name: family.ranges[name] for name in left},
+        ranges=ranges,
         relations=(),
         radicals=(),
         nonzero=(),

@@ -2,6 +2,7 @@
 
 from __future__ import annotations
 
+from collections.abc import Sequence
 from dataclasses import dataclass, replace
 from time import monotonic
 
@@ -78,7 +79,7 @@ def every_order(family: EveryFamily, whose: Whose, limit: int) -> EveryOrder:
     conditions = FamilyConditions(tableau, ring)
     start = Ideal(ring, conditions.denominators, monotonic() + SECONDS)
     start = start.with_zeros(family.relations)
-    lost = [] if whose == "method" else family.weights
+    lost = [] if whose == "method" else family.lost
     poles = tuple(map(ring.text, lost))
     for k in range(1, limit + 1):
         missed = [
@@ -90,16 +91,22 @@ def every_order(family: EveryFamily, whose: Whose, limit: int) -> EveryOrder:
             continue
         zeros = [condition.polynomial for condition in missed]
         fact, dimension = _higher(family, whose, k - 1, start, zeros)
-        if family.has_one and lost:
-            fact = _without(fact, family.roots(lost))
+        fact = _without(family, fact, lost)
         witness = missed[0].tree
         value = elementary_weight(tableau, witness)
         return EveryOrder(tableau, fact, witness, value, dimension, poles)
-    return EveryOrder(tableau, Fact(limit), None, None, None, poles)
+    fact = _without(family, Fact(limit), lost)
+    return EveryOrder(tableau, fact, None, None, None, poles)
 
 
-def _without(fact: Fact, roots: list[RealRoot]) -> Fact:
-    """The order where at single values there is no such method."""
+def _without(
+    family: EveryFamily, fact: Fact, lost: Sequence[fmpq_mpoly]
+) -> Fact:
+    """The order where there is no such method with a zero of one of some polynomials."""
+    if not family.has_one:
+        texts = [family.ring.text(p) for p in lost]
+        return replace(fact, elsewhere=tuple((x, None) for x in texts))
+    roots = family.roots(lost)
     kept = [x for x in fact.special if x[0] not in roots]
     none = [(root, None) for root in roots]
     return replace(fact, special=tuple(sorted([*kept, *none], key=_place)))
@@ -120,7 +127,7 @@ def _higher(
     try:
         ideal = start.with_zeros(zeros)
     except NotDecided:
-        return Fact(order, zeros=tuple(map(family.ring.text, zeros))), None
+        return Fact(order, zeros=family.common_zeros(zeros)), None
     dimension = ideal.dimension
     if dimension < 0:
         return Fact(order), dimension
@@ -128,14 +135,8 @@ def _higher(
         found = _real(family, whose, ideal)
         if family.has_one or not found:
             return Fact(order, tuple(found)), dimension
-    return Fact(order, zeros=_texts(family, ideal)), dimension
-
-
-def _texts(family: EveryFamily, ideal: Ideal) -> tuple[str, ...]:
-    """The polynomials of an ideal but for what roots satisfy."""
-    known = {str(p) for p in family.relations}
-    texts = [p for p in ideal.polynomials if str(p) not in known]
-    return tuple(family.ring.text(p) for p in texts)
+    common = family.common_zeros(ideal.polynomials)
+    return Fact(order, zeros=common), dimension
 
 
 def _real(

@@ -8,7 +8,7 @@ one parameter between the zeros of the polynomials whose signs matter; A-, L- an
 from __future__ import annotations
 
 from collections.abc import Callable, Iterator
-from itertools import chain
+from itertools import chain, pairwise
 from typing import Any
 
 from flint import fmpq, fmpq_mpoly
@@ -124,23 +124,19 @@ def _of_set(
 
 
 def _is_all(family: EveryFamily, found: tuple[Interval, ...]) -> bool:
-    """Whether a set is every value with a method."""
+    """Whether a set, without gaps within its intervals, is every value with a method."""
     [(least, greatest)] = family.family.ranges.values()
     poles = {root for p in family.poles for root in _roots(p)}
-    here: RealRoot | None = None
-    for number, interval in enumerate(found):
-        is_gap = interval.start is not None and not interval.has_start
-        if number == 0:
-            is_first = _same(interval.start, least) and (
-                least is None or not is_gap
-            )
-            if not is_first and not (is_gap and interval.start in poles):
-                return False
-        elif interval.start != here or interval.start not in poles:
-            return False
-        here = interval.end
-    last = found[-1]
-    return _same(last.end, greatest) and (greatest is None or last.has_end)
+    first, last = found[0], found[-1]
+    has_start = first.has_start or first.start in (None, *poles)
+    has_end = last.has_end or last.end in (None, *poles)
+    is_whole = _same(first.start, least) and _same(last.end, greatest)
+    # between two intervals there is nothing but a pole
+    are_joined = all(
+        left.end == right.start and left.end in poles
+        for left, right in pairwise(found)
+    )
+    return has_start and has_end and is_whole and are_joined
 
 
 def _same(end: RealRoot | None, bound: fmpq | None) -> bool:

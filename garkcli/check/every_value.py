@@ -146,9 +146,7 @@ def _symplectic(family: EveryFamily) -> Fact:
     )
     if ideal.is_everything:
         return Fact(False)
-    known = {str(p) for p in family.relations}
-    zeros = [p for p in ideal.polynomials if str(p) not in known]
-    return Fact(False, zeros=tuple(map(family.ring.text, zeros)))
+    return Fact(False, zeros=family.common_zeros(ideal.polynomials))
 
 
 def _defects(family: EveryFamily) -> list[fmpq_mpoly]:
