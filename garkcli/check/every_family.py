@@ -12,6 +12,7 @@ from flint import fmpq, fmpq_mpoly, fmpz_mpoly
 from garkcli.check.every_ranges import FREE, can_vanish, carried, is_within
 from garkcli.check.every_relations import (
     is_linear,
+    moved_nonzero,
     moved_rules,
     rules_of,
     solved,
@@ -66,7 +67,8 @@ class EveryFamily:
     @cached_property
     def poles(self) -> tuple[fmpq_mpoly, ...]:
         """Polynomials: where one is zero there is no method."""
-        return FamilyConditions(self.tableau, self.ring).denominators
+        shown = FamilyConditions(self.tableau, self.ring).denominators
+        return (*shown, *self.family.nonzero)
 
     @cached_property
     def in_points(self) -> Tableau | None:
@@ -203,6 +205,7 @@ class EveryFamily:
             tableau = member(self.tableau, self.ring, values)  # type: ignore[arg-type]
             followed = {name: values[name] for name in fixed}
             ranges = carried(followed, self.family.ranges, left)
+            nonzero = moved_nonzero(self.family, values)
         except (ZeroDivisionError, MethodError):
             return None
         made = replace(
@@ -211,6 +214,7 @@ class EveryFamily:
             ring=smaller,
             parameters=tuple(left),
             ranges=ranges,
+            nonzero=nonzero,
         )
         return EveryFamily(made)
 
@@ -316,7 +320,7 @@ def every_family(family: Family) -> EveryFamily:
         ranges=ranges,
         relations=(),
         radicals=(),
-        nonzero=(),
+        nonzero=moved_nonzero(family, values),
         positive=(),
         not_negative=(),
     )

@@ -77,7 +77,8 @@ def every_order(family: EveryFamily, whose: Whose, limit: int) -> EveryOrder:
     ring = family.ring
     tableau = TABLEAUS[whose](family.tableau)
     conditions = FamilyConditions(tableau, ring)
-    start = Ideal(ring, conditions.denominators, monotonic() + SECONDS)
+    apart = (*conditions.denominators, *family.family.nonzero)
+    start = Ideal(ring, apart, monotonic() + SECONDS)
     start = start.with_zeros(family.relations)
     lost = [] if whose == "method" else family.lost
     poles = tuple(map(ring.text, lost))

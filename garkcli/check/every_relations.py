@@ -9,7 +9,7 @@ from flint import fmpq, fmpq_mpoly
 from garkcli.errors import MethodError
 from garkcli.exact.domain import Domain
 from garkcli.exact.expression import parse
-from garkcli.exact.parametric import Parameters, Rule
+from garkcli.exact.parametric import Parameters, Parametric, Rule
 from garkcli.tableau.family import Family, Radical
 
 
@@ -67,6 +67,27 @@ def value_of(
                 term = term * values[name]  # type: ignore[operator]
         total = total + term  # type: ignore[operator]
     return total
+
+
+def moved_nonzero(
+    family: Family, values: dict[str, object]
+) -> tuple[fmpq_mpoly, ...]:
+    """What a family divides by and is not seen in it, at values of its unknowns.
+
+    Raises:
+        MethodError: it is zero there.
+    """
+    found = []
+    for p in family.nonzero:
+        value = value_of(p, family.ring, values)
+        if not value:
+            raise MethodError(
+                f"the file divides by {family.ring.text(p)}, which is zero by what it asks",
+                "change what it asks of the parameters, such as given nodes",
+            )
+        if isinstance(value, Parametric):
+            found.append(value.numerator)
+    return tuple(found)
 
 
 def rules_of(family: Family, ring: Parameters) -> Iterator[Rule]:

@@ -115,7 +115,7 @@ class Domain:
                 for sign, operand in zip(signs, operands, strict=True):
                     number = self.evaluate(operand)
                     total = _bounded(
-                        _apply(sign, total, number, operand), expression
+                        self._apply(sign, total, number, operand), expression
                     )
                 return total
             case Power(base=base, exponent=exponent):
@@ -128,6 +128,16 @@ class Domain:
                     message, "", expression.start, expression.end
                 )
         raise TypeError(f"no expression: {expression!r}")
+
+    def _apply(
+        self, sign: str, left: Number, right: Number, at: Expression
+    ) -> Number:
+        """A sum, a difference, a product or a quotient."""
+        if sign == "/" and not right:
+            cure = "the divisor is exactly zero"
+            raise UndefinedValue("division by zero", cure, at.start, at.end)
+        result: Number = OPERATIONS[sign](left, right)
+        return result
 
     def _power(self, number: Number, exponent: int, at: Expression) -> Number:
         """A power, refused before it is computed where it would be too long."""
@@ -269,14 +279,6 @@ def _sign(expression: Expression) -> int:
         start, end = expression.start, expression.end
         raise LimitExceeded(message, "write it simpler", start, end)
     return 0
-
-
-def _apply(sign: str, left: Number, right: Number, at: Expression) -> Number:
-    if sign == "/" and not right:
-        cure = "the divisor is exactly zero"
-        raise UndefinedValue("division by zero", cure, at.start, at.end)
-    result: Number = OPERATIONS[sign](left, right)
-    return result
 
 
 def _bits(number: Number) -> int:

@@ -2,15 +2,16 @@
 
 from __future__ import annotations
 
-from collections.abc import Iterator, Mapping, Sequence
+from collections.abc import Iterable, Iterator, Mapping, Sequence
 from dataclasses import dataclass
+from itertools import chain
 
 from flint import fmpq_mpoly
 
 from garkcli.design.wants.want import numerators, sign_polynomial
 from garkcli.errors import MethodError
 from garkcli.exact.field import ZERO
-from garkcli.exact.parametric import Parameters, Parametric
+from garkcli.exact.parametric import Parameters, Parametric, common_denominator
 from garkcli.methodfile.description import (
     ArkText,
     ButcherText,
@@ -125,6 +126,7 @@ def loads_family(
     ranges = {name: values.ends(x) for name, x in numbers.free.items()}
     reader.source.close()
     places = {name: extent(text, x, x) for name, x in numbers.places.items()}
+    poles = _cancelled(values.domain.divisors, tableau, ring, numbers.free)
     zeros = [*_of_nodes(description, tableau)]
     zeros += numerators(meaning.zeros, ring)
     return FamilyFile(
@@ -137,7 +139,7 @@ def loads_family(
         ranges=ranges,
         radicals=tuple(values.domain.radicals),
         relations=tuple(zeros),
-        nonzero=meaning.nonzero,
+        nonzero=(*meaning.nonzero, *poles),
         positive=_signs(meaning.positive, ring),
         not_negative=_signs(meaning.not_negative, ring),
         order=wishes.order,
@@ -149,6 +151,30 @@ def loads_family(
         structure=description.structure,
         claims=description.claims,
     )
+
+
+def _cancelled(
+    divisors: Sequence[fmpq_mpoly],
+    tableau: Tableau,
+    ring: Parameters,
+    free: Iterable[str],
+) -> Iterator[fmpq_mpoly]:
+    """What the file divides by and no denominator shows, as in t/t: there is no method with a zero
+    of it. Irreducible polynomials.
+    """
+    numbers = [x for colour in tableau.colours for x in colour.b]
+    for block in tableau.blocks.values():
+        numbers += chain.from_iterable(block)
+    shown = common_denominator(numbers, ring)
+    known = {str(factor) for factor, _ in shown.factor()[1]}
+    indices = [ring.names.index(name) for name in free]
+    for divisor in divisors:
+        for factor, _ in divisor.factor()[1]:
+            degrees = factor.degrees()
+            has_parameter = any(degrees[k] for k in indices)
+            if has_parameter and str(factor) not in known:
+                known.add(str(factor))
+                yield factor
 
 
 def _signs(

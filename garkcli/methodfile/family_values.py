@@ -6,7 +6,7 @@ from __future__ import annotations
 
 from typing import Any, cast
 
-from flint import fmpq, fmpz_poly
+from flint import fmpq, fmpq_mpoly, fmpz_poly
 
 from garkcli.errors import ExpressionError, LimitExceeded
 from garkcli.exact.domain import Domain
@@ -79,6 +79,7 @@ class _FamilyDomain(Domain):
             self._names[root] = f"{ROOT}{i}"
         self.ring = Parameters([*names, *self._names.values()])
         self.radicals: list[Radical] = []
+        self.divisors: list[fmpq_mpoly] = []
         self._values = {}
         self._are_real = True
         self.field = None
@@ -125,7 +126,22 @@ class _FamilyDomain(Domain):
             return cast("Number", self.ring.parameter(expression.name))
         return super().evaluate(expression)
 
+    def _apply(
+        self, sign: str, left: Number, right: Number, at: Expression
+    ) -> Number:
+        if sign == "/":
+            self._note_divisor(right)
+        return super()._apply(sign, left, right, at)
+
+    def _note_divisor(self, number: Number) -> None:
+        """Keep where a divisor is zero: it may cancel, and is one all the same."""
+        p, _ = fraction(number, self.ring)
+        if not p.is_constant():
+            self.divisors.append(p)
+
     def _power(self, number: Number, exponent: int, at: Expression) -> Number:
+        if exponent < 0:
+            self._note_divisor(number)
         numerator, denominator = fraction(number, self.ring)
         degree = numerator.total_degree() + denominator.total_degree()
         if degree > 0 and degree * abs(exponent) > MAX_DEGREE:

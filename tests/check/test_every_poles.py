@@ -6,6 +6,7 @@ import pytest
 from flint import fmpq
 
 from garkcli.check.deciding import analyse
+from garkcli.errors import MethodFileError
 from garkcli.exact.roots import RealRoot
 from garkcli.methodfile.load import loads
 from tests.check.test_every_value import LIMIT, at, checked
@@ -62,3 +63,31 @@ def test_sets_beside_poles(case: str, tmp_path: object) -> None:
         verdicts.append(verdict)
     assert [x.holds for x in outcome.claims] == [all(verdicts)]
     assert fact.is_everywhere == all(verdicts)
+
+
+def test_cancelled_denominators_are_poles(tmp_path: object) -> None:
+    """With t/t in the file there is no method for t = 0: it is no exception, as it is of the file
+    without it, and the ordinary reader refuses the value.
+    """
+    text = "parameters: {t: free}\nA: [[0, 0], [t, 0]]\nb: [0, t/t]\n"
+    plain = text.replace("t/t", "1")
+    found = []
+    for one in (text, plain):
+        every = checked(tmp_path, one).every
+        assert every is not None
+        found.append(every.simplifying.special)
+    zero = RealRoot.rational(fmpq(0))
+    assert [zero in dict(x) for x in found] == [False, True]
+    with pytest.raises(MethodFileError, match="division by zero"):
+        loads(text, settings={"t": "0"})
+
+
+def test_cancelled_denominators_that_are_zero(tmp_path: object) -> None:
+    """A given node that makes a divisor zero is bad input."""
+    text = """parameters: {t: free, s: free}
+A: [[0, 0], [1/2, 0]]
+b: [1 - s, s*(2*t - 1)/(2*t - 1)]
+c: [0, t]
+"""
+    [fault] = checked(tmp_path, text).faults
+    assert "divides by 2*t - 1" in fault.message
