@@ -62,8 +62,10 @@ def command(
     wanted.check()
     family = load_family(file, settings)
     kind, is_of_springs = wanted.stability, wanted.slow is not None
-    if kind is not None and (wanted.order is None or is_of_springs):
+    order = wanted.order or family.order
+    if kind is not None and (order is None or is_of_springs):
         wanted.check_stability()
+        _refuse_other_wishes(family, kind, is_of_springs)
         return _stable_values(family, wanted, kind, output)
     family = _as_stable(family, kind)
     wanted.check_one_by_one([x.kind for x in family.stable])
@@ -89,6 +91,32 @@ def _prepare_places(wanted: Wanted) -> None:
         from garkcli.cli.emitting import make_folder
 
         make_folder(wanted.emit_all)
+
+
+def _refuse_other_wishes(
+    family: FamilyFile, kind: Kind, is_of_springs: bool
+) -> None:
+    """Refuse what a file wants that a set of values with one kind of stability leaves out.
+
+    Raises:
+        UsageProblem: an order, or another kind of stability.
+    """
+    from garkcli.tableau.family import Stability
+
+    wishes = [str(x) for x in family.stable]
+    if not is_of_springs:
+        wishes = [x for x in wishes if x != str(Stability(kind))]
+    if family.order is not None:
+        wishes.insert(0, f"order {family.order}")
+    if not wishes:
+        return
+    message = f"under design the file wants {wishes[0]}, "
+    if is_of_springs:
+        message += "which is not looked at on two springs"
+        raise UsageProblem(message, "leave it out of the file")
+    message += f"and --{kind} gives the values of one kind"
+    cure = "add --order P: solutions of an order have all that is wanted"
+    raise UsageProblem(message, cure)
 
 
 def _as_stable(family: FamilyFile, kind: Kind | None) -> FamilyFile:

@@ -33,7 +33,7 @@ from garkcli.design.stability_kinds import (
 )
 from garkcli.errors import UsageProblem
 from garkcli.exact.cells import Interval, Point, sign_of, where
-from garkcli.exact.polynomial import Polynomial
+from garkcli.exact.polynomial import Polynomial, in_one
 from garkcli.exact.root_number import number_of
 from garkcli.exact.roots import RealRoot, sign_at
 from garkcli.tableau.family import Family
@@ -72,6 +72,18 @@ class StableValues:
         return self.family.parameters[0]
 
     @property
+    def has_wishes(self) -> bool:
+        """Whether the file asks for more than stability, which every value of the set has."""
+        family = self.family
+        wanted = (
+            *family.relations,
+            *family.nonzero,
+            *family.positive,
+            *family.not_negative,
+        )
+        return any(p.total_degree() != 0 for p in wanted)
+
+    @property
     def is_everything(self) -> bool:
         """Whether every real number belongs to it."""
         if len(self.found) != 1:
@@ -97,7 +109,7 @@ def stable_values(
     whose: Whose = "method",
     two_springs: TwoSprings | None = None,
 ) -> StableValues:
-    """The set of values of the one free parameter.
+    """The set of values of the one free parameter, of those that are as the file wants them.
 
     Args:
         family: of methods, with one free parameter and rational coefficients otherwise.
@@ -116,7 +128,7 @@ def stable_values(
     members = Members(family, whose)
     if wanted == "p-stable":
         oscillating = _oscillating(members, tableau, two_springs)
-        found, undecided = _decided(family, oscillating)
+        found, undecided = _wanted(family, *_decided(family, oscillating))
         return StableValues(
             family, whose, wanted, found, undecided, two_springs
         )
@@ -125,6 +137,7 @@ def stable_values(
     if wanted == "l-stable":
         found = _damped(kind, found)
         undecided = tuple(t for t in undecided if kind.is_damped(t))
+    found, undecided = _wanted(family, found, undecided)
     return StableValues(family, whose, wanted, found, undecided)
 
 
@@ -144,20 +157,54 @@ def _decided(
     decision = _Decision(family, kind)
     found = decision.run()
     undecided = tuple(decision.undecided)
+    return _without(found, undecided), undecided
+
+
+def _without(
+    found: Sequence[Interval], undecided: Sequence[RealRoot]
+) -> tuple[Interval, ...]:
+    """A set without those ends of its parts that are not decided."""
     kept = [x for x in found if not (x.is_point and x.start in undecided)]
-    return tuple(_trimmed(interval, undecided) for interval in kept), undecided
+    return tuple(_trimmed(interval, undecided) for interval in kept)
+
+
+def _wanted(
+    family: Family,
+    found: tuple[Interval, ...],
+    undecided: tuple[RealRoot, ...],
+) -> tuple[tuple[Interval, ...], tuple[RealRoot, ...]]:
+    """Those values of a set that are as the file wants them, and of those that are left open."""
+    asked: list[tuple[Polynomial, frozenset[int]]] = []
+    for polynomials, signs in (
+        (family.relations, {0}),
+        (family.nonzero, {-1, 1}),
+        (family.positive, {1}),
+        (family.not_negative, {0, 1}),
+    ):
+        asked += [(in_one(p), frozenset(signs)) for p in polynomials]
+    if not asked:
+        return found, undecided
+
+    def is_wanted(t: Point) -> bool:
+        return all(sign_of(p, t) in signs for p, signs in asked)
+
+    critical = [*_ends(found), *(p for p, _ in asked)]
+    kept = where(lambda t: is_wanted(t) and _holds_at(found, t), critical)
+    still_open = tuple(t for t in undecided if is_wanted(t))
+    return _without(kept, still_open), still_open
+
+
+def _ends(found: Sequence[Interval]) -> list[Polynomial]:
+    """Polynomials that are zero at the ends of the parts of a set."""
+    ends = [end for x in found for end in (x.start, x.end) if end is not None]
+    return [Polynomial.from_flint(end.polynomial) for end in ends]
 
 
 def _damped(
     kind: AStability, found: Sequence[Interval]
 ) -> tuple[Interval, ...]:
     """The values out of a set with R(∞) = 0."""
-    critical = list(kind.critical)
-    for interval in found:
-        ends = [
-            end for end in (interval.start, interval.end) if end is not None
-        ]
-        critical += [Polynomial.from_flint(end.polynomial) for end in ends]
+    critical = [*kind.critical, *_ends(found)]
     return where(lambda t: _holds_at(found, t) and kind.is_damped(t), critical)
 
 

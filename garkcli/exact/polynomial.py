@@ -5,7 +5,15 @@ from __future__ import annotations
 from collections.abc import Iterable, Sequence
 from typing import Self
 
-from flint import arb, ctx, fmpq, fmpq_mat, fmpq_poly, fmpz_poly
+from flint import (
+    arb,
+    ctx,
+    fmpq,
+    fmpq_mat,
+    fmpq_mpoly,
+    fmpq_poly,
+    fmpz_poly,
+)
 
 from garkcli.exact.display import to_ball
 from garkcli.exact.field import (
@@ -226,6 +234,13 @@ def _norm_of(number: Number, field: NumberField) -> fmpq:
         image = number * field.element(theta**k)
         rows.append(coordinates(image, d))
     return fmpq_mat(rows).det()
+
+
+def in_one(p: fmpq_mpoly) -> Polynomial:
+    """A polynomial of a ring with one variable."""
+    powers = {int(k): fmpq(a) for (k,), a in p.to_dict().items()}
+    highest = max(powers, default=-1)
+    return Polynomial([powers.get(k, fmpq(0)) for k in range(highest + 1)])
 
 
 def interpolated(

@@ -62,6 +62,8 @@ def set_lines(values: StableValues, digits: int, width: int) -> list[str]:
     if values.two_springs is not None:
         stable = "stable"
         lines += [f"  {_springs_text(values.two_springs)}"]
+    if values.has_wishes:
+        stable += ", and as the file wants it,"
     if not values.found:
         none = "no value that is decided" if values.undecided else "no value"
         lines += [f"  the {values.whose} is {stable} for {none} of {name}"]

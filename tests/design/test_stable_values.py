@@ -94,6 +94,36 @@ def test_known_sets(
     assert values.undecided == ()
 
 
+IMPLICIT = "parameters: {t: free}\nA: [[t]]\nb: [1]\n"
+DIAGONAL = "parameters: {t: free}\nA: [[1, 0], [0, 1]]\nb: [t, 1 - t]\n"
+
+
+@pytest.mark.parametrize(
+    ("text", "known"),
+    [
+        (IMPLICIT, [("1/2", None, True, False)]),
+        (IMPLICIT + "c: [1/8]\n", []),
+        (IMPLICIT + "c: [3/4]\n", [("3/4", "3/4", True, True)]),
+        (IMPLICIT + "design: {fix: {t: 1/8}}\n", []),
+        (
+            DIAGONAL + "design: {positive-weights: true}\n",
+            [("0", "1", False, False)],
+        ),
+        (
+            IMPLICIT + "design: {nodes-in-unit-interval: true}\n",
+            [("1/2", "1", True, True)],
+        ),
+    ],
+)
+def test_what_the_file_wants_as_well(text: str, known: list[object]) -> None:
+    """Given nodes, fixed values and signs that are wanted cut the set as ranges do: R(z) of one
+    stage is that of the θ-method.
+    """
+    values = found(text, "a-stable")
+    assert texts(values) == known
+    assert values.has_wishes is (text != IMPLICIT)
+
+
 @pytest.mark.parametrize(
     ("families", "wanted"),
     [
@@ -257,6 +287,25 @@ def test_as_a_command(tmp_path: Path) -> None:
         2,
         True,
     )
+
+
+def test_other_wishes_are_not_passed_over(tmp_path: Path) -> None:
+    """Solutions of the order that the file wants are looked at one by one, as with --order; what
+    a set leaves out is refused, and the text says that wishes cut the set.
+    """
+    path = tmp_path / "wishes.yaml"
+    path.write_text(f"{IMPLICIT}design: {{order: 2}}\n", encoding="utf-8")
+    one = gark("design", str(path), "--a-stable")
+    assert (one.code, "t = 1/2" in one.out) == (0, True)
+    path.write_text(f"{IMPLICIT}c: [1/8]\n", encoding="utf-8")
+    none = gark("design", str(path), "--a-stable")
+    wanted = "A-stable, and as the file wants it, for no value of t"
+    assert (none.code, wanted in none.out) == (1, True)
+    path.write_text(
+        f"{IMPLICIT}design: {{l-stable: true}}\n", encoding="utf-8"
+    )
+    refused = gark("design", str(path), "--a-stable")
+    assert (refused.code, "L-stable" in refused.err) == (2, True)
 
 
 def test_ends_that_are_algebraic_numbers(tmp_path: Path) -> None:

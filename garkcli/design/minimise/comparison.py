@@ -33,7 +33,7 @@ from garkcli.design.minimise.result import (
 from garkcli.design.solutions import Solution, solutions
 from garkcli.exact.field import Number, NumberField
 from garkcli.exact.parametric import fraction
-from garkcli.exact.polynomial import Polynomial
+from garkcli.exact.polynomial import Polynomial, in_one
 from garkcli.exact.roots import RealRoot, real_roots
 from garkcli.tableau.tableau import Tableau
 
@@ -275,13 +275,6 @@ def _sign_of(part: Part, p: fmpq_mpoly, design: Design) -> fmpq_mpoly:
     """A polynomial in the coordinates with the sign of one in all unknowns."""
     over, under = fraction(part.expressed(p, design.family.ring), part.ring)
     return over * under
-
-
-def in_one(p: fmpq_mpoly) -> Polynomial:
-    """A polynomial in one variable."""
-    powers = {int(k): fmpq(a) for (k,), a in p.to_dict().items()}
-    highest = max(powers, default=-1)
-    return Polynomial([powers.get(k, fmpq(0)) for k in range(highest + 1)])
 
 
 def at_root(name: str, root: RealRoot) -> Solution:

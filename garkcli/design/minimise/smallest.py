@@ -14,7 +14,7 @@ from garkcli.design.design import Found
 from garkcli.design.groebner import NotDecided
 from garkcli.design.member import member
 from garkcli.design.minimise.bound import is_nowhere_less
-from garkcli.design.minimise.comparison import Comparison, at_root, in_one
+from garkcli.design.minimise.comparison import Comparison, at_root
 from garkcli.design.minimise.critical import (
     critical_equations,
     is_of_one_dimension,
@@ -28,6 +28,7 @@ from garkcli.design.minimise.result import Candidate, Extent, Limit, Proof
 from garkcli.design.solutions import Solution, value_at
 from garkcli.exact.cells import Interval, between
 from garkcli.exact.parametric import fraction
+from garkcli.exact.polynomial import in_one
 from garkcli.exact.roots import RealRoot
 
 
