@@ -41,9 +41,18 @@ class FamilyValues(Values):
         self._evaluate(numbers, self.domain)
 
     def ends(self, free: Free) -> tuple[fmpq | None, fmpq | None]:
-        """Between which rational numbers a parameter may lie; one that is none is noted."""
-        smallest = self._end(free.smallest)
-        return smallest, self._end(free.largest)
+        """Between which rational numbers a parameter may lie; an end that is none is noted, and a
+        range without a number in it.
+        """
+        smallest, largest = self._end(free.smallest), self._end(free.largest)
+        if smallest is None or largest is None or smallest <= largest:
+            return smallest, largest
+        assert free.largest is not None
+        place = free.largest
+        message = f"{place.where}: no number is in [{smallest}, {largest}]"
+        cure = f"the smaller end stands first: [{largest}, {smallest}]"
+        self.numbers.source.fault(place.node, message, cure)
+        return smallest, largest
 
     def _end(self, entry: Entry | None) -> fmpq | None:
         if entry is None:

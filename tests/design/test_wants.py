@@ -118,6 +118,7 @@ def test_nodes_are_filtered_by_exact_signs() -> None:
         ("{ordr: 3}", "unknown key 'ordr'"),
         ("{fix: {c9: 1}}", "c9 is no unknown"),
         ("{range: {gamma: [1]}}", "a range has two ends"),
+        ("{range: {gamma: [1, 1/2]}}", "no number is in [1, 1/2]"),
         ("{range: {c9: [0, 1]}}", "c9 is no unknown"),
         ("{stage-order: 0}", "at least 1"),
         ("{stiffly-accurate: {2: true}}", "no colour 2"),
