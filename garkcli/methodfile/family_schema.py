@@ -6,6 +6,7 @@ from garkcli.design.wants.registry import WANTS, find_want
 from garkcli.methodfile.coefficient_schema import RANGE, Schema, closed
 from garkcli.methodfile.shaped import MAX_STAGES as MOST_UNKNOWN_STAGES
 from garkcli.methodfile.shapes.registry import SHAPES, find_shape
+from garkcli.methodfile.wishes import MOST
 
 
 def unknown() -> Schema:
@@ -29,7 +30,7 @@ def unknown() -> Schema:
 def design() -> Schema:
     """The key ``design``: what is wanted, for all colours or for those that are named."""
     number: Schema = {"$ref": "#/definitions/number"}
-    count: Schema = {"type": "integer", "minimum": 1}
+    count: Schema = {"type": "integer", "minimum": 1, "maximum": MOST}
     by_kind: dict[str, Schema] = {
         "flag": {"type": "boolean"},
         "count": count,

@@ -258,7 +258,13 @@ class Source:
             return None
         return str(node.value)
 
-    def whole(self, node: Node, where: str, smallest: int = 0) -> int | None:
+    def whole(
+        self,
+        node: Node,
+        where: str,
+        smallest: int = 0,
+        largest: int | None = None,
+    ) -> int | None:
         """A whole number written in plain decimal digits."""
         text = self.scalar(node, where)
         if text is None:
@@ -274,7 +280,12 @@ class Source:
             message = f"{where}: {wanted}, not {shortened(text)}"
             self.fault(node, message)
             return None
-        return int(text)
+        number = int(text)
+        if largest is not None and number > largest:
+            wanted = f"a whole number of at most {largest} is expected"
+            self.fault(node, f"{where}: {wanted}, not {number}")
+            return None
+        return number
 
     def choice(
         self, node: Node, where: str, known: Iterable[str]

@@ -21,6 +21,8 @@ from garkcli.tableau.tableau import Tableau
 
 KEYS = ("order", "fix", "range", *WANTS)
 """The keys of ``design``."""
+MOST = 60
+"""The largest order that is looked at, as for ``--order``."""
 FORM = "write design: {order: 3, stiffly-accurate: true}"
 
 
@@ -69,7 +71,7 @@ def read_wishes(source: Source, numbers: Numbers, node: Node | None) -> Wishes:
     entries = source.mapping(node, "design", KEYS, form=FORM)
     order = None
     if "order" in entries:
-        order = source.whole(entries["order"], "design: order", smallest=1)
+        order = _count(source, entries["order"], "design: order")
     fixed: list[tuple[Entry, Entry]] = []
     if "fix" in entries:
         fixed = _fixed(source, numbers, entries["fix"])
@@ -144,11 +146,16 @@ def _value(
     """The value of a wish; None where it is faulty, or says that nothing is wanted."""
     where = f"design: {want.key}"
     if want.kind == "count":
-        return source.whole(node, where, smallest=1)
+        return _count(source, node, where)
     if want.kind == "number":
         return numbers.entry(node, where)
     word = source.choice(node, where, ("true", "false"))
     return True if word == "true" else None
+
+
+def _count(source: Source, node: Node, where: str) -> int | None:
+    """An order; None where it is faulty."""
+    return source.whole(node, where, smallest=1, largest=MOST)
 
 
 def _colours_of(wish: Wish, size: int, source: Source) -> tuple[int, ...]:

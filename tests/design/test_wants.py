@@ -3,6 +3,7 @@
 from __future__ import annotations
 
 import pytest
+from flint import fmpq
 
 from garkcli import find_order, loads, pair
 from garkcli.design.chosen import first_method
@@ -11,6 +12,7 @@ from garkcli.design.solutions import value_at
 from garkcli.design.wants.registry import WANTS, find_want
 from garkcli.errors import MethodFileError
 from garkcli.methodfile.family import loads_family, with_values
+from garkcli.order.simplifying import simplifying
 from tests.cli.harness import gark
 
 SDIRK2 = "unknown: {stages: 2, shape: sdirk}\n"
@@ -91,6 +93,22 @@ def test_stage_order() -> None:
     assert values == {"c2": "1", "gamma": "1/2", "b1": "1/2", "b2": "1/2"}
 
 
+def test_stage_orders_above_the_number_of_stages() -> None:
+    """Beyond it only a method whose nodes are all 0 is left, for which nothing is added: each C(q)
+    has the zeros of C(s + 1), checked on the conditions themselves.
+    """
+    text = "A: [[a, b], [c, d]]\nb: [1/2, 1/2]\ndesign: {{stage-order: {}}}\n"
+    head = "parameters: {a: free, b: free, c: free, d: free}\n"
+    highest = loads_family(head + text.format(60))
+    assert highest.relations == loads_family(head + text.format(3)).relations
+    nodes = {"a": 2, "b": -2, "c": 1, "d": -1}
+    for values, holds in ((nodes, True), ({**nodes, "d": 0}, False)):
+        at = [fmpq(values[name]) for name in highest.parameters]
+        assert all(p(*at) == 0 for p in highest.relations) is holds
+    fixed = "A: [[2, -2], [1, -1]]\nb: [1/2, 1/2]\n"
+    assert simplifying(loads(fixed).tableau, 9).eta == 9
+
+
 def test_an_implicit_explicit_method() -> None:
     """Four stages of order 3, R(∞) = 0 of the implicit part, Alexander's γ; the order proved from the file."""
     family = loads_family(IMEX)
@@ -121,6 +139,8 @@ def test_nodes_are_filtered_by_exact_signs() -> None:
         ("{range: {gamma: [1, 1/2]}}", "no number is in [1, 1/2]"),
         ("{range: {c9: [0, 1]}}", "c9 is no unknown"),
         ("{stage-order: 0}", "at least 1"),
+        ("{stage-order: 61}", "at most 60"),
+        ("{order: 100000}", "at most 60"),
         ("{stiffly-accurate: {2: true}}", "no colour 2"),
         ("{stiffly-accurate: {x: true}}", "x is no colour"),
         ("{symplectic: perhaps}", "not known"),
