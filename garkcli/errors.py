@@ -77,6 +77,10 @@ class ZeroWeight(MethodError):
     """A symplectic conjugate was asked for where a weight is zero."""
 
 
+class VanishingDenominator(MethodError, ZeroDivisionError):
+    """A coefficient has a pole at the values of the parameters."""
+
+
 class UnknownFamily(MethodError):
     """No family of that name, or not with that many stages."""
 

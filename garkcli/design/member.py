@@ -8,6 +8,7 @@ from typing import cast
 
 from flint import fmpq, fmpq_mpoly
 
+from garkcli.errors import VanishingDenominator
 from garkcli.exact.field import ONE, ZERO, Number
 from garkcli.exact.matrix import Matrix, Vector
 from garkcli.exact.parametric import Parameters, Parametric
@@ -27,7 +28,7 @@ def member(
         values: of each of them, all in one field.
 
     Raises:
-        ZeroDivisionError: a denominator is zero there.
+        VanishingDenominator: a denominator is zero there.
     """
     at = _At([values[name] for name in ring.names])
     spaces = tuple(at.space(space) for space in tableau.spaces)
@@ -68,7 +69,10 @@ class _At:
             return cast("fmpq", x)
         denominator = self.polynomial(x.denominator)
         if not denominator:
-            raise ZeroDivisionError(f"{x} has a pole there")
+            raise VanishingDenominator(
+                "a denominator is zero: no method has these values",
+                f"it is that of {x}",
+            )
         return self.polynomial(x.numerator) / denominator
 
     def polynomial(self, polynomial: fmpq_mpoly) -> Number:

@@ -189,6 +189,15 @@ def test_roots_of_parameters_are_refused(tmp_path: object) -> None:
     assert "--set" in outcome.faults[0].help
 
 
+def test_nodes_that_leave_no_method_are_refused(tmp_path: object) -> None:
+    """A given node fixes a parameter where a denominator is zero: bad input, with the entry."""
+    text = "parameters: {t: free, s: free}\nA: [[0, 0], [1/2, 0]]\n"
+    text += "b: [1 - s, s/(2*t - 1)]\nc: [0, t]\n"
+    outcome = checked(tmp_path, text)
+    [fault] = outcome.faults
+    assert (outcome.exit_code, "denominator" in fault.message) == (2, True)
+
+
 def test_too_many_parameters_are_refused(tmp_path: object) -> None:
     """Six implicit stages of unknowns would take hours: the limit and the cure are told."""
     outcome = checked(tmp_path, "unknown: {stages: 6, shape: full}")
