@@ -92,6 +92,9 @@ def read_text(path: str, kind: FileKind) -> tuple[str, str]:
         status = os.stat(path)
     except FileNotFoundError:
         raise MethodFileError(path, [Fault("no such file")]) from None
+    except ValueError:
+        fault = Fault("no file has such a name", "leave out what is no text")
+        raise MethodFileError(path, [fault]) from None
     except (
         OSError
     ) as error:  # among them names that are too long, and links in a circle

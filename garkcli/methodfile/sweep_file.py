@@ -145,6 +145,8 @@ class _Reader:
             if is_free(values):
                 self.found.free += (name,)
                 continue
+            if not one_or_more(values):
+                self.source.fault(values, f"{where} has no value", "name one")
             if isinstance(values, MappingNode):
                 found = self._steps(values, where)
             else:
@@ -206,9 +208,10 @@ class _Reader:
             self.source.fault(
                 entries["parameters"], message, "leave it out, or use it"
             )
-        if "search" in entries and not any(
-            template.order for template in self.found.templates
-        ):
+        is_searched = any(x.order for x in self.found.templates)
+        # a parameter without a value is told already
+        is_told = not all(self.found.grids.values())
+        if "search" in entries and not is_searched and not is_told:
             message = "search: no method has an unknown that is left to it"
             cure = (
                 f"write parameters: {{tau: {FREE}}}, or a file with unknowns"
@@ -258,5 +261,25 @@ class _Reader:
                 self.source.fault(value, message, 'write 4 or ">= 4"')
 
     def _bound(self, node: Node, text: str, name: str) -> float | None:
-        value = self._value(node, text, f"where, {name}")
-        return None if value is None else int(value.p) / int(value.q)
+        where = f"where, {name}"
+        value = self._value(node, text, where)
+        if value is None:
+            return None
+        bound = _as_float(value)
+        if bound is None:
+            message = (
+                f"{where}: {shortened(text)} is beyond the numbers of a column"
+            )
+            self.source.fault(
+                node, message, "write 0, or a number up to 1e308"
+            )
+        return bound
+
+
+def _as_float(value: fmpq) -> float | None:
+    """The nearest float; None where it is infinite, or 0 and the number is not."""
+    try:
+        found = int(value.p) / int(value.q)
+    except OverflowError:
+        return None
+    return found if found or not value else None

@@ -214,7 +214,7 @@ class MethodsReader:
                     ", or search: {seeds: 1..100}"
                 )
                 self.source.fault(item, message, cure)
-            elif missing:
+            elif missing and all(self.found.grids[x] for x in used):
                 first = {x: self.found.grids[x][0] for x in used}
                 family = loads_family(text, source, first)
                 order = self._order(item, name, missing, family.order or 0)

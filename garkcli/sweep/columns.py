@@ -12,6 +12,7 @@ from functools import cache, partial
 from math import isfinite
 from typing import TypeAlias
 
+from garkcli.errors import GarkError
 from garkcli.exact.display import to_ball
 from garkcli.exact.polynomial_text import ball_decimal, root_decimal
 from garkcli.order.constants import ErrorConstants
@@ -72,7 +73,17 @@ def _error(constants: ErrorConstants | None, is_largest: bool) -> float | None:
 
 
 def _rounded(text: str) -> float:
-    return float(text)
+    """A decimal as a float.
+
+    Raises:
+        GarkError: it is beyond them: the float would be infinite, or 0 where the number is not.
+    """
+    value = float(text)
+    mantissa, _, _ = text.lower().partition("e")
+    is_lost = not value and mantissa.strip("-0.") != ""
+    if is_lost or not isfinite(value):
+        raise GarkError(f"{text} is beyond the numbers of a column")
+    return value
 
 
 def _property(key: str, judged: Judged) -> Value:

@@ -439,6 +439,15 @@ FAULTS = {
     "methods: [{family: gauss, stages: 2}]\ncolumns: [order]\nwhere: {order: many}\n": (
         "no condition"
     ),
+    "methods: [{family: gauss, stages: 2}]\ncolumns: [order]\nwhere: {error: 1e400}\n": (
+        "beyond the numbers of a column"
+    ),
+    "methods: [{family: gauss, stages: 2}]\ncolumns: [order]\nwhere: {error: 1e-400}\n": (
+        "beyond the numbers of a column"
+    ),
+    "methods: [{family: gauss, stages: 2}]\nparameters: {t: []}\ncolumns: [order]\n": (
+        "t has no value"
+    ),
     "methods: [{family: gauss, stages: 2}]\ncolumns: [order]\nwhere: {a-stable: 3}\n": (
         "true or false is expected"
     ),
@@ -460,6 +469,42 @@ def test_faults(text: str, tmp_path: Path) -> None:
     run = gark("sweep", str(path))
     assert (run.code, "Traceback" in run.err) == (2, False)
     assert not path.with_suffix(".jsonl").exists()
+
+
+def test_a_grid_without_values_beside_a_search(tmp_path: Path) -> None:
+    """One fault, whatever the files make of it; a name that no file can have is told too."""
+    family = "parameters: {s: free, t: free}\nA: [[s]]\nb: [t]\n"
+    (tmp_path / "family.yaml").write_text(family, "utf-8")
+    path = tmp_path / "spec.yaml"
+    rest = (
+        "parameters: {s: free, t: []}\nsearch: {seeds: 1}\ncolumns: [order]\n"
+    )
+    for name, message in (
+        ("family.yaml", "t has no value"),
+        (r'"a\0b.yaml"', "no file has such a name"),
+    ):
+        path.write_text(f"files: {name}\n{rest}", "utf-8")
+        with pytest.raises(MethodFileError) as caught:
+            load_plan(str(path))
+        [fault] = caught.value.faults
+        assert message in fault.message
+
+
+@pytest.mark.parametrize("size", ["1e400", "1e-400"])
+def test_values_beyond_floats(size: str, tmp_path: Path) -> None:
+    """Such a column is a failure of its row, which a resumed sweep reads: neither infinite nor
+    zero.
+    """
+    scaled = f"A: [[{size}]]\nb: [1]\n"
+    (tmp_path / "scaled.yaml").write_text(scaled, "utf-8")
+    spec = tmp_path / "spec.yaml"
+    column = "error" if size == "1e400" else "gamma"
+    spec.write_text(f"files: scaled.yaml\ncolumns: [{column}]\n", "utf-8")
+    assert gark("sweep", str(spec)).code == 0
+    row = json.loads(spec.with_suffix(".jsonl").read_text("utf-8"))
+    assert "beyond the numbers of a column" in row["failure"]
+    again = gark("sweep", str(spec), "--resume")
+    assert (again.code, "0 rows added" in again.err) == (0, True)
 
 
 def test_the_schema_of_spec_files() -> None:
