@@ -11,15 +11,20 @@ from garkcli.design.chosen import Chosen, accepted_methods, first_method
 from garkcli.design.design import Design
 from garkcli.errors import MethodError, UsageProblem
 from garkcli.methodfile.family import FamilyFile, with_values
+from garkcli.methodfile.finding import STDIN
 from garkcli.page.writing import write_whole
+
+_STANDARD_INPUT = {STDIN, "<stdin>"}
 
 
 def make_folder(path: str) -> None:
     """Make the folder of --emit-all, where there is none.
 
     Raises:
-        UsageProblem: it cannot be made.
+        UsageProblem: its name is empty, or it cannot be made.
     """
+    if not path:
+        raise UsageProblem("the name of the folder is empty", "name a folder")
     try:
         Path(path).mkdir(parents=True, exist_ok=True)
     except OSError as error:
@@ -30,6 +35,8 @@ def make_folder(path: str) -> None:
 def file_names(folder: str, source: str) -> Iterator[str]:
     """Where the files of the methods go that are found from a file, one after the other."""
     stem = Path(source).name.split(".")[0] or "method"
+    if source in _STANDARD_INPUT:
+        stem = "method"
     k = 0
     while True:
         k += 1

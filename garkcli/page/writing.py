@@ -55,8 +55,12 @@ def refuse_unwritable(path: str) -> None:
     """Say before any work is done that there will be no place for its result.
 
     Raises:
-        UsageProblem: there is no such folder, it or the file is protected, or it is a folder.
+        UsageProblem: the name is empty, there is no such folder, it or the file is protected, or it
+            is a folder.
     """
+    if not path:
+        message = "the name of the file to be written is empty"
+        raise UsageProblem(message, "name a file")
     with _told(path):
         target = _without_links(path)
         if _own_stream(target) is not None:

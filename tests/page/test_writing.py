@@ -12,6 +12,7 @@ from pathlib import Path
 
 import pytest
 
+from garkcli.cli.emitting import file_names, make_folder
 from garkcli.errors import UsageProblem
 from garkcli.page.writing import refuse_unwritable, write_whole
 from tests.cli.harness import ROOT, gark
@@ -191,3 +192,24 @@ def test_a_stream_of_a_number_that_no_system_has() -> None:
     """It is a place that cannot be written to, and no fault of the program."""
     with pytest.raises(UsageProblem, match="cannot write"):
         write_whole("/dev/fd/99999999999", ["a"])
+
+
+def test_an_empty_name_is_told_as_such() -> None:
+    """It is no folder."""
+    with pytest.raises(UsageProblem, match="is empty"):
+        refuse_unwritable("")
+    with pytest.raises(UsageProblem, match="is empty"):
+        make_folder("")
+
+
+@pytest.mark.parametrize(
+    ("source", "name"),
+    [
+        ("-", "method-1.gark.yaml"),
+        ("<stdin>", "method-1.gark.yaml"),
+        ("asks/sdirk.gark.yaml", "sdirk-1.gark.yaml"),
+    ],
+)
+def test_names_of_methods_found(source: str, name: str) -> None:
+    """After the file of the family; standard input has no name."""
+    assert Path(next(file_names("found", source))) == Path("found", name)
