@@ -23,7 +23,7 @@ from garkcli.design.member import member
 from garkcli.errors import MethodError
 from garkcli.exact.field import Number
 from garkcli.exact.parametric import Parameters, Parametric
-from garkcli.exact.polynomial import Polynomial
+from garkcli.exact.polynomial import in_one
 from garkcli.exact.root_number import number_of
 from garkcli.exact.roots import RealRoot, real_roots, sign_at
 from garkcli.tableau.family import Family
@@ -264,13 +264,6 @@ def ranged_last(family: Family) -> list[str]:
     """The parameters, those without a range first: they are put in first."""
     ranges = family.ranges
     return sorted(family.parameters, key=lambda name: ranges[name] != FREE)
-
-
-def in_one(p: fmpq_mpoly) -> Polynomial:
-    """A polynomial in the one unknown of its ring."""
-    powers = {int(k): fmpq(a) for (k,), a in p.to_dict().items()}
-    size = max(powers, default=0) + 1
-    return Polynomial([powers.get(k, fmpq(0)) for k in range(size)])
 
 
 def exact_value(root: RealRoot) -> Number | None:

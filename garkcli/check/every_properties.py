@@ -14,7 +14,7 @@ from typing import Any
 from flint import fmpq, fmpq_mpoly
 
 from garkcli.check.every_facts import Fact, Question, by_samples, find
-from garkcli.check.every_family import EveryFamily, exact_value, in_one
+from garkcli.check.every_family import EveryFamily, exact_value
 from garkcli.design.stable_values import Wanted, stable_values
 from garkcli.design.wants.r_infinity import characteristic_coefficients
 from garkcli.errors import GarkError
@@ -22,7 +22,7 @@ from garkcli.exact.cells import Interval, Point, where
 from garkcli.exact.field import ONE
 from garkcli.exact.matrix import identity
 from garkcli.exact.parametric import fraction
-from garkcli.exact.polynomial import Polynomial
+from garkcli.exact.polynomial import Polynomial, in_one
 from garkcli.exact.roots import RealRoot, real_roots
 from garkcli.order.simplifying import Simplifying, simplifying
 from garkcli.properties.subject import Subject
