@@ -186,9 +186,13 @@ def test_a_baseline_that_is_a_method_file(tmp_path: Path) -> None:
 def process(
     *arguments: str, stdin: str = ""
 ) -> subprocess.CompletedProcess[str]:
-    """``gark check`` as a process, as workers are forked from it."""
+    """``gark check`` as a process, as workers are forked from it.
+
+    It writes UTF-8, whatever the locale, as runs in this process do.
+    """
     command = [sys.executable, "-m", "garkcli", "check", *arguments]
     environment = {**os.environ, "PYTHONPATH": str(ROOT), "COLUMNS": "80"}
+    environment["PYTHONIOENCODING"] = "utf-8"
     environment.pop("GITHUB_ACTIONS", None)
     return subprocess.run(
         command,
@@ -196,7 +200,7 @@ def process(
         env=environment,
         input=stdin,
         capture_output=True,
-        text=True,
+        encoding="utf-8",
         timeout=60,
     )
 
