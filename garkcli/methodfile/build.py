@@ -11,6 +11,7 @@ from yaml.nodes import Node
 from garkcli.errors import GarkError, MethodFileError
 from garkcli.exact.matrix import Matrix, Vector
 from garkcli.families.registry import diagonal_method
+from garkcli.methodfile.bibliography import Reference
 from garkcli.methodfile.blocks import BlockBuilder
 from garkcli.methodfile.description import (
     ArkText,
@@ -61,6 +62,9 @@ class MethodFile(GarkMethod):
         structure: which vector fields the problem has.
         is_conjugate: whether the file describes the conjugate of what it spells out.
         claims: what ``expect`` says.
+        reference: where it was published, in one line.
+        aliases: what else it is called.
+        bibliography: the fields of the reference; None where it is plain text.
         printed: the coefficients as they are written.
     """
 
@@ -72,6 +76,8 @@ class MethodFile(GarkMethod):
     claims: tuple[ClaimText, ...]
     reference: str = ""
     description: str = ""
+    aliases: tuple[str, ...] = ()
+    bibliography: Reference | None = None
     printed: Printed = field(default=(), repr=False, compare=False)
 
 

@@ -8,6 +8,7 @@ from typing import Literal, TypeAlias
 from flint import fmpq
 from yaml.nodes import Node
 
+from garkcli.methodfile.bibliography import Reference
 from garkcli.methodfile.numbers import Entry, Row, Rows
 
 Structure: TypeAlias = Literal[
@@ -154,5 +155,7 @@ class Description:
     name: str = ""
     description: str = ""
     reference: str = ""
+    aliases: tuple[str, ...] = ()
+    bibliography: Reference | None = None
     tolerance: fmpq | None = None
     claims: tuple[ClaimText, ...] = field(default=())

@@ -170,6 +170,8 @@ def loads(
         claims=description.claims,
         reference=description.reference,
         description=description.description,
+        aliases=description.aliases,
+        bibliography=description.bibliography,
         printed=values.printed,
     )
 

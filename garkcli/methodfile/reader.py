@@ -14,6 +14,7 @@ from yaml.nodes import MappingNode, Node
 from garkcli.errors import LimitExceeded
 from garkcli.exact.expression import read_decimal
 from garkcli.methodfile import expectations
+from garkcli.methodfile.bibliography import read_aliases, read_reference
 from garkcli.methodfile.description import (
     FORMS,
     PLAIN,
@@ -45,6 +46,7 @@ if TYPE_CHECKING:
 KEYS = (
     "gark",
     "name",
+    "aliases",
     "description",
     "reference",
     *FORMS,
@@ -118,9 +120,13 @@ class Reader:
         self._root = root
         source.check_version(entries.get("gark"))
         text = {}
-        for key in ("name", "description", "reference"):
+        for key in ("name", "description"):
             if key in entries:
                 text[key] = source.scalar(entries[key], key) or ""
+        aliases = read_aliases(source, entries.get("aliases"))
+        reference, bibliography = read_reference(
+            source, entries.get("reference")
+        )
         tolerance = self._tolerance(entries.get("tolerance"))
         is_conjugate = self._is_conjugate(entries.get("conjugate"))
         claims = expectations.read(source, entries.get("expect"))
@@ -147,6 +153,9 @@ class Reader:
             is_conjugate=is_conjugate,
             tolerance=tolerance,
             claims=claims,
+            aliases=aliases,
+            reference=reference,
+            bibliography=bibliography,
             **text,
         )
 

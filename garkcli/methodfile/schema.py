@@ -8,6 +8,7 @@ parameters and everything mathematical are for ``gark check``.
 from __future__ import annotations
 
 from garkcli.families.registry import FAMILIES, MAX_STAGES
+from garkcli.methodfile.bibliography_schema import aliases, reference
 from garkcli.methodfile.coefficient_schema import (
     MATRIX,
     NUMBER,
@@ -104,8 +105,9 @@ def _properties() -> Schema:
     return {
         "gark": {"description": "Version of the format.", "enum": [1, "1"]},
         "name": {**TEXT, "description": "What people call the method."},
+        "aliases": aliases(),
         "description": {**TEXT, "description": "What it is for."},
-        "reference": {**TEXT, "description": "Where it was published."},
+        "reference": reference(),
         "methods": {
             "description": "The diagonal methods, one a colour; one on its own needs no list.",
             "anyOf": [methods, method],

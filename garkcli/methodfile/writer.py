@@ -23,7 +23,7 @@ from garkcli.tableau.tableau import Colour, Tableau
 
 NumberText: TypeAlias = Callable[[Number], str]
 """How a coefficient is written."""
-_DROPPED = ("expect", "conjugate", "name", "description")
+_DROPPED = ("expect", "conjugate", "name", "aliases", "description")
 
 
 def write_tableau_file(
