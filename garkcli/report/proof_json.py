@@ -22,7 +22,7 @@ from garkcli.exact.polynomial import Polynomial
 from garkcli.exact.roots import real_roots
 from garkcli.order.certificate import Witness
 from garkcli.order.proof import Proof
-from garkcli.page.record import Field, Record, inside, schema_named
+from garkcli.page.record import Field, Record, schema_named
 from garkcli.page.schema import (
     COUNT,
     FLAG,
@@ -108,14 +108,6 @@ def _modulus(space: StageSpace) -> list[str] | None:
     if not isinstance(space, PolynomialSpace):
         return None
     return _texts(space.modulus)
-
-
-def _colours_of_pair(proof: MethodProof) -> list[int]:
-    """Which colour of the method each colour of the pair comes from."""
-    assert proof.pair is not None
-    size = proof.method.tableau.size
-    doubled = proof.pair.tableau.size
-    return [index % size + 1 for index in range(doubled)]
 
 
 class _In(NamedTuple, Generic[Part]):
@@ -213,25 +205,17 @@ def _spanning(proof: Proof) -> list[list[list[str]]]:
 
 
 _TREES: Schema = array(array(array(TEXT)))
-_PROOF: Record[Proof] = Record(
-    _SPACE.every("spaces", lambda x: x.tableau.spaces),
-    _COLOUR.every("colours", _colours),
-    _BLOCK.every("blocks", _blocks),
+_TRUTH: Record[Proof] = Record(
     Field("order", COUNT, lambda x: x.order.order),
     Field("spanning", _TREES, _spanning),
     _WITNESS.or_null("witness", _witness),
 )
-_PAIR: Record[MethodProof] = Record(
-    *inside(lambda x: x.pair, _PROOF.fields),
-    Field("colour_of", array(POSITION), _colours_of_pair),
+_PROOF: Record[Proof] = Record(
+    _SPACE.every("spaces", lambda x: x.tableau.spaces),
+    _COLOUR.every("colours", _colours),
+    _BLOCK.every("blocks", _blocks),
+    *_TRUTH.fields,
 )
-
-
-def _pair(proof: MethodProof) -> MethodProof | None:
-    """Whose pair is told; None where there is no pair."""
-    if proof.pair is None:
-        return None
-    return proof
 
 
 def _obstacle(proof: MethodProof) -> str | None:
@@ -245,6 +229,6 @@ _REPORT: Record[MethodProof] = Record(
     _FIELD.or_null("field", lambda x: x.method.tableau.field),
     _PROOF.whole("method", lambda x: x.method),
     _PROOF.optional("conjugate", lambda x: x.conjugate),
-    _PAIR.optional("pair", _pair),
+    _TRUTH.optional("pair", lambda x: x.pair),
     Field("no_conjugate", TEXT, _obstacle, is_optional=True),
 )
