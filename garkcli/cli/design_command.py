@@ -4,6 +4,7 @@ from __future__ import annotations
 
 from collections.abc import Mapping
 from dataclasses import replace
+from time import monotonic
 from typing import TYPE_CHECKING, Any, NamedTuple
 
 import click
@@ -56,15 +57,14 @@ def command(
     not proved. The same seed has the same finds everywhere. Exit code 3: nothing was found, which
     says nothing of what there is.
     """
-    from garkcli.methodfile.family import load_family
-
     wanted = Wanted(**options)
     wanted.check()
-    family = load_family(file, settings)
+    family, wanted = _within_time(file, settings, wanted)
     kind, is_of_springs = wanted.stability, wanted.slow is not None
     order = wanted.order or family.order
     if kind is not None and (order is None or is_of_springs):
         wanted.check_stability()
+        _refuse_unsettled(family)
         _refuse_other_wishes(family, kind, is_of_springs)
         return _stable_values(family, wanted, kind, output)
     family = _as_stable(family, kind)
@@ -73,12 +73,38 @@ def command(
     if wanted.starts is not None:
         from garkcli.cli.searching import search
 
+        _refuse_unsettled(family)
         return search(family, wanted, wanted.starts, output)
     chosen: list[Choice] = []
     if choices:
         chosen = _walk(_found(family, wanted), choices)
-        family = _as_stable(load_family(file, {**settings, **choices}), kind)
+        family, wanted = _within_time(file, {**settings, **choices}, wanted)
+        family = _as_stable(family, kind)
     return _told(file, family, chosen, wanted, output)
+
+
+def _within_time(
+    file: str, settings: dict[str, str], wanted: Wanted
+) -> tuple[FamilyFile, Wanted]:
+    """The family, what it wants worked out in the time that there is; with what is left of it."""
+    from garkcli.methodfile.family import load_family
+
+    start = monotonic()
+    family = load_family(file, settings, start + wanted.seconds)
+    left = wanted.seconds - (monotonic() - start)
+    return family, replace(wanted, seconds=max(left, 0.0))
+
+
+def _refuse_unsettled(family: FamilyFile) -> None:
+    """Refuse to look for methods by what was not worked out.
+
+    Raises:
+        UsageProblem: something was not.
+    """
+    for key in family.unsettled:
+        message = f"what {key} under design asks was not worked out "
+        message += "in the time of --seconds"
+        raise UsageProblem(message, "give it more, or want less")
 
 
 def _prepare_places(wanted: Wanted) -> None:

@@ -149,6 +149,9 @@ def find_parameters(
     conditions.deadline = first
     start = Ideal(family.ring, nonzero, deadline).with_zeros(relations)
     steps: list[Step] = []
+    if family.unsettled:
+        step = Step(order or 1, "undecided", None)
+        return Design(family, whose, tableau, (step,))
     ideal = start
     for k in range(1, (order or DEFAULT_LIMIT) + 1):
         step = _step(

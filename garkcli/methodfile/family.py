@@ -67,15 +67,23 @@ class FamilyFile(Family):
 
 
 def load_family(
-    path: str, settings: Mapping[str, str] = NO_SETTINGS
+    path: str,
+    settings: Mapping[str, str] = NO_SETTINGS,
+    deadline: float | None = None,
 ) -> FamilyFile:
     """Read a method file with free parameters.
+
+    Args:
+        path: of the file.
+        settings: values of parameters, by name, in place of those in the file.
+        deadline: the reading of ``time.monotonic`` at which what is wanted and not worked out is
+            left unsettled; None for never.
 
     Raises:
         MethodFileError: every fault of the file, with positions.
         MethodError: it has no free parameter.
     """
-    return loads_family(*read_method_text(path), settings)
+    return loads_family(*read_method_text(path), settings, deadline=deadline)
 
 
 def _without_unknowns(source: str, settings: Mapping[str, str]) -> MethodError:
@@ -94,6 +102,7 @@ def loads_family(
     source: str = "<text>",
     settings: Mapping[str, str] = NO_SETTINGS,
     is_design: bool = True,
+    deadline: float | None = None,
 ) -> FamilyFile:
     r"""Read a method file with free parameters from its text.
 
@@ -102,6 +111,7 @@ def loads_family(
         source: what to call it.
         settings: values of parameters, by name, in place of those in the file.
         is_design: whether what stands under ``design`` is meant; else it is passed over.
+        deadline: as in ``load_family``.
 
     Raises:
         MethodFileError: every fault of the file, with positions.
@@ -122,7 +132,9 @@ def loads_family(
         wishes = read_wishes(reader.source, numbers, reader.design)
     tableau, values = built(reader, description, FamilyValues)
     ring = values.domain.ring
-    meaning = meaning_of(wishes, tableau, ring, values, reader.source)
+    meaning = meaning_of(
+        wishes, tableau, ring, values, reader.source, deadline
+    )
     ranges = {name: values.ends(x) for name, x in numbers.free.items()}
     reader.source.close()
     places = {name: extent(text, x, x) for name, x in numbers.places.items()}
@@ -144,6 +156,7 @@ def loads_family(
         not_negative=_signs(meaning.not_negative, ring),
         order=wishes.order,
         stable=meaning.stable,
+        unsettled=meaning.unsettled,
         wanted_at=reader.design_place(),
         settings=settings,
         places=places,

@@ -8,6 +8,7 @@ from typing import Any
 
 from yaml.nodes import MappingNode, Node
 
+from garkcli.design.groebner import NotDecided
 from garkcli.design.wants.registry import WANTS, find_want
 from garkcli.design.wants.want import Asked, Meaning, Want
 from garkcli.errors import GarkError, counted, did_you_mean
@@ -176,6 +177,7 @@ def meaning_of(
     ring: Parameters,
     values: Values,
     source: Source,
+    deadline: float | None = None,
 ) -> Meaning:
     """Everything that is wanted, as conditions on the parameters.
 
@@ -185,6 +187,8 @@ def meaning_of(
         ring: its parameters.
         values: the coefficients of the file.
         source: the file, where wishes that make no sense for it are noted.
+        deadline: the reading of ``time.monotonic`` at which what is not worked out is left
+            unsettled; None for never.
     """
     meanings = []
     for unknown, given in wishes.fixed:
@@ -197,8 +201,10 @@ def meaning_of(
         value = wish.value
         number = values.number(value) if isinstance(value, Entry) else value
         try:
-            asked = Asked(tableau, ring, number, colours)
+            asked = Asked(tableau, ring, number, colours, deadline)
             meanings.append(wish.want.meaning(asked))
+        except NotDecided:
+            meanings.append(Meaning(unsettled=(wish.want.key,)))
         except GarkError as error:
             source.fault(wish.node, error.message, error.help)
     return _together(meanings)

@@ -34,6 +34,16 @@ UNDECIDED = (
     "fewer unknowns make it decidable: values for some by --set or design: fix, a shape with"
     " fewer such as palindromic; --search N looks for methods and decides nothing"
 )
+
+
+def _unsettled(keys: Sequence[str]) -> str:
+    """What was not worked out, and what helps."""
+    return (
+        f"the conditions of {', '.join(keys)} under design take longer than that; ask for"
+        " a lower order of the pair, or fix unknowns by --set or design: fix"
+    )
+
+
 _TIMES = {1: "", 2: "; a double solution", 3: "; a triple solution"}
 
 
@@ -107,7 +117,11 @@ def _of_steps(
             if step.ideal is not None:
                 said = "msolve finds that no value has it, which is no proof"
                 yield from _said(said, width)
-            yield from _said(UNDECIDED, width)
+            unsettled = design.family.unsettled
+            if unsettled:
+                yield from _said(_unsettled(unsettled), width)
+            else:
+                yield from _said(UNDECIDED, width)
         case "family":
             yield f"{head}{_family(step)}"
             yield from _polynomials(step, width)

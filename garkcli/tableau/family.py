@@ -72,6 +72,7 @@ class Family:
         not_negative: those that are at least 0 there.
         order: which is wanted of them, where the file says so.
         stable: kinds of stability that the solutions that are taken have.
+        unsettled: what is wanted of them and was not worked out in time, by its keys.
     """
 
     name: str
@@ -86,6 +87,7 @@ class Family:
     not_negative: tuple[fmpq_mpoly, ...] = ()
     order: int | None = None
     stable: tuple[Stability, ...] = ()
+    unsettled: tuple[str, ...] = ()
 
     def __repr__(self) -> str:
         return f"<Family {self.name}: {', '.join(self.parameters)}>"

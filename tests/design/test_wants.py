@@ -2,6 +2,8 @@
 
 from __future__ import annotations
 
+from pathlib import Path
+
 import pytest
 from flint import fmpq
 
@@ -192,3 +194,40 @@ def test_as_a_command(tmp_path: object) -> None:
         stream.write(SDIRK2 + "design: {order: 4}\n")
     assert gark("design", path).code == 1
     assert gark("design", path, "--order", "3").code == 0
+
+
+PAIR_OF_ORDER_60 = """parameters: {tau: free}
+methods: [{family: gauss, stages: 2}, {family: lobatto-iiia, stages: 3}]
+transfer: {interpolation: tau, collocation: 1 - tau}
+design: {pair-order: 60}
+"""
+
+
+def test_what_is_not_worked_out_in_time() -> None:
+    """Conditions of a pair that take longer than there is are left unsettled, and then nothing is
+    decided; in time they are the same as without a limit.
+    """
+    family = loads_family(PAIR_OF_ORDER_60, deadline=0.0)
+    assert family.unsettled == ("pair-order",)
+    found = find_parameters(family, 3)
+    assert [step.kind for step in found.steps] == ["undecided"]
+    text = PAIR_OF_ORDER_60.replace("60", "4")
+    settled = loads_family(text, deadline=float("inf"))
+    assert settled.unsettled == ()
+    assert settled.relations == loads_family(text).relations
+
+
+@pytest.mark.parametrize("options", [["--search", "8"], ["--p-stable"]])
+def test_nothing_goes_by_what_is_not_worked_out(
+    options: list[str], tmp_path: Path
+) -> None:
+    """Neither a search nor a set of stable values passes over it."""
+    path = tmp_path / "pair.gark.yaml"
+    path.write_text(PAIR_OF_ORDER_60, encoding="utf-8")
+    order = ["--order", "3"] if "--search" in options else []
+    done = gark("design", str(path), "--seconds", "0.001", *options, *order)
+    assert done.code == 2
+    assert "what pair-order under design asks was not worked" in done.err
+    told = gark("design", str(path), "--seconds", "0.001")
+    assert told.code == 3
+    assert "the conditions of pair-order under design" in told.out

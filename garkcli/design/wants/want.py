@@ -28,12 +28,15 @@ class Asked:
         ring: the parameters.
         value: a count, or a number, which may have parameters; True for a flag.
         colours: of which colours it is wanted, counted from 0.
+        deadline: the reading of ``time.monotonic`` at which what it means is given up; None for
+            never.
     """
 
     tableau: Tableau
     ring: Parameters
     value: object
     colours: tuple[int, ...]
+    deadline: float | None = None
 
     def block(self, l: int, m: int, key: str) -> Matrix:
         """A^{l,m}.
@@ -76,6 +79,7 @@ class Meaning:
         positive: rational functions that are positive at the solutions that are taken.
         not_negative: those that are at least 0.
         stable: kinds of stability that the solutions that are taken have.
+        unsettled: keys of wishes whose meaning was not worked out in time.
     """
 
     zeros: tuple[object, ...] = ()
@@ -83,6 +87,7 @@ class Meaning:
     positive: tuple[object, ...] = ()
     not_negative: tuple[object, ...] = ()
     stable: tuple[Stability, ...] = ()
+    unsettled: tuple[str, ...] = ()
 
 
 @dataclass(frozen=True)
@@ -93,7 +98,7 @@ class Want:
         key: in method files.
         kind: of its value.
         summary: what it says.
-        meaning: what it asks of the parameters.
+        meaning: what it asks of the parameters; it may raise ``NotDecided`` at the deadline.
     """
 
     key: str
