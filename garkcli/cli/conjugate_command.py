@@ -57,14 +57,15 @@ def command(
     made = companion(method.tableau, which)
     from garkcli.cli.rendering import write_tableau
 
+    if method.further:
+        output.note(
+            f"the embedded weights and the dense output are left out: the {which} has none"
+        )
     if output.format != "yaml" or digits is not None or document:
         write_tableau(made, name, digits, output, method.tolerance, document)
         return 0
-    from garkcli.methodfile.writer import (
-        can_spell_out,
-        write_conjugate_of,
-        write_tableau_file,
-    )
+    from garkcli.methodfile.conjugated import write_conjugate_of
+    from garkcli.methodfile.writer import can_spell_out, write_tableau_file
     from garkcli.tableau.pointwise import in_points
 
     exact = in_points(made)

@@ -7,6 +7,7 @@ from flint import fmpq
 from garkcli.cli.options import Output, check_document
 from garkcli.errors import UsageProblem
 from garkcli.page.plain import printable
+from garkcli.tableau.embedded import NOTHING, Further
 from garkcli.tableau.pointwise import Entries, entries, in_points
 from garkcli.tableau.tableau import Tableau
 
@@ -21,6 +22,7 @@ def write_tableau(
     output: Output,
     tolerance: fmpq | None,
     is_document: bool = False,
+    further: Further = NOTHING,
 ) -> None:
     """Write a tableau as text, YAML, JSON or LaTeX.
 
@@ -33,13 +35,14 @@ def write_tableau(
         tolerance: the rounding that the file admits; its long fractions are decimals where people
             read them.
         is_document: whether LaTeX gets a preamble.
+        further: its embedded weights and its dense output.
 
     Raises:
         UsageProblem: no preamble belongs to the format, or no method file says the tableau.
     """
     check_document(is_document, output.format)
     if output.format == "yaml":
-        output.write(_method_file(tableau, name, digits, tolerance))
+        output.write(_method_file(tableau, name, digits, tolerance, further))
         return
     found = _entries(tableau, digits)
     if output.format == "json":
@@ -72,7 +75,11 @@ def _entries(tableau: Tableau, digits: int | None) -> Entries:
 
 
 def _method_file(
-    tableau: Tableau, name: str, digits: int | None, tolerance: fmpq | None
+    tableau: Tableau,
+    name: str,
+    digits: int | None,
+    tolerance: fmpq | None,
+    further: Further,
 ) -> str:
     from garkcli.methodfile.writer import (
         can_spell_out,
@@ -86,11 +93,12 @@ def _method_file(
             "--format json has all of its blocks",
         )
     if digits is not None:
-        return write_rounded(tableau, _entries(tableau, digits), name)
+        found = _entries(tableau, digits)
+        return write_rounded(tableau, found, name, further)
     exact = in_points(tableau)
     if exact is None:
         raise UsageProblem(
             "the nodes have no simple radicals, so the tableau cannot be spelled out exactly",
             f"--digits {DEFAULT_DIGITS} writes decimals",
         )
-    return write_tableau_file(exact, name, tolerance)
+    return write_tableau_file(exact, name, tolerance, further=further)

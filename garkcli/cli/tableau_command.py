@@ -47,6 +47,12 @@ def command(
         write_family(error, settings, None, digits, output, document)
         return 0
     write_tableau(
-        method.tableau, method.name, digits, output, method.tolerance, document
+        method.tableau,
+        method.name,
+        digits,
+        output,
+        method.tolerance,
+        document,
+        method.further,
     )
     return 0

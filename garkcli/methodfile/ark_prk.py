@@ -10,12 +10,14 @@ from yaml.nodes import MappingNode, Node, SequenceNode
 
 from garkcli.errors import counted
 from garkcli.methodfile.description import (
+    BESIDE,
     ArkText,
     ButcherText,
     PrkText,
     Structure,
     of_colour,
 )
+from garkcli.methodfile.further import FurtherReader, names_beside
 from garkcli.methodfile.nodes import key_nodes
 from garkcli.methodfile.numbers import Numbers, Row, Rows
 from garkcli.methodfile.source import Entries, Source
@@ -41,11 +43,13 @@ class ArkReader:
     def __init__(self, source: Source, numbers: Numbers) -> None:
         self.source = source
         self.numbers = numbers
+        self.further = FurtherReader(source, numbers)
 
     def read(self, node: Node) -> ArkText | None:
         """The form ``ark``; None where it does not make a method."""
         source = self.source
-        entries = source.mapping(node, "ark", ("c", "A", "b"), CURES, EXAMPLE)
+        keys = ("c", "A", "b", *BESIDE)
+        entries = source.mapping(node, "ark", keys, CURES, EXAMPLE)
         cure = "give A, a matrix a colour, and b"
         if lacks_coefficients(source, node, "ark", entries, cure):
             return None
@@ -69,7 +73,9 @@ class ArkReader:
         stages = len(matrices[0])
         A = self._fitted(matrices, entries["A"], stages)
         self._check_lengths(entries, b, c, stages)
-        return ArkText(A, b, c)
+        everywhere = [stages] * colours
+        beside = self.further.of_colours(entries, everywhere, is_shared=True)
+        return ArkText(A, b, c, beside)
 
     def _matrices(self, node: Node) -> Matrices | None:
         """The matrices as they stand; None where A is no list of matrices."""
@@ -149,6 +155,7 @@ class PrkReader:
     def __init__(self, source: Source, numbers: Numbers) -> None:
         self.source = source
         self.numbers = numbers
+        self.further = FurtherReader(source, numbers)
 
     def read(self, node: Node, structure: Structure) -> PrkText | None:
         """The form ``prk``; its blocks are rectangular unless the structure is general."""
@@ -172,6 +179,8 @@ class PrkReader:
             source.fault(node, message, cure)
             return None
         why = f"q.b has {entries_in(s_v)} and p.b has {s_f}"
+        both = (q.further, p.further)
+        self.further.refuse_partial(both, ("q", "p"), node)
         q = self._fitted(q, "q", (s_f, s_v), why)
         p = self._fitted(p, "p", (s_v, s_f), why)
         return PrkText(q, p)
@@ -180,7 +189,7 @@ class PrkReader:
         """Q or p of a prk, its sizes not yet looked at."""
         source = self.source
         where = f"prk, {part}"
-        keys = ("name", "A", "b", "c")
+        keys = ("name", "A", "b", "c", *BESIDE)
         entries = source.mapping(node, where, keys, CURES, EXAMPLE)
         cure = "give A, b and perhaps c"
         if lacks_coefficients(source, node, where, entries, cure):
@@ -193,7 +202,9 @@ class PrkReader:
         name = method_name(source, entries.get("name"), where)
         if not A or not b:
             return None
-        return ButcherText(node, name, A, b, c)
+        names = names_beside(f"{part}.b")
+        beside = self.further.of_method(entries, len(b), names)
+        return ButcherText(node, name, A, b, c, beside)
 
     def _fitted(
         self, text: ButcherText, part: str, shape: tuple[int, int], why: str

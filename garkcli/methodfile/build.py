@@ -25,11 +25,13 @@ from garkcli.methodfile.description import (
     PrkText,
     Structure,
     TableauText,
+    further_of,
 )
 from garkcli.methodfile.numbers import Entry, Numbers, Row, Rows
 from garkcli.methodfile.source import Source
 from garkcli.methodfile.values import Values
 from garkcli.tableau.conjugate import conjugate
+from garkcli.tableau.embedded import DenseOutput, Further, padded
 from garkcli.tableau.forms import (
     additive,
     gark,
@@ -117,6 +119,26 @@ class Builder:
         if description.is_conjugate:
             tableau = self._at(description.node, lambda: conjugate(tableau))
         return tableau
+
+    def further(self, description: Description, tableau: Tableau) -> Further:
+        """The embedded weights and the dense output of a file, for the colours of its tableau.
+
+        In a pair V^{l} and F^{l} evaluate at the same stages and have the same weights.
+        """
+        texts = further_of(description.content)
+        of_colours = [texts[colour.term] for colour in tableau.colours]
+        embedded: list[Vector] = []
+        blocks: list[Matrix] = []
+        for text in of_colours:
+            if text.embedded is not None:
+                embedded.append(self.values.vector(text.embedded))
+            if text.dense is not None:
+                blocks.append(self.values.matrix(text.dense))
+        dense = None
+        if blocks:
+            degree = max(len(block[0]) for block in blocks)
+            dense = DenseOutput(tuple(padded(x, degree) for x in blocks))
+        return Further(tuple(embedded) or None, dense)
 
     def _at(self, node: Node, make: Callable[[], T]) -> T:
         """The result of ``make``; what it refuses becomes a fault at ``node``."""
@@ -212,7 +234,8 @@ def families_of(description: Description) -> dict[int, Method]:
 def nodes_to_spell_out(
     description: Description, families: Mapping[int, Method], numbers: Numbers
 ) -> dict[int, Row]:
-    """For each family that meets a spelled-out block, its nodes as coefficients of the file.
+    """For each family that meets a spelled-out block, or has weights of the file beside it, its
+    nodes as coefficients of the file.
 
     The entries of such a block refer to single stages, so its methods need one coordinate a stage.
     """
@@ -224,6 +247,9 @@ def nodes_to_spell_out(
     for (l, m), block in blocks.items():
         if isinstance(block, MatrixText):
             beside |= {l: None, m: None}
+    for l, method in enumerate(content.methods):
+        if method.further.node is not None:
+            beside[l] = None
     rows: dict[int, Row] = {}
     for k in beside:
         text = content.methods[k]
@@ -250,6 +276,10 @@ def _family_nodes(
     if nodes is None:
         message = f"a block next to {text.name} is spelled out, whose nodes have no simple radicals"
         cure = "make the block by a rule, or spell the method out"
+        if text.further.node is not None:
+            message = f"{text.name} has nodes without simple radicals"
+            message += ", so weights at its stages are not read"
+            cure = "spell the method out, or leave them away"
         numbers.source.fault(text.node, message, cure)
         return None
     entries: list[Entry] = []

@@ -4,6 +4,7 @@ from __future__ import annotations
 
 from typing import Any, TypeAlias
 
+from garkcli.methodfile.further import MAX_DEGREE
 from garkcli.methodfile.unknowns import UNKNOWN
 
 Schema: TypeAlias = dict[str, Any]
@@ -61,6 +62,39 @@ def closed(properties: Schema, *required: str) -> Schema:
     }
 
 
+DENSE: Schema = {
+    "description": "Dense output: weights that are polynomials in θ.",
+    **closed(
+        {
+            "degree": {
+                "description": "Of the polynomials.",
+                "type": "integer",
+                "minimum": 1,
+                "maximum": MAX_DEGREE,
+            },
+            "weights": {
+                "description": "A row a stage, the coefficients of θ, θ², …; of several colours "
+                "a block for each.",
+                "type": "array",
+                "minItems": 1,
+            },
+        },
+        "degree",
+        "weights",
+    ),
+}
+"""Dense output, of one colour or of several."""
+
+
+def beside() -> Schema:
+    """What may stand beside the weights b of one colour."""
+    embedded = {
+        "description": "Embedded weights, one a stage.",
+        "$ref": "#/definitions/row",
+    }
+    return {"embedded": embedded, "dense": {"$ref": "#/definitions/dense"}}
+
+
 def butcher() -> Schema:
     """One diagonal method, or a part of a pair."""
     properties = {
@@ -68,6 +102,7 @@ def butcher() -> Schema:
         "A": {"$ref": "#/definitions/matrix"},
         "b": {"$ref": "#/definitions/row"},
         "c": {"$ref": "#/definitions/row"},
+        **beside(),
     }
     return closed(properties, "A", "b")
 
@@ -102,6 +137,11 @@ def tableau_keys() -> Schema:
             "description": "The nodes; where they are left out, the row sums of A.",
             "anyOf": [row, nodes],
         },
+        "embedded": {
+            "description": "Embedded weights; of several colours a row each.",
+            "anyOf": [row, rows],
+        },
+        "dense": {"$ref": "#/definitions/dense"},
     }
 
 
@@ -129,6 +169,8 @@ def ark() -> Schema:
         },
         "b": rows,
         "c": {"$ref": "#/definitions/row"},
+        "embedded": rows,
+        "dense": {"$ref": "#/definitions/dense"},
     }
     return {
         **closed(properties, "A", "b"),

@@ -24,6 +24,8 @@ Form: TypeAlias = Literal["methods", "tableau", "ark", "prk"]
 FORMS: tuple[Form, ...] = ("methods", "tableau", "ark", "prk")
 PLAIN = ("A", "b", "c")
 """The keys of a Butcher tableau that stands at the top of a file."""
+BESIDE = ("embedded", "dense")
+"""Further weights, which stand beside b."""
 
 
 MAX_COLOURS = 200
@@ -51,12 +53,31 @@ def of_colour(letter: str, l: int) -> str:
 
 
 @dataclass(frozen=True)
+class FurtherText:
+    """Further weights of one colour, each None where the file has none.
+
+    Attributes:
+        embedded: one a stage.
+        dense: of dense output, the coefficients of θ, θ², … a stage.
+        node: where the first of them stands.
+    """
+
+    embedded: Row | None = None
+    dense: Rows | None = None
+    node: Node | None = None
+
+
+NOTHING_FURTHER = FurtherText()
+
+
+@dataclass(frozen=True)
 class FamilyText:
     """A member of a family."""
 
     node: Node
     name: str
     stages: int
+    further: FurtherText = NOTHING_FURTHER
 
 
 @dataclass(frozen=True)
@@ -68,6 +89,7 @@ class ButcherText:
     A: Rows
     b: Row
     c: Row | None
+    further: FurtherText = NOTHING_FURTHER
 
 
 @dataclass(frozen=True)
@@ -109,21 +131,23 @@ class MethodsText:
 
 @dataclass(frozen=True)
 class TableauText:
-    """Every block spelled out; None for an absent one."""
+    """Every block spelled out; None for an absent one. ``further`` has one a colour."""
 
     A: tuple[tuple[Rows | None, ...], ...]
     b: tuple[Row, ...]
     c: tuple[Row | None, ...]
     linear: tuple[int, ...]
+    further: tuple[FurtherText, ...]
 
 
 @dataclass(frozen=True)
 class ArkText:
-    """Shared stages, one matrix a colour."""
+    """Shared stages, one matrix a colour; ``further`` has one a colour."""
 
     A: tuple[Rows, ...]
     b: tuple[Row, ...]
     c: Row | None
+    further: tuple[FurtherText, ...]
 
 
 @dataclass(frozen=True)
@@ -132,6 +156,19 @@ class PrkText:
 
     q: ButcherText
     p: ButcherText
+
+
+Content: TypeAlias = MethodsText | TableauText | ArkText | PrkText
+
+
+def further_of(content: Content) -> tuple[FurtherText, ...]:
+    """The further weights of each colour of the file; of a prk those of q, then those of p."""
+    match content:
+        case MethodsText():
+            return tuple(method.further for method in content.methods)
+        case PrkText():
+            return content.q.further, content.p.further
+    return content.further
 
 
 @dataclass(frozen=True)
@@ -148,7 +185,7 @@ class Description:
     """A whole file."""
 
     form: Form
-    content: MethodsText | TableauText | ArkText | PrkText
+    content: Content
     node: Node
     structure: Structure = "general"
     is_conjugate: bool = False

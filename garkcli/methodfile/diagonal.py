@@ -3,12 +3,14 @@
 from __future__ import annotations
 
 from collections.abc import Sequence
+from dataclasses import replace
 
 from yaml.nodes import MappingNode, Node, ScalarNode, SequenceNode
 
 from garkcli.errors import UnknownFamily, nearest
 from garkcli.families.registry import FAMILIES, require_member
 from garkcli.methodfile.description import (
+    BESIDE,
     MAX_ENTRIES,
     ButcherText,
     FamilyText,
@@ -18,6 +20,7 @@ from garkcli.methodfile.description import (
     block_name,
     of_colour,
 )
+from garkcli.methodfile.further import CURES, names_beside
 from garkcli.methodfile.nodes import keys_of
 from garkcli.methodfile.numbers import Numbers
 from garkcli.methodfile.source import Entries, Source
@@ -62,6 +65,9 @@ class DiagonalReader:
             return None
         if self._is_too_large(methods, node):
             return None
+        names = [f"method {l}" for l in range(1, len(methods) + 1)]
+        further = [method.further for method in methods]
+        self._spelled_out.further.refuse_partial(further, names, node)
         return MethodsText(tuple(methods), rules)
 
     def _rules(
@@ -110,13 +116,19 @@ class DiagonalReader:
             names = (block_name(k, k), of_colour("b", k), of_colour("c", k))
             return self._spelled_out.butcher(node, where, names)
         before = len(self.source.faults)
-        allowed = ("family", "stages", "name")
+        allowed = ("family", "stages", "name", *BESIDE)
         entries = self.source.mapping(
-            node, where, allowed, form=_FORM_OF_FAMILY
+            node, where, allowed, CURES, _FORM_OF_FAMILY
         )
         if "family" not in entries or len(self.source.faults) > before:
             return None
-        return self._family(node, where, entries)
+        family = self._family(node, where, entries)
+        if family is None:
+            return None
+        called = names_beside(of_colour("b", l - 1))
+        further = self._spelled_out.further
+        beside = further.of_method(entries, family.stages, called)
+        return replace(family, further=beside)
 
     def _family(
         self, node: Node, where: str, entries: Entries

@@ -130,7 +130,8 @@ def loads_family(
     wishes = Wishes()
     if is_design:
         wishes = read_wishes(reader.source, numbers, reader.design)
-    tableau, values = built(reader, description, FamilyValues)
+    made = built(reader, description, FamilyValues)
+    tableau, values = made.tableau, made.values
     ring = values.domain.ring
     meaning = meaning_of(
         wishes, tableau, ring, values, reader.source, deadline
@@ -146,6 +147,7 @@ def loads_family(
         text=text,
         name=one_line(description.name) or source,
         tableau=tableau,
+        further=made.further,
         ring=ring,
         parameters=tuple(numbers.free),
         ranges=ranges,

@@ -6,7 +6,8 @@ import os
 import stat
 import sys
 from collections.abc import Callable, Mapping
-from typing import TypeVar
+from dataclasses import dataclass
+from typing import Generic, TypeVar
 
 from garkcli.errors import Fault, HasFreeParameters, MethodFileError
 from garkcli.methodfile.build import (
@@ -24,6 +25,7 @@ from garkcli.methodfile.reader import Reader
 from garkcli.methodfile.source import MAX_BYTES, Source
 from garkcli.methodfile.values import Values
 from garkcli.methodfile.words import one_line
+from garkcli.tableau.embedded import Further
 from garkcli.tableau.tableau import Tableau
 
 NO_SETTINGS: Mapping[str, str] = {}
@@ -157,12 +159,14 @@ def loads(
     reader, description = described(text, source, settings)
     if reader.numbers.free:
         raise _free(reader)
-    tableau, values = built(reader, description, Values)
+    made = built(reader, description, Values)
     return MethodFile(
         source=source,
         text=text,
         name=one_line(description.name) or source,
-        tableau=tableau,
+        tableau=made.tableau,
+        embedded=made.further.embedded,
+        dense=made.further.dense,
         form=description.form,
         structure=description.structure,
         is_conjugate=description.is_conjugate,
@@ -172,7 +176,7 @@ def loads(
         description=description.description,
         aliases=description.aliases,
         bibliography=description.bibliography,
-        printed=values.printed,
+        printed=made.values.printed,
     )
 
 
@@ -205,10 +209,25 @@ def described(
     return reader, description
 
 
+@dataclass(frozen=True)
+class Built(Generic[V]):
+    """What the coefficients of a file make.
+
+    Attributes:
+        tableau: the method.
+        further: its embedded weights and its dense output.
+        values: of all coefficients.
+    """
+
+    tableau: Tableau
+    further: Further
+    values: V
+
+
 def built(
     reader: Reader, description: Description, values_of: Callable[[Numbers], V]
-) -> tuple[Tableau, V]:
-    """The tableau that a file describes, and the values of its coefficients.
+) -> Built[V]:
+    """The tableau that a file describes, with what else its coefficients say.
 
     Args:
         reader: as it read the file.
@@ -223,8 +242,8 @@ def built(
     reader.source.close()
     values = values_of(reader.numbers)
     reader.source.close()
-    tableau = Builder(reader.source, values, families, nodes).tableau(
-        description
-    )
+    builder = Builder(reader.source, values, families, nodes)
+    tableau = builder.tableau(description)
+    further = builder.further(description, tableau)
     reader.source.close()
-    return tableau, values
+    return Built(tableau, further, values)

@@ -13,9 +13,10 @@ from yaml.nodes import MappingNode, Node
 
 from garkcli.errors import LimitExceeded
 from garkcli.exact.expression import read_decimal
-from garkcli.methodfile import expectations
+from garkcli.methodfile import expectations, further
 from garkcli.methodfile.bibliography import read_aliases, read_reference
 from garkcli.methodfile.description import (
+    BESIDE,
     FORMS,
     PLAIN,
     STRUCTURES,
@@ -26,6 +27,7 @@ from garkcli.methodfile.description import (
     PrkText,
     Structure,
     TableauText,
+    further_of,
 )
 from garkcli.methodfile.diagonal import DiagonalReader
 from garkcli.methodfile.expectations import NUMBERS
@@ -51,6 +53,7 @@ KEYS = (
     "reference",
     *FORMS,
     *PLAIN,
+    *BESIDE,
     "unknown",
     "design",
     "transfer",
@@ -71,17 +74,10 @@ _HOMES = {
     "write methods: [{family: gauss, stages: 2}]": ("family", "stages"),
     "it goes under transfer": ("blocks", "default"),
     "it goes under prk: {q: {A, b}, p: {A, b}}": ("q", "p"),
-    "embedded weights make another method: give it a file of its own": (
-        "bhat",
-        "b_hat",
-        "bh",
-        "b2",
-        "b*",
-        "b^",
-    ),
     "write it under transfer": tuple(RULES),
 }
 _CURES = {key: cure for cure, keys in _HOMES.items() for key in keys}
+_CURES |= further.CURES
 """Keys that are expected elsewhere than at the top of the file, and where."""
 _DECIMAL = re.compile(
     r"([0-9]+(\.[0-9]*)?|\.[0-9]+)([eE][+-]?[0-9]+)?", re.ASCII
@@ -144,6 +140,8 @@ class Reader:
         content = self._content(form, structure, entries)
         if content is None:
             return None
+        if is_conjugate:
+            self._refuse_beside_conjugate(content)
         refuse_unknown_settings(self.numbers)
         return Description(
             form=form,
@@ -276,6 +274,32 @@ class Reader:
             if key in entries and form != home:
                 message = f"{key} goes with {home}, not with {form}"
                 self.source.fault(entries[key], message, "leave it out")
+
+        if form in entries or self.shaped is not None:
+            self._refuse_apart_from_b(form, entries)
+
+    def _refuse_apart_from_b(self, form: Form, entries: Entries) -> None:
+        """Note further weights at the top of a file whose b stands elsewhere."""
+        cure = f"write it inside of {form}, beside b"
+        if form == "methods":
+            cure = "write it in each of the methods"
+        if self.shaped is not None:
+            cure = 'spell A and b out, with "?" for the entries to be found'
+        for key in BESIDE:
+            if key in entries:
+                message = f"{key} stands beside b, and here is none"
+                self.source.fault(entries[key], message, cure)
+
+    def _refuse_beside_conjugate(
+        self, content: MethodsText | TableauText | ArkText | PrkText
+    ) -> None:
+        """Note further weights where the method is the conjugate of what has them."""
+        for text in further_of(content):
+            if text.node is not None:
+                message = "conjugate: the symplectic conjugate has no "
+                message += "embedded weights and no dense output"
+                self.source.fault(text.node, message, "leave them out")
+                return
 
     def _content(
         self, form: Form, structure: Structure, entries: Entries

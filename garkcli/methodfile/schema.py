@@ -10,19 +10,21 @@ from __future__ import annotations
 from garkcli.families.registry import FAMILIES, MAX_STAGES
 from garkcli.methodfile.bibliography_schema import aliases, reference
 from garkcli.methodfile.coefficient_schema import (
+    DENSE,
     MATRIX,
     NUMBER,
     ROW,
     TEXT,
     Schema,
     ark,
+    beside,
     butcher,
     closed,
     prk,
     tableau,
     tableau_keys,
 )
-from garkcli.methodfile.description import FORMS, STRUCTURES
+from garkcli.methodfile.description import BESIDE, FORMS, STRUCTURES
 from garkcli.methodfile.expectations import NUMBERS, TABLES
 from garkcli.methodfile.family_schema import design, parameters, unknown
 from garkcli.methodfile.transfers import ALL_RULES
@@ -60,6 +62,7 @@ def _definitions() -> Schema:
         "number": NUMBER,
         "row": ROW,
         "matrix": MATRIX,
+        "dense": DENSE,
         "butcher": butcher(),
         "method": method,
         "rule": _rule(),
@@ -81,7 +84,7 @@ def _what_goes_together() -> list[Schema]:
             {"anyOf": [{"required": ["tableau"]}, {"required": ["A"]}]},
         ),
         _goes_with("unknown", {"not": {"required": ["parameters"]}}),
-        _goes_with("c", {"anyOf": [{"required": ["A"]}]}),
+        *(_goes_with(key, {"required": ["A"]}) for key in ("c", *BESIDE)),
         {
             "if": {"required": ["methods"], "properties": several},
             "then": {"required": ["transfer"]},
@@ -148,7 +151,8 @@ def _family() -> Schema:
     }
     stages = {"type": "integer", "minimum": 1, "maximum": MAX_STAGES}
     family = closed(
-        {"family": names, "stages": stages, "name": TEXT}, "family"
+        {"family": names, "stages": stages, "name": TEXT, **beside()},
+        "family",
     )
     single = [name for name, x in FAMILIES.items() if x.smallest == x.largest]
     return {

@@ -10,6 +10,7 @@ from yaml.nodes import Node, SequenceNode
 from garkcli.errors import MethodError, did_you_mean
 from garkcli.exact.nodes import Expression, Name
 from garkcli.methodfile.description import (
+    NOTHING_FURTHER,
     ArkText,
     ButcherText,
     Form,
@@ -131,8 +132,9 @@ class ShapeReader:
             return PrkText(q, p)
         if layout.kind == "ark":
             shared = (b,) * len(matrices)
-            return ArkText(tuple(matrices), shared, None)
-        return TableauText(((A,),), (b,), (None,), ())
+            further = (NOTHING_FURTHER,) * len(matrices)
+            return ArkText(tuple(matrices), shared, None, further)
+        return TableauText(((A,),), (b,), (None,), (), (NOTHING_FURTHER,))
 
     def _matrix(self, texts: Texts, node: Node, where: str) -> Rows:
         rows = []

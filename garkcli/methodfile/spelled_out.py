@@ -8,13 +8,16 @@ from typing import TypeAlias
 from yaml.nodes import MappingNode, Node, SequenceNode
 
 from garkcli.errors import counted
+from garkcli.methodfile import further
 from garkcli.methodfile.description import (
+    BESIDE,
     MAX_COLOURS,
     ButcherText,
     TableauText,
     block_name,
     of_colour,
 )
+from garkcli.methodfile.further import FurtherReader
 from garkcli.methodfile.nodes import is_null
 from garkcli.methodfile.numbers import Numbers, Row, Rows
 from garkcli.methodfile.source import Entries, Source
@@ -27,11 +30,7 @@ BlockRow: TypeAlias = tuple[Rows | None, ...]
 """The blocks A^{l,m} of one colour l, None for absent ones."""
 Names: TypeAlias = tuple[str, str, str]
 """What A, b and c are called in messages."""
-_ANOTHER_METHOD = (
-    "embedded weights make another method: give it a file of its own"
-)
-_EMBEDDED = ("bhat", "b_hat", "bh", "b2", "b*", "b^", "btilde", "bE", "b-hat")
-CURES = dict.fromkeys(_EMBEDDED, _ANOTHER_METHOD) | {
+CURES = further.CURES | {
     "family": "a family is listed under methods: [{family: gauss, stages: 2}]",
     "stages": "the number of entries in b says it",
     "s": "the number of entries in b says it",
@@ -99,12 +98,13 @@ class SpelledOutReader:
     def __init__(self, source: Source, numbers: Numbers) -> None:
         self.source = source
         self.numbers = numbers
+        self.further = FurtherReader(source, numbers)
 
     def butcher(
         self, node: Node, where: str, names: Names
     ) -> ButcherText | None:
         """A method spelled out; ``names`` are what its A, b and c are called in messages."""
-        keys = ("name", "A", "b", "c")
+        keys = ("name", "A", "b", "c", *BESIDE)
         entries = self.source.mapping(node, where, keys, CURES, EXAMPLE)
         cure = "give family and stages, or A and b"
         if lacks_coefficients(self.source, node, where, entries, cure):
@@ -113,7 +113,9 @@ class SpelledOutReader:
         if found is None:
             return None
         name = method_name(self.source, entries.get("name"), where)
-        return ButcherText(node, name, *found)
+        letters = further.names_beside(names[1])
+        beside = self.further.of_method(entries, len(found[1]), letters)
+        return ButcherText(node, name, *found, beside)
 
     def _method(
         self, entries: Entries, names: Names
@@ -149,7 +151,7 @@ class SpelledOutReader:
 
     def tableau(self, node: Node, linear: Node | None) -> TableauText | None:
         """The form ``tableau``; ``linear`` lists its linear colours."""
-        keys = ("c", "A", "b")
+        keys = ("c", "A", "b", *BESIDE)
         entries = self.source.mapping(node, "tableau", keys, CURES, EXAMPLE)
         if lacks_coefficients(self.source, node, "tableau", entries, EXAMPLE):
             return None
@@ -168,7 +170,7 @@ class SpelledOutReader:
             return self._one_colour(entries, linear)
         if is_one_matrix:
             message = "A is one matrix, of one colour, and b a list of rows"
-            cure = _ANOTHER_METHOD
+            cure = "write the second row as embedded: […], beside b"
             if len(b.value) == 1:
                 cure = "write b as one row: b: [0, 1]"
             self.source.fault(b, message, cure)
@@ -193,7 +195,8 @@ class SpelledOutReader:
             return None
         A, b, c = found
         linear_colours = self._linear(linear, 1)
-        return TableauText(((A,),), (b,), (c,), linear_colours)
+        beside = self.further.of_method(entries, len(b))
+        return TableauText(((A,),), (b,), (c,), linear_colours, (beside,))
 
     def _blocks(
         self, entries: Entries, linear: Node | None
@@ -218,7 +221,9 @@ class SpelledOutReader:
         if any(len(row) != colours for row in A):
             return None
         linear_colours = self._linear(linear, colours)
-        return TableauText(tuple(A), b, c, linear_colours)
+        stages = [len(row) for row in b]
+        beside = self.further.of_colours(entries, stages)
+        return TableauText(tuple(A), b, c, linear_colours, beside)
 
     def _weights(self, node: Node) -> Weights | None:
         """The weights of each colour; None where there are too many colours."""

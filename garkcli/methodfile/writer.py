@@ -6,24 +6,20 @@ from collections.abc import Callable, Iterable, Iterator, Sequence
 from dataclasses import replace
 from typing import TypeAlias
 
-import yaml
 from flint import arb, fmpq
-from yaml.nodes import MappingNode, Node, ScalarNode
 
-from garkcli.exact.display import decimal, plain_decimal, to_text
+from garkcli.exact.display import decimal, plain_decimal, to_ball, to_text
 from garkcli.exact.expression import read_decimal
 from garkcli.exact.field import Number
 from garkcli.exact.matrix import Matrix, Vector
-from garkcli.methodfile.build import MethodFile
 from garkcli.methodfile.description import block_name
-from garkcli.methodfile.source import Source
+from garkcli.tableau.embedded import NOTHING, Further
 from garkcli.tableau.point_space import PointSpace
 from garkcli.tableau.pointwise import Cell, Entries
 from garkcli.tableau.tableau import Colour, Tableau
 
 NumberText: TypeAlias = Callable[[Number], str]
 """How a coefficient is written."""
-_DROPPED = ("expect", "conjugate", "name", "aliases", "description")
 
 
 def write_tableau_file(
@@ -33,6 +29,7 @@ def write_tableau_file(
     note: str = "",
     text: NumberText = to_text,
     parameters: Sequence[str] = (),
+    further: Further = NOTHING,
 ) -> str:
     """A method file with every block of ``tableau`` spelled out.
 
@@ -43,6 +40,7 @@ def write_tableau_file(
         note: a comment above it.
         text: how a coefficient is written.
         parameters: what it says of each parameter in the coefficients, such as ``tau: free``.
+        further: embedded weights and dense output, written beside b.
     """
     lines = [f"# {line}" for line in note.splitlines()]
     lines.append("gark: 1")
@@ -50,23 +48,35 @@ def write_tableau_file(
     if parameters:
         lines.append(f"parameters: {{{', '.join(parameters)}}}")
     if _is_prk(tableau):
-        lines += _prk(tableau, text)
+        lines += _prk(tableau, text, further)
     elif _is_ark(tableau):
         lines += _ark(tableau, text)
+        lines += _further(further, text)
     else:
         lines += _blocks(tableau, text)
+        lines += _further(further, text)
+        lines += _linear(tableau)
     if tolerance is not None:
         lines.append(f"tolerance: {decimal(tolerance)}")
     return "\n".join(lines) + "\n"
 
 
-def write_method(tableau: Tableau, name: str, tolerance: fmpq | None) -> str:
+def write_method(
+    tableau: Tableau,
+    name: str,
+    tolerance: fmpq | None,
+    further: Further = NOTHING,
+) -> str:
     """The same with decimals where coefficients are rounded."""
     text = to_text if tolerance is None else _decimal_text
-    return write_tableau_file(tableau, name, tolerance, text=text)
+    return write_tableau_file(
+        tableau, name, tolerance, text=text, further=further
+    )
 
 
-def write_rounded(tableau: Tableau, entries: Entries, name: str) -> str:
+def write_rounded(
+    tableau: Tableau, entries: Entries, name: str, further: Further = NOTHING
+) -> str:
     """A method file with entries rounded to decimals, and the tolerance that this rounding needs.
 
     An entry is at most half a unit in its last digit off; the tolerance allows for a hundred units
@@ -76,6 +86,7 @@ def write_rounded(tableau: Tableau, entries: Entries, name: str) -> str:
         tableau: for its colours.
         entries: its entries as enclosures.
         name: what the file calls the method.
+        further: its embedded weights and its dense output, exact.
     """
     digits = entries.digits
     made = _rounded_tableau(tableau, entries)
@@ -86,7 +97,12 @@ def write_rounded(tableau: Tableau, entries: Entries, name: str) -> str:
     exponent = 2 + digits_before_the_point - digits
     tolerance = fmpq(10) ** exponent
     note = f"rounded to {digits} digits"
-    return write_tableau_file(made, name, tolerance, note, _decimal_text)
+    rounded = further.changed(
+        lambda number: _rounded(to_ball(number, digits), digits)
+    )
+    return write_tableau_file(
+        made, name, tolerance, note, _decimal_text, further=rounded
+    )
 
 
 def _rounded_tableau(tableau: Tableau, entries: Entries) -> Tableau:
@@ -195,12 +211,45 @@ def _blocks(tableau: Tableau, text: NumberText) -> list[str]:
     for l in range(tableau.size):
         for m in range(tableau.size):
             lines += _block(tableau, l, m, text)
-    lines += ["  b:", *_items(weights, 4, text)]
-    numbered = enumerate(colours, start=1)
+    return [*lines, "  b:", *_items(weights, 4, text)]
+
+
+def _linear(tableau: Tableau) -> list[str]:
+    """The key ``linear``, where a colour is."""
+    numbered = enumerate(tableau.colours, start=1)
     linear = [str(l) for l, colour in numbered if colour.is_linear]
-    if linear:
-        numbers = ", ".join(linear)
-        lines.append(f"linear: [{numbers}]")
+    if not linear:
+        return []
+    numbers = ", ".join(linear)
+    return [f"linear: [{numbers}]"]
+
+
+def _further(further: Further, text: NumberText) -> list[str]:
+    """Embedded weights and dense output of a tableau or an ark, a part for each colour."""
+    lines = []
+    if further.embedded is not None:
+        lines += ["  embedded:", *_items(further.embedded, 4, text)]
+    if further.dense is not None:
+        lines += ["  dense:", f"    degree: {further.dense.degree}"]
+        lines.append("    weights:")
+        for l, rows in enumerate(further.dense.weights, start=1):
+            lines.append(f"      -  # colour {l}: θ, θ², … a stage")
+            lines += _items(rows, 8, text)
+    return lines
+
+
+def _further_of_part(
+    further: Further, colour: int, text: NumberText
+) -> list[str]:
+    """The same of one part of a prk."""
+    lines = []
+    if further.embedded is not None:
+        row = _row(further.embedded[colour], text)
+        lines.append(f"    embedded: {row}")
+    if further.dense is not None:
+        lines += ["    dense:", f"      degree: {further.dense.degree}"]
+        lines.append("      weights:")
+        lines += _items(further.dense.weights[colour], 8, text)
     return lines
 
 
@@ -218,7 +267,7 @@ def _block(
     yield from _items(block, 8, text)
 
 
-def _prk(tableau: Tableau, text: NumberText) -> list[str]:
+def _prk(tableau: Tableau, text: NumberText, further: Further) -> list[str]:
     """The form ``prk``: the rows of q.A are the positions at which the colour p evaluates its
     forces.
     """
@@ -232,6 +281,7 @@ def _prk(tableau: Tableau, text: NumberText) -> list[str]:
         lines += _items(block, 6, text)
         lines.append(f"    b: {_row(weights, text)}")
         lines.append(f"    c: {_row(nodes, text)}")
+        lines += _further_of_part(further, drives, text)
     structure = "separable"
     if len(tableau.spaces) == 1:
         structure = "general"
@@ -263,28 +313,3 @@ def _printable(sign: str) -> str:
     if sign.isprintable():
         return sign
     return f"\\U{ord(sign):08x}"
-
-
-def write_conjugate_of(method: MethodFile, name: str) -> str:
-    """The file of ``method`` with ``conjugate: true`` added, or taken away where it stands.
-
-    Exact for every method: nothing is spelled out. Claims and description are left behind, as they
-    are about the other method.
-    """
-    root = Source(method.source, method.text).compose()
-    if root is None:
-        raise ValueError("the text of a method file")
-    title: tuple[Node, Node] = (_scalar("name"), _scalar(name))
-    entries = [title]
-    for key, value in root.value:
-        if key.value not in _DROPPED:
-            entries.append((key, value))
-    if not method.is_conjugate:
-        true = ScalarNode("tag:yaml.org,2002:bool", "true")
-        entries.append((_scalar("conjugate"), true))
-    mapping = MappingNode(root.tag, entries, flow_style=False)
-    return str(yaml.serialize(mapping, allow_unicode=True, width=110))
-
-
-def _scalar(text: str) -> ScalarNode:
-    return ScalarNode("tag:yaml.org,2002:str", text)

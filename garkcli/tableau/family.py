@@ -9,6 +9,7 @@ from flint import fmpq, fmpq_mpoly
 
 from garkcli.exact.parametric import Parameters
 from garkcli.exact.roots import RealRoot
+from garkcli.tableau.embedded import NOTHING, Further
 from garkcli.tableau.tableau import Tableau
 
 
@@ -73,6 +74,7 @@ class Family:
         order: which is wanted of them, where the file says so.
         stable: kinds of stability that the solutions that are taken have.
         unsettled: what is wanted of them and was not worked out in time, by its keys.
+        further: its embedded weights and its dense output.
     """
 
     name: str
@@ -88,6 +90,7 @@ class Family:
     order: int | None = None
     stable: tuple[Stability, ...] = ()
     unsettled: tuple[str, ...] = ()
+    further: Further = NOTHING
 
     def __repr__(self) -> str:
         return f"<Family {self.name}: {', '.join(self.parameters)}>"

@@ -9,6 +9,7 @@ from typing import TYPE_CHECKING, Any, Literal, TypeAlias
 from flint import fmpq
 
 from garkcli.errors import counted
+from garkcli.tableau.embedded import DenseOutput, Further, Weights
 from garkcli.tableau.tableau import Tableau
 
 if TYPE_CHECKING:
@@ -31,6 +32,9 @@ class GarkMethod:
         tolerance: the rounding that its coefficients admit, or None where they are meant exactly.
         derivation: whether it was made as the conjugate or the pair of ``base``.
         base: the method it was made from.
+        embedded: further weights at the same stages, a row of exact numbers a colour; None where
+            there are none, as for a conjugate and a pair.
+        dense: weights that are polynomials; None likewise.
     """
 
     tableau: Tableau
@@ -38,6 +42,8 @@ class GarkMethod:
     tolerance: fmpq | None = None
     derivation: Derivation = ""
     base: GarkMethod | None = None
+    embedded: Weights | None = None
+    dense: DenseOutput | None = None
 
     @cached_property
     def _entries(self) -> Entries:
@@ -63,6 +69,11 @@ class GarkMethod:
     def c(self) -> Any:
         """The nodes; of several colours a row each."""
         return self._of_one(self._entries.c)
+
+    @property
+    def further(self) -> Further:
+        """The embedded weights and the dense output together."""
+        return Further(self.embedded, self.dense)
 
     def _of_one(self, whole: Any, is_block: bool = False) -> Any:
         if self.tableau.size > 1:

@@ -129,7 +129,7 @@ ONE_FAULT = {
         f"{TWO}b: [[0, 1], [1, 0]]",
         "[[0, 1], [1, 0]]",
         "one matrix",
-        "embedded",
+        "embedded: […]",
     ),
     "b is a row of a matrix": (
         f"{TWO}b: [[0, 1]]",
@@ -141,7 +141,7 @@ ONE_FAULT = {
         f"{TWO}b: [0, 1]\nbhat: [1, 0]",
         "bhat",
         "unknown key",
-        "embedded",
+        "embedded: […]",
     ),
     "one bracket more": (
         "A: [[[0, 0], [1/2, 0]]]\nb: [[0, 1]]",

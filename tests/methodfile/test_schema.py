@@ -12,7 +12,7 @@ import yaml
 from jsonschema import Draft7Validator
 
 from garkcli.families.registry import FAMILIES, MAX_STAGES
-from garkcli.methodfile.description import FORMS, PLAIN, STRUCTURES
+from garkcli.methodfile.description import BESIDE, FORMS, PLAIN, STRUCTURES
 from garkcli.methodfile.expectations import CLAIMS
 from garkcli.methodfile.family import load_family
 from garkcli.methodfile.load import load
@@ -60,6 +60,7 @@ BEYOND = {
         "ark-shapes", "ark-too-many-weights", "block-shape", "methods-shapes", "prk-general-sizes", "prk-shapes",
         "ragged-rows", "structure-colours", "tableau-counts", "tableau-shapes", "transfer-without-default",
         "block-doubled", "plain-tableau-embedded", "plain-tableau-lengths",
+        "embedded-of-one-method", "embedded-rows", "embedded-shapes",
     },
     "the grammar of numbers": {
         "deep-parentheses", "huge-exponent", "not-finite", "other-languages", "parameter-free", "parameter-names",
@@ -68,7 +69,7 @@ BEYOND = {
     },
     "families of methods": {"unknown-entries", "unknown-name-taken", "unknown-shapes-apart"},
     "mathematics": {
-        "block-beside-gauss-6", "coinciding-nodes", "division-by-exact-zero", "division-by-zero",
+        "block-beside-gauss-6", "embedded-beside-gauss-6", "embedded-of-conjugate", "coinciding-nodes", "division-by-exact-zero", "division-by-zero",
         "division-by-zero-parameter", "even-root-of-negative", "radicals-of-large-degree", "structure-zero-weight",
         "weights-of-combination", "zero-weight-conjugate", "zero-weight-conjugate-rule",
     },
@@ -174,7 +175,7 @@ def test_the_schema_knows_the_words_of_the_loader() -> None:
         ["unknown"],
         ["A", "b"],
     ]
-    assert set(properties["tableau"]["properties"]) == set(PLAIN)
+    assert set(properties["tableau"]["properties"]) == {*PLAIN, *BESIDE}
     assert properties["structure"]["enum"] == list(STRUCTURES)
     assert set(properties["expect"]["properties"]) == set(CLAIMS)
     *words, combination = SCHEMA["definitions"]["rule"]["oneOf"]

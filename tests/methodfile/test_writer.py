@@ -14,10 +14,10 @@ from garkcli.exact.domain import Domain
 from garkcli.exact.expression import parse
 from garkcli.exact.field import Number
 from garkcli.exact.matrix import Matrix
+from garkcli.methodfile.conjugated import write_conjugate_of
 from garkcli.methodfile.load import load, loads
 from garkcli.methodfile.writer import (
     can_spell_out,
-    write_conjugate_of,
     write_tableau_file,
 )
 from garkcli.tableau.conjugate import conjugate
@@ -107,6 +107,11 @@ def same_entries(one: Tableau, other: Tableau) -> bool:
     return shape(one) == shape(other) and values[:half] == values[half:]
 
 
+def spelled(tableau: Tableau) -> Tableau:
+    """The tableau with a coordinate a stage, where its nodes have simple radicals."""
+    return in_points(tableau) or tableau
+
+
 def all_entries(tableau: Tableau) -> Iterator[Number]:
     """Every weight, node and entry of a block, colour by colour."""
     for colour in tableau.colours:
@@ -143,10 +148,11 @@ def test_the_file_of_a_conjugate_is_the_conjugate_and_back(path: Path) -> None:
     """
     method = load(str(path))
     once = loads(write_conjugate_of(method, "conjugate of it"))
-    assert same_entries(once.tableau, conjugate(method.tableau))
+    conjugated = conjugate(method.tableau)
+    assert same_entries(spelled(once.tableau), spelled(conjugated))
     assert once.name == "conjugate of it"
     twice = loads(write_conjugate_of(once, "again"))
-    assert same_entries(twice.tableau, method.tableau)
+    assert same_entries(spelled(twice.tableau), spelled(method.tableau))
     assert twice.is_conjugate == method.is_conjugate
 
 

@@ -1,0 +1,236 @@
+"""YAML nodes to further weights: ``embedded`` and ``dense``, which stand beside b in every form."""
+
+from __future__ import annotations
+
+from collections.abc import Iterator, Sequence
+
+from yaml.nodes import Node, SequenceNode
+
+from garkcli.errors import counted
+from garkcli.methodfile.description import (
+    BESIDE,
+    NOTHING_FURTHER,
+    FurtherText,
+    of_colour,
+)
+from garkcli.methodfile.numbers import Numbers, Row, Rows
+from garkcli.methodfile.source import Entries, Source
+
+MAX_DEGREE = 60
+"""Largest degree of dense output; its order is no larger."""
+FORM_OF_DENSE = "write dense: {degree: 2, weights: [[1, -1/2], [0, 1/2]]}, "
+FORM_OF_DENSE += "a row a stage: the coefficients of θ, θ², …"
+_A_ROW_A_COLOUR = "give a row a colour, each with a weight a stage"
+_A_BLOCK_A_COLOUR = "give a block a colour, each with a row a stage"
+_SPELLINGS = (
+    *("bhat", "b_hat", "b-hat", "bh", "b2", "b*", "b^", "btilde", "bE"),
+    *("b_embedded", "bembed", "embedding"),
+)
+_WRITE_EMBEDDED = "write embedded weights as embedded: […], beside b"
+_WRITE_DENSE = "write dense output as dense: {degree, weights}, beside b"
+CURES = dict.fromkeys(_SPELLINGS, _WRITE_EMBEDDED)
+"""What people call embedded weights and dense output elsewhere."""
+CURES |= dict.fromkeys(("bi", "binterp", "b_theta"), _WRITE_DENSE)
+
+
+def names_beside(name_of_b: str) -> tuple[str, str]:
+    """What messages call embedded weights and dense output beside weights of some name.
+
+    >>> names_beside("b^{2}"), names_beside("q.b")
+    (('embedded^{2}', 'dense^{2}'), ('q.embedded', 'q.dense'))
+    """
+    before, _, after = name_of_b.rpartition("b")
+    embedded, dense = BESIDE
+    return before + embedded + after, before + dense + after
+
+
+class FurtherReader:
+    """Reads the further weights of one file."""
+
+    def __init__(self, source: Source, numbers: Numbers) -> None:
+        self.source = source
+        self.numbers = numbers
+
+    def of_method(
+        self, entries: Entries, stages: int, names: tuple[str, str] = BESIDE
+    ) -> FurtherText:
+        """Those of one colour.
+
+        Args:
+            entries: what stands beside b.
+            stages: how many weights b has.
+            names: what ``embedded`` and ``dense`` are called in messages.
+        """
+        embedded = dense = None
+        name_of_embedded, name_of_dense = names
+        if "embedded" in entries:
+            node = entries["embedded"]
+            if not self._is_of_several(node, name_of_embedded, 2):
+                embedded = self._row(node, name_of_embedded, stages)
+        if "dense" in entries:
+            parts = self._parts(entries["dense"], name_of_dense)
+            if parts is not None:
+                degree, weights = parts
+                where = f"{name_of_dense}, weights"
+                if not self._is_of_several(weights, where, 3):
+                    dense = self._block(weights, where, stages, degree)
+        return _further(entries, embedded, dense)
+
+    def of_colours(
+        self, entries: Entries, stages: Sequence[int], is_shared: bool = False
+    ) -> tuple[FurtherText, ...]:
+        """Those of several colours in one place.
+
+        Args:
+            entries: what stands beside b.
+            stages: how many weights each colour has.
+            is_shared: whether a single row, or block, may stand for every colour.
+        """
+        embedded: list[Row | None] = [None] * len(stages)
+        dense: list[Rows | None] = [None] * len(stages)
+        if "embedded" in entries:
+            node = entries["embedded"]
+            items = self._a_colour(node, "embedded", stages, 1, is_shared)
+            for l, item in items:
+                where = _name(node, item, "embedded", l)
+                embedded[l] = self._row(item, where, stages[l])
+        parts = None
+        if "dense" in entries:
+            parts = self._parts(entries["dense"], "dense")
+        if parts is not None:
+            degree, node = parts
+            where = "dense, weights"
+            for l, item in self._a_colour(node, where, stages, 2, is_shared):
+                name = _name(node, item, where, l)
+                dense[l] = self._block(item, name, stages[l], degree)
+        both = zip(embedded, dense, strict=True)
+        return tuple(_further(entries, row, block) for row, block in both)
+
+    def _a_colour(
+        self,
+        node: Node,
+        where: str,
+        stages: Sequence[int],
+        depth: int,
+        is_shared: bool,
+    ) -> Iterator[tuple[int, Node]]:
+        """What belongs to each colour, itself ``depth`` lists deep."""
+        colours = len(stages)
+        if is_shared and _depth(node) == depth:
+            yield from ((l, node) for l in range(colours))
+            return
+        rows = "row" if depth == 1 else "block"
+        cure = _A_ROW_A_COLOUR if depth == 1 else _A_BLOCK_A_COLOUR
+        if is_shared:
+            cure += f", or a single shared {rows}"
+        items = self.source.items(node, where, cure)
+        is_one = _depth(node) == depth
+        if len(items) == colours and not is_one:
+            yield from enumerate(items)
+        elif isinstance(node, SequenceNode):
+            found = f"one {rows}" if is_one else counted(len(items), rows)
+            wanted = counted(colours, "colour")
+            self.source.fault(node, f"{where} has {found} for {wanted}", cure)
+
+    def _is_of_several(self, node: Node, where: str, depth: int) -> bool:
+        """Note what is written as for several colours, ``depth`` lists deep."""
+        if _depth(node) != depth:
+            return False
+        rows = "row" if depth == 2 else "block"
+        found = counted(len(node.value), rows)
+        message = f"{where} has {found} in a list, for one colour"
+        cure = f"write it as one {rows}, without the outer brackets"
+        if len(node.value) > 1:
+            cure = "a method has one of them; make another file for the other"
+        self.source.fault(node, message, cure)
+        return True
+
+    def _row(self, node: Node, where: str, stages: int) -> Row | None:
+        """A weight a stage."""
+        row = self.numbers.row(node, where)
+        if row and stages and len(row) != stages:
+            found = counted(len(row), "entry", "entries")
+            message = f"{where} has {found} for {counted(stages, 'stage')}"
+            self.source.fault(node, message, "give a weight a stage, as in b")
+        return row or None
+
+    def _parts(self, node: Node, where: str) -> tuple[int, Node] | None:
+        """The degree and the weights of dense output; None where one of them is missing."""
+        source = self.source
+        keys = ("degree", "weights")
+        entries = source.mapping(node, where, keys, form=FORM_OF_DENSE)
+        missing = [key for key in keys if key not in entries]
+        if missing:
+            if entries:
+                both = " and ".join(missing)
+                source.fault(node, f"{where}: {both} missing", FORM_OF_DENSE)
+            return None
+        place = entries["degree"]
+        name = f"{where}, degree"
+        degree = source.whole(place, name, smallest=1, largest=MAX_DEGREE)
+        return None if degree is None else (degree, entries["weights"])
+
+    def _block(
+        self, node: Node, where: str, stages: int, degree: int
+    ) -> Rows | None:
+        """A row a stage, a coefficient a power of θ."""
+        rows = self.numbers.matrix(node, where)
+        if not rows or not stages:
+            return None
+        if len(rows) != stages:
+            found, wanted = counted(len(rows), "row"), counted(stages, "stage")
+            message = f"{where} has {found} for {wanted}"
+            cure = "give a row a stage: the coefficients of θ, θ², …"
+            self.source.fault(node, message, cure)
+            return None
+        for i, row in enumerate(rows):
+            if len(row) == degree:
+                continue
+            found = counted(len(row), "entry", "entries")
+            message = f"{where}, row {i + 1} has {found} for degree {degree}"
+            cure = "give the coefficients of θ, …, θ^degree, zeros too"
+            place = node
+            if isinstance(node, SequenceNode):
+                place = node.value[i]
+            self.source.fault(place, message, cure)
+            return None
+        return rows
+
+    def refuse_partial(
+        self, further: Sequence[FurtherText], names: Sequence[str], node: Node
+    ) -> None:
+        """Note further weights of some colours, where others have none."""
+        for key in BESIDE:
+            given = [getattr(text, key) is not None for text in further]
+            if all(given) or not any(given):
+                continue
+            has, lacks = names[given.index(True)], names[given.index(False)]
+            message = f"{key}: {has} has it and {lacks} does not"
+            cure = "give it in each, the weights b again where they are meant"
+            self.source.fault(node, message, cure)
+
+
+def _further(
+    entries: Entries, embedded: Row | None, dense: Rows | None
+) -> FurtherText:
+    if embedded is None and dense is None:
+        return NOTHING_FURTHER
+    key = BESIDE[0] if BESIDE[0] in entries else BESIDE[1]
+    return FurtherText(embedded, dense, entries[key])
+
+
+def _depth(node: Node) -> int:
+    """How deep the lists are at their first items; a value on its own is 0 deep."""
+    depth = 0
+    while isinstance(node, SequenceNode) and node.value:
+        depth += 1
+        node = node.value[0]
+    return depth
+
+
+def _name(whole: Node, item: Node, where: str, l: int) -> str:
+    """What the part of one colour is called; a shared one has no colour."""
+    if item is whole:
+        return where
+    key, comma, part = where.partition(",")
+    return of_colour(key, l) + comma + part

@@ -1,0 +1,121 @@
+"""Further weights at the stages of a method: embedded ones, and polynomials of dense output.
+
+They belong to the same stages, so all that is true of stage vectors is true of them; a method with
+them in place of b is a tableau of its own, with the same blocks.
+"""
+
+from __future__ import annotations
+
+from collections.abc import Callable, Sequence
+from dataclasses import dataclass, replace
+from typing import TypeAlias
+
+from garkcli.errors import ShapeMismatch, counted
+from garkcli.exact.field import ZERO, Number
+from garkcli.exact.matrix import Vector
+from garkcli.tableau.tableau import Tableau
+
+Weights: TypeAlias = tuple[Vector, ...]
+"""A row of weights a colour, one number a stage."""
+
+
+@dataclass(frozen=True)
+class DenseOutput:
+    """Weights that are polynomials: x(t + θh) ≈ x + h Σ b_i(θ) k_i, summed over the colours too.
+
+    Attributes:
+        weights: ``weights[l][i]`` are the coefficients of θ, θ², … in b_i(θ) of colour l, all of
+            one length. There is no constant one: at θ = 0 the output is x.
+    """
+
+    weights: tuple[tuple[Vector, ...], ...]
+
+    @property
+    def degree(self) -> int:
+        """The largest power of θ that has a coefficient; the last ones may be zero."""
+        return len(self.weights[0][0])
+
+    def coefficients(self, power: int) -> Weights:
+        """What stands before a power of θ, 1 at least: a row a colour."""
+        return tuple(
+            tuple(row[power - 1] for row in of_colour)
+            for of_colour in self.weights
+        )
+
+    def at(self, theta: Number) -> Weights:
+        """The weights at one θ: a row a colour."""
+        return tuple(
+            tuple(_value(row, theta) for row in of_colour)
+            for of_colour in self.weights
+        )
+
+
+@dataclass(frozen=True)
+class Further:
+    """Further weights of a method, each None where there are none.
+
+    Attributes:
+        embedded: a row a colour.
+        dense: of dense output.
+    """
+
+    embedded: Weights | None = None
+    dense: DenseOutput | None = None
+
+    def __bool__(self) -> bool:
+        """Whether there are any."""
+        return self.embedded is not None or self.dense is not None
+
+    def changed(self, change: Callable[[Number], Number]) -> Further:
+        """Every number replaced by what ``change`` makes of it."""
+
+        def rows(weights: Weights) -> Weights:
+            return tuple(tuple(map(change, row)) for row in weights)
+
+        embedded, dense = self.embedded, self.dense
+        if embedded is not None:
+            embedded = rows(embedded)
+        if dense is not None:
+            dense = DenseOutput(tuple(map(rows, dense.weights)))
+        return Further(embedded, dense)
+
+
+NOTHING = Further()
+
+
+def _value(coefficients: Vector, theta: Number) -> Number:
+    """θ times the polynomial with these coefficients, by Horner's rule."""
+    value: Number = ZERO
+    for coefficient in reversed(coefficients):
+        value = (value + coefficient) * theta
+    return value
+
+
+def padded(rows: Sequence[Vector], degree: int) -> tuple[Vector, ...]:
+    """Polynomials of dense output with zeros up to a degree."""
+    return tuple((*row, *[ZERO] * (degree - len(row))) for row in rows)
+
+
+def with_weights(tableau: Tableau, weights: Weights) -> Tableau:
+    """The tableau with other weights at the same stages.
+
+    Errors:
+        ShapeMismatch: not a row a colour, or not one weight a stage.
+
+    >>> from flint import fmpq
+    >>> from garkcli.order.certificate import find_order
+    >>> from garkcli.tableau.forms import gark
+    >>> from garkcli.tableau.method import butcher
+    >>> half, one, zero = fmpq(1, 2), fmpq(1), fmpq(0)
+    >>> heun = gark([butcher(((zero, zero), (one, zero)), (half, half))], {})
+    >>> euler = with_weights(heun, ((one, zero),))
+    >>> find_order(heun).order, find_order(euler).order
+    (2, 1)
+    """
+    if len(weights) != tableau.size:
+        found = counted(len(weights), "row")
+        wanted = counted(tableau.size, "colour")
+        raise ShapeMismatch(f"{found} of weights for {wanted}")
+    pairs = zip(tableau.colours, weights, strict=True)
+    colours = tuple(replace(colour, b=row) for colour, row in pairs)
+    return replace(tableau, colours=colours)
