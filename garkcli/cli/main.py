@@ -45,6 +45,7 @@ COMMANDS = {
     "energy": "energy and other invariants over a long time: do they drift?",
     "design": "for which values of its parameters a method has an order",
     "sweep": "many methods side by side: which are best",
+    "export": "a method for SciPy, SUNDIALS, PETSc, C, JSON and others",
     "certificate": "what proves the orders, to be checked without gark",
     "list": "families, transfer rules, problems",
     "schema": "the JSON Schemas of method files, problem files and reports",

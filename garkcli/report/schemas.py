@@ -29,7 +29,9 @@ REPORTS = {
     "converge": "garkcli.report.convergence_json:converge_report_schema",
     "energy": "garkcli.report.energy_json:energy_report_schema",
     "certificate": "garkcli.report.proof_json:certificate_schema",
+    "export": "garkcli.bridges.targets.json_data:export_schema",
     "list": "garkcli.report.listing:list_report_schema",
+    "list-exports": "garkcli.report.exports:exports_schema",
     "sweep": "garkcli.report.sweep:sweep_report_schema",
 }
 """Where the function is that makes the schema of a command's report."""

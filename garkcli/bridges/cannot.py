@@ -1,0 +1,14 @@
+"""Why a method cannot be written for a target."""
+
+from __future__ import annotations
+
+from garkcli.errors import GarkError
+
+
+class CannotExport(GarkError):
+    """A target cannot hold the method: ``message`` is the reason, ``help`` the cure."""
+
+    def __init__(self, reason: str, cure: str) -> None:
+        super().__init__(reason, cure)
+        self.reason = reason
+        self.cure = cure

@@ -1,0 +1,112 @@
+"""Comments of languages, safe for any name and any reference: one line of ASCII each.
+
+What a text from a file could end or begin in a language is written apart: ``*/`` becomes ``* /``.
+"""
+
+from __future__ import annotations
+
+from collections.abc import Iterable
+from dataclasses import dataclass
+from textwrap import wrap
+
+from garkcli.bridges.payload import Payload
+from garkcli.errors import counted, printable
+from garkcli.page.plaintext import plain_line
+
+WIDTH = 76
+"""Columns of a comment without its mark; Fortran and people have at most 100."""
+_DANGEROUS = ("*/", "/*", "*)", "(*", "--", "??", "]]", "%}", "%{", "=#", "#=")
+"""What ends or begins a comment in one of the languages, or is a trigraph of C."""
+
+
+@dataclass(frozen=True)
+class Comment:
+    """How a language marks comments.
+
+    Attributes:
+        mark: before each line.
+        begin: a line before all; empty for none.
+        end: a line after all.
+    """
+
+    mark: str
+    begin: str = ""
+    end: str = ""
+
+    def lines(self, texts: Iterable[str]) -> list[str]:
+        """Texts as comment lines, long ones broken."""
+        found = [self.begin] if self.begin else []
+        for text in texts:
+            broken = wrap(harmless(text), WIDTH) or [""]
+            found += [f"{self.mark}{line}".rstrip() for line in broken]
+        return [*found, self.end] if self.end else found
+
+
+HASH = Comment("# ")
+C = Comment(" * ", begin="/*", end=" */")
+BANG = Comment("! ")
+PERCENT = Comment("% ")
+
+
+def harmless(text: str) -> str:
+    r"""A text that is a comment, and nothing else, in each of the languages.
+
+    >>> harmless("Größe */ int x; \\"), harmless("a-->b\n??/")
+    ('Grosse * / int x; /', 'a- ->b\\n? ?/')
+    """
+    plain = plain_line(printable(text).replace("ß", "ss"))
+    for pair in _DANGEROUS:
+        # twice, for three in a row
+        for _ in range(2):
+            plain = plain.replace(pair, f"{pair[0]} {pair[1]}")
+    # a line of C that ends with it goes on in the next
+    return plain[:-1] + "/" if plain.endswith("\\") else plain
+
+
+def head(payload: Payload, *notes: str) -> list[str]:
+    """What the head of every file says: who wrote it, which method, its orders, its reference.
+
+    The first two lines are ours: in the first two of Python a name could set the encoding.
+
+    Args:
+        payload: the method.
+        notes: what else the target has to say.
+    """
+    colours = counted(payload.size, "vector field")
+    stages = ", ".join(map(str, payload.stages))
+    lines = [
+        f"Written by gark {payload.version}.",
+        f"A method for {problem_class(payload)}; {colours}, stages {stages}.",
+        f"Method: {payload.name}",
+        f"Proved by gark: {payload.orders.sentence()}.",
+    ]
+    if payload.reference:
+        lines.append(f"Reference: {payload.reference}")
+    return [*lines, *notes]
+
+
+_CLASSES = {
+    "rk": "y' = f(t, y)",
+    "ark": "y' = {terms}, all at the same stages",
+    "prk": "q' = f(q, p), p' = g(q, p)",
+    "gark": "y' = {terms}, each at stages of its own",
+}
+_TERMS = "f1(t, y) + ... + fN(t, y)"
+
+
+def problem_class(payload: Payload) -> str:
+    """The problems that the method is for, in ASCII."""
+    if payload.kind == "prk" and payload.structure != "general":
+        return _PARTS[payload.structure]
+    if payload.tableau.is_partitioned and payload.kind != "prk":
+        return "Hamiltonian problems that are split, a pair (q, p) a term"
+    names = [f"f{l}(t, y)" for l in range(1, payload.size + 1)]
+    terms = " + ".join(names) if len(names) < 4 else _TERMS
+    return _CLASSES[payload.kind].format(terms=terms)
+
+
+_PARTS = {
+    "separable": "q' = f(p), p' = g(q)",
+    "semi-separable": "q' = f(q, p), p' = g(q)",
+    "nystrom": "q' = p, p' = g(q)",
+}

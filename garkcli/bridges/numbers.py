@@ -1,0 +1,158 @@
+"""Exact numbers as the texts of a language: whole numbers, fractions, decimals, radicals."""
+
+from __future__ import annotations
+
+from collections.abc import Callable
+from dataclasses import dataclass
+
+from flint import fmpq
+
+from garkcli.bridges.rounding import Cell, nearest_float, rounded
+from garkcli.exact.field import Algebraic
+
+FLOAT_DIGITS = 17
+"""So many digits mean a binary64 number, which is written with as few as bring it back."""
+EXACT_IN_FLOATS = 2**53
+"""Up to here whole numbers are binary64 numbers, and the quotient of two is rounded once."""
+MOST_ZEROS = 5
+"""Decimals of more zeros after the point are written with an exponent."""
+
+
+@dataclass(frozen=True)
+class Style:
+    """How a language writes numbers.
+
+    Attributes:
+        digits: of decimals; 17 are a binary64 number, written with as few as bring it back.
+        longest: decimals that end within so many digits are written whole, whatever ``digits``
+            says; 0 for none.
+        decimal: what stands around a decimal, ``{x}`` in it.
+        fraction: how a fraction is written, with ``{p}`` and ``{q}``; empty where it is a decimal.
+        is_fraction_first: whether fractions are preferred to decimals that end.
+        largest: the largest numerator and denominator of such fractions.
+        irrational: how an irrational number is written; None where it is a decimal.
+        exponent: the letter before the power of ten.
+        point: whether whole numbers have a point: ``1.0``.
+    """
+
+    digits: int = FLOAT_DIGITS
+    longest: int = 0
+    decimal: str = "{x}"
+    fraction: str = ""
+    is_fraction_first: bool = False
+    largest: int = EXACT_IN_FLOATS
+    irrational: Callable[[Algebraic], str] | None = None
+    exponent: str = "e"
+    point: bool = True
+
+    def text(self, x: Cell, digits: int | None = None) -> str:
+        """A number in this style.
+
+        Args:
+            x: exact, or an enclosure fine enough.
+            digits: of all numbers, where they are asked for; fractions are decimals then.
+        """
+        if digits is not None:
+            return self._decimal(x, digits, is_short=False)
+        if isinstance(x, Algebraic) and self.irrational is not None:
+            return self.irrational(x)
+        if isinstance(x, fmpq):
+            found = self._rational(x)
+            if found:
+                return found
+        return self._decimal(x, self.digits, self.digits == FLOAT_DIGITS)
+
+    def _rational(self, x: fmpq) -> str:
+        """A whole number, a decimal that ends, or a fraction; empty where it is to be rounded."""
+        if x.q == 1 and abs(x.p) <= self.largest:
+            return self._around(f"{x}.0" if self.point else str(x))
+        p, q = int(x.p), int(x.q)
+        may_divide = bool(self.fraction) and max(abs(p), q) <= self.largest
+        fraction = self.fraction.format(p=p, q=q) if may_divide else ""
+        if self.is_fraction_first and fraction:
+            return fraction
+        ends = ending(x)
+        if ends is None:
+            return fraction
+        places = len(str(abs(ends[0])))
+        if places <= self.digits or (not fraction and places <= self.longest):
+            return self._around(self.laid_out(*ends))
+        return fraction
+
+    def _decimal(self, x: Cell, digits: int, is_short: bool) -> str:
+        if not is_short:
+            return self._around(self.laid_out(*rounded(x, digits)))
+        mantissa, exponent = shortest(nearest_float(x))
+        return self._around(self.laid_out(mantissa, exponent))
+
+    def _around(self, text: str) -> str:
+        return self.decimal.format(x=text)
+
+    def laid_out(self, mantissa: int, exponent: int) -> str:
+        """The number mantissa · 10^exponent as a decimal.
+
+        >>> Style().laid_out(-1250, -4), Style().laid_out(125, -10), EXACT.laid_out(5, 0)
+        ('-0.125', '1.25e-8', '5')
+        """
+        if not mantissa:
+            return "0.0" if self.point else "0"
+        sign = "-" if mantissa < 0 else ""
+        digits = str(abs(mantissa)).rstrip("0")
+        # what stands before the point, counted from the first digit
+        before = len(str(abs(mantissa))) + exponent
+        if before > len(digits) and before <= FLOAT_DIGITS:
+            digits = digits.ljust(before, "0")
+        whole, rest = digits[: max(before, 0)], digits[max(before, 0) :]
+        is_plain = -MOST_ZEROS < before <= len(digits)
+        if not is_plain:
+            tail = digits[1:] or ("0" if self.point else "")
+            point = "." if tail else ""
+            return f"{sign}{digits[0]}{point}{tail}{self.exponent}{before - 1}"
+        if rest:
+            zeros = "0" * max(-before, 0)
+            return f"{sign}{whole or '0'}.{zeros}{rest}"
+        return f"{sign}{whole}.0" if self.point else sign + whole
+
+
+def ending(x: fmpq) -> tuple[int, int] | None:
+    """A decimal that ends as (mantissa, exponent); None for other fractions.
+
+    >>> ending(fmpq(-1, 8)), ending(fmpq(1, 3)), ending(fmpq(300))
+    ((-125, -3), None, (3, 2))
+    """
+    p, q = int(x.p), int(x.q)
+    places = 0
+    for prime, other in ((2, 5), (5, 2)):
+        power = 0
+        while q % prime == 0:
+            q //= prime
+            power += 1
+        # the other factor makes it a power of ten
+        p *= other**power
+        places += power
+    if q != 1:
+        return None
+    exponent = -places
+    while p and p % 10 == 0:
+        p //= 10
+        exponent += 1
+    return p, exponent
+
+
+def shortest(x: float) -> tuple[int, int]:
+    """The shortest decimal that is nearest to no other float, as (mantissa, exponent)."""
+    mantissa, _, power = repr(x).partition("e")
+    whole, _, rest = mantissa.partition(".")
+    rest = rest.rstrip("0")
+    return int(whole + rest), int(power or 0) - len(rest)
+
+
+EXACT = Style(
+    longest=1000,
+    fraction="{p}/{q}",
+    is_fraction_first=True,
+    largest=10**4000,
+    irrational=str,
+    point=False,
+)
+"""As method files have it: nothing is lost."""

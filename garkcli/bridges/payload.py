@@ -1,0 +1,134 @@
+"""What a writer gets: one method with every number of it exact, and what gark proved about it."""
+
+from __future__ import annotations
+
+import re
+from dataclasses import dataclass, field
+from functools import cached_property
+from typing import TYPE_CHECKING, Literal, TypeAlias
+
+from flint import arb, fmpq
+
+from garkcli.bridges.cannot import CannotExport
+from garkcli.bridges.numbers import EXACT, Style
+from garkcli.bridges.rounding import Cell, TooWide
+from garkcli.errors import printable
+from garkcli.page.plaintext import plain_line
+from garkcli.tableau.pointwise import Block, Entries, Row
+from garkcli.tableau.tableau import Tableau
+from garkcli.version import __version__
+
+if TYPE_CHECKING:
+    from garkcli.bridges.orders import Orders
+
+Kind: TypeAlias = Literal["rk", "ark", "prk", "gark"]
+"""One vector field; several that share all stages; the pair (q, p); anything else."""
+
+
+@dataclass(frozen=True, eq=False, kw_only=True)
+class Payload:
+    """A method as writers see it. Colours and stages count from 0.
+
+    Attributes:
+        name: one line, whatever signs are in it.
+        kind: which form it has.
+        tableau: with one coordinate a stage where the nodes have simple radicals.
+        entries: c, A and b of each colour: exact numbers, or enclosures fine enough to be rounded.
+        embedded: the embedded weights, a row a colour.
+        dense: ``dense[l][i]`` are the coefficients of θ, θ², … of b_i(θ) of colour l.
+        orders: what was proved.
+        tolerance: the rounding that the coefficients of the file admit; None where they are exact.
+        structure: which vector fields the method is for, such as ``general``, ``separable``.
+        reference: where it was published, in one line.
+        digits: of every number, where they were asked for.
+        version: of gark.
+    """
+
+    name: str
+    kind: Kind
+    tableau: Tableau
+    entries: Entries
+    orders: Orders
+    embedded: tuple[Row, ...] | None = None
+    dense: tuple[tuple[Row, ...], ...] | None = None
+    tolerance: fmpq | None = None
+    structure: str = "general"
+    reference: str = ""
+    digits: int | None = None
+    version: str = field(default=__version__)
+
+    @property
+    def size(self) -> int:
+        """N, the number of colours."""
+        return self.tableau.size
+
+    @property
+    def stages(self) -> tuple[int, ...]:
+        """The number of stages of each colour."""
+        return tuple(map(len, self.entries.b))
+
+    @property
+    def A(self) -> tuple[tuple[Block, ...], ...]:  # noqa: N802 -- the name it has everywhere
+        """``A[l][m]`` is a matrix, or None where the stages of colour l do not see colour m."""
+        return self.entries.A
+
+    @property
+    def b(self) -> tuple[Row, ...]:
+        """The weights, a row a colour."""
+        return self.entries.b
+
+    @property
+    def c(self) -> tuple[Row, ...]:
+        """The nodes, a row a colour."""
+        return self.entries.c
+
+    @property
+    def is_exact(self) -> bool:
+        """Whether every entry is an exact number."""
+        return self.entries.is_exact
+
+    @cached_property
+    def identifier(self) -> str:
+        """The name as languages have them: lower case ASCII letters, digits, single underscores.
+
+        It begins with a letter and has 40 signs at most.
+        """
+        plain = plain_line(printable(self.name)).lower()
+        stem = plain.removesuffix(".yaml").removesuffix(".gark")
+        words = re.findall("[a-z0-9]+", stem)
+        joined = "_".join(words)[:40].strip("_")
+        if not joined:
+            return "method"
+        return f"method_{joined}" if joined[0].isdigit() else joined
+
+    @property
+    def class_name(self) -> str:
+        """The same as the name of a class: ``RalstonEuler``."""
+        return "".join(x.capitalize() for x in self.identifier.split("_"))
+
+    def number(self, x: Cell, style: Style = EXACT) -> str:
+        """An entry in the style of a language, with the digits that were asked for.
+
+        Raises:
+            CannotExport: an enclosure does not tell how it is rounded.
+        """
+        try:
+            return style.text(x, self.digits)
+        except TooWide:
+            raise CannotExport(
+                f"the rounding of an entry of {self.name} is not decided",
+                "ask for other --digits",
+            ) from None
+        except OverflowError:
+            raise CannotExport(
+                f"an entry of {self.name} is beyond the numbers of the target",
+                "ask for --digits 17, which are written with an exponent",
+            ) from None
+
+    def numbers(self, row: Row, style: Style = EXACT) -> list[str]:
+        """A row of entries in the style of a language."""
+        return [self.number(x, style) for x in row]
+
+    def is_zero(self, x: Cell) -> bool:
+        """Whether an entry is zero; enclosures of zero are exact zeros already."""
+        return not isinstance(x, arb) and not x

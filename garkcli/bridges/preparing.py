@@ -1,0 +1,148 @@
+"""From a method to what writers get: entries at points, zeros proved, orders decided."""
+
+from __future__ import annotations
+
+from dataclasses import replace
+from typing import TYPE_CHECKING
+
+from flint import arb, fmpq
+
+from garkcli.bridges.cannot import CannotExport
+from garkcli.bridges.orders import find_orders
+from garkcli.bridges.payload import Kind, Payload
+from garkcli.properties.family_entries import is_nonzero_at, nodes_of
+from garkcli.tableau.pointwise import (
+    Block,
+    Cell,
+    Entries,
+    entries,
+    in_points,
+    numeric_entries,
+)
+from garkcli.tableau.polynomial_space import PolynomialSpace
+from garkcli.tableau.tableau import Tableau
+
+if TYPE_CHECKING:
+    from garkcli.exact.matrix import Vector
+    from garkcli.methodfile.build import MethodFile
+
+EXTRA = 120
+"""Digits of enclosures beyond those that are written: rounding is told by nines and zeros."""
+USUAL = 40
+"""More digits than any target writes where none are asked for."""
+
+
+def prepared(method: MethodFile, digits: int | None = None) -> Payload:
+    """What writers get of a method file.
+
+    Args:
+        method: as it was read.
+        digits: of every number, where they are asked for.
+
+    Raises:
+        CannotExport: no target writes a method like this.
+    """
+    tableau = method.tableau
+    if tableau.has_parameters:
+        raise CannotExport(
+            f"{method.name} has free parameters",
+            "give each a value: --set NAME=VALUE",
+        )
+    found = _entries(tableau, digits)
+    embedded, dense = _further(method)
+    other = None if embedded is None else with_weights(tableau, embedded)
+    return Payload(
+        name=method.name,
+        kind=kind_of(tableau),
+        tableau=in_points(tableau) or tableau,
+        entries=found,
+        orders=find_orders(tableau, other, method.tolerance),
+        embedded=embedded,
+        dense=dense,
+        tolerance=method.tolerance,
+        structure=method.structure,
+        reference=str(method.reference),
+        digits=digits,
+    )
+
+
+def _further(
+    method: MethodFile,
+) -> tuple[tuple[Vector, ...] | None, tuple[tuple[Vector, ...], ...] | None]:
+    """The embedded weights and the polynomials of dense output, where the file has them."""
+    embedded = getattr(method, "embedded", None)
+    dense = getattr(method, "dense", None)
+    return embedded, None if dense is None else dense.weights
+
+
+def with_weights(tableau: Tableau, weights: tuple[Vector, ...]) -> Tableau:
+    """The tableau with other weights at the same stages."""
+    pairs = zip(tableau.colours, weights, strict=True)
+    colours = tuple(replace(colour, b=row) for colour, row in pairs)
+    return replace(tableau, colours=colours)
+
+
+def kind_of(tableau: Tableau) -> Kind:
+    """Which form a tableau has."""
+    parts = [colour.part for colour in tableau.colours]
+    if parts == ["q", "p"]:
+        return "prk"
+    if tableau.is_partitioned:
+        return "gark"
+    if tableau.size == 1:
+        return "rk"
+    shares_stages = len(tableau.spaces) == 1
+    is_complete = len(tableau.blocks) == tableau.size
+    return "ark" if shares_stages and is_complete else "gark"
+
+
+def _entries(tableau: Tableau, digits: int | None) -> Entries:
+    """The entries, exact where that is possible; enclosures of zero are exact zeros."""
+    exact = entries(tableau)
+    if exact.is_exact:
+        return exact
+    wanted = max(digits or 0, USUAL) + EXTRA
+    fine = numeric_entries(tableau, wanted)
+    colours = range(tableau.size)
+    c = tuple(_nodes(tableau, l, fine.c[l]) for l in colours)
+
+    def blocks(l: int) -> tuple[Block, ...]:
+        return tuple(_block(tableau, fine, l, m) for m in colours)
+
+    return replace(fine, c=c, A=tuple(map(blocks, colours)))
+
+
+def _nodes(
+    tableau: Tableau, l: int, row: tuple[Cell, ...]
+) -> tuple[Cell, ...]:
+    """The nodes of a colour, rational ones exact."""
+    colour = tableau.colours[l]
+    space = tableau.spaces[colour.space]
+    is_own = isinstance(space, PolynomialSpace) and colour.c == space.nodes
+    if not isinstance(space, PolynomialSpace) or not is_own:
+        return tuple(map(_exact_where_known, colour.c, row))
+    found = []
+    for root, cell in zip(nodes_of(space), row, strict=True):
+        found.append(cell if root.exact is None else root.exact)
+    return tuple(found)
+
+
+def _exact_where_known(exact: object, cell: Cell) -> Cell:
+    return exact if isinstance(exact, fmpq) else cell
+
+
+def _block(tableau: Tableau, fine: Entries, l: int, m: int) -> Block:
+    """A block, with zeros that are proved to be zero."""
+    block = fine.A[l][m]
+    if block is None:
+        return None
+    place = tableau.colours[l].space, m
+    rows = []
+    for i, row in enumerate(block):
+        cells = list(row)
+        for j, cell in enumerate(row):
+            may_be_zero = isinstance(cell, arb) and cell.contains(0)
+            if may_be_zero and is_nonzero_at(tableau, place, i, j) is False:
+                cells[j] = fmpq(0)
+        rows.append(tuple(cells))
+    return tuple(rows)

@@ -1,0 +1,142 @@
+"""``gark export``: what is written is the method, and heads are comments whatever is in them."""
+
+from __future__ import annotations
+
+import json
+from pathlib import Path
+from typing import Any
+
+import numpy as np
+import pytest
+
+from garkcli.bridges.comments import harmless
+from garkcli.bridges.preparing import prepared
+from garkcli.bridges.registry import bridges
+from garkcli.methodfile.load import load, loads
+from garkcli.tableau.pointwise import in_points
+from tests.cli.harness import ROOT, gark
+
+METHODS = sorted(ROOT.glob("methods/*.gark.yaml"))
+ROUNDED = ROOT / "tests/examples/valid/rounded.gark.yaml"
+
+
+def executed(text: str) -> dict[str, Any]:
+    """The names that a Python module has, written by us."""
+    names: dict[str, Any] = {}
+    exec(compile(text, "exported", "exec"), names)
+    return names
+
+
+@pytest.mark.parametrize("path", METHODS, ids=lambda path: path.name)
+def test_json_has_every_entry_exactly(path: Path) -> None:
+    """The text of each entry is that of the exact tableau, where the nodes have simple radicals."""
+    method = load(str(path))
+    exact = in_points(method.tableau)
+    text = bridges()["json"].written(prepared(method))
+    found = json.loads(text)
+    assert found["exact"] == (exact is not None)
+    if exact is None:
+        return
+    several = found["kind"] != "rk"
+    for l, m in exact.edges():
+        block = found["A"][l][m] if several else found["A"]
+        wanted = [[str(x) for x in row] for row in exact.block(l, m) or ()]
+        assert block == wanted
+    rows = found["b"] if several else [found["b"]]
+    assert rows == [[str(x) for x in y.b] for y in exact.colours]
+
+
+@pytest.mark.parametrize("path", METHODS, ids=lambda path: path.name)
+def test_numpy_arrays_are_the_nearest_floats(path: Path) -> None:
+    """Each entry of the arrays is the float nearest to the decimals of 40 digits."""
+    method = load(str(path))
+    found = executed(bridges()["numpy"].written(prepared(method)))
+    text = bridges()["json"].written(prepared(method, 40))
+    wanted = json.loads(text)
+    if wanted["kind"] == "rk":
+        assert np.array_equal(found["A"], np.array(wanted["A"], dtype=float))
+        assert np.array_equal(found["c"], np.array(wanted["c"], dtype=float))
+        return
+    for blocks, others in zip(found["A"], wanted["A"], strict=True):
+        for block, other in zip(blocks, others, strict=True):
+            assert (block is None) == (other is None)
+            if other is not None:
+                assert np.array_equal(block, np.array(other, dtype=float))
+    for row, other in zip(found["b"], wanted["b"], strict=True):
+        assert np.array_equal(row, np.array(other, dtype=float))
+
+
+def test_orders_are_proved_when_the_file_is_written() -> None:
+    """Claims of the file have no part in it; nodes that are no row sums are told."""
+    text = (
+        "A: [[0, 0], [1/2, 0]]\nb: [0, 1]\nc: [0, 1/3]\nexpect: {order: 4}\n"
+    )
+    found = bridges()["json"].written(prepared(loads(text)))
+    data = json.loads(found)
+    assert (data["order"], data["nonautonomous_order"]) == (2, 1)
+    head = bridges()["numpy"].written(prepared(loads(text))).splitlines()[:6]
+    assert any("order 1 where f depends on t" in line for line in head)
+
+
+def test_a_tolerance_is_named() -> None:
+    """Of rounded coefficients the order is one within a tolerance, and the head says so."""
+    written = bridges()["numpy"].written(prepared(load(str(ROUNDED))))
+    assert "order conditions met within" in written
+
+
+HOSTILE = [
+    "a */ int x; /*",
+    "(* a *) b",
+    "-- --> <!--",
+    "coding: latin-1 -*- vim: fileencoding=utf-16",
+    "ends with \\\\",
+    "??/",
+    "%{ #= =# %}",
+    "Größe: ∞ 中 \\u202e \\n new line",
+    "'''\\\"\\\"\\\"",
+]
+
+
+@pytest.mark.parametrize("name", HOSTILE)
+def test_no_name_leaves_its_comment(name: str) -> None:
+    """A module with any name runs, and has nothing but the arrays; it is ASCII."""
+    text = f'name: "{name}"\nA: [[0]]\nb: [1]\nreference: "{name}"\n'
+    payload = prepared(loads(text))
+    written = bridges()["numpy"].written(payload)
+    assert written.isascii()
+    names = set(executed(written)) - {"__builtins__"}
+    assert names == {"np", "order", "A", "b", "c"}
+    assert payload.identifier.isidentifier()
+    for pair in ("*/", "/*", "(*", "*)", "--", "??", "\n"):
+        assert pair not in harmless(payload.name)
+
+
+def test_what_there_is_no_target_for() -> None:
+    """A misspelt target, and a test of data, are usage errors with a cure."""
+    path = "methods/rk4.gark.yaml"
+    run = gark("export", path, "--to", "numpi")
+    assert run.code == 2
+    assert "did you mean 'numpy'?" in run.err
+    run = gark("export", path, "--to", "json", "--test", "-o", "x.json")
+    assert run.code == 2
+    assert "leave out --test" in run.err
+    assert not Path(ROOT, "x.json").exists()
+
+
+def test_free_parameters_are_refused() -> None:
+    """A family is no method; the cure names the option."""
+    run = gark(
+        "export", "tests/examples/families/sdirk.gark.yaml", "--to", "json"
+    )
+    assert run.code == 2
+    assert "--set" in run.err
+
+
+def test_the_list_of_targets() -> None:
+    """Every target is in the list, for people and for programs."""
+    run = gark("list", "exports", "--format", "json")
+    listed = json.loads(run.out)
+    assert [x["name"] for x in listed] == sorted(bridges())
+    shown = gark("list", "exports").out
+    assert all(f"  {name} " in shown for name in bridges())
+    assert max(map(len, shown.splitlines())) <= 80
