@@ -11,6 +11,7 @@ from garkcli.bridges.cannot import CannotExport
 from garkcli.bridges.orders import find_orders
 from garkcli.bridges.payload import Kind, Payload
 from garkcli.properties.family_entries import is_nonzero_at, nodes_of
+from garkcli.tableau.embedded import with_weights
 from garkcli.tableau.pointwise import (
     Block,
     Cell,
@@ -23,7 +24,6 @@ from garkcli.tableau.polynomial_space import PolynomialSpace
 from garkcli.tableau.tableau import Tableau
 
 if TYPE_CHECKING:
-    from garkcli.exact.matrix import Vector
     from garkcli.methodfile.build import MethodFile
 
 EXTRA = 120
@@ -49,7 +49,7 @@ def prepared(method: MethodFile, digits: int | None = None) -> Payload:
             "give each a value: --set NAME=VALUE",
         )
     found = _entries(tableau, digits)
-    embedded, dense = _further(method)
+    embedded, dense = method.embedded, method.dense
     other = None if embedded is None else with_weights(tableau, embedded)
     return Payload(
         name=method.name,
@@ -58,28 +58,12 @@ def prepared(method: MethodFile, digits: int | None = None) -> Payload:
         entries=found,
         orders=find_orders(tableau, other, method.tolerance),
         embedded=embedded,
-        dense=dense,
+        dense=None if dense is None else dense.weights,
         tolerance=method.tolerance,
         structure=method.structure,
         reference=str(method.reference),
         digits=digits,
     )
-
-
-def _further(
-    method: MethodFile,
-) -> tuple[tuple[Vector, ...] | None, tuple[tuple[Vector, ...], ...] | None]:
-    """The embedded weights and the polynomials of dense output, where the file has them."""
-    embedded = getattr(method, "embedded", None)
-    dense = getattr(method, "dense", None)
-    return embedded, None if dense is None else dense.weights
-
-
-def with_weights(tableau: Tableau, weights: tuple[Vector, ...]) -> Tableau:
-    """The tableau with other weights at the same stages."""
-    pairs = zip(tableau.colours, weights, strict=True)
-    colours = tuple(replace(colour, b=row) for colour, row in pairs)
-    return replace(tableau, colours=colours)
 
 
 def kind_of(tableau: Tableau) -> Kind:

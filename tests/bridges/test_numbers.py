@@ -36,9 +36,7 @@ def test_decimals_are_those_of_the_decimal_module(
 ) -> None:
     """Python's decimals divide with one rounding, half to even."""
     precise = Context(prec=digits, rounding=ROUND_HALF_EVEN)
-    wanted = precise.divide(
-        Decimal(x.numerator), Decimal(x.denominator)
-    )
+    wanted = precise.divide(Decimal(x.numerator), Decimal(x.denominator))
     mantissa, exponent = significant(fmpq(x.numerator, x.denominator), digits)
     assert Decimal(f"{mantissa}e{exponent}") == wanted
 
