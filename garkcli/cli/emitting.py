@@ -11,7 +11,7 @@ from garkcli.design.chosen import Chosen, accepted_methods, first_method
 from garkcli.design.design import Design
 from garkcli.errors import MethodError, UsageProblem
 from garkcli.methodfile.family import FamilyFile, with_values
-from garkcli.methodfile.finding import STDIN
+from garkcli.methodfile.folders import STDIN
 from garkcli.page.writing import write_whole
 
 _STANDARD_INPUT = {STDIN, "<stdin>"}

@@ -178,3 +178,26 @@ def _what_is_wrong(
     if alias in before:
         return f"aliases: {shown} stands here twice", "keep one of them"
     return None
+
+
+def aliases_of(text: str, name: str) -> tuple[str, ...]:
+    """The aliases that the text of a method file gives, of which nothing else is read.
+
+    Args:
+        text: of the file.
+        name: what to call it.
+
+    Raises:
+        MethodFileError: it is no YAML, or far from a method file.
+
+    >>> aliases_of("aliases: [DOPRI5, RK45]", "a file")
+    ('DOPRI5', 'RK45')
+    """
+    source = Source(name, text)
+    root = source.compose()
+    if root is None:
+        return ()
+    for key, value in root.value:
+        if key.value == "aliases":
+            return read_aliases(source, value)
+    return ()

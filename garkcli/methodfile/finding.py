@@ -9,9 +9,9 @@ import os
 from collections.abc import Iterable, Iterator, Sequence
 from fnmatch import fnmatchcase
 
-SUFFIX = ".gark.yaml"
-"""How method files end."""
-STDIN = "-"
+from garkcli.methodfile.folders import STDIN, files_below
+from garkcli.methodfile.naming import PREFIX, expanded, is_both
+
 _MAGIC = frozenset("*?[")
 
 
@@ -20,34 +20,22 @@ def find_files(paths: Iterable[str]) -> Iterator[str]:
 
     A directory stands for all method files below it, a pattern such as ``**/*.yaml`` for the files
     it matches. What stands for nothing stays, to be reported as missing, and so does a folder below
-    that cannot be looked into. Links to folders are not followed: they may lead back.
+    that cannot be looked into. Links to folders are not followed: they may lead back. Names of the
+    catalogue stay as they are; ``catalogue:`` stands for all, ``catalogue:FOLDER`` for a folder.
     """
     for path in paths:
         if path == STDIN:
             yield path
         elif os.path.isdir(path):
-            yield from _below(path) or [path]
+            # a folder that is called as a method is told where it is read
+            found = [] if is_both(path) else files_below(path)
+            yield from found or [path]
+        elif path.startswith(PREFIX):
+            yield from expanded(path) or [path]
         elif _MAGIC & set(path) and not os.path.lexists(path):
             yield from _matching(path) or [path]
         else:
             yield path
-
-
-def _below(folder: str) -> list[str]:
-    """All method files below a folder, and the folders that cannot be read."""
-    found: list[str] = []
-
-    def keep(error: OSError) -> None:
-        found.append(error.filename)
-
-    for place, _, names in os.walk(folder, onerror=keep):
-        methods = [name for name in names if name.endswith(SUFFIX)]
-        found += [os.path.join(place, name) for name in methods]
-    # slow to import, and of no use to a check of one file
-    from pathlib import Path
-
-    # as pathlib writes them: without ./ before
-    return sorted(str(Path(path)) for path in found)
 
 
 def _matching(pattern: str) -> list[str]:
@@ -62,7 +50,7 @@ def _matching(pattern: str) -> list[str]:
     found: set[str] = set()
     for match in _expanded(start, parts):
         if os.path.isdir(match):
-            found.update(_below(match))
+            found.update(files_below(match))
         else:
             found.add(match)
     return sorted(found)

@@ -3,8 +3,6 @@
 from __future__ import annotations
 
 import os
-import stat
-import sys
 from collections.abc import Callable, Mapping
 from dataclasses import dataclass
 from typing import Generic, TypeVar
@@ -17,12 +15,13 @@ from garkcli.methodfile.build import (
     nodes_to_spell_out,
 )
 from garkcli.methodfile.description import Description
-from garkcli.methodfile.file_kind import METHOD_FILE, FileKind
-from garkcli.methodfile.finding import STDIN, SUFFIX, find_files
+from garkcli.methodfile.finding import find_files
+from garkcli.methodfile.folders import STDIN, SUFFIX
+from garkcli.methodfile.naming import is_both, read_argument
 from garkcli.methodfile.numbers import Numbers
 from garkcli.methodfile.parameters import refuse_free
 from garkcli.methodfile.reader import Reader
-from garkcli.methodfile.source import MAX_BYTES, Source
+from garkcli.methodfile.source import Source
 from garkcli.methodfile.values import Values
 from garkcli.methodfile.words import one_line
 from garkcli.tableau.embedded import Further
@@ -36,7 +35,7 @@ def load(path: str, settings: Mapping[str, str] = NO_SETTINGS) -> MethodFile:
     """Read one method file, or standard input for ``-``.
 
     Args:
-        path: of the file.
+        path: of the file; or the name or an alias of a method of the catalogue.
         settings: values of its parameters, by name, in place of those in the file.
 
     Raises:
@@ -46,14 +45,16 @@ def load(path: str, settings: Mapping[str, str] = NO_SETTINGS) -> MethodFile:
 
 
 def read_method_text(path: str) -> tuple[str, str]:
-    """The text of a method file, or of standard input for ``-``, and what to call it.
+    """The text of a method file, of a method of the catalogue, or of standard input for ``-``, and
+    what to call it.
 
     Raises:
-        MethodFileError: there is no such file, or no such text in it.
+        MethodFileError: there is no such file or method, or no such text in it.
     """
-    if path != STDIN and os.path.isdir(path):
+    is_folder = path != STDIN and os.path.isdir(path)
+    if is_folder and not is_both(path):
         raise MethodFileError(path, [_of_folder(path)])
-    return read_text(path, METHOD_FILE)
+    return read_argument(path)
 
 
 def _of_folder(path: str) -> Fault:
@@ -74,68 +75,6 @@ def _of_folder(path: str) -> Fault:
         "a directory, where one method file is expected",
         f"name one, such as {first}",
     )
-
-
-def read_text(path: str, kind: FileKind) -> tuple[str, str]:
-    """The text of a file, or of standard input for ``-``, and what to call it.
-
-    Raises:
-        MethodFileError: there is no such file, or no such text in it.
-    """
-    if path == STDIN:
-        if sys.stdin is None:
-            raise MethodFileError(
-                "<stdin>", [Fault("standard input is closed", "name a file")]
-            )
-        return _decoded(
-            "<stdin>", sys.stdin.buffer.read(MAX_BYTES + 1)
-        ), "<stdin>"
-    try:
-        status = os.stat(path)
-    except FileNotFoundError:
-        raise MethodFileError(path, [Fault("no such file")]) from None
-    except ValueError:
-        fault = Fault("no file has such a name", "leave out what is no text")
-        raise MethodFileError(path, [fault]) from None
-    except (
-        OSError
-    ) as error:  # among them names that are too long, and links in a circle
-        fault = Fault(f"cannot be read: {error.strerror}")
-        raise MethodFileError(path, [fault]) from None
-    if not stat.S_ISREG(status.st_mode):
-        fault = Fault("not a regular file", f"give a {kind.name}")
-        raise MethodFileError(path, [fault])
-    try:
-        with open(path, "rb") as stream:
-            # no more than there is: to clear a megabyte takes longer than to read most files
-            size = min(status.st_size, MAX_BYTES)
-            data = stream.read(size + 1)
-            # it may have grown, or be one whose size no system knows
-            if len(data) > size:
-                data += stream.read(MAX_BYTES - size)
-    except OSError as error:
-        fault = Fault(f"cannot be read: {error.strerror}")
-        raise MethodFileError(path, [fault]) from None
-    return _decoded(path, data), path
-
-
-def _decoded(name: str, data: bytes) -> str:
-    if len(data) > MAX_BYTES:
-        raise MethodFileError(
-            name,
-            [
-                Fault(
-                    f"a file of more than {MAX_BYTES} bytes", "split it", 1, 1
-                )
-            ],
-        )
-    try:
-        return data.decode("utf-8-sig")
-    except UnicodeDecodeError as error:
-        line = data[: error.start].count(b"\n") + 1
-        raise MethodFileError(
-            name, [Fault("not UTF-8 text", "save the file as UTF-8", line, 1)]
-        ) from None
 
 
 def loads(

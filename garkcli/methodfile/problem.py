@@ -9,8 +9,8 @@ from typing import TYPE_CHECKING
 from flint import fmpq
 
 from garkcli.methodfile.file_kind import PROBLEM_FILE
-from garkcli.methodfile.load import read_text
 from garkcli.methodfile.problem_reader import ProblemReader
+from garkcli.methodfile.reading import read_text
 from garkcli.methodfile.sides import SidesMaker
 from garkcli.methodfile.source import Source
 from garkcli.methodfile.terms import Maker

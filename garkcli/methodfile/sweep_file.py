@@ -18,7 +18,7 @@ from garkcli.exact.domain import Domain
 from garkcli.exact.expression import parse
 from garkcli.exact.rewriting import roots_in
 from garkcli.methodfile.file_kind import FileKind
-from garkcli.methodfile.load import read_text
+from garkcli.methodfile.reading import read_text
 from garkcli.methodfile.source import Source
 from garkcli.methodfile.sweep_methods import MethodsReader
 from garkcli.methodfile.sweep_search import FREE, is_free, read_search

@@ -16,8 +16,8 @@ from garkcli.exact.nodes import Expression, Name
 from garkcli.exact.rewriting import substitute
 from garkcli.families.registry import FAMILIES, MAX_STAGES, require_member
 from garkcli.methodfile.family import loads_family
-from garkcli.methodfile.file_kind import METHOD_FILE
-from garkcli.methodfile.load import NO_SETTINGS, described, read_text
+from garkcli.methodfile.load import NO_SETTINGS, described
+from garkcli.methodfile.naming import read_argument
 from garkcli.methodfile.source import Source
 from garkcli.methodfile.sweep_text import SweepText, TemplateText, one_or_more
 from garkcli.methodfile.transfers import ALL_RULES
@@ -201,7 +201,7 @@ class MethodsReader:
             name = self.source.scalar(item, "files")
             if name is None:
                 continue
-            text, source = read_text(str(folder / name), METHOD_FILE)
+            text, source = read_argument(name, str(folder / name))
             reader, _ = described(text, source, NO_SETTINGS)
             has = {**reader.numbers.places, **reader.numbers.free}
             used = tuple(x for x in self.found.grids if x in has)

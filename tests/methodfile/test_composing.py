@@ -8,7 +8,7 @@ import yaml
 from hypothesis import given
 from hypothesis import strategies as st
 
-from garkcli.methodfile import load
+from garkcli.methodfile import reading
 from garkcli.methodfile.composing import TooLargeError, compose
 from garkcli.methodfile.source import METHOD_FILE
 
@@ -87,5 +87,5 @@ def test_a_file_is_read_to_its_end(
     path.write_text(text, encoding="utf-8")
     real = os.stat(path)
     wrong = os.stat_result((*real[:6], said, *real[7:10]))
-    monkeypatch.setattr(load.os, "stat", lambda _: wrong)
-    assert load.read_text(str(path), METHOD_FILE) == (text, str(path))
+    monkeypatch.setattr(reading.os, "stat", lambda _: wrong)
+    assert reading.read_text(str(path), METHOD_FILE) == (text, str(path))

@@ -1,0 +1,43 @@
+"""``python -m garkcli.catalogue``: makes the index of the package anew, in a checkout.
+
+Only files that have changed are judged again; with ``--all`` every one. The copies in ``methods/``
+follow their originals.
+"""
+
+from __future__ import annotations
+
+import sys
+from collections.abc import Sequence
+from pathlib import Path
+
+from garkcli.catalogue.making import made, update_copies
+from garkcli.errors import GarkError
+
+HERE = Path(__file__).resolve().parent
+
+
+def main(arguments: Sequence[str]) -> int:
+    """Make the index and update the copies; 2 where a file is no method."""
+    data, index = HERE / "data", HERE / "index.json"
+    before = ""
+    if "--all" not in arguments and index.exists():
+        before = index.read_text(encoding="utf-8")
+    try:
+        text = made(data, before, _tell)
+    except GarkError as error:
+        print(f"gark: {error}", file=sys.stderr)
+        return 2
+    index.write_bytes(text.encode("ascii"))
+    copies = HERE.parents[1] / "methods"
+    if copies.is_dir():
+        for copy in update_copies(data, copies):
+            print(f"{copy.name} copied", file=sys.stderr)
+    return 0
+
+
+def _tell(name: str) -> None:
+    print(name, file=sys.stderr)
+
+
+if __name__ == "__main__":
+    sys.exit(main(sys.argv[1:]))

@@ -1,0 +1,167 @@
+"""What the index says of a method: found as ``gark check`` finds it, as plain data."""
+
+from __future__ import annotations
+
+import hashlib
+from typing import TYPE_CHECKING, Any
+
+from garkcli.check.check_file import check_file
+from garkcli.errors import GarkError
+from garkcli.exact.display import decimal
+from garkcli.methodfile.load import described
+from garkcli.methodfile.words import one_line
+from garkcli.order.constants import error_constants
+from garkcli.properties.keys import KEYS
+from garkcli.properties.property import Size
+from garkcli.properties.registry import find
+from garkcli.trees.count import count_trees
+
+if TYPE_CHECKING:
+    from garkcli.check.analysis import Analysis, AnyOrder
+    from garkcli.check.outcome import Outcome
+    from garkcli.methodfile.description import Description
+    from garkcli.properties.property import Verdict
+    from garkcli.tableau.tableau import Tableau
+
+Entry = dict[str, Any]
+"""A method of the index: what people look for, and what was found."""
+VERSION = 1
+"""Of what is found; a larger one than that of an index makes all of it anew."""
+MOST_TREES = 20_000
+"""Most trees of one order over which error coefficients are summed for the index."""
+_DIGITS = 4
+
+
+class NoMethod(GarkError):
+    """A file of the catalogue that is no method, or does not have what it claims."""
+
+
+def digest(text: str) -> str:
+    """Which text an entry was made from, however its lines end."""
+    lines = text.replace("\r\n", "\n").encode("utf-8")
+    return hashlib.sha256(lines).hexdigest()[:16]
+
+
+def entry_of(path: str, name: str, file: str, text: str) -> Entry:
+    """The entry of one method file.
+
+    Args:
+        path: where it is.
+        name: of the method.
+        file: where it is in the catalogue.
+        text: of the file.
+
+    Raises:
+        NoMethod: it cannot be read, or a claim of it fails.
+    """
+    outcome = check_file(path)
+    analysis = outcome.analysis
+    if analysis is None or not outcome.ok:
+        raise NoMethod(f"{path}: {_what_fails(outcome)}")
+    _, description = described(text, path, {})
+    return {
+        **head(name, file, description),
+        **_orders(analysis),
+        **shape(analysis.tableau),
+        "structure": description.structure,
+        "exact": analysis.tolerance is None,
+        "tolerance": _tolerance(analysis),
+        "error_constant": _error_constant(analysis),
+        **_properties(analysis),
+        "digest": digest(text),
+    }
+
+
+def _what_fails(outcome: Outcome) -> str:
+    """Why a file has no place in the catalogue."""
+    if outcome.faults:
+        return outcome.faults[0].message
+    if outcome.analysis is None:
+        return "it has free parameters"
+    failing = [claim for claim in outcome.claims if not claim.holds]
+    told = [
+        f"{x.claim}: expected {x.expected}, found {x.found}" for x in failing
+    ]
+    return "; ".join(told)
+
+
+def head(name: str, file: str, description: Description) -> Entry:
+    """What a file says of itself."""
+    return {
+        "name": name,
+        "aliases": list(description.aliases),
+        "file": file,
+        "title": one_line(description.name) or name,
+        "reference": one_line(description.reference),
+    }
+
+
+def shape(tableau: Tableau) -> Entry:
+    """How many stages and colours, and what such a method is called."""
+    spaces = [tableau.spaces[colour.space] for colour in tableau.colours]
+    stages = [space.stages for space in spaces]
+    return {
+        "stages": max(stages),
+        "stages_by_colour": stages,
+        "colours": tableau.size,
+        "kind": _kind(tableau),
+    }
+
+
+def _kind(tableau: Tableau) -> str:
+    """``rk``, ``ark``, ``prk`` or ``gark``."""
+    if tableau.size == 1:
+        return "rk"
+    if tableau.is_partitioned:
+        return "prk"
+    return "ark" if len(tableau.spaces) == 1 else "gark"
+
+
+def _orders(analysis: Analysis) -> Entry:
+    return {
+        "order": analysis.order.order,
+        "conjugate_order": _order(analysis.conjugate_order),
+        "pair_order": _order(analysis.pair_order),
+        "nonautonomous_order": _order(analysis.nonautonomous_order),
+    }
+
+
+def _order(found: AnyOrder | None) -> int | None:
+    return None if found is None else found.order
+
+
+def _tolerance(analysis: Analysis) -> str | None:
+    if analysis.tolerance is None:
+        return None
+    return decimal(analysis.tolerance)
+
+
+def _error_constant(analysis: Analysis) -> str | None:
+    """The norm of the principal error, rounded; None where it has too many trees."""
+    order = analysis.order
+    trees = count_trees(analysis.tableau.size, order.order + 1)
+    if order.is_lower_bound or trees > MOST_TREES:
+        return None
+    constants = error_constants(analysis.tableau, order.order + 1)
+    if constants is None:
+        return None
+    return f"{constants.all.two:.{_DIGITS}g}"
+
+
+def _properties(analysis: Analysis) -> Entry:
+    """Every property by its name in JSON; null where it has no meaning or is not decided."""
+    verdicts = {key: analysis.subject.verdict(key) for key in KEYS}
+    found: Entry = {"symplectic": analysis.symplectic}
+    for key, verdict in verdicts.items():
+        found[find(key).field] = _value(verdict)
+    found["undecided"] = [
+        find(key).field
+        for key, verdict in verdicts.items()
+        if verdict.is_undecided
+    ]
+    return found
+
+
+def _value(verdict: Verdict) -> bool | int | str | None:
+    value = verdict.value
+    return str(value) if isinstance(value, Size) else value

@@ -1,0 +1,210 @@
+"""A name in place of a file: which method of which catalogue it means.
+
+An argument with a separator of paths in it is a file, and so is one that exists as a file; any
+other is a name. Folders of one's own come before the package, the package before packages of
+others, and in all of them a name before an alias.
+"""
+
+from __future__ import annotations
+
+import os
+from collections.abc import Iterable, Iterator, Sequence
+from itertools import chain
+
+from garkcli.errors import Fault, MethodFileError, nearest, printable
+from garkcli.methodfile.file_kind import METHOD_FILE
+from garkcli.methodfile.folders import STDIN
+from garkcli.methodfile.reading import read_text
+from garkcli.methodfile.shelves import (
+    Shelf,
+    Shelved,
+    key_of,
+    others,
+    own_folders,
+    package,
+)
+
+PREFIX = "catalogue:"
+"""What is before a name that is never a file; alone, or before a folder, it means all methods."""
+_OF_FILES = (".yaml", ".yml", ".json")
+"""No name ends so."""
+_MOST_SHOWN = 6
+"""Most methods that are listed where an alias means several."""
+
+
+def read_argument(argument: str, path: str = "") -> tuple[str, str]:
+    """The text of the method that an argument means, and what to call it.
+
+    Args:
+        argument: a path, or a name or alias of the catalogue.
+        path: where it is as a file, if that is not the argument itself.
+
+    Raises:
+        MethodFileError: there is no such file or method, or no text in it, or it may mean several.
+    """
+    path = path or argument
+    method = _meant(argument, path)
+    if method is None:
+        return read_text(path, METHOD_FILE)
+    return method.read(), method.name
+
+
+def find_named(argument: str) -> Shelved | None:
+    """The method of the catalogue that an argument means; None where it means a file.
+
+    Raises:
+        MethodFileError: it means both, several, or nothing.
+    """
+    return _meant(argument, argument)
+
+
+def _meant(argument: str, path: str) -> Shelved | None:
+    """The same for an argument that as a file would be ``path``."""
+    if not can_be_name(argument):
+        return None
+    is_file = os.path.lexists(path)
+    name = _without_prefix(argument)
+    if is_file and name != argument:
+        return None
+    method = look_up(name)
+    if method is None:
+        if is_file:
+            return None
+        raise MethodFileError(argument, [_unknown(name)])
+    if is_file:
+        raise MethodFileError(argument, [_both(argument, method)])
+    return method
+
+
+def can_be_name(argument: object) -> bool:
+    """Whether it looks like a name, whatever exists: no file is looked for, no catalogue."""
+    if not isinstance(argument, str) or argument in {STDIN, "", ".", ".."}:
+        return False
+    separators = {"/", os.sep, os.altsep}
+    if any(sign in argument for sign in separators if sign):
+        return False
+    return "\0" not in argument and not argument.endswith(_OF_FILES)
+
+
+def _without_prefix(argument: str) -> str:
+    return argument.removeprefix(PREFIX)
+
+
+def is_both(path: str) -> bool:
+    """Whether what exists under this path is also a name."""
+    return can_be_name(path) and look_up(path) is not None
+
+
+def look_up(name: str) -> Shelved | None:
+    """The method of a name or an alias; None where there is none.
+
+    Raises:
+        MethodFileError: the name is that of several files of one place, or the alias that of
+            several methods.
+    """
+    key = key_of(name)
+    for shelves in _in_turn():
+        for shelf in shelves:
+            if key in shelf.methods:
+                return _only(name, shelf.methods[key])
+        found = _by_alias(key, shelves)
+        if found:
+            return _only(name, found)
+    return None
+
+
+def _in_turn() -> Iterator[Sequence[Shelf]]:
+    """The shelves; those of other packages, which take long to find, after all others."""
+    yield [*own_folders(), package()]
+    yield others()
+
+
+def _by_alias(key: str, shelves: Iterable[Shelf]) -> list[Shelved]:
+    """The methods with an alias; of two that have one name the first."""
+    found: dict[str, Shelved] = {}
+    for shelf in shelves:
+        for method in shelf.aliases.get(key, ()):
+            found.setdefault(key_of(method.name), method)
+    return list(found.values())
+
+
+def _only(name: str, methods: Sequence[Shelved]) -> Shelved:
+    """The one method of a name.
+
+    Raises:
+        MethodFileError: there are several.
+    """
+    if len(methods) == 1:
+        return methods[0]
+    names = dict.fromkeys(method.name for method in methods)
+    several = list(names) if len(names) > 1 else [x.place for x in methods]
+    shown = ", ".join(several[:_MOST_SHOWN])
+    if len(several) > _MOST_SHOWN:
+        shown += ", …"
+    message = f"{printable(name)!r} means {len(several)} methods: {shown}"
+    raise MethodFileError(name, [Fault(message, "name one of them")])
+
+
+def _both(argument: str, method: Shelved) -> Fault:
+    """What exists here and is a name of the catalogue too."""
+    message = f"there is a file of this name here, and the method {method.name} in the catalogue"
+    cure = f"write .{os.sep}{argument} for the file, {PREFIX}{argument} for the method"
+    return Fault(message, cure)
+
+
+def _unknown(name: str) -> Fault:
+    """Neither file nor name."""
+    message = "no such file, and no method of this name in the catalogue"
+    near = nearest(name, _names())
+    if near:
+        return Fault(message, f"did you mean {near!r}?")
+    return Fault(message, "gark list methods shows the names")
+
+
+def _names() -> list[str]:
+    """Every name and every alias."""
+    names: list[str] = []
+    for shelf in every_shelf():
+        for methods in shelf.methods.values():
+            for method in methods:
+                names += [method.name, *shelf.called(method)]
+    return names
+
+
+def every_shelf() -> list[Shelf]:
+    """All shelves, in the order in which names are looked for."""
+    return list(chain.from_iterable(_in_turn()))
+
+
+def visible(shelves: Iterable[Shelf]) -> Iterator[tuple[Shelf, Shelved]]:
+    """The methods that their names mean, shelf by shelf: none that another one hides."""
+    known: set[str] = set()
+    for shelf in shelves:
+        for key, methods in shelf.methods.items():
+            if key not in known:
+                yield shelf, methods[0]
+        known.update(shelf.methods)
+
+
+def hidden_by(method: Shelved) -> list[str]:
+    """Where else among one's own folders and the package a method of this name is."""
+    key = key_of(method.name)
+    elsewhere = [
+        x for x in (*own_folders(), package()) if x.label != method.shelf
+    ]
+    return [shelf.label for shelf in elsewhere if key in shelf.methods]
+
+
+def expanded(argument: str) -> list[str]:
+    """What ``catalogue:`` and ``catalogue:FOLDER`` mean, as arguments for one method each.
+
+    Empty where the argument is something else, or there is no such folder.
+    """
+    if not argument.startswith(PREFIX) or os.path.lexists(argument):
+        return []
+    folder = key_of(_without_prefix(argument))
+    found = []
+    for _, method in visible(every_shelf()):
+        if folder in {"", key_of(method.folder)}:
+            found.append(PREFIX + method.name)
+    return found

@@ -1,0 +1,233 @@
+"""Where methods with names are: folders of one's own, the package, packages of others.
+
+A shelf knows its methods by their names, which are those of their files, and by their aliases.
+"""
+
+from __future__ import annotations
+
+import json
+import os
+import re
+import unicodedata
+from collections.abc import Callable, Iterator, Mapping, Sequence
+from dataclasses import dataclass
+from functools import cache, cached_property
+from typing import TYPE_CHECKING, Any
+
+from garkcli.errors import Fault, MethodFileError
+from garkcli.methodfile.bibliography import aliases_of
+from garkcli.methodfile.file_kind import METHOD_FILE
+from garkcli.methodfile.folders import SUFFIX, files_below
+from garkcli.methodfile.reading import decoded, read_text
+
+if TYPE_CHECKING:
+    from importlib.resources.abc import Traversable
+
+PATH_VARIABLE = "GARK_PATH"
+"""The variable with folders of one's own, as ``PATH`` has those of programs."""
+GROUP = "gark.catalogue"
+"""The group of entry points whose values are packages with method files in them."""
+INDEX = "catalogue/index.json"
+"""What there is in the package, from its root."""
+DATA = "catalogue/data"
+"""The method files of the package, from its root."""
+_BETWEEN_WORDS = re.compile("[\\s_\u2010-\u2015\u2212-]+")
+
+
+def key_of(name: str) -> str:
+    """A name as it is compared: in lower case, with hyphens between its words.
+
+    >>> key_of("Dormand_Prince 5"), key_of("Runge–Kutta")
+    ('dormand-prince-5', 'runge-kutta')
+    """
+    text = unicodedata.normalize("NFC", name).casefold()
+    return _BETWEEN_WORDS.sub("-", text.strip())
+
+
+@dataclass(frozen=True)
+class Shelved:
+    """A method file with a name.
+
+    Attributes:
+        name: that of the file, without its suffix.
+        folder: the one below the root of its shelf that it is in; empty for none.
+        place: where the file is, for people.
+        shelf: what messages call its shelf.
+        read: gives its text, or raises ``MethodFileError``.
+    """
+
+    name: str
+    folder: str
+    place: str
+    shelf: str
+    read: Callable[[], str]
+
+
+Found = Mapping[str, Sequence[Shelved]]
+"""Methods by the keys of their names, or of their aliases; several where these are not unique."""
+
+
+class Shelf:
+    """Methods with names that are in one place.
+
+    Attributes:
+        label: what messages call it.
+    """
+
+    def __init__(self, label: str) -> None:
+        self.label = label
+
+    @cached_property
+    def methods(self) -> Found:
+        """By their names."""
+        found: dict[str, list[Shelved]] = {}
+        for method in self._shelved():
+            found.setdefault(key_of(method.name), []).append(method)
+        return found
+
+    @cached_property
+    def aliases(self) -> Found:
+        """By what else they are called."""
+        found: dict[str, list[Shelved]] = {}
+        for methods in self.methods.values():
+            for method in methods:
+                for key in dict.fromkeys(map(key_of, self.called(method))):
+                    found.setdefault(key, []).append(method)
+        return found
+
+    def called(self, method: Shelved) -> Sequence[str]:
+        """The aliases of one of its methods; none where its file cannot be read."""
+        try:
+            return aliases_of(method.read(), method.place)
+        except MethodFileError:
+            return ()
+
+    def _shelved(self) -> Iterator[Shelved]:
+        """Its methods."""
+        raise NotImplementedError
+
+
+class OwnFolder(Shelf):
+    """A folder, with all method files below it."""
+
+    def _shelved(self) -> Iterator[Shelved]:
+        for path in files_below(self.label):
+            if not path.endswith(SUFFIX):
+                continue  # a folder that cannot be read
+            parts = os.path.relpath(path, self.label).split(os.sep)
+            folder = parts[0] if len(parts) > 1 else ""
+            name = parts[-1].removesuffix(SUFFIX)
+            yield Shelved(name, folder, path, self.label, _text_of(path))
+
+
+def _text_of(path: str) -> Callable[[], str]:
+    return lambda: read_text(path, METHOD_FILE)[0]
+
+
+class Package(Shelf):
+    """The methods that come with the program, by their index."""
+
+    @cached_property
+    def entries(self) -> Mapping[str, Mapping[str, Any]]:
+        """What the index says of each, by its name."""
+        text = _resource(INDEX).decode("utf-8")
+        return {x["name"]: x for x in json.loads(text)["methods"]}
+
+    def called(self, method: Shelved) -> Sequence[str]:
+        """The aliases of one of its methods; no file is read for it."""
+        aliases: Sequence[str] = self.entries[method.name]["aliases"]
+        return aliases
+
+    def _shelved(self) -> Iterator[Shelved]:
+        for name, entry in self.entries.items():
+            file = entry["file"]
+            folder = file.partition("/")[0]
+            text = _text_within(f"{DATA}/{file}", name)
+            yield Shelved(name, folder, file, self.label, text)
+
+
+def _text_within(file: str, name: str) -> Callable[[], str]:
+    return lambda: decoded(name, _resource(file))
+
+
+def _resource(file: str) -> bytes:
+    """A file of this package, wherever the package is.
+
+    By ``pkgutil``, as to import ``importlib.resources`` takes as long as to check a method.
+    """
+    from pkgutil import get_data
+
+    data = get_data("garkcli", file)
+    if data is None:
+        raise FileNotFoundError(file)
+    return data
+
+
+class OtherPackage(Shelf):
+    """A package of others, with method files in it.
+
+    Args:
+        label: the name of its entry point.
+        root: where it is.
+    """
+
+    def __init__(self, label: str, root: Traversable) -> None:
+        super().__init__(label)
+        self.root = root
+
+    def _shelved(self) -> Iterator[Shelved]:
+        return self._below(self.root, ())
+
+    def _below(
+        self, folder: Traversable, inside: tuple[str, ...]
+    ) -> Iterator[Shelved]:
+        """The method files below a folder of the package."""
+        for item in sorted(folder.iterdir(), key=lambda x: x.name):
+            if item.is_dir():
+                yield from self._below(item, (*inside, item.name))
+            elif item.name.endswith(SUFFIX):
+                name = item.name.removesuffix(SUFFIX)
+                place = "/".join((self.label, *inside, item.name))
+                text = _text_of_item(item, place)
+                first = inside[0] if inside else ""
+                yield Shelved(name, first, place, self.label, text)
+
+
+def _text_of_item(item: Traversable, place: str) -> Callable[[], str]:
+    return lambda: decoded(place, item.read_bytes())
+
+
+@cache
+def package() -> Package:
+    """The shelf of this package; its index is read once."""
+    return Package("the package")
+
+
+def own_folders() -> list[Shelf]:
+    """The folders of ``GARK_PATH`` that there are, in its order."""
+    path = os.environ.get(PATH_VARIABLE, "")
+    folders = dict.fromkeys(x for x in path.split(os.pathsep) if x)
+    return [OwnFolder(x) for x in folders if os.path.isdir(x)]
+
+
+def others() -> list[Shelf]:
+    """The packages that are installed with an entry point of the group, by its name.
+
+    Raises:
+        MethodFileError: one of them cannot be imported.
+    """
+    from importlib.metadata import entry_points
+    from importlib.resources import files
+
+    shelves: list[Shelf] = []
+    for point in sorted(entry_points(group=GROUP), key=lambda x: x.name):
+        try:
+            root = files(point.value)
+        except Exception as error:  # whatever the import of their package does
+            what = f"{type(error).__name__}: {error}".splitlines()[0]
+            message = f"{point.value} cannot be imported: {what}"
+            cure = f"it has an entry point of the group {GROUP}: mend it, or remove it"
+            fault = Fault(message, cure)
+            raise MethodFileError(point.name, [fault]) from None
+        shelves.append(OtherPackage(point.name, root))
+    return shelves
