@@ -25,12 +25,13 @@ def _held_against(claim: ClaimText, analysis: Analysis) -> Claim:
         from garkcli.check.claimed_properties import verify_property
 
         return verify_property(claim, analysis.subject)
-    found = _found(claim.key, analysis)
+    found = found_value(claim.key, analysis)
     shown = "none: a weight is zero" if found is None else claimed_text(found)
     return claim_of(claim, shown, agrees(claim.value, found))
 
 
-def _found(key: str, analysis: Analysis) -> object:
+def found_value(key: str, analysis: Analysis) -> object:
+    """What is true of an order, a table, or symplecticity; None where it has no meaning."""
     table: Simplifying = analysis.simplifying
     limit = analysis.limit
     return {

@@ -34,6 +34,7 @@ COMPLETION = "_GARK_COMPLETE"
 OBJECTS_BETWEEN_COLLECTIONS = 50_000
 COMMANDS = {
     "check": "orders, B/C/D, symplecticity and the claims of method files",
+    "claims": "what is true of a method, as its file claims it",
     "trees": "enumerate or count the N-trees of an order",
     "conditions": "the order-condition table, of any method or of a file",
     "tableau": "the assembled tableau, all blocks",
@@ -101,6 +102,7 @@ def _show_version(
     epilog=f'Shell completion: eval "$({COMPLETION}=bash_source gark)"; also zsh and fish.',
 )
 @click.option(
+    "-V",
     "--version",
     is_flag=True,
     is_eager=True,
@@ -192,6 +194,8 @@ def _run(arguments: list[str]) -> int:
     """Run the command line without what click does at its end: it exits 1 where a reader goes away,
     which is the code of a claim that fails.
     """
+    if arguments[:1] == ["help"]:
+        arguments = [*arguments[1:], "--help"]
     try:
         with gark.make_context("gark", list(arguments)) as context:
             result = gark.invoke(context)

@@ -1,0 +1,110 @@
+"""What a file may claim of a method, and be right: the truth as it is written under ``expect``."""
+
+from __future__ import annotations
+
+from collections.abc import Iterable, Iterator, Mapping
+from dataclasses import dataclass
+
+from garkcli.check.agreement import claimed_text
+from garkcli.check.analysis import Analysis
+from garkcli.check.claims import found_value
+from garkcli.exact.polynomial_text import root_decimal, root_text
+from garkcli.methodfile.expectations import CLAIMS, AtLeast
+from garkcli.properties.keys import KEYS
+from garkcli.properties.property import Size, Verdict
+from garkcli.properties.registry import find
+
+ORDERS = ("order", "conjugate-order", "pair-order", "symplectic")
+"""What is always worth claiming."""
+OF_BLOCKS = ("B", "C", "D")
+DIGITS = 12
+"""Of numbers without simple radicals; a decimal claims no further ones."""
+
+
+@dataclass(frozen=True)
+class TrueClaims:
+    """What may be claimed of one method.
+
+    Attributes:
+        file: its path as given.
+        text: of the file.
+        claims: values as they are written in YAML, by key.
+        left: what was asked for and has no meaning for the method, or is not decided.
+    """
+
+    file: str
+    text: str
+    claims: Mapping[str, str]
+    left: tuple[str, ...] = ()
+
+
+def usual_keys(analysis: Analysis) -> list[str]:
+    """The claims that a file without any is given: orders, whether it is symplectic, its stage
+    order, and those properties that a plain check decides and that it has.
+    """
+    found = [*true_claims(analysis, ORDERS)]
+    for key in KEYS:
+        if not find(key).is_cheap:
+            continue
+        value = analysis.subject.verdict(key).value
+        if value is True or key == "stage-order":
+            found.append(key)
+    return found
+
+
+def true_claims(analysis: Analysis, keys: Iterable[str]) -> dict[str, str]:
+    """The truth of some claims, each as it is written in YAML.
+
+    Args:
+        analysis: of a method.
+        keys: of claims; one without a meaning for the method, or that is not decided, is left out.
+
+    Returns:
+        Texts by key, in the order of the documentation.
+    """
+    wanted = set(keys)
+    found = {}
+    for key in CLAIMS:
+        if key not in wanted:
+            continue
+        text = _text(key, analysis)
+        if text is not None:
+            found[key] = text
+    return found
+
+
+def _text(key: str, analysis: Analysis) -> str | None:
+    if key in KEYS:
+        return _of_property(analysis.subject.verdict(key))
+    value = found_value(key, analysis)
+    return None if value is None else _written(value)
+
+
+def _of_property(verdict: Verdict) -> str | None:
+    value = verdict.value
+    if value is None:
+        return None
+    if isinstance(value, Size):
+        return _of_number(value)
+    if verdict.is_at_least and isinstance(value, int):
+        return _written(AtLeast(value))
+    return claimed_text(value)
+
+
+def _of_number(size: Size) -> str:
+    if size.root is None:
+        return "infinity"
+    return root_text(size.root) or root_decimal(size.root, DIGITS)
+
+
+def _written(value: object) -> str:
+    """A value in YAML; ``>= 4`` would begin a folded text there, so it stands in quotes."""
+    if isinstance(value, list):
+        return f"[{', '.join(_parts(value))}]"
+    text = claimed_text(value)
+    return f'"{text}"' if isinstance(value, AtLeast) else text
+
+
+def _parts(values: list[object]) -> Iterator[str]:
+    for value in values:
+        yield _written(value)

@@ -1,0 +1,134 @@
+"""``gark claims``."""
+
+from __future__ import annotations
+
+from typing import TYPE_CHECKING
+
+import click
+
+from garkcli.cli.options import CONTEXT, PATH, Output, common
+from garkcli.errors import MethodFileError, UsageProblem, did_you_mean
+
+if TYPE_CHECKING:
+    from garkcli.check.analysis import Analysis
+    from garkcli.check.outcome import Outcome
+    from garkcli.check.true_claims import TrueClaims
+
+
+@click.command("claims", context_settings=CONTEXT)
+@click.argument("files", nargs=-1, type=PATH, metavar="FILE...", required=True)
+@click.option(
+    "--write",
+    "is_written",
+    is_flag=True,
+    help="Put the claims into the files; nothing else of their text is touched.",
+)
+@click.option(
+    "--all",
+    "wants_all",
+    is_flag=True,
+    help="Everything that a file may claim and that is decided.",
+)
+@click.option(
+    "--key",
+    "keys",
+    multiple=True,
+    metavar="KEY",
+    help="This claim, besides those that the file makes; repeatable.",
+)
+@common(["text", "json"])
+def command(
+    files: tuple[str, ...],
+    is_written: bool,
+    wants_all: bool,
+    keys: tuple[str, ...],
+    output: Output,
+) -> int:
+    """What is true of a method, as a file claims it under `expect`.
+
+    Of a file that makes claims these, with what is true in place of what it says; of one that makes
+    none the orders, whether it is symplectic, its stage order, and the properties that it has.
+    What has no meaning for a method, or is not decided, is not claimed. FILE as for gark check.
+
+    With --write the claims are put into the files: gark check fails from then on where the method
+    is no longer what it was.
+    """
+    from garkcli.check.check_file import check_file
+    from garkcli.methodfile.finding import find_files
+    from garkcli.report import claims as report
+
+    _refuse_unknown(keys)
+    if is_written and "-" in files:
+        raise UsageProblem("--write needs a file", "name one in place of -")
+    told = [
+        _claims(check_file(path), wants_all, keys)
+        for path in find_files(files)
+    ]
+    if is_written:
+        for claims in told:
+            _write(claims)
+    as_json = output.format == "json"
+    render = report.render_json if as_json else report.render_text
+    output.write(render(told, is_written))
+    return 0
+
+
+def _refuse_unknown(keys: tuple[str, ...]) -> None:
+    from garkcli.methodfile.expectations import CLAIMS
+
+    for key in keys:
+        if key not in CLAIMS:
+            cure = did_you_mean(key, CLAIMS)
+            raise UsageProblem(f"no claim {key!r}", cure)
+
+
+def _claims(
+    outcome: Outcome, wants_all: bool, keys: tuple[str, ...]
+) -> TrueClaims:
+    """What is true of a method, of that what is asked for.
+
+    Raises:
+        MethodFileError: the file is no method.
+        UsageProblem: it is a family of them.
+    """
+    from garkcli.check.true_claims import TrueClaims, true_claims
+
+    if outcome.faults:
+        raise MethodFileError(outcome.file, outcome.faults, outcome.text)
+    if outcome.analysis is None:
+        raise UsageProblem(
+            f"{outcome.file} has free parameters, and claims are of one method",
+            "gark check says what holds for every value",
+        )
+    wanted = _wanted(outcome, outcome.analysis, wants_all, keys)
+    found = true_claims(outcome.analysis, wanted)
+    left = tuple(key for key in wanted if key not in found)
+    return TrueClaims(outcome.file, outcome.text, found, left)
+
+
+def _wanted(
+    outcome: Outcome,
+    analysis: Analysis,
+    wants_all: bool,
+    keys: tuple[str, ...],
+) -> list[str]:
+    """The claims that are asked for."""
+    from garkcli.check.true_claims import usual_keys
+    from garkcli.methodfile.expectations import CLAIMS
+
+    if wants_all:
+        return list(CLAIMS)
+    made = [claim.claim for claim in outcome.claims]
+    if not made and not keys:
+        made = usual_keys(analysis)
+    return [*made, *keys]
+
+
+def _write(claims: TrueClaims) -> None:
+    """Put claims into their file."""
+    from garkcli.methodfile.claims_writer import write_claims
+    from garkcli.page.writing import write_whole
+
+    text = write_claims(claims.file, claims.text, claims.claims)
+    if text != claims.text:
+        write_whole(claims.file, [text])

@@ -1,0 +1,128 @@
+"""Claims put into a method file: nothing else of its text is touched."""
+
+from __future__ import annotations
+
+from collections.abc import Iterator, Mapping
+from typing import TypeAlias
+
+from yaml.nodes import MappingNode, Node, ScalarNode, SequenceNode
+
+from garkcli.errors import Fault, MethodFileError
+from garkcli.methodfile.nodes import extent
+from garkcli.methodfile.source import Source
+
+INDENT = "  "
+Edit: TypeAlias = tuple[int, int, str]
+"""From where to where in a text what else is to stand."""
+
+
+def write_claims(source: str, text: str, claims: Mapping[str, str]) -> str:
+    r"""The text of a method file with other claims.
+
+    A claim that stands there has its value replaced, and one that has no truth is left as it is;
+    new ones follow the last. Comments, blanks and everything else stay.
+
+    Args:
+        source: what the file is called.
+        text: of the file, which can be read.
+        claims: values as they are written in YAML, by key.
+
+    Raises:
+        MethodFileError: the file is one line of braces, where nothing can be added below.
+
+    >>> print(write_claims("a file", "A: [[0]]\nb: [1]", {"order": "1"}))
+    A: [[0]]
+    b: [1]
+    expect:
+      order: 1
+    <BLANKLINE>
+    """
+    root = Source(source, text).compose()
+    assert isinstance(root, MappingNode)
+    expect = _expect(root)
+    if expect is None or not expect.value:
+        return _with_block(source, text, root, expect, claims)
+    edits = [
+        *_replacements(text, expect, claims),
+        *_additions(text, expect, claims),
+    ]
+    # from the last to the first: places before an edit stay where they are
+    for start, end, new in sorted(edits, reverse=True):
+        text = text[:start] + new + text[end:]
+    return text
+
+
+def _expect(root: MappingNode) -> MappingNode | None:
+    for key, value in root.value:
+        if key.value == "expect" and isinstance(value, MappingNode):
+            return value
+    return None
+
+
+def _with_block(
+    source: str,
+    text: str,
+    root: MappingNode,
+    empty: Node | None,
+    claims: Mapping[str, str],
+) -> str:
+    """A file without claims: they stand at its end."""
+    if root.flow_style or empty is not None:
+        fault = Fault(
+            "the claims have no place in this file",
+            "write keys below one another, without braces, and no expect: {}",
+        )
+        raise MethodFileError(source, [fault], text)
+    if not claims:
+        return text
+    lines = [f"{INDENT}{key}: {value}" for key, value in claims.items()]
+    before = text if text.endswith("\n") else text + "\n"
+    return "\n".join([before + "expect:", *lines, ""])
+
+
+def _replacements(
+    text: str, expect: MappingNode, claims: Mapping[str, str]
+) -> Iterator[Edit]:
+    """Other values for claims that are there."""
+    for key, node in expect.value:
+        value = claims.get(key.value)
+        if value is None or _says(node, value):
+            continue
+        start, _ = extent(text, node, node)
+        yield start, _end(text, node), value
+
+
+def _additions(
+    text: str, expect: MappingNode, claims: Mapping[str, str]
+) -> Iterator[Edit]:
+    """Claims after the last one: behind it in braces, on lines of their own below it otherwise."""
+    there = {key.value for key, _ in expect.value}
+    new = [f"{key}: {x}" for key, x in claims.items() if key not in there]
+    first, _ = expect.value[0]
+    _, last = expect.value[-1]
+    end = _end(text, last)
+    if not new:
+        return
+    if expect.flow_style:
+        yield end, end, "".join(f", {x}" for x in new)
+        return
+    margin = "\n" + " " * first.start_mark.column
+    line_end = text.find("\n", end)
+    place = len(text) if line_end < 0 else line_end
+    yield place, place, "".join(margin + x for x in new)
+
+
+def _end(text: str, node: Node) -> int:
+    """Where a value ends; a list of lines ends with its last entry, whatever is said below it."""
+    while isinstance(node, SequenceNode) and node.value:
+        if node.flow_style:
+            break
+        node = node.value[-1]
+    _, end = extent(text, node, node)
+    return end
+
+
+def _says(node: Node, value: str) -> bool:
+    """Whether a value is written already, in quotes or without."""
+    plain = value.strip('"')
+    return isinstance(node, ScalarNode) and node.value == plain
