@@ -4,6 +4,14 @@ Jay, "Lobatto methods", *Encyclopedia of Applied and Computational Mathematics* 
 ≥ 2.
 """
 
+from __future__ import annotations
+
+from typing import cast
+
+from garkcli.exact.field import ONE
+from garkcli.exact.matrix import Vector, add, scale
+from garkcli.exact.nodes import Expression
+from garkcli.families.family import Option, Options, Recipe
 from garkcli.families.polynomials import (
     X,
     average,
@@ -39,3 +47,27 @@ def lobatto_iiic_star(s: int) -> Method:
 def lobatto_iiid(s: int) -> Method:
     """Lobatto IIID: the mean of IIIC and IIIC*, symplectic."""
     return average(f"Lobatto IIID {s}", lobatto_iiic(s), lobatto_iiic_star(s))
+
+
+def lobatto_iiie(s: int) -> Method:
+    """Lobatto IIIE: the mean of IIIA and IIIB, symplectic."""
+    return average(f"Lobatto IIIE {s}", lobatto_iiia(s), lobatto_iiib(s))
+
+
+SIGMA = Option("sigma")
+
+
+def lobatto_iiis(s: int, options: Options) -> Recipe:
+    """Lobatto IIIS: symplectic and symmetric for every σ; IIIE for σ = 1/2, IIID for σ = 1.
+
+    R. P. K. Chan, *On symmetric Runge–Kutta methods of high order*, Computing 45 (1990).
+    """
+
+    def make(values: Vector) -> Method:
+        (sigma,) = values
+        one, other = lobatto_iiid(s), lobatto_iiie(s)
+        of_one, of_other = 2 * sigma - ONE, 2 * ONE - 2 * sigma
+        A = add(scale(of_one, one.A), scale(of_other, other.A))
+        return Method(f"Lobatto IIIS {s}", one.space, A, one.b)
+
+    return Recipe(s, make, (cast("Expression", options["sigma"]),))

@@ -1,8 +1,11 @@
-"""Radau methods: order 2s − 1. Hairer & Wanner, *Solving Ordinary Differential Equations II*,
-IV.5.
+"""Radau methods: order 2s − 1.
+
+Hairer & Wanner, *Solving Ordinary Differential Equations II*, IV.5; IB and IIB: G. Sun, *A simple
+way constructing symplectic Runge–Kutta methods*, J. Comput. Math. 18 (2000).
 """
 
 from garkcli.families.polynomials import (
+    average,
     collocation_method,
     conjugate_method,
     legendre,
@@ -19,3 +22,15 @@ def radau_ia(s: int) -> Method:
 def radau_iia(s: int) -> Method:
     """Radau IIA: collocation, the last node is 1."""
     return collocation_method(f"Radau IIA {s}", legendre(s) - legendre(s - 1))
+
+
+def radau_ib(s: int) -> Method:
+    """Radau IB: the mean of IA and its symplectic conjugate, symplectic."""
+    base = radau_ia(s)
+    return average(f"Radau IB {s}", base, conjugate_method("", base))
+
+
+def radau_iib(s: int) -> Method:
+    """Radau IIB: the mean of IIA and its symplectic conjugate, symplectic."""
+    base = radau_iia(s)
+    return average(f"Radau IIB {s}", base, conjugate_method("", base))

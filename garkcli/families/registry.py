@@ -1,122 +1,174 @@
-"""The one list of families: name, stages, maker, a line for people."""
+"""The one list of families: name, members, maker, a line for people."""
 
 from __future__ import annotations
 
-from collections.abc import Callable, Mapping
-from dataclasses import dataclass
+from collections.abc import Iterator, Mapping
 from functools import partial
 
-from garkcli.errors import UnknownFamily, counted, did_you_mean
-from garkcli.families import explicit, gauss, lobatto, radau
+from garkcli.errors import (
+    ExpressionError,
+    UnknownFamily,
+    counted,
+    did_you_mean,
+)
+from garkcli.exact.domain import Domain
+from garkcli.exact.expression import parse
+from garkcli.families import (
+    deferred,
+    explicit,
+    extrapolated,
+    gauss,
+    lobatto,
+    radau,
+    sdirk2,
+    ssp3,
+)
+from garkcli.families.family import (
+    Family,
+    Given,
+    Option,
+    Options,
+    Recipe,
+    by_stages,
+)
 from garkcli.tableau.method import Method
 
 MAX_STAGES = 200
 """Most stages of a family."""
-
-
-@dataclass(frozen=True)
-class Family:
-    """A family of diagonal methods.
-
-    Attributes:
-        name: as in method files.
-        make: the method with a given number of stages.
-        smallest: the fewest stages it has.
-        largest: the most stages it has; equal to ``smallest`` for a single method.
-        order: its order in terms of s, for people.
-        summary: one line.
-    """
-
-    name: str
-    make: Callable[[int], Method]
-    smallest: int
-    largest: int
-    order: str
-    summary: str
+NO_OPTIONS: Options = {}
 
 
 def _named(name: str, order: str, summary: str) -> Family:
     stages = explicit.STAGES[name]
-    return Family(
-        name, lambda _: explicit.named(name), stages, stages, order, summary
-    )
+    recipe = by_stages(lambda _: explicit.named(name))
+    return Family(name, recipe, stages, stages, order, summary)
 
 
 _any = partial(Family, largest=MAX_STAGES)
-FAMILIES: Mapping[str, Family] = {
-    family.name: family
-    for family in (
-        _any(
-            "gauss",
-            gauss.gauss,
-            1,
-            order="2s",
-            summary="collocation at the Gauss nodes; symplectic",
-        ),
-        _any(
-            "radau-ia",
-            radau.radau_ia,
-            1,
-            order="2s - 1",
-            summary="first node 0, D(s)",
-        ),
-        _any(
-            "radau-iia",
-            radau.radau_iia,
-            1,
-            order="2s - 1",
-            summary="collocation, last node 1",
-        ),
-        _any(
-            "lobatto-iiia",
-            lobatto.lobatto_iiia,
-            2,
-            order="2s - 2",
-            summary="collocation, nodes 0 and 1",
-        ),
-        _any(
+_high = partial(
+    Family, size="order", largest=60, options=(extrapolated.SEQUENCE,)
+)
+
+
+def _families() -> Iterator[Family]:
+    """Every family, in the order of the documentation."""
+    order = "2s"
+    yield _any(
+        "gauss",
+        by_stages(gauss.gauss),
+        1,
+        order=order,
+        summary="collocation at the Gauss nodes; symplectic",
+    )
+    order = "2s - 1"
+    for name, make, least, summary in (
+        ("radau-ia", radau.radau_ia, 1, "first node 0, D(s)"),
+        ("radau-iia", radau.radau_iia, 1, "collocation, last node 1"),
+        ("radau-ib", radau.radau_ib, 2, "of IA; symplectic"),
+        ("radau-iib", radau.radau_iib, 2, "of IIA; symplectic"),
+    ):
+        yield _any(name, by_stages(make), least, order=order, summary=summary)
+    order = "2s - 2"
+    for name, make, summary in (
+        ("lobatto-iiia", lobatto.lobatto_iiia, "collocation, nodes 0 and 1"),
+        (
             "lobatto-iiib",
             lobatto.lobatto_iiib,
-            2,
-            order="2s - 2",
-            summary="symplectic conjugate of IIIA",
+            "symplectic conjugate of IIIA",
         ),
-        _any(
-            "lobatto-iiic",
-            lobatto.lobatto_iiic,
-            2,
-            order="2s - 2",
-            summary="a_i1 = b_1, stiffly accurate",
-        ),
-        _any(
-            "lobatto-iiic*",
-            lobatto.lobatto_iiic_star,
-            2,
-            order="2s - 2",
-            summary="conjugate of IIIC",
-        ),
-        _any(
+        ("lobatto-iiic", lobatto.lobatto_iiic, "a_i1 = b_1, stiffly accurate"),
+        ("lobatto-iiic*", lobatto.lobatto_iiic_star, "conjugate of IIIC"),
+        (
             "lobatto-iiid",
             lobatto.lobatto_iiid,
-            2,
-            order="2s - 2",
-            summary="mean of IIIC and IIIC*; symplectic",
+            "mean of IIIC and IIIC*; symplectic",
         ),
-        _named("explicit-euler", "1", "one explicit stage"),
-        _named("explicit-midpoint", "2", "Runge's method"),
-        _named("heun", "2", "the explicit trapezoidal rule"),
-        _named("kutta", "3", "Kutta's method of order 3"),
-        _named("rk4", "4", "the classical Runge-Kutta method"),
-        _any(
-            "ssp2",
-            explicit.ssp2,
-            2,
-            order="2",
-            summary="explicit, strong-stability-preserving",
+        (
+            "lobatto-iiie",
+            lobatto.lobatto_iiie,
+            "mean of IIIA and IIIB; symplectic",
         ),
+    ):
+        yield _any(name, by_stages(make), 2, order=order, summary=summary)
+    yield _any(
+        "lobatto-iiis",
+        lobatto.lobatto_iiis,
+        2,
+        order=order,
+        summary="IIIE for sigma: 1/2, IIID for 1",
+        options=(lobatto.SIGMA,),
     )
+    yield _named("explicit-euler", "1", "one explicit stage")
+    yield _named("explicit-midpoint", "2", "Runge's method")
+    yield _named("heun", "2", "the explicit trapezoidal rule")
+    yield _named("kutta", "3", "Kutta's method of order 3")
+    yield _named("rk4", "4", "the classical Runge-Kutta method")
+    yield from _with_options()
+
+
+def _with_options() -> Iterator[Family]:
+    """Those that are chosen by more than their stages, and those beside them."""
+    summary = "explicit, strong-stability-preserving"
+    yield _any("ssp2", by_stages(explicit.ssp2), 2, order="2", summary=summary)
+    yield _any(
+        "ssp3",
+        ssp3.ssp3,
+        4,
+        order="3",
+        summary="s = n^2; strong-stability-preserving",
+    )
+    yield Family(
+        "sdirk2",
+        sdirk2.sdirk2,
+        2,
+        2,
+        "2",
+        "order 3 for gamma: (3 + sqrt(3))/6",
+        options=(sdirk2.GAMMA,),
+    )
+    yield _high(
+        "extrapolated-euler",
+        extrapolated.euler,
+        1,
+        order="order",
+        summary="explicit Euler, extrapolated",
+    )
+    yield _high(
+        "extrapolated-implicit-euler",
+        extrapolated.implicit_euler,
+        1,
+        order="order",
+        summary="implicit Euler, extrapolated; dirk",
+    )
+    yield _high(
+        "extrapolated-midpoint",
+        extrapolated.midpoint,
+        2,
+        order="order",
+        summary="Gragg's rule, of even orders",
+    )
+    yield Family(
+        "sdc",
+        deferred.corrections,
+        1,
+        40,
+        "sweeps",
+        "spectral deferred corrections",
+        size="points",
+        options=(deferred.NODES, deferred.SWEEPS, deferred.SWEEP),
+    )
+
+
+FAMILIES: Mapping[str, Family] = {
+    family.name: family for family in _families()
 }
 """Every family by name."""
+BY_STAGES: Mapping[str, Family] = {
+    name: family
+    for name, family in FAMILIES.items()
+    if family.keys == ("stages",)
+}
+"""Those whose members have a number of stages and no options."""
 
 
 OTHER_NAMES: Mapping[str, str] = {
@@ -137,61 +189,160 @@ OTHER_NAMES: Mapping[str, str] = {
     "rk2": "explicit-midpoint or heun",
     "rk3": "kutta",
     "ssprk2": "ssp2",
+    "ssprk3": "ssp3",
+    "lobatto-iii": "lobatto-iiic*",
+    "gbs": "extrapolated-midpoint",
+    "gragg": "extrapolated-midpoint",
+    "bulirsch-stoer": "extrapolated-midpoint",
+    "deferred-corrections": "sdc",
 }
 """What people call members of the families, and how the program does."""
 
 
-def require_member(name: str, stages: int | None = None) -> int:
-    """The stages of the member of a family, which is not made.
+def recipe_of(
+    name: str, size: int | None = None, options: Options = NO_OPTIONS
+) -> Recipe:
+    """How the member of a family is made.
+
+    Args:
+        name: a key of ``FAMILIES``.
+        size: what its family is counted by, such as stages; may be left out for a family of one
+            method.
+        options: what it is chosen by besides; those with a default may be left out.
 
     Raises:
-        UnknownFamily: no such family, or not with that many stages.
+        UnknownFamily: no such family, or no such member.
     """
     family = FAMILIES.get(name)
     if family is None:
-        other = OTHER_NAMES.get(
-            name.lower().replace("_", "-").replace(" ", "-")
+        raise _unknown(name)
+    size = _size_of(family, size)
+    recipe = family.recipe(size, _complete(family, options))
+    if recipe.stages > MAX_STAGES:
+        stages = counted(recipe.stages, "stage")
+        message = f"{name} with {family.size}: {size} has {stages}"
+        raise UnknownFamily(message, f"at most {MAX_STAGES} are made")
+    return recipe
+
+
+def _unknown(name: str) -> UnknownFamily:
+    """A family that there is not, and what it is called here."""
+    word = name.lower().replace("_", "-").replace(" ", "-")
+    other = OTHER_NAMES.get(word)
+    cure = did_you_mean(name, FAMILIES)
+    if other:
+        cure = f"it is called {other} here"
+    return UnknownFamily(f"no family {name[:MAX_NAME]!r}", cure)
+
+
+def _size_of(family: Family, size: int | None) -> int:
+    """The size of a member, which exists as far as the family's bounds say."""
+    if size is None and family.is_single:
+        return family.smallest
+    if size is None:
+        what = "number of stages" if family.size == "stages" else family.size
+        example = (
+            f"write for instance {family.size}: {max(2, family.smallest)}"
         )
-        cure = (
-            f"it is called {other} here"
-            if other
-            else did_you_mean(name, FAMILIES)
-        )
-        raise UnknownFamily(f"no family {name[:MAX_NAME]!r}", cure)
-    is_single = family.smallest == family.largest
-    s = family.smallest if stages is None and is_single else stages
-    if s is None:
-        example = f"write for instance stages: {max(2, family.smallest)}"
-        raise UnknownFamily(
-            f"the family {name} needs its number of stages", example
-        )
-    if not family.smallest <= s <= family.largest:
-        have = (
-            str(family.smallest) if is_single else f"{family.smallest} or more"
-        )
-        if s > family.largest:
-            have += f", at most {family.largest}"
-        message = f"{name} with {counted(s, 'stage')} does not exist"
-        raise UnknownFamily(message, f"it has {have}")
-    return s
+        message = f"the family {family.name} needs its {what}"
+        raise UnknownFamily(message, example)
+    if family.smallest <= size <= family.largest:
+        return size
+    have = str(family.smallest)
+    if not family.is_single:
+        have += " or more"
+    if size > family.largest:
+        have += f", at most {family.largest}"
+    of_size = f"{family.size} {size}"
+    if family.size == "stages":
+        of_size = counted(size, "stage")
+    message = f"{family.name} with {of_size} does not exist"
+    raise UnknownFamily(message, f"it has {have}")
+
+
+def _complete(family: Family, options: Options) -> Options:
+    """A value for every option of the family, and for no other."""
+    for name in options:
+        if name not in family.keys:
+            message = (
+                f"the family {family.name} has no option {name[:MAX_NAME]!r}"
+            )
+            raise UnknownFamily(message, did_you_mean(name, family.keys))
+    complete: dict[str, Given] = {}
+    for option in family.options:
+        value = options.get(option.name, option.default)
+        if value == "":
+            example = f"write for instance {option.name}: {option.example}"
+            message = f"the family {family.name} needs its {option.name}"
+            raise UnknownFamily(message, example)
+        complete[option.name] = value
+    return complete
 
 
 MAX_NAME = 60
 """Most characters of an unknown name that are shown."""
 
 
-def diagonal_method(name: str, stages: int | None = None) -> Method:
+def diagonal_method(
+    name: str, stages: int | None = None, **options: object
+) -> Method:
     """The member of a family.
 
     Args:
         name: a key of ``FAMILIES``.
-        stages: how many; may be left out for a family of one method.
+        stages: how many, or whatever else the family is counted by; may be left out for a family
+            of one method.
+        options: what the member is chosen by besides; coefficients as text or numbers.
 
     Raises:
-        UnknownFamily: no such family, or not with that many stages.
+        UnknownFamily: no such family, or no such member.
 
     >>> diagonal_method("gauss", 2).space.modulus
     x^2 + (-1)*x + 1/6
+    >>> diagonal_method("sdirk2", gamma="1/4").A
+    ((1/4, 0), (1/2, 1/4))
     """
-    s = require_member(name, stages)
-    return FAMILIES[name].make(s)
+    family = FAMILIES.get(name)
+    known = {} if family is None else {x.name: x for x in family.options}
+    given: dict[str, Given] = {}
+    for key, value in options.items():
+        if family is not None and key == family.size and stages is None:
+            stages = _whole(value, key)
+        else:
+            given[key] = _given(known.get(key), value, key)
+    recipe = recipe_of(name, stages, given)
+    domain = Domain(recipe.numbers)
+    return recipe.make(tuple(map(domain.evaluate, recipe.numbers)))
+
+
+def _given(option: Option | None, value: object, key: str) -> Given:
+    """The value of an option as recipes take it.
+
+    Raises:
+        UnknownFamily: there is no such word or number.
+    """
+    if option is None:
+        return str(value)
+    if option.smallest is not None:
+        number = _whole(value, key)
+        if number >= option.smallest:
+            return number
+        cure = f"give {option.smallest} or more"
+        raise UnknownFamily(f"{key}: {number} is too small", cure)
+    text = str(value)
+    if option.words:
+        if text in option.words:
+            return text
+        cure = did_you_mean(text, option.words)
+        raise UnknownFamily(f"{key}: {text[:MAX_NAME]} is not known", cure)
+    try:
+        return parse(text)
+    except ExpressionError as error:
+        raise UnknownFamily(f"{key}: {error.message}", error.help) from None
+
+
+def _whole(value: object, key: str) -> int:
+    if isinstance(value, int) and not isinstance(value, bool):
+        return value
+    message = f"{key}: a whole number is expected, not {str(value)[:MAX_NAME]}"
+    raise UnknownFamily(message)

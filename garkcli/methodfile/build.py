@@ -10,7 +10,6 @@ from yaml.nodes import Node
 
 from garkcli.errors import GarkError, MethodFileError
 from garkcli.exact.matrix import Matrix, Vector
-from garkcli.families.registry import diagonal_method
 from garkcli.methodfile.bibliography import Reference
 from garkcli.methodfile.blocks import BlockBuilder
 from garkcli.methodfile.description import (
@@ -205,6 +204,8 @@ class Builder:
 
     def _diagonal(self, l: int, text: FamilyText | ButcherText) -> Method:
         if isinstance(text, FamilyText):
+            if l not in self.families:
+                return text.recipe.make(self.values.vector(text.numbers))
             method = self.families[l]
             if l not in self.nodes:
                 return method
@@ -216,17 +217,19 @@ class Builder:
 
 
 def families_of(description: Description) -> dict[int, Method]:
-    """The methods of a file that are members of families, by number from 0, each made once."""
+    """The methods of a file that are members of families, by number from 0, each made once; not
+    those that are made of numbers of the file.
+    """
     content = description.content
     if not isinstance(content, MethodsText):
         return {}
-    made: dict[tuple[str, int], Method] = {}
+    made: dict[object, Method] = {}
     found: dict[int, Method] = {}
     for l, text in enumerate(content.methods):
-        if isinstance(text, FamilyText):
-            key = text.name, text.stages
+        if isinstance(text, FamilyText) and not text.numbers:
+            key = text.name, text.chosen
             if key not in made:
-                made[key] = diagonal_method(*key)
+                made[key] = text.recipe.make(())
             found[l] = made[key]
     return found
 
@@ -253,7 +256,7 @@ def nodes_to_spell_out(
     rows: dict[int, Row] = {}
     for k in beside:
         text = content.methods[k]
-        if not isinstance(text, FamilyText):
+        if not isinstance(text, FamilyText) or k not in families:
             continue
         nodes = _family_nodes(text, families[k].space, numbers)
         if nodes is not None:

@@ -8,6 +8,7 @@ from typing import Literal, TypeAlias
 from flint import fmpq
 from yaml.nodes import Node
 
+from garkcli.families.family import Recipe
 from garkcli.methodfile.bibliography import Reference
 from garkcli.methodfile.numbers import Entry, Row, Rows
 
@@ -72,12 +73,29 @@ NOTHING_FURTHER = FurtherText()
 
 @dataclass(frozen=True)
 class FamilyText:
-    """A member of a family."""
+    """A member of a family.
+
+    Attributes:
+        node: where it stands.
+        name: of the family.
+        chosen: its size and what else it is chosen by, as it is written; with the name they say
+            which member it is.
+        recipe: how it is made.
+        numbers: what it is made of besides rational numbers.
+        further: what stands beside it.
+    """
 
     node: Node
     name: str
-    stages: int
+    chosen: tuple[tuple[str, str], ...]
+    recipe: Recipe
+    numbers: Row = ()
     further: FurtherText = NOTHING_FURTHER
+
+    @property
+    def stages(self) -> int:
+        """How many stages it has."""
+        return self.recipe.stages
 
 
 @dataclass(frozen=True)

@@ -7,10 +7,9 @@ from dataclasses import replace
 
 from yaml.nodes import MappingNode, Node, ScalarNode, SequenceNode
 
-from garkcli.errors import UnknownFamily, nearest
-from garkcli.families.registry import FAMILIES, require_member
+from garkcli.errors import nearest
+from garkcli.families.registry import FAMILIES
 from garkcli.methodfile.description import (
-    BESIDE,
     MAX_ENTRIES,
     ButcherText,
     FamilyText,
@@ -20,14 +19,14 @@ from garkcli.methodfile.description import (
     block_name,
     of_colour,
 )
-from garkcli.methodfile.further import CURES, names_beside
+from garkcli.methodfile.further import names_beside
+from garkcli.methodfile.members import FamilyReader
 from garkcli.methodfile.nodes import keys_of
 from garkcli.methodfile.numbers import Numbers
-from garkcli.methodfile.source import Entries, Source
+from garkcli.methodfile.source import Source
 from garkcli.methodfile.spelled_out import SpelledOutReader, are_too_many
 
 _FORM = "write a list: [{family: gauss, stages: 2}, …]"
-_FORM_OF_FAMILY = "write for instance {family: gauss, stages: 2}"
 
 
 class DiagonalReader:
@@ -115,42 +114,15 @@ class DiagonalReader:
             k = l - 1
             names = (block_name(k, k), of_colour("b", k), of_colour("c", k))
             return self._spelled_out.butcher(node, where, names)
-        before = len(self.source.faults)
-        allowed = ("family", "stages", "name", *BESIDE)
-        entries = self.source.mapping(
-            node, where, allowed, CURES, _FORM_OF_FAMILY
-        )
-        if "family" not in entries or len(self.source.faults) > before:
+        reader = FamilyReader(self.source, self.numbers)
+        found = reader.read(node, where)
+        if found is None:
             return None
-        family = self._family(node, where, entries)
-        if family is None:
-            return None
+        family, entries = found
         called = names_beside(of_colour("b", l - 1))
         further = self._spelled_out.further
         beside = further.of_method(entries, family.stages, called)
         return replace(family, further=beside)
-
-    def _family(
-        self, node: Node, where: str, entries: Entries
-    ) -> FamilyText | None:
-        """A member of a family, which exists."""
-        name = self.source.scalar(entries["family"], f"{where}, family")
-        place = entries.get("stages")
-        stages = None
-        if place is not None:
-            stages = self.source.whole(place, f"{where}, stages", smallest=1)
-        is_known = name in FAMILIES
-        is_faulty = place is not None and stages is None
-        if name is None or (is_known and is_faulty):
-            return None
-        try:
-            return FamilyText(node, name, require_member(name, stages))
-        except UnknownFamily as error:
-            # a known family lacks members with so many stages
-            if place is None or not is_known:
-                place = entries["family"]
-            self.source.fault(place, error.message, error.help)
-            return None
 
 
 def _stages(method: FamilyText | ButcherText) -> int:
@@ -163,7 +135,7 @@ def _written_out(node: ScalarNode) -> str:
     """The cure for a method that is a mere word."""
     word = nearest(str(node.value), FAMILIES) or "gauss"
     family = FAMILIES[word]
-    if family.smallest == family.largest:
+    if family.is_single:
         return f"write {{family: {word}}}"
-    stages = max(2, family.smallest)
-    return f"write for instance {{family: {word}, stages: {stages}}}"
+    size = max(2, family.smallest)
+    return f"write for instance {{family: {word}, {family.size}: {size}}}"

@@ -7,6 +7,7 @@ parameters and everything mathematical are for ``gark check``.
 
 from __future__ import annotations
 
+from garkcli.families.family import Family, Option
 from garkcli.families.registry import FAMILIES, MAX_STAGES
 from garkcli.methodfile.bibliography_schema import aliases, reference
 from garkcli.methodfile.coefficient_schema import (
@@ -145,20 +146,43 @@ def _properties() -> Schema:
 
 
 def _family() -> Schema:
+    """A family with what its members are chosen by; most by their stages alone."""
     names = {
         "enum": list(FAMILIES),
         "description": "A family of methods, see gark list.",
     }
-    stages = {"type": "integer", "minimum": 1, "maximum": MAX_STAGES}
-    family = closed(
-        {"family": names, "stages": stages, "name": TEXT, **beside()},
-        "family",
-    )
-    single = [name for name, x in FAMILIES.items() if x.smallest == x.largest]
+    keys: Schema = {"family": names, "name": TEXT, **beside()}
+    for family in FAMILIES.values():
+        keys[family.size] = {"type": "integer", "minimum": 1}
+        keys |= {option.name: _option(option) for option in family.options}
+    keys["stages"] = {**keys["stages"], "maximum": MAX_STAGES}
     return {
-        **family,
-        "if": {"properties": {"family": {"enum": single}}},
-        "else": {"required": ["stages"]},
+        **closed(keys, "family"),
+        "allOf": [_member(family) for family in FAMILIES.values()],
+    }
+
+
+def _option(option: Option) -> Schema:
+    """What an option may be set to."""
+    if option.words:
+        return {"enum": list(option.words)}
+    if option.smallest is not None:
+        return {"type": "integer", "minimum": option.smallest}
+    return {"$ref": "#/definitions/number"}
+
+
+def _member(family: Family) -> Schema:
+    """What a member of one family needs, and what it does not have."""
+    others: set[str] = set()
+    for other in FAMILIES.values():
+        others |= set(other.keys) - set(family.keys)
+    needed = [] if family.is_single else [family.size]
+    needed += [option.name for option in family.options if not option.default]
+    barred = dict.fromkeys(sorted(others), False)
+    then: Schema = {"required": needed, "properties": barred}
+    return {
+        "if": {"properties": {"family": {"const": family.name}}},
+        "then": then,
     }
 
 

@@ -14,7 +14,11 @@ from garkcli.errors import ExpressionError, UnknownFamily
 from garkcli.exact.expression import parse
 from garkcli.exact.nodes import Expression, Name
 from garkcli.exact.rewriting import substitute
-from garkcli.families.registry import FAMILIES, MAX_STAGES, require_member
+from garkcli.families.registry import (
+    BY_STAGES,
+    MAX_STAGES,
+    recipe_of,
+)
 from garkcli.methodfile.family import loads_family
 from garkcli.methodfile.load import NO_SETTINGS, described
 from garkcli.methodfile.naming import read_argument
@@ -112,18 +116,17 @@ class MethodsReader:
             return []
         families = []
         for item in one_or_more(entries["family"]):
-            name = self.source.choice(item, "methods, family", FAMILIES)
+            name = self.source.choice(item, "methods, family", BY_STAGES)
             families += [name] if name else []
         stages = self._stages(entries.get("stages"))
         found: dict[tuple[str, int], None] = {}
         for family in families:
-            is_single = FAMILIES[family].smallest == FAMILIES[family].largest
-            if is_single:
-                found[family, FAMILIES[family].smallest] = None
+            if BY_STAGES[family].is_single:
+                found[family, BY_STAGES[family].smallest] = None
                 continue
             for s in stages:
                 with suppress(UnknownFamily):
-                    found[family, require_member(family, s)] = None
+                    found[family, recipe_of(family, s).stages] = None
         if families and not found:
             message = (
                 f"methods: no member of {', '.join(families)} has these stages"

@@ -6,7 +6,7 @@ from __future__ import annotations
 
 from collections.abc import Iterable, Mapping
 
-from garkcli.families.registry import FAMILIES
+from garkcli.families.registry import BY_STAGES
 from garkcli.methodfile.coefficient_schema import Schema
 from garkcli.methodfile.sweep_file import KEYS
 from garkcli.methodfile.sweep_search import FREE
@@ -85,7 +85,7 @@ def _method() -> Schema:
         "additionalProperties": False,
         "required": ["family"],
         "properties": {
-            "family": _one_or_more(_words(FAMILIES)),
+            "family": _one_or_more(_words(BY_STAGES)),
             "stages": _one_or_more(stages),
         },
     }

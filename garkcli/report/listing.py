@@ -2,17 +2,18 @@
 
 from __future__ import annotations
 
-from collections.abc import Mapping
+from collections.abc import Iterator, Mapping
 from textwrap import wrap
 from typing import NamedTuple
 
-from garkcli.families.registry import Family
+from garkcli.families.family import Family, Option
 from garkcli.page.paint import Paint, indented
 from garkcli.page.record import Field, Record, schema_named
 from garkcli.page.schema import TEXT, Schema, published
 
 SCHEMA = "gark/list/1"
 _WIDTH = 80
+_NAME = 21  # columns for the name of a family
 
 
 def render(
@@ -37,14 +38,45 @@ def render(
 
 
 def _families(families: Mapping[str, Family], paint: Paint) -> list[str]:
-    """A line for each family, below their heads."""
+    """A line for each family, below their heads; what else it is chosen by below it."""
     head = f"{'families':<20} {'stages':<8} order"
     lines = [paint("strong", head)]
     for family in families.values():
-        stages = _stages(family)
+        name = f"  {family.name:<18} "
+        if len(name) > _NAME:  # it has a line of its own
+            lines.append(name.rstrip())
+            name = " " * _NAME
         about = f"{family.order:<7} {family.summary}"
-        lines.append(f"  {family.name:<18} {stages:<8} {about}")
+        lines.append(f"{name}{_stages(family):<8} {about}")
+        for key, values in _chosen_by(family):
+            lines.append(" " * _NAME + f"{key}: {values}")
     return lines
+
+
+def _stages(family: Family) -> str:
+    """How many stages its members have; empty where they are counted by something else."""
+    return _sizes(family) if family.size == "stages" else ""
+
+
+def _sizes(family: Family) -> str:
+    smallest = str(family.smallest)
+    return smallest if family.is_single else f">= {smallest}"
+
+
+def _chosen_by(family: Family) -> Iterator[tuple[str, str]]:
+    """The keys of a family besides its stages, with what they may be."""
+    if family.size != "stages":
+        yield family.size, _sizes(family)
+    for option in family.options:
+        yield option.name, _values(option)
+
+
+def _values(option: Option) -> str:
+    if option.words:
+        return ", ".join(option.words)
+    if option.smallest is not None:
+        return f">= {option.smallest}"
+    return "a coefficient"
 
 
 def _entries(entries: Mapping[str, str]) -> list[str]:
@@ -68,16 +100,16 @@ class _Lists(NamedTuple):
     problems: Mapping[str, str]
 
 
-def _stages(family: Family) -> str:
-    smallest = str(family.smallest)
-    if family.largest == family.smallest:
-        return smallest
-    return f">= {smallest}"
+_OPTION: Record[tuple[str, str]] = Record(
+    Field("key", TEXT, lambda x: x[0]),
+    Field("values", TEXT, lambda x: x[1]),
+)
 
 
 _FAMILY: Record[Family] = Record(
     Field("name", TEXT, lambda x: x.name),
     Field("stages", TEXT, _stages),
+    _OPTION.every("options", _chosen_by),
     Field("order", TEXT, lambda x: x.order),
     Field("summary", TEXT, lambda x: x.summary),
 )

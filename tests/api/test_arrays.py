@@ -22,7 +22,7 @@ from garkcli import (
 )
 from garkcli.errors import MethodError
 from garkcli.exact.display import to_text
-from garkcli.families.registry import FAMILIES
+from garkcli.families.registry import BY_STAGES
 from tests.oracles.draws import fractions
 
 FRACTIONS = fractions(-3, 3, 12)
@@ -270,7 +270,7 @@ def test_random_order_four_methods_keep_their_order() -> None:
 
 def test_every_family_shows_its_entries() -> None:
     """The entries of families are those of the tableau as it is printed, not of a polynomial basis."""
-    for name, family in FAMILIES.items():
+    for name, family in BY_STAGES.items():
         method = diagonal_method(
             name, max(2, family.smallest) if family.largest > 4 else None
         )

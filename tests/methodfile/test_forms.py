@@ -6,7 +6,7 @@ import pytest
 from flint import fmpq
 
 from garkcli.exact.field import Number
-from garkcli.families.registry import FAMILIES, diagonal_method
+from garkcli.families.registry import BY_STAGES, diagonal_method
 from garkcli.methodfile.finding import find_files
 from garkcli.methodfile.load import loads
 from garkcli.order.conditions import coupling_graph
@@ -61,13 +61,13 @@ def coupled(rule: str) -> Tableau:
     )
 
 
-@pytest.mark.parametrize("family", FAMILIES)
+@pytest.mark.parametrize("family", BY_STAGES)
 def test_a_family_is_the_method_of_the_registry(family: str) -> None:
     """A one-colour file of any family is that diagonal method."""
     s = (
-        max(FAMILIES[family].smallest, 2)
-        if FAMILIES[family].largest > 4
-        else FAMILIES[family].smallest
+        max(BY_STAGES[family].smallest, 2)
+        if not BY_STAGES[family].is_single
+        else BY_STAGES[family].smallest
     )
     assert tableau(f"methods: [{{family: {family}, stages: {s}}}]") == gark(
         [diagonal_method(family, s)], {}

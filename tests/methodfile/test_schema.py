@@ -193,12 +193,22 @@ def test_the_schema_knows_the_words_of_the_loader() -> None:
 
 @pytest.mark.parametrize("name", FAMILIES)
 def test_stages_are_needed_where_the_loader_needs_them(name: str) -> None:
-    """A family of one method goes without its stages, any other does not."""
-    single = FAMILIES[name].smallest == FAMILIES[name].largest
-    assert VALIDATOR.is_valid({"methods": [{"family": name}]}) == single
-    assert VALIDATOR.is_valid(
-        {"methods": [{"family": name, "stages": FAMILIES[name].smallest}]}
-    )
+    """A family goes without its size where it is one method, without an option that has a default,
+    and with nothing that belongs to other families.
+    """
+    family = FAMILIES[name]
+    needed: dict[str, object] = {"family": name, family.size: family.smallest}
+    needed |= {
+        x.name: x.smallest or "1/2" for x in family.options if not x.default
+    }
+    assert VALIDATOR.is_valid({"methods": [needed]})
+    for key in needed:
+        less = {other: x for other, x in needed.items() if other != key}
+        may_go = key == family.size and family.is_single
+        assert VALIDATOR.is_valid({"methods": [less]}) == may_go
+    assert not VALIDATOR.is_valid({"methods": [needed | {"sweeps": 0}]})
+    if "gamma" not in family.keys:
+        assert not VALIDATOR.is_valid({"methods": [needed | {"gamma": 1}]})
 
 
 @pytest.mark.parametrize(

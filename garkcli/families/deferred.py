@@ -1,0 +1,156 @@
+"""Spectral deferred corrections: A. Dutt, L. Greengard, V. Rokhlin, *Spectral deferred correction
+methods for ordinary differential equations*, BIT 40 (2000).
+
+From y_0 at all nodes, each sweep goes from node to node by Euler's method for the error of the
+collocation equations; the first sweep is Euler's method itself. The step ends at the last node
+where that is 1, else by the quadrature of the nodes, which gains an order.
+"""
+
+from __future__ import annotations
+
+from collections.abc import Callable, Mapping, Sequence
+from typing import TypeAlias
+
+from flint import fmpq
+
+from garkcli.errors import UnknownFamily
+from garkcli.exact.domain import Domain
+from garkcli.exact.field import ONE, ZERO, Number
+from garkcli.exact.matrix import Vector, dot
+from garkcli.exact.nodes import Expression, Literal
+from garkcli.families import gauss, lobatto, radau
+from garkcli.families.family import Option, Options, Recipe
+from garkcli.families.stagelist import START, StageList, Weights, combined
+from garkcli.tableau.method import Method
+from garkcli.tableau.point_space import PointSpace
+from garkcli.tableau.pointwise import simple_nodes
+from garkcli.tableau.polynomial_space import PolynomialSpace, antiderivative
+
+_COLLOCATION: Mapping[str, Callable[[int], Method]] = {
+    "radau-iia": radau.radau_iia,
+    "lobatto": lobatto.lobatto_iiia,
+    "gauss": gauss.gauss,
+    "radau-ia": radau.radau_ia,
+}
+NODES = Option("nodes", (*_COLLOCATION, "equidistant"), default="radau-iia")
+SWEEPS = Option("sweeps", smallest=1)
+MAX_SLOPES = 400
+"""So many slopes are made to count the stages; with more of them there are too many."""
+SWEEP = Option("sweep", ("explicit", "implicit"), default="explicit")
+_Slopes: TypeAlias = list[int]
+"""For each node the stage that is its slope."""
+
+
+def corrections(points: int, options: Options) -> Recipe:
+    """So many sweeps over so many nodes.
+
+    Raises:
+        UnknownFamily: there are no such nodes, or none with simple radicals.
+    """
+    word = str(options["nodes"])
+    sweeps = int(str(options["sweeps"]))
+    is_implicit = options["sweep"] == "implicit"
+    nodes = _nodes(word, points)
+    name = f"SDC {word} {points}, {sweeps} {options['sweep']} sweeps"
+
+    def make(values: Vector) -> Method:
+        return _Corrections(values, is_implicit).method(name, sweeps)
+
+    slopes = max(points - 1, 1) * sweeps
+    if slopes > MAX_SLOPES:
+        return Recipe(slopes, make, nodes)
+    domain = Domain(nodes)
+    made = make(tuple(map(domain.evaluate, nodes)))
+    return Recipe(made.stages, make, nodes)
+
+
+def _nodes(word: str, points: int) -> tuple[Expression, ...]:
+    """The nodes in ascending order."""
+    if word in {"equidistant", "lobatto"} and points < 2:
+        cure = "it has 2 points or more"
+        raise UnknownFamily(f"no {word} nodes with 1 point", cure)
+    if word == "equidistant":
+        last = points - 1
+        return tuple(Literal(fmpq(k, last)) for k in range(points))
+    space = _COLLOCATION[word](points).space
+    assert isinstance(space, PolynomialSpace)
+    found = simple_nodes(space)
+    if found is None:
+        message = f"the {points} {word} nodes have no simple radicals"
+        raise UnknownFamily(message, "take fewer points, or equidistant ones")
+    return found
+
+
+class _Corrections:
+    """The stages of one method.
+
+    Args:
+        nodes: in ascending order.
+        is_implicit: whether the sweeps are of the implicit Euler method.
+    """
+
+    def __init__(self, nodes: Vector, is_implicit: bool) -> None:
+        self.nodes = nodes
+        self.is_implicit = is_implicit
+        self.stages = StageList()
+        self._integrals = _integrals(nodes)
+
+    def method(self, name: str, sweeps: int) -> Method:
+        """The method after so many sweeps."""
+        begin = self.stages.slope_at(START)
+        slopes = [begin] * len(self.nodes)
+        value = START
+        for _ in range(sweeps):
+            value, slopes = self._swept(slopes)
+        if self.nodes[-1] != ONE:
+            value = self._integral(len(self.nodes), slopes)
+        return self.stages.method(name, value)
+
+    def _swept(self, old: _Slopes) -> tuple[Weights, _Slopes]:
+        """The value at the last node after one more sweep, and the slopes at all."""
+        new: _Slopes = []
+        value: Weights = START
+        before: Number = ZERO
+        for m, node in enumerate(self.nodes):
+            width = node - before
+            increment = self._between(m, old)
+            if not width:  # the step begins at the first node
+                new.append(old[m])
+                continue
+            if self.is_implicit:
+                terms = [(1, value), (1, increment), (-width, {old[m]: ONE})]
+                value = combined(terms)
+                slope = self.stages.implicit_slope(value, width)
+                value = combined([(1, value), (1, {slope: width})])
+            else:
+                terms = [(1, value), (1, increment)]
+                if m:
+                    terms.append((width, {new[-1]: ONE}))
+                    terms.append((-width, {old[m - 1]: ONE}))
+                value = combined(terms)
+                slope = self.stages.slope_at(value)
+            new.append(slope)
+            before = node
+        return value, new
+
+    def _between(self, m: int, slopes: _Slopes) -> Weights:
+        """The integral from the node before to node m of the polynomial through the slopes."""
+        upper = self._integral(m, slopes)
+        lower = self._integral(m - 1, slopes) if m else START
+        return combined([(1, upper), (-1, lower)])
+
+    def _integral(self, m: int, slopes: _Slopes) -> Weights:
+        """From 0 to node m, or to 1 where m is the number of nodes."""
+        pairs = zip(self._integrals[m], slopes, strict=True)
+        return combined((weight, {slope: ONE}) for weight, slope in pairs)
+
+
+def _integrals(nodes: Sequence[Number]) -> tuple[Vector, ...]:
+    """∫ L_j from 0 to each node, and to 1: a row for each end."""
+    bases = PointSpace(tuple(nodes)).basis_polynomials()
+    polynomials = [antiderivative(basis) for basis in bases]
+    rows = []
+    for end in (*nodes, ONE):
+        powers = [end**k if k else ONE for k in range(len(nodes) + 1)]
+        rows.append(tuple(dot(f, powers) for f in polynomials))
+    return tuple(rows)

@@ -1,0 +1,141 @@
+"""Extrapolated Euler methods and the extrapolated midpoint rule, of any order.
+
+The basic method takes the step in n_1, n_2, … parts, and the polynomial in the powers of h that its
+error has is extrapolated to h = 0: W. Gragg, *On extrapolation algorithms for ordinary initial
+value problems*, SIAM J. Numer. Anal. 2 (1965); E. Hairer, S. P. Nørsett, G. Wanner, *Solving
+Ordinary Differential Equations I*, II.9. Parts that two of them share are computed once.
+"""
+
+from __future__ import annotations
+
+from collections.abc import Callable, Sequence
+from itertools import count, islice
+from typing import TypeAlias
+
+from flint import fmpq
+
+from garkcli.errors import UnknownFamily
+from garkcli.exact.matrix import solve
+from garkcli.families.family import Option, Options, Recipe
+from garkcli.families.stagelist import START, StageList, Weights, combined
+from garkcli.tableau.method import Method
+
+SEQUENCES = ("harmonic", "romberg", "bulirsch")
+"""How many parts the basic steps have: 1, 2, 3, 4, …; 1, 2, 4, 8, …; 1, 2, 3, 4, 6, 8, 12, …"""
+SEQUENCE = Option("sequence", SEQUENCES, default="harmonic")
+Steps: TypeAlias = Callable[[StageList, int], Weights]
+"""The result of the basic method after so many parts of the step."""
+
+
+def sequence(name: str, length: int) -> tuple[int, ...]:
+    """The first numbers of a sequence.
+
+    >>> sequence("bulirsch", 7)
+    (1, 2, 3, 4, 6, 8, 12)
+    """
+    if name == "harmonic":
+        return tuple(range(1, length + 1))
+    if name == "romberg":
+        return tuple(2**k for k in range(length))
+    pairs = ((2**k, 3 * 2 ** (k - 1)) for k in count(1))
+    both = (n for pair in pairs for n in pair)
+    return (1, *islice(both, length - 1))
+
+
+def extrapolation_weights(
+    parts: Sequence[int], powers: Sequence[int]
+) -> tuple[fmpq, ...]:
+    """The w_j with Σ w_j = 1 and Σ w_j n_j^(−k) = 0 for the given powers k.
+
+    Args:
+        parts: n_j, all different.
+        powers: the powers of h that are taken out of the error, one fewer than parts.
+
+    >>> extrapolation_weights([1, 2], [1])
+    (-1, 2)
+    """
+    rows = [tuple(fmpq(1, n**k) for n in parts) for k in (0, *powers)]
+    right = [(fmpq(1),), *((fmpq(0),) for _ in powers)]
+    found = solve(tuple(rows), tuple(right))
+    weights = [row[0] for row in found]
+    return tuple(w for w in weights if isinstance(w, fmpq))
+
+
+def _euler(stages: StageList, n: int) -> Weights:
+    h = fmpq(1, n)
+    value = START
+    for _ in range(n):
+        slope = stages.slope_at(value)
+        value = combined([(1, value), (1, {slope: h})])
+    return value
+
+
+def _implicit_euler(stages: StageList, n: int) -> Weights:
+    h = fmpq(1, n)
+    value = START
+    for _ in range(n):
+        slope = stages.implicit_slope(value, h)
+        value = combined([(1, value), (1, {slope: h})])
+    return value
+
+
+def _midpoint(stages: StageList, n: int) -> Weights:
+    """Gragg's rule: Euler, then y_{i+1} = y_{i−1} + 2h f(y_i); n is even."""
+    h = fmpq(1, n)
+    before, value = START, START
+    for i in range(n):
+        slope = stages.slope_at(value)
+        reach = h if i == 0 else 2 * h
+        before, value = value, combined([(1, before), (1, {slope: reach})])
+    return value
+
+
+def _extrapolated(
+    name: str, steps: Steps, parts: Sequence[int], powers: Sequence[int]
+) -> Method:
+    stages = StageList()
+    weights = extrapolation_weights(parts, powers)
+    results = [steps(stages, n) for n in parts]
+    total = combined(zip(weights, results, strict=True))
+    return stages.method(name, total)
+
+
+def _explicit(
+    name: str, steps: Steps, parts: Sequence[int], powers: Sequence[int]
+) -> Recipe:
+    """The recipe with an explicit basic method: all sequences of parts begin with one stage."""
+    stages = 1 + sum(parts) - len(parts)
+    return Recipe(stages, lambda _: _extrapolated(name, steps, parts, powers))
+
+
+def euler(order: int, options: Options) -> Recipe:
+    """The explicit Euler method, extrapolated to an order."""
+    parts = sequence(str(options["sequence"]), order)
+    name = f"extrapolated Euler {order}"
+    return _explicit(name, _euler, parts, range(1, order))
+
+
+def implicit_euler(order: int, options: Options) -> Recipe:
+    """The implicit Euler method, extrapolated to an order; diagonally implicit."""
+    parts = sequence(str(options["sequence"]), order)
+    name = f"extrapolated implicit Euler {order}"
+    powers = range(1, order)
+    return Recipe(
+        sum(parts),
+        lambda _: _extrapolated(name, _implicit_euler, parts, powers),
+    )
+
+
+def midpoint(order: int, options: Options) -> Recipe:
+    """Gragg's explicit midpoint rule without smoothing, extrapolated to an even order.
+
+    Raises:
+        UnknownFamily: the order is odd.
+    """
+    if order % 2:
+        message = f"extrapolated-midpoint with order {order} does not exist"
+        raise UnknownFamily(message, "it has even orders")
+    half = sequence(str(options["sequence"]), order // 2)
+    parts = [2 * n for n in half]
+    name = f"extrapolated midpoint {order}"
+    return _explicit(name, _midpoint, parts, range(2, order, 2))

@@ -1,0 +1,104 @@
+"""What a family of diagonal methods is: how its members are chosen and made."""
+
+from __future__ import annotations
+
+from collections.abc import Callable, Mapping
+from dataclasses import dataclass
+from typing import TypeAlias
+
+from garkcli.exact.matrix import Vector
+from garkcli.exact.nodes import Expression
+from garkcli.tableau.method import Method
+
+Given: TypeAlias = "str | int | Expression"
+"""What an option is set to: a word, a whole number or a coefficient."""
+Options: TypeAlias = Mapping[str, Given]
+
+
+@dataclass(frozen=True)
+class Option:
+    """What a member is chosen by besides its size.
+
+    Attributes:
+        name: its key in method files.
+        words: the words it may be; none for a number.
+        smallest: of a whole number the least it may be; None for a coefficient.
+        default: the word that is meant where it is left out; empty where it has to be given.
+    """
+
+    name: str
+    words: tuple[str, ...] = ()
+    smallest: int | None = None
+    default: str = ""
+
+    @property
+    def is_coefficient(self) -> bool:
+        """Whether it is a coefficient, exact like any other."""
+        return not self.words and self.smallest is None
+
+    @property
+    def example(self) -> str:
+        """What may stand behind its key."""
+        if self.words:
+            return self.words[0]
+        return "1/3" if self.smallest is None else str(self.smallest + 1)
+
+
+@dataclass(frozen=True)
+class Recipe:
+    """One member, not made yet.
+
+    Attributes:
+        stages: how many it has.
+        make: the method, from the values of ``numbers`` in one exact domain.
+        numbers: what it takes besides rational numbers: coefficients that are given, irrational
+            nodes.
+    """
+
+    stages: int
+    make: Callable[[Vector], Method]
+    numbers: tuple[Expression, ...] = ()
+
+
+@dataclass(frozen=True)
+class Family:
+    """A family of diagonal methods.
+
+    Attributes:
+        name: as in method files.
+        recipe: how the member of a size, with values for all options, is made.
+        smallest: the least size it has.
+        largest: the greatest one; equal to ``smallest`` for a single method.
+        order: its order in terms of the size, or s for stages, for people.
+        summary: one line.
+        size: the key in method files of what it is counted by.
+        options: what else a member is chosen by.
+    """
+
+    name: str
+    recipe: Callable[[int, Options], Recipe]
+    smallest: int
+    largest: int
+    order: str
+    summary: str
+    size: str = "stages"
+    options: tuple[Option, ...] = ()
+
+    @property
+    def is_single(self) -> bool:
+        """Whether it is one method, or one for given options."""
+        return self.smallest == self.largest
+
+    @property
+    def keys(self) -> tuple[str, ...]:
+        """The keys that choose a member, besides ``family``."""
+        return (self.size, *(option.name for option in self.options))
+
+
+def by_stages(make: Callable[[int], Method]) -> Callable[..., Recipe]:
+    """The recipe of a family whose members have a number of stages and no options."""
+
+    def recipe(stages: int, _: Options) -> Recipe:
+        return Recipe(stages, lambda _: make(stages))
+
+    return recipe

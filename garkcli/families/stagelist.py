@@ -1,0 +1,74 @@
+"""Runge–Kutta methods written down as they are computed: one stage value after the other.
+
+A value is a combination of the stages that there are, y_0 + h Σ w_i f(Y_i), as a mapping of stages
+to their weights. Equal values are one stage, and stages that the step does not use are left out.
+"""
+
+from __future__ import annotations
+
+from collections.abc import Iterable, Mapping
+from typing import TypeAlias
+
+from flint import fmpq
+
+from garkcli.exact.field import ZERO, Number
+from garkcli.exact.matrix import Vector
+from garkcli.tableau.method import Method, butcher
+
+Weights: TypeAlias = Mapping[int, Number]
+"""How much of each stage is in a value; zeros are left out."""
+START: Weights = {}
+"""The value at the beginning of the step."""
+
+
+def combined(terms: Iterable[tuple[Number | int, Weights]]) -> Weights:
+    """Σ factor · weights, without zeros."""
+    total: dict[int, Number] = {}
+    for factor, weights in terms:
+        times = fmpq(factor) if isinstance(factor, int) else factor
+        for stage, weight in weights.items():
+            total[stage] = total.get(stage, ZERO) + times * weight
+    return {stage: weight for stage, weight in total.items() if weight}
+
+
+class StageList:
+    """The stages of a method, written down in the order in which they are computed."""
+
+    def __init__(self) -> None:
+        self._rows: list[Weights] = []
+
+    def slope_at(self, value: Weights) -> int:
+        """The stage f(Y) at an explicit value Y; the one there is, where Y was there before."""
+        for i, row in enumerate(self._rows):
+            if row == value:
+                return i
+        self._rows.append(value)
+        return len(self._rows) - 1
+
+    def implicit_slope(self, value: Weights, diagonal: Number) -> int:
+        """The stage f(Y) at Y = value + h · diagonal · f(Y)."""
+        i = len(self._rows)
+        own = {i: diagonal}
+        self._rows.append(combined([(1, value), (1, own)]))
+        return i
+
+    def method(self, name: str, result: Weights) -> Method:
+        """The method whose step ends at the value ``result``; its nodes are the row sums."""
+        used = self._used(result)
+        A = tuple(_row(self._rows[i], used) for i in used)
+        return butcher(A, _row(result, used), name=name)
+
+    def _used(self, result: Weights) -> list[int]:
+        """The stages on which the result depends."""
+        used: set[int] = set()
+        pending = list(result)
+        while pending:
+            i = pending.pop()
+            if i not in used:
+                used.add(i)
+                pending += self._rows[i]
+        return sorted(used)
+
+
+def _row(weights: Weights, used: Iterable[int]) -> Vector:
+    return tuple(weights.get(i, ZERO) for i in used)
