@@ -4,9 +4,9 @@ from __future__ import annotations
 
 import click
 
+from garkcli.cli.method_argument import file_argument
 from garkcli.cli.options import (
     CONTEXT,
-    PATH,
     Output,
     common,
     settings_option,
@@ -14,7 +14,7 @@ from garkcli.cli.options import (
 
 
 @click.command("certificate", context_settings=CONTEXT)
-@click.argument("file", type=PATH, metavar="FILE")
+@file_argument()
 @settings_option
 @common(["json"])
 def command(file: str, settings: dict[str, str], output: Output) -> int:

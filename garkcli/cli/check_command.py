@@ -9,6 +9,7 @@ from typing import TYPE_CHECKING, Any
 
 import click
 
+from garkcli.cli.method_argument import files_argument
 from garkcli.cli.options import (
     CONTEXT,
     PATH,
@@ -26,7 +27,7 @@ if TYPE_CHECKING:
 
 
 @click.command("check", context_settings=CONTEXT)
-@click.argument("files", nargs=-1, type=PATH, metavar="FILE...")
+@files_argument(required=False)
 @click.option(
     "--max-order",
     type=click.IntRange(1, 400),

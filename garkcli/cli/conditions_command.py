@@ -9,9 +9,9 @@ from typing import TYPE_CHECKING, Any
 import click
 
 from garkcli.cli.companion import companion, companion_options
+from garkcli.cli.method_argument import file_argument
 from garkcli.cli.options import (
     CONTEXT,
-    PATH,
     Output,
     common,
     digits_option,
@@ -34,7 +34,7 @@ if TYPE_CHECKING:
 
 
 @click.command("conditions", context_settings=CONTEXT)
-@click.argument("file", required=False, type=PATH, metavar="[FILE]")
+@file_argument(required=False)
 @colours_option("How many colours, without FILE.")
 @click.option(
     "--order",

@@ -5,9 +5,9 @@ from __future__ import annotations
 import click
 
 from garkcli.cli.companion import companion
+from garkcli.cli.method_argument import file_argument
 from garkcli.cli.options import (
     CONTEXT,
-    PATH,
     Output,
     common,
     digits_option,
@@ -18,7 +18,7 @@ from garkcli.errors import HasFreeParameters, UsageProblem
 
 
 @click.command("conjugate", context_settings=CONTEXT)
-@click.argument("file", type=PATH, metavar="FILE")
+@file_argument()
 @click.option(
     "--pair",
     "is_pair",

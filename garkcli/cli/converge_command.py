@@ -15,9 +15,9 @@ from garkcli.cli.converging import (
     hint_rounding,
     tested,
 )
+from garkcli.cli.method_argument import files_argument
 from garkcli.cli.options import (
     CONTEXT,
-    PATH,
     Output,
     common,
     refuse_settings_of_several,
@@ -58,7 +58,7 @@ def _moved(_: click.Context, option: click.Parameter, value: object) -> None:
 
 
 @click.command("converge", context_settings=CONTEXT)
-@click.argument("files", nargs=-1, required=True, type=PATH, metavar="FILE...")
+@files_argument()
 @click.option(
     "--problem",
     type=ProblemType(),

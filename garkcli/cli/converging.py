@@ -218,10 +218,12 @@ def compared(
         MethodFileError: the problem file has faults.
         UsageProblem: the steps that are wanted do not fit the time.
     """
+    from garkcli.methodfile.naming import called
     from garkcli.page.progress import watching
 
     problems = Problems(wanted)
     methods = [_loaded(path, problems, output) for path in paths]
+    paths = [called(path) for path in paths]
     problems.prepare(
         [found[1] for found in methods if isinstance(found, tuple)]
     )

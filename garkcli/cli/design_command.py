@@ -10,9 +10,9 @@ from typing import TYPE_CHECKING, Any, NamedTuple
 import click
 
 from garkcli.cli.design_options import Wanted, design_options
+from garkcli.cli.method_argument import file_argument
 from garkcli.cli.options import (
     CONTEXT,
-    PATH,
     Output,
     choices_option,
     common,
@@ -33,7 +33,7 @@ if TYPE_CHECKING:
 
 
 @click.command("design", context_settings=CONTEXT)
-@click.argument("file", type=PATH, metavar="FILE")
+@file_argument()
 @design_options
 @settings_option
 @choices_option
@@ -163,6 +163,7 @@ def _told(
 ) -> int:
     """Find the values, write the report and the files, and return the exit code."""
     from garkcli.design.stable_values import stable_sets
+    from garkcli.methodfile.naming import called
 
     found = _found(family, wanted)
     order = wanted.order or family.order
@@ -174,7 +175,7 @@ def _told(
         from garkcli.cli.minimising import least
 
         minimum = least(found, wanted.objective, wanted.seconds)
-    report = Report(file, found, chosen, minimum, sets, wanted.digits)
+    report = Report(called(file), found, chosen, minimum, sets, wanted.digits)
     output.write(_rendered(report, output))
     if minimum is None and wanted.objective is not None and is_reached:
         return _exit_code(is_undecided=True, is_reached=True)

@@ -14,7 +14,8 @@ from garkcli.cli.long_runs import (
     put_to_work,
     symplecticity_of,
 )
-from garkcli.cli.options import CONTEXT, PATH, Output, common, settings_option
+from garkcli.cli.method_argument import file_argument
+from garkcli.cli.options import CONTEXT, Output, common, settings_option
 from garkcli.cli.plotting import plot_option, save_plot
 from garkcli.cli.problems import ProblemType, problem_options
 from garkcli.cli.stepping import given_positive
@@ -32,7 +33,7 @@ NOT_BOUNDED = frozenset({"drifts", "unstable", "undecided"})
 
 
 @click.command("energy", context_settings=CONTEXT)
-@click.argument("file", type=PATH, metavar="FILE")
+@file_argument()
 @click.option(
     "--problem",
     type=ProblemType(),

@@ -6,6 +6,7 @@ from typing import TYPE_CHECKING
 
 import click
 
+from garkcli.cli.method_argument import file_argument
 from garkcli.cli.options import (
     CONTEXT,
     PATH,
@@ -34,7 +35,7 @@ def _targets(
 
 
 @click.command("export", context_settings=CONTEXT)
-@click.argument("file", type=PATH, metavar="FILE")
+@file_argument()
 @click.option(
     "--to",
     "target",

@@ -7,9 +7,9 @@ from typing import TYPE_CHECKING
 import click
 
 from garkcli.cli.companion import companion, companion_options
+from garkcli.cli.method_argument import file_argument
 from garkcli.cli.options import (
     CONTEXT,
-    PATH,
     Output,
     check_document,
     common,
@@ -28,7 +28,7 @@ if TYPE_CHECKING:
 
 
 @click.command("modified", context_settings=CONTEXT)
-@click.argument("file", type=PATH, metavar="FILE")
+@file_argument()
 @click.option(
     "--order",
     "-n",
@@ -79,6 +79,7 @@ def command(
     from garkcli.backward.forest import possible_order
     from garkcli.backward.summary import backward_analysis
     from garkcli.methodfile.load import load
+    from garkcli.methodfile.naming import called
     from garkcli.report.modified import render
     from garkcli.report.modified_data import ModifiedReport
 
@@ -99,7 +100,13 @@ def command(
         order = possible_order(tableau, order)
     found = backward_analysis(tableau, order, method.tolerance)
     report = ModifiedReport(
-        file, method.name, found, which or "", digits, equation, formula
+        called(file),
+        method.name,
+        found,
+        which or "",
+        digits,
+        equation,
+        formula,
     )
     is_long = output.verbosity >= 0
     format, paint = output.format, output.paint

@@ -8,6 +8,7 @@ from typing import Any, TypeVar
 
 import click
 
+from garkcli.cli.method_argument import notes
 from garkcli.cli.streams import (
     is_terminal,
     put,
@@ -144,6 +145,8 @@ def common(formats: Sequence[str]) -> Callable[[F], F]:
         ) -> Any:
             verbosity = verbose - quiet
             chosen = Output(format, output, verbosity, color)
+            for note in notes():
+                chosen.note(note)
             return function(output=chosen, **rest)
 
         run.__doc__ = function.__doc__

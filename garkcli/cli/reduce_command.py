@@ -6,9 +6,9 @@ from typing import TYPE_CHECKING
 
 import click
 
+from garkcli.cli.method_argument import file_argument
 from garkcli.cli.options import (
     CONTEXT,
-    PATH,
     Output,
     common,
     settings_option,
@@ -21,7 +21,7 @@ if TYPE_CHECKING:
 
 
 @click.command("reduce", context_settings=CONTEXT)
-@click.argument("file", type=PATH, metavar="FILE")
+@file_argument()
 @settings_option
 @common(["yaml", "text", "json", "latex"])
 def command(file: str, settings: dict[str, str], output: Output) -> int:
@@ -32,8 +32,10 @@ def command(file: str, settings: dict[str, str], output: Output) -> int:
     says so. Claims are left behind: the orders stay, B, C and D may not.
     """
     from garkcli.methodfile.load import load
+    from garkcli.methodfile.naming import called
 
     method = load(file, settings)
+    file = called(file)
     smaller = smallest(file, method)
     if smaller is method.tableau:
         output.note(f"{file}: nothing to reduce")

@@ -8,6 +8,7 @@ from typing import TYPE_CHECKING
 
 import click
 
+from garkcli.cli.method_argument import files_argument
 from garkcli.cli.options import (
     CONTEXT,
     Output,
@@ -29,7 +30,7 @@ if TYPE_CHECKING:
 
 
 @click.command("stability", context_settings=CONTEXT)
-@click.argument("files", metavar="FILE...", nargs=-1, required=True)
+@files_argument()
 @click.option(
     "--slow",
     metavar="A",
@@ -97,11 +98,13 @@ def command(
             }
             return _for_every_value(error, settings, wants_numbers, output)
         if slow is None or fast is None:
-            reports.append(_whole_report(file, method, digits, ratios))
+            reports.append(
+                _whole_report(method.source, method, digits, ratios)
+            )
         else:
             reports.append(
                 _springs_report(
-                    file, method, digits, slow, fast, plot is not None
+                    method.source, method, digits, slow, fast, plot is not None
                 )
             )
     output.write(render(reports, output.format, output.paint))

@@ -7,6 +7,7 @@ from typing import TYPE_CHECKING
 
 import click
 
+from garkcli.cli.method_argument import catalogue_option
 from garkcli.cli.options import CONTEXT, PATH, Output, common
 
 if TYPE_CHECKING:
@@ -58,6 +59,7 @@ if TYPE_CHECKING:
     metavar="FILE",
     help="Draw the methods in the plane of the first two columns of pareto.",
 )
+@catalogue_option
 @common(["text", "json", "jsonl", "csv"])
 def command(
     spec: str,

@@ -4,9 +4,9 @@ from __future__ import annotations
 
 import click
 
+from garkcli.cli.method_argument import file_argument
 from garkcli.cli.options import (
     CONTEXT,
-    PATH,
     Output,
     common,
     digits_option,
@@ -17,7 +17,7 @@ from garkcli.errors import HasFreeParameters
 
 
 @click.command("tableau", context_settings=CONTEXT)
-@click.argument("file", type=PATH, metavar="FILE")
+@file_argument()
 @digits_option("Decimals of N digits; by default exact, or 17 digits.")
 @document_option
 @settings_option

@@ -9,6 +9,7 @@ from __future__ import annotations
 
 import os
 from collections.abc import Iterable, Iterator, Sequence
+from contextlib import suppress
 from itertools import chain
 
 from garkcli.errors import Fault, MethodFileError, nearest, printable
@@ -88,6 +89,17 @@ def can_be_name(argument: object) -> bool:
 
 def _without_prefix(argument: str) -> str:
     return argument.removeprefix(PREFIX)
+
+
+def called(argument: str) -> str:
+    """What reports call it: a method of the catalogue by its name, however it was typed, and a file
+    by its path.
+    """
+    with suppress(MethodFileError):  # whoever reads it says what is wrong
+        method = find_named(argument)
+        if method is not None:
+            return method.name
+    return argument
 
 
 def is_both(path: str) -> bool:
@@ -193,6 +205,42 @@ def hidden_by(method: Shelved) -> list[str]:
         x for x in (*own_folders(), package()) if x.label != method.shelf
     ]
     return [shelf.label for shelf in elsewhere if key in shelf.methods]
+
+
+def note_of(argument: str) -> list[str]:
+    """What a user should know of a name: that its method hides another one.
+
+    Raises:
+        MethodFileError: the name may mean several methods.
+    """
+    if not can_be_name(argument) or os.path.lexists(argument):
+        return []
+    method = look_up(_without_prefix(argument))
+    hidden = hidden_by(method) if method else []
+    if method is None or not hidden:
+        return []
+    places = " and ".join(hidden)
+    name = printable(method.name)
+    return [f"note: {name} is {method.place}, which hides that of {places}"]
+
+
+def names_beginning(start: str) -> list[str]:
+    """Names that begin so; where none does, aliases that are one word.
+
+    Raises:
+        MethodFileError: a package of others cannot be imported.
+    """
+    key = key_of(start)
+    shelves = every_shelf()
+    names = [method.name for _, method in visible(shelves)]
+    found = [name for name in names if key_of(name).startswith(key)]
+    if found:
+        return found
+    called = chain.from_iterable(
+        shelf.called(method) for shelf, method in visible(shelves)
+    )
+    aliases = [alias for alias in called if key_of(alias).startswith(key)]
+    return [alias for alias in aliases if len(alias.split()) == 1]
 
 
 def expanded(argument: str) -> list[str]:

@@ -204,7 +204,10 @@ class MethodsReader:
             name = self.source.scalar(item, "files")
             if name is None:
                 continue
-            text, source = read_argument(name, str(folder / name))
+            path = str(folder / name)
+            text, source = read_argument(name, path)
+            if source != path:
+                name = source  # of the catalogue, however it was typed
             reader, _ = described(text, source, NO_SETTINGS)
             has = {**reader.numbers.places, **reader.numbers.free}
             used = tuple(x for x in self.found.grids if x in has)

@@ -36,11 +36,11 @@ def test_commands_are_completed() -> None:
     "words",
     [
         *[
-            (name, "m")
+            (name, "./m")
             for name in ("check", "converge", "energy", "tableau", "conjugate")
         ],
-        ("conditions", "m"),
-        ("check", "a", "m"),
+        ("conditions", "./m"),
+        ("check", "a", "qqq"),
         ("check", "--baseline", "b"),
         ("tableau", "m", "-o", "r"),
         ("energy", "m", "--plot", "p"),

@@ -1,0 +1,161 @@
+"""The argument FILE: a method file or a name of the catalogue, ``--catalogue``, and completion."""
+
+from __future__ import annotations
+
+import os
+from collections.abc import Callable, Iterator, Sequence
+from contextlib import suppress
+from typing import Any, TypeVar
+
+import click
+from click.shell_completion import CompletionItem
+
+from garkcli.errors import GarkError, UsageProblem
+
+F = TypeVar("F", bound=Callable[..., Any])
+_NOTES = "garkcli.notes"
+"""Where a context keeps what is to be said once it is known how much the user wants to hear."""
+_VARIABLE = "GARK_PATH"
+
+
+class MethodType(click.Path):
+    """A path, a name or an alias; whoever reads it says what is wrong with it."""
+
+    name = "file"
+
+    def __init__(self) -> None:
+        super().__init__(readable=False)
+
+    def shell_complete(
+        self, ctx: click.Context, param: click.Parameter, incomplete: str
+    ) -> list[CompletionItem]:
+        """Names that begin so with files beside them; below folders the shell goes on alone."""
+        from garkcli.methodfile.naming import can_be_name
+
+        found = []
+        if incomplete and can_be_name(incomplete):
+            found = list(_names_beginning(incomplete))
+        if not found:
+            return [CompletionItem(incomplete, type="file")]
+        found += _entries_beginning(incomplete)
+        return [CompletionItem(name) for name in found]
+
+
+def _names_beginning(start: str) -> Iterator[str]:
+    """Names of the catalogue; where none begins so, aliases without blanks."""
+    from garkcli.methodfile.naming import names_beginning
+
+    with suppress(GarkError):  # a broken catalogue is told when it is used
+        yield from names_beginning(start)
+
+
+def _entries_beginning(start: str) -> list[str]:
+    """Files of this folder, and folders with a separator behind them."""
+    found = []
+    with suppress(OSError):
+        for name in sorted(os.listdir()):
+            if name.startswith(start) and name.isprintable():
+                is_folder = os.path.isdir(name)
+                found.append(name + os.sep if is_folder else name)
+    return found
+
+
+METHOD = MethodType()
+"""The type of arguments that are method files or names."""
+
+
+def _add_folders(
+    context: click.Context, _: click.Parameter, folders: Sequence[str]
+) -> None:
+    """Put folders before those of ``GARK_PATH``, for this run and the processes that it starts.
+
+    Raises:
+        UsageProblem: one of them is no folder.
+    """
+    if not folders or context.resilient_parsing:
+        return
+    for folder in folders:
+        if not os.path.isdir(folder):
+            message = f"--catalogue: {folder!r} is no folder"
+            raise UsageProblem(message, "name a folder with method files")
+        if os.pathsep in folder:
+            message = f"--catalogue: {folder!r} has {os.pathsep!r} in it, which is between folders"
+            raise UsageProblem(message, "rename it")
+    before = os.environ.get(_VARIABLE)
+    rest = [before] if before else []
+    os.environ[_VARIABLE] = os.pathsep.join([*folders, *rest])
+    context.call_on_close(lambda: _restore(before))
+
+
+def _restore(before: str | None) -> None:
+    if before is None:
+        os.environ.pop(_VARIABLE, None)
+    else:
+        os.environ[_VARIABLE] = before
+
+
+catalogue_option: Callable[[F], F] = click.option(
+    "--catalogue",
+    multiple=True,
+    metavar="DIR",
+    type=click.Path(readable=False, file_okay=False),
+    is_eager=True,
+    expose_value=False,
+    callback=_add_folders,
+    help="Method files below DIR have names too, as those of GARK_PATH; repeatable.",
+)
+"""``--catalogue``; it is in force while the command runs."""
+
+
+def _with_notes(context: click.Context, _: click.Parameter, value: Any) -> Any:
+    """Keep what has to be said of names, until it is known how much the user wants to hear."""
+    if os.environ.get(_VARIABLE) and not context.resilient_parsing:
+        from garkcli.methodfile.naming import note_of
+
+        given = value if isinstance(value, tuple) else (value,)
+        notes = context.meta.setdefault(_NOTES, [])
+        with suppress(GarkError):  # it is told where the method is read
+            notes += [note for path in given if path for note in note_of(path)]
+    return value
+
+
+def notes() -> list[str]:
+    """What was kept to be said, once."""
+    context = click.get_current_context(silent=True)
+    kept: list[str] = context.meta.pop(_NOTES, []) if context else []
+    return kept
+
+
+def file_argument(required: bool = True) -> Callable[[F], F]:
+    """FILE, with ``--catalogue``; it arrives as ``file``."""
+    metavar = "FILE" if required else "[FILE]"
+    return _argument("file", required=required, metavar=metavar)
+
+
+def files_argument(required: bool = True) -> Callable[[F], F]:
+    """Several of them; they arrive as ``files``."""
+    return _argument("files", required=required, metavar="FILE...", nargs=-1)
+
+
+def _argument(name: str, **settings: Any) -> Callable[[F], F]:
+    argument: Callable[[F], F] = click.argument(
+        name, type=METHOD, callback=_with_notes, **settings
+    )
+
+    def decorate(function: F) -> F:
+        decorated = argument(catalogue_option(function))
+        _after_own_options(decorated)
+        return decorated
+
+    return decorate
+
+
+def _after_own_options(function: Callable[..., Any]) -> None:
+    """Move ``--catalogue`` in the help to the end of the options that are the command's own."""
+    # the last of the help is the first of these, as decorators are applied from below
+    options: list[click.Parameter] = function.__click_params__  # type: ignore[attr-defined]
+    names = [option.name for option in options]
+    catalogue = options.pop(names.index("catalogue"))
+    first_shared = "format" if "format" in names else "output"
+    place = names.index(first_shared) + 1 if first_shared in names else 0
+    options.insert(place, catalogue)
