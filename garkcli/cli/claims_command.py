@@ -6,7 +6,8 @@ from typing import TYPE_CHECKING
 
 import click
 
-from garkcli.cli.options import CONTEXT, PATH, Output, common
+from garkcli.cli.method_argument import files_argument
+from garkcli.cli.options import CONTEXT, Output, common
 from garkcli.errors import MethodFileError, UsageProblem, did_you_mean
 
 if TYPE_CHECKING:
@@ -16,7 +17,7 @@ if TYPE_CHECKING:
 
 
 @click.command("claims", context_settings=CONTEXT)
-@click.argument("files", nargs=-1, type=PATH, metavar="FILE...", required=True)
+@files_argument()
 @click.option(
     "--write",
     "is_written",
@@ -60,10 +61,10 @@ def command(
     _refuse_unknown(keys)
     if is_written and "-" in files:
         raise UsageProblem("--write needs a file", "name one in place of -")
-    told = [
-        _claims(check_file(path), wants_all, keys)
-        for path in find_files(files)
-    ]
+    paths = list(find_files(files))
+    if is_written:
+        _refuse_names(paths)
+    told = [_claims(check_file(path), wants_all, keys) for path in paths]
     if is_written:
         for claims in told:
             _write(claims)
@@ -71,6 +72,18 @@ def command(
     render = report.render_json if as_json else report.render_text
     output.write(render(told, is_written))
     return 0
+
+
+def _refuse_names(paths: list[str]) -> None:
+    """A method of the catalogue has no file that is the user's to write."""
+    from garkcli.methodfile.naming import find_named
+
+    for path in paths:
+        if find_named(path) is not None:
+            message = (
+                f"--write needs a file, and {path} is a name of the catalogue"
+            )
+            raise UsageProblem(message, "give the path of the file")
 
 
 def _refuse_unknown(keys: tuple[str, ...]) -> None:

@@ -66,6 +66,17 @@ def test_a_sweep_takes_names(tmp_path: Path) -> None:
     assert "there is a file of this name here" in run.err
 
 
+def test_claims_takes_a_name_but_writes_into_files_alone(
+    tmp_path: Path,
+) -> None:
+    """A method of the catalogue is not the user's to change, nor is a file made of its name."""
+    assert "order: 4" in gark("claims", "RK4").out
+    run = gark("claims", "RK4", "--write", cwd=tmp_path)
+    assert run.code == 2
+    assert "--write needs a file, and RK4 is a name" in run.err
+    assert list(tmp_path.iterdir()) == []
+
+
 def test_every_argument_that_is_a_file_is_of_this_type() -> None:
     """No command reads a method in a way of its own, which would know no names."""
     found = {}
