@@ -28,7 +28,9 @@ if TYPE_CHECKING:
     from garkcli.backward import summary as _summary
     from garkcli.check.check_file import check_file
     from garkcli.check.proof import prove_method
+    from garkcli.comparison.comparison import compare
     from garkcli.convergence import convergence as _convergence
+    from garkcli.conversion.convert import convert
     from garkcli.design.design import find_parameters
     from garkcli.design.minimise.minimise import minimise
     from garkcli.design.search.run import search_methods
@@ -68,9 +70,11 @@ _HOMES = {
     "backward_analysis": "backward.summary",
     "bind": "stepping.integrator",
     "check_file": "check.check_file",
+    "compare": "comparison.comparison",
     "conditions": "order.conditions",
     "conjugate": "api.methods",
     "converge": "convergence.convergence",
+    "convert": "conversion.convert",
     "diagonal_method": "api.construction",
     "elementary_weight": "order.conditions",
     "find_order": "api.methods",
@@ -141,9 +145,11 @@ __all__ = [
     "backward_analysis",
     "bind",
     "check_file",
+    "compare",
     "conditions",
     "conjugate",
     "converge",
+    "convert",
     "diagonal_method",
     "elementary_weight",
     "find_order",

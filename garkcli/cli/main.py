@@ -40,6 +40,8 @@ COMMANDS = {
     "tableau": "the assembled tableau, all blocks",
     "conjugate": "the symplectic conjugate tableau, or the pair",
     "reduce": "the smallest method that does the same, as a method file",
+    "convert": "the same method in another form, as a method file",
+    "diff": "how two methods differ, and whether they are the same one",
     "stability": "A-, L-, P-stability, intervals, SSP coefficient, exactly",
     "modified": "the modified equation or Hamiltonian, effective order",
     "converge": "the convergence test on a problem",

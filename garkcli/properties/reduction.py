@@ -66,7 +66,7 @@ def _at_points(tableau: Tableau) -> Tableau | None:
 def _once(tableau: Tableau) -> Tableau:
     kept = _that_matter(tableau)
     smaller = _without(tableau, kept)
-    return _merged(smaller)
+    return merged(smaller)
 
 
 def _sizes(tableau: Tableau) -> list[int]:
@@ -225,8 +225,12 @@ def _chosen(row: Vector, stages: Sequence[int]) -> Vector:
     return tuple(row[i] for i in stages)
 
 
-def _merged(tableau: Tableau) -> Tableau:
-    """The tableau with one stage for each class of equal ones; their weights are added."""
+def merged(tableau: Tableau) -> Tableau:
+    """The tableau with one stage for each class of equal ones; their weights are added.
+
+    Args:
+        tableau: over point spaces.
+    """
     classes = _equal_stages(tableau)
     firsts = [_firsts(found) for found in classes]
     spaces = []

@@ -20,6 +20,8 @@ REPORTS = {
     "tableau": _TABLEAU,
     "conjugate": _TABLEAU,
     "reduce": _TABLEAU,
+    "convert": _TABLEAU,
+    "diff": "garkcli.report.diff_json:diff_report_schema",
     "stability": "garkcli.report.stability_json:stability_report_schema",
     "stability-every": "garkcli.report.every_stability:every_stability_schema",
     "design": "garkcli.report.design_data:design_report_schema",

@@ -80,6 +80,7 @@ def test_reports_with_a_schema_are_completed() -> None:
     assert found == [
         ("plain", "conditions"),
         ("plain", "conjugate"),
+        ("plain", "convert"),
         ("plain", "converge"),
     ]
     assert [x for _, x in completions("schema", "--report", "")] == list(

@@ -27,7 +27,12 @@ REPORTS = {
         ["conditions", METHOD, "--order", "2"],
         ["conditions", METHOD, "--order", "2", "--symplectic", "--members"],
     ],
-    "tableau, gark conjugate, gark reduce": [
+    "diff": [
+        ["diff", METHOD, MISPRINTED],
+        ["diff", METHOD, "methods/interpolation.gark.yaml"],
+        ["diff", METHOD, METHOD],
+    ],
+    "tableau, gark conjugate, gark convert, gark reduce": [
         ["tableau", METHOD],
         ["conjugate", METHOD],
     ],

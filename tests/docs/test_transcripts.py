@@ -27,6 +27,7 @@ PAGES = [
     ROOT / "docs" / "sweep.md",
     ROOT / "docs" / "search.md",
     ROOT / "docs" / "found.md",
+    ROOT / "docs" / "conversion.md",
 ]
 
 

@@ -1,0 +1,236 @@
+"""Two methods held against each other, as one value: what ``gark diff`` reports."""
+
+from __future__ import annotations
+
+from dataclasses import dataclass
+from typing import Literal, TypeAlias
+
+from flint import fmpq
+
+from garkcli.check.analysis import Analysis, AnyOrder
+from garkcli.check.deciding import analyse
+from garkcli.comparison.differences import BlockGap, block_gaps
+from garkcli.comparison.grid import Grid
+from garkcli.comparison.likeness import Likeness
+from garkcli.comparison.met import Met, Side, conditions_met
+from garkcli.comparison.sameness import (
+    Answer,
+    Sameness,
+    find_sameness,
+    views_of,
+)
+from garkcli.exact.field import ZERO
+from garkcli.order.certificate import DEFAULT_LIMIT
+from garkcli.properties.keys import KEYS
+from garkcli.properties.property import Verdict
+from garkcli.tableau.garkmethod import GarkMethod
+from garkcli.tableau.tableau import Tableau
+
+Relation: TypeAlias = Literal[
+    "identical", "same", "within-rounding", "different", "undecided"
+]
+"""Entry by entry; as a method; up to the rounding that the files admit; not; not known."""
+
+
+WITH_TIME = "order with time"
+"""What the order on problems ẏ = f(t, y) is called, with the nodes as they are given."""
+
+
+@dataclass(frozen=True)
+class OrderPair:
+    """An order of both methods; None where a method has none of the kind."""
+
+    name: str
+    one: AnyOrder | None
+    other: AnyOrder | None
+
+    @property
+    def exists(self) -> bool:
+        """Whether one of the methods has it."""
+        return self.one is not None or self.other is not None
+
+    @property
+    def is_different(self) -> bool:
+        """Whether they are known not to be the same number."""
+        one, other = self.one, self.other
+        if one is None or other is None:
+            return one is not other
+        if one.order < other.order:
+            return not one.is_lower_bound
+        return one.order > other.order and not other.is_lower_bound
+
+
+@dataclass(frozen=True)
+class PropertyPair:
+    """A property that is not the same of both methods."""
+
+    key: str
+    one: Verdict
+    other: Verdict
+
+
+@dataclass(frozen=True, repr=False)
+class Comparison:
+    """What is the same of two methods, and what is not.
+
+    Attributes:
+        one, other: the methods.
+        forms: what kind of tableau each is.
+        gaps: where entries differ as they stand; empty where the numbers of colours differ.
+        sameness: in what sense they are the same method; None where they are not.
+        obstacle: why that is not known; empty where it is.
+        allowed: how far the rounding that the files admit may move equal entries apart.
+        orders: their orders, of the method, its embedded weights, its conjugate and its pair.
+        met: the conditions that one meets and the other does not; None where the methods are the
+            same, or have different numbers of colours.
+        properties: those that differ.
+    """
+
+    one: GarkMethod
+    other: GarkMethod
+    forms: tuple[str, str]
+    gaps: tuple[BlockGap, ...]
+    sameness: Sameness | None
+    obstacle: str
+    allowed: fmpq
+    orders: tuple[OrderPair, ...]
+    met: Met | None
+    properties: tuple[PropertyPair, ...]
+
+    @property
+    def relation(self) -> Relation:
+        """Whether they are the same method, in one word."""
+        same = self.sameness
+        if same is None:
+            return "undecided" if self.obstacle else "different"
+        if same.step_only:
+            return "different"
+        if same.allowed:
+            return "within-rounding"
+        has_one_form = self.forms[0] == self.forms[1]
+        if same.is_plain and has_one_form and not self.gaps:
+            return "identical"
+        return "same"
+
+    @property
+    def has_same_step(self) -> bool:
+        """Whether the steps are the same, whatever the further weights are."""
+        return self.sameness is not None
+
+    def __repr__(self) -> str:
+        return f"<Comparison {self.relation}>"
+
+
+def compare(
+    one: GarkMethod, other: GarkMethod, limit: int = DEFAULT_LIMIT
+) -> Comparison:
+    """Hold two methods against each other.
+
+    Methods are the same where a renumbering of stages or colours turns one into the other, once
+    colours that share stages have copies of their own, and stages without influence and equal
+    stages are left out.
+
+    Args:
+        one: a loaded method, or one from arrays.
+        other: another.
+        limit: where the search for orders stops.
+
+    >>> from garkcli.methodfile.load import loads
+    >>> heun = loads("{A: [[0, 0], [1, 0]], b: [1/2, 1/2]}")
+    >>> turned = loads("{A: [[0, 1], [0, 0]], b: [0.5, 0.5]}")
+    >>> found = compare(heun, turned)
+    >>> found, found.sameness.stages
+    (<Comparison same>, ((1, 0),))
+    """
+    allowed = (one.tolerance or ZERO) + (other.tolerance or ZERO)
+    views = views_of(one, other)
+    gaps: tuple[BlockGap, ...] = ()
+    if views.one.size == views.other.size:
+        gaps = tuple(block_gaps(views.one, views.other, Likeness(allowed)))
+    answer = find_sameness(one, other, views, allowed)
+    if answer.sameness is not None and answer.sameness.is_plain:
+        gaps = _decided(gaps, answer)
+    first = analyse(one.tableau, limit, one.tolerance)
+    second = analyse(other.tableau, limit, other.tolerance)
+    return Comparison(
+        one=one,
+        other=other,
+        forms=(form_of(one.tableau), form_of(other.tableau)),
+        gaps=gaps,
+        sameness=answer.sameness,
+        obstacle=answer.obstacle,
+        allowed=allowed,
+        orders=_orders(first, second),
+        met=_met(first, second, answer, views.one, views.other),
+        properties=_properties(first, second),
+    )
+
+
+def _decided(
+    gaps: tuple[BlockGap, ...], answer: Answer
+) -> tuple[BlockGap, ...]:
+    """The gaps without those that enclosures left open, where the methods are known to agree."""
+    same = answer.sameness
+    if same is None or same.step_only:
+        return gaps
+    return tuple(x for x in gaps if not all(y.is_open for y in x.gaps))
+
+
+def form_of(tableau: Tableau) -> str:
+    """What kind of tableau it is: rk, ark, gark, prk, or pair for other partitioned ones."""
+    parts = [colour.part for colour in tableau.colours]
+    if parts == ["q", "p"]:
+        return "prk"
+    if tableau.is_partitioned:
+        return "pair"
+    if tableau.size == 1:
+        return "rk"
+    return "ark" if len(tableau.spaces) == 1 else "gark"
+
+
+def _orders(one: Analysis, other: Analysis) -> tuple[OrderPair, ...]:
+    return (
+        OrderPair("order", one.order, other.order),
+        OrderPair(
+            WITH_TIME,
+            one.nonautonomous_order,
+            other.nonautonomous_order,
+        ),
+        OrderPair(
+            "order of the conjugate",
+            one.conjugate_order,
+            other.conjugate_order,
+        ),
+        OrderPair("order of the pair", one.pair_order, other.pair_order),
+    )
+
+
+def _met(
+    one: Analysis, other: Analysis, answer: Answer, first: Grid, second: Grid
+) -> Met | None:
+    """The conditions up to the first order at which both fail."""
+    if answer.sameness is not None or first.size != second.size:
+        return None
+    upto = max(one.order.order, other.order.order) + 1
+    return conditions_met(_side(one), _side(other), upto)
+
+
+def _side(found: Analysis) -> Side:
+    return Side(found.tableau, found.tolerance or ZERO)
+
+
+def _properties(one: Analysis, other: Analysis) -> tuple[PropertyPair, ...]:
+    found = []
+    for key in KEYS:
+        first, second = one.subject.verdict(key), other.subject.verdict(key)
+        if _text(first) != _text(second):
+            found.append(PropertyPair(key, first, second))
+    if one.symplectic != other.symplectic:
+        verdicts = Verdict(one.symplectic), Verdict(other.symplectic)
+        found.append(PropertyPair("symplectic", *verdicts))
+    return tuple(found)
+
+
+def _text(verdict: Verdict) -> tuple[str, bool, bool]:
+    """What tells two verdicts apart; the reasons may differ."""
+    return str(verdict.value), verdict.is_undecided, verdict.is_at_least

@@ -1,0 +1,116 @@
+"""Order conditions that one method meets and the other does not."""
+
+from __future__ import annotations
+
+from collections.abc import Iterator, Sequence
+from dataclasses import dataclass
+
+from flint import fmpq
+
+from garkcli.exact.field import ZERO
+from garkcli.order.conditions import (
+    Condition,
+    conditions,
+    coupling_graph,
+    twin_roots,
+)
+from garkcli.tableau.tableau import Tableau
+from garkcli.trees.count import count_by_root
+from garkcli.trees.tree import Tree
+
+MAX_CONDITIONS = 2000
+"""More conditions are not compared, of all orders together."""
+
+
+@dataclass(frozen=True)
+class Met:
+    """Conditions of some orders that two methods do not meet alike.
+
+    Attributes:
+        order: all conditions up to this order were compared.
+        pairs: for each tree with one verdict for each method the two conditions.
+    """
+
+    order: int
+    pairs: tuple[tuple[Condition, Condition], ...]
+
+    @property
+    def first_only(self) -> tuple[tuple[Condition, Condition], ...]:
+        """What the first method meets and the second does not."""
+        return tuple(x for x in self.pairs if x[0].holds)
+
+    @property
+    def second_only(self) -> tuple[tuple[Condition, Condition], ...]:
+        """What the second method meets and the first does not."""
+        return tuple(x for x in self.pairs if x[1].holds)
+
+
+@dataclass(frozen=True)
+class Side:
+    """A method whose conditions are compared: its tableau and its tolerance."""
+
+    tableau: Tableau
+    tolerance: fmpq = ZERO
+
+
+def conditions_met(one: Side, other: Side, upto: int) -> Met:
+    """The conditions that one method meets and the other does not.
+
+    Args:
+        one: a method.
+        other: another with the same number of colours.
+        upto: the highest order of interest; fewer are compared where there are more than
+            ``MAX_CONDITIONS`` conditions.
+    """
+    graph = _common_graph(one.tableau, other.tableau)
+    roots = _common_roots(one.tableau, other.tableau)
+    pairs: list[tuple[Condition, Condition]] = []
+    reached, total = 0, 0
+    for order in range(1, upto + 1):
+        by_root = count_by_root(one.tableau.size, order, *graph)
+        total += sum(by_root[root] for root in roots)
+        if total > MAX_CONDITIONS:
+            break
+        trees = list(_trees(one.tableau.size, order, graph, roots))
+        found = zip(_of(one, trees), _of(other, trees), strict=True)
+        pairs += [(x, y) for x, y in found if x.holds != y.holds]
+        reached = order
+    return Met(reached, tuple(pairs))
+
+
+def _of(side: Side, trees: Sequence[Tree]) -> Iterator[Condition]:
+    return conditions(side.tableau, trees, side.tolerance)
+
+
+_Graph = tuple[tuple[tuple[bool, ...], ...], frozenset[int]]
+
+
+def _common_graph(one: Tableau, other: Tableau) -> _Graph:
+    """Which trees both methods admit."""
+    edges, linear = coupling_graph(one)
+    others, linear_too = coupling_graph(other)
+    both = []
+    for row, second in zip(edges, others, strict=True):
+        both.append(tuple(x and y for x, y in zip(row, second, strict=True)))
+    return tuple(both), linear | linear_too
+
+
+def _common_roots(one: Tableau, other: Tableau) -> list[int]:
+    """Root colours, one of each group whose conditions are the same in both methods."""
+    twins = twin_roots(one)
+    if twins == twin_roots(other):
+        return list(twins)
+    return list(range(one.size))
+
+
+def _trees(
+    colours: int, order: int, graph: _Graph, roots: Sequence[int]
+) -> Iterator[Tree]:
+    from garkcli.trees.blocks import iter_blocks  # numpy is paid for here
+
+    edges, linear = graph
+    blocks = iter_blocks(
+        colours, order, edges=edges, linear=linear, roots=roots
+    )
+    for block in blocks:
+        yield from block.trees()

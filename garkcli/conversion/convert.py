@@ -1,0 +1,120 @@
+"""A method in another form, as a method file that keeps what is still true."""
+
+from __future__ import annotations
+
+from dataclasses import dataclass, replace
+
+from garkcli.check.claims import verify
+from garkcli.check.deciding import analyse
+from garkcli.conversion.padding import padded
+from garkcli.conversion.registry import TARGETS, target
+from garkcli.conversion.sheet import CannotConvert, Sheet
+from garkcli.conversion.target import Target
+from garkcli.errors import UsageProblem, did_you_mean
+from garkcli.methodfile.build import MethodFile
+from garkcli.methodfile.carried import claim_lines, lines_of
+from garkcli.methodfile.expectations import highest_order
+from garkcli.methodfile.load import loads
+from garkcli.methodfile.writer import can_spell_out, write_method
+from garkcli.order.certificate import DEFAULT_LIMIT
+from garkcli.tableau.embedded import Further
+from garkcli.tableau.garkmethod import GarkMethod
+
+KEPT = ("description", "reference")
+"""What a file says of its method whatever form it has."""
+UNNAMED = "a method"
+
+
+@dataclass(frozen=True)
+class Converted:
+    """A method in another form.
+
+    Attributes:
+        method: it, read from the text that was written.
+        left_out: the claims of the file that do not hold of it, or mean nothing for it.
+        loses_further: whether embedded weights or dense output are left behind.
+    """
+
+    method: MethodFile
+    left_out: tuple[str, ...] = ()
+    loses_further: bool = False
+
+
+def convert(
+    method: GarkMethod, to: str = "spelled-out", stages: int | None = None
+) -> Converted:
+    """The same method in another form.
+
+    Args:
+        method: a loaded method, or one from arrays.
+        to: one of ``TARGETS``.
+        stages: how many stages each colour gets at least, by stages in front that do nothing.
+
+    Raises:
+        UsageProblem: there is no such form.
+        CannotConvert: the method has none; the message says why.
+        ZeroWeight: a pair would divide by zero.
+
+    >>> heun = loads("{A: [[0, 0], [1, 0]], b: [1/2, 1/2]}")
+    >>> convert(heun, stages=3).method.A
+    ((0, 0, 0), (0, 0, 0), (0, 1, 0))
+    """
+    if to not in TARGETS:
+        raise UsageProblem(f"no form {to!r}", did_you_mean(to, TARGETS))
+    goal = target(to)
+    sheet = goal.convert(method)
+    if stages is not None:
+        sheet = padded(sheet, stages)
+    if not can_spell_out(sheet.tableau):
+        raise CannotConvert(
+            "a method file spells out a GARK method or one pair (q, p), not"
+            " this partitioned method",
+            "--to gark has all of its colours",
+        )
+    text = _with_head(_written(method, goal, sheet), method)
+    had_further = method.embedded is not None or method.dense is not None
+    loses_further = had_further and not sheet.further
+    if not isinstance(method, MethodFile):
+        return Converted(loads(text), (), loses_further)
+    return replace(_claimed(text, method, goal), loses_further=loses_further)
+
+
+def _written(method: GarkMethod, goal: Target, sheet: Sheet) -> str:
+    """The file without claims and reference."""
+    source = method.source if isinstance(method, MethodFile) else ""
+    name = UNNAMED if method.name in ("", source) else method.name
+    if goal.makes_another:
+        name = f"{goal.name} of {name}"
+    further = Further(sheet.embedded, sheet.dense)
+    return write_method(sheet.tableau, name, method.tolerance, further)
+
+
+def _with_head(text: str, method: GarkMethod) -> str:
+    """The file with what the one before says of its method."""
+    if not isinstance(method, MethodFile):
+        return text
+    version, name, *others = text.splitlines(keepends=True)
+    return "".join([version, name, lines_of(method, KEPT), *others])
+
+
+def _claimed(text: str, method: MethodFile, goal: Target) -> Converted:
+    """The file with the claims that hold of it; a claim may be on a companion before and on the
+    method itself now.
+    """
+    names = {claim.key: claim.key for claim in method.claims}
+    if goal.claims:
+        names = {old: goal.claims[old] for old in names if old in goal.claims}
+    failing = _failing(loads(text + claim_lines(method, names)))
+    held = {old: new for old, new in names.items() if new not in failing}
+    lost = [claim.key for claim in method.claims if claim.key not in held]
+    return Converted(loads(text + claim_lines(method, held)), tuple(lost))
+
+
+def _failing(method: MethodFile) -> set[str]:
+    """The claims of a file that do not hold."""
+    if not method.claims:
+        return set()
+    reach = max(DEFAULT_LIMIT, highest_order(method.claims) + 1)
+    analysis = analyse(method.tableau, reach, method.tolerance)
+    claims = verify(method.claims, analysis)
+    return {claim.claim for claim in claims if not claim.holds}

@@ -1,0 +1,123 @@
+"""Stages told apart by their entries, whatever their numbers are.
+
+Every stage gets a class: first by its node and its weights, then again and again by the classes of
+the stages that it sees and that see it, with which entries, until no class divides any more (the
+refinement of colours of graphs by B. Weisfeiler and A. Lehman). Stages that a renumbering of a
+method turns into each other are in one class; classes have an order that no numbering changes.
+"""
+
+from __future__ import annotations
+
+from collections.abc import Iterable, Mapping, Sequence
+from functools import cmp_to_key
+from typing import Any, TypeAlias
+
+from garkcli.conversion.sheet import Sheet
+from garkcli.exact.field import Number
+from garkcli.exact.signs import sign
+from garkcli.tableau.tableau import Tableau
+
+Stage: TypeAlias = tuple[int, int]
+"""A stage: its space, and its number there."""
+Classes: TypeAlias = dict[Stage, int]
+_Signature: TypeAlias = tuple[Any, ...]
+"""What tells stages apart; those of one round can be sorted."""
+_Ranks: TypeAlias = Mapping[Number, int]
+
+
+def stage_classes(sheets: Sequence[Sheet]) -> list[Classes]:
+    """The classes of the stages of methods whose numbers are from one field.
+
+    Equal numbers in two of the results mean that nothing tells the stages apart.
+
+    >>> from garkcli.conversion.sheet import sheet_of
+    >>> from garkcli.methodfile.load import loads
+    >>> one = sheet_of(loads("{A: [[0, 0], [1, 0]], b: [1/2, 1/2]}"))
+    >>> other = sheet_of(loads("{A: [[0, 1], [0, 0]], b: [1/2, 1/2]}"))
+    >>> stage_classes([one, other])
+    [{(0, 0): 0, (0, 1): 1}, {(0, 0): 1, (0, 1): 0}]
+    """
+    ranks = _ranks(sheets)
+    classes = _numbered([_first(sheet, ranks) for sheet in sheets])
+    while True:
+        before = _count(classes)
+        sights = []
+        for sheet, known in zip(sheets, classes, strict=True):
+            sights.append(_sights(sheet.tableau, known, ranks))
+        finer = _numbered(sights)
+        if _count(finer) == before:
+            return classes
+        classes = finer
+
+
+def _count(classes: Iterable[Classes]) -> int:
+    return len({number for found in classes for number in found.values()})
+
+
+def _numbered(
+    found: Sequence[Mapping[Stage, _Signature]],
+) -> list[Classes]:
+    """The places of signatures among all signatures in ascending order."""
+    different = {x for signatures in found for x in signatures.values()}
+    ordered = sorted(different)
+    place = {signature: k for k, signature in enumerate(ordered)}
+    return [
+        {stage: place[signature] for stage, signature in signatures.items()}
+        for signatures in found
+    ]
+
+
+def _ranks(sheets: Iterable[Sheet]) -> _Ranks:
+    """The place of each number among all numbers in ascending order."""
+    different: set[Number] = set()
+    for sheet in sheets:
+        for block in sheet.tableau.blocks.values():
+            different.update(x for row in block for x in row)
+        for colour in sheet.tableau.colours:
+            different.update(colour.b)
+            different.update(colour.c)
+        for rows in sheet.further:
+            different.update(x for row in rows for x in row)
+    ordered = sorted(different, key=cmp_to_key(_compared))
+    return {number: k for k, number in enumerate(ordered)}
+
+
+def _compared(x: Number, y: Number) -> int:
+    return sign(x - y)
+
+
+def _first(sheet: Sheet, ranks: _Ranks) -> dict[Stage, _Signature]:
+    """What a stage has by itself: its space, its nodes and its weights of every colour."""
+    found: dict[Stage, _Signature] = {}
+    for k, space in enumerate(sheet.tableau.spaces):
+        numbered = enumerate(sheet.tableau.colours)
+        rows = []
+        for l, colour in numbered:
+            if colour.space == k:
+                further = [weights[l] for weights in sheet.further]
+                rows += [colour.c, colour.b, *further]
+        for i in range(space.stages):
+            own = [ranks[row[i]] for row in rows]
+            found[k, i] = (k, *own)
+    return found
+
+
+def _sights(
+    tableau: Tableau, classes: Classes, ranks: _Ranks
+) -> dict[Stage, _Signature]:
+    """The class of a stage with what it sees, and with what sees it, both in ascending order."""
+    seen: dict[Stage, list[tuple[int, int, int]]] = {x: [] for x in classes}
+    seeing: dict[Stage, list[tuple[int, int, int]]] = {x: [] for x in classes}
+    for (k, m), block in tableau.blocks.items():
+        other = tableau.colours[m].space
+        for i, row in enumerate(block):
+            for j, entry in enumerate(row):
+                rank = ranks[entry]
+                seen[k, i].append((m, rank, classes[other, j]))
+                seeing[other, j].append((m, rank, classes[k, i]))
+    found: dict[Stage, _Signature] = {}
+    for stage, number in classes.items():
+        sees = tuple(sorted(seen[stage]))
+        is_seen = tuple(sorted(seeing[stage]))
+        found[stage] = (number, sees, is_seen)
+    return found

@@ -1,0 +1,1 @@
+"""One file a form that methods can be brought into."""

@@ -1,0 +1,355 @@
+"""Two methods held against each other: the same in every sense that is claimed, or different with
+proof.
+"""
+
+from __future__ import annotations
+
+import json
+from dataclasses import replace
+from pathlib import Path
+from typing import Any
+
+import jsonschema
+import pytest
+from flint import arb, fmpq
+from hypothesis import assume, given, settings
+from hypothesis import strategies as st
+
+from garkcli.comparison.comparison import compare
+from garkcli.comparison.grid import grid_of
+from garkcli.comparison.likeness import Likeness
+from garkcli.comparison.matching import find_matching
+from garkcli.comparison.met import MAX_CONDITIONS, Side, conditions_met
+from garkcli.conversion.convert import convert
+from garkcli.conversion.sheet import Sheet, each_its_own, sheet_of
+from garkcli.errors import LimitExceeded
+from garkcli.methodfile.load import load, loads
+from garkcli.methodfile.writer import write_tableau_file
+from garkcli.order.conditions import elementary_weight
+from garkcli.report import diff_markdown
+from garkcli.report.schemas import report_schema
+from garkcli.tableau.garkmethod import GarkMethod
+from tests.cli.harness import ROOT, gark
+from tests.conversion.renumbered import orders_of, renumbered
+from tests.conversion.test_conversion import PAIR, of_sheet, with_stage_twice
+from tests.methodfile.test_further import further_of
+from tests.methodfile.test_writer import tableaus
+
+RK4 = loads((ROOT / "methods/rk4.gark.yaml").read_text(encoding="utf-8"))
+HEUN = "{A: [[0, 0], [1, 0]], b: [1/2, 1/2]}"
+MISPRINT = "{A: [[0, 0, 0, 0], [1/2, 0, 0, 0], [0, 1/2, 0, 0], [0, 0, 2, 0]], b: [1/6, 1/3, 1/3, 1/6]}"
+
+
+@given(st.data())
+@settings(max_examples=25)
+def test_renumbered_methods_are_the_same(data: st.DataObject) -> None:
+    """Stages in any order: the renumbering that is named turns one into the other."""
+    tableau = data.draw(tableaus())
+    stages = [len(colour.b) for colour in tableau.colours]
+    further = data.draw(further_of(stages, 1))
+    one = GarkMethod(
+        tableau=tableau, embedded=further.embedded, dense=further.dense
+    )
+    sheet = sheet_of(one)
+    other = renumbered(sheet, data.draw(orders_of(sheet)))
+    first, second = grid_of(sheet), grid_of(other)
+    images = find_matching(first, second, Likeness())
+    assert images is not None
+    turned = grid_of(renumbered(other, images))
+    assert turned == first
+
+
+@given(st.data())
+@settings(max_examples=12)
+def test_doubled_stages_and_other_colours_are_seen_through(
+    data: st.DataObject,
+) -> None:
+    """A stage that stands there twice, stages and colours in another order: the same method."""
+    sheet = each_its_own(sheet_of(GarkMethod(tableau=data.draw(tableaus()))))
+    turned = renumbered(sheet, data.draw(orders_of(sheet)))
+    twice = with_stage_twice(turned, 0)
+    found = compare(of_sheet(sheet), of_sheet(twice), limit=2)
+    assert found.relation == "same"
+    assert found.sameness is not None
+    assert found.sameness.is_reduced
+    order = data.draw(st.permutations(range(sheet.tableau.size)))
+    colours = with_colours(turned, order)
+    assert compare(of_sheet(sheet), of_sheet(colours), limit=2).relation in {
+        "identical",
+        "same",
+    }
+
+
+def with_colours(sheet: Sheet, order: list[int]) -> Sheet:
+    """The colours in another order, their stages with them."""
+    old = sheet.tableau
+    place = {l: k for k, l in enumerate(order)}
+    colours = [replace(old.colours[l], space=k) for k, l in enumerate(order)]
+    blocks = {(place[l], place[m]): x for (l, m), x in old.blocks.items()}
+    spaces = tuple(old.spaces[l] for l in order)
+    made = replace(old, spaces=spaces, colours=tuple(colours), blocks=blocks)
+    return Sheet(made)
+
+
+@given(st.data())
+@settings(max_examples=12)
+def test_one_changed_entry_is_found(data: st.DataObject) -> None:
+    """One entry of a block is another number: it is the only gap, with its place and its size, and
+    the conditions that are named are met by one method alone.
+    """
+    tableau = data.draw(tableaus())
+    keys = sorted(tableau.blocks)
+    assume(keys)
+    k, m = data.draw(st.sampled_from(keys))
+    block = [list(row) for row in tableau.blocks[k, m]]
+    i = data.draw(st.integers(0, len(block) - 1))
+    j = data.draw(st.integers(0, len(block[0]) - 1))
+    step = fmpq(1, data.draw(st.integers(1, 9)))
+    block[i][j] = block[i][j] + step
+    blocks = {**tableau.blocks, (k, m): tuple(map(tuple, block))}
+    changed = replace(tableau, blocks=blocks)
+    found = compare(
+        GarkMethod(tableau=tableau), GarkMethod(tableau=changed), limit=3
+    )
+    (gap,) = found.gaps
+    (entry,) = gap.gaps
+    assert (gap.kind, gap.colour, gap.seen) == ("A", k, m)
+    assert (entry.row, entry.entry, entry.gap) == (i, j, step)
+    if found.met is not None:
+        assert_met(found.met, tableau, changed)
+
+
+def assert_met(met: Any, one: Any, other: Any) -> None:
+    """Each condition is met by the method that is said to meet it, and not by the other one."""
+    for pairs, holds in ((met.first_only, one), (met.second_only, other)):
+        fails = other if holds is one else one
+        for condition, _ in pairs:
+            required = fmpq(1, condition.tree.density)
+            assert elementary_weight(holds, condition.tree) == required
+            assert elementary_weight(fails, condition.tree) != required
+
+
+def test_a_misprint_is_shown_with_what_it_costs() -> None:
+    """The last row of RK4 with 2 in place of 1: its order, its conditions, its properties."""
+    found = compare(RK4, loads(MISPRINT))
+    assert found.relation == "different"
+    orders = {pair.name: pair for pair in found.orders}
+    order = orders["order"]
+    assert order.one is not None
+    assert order.other is not None
+    assert (order.one.order, order.other.order) == (4, 1)
+    assert found.met is not None
+    assert_met(found.met, RK4.tableau, loads(MISPRINT).tableau)
+    assert len(found.met.first_only) == 7
+    keys = [pair.key for pair in found.properties]
+    assert "nodes-in-unit-interval" in keys
+    assert "explicit" not in keys
+    assert "imaginary-stability" in keys
+
+
+def test_forms_do_not_matter() -> None:
+    """An additive method against itself as a GARK method, and a partitioned one likewise."""
+    for name in ("ark-ars222", "stoermer-verlet", "prk-lobatto-iiia-iiib"):
+        method = load(str(ROOT / "methods" / f"{name}.gark.yaml"))
+        found = compare(method, convert(method, "gark").method)
+        assert found.relation == "same"
+        assert found.forms[0] != found.forms[1]
+        assert found.gaps == ()
+
+
+def test_families_are_compared_with_what_they_are_spelled_out() -> None:
+    """In number fields of their own the entries are equal exactly."""
+    method = load(str(ROOT / "methods/collocation.gark.yaml"))
+    spelled = convert(method).method
+    found = compare(method, spelled)
+    assert found.relation == "identical"
+    assert found.sameness is not None
+    assert not found.sameness.allowed
+
+
+def test_nodes_without_radicals() -> None:
+    """Gauss 5 is itself, is not Radau IIA 5, and its decimals agree within their rounding."""
+    gauss = loads("methods: {family: gauss, stages: 5}")
+    radau = loads("methods: {family: radau-iia, stages: 5}")
+    assert compare(gauss, gauss).relation == "identical"
+    assert compare(gauss, radau, limit=1).relation == "different"
+    run = gark(
+        *("tableau", "-", "--format", "yaml", "--digits", "25"),
+        stdin=gauss.text,
+    )
+    decimals = loads(run.out)
+    assert compare(gauss, decimals, limit=1).relation == "within-rounding"
+    exact = replace(decimals, tolerance=None)
+    assert compare(gauss, exact, limit=1).relation == "different"
+
+
+def test_enclosures_that_overlap_prove_nothing() -> None:
+    """They are neither alike nor different."""
+    wide = arb(1, 1e-70)
+    assert Likeness().cells(wide, fmpq(1)) is None
+    assert Likeness(fmpq(1, 10)).cells(wide, fmpq(1)) is True
+    assert Likeness(fmpq(1, 10)).cells(wide, fmpq(2)) is False
+
+
+def test_rounding_is_as_large_as_both_files_admit() -> None:
+    """Decimals of 1/3 agree with it within their tolerance, and in no less."""
+    exact = loads("{A: [[1/3]], b: [1]}")
+    rounded = loads("{A: [[0.33333]], b: [1], tolerance: 1e-5}")
+    found = compare(exact, rounded)
+    assert found.relation == "within-rounding"
+    assert found.allowed == fmpq(1, 10**5)
+    tight = loads("{A: [[0.33333]], b: [1], tolerance: 1e-6}")
+    assert compare(exact, tight).relation == "different"
+
+
+def test_embedded_weights_are_part_of_the_method() -> None:
+    """The step is the same, the estimate of its error is not; without them neither."""
+    other = loads(PAIR.replace("7/24, 1/4, 1/3, 1/8", "0, 1, 0, 0"))
+    for changed in (other, replace(other, embedded=None, dense=None)):
+        found = compare(loads(PAIR), changed)
+        assert found.relation == "different"
+        assert found.sameness is not None
+        assert found.sameness.step_only
+        kinds = {gap.kind for gap in found.gaps}
+        assert "embedded" in kinds
+        assert kinds <= {"embedded", "dense"}
+
+
+def test_a_stage_for_the_estimate_is_not_left_out() -> None:
+    """The last stage of the pair has no weight, but an embedded one; without it the step alone is
+    that of the method of three stages.
+    """
+    plain = loads(
+        "{A: [[0, 0, 0], [1/2, 0, 0], [0, 3/4, 0]], b: [2/9, 1/3, 4/9]}"
+    )
+    found = compare(loads(PAIR), plain)
+    assert found.relation == "different"
+    assert found.sameness is not None
+    assert (found.sameness.is_reduced, found.sameness.step_only) == (
+        True,
+        True,
+    )
+
+
+def test_many_alike_stages_end_the_search() -> None:
+    """Where nothing tells stages apart by themselves a search does; as all of them are equal in
+    both methods, these are the same once reduced.
+    """
+    size = 8
+    ring = tuple(
+        tuple(fmpq(j in {(i + 1) % size, (i - 1) % size}) for j in range(size))
+        for i in range(size)
+    )
+    squares = tuple(
+        tuple(
+            fmpq(i // 4 == j // 4 and (i - j) % 4 in {1, 3})
+            for j in range(size)
+        )
+        for i in range(size)
+    )
+    grids = [grid_of(sheet_of(loads(graph(rows)))) for rows in (ring, squares)]
+    assert find_matching(grids[0], grids[1], Likeness()) is None
+    found = compare(loads(graph(ring)), loads(graph(squares)), limit=1)
+    assert found.sameness is not None
+    assert found.sameness.is_reduced
+    assert found.sameness.stages == ((0,),)
+
+
+def graph(rows: Any) -> str:
+    """A method whose matrix is that of a graph."""
+    text = ", ".join(f"[{', '.join(map(str, row))}]" for row in rows)
+    weights = ", ".join(["1/8"] * len(rows))
+    return f"{{A: [{text}], b: [{weights}]}}"
+
+
+def test_the_search_gives_up_honestly(monkeypatch: Any) -> None:
+    """What is not decided is said so, with exit code 3."""
+    matching = "garkcli.comparison.matching.MAX_TRIALS"
+    monkeypatch.setattr(matching, 0)
+    one = grid_of(sheet_of(loads(HEUN)))
+    with pytest.raises(LimitExceeded):
+        find_matching(one, one, Likeness())
+    run = gark("diff", "-", "methods/rk4.gark.yaml", stdin=HEUN)
+    assert run.code == 1  # other numbers of stages need no search
+    turned = "{A: [[0, 1], [0, 0]], b: [1/2, 1/2]}"
+    assert compare(loads(HEUN), loads(turned)).relation == "undecided"
+
+
+def test_few_conditions_are_compared_of_many() -> None:
+    """No more than so many; which orders are complete is said."""
+    side = Side(load(str(ROOT / "methods/three-colours.gark.yaml")).tableau)
+    found = conditions_met(side, side, 12)
+    assert found.pairs == ()
+    assert 3 <= found.order < 12
+    assert MAX_CONDITIONS >= 1000
+
+
+def test_reports(tmp_path: Path) -> None:
+    """Text of 80 columns, JSON after its schema, Markdown, and what the exit codes say."""
+    schema = report_schema("diff")
+    renumbered_text = write_tableau_file(
+        renumbered(sheet_of(RK4), [[2, 0, 1, 3]]).tableau, "turned"
+    )
+    texts = {
+        "different": (MISPRINT, 1, 1),
+        "same": (renumbered_text, 0, 1),
+        "identical": (RK4.text, 0, 0),
+        "more colours": (PAIR_OF_COLOURS, 1, 1),
+        "decimals": (ROUNDED, 0, 1),
+    }
+    for name, (text, code, strict) in texts.items():
+        path = tmp_path / f"{name}.gark.yaml"
+        path.write_text(text, encoding="utf-8")
+        arguments = ("diff", "methods/rk4.gark.yaml", str(path))
+        run = gark(*arguments)
+        assert run.code == code, name
+        lines = [x for x in run.out.splitlines() if "gark.yaml" not in x]
+        assert max(map(len, lines)) <= 80
+        assert gark(*arguments, "--strict").code == strict
+        found = json.loads(gark(*arguments, "--format", "json").out)
+        jsonschema.validate(found, schema)
+        assert found["first"]["name"] == RK4.name
+        shown = gark(*arguments, "--format", "markdown").out
+        assert shown.count("**") == 2
+
+
+PAIR_OF_COLOURS = "ark: {A: [[[0]], [[1]]], b: [1]}"
+ROUNDED = (
+    RK4.text.split("expect")[0].replace("1/6", "0.166666666667")
+    + "tolerance: 1e-11\n"
+)
+
+
+def test_trees_and_entries_in_words() -> None:
+    """What is said of a misprint: the entry, the orders, the conditions, with their trees."""
+    run = gark("diff", "methods/rk4.gark.yaml", "-", stdin=MISPRINT)
+    assert "A  1 of 16  row 4, entry 3: 1 against 2, off by 1" in run.out
+    assert "order 2  [[]]: 2/3 instead of 1/2" in run.out
+    assert "that the second alone meets: none" in run.out
+    shown = diff_markdown.render(
+        compare(RK4, loads(MISPRINT)), ("a|b", "second")
+    )
+    assert "`a\\|b`" in shown
+    assert "| `[[]]` | 2 | met | not met |" in shown
+
+
+def test_renumberings_in_words() -> None:
+    """Which stage is which, and in which form."""
+    turned = "{A: [[0, 1], [0, 0]], b: [1/2, 1/2]}"
+    run = gark("diff", "-", "methods/rk4.gark.yaml", stdin=turned)
+    assert "shape" in run.out
+    found = compare(loads(HEUN), loads(turned))
+    assert found.sameness is not None
+    assert found.sameness.stages == ((1, 0),)
+    ark = "ark: {A: [[[0, 0], [1, 0]], [[1, 0], [0, 1]]], b: [1/2, 1/2], c: [0, 1]}"
+    other = "ark: {A: [[[1, 0], [0, 1]], [[0, 0], [1, 0]]], b: [1/2, 1/2], c: [0, 1]}"
+    exchanged = compare(loads(ark), loads(other))
+    assert exchanged.sameness is not None
+    assert exchanged.sameness.colours == (1, 0)
+
+
+def test_files_that_cannot_be_read() -> None:
+    """One that is not there is a mistake of the call."""
+    run = gark("diff", "methods/rk4.gark.yaml", "nowhere.gark.yaml")
+    assert run.code == 2
+    assert "no such file" in run.err
