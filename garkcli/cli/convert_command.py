@@ -6,9 +6,9 @@ from typing import TYPE_CHECKING
 
 import click
 
+from garkcli.cli.method_argument import file_argument
 from garkcli.cli.options import (
     CONTEXT,
-    PATH,
     Output,
     common,
     settings_option,
@@ -20,7 +20,7 @@ if TYPE_CHECKING:
 
 
 @click.command("convert", context_settings=CONTEXT)
-@click.argument("file", type=PATH, metavar="FILE")
+@file_argument()
 @click.option(
     "--to",
     type=click.Choice(TARGETS),
@@ -51,9 +51,10 @@ def command(
     """
     from garkcli.conversion.convert import convert
     from garkcli.methodfile.load import load
+    from garkcli.methodfile.naming import called
 
     made = convert(load(file, settings), to, stages)
-    _say_what_is_lost(file, made, output)
+    _say_what_is_lost(called(file), made, output)
     if output.format == "yaml":
         output.write(made.method.text)
         return 0

@@ -4,7 +4,8 @@ from __future__ import annotations
 
 import click
 
-from garkcli.cli.options import CONTEXT, PATH, Output, common
+from garkcli.cli.method_argument import two_files
+from garkcli.cli.options import CONTEXT, Output, common
 
 EXIT_CODES = {
     "identical": 0,
@@ -17,8 +18,7 @@ EXIT_CODES = {
 
 
 @click.command("diff", context_settings=CONTEXT)
-@click.argument("first", type=PATH, metavar="FIRST")
-@click.argument("second", type=PATH, metavar="SECOND")
+@two_files("first", "second")
 @click.option(
     "--strict",
     is_flag=True,
@@ -35,9 +35,10 @@ def command(first: str, second: str, strict: bool, output: Output) -> int:
     """
     from garkcli.comparison.comparison import compare
     from garkcli.methodfile.load import load
+    from garkcli.methodfile.naming import called
 
     found = compare(load(first), load(second))
-    files = (first, second)
+    files = (called(first), called(second))
     if output.format == "json":
         from garkcli.report import diff_json
 

@@ -137,13 +137,31 @@ def files_argument(required: bool = True) -> Callable[[F], F]:
     return _argument("files", required=required, metavar="FILE...", nargs=-1)
 
 
+def two_files(first: str, second: str) -> Callable[[F], F]:
+    """Two of them, by the names that they arrive as."""
+    return _with_catalogue([_one(first), _one(second)])
+
+
 def _argument(name: str, **settings: Any) -> Callable[[F], F]:
+    return _with_catalogue([_one(name, **settings)])
+
+
+def _one(name: str, **settings: Any) -> Callable[[F], F]:
     argument: Callable[[F], F] = click.argument(
         name, type=METHOD, callback=_with_notes, **settings
     )
+    return argument
+
+
+def _with_catalogue(
+    arguments: Sequence[Callable[[F], F]],
+) -> Callable[[F], F]:
+    """The arguments, the last one applied first, and ``--catalogue``."""
 
     def decorate(function: F) -> F:
-        decorated = argument(catalogue_option(function))
+        decorated = catalogue_option(function)
+        for argument in reversed(arguments):
+            decorated = argument(decorated)
         _after_own_options(decorated)
         return decorated
 

@@ -27,6 +27,8 @@ CALLS = [
     ("modified", "rK4", "--order", "5"),
     ("reduce", "RK4"),
     ("certificate", "RK4"),
+    ("convert", "RK4", "--stages", "5"),
+    ("diff", "RK4", "RK4"),
 ]
 
 
