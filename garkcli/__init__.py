@@ -13,6 +13,7 @@ from garkcli.version import __version__ as __version__
 if TYPE_CHECKING:
     from garkcli.api.arguments import of_methods
     from garkcli.api.arrays import from_arrays
+    from garkcli.api.asserting import assert_order
     from garkcli.api.construction import diagonal_method, gark
     from garkcli.api.methods import (
         analyse,
@@ -26,6 +27,7 @@ if TYPE_CHECKING:
     from garkcli.backward import energy as _energy
     from garkcli.backward import formulas as _formulas
     from garkcli.backward import summary as _summary
+    from garkcli.catalogue.mapping import Catalogue
     from garkcli.check.check_file import check_file
     from garkcli.check.proof import prove_method
     from garkcli.comparison.comparison import compare
@@ -53,6 +55,7 @@ if TYPE_CHECKING:
     from garkcli.trees.notation import format_tree, parse_tree
     from garkcli.trees.tree import Tree
 
+    catalogue: Catalogue
     backward_analysis = of_methods(_summary.backward_analysis)
     bind = of_methods(_integrator.bind)
     conditions = of_methods(_conditions.conditions)
@@ -69,6 +72,7 @@ _HOMES = {
     "analyse": "api.methods",
     "backward_analysis": "backward.summary",
     "bind": "stepping.integrator",
+    "assert_order": "api.asserting",
     "check_file": "check.check_file",
     "compare": "comparison.comparison",
     "conditions": "order.conditions",
@@ -116,6 +120,9 @@ _HOMES = {
 }
 """The module that each public name comes from."""
 
+_ROOMS = ("catalogue",)
+"""Rooms that are public themselves."""
+
 _OF_METHODS = frozenset(
     {
         "backward_analysis",
@@ -142,8 +149,10 @@ __all__ = [
     "Tableau",
     "Tree",
     "analyse",
+    "assert_order",
     "backward_analysis",
     "bind",
+    "catalogue",
     "check_file",
     "compare",
     "conditions",
@@ -185,6 +194,8 @@ __all__ = [
 
 
 def __getattr__(name: str) -> Any:
+    if name in _ROOMS:
+        return import_module(f"garkcli.{name}")
     if name not in _HOMES:
         raise AttributeError(f"module 'garkcli' has no attribute {name!r}")
     value = getattr(import_module(f"garkcli.{_HOMES[name]}"), name)

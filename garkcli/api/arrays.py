@@ -17,7 +17,13 @@ SOURCE = "<arrays>"
 
 
 def from_arrays(
-    A: Any, b: Any, c: Any = None, *, name: str = "", tolerance: Any = None
+    A: Any,
+    b: Any,
+    c: Any = None,
+    embedded: Any = None,
+    *,
+    name: str = "",
+    tolerance: Any = None,
 ) -> MethodFile:
     """The method with the coefficients ``A``, ``b`` and, where they are not the row sums, ``c``.
 
@@ -32,6 +38,7 @@ def from_arrays(
             does not see colour m.
         b: the weights, length s; of N colours a row each.
         c: the nodes, length s; of N colours a row each.
+        embedded: embedded weights, as b.
         name: what to call the method.
         tolerance: the rounding of the coefficients, for instance ``"1e-13"``.
 
@@ -45,19 +52,21 @@ def from_arrays(
     >>> heun = from_arrays([[0, 0], [1, 0]], [0.5, "1/2"], name="Heun")
     >>> heun, heun.c
     (<MethodFile Heun: 1 colour, stages 2>, (0, 1))
+    >>> from_arrays([[0, 0], [1, 0]], ["1/2", "1/2"], embedded=[1, 0]).embedded
+    ((1, 0),)
     """
     writer = _Writer(is_rounded=tolerance is not None)
-    weights, nodes = _listed(b), _listed(c)
     A = _listed(A)
-    if _depth(A) <= 2:
-        weights, nodes = _one_row(weights), _one_row(nodes)
     entries: dict[str, str] = {}
     if name:
         entries["name"] = _quoted(name)
     entries["A"] = writer.text(A, "A")
-    entries["b"] = writer.text(weights, "b")
-    if nodes is not None:
-        entries["c"] = writer.text(nodes, "c")
+    for key, rows in (("b", b), ("c", c), ("embedded", embedded)):
+        listed = _listed(rows)
+        if _depth(A) <= 2:
+            listed = _one_row(listed)
+        if listed is not None or key == "b":
+            entries[key] = writer.text(listed, key)
     if tolerance is not None:
         entries["tolerance"] = number_text(
             tolerance, "tolerance", is_rounded=True

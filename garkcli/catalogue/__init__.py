@@ -4,11 +4,20 @@ The name of a method is that of its file without ``.gark.yaml``, in lower case, 
 hyphens. ``paper`` has those of the paper, ``found`` what ``gark design`` found, ``errata`` tables
 that are published wrong, with the order that they have. ``index.json`` is made from them by
 ``python -m garkcli.catalogue``; names are looked up in it, and lists are made of it.
+
+The room is a mapping from these names to methods, see ``garkcli.catalogue.mapping``:
+
+>>> import garkcli
+>>> garkcli.catalogue["rk4"].stages, "no-such-method" in garkcli.catalogue
+((4,), False)
 """
 
 from __future__ import annotations
 
+import sys
 from typing import TYPE_CHECKING
+
+from garkcli.catalogue.mapping import Catalogue
 
 if TYPE_CHECKING:
     from garkcli.methodfile.build import MethodFile
@@ -42,3 +51,6 @@ def method_names() -> list[str]:
     from garkcli.methodfile.naming import every_shelf, visible
 
     return [method.name for _, method in visible(every_shelf())]
+
+
+sys.modules[__name__].__class__ = Catalogue

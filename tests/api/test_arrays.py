@@ -178,6 +178,41 @@ def test_several_colours() -> None:
     assert from_arrays(made.A, made.b, made.c).tableau == made.tableau
 
 
+@given(arrays())
+def test_embedded_weights_stand_beside_b(
+    given_arrays: tuple[list[list[Fraction]], list[Fraction]],
+) -> None:
+    """They are those of a file that says the same, and go round; without them there are none."""
+    A, b = given_arrays
+    weights = list(reversed(b))
+    made = from_arrays(A, b, embedded=weights)
+    assert from_arrays(A, b).embedded is None
+    assert made.embedded is not None
+    (found,) = made.embedded
+    assert [Fraction(int(x.p), int(x.q)) for x in found] == weights
+    again = from_arrays(made.A, made.b, made.c, found)
+    assert again.further == made.further
+    assert loads(made.text).further == made.further
+
+
+def test_embedded_weights_of_every_kind() -> None:
+    """NumPy's arrays, matrices of SymPy, a row a colour; a wrong one has its place."""
+    import numpy as np
+    import sympy
+
+    A, b = [[0, 0], [1, 0]], [0.5, 0.5]
+    for row in (np.array([1.0, 0.0]), sympy.Matrix([1, 0]), ("1", 0)):
+        assert from_arrays(A, b, embedded=row).embedded == ((1, 0),)
+    two = from_arrays(
+        [[[[0]], None], [[[1]], [["1/2"]]]], [[1], [1]], embedded=[[0], [1]]
+    )
+    assert two.embedded == ((0,), (1,))
+    with pytest.raises(MethodError, match=r"^embedded\[1\]: 0.3333"):
+        from_arrays(A, b, embedded=[1, 1 / 3])
+    with pytest.raises(MethodFileError, match="embedded has 3 entries"):
+        from_arrays(A, b, embedded=[1, 0, 0])
+
+
 def test_rounded_floats_ask_for_a_tolerance() -> None:
     """A float of 17 digits is refused unless the rounding is named; then the order holds within it."""
     x = 3**0.5 / 6

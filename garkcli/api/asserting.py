@@ -1,0 +1,209 @@
+"""Orders asserted in tests of one's own, with what speaks against them in the failure."""
+
+from __future__ import annotations
+
+import re
+from collections.abc import Callable, Iterator
+from dataclasses import dataclass, replace
+from numbers import Integral
+from typing import Any, TypeAlias
+
+from garkcli.api.anymethod import as_method
+from garkcli.api.methods import conjugate, find_order, pair
+from garkcli.check.agreement import agrees
+from garkcli.check.analysis import AnyOrder
+from garkcli.check.explained import repair_text, witness_text
+from garkcli.errors import MethodError, ZeroWeight
+from garkcli.methodfile.expectations import AtLeast
+from garkcli.order.blame import blame_of
+from garkcli.order.certificate import DEFAULT_LIMIT, Order
+from garkcli.order.repairs import Derive, Missed
+from garkcli.tableau import conjugate as conjugation
+from garkcli.tableau import forms
+from garkcli.tableau.embedded import with_weights
+from garkcli.tableau.garkmethod import GarkMethod
+from garkcli.tableau.tableau import Tableau
+
+Wanted: TypeAlias = "int | str | None"
+"""An order, or ``">= 4"``."""
+NEAR = 10
+"""An entry is a repair when it brings residuals within so many tolerances, as in ``gark check``."""
+_AT_LEAST = re.compile(r"\s*>=\s*([0-9]{1,4})\s*")
+_MAX_ORDER = 1000
+
+
+def assert_order(
+    method: Any,
+    order: Wanted = None,
+    *,
+    embedded: Wanted = None,
+    conjugate: Wanted = None,
+    pair: Wanted = None,
+    tolerance: Any = None,
+) -> None:
+    """Fail unless a method has an order, and say why it has not.
+
+    The order is meant as in the claims of a file: 4 is neither 3 nor 5, and ``">= 4"`` leaves it
+    open. It is decided exactly, or within the tolerance of the method.
+
+    Args:
+        method: a method, a tableau; a path, or a name of the catalogue; ``(A, b)``, ``(A, b, c)``
+            or ``(A, b, c, embedded)`` as ``from_arrays`` takes them, or a mapping of that.
+        order: of the method.
+        embedded: the order of its embedded weights.
+        conjugate: the order of its symplectic conjugate.
+        pair: the order of the symplectic pair.
+        tolerance: the rounding of the coefficients; that of the method where it is not given, 0 for
+            none.
+
+    Raises:
+        AssertionError: an order is another one; its message has the tree whose condition fails, its
+            weight, what is required, and the entry that would restore the order.
+        MethodError: there is no such method, no order is given, or it has no embedded weights.
+        MethodFileError: a file cannot be read as a method.
+
+    >>> assert_order("rk4", 4, conjugate=4)
+    >>> assert_order(([[0, 0], [1, 0]], ["1/2", "1/2"]), 3)
+    Traceback (most recent call last):
+    ...
+    AssertionError: the method has order 2, not 3
+      fails at order 3: [[[]]]: 0 instead of 1/6, off by -1/6
+    """
+    __tracebackhide__ = True
+    found = as_method(method)
+    wanted = {
+        "order": order,
+        "embedded": embedded,
+        "conjugate": conjugate,
+        "pair": pair,
+    }
+    asked = {key: value for key, value in wanted.items() if value is not None}
+    if not asked:
+        raise MethodError("no order is given", "assert_order(method, 4)")
+    failures: list[str] = []
+    for key, value in asked.items():
+        failures += _failure(found, _PARTS[key], value, tolerance)
+    if failures:
+        raise AssertionError("\n".join(failures))
+
+
+@dataclass(frozen=True)
+class _Part:
+    """What an order may be asked of.
+
+    Attributes:
+        words: what it is called after the name of the method.
+        of: the method whose order it is.
+        derive: from a tableau whose entries are to blame to the one that has the order.
+    """
+
+    words: str
+    of: Callable[[GarkMethod], GarkMethod]
+    derive: Derive
+
+
+def _embedded(method: GarkMethod) -> GarkMethod:
+    """The method with the embedded weights in place of its own.
+
+    Raises:
+        MethodError: it has none.
+    """
+    if method.embedded is None:
+        raise MethodError(
+            f"{_called(method)} has no embedded weights",
+            "from_arrays(A, b, c, embedded), or embedded: […] in its file",
+        )
+    tableau = with_weights(method.tableau, method.embedded)
+    return GarkMethod(
+        tableau=tableau, name=method.name, tolerance=method.tolerance
+    )
+
+
+def _same(tableau: Tableau) -> Tableau:
+    return tableau
+
+
+_PARTS = {
+    "order": _Part("", lambda method: method, _same),
+    "embedded": _Part(" with its embedded weights", _embedded, _same),
+    "conjugate": _Part(", conjugated,", conjugate, conjugation.conjugate),
+    "pair": _Part(" as a symplectic pair", pair, forms.pair),
+}
+
+
+def _called(method: GarkMethod) -> str:
+    if not method.name or method.name.startswith("<"):
+        return "the method"
+    return method.name
+
+
+def _failure(
+    method: GarkMethod, part: _Part, value: Any, tolerance: Any
+) -> Iterator[str]:
+    """The lines that say that an order is not as it should be; none where it is."""
+    wanted = _read(value)
+    least = wanted.least if isinstance(wanted, AtLeast) else wanted
+    name = f"{_called(method)}{part.words}"
+    try:
+        derived = part.of(method)
+    except ZeroWeight as error:
+        yield f"{name} has no order: {error.message}"
+        return
+    limit = max(DEFAULT_LIMIT, least + 1)
+    found = find_order(derived, limit, tolerance)
+    reached = AtLeast(found.order) if found.is_lower_bound else found.order
+    if agrees(wanted, reached):
+        return
+    text = str(reached).replace(">=", "at least")
+    yield f"{name} has order {text}, not {value}"
+    if found.order >= least or found.witness is None:
+        return
+    tableau = derived.tableau
+    yield f"  {witness_text(found.witness, tableau.size > 1)}"
+    # embedded weights are the weights of the derived tableau
+    own = tableau if part.derive is _same else method.tableau
+    for line in _blamed(own, part, found, least):
+        yield f"  {line}"
+
+
+def _read(value: Any) -> int | AtLeast:
+    """An order as it is asked for.
+
+    Raises:
+        MethodError: it is no order.
+    """
+    if isinstance(value, str):
+        match = _AT_LEAST.fullmatch(value)
+        if match is not None:
+            return AtLeast(int(match[1]))
+    is_whole = isinstance(value, Integral) and not isinstance(value, bool)
+    if is_whole and 0 <= value <= _MAX_ORDER:
+        return int(value)
+    raise MethodError(f"{value!r} is no order", 'write 4 or ">= 4"')
+
+
+def _blamed(
+    tableau: Tableau, part: _Part, found: AnyOrder, claimed: int
+) -> Iterator[str]:
+    """The entries whose change would restore the order."""
+    missed = Missed(found.order + 1, claimed, derive=part.derive)
+    if not isinstance(found, Order):
+        near = NEAR * found.tolerance
+        missed = replace(missed, tolerance=found.tolerance, near=near)
+    blame = blame_of(tableau, missed)
+    if blame is None or not blame.repairs:
+        return
+    names = [colour.name for colour in tableau.colours]
+    repairs = list(blame.repairs)
+    if part.of is _embedded:
+        # the entries of A are those of the method too
+        repairs.sort(key=lambda repair: repair.m is not None)
+    shown = repair_text(repairs[0], names)
+    if part.of is _embedded and repairs[0].m is None:
+        shown = f"embedded{shown.removeprefix('b')}"
+    yield f"order {claimed} would hold with {shown}"
+    others = len(repairs) - 1
+    if others == 1:
+        yield "or with one other entry changed"
+    elif others:
+        yield f"or with one of {others} other entries changed"
