@@ -8,7 +8,7 @@ from typing import TYPE_CHECKING, Any
 from garkcli.check.check_file import check_file
 from garkcli.errors import GarkError
 from garkcli.exact.display import decimal
-from garkcli.methodfile.load import described
+from garkcli.methodfile.load import loads
 from garkcli.methodfile.words import one_line
 from garkcli.order.constants import error_constants
 from garkcli.properties.keys import KEYS
@@ -19,17 +19,49 @@ from garkcli.trees.count import count_trees
 if TYPE_CHECKING:
     from garkcli.check.analysis import Analysis, AnyOrder
     from garkcli.check.outcome import Outcome
-    from garkcli.methodfile.description import Description
+    from garkcli.methodfile.build import MethodFile
     from garkcli.properties.property import Verdict
     from garkcli.tableau.tableau import Tableau
 
 Entry = dict[str, Any]
 """A method of the index: what people look for, and what was found."""
-VERSION = 1
+VERSION = 2
 """Of what is found; a larger one than that of an index makes all of it anew."""
 MOST_TREES = 20_000
 """Most trees of one order over which error coefficients are summed for the index."""
 _DIGITS = 4
+
+
+_UNKNOWN: Entry = {
+    "name": "",
+    "aliases": [],
+    "file": "",
+    "title": "",
+    "reference": "",
+    "authors": [],
+    "year": "",
+    "order": None,
+    "conjugate_order": None,
+    "pair_order": None,
+    "nonautonomous_order": None,
+    "stages": None,
+    "stages_by_colour": [],
+    "colours": None,
+    "kind": None,
+    "structure": None,
+    "exact": None,
+    "tolerance": None,
+    "embedded": None,
+    "dense": None,
+    "error_constant": None,
+    "symplectic": None,
+}
+
+
+def blank() -> Entry:
+    """An entry with all its keys and nothing in it."""
+    properties = {find(key).field: None for key in KEYS}
+    return {**_UNKNOWN, **properties, "undecided": []}
 
 
 class NoMethod(GarkError):
@@ -55,20 +87,25 @@ def entry_of(path: str, name: str, file: str, text: str) -> Entry:
         NoMethod: it cannot be read, or a claim of it fails.
     """
     outcome = check_file(path)
-    analysis = outcome.analysis
-    if analysis is None or not outcome.ok:
+    if outcome.analysis is None or not outcome.ok:
         raise NoMethod(f"{path}: {_what_fails(outcome)}")
-    _, description = described(text, path, {})
+    method = loads(text, path)
     return {
-        **head(name, file, description),
+        **found_of(method, outcome.analysis, name, file),
+        "digest": digest(text),
+    }
+
+
+def found_of(
+    method: MethodFile, analysis: Analysis, name: str, file: str
+) -> Entry:
+    """What was found of a method, and what its file says of itself."""
+    return {
+        **head(method, name, file),
         **_orders(analysis),
-        **shape(analysis.tableau),
-        "structure": description.structure,
-        "exact": analysis.tolerance is None,
-        "tolerance": _tolerance(analysis),
+        **shape(method),
         "error_constant": _error_constant(analysis),
         **_properties(analysis),
-        "digest": digest(text),
     }
 
 
@@ -85,26 +122,36 @@ def _what_fails(outcome: Outcome) -> str:
     return "; ".join(told)
 
 
-def head(name: str, file: str, description: Description) -> Entry:
+def head(method: MethodFile, name: str, file: str) -> Entry:
     """What a file says of itself."""
+    book = method.bibliography
     return {
         "name": name,
-        "aliases": list(description.aliases),
+        "aliases": list(method.aliases),
         "file": file,
-        "title": one_line(description.name) or name,
-        "reference": one_line(description.reference),
+        "title": "" if method.name == method.source else method.name,
+        "reference": one_line(method.reference),
+        "authors": list(book.authors) if book else [],
+        "year": book.year if book else "",
     }
 
 
-def shape(tableau: Tableau) -> Entry:
-    """How many stages and colours, and what such a method is called."""
+def shape(method: MethodFile) -> Entry:
+    """How many stages and colours, what such a method is called, how its numbers are given."""
+    tableau = method.tableau
     spaces = [tableau.spaces[colour.space] for colour in tableau.colours]
     stages = [space.stages for space in spaces]
+    rounding = method.tolerance
     return {
         "stages": max(stages),
         "stages_by_colour": stages,
         "colours": tableau.size,
         "kind": _kind(tableau),
+        "structure": method.structure,
+        "exact": rounding is None,
+        "tolerance": None if rounding is None else decimal(rounding),
+        "embedded": method.embedded is not None,
+        "dense": method.dense is not None,
     }
 
 
@@ -128,12 +175,6 @@ def _orders(analysis: Analysis) -> Entry:
 
 def _order(found: AnyOrder | None) -> int | None:
     return None if found is None else found.order
-
-
-def _tolerance(analysis: Analysis) -> str | None:
-    if analysis.tolerance is None:
-        return None
-    return decimal(analysis.tolerance)
 
 
 def _error_constant(analysis: Analysis) -> str | None:

@@ -13,7 +13,6 @@ from garkcli.methodfile.folders import SUFFIX
 from garkcli.methodfile.reading import read_text
 from garkcli.methodfile.shelves import key_of
 
-SCHEMA = "gark/index/1"
 Tell = Callable[[str], None]
 """What is told of each file that is judged."""
 
@@ -72,7 +71,7 @@ def _known(before: str) -> dict[tuple[str, str], Entry]:
 
 def _text(entries: list[Entry]) -> Iterator[str]:
     """JSON with an entry a line, so that a change of one method is a change of one line."""
-    yield f'{{"schema": "{SCHEMA}", "facts": {VERSION}, "methods": ['
+    yield f'{{"facts": {VERSION}, "methods": ['
     for number, entry in enumerate(entries):
         yield ",\n" if number else "\n"
         yield json.dumps(entry, ensure_ascii=True)

@@ -2,20 +2,38 @@
 
 from __future__ import annotations
 
+from typing import Any
+
 import click
 
+from garkcli.cli.list_methods import (
+    filter_options,
+    list_methods,
+    refuse_filters,
+)
 from garkcli.cli.options import CONTEXT, Output, common
+
+WHAT = ("methods", "exports")
+"""What is listed, besides what method files and problems can name."""
 
 
 @click.command("list", context_settings=CONTEXT)
 @click.argument(
-    "what", required=False, type=click.Choice(["exports"]), metavar="[WHAT]"
+    "what", required=False, type=click.Choice(WHAT), metavar="[WHAT]"
 )
-@common(["text", "json"])
-def command(what: str | None, output: Output) -> int:
-    """Families of diagonal methods, transfer rules, problems; or WHAT: exports, the targets of
-    gark export.
+@click.argument("words", nargs=-1, metavar="[WORD]...")
+@filter_options
+@common(["text", "json", "csv", "markdown"])
+def command(what: str | None, output: Output, **options: Any) -> int:
+    """Families of diagonal methods, transfer rules, problems; or WHAT: methods, those of the
+    catalogue, or exports, the targets of gark export.
+
+    Methods are those that are as every option says and that have every WORD in their name, an
+    alias, their title or their reference; --no-... those for which it is known not to hold.
     """
+    if what == "methods":
+        return list_methods(options, output)
+    refuse_filters(options, output.format)
     if what == "exports":
         from garkcli.report.exports import render
 

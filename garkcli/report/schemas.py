@@ -34,6 +34,7 @@ REPORTS = {
     "certificate": "garkcli.report.proof_json:certificate_schema",
     "export": "garkcli.bridges.targets.json_data:export_schema",
     "list": "garkcli.report.listing:list_report_schema",
+    "list-methods": "garkcli.report.catalogue_list:list_methods_schema",
     "list-exports": "garkcli.report.exports:exports_schema",
     "sweep": "garkcli.report.sweep:sweep_report_schema",
 }

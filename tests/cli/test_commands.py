@@ -67,6 +67,7 @@ RUNS = [
         ("text", "json", "csv"),
     ),
     (("list",), ("text", "json")),
+    (("list", "methods", "rk4"), ("text", "json", "csv", "markdown")),
     (("claims", VERLET), ("text", "json")),
     (("reduce", VERLET), ("yaml", "text", "json", "latex")),
     (("modified", VERLET), ("text", "json", "latex")),

@@ -93,7 +93,7 @@ REPORTS = {
         ["list", "exports"],
         ["export", METHOD, "--to", "json"],
     ],
-    "list": [["list"]],
+    "list": [["list"], ["list", "methods", "rk4"]],
 }
 """Of each section the runs whose reports it describes."""
 

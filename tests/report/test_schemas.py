@@ -99,6 +99,10 @@ RUNS: dict[str, list[tuple[str, ...]]] = {
     "sweep": [("tests/examples/sweeps/small.yaml", "--rows", os.devnull)],
     "certificate": [(file,) for file in FILES],
     "list": [()],
+    "list-methods": [
+        ("list", "methods"),
+        ("list", "methods", "--catalogue", "tests/examples/valid"),
+    ],
     "list-exports": [("list", "exports")],
     "export": [(file,) for file in FILES],
     "energy": [
@@ -118,7 +122,7 @@ RUNS: dict[str, list[tuple[str, ...]]] = {
     ],
 }
 """How each report is asked for."""
-LISTS = {"list-exports"}
+LISTS = {"list-exports", "list-methods"}
 """Reports that are lists."""
 FORMAT = {"export": "--to"}
 """The option that asks for JSON, where it is another."""
