@@ -13,6 +13,7 @@ from typing import TypeAlias
 
 from flint import arb, fmpq
 
+from garkcli.exact.isolating import precision
 from garkcli.exact.polynomial import Polynomial
 from garkcli.exact.roots import FIRST_BITS, RealRoot, real_roots, sign, sign_at
 
@@ -120,10 +121,11 @@ def between(left: RealRoot | None, right: RealRoot | None) -> fmpq:
     bits = FIRST_BITS
     while True:
         low = high = None
-        if left is not None:
-            low = _upper(left.ball(bits))
-        if right is not None:
-            high = _lower(right.ball(bits))
+        with precision(bits):  # of the ends of balls too
+            if left is not None:
+                low = _upper(left.ball(bits))
+            if right is not None:
+                high = _lower(right.ball(bits))
         if low is None:
             assert high is not None
             return high.floor() - fmpq(1)

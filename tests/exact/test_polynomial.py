@@ -160,3 +160,12 @@ def test_enclosures_hold_the_root() -> None:
     assert (ball * ball - ball - 1).contains(0)
     assert ball.rel_accuracy_bits() > 150
     assert isinstance(ball, arb)
+
+
+def test_a_number_between_two_roots_that_are_very_close() -> None:
+    """The square roots of 2 and of 2 + 10⁻⁴⁰, whose ends agree in more digits than floats have."""
+    close = 1 / fmpq(10) ** 40
+    left = real_roots(Polynomial([-2, 0, 1]))[1][0]
+    right = real_roots(Polynomial([-2 - close, 0, 1]))[1][0]
+    found = between(left, right)
+    assert 2 < found * found < 2 + close
