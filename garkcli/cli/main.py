@@ -51,6 +51,7 @@ COMMANDS = {
     "export": "a method for SciPy, SUNDIALS, PETSc, C, JSON and others",
     "certificate": "what proves the orders, to be checked without gark",
     "list": "families, transfer rules, problems",
+    "explain": "what a word of a report or of a file means",
     "schema": "the JSON Schemas of method files, problem files and reports",
 }
 """Every command with its line in the help; the module of the same name in this room has it."""

@@ -181,4 +181,7 @@ def ark() -> Schema:
 def prk() -> Schema:
     """The form ``prk``."""
     part = {"$ref": "#/definitions/butcher"}
-    return closed({"q": part, "p": part}, "q", "p")
+    return {
+        **closed({"q": part, "p": part}, "q", "p"),
+        "description": "A partitioned method: the tableaus of positions and momenta.",
+    }

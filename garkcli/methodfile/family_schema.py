@@ -37,9 +37,17 @@ def design() -> Schema:
         "number": number,
     }
     properties: Schema = {
-        "order": count,
-        "fix": {"type": "object", "additionalProperties": number},
-        "range": {"type": "object", "additionalProperties": RANGE},
+        "order": {**count, "description": "the order that is looked for"},
+        "fix": {
+            "description": "values for unknowns, or relations between them",
+            "type": "object",
+            "additionalProperties": number,
+        },
+        "range": {
+            "description": "between which numbers unknowns are",
+            "type": "object",
+            "additionalProperties": RANGE,
+        },
     }
     for key in WANTS:
         want = find_want(key)

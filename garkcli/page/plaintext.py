@@ -55,10 +55,15 @@ SIGNS = {
     "↦": "|->",
     "\N{COMBINING DIAERESIS}": "''",
     "\N{COMBINING DOT ABOVE}": "'",
+    "\N{COMBINING CIRCUMFLEX ACCENT}": "^",
+    "\N{COMBINING TILDE}": "~",
     # a letter that is no accented one
     "ø": "o",
+    "ß": "ss",
     # punctuation
     "–": "-",
+    "\N{HYPHEN}": "-",
+    "\N{HORIZONTAL BAR}": "--",
     "—": "--",
     "…": "...",
     "•": "*",

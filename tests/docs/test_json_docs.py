@@ -18,6 +18,7 @@ MISPRINTED = "tests/examples/failing/collocation-misprinted.gark.yaml"
 REPORTS = {
     "check": [["check", METHOD]],
     "claims": [["claims", METHOD]],
+    "explain": [["explain", "density"], ["explain", "gamma"]],
     "trees": [
         ["trees", "--order", "3", "--colours", "2"],
         ["trees", "--order", "3", "--symplectic", "--members"],

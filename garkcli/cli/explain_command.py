@@ -1,0 +1,44 @@
+"""``gark explain``."""
+
+from __future__ import annotations
+
+import click
+from click.shell_completion import CompletionItem
+
+from garkcli.cli.options import CONTEXT, Output, common
+
+
+class _Word(click.ParamType[str]):
+    """A word that is known; shells complete it."""
+
+    name = "word"
+
+    def shell_complete(
+        self, ctx: click.Context, param: click.Parameter, incomplete: str
+    ) -> list[CompletionItem]:
+        from garkcli.check.meanings import known_words
+
+        words = [word for word in known_words() if word.startswith(incomplete)]
+        return [CompletionItem(word) for word in words]
+
+
+@click.command("explain", context_settings=CONTEXT)
+@click.argument("words", nargs=-1, type=_Word(), metavar="WORD...")
+@common(["text", "json"])
+def command(words: tuple[str, ...], output: Output) -> int:
+    """What a word of a report or of a file means: its definition, its formula, its source.
+
+    WORD is a term such as density or "stage order", the label of a line of a report, a claim, a key
+    of method files, a family, a transfer rule, or the code of a finding. Without one the terms are
+    listed.
+    """
+    from garkcli.check.meanings import meanings
+    from garkcli.report import meaning as report
+
+    if not words:
+        output.write(report.render_list(output.format))
+        return 0
+    word = " ".join(words)
+    found = meanings(word)
+    output.write(report.render(word, found, output.format, output.paint))
+    return 0

@@ -1,0 +1,1 @@
+"""What the words of reports and files mean: ``gark explain`` and docs/glossary.md."""

@@ -1,0 +1,106 @@
+"""``gark explain``: what words mean, for people and for programs; docs/glossary.md."""
+
+from __future__ import annotations
+
+from collections.abc import Iterator, Sequence
+from typing import NamedTuple
+
+from garkcli.check.meanings import Meaning, term_meaning
+from garkcli.glossary.registry import TOPICS, terms_of
+from garkcli.page.paint import Paint, folded, indented
+from garkcli.page.record import Field, Record, schema_named
+from garkcli.page.schema import TEXT, Schema, array, published
+
+SCHEMA = "gark/meaning/1"
+_WIDTH = 80
+_MARGIN = 12
+
+
+class _Word(NamedTuple):
+    """A word with its meanings."""
+
+    word: str
+    meanings: Sequence[Meaning]
+
+
+_MEANING: Record[Meaning] = Record(
+    Field("kind", TEXT, lambda x: x.kind),
+    Field("name", TEXT, lambda x: x.name),
+    Field("text", TEXT, lambda x: x.text),
+    Field("formula", TEXT, lambda x: x.formula or None, is_optional=True),
+    Field("values", TEXT, lambda x: x.values or None, is_optional=True),
+    Field("for", TEXT, lambda x: x.scope or None, is_optional=True),
+    Field("source", TEXT, lambda x: x.source),
+    Field("see", array(TEXT), lambda x: list(x.see)),
+)
+_REPORT: Record[_Word] = Record(
+    schema_named(SCHEMA),
+    Field("word", TEXT, lambda x: x.word),
+    _MEANING.every("meanings", lambda x: x.meanings),
+)
+
+
+def meaning_report_schema() -> Schema:
+    """The JSON Schema of ``gark explain --format json``."""
+    return published("report of gark explain", _REPORT.schema)
+
+
+def render(
+    word: str, found: Sequence[Meaning], format: str, paint: Paint
+) -> str:
+    """What a word means, as text or as JSON."""
+    if format == "json":
+        return _REPORT.text(_Word(word, found))
+    blocks = ["\n".join(_lines(meaning, paint)) for meaning in found]
+    return "\n\n".join(blocks) + "\n"
+
+
+def _lines(meaning: Meaning, paint: Paint) -> Iterator[str]:
+    yield f"{paint('strong', meaning.name)}: {meaning.kind}"
+    yield from indented(folded(meaning.text, _WIDTH - 2, ""))
+    if meaning.formula:
+        yield ""
+        yield from indented(folded(meaning.formula, _WIDTH - 4, ""), "    ")
+        yield ""
+    yield from _part("claim", meaning.values)
+    yield from _part("for", meaning.scope)
+    yield from _part("source", meaning.source)
+    yield from _part("see", ", ".join(meaning.see))
+
+
+def _part(label: str, text: str) -> list[str]:
+    """A part beside its label; nothing where it is empty."""
+    if not text:
+        return []
+    first, *rest = folded(text, _WIDTH - _MARGIN, "")
+    head = f"  {label}".ljust(_MARGIN)
+    return [head + first, *indented(rest, " " * _MARGIN)]
+
+
+def render_list(format: str) -> str:
+    """The terms by topic, as text or as JSON."""
+    if format == "json":
+        every = [term_meaning(x) for topic in TOPICS for x in terms_of(topic)]
+        return _REPORT.text(_Word("", every))
+    lines = []
+    for topic, title in TOPICS.items():
+        names = "; ".join(term.name for term in terms_of(topic))
+        lines += [title, *indented(folded(names, _WIDTH - 2, ""))]
+    return "\n".join(lines) + "\n"
+
+
+def glossary() -> str:
+    """The terms as a page in Markdown, without its head."""
+    parts = []
+    for topic, title in TOPICS.items():
+        parts += [f"## {title}", ""]
+        for term in terms_of(topic):
+            parts += [f"### {term.name}", "", term.text]
+            if term.formula:
+                parts += ["", f"    {term.formula}"]
+            if term.labels:
+                parts += ["", f"Also: {', '.join(term.labels)}."]
+            if term.see:
+                parts += ["", f"See {', '.join(term.see)}."]
+            parts += ["", f"Source: {term.source}.", ""]
+    return "\n".join(parts).rstrip() + "\n"

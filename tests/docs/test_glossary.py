@@ -1,0 +1,108 @@
+"""docs/glossary.md is made from the terms, and every line of a report has one."""
+
+from __future__ import annotations
+
+import os
+import re
+from collections.abc import Iterator
+from pathlib import Path
+
+import pytest
+
+from garkcli.check.findings import KINDS
+from garkcli.check.meanings import known_words, meanings
+from garkcli.glossary.registry import TOPICS, by_word, plain, terms_of
+from garkcli.glossary.term import Term
+from garkcli.report.meaning import glossary
+from tests.cli.harness import gark
+
+PAGE = Path(__file__).resolve().parents[2] / "docs" / "glossary.md"
+MARK = "<!-- terms -->\n\n"
+TERMS = [term for topic in TOPICS for term in terms_of(topic)]
+COLLOCATION = "methods/collocation.gark.yaml"
+VERLET = "methods/stoermer-verlet.gark.yaml"
+ARS = "methods/ark-ars222.gark.yaml"
+REPORTS = [
+    ("check", COLLOCATION, "--error-constants"),
+    ("check", ARS, "--properties"),
+    ("stability", COLLOCATION),
+    ("stability", ARS),
+    ("stability", VERLET),
+    ("modified", COLLOCATION),
+    ("energy", VERLET, "--t-end", "20"),
+]
+LABEL = re.compile(r"^ {2,4}([A-Za-z][^ ]*(?: [^ ]+){0,3}?)  +\S")
+ORDINARY = {"claim holds", "stable", "properties", "over"}
+"""Labels in plain English that need no term of their own."""
+
+
+def labels(text: str) -> Iterator[str]:
+    """What stands before two blanks at the beginning of lines."""
+    for line in text.splitlines():
+        found = LABEL.match(line)
+        if found:
+            yield found[1].rstrip(",:")
+
+
+def test_the_page_is_made_from_the_terms() -> None:
+    """docs/glossary.md has every term as gark explain tells it."""
+    page = PAGE.read_text(encoding="utf-8")
+    head, mark, found = page.partition(MARK)
+    assert mark
+    if os.environ.get("GARK_UPDATE_SNAPSHOTS"):
+        PAGE.write_text(head + mark + glossary(), encoding="utf-8")
+        return
+    assert found == glossary()
+
+
+@pytest.mark.parametrize("term", TERMS, ids=lambda x: x.name)
+def test_a_term_is_whole(term: Term) -> None:
+    """A sentence, a source, and words near it that exist."""
+    assert term.text.endswith(".")
+    assert term.source
+    for name in term.see:
+        assert by_word()[name].name == name, name
+    for label in term.labels:
+        assert any(x.kind == "term" for x in meanings(label)), label
+
+
+def test_no_two_terms_have_one_name() -> None:
+    """Each name and label leads to one term."""
+    words = [x for term in TERMS for x in (term.name, *term.labels)]
+    assert len(words) == len(set(words))
+    assert meanings("b")[0].name == "weight"
+    assert meanings("B")[0].name == "B(r)"
+    several = {plain(x) for x in words if len(x) > 1}
+    assert len(several) == sum(len(x) > 1 for x in words)
+
+
+@pytest.mark.parametrize("arguments", REPORTS, ids=" ".join)
+def test_every_line_of_a_report_is_explained(
+    arguments: tuple[str, ...],
+) -> None:
+    """What a line of a report is called is a word of gark explain."""
+    shown = list(labels(gark(*arguments).out))
+    assert len(shown) >= 3
+    for label in shown:
+        if label not in ORDINARY:
+            assert meanings(label), label
+
+
+def test_every_word_has_a_meaning() -> None:
+    """Keys, claims, families, rules and findings are known words, each with a text."""
+    words = known_words()
+    assert {"transfer", "a-stable", "gauss", "collocation", *KINDS} <= {*words}
+    for word in words:
+        assert all(meaning.text.strip() for meaning in meanings(word)), word
+
+
+def test_words_are_told() -> None:
+    """One word in several senses; an unknown one has a neighbour."""
+    run = gark("explain", "stage", "order")
+    assert run.code == 0
+    assert "stage order: term" in run.out
+    assert "stage-order: claim under expect" in run.out
+    assert max(map(len, run.out.splitlines())) <= 80
+    run = gark("explain", "densty")
+    assert (run.code, "did you mean 'density'" in run.err) == (2, True)
+    assert "elementary weight" in gark("explain").out
