@@ -16,6 +16,7 @@ from garkcli.order import certificate
 from garkcli.order.certificate import DEFAULT_LIMIT
 from garkcli.tableau import conjugate as conjugation
 from garkcli.tableau import forms
+from garkcli.tableau.embedded import NOTHING
 from garkcli.tableau.garkmethod import Derivation, GarkMethod
 from garkcli.tableau.method import Method
 from garkcli.tableau.tableau import Tableau
@@ -75,9 +76,9 @@ def analyse(
         tolerance: the rounding of the coefficients; that of the method where it is not given, 0 for
             none.
     """
-    return deciding.analyse(
-        tableau_of(method), limit, tolerance_of(method, tolerance)
-    )
+    further = method.further if isinstance(method, GarkMethod) else NOTHING
+    near = tolerance_of(method, tolerance)
+    return deciding.analyse(tableau_of(method), limit, near, further=further)
 
 
 def is_symplectic(method: AnyMethod, tolerance: object = None) -> bool:

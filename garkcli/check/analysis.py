@@ -20,6 +20,7 @@ from garkcli.tableau.tableau import Tableau
 if TYPE_CHECKING:
     from collections.abc import Callable, Mapping, Sequence
 
+    from garkcli.check.further import DenseFacts, EmbeddedFacts
     from garkcli.exact.field import Number
     from garkcli.order.rounded import RoundedOrder
     from garkcli.order.suggestion import Misprint, Suggestion
@@ -64,6 +65,8 @@ class Analysis:
             word, or where the tolerance of the file is too tight for its own rounding.
         misprint: why no tolerance is proposed though residuals are tiny: digits do not explain
             them.
+        embedded: the truth about its embedded weights; None where it has none.
+        dense: the truth about its dense output; likewise.
     """
 
     tableau: Tableau
@@ -87,6 +90,8 @@ class Analysis:
     nonautonomous_order: AnyOrder | None = None
     suggestion: Suggestion | None = None
     misprint: Misprint | None = None
+    embedded: EmbeddedFacts | None = None
+    dense: DenseFacts | None = None
 
     @cached_property
     def subject(self) -> Subject:

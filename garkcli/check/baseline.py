@@ -19,7 +19,15 @@ Earlier: TypeAlias = Mapping[str, File]
 """The files of an earlier report by path."""
 SCHEMA = "gark/check/1"
 """The name of the report that a baseline is."""
-ORDERS = ("order", "conjugate_order", "pair_order")
+ORDERS = (
+    "order",
+    "conjugate_order",
+    "pair_order",
+    "nonautonomous_order",
+    "embedded_order",
+    "embedded_nonautonomous_order",
+    "dense_order",
+)
 
 
 @dataclass(frozen=True)
@@ -146,7 +154,7 @@ def _changed(now: File, before: File) -> list[Regression]:
         truth = f"found {claim['found']}"
         found.append(Regression(file, name, earlier, truth))
     for order in ORDERS:
-        old, new = before.get(order), now[order]
+        old, new = before.get(order), now.get(order)
         if type(old) is int and (new is None or new < old):
             what = order.replace("_", " ")
             found.append(Regression(file, what, str(old), str(new)))

@@ -66,7 +66,9 @@ def check_file(
         return printed_units(method.printed)
 
     reach = max(limit, highest_order(method.claims) + 1)
-    analysis = analyse(method.tableau, reach, method.tolerance, units)
+    analysis = analyse(
+        method.tableau, reach, method.tolerance, units, method.further
+    )
     first_failing = (
         None if analysis.order.is_lower_bound else analysis.order.order + 1
     )

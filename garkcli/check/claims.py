@@ -3,6 +3,7 @@
 from __future__ import annotations
 
 from collections.abc import Sequence
+from typing import TYPE_CHECKING
 
 from garkcli.check.agreement import agrees, claim_of, claimed_text
 from garkcli.check.analysis import Analysis, AnyOrder
@@ -11,6 +12,9 @@ from garkcli.methodfile.description import ClaimText
 from garkcli.methodfile.expectations import AtLeast
 from garkcli.order.simplifying import Simplifying
 from garkcli.properties.keys import KEYS
+
+if TYPE_CHECKING:
+    from garkcli.order.dense import DenseOrder
 
 
 def verify(
@@ -26,14 +30,31 @@ def _held_against(claim: ClaimText, analysis: Analysis) -> Claim:
 
         return verify_property(claim, analysis.subject)
     found = found_value(claim.key, analysis)
-    shown = "none: a weight is zero" if found is None else claimed_text(found)
+    shown = claimed_text(found)
+    if found is None:
+        shown = f"none: {_why_none(claim.key, analysis)}"
     return claim_of(claim, shown, agrees(claim.value, found))
+
+
+def _why_none(key: str, analysis: Analysis) -> str:
+    """Why there is nothing of which a claim speaks."""
+    if key.startswith("embedded") and analysis.embedded is None:
+        return "there are no embedded weights"
+    if key.startswith("dense") and analysis.dense is None:
+        return "there is no dense output"
+    if key == "dense-smooth":
+        return "not decided"
+    if key.endswith("nonautonomous-order"):
+        return "a vector field is linear, or nodes differ"
+    return "a weight is zero"
 
 
 def found_value(key: str, analysis: Analysis) -> object:
     """What is true of an order, a table, or symplecticity; None where it has no meaning."""
     table: Simplifying = analysis.simplifying
     limit = analysis.limit
+    if key.startswith(("embedded", "dense")):
+        return _of_further(key, analysis)
     return {
         "order": _order(analysis.order),
         "conjugate-order": _order(analysis.conjugate_order),
@@ -46,10 +67,29 @@ def found_value(key: str, analysis: Analysis) -> object:
         "C": [_capped_row(row, limit) for row in table.C],
         "D": [_capped_row(row, limit) for row in table.D],
         "symplectic": analysis.symplectic,
+        "nonautonomous-order": _order(analysis.nonautonomous_order),
     }[key]
 
 
-def _order(found: AnyOrder | None) -> object:
+def _of_further(key: str, analysis: Analysis) -> object:
+    """What is true of embedded weights and of dense output."""
+    embedded, dense = analysis.embedded, analysis.dense
+    if key.startswith("embedded"):
+        if embedded is None:
+            return None
+        if key == "embedded-order":
+            return _order(embedded.order)
+        return _order(embedded.nonautonomous_order)
+    if dense is None:
+        return None
+    return {
+        "dense-order": _order(dense.order),
+        "dense-continuous": dense.ends_at_step,
+        "dense-smooth": dense.is_smooth,
+    }[key]
+
+
+def _order(found: AnyOrder | DenseOrder | None) -> object:
     """An order at which nothing is known to fail is at least that large, no more."""
     if found is None:
         return None

@@ -2,6 +2,7 @@
 
 from __future__ import annotations
 
+from dataclasses import replace
 from typing import TYPE_CHECKING
 
 from flint import fmpq
@@ -14,10 +15,16 @@ from garkcli.check.analysis import (
     is_pair_of_itself,
     nonautonomous,
 )
-from garkcli.order.certificate import DEFAULT_LIMIT, Order, find_order
+from garkcli.order.certificate import (
+    DEFAULT_LIMIT,
+    Order,
+    StageSpans,
+    find_order,
+)
 from garkcli.order.simplifying import simplifying
 from garkcli.order.tolerance import TINY, within
 from garkcli.tableau.conjugate import is_symplectic
+from garkcli.tableau.embedded import NOTHING, Further
 from garkcli.tableau.point_space import PointSpace
 from garkcli.tableau.tableau import Tableau
 
@@ -30,6 +37,7 @@ def analyse(
     limit: int = DEFAULT_LIMIT,
     tolerance: fmpq | None = None,
     units: Units | None = None,
+    further: Further = NOTHING,
 ) -> Analysis:
     """Decide everything that ``gark check`` reports; no order beyond ``limit`` is looked for.
 
@@ -39,20 +47,40 @@ def analyse(
         tolerance: the rounding of its coefficients; None for coefficients that are meant exactly.
         units: by how much each printed value may be off, where its digits are known; asked for only
             where residuals look like rounding.
+        further: its embedded weights and its dense output.
     """
+    spans = StageSpans(tableau) if further else None
     if tolerance is None:
-        return _analyse_exactly(tableau, limit, units)
-    # balls, which exact methods do without
-    from garkcli.check.within import analyse_within
+        found = _analyse_exactly(tableau, limit, units, spans)
+    else:
+        # balls, which exact methods do without
+        from garkcli.check.within import analyse_within
 
-    return analyse_within(tableau, tolerance, limit)
+        found = analyse_within(tableau, tolerance, limit)
+    if not further:
+        return found
+    from garkcli.check.further import further_facts  # few files have them
+
+    facts = further_facts(
+        tableau,
+        further,
+        found.order,
+        found.inconsistent,
+        limit,
+        tolerance,
+        spans,
+    )
+    return replace(found, embedded=facts.embedded, dense=facts.dense)
 
 
 def _analyse_exactly(
-    tableau: Tableau, limit: int, units: Units | None
+    tableau: Tableau,
+    limit: int,
+    units: Units | None,
+    spans: StageSpans | None,
 ) -> Analysis:
     conjugated, both, obstacle = conjugate_and_pair(tableau)
-    order = find_order(tableau, limit)
+    order = find_order(tableau, limit, spans)
     conditions = simplifying(tableau, limit)
     conjugate_order = (
         None if conjugated is None else find_order(conjugated, limit)

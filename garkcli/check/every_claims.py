@@ -14,6 +14,7 @@ from garkcli.check.outcome import Claim
 from garkcli.methodfile.description import ClaimText
 from garkcli.methodfile.expectations import NUMBERS, TABLES, AtLeast
 from garkcli.order.simplifying import Simplifying
+from garkcli.properties.keys import KEYS
 
 _OF_TABLES: dict[str, Callable[[Simplifying], Any]] = {
     "B": lambda x: list(x.B),
@@ -50,14 +51,24 @@ def _fact(key: str, found: EveryValue) -> Fact:
         return found.pair_simplifying().of(part)
     if key == "symplectic":
         return found.symplectic
-    orders = {
+    if key in KEYS:
+        return found.verdict(key)
+    return _of_order(_order(key, found))
+
+
+def _order(key: str, found: EveryValue) -> EveryOrder | None:
+    """The order that a claim is on."""
+    # few files claim those with time, which are found when they are asked for
+    if key == "nonautonomous-order":
+        return found.nonautonomous
+    if key == "embedded-nonautonomous-order":
+        return found.embedded_nonautonomous
+    return {
         "order": found.order,
         "conjugate-order": found.conjugate,
         "pair-order": found.pair,
-    }
-    if key not in orders:
-        return found.verdict(key)
-    return _of_order(orders[key])
+        "embedded-order": found.embedded,
+    }[key]
 
 
 def _of_order(order: EveryOrder | None) -> Fact:

@@ -45,6 +45,12 @@ def check_every(
                 "give values to some by --set; gark design asks for one order"
             )
             return _refused(file, message, cure)
+        of_dense = [x for x in family.claims if x.key.startswith("dense")]
+        if of_dense:
+            name = family.parameters[0]
+            message = f"{of_dense[0].key} is claimed, and {name} is free"
+            cure = f"dense output is judged for values: --set {name}=1/2"
+            return _refused(file, message, cure)
         reach = max(limit, highest_order(family.claims) + 1)
         found = every_value(family, reach)
     except MethodFileError as error:

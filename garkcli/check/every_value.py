@@ -2,7 +2,8 @@
 
 from __future__ import annotations
 
-from dataclasses import dataclass, field
+from dataclasses import dataclass, field, replace
+from functools import cached_property
 
 from flint import fmpq_mpoly
 
@@ -16,12 +17,14 @@ from garkcli.errors import ZeroWeight
 from garkcli.exact.field import ONE
 from garkcli.exact.parametric import Parametric
 from garkcli.methodfile.family import FamilyFile, loads_family
+from garkcli.order.nonautonomous import with_time
 from garkcli.order.simplifying import simplifying
 from garkcli.tableau.conjugate import (
     are_opposite,
     is_symplectic,
     symplectic_defect,
 )
+from garkcli.tableau.embedded import with_weights
 from garkcli.tableau.forms import pair
 from garkcli.tableau.tableau import Tableau
 
@@ -44,6 +47,7 @@ class EveryValue:
         simplifying: B, C and D.
         inconsistent: the blocks with A^{l,m} 𝟙 ≠ c^{l}, as (l, m) counted from 0.
         symplectic: whether it is its own conjugate.
+        embedded: the order with the embedded weights in place of b; None where there are none.
     """
 
     file: FamilyFile
@@ -56,6 +60,7 @@ class EveryValue:
     simplifying: Fact
     inconsistent: Fact
     symplectic: Fact
+    embedded: EveryOrder | None = None
     _known: dict[str, Fact] = field(default_factory=dict)
 
     def __reduce__(self) -> tuple[object, ...]:
@@ -73,6 +78,33 @@ class EveryValue:
     def tableau(self) -> Tableau:
         """The method, its entries rational functions."""
         return self.family.tableau
+
+    @property
+    def is_consistent(self) -> bool:
+        """Whether the nodes are the row sums of all blocks, for every value."""
+        return self.inconsistent.is_everywhere and not self.inconsistent.value
+
+    @cached_property
+    def nonautonomous(self) -> EveryOrder | None:
+        """The order on problems ẏ = f(t, y); None where that has no meaning."""
+        return self._with_time(self.order, self.file.tableau)
+
+    @cached_property
+    def embedded_nonautonomous(self) -> EveryOrder | None:
+        """The same with the embedded weights in place of b; None where there are none."""
+        rows = self.file.further.embedded
+        if rows is None or self.embedded is None:
+            return None
+        tableau = with_weights(self.file.tableau, rows)
+        return self._with_time(self.embedded, tableau)
+
+    def _with_time(
+        self, order: EveryOrder, tableau: Tableau
+    ) -> EveryOrder | None:
+        timed = with_time(tableau)
+        if timed is None or self.is_consistent:
+            return None if timed is None else order
+        return _order_with(self.file, timed, self.limit)
 
     def verdict(self, key: str) -> Fact:
         """What is true of a property; each is decided once."""
@@ -126,7 +158,21 @@ def every_value(file: FamilyFile, limit: int) -> EveryValue:
         simplifying=find(family, lambda x: simplifying(x, limit)),
         inconsistent=find(family, inconsistent_blocks),
         symplectic=_symplectic(family),
+        embedded=_embedded(file, limit),
     )
+
+
+def _order_with(file: FamilyFile, tableau: Tableau, limit: int) -> EveryOrder:
+    """The order of another tableau in the same parameters."""
+    family = every_family(replace(file, tableau=tableau))
+    return every_order(family, "method", limit)
+
+
+def _embedded(file: FamilyFile, limit: int) -> EveryOrder | None:
+    rows = file.further.embedded
+    if rows is None:
+        return None
+    return _order_with(file, with_weights(file.tableau, rows), limit)
 
 
 def _again(

@@ -12,12 +12,15 @@ from garkcli.exact.display import to_decimal, to_text
 from garkcli.exact.expression import read_decimal
 from garkcli.exact.field import Number
 from garkcli.order.certificate import Witness
+from garkcli.order.nonautonomous import with_time
 from garkcli.trees.notation import format_tree
 
 if TYPE_CHECKING:
-    from garkcli.check.analysis import Analysis
+    from garkcli.check.analysis import Analysis, AnyOrder
+    from garkcli.order.dense import DenseWitness
     from garkcli.order.repairs import Repair
     from garkcli.order.simplifying import Simplifying
+    from garkcli.tableau.tableau import Tableau
 
 BOUND = "min{r, 2η+2, ξ+1, η+ζ+1}"
 """The bound of ``Simplifying.bound``."""
@@ -41,6 +44,19 @@ def witness_text(witness: Witness, colours: bool) -> str:
     return f"{where}: {value} instead of {witness.required}, off by {residual}"
 
 
+def dense_witness_text(found: DenseWitness, colours: bool) -> str:
+    """Which power of θ in the condition of which tree is not what it should be."""
+    witness = found.witness
+    value = to_text(witness.value)
+    residual = to_text(witness.residual)
+    if len(value) + len(residual) > _LONG:
+        value = f"about {to_decimal(witness.value, 8)}"
+        residual = to_decimal(witness.residual, 4)
+    tree = format_tree(witness.tree, colours)
+    where = f"fails at order {witness.tree.order}: {tree}, at θ^{found.power}"
+    return f"{where}: {value} instead of {witness.required}, off by {residual}"
+
+
 def bound_numbers(found: Simplifying) -> str:
     """What the bounds of the order are made of."""
     r, eta, zeta = found.r, found.eta, found.zeta
@@ -60,15 +76,35 @@ def claim_witness(outcome: Outcome, claim: str) -> str:
         return ""
     if claim.endswith("bound"):
         return _bound_witness(analysis, claim)
+    if claim == "dense-order":
+        dense = analysis.dense
+        if dense is None or dense.order.witness is None:
+            return ""
+        has_colours = analysis.tableau.size > 1
+        return dense_witness_text(dense.order.witness, has_colours)
+    order, tableau = _order_of(analysis, claim)
+    if order is None or tableau is None or order.witness is None:
+        return ""
+    return witness_text(order.witness, tableau.size > 1)
+
+
+def _order_of(
+    analysis: Analysis, claim: str
+) -> tuple[AnyOrder | None, Tableau | None]:
+    """The order that a claim is on, and the tableau that has it."""
+    embedded = analysis.embedded
+    if embedded is not None and claim == "embedded-order":
+        return embedded.order, embedded.tableau
+    if embedded is not None and claim == "embedded-nonautonomous-order":
+        return embedded.nonautonomous_order, with_time(embedded.tableau)
+    if claim == "nonautonomous-order":
+        return analysis.nonautonomous_order, with_time(analysis.tableau)
     found = {
         "order": (analysis.order, analysis.tableau),
         "conjugate-order": (analysis.conjugate_order, analysis.conjugate),
         "pair-order": (analysis.pair_order, analysis.pair),
     }
-    order, tableau = found.get(claim, (None, None))
-    if order is None or tableau is None or order.witness is None:
-        return ""
-    return witness_text(order.witness, tableau.size > 1)
+    return found.get(claim, (None, None))
 
 
 def _bound_witness(analysis: Analysis, claim: str) -> str:

@@ -14,7 +14,14 @@ from garkcli.properties.keys import KEYS
 from garkcli.properties.property import Size, Verdict
 from garkcli.properties.registry import find
 
-ORDERS = ("order", "conjugate-order", "pair-order", "symplectic")
+ORDERS = (
+    "order",
+    "conjugate-order",
+    "pair-order",
+    "symplectic",
+    "embedded-order",
+    "dense-order",
+)
 """What is always worth claiming."""
 OF_BLOCKS = ("B", "C", "D")
 DIGITS = 12
@@ -43,6 +50,8 @@ def usual_keys(analysis: Analysis) -> list[str]:
     order, and those properties that a plain check decides and that it has.
     """
     found = [*true_claims(analysis, ORDERS)]
+    if analysis.inconsistent and analysis.nonautonomous_order is not None:
+        found.append("nonautonomous-order")
     for key in KEYS:
         if not find(key).is_cheap:
             continue

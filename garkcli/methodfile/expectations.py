@@ -27,9 +27,14 @@ NUMBERS = (
     "pair-bound",
     "sharp-bound",
     "pair-sharp-bound",
+    "nonautonomous-order",
+    "embedded-order",
+    "embedded-nonautonomous-order",
+    "dense-order",
 )
+TRUTHS = ("symplectic", "dense-continuous", "dense-smooth")
 TABLES = ("B", "C", "D")
-CLAIMS = (*NUMBERS, *TABLES, "symplectic", *KEYS)
+CLAIMS = (*NUMBERS, *TABLES, *TRUTHS, *KEYS)
 """Everything a file may claim."""
 _FORM = "write for instance expect: {order: 4}"
 _AT_LEAST = re.compile(r">=\s*([0-9]{1,4})")

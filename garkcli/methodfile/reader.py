@@ -30,7 +30,7 @@ from garkcli.methodfile.description import (
     further_of,
 )
 from garkcli.methodfile.diagonal import DiagonalReader
-from garkcli.methodfile.expectations import NUMBERS
+from garkcli.methodfile.expectations import NUMBERS, TRUTHS
 from garkcli.methodfile.nodes import Extent, extent, key_of, keys_of
 from garkcli.methodfile.numbers import Numbers
 from garkcli.methodfile.parameters import (
@@ -69,7 +69,7 @@ _START = "give A and b, or one of the keys methods, tableau, ark, prk"
 _HOMES = {
     "claims go under expect, for instance expect: {order: 4}": (
         *NUMBERS,
-        "symplectic",
+        *TRUTHS,
     ),
     "write methods: [{family: gauss, stages: 2}]": ("family", "stages"),
     "it goes under transfer": ("blocks", "default"),

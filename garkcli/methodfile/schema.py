@@ -26,7 +26,7 @@ from garkcli.methodfile.coefficient_schema import (
     tableau_keys,
 )
 from garkcli.methodfile.description import BESIDE, FORMS, STRUCTURES
-from garkcli.methodfile.expectations import NUMBERS, TABLES
+from garkcli.methodfile.expectations import NUMBERS, TABLES, TRUTHS
 from garkcli.methodfile.family_schema import design, parameters, unknown
 from garkcli.methodfile.transfers import ALL_RULES
 from garkcli.properties.property import Kind
@@ -236,7 +236,7 @@ def _expect() -> Schema:
     for key in TABLES:
         properties[key] = row if key == "B" else table
     truth: Schema = {"type": "boolean"}
-    properties["symplectic"] = truth
+    properties |= dict.fromkeys(TRUTHS, truth)
     by_kind: dict[Kind, Schema] = {
         "truth": truth,
         "count": number,

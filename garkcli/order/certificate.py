@@ -67,24 +67,29 @@ class Order:
 
 
 @dataclass(frozen=True)
-class _Forest:
+class Forest:
     """A spanning member: the product of the branches' contributions, and the branches."""
 
     vector: Vector
     branches: tuple[Tree, ...]
 
 
-def find_order(tableau: Tableau, limit: int = DEFAULT_LIMIT) -> Order:
+def find_order(
+    tableau: Tableau,
+    limit: int = DEFAULT_LIMIT,
+    spans: StageSpans | None = None,
+) -> Order:
     """The exact order of a tableau, by affine spans.
 
     Args:
         tableau: any tableau; its coupling graph decides which trees count.
         limit: the order at which to stop.
+        spans: of its stage vectors, where some are known; they do not depend on weights.
 
     Returns:
         The largest r ≤ limit for which the conditions of all trees of order ≤ r hold.
     """
-    spans = _Spans(tableau)
+    spans = spans or StageSpans(tableau)
     for order in range(1, limit + 1):
         for l, colour in enumerate(tableau.colours):
             for forest in spans.stage_vectors(l, order):
@@ -102,11 +107,11 @@ def _witness(tree: Tree, normalised: Number) -> Witness:
     return Witness(tree, weight, fmpq(1, density))
 
 
-_Forests: TypeAlias = list[_Forest]
+_Forests: TypeAlias = list[Forest]
 _ByOrder: TypeAlias = list[_Forests]
 
 
-class _Spans:
+class StageSpans:
     """Spanning members of Θ (branches) and Φ (forests) for each stage space, made on demand."""
 
     def __init__(self, tableau: Tableau) -> None:
@@ -119,11 +124,11 @@ class _Spans:
         self.forests: list[_ByOrder] = []
         self.branches: list[_ByOrder] = []
         for space in tableau.spaces:
-            vertex = _Forest(space.one, ())
+            vertex = Forest(space.one, ())
             self.forests.append([[vertex]])
             self.branches.append([[]])
 
-    def stage_vectors(self, colour: int, order: int) -> Sequence[_Forest]:
+    def stage_vectors(self, colour: int, order: int) -> Sequence[Forest]:
         """Members that span Ψ_order of a colour."""
         rows = self.tableau.colours[colour].space
         self._extend(rows, order - 1)
@@ -150,7 +155,7 @@ class _Spans:
             batch = []
             for image, x in zip(images, members, strict=True):
                 branch = Tree(m, x.branches)
-                batch.append(_Forest(image, (branch,)))
+                batch.append(Forest(image, (branch,)))
             yield batch
 
     def _new_forests(self, rows: int, order: int) -> Iterator[_Forests]:
@@ -165,7 +170,7 @@ class _Spans:
                 for rest in forests[order - j]:
                     vector = space.product(branch.vector, rest.vector)
                     trees = (*branch.branches, *rest.branches)
-                    batch.append(_Forest(vector, trees))
+                    batch.append(Forest(vector, trees))
                 yield batch
 
     def _spanning(self, rows: int, batches: Iterator[_Forests]) -> _Forests:
@@ -201,7 +206,7 @@ def all_spanning_trees(
     Yields:
         For each colour the trees with that root; over ℚ at most s + 1 of them.
     """
-    spans = _Spans(tableau)
+    spans = StageSpans(tableau)
     for order in orders:
         yield tuple(
             tuple(

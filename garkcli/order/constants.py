@@ -30,6 +30,8 @@ if TYPE_CHECKING:
 
 EXACT_CONDITIONS = 3_000
 """Most conditions that are evaluated exactly; beyond them floats do."""
+EXACT_ESTIMATES = 300
+"""The same of the estimate of the error, which every check of an embedded method reports."""
 _BITS = 128
 """Precision of norms on their way to floats."""
 MAX_TREES = 10_000_000
@@ -79,22 +81,44 @@ class ErrorConstants:
 
 def error_constants(tableau: Tableau, order: int) -> ErrorConstants | None:
     """The error constants at ``order``; None where there are more than ``MAX_TREES`` trees."""
-    if count_conditions(tableau, order) <= EXACT_CONDITIONS:
-        return _exact(tableau, order)
+    return _constants(tableau, order, 1, EXACT_CONDITIONS)
+
+
+def estimate_constants(
+    difference: Tableau, order: int, is_rounded: bool = False
+) -> ErrorConstants | None:
+    """The same norms of (b − b̂)_lᵀ 𝒜^[u] / σ(u): of the estimate h Σ (b_i − b̂_i) k_i of the error.
+
+    Args:
+        difference: the tableau with the weights b − b̂.
+        order: of the trees.
+        is_rounded: whether the coefficients are, so that nothing is gained by exact norms.
+    """
+    exact = 0 if is_rounded else EXACT_ESTIMATES
+    return _constants(difference, order, 0, exact)
+
+
+def _constants(
+    tableau: Tableau, order: int, share: int, most_exact: int
+) -> ErrorConstants | None:
+    """The norms of (b_lᵀ 𝒜^[u] − share/γ(u)) / σ(u)."""
+    if count_conditions(tableau, order) <= most_exact:
+        return _exact(tableau, order, share)
     edges, linear = coupling_graph(tableau)
     trees = 0
     for n in range(1, order + 1):
         trees += count_trees(tableau.size, n, edges, linear)
     if trees > MAX_TREES:
         return None
-    return _in_floats(tableau, order)
+    return _in_floats(tableau, order, share)
 
 
-def _exact(tableau: Tableau, order: int) -> ErrorConstants:
+def _exact(tableau: Tableau, order: int, share: int) -> ErrorConstants:
     everything: list[_Coefficient] = []
     coupling: list[_Coefficient] = []
     for condition in all_conditions(tableau, order):
-        e = condition.residual / condition.tree.symmetry
+        off = condition.value - share * condition.required
+        e = off / condition.tree.symmetry
         mixed = [u for u in condition.trees if len(u.colours) > 1]
         everything.append((e, condition.trees))
         if mixed:
@@ -130,7 +154,7 @@ def _exact_norms(coefficients: Sequence[_Coefficient]) -> Norms:
     )
 
 
-def _in_floats(tableau: Tableau, order: int) -> ErrorConstants:
+def _in_floats(tableau: Tableau, order: int, share: int) -> ErrorConstants:
     import numpy as np
 
     from garkcli.trees.table import TreeTable
@@ -151,7 +175,7 @@ def _in_floats(tableau: Tableau, order: int) -> ErrorConstants:
     values = elementary_weights(table, rows, blocks, weights)[last]
     gamma = table.gamma[last].astype(float)
     sigma = table.sigma[last].astype(float)
-    residuals = values - 1.0 / gamma
+    residuals = values - share / gamma
     coefficients = np.abs(residuals / sigma)
     mixes = _mixes(table)[last]
 

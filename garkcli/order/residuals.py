@@ -78,15 +78,20 @@ class TreeResiduals:
             self._vectors[1, nature] = [one]
         self._applied: dict[tuple[int, int, int], arb_mat] = {}
 
-    def sizes(self, order: int, tolerance: arb | None = None) -> Sizes:
-        """Bounds on all |residuals| of an order; ``tolerance`` tells which trees are doubtful."""
+    def sizes(
+        self, order: int, tolerance: arb | None = None, share: int = 1
+    ) -> Sizes:
+        """Bounds on all |residuals| of an order; ``tolerance`` tells which trees are doubtful.
+
+        With ``share`` 0 it is the elementary weights themselves that are bounded.
+        """
         bound = reached = arb(0)
         largest: int | None = None
         doubtful: list[int] = []
         failed = False
         with ctx.workprec(self.enclosure.bits):
             table = TreeTable.of(self._admissible, order)
-            for size, tree_id in self._residuals(table, order):
+            for size, tree_id in self._residuals(table, order, share):
                 if not size < reached:
                     bound = bound.max(size)
                 fails = tolerance is not None and size > tolerance
@@ -104,12 +109,16 @@ class TreeResiduals:
             trees = tuple(table.tree(u) for u in doubtful)
             return Sizes(bound.abs_upper(), reached, worst, trees)
 
-    def _residuals(self, table: TreeTable, order: int) -> Iterator[_Residual]:
-        """|b_lᵀ 𝒜^[u] − 1/γ(u)| and the id, for the roots that differ in more than their colour."""
+    def _residuals(
+        self, table: TreeTable, order: int, share: int
+    ) -> Iterator[_Residual]:
+        """|b_lᵀ 𝒜^[u] − share/γ(u)| and the id, for the roots that differ in more than their
+        colour.
+        """
         if order == 1:
             for l in self._roots:
                 weights = self.enclosure.b[l].entries()
-                residual = sum(weights, arb(-1))
+                residual = sum(weights, arb(-share))
                 yield abs(residual), l
             return
         required: dict[int, arb] = {}
@@ -125,7 +134,7 @@ class TreeResiduals:
             trees = zip(where.tolist(), segment.ids, densities, strict=True)
             for i, u, gamma in trees:
                 if gamma not in required:
-                    required[gamma] = 1 / arb(gamma)
+                    required[gamma] = share / arb(gamma)
                 residual = values[i] - required[gamma]
                 yield abs(residual), u
 

@@ -35,6 +35,11 @@ _PAPER = (
 )
 _ORDER = KINDS["count"]
 _TABLE = "a list of such numbers by colour; `null` where there is no block"
+_HAIRER = "E. Hairer, S. P. Nørsett, G. Wanner, Solving Ordinary Differential Equations I, section"
+_HAIRER_II_4 = f"{_HAIRER} II.4"
+_HAIRER_II_6 = f"{_HAIRER} II.6"
+_WITH_EMBEDDED = "methods with embedded weights"
+_WITH_DENSE = "methods with dense output"
 _OF_ORDERS = (
     Definition(
         "order",
@@ -115,6 +120,55 @@ _OF_ORDERS = (
         " without it.",
         "J. M. Sanz-Serna, BIT 28 (1988)",
         KINDS["truth"],
+    ),
+    Definition(
+        "nonautonomous-order",
+        "The order on problems ẏ = f(t, y) with the nodes as they are printed: that of the tableau"
+        " with time as one more colour, whose block is the column of nodes. It is the order where"
+        " the nodes are the row sums of every block.",
+        f"{_HAIRER} II.1",
+        _ORDER,
+        "methods without linear colours",
+    ),
+    Definition(
+        "embedded-order",
+        "The order of the method with the embedded weights in place of b.",
+        _HAIRER_II_4,
+        _ORDER,
+        _WITH_EMBEDDED,
+    ),
+    Definition(
+        "embedded-nonautonomous-order",
+        "The order on problems ẏ = f(t, y) of the method with the embedded weights in place of b.",
+        _HAIRER_II_4,
+        _ORDER,
+        _WITH_EMBEDDED,
+    ),
+    Definition(
+        "dense-order",
+        "The largest p for which dense output meets all order conditions up to p for every θ:"
+        " Σ b_i(θ) 𝒜^[u]_i = θ^n/γ(u), a polynomial identity, for every tree u of order n ≤ p. The"
+        " order is no larger than the degree.",
+        _HAIRER_II_6,
+        _ORDER,
+        _WITH_DENSE,
+    ),
+    Definition(
+        "dense-continuous",
+        "Dense output ends where the step does, b(1) = b; it begins where the step does in any"
+        " case, as it has no constant terms.",
+        _HAIRER_II_6,
+        KINDS["truth"],
+        _WITH_DENSE,
+    ),
+    Definition(
+        "dense-smooth",
+        "Dense output and its slope are continuous from step to step, whatever the step sizes, on"
+        " autonomous problems: b(1) = b, and the slope is that of the vector field at both ends of"
+        " a step.",
+        _HAIRER_II_6,
+        KINDS["truth"],
+        _WITH_DENSE,
     ),
 )
 

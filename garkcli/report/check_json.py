@@ -24,6 +24,7 @@ from garkcli.page.schema import (
 )
 from garkcli.report.every_json import EVERY_FIELDS, EVERY_VERDICTS
 from garkcli.report.fault_json import FAULT
+from garkcli.report.further_json import FURTHER_FIELDS
 from garkcli.report.hints_json import BLOCK, HINTS, blocks
 from garkcli.report.order_json import SIMPLIFYING, order_fields
 from garkcli.report.property_json import EVERY_PROPERTY, PROPERTIES
@@ -103,6 +104,7 @@ _ANALYSIS: tuple[Field[Analysis], ...] = (
     *inside(lambda x: x.conjugate_order, order_fields("conjugate_")),
     *inside(lambda x: x.pair_order, order_fields("pair_")),
     *inside(lambda x: x.nonautonomous_order, order_fields("nonautonomous_")),
+    *FURTHER_FIELDS,
     SIMPLIFYING.whole("simplifying", lambda x: x),
     Field("pair_bound", nullable(COUNT), lambda x: x.pair_bound),
     Field("sharp_bound", COUNT, lambda x: x.sharp_bound),

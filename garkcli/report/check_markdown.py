@@ -17,11 +17,14 @@ if TYPE_CHECKING:
 
 def render(outcomes: Sequence[Outcome]) -> str:
     """A row a file, then the findings."""
-    lines = [
-        "| file | order | conjugate | pair | bound | symplectic | claims |",
-        "|---|---|---|---|---|---|---|",
-        *(_row(outcome) for outcome in outcomes),
-    ]
+    rows = [[*HEADS], *(_row(outcome) for outcome in outcomes)]
+    embedded = [_embedded(outcome) for outcome in outcomes]
+    if any(embedded):
+        # few methods have embedded weights: a column where one of these has
+        for row, cell in zip(rows, ["embedded", *embedded], strict=True):
+            row.insert(2, cell)
+    lines = [_joined(row) for row in rows]
+    lines.insert(1, "|---" * len(rows[0]) + "|")
     found = [x for outcome in outcomes for x in findings(outcome)]
     if found:
         lines.append("")
@@ -36,7 +39,25 @@ def render(outcomes: Sequence[Outcome]) -> str:
     return "\n".join(lines) + "\n"
 
 
-def _row(outcome: Outcome) -> str:
+HEADS = ["file", "order", "conjugate", "pair", "bound", "symplectic", "claims"]
+
+
+def _joined(cells: Sequence[str]) -> str:
+    """A row of the table."""
+    return f"| {' | '.join(cells)} |"
+
+
+def _embedded(outcome: Outcome) -> str:
+    """The order of the embedded weights; empty where there are none."""
+    if outcome.every is not None and outcome.every.embedded is not None:
+        return str(outcome.every.embedded.order)
+    analysis = outcome.analysis
+    if analysis is None or analysis.embedded is None:
+        return ""
+    return _order(analysis.embedded.order)
+
+
+def _row(outcome: Outcome) -> list[str]:
     analysis = outcome.analysis
     if outcome.every is not None:
         cells = _every(outcome, outcome.every)
@@ -56,7 +77,7 @@ def _row(outcome: Outcome) -> str:
             "yes" if analysis.symplectic else "no",
             _claims(claims, failed),
         ]
-    return f"| {' | '.join(cells)} |"
+    return cells
 
 
 def _every(outcome: Outcome, found: EveryValue) -> list[str]:

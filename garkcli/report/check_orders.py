@@ -34,7 +34,7 @@ _ONE_LINE = 50
 
 
 @dataclass(frozen=True)
-class _Shown:
+class Shown:
     """How failures are shown, and which were.
 
     Attributes:
@@ -46,18 +46,15 @@ class _Shown:
     witnesses: list[Witness] = field(default_factory=list)
 
 
-def order_lines(
-    analysis: Analysis, paint: Paint, digits: int | None = None
-) -> list[str]:
+def order_lines(analysis: Analysis, paint: Paint, shown: Shown) -> list[str]:
     """The order of the method, of its conjugate, of their pair, and with time.
 
     Args:
         analysis: what was found.
         paint: colour or none.
-        digits: significant digits of values and residuals; None for exact numbers.
+        shown: how failures are shown; those of these lines are added.
     """
     lines: list[str] = []
-    shown = _Shown(digits)
     for label, order, tableau in (
         ("order", analysis.order, analysis.tableau),
         ("conjugate order", analysis.conjugate_order, analysis.conjugate),
@@ -66,10 +63,11 @@ def order_lines(
         if order is None or tableau is None:
             lines += [f"  {label:{LABEL}}none", f"      {analysis.obstacle}"]
             continue
-        lines += _order(label, order, tableau, paint, shown)
+        lines += one_order(label, order, tableau, paint, shown)
     timed = analysis.nonautonomous_order
-    if timed is not None and timed.order < analysis.order.order:
-        lines += _nonautonomous(analysis, timed, paint, shown)
+    if timed is not None and analysis.inconsistent:
+        label = "non-autonomous"
+        lines += with_time_lines(label, timed, analysis.tableau, paint, shown)
     return lines
 
 
@@ -79,21 +77,25 @@ def order_number(order: AnyOrder) -> str:
     return f"at least {number}" if order.is_lower_bound else number
 
 
-def _nonautonomous(
-    analysis: Analysis, order: AnyOrder, paint: Paint, shown: _Shown
+def with_time_lines(
+    label: str,
+    order: AnyOrder,
+    tableau: Tableau,
+    paint: Paint,
+    shown: Shown,
 ) -> list[str]:
     """The order on y' = f(t, y), as the nodes are not the row sums."""
-    timed = with_time(analysis.tableau)
+    timed = with_time(tableau)
     if timed is None:
         return []
-    lines = _order("non-autonomous", order, timed, paint, shown)
+    lines = one_order(label, order, timed, paint, shown)
     time = f"colour {timed.size} is time"
     lines.append(f"      for y' = f(t, y) with the nodes as printed; {time}")
     return lines
 
 
-def _order(
-    label: str, order: AnyOrder, tableau: Tableau, paint: Paint, shown: _Shown
+def one_order(
+    label: str, order: AnyOrder, tableau: Tableau, paint: Paint, shown: Shown
 ) -> list[str]:
     """An order with its witness, drawn unless the same failure was shown before."""
     number = paint("strong", order_number(order))

@@ -20,6 +20,7 @@ from garkcli.report.check_conditions import (
 )
 from garkcli.report.check_orders import (
     LABEL,
+    Shown,
     order_lines,
     order_number,
     suggestion_lines,
@@ -158,6 +159,9 @@ def _line(outcome: Outcome, analysis: Analysis, paint: Paint) -> str:
     file = printable(outcome.file)
     number = order_number(analysis.order)
     found = f"order {number}"
+    if analysis.embedded is not None:
+        number = order_number(analysis.embedded.order)
+        found += f", embedded {number}"
     pair_order = analysis.pair_order
     if pair_order is not None and not analysis.tableau.is_partitioned:
         number = order_number(pair_order)
@@ -194,7 +198,12 @@ def _full(
     lines = [paint("strong", line) for line in _title(outcome)]
     lines += indented(_wrapped(kind))
     lines.append("")
-    lines += order_lines(analysis, paint, digits)
+    shown = Shown(digits)
+    lines += order_lines(analysis, paint, shown)
+    if analysis.embedded is not None or analysis.dense is not None:
+        from garkcli.report.check_further import further_lines
+
+        lines += further_lines(analysis, paint, shown)
     if analysis.suggestion is not None:
         lines += suggestion_lines(
             analysis.suggestion, analysis.tolerance, paint

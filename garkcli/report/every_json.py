@@ -135,6 +135,7 @@ EVERY_FIELDS: tuple[Field[EveryValue], ...] = (
     _ORDER.whole("order", lambda x: x.order),
     _ORDER.or_null("conjugate_order", lambda x: x.conjugate),
     _ORDER.or_null("pair_order", lambda x: x.pair),
+    _ORDER.or_null("embedded_order", lambda x: x.embedded),
     Field("B", _FACTS, _part(lambda x: list(x.B))),
     Field("C", _FACTS, _part(lambda x: [list(row) for row in x.C])),
     Field("D", _FACTS, _part(lambda x: [list(row) for row in x.D])),

@@ -80,6 +80,24 @@ def _orders(outcome: Outcome, found: EveryValue, paint: Paint) -> list[str]:
             continue
         command = f"gark design {file}{option}"
         lines += _order(label, order, found, command, paint, shown)
+    return lines + _further(found, paint, shown)
+
+
+def _further(
+    found: EveryValue, paint: Paint, shown: list[tuple[str, str]]
+) -> list[str]:
+    """The order on problems with time and that of the embedded weights, where these are others."""
+    lines: list[str] = []
+    orders = [("embedded order", found.embedded)]
+    if not found.is_consistent:
+        orders.insert(0, ("non-autonomous", found.nonautonomous))
+        orders.append(("embedded, time", found.embedded_nonautonomous))
+    for label, order in orders:
+        if order is not None:
+            lines += _order(label, order, found, "", paint, shown)
+    if found.file.further.dense is not None:
+        text = "judged for values of the parameters: --set NAME=1/2"
+        lines.append(f"  {'dense output':{LABEL}}{text}")
     return lines
 
 
@@ -131,6 +149,8 @@ def _higher(order: EveryOrder, found: EveryValue, command: str) -> list[str]:
         lines += _indented(f"order {text.split('; ', 1)[1]}")
     else:
         return _indented(f"no real value of the file has order {higher}")
+    if not command:
+        return lines
     return lines + _indented(f"{command} --order {higher}")
 
 

@@ -147,7 +147,7 @@ _NORMS: Record[Norms] = Record(
     Field("worst", _TEXT_OR_NULL, _worst),
     Field("worst_value", _TEXT_OR_NULL, lambda x: _exact(x.worst_value)),
 )
-_CONSTANTS: Record[ErrorConstants] = Record(
+CONSTANTS: Record[ErrorConstants] = Record(
     Field("order", POSITION, lambda x: x.order),
     Field("exact", FLAG, lambda x: x.is_exact),
     _NORMS.whole("all", lambda x: x.all),
@@ -168,7 +168,7 @@ _OF_SUGGESTION: Field[Analysis] = _SUGGESTION.optional(
 HINTS: tuple[Field[Outcome], ...] = (
     _BLAME.optional("blame", lambda x: x.blame),
     *inside(_analysis, [_OF_MISPRINT]),
-    _CONSTANTS.optional("error_constants", lambda x: x.constants),
+    CONSTANTS.optional("error_constants", lambda x: x.constants),
     *inside(_analysis, [_OF_SUGGESTION]),
 )
 """Each is left out where there is nothing to say."""

@@ -13,6 +13,7 @@ from typing import TypeAlias
 from garkcli.errors import ShapeMismatch, counted
 from garkcli.exact.field import ZERO, Number
 from garkcli.exact.matrix import Vector
+from garkcli.tableau.point_space import PointSpace
 from garkcli.tableau.tableau import Tableau
 
 Weights: TypeAlias = tuple[Vector, ...]
@@ -99,8 +100,9 @@ def padded(rows: Sequence[Vector], degree: int) -> tuple[Vector, ...]:
 def with_weights(tableau: Tableau, weights: Weights) -> Tableau:
     """The tableau with other weights at the same stages.
 
-    Errors:
-        ShapeMismatch: not a row a colour, or not one weight a stage.
+    Raises:
+        ShapeMismatch: not a row a colour, or not one weight a stage; or the stages are those of a
+            family in its algebra, where weights are no numbers a stage.
 
     >>> from flint import fmpq
     >>> from garkcli.order.certificate import find_order
@@ -116,6 +118,9 @@ def with_weights(tableau: Tableau, weights: Weights) -> Tableau:
         found = counted(len(weights), "row")
         wanted = counted(tableau.size, "colour")
         raise ShapeMismatch(f"{found} of weights for {wanted}")
+    if not all(isinstance(space, PointSpace) for space in tableau.spaces):
+        message = "weights of single stages, and there are none but points"
+        raise ShapeMismatch(message, "spell the method out")
     pairs = zip(tableau.colours, weights, strict=True)
     colours = tuple(replace(colour, b=row) for colour, row in pairs)
     return replace(tableau, colours=colours)

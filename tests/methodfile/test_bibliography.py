@@ -8,9 +8,9 @@ import yaml
 
 from garkcli.errors import Fault, MethodFileError
 from garkcli.methodfile.bibliography import KEYS, Reference
+from garkcli.methodfile.conjugated import write_conjugate_of
 from garkcli.methodfile.load import loads
 from garkcli.methodfile.schema import method_file_schema
-from garkcli.methodfile.writer import write_conjugate_of
 
 METHOD = "A: [[0]]\nb: [1]\n"
 FIELDS = """

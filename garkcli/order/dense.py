@@ -1,0 +1,247 @@
+"""The order of dense output x + h Σ b_i(θ) k_i, for all θ at once, and how its pieces fit together.
+
+With b_i(θ) = Σ_k B_ik θ^k the condition of a tree u, Σ_i b_i(θ) 𝒜^[u]_i = θ^ρ(u)/γ(u), is one of
+polynomials in θ: B_kᵀ 𝒜^[u] is 1/γ(u) for k = ρ(u) and zero for every other k. So the order is no
+larger than the degree, and each power of θ is a functional at the stages (``order.functionals``).
+Hairer, Nørsett & Wanner, *Solving Ordinary Differential Equations I*, II.6.
+
+At θ = 0 the output is x. It is continuous where b(1) = b. Its slope h Σ b_i'(θ) k_i is continuous,
+for whatever step sizes, where it is h f(x_0) at θ = 0 and h f(x_1) at θ = 1; that is decided by two
+more stages, which see nothing, and what b gives.
+"""
+
+from __future__ import annotations
+
+from collections.abc import Sequence
+from dataclasses import dataclass, replace
+
+from flint import fmpq
+
+from garkcli.exact.field import ONE, ZERO, Number
+from garkcli.exact.matrix import Vector
+from garkcli.order.certificate import StageSpans, Witness
+from garkcli.order.functionals import (
+    Failure,
+    Functional,
+    Undecided,
+    first_failure,
+    first_failure_within,
+)
+from garkcli.order.tolerance import within
+from garkcli.tableau.embedded import DenseOutput, Weights
+from garkcli.tableau.point_space import PointSpace
+from garkcli.tableau.tableau import Tableau
+
+
+@dataclass(frozen=True)
+class DenseWitness:
+    """A coefficient of θ^power in the condition of a tree that is not what it should be."""
+
+    power: int
+    witness: Witness
+
+
+@dataclass(frozen=True)
+class DenseOrder:
+    """The order of dense output.
+
+    Attributes:
+        order: every condition up to it holds, for all θ; within ``tolerance`` where that is given:
+            each coefficient of a condition is as far off at most.
+        witness: what fails one order higher; None where the search stopped, or nothing is decided.
+        undecided: whether the next order is left open.
+        tolerance: the rounding of the coefficients; None where they are exact.
+    """
+
+    order: int
+    witness: DenseWitness | None
+    undecided: bool = False
+    tolerance: fmpq | None = None
+
+    @property
+    def is_lower_bound(self) -> bool:
+        """Whether nothing is known to fail."""
+        return self.witness is None
+
+
+def dense_order(
+    tableau: Tableau,
+    dense: DenseOutput,
+    limit: int,
+    tolerance: fmpq | None = None,
+    spans: StageSpans | None = None,
+) -> DenseOrder:
+    """The largest order ≤ ``limit`` up to which dense output meets all conditions, for every θ.
+
+    Args:
+        tableau: the method.
+        dense: its dense output.
+        limit: the order at which to stop.
+        tolerance: the rounding of the coefficients; None for exact ones.
+        spans: of the stage vectors, where some are known.
+    """
+    powers = range(1, dense.degree + 1)
+    functionals = [Functional(dense.coefficients(k), k) for k in powers]
+    # the next power has no coefficients, and its order should have one
+    beyond = dense.degree + 1
+    functionals.append(Functional(_zeros(tableau), beyond))
+    orders = range(1, min(limit, beyond) + 1)
+    try:
+        failure = _failure(tableau, functionals, orders, tolerance, spans)
+    except Undecided as found:
+        return DenseOrder(found.order - 1, None, True, tolerance)
+    if failure is None:
+        # where no tree is that large, none is larger
+        return DenseOrder(limit, None, False, tolerance)
+    witness = DenseWitness(failure.number + 1, failure.witness)
+    order = failure.witness.tree.order - 1
+    return DenseOrder(order, witness, False, tolerance)
+
+
+def _failure(
+    tableau: Tableau,
+    functionals: Sequence[Functional],
+    orders: range,
+    tolerance: fmpq | None,
+    spans: StageSpans | None = None,
+) -> Failure | None:
+    if tolerance is None:
+        return first_failure(tableau, functionals, orders, spans)
+    return first_failure_within(tableau, functionals, orders, tolerance)
+
+
+def _zeros(tableau: Tableau) -> Weights:
+    return tuple((ZERO,) * len(colour.b) for colour in tableau.colours)
+
+
+def ends_at_step(
+    tableau: Tableau, dense: DenseOutput, tolerance: fmpq = ZERO
+) -> bool:
+    """Whether b(1) = b, entry by entry: then the output is continuous from step to step."""
+    ends = zip(tableau.colours, dense.at(ONE), strict=True)
+    for colour, row in ends:
+        for b, x in zip(colour.b, row, strict=True):
+            if not within(b - x, tolerance):
+                return False
+    return True
+
+
+@dataclass(frozen=True)
+class Slopes:
+    """Whether the slope of dense output is continuous from step to step, on autonomous problems.
+
+    Attributes:
+        at_start: whether it is f(x_0) at θ = 0; None where that is not decided.
+        at_end: whether it is f(x_1) at θ = 1; likewise.
+    """
+
+    at_start: bool | None
+    at_end: bool | None
+
+    @property
+    def are_continuous(self) -> bool | None:
+        """Whether both are, so that pieces fit whatever their step sizes are; None where that is
+        not decided.
+        """
+        both = {self.at_start, self.at_end}
+        if both == {True}:
+            return True
+        return False if False in both else None
+
+
+def slopes(
+    tableau: Tableau, dense: DenseOutput, tolerance: fmpq | None = None
+) -> Slopes:
+    """The slope at both ends of a step.
+
+    It is what it should be where the stages that have weight in it evaluate at x_0, or at x_1;
+    it is not where an elementary weight says so.
+    """
+    whole = _with_ends(tableau)
+    first = dense.coefficients(1)
+    last = _slope_at_one(dense)
+    stages = [
+        _differing(first, at_start=True),
+        _differing(last, at_start=False),
+    ]
+    start, end = (_vanishes(whole, x, tolerance) for x in stages)
+    return Slopes(start, end)
+
+
+def _with_ends(tableau: Tableau) -> Tableau:
+    """The tableau with two more stages in each space: at x_0 and at x_1, without weights."""
+    spaces = [PointSpace((*x.nodes, ZERO, ONE)) for x in tableau.spaces]
+    colours = []
+    for colour in tableau.colours:
+        b = (*colour.b, ZERO, ZERO)
+        c = (*colour.c, ZERO, ONE)
+        colours.append(replace(colour, b=b, c=c))
+    blocks = {}
+    for (k, m), block in tableau.blocks.items():
+        weights = colours[m].b
+        rows = [(*row, ZERO, ZERO) for row in block]
+        nothing = (ZERO,) * len(weights)
+        blocks[k, m] = (*rows, nothing, weights)
+    return Tableau(tuple(spaces), tuple(colours), blocks)
+
+
+def _slope_at_one(dense: DenseOutput) -> Weights:
+    """b'(1) = Σ_k k B_k, a row a colour."""
+    rows = []
+    for of_colour in dense.weights:
+        row = []
+        for coefficients in of_colour:
+            slope: Number = ZERO
+            for k, coefficient in enumerate(coefficients, start=1):
+                slope = slope + k * coefficient
+            row.append(slope)
+        rows.append(tuple(row))
+    return tuple(rows)
+
+
+def _differing(slope: Weights, at_start: bool) -> Weights:
+    """A slope less the value of the vector field at one of the stages of ``_with_ends``."""
+    ends = (-ONE, ZERO) if at_start else (ZERO, -ONE)
+    return tuple((*row, *ends) for row in slope)
+
+
+def _vanishes(
+    tableau: Tableau, weights: Weights, tolerance: fmpq | None
+) -> bool | None:
+    """Whether a functional is zero on every problem; None where that is not decided."""
+    near = ZERO if tolerance is None else tolerance
+    if all(
+        within(x, near)
+        for l, row in enumerate(weights)
+        for x in _of_equal_stages(tableau, l, row, near)
+    ):
+        return True
+    functionals = [Functional(weights)]
+    largest = max(space.stages for space in tableau.spaces)
+    orders = range(1, 2 * largest + 1)
+    try:
+        failure = _failure(tableau, functionals, orders, tolerance)
+    except Undecided:
+        return None
+    return None if failure is None else False
+
+
+def _of_equal_stages(
+    tableau: Tableau, l: int, weights: Vector, near: fmpq
+) -> list[Number]:
+    """The weights of a colour, those of stages that evaluate at the same place together."""
+    k = tableau.colours[l].space
+    blocks = [block for (j, _), block in tableau.blocks.items() if j == k]
+    places: list[Vector] = []
+    sums: list[Number] = []
+    for i, weight in enumerate(weights):
+        row = tuple(x for block in blocks for x in block[i])
+        for number, place in enumerate(places):
+            pairs = zip(place, row, strict=True)
+            if all(within(x - y, near) for x, y in pairs):
+                sums[number] = sums[number] + weight
+                break
+        else:
+            places.append(row)
+            sums.append(weight)
+    return sums
