@@ -62,7 +62,9 @@ def _of_file(method: Shelved, judges: bool) -> tuple[Entry, str]:
         return _blank(method), UNREAD
     if not judges:
         return _claimed(read, method), CLAIMED
-    analysis = analyse(read.tableau, DEFAULT_LIMIT, read.tolerance)
+    analysis = analyse(
+        read.tableau, DEFAULT_LIMIT, read.tolerance, further=read.further
+    )
     return found_of(read, analysis, method.name, method.place), FOUND
 
 

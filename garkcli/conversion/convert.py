@@ -115,6 +115,9 @@ def _failing(method: MethodFile) -> set[str]:
     if not method.claims:
         return set()
     reach = max(DEFAULT_LIMIT, highest_order(method.claims) + 1)
-    analysis = analyse(method.tableau, reach, method.tolerance)
+    further = method.further
+    analysis = analyse(
+        method.tableau, reach, method.tolerance, further=further
+    )
     claims = verify(method.claims, analysis)
     return {claim.claim for claim in claims if not claim.holds}
