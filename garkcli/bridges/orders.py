@@ -33,6 +33,13 @@ class Orders:
     nonautonomous: int | None = None
     tolerance: fmpq | None = None
 
+    @property
+    def effective(self) -> int:
+        """The order on whatever problem, time in it or not: what targets are told."""
+        if self.nonautonomous is None:
+            return self.order
+        return min(self.order, self.nonautonomous)
+
     def sentence(self) -> str:
         """The orders in words.
 

@@ -2,6 +2,7 @@
 
 from __future__ import annotations
 
+import re
 from dataclasses import replace
 from typing import TYPE_CHECKING
 
@@ -52,7 +53,7 @@ def prepared(method: MethodFile, digits: int | None = None) -> Payload:
     embedded, dense = method.embedded, method.dense
     other = None if embedded is None else with_weights(tableau, embedded)
     return Payload(
-        name=method.name,
+        name=_name(method),
         kind=kind_of(tableau),
         tableau=in_points(tableau) or tableau,
         entries=found,
@@ -64,6 +65,14 @@ def prepared(method: MethodFile, digits: int | None = None) -> Payload:
         reference=str(method.reference),
         digits=digits,
     )
+
+
+def _name(method: MethodFile) -> str:
+    """Its name; without one that of its file, whatever folder it is in."""
+    if method.name != method.source:
+        return method.name
+    base = re.split(r"[\\/]", method.source)[-1]
+    return re.sub(r"(\.gark)?\.ya?ml$", "", base)
 
 
 def kind_of(tableau: Tableau) -> Kind:

@@ -1,0 +1,103 @@
+"""C: a header with constant arrays, for any real type."""
+
+from __future__ import annotations
+
+from collections.abc import Sequence
+
+from garkcli.bridges.c_text import array, c_style, heading
+from garkcli.bridges.payload import Payload
+from garkcli.bridges.registry import Bridge
+from garkcli.tableau.pointwise import Row
+
+STYLE = c_style("GARK_REAL_C")
+_TYPE = """\
+#ifndef GARK_REAL_C
+#if defined(GARK_LONG_DOUBLE)
+typedef long double gark_real;
+#define GARK_REAL_C(x) x##L
+#elif defined(GARK_FLOAT128)
+typedef __float128 gark_real;
+#define GARK_REAL_C(x) x##Q
+#else
+typedef double gark_real;
+#define GARK_REAL_C(x) x
+#endif
+#endif"""
+
+
+def write(payload: Payload) -> str:
+    """The header; several vector fields have arrays ``A12``, ``b2`` with their numbers."""
+    name = f"gark_{payload.identifier}"
+    guard = f"{name.upper()}_H"
+    notes = (
+        "Numbers are double; long double with -DGARK_LONG_DOUBLE, __float128 with "
+        "-DGARK_FLOAT128.",
+    )
+    lines = heading(payload, *notes)
+    lines += [f"#ifndef {guard}", f"#define {guard}", "", _TYPE, ""]
+    constants = ",\n  ".join(_constants(payload, name))
+    lines += ["enum {", f"  {constants}", "};", ""]
+    for part, rows in _arrays(payload):
+        size = f"[{len(rows)}]" if len(rows) > 1 or part[0] in "Ad" else ""
+        declaration = (
+            f"static const gark_real {name}_{part}{size}[{len(rows[0])}]"
+        )
+        lines += _one(payload, declaration, rows, bool(size))
+    return "\n".join([*lines, "", f"#endif /* {guard} */"]) + "\n"
+
+
+def _one(
+    payload: Payload, declaration: str, rows: Sequence[Row], is_matrix: bool
+) -> list[str]:
+    """A vector, or a matrix with braces around its rows."""
+    if not is_matrix:
+        return array(payload, declaration, rows, STYLE)
+    lines = [f"{declaration} = {{"]
+    for row in rows:
+        inner = array(payload, "", (row,), STYLE)
+        numbers = inner[1:-1]
+        lines += ["  {", *[f"  {line}" for line in numbers], "  },"]
+    return [*lines, "};"]
+
+
+def _constants(payload: Payload, name: str) -> list[str]:
+    """Numbers of stages and orders."""
+    found = []
+    for l, stages in enumerate(payload.stages, start=1):
+        number = "" if payload.size == 1 else str(l)
+        found.append(f"{name}_stages{number} = {stages}")
+    found.append(f"{name}_order = {payload.orders.order}")
+    if payload.orders.embedded is not None:
+        found.append(f"{name}_embedded_order = {payload.orders.embedded}")
+    return found
+
+
+def _arrays(payload: Payload) -> list[tuple[str, Sequence[Row]]]:
+    """The name of each array with its rows."""
+    found: list[tuple[str, Sequence[Row]]] = []
+    is_one = payload.size == 1
+    for l, blocks in enumerate(payload.A, start=1):
+        for m, block in enumerate(blocks, start=1):
+            if block is not None:
+                found.append((f"A{'' if is_one else f'{l}_{m}'}", block))
+    for l in range(payload.size):
+        number = "" if is_one else str(l + 1)
+        found.append((f"b{number}", (payload.b[l],)))
+        found.append((f"c{number}", (payload.c[l],)))
+        if payload.embedded is not None:
+            found.append((f"embedded{number}", (payload.embedded[l],)))
+        if payload.dense is not None:
+            found.append((f"dense{number}", payload.dense[l]))
+    return found
+
+
+BRIDGES = (
+    Bridge(
+        name="c",
+        summary="a C header with constant arrays",
+        kinds=("rk", "ark", "prk", "gark"),
+        suffix=".h",
+        write=write,
+        reads_back=True,
+    ),
+)

@@ -1,0 +1,138 @@
+"""The problems of the programs that ``gark export --test`` writes: three, small and smooth.
+
+Each is a problem file too, on which ``gark converge`` prints the same errors.
+"""
+
+from __future__ import annotations
+
+from collections.abc import Mapping
+from dataclasses import dataclass
+
+from garkcli.bridges.cannot import CannotExport
+from garkcli.bridges.payload import Payload
+
+STEPS = (8, 16, 32, 64)
+"""In so many steps the time is stepped through, one row of the output each."""
+
+
+@dataclass(frozen=True)
+class Trial:
+    """A problem with two unknowns.
+
+    Attributes:
+        name: of the problem file.
+        sides: the right-hand sides, a pair of formulas each, with ``{y1}``, ``{y2}``, ``{t}``,
+            ``{sin}`` and ``{cos}`` in them; of the separable one q' and p' of (q, p).
+        file: the text of the problem file.
+        t_end: where the errors are measured.
+        final: the solution there, correct to all digits.
+    """
+
+    name: str
+    sides: tuple[tuple[str, str], ...]
+    file: str
+    t_end: int
+    final: tuple[str, str]
+    initial: tuple[str, str] = ("1.2", "0.4")
+
+    def formulas(self, side: int, words: Mapping[str, str]) -> tuple[str, str]:
+        """A right-hand side in a language: words for y1, y2, t, sin and cos."""
+        first, second = self.sides[side]
+        return first.format(**words), second.format(**words)
+
+    @property
+    def step_sizes(self) -> str:
+        """The steps as ``gark converge --steps`` has them."""
+        return ",".join(f"{self.t_end}/{n}" for n in STEPS)
+
+
+WORDS = {
+    "y1": "y[0]",
+    "y2": "y[1]",
+    "t": "t",
+    "sin": "sin",
+    "cos": "cos",
+}
+"""As C, Python and others with arrays from 0 have them."""
+_START = "initial: {y1: 6/5, y2: 2/5}"
+WHOLE = Trial(
+    name="whole",
+    sides=(("{y2}*{cos}({t})", "-{sin}({y1})"),),
+    file=f"""\
+name: one right-hand side, with time in it
+variables: [y1, y2]
+rhs:
+  - {{y1: y2*cos(t), y2: -sin(y1)}}
+{_START}
+t_end: 2
+""",
+    t_end=2,
+    final=(
+        "1.17800823846054054133145213501406815",
+        "-1.43877953451330962805445307202278551",
+    ),
+)
+SPLIT = Trial(
+    name="split",
+    sides=(
+        ("{y2}", "0.3*{sin}({y1})*{y2}"),
+        ("-0.5*{y1}*{y2}", "(1.0 - {y1}*{y1})*{y2} - {y1}"),
+    ),
+    file=f"""\
+name: two right-hand sides
+variables: [y1, y2]
+rhs:
+  - {{y1: y2, y2: 3/10*sin(y1)*y2}}
+  - {{y1: -y1*y2/2, y2: (1 - y1**2)*y2 - y1}}
+{_START}
+t_end: 1
+""",
+    t_end=1,
+    final=(
+        "1.11251631371073201960701475776329010",
+        "-0.78381339848673613949632823473644073",
+    ),
+)
+SEPARABLE = Trial(
+    name="separable",
+    sides=(("{y2}", "-{sin}({y1})"),),
+    file="""\
+name: a pendulum
+variables: [x]
+hamiltonian:
+  - px**2/2
+  - -cos(x)
+initial: {x: 6/5, px: 2/5}
+t_end: 2
+""",
+    t_end=2,
+    final=(
+        "0.20358087395061007056665965504276729",
+        "-1.18067026009027434070547740953813522",
+    ),
+)
+TRIALS = (WHOLE, SPLIT, SEPARABLE)
+
+
+def trial_of(payload: Payload) -> Trial:
+    """The problem that a method is tried on.
+
+    Raises:
+        CannotExport: there is none.
+    """
+    if payload.kind == "rk":
+        return WHOLE
+    if payload.kind == "prk":
+        return SEPARABLE
+    if payload.size == 2 and not payload.tableau.is_partitioned:
+        return SPLIT
+    raise CannotExport(
+        f"no problem to test {payload.size} vector fields with",
+        "leave out --test",
+    )
+
+
+def command_of(payload: Payload, problem_file: str) -> str:
+    """What prints the same errors, for the head of a program."""
+    trial = trial_of(payload)
+    return f"gark converge FILE --problem {problem_file} --steps {trial.step_sizes}"
