@@ -15,7 +15,7 @@ from garkcli.page.plaintext import plain_line
 
 WIDTH = 76
 """Columns of a comment without its mark; Fortran and people have at most 100."""
-_DANGEROUS = ("*/", "/*", "*)", "(*", "--", "??", "]]", "%}", "%{", "=#", "#=")
+_DANGEROUS = ("*/", "/*", "*)", "(*", "??", "]]", "%}", "%{", "=#", "#=")
 """What ends or begins a comment in one of the languages, or is a trigraph of C."""
 
 
@@ -27,17 +27,22 @@ class Comment:
         mark: before each line.
         begin: a line before all; empty for none.
         end: a line after all.
+        forbidden: pairs of signs that this language alone does not allow.
     """
 
     mark: str
     begin: str = ""
     end: str = ""
+    forbidden: tuple[str, ...] = ()
 
     def lines(self, texts: Iterable[str]) -> list[str]:
-        """Texts as comment lines, long ones broken."""
+        """Texts as comment lines, long ones broken; commands, which begin with a blank, are not."""
         found = [self.begin] if self.begin else []
         for text in texts:
-            broken = wrap(harmless(text), WIDTH) or [""]
+            plain = harmless(text, self.forbidden)
+            broken = wrap(plain, WIDTH) or [""]
+            if text.startswith(" "):
+                broken = [plain]
             found += [f"{self.mark}{line}".rstrip() for line in broken]
         return [*found, self.end] if self.end else found
 
@@ -46,16 +51,21 @@ HASH = Comment("# ")
 C = Comment(" * ", begin="/*", end=" */")
 BANG = Comment("! ")
 PERCENT = Comment("% ")
+XML = Comment("", begin="<!--", end="-->", forbidden=("--",))
 
 
-def harmless(text: str) -> str:
+def harmless(text: str, forbidden: tuple[str, ...] = ()) -> str:
     r"""A text that is a comment, and nothing else, in each of the languages.
 
-    >>> harmless("Größe */ int x; \\"), harmless("a-->b\n??/")
+    Args:
+        text: any.
+        forbidden: further pairs of signs that are written apart.
+
+    >>> harmless("Größe */ int x; \\"), harmless("a-->b\n??/", ("--",))
     ('Grosse * / int x; /', 'a- ->b\\n? ?/')
     """
     plain = plain_line(printable(text).replace("ß", "ss"))
-    for pair in _DANGEROUS:
+    for pair in (*_DANGEROUS, *forbidden):
         # twice, for three in a row
         for _ in range(2):
             plain = plain.replace(pair, f"{pair[0]} {pair[1]}")

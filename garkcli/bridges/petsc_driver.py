@@ -45,8 +45,10 @@ def driver(
     lines = C.lines(
         [
             f"Runs {file} in TS of PETSc.",
-            f"Build: mpicc {program}.c {file} $(pkg-config --cflags --libs PETSc) -lm -o {program}",
-            f"The same errors: {command_of(payload, f'{stem}_problem.yaml')}",
+            "Build:",
+            f"  mpicc {program}.c {file} $(pkg-config --cflags --libs PETSc) -lm -o {program}",
+            "The same errors:",
+            f"  {command_of(payload, f'{stem}_problem.yaml')}",
         ]
     )
     register = f"gark_{payload.identifier}_register"

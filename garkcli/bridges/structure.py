@@ -226,6 +226,8 @@ class Composition:
         """The same as drifts and kicks by turns, a drift first."""
         if vanishes(self.kicks[0]):
             return self.drifts, (*self.kicks[1:], ZERO)
+        if vanishes(self.drifts[-1]):
+            return (ZERO, *self.drifts[:-1]), self.kicks
         return (ZERO, *self.drifts), (*self.kicks, ZERO)
 
 

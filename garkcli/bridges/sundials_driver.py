@@ -51,8 +51,10 @@ def driver(
     lines = C.lines(
         [
             f"Runs {file} in {stepper} of SUNDIALS.",
-            f"Build: cc {program}.c {file} {LIBRARIES} -o {program}",
-            f"The same errors: {command_of(payload, f'{stem}_problem.yaml')}",
+            "Build:",
+            f"  cc {program}.c {file} {LIBRARIES} -o {program}",
+            "The same errors:",
+            f"  {command_of(payload, f'{stem}_problem.yaml')}",
         ]
     )
     lines += _includes(kind, stepper)

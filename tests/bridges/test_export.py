@@ -9,7 +9,7 @@ from typing import Any
 import numpy as np
 import pytest
 
-from garkcli.bridges.comments import harmless
+from garkcli.bridges.comments import XML, harmless
 from garkcli.bridges.preparing import prepared
 from garkcli.bridges.registry import bridges
 from garkcli.methodfile.load import load, loads
@@ -107,8 +107,9 @@ def test_no_name_leaves_its_comment(name: str) -> None:
     names = set(executed(written)) - {"__builtins__"}
     assert names == {"np", "order", "A", "b", "c"}
     assert payload.identifier.isidentifier()
-    for pair in ("*/", "/*", "(*", "*)", "--", "??", "\n"):
+    for pair in ("*/", "/*", "(*", "*)", "??", "\n"):
         assert pair not in harmless(payload.name)
+    assert "--" not in harmless(payload.name, XML.forbidden)
 
 
 def test_what_there_is_no_target_for() -> None:

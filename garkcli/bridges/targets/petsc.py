@@ -106,14 +106,28 @@ def _symplectic(payload: Payload) -> str:
             f"{payload.name} is no such composition",
             "json, c, fortran and numpy hold it",
         )
-    drifts, kicks = found.drift_first
-    s = len(drifts)
-    arrays = [(f"c[{s}]", (drifts,)), (f"d[{s}]", (kicks,))]
     name = method_name(payload)
     order = payload.orders.order
-    call = f'TSBasicSymplecticRegister("{name}", {order}, {s}, c, d)'
+    lines = [
+        "#if PETSC_VERSION_LT(3, 20, 0) /* kicks with c, then drifts with d */"
+    ]
+    lines += _steps(payload, found.kicks, found.drifts)
+    lines += ["#else /* drifts with c, then kicks with d */"]
+    lines += _steps(payload, *found.drift_first)
+    lines += ["#endif"]
+    size = "(PetscInt)(sizeof(c) / sizeof(c[0]))"
+    call = f'TSBasicSymplecticRegister("{name}", {order}, {size}, c, d)'
     use = f"-ts_type basicsymplectic -ts_basicsymplectic_type {name}"
-    return _file(payload, use, arrays, call)
+    return _function(payload, use, lines, call)
+
+
+def _steps(payload: Payload, c: Row, d: Row) -> list[str]:
+    """The coefficients of a composition."""
+    lines: list[str] = []
+    for letter, row in (("c", c), ("d", d)):
+        declaration = f"PetscReal {letter}[{len(row)}]"
+        lines += array(payload, declaration, (row,), STYLE, "  ")
+    return lines
 
 
 def _file(
@@ -123,6 +137,16 @@ def _file(
     call: str,
 ) -> str:
     """The function with its arrays and its one call."""
+    lines: list[str] = []
+    for name, rows in arrays:
+        lines += array(payload, f"PetscReal {name}", rows, STYLE, "  ")
+    return _function(payload, use, lines, call)
+
+
+def _function(
+    payload: Payload, use: str, body: Sequence[str], call: str
+) -> str:
+    """The function that registers the method."""
     function = f"gark_{payload.identifier}_register"
     note = f"Use: call {function} after PetscInitialize, then {use}"
     lines = heading(payload, note)
@@ -133,10 +157,7 @@ def _file(
         "",
         f"PetscErrorCode {function}(void)",
         "{",
-    ]
-    for name, rows in arrays:
-        lines += array(payload, f"PetscReal {name}", rows, STYLE, "  ")
-    lines += [
+        *body,
         "  PetscFunctionBegin;",
         f"  PetscCall({call});",
         "  PetscFunctionReturn(0);",

@@ -149,10 +149,10 @@ def test_driver(payload: Payload, file: str) -> list[Written]:
     name = payload.class_name
     initial = ", ".join(trial.initial)
     final = ", ".join(trial.final)
-    note = f"The same errors: {command_of(payload, problem)}"
+    same = ("The same errors:", f"  {command_of(payload, problem)}")
     text = "\n".join(
         [
-            *HASH.lines([f"Runs {file} in SciPy.", note]),
+            *HASH.lines([f"Runs {file} in SciPy.", *same]),
             "import importlib.util",
             "from math import cos, log2, sin, sqrt",
             "from pathlib import Path",

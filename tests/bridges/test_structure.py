@@ -1,0 +1,198 @@
+"""Shared stages, and compositions of kicks and drifts: the method stays the same."""
+
+from __future__ import annotations
+
+from pathlib import Path
+
+import pytest
+from flint import fmpq
+from hypothesis import given, settings
+from hypothesis import strategies as st
+
+from garkcli.bridges.cannot import CannotExport
+from garkcli.bridges.payload import Payload
+from garkcli.bridges.preparing import prepared
+from garkcli.bridges.registry import bridges
+from garkcli.bridges.structure import composition, shared, table, vanishes
+from garkcli.exact.field import ONE, ZERO
+from garkcli.methodfile.load import load, loads
+from garkcli.order.certificate import find_order
+from garkcli.tableau.forms import additive
+from tests.cli.harness import ROOT
+
+COEFFICIENTS = st.lists(
+    st.fractions(-2, 2, max_denominator=9), min_size=2, max_size=4
+)
+GENERAL = [
+    "methods/collocation.gark.yaml",
+    "methods/interpolation.gark.yaml",
+    "methods/ark-ars222.gark.yaml",
+    "methods/found/imex4-order3.gark.yaml",
+]
+
+
+def payload_of(text: str) -> Payload:
+    """A method as writers get it."""
+    return prepared(loads(text))
+
+
+@pytest.mark.parametrize("path", GENERAL)
+def test_shared_stages_have_the_same_order(path: str) -> None:
+    """The method with all stages shared is another tableau of the same order, and its stages come
+    after those that they need.
+    """
+    method = load(str(ROOT / path))
+    tables = shared(prepared(method))
+    first = tables[0]
+    found = additive([x.A for x in tables], [x.b for x in tables], first.c)
+    assert find_order(found, 7).order == find_order(method.tableau, 7).order
+    assert {x.stages for x in tables} == {first.stages}
+
+
+def test_stages_of_two_colours_become_one() -> None:
+    """An IMEX method in blocks, its equal stage values on both sides, has three stages and not
+    six, and its explicit half is lower.
+    """
+    explicit = "[[0, 0, 0], [1, 0, 0], [1/4, 1/4, 0]]"
+    implicit = "[[0, 0, 0], [0, 1, 0], [0, 1/4, 1/4]]"
+    text = f"""
+tableau:
+  c: [[0, 1, 1/2], [0, 1, 1/2]]
+  A:
+    - [{explicit}, {implicit}]
+    - [{explicit}, {implicit}]
+  b: [[1/6, 1/6, 2/3], [1/6, 1/6, 2/3]]
+  embedded: [[1, 0, 0], [0, 1, 0]]
+"""
+    tables = shared(payload_of(text))
+    assert [x.stages for x in tables] == [3, 3]
+    assert [x.is_explicit for x in tables] == [True, False]
+    assert tables[1].is_diagonally_implicit
+    assert tables[1].embedded == (ZERO, ONE, ZERO)
+
+
+def composed(kicks: list[fmpq], drifts: list[fmpq]) -> str:
+    """A method file of kick 1, drift 1, kick 2, …: positions before kicks, momenta before drifts."""
+    forces = [
+        [x if j < i else 0 for j, x in enumerate(drifts)]
+        for i in range(len(kicks))
+    ]
+    momenta = [
+        [x if i <= j else 0 for i, x in enumerate(kicks)]
+        for j in range(len(drifts))
+    ]
+    return (
+        "structure: separable\nprk:\n"
+        f"  q: {{A: {_listed(forces)}, b: {_listed(drifts)}}}\n"
+        f"  p: {{A: {_listed(momenta)}, b: {_listed(kicks)}}}\n"
+    )
+
+
+def _listed(x: object) -> str:
+    """Nested lists of numbers as YAML."""
+    if isinstance(x, list):
+        return f"[{', '.join(map(_listed, x))}]"
+    return str(x)
+
+
+@settings(max_examples=30)
+@given(COEFFICIENTS, COEFFICIENTS)
+def test_compositions_are_found_again(
+    kicks: list[object], drifts: list[object]
+) -> None:
+    """From the two matrices come the kicks and drifts that they were made of, whichever vanish."""
+    size = min(len(kicks), len(drifts))
+    k = [
+        fmpq(str(x)) if "/" not in str(x) else _fraction(str(x))
+        for x in kicks[:size]
+    ]
+    d = [
+        fmpq(str(x)) if "/" not in str(x) else _fraction(str(x))
+        for x in drifts[:size]
+    ]
+    if not any(k) or not any(d):
+        return
+    found = composition(payload_of(composed(k, d)))
+    assert found is not None
+    assert _steps(found.kicks, found.drifts) == _steps(k, d)
+    first, second = found.drift_first
+    assert _steps((ZERO, *second), (*first, ZERO)) == _steps(k, d)
+
+
+def _fraction(text: str) -> fmpq:
+    p, q = text.split("/")
+    return fmpq(int(p), int(q))
+
+
+def _steps(kicks: object, drifts: object) -> list[tuple[str, fmpq]]:
+    """The steps in order, those of zero left out and neighbours of one kind added."""
+    found: list[tuple[str, fmpq]] = []
+    for kick, drift in zip(kicks, drifts, strict=True):
+        for kind, x in (("kick", kick), ("drift", drift)):
+            if not x:
+                continue
+            if found and found[-1][0] == kind:
+                x += found.pop()[1]
+            if x:
+                found.append((kind, x))
+    return found
+
+
+def test_what_is_no_composition_has_none() -> None:
+    """The pair Lobatto IIIA-IIIB of three stages solves its stages together."""
+    payload = prepared(
+        load(str(ROOT / "methods/prk-lobatto-iiia-iiib.gark.yaml"))
+    )
+    assert composition(payload) is None
+    for name in ("sundials", "petsc"):
+        with pytest.raises(CannotExport, match="no such composition"):
+            bridges()[name].written(payload)
+
+
+REFUSED = [
+    ("scipy", "{A: [[1/2]], b: [1]}", "implicit stages"),
+    (
+        "scipy",
+        "{A: [[0, 0], [1, 0]], b: [1/2, 1/2], c: [1/2, 1]}",
+        "first node is 1/2",
+    ),
+    ("sundials", "{methods: [{family: gauss, stages: 2}]}", "solved together"),
+    ("petsc", "{methods: [{family: gauss, stages: 2}]}", "solved together"),
+    ("scipy", "{ark: {A: [[[0]], [[0]]], b: [[1], [1]]}}", "scipy has no"),
+    ("sundials", "{ark: {A: [[[1]], [[1]]], b: [[1], [1]]}}", "both"),
+    (
+        "petsc",
+        "{ark: {A: [[[0]], [[0]], [[0]]], b: [[1], [1], [1]]}}",
+        "has 3",
+    ),
+]
+
+
+@pytest.mark.parametrize(("name", "text", "reason"), REFUSED)
+def test_refusals_have_reason_and_cure(
+    name: str, text: str, reason: str
+) -> None:
+    """What a target cannot hold is refused in one line each."""
+    with pytest.raises(CannotExport) as refusal:
+        bridges()[name].written(payload_of(text))
+    assert reason in refusal.value.reason
+    assert refusal.value.cure
+
+
+def test_a_file_is_named_without_its_folder(tmp_path: Path) -> None:
+    """Where a method has no name its file has one, the same wherever it lies."""
+    path = tmp_path / "my method.gark.yaml"
+    path.write_text("A: [[0]]\nb: [1]\n")
+    payload = prepared(load(str(path)))
+    assert payload.name == "my method"
+    assert payload.identifier == "my_method"
+    assert payload.class_name == "MyMethod"
+
+
+def test_tables_know_their_last_stage() -> None:
+    """First same as last: the last row is the weights, and the node is 1."""
+    fsal = "{A: [[0, 0, 0], [1/2, 0, 0], [0, 1, 0]], b: [0, 1, 0]}"
+    assert table(payload_of(fsal)).is_fsal
+    assert not table(payload_of("{A: [[0]], b: [1]}")).is_fsal
+    assert vanishes(ZERO)
+    assert not vanishes(ONE)
