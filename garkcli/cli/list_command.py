@@ -25,8 +25,8 @@ WHAT = ("methods", "exports")
 @filter_options
 @common(["text", "json", "csv", "markdown"])
 def command(what: str | None, output: Output, **options: Any) -> int:
-    """Families of diagonal methods, transfer rules, problems; or WHAT: methods, those of the
-    catalogue, or exports, the targets of gark export.
+    """Families of diagonal methods, transfer rules, schemes of compositions, problems; or WHAT:
+    methods, those of the catalogue, or exports, the targets of gark export.
 
     Methods are those that are as every option says and that have every WORD in their name, an
     alias, their title or their reference; --no-... those for which it is known not to hold.
@@ -39,15 +39,14 @@ def command(what: str | None, output: Output, **options: Any) -> int:
 
         output.write(render(output.format, output.paint))
         return 0
+    from garkcli.constructions.schemes.flows import SPLITTINGS
+    from garkcli.constructions.schemes.registry import SCHEMES
     from garkcli.families.registry import FAMILIES
     from garkcli.problems.builtin import PROBLEMS
     from garkcli.report import listing
     from garkcli.transfer import SUMMARIES
 
     problems = {entry.name: entry.summary for entry in PROBLEMS.values()}
-    output.write(
-        listing.render(
-            FAMILIES, SUMMARIES, problems, output.format, output.paint
-        )
-    )
+    lists = listing.Lists(FAMILIES, SUMMARIES, SCHEMES, SPLITTINGS, problems)
+    output.write(listing.render(lists, output.format, output.paint))
     return 0

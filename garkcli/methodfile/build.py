@@ -16,6 +16,7 @@ from garkcli.methodfile.description import (
     ArkText,
     ButcherText,
     ClaimText,
+    ConstructionText,
     Description,
     FamilyText,
     Form,
@@ -115,9 +116,22 @@ class Builder:
                 tableau = self._additive(content)
             case PrkText():
                 tableau = self._prk(content, description.structure)
+            case ConstructionText():
+                tableau = self._constructed(content)
         if description.is_conjugate:
             tableau = self._at(description.node, lambda: conjugate(tableau))
         return tableau
+
+    def _constructed(self, text: ConstructionText) -> Tableau:
+        """A method made from others, each built as if it stood alone."""
+        tableaus = []
+        for part in text.parts:
+            builder = Builder(
+                part.source, self.values, part.families, part.nodes
+            )
+            tableaus.append(builder.tableau(part.description))
+        numbers = self.values.vector(text.numbers)
+        return self._at(text.node, lambda: text.make(tableaus, numbers))
 
     def further(self, description: Description, tableau: Tableau) -> Further:
         """The embedded weights and the dense output of a file, for the colours of its tableau.
@@ -125,6 +139,8 @@ class Builder:
         In a pair V^{l} and F^{l} evaluate at the same stages and have the same weights.
         """
         texts = further_of(description.content)
+        if not texts:  # what a construction makes has none
+            return Further()
         of_colours = [texts[colour.term] for colour in tableau.colours]
         embedded: list[Vector] = []
         blocks: list[Matrix] = []
@@ -235,12 +251,21 @@ def families_of(description: Description) -> dict[int, Method]:
 
 
 def nodes_to_spell_out(
-    description: Description, families: Mapping[int, Method], numbers: Numbers
+    description: Description,
+    families: Mapping[int, Method],
+    numbers: Numbers,
+    why: str = "",
 ) -> dict[int, Row]:
     """For each family that meets a spelled-out block, or has weights of the file beside it, its
     nodes as coefficients of the file.
 
     The entries of such a block refer to single stages, so its methods need one coordinate a stage.
+
+    Args:
+        description: of the method.
+        families: its members of families.
+        numbers: the coefficients of the file, to which the nodes are added.
+        why: what needs the nodes of all of them; empty where nothing does.
     """
     content = description.content
     if not isinstance(content, MethodsText):
@@ -251,14 +276,14 @@ def nodes_to_spell_out(
         if isinstance(block, MatrixText):
             beside |= {l: None, m: None}
     for l, method in enumerate(content.methods):
-        if method.further.node is not None:
+        if method.further.node is not None or why:
             beside[l] = None
     rows: dict[int, Row] = {}
     for k in beside:
         text = content.methods[k]
         if not isinstance(text, FamilyText) or k not in families:
             continue
-        nodes = _family_nodes(text, families[k].space, numbers)
+        nodes = _family_nodes(text, families[k].space, numbers, why)
         if nodes is not None:
             rows[k] = nodes
             numbers.entries += nodes
@@ -266,7 +291,7 @@ def nodes_to_spell_out(
 
 
 def _family_nodes(
-    text: FamilyText, space: StageSpace, numbers: Numbers
+    text: FamilyText, space: StageSpace, numbers: Numbers, why: str
 ) -> Row | None:
     """The nodes of a family as coefficients; None where there is nothing to spell out, or a fault
     where it cannot be.
@@ -283,6 +308,10 @@ def _family_nodes(
             message = f"{text.name} has nodes without simple radicals"
             message += ", so weights at its stages are not read"
             cure = "spell the method out, or leave them away"
+        if why:
+            message = f"{text.name} with {text.stages} stages has nodes without simple radicals"
+            message += f", so {why}"
+            cure = "take fewer stages, or spell the method out"
         numbers.source.fault(text.node, message, cure)
         return None
     entries: list[Entry] = []

@@ -2,15 +2,20 @@
 
 from __future__ import annotations
 
+from collections.abc import Callable, Mapping, Sequence
 from dataclasses import dataclass, field
-from typing import Literal, TypeAlias
+from typing import Literal, TypeAlias, get_args
 
 from flint import fmpq
 from yaml.nodes import Node
 
+from garkcli.exact.matrix import Vector
 from garkcli.families.family import Recipe
 from garkcli.methodfile.bibliography import Reference
 from garkcli.methodfile.numbers import Entry, Row, Rows
+from garkcli.methodfile.source import Source
+from garkcli.tableau.method import Method
+from garkcli.tableau.tableau import Tableau
 
 Structure: TypeAlias = Literal[
     "general", "semi-separable", "separable", "nystrom"
@@ -21,8 +26,13 @@ STRUCTURES: tuple[Structure, ...] = (
     "separable",
     "nystrom",
 )
-Form: TypeAlias = Literal["methods", "tableau", "ark", "prk"]
-FORMS: tuple[Form, ...] = ("methods", "tableau", "ark", "prk")
+Construction: TypeAlias = Literal[
+    "compose", "adjoint", "extrapolate", "splitting"
+]
+CONSTRUCTIONS: tuple[Construction, ...] = get_args(Construction)
+"""The forms that make a method from others."""
+Form: TypeAlias = Literal["methods", "tableau", "ark", "prk"] | Construction
+FORMS: tuple[Form, ...] = ("methods", "tableau", "ark", "prk", *CONSTRUCTIONS)
 PLAIN = ("A", "b", "c")
 """The keys of a Butcher tableau that stands at the top of a file."""
 BESIDE = ("embedded", "dense")
@@ -176,7 +186,53 @@ class PrkText:
     p: ButcherText
 
 
-Content: TypeAlias = MethodsText | TableauText | ArkText | PrkText
+@dataclass(frozen=True)
+class PartText:
+    """A method that a construction is made from.
+
+    Attributes:
+        source: the file that it stands in: this one, or one of the catalogue.
+        description: what it says.
+        families: its methods that are members of families, by number from 0.
+        nodes: the nodes of those that are taken at points, as coefficients.
+    """
+
+    source: Source
+    description: Description
+    families: Mapping[int, Method]
+    nodes: Mapping[int, Row]
+
+    @property
+    def tolerance(self) -> fmpq | None:
+        """The rounding of its coefficients."""
+        content = self.description.content
+        if isinstance(content, ConstructionText):
+            return self.description.tolerance or content.tolerance
+        return self.description.tolerance
+
+
+@dataclass(frozen=True)
+class ConstructionText:
+    """A method made from others.
+
+    Attributes:
+        node: where it stands.
+        parts: the methods that it is made from.
+        numbers: its own coefficients.
+        make: the method, from the tableaus of the parts and the values of the numbers.
+        tolerance: the rounding of what it is made from.
+    """
+
+    node: Node
+    parts: tuple[PartText, ...]
+    numbers: Row
+    make: Callable[[Sequence[Tableau], Vector], Tableau]
+    tolerance: fmpq | None = None
+
+
+Content: TypeAlias = (
+    "MethodsText | TableauText | ArkText | PrkText | ConstructionText"
+)
 
 
 def further_of(content: Content) -> tuple[FurtherText, ...]:
@@ -186,6 +242,8 @@ def further_of(content: Content) -> tuple[FurtherText, ...]:
             return tuple(method.further for method in content.methods)
         case PrkText():
             return content.q.further, content.p.further
+        case ConstructionText():
+            return ()
     return content.further
 
 

@@ -16,6 +16,7 @@ from garkcli.methodfile.description import (
     ArkText,
     ButcherText,
     ClaimText,
+    ConstructionText,
     Description,
     FamilyText,
     MethodsText,
@@ -234,7 +235,7 @@ def _with_given_nodes(description: Description) -> list[int]:
             given = [content.p.c, content.q.c]
         case MethodsText() if is_general:
             given = [_given_nodes(method) for method in content.methods]
-        case MethodsText():
+        case MethodsText() | ConstructionText():
             given = []
     return [l for l, nodes in enumerate(given) if nodes is not None]
 

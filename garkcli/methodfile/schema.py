@@ -25,7 +25,14 @@ from garkcli.methodfile.coefficient_schema import (
     tableau,
     tableau_keys,
 )
-from garkcli.methodfile.description import BESIDE, FORMS, STRUCTURES
+from garkcli.methodfile.constructed.registry import construction
+from garkcli.methodfile.content import KEYS_OF_METHOD
+from garkcli.methodfile.description import (
+    BESIDE,
+    CONSTRUCTIONS,
+    FORMS,
+    STRUCTURES,
+)
 from garkcli.methodfile.expectations import NUMBERS, TABLES, TRUTHS
 from garkcli.methodfile.family_schema import design, parameters, unknown
 from garkcli.methodfile.transfers import ALL_RULES
@@ -66,8 +73,27 @@ def _definitions() -> Schema:
         "dense": DENSE,
         "butcher": butcher(),
         "method": method,
+        "part": _part(),
         "rule": _rule(),
     }
+
+
+def _part() -> Schema:
+    """A method inside of a construction."""
+    forms = [{"required": [form]} for form in (*FORMS, "A")]
+    name: Schema = {
+        "type": "string",
+        "description": "A single method of a family, or a name of the catalogue.",
+    }
+    known = _properties()
+    written: Schema = {
+        "type": "object",
+        "additionalProperties": False,
+        "oneOf": forms,
+        "allOf": _what_goes_together(),
+        "properties": {key: known[key] for key in KEYS_OF_METHOD},
+    }
+    return {"anyOf": [name, _family(), written]}
 
 
 def _what_goes_together() -> list[Schema]:
@@ -75,7 +101,8 @@ def _what_goes_together() -> list[Schema]:
     several = {"methods": {"type": "array", "minItems": 2}}
     not_general = {"structure": {"not": {"const": "general"}}}
     of_two_parts = [
-        {"required": [form]} for form in ("methods", "prk", "unknown")
+        {"required": [form]}
+        for form in ("methods", "prk", "unknown", "splitting")
     ]
     one_hamiltonian = {"structure": {"not": {"const": "semi-separable"}}}
     return [
@@ -121,6 +148,7 @@ def _properties() -> Schema:
         "tableau": tableau(),
         "ark": ark(),
         "prk": prk(),
+        **{key: construction(key).schema() for key in CONSTRUCTIONS},
         "structure": {
             "description": "Which vector fields the problem has.",
             "enum": list(STRUCTURES),

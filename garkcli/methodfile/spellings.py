@@ -135,6 +135,10 @@ _SPELLINGS: tuple[tuple[re.Pattern[str], str], ...] = tuple(
         (r"\\sqrt", "write sqrt(x)"),
         (r"\b(Fraction|Rational)\b", "write fractions as 1/2"),
         (r"(?P<x>[0-9]+)//(?P<y>[0-9]+)", "write {x}/{y}"),
+        (
+            r"(?<![A-Za-z_])[0-9.]*[ijIJ](?![A-Za-z_0-9])",
+            "coefficients are real here: no complex ones",
+        ),
         (r"[0-9)][ \t]+[0-9.]+", "put commas between the entries: [0, 1/2]"),
     )
 )

@@ -6,6 +6,8 @@ from collections.abc import Iterator, Mapping
 from textwrap import wrap
 from typing import NamedTuple
 
+from garkcli.constructions.schemes.flows import Splitting
+from garkcli.constructions.schemes.scheme import Scheme
 from garkcli.families.family import Family, Option
 from garkcli.page.paint import Paint, indented
 from garkcli.page.record import Field, Record, schema_named
@@ -16,18 +18,27 @@ _WIDTH = 80
 _NAME = 21  # columns for the name of a family
 
 
-def render(
-    families: Mapping[str, Family],
-    rules: Mapping[str, str],
-    problems: Mapping[str, str],
-    format: str,
-    paint: Paint,
-) -> str:
+class Lists(NamedTuple):
+    """Families, schemes and splittings by their names, and summaries of the others by theirs."""
+
+    families: Mapping[str, Family]
+    rules: Mapping[str, str]
+    schemes: Mapping[str, Scheme]
+    splittings: Mapping[str, Splitting]
+    problems: Mapping[str, str]
+
+
+def render(lists: Lists, format: str, paint: Paint) -> str:
     """The lists as text or JSON."""
     if format == "json":
-        return _REPORT.text(_Lists(families, rules, problems))
-    lines = _families(families, paint)
-    for title, entries in (("transfer rules", rules), ("problems", problems)):
+        return _REPORT.text(lists)
+    lines = _families(lists.families, paint)
+    for title, entries in (
+        ("transfer rules", lists.rules),
+        ("schemes of compose", _with_orders(lists.schemes)),
+        ("schemes of splitting", _with_orders(lists.splittings)),
+        ("problems", lists.problems),
+    ):
         lines += ["", paint("strong", title)]
         lines += _entries(entries)
     lines += [
@@ -35,6 +46,16 @@ def render(
         "A problem of your own is a file: --problem FILE.yaml, see docs/problem-file.md.",
     ]
     return "\n".join(lines) + "\n"
+
+
+def _with_orders(
+    schemes: Mapping[str, Scheme] | Mapping[str, Splitting],
+) -> dict[str, str]:
+    """The summaries of schemes, with their orders."""
+    return {
+        name: f"order {scheme.order}: {scheme.summary}"
+        for name, scheme in schemes.items()
+    }
 
 
 def _families(families: Mapping[str, Family], paint: Paint) -> list[str]:
@@ -92,14 +113,6 @@ def _entries(entries: Mapping[str, str]) -> list[str]:
     return lines
 
 
-class _Lists(NamedTuple):
-    """Families by their names, and summaries of the others by theirs."""
-
-    families: Mapping[str, Family]
-    rules: Mapping[str, str]
-    problems: Mapping[str, str]
-
-
 _OPTION: Record[tuple[str, str]] = Record(
     Field("key", TEXT, lambda x: x[0]),
     Field("values", TEXT, lambda x: x[1]),
@@ -117,10 +130,18 @@ _NAMED: Record[tuple[str, str]] = Record(
     Field("name", TEXT, lambda x: x[0]),
     Field("summary", TEXT, lambda x: x[1]),
 )
-_REPORT: Record[_Lists] = Record(
+_SCHEME: Record[Scheme | Splitting] = Record(
+    Field("name", TEXT, lambda x: x.name),
+    Field("order", TEXT, lambda x: x.order),
+    Field("summary", TEXT, lambda x: x.summary),
+    Field("reference", TEXT, lambda x: x.reference),
+)
+_REPORT: Record[Lists] = Record(
     schema_named(SCHEMA),
     _FAMILY.every("families", lambda x: x.families.values()),
     _NAMED.every("transfer", lambda x: x.rules.items()),
+    _SCHEME.every("schemes", lambda x: x.schemes.values()),
+    _SCHEME.every("splittings", lambda x: x.splittings.values()),
     _NAMED.every("problems", lambda x: x.problems.items()),
 )
 

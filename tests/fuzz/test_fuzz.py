@@ -16,6 +16,8 @@ import yaml
 from hypothesis import HealthCheck, given, settings
 from hypothesis import strategies as st
 
+from garkcli.constructions.schemes.flows import SPLITTINGS
+from garkcli.constructions.schemes.registry import SCHEMES
 from garkcli.errors import ExpressionError, Fault, MethodFileError
 from garkcli.exact.domain import Domain
 from garkcli.exact.expression import parse
@@ -133,6 +135,50 @@ VALUES: dict[str, st.SearchStrategy[Any]] = {
     ),
     "tolerance": st.floats(1e-20, 1),
     "expect": st.dictionaries(st.sampled_from(CLAIMS), TREES, max_size=3),
+}
+
+
+PARTS = _or_anything(
+    st.sampled_from(["heun", "explicit-euler", "no-method"])
+    | st.just({"family": "gauss", "stages": 1})
+    | st.just({"A": [[0]], "b": [1]})
+    | st.just({"splitting": {"scheme": "strang"}})
+)
+STEPS = SCALARS | st.fixed_dictionaries(
+    {"step": SCALARS}, optional={"of": PARTS, "adjoint": SCALARS}
+)
+VALUES |= {
+    "adjoint": PARTS,
+    "compose": st.fixed_dictionaries(
+        {},
+        optional={
+            "of": PARTS,
+            "steps": _or_anything(st.lists(STEPS, max_size=3)),
+            "scheme": _or_anything(st.sampled_from(sorted(SCHEMES)[:4])),
+            "order": SCALARS,
+            "processor": PARTS,
+        },
+    ),
+    "extrapolate": st.fixed_dictionaries(
+        {"of": PARTS},
+        optional={
+            "sequence": _or_anything(st.just([1, 2])),
+            "order": _or_anything(st.integers(1, 4)),
+            "from": SCALARS,
+            "symmetric": SCALARS,
+        },
+    ),
+    "splitting": st.fixed_dictionaries(
+        {},
+        optional={
+            "a": _or_anything(st.just([1, 0])),
+            "b": _or_anything(st.just([1])),
+            "flows": _or_anything(st.lists(st.just({1: 1, 2: 1}), max_size=2)),
+            "scheme": _or_anything(st.sampled_from(sorted(SPLITTINGS))),
+            "of": PARTS,
+            "terms": _or_anything(st.integers(0, 4)),
+        },
+    ),
 }
 
 

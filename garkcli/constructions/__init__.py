@@ -1,0 +1,1 @@
+"""Methods made from methods: compositions, adjoints, splittings, extrapolation, multirate ones."""

@@ -1,0 +1,153 @@
+"""Compositions: the substeps of several methods, one after the other, as one tableau.
+
+A stage of a substep begins where the substeps before it ended, so its row has their weights and
+then its own row, all times the fraction of the step: E. Hairer, C. Lubich, G. Wanner, *Geometric
+Numerical Integration*, section II.4. The methods are for the same vector fields; a colour that a
+method does not use has no stages there.
+"""
+
+from __future__ import annotations
+
+from collections.abc import Iterator, Sequence
+from dataclasses import dataclass, replace
+
+from garkcli.constructions.limits import refuse_large
+from garkcli.errors import MethodError, counted
+from garkcli.exact.field import ZERO, Number
+from garkcli.exact.matrix import Matrix, Vector, dot
+from garkcli.properties.reduction import merged
+from garkcli.tableau.point_space import PointSpace
+from garkcli.tableau.tableau import Colour, Edge, Tableau
+
+
+@dataclass(frozen=True)
+class Substep:
+    """A part of the step.
+
+    Attributes:
+        tableau: of the method that takes it, its stages at points.
+        fraction: of the step; it may be negative.
+    """
+
+    tableau: Tableau
+    fraction: Number
+
+
+def composed(substeps: Sequence[Substep]) -> Tableau:
+    """The method that takes the substeps one after the other, equal stages once.
+
+    Raises:
+        MethodError: the methods are for different vector fields, or there are too many stages.
+    """
+    tableaus = [substep.tableau for substep in substeps]
+    _check_alike(tableaus)
+    stages = sum(map(count_stages, tableaus))
+    refuse_large(stages, "take fewer substeps, or methods of fewer stages")
+    return merged(_Composition(substeps).tableau())
+
+
+def count_stages(tableau: Tableau) -> int:
+    """The stages of all spaces together."""
+    return sum(space.stages for space in tableau.spaces)
+
+
+def seen_in_nodes(tableau: Tableau, l: int) -> int | None:
+    """The colour whose time the nodes of colour l are: itself where its stages see it, else the
+    first that they see; None where they see none.
+    """
+    seen = [m for m in range(tableau.size) if tableau.block(l, m) is not None]
+    return l if l in seen or not seen else seen[0]
+
+
+def advance(tableau: Tableau, l: int) -> Number:
+    """How far a step takes the time of colour l, in steps; 1 for every consistent method."""
+    m = seen_in_nodes(tableau, l)
+    colour = tableau.colours[l if m is None else m]
+    return dot(colour.b, tableau.spaces[colour.space].one)
+
+
+def _check_alike(tableaus: Sequence[Tableau]) -> None:
+    """Refuse methods for different vector fields.
+
+    Raises:
+        MethodError: they have different colours, or different ones are seen.
+    """
+    first = tableaus[0]
+    for number, other in enumerate(tableaus[1:], start=2):
+        if other.size != first.size:
+            of_first = counted(first.size, "colour")
+            of_other = counted(other.size, "colour")
+            message = f"substep {number} has {of_other}, the first {of_first}"
+            raise MethodError(message, _CURE)
+        if _fields(other) != _fields(first):
+            message = (
+                f"substep {number} is for other vector fields than the first"
+            )
+            raise MethodError(message, _CURE)
+
+
+_CURE = "compose methods of the same form and structure"
+
+
+def _fields(tableau: Tableau) -> tuple[object, ...]:
+    """For which vector fields a method is."""
+    colours = [(x.part, x.term, x.is_linear) for x in tableau.colours]
+    return tuple(colours), frozenset(tableau.edges())
+
+
+class _Composition:
+    """The tableau of one composition.
+
+    Colours share a stage space where they do so in every method.
+    """
+
+    def __init__(self, substeps: Sequence[Substep]) -> None:
+        self.substeps = substeps
+        first = substeps[0].tableau
+        self.colours = first.colours
+        of_colours = [self._spaces_of(l) for l in range(first.size)]
+        self.places = list(dict.fromkeys(of_colours))
+        self.space_of = [self.places.index(place) for place in of_colours]
+
+    def _spaces_of(self, l: int) -> tuple[int, ...]:
+        """The stage space of a colour in each method."""
+        return tuple(x.tableau.colours[l].space for x in self.substeps)
+
+    def tableau(self) -> Tableau:
+        """The tableau, stage by stage."""
+        colours = tuple(map(self._colour, range(len(self.colours))))
+        spaces = []
+        for k in range(len(self.places)):
+            nodes = next(x.c for x in colours if x.space == k)
+            spaces.append(PointSpace(nodes))
+        blocks: dict[Edge, Matrix] = {}
+        for l, m in self.substeps[0].tableau.edges():
+            place = self.space_of[l], m
+            if place not in blocks:
+                blocks[place] = tuple(self._rows(l, m))
+        return Tableau(tuple(spaces), colours, blocks)
+
+    def _colour(self, l: int) -> Colour:
+        weights: list[Number] = []
+        nodes: list[Number] = []
+        begin: Number = ZERO
+        for substep in self.substeps:
+            g, colour = substep.fraction, substep.tableau.colours[l]
+            weights += [g * x for x in colour.b]
+            nodes += [begin + g * x for x in colour.c]
+            begin = begin + g * advance(substep.tableau, l)
+        space = self.space_of[l]
+        b, c = tuple(weights), tuple(nodes)
+        return replace(self.colours[l], space=space, b=b, c=c)
+
+    def _rows(self, l: int, m: int) -> Iterator[Vector]:
+        """The rows of A^{l,m}: weights of what was before, the method's own row, zeros."""
+        before: list[Number] = []
+        widths = [len(x.tableau.colours[m].b) for x in self.substeps]
+        for number, substep in enumerate(self.substeps, start=1):
+            g = substep.fraction
+            after = [ZERO] * sum(widths[number:])
+            for row in substep.tableau.block(l, m) or ():
+                own = [g * x for x in row]
+                yield (*before, *own, *after)
+            before += [g * x for x in substep.tableau.colours[m].b]

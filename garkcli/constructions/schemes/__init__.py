@@ -1,0 +1,1 @@
+"""Compositions known by name: a file each family of them."""

@@ -1,0 +1,1 @@
+"""Methods that files make from others: a file each construction."""

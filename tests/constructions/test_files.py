@@ -1,0 +1,131 @@
+"""Constructions in method files: what is refused and where, and that the schema agrees."""
+
+from __future__ import annotations
+
+import pytest
+import yaml
+from jsonschema import Draft7Validator
+
+from garkcli.errors import MethodFileError
+from garkcli.methodfile.load import loads
+from garkcli.methodfile.schema import method_file_schema
+
+VALIDATOR = Draft7Validator(method_file_schema())
+FAULTS = {
+    "compose: {of: heun}": "no substeps",
+    "compose: {scheme: suzuki}": "of missing beside scheme",
+    "compose: {of: heun, scheme: suzuki, steps: [1]}": "given by scheme already",
+    "compose: {of: heun, scheme: yoshida}": "is called yoshida-6",
+    "compose: {of: heun, scheme: suzki}": "'suzki' is not known",
+    "compose: {of: heun, scheme: suzuki, order: 5}": "has an even order",
+    "compose: {of: heun, scheme: yoshida-6, order: 6}": "has one order, 6",
+    "compose: {of: heun, steps: [1], order: 6}": "order goes with scheme",
+    "compose: {steps: [1/2]}": "step of no method",
+    "compose: {steps: [{step: 1/2}]}": "the step of no method",
+    "compose: {of: heun, steps: [{adjoint: true}]}": "step missing",
+    "compose: {of: heun, steps: [{step: 1, adjoint: 1}]}": "is not known",
+    "compose: {of: heun, steps: [1/2, x]}": "'x' is not a parameter",
+    "compose: {of: heun, steps: [1/2 + i/2, 1/2 - i/2]}": "complex",
+    "compose: {of: no-such-method, steps: [1]}": "no method of this name",
+    "compose: {of: {A: [[0]]}, steps: [1]}": "b missing",
+    "compose: {of: {family: gaus, stages: 1}, steps: [1]}": "no family 'gaus'",
+    "compose: {of: {family: gauss, stages: 6}, steps: [1]}": "without simple radicals",
+    "compose: {of: [heun], steps: [1]}": "a mapping of keys",
+    "compose: {of: heun, steps: [1], structure: separable}": "unknown key 'structure'",
+    "compose: {of: heun, steps: [1]}\nstructure: separable": "structure does not go with compose",
+    "compose: {of: heun, steps: [1]}\ntransfer: collocation": "transfer goes with methods",
+    "compose: {of: heun, steps: [1]}\nadjoint: heun": "given by compose already",
+    "compose: [heun]": "a mapping of keys",
+    "adjoint: {family: gauss}": "needs its number of stages",
+    "splitting: {}": "no flows",
+    "splitting: {a: [1]}": "b missing beside a",
+    "splitting: {a: [1, 2, 3], b: [1]}": "a has 3 numbers and b has 1",
+    "splitting: {scheme: strang, terms: 3}": "exact flows of 3 parts",
+    "splitting: {scheme: ruth-3, of: heun, terms: 3}": "is for 2 parts",
+    "splitting: {flows: [{1: 1}]}": "part 2 never flows",
+    "splitting: {flows: [{1: 1}, {4: 1}], of: heun, terms: 2}": "unknown key '4'",
+    "splitting: {scheme: strang, of: [heun, heun, heun], terms: 2}": "3 methods for 2 parts",
+    "splitting: {scheme: strang, of: [{splitting: {scheme: lie}}, heun]}": "has several",
+    "splitting: {scheme: strang}\nstructure: semi-separable": "structure does not go",
+    "splitting: {scheme: strang, of: heun}\nstructure: nystrom": "structure does not go",
+    "of: heun\nsteps: [1]": "unknown keys",
+}
+"""Files with one fault each, and what is told."""
+
+
+@pytest.mark.parametrize("text", FAULTS)
+def test_faults(text: str) -> None:
+    """Each is one fault, with its place and a cure."""
+    with pytest.raises(MethodFileError) as caught:
+        loads(text)
+    assert FAULTS[text] in str(caught.value)
+    faults = caught.value.faults
+    assert any(FAULTS[text] in f"{x.message}; {x.help}" for x in faults)
+    assert all(x.line and x.column for x in caught.value.faults)
+
+
+GOOD = (
+    "compose: {of: heun, steps: [1/2, {step: 1/2, adjoint: true}]}",
+    "compose: {steps: [{of: heun, step: 1/2}, {of: rk4, step: 1/2}]}",
+    "compose: {of: {family: gauss, stages: 2}, scheme: suzuki, from: 4, order: 6}",
+    "compose: {of: {A: [[0]], b: [1]}, processor: {A: [[0]], b: [1/2]}}",
+    "adjoint: {tableau: {A: [[0, 0], [1/2, 0]], b: [0, 1]}}",
+    "adjoint: {adjoint: heun}",
+    "splitting: {scheme: strang}\nstructure: nystrom",
+    "splitting: {flows: [{1: 1/2}, {2: 1}, {1: 1/2}], of: [heun, rk4]}",
+    "splitting: {a: [1/2, 1/2], b: [1]}",
+    "extrapolate: {of: heun, sequence: [1, 2], from: 2, symmetric: false}",
+    "extrapolate: {of: {splitting: {scheme: strang}}, order: 4}",
+)
+BAD = (
+    "compose: {of: heun, steps: []}",
+    "compose: {of: heun, steps: [1], schem: suzuki}",
+    "compose: {of: {family: gauss}, steps: [1]}",
+    "splitting: {flows: [{x: 1}]}",
+    "extrapolate: {order: 4}",
+    "adjoint: {}",
+    "adjoint: heun\ncompose: {of: heun, steps: [1]}",
+)
+
+
+@pytest.mark.parametrize("text", GOOD)
+def test_the_schema_takes_what_loads(text: str) -> None:
+    """What loads is valid by the schema."""
+    assert loads(text).tableau.size
+    assert VALIDATOR.is_valid(yaml.safe_load(text))
+
+
+@pytest.mark.parametrize("text", BAD)
+def test_the_schema_refuses_what_does_not_load(text: str) -> None:
+    """What the schema refuses does not load."""
+    assert not VALIDATOR.is_valid(yaml.safe_load(text))
+    with pytest.raises(MethodFileError):
+        loads(text)
+
+
+def test_adjoint_twice_is_the_method() -> None:
+    """In a file, too, at points and in a stage algebra."""
+    for text in (
+        "{family: gauss, stages: 5}",
+        "rk4",
+        "{splitting: {scheme: ruth-3}}",
+    ):
+        once = loads(
+            f"compose: {{of: {text}, steps: [1]}}"
+            if "gauss" not in text
+            else f"methods: {text}"
+        )
+        twice = loads(f"adjoint: {{adjoint: {text}}}")
+        assert twice.tableau == once.tableau
+
+
+def test_steps_of_different_methods() -> None:
+    """Steps may name their own methods; the two halves are two rows of stages."""
+    method = loads(
+        "compose: {steps: [{of: explicit-euler, step: 1/2}, {of: {family: radau-iia, stages: 1}, step: 1/2}]}"
+    )
+    assert list(map(str, method.b)) == ["1/2", "1/2"]
+    assert [list(map(str, row)) for row in method.A] == [
+        ["0", "0"],
+        ["1/2", "1/2"],
+    ]
