@@ -26,6 +26,7 @@ _RENAMED = (
 )
 _STEPPERS = {
     "erk": "ERKStep",
+    "explicit": "ARKStep",
     "dirk": "ARKStep",
     "ark": "ARKStep",
     "sprk": "SPRKStep",
@@ -41,7 +42,7 @@ def driver(
         payload: the method.
         file: the name of the file with its table.
         name: of the function that sets it; of SPRK, that makes it.
-        kind: erk, dirk, ark or sprk.
+        kind: erk, explicit (in ARKStep), dirk, ark or sprk.
         sides: the right-hand sides in the order of SUNDIALS.
     """
     stem = file.rsplit(".", 1)[0]
@@ -138,6 +139,7 @@ def _parts(trial: Trial) -> list[str]:
 
 _CREATE = {
     "erk": "ERKStepCreate(rhs1, 0.0, u, ctx)",
+    "explicit": "ARKStepCreate(rhs1, NULL, 0.0, u, ctx)",
     "dirk": "ARKStepCreate(NULL, rhs1, 0.0, u, ctx)",
     "ark": "ARKStepCreate(rhs1, rhs2, 0.0, u, ctx)",
     "sprk": "SPRKStepCreate(rhs1, rhs2, 0.0, u, ctx)",

@@ -125,11 +125,11 @@ def format_expression(expression: Expression, latex: bool = False) -> str:
     >>> format_expression(parse("1/2 - sqrt(3)/6"))
     '1/2-(sqrt(3)/6)'
     """
-    writer = _Latex() if latex else _Text()
+    writer = _Latex() if latex else PlainText()
     return writer.written(expression)
 
 
-class _Text:
+class PlainText:
     """Expressions as the grammar writes them."""
 
     def written(self, expression: Expression) -> str:
@@ -225,7 +225,7 @@ class _Text:
         return f"{a}*{power}"
 
 
-class _Latex(_Text):
+class _Latex(PlainText):
     """The same in LaTeX."""
 
     def number(self, value: fmpq) -> str:

@@ -263,3 +263,27 @@ def test_the_separable_trial_is_written_for_a_pair() -> None:
         assert driver is not None
         assert SEPARABLE.file in [x.text for x in driver(payload, "m.c")]
     assert table(prepared(loads(RALSTON))).is_explicit
+
+
+CLASSICAL = """
+A: [[0, 0, 0, 0], [1/2, 0, 0, 0], [0, 1/2, 0, 0], [0, 0, 1, 0]]
+b: [1/6, 1/3, 1/3, 1/6]
+"""
+
+
+def test_erkstep_is_given_what_it_steps_with() -> None:
+    """A last node 1 is the end of the step to ERKStep before 6.6.1, which takes the last stage for
+    the first of the next one; ARKStep does not.
+    """
+    for text, stepper in (
+        (CLASSICAL, "ARKStep"),
+        (DORMAND_PRINCE, "ERKStep"),
+        (RALSTON, "ERKStep"),
+    ):
+        payload = prepared(loads(text))
+        written = bridges()["sundials"].written(payload)
+        assert f"arkode_{stepper.lower()}.h" in written
+        driver = bridges()["sundials"].test_driver
+        assert driver is not None
+        program, _ = driver(payload, "m.c")
+        assert f"{stepper}Create(rhs1, " in program.text

@@ -5,6 +5,8 @@ from __future__ import annotations
 from collections.abc import Sequence
 from dataclasses import dataclass
 
+from flint import fmpq
+
 from garkcli.bridges.c_text import array, c_style, heading
 from garkcli.bridges.cannot import CannotExport
 from garkcli.bridges.payload import Payload
@@ -53,7 +55,7 @@ def _one(payload: Payload) -> str:
     found = table(payload)
     name = _function(payload)
     check_diagonal(payload, [found], "sundials")
-    stepper = "ERKStep" if found.is_explicit else "ARKStep"
+    stepper = "ERKStep" if for_erkstep(found) else "ARKStep"
     use = f"Use: {stepper}Create, then {name}_set(arkode_mem)."
     lines = heading(payload, use, *_notes(payload))
     header = stepper.lower()
@@ -67,10 +69,25 @@ def _one(payload: Payload) -> str:
         "",
     ]
     call = f"ERKStepSetTable(arkode_mem, {name}_table)"
-    if not found.is_explicit:
+    if stepper == "ARKStep":
         q, p = _orders(payload)
-        call = f"ARKStepSetTables(arkode_mem, {q}, {p}, {name}_table, NULL)"
+        both = (
+            f"NULL, {name}_table"
+            if found.is_explicit
+            else f"{name}_table, NULL"
+        )
+        call = f"ARKStepSetTables(arkode_mem, {q}, {p}, {both})"
     return _joined(lines + _setter(name, [f"{name}_table"], [name], call))
+
+
+def for_erkstep(found: Table) -> bool:
+    """Whether ERKStep of every version steps with it as it is.
+
+    Before 6.6.1 it takes each method whose last node is 1 for one whose last stage is the first
+    of the next step, and is of another order then, in silence.
+    """
+    ends_at_one = found.c[-1] == fmpq(1)
+    return found.is_explicit and (found.is_fsal or not ends_at_one)
 
 
 def _pair(payload: Payload) -> str:
@@ -225,7 +242,10 @@ def test_driver(payload: Payload, file: str) -> list[Written]:
     if payload.kind == "prk":
         return driver(payload, file, name, "sprk", (0, 1))
     if payload.kind == "rk":
-        kind = "erk" if table(payload).is_explicit else "dirk"
+        found = table(payload)
+        kind = "explicit" if found.is_explicit else "dirk"
+        if for_erkstep(found):
+            kind = "erk"
         return driver(payload, file, name, kind, (0,))
     pair = pair_of(payload, "sundials")
     return driver(payload, file, name, "ark", (pair.explicit, pair.implicit))
