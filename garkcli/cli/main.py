@@ -34,6 +34,7 @@ COMPLETION = "_GARK_COMPLETE"
 OBJECTS_BETWEEN_COLLECTIONS = 50_000
 COMMANDS = {
     "check": "orders, B/C/D, symplecticity and the claims of method files",
+    "new": "a method file, from a tableau or from families",
     "claims": "what is true of a method, as its file claims it",
     "trees": "enumerate or count the N-trees of an order",
     "conditions": "the order-condition table, of any method or of a file",

@@ -1,0 +1,151 @@
+"""A Butcher tableau as people paste it: rows of numbers, with or without bars.
+
+    0   |
+    1/2 | 1/2
+    ----+--------
+        | 0   1
+
+Rows are lines; zeros at their ends may be left out. A bar, or & as in LaTeX, parts the node from
+the row. Without one a column more than there are stages is that of the nodes.
+"""
+
+from __future__ import annotations
+
+import re
+from dataclasses import dataclass
+from itertools import takewhile
+
+from garkcli.errors import MethodError
+
+MOST_LINES = 1000
+_RULE = re.compile(r"[\s|+=─│┼-]*|\\hline")
+_BAR = re.compile(r"\|\|?|│|&")
+_BETWEEN = re.compile(r"[\s,;&]+")
+_ENDS = ("\\\\", ";")
+
+
+@dataclass(frozen=True)
+class Pasted:
+    """A tableau in the texts of its numbers.
+
+    Attributes:
+        A: the matrix, row by row, each filled with zeros.
+        b: the weights.
+        c: the nodes; None where none were given.
+        embedded: further weights; None where there are none.
+    """
+
+    A: tuple[tuple[str, ...], ...]
+    b: tuple[str, ...]
+    c: tuple[str, ...] | None = None
+    embedded: tuple[str, ...] | None = None
+
+
+@dataclass(frozen=True)
+class _Line:
+    """A line of numbers; ``node`` is None where no bar parts one from the row."""
+
+    node: str | None
+    row: tuple[str, ...]
+
+
+def read_pasted(text: str) -> Pasted:
+    r"""A tableau from text.
+
+    Args:
+        text: a line a stage, then a line of weights, and another of embedded ones.
+
+    Raises:
+        MethodError: the lines make no tableau.
+
+    >>> read_pasted("0 |\n1/2 | 1/2\n---\n | 0 1").A
+    (('0', '0'), ('1/2', '0'))
+    """
+    lines = [_line(x) for x in text.splitlines() if not _is_rule(x)]
+    if len(lines) > MOST_LINES:
+        raise MethodError("the tableau has too many lines", "paste one")
+    if len(lines) < 2:
+        raise MethodError(
+            "no tableau: a line a stage and a line of weights are expected",
+            "for instance: 0 | 0 0, below it 1/2 | 1/2 0, below it | 0 1",
+        )
+    has_bars = any(line.node is not None for line in lines)
+    if has_bars:
+        return _with_nodes(lines)
+    return _without_bars(lines)
+
+
+def _is_rule(text: str) -> bool:
+    return _RULE.fullmatch(text.strip()) is not None
+
+
+def _line(text: str) -> _Line:
+    """The numbers of a line."""
+    stripped = text.strip()
+    for end in _ENDS:
+        stripped = stripped.removesuffix(end).strip()
+    parts = _BAR.split(stripped, maxsplit=1)
+    row = tuple(x for x in _BETWEEN.split(parts[-1].strip(" |")) if x)
+    if len(parts) == 1:
+        return _Line(None, row)
+    return _Line(parts[0].strip(), row)
+
+
+def _with_nodes(lines: list[_Line]) -> Pasted:
+    """Stages have something before the bar, weights have nothing."""
+    stages = list(takewhile(lambda x: bool(x.node), lines))
+    weights = [line.row for line in lines[len(stages) :]]
+    nodes = tuple(line.node or "" for line in stages)
+    return _made([line.row for line in stages], weights, nodes)
+
+
+def _without_bars(lines: list[_Line]) -> Pasted:
+    """The rows of a matrix, with nodes before them where there is a column more."""
+    rows = [line.row for line in lines]
+    longest = max(map(len, rows))
+    weights = [rows.pop()]
+    if len(rows) > 1 and len(rows[-1]) == len(weights[0]) == len(rows) - 1:
+        weights.insert(0, rows.pop())
+    lengths = [len(row) for row in rows]
+    if len(rows) > 1 and lengths == list(range(1, len(rows) + 1)):
+        raise MethodError(
+            "rows of 1, 2, … numbers: nodes may come first, or the diagonal last",
+            "part nodes from their rows by |, or write the zeros",
+        )
+    if longest == len(rows) + 1 == len(rows[-1]):
+        nodes = tuple(row[0] for row in rows)
+        return _made([row[1:] for row in rows], weights, nodes)
+    return _made(rows, weights, None)
+
+
+def _made(
+    rows: list[tuple[str, ...]],
+    weights: list[tuple[str, ...]],
+    nodes: tuple[str, ...] | None,
+) -> Pasted:
+    stages = len(rows)
+    if not weights or not stages:
+        raise MethodError(
+            "the tableau has no line of weights",
+            "a line below the stages, with nothing before the bar",
+        )
+    if len(weights) > 2:
+        raise MethodError(
+            f"{len(weights)} lines stand below the stages",
+            "one of weights, and another of embedded ones",
+        )
+    for i, row in enumerate(rows, start=1):
+        if len(row) > stages:
+            raise MethodError(
+                f"row {i} has {len(row)} entries, and there are {stages} stages",
+                "a line a stage, and a line of weights below",
+            )
+    for row in weights:
+        if len(row) != stages:
+            raise MethodError(
+                f"{len(row)} weights for {stages} stages",
+                "a weight a stage, zeros too",
+            )
+    filled = tuple(row + ("0",) * (stages - len(row)) for row in rows)
+    embedded = weights[1] if len(weights) == 2 else None
+    return Pasted(filled, weights[0], nodes, embedded)
