@@ -60,7 +60,7 @@ def command(
         raise UsageProblem("--tableau and --family at once", "give one")
     if tableau is None and not families:
         tableau, families, transfer, name = _asked(name)
-    name = name or _title(place)
+    name = name or _title(file)
     if tableau is not None:
         if transfer is not None:
             raise UsageProblem("--transfer goes with --family", "leave it out")

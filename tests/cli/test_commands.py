@@ -69,7 +69,7 @@ RUNS = [
     (("list",), ("text", "json")),
     (("list", "methods", "rk4"), ("text", "json", "csv", "markdown")),
     (("claims", VERLET), ("text", "json")),
-    (("new", "--family", "gauss:2"), ("yaml",)),
+    (("new", "--family", "gauss:2", "--family", "gauss:1"), ("yaml",)),
     (("explain", "density"), ("text", "json")),
     (("reduce", VERLET), ("yaml", "text", "json", "latex")),
     (("modified", VERLET), ("text", "json", "latex")),
