@@ -55,7 +55,7 @@ def write_tableau(
 
         found = readable(found)
     if output.format == "latex":
-        from garkcli.report import tableau_latex
+        from garkcli.page import tableau_latex
 
         output.write(
             tableau_latex.render(tableau, found, printable(name), is_document)

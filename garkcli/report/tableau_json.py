@@ -11,6 +11,7 @@ from flint import arb
 
 from garkcli.exact.display import to_float
 from garkcli.exact.parametric import Parametric
+from garkcli.page.cells import cell_text
 from garkcli.page.record import Field, Record, inside, schema_named
 from garkcli.page.schema import (
     FLAG,
@@ -23,7 +24,6 @@ from garkcli.page.schema import (
     published,
 )
 from garkcli.report.check_json import COLOUR, colours_data
-from garkcli.report.tableau_text import cell_text
 from garkcli.tableau.pointwise import Cell, Entries
 from garkcli.tableau.tableau import Tableau
 

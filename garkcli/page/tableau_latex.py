@@ -6,14 +6,15 @@ the stages at which its part is computed and the weights that update it.
 
 from __future__ import annotations
 
-from collections.abc import Iterator, Sequence
+from collections.abc import Callable, Iterator, Sequence
+from dataclasses import dataclass
 
 from flint import arb
 
 from garkcli.exact.display import to_latex
+from garkcli.page.cells import cell_text, distinct_rows, remark
 from garkcli.page.latex import fragment, number
-from garkcli.report.tableau_text import cell_text, distinct_rows, remark
-from garkcli.tableau.pointwise import Cell, Entries
+from garkcli.tableau.pointwise import Cell, Entries, Row
 from garkcli.tableau.tableau import Tableau
 
 MAX_BESIDE = 8
@@ -33,17 +34,52 @@ def render(
     """
     comments = (name, remark(entries))
     lines = [f"% {comment}\n" for comment in comments if comment]
-    displays = _displays(tableau, entries)
-    lines += [f"{line}\n" for line in displays]
+    lines += [f"{line}\n" for line in displays(tableau, entries)]
     if is_document:
         return "".join(fragment(lines, is_document))
     return "".join(lines)
 
 
-def _displays(tableau: Tableau, entries: Entries) -> Iterator[str]:
+@dataclass(frozen=True)
+class _Shown:
+    """What stands in the arrays.
+
+    Attributes:
+        entries: of the tableau.
+        text: an entry in LaTeX.
+        feet: the rows of weights below the line, each with a row a colour.
+    """
+
+    entries: Entries
+    text: Callable[[Cell], str]
+    feet: Sequence[Sequence[Row]]
+
+
+def displays(
+    tableau: Tableau,
+    entries: Entries,
+    embedded: Sequence[Row] | None = None,
+    text: Callable[[Cell], str] | None = None,
+) -> Iterator[str]:
+    """The lines of the arrays.
+
+    Args:
+        tableau: for its colours, and for what they drive.
+        entries: its entries.
+        embedded: further weights, below b.
+        text: an entry in LaTeX; by default exact ones exactly.
+    """
+    feet = [entries.b]
+    if embedded is not None:
+        feet.append(tuple(embedded))
+
+    def usual(cell: Cell) -> str:
+        return _cell(cell, entries)
+
+    shown = _Shown(entries, text or usual, feet)
     if not tableau.is_partitioned:
         colours = range(tableau.size)
-        yield from _display(_array(entries, distinct_rows(tableau), colours))
+        yield from _display(_array(shown, distinct_rows(tableau), colours))
         return
     arrays = []
     columns = 0
@@ -51,7 +87,7 @@ def _displays(tableau: Tableau, entries: Entries) -> Iterator[str]:
         numbered = enumerate(tableau.colours)
         driven = [m for m, colour in numbered if colour.part == part]
         stages = _stages_of(tableau, driven)
-        array = _array(entries, stages, driven)
+        array = _array(shown, stages, driven)
         arrays.append([f"{letter}: \\quad", *array])
         columns += sum(len(entries.b[m]) for m in driven)
     if columns <= MAX_BESIDE:
@@ -80,28 +116,31 @@ def _display(lines: Sequence[str]) -> Iterator[str]:
 
 
 def _array(
-    entries: Entries, shown: Sequence[int], colours: Sequence[int]
+    shown: _Shown, stages: Sequence[int], colours: Sequence[int]
 ) -> list[str]:
-    """C | A | …, the stages of one colour of ``shown`` under those of the other, b below."""
+    """C | A | …, the stages of one colour of ``stages`` under those of the other, b below."""
+    entries = shown.entries
+    text = shown.text
     groups = "|".join("c" * len(entries.b[m]) for m in colours)
     lines = [f"\\begin{{array}}{{c|{groups}}}"]
-    for l in shown:
+    for l in stages:
         for i, node in enumerate(entries.c[l]):
-            cells = [_cell(node, entries)]
+            cells = [text(node)]
             for m in colours:
                 block = entries.A[l][m]
                 if block is None:
                     cells += [""] * len(entries.b[m])
                 else:
-                    cells += [_cell(x, entries) for x in block[i]]
+                    cells += map(text, block[i])
             row = " & ".join(cells)
             lines.append(f"  {row} \\\\")
         lines.append(r"  \hline")
-    weights = []
-    for m in colours:
-        weights += [_cell(x, entries) for x in entries.b[m]]
-    row = " & ".join(weights)
-    lines.append(f"  & {row}")
+    feet = []
+    for weights in shown.feet:
+        cells = [text(x) for m in colours for x in weights[m]]
+        row = " & ".join(cells)
+        feet.append(f"  & {row}")
+    lines.append(" \\\\\n".join(feet))
     lines.append("\\end{array}")
     return lines
 

@@ -1,0 +1,58 @@
+"""LaTeX: the tableau as the paper prints it, embedded weights below the others."""
+
+from __future__ import annotations
+
+from dataclasses import replace
+from functools import partial
+
+from flint import fmpq
+
+from garkcli.bridges.comments import PERCENT, head
+from garkcli.bridges.numbers import Style
+from garkcli.bridges.payload import Payload
+from garkcli.bridges.registry import Bridge
+from garkcli.bridges.rounding import Cell
+from garkcli.exact.display import to_latex
+from garkcli.page.latex import number
+from garkcli.page.tableau_latex import displays
+
+DECIMALS = Style(longest=1000, irrational=to_latex, point=False)
+"""Of methods with rounded coefficients, and of entries without radicals."""
+
+
+def write(payload: Payload) -> str:
+    """The arrays, for amsmath."""
+    lines = PERCENT.lines(head(payload, *_notes(payload)))
+    entries = replace(payload.entries, is_exact=True)
+    text = partial(_cell, payload)
+    lines += displays(payload.tableau, entries, payload.embedded, text)
+    return "\n".join(lines) + "\n"
+
+
+def _notes(payload: Payload) -> list[str]:
+    notes = []
+    if payload.embedded is not None:
+        notes.append("Below the weights are the embedded ones.")
+    if payload.dense is not None:
+        notes.append("The dense output of the method is left out.")
+    return notes
+
+
+def _cell(payload: Payload, cell: Cell) -> str:
+    """An entry: exact, or a decimal where the file has decimals or digits were asked for."""
+    is_printed_exactly = payload.tolerance is None and payload.digits is None
+    if isinstance(cell, fmpq) and is_printed_exactly:
+        return to_latex(cell)
+    return number(payload.number(cell, DECIMALS))
+
+
+BRIDGES = (
+    Bridge(
+        name="latex",
+        summary="the tableau in LaTeX, as papers print it",
+        kinds=("rk", "ark", "prk", "gark"),
+        suffix=".tex",
+        write=write,
+        reads_back=True,
+    ),
+)
