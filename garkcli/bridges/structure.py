@@ -8,6 +8,7 @@ from typing import TypeAlias
 
 from flint import arb, fmpq
 
+from garkcli.bridges.cannot import CannotExport
 from garkcli.bridges.payload import Payload
 from garkcli.bridges.rounding import Cell
 from garkcli.exact.field import ZERO
@@ -292,3 +293,15 @@ def _by_turns(
         found_kicks.append(sum(kick, start=ZERO))
         found_drifts.append(sum(drift, start=ZERO))
     return Composition(tuple(found_kicks), tuple(found_drifts))
+
+
+def no_composition(payload: Payload, taker: str) -> CannotExport:
+    """That a method is no such sequence, and what there is instead."""
+    cure = "json, c, fortran and numpy hold it"
+    if payload.structure == "general":
+        cure = f"for q' = f(p), p' = g(q) say so: structure: separable; {cure}"
+    return CannotExport(
+        f"{taker} takes kicks and drifts by turns, each explicit, and {payload.name} is no such "
+        "composition",
+        cure,
+    )

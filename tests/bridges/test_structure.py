@@ -14,6 +14,7 @@ from garkcli.bridges.payload import Payload
 from garkcli.bridges.preparing import prepared
 from garkcli.bridges.registry import bridges
 from garkcli.bridges.structure import composition, shared, table, vanishes
+from garkcli.bridges.targets.sundials_mri import infinitesimal_order
 from garkcli.exact.field import ONE, ZERO
 from garkcli.methodfile.load import load, loads
 from garkcli.order.certificate import find_order
@@ -159,6 +160,12 @@ REFUSED = [
     ("sundials", "{methods: [{family: gauss, stages: 2}]}", "solved together"),
     ("petsc", "{methods: [{family: gauss, stages: 2}]}", "solved together"),
     ("scipy", "{ark: {A: [[[0]], [[0]]], b: [[1], [1]]}}", "scipy has no"),
+    ("sundials-mri", "{A: [[1]], b: [1]}", "implicit stages"),
+    (
+        "sundials-mri",
+        "{A: [[0, 0, 0], [1, 0, 0], [1/4, 1/4, 0]], b: [1/6, 1/6, 2/3]}",
+        "do not ascend",
+    ),
     ("sundials", "{ark: {A: [[[1]], [[1]]], b: [[1], [1]]}}", "both"),
     (
         "petsc",
@@ -196,3 +203,42 @@ def test_tables_know_their_last_stage() -> None:
     assert not table(payload_of("{A: [[0]], b: [1]}")).is_fsal
     assert vanishes(ZERO)
     assert not vanishes(ONE)
+
+
+@pytest.mark.parametrize(
+    ("A", "b", "order"),
+    [
+        (
+            "[[0, 0, 0], [1/3, 0, 0], [-3/16, 15/16, 0]]",
+            "[1/6, 3/10, 8/15]",
+            3,
+        ),
+        ("[[0, 0, 0], [1/3, 0, 0], [0, 2/3, 0]]", "[1/4, 0, 3/4]", 2),
+        ("[[0, 0], [2/3, 0]]", "[1/4, 3/4]", 2),
+        ("[[0]]", "[1]", 1),
+    ],
+)
+def test_the_order_of_multirate_infinitesimal_steps(
+    A: str, b: str, order: int
+) -> None:
+    """The method of Knoth and Wolke keeps its order 3, that of Heun has 2."""
+    payload = payload_of(f"{{A: {A}, b: {b}}}")
+    found = table(payload)
+    assert infinitesimal_order(found, payload.orders.order) == order
+    assert f"C->q = {order};" in bridges()["sundials-mri"].written(payload)
+
+
+def test_latex_is_exact() -> None:
+    """Fractions and roots as LaTeX has them, embedded weights below the others, roots of cubics
+    among them; decimals where they are asked for.
+    """
+    text = "A: [[0, 0], [1 - sqrt(2)/2, 0]]\nb: [1/4, 3/4]\nembedded: [1, 0]\n"
+    written = bridges()["latex"].written(payload_of(text))
+    assert r"1-\frac{\sqrt{2}}{2} & 1-\frac{\sqrt{2}}{2} & 0" in written
+    assert "  & \\frac{1}{4} & \\frac{3}{4} \\\\\n  & 1 & 0\n" in written
+    cubic = load(str(ROOT / "methods/found/imex4-order3.gark.yaml"))
+    assert r"\operatorname{root}" in bridges()["latex"].written(
+        prepared(cubic)
+    )
+    rounded = bridges()["latex"].written(prepared(loads(text), 5))
+    assert "0.29289 & 0.29289 & 0" in rounded

@@ -13,10 +13,11 @@ from garkcli.bridges.payload import Payload
 from garkcli.bridges.registry import Bridge
 from garkcli.bridges.rounding import Cell
 from garkcli.exact.display import to_latex
+from garkcli.exact.field import Algebraic
 from garkcli.page.latex import number
 from garkcli.page.tableau_latex import displays
 
-DECIMALS = Style(longest=1000, irrational=to_latex, point=False)
+DECIMALS = Style(longest=1000, point=False)
 """Of methods with rounded coefficients, and of entries without radicals."""
 
 
@@ -40,7 +41,10 @@ def _notes(payload: Payload) -> list[str]:
 
 def _cell(payload: Payload, cell: Cell) -> str:
     """An entry: exact, or a decimal where the file has decimals or digits were asked for."""
-    is_printed_exactly = payload.tolerance is None and payload.digits is None
+    is_asked_for = payload.digits is not None
+    if isinstance(cell, Algebraic) and not is_asked_for:
+        return to_latex(cell)
+    is_printed_exactly = payload.tolerance is None and not is_asked_for
     if isinstance(cell, fmpq) and is_printed_exactly:
         return to_latex(cell)
     return number(payload.number(cell, DECIMALS))

@@ -5,11 +5,10 @@ from __future__ import annotations
 from collections.abc import Sequence
 
 from garkcli.bridges.c_text import array, c_style, heading
-from garkcli.bridges.cannot import CannotExport
 from garkcli.bridges.payload import Payload
 from garkcli.bridges.petsc_driver import driver
 from garkcli.bridges.registry import Bridge, Written
-from garkcli.bridges.structure import Table, composition, table
+from garkcli.bridges.structure import Table, composition, no_composition, table
 from garkcli.bridges.targets.sundials import check_diagonal, pair_of
 from garkcli.exact.field import ZERO
 from garkcli.tableau.pointwise import Row
@@ -101,11 +100,7 @@ def _arkimex(payload: Payload, implicit: Table, explicit: Table) -> str:
 def _symplectic(payload: Payload) -> str:
     found = composition(payload)
     if found is None:
-        raise CannotExport(
-            "basicsymplectic takes drifts and kicks by turns, each explicit, and "
-            f"{payload.name} is no such composition",
-            "json, c, fortran and numpy hold it",
-        )
+        raise no_composition(payload, "basicsymplectic")
     name = method_name(payload)
     order = payload.orders.order
     lines = [

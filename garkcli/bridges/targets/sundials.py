@@ -14,6 +14,7 @@ from garkcli.bridges.registry import Bridge, Written
 from garkcli.bridges.structure import (
     Table,
     composition,
+    no_composition,
     shared,
     table,
 )
@@ -205,11 +206,7 @@ def _sprk(payload: Payload) -> str:
     """A symplectic partitioned method, from SUNDIALS 7."""
     found = composition(payload)
     if found is None:
-        raise CannotExport(
-            "SPRKStep takes kicks and drifts by turns, each explicit, and "
-            f"{payload.name} is no such composition",
-            "json, c, fortran and numpy hold it",
-        )
+        raise no_composition(payload, "SPRKStep")
     name = _function(payload)
     use = (
         f"Use: SPRKStepCreate(f1, f2, ...) where f1 gives p' = g(q), f2 gives q' = f(p); then "
