@@ -50,6 +50,7 @@ COMMANDS = {
     "design": "for which values of its parameters a method has an order",
     "sweep": "many methods side by side: which are best",
     "export": "a method for SciPy, SUNDIALS, PETSc, C, JSON and others",
+    "import": "methods out of C, Python, MATLAB, Julia, LaTeX, JSON and others",
     "certificate": "what proves the orders, to be checked without gark",
     "list": "families, transfer rules, problems",
     "explain": "what a word of a report or of a file means",

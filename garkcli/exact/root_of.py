@@ -47,10 +47,10 @@ def root_nearest(
         UndefinedValue: it has no real root, or two are equally near.
         LimitExceeded: its degree or its coefficients are beyond the limits of this module.
     """
-    p = _polynomial(polynomial)
+    p = polynomial_in_x(polynomial)
     if p.degree() < 1:
         raise _error("a polynomial in x is expected", polynomial)
-    target = _polynomial(near)
+    target = polynomial_in_x(near)
     if target.degree() > 0:
         raise _error("a number near the root is expected", near)
     factor, number = _nearest(p, target[0], polynomial, near)
@@ -104,7 +104,7 @@ def _in_radicals(
     return Chain(f"+{sign}", (Literal(middle), radical), start=start, end=end)
 
 
-def _polynomial(expression: Expression) -> fmpq_poly:
+def polynomial_in_x(expression: Expression) -> fmpq_poly:
     """The value in ℚ[x]."""
     match expression:
         case Literal(value=value):
@@ -118,11 +118,11 @@ def _polynomial(expression: Expression) -> fmpq_poly:
         case Chain(signs=signs, operands=operands):
             total = fmpq_poly([0 if signs[0] in "+-" else 1])
             for sign, operand in zip(signs, operands, strict=True):
-                total = _joined(sign, total, _polynomial(operand), operand)
+                total = _joined(sign, total, polynomial_in_x(operand), operand)
                 _check_size(total, expression)
             return total
         case Power(base=base, exponent=exponent):
-            return _power(_polynomial(base), exponent, expression)
+            return _power(polynomial_in_x(base), exponent, expression)
     raise _error("the polynomial has rational coefficients", expression)
 
 

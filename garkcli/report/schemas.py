@@ -37,6 +37,7 @@ REPORTS = {
     "list": "garkcli.report.listing:list_report_schema",
     "list-methods": "garkcli.report.catalogue_list:list_methods_schema",
     "list-exports": "garkcli.report.exports:exports_schema",
+    "import": "garkcli.report.imported:import_report_schema",
     "sweep": "garkcli.report.sweep:sweep_report_schema",
 }
 """Where the function is that makes the schema of a command's report."""

@@ -94,6 +94,7 @@ REPORTS = {
         ["list", "exports"],
         ["export", METHOD, "--to", "json"],
     ],
+    "import": [["import", "tests/bridges/sources/register.cpp"]],
     "list": [["list"], ["list", "methods", "rk4"]],
 }
 """Of each section the runs whose reports it describes."""

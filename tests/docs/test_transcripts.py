@@ -28,6 +28,7 @@ PAGES = [
     ROOT / "docs" / "search.md",
     ROOT / "docs" / "found.md",
     ROOT / "docs" / "conversion.md",
+    ROOT / "docs" / "import.md",
 ]
 
 

@@ -36,16 +36,16 @@ class Step:
 def steps(page: Path) -> Iterator[Step]:
     """The files and commands of a page in order.
 
-    A file is a block of YAML after a line that ends with its name: `` `name.yaml`: ``. Commands are
+    A file is a block of YAML or C after a line that ends with its name: `` `name.yaml`: ``. Commands are
     the lines of console blocks that begin with a dollar sign; those of make are left out.
     """
     text = page.read_text(encoding="utf-8")
     pattern = re.compile(
-        r"(?:`([\w./-]+\.yaml)`:\n\n)?```(\w+)\n(.*?)^```$",
+        r"(?:`([\w./-]+\.(?:yaml|c))`:\n\n)?```(\w+)\n(.*?)^```$",
         re.DOTALL | re.MULTILINE,
     )
     for name, language, block in pattern.findall(text):
-        if language == "yaml" and name and "/" not in name:
+        if language in {"yaml", "c"} and name and "/" not in name:
             yield Step("", block, name)
         if language == "console":
             for part in re.split(r"^\$ ", block, flags=re.MULTILINE)[1:]:

@@ -1,0 +1,157 @@
+"""From sources to methods: every table that is found, as a method with a name of its own."""
+
+from __future__ import annotations
+
+import re
+from collections.abc import Iterable, Iterator, Sequence
+from dataclasses import dataclass, replace
+from pathlib import PurePath
+
+from garkcli.bridges.importing import Imported, imported
+from garkcli.bridges.plausible import is_plausible
+from garkcli.bridges.readers.found import FoundTable, Reader
+from garkcli.bridges.readers.registry import find_tables, readers_for
+from garkcli.bridges.recognising import Proposal, Recognised, recognised
+from garkcli.bridges.sources import STDIN_NAME, source_text
+from garkcli.errors import MethodFileError
+from garkcli.exact.display import decimal
+from garkcli.page.plaintext import plain_line
+
+SUFFIX = ".gark.yaml"
+_SMALL = re.compile(r"(?<=[a-z0-9])(?=[A-Z])")
+
+
+@dataclass(frozen=True, eq=False)
+class Result:
+    """What became of one table.
+
+    Attributes:
+        table: as it was found.
+        stem: of the file of its method, unique among all of them.
+        method: None where the table has no method in it.
+        recognised: the exact forms of its decimals, where they were asked for.
+        trouble: why there is no method; empty where there is one.
+    """
+
+    table: FoundTable
+    stem: str = ""
+    method: Imported | None = None
+    recognised: Recognised | None = None
+    trouble: str = ""
+
+    @property
+    def file_name(self) -> str:
+        """The name of the method file."""
+        return f"{self.stem}{SUFFIX}"
+
+    @property
+    def taken(self) -> tuple[Proposal, ...]:
+        """The exact forms that decimals were replaced by."""
+        return () if self.recognised is None else self.recognised.taken
+
+    def notes(self) -> Iterator[str]:
+        """What people should know, a sentence each."""
+        yield from self.table.notes
+        if self.trouble:
+            yield self.trouble
+        if self.method is None:
+            return
+        tolerance = self.method.tolerance
+        if tolerance:
+            yield f"coefficients are rounded: tolerance {decimal(tolerance)}"
+        found = self.method.order.order
+        declared = self.table.order
+        if declared is not None and declared != found:
+            yield f"the source declares order {declared}, found is {found}"
+        if self.method.order.is_open:
+            yield f"whether it has order {found + 1} is left open by its digits"
+        yield from self._of_recognised()
+
+    def _of_recognised(self) -> Iterator[str]:
+        found = self.recognised
+        if found is None:
+            return
+        for x in found.taken:
+            yield f"{x.printed} is {x.exact}, {x.distance} away"
+        for x in found.refused:
+            yield f"{x.printed} is not {x.exact}: with it the order falls"
+        for text in found.left:
+            yield f"{text} stays a decimal"
+
+
+def collected(
+    paths: Iterable[str],
+    chosen: Sequence[Reader] = (),
+    is_recognising: bool = False,
+) -> Iterator[Result]:
+    """The tables of all sources, in order.
+
+    Args:
+        paths: files, ``-`` for standard input.
+        chosen: who reads them; those of the endings of their names where none are given.
+        is_recognising: whether exact forms of decimals are looked for.
+
+    Raises:
+        UsageProblem: a source cannot be read.
+    """
+    names = Stems()
+    for path in paths:
+        text, source = source_text(path)
+        readers = chosen or readers_for(path)
+        for table in find_tables(text, source, readers):
+            name = plain_line(table.name) or default_name(source)
+            result = _result(table, name, is_recognising)
+            method = result.method
+            is_other = method is not None and not is_plausible(
+                table, method.method
+            )
+            # who names the format means the arrays that are there
+            if is_other and not chosen:
+                continue
+            yield replace(result, stem=names.unique(name))
+
+
+def _result(table: FoundTable, name: str, is_recognising: bool) -> Result:
+    if table.trouble:
+        return Result(table, trouble=table.trouble)
+    try:
+        method = imported(table, name)
+    except MethodFileError as error:
+        fault = error.faults[0]
+        return Result(table, trouble=fault.message)
+    if not is_recognising:
+        return Result(table, method=method)
+    found = recognised(method, name)
+    return Result(table, method=found.method, recognised=found)
+
+
+def default_name(source: str) -> str:
+    """What a method is called whose source does not say."""
+    if source == STDIN_NAME:
+        return "method"
+    return PurePath(source).name.split(".")[0] or "method"
+
+
+class Stems:
+    """Names of files: lower case, words joined by hyphens, no two alike."""
+
+    def __init__(self) -> None:
+        self._used: set[str] = set()
+
+    def unique(self, name: str) -> str:
+        """A name of a file for the name of a method.
+
+        >>> stems = Stems()
+        >>> stems.unique("RalstonEuler"), stems.unique("ralston_euler")
+        ('ralston-euler', 'ralston-euler-2')
+        """
+        parted = _SMALL.sub("-", plain_line(name))
+        words = re.findall("[a-z0-9]+", parted.lower())
+        stem = "-".join(words)[:60].strip("-") or "method"
+        found = stem
+        number = 1
+        while found in self._used:
+            number += 1
+            found = f"{stem}-{number}"
+        self._used.add(found)
+        return found

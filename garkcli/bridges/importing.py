@@ -1,0 +1,311 @@
+"""From a table that was found to a method file: its text, its rounding, its claims."""
+
+from __future__ import annotations
+
+import re
+from collections.abc import Iterator, Mapping, Sequence
+from dataclasses import dataclass
+from functools import lru_cache
+
+from flint import fmpq
+
+from garkcli.bridges.judging import Judged, judged
+from garkcli.bridges.readers.found import FoundTable, Row, Rows
+from garkcli.errors import ExpressionError, printable
+from garkcli.exact.display import decimal
+from garkcli.exact.domain import Domain
+from garkcli.exact.expression import parse
+from garkcli.exact.nodes import Literal
+from garkcli.methodfile.build import MethodFile
+from garkcli.methodfile.load import loads
+from garkcli.methodfile.writer import quoted
+from garkcli.page.plaintext import plain_line
+from garkcli.tableau.embedded import with_weights
+
+SHORT = 8
+"""A decimal with fewer digits is written as a fraction."""
+_LONG = re.compile(rf"[0-9]{{{SHORT},}}|[0-9]\.[0-9]{{{SHORT - 1},}}")
+_TAIL = re.compile(r"(?<=[0-9.])0{6,}(?![0-9])")
+"""Zeros that a printed decimal ends with."""
+_INTEGER = re.compile(r"-?(?:0|[1-9][0-9]*)")
+
+
+@dataclass(frozen=True, eq=False)
+class Imported:
+    """A method out of a source.
+
+    Attributes:
+        table: as it was found.
+        method: as its file is read.
+        order: of the method, exactly or within the rounding of its digits.
+        embedded_order: the same with the embedded weights; None without them.
+        text: of the method file.
+    """
+
+    table: FoundTable
+    method: MethodFile
+    order: Judged
+    embedded_order: Judged | None
+    text: str
+
+    @property
+    def tolerance(self) -> fmpq | None:
+        """The rounding that the method file admits."""
+        return self.method.tolerance
+
+
+def imported(table: FoundTable, name: str) -> Imported:
+    """The method of a table, with the claims that hold.
+
+    Args:
+        table: as it was found.
+        name: what the method file calls it.
+
+    Raises:
+        MethodFileError: its numbers make no method.
+    """
+    method = read(table, name)
+    order, embedded_order = orders_of(method, table)
+    tolerance = _tolerance(table, (order, embedded_order))
+    claims = _claims(order, embedded_order)
+    text = written(table, name, tolerance, claims)
+    method = loads(text, place_of(table))
+    return Imported(table, method, order, embedded_order, text)
+
+
+def read(table: FoundTable, name: str = "") -> MethodFile:
+    """The method of a table as it stands, with no tolerance.
+
+    Raises:
+        MethodFileError: its numbers make no method.
+    """
+    return loads(written(table, name, None, {}), place_of(table))
+
+
+def orders_of(
+    method: MethodFile, table: FoundTable
+) -> tuple[Judged, Judged | None]:
+    """The order of a method and that of its embedded weights, within what their digits say."""
+    order = judged(method, method.tableau, table.order)
+    if method.embedded is None:
+        return order, None
+    other = with_weights(method.tableau, method.embedded)
+    return order, judged(method, other, table.embedded_order)
+
+
+def place_of(table: FoundTable) -> str:
+    """Where a table stands, as people write it."""
+    return f"{table.source}:{table.line}"
+
+
+def _tolerance(
+    table: FoundTable, orders: Sequence[Judged | None]
+) -> fmpq | None:
+    """The rounding that the file has to admit; None where everything holds exactly."""
+    wanted = [x.file_tolerance for x in orders if x is not None]
+    found = [x for x in wanted if x is not None]
+    if table.tolerance:
+        found.append(fmpq_of(table.tolerance))
+    return max(found, default=None)
+
+
+def fmpq_of(text: str) -> fmpq:
+    """A rational number; 0 for anything else."""
+    try:
+        value = Domain([parse(text)]).evaluate(parse(text))
+    except ExpressionError:
+        return fmpq(0)
+    return value if isinstance(value, fmpq) else fmpq(0)
+
+
+def _claims(order: Judged, embedded: Judged | None) -> Mapping[str, str]:
+    claims = {}
+    if order.order:
+        claims["order"] = order.claim
+    if embedded is not None and embedded.order:
+        claims["embedded-order"] = embedded.claim
+    return claims
+
+
+def written(
+    table: FoundTable,
+    name: str,
+    tolerance: fmpq | None,
+    claims: Mapping[str, str],
+) -> str:
+    """The method file of a table.
+
+    Args:
+        table: as it was found.
+        name: what the file calls it.
+        tolerance: the rounding that it admits.
+        claims: what it claims.
+    """
+    whence = plain_line(printable(place_of(table)))
+    lines = [f"# from {whence}, read as {table.format}", "gark: 1"]
+    if name:
+        lines.append(f"name: {quoted(name)}")
+    lines += _coefficients(table)
+    if tolerance:
+        lines.append(f"tolerance: {decimal(tolerance)}")
+    if claims:
+        told = ", ".join(f"{key}: {value}" for key, value in claims.items())
+        lines.append(f"expect: {{{told}}}")
+    return "\n".join(lines) + "\n"
+
+
+def _coefficients(table: FoundTable) -> Iterator[str]:
+    if table.parts:
+        yield from _prk(table)
+    elif table.colours == 1 and table.A[0][0] is not None:
+        block = table.A[0][0]
+        yield "A:"
+        yield from _rows(block, 2)
+        yield f"b: {row_text(table.b[0])}"
+        yield from _single(table.c[0], "c")
+        if table.embedded is not None:
+            yield f"embedded: {row_text(table.embedded[0])}"
+        if table.dense is not None:
+            yield from _polynomials(table.dense[:1], "")
+    elif len(table.A) == 1:
+        yield from _ark(table)
+    else:
+        yield from _blocks(table)
+
+
+def _single(row: Row | None, key: str, indent: str = "") -> Iterator[str]:
+    if row is not None:
+        yield f"{indent}{key}: {row_text(row)}"
+
+
+def _rows(rows: Sequence[Row], indent: int) -> Iterator[str]:
+    for row in rows:
+        yield " " * indent + f"- {row_text(row)}"
+
+
+def _ark(table: FoundTable) -> Iterator[str]:
+    yield "ark:"
+    yield from _single(table.c[0], "c", "  ")
+    yield "  A:"
+    for block in table.A[0]:
+        yield "    -"
+        yield from _rows(block or (), 6)
+    yield "  b:"
+    yield from _rows(table.b, 4)
+    if table.embedded is not None:
+        yield "  embedded:"
+        yield from _rows(table.embedded, 4)
+    if table.dense is not None:
+        yield from _polynomials(table.dense, "  ")
+
+
+def _blocks(table: FoundTable) -> Iterator[str]:
+    yield "tableau:"
+    if any(row is not None for row in table.c):
+        yield "  c:"
+        for l, row in enumerate(table.c):
+            yield f"    - {row_text(row or _sums(table, l))}"
+    yield "  A:"
+    for blocks in table.A:
+        dash = "    - -"
+        for block in blocks:
+            yield f"{dash} null" if block is None else dash
+            yield from _rows(block or (), 8)
+            dash = "      -"
+    yield "  b:"
+    yield from _rows(table.b, 4)
+    if table.embedded is not None:
+        yield "  embedded:"
+        yield from _rows(table.embedded, 4)
+    if table.dense is not None:
+        yield from _polynomials(table.dense, "  ")
+    if table.linear:
+        numbers = ", ".join(str(l + 1) for l in table.linear)
+        yield f"linear: [{numbers}]"
+
+
+def _polynomials(dense: Sequence[Rows], indent: str) -> Iterator[str]:
+    """Dense output, a block for each of several colours."""
+    degree = max(len(row) for rows in dense for row in rows)
+    yield f"{indent}dense:"
+    yield f"{indent}  degree: {degree}"
+    yield f"{indent}  weights:"
+    depth = len(indent) + 4
+    for rows in dense:
+        if len(dense) > 1:
+            yield f"{indent}    -"
+            yield from _rows(rows, depth + 2)
+        else:
+            yield from _rows(rows, depth)
+
+
+def _sums(table: FoundTable, l: int) -> Row:
+    """The row sums of the diagonal block, where a source gives nodes of other colours alone."""
+    block = table.A[l][l]
+    if block is None:
+        return ("0",) * len(table.b[l])
+    return tuple(" + ".join(f"({x})" for x in row) for row in block)
+
+
+def _prk(table: FoundTable) -> Iterator[str]:
+    """The form ``prk``: the rows of q.A are the positions at which forces are evaluated."""
+    is_shared = len(table.A) == 1
+    grid = table.A
+    A_p = grid[0][1]
+    A_q = grid[0][0] if is_shared else grid[1][0]
+    c_p = table.c[0]
+    c_q = table.c[0] if is_shared else table.c[1]
+    yield "prk:"
+    parts = (("q", A_q, c_q), ("p", A_p, c_p))
+    for number, (name, block, nodes) in enumerate(parts):
+        yield f"  {name}:"
+        yield "    A:"
+        yield from _rows(block or (), 6)
+        yield f"    b: {row_text(table.b[number])}"
+        yield from _single(nodes, "c", "    ")
+        if table.embedded is not None:
+            yield f"    embedded: {row_text(table.embedded[number])}"
+        if table.dense is not None:
+            yield from _polynomials([table.dense[number]], "    ")
+    structure = "general" if is_shared else table.structure or "separable"
+    yield f"structure: {structure}"
+
+
+def row_text(row: Row) -> str:
+    """A row of a method file."""
+    return f"[{', '.join(map(entry_text, row))}]"
+
+
+@lru_cache(maxsize=4096)
+def entry_text(text: str) -> str:
+    """A number of a method file: fractions in lowest terms, long decimals and roots as they are.
+
+    >>> entry_text("1.0/3.0"), entry_text("0.25"), entry_text("root(2, 5)")
+    ('1/3', '1/4', '"root(2, 5)"')
+    """
+    if _INTEGER.fullmatch(text):
+        return text
+    short = _fraction(text)
+    if short:
+        return short
+    is_plain = not set(text) & set(",#:{}[]&*!|>'\"%@`\\\n")
+    return text if is_plain and text[:1] not in "-?" else quoted(text)
+
+
+def _fraction(text: str) -> str:
+    """The fraction that a text without long decimals and without roots is; empty for others."""
+    if _LONG.search(_TAIL.sub("", text)) and not _is_quotient(text):
+        return ""
+    try:
+        expression = parse(text)
+        if isinstance(expression, Literal):
+            return str(expression.value)
+        value = Domain([expression]).evaluate(expression)
+    except ExpressionError:
+        return ""
+    return str(value) if isinstance(value, fmpq) else ""
+
+
+def _is_quotient(text: str) -> bool:
+    """Whether a text is made of whole numbers, however long: those are exact."""
+    return "." not in text and "e" not in text and "q" not in text

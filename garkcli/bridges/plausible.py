@@ -1,0 +1,58 @@
+"""Whether arrays called A and b are a method at all: other matrices have such names, too."""
+
+from __future__ import annotations
+
+from collections.abc import Sequence
+
+from flint import arb
+
+from garkcli.bridges.readers.found import FoundTable
+from garkcli.exact.display import to_ball
+from garkcli.exact.field import Number
+from garkcli.exact.matrix import Matrix
+from garkcli.methodfile.build import MethodFile
+
+NEAR = 0.01
+"""Sums that differ by less are meant to be the same."""
+FAR = 0.5
+"""Weights of a method have a sum that is nearer to 1, misprints included."""
+
+
+def is_plausible(table: FoundTable, method: MethodFile) -> bool:
+    """Whether a table is a method: its source says so, or its numbers do.
+
+    The nodes of a method are the row sums of its matrix, most of them even where one is misprinted;
+    without nodes its matrix is triangular and the sum of its weights 1.
+    """
+    if table.is_sure or table.order is not None or table.colours > 1:
+        return True
+    tableau = method.tableau
+    block = tableau.block(0, 0)
+    colour = tableau.colours[0]
+    if block is None:
+        return False
+    off = abs(_sum(colour.b) - 1)
+    if table.c[0] is None:
+        return bool(off < NEAR) and len(block) > 1 and _is_triangular(block)
+    columns = tuple(zip(*block, strict=True))
+    least = (len(block) + 1) // 2
+    agreeing = max(_agreeing(block, colour.c), _agreeing(columns, colour.c))
+    return bool(off < FAR) and agreeing >= least
+
+
+def _sum(row: Sequence[Number]) -> arb:
+    return sum(map(to_ball, row), arb(0))
+
+
+def _agreeing(
+    rows: Sequence[Sequence[Number]], nodes: Sequence[Number]
+) -> int:
+    """How many rows have a node for a sum."""
+    count = 0
+    for row, node in zip(rows, nodes, strict=True):
+        count += bool(abs(_sum(row) - to_ball(node)) < NEAR)
+    return count
+
+
+def _is_triangular(block: Matrix) -> bool:
+    return not any(any(row[i + 1 :]) for i, row in enumerate(block))

@@ -1,0 +1,182 @@
+"""Assignments of MATLAB, Julia and Mathematica, one after the other, by one walk over tokens."""
+
+from __future__ import annotations
+
+from collections.abc import Callable, Iterator, Mapping, MutableMapping
+from dataclasses import dataclass
+
+from garkcli.bridges.readers.found import Unreadable
+from garkcli.bridges.readers.lexing import Token
+from garkcli.bridges.readers.parsing import Grammar, ValueParser
+from garkcli.bridges.readers.scalars import Value
+
+MAX_NAMES = 20_000
+"""Most names that are remembered."""
+MAX_INDICES = 12
+"""Most tokens between the brackets of indices."""
+_CLOSERS = {"(": ")", "[": "]", "{": "}"}
+
+
+@dataclass(frozen=True)
+class Assigned:
+    """A name with members, such as ``m.A``, that has a value from a line on.
+
+    Attributes:
+        name: as it is written.
+        indices: those behind it, from 1 as these languages count; 0 for what is no number.
+        value: what it is.
+        line: of the name.
+    """
+
+    name: str
+    indices: tuple[int, ...]
+    value: Value
+    line: int
+
+
+@dataclass(frozen=True)
+class Called:
+    """A call of a function that makes a table; the arguments with their names."""
+
+    name: str
+    arguments: tuple[tuple[str, Value], ...]
+    line: int
+
+
+@dataclass(frozen=True)
+class Begun:
+    """A function, a branch or a title begins here."""
+
+    title: str
+    line: int
+
+
+Event = Assigned | Called | Begun
+
+
+class Walk:
+    """One walk over a source.
+
+    Args:
+        tokens: without comments, with one of kind ``end`` behind them.
+        grammar: of the language.
+        wanted: which functions make tables.
+        ends: what may stand behind a value.
+        begins: the title that a token gives to what follows; empty for most.
+    """
+
+    def __init__(
+        self,
+        tokens: list[Token],
+        grammar: Grammar,
+        wanted: Mapping[str, object],
+        ends: frozenset[str],
+        begins: Callable[[list[Token], int], str],
+    ) -> None:
+        self._tokens = tokens
+        self._wanted = wanted
+        self._ends = ends
+        self._begins = begins
+        self.names: MutableMapping[str, Value] = {}
+        self._parser = ValueParser(tokens, grammar, self.names)
+        self._calls = grammar.calls
+
+    def events(self) -> Iterator[Event]:
+        """What happens, in order."""
+        place = 0
+        last = len(self._tokens) - 1
+        while place < last:
+            token = self._tokens[place]
+            title = self._begins(self._tokens, place)
+            if title:
+                yield Begun(title, token.line)
+            if token.kind == "name":
+                yield from self._call(place)
+                assigned, place = self._assignment(place)
+                if assigned is not None:
+                    yield assigned
+                continue
+            place += 1
+
+    def _is(self, place: int, *signs: str) -> bool:
+        token = self._tokens[min(place, len(self._tokens) - 1)]
+        return token.kind == "sign" and token.text in signs
+
+    def _call(self, place: int) -> Iterator[Called]:
+        token = self._tokens[place]
+        if token.text not in self._wanted:
+            return
+        at = place + 1
+        if self._is(at, "{"):
+            # the type of what is made: RungeKuttaMethod{Float64}(…)
+            while not self._is(at, "}") and self._tokens[at].kind != "end":
+                at += 1
+            at += 1
+        if not self._is(at, *self._calls):
+            return
+        try:
+            found = self._parser.arguments_at(at)
+        except Unreadable:
+            return
+        yield Called(token.text, tuple(found), token.line)
+
+    def _assignment(self, place: int) -> tuple[Assigned | None, int]:
+        """What is assigned here, if anything is, and where to go on."""
+        name = self._tokens[place].text
+        at = place + 1
+        while self._is(at, ".") and self._tokens[at + 1].kind == "name":
+            name += f".{self._tokens[at + 1].text}"
+            at += 2
+        indices, behind = self._indices(at)
+        if not self._is(behind, "=", ":="):
+            return None, place + 1
+        line = self._tokens[place].line
+        start = behind + 1
+        while self._tokens[start].kind == "line":
+            start += 1
+        try:
+            value = self._parser.value_at(start)
+        except Unreadable:
+            self.names.pop(name, None)
+            return None, start
+        behind = self._parser.place
+        token = self._tokens[behind]
+        is_end = token.kind in {"line", "end"} or token.text in self._ends
+        if not is_end:
+            self.names.pop(name, None)
+            return None, start
+        if indices:
+            _put(self.names.get(name), indices, value)
+        elif len(self.names) < MAX_NAMES:
+            self.names[name] = value
+        return Assigned(name, indices, value, line), behind
+
+    def _indices(self, at: int) -> tuple[tuple[int, ...], int]:
+        """The indices behind a name, and the place behind them."""
+        closer = _CLOSERS.get(self._tokens[at].text)
+        if closer is None or self._tokens[at].kind != "sign":
+            return (), at
+        found: list[int] = []
+        for place in range(at + 1, min(at + MAX_INDICES, len(self._tokens))):
+            token = self._tokens[place]
+            if token.text == closer:
+                return tuple(found), place + 1
+            if token.kind in {"number", "name"}:
+                is_index = token.text.isdigit() and len(token.text) < 4
+                found.append(int(token.text) if is_index else 0)
+            elif token.text not in {",", "_", ":"}:
+                break
+        return (), at
+
+
+def _put(array: Value | None, indices: tuple[int, ...], value: Value) -> None:
+    """An entry of an array that is known; indices count from 1."""
+    for index in indices[:-1]:
+        if not isinstance(array, list) or not 0 < index <= len(array):
+            return
+        array = array[index - 1]
+    last = indices[-1]
+    if not isinstance(array, list) or not 0 < last <= len(array):
+        return
+    if isinstance(array[last - 1], list) == isinstance(value, list):
+        array[last - 1] = value

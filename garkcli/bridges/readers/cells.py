@@ -1,0 +1,100 @@
+"""Blocks that are assigned one by one: ``m.A{1,2} = …``, ``A[1, 2] = …``."""
+
+from __future__ import annotations
+
+from collections.abc import Mapping
+
+from garkcli.bridges.readers.blocks import MAX_COLOURS, table_of_blocks
+from garkcli.bridges.readers.found import MAX_STAGES, FoundTable
+from garkcli.bridges.readers.naming import ROLES, Scope
+from garkcli.bridges.readers.scalars import Scalar, Value, number
+
+_Indexed = dict[tuple[int, ...], Value]
+
+
+class Cells:
+    """What is assigned to the entries of arrays of one structure; indices count from 1.
+
+    Args:
+        line: where the first of them stands.
+    """
+
+    def __init__(self, line: int) -> None:
+        self.line = line
+        self._whole: dict[str, Value] = {}
+        self._entries: dict[str, _Indexed] = {}
+
+    def put(self, name: str, indices: tuple[int, ...], value: Value) -> None:
+        """Note that an array, or an entry of it, has a value."""
+        role = ROLES.get(name, name)
+        if not indices:
+            self._whole[role] = value
+            return
+        if all(0 < index <= MAX_STAGES for index in indices):
+            self._entries.setdefault(role, {})[indices] = value
+
+    def table(self, source: str, format: str, name: str) -> FoundTable | None:
+        """The method that they make; None where they make none."""
+        entries = self._entries
+        blocks = entries.get("A")
+        if not blocks:
+            return None
+        if all(isinstance(x, Scalar) for x in blocks.values()):
+            return self._of_numbers(source, format, name)
+        values: dict[str, Value] = dict(self._whole)
+        values["A"] = _grid(blocks)
+        for role in ("b", "c", "embedded", "dense"):
+            if role in entries:
+                values[role] = _listed(entries[role])
+        return table_of_blocks(values, source, format, name, self.line)
+
+    def _of_numbers(
+        self, source: str, format: str, name: str
+    ) -> FoundTable | None:
+        """One matrix whose entries are assigned."""
+        scope = Scope(name)
+        for role, value in self._whole.items():
+            if role not in self._entries:
+                scope.add(role, value, self.line)
+        for role, entries in self._entries.items():
+            scope.add(role, _filled(entries), self.line)
+        return next(scope.tables(source, format), None)
+
+
+def _grid(blocks: Mapping[tuple[int, ...], Value]) -> Value:
+    """``A[l][m]``; None where nothing, or nothing but [], is assigned."""
+    if any(len(index) != 2 for index in blocks):
+        return None
+    size = max(max(index) for index in blocks)
+    if size > MAX_COLOURS:
+        return None
+    rows: list[Value] = []
+    for l in range(1, size + 1):
+        row = [blocks.get((l, m)) or None for m in range(1, size + 1)]
+        rows.append([_as_matrix(x) for x in row])
+    return rows
+
+
+def _as_matrix(value: Value) -> Value:
+    """A block of one row is written like a row, one of one entry like a number."""
+    if isinstance(value, Scalar):
+        return [[value]]
+    if isinstance(value, list) and all(isinstance(x, Scalar) for x in value):
+        return [value]
+    return value
+
+
+def _listed(entries: Mapping[tuple[int, ...], Value]) -> Value:
+    size = max(index[0] for index in entries)
+    found = [entries.get((l,)) for l in range(1, size + 1)]
+    return [[x] if isinstance(x, Scalar) else x for x in found]
+
+
+def _filled(entries: Mapping[tuple[int, ...], Value]) -> Value:
+    """An array from its entries, with zeros where none is assigned."""
+    size = max(max(index) for index in entries)
+    numbers = range(1, size + 1)
+    zero: Value = number("0")
+    if all(len(index) == 1 for index in entries):
+        return [entries.get((i,), zero) for i in numbers]
+    return [[entries.get((i, j), zero) for j in numbers] for i in numbers]

@@ -1,0 +1,125 @@
+"""A table as it is found in a source: coefficients as text, and what the source says of them."""
+
+from __future__ import annotations
+
+from collections.abc import Callable, Mapping
+from dataclasses import dataclass, field
+from typing import TypeAlias
+
+from garkcli.errors import GarkError
+
+Row: TypeAlias = tuple[str, ...]
+"""Numbers as texts of ``garkcli.exact.expression``."""
+Rows: TypeAlias = tuple[Row, ...]
+Grid: TypeAlias = tuple[tuple[Rows | None, ...], ...]
+
+MAX_STAGES = 200
+"""Most stages of a table."""
+MAX_TABLES = 1_000
+"""Most tables that are read from one source."""
+MAX_LENGTH = 4_000
+"""Longest text of a coefficient, its named constants written out."""
+MAX_CHARACTERS = 4_000_000
+"""Longest source that is read."""
+
+
+class Unreadable(GarkError):
+    """What stands at a place in a source is no value that a reader knows."""
+
+
+@dataclass(frozen=True)
+class FoundTable:
+    """The coefficients of one method, as a source has them.
+
+    Attributes:
+        source: the file, as it was named.
+        line: where the table begins, from 1.
+        format: the reader that found it.
+        name: what the source calls it; empty where it does not.
+        A: the blocks A^{l,m}, None where colour l does not see colour m. One block of one colour.
+            Colours that share their stages have one row of blocks.
+        b: the weights of each colour.
+        c: the nodes of each row of blocks, None where the source has none.
+        embedded: the weights of the embedded method, a row a colour.
+        dense: ``dense[l][i]`` are the coefficients of θ, θ², … of b_i(θ) of colour l.
+        order: the order that the source declares.
+        embedded_order: the order of the embedded weights that the source declares.
+        flags: properties that the source declares, by their names in method files.
+        parts: ``("q", "p")`` of a partitioned method; empty otherwise.
+        structure: which vector fields the problem has, as in method files; empty for all.
+        linear: the colours with a linear vector field, from 0.
+        tolerance: the rounding that the source admits; empty where it says none.
+        is_sure: whether the source says that this is a method; otherwise names alone do.
+        notes: what people should know of how it was read.
+        trouble: what is wrong with the table itself; then it has no coefficients to judge.
+    """
+
+    source: str
+    line: int
+    format: str
+    name: str
+    A: Grid
+    b: Rows
+    c: tuple[Row | None, ...] = (None,)
+    embedded: Rows | None = None
+    dense: tuple[Rows, ...] | None = None
+    order: int | None = None
+    embedded_order: int | None = None
+    flags: Mapping[str, bool] = field(default_factory=dict)
+    parts: tuple[str, ...] = ()
+    structure: str = ""
+    linear: tuple[int, ...] = ()
+    tolerance: str = ""
+    is_sure: bool = True
+    notes: tuple[str, ...] = ()
+    trouble: str = ""
+
+    @property
+    def colours(self) -> int:
+        """N, the number of colours."""
+        return len(self.b)
+
+    @property
+    def stages(self) -> int:
+        """The stages of all colours, those that are shared once."""
+        if len(self.A) == 1:
+            return len(self.b[0]) if self.b else 0
+        return sum(len(row) for row in self.b)
+
+
+Find: TypeAlias = Callable[[str, str], list[FoundTable]]
+"""From the text of a source and its name to the tables in it."""
+
+
+@dataclass(frozen=True)
+class Reader:
+    """A format that is read.
+
+    Attributes:
+        name: what the format is called.
+        summary: what it is, in a few words.
+        suffixes: of the files that have it.
+        find: the tables in a text; it executes nothing and raises nothing for any text.
+    """
+
+    name: str
+    summary: str
+    suffixes: tuple[str, ...]
+    find: Find
+
+
+def troubled(table: FoundTable, trouble: str) -> FoundTable:
+    """A place where a table is meant to be, and why it is none."""
+    empty: Rows = ()
+    return FoundTable(
+        table.source,
+        table.line,
+        table.format,
+        table.name,
+        (),
+        empty,
+        (),
+        order=table.order,
+        embedded_order=table.embedded_order,
+        trouble=trouble,
+    )

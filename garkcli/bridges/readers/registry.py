@@ -1,0 +1,94 @@
+"""The readers of ``gark import`` and ``gark audit``, found in the files of this folder."""
+
+from __future__ import annotations
+
+import pkgutil
+from collections.abc import Mapping, Sequence
+from functools import lru_cache
+from importlib import import_module
+from pathlib import PurePath
+
+from garkcli.bridges import readers
+from garkcli.bridges.readers.found import (
+    MAX_CHARACTERS,
+    MAX_TABLES,
+    FoundTable,
+    Reader,
+)
+from garkcli.errors import UsageProblem, did_you_mean
+
+
+@lru_cache(maxsize=1)
+def all_readers() -> Mapping[str, Reader]:
+    """Every reader by its name, in alphabetical order."""
+    found: dict[str, Reader] = {}
+    for module in pkgutil.iter_modules(readers.__path__):
+        place = f"{readers.__name__}.{module.name}"
+        reader = getattr(import_module(place), "READER", None)
+        if isinstance(reader, Reader):
+            found[reader.name] = reader
+    return dict(sorted(found.items()))
+
+
+def reader_named(name: str) -> Reader:
+    """The reader of that name.
+
+    Raises:
+        UsageProblem: there is none.
+    """
+    known = all_readers()
+    if name not in known:
+        raise UsageProblem(
+            f"no format {name!r}", did_you_mean(name, list(known))
+        )
+    return known[name]
+
+
+def suffixes() -> frozenset[str]:
+    """The endings of files that some reader reads."""
+    return frozenset(x for r in all_readers().values() for x in r.suffixes)
+
+
+def readers_for(path: str) -> Sequence[Reader]:
+    """The readers of files with such an ending; all of them where no reader has it."""
+    suffix = PurePath(path).suffix.lower()
+    everyone = tuple(all_readers().values())
+    return [x for x in everyone if suffix in x.suffixes] or everyone
+
+
+def find_tables(
+    text: str, source: str, chosen: Sequence[Reader]
+) -> list[FoundTable]:
+    """The tables of a source in the order of its lines; what several readers find is found once.
+
+    Args:
+        text: of the source.
+        source: what it is called.
+        chosen: who reads it.
+    """
+    if len(text) > MAX_CHARACTERS:
+        return []
+    if len(chosen) == len(all_readers()):
+        return _by_the_best(text, source, chosen)
+    found: list[FoundTable] = []
+    for reader in chosen:
+        found += reader.find(text, source)
+    return sorted(found, key=lambda x: x.line)[:MAX_TABLES]
+
+
+def _by_the_best(
+    text: str, source: str, chosen: Sequence[Reader]
+) -> list[FoundTable]:
+    """The tables of the reader that finds most in a text of an unknown format."""
+    best: list[FoundTable] = []
+    for reader in chosen:
+        found = reader.find(text, source)
+        if _worth(found) > _worth(best):
+            best = found
+    return best[:MAX_TABLES]
+
+
+def _worth(tables: Sequence[FoundTable]) -> tuple[int, int]:
+    """How many tables were read, those that say that they are methods before others."""
+    whole = [x for x in tables if not x.trouble]
+    return sum(x.is_sure for x in whole), len(whole)

@@ -1,0 +1,186 @@
+"""Matrices as sources store them, made square: flat, packed, ragged, without the first row."""
+
+from __future__ import annotations
+
+from collections.abc import Sequence
+from dataclasses import replace
+
+from garkcli.bridges.readers.found import (
+    MAX_STAGES,
+    FoundTable,
+    Row,
+    Rows,
+    Unreadable,
+)
+from garkcli.bridges.readers.scalars import (
+    Value,
+    combined,
+    is_row,
+    number,
+    row_of,
+)
+
+ZERO = "0"
+
+
+def weights(value: Value, stages: int = 0) -> Row:
+    """A row of numbers, also one that stands in a matrix of one row or of one column.
+
+    Args:
+        value: as it was read.
+        stages: how many numbers it has, where that is known; missing ones are zero.
+
+    Raises:
+        Unreadable: it is no such row.
+    """
+    if isinstance(value, list) and value and not is_row(value):
+        columns = [row for row in value if isinstance(row, list)]
+        if len(columns) == 1 and len(value) == 1:
+            value = columns[0]
+        elif len(columns) == len(value) and all(len(x) == 1 for x in columns):
+            value = [column[0] for column in columns]
+    row = row_of(value)
+    if len(row) > MAX_STAGES:
+        raise Unreadable(f"more than {MAX_STAGES} stages")
+    if stages and len(row) > stages:
+        raise Unreadable(f"{len(row)} numbers for {stages} stages")
+    missing = stages - len(row)
+    return row + (ZERO,) * missing
+
+
+def square(value: Value, stages: int) -> Rows:
+    """The matrix of a method.
+
+    Args:
+        value: its rows, full or up to the diagonal, all of them or from the second one on; or all
+            entries in one row, those of a triangle too.
+        stages: s.
+
+    Returns:
+        Shape (s, s).
+
+    Raises:
+        Unreadable: it has no such shape.
+
+    >>> one = number("1")
+    >>> square([[one], [one, one]], 3)
+    (('0', '0', '0'), ('1', '0', '0'), ('1', '1', '0'))
+    """
+    if is_row(value) and stages > 1:
+        return _of_flat(row_of(value), stages)
+    if is_row(value):
+        return (weights(value, 1),)
+    if not isinstance(value, list):
+        raise Unreadable("a matrix is expected")
+    if len(value) > stages:
+        raise Unreadable(f"{len(value)} rows for {stages} stages")
+    rows = [_row(row) for row in value]
+    return _padded(rows, stages)
+
+
+def _row(value: Value) -> Row:
+    if value == []:
+        return ()
+    return row_of(value)
+
+
+def _padded(rows: Sequence[Row], stages: int) -> Rows:
+    lengths = [len(row) for row in rows]
+    if max(lengths, default=0) > stages:
+        raise Unreadable(f"rows of {max(lengths)} for {stages} stages")
+    is_from_the_second = lengths == [*range(1, stages)]
+    full = list(rows)
+    if is_from_the_second:
+        full = [(), *rows]
+    while len(full) < stages:
+        full.append(())
+    return tuple(row + (ZERO,) * (stages - len(row)) for row in full)
+
+
+def _of_flat(entries: Row, stages: int) -> Rows:
+    count = len(entries)
+    if count == stages * stages:
+        lengths = [stages] * stages
+    elif count == stages * (stages + 1) // 2:
+        lengths = [*range(1, stages + 1)]
+    elif count == stages * (stages - 1) // 2:
+        lengths = [*range(stages)]
+    else:
+        raise Unreadable(f"{count} entries for {stages} stages")
+    rows = []
+    start = 0
+    for length in lengths:
+        rows.append(entries[start : start + length])
+        start += length
+    return _padded(rows, stages)
+
+
+def difference(row: Row, error: Row) -> Row:
+    """The embedded weights b − e from the weights and their difference.
+
+    Raises:
+        Unreadable: the rows have different lengths.
+    """
+    return _entrywise("-", row, error)
+
+
+def total(row: Row, error: Row) -> Row:
+    """The embedded weights b + e, where e is their difference the other way round.
+
+    Raises:
+        Unreadable: the rows have different lengths.
+    """
+    return _entrywise("+", row, error)
+
+
+def _entrywise(sign: str, row: Row, error: Row) -> Row:
+    if len(row) != len(error):
+        raise Unreadable(f"{len(error)} numbers for {len(row)} stages")
+    found: list[Value] = []
+    for x, y in zip(row, error, strict=True):
+        left, right = _in_parentheses(x), _in_parentheses(y)
+        found.append(combined(sign, left, right))
+    return row_of(found)
+
+
+def _in_parentheses(text: str) -> Value:
+    is_plain = text.replace(".", "", 1).isdigit()
+    return number(text) if is_plain else number(f"({text})")
+
+
+def is_zero(text: str) -> bool:
+    """Whether a text is a zero that is written as such.
+
+    >>> is_zero("0"), is_zero("-0.0"), is_zero("0.10")
+    (True, True, False)
+    """
+    return not text.strip("-0. ")
+
+
+def symplectic(
+    empty: FoundTable, drifts: Row, kicks: Row, is_force_first: bool
+) -> FoundTable:
+    """The partitioned method of kicks of the momenta and drifts of the positions in turns.
+
+    Args:
+        empty: what else is known of it.
+        drifts: the weights of the velocities.
+        kicks: those of the forces.
+        is_force_first: whether each kick is followed by its drift, or the other way round.
+    """
+    zeros = (ZERO,) * len(drifts)
+    at_momenta: list[Row] = []
+    at_positions: list[Row] = []
+    for i in range(len(drifts)):
+        kicked = i + 1 if is_force_first else i
+        drifted = i if is_force_first else i + 1
+        at_momenta.append(kicks[:kicked] + zeros[kicked:])
+        at_positions.append(drifts[:drifted] + zeros[drifted:])
+    return replace(
+        empty,
+        A=((None, tuple(at_momenta)), (tuple(at_positions), None)),
+        b=(drifts, kicks),
+        c=(None, None),
+        parts=("q", "p"),
+        structure="separable",
+    )

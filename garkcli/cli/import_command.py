@@ -1,0 +1,148 @@
+"""``gark import``."""
+
+from __future__ import annotations
+
+from typing import TYPE_CHECKING
+
+import click
+
+from garkcli.cli.options import CONTEXT, PATH, Output, help_option
+from garkcli.errors import UsageProblem, counted
+
+if TYPE_CHECKING:
+    from collections.abc import Mapping, Sequence
+
+    from garkcli.bridges.collecting import Result
+    from garkcli.bridges.readers.found import Reader
+
+
+@click.command("import", context_settings=CONTEXT)
+@click.argument(
+    "sources", nargs=-1, type=PATH, metavar="SOURCE...", required=True
+)
+@click.option(
+    "-o",
+    "--output",
+    "folder",
+    type=PATH,
+    metavar="DIR",
+    help="Write a method file for each method into DIR.",
+)
+@click.option(
+    "--from",
+    "source_format",
+    metavar="FORMAT",
+    help="What SOURCE is; else the ending of its name says, or what is found in it.",
+)
+@click.option(
+    "--recognise",
+    "is_recognising",
+    is_flag=True,
+    help="Exact numbers in place of decimals, where the order does not fall.",
+)
+@click.option(
+    "--format",
+    type=click.Choice(["text", "json", "yaml"]),
+    default="text",
+    show_default=True,
+    help="The report, or the method files themselves.",
+)
+@click.option("-q", "--quiet", is_flag=True, help="Say less.")
+@click.option("-v", "--verbose", is_flag=True, help="Show the method files.")
+@click.option(
+    "--color",
+    type=click.Choice(["auto", "always", "never"]),
+    default="auto",
+    show_default=True,
+)
+@help_option
+def command(
+    sources: tuple[str, ...],
+    folder: str | None,
+    source_format: str | None,
+    is_recognising: bool,
+    format: str,
+    quiet: bool,
+    verbose: bool,
+    color: str,
+) -> int:
+    """Methods out of other people's sources: C, Python, MATLAB, Julia, LaTeX, JSON and others.
+
+    SOURCE is a file, a folder (all files in it of the formats that are read), or - for standard
+    input. Nothing in it is ever executed. Each table is a method; its order is found, and claimed
+    in its file. Decimals of many digits are taken for rounded: the file says within which
+    tolerance.
+
+    Exit code: 0 methods were found, 2 there is none.
+    """
+    from garkcli.bridges.collecting import collected
+    from garkcli.bridges.sources import source_files
+
+    output = Output(format, None, verbose - quiet, color)
+    if folder is not None:
+        from garkcli.cli.emitting import make_folder
+
+        make_folder(folder)
+    readers = _readers(source_format)
+    paths = list(source_files(sources))
+    results = list(collected(paths, readers, is_recognising))
+    if not any(result.method is not None for result in results):
+        raise _nothing(sources, paths, results)
+    files = {} if folder is None else _written(results, folder)
+    _report(results, files, output)
+    return 0
+
+
+def _readers(name: str | None) -> Sequence[Reader]:
+    if name is None:
+        return ()
+    from garkcli.bridges.readers.registry import reader_named
+
+    return [reader_named(name)]
+
+
+def _nothing(
+    sources: Sequence[str], paths: Sequence[str], results: Sequence[Result]
+) -> UsageProblem:
+    """Why there is nothing to be written."""
+    from garkcli.bridges.readers.registry import all_readers
+
+    for result in results:
+        place = f"{result.table.source}:{result.table.line}"
+        name = result.table.name or "a table"
+        message = f"{place}: {name} is no method: {result.trouble}"
+        return UsageProblem(message, "see docs/import.md for what is read")
+    looked_at = counted(len(paths), "file")
+    where = ", ".join(sources[:3])
+    known = ", ".join(all_readers())
+    message = f"no table is found in {where} ({looked_at})"
+    return UsageProblem(message, f"--from FORMAT says what it is: {known}")
+
+
+def _written(results: Sequence[Result], folder: str) -> Mapping[int, str]:
+    """Write the method files; their names by the numbers of the results."""
+    from pathlib import Path
+
+    from garkcli.page.writing import write_whole
+
+    files = {}
+    for number, result in enumerate(results):
+        if result.method is None:
+            continue
+        path = str(Path(folder, result.file_name))
+        write_whole(path, [result.method.text])
+        files[number] = path
+    return files
+
+
+def _report(
+    results: Sequence[Result], files: Mapping[int, str], output: Output
+) -> None:
+    from garkcli.report import imported
+
+    if output.format == "json":
+        output.write(imported.render_json(results, files))
+    elif output.format == "yaml":
+        output.write(imported.render_yaml(results))
+    else:
+        output.write(imported.render_text(results, files, output.verbosity))

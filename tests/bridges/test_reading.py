@@ -1,0 +1,139 @@
+"""Tables in sources of every format that is read: which are found, where, with which numbers."""
+
+from __future__ import annotations
+
+from pathlib import Path
+
+import pytest
+
+from garkcli import loads
+from garkcli.bridges.collecting import Result, collected
+from garkcli.bridges.importing import entry_text
+from garkcli.bridges.readers.registry import all_readers
+from garkcli.bridges.sources import source_files
+
+SOURCES = Path(__file__).parent / "sources"
+FOUND = {
+    ("heun_euler.def", 5): ("MY_HEUN_EULER_2_1_2", 1, 2, 1),
+    ("heun_euler.def", 17): ("MY_SDIRK_2_1_2", 1, 2, 1),
+    ("kutta.csv", 1): ("kutta", 1, 3, None),
+    ("kutta.m", 3): ("kutta", 1, 3, None),
+    ("kutta.m", 11): ("imex", 2, 2, None),
+    ("lists.wl", 2): ("Ralston", 1, 2, 1),
+    ("lists.wl", 3): ("Midpoint", 1, 2, None),
+    ("lists.wl", 5): ("gauss", 1, 4, None),
+    ("lists.wl", 9): ("gauss", 1, 2, None),
+    ("paper.tex", 1): ("", 1, 2, 1),
+    ("paper.tex", 7): ("", 2, 2, None),
+    ("printed.txt", 1): ("", 1, 2, 1),
+    ("ralston.c", 10): ("ralston_euler", 1, 2, 1),
+    ("ralston.c", 14): ("kutta", 1, 3, None),
+    ("ralston.tsv", 1): ("ralston", 1, 2, None),
+    ("register.cpp", 6): ("imex-midpoint", 2, 2, None),
+    ("register.cpp", 12): ("kutta3", 1, 3, 2),
+    ("register.cpp", 17): ("sdirk2", 1, 2, None),
+    ("register.cpp", 21): ("verlet", 2, 2, None),
+    ("rklab.m", 7): ("ERK-2-1", 1, 2, 1),
+    ("rklab.m", 14): ("SDIRK-2-2", 1, 2, None),
+    ("solvers.py", 9): ("BogackiShampine", 1, 3, 2),
+    ("solvers.py", 23): ("heun", 1, 2, None),
+    ("solvers.py", 31): ("KUTTA", 1, 3, None),
+    ("rotated.json", 2): ("a midpoint rule for two parts", 2, 2, None),
+    ("table.json", 1): ("midpoint", 1, 2, None),
+    ("tableaus.jl", 10): ("constructRalston", 1, 2, 1),
+    ("tableaus.jl", 20): ("constructBig", 1, 2, None),
+    ("tableaus.jl", 22): ("constructBig", 2, 2, None),
+}
+"""By file and line: the name, the colours, the order, the embedded order."""
+
+
+@pytest.fixture(scope="module")
+def results() -> dict[tuple[str, int], Result]:
+    """What is found in the folder of sources, by file and line."""
+    found = {}
+    for result in collected(source_files([str(SOURCES)])):
+        table = result.table
+        found[Path(table.source).name, table.line] = result
+    return found
+
+
+def test_every_table_is_found(results: dict[tuple[str, int], Result]) -> None:
+    """Each at its line with its name, its orders as the certificate has them; nothing else is
+    taken for a table: neither a linear system nor a table of words.
+    """
+    told = {}
+    for place, result in results.items():
+        method = result.method
+        assert method is not None, result.trouble
+        embedded = method.embedded_order
+        told[place] = (
+            result.table.name,
+            result.table.colours,
+            method.order.order,
+            None if embedded is None else embedded.order,
+        )
+    assert told == FOUND
+
+
+def test_every_reader_has_a_source() -> None:
+    """No format is left out of this test."""
+    used = {
+        result.table.format
+        for result in collected(source_files([str(SOURCES)]))
+    }
+    assert used == set(all_readers())
+
+
+RALSTON = "A: [[], [2/3]]\nb: [1/4, 3/4]\n"
+KUTTA = "A: [[], [1/2], [-1, 2]]\nb: [1/6, 2/3, 1/6]\n"
+SDIRK = """\
+parameters: {g: 1 - sqrt(2)/2}
+A: [[g], [1 - g, g]]
+b: [1 - g, g]
+"""
+SAME = {
+    ("ralston.c", 10): RALSTON,
+    ("tableaus.jl", 10): RALSTON,
+    ("tableaus.jl", 20): RALSTON,
+    ("lists.wl", 2): RALSTON,
+    ("rklab.m", 7): RALSTON,
+    ("paper.tex", 1): RALSTON,
+    ("ralston.c", 14): KUTTA,
+    ("register.cpp", 12): KUTTA,
+    ("kutta.m", 3): KUTTA,
+    ("kutta.csv", 1): KUTTA,
+    ("solvers.py", 31): KUTTA,
+    ("heun_euler.def", 17): SDIRK,
+    ("rklab.m", 14): SDIRK,
+}
+
+
+@pytest.mark.parametrize("place", SAME, ids=lambda x: f"{x[0]}:{x[1]}")
+def test_numbers_are_exact(
+    results: dict[tuple[str, int], Result], place: tuple[str, int]
+) -> None:
+    """Fractions, products of constants and roots are what they are, in every language."""
+    found = results[place].method
+    assert found is not None
+    wanted = loads(SAME[place])
+    assert str(found.method.A) == str(wanted.A)
+    assert str(found.method.b) == str(wanted.b)
+    assert str(found.method.c) == str(wanted.c)
+
+
+def test_a_method_that_is_first_same_as_last(
+    results: dict[tuple[str, int], Result],
+) -> None:
+    """SciPy leaves out the last stage, whose weight is the last one of E: it is there again."""
+    found = results["solvers.py", 9].method
+    assert found is not None
+    assert str(found.method.A[3]) == "(2/9, 1/3, 4/9, 0)"
+    assert str(found.method.embedded) == "((7/24, 1/4, 1/3, 1/8),)"
+
+
+def test_numbers_keep_their_digits() -> None:
+    """Long decimals stay as they are printed, short ones and quotients are fractions."""
+    assert entry_text("0.3333333333333333") == "0.3333333333333333"
+    assert entry_text("1.0/3.0") == "1/3"
+    assert entry_text("2.500000000000000e-01") == "1/4"
+    assert entry_text("123456789012345/9876543210987654321").count("/") == 1
