@@ -36,6 +36,17 @@ class Substep:
 def composed(substeps: Sequence[Substep]) -> Tableau:
     """The method that takes the substeps one after the other, equal stages once.
 
+    Two substeps meet in such a stage where one ends with the value at which the next begins.
+
+    Raises:
+        MethodError: the methods are for different vector fields, or there are too many stages.
+    """
+    return merged(in_turn(substeps))
+
+
+def in_turn(substeps: Sequence[Substep]) -> Tableau:
+    """The same with every stage of every substep.
+
     Raises:
         MethodError: the methods are for different vector fields, or there are too many stages.
     """
@@ -43,7 +54,7 @@ def composed(substeps: Sequence[Substep]) -> Tableau:
     _check_alike(tableaus)
     stages = sum(map(count_stages, tableaus))
     refuse_large(stages, "take fewer substeps, or methods of fewer stages")
-    return merged(_Composition(substeps).tableau())
+    return _Composition(substeps).tableau()
 
 
 def count_stages(tableau: Tableau) -> int:

@@ -27,7 +27,7 @@ STRUCTURES: tuple[Structure, ...] = (
     "nystrom",
 )
 Construction: TypeAlias = Literal[
-    "compose", "adjoint", "extrapolate", "splitting"
+    "compose", "adjoint", "extrapolate", "splitting", "multirate"
 ]
 CONSTRUCTIONS: tuple[Construction, ...] = get_args(Construction)
 """The forms that make a method from others."""

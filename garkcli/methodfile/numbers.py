@@ -86,6 +86,12 @@ class Numbers:
         self._sizes[name] = size_of(value, {})
         self._depths[name] = depth_of(value, {})
 
+    def forget(self, name: str) -> None:
+        """Let ``name`` stand for nothing in coefficients read from now on."""
+        self._read.clear()
+        for known in (self.parameters, self._sizes, self._depths):
+            del known[name]
+
     def entry(self, node: Node, where: str) -> Entry:
         """One coefficient; a faulty one is noted and read as zero, so that reading goes on."""
         entry = Entry(self._read_entry(node, where), node, where)

@@ -385,5 +385,6 @@ def test_observed_orders(text: str, order: int) -> None:
     tableau = loads(text).tableau
     terms = 1 if tableau.is_partitioned else tableau.size
     name = "pendulum" if terms == 1 else "generic"
-    found = converge(tableau, hamiltonian(name, terms, 1))
+    steps = [fmpq(1, 2**k) for k in (5, 6)]
+    found = converge(tableau, hamiltonian(name, terms, 1), fmpq(1, 2), steps)
     assert found.observed_order == pytest.approx(order, abs=0.05)

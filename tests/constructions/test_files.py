@@ -49,6 +49,23 @@ FAULTS = {
     "splitting: {scheme: strang}\nstructure: semi-separable": "structure does not go",
     "splitting: {scheme: strang, of: heun}\nstructure: nystrom": "structure does not go",
     "of: heun\nsteps: [1]": "unknown keys",
+    "multirate: {fast: heun, steps: 2}": "the slow method is missing",
+    "multirate: {fast: heun, slow: heun, mis: heun, steps: 2}": "given by slow already",
+    "multirate: {slow: heun, steps: 2}": "fast missing",
+    "multirate: {slow: heun, fast: heun}": "steps missing",
+    "multirate: {slow: heun, fast: heun, steps: 0}": "at least 1",
+    "multirate: {mis: heun, fast: heun, steps: 2, coupling: collocation}": "coupling does not go with mis",
+    "multirate: {slow: heun, fast: heun, steps: 2, coupling: fastest}": "'fastest' is not known",
+    "multirate: {slow: rk4, fast: heun, steps: 2}": "no interpolation through them",
+    "multirate: {mis: {family: radau-iia, stages: 2}, fast: heun, steps: 2}": "the slow stages begin at 1/3",
+    "multirate: {mis: {splitting: {scheme: lie}}, fast: heun, steps: 2}": "of one vector field",
+    "multirate: {slow: heun, fast: rk4, steps: 300}": "stages (limit 1000)",
+    "multirate: {mri: {c: [0, 1]}, fast: heun, steps: 2}": "c and gamma are needed",
+    "multirate: {mri: {c: [0, 1], gamma: [[[1], [1]]]}, fast: heun, steps: 2}": "gamma^0 is 2 by 1 for 2 nodes",
+    "multirate: {slow: heun, fast: heun, steps: 2, coupling: {fast-slow: [[0, 0], [0, 0]]}}": "slow-fast missing",
+    "multirate: {slow: heun, fast: heun, steps: 2, coupling: {fast-slow: [[0, 0], [0, 0]], slow-fast: [[0, lambda]]}}": "slow-fast is 1 by 2",
+    "multirate: {slow: heun, fast: heun, steps: 2, coupling: {fast-slow: [[0, 0], [0, 0]], slow-fast: [[0, 0], [0, n]]}}": "'n' is not a parameter",
+    "A: [[0]]\nb: [lambda]": "'lambda' is not a parameter",
 }
 """Files with one fault each, and what is told."""
 
@@ -76,6 +93,10 @@ GOOD = (
     "splitting: {a: [1/2, 1/2], b: [1]}",
     "extrapolate: {of: heun, sequence: [1, 2], from: 2, symmetric: false}",
     "extrapolate: {of: {splitting: {scheme: strang}}, order: 4}",
+    "multirate: {mis: heun, fast: rk4, steps: 3}",
+    "multirate: {slow: heun, fast: explicit-midpoint, steps: 3, coupling: collocation}",
+    "multirate: {mri: {c: [0, 1], gamma: [[[1]]]}, fast: heun, steps: 2}",
+    "multirate: {slow: heun, fast: heun, steps: 2, coupling: {fast-slow: [[0, 0], [lambda/M, 0]], slow-fast: [[0, 0], [1, 0]]}}",
 )
 BAD = (
     "compose: {of: heun, steps: []}",
@@ -85,6 +106,8 @@ BAD = (
     "extrapolate: {order: 4}",
     "adjoint: {}",
     "adjoint: heun\ncompose: {of: heun, steps: [1]}",
+    "multirate: {fast: heun, steps: 2}",
+    "multirate: {mis: heun, mri: {c: [0, 1], gamma: [[[1]]]}, fast: heun, steps: 2}",
 )
 
 

@@ -179,6 +179,22 @@ VALUES |= {
             "terms": _or_anything(st.integers(0, 4)),
         },
     ),
+    "multirate": st.fixed_dictionaries(
+        {"fast": PARTS, "steps": _or_anything(st.integers(0, 3))},
+        optional={
+            "slow": PARTS,
+            "mis": PARTS,
+            "mri": _or_anything(
+                st.fixed_dictionaries(
+                    {"c": ROW}, optional={"gamma": _rows(MATRIX)}
+                )
+            ),
+            "coupling": SCALARS
+            | st.fixed_dictionaries(
+                {}, optional={"fast-slow": MATRIX, "slow-fast": MATRIX}
+            ),
+        },
+    ),
 }
 
 
