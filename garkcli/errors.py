@@ -107,6 +107,8 @@ class Fault:
 
 MANY_WORDS = 50
 """Of so many known words only those that begin like the misspelt one are compared with it."""
+MOST_WORDS = 8 * MANY_WORDS
+"""Of those so many at most; the catalogue has hundreds of names of one first letter."""
 WORDS_SHOWN = 20
 """Most known words that are listed where none is near."""
 
@@ -174,7 +176,7 @@ def _that_begin_like(word: str, known: list[str]) -> list[str]:
     if len(known) <= MANY_WORDS:
         return known
     first = word[:1].lower()
-    return [x for x in known if x[:1].lower() == first][:MANY_WORDS]
+    return [x for x in known if x[:1].lower() == first][:MOST_WORDS]
 
 
 MAX_WORD = 100

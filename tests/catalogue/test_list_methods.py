@@ -199,7 +199,7 @@ def test_csv_has_every_column() -> None:
 
 def test_markdown_is_a_table() -> None:
     """Cells have no bar of their own, and the properties are words."""
-    run = gark("list", "methods", "--format", "markdown", "verlet")
+    run = gark("list", "methods", "--format", "markdown", "stoermer-verlet")
     head, rule, row = run.out.splitlines()
     assert head.count("|") == rule.count("|") == row.count("|") == 8
     assert "symplectic, symmetric" in row
