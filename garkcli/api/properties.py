@@ -10,9 +10,9 @@ from garkcli.order.certificate import DEFAULT_LIMIT
 from garkcli.order.simplifying import simplifying
 from garkcli.properties.keys import KEYS
 from garkcli.properties.property import Verdict
-from garkcli.properties.reduction import is_plainly_irreducible
-from garkcli.properties.reduction import reduced as reduced_tableau
+from garkcli.properties.smallest import smallest
 from garkcli.properties.subject import Subject
+from garkcli.tableau.embedded import NOTHING
 from garkcli.tableau.garkmethod import GarkMethod
 
 
@@ -53,14 +53,15 @@ def reduced(method: AnyMethod) -> GarkMethod | None:
     >>> reduced(from_arrays([[0, 0], [0, 0]], [1, 0])).stages
     (1,)
     """
-    tableau = tableau_of(method)
-    smaller = tableau
-    if not is_plainly_irreducible(tableau):
-        found = reduced_tableau(tableau)
-        if found is None:
-            return None
-        smaller = found
-    name = method.name if isinstance(method, GarkMethod) else ""
+    further = method.further if isinstance(method, GarkMethod) else NOTHING
+    found = smallest(tableau_of(method), further)
+    if found is None:
+        return None
+    tableau, further = found
     return GarkMethod(
-        tableau=smaller, name=name, tolerance=tolerance_of(method, None)
+        tableau=tableau,
+        name=method.name if isinstance(method, GarkMethod) else "",
+        tolerance=tolerance_of(method, None),
+        embedded=further.embedded,
+        dense=further.dense,
     )

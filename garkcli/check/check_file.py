@@ -5,7 +5,7 @@ from __future__ import annotations
 from dataclasses import replace
 from typing import TYPE_CHECKING
 
-from garkcli.check.analysis import Analysis
+from garkcli.check.analysis import Analysis, AnyOrder
 from garkcli.check.claims import verify
 from garkcli.check.deciding import analyse
 from garkcli.check.outcome import Claim, Outcome
@@ -25,6 +25,7 @@ if TYPE_CHECKING:
 
     from garkcli.exact.field import Number
     from garkcli.order.blame import Blame
+    from garkcli.order.repairs import Derive
 
 WITHOUT_NODES = {"order", "conjugate-order", "pair-order", "symplectic"}
 """The claims that do not depend on nodes: without ``c`` in the file these follow the entries."""
@@ -103,8 +104,7 @@ def _blame(method: MethodFile, analysis: Analysis) -> Blame | None:
         ("pair-order", analysis.pair_order, pair),
     )
     for key, found, derive in parts:
-        claims = tuple(claim for claim in method.claims if claim.key == key)
-        claimed = highest_order(claims)
+        claimed = _claimed(method, key)
         if found is None or found.order >= claimed:
             continue
         is_explained = (
@@ -112,15 +112,53 @@ def _blame(method: MethodFile, analysis: Analysis) -> Blame | None:
         )
         if found.is_lower_bound or is_explained:
             return None
-        from garkcli.order.blame import blame_of  # paid for by failures alone
-        from garkcli.order.repairs import Missed
+        return _blame_for(method.tableau, found, claimed, key, derive)
+    return _blame_of_embedded(method, analysis)
 
-        missed = Missed(found.order + 1, claimed, key, derive)
-        if not isinstance(found, Order):
-            near = NEAR * found.tolerance
-            missed = replace(missed, tolerance=found.tolerance, near=near)
-        return blame_of(method.tableau, missed)
-    return None
+
+def _claimed(method: MethodFile, key: str) -> int:
+    """The order that the file claims; 0 where it claims none."""
+    claims = tuple(claim for claim in method.claims if claim.key == key)
+    return highest_order(claims)
+
+
+def _blame_for(
+    tableau: Tableau,
+    found: AnyOrder,
+    claimed: int,
+    key: str,
+    derive: Derive,
+) -> Blame | None:
+    """What is to blame for an order that is smaller than claimed."""
+    from garkcli.order.blame import blame_of  # paid for by failures alone
+    from garkcli.order.repairs import Missed
+
+    missed = Missed(found.order + 1, claimed, key, derive)
+    if not isinstance(found, Order):
+        near = NEAR * found.tolerance
+        missed = replace(missed, tolerance=found.tolerance, near=near)
+    return blame_of(tableau, missed)
+
+
+def _blame_of_embedded(method: MethodFile, analysis: Analysis) -> Blame | None:
+    """What is to blame for embedded weights of a smaller order: one of them, as the method itself
+    has the order that the file claims.
+    """
+    key = "embedded-order"
+    claimed = _claimed(method, key)
+    facts = analysis.embedded
+    if facts is None or facts.order.order >= claimed:
+        return None
+    if facts.order.is_lower_bound:
+        return None
+    found = _blame_for(facts.tableau, facts.order, claimed, key, _itself)
+    if found is None:
+        return None
+    of_weights = [x for x in found.repairs if x.m is None]
+    repairs = tuple(replace(x, is_embedded=True) for x in of_weights)
+    return replace(
+        found, repairs=repairs, culprit=None, in_every=(), in_none=()
+    )
 
 
 def _with_consequences(
@@ -130,7 +168,7 @@ def _with_consequences(
     limit: int,
 ) -> Blame | None:
     """The same, with the other claims that fail for the reason that its first repair removes."""
-    if blame is None or not blame.repairs:
+    if blame is None or not blame.repairs or blame.repairs[0].is_embedded:
         return blame
     others = set()
     for claim in claims:

@@ -131,10 +131,11 @@ def claim_hint(outcome: Outcome, claim: str) -> str:
     if blame is not None and claim in blame.restores:
         first = repair_text(blame.repairs[0], names)
         return f"it fails with {blame.of}, and would hold with {first}"
-    if claim not in {"order", "conjugate-order", "pair-order"}:
+    orders = {"order", "conjugate-order", "pair-order", "embedded-order"}
+    if claim not in orders:
         return ""
     found = analysis.suggestion
-    if found is not None:
+    if found is not None and claim != "embedded-order":
         return f"with the line {found.line} the order is {found.order}"
     if analysis.misprint is not None and analysis.misprint.repairs:
         first = repair_text(analysis.misprint.repairs[0], names)
@@ -158,7 +159,8 @@ def place_text(repair: Repair, names: Sequence[str]) -> str:
     entry = f"entry {repair.j + 1},"
     seer = names[repair.l]
     if repair.m is None or repair.i is None:
-        return f"b{{{seer}}}, {entry}"
+        letter = "embedded" if repair.is_embedded else "b"
+        return f"{letter}{{{seer}}}, {entry}"
     seen = names[repair.m]
     row = f"row {repair.i + 1}"
     return f"A{{{seer},{seen}}}, {row}, {entry}"

@@ -74,6 +74,12 @@ def write_family(
             "the nodes have no simple radicals beside free parameters",
             f"choose a value: --set {file.parameters[0]}=1/2",
         )
+    if file.further:
+        name_of_one = file.parameters[0]
+        output.note(
+            "the embedded weights and the dense output are left out; with "
+            f"values there are: --set {name_of_one}=1/2"
+        )
     name = file.name
     if which is not None:
         name = f"symplectic {which} of {name}"

@@ -17,6 +17,7 @@ from garkcli.errors import UsageProblem
 
 if TYPE_CHECKING:
     from garkcli.methodfile.build import MethodFile
+    from garkcli.tableau.embedded import Further
     from garkcli.tableau.tableau import Tableau
 
 
@@ -36,7 +37,7 @@ def command(file: str, settings: dict[str, str], output: Output) -> int:
 
     method = load(file, settings)
     file = called(file)
-    smaller = smallest(file, method)
+    smaller, further = smallest_of(file, method)
     if smaller is method.tableau:
         output.note(f"{file}: nothing to reduce")
     else:
@@ -46,29 +47,36 @@ def command(file: str, settings: dict[str, str], output: Output) -> int:
         from garkcli.cli.rendering import write_tableau
 
         write_tableau(
-            smaller, _name(method, smaller), None, output, method.tolerance
+            smaller,
+            _name(method, smaller),
+            None,
+            output,
+            method.tolerance,
+            further=further,
         )
         return 0
-    output.write(_file(file, method, smaller))
+    output.write(_file(file, method, smaller, further))
     return 0
 
 
-def smallest(file: str, method: MethodFile) -> Tableau:
-    """The smallest method; the same object where there is nothing to leave out."""
-    from garkcli.properties.reduction import is_plainly_irreducible, reduced
+def smallest_of(file: str, method: MethodFile) -> tuple[Tableau, Further]:
+    """The smallest method with its further weights; the same tableau where there is nothing to
+    leave out.
+    """
+    from garkcli.properties.smallest import smallest
 
-    if is_plainly_irreducible(method.tableau):
-        return method.tableau
-    smaller = reduced(method.tableau)
-    if smaller is None:
+    found = smallest(method.tableau, method.further)
+    if found is None:
         raise UsageProblem(
             f"{file}: the nodes have no simple radicals, so equal stages are not looked for",
             "spell the method out",
         )
-    return smaller
+    return found
 
 
-def _file(file: str, method: MethodFile, smaller: Tableau) -> str:
+def _file(
+    file: str, method: MethodFile, smaller: Tableau, further: Further
+) -> str:
     """The method file of what is left."""
     from garkcli.methodfile.writer import can_spell_out, write_method
 
@@ -79,7 +87,8 @@ def _file(file: str, method: MethodFile, smaller: Tableau) -> str:
             f"{file}: a method of this structure cannot be spelled out in a file",
             "--format json has the entries of the smaller method",
         )
-    return write_method(smaller, _name(method, smaller), method.tolerance)
+    name = _name(method, smaller)
+    return write_method(smaller, name, method.tolerance, further)
 
 
 def _name(method: MethodFile, smaller: Tableau) -> str:

@@ -44,7 +44,7 @@ def write_tableau(
     if output.format == "yaml":
         output.write(_method_file(tableau, name, digits, tolerance, further))
         return
-    found = _entries(tableau, digits)
+    found = _entries(tableau, digits, further)
     if output.format == "json":
         from garkcli.report import tableau_json
 
@@ -69,8 +69,10 @@ def write_tableau(
         output.write(text)
 
 
-def _entries(tableau: Tableau, digits: int | None) -> Entries:
-    found = entries(tableau, digits or DEFAULT_DIGITS)
+def _entries(
+    tableau: Tableau, digits: int | None, further: Further = NOTHING
+) -> Entries:
+    found = entries(tableau, digits or DEFAULT_DIGITS).beside(further)
     return found if digits is None else found.in_decimals(digits)
 
 

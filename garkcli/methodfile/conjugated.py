@@ -28,7 +28,8 @@ def write_conjugate_of(method: MethodFile, name: str) -> str:
     entries = [title]
     for key, value in root.value:
         if key.value not in _DROPPED:
-            entries.append((key, _without_further(value)))
+            kept = _without_further(value)
+            entries.append((key, kept))
     if not method.is_conjugate:
         true = ScalarNode("tag:yaml.org,2002:bool", "true")
         entries.append((_scalar("conjugate"), true))

@@ -41,7 +41,9 @@ def names_beside(name_of_b: str) -> tuple[str, str]:
     """
     before, _, after = name_of_b.rpartition("b")
     embedded, dense = BESIDE
-    return before + embedded + after, before + dense + after
+    name_of_embedded = before + embedded + after
+    name_of_dense = before + dense + after
+    return name_of_embedded, name_of_dense
 
 
 class FurtherReader:
@@ -103,8 +105,11 @@ class FurtherReader:
             for l, item in self._a_colour(node, where, stages, 2, is_shared):
                 name = _name(node, item, where, l)
                 dense[l] = self._block(item, name, stages[l], degree)
-        both = zip(embedded, dense, strict=True)
-        return tuple(_further(entries, row, block) for row, block in both)
+        texts = []
+        for row, block in zip(embedded, dense, strict=True):
+            text = _further(entries, row, block)
+            texts.append(text)
+        return tuple(texts)
 
     def _a_colour(
         self,
@@ -117,7 +122,8 @@ class FurtherReader:
         """What belongs to each colour, itself ``depth`` lists deep."""
         colours = len(stages)
         if is_shared and _depth(node) == depth:
-            yield from ((l, node) for l in range(colours))
+            for l in range(colours):
+                yield l, node
             return
         rows = "row" if depth == 1 else "block"
         cure = _A_ROW_A_COLOUR if depth == 1 else _A_BLOCK_A_COLOUR
@@ -148,11 +154,15 @@ class FurtherReader:
     def _row(self, node: Node, where: str, stages: int) -> Row | None:
         """A weight a stage."""
         row = self.numbers.row(node, where)
-        if row and stages and len(row) != stages:
+        if not row:
+            return None
+        if stages and len(row) != stages:
             found = counted(len(row), "entry", "entries")
-            message = f"{where} has {found} for {counted(stages, 'stage')}"
-            self.source.fault(node, message, "give a weight a stage, as in b")
-        return row or None
+            wanted = counted(stages, "stage")
+            message = f"{where} has {found} for {wanted}"
+            cure = "give a weight a stage, as in b"
+            self.source.fault(node, message, cure)
+        return row
 
     def _parts(self, node: Node, where: str) -> tuple[int, Node] | None:
         """The degree and the weights of dense output; None where one of them is missing."""
@@ -160,15 +170,18 @@ class FurtherReader:
         keys = ("degree", "weights")
         entries = source.mapping(node, where, keys, form=FORM_OF_DENSE)
         missing = [key for key in keys if key not in entries]
+        if missing and entries:
+            message = f"{where}: {missing[0]} missing"
+            source.fault(node, message, FORM_OF_DENSE)
         if missing:
-            if entries:
-                both = " and ".join(missing)
-                source.fault(node, f"{where}: {both} missing", FORM_OF_DENSE)
             return None
         place = entries["degree"]
         name = f"{where}, degree"
         degree = source.whole(place, name, smallest=1, largest=MAX_DEGREE)
-        return None if degree is None else (degree, entries["weights"])
+        if degree is None:
+            return None
+        weights = entries["weights"]
+        return degree, weights
 
     def _block(
         self, node: Node, where: str, stages: int, degree: int
@@ -200,14 +213,19 @@ class FurtherReader:
         self, further: Sequence[FurtherText], names: Sequence[str], node: Node
     ) -> None:
         """Note further weights of some colours, where others have none."""
+        cure = "give it in each, the weights b again where they are meant"
         for key in BESIDE:
-            given = [getattr(text, key) is not None for text in further]
-            if all(given) or not any(given):
-                continue
-            has, lacks = names[given.index(True)], names[given.index(False)]
-            message = f"{key}: {has} has it and {lacks} does not"
-            cure = "give it in each, the weights b again where they are meant"
-            self.source.fault(node, message, cure)
+            having: list[str] = []
+            lacking: list[str] = []
+            for name, text in zip(names, further, strict=True):
+                is_given = getattr(text, key) is not None
+                group = having if is_given else lacking
+                group.append(name)
+            if having and lacking:
+                message = (
+                    f"{key}: {having[0]} has it and {lacking[0]} does not"
+                )
+                self.source.fault(node, message, cure)
 
 
 def _further(
@@ -215,8 +233,9 @@ def _further(
 ) -> FurtherText:
     if embedded is None and dense is None:
         return NOTHING_FURTHER
-    key = BESIDE[0] if BESIDE[0] in entries else BESIDE[1]
-    return FurtherText(embedded, dense, entries[key])
+    places = [entries[key] for key in BESIDE if key in entries]
+    first = places[0]
+    return FurtherText(embedded, dense, first)
 
 
 def _depth(node: Node) -> int:

@@ -40,7 +40,8 @@ class Repair:
     """An entry that restores the claimed order when it is changed alone.
 
     ``l, m`` are the block's colours, or ``m`` is None for the weights b^{l}; ``i, j`` the entry
-    (``j`` of the weights; then ``i`` is None). All count from 0.
+    (``j`` of the weights; then ``i`` is None). All count from 0. ``is_embedded`` tells embedded
+    weights from b.
     """
 
     l: int
@@ -49,6 +50,7 @@ class Repair:
     j: int
     old: Number
     new: Number
+    is_embedded: bool = False
 
     def carried_out(self, method: Tableau) -> Tableau:
         """The method with this entry changed."""

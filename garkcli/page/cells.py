@@ -40,7 +40,8 @@ def remark(entries: Entries) -> str:
         return f"the nodes have no simple radicals: {decimals}"
     if not entries.is_exact:
         return decimals
-    rows = [*entries.c, *entries.b]
+    rows = [*entries.c, *entries.b, *(entries.embedded or ())]
+    rows += chain(*(entries.dense or ()))
     for block in chain(*entries.A):
         rows += block or []
     cells = chain(*rows)

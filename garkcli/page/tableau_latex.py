@@ -34,7 +34,8 @@ def render(
     """
     comments = (name, remark(entries))
     lines = [f"% {comment}\n" for comment in comments if comment]
-    lines += [f"{line}\n" for line in displays(tableau, entries)]
+    shown = [*displays(tableau, entries, entries.embedded), *_dense(entries)]
+    lines += [f"{line}\n" for line in shown]
     if is_document:
         return "".join(fragment(lines, is_document))
     return "".join(lines)
@@ -143,6 +144,52 @@ def _array(
     lines.append(" \\\\\n".join(feet))
     lines.append("\\end{array}")
     return lines
+
+
+def _dense(entries: Entries) -> Iterator[str]:
+    """The polynomials of dense output, one a line."""
+    if entries.dense is None:
+        return
+    has_colours = len(entries.dense) > 1
+    yield r"\["
+    yield r"\begin{aligned}"
+    for l, rows in enumerate(entries.dense, start=1):
+        letter = f"b^{{[{l}]}}" if has_colours else "b"
+        for i, row in enumerate(rows, start=1):
+            terms = _polynomial([_cell(x, entries) for x in row])
+            yield f"  {letter}_{{{i}}}(\\theta) &= {terms} \\\\"
+    yield r"\end{aligned}"
+    yield r"\]"
+
+
+def _polynomial(coefficients: Sequence[str]) -> str:
+    """A polynomial in θ without a constant term, from its coefficients in LaTeX."""
+    text = ""
+    for k, coefficient in enumerate(coefficients, start=1):
+        if coefficient == "0":
+            continue
+        power = r"\theta" if k == 1 else f"\\theta^{{{k}}}"
+        sign, size = "+", coefficient
+        if size.startswith("-"):
+            sign, size = "-", size[1:]
+        if _is_sum(size):
+            sign, size = "+", rf"\left({coefficient}\right)"
+        factor = "" if size == "1" else size
+        if text:
+            text += f" {sign} {factor}{power}"
+        else:
+            text = f"{'-' if sign == '-' else ''}{factor}{power}"
+    return text or "0"
+
+
+def _is_sum(latex: str) -> bool:
+    """Whether a number is written as a sum, outside of braces."""
+    depth = 0
+    for sign in latex:
+        depth += (sign == "{") - (sign == "}")
+        if depth == 0 and sign in "+-":
+            return True
+    return False
 
 
 def _cell(cell: Cell, entries: Entries) -> str:

@@ -21,7 +21,7 @@ from garkcli.trees.notation import format_tree
 
 _WIDTH = 80
 _INSIDE = " " * 6
-_LONGEST = 24
+_LONGEST = 12
 """Longer sums are shown in decimals."""
 
 
@@ -74,15 +74,20 @@ def _estimate(found: Estimator, has_colours: bool) -> list[str]:
 
 def _short(number: Number) -> str:
     text = to_text(number)
-    return text if len(text) <= _LONGEST else to_decimal(number, 4)
+    if len(text) <= _LONGEST:
+        return text
+    return to_decimal(number, 4)
 
 
 def _norms(norms: Norms, has_colours: bool) -> list[str]:
     """How large the leading term is."""
     text = f"principal norm {norms.two:.6g}, largest {norms.largest:.6g}"
     if norms.worst is not None:
-        text += f" at {format_tree(norms.worst, has_colours)}"
-    return labelled("", folded(text, _WIDTH - 2 - LABEL, ""))
+        tree = format_tree(norms.worst, has_colours)
+        text += f" at {tree}"
+    room = _WIDTH - 2 - LABEL
+    lines = folded(text, room, "")
+    return labelled("", lines)
 
 
 def _dense(found: DenseFacts, has_colours: bool, paint: Paint) -> list[str]:
@@ -91,17 +96,23 @@ def _dense(found: DenseFacts, has_colours: bool, paint: Paint) -> list[str]:
     if order.is_lower_bound:
         number = f"at least {number}"
     strong = paint("strong", number)
-    head = f"  {'dense order':{LABEL}}{strong}   for every θ, of degree {found.degree}"
+    label = "dense order"
+    what = f"for every θ, of degree {found.degree}"
+    head = f"  {label:{LABEL}}{strong}   {what}"
     if order.tolerance is not None:
-        head += f", within {decimal(order.tolerance)}"
+        tolerance = decimal(order.tolerance)
+        head += f", within {tolerance}"
     lines = [head]
     if order.undecided:
         next_order = order.order + 1
         lines.append(f"{_INSIDE}order {next_order} is too much to decide")
     if order.witness is not None:
         text = dense_witness_text(order.witness, has_colours)
-        lines += indented(folded(text, _WIDTH - 6, "  "), _INSIDE)
-    return lines + labelled("dense output", [_fit(found)])
+        room = _WIDTH - len(_INSIDE)
+        folds = folded(text, room, "  ")
+        lines += indented(folds, _INSIDE)
+    fit = _fit(found)
+    return lines + labelled("dense output", [fit])
 
 
 def _fit(found: DenseFacts) -> str:

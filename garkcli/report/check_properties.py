@@ -32,8 +32,15 @@ _ODDITIES = {
 """Properties that are told where they are unusual."""
 
 
-def property_lines(subject: Subject) -> list[tuple[str, str]]:
-    """The block of a plain check, as labels with texts: only what has meaning and is not usual."""
+def property_lines(
+    subject: Subject, has_further: bool = False
+) -> list[tuple[str, str]]:
+    """The block of a plain check, as labels with texts: only what has meaning and is not usual.
+
+    Args:
+        subject: the method.
+        has_further: whether it has weights besides b, which may need stages that b does not.
+    """
     whole = _whole(subject)
     lines = [("stages", whole)]
     kinds = {shape.name for shape in subject.shapes if shape is not None}
@@ -44,8 +51,11 @@ def property_lines(subject: Subject) -> list[tuple[str, str]]:
     lines.append(("stage order", stage_order))
     told = [_told(subject, key) for key in _NAMES if _is(subject, key, True)]
     for key, (odd_value, text) in _ODDITIES.items():
-        if _is(subject, key, odd_value):
-            told.append(text)
+        if not _is(subject, key, odd_value):
+            continue
+        if key == "reducible" and has_further:
+            text = "reducible as far as b goes"
+        told.append(text)
     if told:
         lines.append(("properties", ", ".join(told)))
     keys = [*_NAMES, *_ODDITIES]

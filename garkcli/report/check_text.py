@@ -275,7 +275,8 @@ def _more_properties(outcome: Outcome, analysis: Analysis) -> list[str]:
         return every_property_lines(analysis.subject)
     lines = []
     room = _WIDTH - 2 - LABEL
-    for label, text in property_lines(analysis.subject):
+    has_further = analysis.embedded is not None or analysis.dense is not None
+    for label, text in property_lines(analysis.subject, has_further):
         shown = folded(text, room, "")
         lines += labelled(label, shown)
     return lines

@@ -35,7 +35,9 @@ if TYPE_CHECKING:
 BLOCK: Schema = {**array(POSITION), "minItems": 1, "maxItems": 2}
 """The colours of a block A^{l,m}, or the one of weights b^{l}."""
 _BLOCKS: Schema = array(BLOCK)
-_CLAIMS: Schema = {"enum": ["order", "conjugate-order", "pair-order"]}
+_CLAIMS: Schema = {
+    "enum": ["order", "conjugate-order", "pair-order", "embedded-order"]
+}
 
 
 def blocks(found: Sequence[tuple[int, int]]) -> list[list[int]]:
@@ -53,9 +55,13 @@ def _is_of_weights(repair: Repair) -> bool:
 
 
 def _weights(repair: Repair) -> list[int] | None:
-    if not _is_of_weights(repair):
+    if not _is_of_weights(repair) or repair.is_embedded:
         return None
     return _block(repair.l, repair.m)
+
+
+def _embedded(repair: Repair) -> list[int] | None:
+    return _block(repair.l) if repair.is_embedded else None
 
 
 def _matrix(repair: Repair) -> list[int] | None:
@@ -72,6 +78,7 @@ def _row(repair: Repair) -> int | None:
 
 _REPAIR: Record[Repair] = Record(
     Field("b", BLOCK, _weights, is_optional=True),
+    Field("embedded", BLOCK, _embedded, is_optional=True),
     Field("A", BLOCK, _matrix, is_optional=True),
     Field("row", nullable(INTEGER), _row),
     Field("entry", POSITION, lambda x: x.j + 1),

@@ -59,7 +59,7 @@ def _float(cell: Cell | Parametric) -> float | None:
 def _entry_fields(
     entry: Schema, change: Callable[[Entries, Cell], object]
 ) -> tuple[Field[Entries], ...]:
-    """c, A and b with their entries changed into what ``entry`` describes."""
+    """c, A, b and further weights with their entries changed into what ``entry`` describes."""
 
     def rows(
         entries: Entries, found: Sequence[Sequence[Cell]]
@@ -72,11 +72,23 @@ def _entry_fields(
             for row in entries.A
         ]
 
+    def embedded(entries: Entries) -> list[list[Any]] | None:
+        if entries.embedded is None:
+            return None
+        return rows(entries, entries.embedded)
+
+    def dense(entries: Entries) -> list[list[Any]] | None:
+        if entries.dense is None:
+            return None
+        return [rows(entries, of_colour) for of_colour in entries.dense]
+
     matrix = array(array(entry))
     return (
         Field("c", matrix, lambda x: rows(x, x.c)),
         Field("A", array(array(nullable(matrix))), blocks),
         Field("b", matrix, lambda x: rows(x, x.b)),
+        Field("embedded", matrix, embedded, is_optional=True),
+        Field("dense", array(matrix), dense, is_optional=True),
     )
 
 

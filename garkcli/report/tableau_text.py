@@ -58,6 +58,7 @@ def render(
         lines += grid
     else:
         lines += _listing(tableau, entries, width)
+    lines += _dense(tableau, entries, width)
     return "\n".join(lines) + "\n"
 
 
@@ -77,7 +78,7 @@ def _title_lines(title: str, width: int) -> list[str]:
 
 
 def _grid(tableau: Tableau, entries: Entries) -> list[str]:
-    """C | A^{1,1} | A^{1,2} | …, one colour under the other, b below."""
+    """C | A^{1,1} | A^{1,2} | …, one colour under the other, b and embedded weights below."""
     shown = distinct_rows(tableau)
     columns = [_node_column(entries, shown)]
     for m in range(tableau.size):
@@ -96,7 +97,7 @@ def _grid(tableau: Tableau, entries: Entries) -> list[str]:
         end = start + len(entries.c[l])
         out += [*lines[start:end], rule]
         start = end
-    out.append(lines[-1])
+    out += lines[start:]
     return [line.rstrip() for line in out]
 
 
@@ -105,7 +106,7 @@ def _node_column(entries: Entries, shown: list[int]) -> list[str]:
     cells = [""]
     for l in shown:
         cells += _texts(entries.c[l], entries.digits)
-    cells.append("")
+    cells += [""] if entries.embedded is None else ["b", "embedded"]
     return aligned([[text] for text in cells])
 
 
@@ -124,6 +125,8 @@ def _colour_column(
         else:
             rows += [_texts(row, digits) for row in block]
     rows.append(weights)
+    if entries.embedded is not None:
+        rows.append(_texts(entries.embedded[m], digits))
     lines = aligned(rows)
     lines[0] = tableau.colours[m].name
     return lines
@@ -139,11 +142,13 @@ def _listing(tableau: Tableau, entries: Entries, width: int) -> list[str]:
     digits = entries.digits
     names = [colour.name for colour in tableau.colours]
     lines: list[str] = []
-    for name, nodes, weights in zip(names, entries.c, entries.b, strict=True):
-        c = _texts(nodes, digits)
-        b = _texts(weights, digits)
-        lines += _vector(f"c{{{name}}}", c, width)
-        lines += _vector(f"b{{{name}}}", b, width)
+    vectors = [("c", entries.c), ("b", entries.b)]
+    if entries.embedded is not None:
+        vectors.append(("embedded", entries.embedded))
+    for l, name in enumerate(names):
+        for letter, rows in vectors:
+            texts = _texts(rows[l], digits)
+            lines += _vector(f"{letter}{{{name}}}", texts, width)
         lines.append("")
     for l in distinct_rows(tableau):
         row_name = names[l]
@@ -153,6 +158,17 @@ def _listing(tableau: Tableau, entries: Entries, width: int) -> list[str]:
             cells = [_texts(row, digits) for row in block]
             title = f"A{{{row_name},{name}}}"
             lines += _block(title, cells, width)
+    return lines[:-1]
+
+
+def _dense(tableau: Tableau, entries: Entries, width: int) -> list[str]:
+    """The polynomials of dense output, a block a colour with a row a stage."""
+    if entries.dense is None:
+        return []
+    lines = ["", "dense output, in each row the coefficients of θ, θ², …", ""]
+    for colour, rows in zip(tableau.colours, entries.dense, strict=True):
+        cells = [_texts(row, entries.digits) for row in rows]
+        lines += _block(f"b{{{colour.name}}}(θ)", cells, width)
     return lines[:-1]
 
 

@@ -38,17 +38,19 @@ class DenseOutput:
 
     def coefficients(self, power: int) -> Weights:
         """What stands before a power of θ, 1 at least: a row a colour."""
-        return tuple(
-            tuple(row[power - 1] for row in of_colour)
-            for of_colour in self.weights
-        )
+
+        def rows(of_colour: Sequence[Vector]) -> Vector:
+            return tuple(row[power - 1] for row in of_colour)
+
+        return tuple(map(rows, self.weights))
 
     def at(self, theta: Number) -> Weights:
         """The weights at one θ: a row a colour."""
-        return tuple(
-            tuple(_value(row, theta) for row in of_colour)
-            for of_colour in self.weights
-        )
+
+        def rows(of_colour: Sequence[Vector]) -> Vector:
+            return tuple(_value(row, theta) for row in of_colour)
+
+        return tuple(map(rows, self.weights))
 
 
 @dataclass(frozen=True)
@@ -70,14 +72,18 @@ class Further:
     def changed(self, change: Callable[[Number], Number]) -> Further:
         """Every number replaced by what ``change`` makes of it."""
 
+        def row(numbers: Vector) -> Vector:
+            return tuple(map(change, numbers))
+
         def rows(weights: Weights) -> Weights:
-            return tuple(tuple(map(change, row)) for row in weights)
+            return tuple(map(row, weights))
 
         embedded, dense = self.embedded, self.dense
         if embedded is not None:
             embedded = rows(embedded)
         if dense is not None:
-            dense = DenseOutput(tuple(map(rows, dense.weights)))
+            blocks = tuple(map(rows, dense.weights))
+            dense = DenseOutput(blocks)
         return Further(embedded, dense)
 
 
@@ -94,7 +100,12 @@ def _value(coefficients: Vector, theta: Number) -> Number:
 
 def padded(rows: Sequence[Vector], degree: int) -> tuple[Vector, ...]:
     """Polynomials of dense output with zeros up to a degree."""
-    return tuple((*row, *[ZERO] * (degree - len(row))) for row in rows)
+    longer = []
+    for row in rows:
+        missing = degree - len(row)
+        zeros = [ZERO] * missing
+        longer.append((*row, *zeros))
+    return tuple(longer)
 
 
 def with_weights(tableau: Tableau, weights: Weights) -> Tableau:
@@ -121,6 +132,61 @@ def with_weights(tableau: Tableau, weights: Weights) -> Tableau:
     if not all(isinstance(space, PointSpace) for space in tableau.spaces):
         message = "weights of single stages, and there are none but points"
         raise ShapeMismatch(message, "spell the method out")
-    pairs = zip(tableau.colours, weights, strict=True)
-    colours = tuple(replace(colour, b=row) for colour, row in pairs)
-    return replace(tableau, colours=colours)
+    colours = []
+    for colour, row in zip(tableau.colours, weights, strict=True):
+        changed = replace(colour, b=row)
+        colours.append(changed)
+    return replace(tableau, colours=tuple(colours))
+
+
+def as_colours(tableau: Tableau, further: Further) -> Tableau:
+    """The tableau with a colour more for each row of further weights, which no stage sees.
+
+    What becomes of stages, such as that equal ones are made one, then becomes of these rows too.
+    """
+    colours = list(tableau.colours)
+    for weights in _rows(further):
+        for colour, row in zip(tableau.colours, weights, strict=True):
+            colours.append(replace(colour, b=row))
+    return replace(tableau, colours=tuple(colours))
+
+
+def from_colours(
+    tableau: Tableau, further: Further
+) -> tuple[Tableau, Further]:
+    """The tableau and the further weights again, from what was made of ``as_colours``.
+
+    Args:
+        tableau: with colours for them.
+        further: the weights as they were, for their kinds.
+    """
+    kinds = len(_rows(further))
+    size = tableau.size // (kinds + 1)
+    rows = []
+    for start in range(size, tableau.size, size):
+        colours = tableau.colours[start : start + size]
+        rows.append(tuple(colour.b for colour in colours))
+    embedded, dense = None, None
+    if further.embedded is not None:
+        embedded = rows.pop(0)
+    if further.dense is not None:
+        blocks = []
+        for of_colour in zip(*rows, strict=True):
+            # from a row a power of θ to a row a stage
+            stages = zip(*of_colour, strict=True)
+            blocks.append(tuple(stages))
+        dense = DenseOutput(tuple(blocks))
+    own = replace(tableau, colours=tableau.colours[:size])
+    return own, Further(embedded, dense)
+
+
+def _rows(further: Further) -> list[Weights]:
+    """All rows of further weights, the embedded ones first, then a power of θ after the other."""
+    rows = []
+    if further.embedded is not None:
+        rows.append(further.embedded)
+    dense = further.dense
+    if dense is not None:
+        powers = range(1, dense.degree + 1)
+        rows += [dense.coefficients(power) for power in powers]
+    return rows

@@ -28,6 +28,7 @@ from garkcli.exact.matrix import (
 )
 from garkcli.exact.nodes import Chain, Expression, Literal, Root
 from garkcli.exact.radicands import square_free
+from garkcli.tableau.embedded import Further
 from garkcli.tableau.method import Method
 from garkcli.tableau.point_space import PointSpace
 from garkcli.tableau.polynomial_space import PolynomialSpace
@@ -54,6 +55,8 @@ class Entries:
         is_exact: whether the entries are exact numbers; otherwise enclosures.
         digits: the decimal digits that enclosures are good for.
         have_radicals: whether the nodes have simple radicals, so that exact entries exist.
+        embedded: the embedded weights, one row a colour; None where there are none.
+        dense: the coefficients of dense output, for each colour a row a stage; likewise.
     """
 
     c: tuple[Row, ...]
@@ -62,6 +65,8 @@ class Entries:
     is_exact: bool
     digits: int
     have_radicals: bool = True
+    embedded: tuple[Row, ...] | None = None
+    dense: tuple[tuple[Row, ...], ...] | None = None
 
     def changed(self, change: Callable[[Cell], Cell]) -> Entries:
         """Every entry replaced by what ``change`` makes of it."""
@@ -77,7 +82,18 @@ class Entries:
         c = tuple(map(row, self.c))
         A = [tuple(map(block, blocks)) for blocks in self.A]
         b = tuple(map(row, self.b))
-        return replace(self, c=c, A=tuple(A), b=b)
+        embedded = block(self.embedded)
+        dense = self.dense
+        if dense is not None:
+            dense = tuple(tuple(map(row, rows)) for rows in dense)
+        return replace(
+            self, c=c, A=tuple(A), b=b, embedded=embedded, dense=dense
+        )
+
+    def beside(self, further: Further) -> Entries:
+        """The entries with embedded weights and dense output."""
+        dense = None if further.dense is None else further.dense.weights
+        return replace(self, embedded=further.embedded, dense=dense)
 
     def in_decimals(self, digits: int) -> Entries:
         """The entries as enclosures that are good for ``digits`` significant digits."""

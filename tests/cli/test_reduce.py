@@ -7,7 +7,7 @@ from pathlib import Path
 
 import pytest
 
-from garkcli.cli.reduce_command import smallest
+from garkcli.cli.reduce_command import smallest_of
 from garkcli.errors import UsageProblem
 from garkcli.exact.field import ZERO
 from garkcli.methodfile.load import load, loads
@@ -104,7 +104,7 @@ def test_what_is_not_compared_is_refused() -> None:
     zeros = dict.fromkeys(method.tableau.blocks, ((ZERO,) * 6,) * 6)
     flat = replace(method, tableau=replace(method.tableau, blocks=zeros))
     with pytest.raises(UsageProblem, match="no simple radicals"):
-        smallest("a.yaml", flat)
+        smallest_of("a.yaml", flat)
 
 
 def test_what_no_file_says_is_refused() -> None:
