@@ -5,6 +5,7 @@ from __future__ import annotations
 import re
 from dataclasses import dataclass, field
 from functools import cached_property
+from keyword import iskeyword
 from typing import TYPE_CHECKING, Literal, TypeAlias
 
 from flint import arb, fmpq
@@ -104,7 +105,9 @@ class Payload:
     @property
     def class_name(self) -> str:
         """The same as the name of a class: ``RalstonEuler``."""
-        return "".join(x.capitalize() for x in self.identifier.split("_"))
+        name = "".join(x.capitalize() for x in self.identifier.split("_"))
+        # None, True and False are no names
+        return f"{name}Method" if iskeyword(name) else name
 
     def number(self, x: Cell, style: Style = EXACT) -> str:
         """An entry in the style of a language, with the digits that were asked for.

@@ -3,6 +3,7 @@
 from __future__ import annotations
 
 from collections.abc import Sequence
+from pathlib import PurePath
 
 from garkcli.bridges.c_text import (
     error_function,
@@ -39,7 +40,7 @@ def driver(
         kind: rk, dirk, arkimex or basicsymplectic.
         sides: the right-hand sides, the explicit one first.
     """
-    stem = file.rsplit(".", 1)[0]
+    stem = PurePath(file).stem
     trial = trial_of(payload)
     program = f"{stem}_test"
     lines = C.lines(

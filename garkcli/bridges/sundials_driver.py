@@ -3,6 +3,7 @@
 from __future__ import annotations
 
 from collections.abc import Sequence
+from pathlib import PurePath
 
 from garkcli.bridges.c_text import (
     error_function,
@@ -45,7 +46,7 @@ def driver(
         kind: erk, explicit (in ARKStep), dirk, ark or sprk.
         sides: the right-hand sides in the order of SUNDIALS.
     """
-    stem = file.rsplit(".", 1)[0]
+    stem = PurePath(file).stem
     trial = trial_of(payload)
     stepper = _STEPPERS[kind]
     program = f"{stem}_test"

@@ -73,6 +73,8 @@ def command(
     The head of the file says which orders gark proved. Decimals are correctly rounded. What a
     target cannot hold is refused, with the reason.
     """
+    from pathlib import Path
+
     from garkcli.bridges.preparing import prepared
     from garkcli.bridges.registry import bridge_named
     from garkcli.methodfile.load import load
@@ -82,12 +84,15 @@ def command(
         _check_test(bridge, output)
     place = Output("text", output, 0, "never")
     payload = prepared(load(file, settings), digits)
-    place.write(bridge.written(payload), format=bridge.name)
+    table = bridge.written(payload)
+    beside: Sequence[Written] = ()
     if has_test and output is not None and bridge.test_driver is not None:
-        from pathlib import Path
-
-        files = bridge.test_driver(payload, Path(output).name)
-        _write_beside(output, files)
+        beside = bridge.test_driver(payload, Path(output).name)
+    place.write(table, format=bridge.name)
+    for written in beside:
+        path = Path(str(output))
+        named = path.with_name(path.stem + written.ending)
+        Output("text", str(named), 0, "never").write(written.text)
     return 0
 
 
@@ -106,13 +111,3 @@ def _check_test(bridge: Bridge, output: str | None) -> None:
             "--test writes further files beside the first",
             "name it: -o FILE",
         )
-
-
-def _write_beside(output: str, files: Sequence[Written]) -> None:
-    """Write the further files, named after the first."""
-    from pathlib import Path
-
-    stem = Path(output)
-    for written in files:
-        path = stem.with_name(stem.stem + written.ending)
-        Output("text", str(path), 0, "never").write(written.text)

@@ -141,3 +141,38 @@ def test_the_list_of_targets() -> None:
     shown = gark("list", "exports").out
     assert all(f"  {name} " in shown for name in bridges())
     assert max(map(len, shown.splitlines())) <= 80
+
+
+def test_a_test_is_named_after_the_file(tmp_path: Path) -> None:
+    """Whatever the file is called, its program reads it, and lies beside it with the problem."""
+    name = 'my "best" \\ method.v2.py'
+    rk4 = ROOT / "methods/rk4.gark.yaml"
+    run = gark(
+        *("export", str(rk4), "--to", "scipy", "--test", "-o", name),
+        cwd=tmp_path,
+    )
+    assert run.code == 0, run.err
+    stem = name.removesuffix(".py")
+    program = (tmp_path / f"{stem}_test.py").read_text(encoding="utf-8")
+    assert ascii(name) in program
+    compile(program, "program", "exec")
+    assert (tmp_path / f"{stem}_problem.yaml").exists()
+
+
+def test_nothing_is_written_where_there_is_no_test(tmp_path: Path) -> None:
+    """A method that the target cannot hold is refused before any file is written."""
+    text = "ark: {A: [[[0]], [[1]], [[0]]], b: [[1], [1], [1]]}\n"
+    (tmp_path / "three.yaml").write_text(text)
+    run = gark(
+        *("export", "three.yaml", "--to", "petsc", "--test", "-o", "x.c"),
+        cwd=tmp_path,
+    )
+    assert run.code == 2
+    assert [x.name for x in tmp_path.iterdir()] == ["three.yaml"]
+
+
+@pytest.mark.parametrize("name", ["none", "True", "3/8 rule", "ß", "import"])
+def test_names_of_classes_are_names(name: str) -> None:
+    """No keyword, and no digit first."""
+    payload = prepared(loads(f'name: "{name}"\nA: [[0]]\nb: [1]\n'))
+    compile(f"class {payload.class_name}: pass", "name", "exec")

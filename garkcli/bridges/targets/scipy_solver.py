@@ -3,6 +3,7 @@
 from __future__ import annotations
 
 from collections.abc import Sequence
+from pathlib import PurePath
 
 from flint import fmpq
 
@@ -143,7 +144,7 @@ def _matrix(payload: Payload, name: str, rows: Sequence[Row]) -> list[str]:
 def test_driver(payload: Payload, file: str) -> list[Written]:
     """A program that takes fixed steps with ``solve_ivp``."""
     trial = trial_of(payload)
-    module = file.removesuffix(".py")
+    module = PurePath(file).stem
     problem = f"{module}_problem.yaml"
     first, second = trial.formulas(0, {**WORDS, "sin": "sin", "cos": "cos"})
     name = payload.class_name
@@ -159,7 +160,7 @@ def test_driver(payload: Payload, file: str) -> list[Written]:
             "",
             "from scipy.integrate import solve_ivp",
             "",
-            f'path = Path(__file__).with_name("{file}")',
+            f"path = Path(__file__).with_name({file!a})",
             'spec = importlib.util.spec_from_file_location("table", path)',
             "table = importlib.util.module_from_spec(spec)",
             "spec.loader.exec_module(table)",
