@@ -150,8 +150,7 @@ def compare(
     answer = find_sameness(one, other, views, allowed)
     if answer.sameness is not None and answer.sameness.is_plain:
         gaps = _decided(gaps, answer)
-    first = analyse(one.tableau, limit, one.tolerance)
-    second = analyse(other.tableau, limit, other.tolerance)
+    first, second = _analysed(one, limit), _analysed(other, limit)
     return Comparison(
         one=one,
         other=other,
@@ -164,6 +163,11 @@ def compare(
         met=_met(first, second, answer, views.one, views.other),
         properties=_properties(first, second),
     )
+
+
+def _analysed(method: GarkMethod, limit: int) -> Analysis:
+    further = method.further
+    return analyse(method.tableau, limit, method.tolerance, further=further)
 
 
 def _decided(
@@ -197,12 +201,21 @@ def _orders(one: Analysis, other: Analysis) -> tuple[OrderPair, ...]:
             other.nonautonomous_order,
         ),
         OrderPair(
+            "order of the embedded weights",
+            _of_embedded(one),
+            _of_embedded(other),
+        ),
+        OrderPair(
             "order of the conjugate",
             one.conjugate_order,
             other.conjugate_order,
         ),
         OrderPair("order of the pair", one.pair_order, other.pair_order),
     )
+
+
+def _of_embedded(found: Analysis) -> AnyOrder | None:
+    return None if found.embedded is None else found.embedded.order
 
 
 def _met(

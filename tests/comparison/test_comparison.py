@@ -213,6 +213,9 @@ def test_embedded_weights_are_part_of_the_method() -> None:
         kinds = {gap.kind for gap in found.gaps}
         assert "embedded" in kinds
         assert kinds <= {"embedded", "dense"}
+    orders = {pair.name: pair for pair in compare(loads(PAIR), other).orders}
+    pair = orders["order of the embedded weights"]
+    assert (pair.one.order, pair.other.order) == (2, 2)  # type: ignore[union-attr]
 
 
 def test_a_stage_for_the_estimate_is_not_left_out() -> None:

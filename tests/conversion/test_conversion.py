@@ -46,7 +46,7 @@ embedded: [7/24, 1/4, 1/3, 1/8]
 dense:
   degree: 3
   weights: [[1, -4/3, 5/9], [0, 1, -2/3], [0, 4/3, -8/9], [0, -1, 1]]
-expect: {order: 3, fsal: true, symplectic: false}
+expect: {order: 3, embedded-order: 2, fsal: true, symplectic: false}
 """
 
 
@@ -245,7 +245,12 @@ def test_what_a_file_says_stays() -> None:
     assert (method.name, made.left_out) == ("Bogacki-Shampine", ())
     assert "P. Bogacki" in str(method.reference)
     assert method.description == "the pair of two orders"
-    assert [x.key for x in method.claims] == ["order", "fsal", "symplectic"]
+    assert [x.key for x in method.claims] == [
+        "order",
+        "embedded-order",
+        "fsal",
+        "symplectic",
+    ]
     assert_same_method(loads(PAIR), method)
 
 
