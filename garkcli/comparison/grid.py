@@ -61,6 +61,11 @@ class Grid:
         first = () if self.embedded is None else (self.embedded,)
         return (*first, *self.powers)
 
+    @property
+    def blocks(self) -> list[Block]:
+        """All blocks, row by row."""
+        return [block for row in self.A for block in row]
+
     def with_colours(self, order: Sequence[int]) -> Grid:
         """The same method with its colours in another order."""
 

@@ -51,12 +51,8 @@ class Likeness:
         rows = zip(_all_rows(one), _all_rows(other), strict=True)
         if not all(self.rows(x, y) for x, y in rows):
             return False
-        colours = range(one.size)
-        return all(
-            self.blocks(one.A[l][m], other.A[l][m])
-            for l in colours
-            for m in colours
-        )
+        pairs = zip(one.blocks, other.blocks, strict=True)
+        return all(self.blocks(x, y) for x, y in pairs)
 
 
 def have_one_shape(one: Grid, other: Grid) -> bool:

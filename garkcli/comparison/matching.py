@@ -14,6 +14,7 @@ Stage: TypeAlias = tuple[int, int]
 """A stage: its colour, and its number there."""
 Images: TypeAlias = tuple[tuple[int, ...], ...]
 """For each colour the stages of the other method that its stages are."""
+_Classes: TypeAlias = tuple[Mapping[Stage, int], Mapping[Stage, int]]
 _Candidates: TypeAlias = dict[Stage, list[int]]
 MAX_TRIALS = 3000
 """So many stages are tried before the search ends."""
@@ -23,7 +24,7 @@ def find_matching(
     one: Grid,
     other: Grid,
     likeness: Likeness,
-    classes: tuple[Mapping[Stage, int], Mapping[Stage, int]] | None = None,
+    classes: _Classes | None = None,
 ) -> Images | None:
     """The stages of ``other`` that the stages of ``one`` are; None where no renumbering does it.
 
@@ -41,17 +42,13 @@ def find_matching(
     candidates: _Candidates = {}
     for l, stages in enumerate(one.stages):
         for i in range(stages):
-            found = []
+            own = _own(one, l, i)
+            candidates[l, i] = []
             for j in range(stages):
-                are_apart = (
-                    classes is not None
-                    and classes[0][l, i] != classes[1][l, j]
-                )
-                if not are_apart and _by_themselves(
-                    one, other, likeness, l, i, j
-                ):
-                    found.append(j)
-            candidates[l, i] = found
+                if _are_apart(classes, (l, i), (l, j)):
+                    continue
+                if likeness.rows(own, _own(other, l, j)):
+                    candidates[l, i].append(j)
     search = _Search(one, other, likeness)
     chosen = next(search.completions(candidates, {}), None)
     if chosen is None:
@@ -62,14 +59,16 @@ def find_matching(
     return tuple(images)
 
 
-def _by_themselves(
-    one: Grid, other: Grid, likeness: Likeness, l: int, i: int, j: int
-) -> bool:
-    """Whether stages have the same node, weights and entries of their own."""
-    return likeness.rows(_own(one, l, i), _own(other, l, j))
+def _are_apart(classes: _Classes | None, stage: Stage, other: Stage) -> bool:
+    """Whether classes are known, and tell two stages apart."""
+    if classes is None:
+        return False
+    first, second = classes
+    return first[stage] != second[other]
 
 
 def _own(grid: Grid, l: int, i: int) -> Row:
+    """What a stage has by itself: its node and its weights of all kinds."""
     further = [weights[l][i] for weights in grid.further]
     return grid.c[l][i], grid.b[l][i], *further
 
@@ -113,12 +112,11 @@ class _Search:
             if other == stage:
                 continue
             is_same_colour = other[0] == stage[0]
-            rest[other] = [
-                j
-                for j in images
-                if not (is_same_colour and j == image)
-                and self._fits(stage, image, other, j)
-            ]
+            rest[other] = []
+            for j in images:
+                is_taken = is_same_colour and j == image
+                if not is_taken and self._fits(stage, image, other, j):
+                    rest[other].append(j)
         return rest
 
     def _fits(self, x: Stage, image_x: int, y: Stage, image_y: int) -> bool:

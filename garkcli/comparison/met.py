@@ -73,7 +73,9 @@ def conditions_met(one: Side, other: Side, upto: int) -> Met:
             break
         trees = list(_trees(one.tableau.size, order, graph, roots))
         found = zip(_of(one, trees), _of(other, trees), strict=True)
-        pairs += [(x, y) for x, y in found if x.holds != y.holds]
+        for first, second in found:
+            if first.holds != second.holds:
+                pairs.append((first, second))
         reached = order
     return Met(reached, tuple(pairs))
 
@@ -91,7 +93,8 @@ def _common_graph(one: Tableau, other: Tableau) -> _Graph:
     others, linear_too = coupling_graph(other)
     both = []
     for row, second in zip(edges, others, strict=True):
-        both.append(tuple(x and y for x, y in zip(row, second, strict=True)))
+        pairs = zip(row, second, strict=True)
+        both.append(tuple(x and y for x, y in pairs))
     return tuple(both), linear | linear_too
 
 

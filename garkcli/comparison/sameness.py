@@ -16,14 +16,20 @@ from garkcli.comparison.grid import (
 )
 from garkcli.comparison.likeness import Likeness
 from garkcli.comparison.matching import Images, find_matching
-from garkcli.conversion.sheet import CannotConvert, Sheet, of_weights
+from garkcli.conversion.sheet import (
+    CannotConvert,
+    Rows,
+    Sheet,
+    of_weights,
+)
 from garkcli.conversion.stage_classes import stage_classes
 from garkcli.errors import LimitExceeded
 from garkcli.exact.field import ZERO
+from garkcli.exact.matrix import Matrix
 from garkcli.properties.reduction import reduced
 from garkcli.tableau.garkmethod import GarkMethod
 from garkcli.tableau.point_space import PointSpace
-from garkcli.tableau.tableau import Tableau
+from garkcli.tableau.tableau import Edge, Tableau
 
 MOST_COLOURS = 5
 """With more colours no other order of them is tried."""
@@ -147,47 +153,59 @@ def _found(views: Views, allowed: fmpq) -> Sameness | None:
     """The methods as they are, with their further weights or without."""
     one, other = views.one, views.other
     found = _matched(one, other, allowed, views.sheets)
-    if found is None and (one.further or other.further):
-        found = _matched(
-            one.of_the_step, other.of_the_step, allowed, _steps(views.sheets)
-        )
-        found = found and replace(found, step_only=True)
-    return found
+    has_further = one.further or other.further
+    if found is not None or not has_further:
+        return found
+    steps = None
+    if views.sheets is not None:
+        steps = _steps(views.sheets)
+    one, other = one.of_the_step, other.of_the_step
+    return _marked(_matched(one, other, allowed, steps), step_only=True)
+
+
+def _marked(found: Sameness | None, **marks: bool) -> Sameness | None:
+    """The same with what has to be said of it."""
+    return None if found is None else replace(found, **marks)  # type: ignore[arg-type]
 
 
 def _once_reduced(views: Views) -> Sameness | None:
     """The same of what is left of the methods when they are reduced."""
     if views.sheets is None:
         return None
-    sheets = views.sheets
+    found = _matched_when_reduced(views.sheets)
+    has_further = views.one.further or views.other.further
+    if found is None and has_further:
+        found = _matched_when_reduced(_steps(views.sheets))
+        found = _marked(found, step_only=True)
+    return _marked(found, is_reduced=True)
+
+
+def _matched_when_reduced(sheets: tuple[Sheet, Sheet]) -> Sameness | None:
     smaller = _smaller(sheets)
-    found = smaller and _matched(*_grids(smaller), ZERO, smaller)
-    if not found and (views.one.further or views.other.further):
-        smaller = _smaller(_steps(sheets) or sheets)
-        found = smaller and _matched(*_grids(smaller), ZERO, smaller)
-        found = found and replace(found, step_only=True)
-    return replace(found, is_reduced=True) if found else None
+    if smaller is None:
+        return None
+    one, other = _grids(smaller)
+    return _matched(one, other, ZERO, smaller)
 
 
 def _smaller(sheets: tuple[Sheet, Sheet]) -> tuple[Sheet, Sheet] | None:
     """Both methods reduced; None where that changes neither."""
+    first, second = sheets
     try:
-        one, other = (of_weights(sheet, reduced) for sheet in sheets)
+        one = of_weights(first, reduced)
+        other = of_weights(second, reduced)
     except CannotConvert:
         return None
-    if (one.tableau, other.tableau) == (
-        sheets[0].tableau,
-        sheets[1].tableau,
-    ):
-        return None
-    return one, other
+    is_changed = one.tableau != first.tableau
+    if is_changed or other.tableau != second.tableau:
+        return one, other
+    return None
 
 
-def _steps(sheets: tuple[Sheet, Sheet] | None) -> tuple[Sheet, Sheet] | None:
+def _steps(sheets: tuple[Sheet, Sheet]) -> tuple[Sheet, Sheet]:
     """The same without further weights."""
-    if sheets is None:
-        return None
-    return Sheet(sheets[0].tableau), Sheet(sheets[1].tableau)
+    one, other = sheets
+    return Sheet(one.tableau), Sheet(other.tableau)
 
 
 def _grids(sheets: tuple[Sheet, Sheet]) -> tuple[Grid, Grid]:
@@ -226,7 +244,8 @@ def _orders(one: Grid, other: Grid) -> Iterator[tuple[int, ...]]:
         yield colours
         return
     for order in permutations(colours):
-        if tuple(other.stages[l] for l in order) == one.stages:
+        stages = tuple(other.stages[l] for l in order)
+        if stages == one.stages:
             yield order
 
 
@@ -235,10 +254,9 @@ def _classes(
 ) -> tuple[Mapping[tuple[int, int], int], Mapping[tuple[int, int], int]]:
     """Classes of stages of the first method and of the second with its colours in an order."""
     turned = _with_colours(other, order)
-    if one.has_embedded != other.has_embedded or len(one.further) != len(
-        other.further
-    ):
-        one, turned = Sheet(one.tableau), Sheet(turned.tableau)
+    has_alike = one.has_embedded == turned.has_embedded
+    if not has_alike or len(one.further) != len(turned.further):
+        one, turned = _steps((one, turned))
     first, second = stage_classes([one, turned])
     return first, second
 
@@ -246,14 +264,19 @@ def _classes(
 def _with_colours(sheet: Sheet, order: tuple[int, ...]) -> Sheet:
     """A sheet in which each colour has stages of its own, with the colours in an order."""
     old = sheet.tableau
-    place = {l: k for k, l in enumerate(order)}
+    place: dict[int, int] = {}
     colours = []
     for k, l in enumerate(order):
+        place[l] = k
         colours.append(replace(old.colours[l], space=k))
-    blocks = {
-        (place[l], place[m]): block for (l, m), block in old.blocks.items()
-    }
+    blocks: dict[Edge, Matrix] = {}
+    for (l, m), block in old.blocks.items():
+        blocks[place[l], place[m]] = block
     spaces = tuple(old.spaces[l] for l in order)
     tableau = Tableau(spaces, tuple(colours), blocks)
-    further = tuple(tuple(rows[l] for l in order) for rows in sheet.further)
-    return replace(sheet, tableau=tableau, further=further)
+    further = [_chosen(rows, order) for rows in sheet.further]
+    return replace(sheet, tableau=tableau, further=tuple(further))
+
+
+def _chosen(rows: Rows, order: tuple[int, ...]) -> Rows:
+    return tuple(rows[l] for l in order)

@@ -2,7 +2,7 @@
 
 from __future__ import annotations
 
-from garkcli.conversion.sheet import CannotConvert, Place, Sheet, regrouped
+from garkcli.conversion.sheet import CannotConvert, Place, Sheet, arranged
 
 
 def padded(sheet: Sheet, stages: int) -> Sheet:
@@ -26,5 +26,4 @@ def padded(sheet: Sheet, stages: int) -> Sheet:
         places: list[Place] = [None] * missing
         places += [(k, i) for i in range(space.stages)]
         spaces.append(places)
-    homes = [colour.space for colour in sheet.tableau.colours]
-    return regrouped(sheet, spaces, homes)
+    return arranged(sheet, spaces)

@@ -97,7 +97,9 @@ def in_one_field(sheets: Sequence[Sheet]) -> list[Sheet]:
     Raises:
         CannotConvert: the numbers generate too large a field.
     """
-    rows = [row for sheet in sheets for row in _rows(sheet)]
+    rows: list[Vector] = []
+    for sheet in sheets:
+        rows += all_rows(sheet)
     try:
         field = OneField(all_numbers(rows))
     except LimitExceeded as error:
@@ -108,7 +110,7 @@ def in_one_field(sheets: Sequence[Sheet]) -> list[Sheet]:
     return [_mapped(sheet, field) for sheet in sheets]
 
 
-def _rows(sheet: Sheet) -> Iterator[Vector]:
+def all_rows(sheet: Sheet) -> Iterator[Vector]:
     """All rows of numbers."""
     for space in sheet.tableau.spaces:
         yield space.nodes
@@ -162,15 +164,27 @@ def regrouped(
             block = _block(old, m, places, spaces[home])
             if block is not None:
                 blocks[k, m] = block
-    further = []
-    for rows in sheet.further:
-        found = []
-        for l, colour in enumerate(old.colours):
-            places = spaces[homes[l]]
-            found.append(_chosen(rows[l], colour.space, places))
-        further.append(tuple(found))
     tableau = Tableau(tuple(made), tuple(colours), blocks)
+    places_of = [spaces[home] for home in homes]
+    further = [_weights(old, rows, places_of) for rows in sheet.further]
     return replace(sheet, tableau=tableau, further=tuple(further))
+
+
+def _weights(
+    tableau: Tableau, rows: Rows, places_of: Sequence[Sequence[Place]]
+) -> Rows:
+    """Weights at the new stages of each colour."""
+    found = []
+    for l, colour in enumerate(tableau.colours):
+        row = _chosen(rows[l], colour.space, places_of[l])
+        found.append(row)
+    return tuple(found)
+
+
+def arranged(sheet: Sheet, spaces: Sequence[Sequence[Place]]) -> Sheet:
+    """The method with the stages of each space arranged anew, its colours where they are."""
+    homes = [colour.space for colour in sheet.tableau.colours]
+    return regrouped(sheet, spaces, homes)
 
 
 def _nodes(tableau: Tableau, places: Iterable[Place]) -> Vector:
@@ -191,8 +205,11 @@ def _nodes_of(
     """The same, for the stages of a colour those that the colour has."""
     nodes = list(_nodes(tableau, places))
     for new, place in enumerate(places):
-        if place is not None and place[0] == colour.space:
-            nodes[new] = colour.c[place[1]]
+        if place is None:
+            continue
+        space, stage = place
+        if space == colour.space:
+            nodes[new] = colour.c[stage]
     return tuple(nodes)
 
 
@@ -200,8 +217,11 @@ def _chosen(row: Vector, space: int, places: Iterable[Place]) -> Vector:
     """A row over the stages of one space; 0 at all others."""
     chosen: list[Number] = []
     for place in places:
-        is_here = place is not None and place[0] == space
-        chosen.append(row[place[1]] if place and is_here else ZERO)
+        if place is None or place[0] != space:
+            chosen.append(ZERO)
+        else:
+            _, stage = place
+            chosen.append(row[stage])
     return tuple(chosen)
 
 
@@ -210,14 +230,11 @@ def _block(
 ) -> Matrix | None:
     """What new stages see of a colour; None where they do not see it."""
     space = tableau.colours[m].space
-    blocks = [
-        tableau.blocks.get((place[0], m))
-        for place in rows
-        if place is not None
-    ]
-    if not any(block is not None for block in blocks):
+    seeing = {place[0] for place in rows if place is not None}
+    blind = [k for k in seeing if (k, m) not in tableau.blocks]
+    if len(blind) == len(seeing):
         return None
-    if any(block is None for block in blocks):
+    if blind:
         name = tableau.colours[m].name
         raise CannotConvert(
             f"some stages do not see colour {name}, and would see it where"
@@ -229,8 +246,9 @@ def _block(
         if place is None:
             made.append((ZERO,) * len(columns))
             continue
-        block = tableau.blocks[place[0], m]
-        made.append(_chosen(block[place[1]], space, columns))
+        k, stage = place
+        row = tableau.blocks[k, m][stage]
+        made.append(_chosen(row, space, columns))
     return tuple(made)
 
 

@@ -12,8 +12,9 @@ from collections.abc import Iterable, Mapping, Sequence
 from functools import cmp_to_key
 from typing import Any, TypeAlias
 
-from garkcli.conversion.sheet import Sheet
+from garkcli.conversion.sheet import Sheet, all_rows
 from garkcli.exact.field import Number
+from garkcli.exact.matrix import Vector
 from garkcli.exact.signs import sign
 from garkcli.tableau.tableau import Tableau
 
@@ -22,6 +23,8 @@ Stage: TypeAlias = tuple[int, int]
 Classes: TypeAlias = dict[Stage, int]
 _Signature: TypeAlias = tuple[Any, ...]
 """What tells stages apart; those of one round can be sorted."""
+_Glances: TypeAlias = dict[Stage, list[tuple[int, int, int]]]
+"""For each stage the colours that it sees, with which entry, at a stage of which class."""
 _Ranks: TypeAlias = Mapping[Number, int]
 
 
@@ -51,33 +54,34 @@ def stage_classes(sheets: Sequence[Sheet]) -> list[Classes]:
 
 
 def _count(classes: Iterable[Classes]) -> int:
-    return len({number for found in classes for number in found.values()})
+    numbers: set[int] = set()
+    for found in classes:
+        numbers.update(found.values())
+    return len(numbers)
 
 
 def _numbered(
     found: Sequence[Mapping[Stage, _Signature]],
 ) -> list[Classes]:
     """The places of signatures among all signatures in ascending order."""
-    different = {x for signatures in found for x in signatures.values()}
+    different: set[_Signature] = set()
+    for signatures in found:
+        different.update(signatures.values())
     ordered = sorted(different)
     place = {signature: k for k, signature in enumerate(ordered)}
-    return [
-        {stage: place[signature] for stage, signature in signatures.items()}
-        for signatures in found
-    ]
+    classes = []
+    for signatures in found:
+        own = {stage: place[x] for stage, x in signatures.items()}
+        classes.append(own)
+    return classes
 
 
 def _ranks(sheets: Iterable[Sheet]) -> _Ranks:
     """The place of each number among all numbers in ascending order."""
     different: set[Number] = set()
     for sheet in sheets:
-        for block in sheet.tableau.blocks.values():
-            different.update(x for row in block for x in row)
-        for colour in sheet.tableau.colours:
-            different.update(colour.b)
-            different.update(colour.c)
-        for rows in sheet.further:
-            different.update(x for row in rows for x in row)
+        for row in all_rows(sheet):
+            different.update(row)
     ordered = sorted(different, key=cmp_to_key(_compared))
     return {number: k for k, number in enumerate(ordered)}
 
@@ -90,24 +94,33 @@ def _first(sheet: Sheet, ranks: _Ranks) -> dict[Stage, _Signature]:
     """What a stage has by itself: its space, its nodes and its weights of every colour."""
     found: dict[Stage, _Signature] = {}
     for k, space in enumerate(sheet.tableau.spaces):
-        numbered = enumerate(sheet.tableau.colours)
-        rows = []
-        for l, colour in numbered:
-            if colour.space == k:
-                further = [weights[l] for weights in sheet.further]
-                rows += [colour.c, colour.b, *further]
+        rows = _own_rows(sheet, k)
         for i in range(space.stages):
             own = [ranks[row[i]] for row in rows]
             found[k, i] = (k, *own)
     return found
 
 
+def _own_rows(sheet: Sheet, space: int) -> list[Vector]:
+    """Nodes and weights of all colours at the stages of a space."""
+    rows: list[Vector] = []
+    for l, colour in enumerate(sheet.tableau.colours):
+        if colour.space == space:
+            rows.append(colour.c)
+            rows.append(colour.b)
+            rows += [weights[l] for weights in sheet.further]
+    return rows
+
+
 def _sights(
     tableau: Tableau, classes: Classes, ranks: _Ranks
 ) -> dict[Stage, _Signature]:
     """The class of a stage with what it sees, and with what sees it, both in ascending order."""
-    seen: dict[Stage, list[tuple[int, int, int]]] = {x: [] for x in classes}
-    seeing: dict[Stage, list[tuple[int, int, int]]] = {x: [] for x in classes}
+    seen: _Glances = {}
+    seeing: _Glances = {}
+    for stage in classes:
+        seen[stage] = []
+        seeing[stage] = []
     for (k, m), block in tableau.blocks.items():
         other = tableau.colours[m].space
         for i, row in enumerate(block):

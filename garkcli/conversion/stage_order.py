@@ -2,9 +2,10 @@
 
 from __future__ import annotations
 
+from dataclasses import dataclass, field
 from heapq import heapify, heappop, heappush
 
-from garkcli.conversion.sheet import Place, Sheet, regrouped
+from garkcli.conversion.sheet import Place, Sheet, arranged
 from garkcli.conversion.stage_classes import Classes, Stage, stage_classes
 from garkcli.graph import components
 from garkcli.tableau.tableau import Tableau
@@ -23,63 +24,92 @@ def in_order(sheet: Sheet) -> Sheet:
 
 def in_solving_order(sheet: Sheet) -> Sheet:
     """The method with each stage after those that it needs, as near to its own order as can be."""
-    stages = _stages(sheet.tableau)
-    own = {stage: number for number, stage in enumerate(stages)}
+    own: Classes = {}
+    for number, stage in enumerate(_stages(sheet.tableau)):
+        own[stage] = number
     return _arranged(sheet, own)
 
 
 def _stages(tableau: Tableau) -> list[Stage]:
-    numbered = enumerate(tableau.spaces)
-    return [(k, i) for k, space in numbered for i in range(space.stages)]
+    stages: list[Stage] = []
+    for k, space in enumerate(tableau.spaces):
+        stages += [(k, i) for i in range(space.stages)]
+    return stages
 
 
 def _arranged(sheet: Sheet, places: Classes) -> Sheet:
     """The stages of each space, the first place first among those that nothing holds up."""
-    ordered = _solved(sheet.tableau, places)
-    count = len(sheet.tableau.spaces)
-    spaces: list[list[Place]] = [[] for _ in range(count)]
-    for stage in ordered:
-        spaces[stage[0]].append(stage)
-    homes = [colour.space for colour in sheet.tableau.colours]
-    return regrouped(sheet, spaces, homes)
+    spaces: list[list[Place]] = [[] for _ in sheet.tableau.spaces]
+    for stage in _solved(sheet.tableau, places):
+        k, _ = stage
+        spaces[k].append(stage)
+    return arranged(sheet, spaces)
+
+
+@dataclass
+class _System:
+    """Stages that need each other, or a single one.
+
+    Attributes:
+        stages: in their order.
+        place: the least place of them, and the number of the system.
+        waits_for: the systems that it needs and that are not done yet, by their numbers.
+        wanted_by: those that need it.
+    """
+
+    stages: list[Stage]
+    place: tuple[int, int]
+    waits_for: set[int] = field(default_factory=set)
+    wanted_by: list[int] = field(default_factory=list)
 
 
 def _solved(tableau: Tableau, places: Classes) -> list[Stage]:
-    """All stages; of the systems whose stages need no other any more the first place comes
-    first.
-    """
-    needs = _needs(tableau)
-    systems = components(needs)
-    number = {x: k for k, system in enumerate(systems) for x in system}
-    waiting: list[set[int]] = []
-    needed_by: list[list[int]] = [[] for _ in systems]
-    for k, system in enumerate(systems):
-        others = {number[x] for stage in system for x in needs[stage]} - {k}
-        waiting.append(others)
-        for other in others:
-            needed_by[other].append(k)
-
-    def place(k: int) -> tuple[int, int]:
-        return min(places[stage] for stage in systems[k]), k
-
-    ready = [place(k) for k, others in enumerate(waiting) if not others]
+    """All stages; of the systems that wait for no other any more the first place comes first."""
+    systems = _systems(tableau, places)
+    ready = [system.place for system in systems if not system.waits_for]
     heapify(ready)
     ordered: list[Stage] = []
     while ready:
         _, done = heappop(ready)
-        ordered += sorted(systems[done], key=lambda x: (places[x], x))
-        for k in needed_by[done]:
-            waiting[k].remove(done)
-            if not waiting[k]:
-                heappush(ready, place(k))
+        ordered += systems[done].stages
+        for k in systems[done].wanted_by:
+            other = systems[k]
+            other.waits_for.remove(done)
+            if not other.waits_for:
+                heappush(ready, other.place)
     return ordered
+
+
+def _systems(tableau: Tableau, places: Classes) -> list[_System]:
+    """The stages in systems that are solved together, with what each of them needs."""
+    needs = _needs(tableau)
+    systems: list[_System] = []
+    number: dict[Stage, int] = {}
+    for k, stages in enumerate(components(needs)):
+        stages.sort(key=lambda stage: (places[stage], stage))
+        first = places[stages[0]]
+        systems.append(_System(stages, (first, k)))
+        for stage in stages:
+            number[stage] = k
+    for stage, needed in needs.items():
+        own = number[stage]
+        for other in needed:
+            before = number[other]
+            if before != own and before not in systems[own].waits_for:
+                systems[own].waits_for.add(before)
+                systems[before].wanted_by.append(own)
+    return systems
 
 
 def _needs(tableau: Tableau) -> dict[Stage, list[Stage]]:
     """For each stage those that it sees with an entry that is not zero."""
-    needs: dict[Stage, list[Stage]] = {x: [] for x in _stages(tableau)}
+    needs: dict[Stage, list[Stage]] = {}
+    for stage in _stages(tableau):
+        needs[stage] = []
     for (k, m), block in tableau.blocks.items():
         other = tableau.colours[m].space
         for i, row in enumerate(block):
-            needs[k, i] += [(other, j) for j, entry in enumerate(row) if entry]
+            for j, entry in enumerate(row):
+                if entry:
+                    needs[k, i].append((other, j))
     return needs
