@@ -6,15 +6,33 @@ The room itself is this mapping, so that whoever imports it in whatever way has 
 
 from __future__ import annotations
 
-from collections.abc import ItemsView, Iterator, KeysView, Mapping, ValuesView
+from collections.abc import (
+    ItemsView,
+    Iterator,
+    KeysView,
+    Mapping,
+    Sequence,
+    ValuesView,
+)
 from types import ModuleType
 from typing import TYPE_CHECKING, Any, cast
 
-from garkcli.errors import GarkError, MethodFileError
+from garkcli.errors import (
+    GarkError,
+    MethodFileError,
+    UsageProblem,
+    did_you_mean,
+)
 
 if TYPE_CHECKING:
+    from garkcli.catalogue.facts import Entry
+    from garkcli.catalogue.filters import Wanted
     from garkcli.methodfile.build import MethodFile
     from garkcli.methodfile.shelves import Shelved
+
+
+_WORDS = ("kind", "structure")
+"""What the index says in a word."""
 
 
 class NoSuchMethod(GarkError, KeyError):
@@ -67,6 +85,30 @@ class Catalogue(ModuleType):
         """Names and methods."""
         return ItemsView(_mapping(self))
 
+    def search(
+        self, *words: str, folder: str = "", **wanted: bool | int | str
+    ) -> list[str]:
+        """The names of methods, as ``gark list methods`` chooses them; those of highest order
+        first.
+
+        Args:
+            words: each is in the name, an alias, the title or the reference.
+            folder: of the catalogue, such as ``"erk"``.
+            wanted: values of what the index knows: numbers or ranges of them as text
+                (``order=">=4"``, ``stages=7``), truths (``symplectic=True``), and words
+                (``kind="ark"``).
+
+        Raises:
+            UsageProblem: nothing is known by a name, or a text is no range.
+        """
+        from garkcli.catalogue.entries import all_entries
+        from garkcli.catalogue.filters import sorted_by
+
+        entries = list(all_entries())
+        chosen = _wanted(wanted, words, folder, entries[0])
+        found = [entry for entry in entries if chosen.takes(entry)]
+        return [entry["name"] for entry in sorted_by(found, "order")]
+
     def get(self, name: str, default: Any = None) -> Any:
         """The method of a name or an alias; the default where there is none."""
         try:
@@ -81,6 +123,35 @@ Mapping.register(Catalogue)
 def _mapping(catalogue: Catalogue) -> Mapping[str, MethodFile]:
     """The same, for type checkers."""
     return cast("Mapping[str, MethodFile]", catalogue)
+
+
+def _wanted(
+    given: Mapping[str, bool | int | str],
+    words: Sequence[str],
+    folder: str,
+    known: Entry,
+) -> Wanted:
+    """What is wanted of an entry.
+
+    Raises:
+        UsageProblem: nothing is known by a name, or a text is no range.
+    """
+    from garkcli.catalogue.filters import Range, Wanted, read_range
+
+    ranges: dict[str, Range] = {}
+    truths: dict[str, bool] = {}
+    values: dict[str, str] = {}
+    for key, value in given.items():
+        if key not in known:
+            message = f"nothing is known by the name {key!r}"
+            raise UsageProblem(message, did_you_mean(key, known))
+        if isinstance(value, bool):
+            truths[key] = value
+        elif key in _WORDS:
+            values[key] = str(value)
+        else:
+            ranges[key] = read_range(str(value))
+    return Wanted(ranges, truths, values, folder, words)
 
 
 def _names() -> list[str]:

@@ -12,6 +12,7 @@ import pytest
 import garkcli
 from garkcli import catalogue, load
 from garkcli.catalogue.mapping import NoSuchMethod
+from garkcli.errors import UsageProblem
 from garkcli.methodfile.load import MethodFile
 from tests.cli.harness import ROOT
 
@@ -58,6 +59,25 @@ def test_unknown_names_are_key_errors(name: object) -> None:
     assert "name" in caught.value.message or "no method" in str(caught.value)
     if name == "stoermer-verlat":
         assert str(caught.value).endswith("did you mean 'stoermer-verlet'?")
+
+
+def test_methods_are_searched_by_what_is_known_of_them() -> None:
+    """Words, numbers, ranges and truths, together; what is found has it, checked anew."""
+    assert "stoermer-verlet" in catalogue.search("Störmer", "verlet")
+    found = catalogue.search(order="2..4", stages="<5", symplectic=True)
+    orders = []
+    for name in (found[0], found[-1]):
+        method = catalogue[name]
+        orders.append(garkcli.find_order(method).order)
+        assert max(method.stages) < 5
+        assert garkcli.is_symplectic(method)
+    assert orders == [4, 2]
+    assert set(catalogue.search(kind="ark", folder="ark")) <= set(catalogue)
+    assert catalogue.search("no such word in any reference") == []
+    with pytest.raises(UsageProblem, match="did you mean 'stages'"):
+        catalogue.search(stage=4)
+    with pytest.raises(UsageProblem, match="no range"):
+        catalogue.search(order="many")
 
 
 def test_folders_of_ones_own_come_first(
