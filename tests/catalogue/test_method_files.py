@@ -2,9 +2,7 @@
 
 from __future__ import annotations
 
-import json
 from collections.abc import Iterable
-from pathlib import Path
 from typing import Any
 
 import numpy as np
@@ -17,29 +15,8 @@ from garkcli.trees.table import TreeTable
 from garkcli.trees.weights import elementary_weights
 from tests.catalogue.catalogue import entries
 from tests.catalogue.method_files import method_file
-from tests.cli.harness import gark
 
 ENTRIES = entries()
-
-
-def test_one_call_over_the_directory(tmp_path: Path) -> None:
-    """All 94 methods have their verified order: exactly, or within the rounding that the file
-    states.
-    """
-    for name, entry in ENTRIES.items():
-        (tmp_path / f"{name}.gark.yaml").write_text(
-            method_file(entry), encoding="utf-8"
-        )
-    run = gark("check", str(tmp_path), "--format", "json", "-j", "2")
-    assert run.code == 0, run.err
-    files = json.loads(run.out)["files"]
-    assert {
-        Path(x["file"]).name.removesuffix(".gark.yaml"): x["order"]
-        for x in files
-    } == {name: entry["verified_order"] for name, entry in ENTRIES.items()}
-    assert [x["exact"] for x in files] == [
-        entry["exact"] for entry in ENTRIES.values()
-    ]
 
 
 def _floats(rows: Iterable[Iterable[Any]]) -> Any:

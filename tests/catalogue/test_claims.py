@@ -1,0 +1,104 @@
+"""All methods of the catalogue have what their files claim, and the orders that were found
+elsewhere.
+"""
+
+from __future__ import annotations
+
+import csv
+import json
+import re
+from pathlib import Path
+from typing import Any
+
+import pytest
+
+from garkcli.methodfile.load import load
+from tests.cli.harness import gark
+
+ROOT = Path(__file__).resolve().parents[2]
+DATA = ROOT / "garkcli" / "catalogue" / "data"
+FILES = {x.name.removesuffix(".gark.yaml"): x for x in DATA.rglob("*.yaml")}
+TABLE = Path(__file__).parent / "verified_orders.csv"
+"""Orders of methods and of their embedded methods, from all trees in 260-bit arithmetic."""
+COPIES = {x.name for x in (ROOT / "methods").rglob("*.gark.yaml")}
+NO_ROW_SUMS = {"rko65", "feagin-12-misprint", "lobatto-iiib-2"}
+"""Whose nodes are printed otherwise, so that the order with time is claimed."""
+
+
+@pytest.fixture(scope="module")
+def judged() -> dict[str, Any]:
+    """What gark check finds of each file, by its name."""
+    run = gark("check", str(DATA), "-j", "2", "--format", "json")
+    assert run.code == 0, run.err
+    files = json.loads(run.out)["files"]
+    return {Path(x["file"]).name.removesuffix(".gark.yaml"): x for x in files}
+
+
+def test_every_claim_holds(judged: dict[str, Any]) -> None:
+    """Each file of the catalogue was judged, makes claims, and none fails."""
+    assert set(judged) == set(FILES)
+    assert [name for name, found in judged.items() if not found["ok"]] == []
+    assert [
+        name for name, found in judged.items() if not found["claims"]
+    ] == []
+
+
+def test_all_that_matters_is_claimed(judged: dict[str, Any]) -> None:
+    """Files that are not copies of the user's claim order, symplecticity, B, C and D and the kind
+    of their stages; with embedded weights their order, with other nodes the order with time.
+    """
+    for name, found in judged.items():
+        if FILES[name].name in COPIES:
+            continue
+        keys = {claim["claim"] for claim in found["claims"]}
+        assert {"order", "symplectic", "B", "C", "D"} <= keys, name
+        assert {"explicit", "stage-order", "symmetric"} <= keys, name
+        text = FILES[name].read_text(encoding="utf-8")
+        has_weights = re.search(r"^ *embedded: ", text, re.MULTILINE)
+        assert ("embedded-order" in keys) == bool(has_weights), name
+        if name in NO_ROW_SUMS:
+            assert "nonautonomous-order" in keys, name
+
+
+def test_orders_are_those_found_elsewhere(judged: dict[str, Any]) -> None:
+    """A computation of its own, over all trees up to the order and one more, in balls of 260 bits
+    on the tables as their sources print them; of some collections up to order 9.
+    """
+    with TABLE.open(encoding="utf-8", newline="") as stream:
+        rows = list(csv.DictReader(stream))
+    assert len(rows) > 180
+    for row in rows:
+        found = judged[row["method"]]
+        if row["order"].startswith(">= "):
+            assert found["order"] >= int(row["order"].removeprefix(">= "))
+        else:
+            assert found["order"] == int(row["order"]), row
+        if row["embedded order"]:
+            embedded = found["embedded_order"]
+            assert embedded == int(row["embedded order"]), row
+
+
+def test_misprinted_tables_have_lost_order(judged: dict[str, Any]) -> None:
+    """Each file of errata/ names the method that is right, whose order, or order with time, is
+    larger.
+    """
+    wrong = sorted((DATA / "errata").glob("*.yaml"))
+    assert wrong
+    for file in wrong:
+        description = load(str(file)).description
+        (right,) = re.findall(r'as in the method "([a-z0-9-]+)"', description)
+        bad = judged[file.name.removesuffix(".gark.yaml")]
+        good = judged[right]
+        assert "order" in description
+        assert bad["nonautonomous_order"] < good["nonautonomous_order"]
+
+
+def test_references_say_where_the_digits_are_from() -> None:
+    """Each file but those of the paper and what gark found has a reference with fields."""
+    folders = {"paper", "found"}
+    for name, file in FILES.items():
+        if file.parent.name in folders or file.name in COPIES:
+            continue
+        text = file.read_text(encoding="utf-8")
+        assert re.search(r"^  title: \S", text, re.MULTILINE), name
+        assert re.search(r"^  coefficients: \S", text, re.MULTILINE), name
