@@ -13,6 +13,9 @@ from pathlib import PurePath
 from garkcli.check.explained import claim_hint, claim_witness
 from garkcli.check.outcome import Outcome
 
+CLAIM = "write what holds under expect: gark claims FILE --write"
+"""The cure of a file that lacks a claim."""
+
 
 @dataclass(frozen=True)
 class Finding:
@@ -79,16 +82,17 @@ def _failed_claims(outcome: Outcome) -> Iterator[Part]:
 
 
 def _missing_claims(outcome: Outcome) -> Iterator[Part]:
-    if outcome.needs_claims and outcome.makes_no_claim:
-        yield Part(
-            "the file makes no claim", "write what holds under expect", ""
-        )
+    for message in outcome.lacks:
+        is_any = outcome.makes_no_claim and outcome.needs_claims
+        yield Part(message, CLAIM, "" if is_any else message)
 
 
 KINDS = {
     "unreadable": Kind("the file cannot be read as a method", _unreadable),
     "claim": Kind("a claim under expect does not hold", _failed_claims),
-    "no-claim": Kind("the file makes no claim", _missing_claims),
+    "no-claim": Kind(
+        "the file lacks a claim that is required", _missing_claims
+    ),
 }
 """Every kind of finding; formats and their documentation are made from it."""
 

@@ -68,7 +68,7 @@ Sense = tuple[Callable[[str], Meaning], "list[str]"]
 def _senses() -> Iterator[Sense]:
     """Every kind of word: what makes its meaning, and which there are."""
     yield _term, list(by_word())
-    yield _claim, list(_claims())
+    yield claim_meaning, list(_claims())
     yield _key, list(_keys())
     yield _design_key, list(_keys("design"))
     yield _family, list(_families())
@@ -103,7 +103,12 @@ def _claims() -> tuple[str, ...]:
     return CLAIMS
 
 
-def _claim(key: str) -> Meaning:
+def claim_meaning(key: str) -> Meaning:
+    """What a claim of a method file means.
+
+    Raises:
+        UsageProblem: there is no such claim.
+    """
     from garkcli.properties.definitions import definition
 
     found = definition(key)

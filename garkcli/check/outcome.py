@@ -53,6 +53,7 @@ class Outcome:
             otherwise.
         constants: the error constants at the first failing order, where they were asked for.
         needs_claims: whether a file that makes no claim fails.
+        needed: claims without which a file fails.
         is_crash: whether the program failed, not the file; ``faults`` say how.
         wants_properties: whether all properties were asked for.
         every: what holds for every value, of a file with free parameters; it has no analysis.
@@ -69,6 +70,7 @@ class Outcome:
     constants: ErrorConstants | None = None
     is_crash: bool = False
     needs_claims: bool = False
+    needed: tuple[str, ...] = ()
     wants_properties: bool = False
     every: EveryValue | None = None
 
@@ -88,10 +90,23 @@ class Outcome:
         return self.is_read and not self.claims
 
     @property
+    def lacks(self) -> tuple[str, ...]:
+        """What the file would have to claim and does not, a remark each."""
+        if not self.is_read:
+            return ()
+        if self.needs_claims and not self.claims:
+            return ("the file makes no claim",)
+        made = {claim.claim for claim in self.claims}
+        return tuple(
+            f"the file does not claim {key}"
+            for key in self.needed
+            if key not in made
+        )
+
+    @property
     def ok(self) -> bool:
-        """Whether the file is a method, every claim holds, and there is one where one is needed."""
-        missing = self.needs_claims and self.makes_no_claim
-        return self.is_read and not self.failed_claims and not missing
+        """Whether the file is a method, every claim holds, and there are those that are needed."""
+        return self.is_read and not self.failed_claims and not self.lacks
 
     @property
     def exit_code(self) -> int:

@@ -19,6 +19,7 @@ from garkcli.cli.options import (
     refuse_settings_of_several,
     settings_option,
 )
+from garkcli.cli.project import Project, find_project
 from garkcli.report.check_formats import FORMATS
 
 if TYPE_CHECKING:
@@ -96,18 +97,25 @@ def command(
     symplecticity; the claims under `expect`. The format auto is github in GitHub Actions and text
     elsewhere.
 
+    Without FILE the paths of .gark.toml, or of [tool.gark] in pyproject.toml, are meant; what else
+    they say holds where no option says otherwise.
+
     Exit code: 0 every claim holds, 1 a claim fails, 2 a file cannot be read as a method.
     """
     if explain is not None:
         return _explain(explain, output)
+    project = find_project()
+    files = files or project.paths
     if not files:
         raise _no_file()
+    _take_defaults(project, options, output)
     earlier = None
     if baseline is not None:
         from garkcli.check.baseline import read_baseline
 
         earlier = read_baseline(baseline)
-    outcomes = _outcomes(files, settings, Wanted(**options), output)
+    wanted = Wanted(needed=project.needed, **options)
+    outcomes = _outcomes(files, settings, wanted, output)
     if earlier is not None:
         return _compare(outcomes, earlier, output)
     chosen = _format(output)
@@ -127,6 +135,7 @@ class Wanted:
         wants_properties: whether every property is told, not only those that are claimed.
         require_claims: whether a file without a claim fails.
         jobs: how many files at a time; 0 for as many as there are processors.
+        needed: claims without which a file fails.
     """
 
     max_order: int
@@ -134,6 +143,22 @@ class Wanted:
     wants_properties: bool
     require_claims: bool
     jobs: int
+    needed: tuple[str, ...] = ()
+
+
+def _take_defaults(
+    project: Project, options: dict[str, Any], output: Output
+) -> None:
+    """What the project says in place of options that are not given."""
+    source = click.get_current_context().get_parameter_source
+    for name, value in project.defaults.items():
+        if source(name) is not click.core.ParameterSource.DEFAULT:
+            continue
+        if name == "format":
+            output.format = value
+        else:
+            options[name] = value
+    options["require_claims"] |= project.require_claims
 
 
 def _outcomes(
@@ -163,6 +188,7 @@ def _as_wanted(outcome: Outcome, wanted: Wanted) -> Outcome:
     return replace(
         outcome,
         needs_claims=wanted.require_claims,
+        needed=wanted.needed,
         wants_properties=wanted.wants_properties,
     )
 
@@ -191,10 +217,11 @@ def _no_file() -> click.MissingParameter:
 
 def _explain(key: str, output: Output) -> int:
     """Write what a claim means."""
-    from garkcli.properties.definitions import definition
-    from garkcli.report.explanation import render
+    from garkcli.check.meanings import claim_meaning
+    from garkcli.report.meaning import render
 
-    output.write(render(definition(key), output.format, output.paint))
+    found = [claim_meaning(key)]
+    output.write(render(key, found, output.format, output.paint))
     return 0
 
 

@@ -8,6 +8,7 @@ from typing import TYPE_CHECKING
 from flint import fmpq
 
 from garkcli.check.analysis import Analysis
+from garkcli.check.findings import CLAIM
 from garkcli.check.outcome import Claim, Outcome
 from garkcli.errors import excerpt
 from garkcli.exact.display import decimal
@@ -283,11 +284,14 @@ def _more_properties(outcome: Outcome, analysis: Analysis) -> list[str]:
 
 
 def _missing(outcome: Outcome, paint: Paint) -> list[str]:
-    """The line on a file that has to make a claim and makes none."""
-    if not (outcome.needs_claims and outcome.makes_no_claim):
+    """The lines on a file that does not claim what it has to."""
+    if not outcome.lacks:
         return []
+    messages = [CLAIM]
+    if not outcome.makes_no_claim:
+        messages = [*outcome.lacks, CLAIM]
     verdict = paint("bad", "NO CLAIM")
-    return [f"  {verdict}         write what holds under expect"]
+    return [f"  {verdict}         {message}" for message in messages]
 
 
 def _claim(outcome: Outcome, claim: Claim, paint: Paint) -> str:

@@ -11,7 +11,7 @@ from garkcli.page.paint import Paint, folded, indented
 from garkcli.page.record import Field, Record, schema_named
 from garkcli.page.schema import TEXT, Schema, array, published
 
-SCHEMA = "gark/meaning/1"
+SCHEMA = "gark/explain/1"
 _WIDTH = 80
 _MARGIN = 12
 
@@ -40,7 +40,7 @@ _REPORT: Record[_Word] = Record(
 )
 
 
-def meaning_report_schema() -> Schema:
+def explain_report_schema() -> Schema:
     """The JSON Schema of ``gark explain --format json``."""
     return published("report of gark explain", _REPORT.schema)
 

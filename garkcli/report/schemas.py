@@ -13,9 +13,8 @@ from garkcli.errors import UsageProblem, did_you_mean
 _TABLEAU = "garkcli.report.tableau_json:tableau_report_schema"
 REPORTS = {
     "check": "garkcli.report.check_json:check_report_schema",
-    "explain": "garkcli.report.explanation:explanation_schema",
     "claims": "garkcli.report.claims:claims_report_schema",
-    "meaning": "garkcli.report.meaning:meaning_report_schema",
+    "explain": "garkcli.report.meaning:explain_report_schema",
     "trees": "garkcli.report.symplectic:trees_report_schema",
     "conditions": "garkcli.report.conditions_json:conditions_report_schema",
     "tableau": _TABLEAU,

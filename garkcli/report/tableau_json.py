@@ -38,7 +38,8 @@ def render(tableau: Tableau, entries: Entries, name: str) -> str:
 def tableau_report_schema() -> Schema:
     """The JSON Schema of tableaus, of all commands that print one."""
     return published(
-        "tableau of gark tableau, conjugate and reduce", _REPORT.schema
+        "tableau of gark tableau, conjugate, convert and reduce",
+        _REPORT.schema,
     )
 
 

@@ -14,7 +14,7 @@ from garkcli.errors import UsageProblem
 from garkcli.methodfile.expectations import CLAIMS
 from garkcli.properties.keys import KEYS
 from garkcli.report.check_json import check_report_schema
-from garkcli.report.explanation import explanation_schema
+from garkcli.report.meaning import explain_report_schema
 from tests.cli.harness import ROOT, gark
 
 METHODS = sorted((ROOT / "methods").glob("*.yaml"))
@@ -110,13 +110,15 @@ def test_every_claim_is_explained(key: str) -> None:
     run = gark("check", "--explain", key)
     assert (run.code, run.err) == (0, "")
     lines = run.out.splitlines()
-    assert lines[0] == key
+    assert lines[0] == f"{key}: claim under expect"
     assert max(map(len, lines)) <= 80
     assert any(line.startswith("  source   ") for line in lines)
     assert gark("check", "--explain", key, encoding="ascii").out.isascii()
     data = json.loads(gark("check", "--explain", key, "--format", "json").out)
-    assert data["key"] == key
-    assert list(Draft7Validator(explanation_schema()).iter_errors(data)) == []
+    assert [x["name"] for x in data["meanings"]] == [key]
+    assert (
+        list(Draft7Validator(explain_report_schema()).iter_errors(data)) == []
+    )
 
 
 def test_an_unknown_key_has_a_suggestion() -> None:

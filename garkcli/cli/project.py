@@ -1,0 +1,160 @@
+"""What a project wants of its method files: ``.gark.toml``, or ``[tool.gark]`` of pyproject."""
+
+from __future__ import annotations
+
+import os
+from collections.abc import Callable, Iterator, Mapping
+from dataclasses import dataclass, field
+from typing import Any
+
+from garkcli.errors import UsageProblem, did_you_mean
+from garkcli.page.plain import printable
+
+OWN = ".gark.toml"
+SHARED = "pyproject.toml"
+MOST_BYTES = 1_000_000
+
+
+@dataclass(frozen=True)
+class Project:
+    """What a file of a project says.
+
+    Attributes:
+        file: its path; empty where there is none.
+        paths: the method files, folders or patterns that are checked where none are named, from
+            here.
+        require_claims: whether a file without a claim fails.
+        needed: claims without which a file fails.
+        defaults: values of options that are not given, by their names.
+    """
+
+    file: str = ""
+    paths: tuple[str, ...] = ()
+    require_claims: bool = False
+    needed: tuple[str, ...] = ()
+    defaults: Mapping[str, Any] = field(default_factory=dict)
+
+
+def find_project() -> Project:
+    """The project of the folder we are in: the first file above that speaks of gark; folders above
+    that of a repository are not looked at.
+
+    Raises:
+        UsageProblem: the file cannot be read, or says what means nothing.
+    """
+    for folder in _folders():
+        for name in (OWN, SHARED):
+            path = os.path.join(folder, name)
+            if not os.path.isfile(path):
+                continue
+            table = _table(path, name)
+            if table is not None:
+                return _project(os.path.relpath(path), folder, table)
+        if os.path.exists(os.path.join(folder, ".git")):
+            break
+    return Project()
+
+
+def _folders() -> Iterator[str]:
+    """The folder we are in, and those above it."""
+    try:
+        folder = os.getcwd()
+    except OSError:  # it was removed
+        return
+    while True:
+        yield folder
+        above = os.path.dirname(folder)
+        if above == folder:
+            return
+        folder = above
+
+
+def _table(path: str, name: str) -> dict[str, Any] | None:
+    """What a file says of gark; None where it does not."""
+    import tomllib
+
+    try:
+        with open(path, "rb") as stream:
+            data = stream.read(MOST_BYTES + 1)
+        if name == SHARED and b"tool.gark" not in data:
+            return None
+        if len(data) > MOST_BYTES:
+            raise UsageProblem(
+                f"{printable(path)}: more than {MOST_BYTES} bytes", "split it"
+            )
+        whole = tomllib.loads(data.decode("utf-8"))
+    except (OSError, ValueError) as error:
+        message = f"{printable(os.path.relpath(path))}: {error}"
+        raise UsageProblem(
+            message, "mend the file, TOML is expected"
+        ) from None
+    if name == OWN:
+        return whole
+    table = whole.get("tool", {}).get("gark")
+    return table if isinstance(table, dict) else None
+
+
+def _project(file: str, folder: str, table: dict[str, Any]) -> Project:
+    """The project that a table describes.
+
+    Raises:
+        UsageProblem: it has a key or a value that means nothing.
+    """
+    shown = printable(file)
+    for key, value in table.items():
+        if key not in _READERS:
+            cure = did_you_mean(key, list(_READERS))
+            raise UsageProblem(f"{shown}: no key {key!r}", cure)
+        wanted, is_right = _READERS[key]
+        if not is_right(value):
+            raise UsageProblem(f"{shown}: {key} is not {wanted}", "mend it")
+    required = table.get("require-claims", False)
+    paths = [
+        os.path.relpath(os.path.join(folder, path))
+        for path in table.get("paths", ())
+    ]
+    names = {"format": "format", "max-order": "max_order", "jobs": "jobs"}
+    defaults = {names[key]: table[key] for key in names if key in table}
+    return Project(
+        file,
+        tuple(paths),
+        required is True,
+        tuple(required) if isinstance(required, list) else (),
+        defaults,
+    )
+
+
+def _is_texts(value: object) -> bool:
+    return isinstance(value, list) and all(isinstance(x, str) for x in value)
+
+
+def _is_claims(value: object) -> bool:
+    from garkcli.methodfile.expectations import CLAIMS
+
+    if isinstance(value, bool):
+        return True
+    return isinstance(value, list) and all(x in CLAIMS for x in value)
+
+
+def _is_format(value: object) -> bool:
+    from garkcli.report.check_formats import FORMATS
+
+    return value in {"auto", *FORMATS}
+
+
+def _count(least: int, most: int) -> Callable[[object], bool]:
+    def is_right(value: object) -> bool:
+        is_number = isinstance(value, int) and not isinstance(value, bool)
+        return is_number and value in range(least, most + 1)
+
+    return is_right
+
+
+_READERS: dict[str, tuple[str, Callable[[object], bool]]] = {
+    "paths": ("a list of files, folders or patterns", _is_texts),
+    "require-claims": ("true, false, or a list of claims", _is_claims),
+    "format": ("a format of gark check", _is_format),
+    "max-order": ("a number from 1 to 400", _count(1, 400)),
+    "jobs": ("a number from 0 to 256", _count(0, 256)),
+}
+"""The keys with what their values are."""

@@ -1,0 +1,96 @@
+""".gark.toml and [tool.gark]: what gark check does where no option says otherwise."""
+
+from __future__ import annotations
+
+import json
+from pathlib import Path
+
+import pytest
+
+from tests.cli.harness import gark
+
+METHOD = "A: [[0, 0], [1/2, 0]]\nb: [0, 1]\n"
+
+
+@pytest.fixture
+def project(tmp_path: Path) -> Path:
+    """A repository with two method files in a folder, one with claims."""
+    (tmp_path / ".git").mkdir()
+    folder = tmp_path / "tables"
+    folder.mkdir()
+    (folder / "with.gark.yaml").write_text(METHOD + "expect: {order: 2}\n")
+    (folder / "without.gark.yaml").write_text(METHOD)
+    return tmp_path
+
+
+def put(folder: Path, name: str, text: str) -> None:
+    """A file of the project."""
+    (folder / name).write_text(text, encoding="utf-8")
+
+
+@pytest.mark.parametrize(
+    ("name", "head"),
+    [(".gark.toml", ""), ("pyproject.toml", "[tool.gark]\n")],
+)
+def test_paths_and_format(project: Path, name: str, head: str) -> None:
+    """Without FILE the paths are checked, from whatever folder of the project; options win."""
+    put(project, name, head + 'paths = ["tables"]\nformat = "json"\n')
+    below = project / "tables"
+    for here in (project, below):
+        run = gark("check", cwd=here)
+        assert run.code == 0
+        assert len(json.loads(run.out)["files"]) == 2
+    run = gark("check", "--format", "text", cwd=project)
+    assert "2 files" in run.out
+    run = gark("check", "with.gark.yaml", cwd=below)
+    assert len(json.loads(run.out)["files"]) == 1
+
+
+def test_claims_that_are_required(project: Path) -> None:
+    """A list names claims without which a file fails; true asks for any."""
+    put(project, ".gark.toml", 'require-claims = ["order", "symplectic"]\n')
+    run = gark("check", "tables", cwd=project)
+    assert run.code == 1
+    assert run.out.count("the file does not claim symplectic") == 1
+    assert run.out.count("gark claims FILE --write") == 2
+    for format in ("github", "junit", "sarif", "markdown"):
+        told = gark("check", "tables", "--format", format, cwd=project)
+        assert told.code == 1
+    put(project, ".gark.toml", "require-claims = true\n")
+    run = gark("check", "tables/with.gark.yaml", cwd=project)
+    assert run.code == 0
+    assert gark("check", "tables", cwd=project).code == 1
+
+
+@pytest.mark.parametrize(
+    ("text", "said"),
+    [
+        ("path = []\n", "did you mean 'paths'?"),
+        ("paths = 'x'\n", "paths is not a list of files"),
+        ('require-claims = ["ordr"]\n', "require-claims is not true, false"),
+        ("format = 'yaml'\n", "format is not a format of gark check"),
+        ("max-order = true\n", "max-order is not a number from 1"),
+        ("jobs = 1000\n", "jobs is not a number from 0"),
+        ("paths = [\n", "TOML is expected"),
+    ],
+)
+def test_what_means_nothing(project: Path, text: str, said: str) -> None:
+    """One fault with the file and the cure."""
+    put(project, ".gark.toml", text)
+    run = gark("check", "tables", cwd=project)
+    assert run.code == 2
+    assert ".gark.toml" in run.err
+    assert said in run.err
+
+
+def test_what_is_not_ours(project: Path) -> None:
+    """A pyproject.toml that does not speak of gark is passed over, broken or not, and so is what
+    stands above the repository.
+    """
+    put(project, "pyproject.toml", "[tool.other\n")
+    assert gark("check", "tables", cwd=project).code == 0
+    (project / "pyproject.toml").unlink()
+    inner = project / "inner"
+    (inner / ".git").mkdir(parents=True)
+    put(project, ".gark.toml", 'paths = ["tables"]\n')
+    assert "Missing argument" in gark("check", cwd=inner).err
