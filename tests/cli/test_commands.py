@@ -73,6 +73,8 @@ RUNS = [
     (("list",), ("text", "json")),
     (("list", "methods", "rk4"), ("text", "json", "csv", "markdown")),
     (("claims", VERLET), ("text", "json")),
+    (("diff", VERLET, VERLET), ("text", "json", "markdown")),
+    (("convert", COLLOCATION), ("yaml", "text", "json", "latex")),
     (("new", "--family", "gauss:2", "--family", "gauss:1"), ("yaml",)),
     (("explain", "density"), ("text", "json")),
     (("reduce", VERLET), ("yaml", "text", "json", "latex")),
