@@ -120,3 +120,9 @@ def _within(found: RoundedOrder, exact: Order) -> Judged:
         found.tolerance,
         found.largest_residual,
     )
+
+
+def allowed(method: MethodFile) -> fmpq:
+    """How far a number of a file may be off: ten units of the last place of its decimals."""
+    units = printed_units(method.printed)
+    return SLACK * max(units.values(), default=fmpq(0))

@@ -30,6 +30,7 @@ class Finding:
         help: the cure or a hint, where there is one.
         fingerprint: the same as long as the same thing is wrong with the same file, wherever it
             stands in it.
+        level: ``error``, ``warning`` or ``note``.
     """
 
     rule: str
@@ -39,6 +40,7 @@ class Finding:
     message: str
     help: str
     fingerprint: str
+    level: str = "error"
 
 
 @dataclass(frozen=True)
@@ -102,7 +104,7 @@ def findings(outcome: Outcome) -> Iterator[Finding]:
     file = PurePath(outcome.file).as_posix()
     for rule, kind in KINDS.items():
         for part in kind.find(outcome):
-            digest = _digest(f"{file}\0{rule}\0{part.key}")
+            digest = fingerprint(f"{file}\0{rule}\0{part.key}")
             yield Finding(
                 rule,
                 file,
@@ -114,5 +116,6 @@ def findings(outcome: Outcome) -> Iterator[Finding]:
             )
 
 
-def _digest(key: str) -> str:
+def fingerprint(key: str) -> str:
+    """A short text that is the same for the same key, and for no other."""
     return sha256(key.encode("utf-8", "surrogatepass")).hexdigest()[:32]

@@ -51,6 +51,7 @@ COMMANDS = {
     "sweep": "many methods side by side: which are best",
     "export": "a method for SciPy, SUNDIALS, PETSc, C, JSON and others",
     "import": "methods out of C, Python, MATLAB, Julia, LaTeX, JSON and others",
+    "audit": "the tables of a source tree against what they declare",
     "certificate": "what proves the orders, to be checked without gark",
     "list": "families, transfer rules, problems",
     "explain": "what a word of a report or of a file means",

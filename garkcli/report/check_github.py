@@ -17,29 +17,33 @@ def render(outcomes: Sequence[Outcome]) -> str:
     found = ""
     for outcome in outcomes:
         for finding in findings(outcome):
-            found += f"{_annotation(finding)}\n"
+            found += f"{annotation(finding)}\n"
     verbosity = 0 if len(outcomes) > 1 else -1
     text = check_text.render(outcomes, Paint(False), verbosity)
     if text:
-        found += _inert(text)
+        found += inert(text)
     return found
 
 
-def _inert(text: str) -> str:
+def inert(text: str) -> str:
     """The text with workflow commands switched off: names of files come from strangers."""
     encoded = text.encode("utf-8", "surrogatepass")
     token = sha256(encoded).hexdigest()
     return f"::stop-commands::{token}\n{text}::{token}::\n"
 
 
-def _annotation(finding: Finding) -> str:
+def annotation(finding: Finding) -> str:
+    """The workflow command of a finding."""
     file = _property(finding.file)
     place = f"file={file},line={finding.line},col={finding.column}"
     title = _property(f"gark: {finding.rule}")
     text = finding.message
     if finding.help:
         text += f"; {finding.help}"
-    return f"::error {place},title={title}::{_data(text)}"
+    return f"::{_COMMANDS[finding.level]} {place},title={title}::{_data(text)}"
+
+
+_COMMANDS = {"error": "error", "warning": "warning", "note": "notice"}
 
 
 def _data(text: str) -> str:

@@ -30,9 +30,9 @@ def render(outcomes: Sequence[Outcome]) -> str:
         lines.append("")
     for finding in found:
         place = f"`{_code(finding.file)}:{finding.line}:{finding.column}`"
-        lines.append(f"- {place}: {_cell(finding.message)}")
+        lines.append(f"- {place}: {table_cell(finding.message)}")
         if finding.help:
-            lines.append(f"  - {_cell(finding.help)}")
+            lines.append(f"  - {table_cell(finding.help)}")
     silent = sum(outcome.makes_no_claim for outcome in outcomes)
     if silent:
         lines += ["", f"{no_claims(silent)}."]
@@ -94,8 +94,8 @@ def _every(outcome: Outcome, found: EveryValue) -> list[str]:
     return [
         f"`{_code(outcome.file)}`",
         *orders,
-        _cell(bound.partition(";")[0]),
-        _cell(fact_text(found.symplectic, name)),
+        table_cell(bound.partition(";")[0]),
+        table_cell(fact_text(found.symplectic, name)),
         _claims(claims, failed),
     ]
 
@@ -116,7 +116,8 @@ def _order(order: AnyOrder | None) -> str:
     )
 
 
-def _cell(text: str) -> str:
+def table_cell(text: str) -> str:
+    """A text that stays in its cell of a table."""
     text = printable(text.replace("\n", " "))
     return text.replace("\\", "\\\\").replace("|", "\\|").replace("<", "&lt;")
 

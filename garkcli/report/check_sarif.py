@@ -2,7 +2,7 @@
 
 from __future__ import annotations
 
-from collections.abc import Sequence
+from collections.abc import Mapping, Sequence
 from typing import Any
 
 from garkcli import __version__
@@ -14,10 +14,23 @@ from garkcli.page.plain import printable
 
 def render(outcomes: Sequence[Outcome]) -> str:
     """One run with a result for each finding."""
+    found = [x for outcome in outcomes for x in findings(outcome)]
+    kinds = {key: kind.text for key, kind in KINDS.items()}
+    return log_of(found, kinds)
+
+
+def log_of(found: Sequence[Finding], kinds: Mapping[str, str]) -> str:
+    """A log with one run.
+
+    Args:
+        found: its results.
+        kinds: every rule, in words.
+    """
     rules = [
-        {"id": x, "shortDescription": {"text": kind.text}}
-        for x, kind in KINDS.items()
+        {"id": key, "shortDescription": {"text": text}}
+        for key, text in kinds.items()
     ]
+    places = list(kinds)
     log = {
         "$schema": "https://json.schemastore.org/sarif-2.1.0.json",
         "version": "2.1.0",
@@ -31,18 +44,14 @@ def render(outcomes: Sequence[Outcome]) -> str:
                     }
                 },
                 "columnKind": "unicodeCodePoints",
-                "results": [
-                    _result(x)
-                    for outcome in outcomes
-                    for x in findings(outcome)
-                ],
+                "results": [_result(x, places.index(x.rule)) for x in found],
             }
         ],
     }
     return to_json(log) + "\n"
 
 
-def _result(finding: Finding) -> dict[str, Any]:
+def _result(finding: Finding, place: int) -> dict[str, Any]:
     text = (
         f"{finding.message}; {finding.help}"
         if finding.help
@@ -51,8 +60,8 @@ def _result(finding: Finding) -> dict[str, Any]:
     region = {"startLine": finding.line, "startColumn": finding.column}
     return {
         "ruleId": finding.rule,
-        "ruleIndex": list(KINDS).index(finding.rule),
-        "level": "error",
+        "ruleIndex": place,
+        "level": finding.level,
         "message": {"text": printable(text)},
         "locations": [
             {

@@ -36,6 +36,7 @@ REPORTS = {
     "list": "garkcli.report.listing:list_report_schema",
     "list-methods": "garkcli.report.catalogue_list:list_methods_schema",
     "list-exports": "garkcli.report.exports:exports_schema",
+    "audit": "garkcli.report.audited:audit_report_schema",
     "import": "garkcli.report.imported:import_report_schema",
     "sweep": "garkcli.report.sweep:sweep_report_schema",
 }

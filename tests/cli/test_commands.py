@@ -67,6 +67,10 @@ RUNS = [
         ("text", "json", "csv"),
     ),
     (
+        ("audit", "tests/bridges/sources/register.cpp"),
+        ("auto", "text", "json", "github", "sarif", "markdown"),
+    ),
+    (
         ("import", "tests/bridges/sources/rotated.json"),
         ("text", "json", "yaml"),
     ),

@@ -94,6 +94,7 @@ REPORTS = {
         ["list", "exports"],
         ["export", METHOD, "--to", "json"],
     ],
+    "audit": [["audit", "tests/bridges/sources/register.cpp"]],
     "import": [["import", "tests/bridges/sources/register.cpp"]],
     "list": [["list"], ["list", "methods", "rk4"]],
 }

@@ -29,6 +29,7 @@ PAGES = [
     ROOT / "docs" / "found.md",
     ROOT / "docs" / "conversion.md",
     ROOT / "docs" / "import.md",
+    ROOT / "docs" / "audit.md",
 ]
 
 

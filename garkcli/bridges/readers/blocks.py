@@ -12,7 +12,13 @@ from garkcli.bridges.readers.found import (
     Rows,
     Unreadable,
 )
-from garkcli.bridges.readers.scalars import Value, rows_of, whole
+from garkcli.bridges.readers.scalars import (
+    Value,
+    is_matrix,
+    is_row,
+    rows_of,
+    whole,
+)
 from garkcli.bridges.readers.shaping import weights
 
 MAX_COLOURS = 60
@@ -38,10 +44,11 @@ def table_of_blocks(
     Returns:
         None where the values have other shapes.
     """
-    if not _has_blocks(values.get("A")):
+    blocks = _with_rows(values.get("A"), values.get("b"))
+    if not _has_blocks(blocks):
         return None
     try:
-        grid = grid_of(values["A"])
+        grid = grid_of(blocks)
         b = rows_or_row(values.get("b"))
         c = None if "c" not in values else rows_or_row(values["c"])
         dense = dense_of(values.get("dense"), len(b))
@@ -65,6 +72,21 @@ def table_of_blocks(
             embedded_order=whole(values.get("embedded_order")),
         )
     )
+
+
+def _with_rows(value: Value, weights_of: Value) -> Value:
+    """Blocks of one row, which some languages write like a row, as matrices.
+
+    A row is one where other blocks are matrices or missing and there are several rows of weights.
+    """
+    are_several = is_matrix(weights_of)
+    if not are_several or not isinstance(value, list):
+        return value
+    rows = [row for row in value if isinstance(row, list)]
+    items = [x for row in rows for x in row]
+    if not any(x is None or is_matrix(x) for x in items):
+        return value
+    return [[[x] if is_row(x) else x for x in row] for row in rows]
 
 
 def _has_blocks(value: Value) -> bool:

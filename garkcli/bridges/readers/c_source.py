@@ -285,9 +285,20 @@ class CSource:
             return
         if isinstance(value, list) and len(indices) == 2:
             value = _filled(value, indices)
+        if isinstance(value, list) and len(indices) == 1:
+            value = _lengthened(value, indices[0])
         self._names[plain] = value
         block.scope.add(plain, value, line)
         block.put(plain, value, line)
+
+
+def _lengthened(value: list[Value], length: int) -> Value:
+    """An array as C fills it: with zeros behind what is given."""
+    missing = length - len(value)
+    if not 0 < missing <= MAX_STAGES * MAX_STAGES:
+        return value
+    zeros: list[Value] = [number("0")] * missing
+    return value + zeros
 
 
 def _filled(value: list[Value], indices: tuple[int, ...]) -> Value:

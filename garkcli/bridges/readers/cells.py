@@ -38,7 +38,9 @@ class Cells:
         entries = self._entries
         blocks = entries.get("A")
         if not blocks:
-            return None
+            return table_of_blocks(
+                self._whole, source, format, name, self.line
+            )
         if all(isinstance(x, Scalar) for x in blocks.values()):
             return self._of_numbers(source, format, name)
         values: dict[str, Value] = dict(self._whole)

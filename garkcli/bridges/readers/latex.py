@@ -26,6 +26,8 @@ _NOTHING = re.compile(
     r"|\\(?:noalign|rule|vspace|hspace|phantom)\*?\{[^{}]*\}(?:\{[^{}]*\})?"
 )
 _COMMENT = re.compile(r"(?<!\\)%[^\n]*")
+_GENERAL = "q' = f(q, p)"
+"""In a comment: both parts see both."""
 MAX_ARRAY = 400_000
 """Longest text of one array."""
 
@@ -33,6 +35,7 @@ MAX_ARRAY = 400_000
 def find(text: str, source: str) -> list[FoundTable]:
     """The arrays of a text that are tableaus."""
     comments = [x.group()[1:].strip() for x in _COMMENT.finditer(text)]
+    is_general = any(_GENERAL in comment for comment in comments)
     plain = _COMMENT.sub("", text)
     arrays = list(_arrays(plain))
     found: list[FoundTable] = []
@@ -41,7 +44,8 @@ def find(text: str, source: str) -> list[FoundTable]:
         line, before, columns, body = arrays[place]
         pair = None
         if _letter(before) == "Q" and place + 1 < len(arrays):
-            pair = _pair(arrays[place], arrays[place + 1], source)
+            two = arrays[place], arrays[place + 1]
+            pair = _pair(*two, source, is_general)
         if pair is not None:
             found.append(pair)
             place += 2
@@ -50,7 +54,6 @@ def find(text: str, source: str) -> list[FoundTable]:
         if table is not None:
             found.append(table)
         place += 1
-    del comments
     return found
 
 
@@ -243,7 +246,9 @@ def _fits(grid: Grid, groups: list[int], is_shared: bool) -> bool:
     return True
 
 
-def _pair(first: _Array, second: _Array, source: str) -> FoundTable | None:
+def _pair(
+    first: _Array, second: _Array, source: str, is_general: bool
+) -> FoundTable | None:
     """The arrays Q and P of a partitioned method, with columns of one vector field each."""
     try:
         of_q = _read(first[2], first[3])
@@ -262,23 +267,19 @@ def _pair(first: _Array, second: _Array, source: str) -> FoundTable | None:
     (A_q, b_q, c_q), (A_p, b_p, c_p) = parts
     if len(A_q) != len(b_p) or len(A_p) != len(b_q):
         return None
-    is_square = c_q == c_p and len(b_q) == len(b_p)
+    is_shared = is_general and c_q == c_p and len(b_q) == len(b_p)
     grid_of_pair: Grid = ((None, A_p), (A_q, None))
     return FoundTable(
         source,
         first[0],
         NAME,
         "",
-        ((A_q, A_p),) if is_square and _is_general(first) else grid_of_pair,
+        ((A_q, A_p),) if is_shared else grid_of_pair,
         (b_q, b_p),
-        (c_q,) if is_square and _is_general(first) else (c_p, c_q),
+        (c_q,) if is_shared else (c_p, c_q),
         parts=("q", "p"),
-        structure="general" if _is_general(first) else "separable",
+        structure="general" if is_shared else "separable",
     )
-
-
-def _is_general(array: _Array) -> bool:
-    return "general" in array[1]
 
 
 READER = Reader(

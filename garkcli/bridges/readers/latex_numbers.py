@@ -16,7 +16,7 @@ from garkcli.bridges.readers.scalars import (
     whole,
 )
 
-MAX_CELL = 2_000
+MAX_CELL = 40_000
 """Longest text of a number."""
 MAX_DEPTH = 30
 """Deepest nesting of braces and fractions."""
@@ -24,6 +24,13 @@ _IGNORED = re.compile(
     r"[$ \t\r\n]|\\(?:[,;:!> ]|quad|qquad|displaystyle|textstyle|left|right"
     r"|bigl?|bigr?|Bigl?|Bigr?|mathstrut)(?![A-Za-z])|\\[,;:! ]|~"
 )
+_ROOT_OF = re.compile(
+    r"\\operatorname\{root\}\\left\(([-+0-9x^{} /]{1,4000}), *x *\\approx *"
+    r"(-?[0-9.]{1,60})\\right\)"
+)
+"""The root of a polynomial nearest to a decimal, as gark writes it."""
+_FACTOR = re.compile(r"([0-9])x")
+_POWER = re.compile(r"\^\{([0-9]{1,2})\}")
 _TOKEN = re.compile(
     r"(?P<number>[0-9]+(?:\.[0-9]*)?|\.[0-9]+)"
     r"|(?P<command>\\[A-Za-z]+)|(?P<sign>[-+*/^{}()\[\]]|−)"
@@ -45,7 +52,15 @@ def number_of(text: str) -> str:
     """
     if len(text) > MAX_CELL:
         raise Unreadable(f"a cell of more than {MAX_CELL} characters")
-    value = _Parser(text).whole()
+    roots: list[str] = []
+
+    def noted(found: re.Match[str]) -> str:
+        polynomial = _FACTOR.sub(r"\1*x", found[1])
+        polynomial = _POWER.sub(r"**\1", polynomial)
+        roots.append(f"root_of({polynomial}, {found[2]})")
+        return f"\\rootof{{{len(roots) - 1}}}"
+
+    value = _Parser(_ROOT_OF.sub(noted, text), roots).whole()
     if not isinstance(value, Scalar):
         raise Unreadable("this is no number")
     return value.text
@@ -54,7 +69,8 @@ def number_of(text: str) -> str:
 class _Parser:
     """Recursive descent over one cell."""
 
-    def __init__(self, text: str) -> None:
+    def __init__(self, text: str, roots: list[str]) -> None:
+        self._roots = roots
         self._tokens: list[str] = []
         place = 0
         while place < len(text):
@@ -113,7 +129,13 @@ class _Parser:
         if not token:
             return False
         is_number = token[0].isdigit() or token[0] == "."
-        return is_number or token in {"(", "{", r"\sqrt", *_FRACTIONS}
+        return is_number or token in {
+            "(",
+            "{",
+            r"\sqrt",
+            r"\rootof",
+            *_FRACTIONS,
+        }
 
     def _factor(self) -> Value:
         self._depth += 1
@@ -141,6 +163,8 @@ class _Parser:
             return combined("/", top, self._argument())
         if token == r"\sqrt":
             return self._root()
+        if token == r"\rootof":
+            return self._root_of()
         if token in {"(", "{"}:
             value = self._sum()
             self._close(")" if token == "(" else "}")
@@ -148,6 +172,13 @@ class _Parser:
         if token and (token[0].isdigit() or token[0] == "."):
             return number(f"0{token}" if token[0] == "." else token)
         raise Unreadable("a number is expected")
+
+    def _root_of(self) -> Value:
+        """A root of a polynomial, by its number among those of the cell."""
+        place = whole(self._argument())
+        if place is None or place >= len(self._roots):
+            raise Unreadable("a root that is not there")
+        return Scalar(self._roots[place])
 
     def _root(self) -> Value:
         index = 2

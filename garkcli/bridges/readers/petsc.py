@@ -49,7 +49,10 @@ def _registered(call: Call, source: str) -> FoundTable:
 
 
 def _stages(value: Value) -> int:
-    stages = whole(value)
+    return _checked(whole(value))
+
+
+def _checked(stages: int | None) -> int:
     if stages is None or not 0 < stages <= MAX_STAGES:
         raise Unreadable("the number of stages is not written out")
     return stages
@@ -112,7 +115,11 @@ def _arkimex(empty: FoundTable, values: tuple[Value, ...]) -> FoundTable:
 
 def _symplectic(empty: FoundTable, values: tuple[Value, ...]) -> FoundTable:
     """``TSBasicSymplecticRegister(name, order, s, c, d)``: q += c_i h v(p), p += d_i h f(q)."""
-    stages = _stages(values[2])
+    stages = whole(values[2])
+    if stages is None and isinstance(values[3], list):
+        # sizeof(c) / sizeof(c[0])
+        stages = len(values[3])
+    stages = _checked(stages)
     drifts = weights(values[3], stages)
     kicks = weights(values[4], stages)
     return symplectic(empty, drifts, kicks, is_force_first=False)

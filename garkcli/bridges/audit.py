@@ -1,0 +1,375 @@
+"""Tables of a source tree held against what they declare: orders, nodes, weights, flags."""
+
+from __future__ import annotations
+
+import re
+from collections.abc import Callable, Iterable, Iterator
+from dataclasses import dataclass, replace
+from functools import cached_property
+from typing import Literal, TypeAlias
+
+from garkcli.bridges.importing import orders_of, read
+from garkcli.bridges.judging import Judged, allowed, judged
+from garkcli.bridges.plausible import is_plausible
+from garkcli.bridges.readers.found import FoundTable
+from garkcli.bridges.readers.registry import find_tables, readers_for
+from garkcli.bridges.sources import source_text
+from garkcli.check.explained import repair_text, witness_text
+from garkcli.errors import MethodFileError
+from garkcli.exact.display import to_text
+from garkcli.exact.field import ZERO, Number
+from garkcli.methodfile.build import MethodFile
+from garkcli.order.nonautonomous import with_time
+from garkcli.order.tolerance import within
+from garkcli.tableau.embedded import with_weights
+from garkcli.tableau.tableau import Tableau
+
+Level: TypeAlias = Literal["error", "warning", "note"]
+"""Errors fail an audit; warnings and notes are told."""
+MAX_BLAMED = 12
+"""Most stages of a table whose wrong entry is looked for."""
+_SHAPE = re.compile(r"[0-9]+ (?:numbers|entries|rows) for|rows of|takes|has")
+
+
+@dataclass(frozen=True)
+class AuditFinding:
+    """What is wrong with a table.
+
+    Attributes:
+        code: a key of ``CODES``.
+        message: what is wrong.
+        help: which entry may be the culprit; empty where none is known.
+        level: how bad it is.
+    """
+
+    code: str
+    message: str
+    help: str = ""
+    level: Level = "error"
+
+
+CODES = {
+    "order": "the order is lower than the source declares",
+    "transposed": "the matrix is transposed",
+    "embedded-order": "the embedded order is lower than the source declares",
+    "nodes": "nodes are not the row sums",
+    "weights": "the weights have another sum than 1",
+    "embedded-weights": "the embedded weights have another sum than 1",
+    "fsal": "the last stage is not the first of the next step",
+    "shape": "arrays of a table do not fit together",
+    "order-higher": "the order is higher than the source declares",
+    "embedded-order-higher": "the embedded order is higher than declared",
+    "open": "the digits leave open whether the order is as declared",
+    "unread": "coefficients are not written out",
+}
+"""Every kind of finding."""
+
+
+@dataclass(frozen=True, eq=False)
+class Audited:
+    """One table with what is true of it.
+
+    Attributes:
+        table: as it was found.
+        method: None where it has none.
+        order: of the method.
+        embedded_order: with the embedded weights; None without them.
+        nonautonomous_order: where f depends on t; None where that has no meaning.
+        findings: what is wrong.
+    """
+
+    table: FoundTable
+    method: MethodFile | None = None
+    order: Judged | None = None
+    embedded_order: Judged | None = None
+    nonautonomous_order: Judged | None = None
+    findings: tuple[AuditFinding, ...] = ()
+
+    @property
+    def has_errors(self) -> bool:
+        """Whether a finding is an error."""
+        return any(x.level == "error" for x in self.findings)
+
+
+def audited(paths: Iterable[str]) -> Iterator[Audited]:
+    """Every table of some sources, in order.
+
+    Raises:
+        UsageProblem: a source cannot be read.
+    """
+    for path in paths:
+        text, source = source_text(path)
+        for table in find_tables(text, source, readers_for(path)):
+            found = audit(table)
+            if found is not None:
+                yield found
+
+
+def audit(table: FoundTable) -> Audited | None:
+    """What is true of a table; None where it is no method at all."""
+    if table.trouble:
+        return Audited(table, findings=(_of_trouble(table),))
+    try:
+        method = read(table)
+    except MethodFileError as error:
+        message = error.faults[0].message
+        finding = AuditFinding("unread", message, level="note")
+        return Audited(table, findings=(finding,))
+    if not is_plausible(table, method):
+        return None
+    order, embedded_order = orders_of(method, table)
+    subject = _Subject(table, method, order, embedded_order)
+    findings: list[AuditFinding] = []
+    for check in CHECKS:
+        findings += check(subject)
+    return Audited(
+        table,
+        method,
+        order,
+        embedded_order,
+        subject.nonautonomous,
+        tuple(findings),
+    )
+
+
+def _of_trouble(table: FoundTable) -> AuditFinding:
+    if _SHAPE.search(table.trouble):
+        return AuditFinding("shape", table.trouble)
+    return AuditFinding("unread", table.trouble, level="note")
+
+
+@dataclass(frozen=True)
+class _Subject:
+    """A table as it is checked."""
+
+    table: FoundTable
+    method: MethodFile
+    order: Judged
+    embedded_order: Judged | None
+
+    @property
+    def tableau(self) -> Tableau:
+        return self.method.tableau
+
+    @cached_property
+    def wrong_rows(self) -> tuple[str, ...]:
+        """The nodes that are no row sums, beyond what rounding explains, in words."""
+        tolerance = allowed(self.method)
+        found: dict[str, None] = {}
+        for l, m in self.tableau.edges():
+            block = self.tableau.block(l, m) or ()
+            nodes = self.tableau.colours[l].c
+            pairs = zip(block, nodes, strict=True)
+            for i, (row, node) in enumerate(pairs, start=1):
+                total = sum(row, ZERO)
+                if not within(total - node, (len(row) + 1) * tolerance):
+                    found[_row_text(i, total, node)] = None
+        return tuple(found)
+
+    @cached_property
+    def nonautonomous(self) -> Judged | None:
+        """The order where f depends on t, with the nodes as they are."""
+        timed = with_time(self.tableau)
+        if timed is None:
+            return None
+        if not self.wrong_rows:
+            return self.order
+        return judged(self.method, timed, self.table.order)
+
+    @property
+    def misses_order(self) -> bool:
+        """Whether the order is lower than declared, and known to be."""
+        declared = self.table.order
+        if declared is None or self.order.order >= declared:
+            return False
+        return not self.order.is_open
+
+
+def _row_text(i: int, total: Number, node: Number) -> str:
+    sums = f"row {i} has the sum {_short(total)}"
+    return f"{sums}, its node is {_short(node)}"
+
+
+def _short(number: Number) -> str:
+    text = to_text(number)
+    if len(text) <= 24:
+        return text
+    from garkcli.exact.display import to_decimal
+
+    return to_decimal(number, 12)
+
+
+def _order(subject: _Subject) -> Iterator[AuditFinding]:
+    """The declared order against the true one."""
+    declared, found = subject.table.order, subject.order
+    if declared is None:
+        return
+    if subject.misses_order:
+        if _is_transposed(subject):
+            message = f"with the matrix transposed the order is {declared}"
+            message = f"order {found.order}, declared {declared}: {message}"
+            yield AuditFinding("transposed", message)
+            return
+        message = f"order {found.order}, declared {declared}"
+        message += _witness(found, subject.tableau)
+        yield AuditFinding("order", message, _culprit(subject, declared))
+    elif found.order < declared:
+        yield _open(found, declared, "order")
+    elif found.order > declared:
+        message = f"order {found.order}, declared {declared}"
+        yield AuditFinding("order-higher", message, level="warning")
+
+
+def _open(found: Judged, declared: int, what: str) -> AuditFinding:
+    known = f"{what} {declared} is declared, {found.order} is proved"
+    message = f"{known}: rounding may be why the conditions of {found.order + 1} fail"
+    return AuditFinding("open", message, level="note")
+
+
+def _witness(found: Judged, tableau: Tableau) -> str:
+    if found.witness is None:
+        return ""
+    return f"; {witness_text(found.witness, tableau.size > 1)}"
+
+
+def _is_transposed(subject: _Subject) -> bool:
+    """Whether the declared order is that of the transposed matrix."""
+    tableau, declared = subject.tableau, subject.table.order
+    block = tableau.block(0, 0)
+    if tableau.size > 1 or block is None or declared is None:
+        return False
+    turned = tuple(zip(*block, strict=True))
+    if turned == block:
+        return False
+    other = replace(tableau, blocks={(0, 0): turned})
+    return judged(subject.method, other, declared).order >= declared
+
+
+def _culprit(subject: _Subject, declared: int) -> str:
+    """The row that does not fit its node, or the entry that restores the order."""
+    rows = subject.wrong_rows
+    if len(rows) == 1:
+        return rows[0]
+    repair = _repair(subject, subject.tableau, subject.order, declared)
+    return f"order {declared} would hold with {repair}" if repair else ""
+
+
+def _repair(
+    subject: _Subject, tableau: Tableau, found: Judged, declared: int
+) -> str:
+    """The one entry whose change restores an order, in words; empty where it is not known."""
+    stages = sum(space.stages for space in tableau.spaces)
+    if stages > MAX_BLAMED or found.witness is None:
+        return ""
+    from garkcli.order.blame import blame_of
+    from garkcli.order.repairs import Missed
+
+    near = 1000 * allowed(subject.method)
+    missed = Missed(
+        found.witness.tree.order, declared, tolerance=near, near=near
+    )
+    blame = blame_of(tableau, missed)
+    if blame is None or len(blame.repairs) != 1:
+        return ""
+    names = [colour.name for colour in tableau.colours]
+    return repair_text(blame.repairs[0], names)
+
+
+def _embedded(subject: _Subject) -> Iterator[AuditFinding]:
+    """The declared order of the embedded weights against the true one."""
+    found = subject.embedded_order
+    if found is None or subject.method.embedded is None:
+        return
+    declared = subject.table.embedded_order
+    if not found.order and not found.is_open:
+        total = _sums(subject.method.embedded)
+        message = f"the embedded weights have the sum {total}"
+        yield AuditFinding("embedded-weights", message)
+        return
+    if declared is None or _explains(subject, found):
+        return
+    if found.order < declared and found.is_open:
+        yield _open(found, declared, "embedded order")
+    elif found.order < declared:
+        tableau = with_weights(subject.tableau, subject.method.embedded)
+        message = f"embedded order {found.order}, declared {declared}"
+        message += _witness(found, tableau)
+        yield AuditFinding("embedded-order", message)
+    elif found.order > declared:
+        message = f"embedded order {found.order}, declared {declared}"
+        yield AuditFinding("embedded-order-higher", message, level="warning")
+
+
+def _explains(subject: _Subject, found: Judged) -> bool:
+    """Whether the matrix is to blame, which is told with the order already."""
+    declared = subject.table.embedded_order or 0
+    return subject.misses_order and 0 < found.order < declared
+
+
+def _sums(weights: Iterable[Iterable[Number]]) -> str:
+    return " and ".join(_short(sum(row, ZERO)) for row in weights)
+
+
+def _weights(subject: _Subject) -> Iterator[AuditFinding]:
+    """Weights whose sum is not 1, where no declared order tells."""
+    if subject.order.order or subject.order.is_open:
+        return
+    if subject.table.order is None:
+        total = _sums(colour.b for colour in subject.tableau.colours)
+        yield AuditFinding("weights", f"the weights have the sum {total}")
+
+
+def _nodes(subject: _Subject) -> Iterator[AuditFinding]:
+    """Nodes that are no row sums, as far as they cost an order."""
+    rows = subject.wrong_rows
+    if not rows or subject.misses_order:
+        return
+    declared = subject.table.order
+    timed = subject.nonautonomous
+    wanted = subject.order.order if declared is None else declared
+    loses = timed is not None and timed.order < min(
+        wanted, subject.order.order
+    )
+    text = "; ".join(rows[:3])
+    if len(rows) > 3:
+        text += f"; and {len(rows) - 3} more"
+    if _is_turned(subject):
+        yield AuditFinding("transposed", "the columns have the nodes for sums")
+    elif loses and timed is not None:
+        message = (
+            f"order {timed.order} where f depends on t, and else {wanted}"
+        )
+        yield AuditFinding("nodes", f"{message}: {text}")
+    else:
+        level: Level = "error" if declared is None else "note"
+        yield AuditFinding("nodes", text, level=level)
+
+
+def _is_turned(subject: _Subject) -> bool:
+    """Whether the columns of the only matrix sum to the nodes."""
+    tableau = subject.tableau
+    block = tableau.block(0, 0)
+    if tableau.size > 1 or block is None:
+        return False
+    tolerance = (len(block) + 1) * allowed(subject.method)
+    columns = zip(*block, strict=True)
+    pairs = zip(columns, tableau.colours[0].c, strict=True)
+    return all(within(sum(x, ZERO) - c, tolerance) for x, c in pairs)
+
+
+def _flags(subject: _Subject) -> Iterator[AuditFinding]:
+    """Properties that the source declares."""
+    tableau = subject.tableau
+    block = tableau.block(0, 0)
+    if not subject.table.flags.get("fsal") or block is None:
+        return
+    tolerance = allowed(subject.method)
+    pairs = zip(block[-1], tableau.colours[0].b, strict=True)
+    if not all(within(x - y, 2 * tolerance) for x, y in pairs):
+        message = "declared first same as last, and the last row is not b"
+        yield AuditFinding("fsal", message)
+
+
+_Check: TypeAlias = Callable[[_Subject], Iterator[AuditFinding]]
+CHECKS: tuple[_Check, ...] = (_order, _weights, _nodes, _embedded, _flags)
+"""What is looked at, in the order in which it is told."""

@@ -1,0 +1,61 @@
+"""``gark audit``."""
+
+from __future__ import annotations
+
+import os
+from typing import TYPE_CHECKING
+
+import click
+
+from garkcli.cli.options import CONTEXT, PATH, Output, common
+from garkcli.errors import UsageProblem, counted
+
+if TYPE_CHECKING:
+    from garkcli.bridges.audit import Audited
+
+FORMATS = ("text", "json", "github", "sarif", "markdown")
+
+
+@click.command("audit", context_settings=CONTEXT)
+@click.argument("paths", nargs=-1, type=PATH, metavar="PATH...", required=True)
+@common(["auto", *FORMATS])
+def command(paths: tuple[str, ...], output: Output) -> int:
+    """The tables of a solver's source tree against what they declare.
+
+    PATH is a folder (all files in it of the formats that gark import reads), a file, or - for
+    standard input. Of every table that is found: whether it has the order and the embedded order
+    that the source declares, whether its nodes are its row sums and what it costs where they are
+    not, whether its weights have the sum 1. Nothing in a source is executed. The format auto is
+    github in GitHub Actions and text elsewhere.
+
+    Exit code: 0 nothing is wrong, 1 a finding is an error, 2 there is no table.
+    """
+    from garkcli.bridges.audit import audited
+    from garkcli.bridges.sources import source_files
+    from garkcli.page.progress import tracked
+    from garkcli.report.audited import FORMATS as RENDERERS
+    from garkcli.report.audited import render_text
+
+    files = list(source_files(paths))
+    found: list[Audited] = []
+    shows_bar = output.verbosity >= 0 and output.may_show_progress
+    for path in tracked(iter(files), len(files), "reading", shows_bar):
+        found += audited([path])
+    if not found:
+        looked_at = counted(len(files), "file")
+        message = f"no table is found in {', '.join(paths[:3])} ({looked_at})"
+        cure = "docs/import.md says what is read"
+        raise UsageProblem(message, cure)
+    chosen = _format(output)
+    report = render_text(found, output.verbosity)
+    if chosen in RENDERERS:
+        report = RENDERERS[chosen](found)
+    output.write(report, chosen)
+    return int(any(x.has_errors for x in found))
+
+
+def _format(output: Output) -> str:
+    """The format asked for; auto is what suits where the command runs."""
+    if output.format != "auto":
+        return output.format
+    return "github" if os.environ.get("GITHUB_ACTIONS") == "true" else "text"

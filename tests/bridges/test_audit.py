@@ -1,0 +1,348 @@
+"""gark audit: every planted error is found, and none is invented."""
+
+from __future__ import annotations
+
+import json
+import shutil
+from pathlib import Path
+
+import jsonschema
+import pytest
+
+from garkcli.report.schemas import report_schema
+from tests.cli.harness import gark
+
+SOURCES = Path(__file__).parent / "sources"
+PLANTED = {
+    "c, a digit": ("ralston.c", "{-1, 2}", "{-1, 2.5}", "order"),
+    "c, a sign": ("ralston.c", "{-1, 2}", "{1, 2}", "order"),
+    "c, a node": ("ralston.c", "{0, .5, 1}", "{0, .6, 1}", "nodes"),
+    "c, an embedded weight": (
+        "ralston.c",
+        "{1.0, 0.0}",
+        "{0.9, 0.0}",
+        "embedded-weights",
+    ),
+    "c, the order": (
+        "ralston.c",
+        "kutta_order = 3",
+        "kutta_order = 4",
+        "order",
+    ),
+    "c, transposed": (
+        "ralston.c",
+        "{0}, {0.5}, {-1, 2}",
+        "{0, 0.5, -1}, {0, 0, 2}",
+        "transposed",
+    ),
+    "c, a constant": (
+        "ralston.c",
+        "SUN_RCONST(2.0) /",
+        "SUN_RCONST(1.0) /",
+        "order",
+    ),
+    "c, missing numbers": (
+        "ralston.c",
+        "sunrealtype A[4] = {SUN_RCONST(0.0), ",
+        "sunrealtype A[4] = {",
+        "transposed",
+    ),
+    "def, a digit": (
+        "heun_euler.def",
+        "A[1][0] = SUN_RCONST(1.0);",
+        "A[1][0] = SUN_RCONST(1.1);",
+        "order",
+    ),
+    "def, a node": (
+        "heun_euler.def",
+        "c[1] = SUN_RCONST(1.0);\n    return B;\n  })\nARK",
+        "c[1] = SUN_RCONST(0.5);\n    return B;\n  })\nARK",
+        "nodes",
+    ),
+    "def, a root": (
+        "heun_euler.def",
+        "SUNRsqrt(SUN_RCONST(2.0))",
+        "SUNRsqrt(SUN_RCONST(3.0))",
+        "order",
+    ),
+    "def, p": ("heun_euler.def", "B->p = 1", "B->p = 2", "embedded-order"),
+    "def, d": (
+        "heun_euler.def",
+        "d[0] = SUN_RCONST(1.0)",
+        "d[1] = SUN_RCONST(0.9)",
+        "embedded-weights",
+    ),
+    "petsc, a digit": ("register.cpp", "{-1, 2, 0}", "{-1, 3, 0}", "order"),
+    "petsc, a weight": (
+        "register.cpp",
+        "RC(2.0) / 3, RC(1.0) / 6}",
+        "RC(2.0) / 3, RC(1.0) / 5}",
+        "order",
+    ),
+    "petsc, an embedded weight": (
+        "register.cpp",
+        "bembed[3] = {0, 1, 0}",
+        "bembed[3] = {0, 1, 1}",
+        "embedded-weights",
+    ),
+    "petsc, implicit first": (
+        "register.cpp",
+        "0, 0, 0, 0.5}, A",
+        "0, 0, 0, 0.25}, A",
+        "order",
+    ),
+    "petsc, the order": (
+        "register.cpp",
+        '"imex-midpoint", 2',
+        '"imex-midpoint", 3',
+        "order",
+    ),
+    "petsc, a digit far behind": (
+        "register.cpp",
+        "0.29289321881345254",
+        "0.29289321882345254",
+        "order",
+    ),
+    "petsc, symplectic": (
+        "register.cpp",
+        "c[2] = {0.5, 0.5}",
+        "c[2] = {0.4, 0.6}",
+        "order",
+    ),
+    "scipy, a digit": (
+        "solvers.py",
+        "[0, 3 / 4, 0]",
+        "[0, 2 / 4, 0]",
+        "order",
+    ),
+    "scipy, a node": (
+        "solvers.py",
+        "[0, 1 / 2, 3 / 4]",
+        "[0, 1 / 2, 2 / 4]",
+        "nodes",
+    ),
+    "scipy, E": (
+        "solvers.py",
+        "[5 / 72, -1",
+        "[5 / 72, 1",
+        "embedded-weights",
+    ),
+    "scipy, the order": ("solvers.py", "order = 3\n", "order = 4\n", "order"),
+    "scipy, its estimate": (
+        "solvers.py",
+        "error_estimator_order = 2",
+        "error_estimator_order = 3",
+        "embedded-order",
+    ),
+    "scipy, n_stages": ("solvers.py", "n_stages = 3", "n_stages = 4", "shape"),
+    "python, an entry": (
+        "solvers.py",
+        "A[1, 0] = 1",
+        "A[0, 1] = 1",
+        "transposed",
+    ),
+    "python, a sign": ("solvers.py", "[-1, 2]]", "[1, 2]]", "order"),
+    "rklab, a digit": ("rklab.m", "[0, 0; 2/3, 0]", "[0, 0; 1/3, 0]", "order"),
+    "rklab, q": ("rklab.m", "2, b; 1, b2", "3, b; 1, b2", "order"),
+    "rklab, p": ("rklab.m", "2, b; 1, b2", "2, b; 2, b2", "embedded-order"),
+    "rklab, a node": (
+        "rklab.m",
+        "c = [gamma; 1]",
+        "c = [gamma; 1/2]",
+        "nodes",
+    ),
+    "matlab, a sign": ("kutta.m", "-1 2 0]", "-1 -2 0]", "order"),
+    "matlab, a cell": ("kutta.m", "m.b{2} = [0 1]", "m.b{2} = [1 0]", "order"),
+    "julia, a node": (
+        "tableaus.jl",
+        "c = [0; 2 // 3]",
+        "c = [0; 3 // 2]",
+        "nodes",
+    ),
+    "julia, the order": (
+        "tableaus.jl",
+        "A, c, α, 2, αEEst",
+        "A, c, α, 3, αEEst",
+        "order",
+    ),
+    "julia, fsal": ("tableaus.jl", "fsal = false", "fsal = true", "fsal"),
+    "julia, an embedded weight": (
+        "tableaus.jl",
+        "αEEst = [1; 0]",
+        "αEEst = [1; 1]",
+        "embedded-weights",
+    ),
+    "julia, big": ("tableaus.jl", 'big"2.0"', 'big"2.1"', "nodes"),
+    "julia, additive": (
+        "tableaus.jl",
+        "0//1 0//1; 1//2 0//1]",
+        "0//1 0//1; 1//3 0//1]",
+        "nodes",
+    ),
+    "tsv, a digit": (
+        "ralston.tsv",
+        "\t0.6666666666666666\t",
+        "\t0.6666666667666666\t",
+        "order",
+    ),
+    "tsv, a node": (
+        "ralston.tsv",
+        "\n0.6666666666666666",
+        "\n0.6666666766666666",
+        "nodes",
+    ),
+    "tsv, the order": ("ralston.tsv", "# 2 2", "# 3 2", "order"),
+    "printed, a weight": (
+        "printed.txt",
+        "2.500000000000000e-01",
+        "3.500000000000000e-01",
+        "weights",
+    ),
+    "printed, a digit": (
+        "printed.txt",
+        "6.666666666666666e-01   0",
+        "6.666666766666666e-01   0",
+        "nodes",
+    ),
+    "printed, d": ("printed.txt", "d =  1.0", "d =  1.1", "embedded-weights"),
+    "mathematica, a root": (
+        "lists.wl",
+        "1/4 - Sqrt[3]/6}",
+        "1/4 - Sqrt[3]/5}",
+        "order",
+    ),
+    "mathematica, a node": (
+        "lists.wl",
+        "{1/2 - Sqrt[3]/6, ",
+        "{1/2 + Sqrt[3]/6, ",
+        "nodes",
+    ),
+    "mathematica, evec": (
+        "lists.wl",
+        "{1/4 - 1, 3/4}",
+        "{1/4 - 1, 1/4}",
+        "embedded-weights",
+    ),
+    "mathematica, transposed": (
+        "lists.wl",
+        "1/4 - Sqrt[3]/6}, {1/4 + Sqrt[3]/6, ",
+        "1/4 + Sqrt[3]/6}, {1/4 - Sqrt[3]/6, ",
+        "transposed",
+    ),
+    "latex, a digit": ("paper.tex", "\\tfrac{2}{3}", "\\tfrac{1}{3}", "nodes"),
+    "latex, a weight": ("paper.tex", "\\frac34", "\\frac14", "weights"),
+    "latex, an embedded weight": (
+        "paper.tex",
+        "& 1 & 0\n",
+        "& 1 & 1\n",
+        "embedded-weights",
+    ),
+    "latex, of two colours": (
+        "paper.tex",
+        "& 0 & 1 & 0 & 1",
+        "& 0 & 1 & 0 & 2",
+        "weights",
+    ),
+    "json, the order": ("table.json", '"order": 2', '"order": 3', "order"),
+    "json, a node": ("table.json", '[0, "1/2"]', '[0, "1/3"]', "nodes"),
+    "csv, a sign": ("kutta.csv", "1,-1,2,0", "1,1,2,0", "nodes"),
+    "csv, a node": ("kutta.csv", "1/2,1/2", "1/3,1/2", "nodes"),
+    "csv, a weight": ("kutta.csv", ",1/6,2/3,1/6", ",1/6,1/3,1/6", "weights"),
+}
+"""What is planted: in which file, what stands there, what takes its place, and what it is."""
+
+
+def audit(folder: Path) -> dict[str, object]:
+    """The report on a folder, which agrees with its schema."""
+    run = gark("audit", str(folder), "--format", "json")
+    assert run.code in {0, 1}, run.err
+    report = json.loads(run.out)
+    jsonschema.validate(report, report_schema("audit"))
+    assert (run.code == 1) == bool(report["summary"]["wrong"])
+    assert isinstance(report, dict)
+    return report
+
+
+def findings(report: dict[str, object]) -> list[tuple[str, str]]:
+    """The source and the code of every finding."""
+    tables = report["tables"]
+    assert isinstance(tables, list)
+    return [
+        (Path(table["source"]).name, finding["code"])
+        for table in tables
+        for finding in table["findings"]
+    ]
+
+
+def test_none_is_invented() -> None:
+    """The sources as they are have no finding of any level, and all their tables are seen."""
+    report = audit(SOURCES)
+    assert findings(report) == []
+    assert report["summary"] == {"tables": 29, "wrong": 0}
+
+
+@pytest.mark.parametrize("name", PLANTED)
+def test_every_planted_error_is_found(name: str, tmp_path: Path) -> None:
+    """In its file, as what it is, as an error; the other tables of the file have none."""
+    file, before, after, code = PLANTED[name]
+    text = (SOURCES / file).read_text(encoding="utf-8")
+    assert text.count(before) >= 1
+    changed = text.replace(before, after, 1)
+    (tmp_path / file).write_text(changed, encoding="utf-8")
+    report = audit(tmp_path)
+    assert findings(report) == [(file, code)]
+    summary = report["summary"]
+    assert isinstance(summary, dict)
+    assert summary["wrong"] == 1
+
+
+def test_an_order_that_is_higher_is_a_warning(tmp_path: Path) -> None:
+    """It is told, and fails nothing: a code may well declare less than a method has."""
+    text = (SOURCES / "kutta.m").read_text(encoding="utf-8")
+    (tmp_path / "kutta.m").write_text(text.replace("order = 3", "order = 2"))
+    report = audit(tmp_path)
+    assert findings(report) == [("kutta.m", "order-higher")]
+    assert gark("audit", str(tmp_path)).code == 0
+
+
+@pytest.fixture
+def wrong(tmp_path: Path) -> Path:
+    """A folder with one wrong table among others."""
+    shutil.copy(SOURCES / "register.cpp", tmp_path)
+    text = (SOURCES / "kutta.m").read_text(encoding="utf-8")
+    (tmp_path / "kutta.m").write_text(text.replace("-1 2 0]", "1 2 0]"))
+    return tmp_path
+
+
+def test_text_names_the_place_and_the_culprit(wrong: Path) -> None:
+    """Only the wrong table is told, with the row that does not fit its node."""
+    run = gark("audit", "kutta.m", "register.cpp", cwd=wrong)
+    assert run.code == 1
+    assert run.out.startswith(
+        "kutta.m:3  kutta: order 1\n    error: order 1, declared 3;"
+    )
+    assert "help: row 3 has the sum 3, its node is 1" in run.out
+    assert run.out.endswith("6 tables, 1 wrong\n")
+    assert all(len(line) <= 80 for line in run.out.splitlines())
+
+
+def test_formats_for_machines(wrong: Path) -> None:
+    """Annotations of GitHub, SARIF with a rule for each code, a table in Markdown."""
+    run = gark("audit", str(wrong), GITHUB_ACTIONS="true")
+    place = f"file={wrong.as_posix()}/kutta.m,line=3".replace(":", "%3A")
+    assert run.out.startswith(f"::error {place}")
+    sarif = json.loads(gark("audit", str(wrong), "--format", "sarif").out)
+    (result,) = sarif["runs"][0]["results"]
+    rules = sarif["runs"][0]["tool"]["driver"]["rules"]
+    assert rules[result["ruleIndex"]]["id"] == result["ruleId"] == "order"
+    assert result["level"] == "error"
+    told = gark("audit", str(wrong), "--format", "markdown").out
+    assert "| kutta | 1 | 3 | error: order 1, declared 3;" in told
+
+
+def test_a_folder_without_tables(tmp_path: Path) -> None:
+    """It is told, with exit code 2: a path may be misspelt."""
+    (tmp_path / "a.c").write_text("int main(void) { return 0; }")
+    run = gark("audit", str(tmp_path))
+    assert run.code == 2
+    assert "no table is found in" in run.err
