@@ -201,6 +201,8 @@ class ContentReader:
         cure = f"write it inside of {form}, beside b"
         if form == "methods":
             cure = "write it in each of the methods"
+        if form in CONSTRUCTIONS:
+            cure = "gark tableau --format yaml spells the method out, for them"
         if self.shaped is not None:
             cure = 'spell A and b out, with "?" for the entries to be found'
         for key in BESIDE:
