@@ -9,6 +9,7 @@ from collections.abc import Sequence
 from dataclasses import replace
 from pathlib import Path
 from random import Random
+from typing import TypeVar
 
 import pytest
 from flint import fmpq
@@ -45,6 +46,7 @@ from tests.oracles.brute import (
 )
 from tests.oracles.series import random_problem, series_order, step
 
+T = TypeVar("T")
 PAIRS = json.loads((Path(__file__).parent / "pairs.json").read_text())
 """Published tables with their orders, from the code libraries that run them."""
 TOLERANCE = fmpq(1, 10**11)
@@ -199,18 +201,22 @@ def test_weights_that_are_b_estimate_nothing() -> None:
     assert found.embedded.estimator.order is None
 
 
+ALIKE = """A: [[0, 0, 0], [1/3, 0, 0], [0, 1/3, 0]]
+b: [0, 1, 0]
+embedded: [0, 0, 1]
+"""
+
+
 def test_equal_orders_may_agree_beyond_them() -> None:
     """Of two rows of the same order the estimate begins at the first tree that tells them apart,
     here two orders further on; b of order 1 misses order 2 with both alike.
     """
-    method = loads(
-        "A: [[0, 0, 0], [1/3, 0, 0], [0, 1/3, 0]]\n"
-        "b: [0, 1, 0]\nembedded: [0, 0, 1]"
-    )
-    found = analyse(method.tableau, further=method.further)
-    assert found.embedded is not None
-    assert (found.order.order, found.embedded.order.order) == (1, 1)
-    assert found.embedded.estimator.order == 3
+    method = loads(ALIKE)
+    for tolerance in (None, TOLERANCE):
+        found = analyse(method.tableau, 60, tolerance, further=method.further)
+        assert found.embedded is not None
+        assert (found.order.order, found.embedded.order.order) == (1, 1)
+        assert found.embedded.estimator.order == 3
 
 
 def test_an_unknown_space_has_no_weights_of_stages() -> None:
@@ -441,3 +447,66 @@ def drawn_row(b: Sequence[Number], dice: Random) -> Vector:
     if dice.random() < 0.7:
         row[dice.randrange(len(row))] += samples.small(dice)
     return tuple(row)
+
+
+def test_too_many_trees_leave_dense_output_open(
+    monkeypatch: pytest.MonkeyPatch,
+) -> None:
+    """Within a tolerance an order with more trees than are looked at is undecided, the ones below
+    it stand, and so does what needs no trees; the estimate then has no leading order.
+    """
+    monkeypatch.setattr("garkcli.order.functionals.MOST_TREES", 1)
+    method = loads(HERMITE)
+    assert method.dense is not None
+    tableau = rounded_tableau(method.tableau)
+    found = dense_order(tableau, method.dense, 9, TOLERANCE)
+    assert (found.order, found.undecided, found.is_lower_bound) == (
+        2,
+        True,
+        True,
+    )
+    alike = loads(ALIKE)
+    analysis = analyse(alike.tableau, 9, TOLERANCE, further=alike.further)
+    assert analysis.embedded is not None
+    assert analysis.embedded.estimator.order is None
+    assert not analysis.embedded.estimator.is_zero
+
+
+@given(st.integers(0, 10**6))
+@settings(max_examples=15, deadline=None)
+def test_renumbering_colours_changes_no_order(seed: int) -> None:
+    """The orders of embedded weights and of dense output do not depend on the order of colours."""
+    dice = Random(seed)
+    tableau = samples.random_additive(dice)
+    count = tableau.size
+    order = list(range(count))
+    dice.shuffle(order)
+    rows = [drawn_row(colour.b, dice) for colour in tableau.colours]
+    blocks = [tuple((w, samples.small(dice)) for w in row) for row in rows]
+    one = analyse(
+        tableau,
+        4,
+        further=Further(tuple(rows), DenseOutput(tuple(blocks))),
+    )
+    moved = samples.renumbered(tableau, order)
+    further = Further(
+        tuple(row_of(moved, tableau, rows)),
+        DenseOutput(tuple(row_of(moved, tableau, blocks))),
+    )
+    other = analyse(moved, 4, further=further)
+    assert one.embedded is not None
+    assert other.embedded is not None
+    assert one.dense is not None
+    assert other.dense is not None
+    assert one.embedded.order.order == other.embedded.order.order
+    assert one.embedded.estimator.order == other.embedded.estimator.order
+    assert one.dense.order.order == other.dense.order.order
+
+
+def row_of(moved: Tableau, tableau: Tableau, rows: Sequence[T]) -> list[T]:
+    """What belongs to each colour of a renumbered tableau, by the terms that colours keep."""
+    by_term = {
+        colour.term: row
+        for colour, row in zip(tableau.colours, rows, strict=True)
+    }
+    return [by_term[colour.term] for colour in moved.colours]

@@ -22,6 +22,7 @@ from garkcli.report.tableau_json import render as tableau_json
 from garkcli.report.tableau_json import tableau_report_schema
 from garkcli.report.tableau_text import render as tableau_text
 from garkcli.tableau.pointwise import entries
+from tests.cli.harness import gark
 
 VALID = Path(__file__).parents[1] / "examples" / "valid"
 FILE = VALID / "embedded-and-dense.gark.yaml"
@@ -242,3 +243,17 @@ def test_reducing_keeps_the_stages_that_further_weights_need() -> None:
         ["1", "-1/2"],
         ["0", "1/2"],
     ]
+
+
+def test_companions_are_without_and_the_commands_say_so() -> None:
+    """The tableau and the file of a conjugate and of a pair have no further weights, with a note;
+    those of the method itself have them.
+    """
+    path = str(VALID / "embedded-ark.gark.yaml")
+    own = gark("tableau", path, "--format", "yaml")
+    assert loads(own.out).further == load(path).further
+    for options in ([], ["--pair"]):
+        run = gark("conjugate", path, *options, "--format", "yaml")
+        assert run.code == 0
+        assert "left out" in run.err
+        assert not loads(run.out).further
