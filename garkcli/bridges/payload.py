@@ -21,6 +21,7 @@ from garkcli.version import __version__
 
 if TYPE_CHECKING:
     from garkcli.bridges.orders import Orders
+    from garkcli.constructions.multirate import Coupling
 
 Kind: TypeAlias = Literal["rk", "ark", "prk", "gark"]
 """One vector field; several that share all stages; the pair (q, p); anything else."""
@@ -42,6 +43,7 @@ class Payload:
         structure: which vector fields the method is for, such as ``general``, ``separable``.
         reference: where it was published, in one line.
         digits: of every number, where they were asked for.
+        coupling: between the slow stages of a multirate infinitesimal method.
         version: of gark.
     """
 
@@ -56,6 +58,7 @@ class Payload:
     structure: str = "general"
     reference: str = ""
     digits: int | None = None
+    coupling: Coupling | None = None
     version: str = field(default=__version__)
 
     @property

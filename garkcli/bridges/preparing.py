@@ -11,6 +11,7 @@ from flint import arb, fmpq
 from garkcli.bridges.cannot import CannotExport
 from garkcli.bridges.orders import find_orders
 from garkcli.bridges.payload import Kind, Payload
+from garkcli.methodfile.infinitesimal import coupling_of
 from garkcli.properties.family_entries import is_nonzero_at, nodes_of
 from garkcli.tableau.embedded import with_weights
 from garkcli.tableau.pointwise import (
@@ -64,6 +65,7 @@ def prepared(method: MethodFile, digits: int | None = None) -> Payload:
         structure=method.structure,
         reference=str(method.reference),
         digits=digits,
+        coupling=coupling_of(method),
     )
 
 

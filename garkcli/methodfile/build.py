@@ -123,15 +123,19 @@ class Builder:
         return tableau
 
     def _constructed(self, text: ConstructionText) -> Tableau:
-        """A method made from others, each built as if it stood alone."""
+        """A method made from others."""
+        tableaus, numbers = self.parts_of(text)
+        return self._at(text.node, lambda: text.make(tableaus, numbers))
+
+    def parts_of(self, text: ConstructionText) -> tuple[list[Tableau], Vector]:
+        """What a method is made from, each built as if it stood alone, and its own numbers."""
         tableaus = []
         for part in text.parts:
             builder = Builder(
                 part.source, self.values, part.families, part.nodes
             )
             tableaus.append(builder.tableau(part.description))
-        numbers = self.values.vector(text.numbers)
-        return self._at(text.node, lambda: text.make(tableaus, numbers))
+        return tableaus, self.values.vector(text.numbers)
 
     def further(self, description: Description, tableau: Tableau) -> Further:
         """The embedded weights and the dense output of a file, for the colours of its tableau.

@@ -14,7 +14,7 @@ from garkcli.bridges.payload import Payload
 from garkcli.bridges.preparing import prepared
 from garkcli.bridges.registry import bridges
 from garkcli.bridges.structure import composition, shared, table, vanishes
-from garkcli.bridges.targets.sundials_mri import infinitesimal_order
+from garkcli.bridges.targets.sundials_mri import infinitesimal_order, slow_part
 from garkcli.exact.field import ONE, ZERO
 from garkcli.methodfile.load import load, loads
 from garkcli.order.certificate import find_order
@@ -242,3 +242,44 @@ def test_latex_is_exact() -> None:
     )
     rounded = bridges()["latex"].written(prepared(loads(text), 5))
     assert "0.29289 & 0.29289 & 0" in rounded
+
+
+SANDU = """
+name: ERK33a
+multirate:
+  mri:
+    c: [0, 1/3, 2/3, 1]
+    gamma:
+      - [[1/3], [-1/3, 2/3], [0, -2/3, 1]]
+      - [[0], [0, 0], [1/2, 0, -1/2]]
+  fast: kutta
+  steps: 1
+"""
+
+
+def test_the_coupling_of_a_file_is_exported() -> None:
+    """Matrices of a file are those of MRIStep with a first row of zeros; a method of constant
+    coupling has the rows that the slow method alone has.
+    """
+    payload = payload_of(SANDU)
+    slow = slow_part(payload)
+    assert slow.nodes == (ZERO, fmpq(1, 3), fmpq(2, 3), ONE)
+    first, second = slow.matrices["W"]
+    assert first[0] == (ZERO,) * 4
+    assert second[3] == (fmpq(1, 2), ZERO, fmpq(-1, 2), ZERO)
+    text = bridges()["sundials-mri"].written(payload)
+    assert "MRIStepCoupling_Alloc(2, 4, MRISTEP_EXPLICIT)" in text
+    base = "{A: [[0, 0, 0], [1/3, 0, 0], [-3/16, 15/16, 0]], b: [1/6, 3/10, 8/15]}"
+    mis = f"multirate: {{mis: {base}, fast: kutta, steps: 1}}\n"
+    matrices = slow_part(payload_of(mis)).matrices
+    assert matrices["W"][0] == slow_part(payload_of(base)).matrices["W"][0]
+
+
+def test_an_implicit_coupling_is_told_from_an_explicit_one() -> None:
+    """A row that uses the stage it leads to is implicit, and so are the letters of its matrices."""
+    implicit = SANDU.replace("[[1/3], ", "[[1/6, 1/6], ")
+    text = bridges()["sundials-mri"].written(payload_of(implicit))
+    assert "C->G[0][i][j] = G[4 * i + j];" in text
+    assert "MRISTEP_IMPLICIT" in text
+    with pytest.raises(CannotExport, match="no multirate infinitesimal step"):
+        slow_part(prepared(load(str(ROOT / GENERAL[0]))))

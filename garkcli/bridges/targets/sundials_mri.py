@@ -1,13 +1,16 @@
-"""SUNDIALS MRIStep in C: an explicit method as the slow one of a multirate infinitesimal step.
+"""SUNDIALS MRIStep in C: the slow part of a multirate infinitesimal step.
 
-Stage i goes on from stage i − 1: the fast equation is solved from c_{i−1} to c_i, with the constant
+It is the coupling of a file with ``multirate: {mis: …}`` or ``{mri: …}``, or an explicit method:
+stage i goes on from stage i − 1: the fast equation is solved from c_{i−1} to c_i, with the constant
 slow tendency Σ_j (a_{ij} − a_{i−1,j}) f_j / (c_i − c_{i−1}). The last stage is the new value.
 """
 
 from __future__ import annotations
 
-from collections.abc import Sequence
+from collections.abc import Mapping, Sequence
+from dataclasses import dataclass
 from itertools import pairwise
+from typing import TYPE_CHECKING
 
 from flint import fmpq
 
@@ -20,6 +23,9 @@ from garkcli.bridges.structure import Rows, Table, table, vanishes
 from garkcli.exact.field import ONE, ZERO
 from garkcli.tableau.pointwise import Row
 
+if TYPE_CHECKING:
+    from garkcli.constructions.multirate import Coupling
+
 STYLE = c_style("SUN_RCONST")
 _EMBEDDING = (
     "#if SUNDIALS_VERSION_MAJOR > 7 || (SUNDIALS_VERSION_MAJOR == 7 && "
@@ -28,23 +34,29 @@ _EMBEDDING = (
 """From 7.2 on there is a row for the embedding."""
 
 
+@dataclass(frozen=True)
+class Slow:
+    """The slow part of a multirate infinitesimal step.
+
+    Attributes:
+        nodes: of its stages, the last one the new value.
+        matrices: by W, explicit, or G, implicit, those of τ⁰, τ¹, …; row i leads to stage i.
+        order: with the fast equation solved exactly, or as well as the file says.
+        embedding: the row that leads to the embedded value, and its order; None without it.
+    """
+
+    nodes: Row
+    matrices: Mapping[str, Sequence[Rows]]
+    order: int
+    embedding: tuple[Row, int] | None = None
+
+
 def write(payload: Payload) -> str:
     """A function that makes the coupling."""
-    found = table(payload)
-    _refuse(payload, found)
-    stages, nodes = _with_value(found)
-    s = len(nodes)
-    nothing: Row = (ZERO,) * s
-    increments = [_difference(row, before) for before, row in pairwise(stages)]
+    slow = slow_part(payload)
+    s = len(slow.nodes)
     name = f"gark_{payload.identifier}_mri"
-    use = (
-        "Use: MRIStepCreate(slow, NULL, ...), then "
-        f"MRIStepSetCoupling(arkode_mem, {name}())."
-    )
-    note = (
-        "The orders q and p are those with the fast equation solved exactly."
-    )
-    lines = heading(payload, use, note)
+    lines = heading(payload, *_notes(payload, slow, name))
     lines += [
         "#include <arkode/arkode_mristep.h>",
         "#include <sundials/sundials_config.h>",
@@ -53,51 +65,128 @@ def write(payload: Payload) -> str:
         "",
         f"MRIStepCoupling {name}(void)",
         "{",
-        *array(payload, f"sunrealtype c[{s}]", (nodes,), STYLE, "  "),
-        *array(
-            payload,
-            f"sunrealtype W[{s * s}]",
-            [nothing, *increments],
-            STYLE,
-            "  ",
-        ),
+        *array(payload, f"sunrealtype c[{s}]", (slow.nodes,), STYLE, "  "),
     ]
-    if found.embedded is not None:
-        last = stages[-2]
-        padding = (ZERO,) * (s - found.stages)
-        row = _difference((*found.embedded, *padding), last)
+    for letter, matrices in slow.matrices.items():
+        rows = [row for matrix in matrices for row in matrix]
+        declaration = f"sunrealtype {letter}[{len(rows) * s}]"
+        lines += array(payload, declaration, rows, STYLE, "  ")
+    if slow.embedding is not None:
+        row, _ = slow.embedding
         lines += [
             _EMBEDDING,
             *array(payload, f"sunrealtype d[{s}]", (row,), STYLE, "  "),
             "#endif",
         ]
-    lines += _assignments(payload, found, s)
+    lines += _assignments(slow)
     return "\n".join(lines) + "\n"
 
 
-def _assignments(payload: Payload, found: Table, s: int) -> list[str]:
-    """Entry by entry: MRIStepCoupling_Create reads embeddings with a wrong stride up to 7.9."""
-    q = infinitesimal_order(found, payload.orders.effective)
-    embedding: list[str] = []
+_CREATE = {
+    "W": "MRIStepCreate(slow, NULL, ...)",
+    "G": "MRIStepCreate(NULL, slow, ...)",
+    "WG": "MRIStepCreate(explicit, implicit, ...)",
+}
+_TYPES = {
+    "W": "MRISTEP_EXPLICIT",
+    "G": "MRISTEP_IMPLICIT",
+    "WG": "MRISTEP_IMEX",
+}
+
+
+def _notes(payload: Payload, slow: Slow, name: str) -> list[str]:
+    create = _CREATE["".join(slow.matrices)]
+    solved = "with the fast equation solved exactly"
+    if payload.coupling is not None:
+        solved = "with the fast steps of the file"
+    return [
+        f"Use: {create}, then MRIStepSetCoupling(arkode_mem, {name}()).",
+        f"The orders q and p are those {solved}.",
+    ]
+
+
+def slow_part(payload: Payload) -> Slow:
+    """The slow part of a file with a coupling, or an explicit method as one.
+
+    Raises:
+        CannotExport: it is none.
+    """
+    if payload.coupling is not None:
+        return _coupled(payload, payload.coupling)
+    if payload.kind != "rk":
+        raise CannotExport(
+            f"{payload.name} is no multirate infinitesimal step",
+            "give the slow method alone, or a file with multirate: {mis: ...} or {mri: ...}",
+        )
+    found = table(payload)
+    _refuse(payload, found)
+    stages, nodes = _with_value(found)
+    s = len(nodes)
+    nothing: Row = (ZERO,) * s
+    increments = [_difference(row, before) for before, row in pairwise(stages)]
+    order = infinitesimal_order(found, payload.orders.effective)
+    embedding = None
     if found.embedded is not None:
-        p = min(payload.orders.embedded or 0, 2)
+        padding = (ZERO,) * (s - found.stages)
+        row = _difference((*found.embedded, *padding), stages[-2])
+        embedding = row, min(payload.orders.embedded or 0, 2)
+    matrix = (nothing, *increments)
+    return Slow(nodes, {"W": [matrix]}, order, embedding)
+
+
+def _coupled(payload: Payload, coupling: Coupling) -> Slow:
+    """The coupling of a file: what looks at the end of its own row is implicit."""
+    nothing = (ZERO,) * len(coupling.nodes)
+    found: dict[str, list[Rows]] = {}
+    for powers in coupling.matrices:
+        is_implicit = any(_looks_ahead(matrix) for matrix in powers)
+        letter = "G" if is_implicit else "W"
+        if letter in found:
+            raise CannotExport(
+                f"both slow parts of {payload.name} are {'im' if is_implicit else 'ex'}plicit",
+                "MRIStep takes an explicit and an implicit one",
+            )
+        found[letter] = [(nothing, *matrix) for matrix in powers]
+    matrices = {letter: found[letter] for letter in "WG" if letter in found}
+    return Slow(coupling.nodes, matrices, payload.orders.effective)
+
+
+def _looks_ahead(matrix: Rows) -> bool:
+    """Whether a row, which leads from stage i to the next, has entries beyond column i."""
+    return any(any(row[i + 1 :]) for i, row in enumerate(matrix))
+
+
+def _assignments(slow: Slow) -> list[str]:
+    """Entry by entry: MRIStepCoupling_Create reads embeddings with a wrong stride up to 7.9."""
+    s = len(slow.nodes)
+    kind = _TYPES["".join(slow.matrices)]
+    count = max(map(len, slow.matrices.values()))
+    fill: list[str] = []
+    for letter, matrices in slow.matrices.items():
+        for k in range(len(matrices)):
+            start = f"{k * s * s} + " if k else ""
+            entry = f"{letter}[{start}{s} * i + j]"
+            fill.append(f"      C->{letter}[{k}][i][j] = {entry};")
+    embedding: list[str] = []
+    if slow.embedding is not None:
         embedding = [
             _EMBEDDING,
-            f"  C->p = {p};",
+            f"  C->p = {slow.embedding[1]};",
             f"  for (int j = 0; j < {s}; j++)",
             f"    C->W[0][{s}][j] = d[j];",
             "#endif",
         ]
     return [
-        f"  MRIStepCoupling C = MRIStepCoupling_Alloc(1, {s}, MRISTEP_EXPLICIT);",
+        f"  MRIStepCoupling C = MRIStepCoupling_Alloc({count}, {s}, {kind});",
         "  if (C == NULL)",
         "    return NULL;",
-        f"  C->q = {q};",
+        f"  C->q = {slow.order};",
         "  C->p = 0;",
         f"  for (int i = 0; i < {s}; i++) {{",
         "    C->c[i] = c[i];",
-        f"    for (int j = 0; j < {s}; j++)",
-        f"      C->W[0][i][j] = W[{s} * i + j];",
+        f"    for (int j = 0; j < {s}; j++) {{",
+        *fill,
+        "    }",
         "  }",
         *embedding,
         "  return C;",
@@ -166,8 +255,8 @@ def _product(row: Sequence[Cell], nodes: Sequence[Cell]) -> Cell:
 BRIDGES = (
     Bridge(
         name="sundials-mri",
-        summary="C for MRIStep: an explicit method as the slow one",
-        kinds=("rk",),
+        summary="C for MRIStep: slow methods, MIS and MRI couplings",
+        kinds=("rk", "ark", "gark"),
         suffix=".c",
         write=write,
     ),

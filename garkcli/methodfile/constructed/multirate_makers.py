@@ -3,6 +3,7 @@
 from __future__ import annotations
 
 from collections.abc import Callable, Iterator, Sequence
+from dataclasses import dataclass
 from typing import TypeAlias
 
 from garkcli.constructions.multirate import (
@@ -29,14 +30,31 @@ COUPLINGS = (SLOWEST_FIRST, *RULES)
 """The couplings that have names."""
 
 
+@dataclass(frozen=True)
+class Infinitesimal:
+    """What makes a multirate infinitesimal method.
+
+    Attributes:
+        coupling: of the slow stages, from the tableaus of the parts and the values of numbers.
+        steps: small ones, between two slow stages.
+    """
+
+    coupling: Callable[[Sequence[Tableau], Vector], Coupling]
+    steps: int
+
+    def __call__(self, tableaus: Sequence[Tableau], values: Vector) -> Tableau:
+        """The method."""
+        fast = _diagonal(tableaus[0])
+        return mri(self.coupling(tableaus, values), fast, self.steps)
+
+
 def of_mis(steps: int) -> Make:
     """Constant couplings, from a slow method."""
 
-    def made(tableaus: Sequence[Tableau], _: Vector) -> Tableau:
-        fast, slow = map(_diagonal, tableaus)
-        return mri(mis_coupling(slow), fast, steps)
+    def coupling(tableaus: Sequence[Tableau], _: Vector) -> Coupling:
+        return mis_coupling(_diagonal(tableaus[1]))
 
-    return made
+    return Infinitesimal(coupling, steps)
 
 
 def named(word: str, steps: int) -> Make:
@@ -90,17 +108,16 @@ def of_mri(count: int, powers: Sequence[int], steps: int) -> Make:
     """Polynomial couplings between so many nodes, for each slow part with so many powers."""
     lengths = [count] * (count - 1)
 
-    def made(tableaus: Sequence[Tableau], values: Vector) -> Tableau:
-        (fast,) = map(_diagonal, tableaus)
+    def coupling(_: Sequence[Tableau], values: Vector) -> Coupling:
         rest = iter(values)
         nodes = tuple(next(rest) for _ in range(count))
         matrices = []
         for number in powers:
             of_part = [_filled(lengths, rest) for _ in range(number)]
             matrices.append(tuple(of_part))
-        return mri(Coupling(nodes, tuple(matrices)), fast, steps)
+        return Coupling(nodes, tuple(matrices))
 
-    return made
+    return Infinitesimal(coupling, steps)
 
 
 def _filled(lengths: Sequence[int], rest: Iterator[Number]) -> Matrix:
