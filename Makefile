@@ -5,7 +5,7 @@ BIN    := $(VENV)/bin
 READY  := $(VENV)/.ready
 
 .DEFAULT_GOAL := help
-.PHONY: help run test lint types layers pytest portable bench fuzz catalogue figures format clean
+.PHONY: help run test lint types layers pytest portable bridges bench fuzz catalogue figures format clean
 
 help: ## this list
 	@grep -E '^[a-z]+:.*## ' $(MAKEFILE_LIST) | sed 's/:.*## /\t/' | expand -t 12
@@ -38,6 +38,9 @@ pytest: $(READY)
 portable: ## the suite under other circumstances, see docs/portability.md; ONLY=kernel,floors
 	$(PYTHON) -m tests.portable.run --only "$(ONLY)"
 
+bridges: $(READY) ## exported methods in the codes they are for, see docs/bridges.md; ONLY=scipy,petsc
+	$(BIN)/python -m tests.bridges.run --only "$(ONLY)"
+
 bench: $(READY) ## benchmarks, as ratios within one run
 	$(BIN)/python -m pip install --quiet --disable-pip-version-check --editable ".[bench]"
 	$(BIN)/python -m pytest tests/benchmarks -s --override-ini addopts="-q --import-mode=importlib" --override-ini norecursedirs=".*"
@@ -63,4 +66,4 @@ format: $(READY) ## put the code into its one format
 	$(BIN)/ruff format .
 
 clean: ## remove everything that was made
-	rm -rf $(VENV) .portable build dist *.egg-info .pytest_cache .mypy_cache .ruff_cache .hypothesis .import_linter_cache
+	rm -rf $(VENV) .portable .bridges build dist *.egg-info .pytest_cache .mypy_cache .ruff_cache .hypothesis .import_linter_cache

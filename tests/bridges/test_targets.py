@@ -4,9 +4,11 @@ from __future__ import annotations
 
 import os
 import re
+from collections.abc import Sequence
 from dataclasses import replace
 from fractions import Fraction
 from pathlib import Path
+from typing import Any
 
 import pytest
 from flint import fmpq
@@ -14,7 +16,9 @@ from flint import fmpq
 from garkcli.bridges.cannot import CannotExport
 from garkcli.bridges.payload import Payload
 from garkcli.bridges.preparing import prepared
+from garkcli.bridges.readers.registry import reader_named
 from garkcli.bridges.registry import bridges
+from garkcli.bridges.rounding import nearest_float
 from garkcli.bridges.structure import table
 from garkcli.bridges.tables import with_first_stage, with_last_stage
 from garkcli.bridges.targets import torchdiffeq
@@ -39,17 +43,25 @@ ark:
 SDIRK = (
     "parameters: {g: 1 - sqrt(2)/2}\nA: [[g, 0], [1 - g, g]]\nb: [1 - g, g]\n"
 )
-VERLET = (ROOT / "methods/stoermer-verlet.gark.yaml").read_text("utf-8")
+VERLET = """\
+name: Störmer-Verlet
+prk:
+  q: {A: [[0], [1]], b: [1], c: [0, 1]}
+  p: {A: [[1/2, 0]], b: [1/2, 1/2], c: [1/2]}
+structure: separable
+"""
 GAUSS = "methods: [{family: gauss, stages: 2}]\n"
 OF_RALSTON = (
     "amrex",
     "boost",
     "desolve",
     "diffrax",
+    "irksome",
     "julia",
     "mathematica",
     "matlab",
     "mfem",
+    "nodepy",
     "ordinarydiffeq",
     "rklab",
     "rootedtrees",
@@ -58,7 +70,14 @@ OF_RALSTON = (
     "torchdiffeq",
     "torchode",
 )
-OF_MIDPOINTS = ("diffrax", "julia", "mathematica", "matlab", "tempus")
+OF_MIDPOINTS = (
+    "dedalus",
+    "diffrax",
+    "julia",
+    "mathematica",
+    "matlab",
+    "tempus",
+)
 OF_VERLET = ("geometricintegrators", "julia", "matlab", "rootedtrees")
 
 
@@ -278,6 +297,19 @@ def test_no_fraction_reaches_tempus() -> None:
     assert "bstar" not in written("tempus", single)
 
 
+def test_weights_of_dedalus_are_last_rows() -> None:
+    """Midpoints end at 1/2: a stage at the end is put in, whose rows are the weights."""
+    text = written("dedalus", MIDPOINTS)
+    rows = re.findall(r"^        \[(.*)\],$", text, re.MULTILINE)
+    assert [rows[2], rows[5]] == ["0, 1, 0", "0, 1, 0"]
+    assert "c = np.array([0, 0.5, 1]" in text
+    assert "stages = 2\n" in text
+    ends = (
+        "ark: {A: [[[0, 0], [1, 0]], [[0, 0], [0, 1]]], b: [[1, 0], [0, 1]]}\n"
+    )
+    assert "stages = 1\n" in written("dedalus", ends)
+
+
 def test_julia_is_exact() -> None:
     """Fractions with //, square roots of BigFloat, whole numbers beyond Int64 as BigInt."""
     text = written("julia", SDIRK)
@@ -345,3 +377,44 @@ def test_programs_say_which_errors_are_the_same(target: str) -> None:
     assert "gark converge FILE" in " ".join(program.split())
     assert problem.startswith("name: one right-hand side")
     assert program.isascii()
+
+
+READ_BACK = {
+    "julia": "julia",
+    "mathematica": "mathematica",
+    "matlab": "matlab",
+    "rklab": "matlab",
+    "ordinarydiffeq": "julia",
+    "rungekutta-jl": "tsv",
+}
+"""From a target to the reader of what it writes."""
+
+
+@pytest.mark.parametrize("target", READ_BACK)
+@pytest.mark.parametrize("method", [RALSTON, MIDPOINTS, VERLET])
+def test_what_is_written_is_read(target: str, method: str) -> None:
+    """Blocks and weights come back, in the place of each; they have short decimals or fractions."""
+    payload = payload_of(method)
+    bridge = bridges()[target]
+    assert bridge.reads_back
+    if payload.kind not in bridge.kinds:
+        return
+    reader = reader_named(READ_BACK[target])
+    (found,) = reader.find(bridge.written(payload), f"x{bridge.suffix}")
+    assert not found.trouble
+    for l, blocks in enumerate(payload.A):
+        read = found.A[l] if len(found.A) > l else found.A[0]
+        for block, other in zip(blocks, read, strict=True):
+            assert (block is None) == (other is None)
+            for row, texts in zip(block or (), other or (), strict=True):
+                assert near(row, texts)
+        assert near(payload.b[l], found.b[l])
+    if payload.embedded and target != "rungekutta-jl":
+        assert found.embedded
+        assert near(payload.embedded[0], found.embedded[0])
+
+
+def near(row: Sequence[Any], texts: Sequence[str]) -> bool:
+    """Whether texts are the entries of a row, or the floats nearest to these."""
+    pairs = zip(row, texts, strict=True)
+    return all(float(Fraction(y)) == nearest_float(x) for x, y in pairs)

@@ -6,7 +6,7 @@ from collections.abc import Callable, Mapping
 from dataclasses import replace
 
 from garkcli.bridges.readers.assignments import Assigned, Begun, Called, Walk
-from garkcli.bridges.readers.blocks import assembled
+from garkcli.bridges.readers.blocks import assembled, table_of_blocks
 from garkcli.bridges.readers.cells import Cells
 from garkcli.bridges.readers.found import (
     FoundTable,
@@ -15,7 +15,7 @@ from garkcli.bridges.readers.found import (
     troubled,
 )
 from garkcli.bridges.readers.lexing import JULIA, Token, tokens_of, without
-from garkcli.bridges.readers.naming import Scope
+from garkcli.bridges.readers.naming import ROLES, Scope
 from garkcli.bridges.readers.parsing import Grammar
 from garkcli.bridges.readers.scalars import Value, is_row, rows_of, whole
 from garkcli.bridges.readers.shaping import square, weights
@@ -87,6 +87,8 @@ class _Finder:
         self._scope = Scope()
         self._cells = Cells(1)
         self._made: list[FoundTable] = []
+        self._values: dict[str, Value] = {}
+        self._line = 1
 
     def begin(self, title: str) -> None:
         """Another function begins."""
@@ -96,6 +98,12 @@ class _Finder:
     def end(self) -> None:
         """The tables of the function; those that a constructor takes are found once."""
         found = list(self._scope.tables(self._source, NAME))
+        blocks = table_of_blocks(
+            self._values, self._source, NAME, self._scope.title, self._line
+        )
+        self._values = {}
+        if blocks is not None:
+            found = [blocks]
         made = {(x.A, x.b) for x in self._made}
         self.found += self._made
         if not self._made:
@@ -109,8 +117,14 @@ class _Finder:
     def assigned(self, event: Assigned) -> None:
         """A matrix, or an entry of one, was assigned."""
         self._cells.put(event.name, event.indices, event.value)
-        if not event.indices:
-            self._scope.add(event.name, event.value, event.line)
+        if event.indices:
+            return
+        self._scope.add(event.name, event.value, event.line)
+        role = ROLES.get(event.name)
+        if role == "A":
+            self._line = event.line
+        if role is not None:
+            self._values[role] = event.value
 
     def called(self, event: Called) -> None:
         """A tableau was made."""

@@ -119,16 +119,17 @@ def matrix(payload: Payload, begin: str, rows: Block, end: str) -> list[str]:
 
     A long row stays one line: within brackets a line break begins a new row. Nor may there be a
     blank within an entry, which would begin a new entry. A single column in brackets would be a
-    vector.
+    vector, and a single row looks like one.
     """
     if rows is None:
         return [f"{begin}nothing{end}"]
-    if len(rows[0]) == 1:
-        column = tuple(cells[0] for cells in rows)
+    height, width = len(rows), len(rows[0])
+    if min(height, width) == 1:
+        entries = tuple(x for cells in rows for x in cells)
         name, equals, kind = begin.rpartition("= ")
         margin = kind[: len(kind) - len(kind.lstrip())]
         made = f"{name}{equals}{margin}reshape({kind.strip()}"
-        return vector(payload, made, column, f", {len(rows)}, 1){end}")
+        return vector(payload, made, entries, f", {height}, {width}){end}")
     lines = []
     for i, cells in enumerate(rows):
         indent = " " * len(begin) + " " if i else begin + "["
@@ -152,7 +153,12 @@ def write_ordinarydiffeq(payload: Payload) -> str:
             "There are no embedded weights: adaptive = false, dt = h."
         )
     lines = HASH.lines(head(payload, *notes))
-    lines += ["", "import DiffEqBase", "", f"function {name}(T = Float64)"]
+    lines += [
+        "",
+        "import DiffEqBase",
+        "",
+        f"function {name}(::Type{{T}} = Float64) where {{T}}",
+    ]
     lines += matrix(payload, "    A = T", found.A, "")
     lines += vector(payload, "    c = T", found.c, "")
     lines += vector(payload, "    b = T", found.b, "")
@@ -252,6 +258,7 @@ BRIDGES = (
         kinds=("rk",),
         suffix=".jl",
         write=write_ordinarydiffeq,
+        reads_back=True,
     ),
     Bridge(
         name="rootedtrees",
