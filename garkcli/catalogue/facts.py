@@ -7,13 +7,14 @@ from typing import TYPE_CHECKING, Any
 
 from garkcli.check.check_file import check_file
 from garkcli.errors import GarkError
-from garkcli.exact.display import decimal
+from garkcli.exact.display import decimal, to_text
 from garkcli.methodfile.load import loads
 from garkcli.methodfile.words import one_line
 from garkcli.order.constants import error_constants
 from garkcli.properties.keys import KEYS
 from garkcli.properties.property import Size
 from garkcli.properties.registry import find
+from garkcli.tableau.pointwise import in_points
 from garkcli.trees.count import count_trees
 
 if TYPE_CHECKING:
@@ -25,10 +26,16 @@ if TYPE_CHECKING:
 
 Entry = dict[str, Any]
 """A method of the index: what people look for, and what was found."""
-VERSION = 2
+VERSION = 3
 """Of what is found; a larger one than that of an index makes all of it anew."""
 MOST_TREES = 20_000
 """Most trees of one order over which error coefficients are summed for the index."""
+MOST_STAGES = 8
+"""Most stages of a method whose sizes (`_SIZES`) are found for the index."""
+LONGEST = 24
+"""Longest coefficient of such a method, as text: of others the sizes take minutes."""
+_SIZES = ("p-stable", "real-stability", "imaginary-stability")
+"""Properties that need the roots of polynomials of high degree."""
 _DIGITS = 4
 
 
@@ -191,16 +198,31 @@ def _error_constant(analysis: Analysis) -> str | None:
 
 def _properties(analysis: Analysis) -> Entry:
     """Every property by its name in JSON; null where it has no meaning or is not decided."""
-    verdicts = {key: analysis.subject.verdict(key) for key in KEYS}
+    sought: tuple[str, ...] = KEYS
+    if not _is_small(analysis.tableau):
+        sought = tuple(key for key in KEYS if key not in _SIZES)
+    verdicts = {key: analysis.subject.verdict(key) for key in sought}
     found: Entry = {"symplectic": analysis.symplectic}
-    for key, verdict in verdicts.items():
-        found[find(key).field] = _value(verdict)
-    found["undecided"] = [
-        find(key).field
-        for key, verdict in verdicts.items()
-        if verdict.is_undecided
-    ]
-    return found
+    open_ones = []
+    for key in KEYS:
+        field = find(key).field
+        verdict = verdicts.get(key)
+        found[field] = None if verdict is None else _value(verdict)
+        if verdict is None or verdict.is_undecided:
+            open_ones.append(field)
+    return {**found, "undecided": open_ones}
+
+
+def _is_small(tableau: Tableau) -> bool:
+    """Whether the sizes of a method are found for the index."""
+    stages = [space.stages for space in tableau.spaces]
+    points = in_points(tableau)
+    if max(stages) > MOST_STAGES or points is None:
+        return max(stages) <= MOST_STAGES
+    rows = [colour.b for colour in points.colours]
+    for block in points.blocks.values():
+        rows += block
+    return all(len(to_text(x)) <= LONGEST for row in rows for x in row)
 
 
 def _value(verdict: Verdict) -> bool | int | str | None:

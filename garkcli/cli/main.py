@@ -53,8 +53,10 @@ COMMANDS = {
     "import": "methods out of C, Python, MATLAB, Julia, LaTeX, JSON and others",
     "audit": "the tables of a source tree against what they declare",
     "certificate": "what proves the orders, to be checked without gark",
-    "list": "families, transfer rules, problems",
     "explain": "what a word of a report or of a file means",
+    "list": "families, transfer rules, problems, methods of the catalogue",
+    "show": "all about one method: tableau, properties, reference",
+    "cite": "where methods were published, for a bibliography",
     "schema": "the JSON Schemas of method files, problem files and reports",
 }
 """Every command with its line in the help; the module of the same name in this room has it."""

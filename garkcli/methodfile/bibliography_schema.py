@@ -3,8 +3,9 @@
 from __future__ import annotations
 
 from garkcli.errors import MAX_WORD
-from garkcli.methodfile.bibliography import KEYS, WORKS
+from garkcli.methodfile.bibliography import KEYS
 from garkcli.methodfile.coefficient_schema import TEXT, Schema, closed
+from garkcli.reference import WORKS
 
 _PEOPLE: Schema = {"anyOf": [TEXT, {"type": "array", "items": TEXT}]}
 

@@ -10,7 +10,6 @@ from yaml.nodes import Node
 
 from garkcli.errors import GarkError, MethodFileError
 from garkcli.exact.matrix import Matrix, Vector
-from garkcli.methodfile.bibliography import Reference
 from garkcli.methodfile.blocks import BlockBuilder
 from garkcli.methodfile.description import (
     ArkText,
@@ -30,6 +29,7 @@ from garkcli.methodfile.description import (
 from garkcli.methodfile.numbers import Entry, Numbers, Row, Rows
 from garkcli.methodfile.source import Source
 from garkcli.methodfile.values import Values
+from garkcli.reference import Reference
 from garkcli.tableau.conjugate import conjugate
 from garkcli.tableau.embedded import DenseOutput, Further, padded
 from garkcli.tableau.forms import (

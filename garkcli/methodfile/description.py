@@ -11,9 +11,9 @@ from yaml.nodes import Node
 
 from garkcli.exact.matrix import Vector
 from garkcli.families.family import Recipe
-from garkcli.methodfile.bibliography import Reference
 from garkcli.methodfile.numbers import Entry, Row, Rows
 from garkcli.methodfile.source import Source
+from garkcli.reference import Reference
 from garkcli.tableau.method import Method
 from garkcli.tableau.tableau import Tableau
 

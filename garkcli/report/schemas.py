@@ -35,6 +35,8 @@ REPORTS = {
     "export": "garkcli.bridges.targets.json_data:export_schema",
     "list": "garkcli.report.listing:list_report_schema",
     "list-methods": "garkcli.report.catalogue_list:list_methods_schema",
+    "show": "garkcli.report.show:show_report_schema",
+    "cite": "garkcli.report.citation:cite_report_schema",
     "list-exports": "garkcli.report.exports:exports_schema",
     "audit": "garkcli.report.audited:audit_report_schema",
     "import": "garkcli.report.imported:import_report_schema",

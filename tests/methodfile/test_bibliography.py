@@ -7,10 +7,11 @@ import pytest
 import yaml
 
 from garkcli.errors import Fault, MethodFileError
-from garkcli.methodfile.bibliography import KEYS, Reference
+from garkcli.methodfile.bibliography import KEYS
 from garkcli.methodfile.conjugated import write_conjugate_of
 from garkcli.methodfile.load import loads
 from garkcli.methodfile.schema import method_file_schema
+from garkcli.reference import Reference
 
 METHOD = "A: [[0]]\nb: [1]\n"
 FIELDS = """

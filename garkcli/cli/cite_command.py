@@ -1,0 +1,36 @@
+"""``gark cite``."""
+
+from __future__ import annotations
+
+import click
+
+from garkcli.cli.method_argument import files_argument
+from garkcli.cli.options import CONTEXT, Output, common
+
+
+@click.command("cite", context_settings=CONTEXT)
+@files_argument()
+@common(["bibtex", "text", "json"])
+def command(files: tuple[str, ...], output: Output) -> int:
+    """Where methods were published, as an entry of a bibliography.
+
+    FILE is a method file or a name of the catalogue, as for gark check; catalogue: means all of
+    it. Methods of one publication have one entry. A file whose `reference` is plain text gives a
+    note, one without a reference is told.
+    """
+    from garkcli.methodfile.finding import find_files
+    from garkcli.methodfile.load import described, read_method_text
+    from garkcli.report.citation import Cited, render, together
+
+    cited = []
+    for path in find_files(files):
+        text, source = read_method_text(path)
+        _, said = described(text, source, {})
+        cited.append(Cited((source,), said.reference, said.bibliography))
+    found = together(cited)
+    output.write(render(found, output.format))
+    bare = [one.methods[0] for one in found if not one.text]
+    if bare:
+        shown = bare[0] if len(bare) == 1 else f"{len(bare)} methods"
+        output.note(f"note: no reference in the file of {shown}")
+    return 0

@@ -1,0 +1,289 @@
+"""``gark cite``: publications of methods as BibTeX, as text, and as JSON."""
+
+from __future__ import annotations
+
+import re
+from collections.abc import Iterator, Sequence
+from dataclasses import dataclass, fields
+from string import ascii_lowercase
+
+from garkcli.page.latex_letters import ascii_letters, letters
+from garkcli.page.plain import printable
+from garkcli.page.record import Field, Record, schema_named
+from garkcli.page.schema import TEXT, Schema, array, nullable, published
+from garkcli.reference import Reference
+
+SCHEMA = "gark/cite/1"
+_ENTRY_TYPES = {
+    "article": "article",
+    "book": "book",
+    "chapter": "incollection",
+    "report": "techreport",
+    "software": "misc",
+    "thesis": "phdthesis",
+    "web": "misc",
+}
+"""The kinds of BibTeX entries, by what ``type`` says of a publication."""
+_BETWEEN_WORDS = re.compile(r"([\s–—-]+)")
+_DASHES = re.compile(r"\s*[-–—]+\s*")
+"""Between the first page and the last."""
+
+
+@dataclass(frozen=True)
+class Cited:
+    """A publication with the methods that are from it.
+
+    Attributes:
+        methods: their names.
+        text: the reference in one line; empty where there is none.
+        reference: its fields; None where it is plain text.
+    """
+
+    methods: tuple[str, ...]
+    text: str
+    reference: Reference | None
+
+
+def together(cited: Sequence[Cited]) -> list[Cited]:
+    """Methods of one publication together, in the order in which these come first.
+
+    Where in the work a method stands and where its digits come from makes no other publication.
+    """
+    found: dict[object, Cited] = {}
+    for one in cited:
+        key = _work(one) if one.text else one.methods
+        before = found.get(key)
+        methods = (*before.methods, *one.methods) if before else one.methods
+        found[key] = Cited(methods, one.text, one.reference)
+    return list(found.values())
+
+
+def _work(cited: Cited) -> object:
+    reference = cited.reference
+    if reference is None:
+        return cited.text
+    own = {"where", "coefficients", "note"}
+    return tuple(
+        getattr(reference, field.name)
+        for field in fields(reference)
+        if field.name not in own
+    )
+
+
+def keys(cited: Sequence[Cited]) -> list[str]:
+    """A key for each publication, no two the same: ``Dormand1980``, a letter behind it if need be.
+
+    The same publications have the same keys in whatever order they come.
+    """
+    plain = [_key(one) for one in cited]
+    found = []
+    for one, key in zip(cited, plain, strict=True):
+        same = sorted(
+            other.text
+            for other, its in zip(cited, plain, strict=True)
+            if its == key
+        )
+        letter = ""
+        if len(same) > 1:
+            letter = _numbered(same.index(one.text))
+        found.append(key + letter)
+    return found
+
+
+def _numbered(number: int) -> str:
+    """a, b, …, z, za, zb, …"""
+    rounds, rest = divmod(number, len(ascii_lowercase))
+    return "z" * rounds + ascii_lowercase[rest]
+
+
+def _key(cited: Cited) -> str:
+    reference = cited.reference
+    people: Sequence[str] = ()
+    if reference is not None:
+        people = reference.authors or reference.editors
+    if reference is None or not people:
+        return _key_of_method(cited.methods[0])
+    name = last_name(people[0])
+    shown = name if name[:1].isupper() else people[0]
+    return ascii_letters(shown) + reference.year
+
+
+def _key_of_method(name: str) -> str:
+    """A method that has no authors, by the name of its file without folders."""
+    file = re.split(r"[\\/]", name)[-1]
+    return ascii_letters(file.partition(".")[0]) or "method"
+
+
+def last_name(name: str) -> str:
+    """What comes last in a name, or before its comma.
+
+    >>> last_name("J. C. Butcher"), last_name("Butcher, John C."), last_name("G. Vanden Berghe")
+    ('Butcher', 'Butcher', 'Berghe')
+    """
+    before, comma, _ = name.partition(",")
+    return before if comma else name.split()[-1]
+
+
+def render(cited: Sequence[Cited], format: str) -> str:
+    """The publications.
+
+    Args:
+        cited: each once.
+        format: bibtex, text or json.
+    """
+    if format == "json":
+        return _REPORT.text(cited)
+    if format == "text":
+        return "\n".join(map(_text, cited)) + "\n"
+    entries = map(_bibtex, cited, keys(cited))
+    return "\n".join(entries)
+
+
+def cite_report_schema() -> Schema:
+    """The JSON Schema of ``gark cite``."""
+    return published("report of gark cite", _REPORT.schema)
+
+
+def _text(cited: Cited) -> str:
+    names = ", ".join(map(printable, cited.methods))
+    if not cited.text:
+        return f"{names}: no reference in its file"
+    return f"{names}: {printable(cited.text)}"
+
+
+def _bibtex(cited: Cited, key: str) -> str:
+    """One entry, or a remark that there is none; methods are named above it."""
+    names = ", ".join(map(printable, cited.methods))
+    if not cited.text:
+        return f"% {names}: no reference in its file\n"
+    if cited.reference is None:
+        lines = [f"  note = {{{letters(printable(cited.text))}}},"]
+        return _entry(names, "misc", key, lines)
+    reference = cited.reference
+    kind = _entry_type(reference)
+    lines = [f"  {name} = {{{value}}}," for name, value in _fields(reference)]
+    return _entry(names, kind, key, lines)
+
+
+def _entry(names: str, kind: str, key: str, lines: Sequence[str]) -> str:
+    body = "\n".join(lines)
+    return f"% {names}\n@{kind}{{{key},\n{body}\n}}\n"
+
+
+def _entry_type(reference: Reference) -> str:
+    """By what the file says of the publication, or else by the fields that it has."""
+    if reference.type == "thesis":
+        is_master = "master" in reference.note.lower()
+        return "mastersthesis" if is_master else "phdthesis"
+    if reference.type:
+        return _ENTRY_TYPES[reference.type]
+    if reference.journal:
+        return "article"
+    if reference.book:
+        return "incollection"
+    if reference.institution:
+        return "techreport"
+    return "book" if reference.publisher else "misc"
+
+
+def _fields(reference: Reference) -> Iterator[tuple[str, str]]:
+    """The fields of an entry with their values, those that there are."""
+    kind = _entry_type(reference)
+    home = "school" if kind.endswith("thesis") else "institution"
+    notes = [reference.where, reference.note]
+    note = "; ".join(letters(x) for x in notes if x)
+    found = {
+        "author": _people(reference.authors),
+        "title": title(reference.title),
+        "journal": letters(reference.journal),
+        "booktitle": title(reference.book),
+        "editor": _people(reference.editors),
+        "edition": letters(reference.edition),
+        "publisher": letters(reference.publisher),
+        home: letters(reference.institution),
+        "volume": letters(reference.volume),
+        "number": letters(reference.number),
+        "pages": letters(_DASHES.sub("–", reference.pages)),
+        "year": reference.year,
+        "note": note,
+        "doi": reference.doi,
+        "url": reference.url,
+    }
+    for name, value in found.items():
+        if value:
+            yield name, value
+
+
+def _people(names: Sequence[str]) -> str:
+    """Names as BibTeX has them; one whose last word is small is a group, and stays whole."""
+    written = []
+    for name in names:
+        is_whole = not last_name(name)[:1].isupper()
+        written.append(f"{{{letters(name)}}}" if is_whole else letters(name))
+    return " and ".join(written)
+
+
+def title(text: str) -> str:
+    """A title whose capitals stay what they are: styles write all letters but the first small.
+
+    >>> print(title("Embedded Runge–Kutta formulae of order 5"))
+    Embedded {Runge}--{Kutta} formulae of order 5
+    """
+    pieces = _BETWEEN_WORDS.split(text)
+    written = list(map(_kept, pieces))
+    first = pieces[0]
+    if first[:1].isupper() and not _has_capital(first[1:]):
+        written[0] = letters(
+            first
+        )  # it is the first of a sentence in every style
+    return "".join(written)
+
+
+def _kept(piece: str) -> str:
+    """A word of a title, in braces where it has capitals."""
+    spelt = letters(piece)
+    return f"{{{spelt}}}" if _has_capital(piece) else spelt
+
+
+def _has_capital(word: str) -> bool:
+    return any(sign.isupper() for sign in word)
+
+
+def _as_data(cited: Cited) -> dict[str, object] | None:
+    """The fields that a publication has."""
+    if cited.reference is None:
+        return None
+    found = {}
+    for field in fields(cited.reference):
+        value = getattr(cited.reference, field.name)
+        if value:
+            is_list = isinstance(value, tuple)
+            found[field.name] = list(value) if is_list else value
+    return found
+
+
+_REFERENCE: Schema = {
+    "type": ["object", "null"],
+    "additionalProperties": {"oneOf": [TEXT, array(TEXT)]},
+}
+
+
+def _with_keys(cited: Sequence[Cited]) -> list[tuple[Cited, str]]:
+    return list(zip(cited, keys(cited), strict=True))
+
+
+def _bibtex_or_none(found: tuple[Cited, str]) -> str | None:
+    return _bibtex(*found) if found[0].text else None
+
+
+_CITED: Record[tuple[Cited, str]] = Record(
+    Field("methods", array(TEXT), lambda x: list(x[0].methods)),
+    Field("key", TEXT, lambda x: x[1]),
+    Field("text", nullable(TEXT), lambda x: x[0].text or None),
+    Field("reference", _REFERENCE, lambda x: _as_data(x[0])),
+    Field("bibtex", nullable(TEXT), _bibtex_or_none),
+)
+_REPORT: Record[Sequence[Cited]] = Record(
+    schema_named(SCHEMA),
+    _CITED.every("references", _with_keys),
+)
