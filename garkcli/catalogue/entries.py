@@ -49,10 +49,7 @@ def entry_on(shelf: Shelf, method: Shelved, judges: bool = False) -> Entry:
 def _of_file(method: Shelved, judges: bool) -> tuple[Entry, str]:
     """The entry of a method that no index knows."""
     # the index is read without any of this
-    from garkcli.catalogue.facts import found_of
-    from garkcli.check.deciding import analyse
     from garkcli.methodfile.load import loads
-    from garkcli.order.certificate import DEFAULT_LIMIT
 
     try:
         read = loads(method.read(), method.name)
@@ -62,10 +59,25 @@ def _of_file(method: Shelved, judges: bool) -> tuple[Entry, str]:
         return _blank(method), UNREAD
     if not judges:
         return _claimed(read, method), CLAIMED
+    return _judged(read, method.name, method.place), FOUND
+
+
+def entry_of_method(read: MethodFile, file: str) -> Entry:
+    """The entry of a method that was read from a file."""
+    place = {"folder": "", "catalogue": "", "facts": FOUND}
+    return {**_judged(read, read.source, file), **place}
+
+
+def _judged(read: MethodFile, name: str, file: str) -> Entry:
+    """What is found of a method."""
+    from garkcli.catalogue.facts import found_of
+    from garkcli.check.deciding import analyse
+    from garkcli.order.certificate import DEFAULT_LIMIT
+
     analysis = analyse(
         read.tableau, DEFAULT_LIMIT, read.tolerance, further=read.further
     )
-    return found_of(read, analysis, method.name, method.place), FOUND
+    return found_of(read, analysis, name, file)
 
 
 def _blank(method: Shelved) -> Entry:

@@ -48,6 +48,7 @@ _UNKNOWN: Entry = {
     "authors": [],
     "year": "",
     "order": None,
+    "embedded_order": None,
     "conjugate_order": None,
     "pair_order": None,
     "nonautonomous_order": None,
@@ -174,10 +175,17 @@ def _kind(tableau: Tableau) -> str:
 def _orders(analysis: Analysis) -> Entry:
     return {
         "order": analysis.order.order,
+        "embedded_order": _embedded_order(analysis),
         "conjugate_order": _order(analysis.conjugate_order),
         "pair_order": _order(analysis.pair_order),
         "nonautonomous_order": _order(analysis.nonautonomous_order),
     }
+
+
+def _embedded_order(analysis: Analysis) -> int | None:
+    """The order of the embedded weights."""
+    found = analysis.embedded
+    return None if found is None else found.order.order
 
 
 def _order(found: AnyOrder | None) -> int | None:

@@ -18,15 +18,15 @@ def command(files: tuple[str, ...], output: Output) -> int:
     it. Methods of one publication have one entry. A file whose `reference` is plain text gives a
     note, one without a reference is told.
     """
+    from garkcli.methodfile.bibliography import reference_of
     from garkcli.methodfile.finding import find_files
-    from garkcli.methodfile.load import described, read_method_text
+    from garkcli.methodfile.load import read_method_text
     from garkcli.report.citation import Cited, render, together
 
     cited = []
     for path in find_files(files):
         text, source = read_method_text(path)
-        _, said = described(text, source, {})
-        cited.append(Cited((source,), said.reference, said.bibliography))
+        cited.append(Cited((source,), *reference_of(text, source)))
     found = together(cited)
     output.write(render(found, output.format))
     bare = [one.methods[0] for one in found if not one.text]

@@ -23,6 +23,7 @@ from garkcli.properties.registry import every_property
 F = TypeVar("F", bound=Callable[..., Any])
 _COUNTS = {
     "order": "The order, such as 4, '>=4' or 2..4; so the others.",
+    "embedded-order": "The order of embedded weights.",
     "conjugate-order": "The order of the symplectic conjugate.",
     "pair-order": "The order of the symplectic pair.",
     "stages": "The stages, of several colours the most.",

@@ -44,7 +44,7 @@ def write_tableau(
     if output.format == "yaml":
         output.write(_method_file(tableau, name, digits, tolerance, further))
         return
-    found = _entries(tableau, digits, further)
+    found = shown_entries(tableau, digits, further)
     if output.format == "json":
         from garkcli.report import tableau_json
 
@@ -69,9 +69,10 @@ def write_tableau(
         output.write(text)
 
 
-def _entries(
+def shown_entries(
     tableau: Tableau, digits: int | None, further: Further = NOTHING
 ) -> Entries:
+    """The entries of a tableau and of what is beside it: exact ones, or of so many digits."""
     found = entries(tableau, digits or DEFAULT_DIGITS).beside(further)
     return found if digits is None else found.in_decimals(digits)
 
@@ -95,7 +96,7 @@ def _method_file(
             "--format json has all of its blocks",
         )
     if digits is not None:
-        found = _entries(tableau, digits)
+        found = shown_entries(tableau, digits)
         return write_rounded(tableau, found, name, further)
     exact = in_points(tableau)
     if exact is None:

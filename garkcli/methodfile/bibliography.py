@@ -126,10 +126,36 @@ def aliases_of(text: str, name: str) -> tuple[str, ...]:
     ('DOPRI5', 'RK45')
     """
     source = Source(name, text)
+    return read_aliases(source, _value_of(source, "aliases"))
+
+
+def reference_of(text: str, name: str) -> tuple[str, Reference | None]:
+    """The reference that the text of a method file gives, in one line and its fields; nothing else
+    is read.
+
+    Args:
+        text: of the file.
+        name: what to call it.
+
+    Raises:
+        MethodFileError: it is no YAML, or the reference has a fault.
+
+    >>> reference_of("reference: Runge 1895", "a file")
+    ('Runge 1895', None)
+    """
+    source = Source(name, text)
+    found = read_reference(source, _value_of(source, "reference"))
+    source.close()
+    return found
+
+
+def _value_of(source: Source, key: str) -> Node | None:
+    """What stands under a key of the file; None where there is none."""
     root = source.compose()
     if root is None:
-        return ()
-    for key, value in root.value:
-        if key.value == "aliases":
-            return read_aliases(source, value)
-    return ()
+        raise source.error()
+    for key_node, value in root.value:
+        if key_node.value == key:
+            found: Node = value
+            return found
+    return None

@@ -188,6 +188,12 @@ def every_shelf() -> list[Shelf]:
     return list(chain.from_iterable(_in_turn()))
 
 
+def shelf_of(method: Shelved) -> Shelf:
+    """Where a method is."""
+    (shelf,) = [x for x in every_shelf() if x.label == method.shelf]
+    return shelf
+
+
 def visible(shelves: Iterable[Shelf]) -> Iterator[tuple[Shelf, Shelved]]:
     """The methods that their names mean, shelf by shelf: none that another one hides."""
     known: set[str] = set()

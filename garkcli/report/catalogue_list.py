@@ -51,6 +51,7 @@ METHOD: Record[Entry] = Record(
     _field("authors", array(TEXT)),
     _field("year", TEXT),
     _field("order", nullable(COUNT)),
+    _field("embedded_order", nullable(COUNT)),
     _field("conjugate_order", nullable(COUNT)),
     _field("pair_order", nullable(COUNT)),
     _field("nonautonomous_order", nullable(COUNT)),
@@ -162,11 +163,13 @@ def _row(entry: Entry) -> tuple[str, ...]:
 
 
 def _order(entry: Entry) -> str:
-    """The order, marked where it is a claim."""
+    """The order with that of embedded weights, marked where it is a claim."""
     if entry["order"] is None:
         return ""
-    is_claim = entry["facts"] == "claimed"
-    return f"{entry['order']}*" if is_claim else str(entry["order"])
+    told = str(entry["order"])
+    if entry["embedded_order"] is not None:
+        told += f"({entry['embedded_order']})"
+    return f"{told}*" if entry["facts"] == "claimed" else told
 
 
 def _stages(entry: Entry) -> str:

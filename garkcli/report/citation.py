@@ -249,23 +249,29 @@ def _has_capital(word: str) -> bool:
     return any(sign.isupper() for sign in word)
 
 
-def _as_data(cited: Cited) -> dict[str, object] | None:
-    """The fields that a publication has."""
-    if cited.reference is None:
+def reference_data(reference: Reference | None) -> dict[str, object] | None:
+    """The fields that a publication has; None for plain text."""
+    if reference is None:
         return None
     found = {}
-    for field in fields(cited.reference):
-        value = getattr(cited.reference, field.name)
+    for field in fields(reference):
+        value = getattr(reference, field.name)
         if value:
             is_list = isinstance(value, tuple)
             found[field.name] = list(value) if is_list else value
     return found
 
 
-_REFERENCE: Schema = {
-    "type": ["object", "null"],
-    "additionalProperties": {"oneOf": [TEXT, array(TEXT)]},
+REFERENCE: Schema = {
+    "type": "object",
+    "properties": {
+        **{field.name: TEXT for field in fields(Reference)},
+        "authors": array(TEXT),
+        "editors": array(TEXT),
+    },
+    "additionalProperties": False,
 }
+"""The fields of a publication, those that it has."""
 
 
 def _with_keys(cited: Sequence[Cited]) -> list[tuple[Cited, str]]:
@@ -280,7 +286,11 @@ _CITED: Record[tuple[Cited, str]] = Record(
     Field("methods", array(TEXT), lambda x: list(x[0].methods)),
     Field("key", TEXT, lambda x: x[1]),
     Field("text", nullable(TEXT), lambda x: x[0].text or None),
-    Field("reference", _REFERENCE, lambda x: _as_data(x[0])),
+    Field(
+        "reference",
+        nullable(REFERENCE),
+        lambda x: reference_data(x[0].reference),
+    ),
     Field("bibtex", nullable(TEXT), _bibtex_or_none),
 )
 _REPORT: Record[Sequence[Cited]] = Record(

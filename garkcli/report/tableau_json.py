@@ -32,14 +32,19 @@ SCHEMA = "gark/tableau/1"
 
 def render(tableau: Tableau, entries: Entries, name: str) -> str:
     """The tableau as JSON text."""
-    return _REPORT.text(_Shown(tableau, entries, name))
+    return REPORT.text(_Shown(tableau, entries, name))
+
+
+def as_data(tableau: Tableau, entries: Entries, name: str) -> dict[str, Any]:
+    """The tableau as plain data."""
+    return REPORT.data(_Shown(tableau, entries, name))
 
 
 def tableau_report_schema() -> Schema:
     """The JSON Schema of tableaus, of all commands that print one."""
     return published(
         "tableau of gark tableau, conjugate, convert and reduce",
-        _REPORT.schema,
+        REPORT.schema,
     )
 
 
@@ -99,7 +104,7 @@ _EXACT = _entry_fields(
 _FLOATS: Record[Entries] = Record(
     *_entry_fields(NUMBER, lambda _, x: _float(x))
 )
-_REPORT: Record[_Shown] = Record(
+REPORT: Record[_Shown] = Record(
     schema_named(SCHEMA),
     Field("name", TEXT, lambda x: x.name),
     Field("exact", FLAG, lambda x: x.entries.is_exact),

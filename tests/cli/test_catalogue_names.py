@@ -30,6 +30,7 @@ CALLS = [
     ("convert", "RK4", "--stages", "5"),
     ("diff", "RK4", "RK4"),
     ("export", "RK4", "--to", "json"),
+    ("cite", "RK4"),
 ]
 
 

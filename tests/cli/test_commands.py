@@ -75,6 +75,8 @@ RUNS = [
         ("text", "json", "yaml"),
     ),
     (("list",), ("text", "json")),
+    (("show", COLLOCATION), ("text", "json")),
+    (("cite", COLLOCATION), ("bibtex", "text", "json")),
     (("list", "methods", "rk4"), ("text", "json", "csv", "markdown")),
     (("claims", VERLET), ("text", "json")),
     (("diff", VERLET, VERLET), ("text", "json", "markdown")),

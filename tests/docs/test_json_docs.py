@@ -97,6 +97,8 @@ REPORTS = {
     "audit": [["audit", "tests/bridges/sources/register.cpp"]],
     "import": [["import", "tests/bridges/sources/register.cpp"]],
     "list": [["list"], ["list", "methods", "rk4"]],
+    "show": [["show", "rk4"]],
+    "cite": [["cite", "rk4", "collocation"]],
 }
 """Of each section the runs whose reports it describes."""
 

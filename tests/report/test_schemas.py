@@ -103,6 +103,8 @@ RUNS: dict[str, list[tuple[str, ...]]] = {
         ("list", "methods"),
         ("list", "methods", "--catalogue", "tests/examples/valid"),
     ],
+    "show": [("rk4",), ("collocation",), ("ark-ars222",)],
+    "cite": [("rk4", "collocation", "stoermer-verlet")],
     "list-exports": [("list", "exports")],
     "export": [(file,) for file in FILES],
     "claims": [(file,) for file in METHODS],
