@@ -37,16 +37,19 @@ def adjoint(tableau: Tableau) -> Tableau:
         turned = _turned_colour(colour, turns[colour.space])
         end = advance(tableau, l)
         own = tableau.spaces[colour.space].one
-        nodes = subtract((tuple(end * x for x in own),), (colour.c,))
-        turned = replace(turned, c=apply(turns[colour.space], nodes[0]))
-        colours.append(turned)
+        rest_of_time = []
+        for one, c in zip(own, colour.c, strict=True):
+            rest_of_time.append(end * one - c)
+        turn = turns[colour.space]
+        nodes = apply(turn, tuple(rest_of_time))
+        colours.append(replace(turned, c=nodes))
     blocks: dict[Edge, Matrix] = {}
     for (k, m), block in tableau.blocks.items():
         colour = tableau.colours[m]
         whole = outer(tableau.spaces[k].one, colour.b)
         rest = subtract(whole, block)
-        onto = turns[colour.space]
-        blocks[k, m] = multiply(turns[k], multiply(rest, onto))
+        onto = multiply(rest, turns[colour.space])
+        blocks[k, m] = multiply(turns[k], onto)
     spaces: list[StageSpace] = []
     for k, space in enumerate(tableau.spaces):
         nodes_of = next((x.c for x in colours if x.space == k), space.nodes)

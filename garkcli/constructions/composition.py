@@ -66,7 +66,7 @@ def seen_in_nodes(tableau: Tableau, l: int) -> int | None:
     """The colour whose time the nodes of colour l are: itself where its stages see it, else the
     first that they see; None where they see none.
     """
-    seen = [m for m in range(tableau.size) if tableau.block(l, m) is not None]
+    seen = [m for k, m in tableau.edges() if k == l]
     return l if l in seen or not seen else seen[0]
 
 

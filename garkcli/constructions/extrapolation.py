@@ -39,9 +39,13 @@ def extrapolated(
     stages = count_stages(base) * sum(parts)
     refuse_large(stages, "extrapolate fewer times, or a smaller method")
     gap = 2 if is_symmetric else 1
-    powers = range(order, order + gap * (len(parts) - 1), gap)
+    taken_out = len(parts) - 1
+    powers = range(order, order + gap * taken_out, gap)
     weights = extrapolation_weights(parts, powers)
-    rows = [composed([Substep(base, fmpq(1, n))] * n) for n in parts]
+    rows = []
+    for n in parts:
+        part = Substep(base, fmpq(1, n))
+        rows.append(composed([part] * n))
     return merged(side_by_side(rows, weights))
 
 
@@ -71,7 +75,8 @@ def _side_by_side(
         colour = tableau.colours[l]
         b += [weight * x for x in colour.b]
         c += colour.c
-    return replace(tableaus[0].colours[l], b=tuple(b), c=tuple(c))
+    first = tableaus[0].colours[l]
+    return replace(first, b=tuple(b), c=tuple(c))
 
 
 def _diagonal(

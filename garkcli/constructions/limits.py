@@ -4,8 +4,8 @@ from __future__ import annotations
 
 from garkcli.errors import MethodError
 
-MAX_STAGES = 1000
-"""Most stages of all colours together: with as many, a check still takes seconds."""
+MAX_STAGES = 400
+"""Most stages of all colours together, before equal ones are put together."""
 
 
 def refuse_large(stages: int, cure: str) -> None:

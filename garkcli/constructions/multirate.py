@@ -59,7 +59,8 @@ def mis_coupling(base: Method) -> Coupling:
     differences = []
     for before, row in pairwise(rows):
         pairs = zip(row, before, strict=True)
-        differences.append((*(x - y for x, y in pairs), ZERO))
+        row_of_differences = [x - y for x, y in pairs]
+        differences.append((*row_of_differences, ZERO))
     nodes = (*base.c, ONE)
     return Coupling(nodes, ((tuple(differences),),))
 
@@ -193,7 +194,8 @@ def small_steps(fast: Method, steps: int) -> Method:
 
 def _alone(tableau: Tableau) -> Method:
     """The method of one colour that a tableau is."""
-    A, b = tableau.blocks[0, 0], tableau.colours[0].b
+    A = tableau.blocks[0, 0]
+    b = tableau.colours[0].b
     return Method("", tableau.spaces[0], A, b)
 
 
@@ -204,9 +206,10 @@ def by_rule(slow: Method, fast: Method, steps: int, rule: Rule) -> Tableau:
         MethodError: the rule asks for distinct nodes, or there are too many stages.
     """
     whole = small_steps(fast, steps)
-    return gark(
-        [whole, slow], {(0, 1): rule(whole, slow), (1, 0): rule(slow, whole)}
-    )
+    fast_slow = rule(whole, slow)
+    slow_fast = rule(slow, whole)
+    blocks = {(FAST, SLOW): fast_slow, (SLOW, FAST): slow_fast}
+    return gark([whole, slow], blocks)
 
 
 def slowest_first(slow: Method, fast: Method, steps: int) -> Tableau:
@@ -231,7 +234,7 @@ def slowest_first(slow: Method, fast: Method, steps: int) -> Tableau:
     stages = range(first, first + whole.stages)
     integrals = [antiderivative(x) for x in slow.space.basis_polynomials()]
     for row, node in zip(whole.A, whole.c, strict=True):
-        powers = [node**k if k else ONE for k in range(slow.stages + 1)]
+        powers = _powers(node, slow.stages + 1)
         seen = [dot(f, powers) for f in integrals]
         value = summed(
             of_slopes(FAST, stages, row), of_slopes(SLOW, every, seen)
@@ -241,6 +244,14 @@ def slowest_first(slow: Method, fast: Method, steps: int) -> Tableau:
         of_slopes(FAST, stages, whole.b), of_slopes(SLOW, every, slow.b)
     )
     return merged(program.tableau(result))
+
+
+def _powers(x: Number, count: int) -> Vector:
+    """1, x, x², …"""
+    powers: list[Number] = [ONE]
+    while len(powers) < count:
+        powers.append(powers[-1] * x)
+    return tuple(powers)
 
 
 @dataclass(frozen=True)
@@ -276,5 +287,7 @@ def by_blocks(slow: Method, fast: Method, blocks: Blocks) -> Tableau:
         for block in blocks.slow_fast:
             row += [length * x for x in block[i]]
         seen_by_slow.append(tuple(row))
-    couplings = {(0, 1): tuple(seen_by_fast), (1, 0): tuple(seen_by_slow)}
+    fast_slow = tuple(seen_by_fast)
+    slow_fast = tuple(seen_by_slow)
+    couplings = {(FAST, SLOW): fast_slow, (SLOW, FAST): slow_fast}
     return merged(gark([whole, slow], couplings))

@@ -57,8 +57,10 @@ def alone(methods: Sequence[Method], l: int) -> Tableau:
         nodes = own.c if k == l else ()
         weights = own.b if k == l else ()
         spaces.append(PointSpace(nodes))
-        colours.append(Colour(str(k + 1), k, weights, nodes, k))
+        name = str(k + 1)
+        colours.append(Colour(name, k, weights, nodes, k))
         for m in range(len(methods)):
             rows = len(nodes)
-            blocks[k, m] = own.A if k == m == l else ((),) * rows
+            is_own = k == m == l
+            blocks[k, m] = own.A if is_own else ((),) * rows
     return Tableau(tuple(spaces), tuple(colours), blocks)

@@ -51,7 +51,8 @@ def corrections(points: int, options: Options) -> Recipe:
     sweeps = int(str(options["sweeps"]))
     is_implicit = options["sweep"] == "implicit"
     nodes = _nodes(word, points)
-    name = f"SDC {word} {points}, {sweeps} {options['sweep']} sweeps"
+    kind = options["sweep"]
+    name = f"SDC {word} {points}, {sweeps} {kind} sweeps"
 
     def make(values: Vector) -> Method:
         return _Corrections(values, is_implicit).method(name, sweeps)
@@ -118,16 +119,16 @@ class _Corrections:
                 new.append(old[m])
                 continue
             if self.is_implicit:
-                terms = [(1, value), (1, increment), (-width, {old[m]: ONE})]
-                value = combined(terms)
+                before_it = {old[m]: -width}
+                value = combined([(1, value), (1, increment), (1, before_it)])
                 slope = self.stages.implicit_slope(value, width)
                 value = combined([(1, value), (1, {slope: width})])
             else:
-                terms = [(1, value), (1, increment)]
+                value = combined([(1, value), (1, increment)])
                 if m:
-                    terms.append((width, {new[-1]: ONE}))
-                    terms.append((-width, {old[m - 1]: ONE}))
-                value = combined(terms)
+                    change = {new[-1]: width}
+                    undone = {old[m - 1]: -width}
+                    value = combined([(1, value), (1, change), (1, undone)])
                 slope = self.stages.slope_at(value)
             new.append(slope)
             before = node
@@ -151,6 +152,8 @@ def _integrals(nodes: Sequence[Number]) -> tuple[Vector, ...]:
     polynomials = [antiderivative(basis) for basis in bases]
     rows = []
     for end in (*nodes, ONE):
-        powers = [end**k if k else ONE for k in range(len(nodes) + 1)]
+        powers: list[Number] = [ONE]
+        while len(powers) <= len(nodes):
+            powers.append(powers[-1] * end)
         rows.append(tuple(dot(f, powers) for f in polynomials))
     return tuple(rows)

@@ -9,7 +9,6 @@ Ordinary Differential Equations I*, II.9. Parts that two of them share are compu
 from __future__ import annotations
 
 from collections.abc import Callable, Sequence
-from itertools import count, islice
 from typing import TypeAlias
 
 from flint import fmpq
@@ -37,9 +36,10 @@ def sequence(name: str, length: int) -> tuple[int, ...]:
         return tuple(range(1, length + 1))
     if name == "romberg":
         return tuple(2**k for k in range(length))
-    pairs = ((2**k, 3 * 2 ** (k - 1)) for k in count(1))
-    both = (n for pair in pairs for n in pair)
-    return (1, *islice(both, length - 1))
+    found = [1, 2, 3]
+    while len(found) < length:
+        found.append(2 * found[-2])
+    return tuple(found[:length])
 
 
 def extrapolation_weights(
@@ -54,8 +54,11 @@ def extrapolation_weights(
     >>> extrapolation_weights([1, 2], [1])
     (-1, 2)
     """
-    rows = [tuple(fmpq(1, n**k) for n in parts) for k in (0, *powers)]
-    right = [(fmpq(1),), *((fmpq(0),) for _ in powers)]
+    rows = []
+    right = []
+    for k in (0, *powers):
+        rows.append(tuple(fmpq(1, n**k) for n in parts))
+        right.append((fmpq(k == 0),))
     found = solve(tuple(rows), tuple(right))
     weights = [row[0] for row in found]
     return tuple(w for w in weights if isinstance(w, fmpq))
@@ -86,7 +89,8 @@ def _midpoint(stages: StageList, n: int) -> Weights:
     for i in range(n):
         slope = stages.slope_at(value)
         reach = h if i == 0 else 2 * h
-        before, value = value, combined([(1, before), (1, {slope: reach})])
+        leap = {slope: reach}
+        before, value = value, combined([(1, before), (1, leap)])
     return value
 
 

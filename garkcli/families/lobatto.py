@@ -66,7 +66,8 @@ def lobatto_iiis(s: int, options: Options) -> Recipe:
     def make(values: Vector) -> Method:
         (sigma,) = values
         one, other = lobatto_iiid(s), lobatto_iiie(s)
-        of_one, of_other = 2 * sigma - ONE, 2 * ONE - 2 * sigma
+        of_one = 2 * sigma - ONE
+        of_other = 2 * (ONE - sigma)
         A = add(scale(of_one, one.A), scale(of_other, other.A))
         return Method(f"Lobatto IIIS {s}", one.space, A, one.b)
 

@@ -39,9 +39,12 @@ def _method(n: int) -> Method:
     values: list[Weights] = [START]
     for i in range(1, s + 1):
         slope = stages.slope_at(values[-1])
-        value = combined([(1, values[-1]), (1, {slope: length})])
+        gained = {slope: length}
+        value = combined([(1, values[-1]), (1, gained)])
         if i == middle:
-            old, new = fmpq(n, 2 * n - 1), fmpq(n - 1, 2 * n - 1)
+            whole = 2 * n - 1
+            old = fmpq(n, whole)
+            new = fmpq(n - 1, whole)
             value = combined([(old, values[earlier]), (new, value)])
         values.append(value)
     return stages.method(f"SSPRK({s},3)", values[-1])

@@ -91,7 +91,7 @@ def test_free_parameters() -> None:
             "{of: {family: gauss, stages: 7}, order: 16}",
             "no simple|without simple",
         ),
-        ("{of: rk4, order: 40}", "stages \\(limit 1000\\)"),
+        ("{of: rk4, order: 40}", "stages \\(limit 400\\)"),
     ],
 )
 def test_faults(text: str, message: str) -> None:

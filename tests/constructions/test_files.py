@@ -2,10 +2,13 @@
 
 from __future__ import annotations
 
+from pathlib import Path
+
 import pytest
 import yaml
 from jsonschema import Draft7Validator
 
+from garkcli.api.methods import find_order
 from garkcli.errors import MethodFileError
 from garkcli.methodfile.load import loads
 from garkcli.methodfile.schema import method_file_schema
@@ -59,7 +62,7 @@ FAULTS = {
     "multirate: {slow: rk4, fast: heun, steps: 2}": "no interpolation through them",
     "multirate: {mis: {family: radau-iia, stages: 2}, fast: heun, steps: 2}": "the slow stages begin at 1/3",
     "multirate: {mis: {splitting: {scheme: lie}}, fast: heun, steps: 2}": "of one vector field",
-    "multirate: {slow: heun, fast: rk4, steps: 300}": "stages (limit 1000)",
+    "multirate: {slow: heun, fast: rk4, steps: 300}": "stages (limit 400)",
     "multirate: {mri: {c: [0, 1]}, fast: heun, steps: 2}": "c and gamma are needed",
     "multirate: {mri: {c: [0, 1], gamma: [[[1], [1]]]}, fast: heun, steps: 2}": "gamma^0 is 2 by 1 for 2 nodes",
     "multirate: {slow: heun, fast: heun, steps: 2, coupling: {fast-slow: [[0, 0], [0, 0]]}}": "slow-fast missing",
@@ -124,6 +127,34 @@ def test_the_schema_refuses_what_does_not_load(text: str) -> None:
     assert not VALIDATOR.is_valid(yaml.safe_load(text))
     with pytest.raises(MethodFileError):
         loads(text)
+
+
+def test_names_of_the_catalogue(
+    tmp_path: Path, monkeypatch: pytest.MonkeyPatch
+) -> None:
+    """A name is the method of the catalogue, its tolerance included; names that lead in a circle
+    and families are refused where they stand.
+    """
+    files = {
+        "mine": "A: [[0.4999999999999]]\nb: [1]\ntolerance: 1e-9",
+        "one": "adjoint: other",
+        "other": "adjoint: one",
+        "family": "A: [[t]]\nb: [1]\nparameters: {t: free}",
+    }
+    for name, text in files.items():
+        (tmp_path / f"{name}.gark.yaml").write_text(text, encoding="utf-8")
+    monkeypatch.setenv("GARK_PATH", str(tmp_path))
+    method = loads("compose: {of: mine, scheme: triple-jump}")
+    assert method.stages == (3,)
+    assert str(method.tolerance) == "1/1000000000"
+    assert find_order(method).order == 4
+    for name, message in (
+        ("one", "made from itself"),
+        ("family", "free parameters"),
+    ):
+        with pytest.raises(MethodFileError, match=message) as caught:
+            loads(f"adjoint: {name}")
+        assert [(x.line, x.column) for x in caught.value.faults] == [(1, 10)]
 
 
 def test_adjoint_twice_is_the_method() -> None:

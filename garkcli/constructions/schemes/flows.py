@@ -47,7 +47,8 @@ def alternating(a: Sequence[str], b: Sequence[str]) -> tuple[FlowText, ...]:
     flows: list[FlowText] = []
     for i, text in enumerate(a):
         flows.append((0, text))
-        flows += [(1, b[i])] if i < len(b) else []
+        if i < len(b):
+            flows.append((1, b[i]))
     return tuple(flows)
 
 

@@ -35,7 +35,7 @@ _FORM = "write for instance {of: {family: heun}, steps: [1/2, 1/2]}"
 _FORM_OF_STEP = "write 1/2, or {step: 1/2, adjoint: true}"
 _NO_METHOD = "the step of no method"
 _NAME_IT = "give of: METHOD, here or for all of them"
-MAX_SUBSTEPS = 1000
+MAX_SUBSTEPS = 400
 """Most substeps of a composition."""
 
 

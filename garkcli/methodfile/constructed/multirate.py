@@ -181,7 +181,8 @@ class _Multirate:
             return None
         c = self.numbers.row(entries["c"], "c")
         given_powers = [key for key in ("omega", "gamma") if key in entries]
-        every = [self._powers(entries[x], x, len(c)) for x in given_powers]
+        count = len(c)
+        every = [self._powers(entries[x], x, count) for x in given_powers]
         if fast is None or steps is None or not c or not all(every):
             return None
         numbers = list(c)
@@ -218,8 +219,9 @@ class _Multirate:
         """
         if len(rows) == count and not any(map(_is_nonzero, rows[0])):
             rows = rows[1:]
-        if len(rows) != count - 1 or max(map(len, rows)) > count:
-            found = f"{len(rows)} by {max(map(len, rows))}"
+        width = max(map(len, rows))
+        if len(rows) != count - 1 or width > count:
+            found = f"{len(rows)} by {width}"
             message = f"{name} is {found} for {counted(count, 'node')}"
             cure = "give a row from each node to the next, a column a node"
             self.source.fault(node, message, cure)
@@ -227,7 +229,8 @@ class _Multirate:
         whole: list[Row] = []
         for i, row in enumerate(rows, start=1):
             missing = count - len(row)
-            zero = Entry(Literal(fmpq(0)), node, f"{name}, row {i}")
+            nothing = Literal(fmpq(0))
+            zero = Entry(nothing, node, f"{name}, row {i}")
             self.numbers.entries += [zero] * bool(missing)
             whole.append(row + (zero,) * missing)
         return tuple(whole)

@@ -113,7 +113,6 @@ class PartReader:
         """
         from garkcli.methodfile.load import described
         from garkcli.methodfile.naming import read_argument
-        from garkcli.methodfile.parameters import refuse_free
 
         text, found = read_argument(f"catalogue:{name}")
         if found in _opened:
@@ -124,7 +123,11 @@ class PartReader:
         try:
             reader, description = described(text, found, {})
             if reader.numbers.free:
-                refuse_free(reader.numbers)
+                message = f"{found} is a family with free parameters"
+                cure = (
+                    "write its coefficients here, with parameters of this file"
+                )
+                reader.source.fault(None, message, cure)
             reader.source.close()
             part = _part(reader.source, reader.numbers, description, why)
             reader.source.close()

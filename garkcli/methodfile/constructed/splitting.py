@@ -10,7 +10,6 @@ from yaml.nodes import MappingNode, Node, SequenceNode
 from garkcli.constructions.schemes.flows import (
     SPLITTINGS,
     FlowText,
-    alternating,
 )
 from garkcli.constructions.splitting import drift_and_kick, split
 from garkcli.errors import MethodError
@@ -37,7 +36,7 @@ _FORM = "write for instance {a: [1/2, 1/2], b: [1]} or {scheme: strang}"
 _FORM_OF_FLOWS = "write for instance [{1: 1/2}, {2: 1}, {1: 1/2}]"
 MAX_TERMS = 20
 """Most parts of a problem that is split."""
-MAX_FLOWS = 1000
+MAX_FLOWS = 400
 """Most flows of a splitting."""
 
 
@@ -122,10 +121,10 @@ class _Splitting:
             cure = "give as many, or one more to a: part 1 flows first"
             self.source.fault(entries["b"], message, cure)
             return
-        for l, text in alternating(
-            [str(i) for i in range(len(a))], [str(i) for i in range(len(b))]
-        ):
-            self.flow(l, rows[l][int(text)])
+        for i, entry in enumerate(a):
+            self.flow(0, entry)
+            if i < len(b):
+                self.flow(1, b[i])
 
     def one_by_one(self, node: Node) -> None:
         """A list of flows, each the part and its fraction."""
