@@ -22,6 +22,7 @@ from garkcli.bridges.trials import SEPARABLE, STEPS, TRIALS, WHOLE, Trial
 from garkcli.convergence.convergence import converge
 from garkcli.methodfile.load import load, loads
 from garkcli.methodfile.problem import load_problem
+from tests.bridges.test_export import HOSTILE
 from tests.cli.harness import ROOT, gark
 
 CC = shutil.which("cc") or shutil.which("gcc")
@@ -287,3 +288,32 @@ def test_erkstep_is_given_what_it_steps_with() -> None:
         assert driver is not None
         program, _ = driver(payload, "m.c")
         assert f"{stepper}Create(rhs1, " in program.text
+
+
+@pytest.mark.skipif(CC is None, reason="no C compiler")
+def test_no_name_leaves_the_comments_of_c(tmp_path: Path) -> None:
+    """Headers of methods with hostile names and references compile without a warning."""
+    lines = []
+    for place, name in enumerate(HOSTILE):
+        text = (
+            f'name: "n{place} {name}"\nA: [[0]]\nb: [1]\nreference: "{name}"\n'
+        )
+        header = bridges()["c"].written(prepared(loads(text)))
+        (tmp_path / f"h{place}.h").write_text(header)
+        lines.append(f'#include "h{place}.h"')
+    program = "\n".join([*lines, "int main(void) { return 0; }"]) + "\n"
+    assert compiled(tmp_path, program, "-Wno-unused-variable") == []
+
+
+@pytest.mark.parametrize(
+    ("target", "mark"), [("fortran", "!"), ("latex", "%"), ("csv", "#")]
+)
+def test_heads_are_comments(target: str, mark: str) -> None:
+    """Whatever the name, the lines of the head begin with the mark of the language."""
+    for name in HOSTILE:
+        text = f'name: "{name}"\nA: [[0]]\nb: [1]\nreference: "{name}"\n'
+        written = bridges()[target].written(prepared(loads(text))).splitlines()
+        marked = [line.startswith(mark) for line in written]
+        head = marked.index(False)
+        assert head >= 5
+        assert not any(marked[head:])
