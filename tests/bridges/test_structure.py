@@ -157,6 +157,11 @@ REFUSED = [
         "{A: [[0, 0], [1, 0]], b: [1/2, 1/2], c: [1/2, 1]}",
         "first node is 1/2",
     ),
+    (
+        "sundials",
+        "{A: [[0, 0], [1, 0]], b: [1/2, 1/2], c: [1/2, 1]}",
+        "first node is 1/2",
+    ),
     ("sundials", "{methods: [{family: gauss, stages: 2}]}", "solved together"),
     ("petsc", "{methods: [{family: gauss, stages: 2}]}", "solved together"),
     ("scipy", "{ark: {A: [[[0]], [[0]]], b: [[1], [1]]}}", "scipy has no"),

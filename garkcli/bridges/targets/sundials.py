@@ -17,6 +17,7 @@ from garkcli.bridges.structure import (
     no_composition,
     shared,
     table,
+    vanishes,
 )
 from garkcli.bridges.sundials_driver import driver
 
@@ -56,6 +57,7 @@ def _one(payload: Payload) -> str:
     found = table(payload)
     name = _function(payload)
     check_diagonal(payload, [found], "sundials")
+    _check_first(payload, [found])
     stepper = "ERKStep" if for_erkstep(found) else "ARKStep"
     use = f"Use: {stepper}Create, then {name}_set(arkode_mem)."
     lines = heading(payload, use, *_notes(payload))
@@ -94,6 +96,7 @@ def for_erkstep(found: Table) -> bool:
 def _pair(payload: Payload) -> str:
     """An explicit and an implicit method, the implicit one first where both are given."""
     pair = pair_of(payload, "sundials")
+    _check_first(payload, pair.tables)
     name = _function(payload)
     names = [f"{name}_implicit", f"{name}_explicit"]
     fields = f"fe is f{pair.explicit + 1}, fi is f{pair.implicit + 1}"
@@ -152,6 +155,22 @@ def check_diagonal(
         f"{target} computes stages one after the other, and some of {payload.name} are solved "
         "together",
         "json, c, fortran and numpy hold it",
+    )
+
+
+def _check_first(payload: Payload, tables: Sequence[Table]) -> None:
+    """ARKODE takes f at t for the first stage where that is explicit, whatever its node is.
+
+    Raises:
+        CannotExport: that would be another method.
+    """
+    is_explicit = all(vanishes(x.A[0][0]) for x in tables)
+    if not is_explicit or all(vanishes(x.c[0]) for x in tables):
+        return
+    node = payload.number(tables[0].c[0])
+    raise CannotExport(
+        f"sundials evaluates an explicit first stage at t, and the first node is {node}",
+        "where f does not depend on t, set the first node to 0",
     )
 
 
