@@ -113,9 +113,22 @@ class Comparison:
         return "same"
 
     @property
-    def has_same_step(self) -> bool:
-        """Whether the steps are the same, whatever the further weights are."""
-        return self.sameness is not None
+    def remark(self) -> str:
+        """What alone makes different methods different, where no entry of a block or of b does;
+        else empty.
+        """
+        if self.relation != "different":
+            return ""
+        kinds = {gap.kind for gap in self.gaps}
+        if self.sameness is not None:
+            return "the step is the same, further weights are not"
+        if kinds == {"c"}:
+            return "nodes alone differ"
+        first, second = _linear(self.one), _linear(self.other)
+        has_one_size = len(first) == len(second)
+        if not kinds and has_one_size and first != second:
+            return "the entries are the same, which colours are linear is not"
+        return ""
 
     def __repr__(self) -> str:
         return f"<Comparison {self.relation}>"
@@ -163,6 +176,10 @@ def compare(
         met=_met(first, second, answer, views.one, views.other),
         properties=_properties(first, second),
     )
+
+
+def _linear(method: GarkMethod) -> tuple[bool, ...]:
+    return tuple(colour.is_linear for colour in method.tableau.colours)
 
 
 def _analysed(method: GarkMethod, limit: int) -> Analysis:

@@ -175,6 +175,7 @@ _REPORT: Record[_Shown] = Record(
     _METHOD.whole("second", _second),
     Field("relation", _RELATION, lambda x: x.found.relation),
     Field("obstacle", nullable(TEXT), _obstacle),
+    Field("remark", nullable(TEXT), lambda x: x.found.remark or None),
     _SAME.or_null("same", lambda x: x.found.sameness),
     _BLOCK.every("differences", lambda x: x.found.gaps),
     _ORDER.every("orders", lambda x: x.found.orders),

@@ -33,21 +33,16 @@ def relation_lines(found: Comparison) -> list[str]:
         return [f"not decided: {found.obstacle}"]
     same = found.sameness
     if same is None:
-        return [f"different methods{_only_nodes(found)}"]
+        return [": ".join(filter(None, ["different methods", found.remark]))]
     how = _how(found, same)
     if same.step_only:
-        head = "different: the step is the same, further weights are not"
+        head = f"different: {found.remark}"
     elif same.allowed:
         rounding = decimal(same.allowed)
         head = f"the same method within the rounding of the files, {rounding}"
     else:
         head = "the same method"
     return [head, *how]
-
-
-def _only_nodes(found: Comparison) -> str:
-    kinds = {gap.kind for gap in found.gaps}
-    return ": nodes alone differ" if kinds == {"c"} else ""
 
 
 def _how(found: Comparison, same: Sameness) -> list[str]:

@@ -157,6 +157,28 @@ def test_forms_do_not_matter() -> None:
         assert found.gaps == ()
 
 
+def test_what_alone_is_different_is_said() -> None:
+    """Nodes that are printed otherwise, and a colour that is linear: entries of A and b are the
+    same.
+    """
+    midpoint = "{A: [[0, 0], [1/2, 0]], b: [0, 1]}"
+    other = loads(midpoint.replace("]}", "], c: [0, 1/3]}"))
+    found = compare(loads(midpoint), other)
+    assert (found.relation, found.remark) == (
+        "different",
+        "nodes alone differ",
+    )
+    path = ROOT / "methods/stoermer-verlet.gark.yaml"
+    verlet = path.read_text(encoding="utf-8")
+    nystrom = verlet.replace("structure: separable", "structure: nystrom")
+    found = compare(loads(verlet), loads(nystrom))
+    assert found.relation == "different"
+    assert found.remark.endswith("which colours are linear is not")
+    run = gark("diff", str(path), "-", stdin=nystrom)
+    assert found.remark in run.out
+    assert compare(loads(nystrom), loads(midpoint)).remark == ""
+
+
 def test_families_are_compared_with_what_they_are_spelled_out() -> None:
     """In number fields of their own the entries are equal exactly."""
     method = load(str(ROOT / "methods/collocation.gark.yaml"))
@@ -210,6 +232,7 @@ def test_embedded_weights_are_part_of_the_method() -> None:
         assert found.relation == "different"
         assert found.sameness is not None
         assert found.sameness.step_only
+        assert found.remark.startswith("the step is the same")
         kinds = {gap.kind for gap in found.gaps}
         assert "embedded" in kinds
         assert kinds <= {"embedded", "dense"}
