@@ -2,10 +2,21 @@
 
 from __future__ import annotations
 
+from typing import TYPE_CHECKING
+
 import click
 
 from garkcli.cli.method_argument import two_files
-from garkcli.cli.options import CONTEXT, Output, common
+from garkcli.cli.options import (
+    CONTEXT,
+    Output,
+    common,
+    settings_named,
+)
+from garkcli.errors import UsageProblem, did_you_mean
+
+if TYPE_CHECKING:
+    from garkcli.methodfile.build import MethodFile
 
 EXIT_CODES = {
     "identical": 0,
@@ -17,6 +28,11 @@ EXIT_CODES = {
 """By what the methods are to each other."""
 
 
+settings_of_both = settings_named(
+    "A value for a parameter of FIRST or SECOND, or of both."
+)
+
+
 @click.command("diff", context_settings=CONTEXT)
 @two_files("first", "second")
 @click.option(
@@ -24,8 +40,15 @@ EXIT_CODES = {
     is_flag=True,
     help="Exit with 1 unless every entry is the same as it stands.",
 )
+@settings_of_both
 @common(["text", "json", "markdown"])
-def command(first: str, second: str, strict: bool, output: Output) -> int:
+def command(
+    first: str,
+    second: str,
+    strict: bool,
+    settings: dict[str, str],
+    output: Output,
+) -> int:
     """How two methods differ: in entries, orders, conditions and properties; and whether they are
     the same method with its stages numbered otherwise, or in another form.
 
@@ -34,10 +57,9 @@ def command(first: str, second: str, strict: bool, output: Output) -> int:
     where they are not; 3 where that is not decided.
     """
     from garkcli.comparison.comparison import compare
-    from garkcli.methodfile.load import load
     from garkcli.methodfile.naming import called
 
-    found = compare(load(first), load(second))
+    found = compare(*_loaded(first, second, settings))
     files = (called(first), called(second))
     if output.format == "json":
         from garkcli.report import diff_json
@@ -56,3 +78,30 @@ def command(first: str, second: str, strict: bool, output: Output) -> int:
     if strict and found.relation == "within-rounding":
         return 1
     return EXIT_CODES[found.relation]
+
+
+def _loaded(
+    first: str, second: str, settings: dict[str, str]
+) -> tuple[MethodFile, MethodFile]:
+    """Both methods, each with the values of its own parameters.
+
+    Raises:
+        UsageProblem: a value is for a parameter of none of them.
+    """
+    from garkcli.methodfile.carried import parameter_names
+    from garkcli.methodfile.load import loads, read_method_text
+
+    methods = []
+    known: set[str] = set()
+    for path in (first, second):
+        text, source = read_method_text(path)
+        names = parameter_names(text, source)
+        known.update(names)
+        own = {name: x for name, x in settings.items() if name in names}
+        methods.append(loads(text, source, own))
+    for name in settings:
+        if name not in known:
+            message = f"--set {name}: neither file has such a parameter"
+            raise UsageProblem(message, did_you_mean(name, sorted(known)))
+    one, other = methods
+    return one, other

@@ -87,13 +87,21 @@ choices_option: Callable[[F], F] = click.option(
 )
 """``--choose``; it arrives as a mapping."""
 
-settings_option: Callable[[F], F] = click.option(
-    "--set",
-    "settings",
-    multiple=True,
-    metavar="NAME=VALUE",
-    callback=_settings,
-    help="A value for a parameter of FILE, in place of the one in it.",
+
+def settings_named(help: str) -> Callable[[F], F]:
+    """``--set``, with what it is for; it arrives as a mapping."""
+    return click.option(
+        "--set",
+        "settings",
+        multiple=True,
+        metavar="NAME=VALUE",
+        callback=_settings,
+        help=help,
+    )
+
+
+settings_option: Callable[[F], F] = settings_named(
+    "A value for a parameter of FILE, in place of the one in it."
 )
 """``--set``; it arrives as a mapping."""
 

@@ -43,6 +43,21 @@ def claim_lines(method: MethodFile, names: Mapping[str, str]) -> str:
     return ""
 
 
+def parameter_names(text: str, source: str) -> list[str]:
+    """The parameters that the text of a file names; none where it is not readable as YAML.
+
+    >>> parameter_names("{parameters: {t: free}, A: [[t]], b: [1]}", "it")
+    ['t']
+    """
+    root = Source(source, text).compose()
+    if not isinstance(root, MappingNode):
+        return []
+    for key, value in root.value:
+        if key.value == "parameters" and isinstance(value, MappingNode):
+            return [str(name.value) for name, _ in value.value]
+    return []
+
+
 def _entries(method: MethodFile) -> list[tuple[Node, Node]]:
     root = Source(method.source, method.text).compose()
     if root is None:

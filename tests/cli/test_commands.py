@@ -84,6 +84,8 @@ RUNS = [
     (("new", "--family", "gauss:2", "--family", "gauss:1"), ("yaml",)),
     (("explain", "density"), ("text", "json")),
     (("reduce", VERLET), ("yaml", "text", "json", "latex")),
+    (("convert", VERLET), ("yaml", "text", "json", "latex")),
+    (("diff", VERLET, VERLET), ("text", "json", "markdown")),
     (("modified", VERLET), ("text", "json", "latex")),
     (("certificate", VERLET), ("json",)),
     (("design", FREE), ("text", "json")),

@@ -374,6 +374,24 @@ def test_renumberings_in_words() -> None:
     assert exchanged.sameness.colours == (1, 0)
 
 
+def test_families_need_values(tmp_path: Path) -> None:
+    """A value goes to the file that has the parameter, or to both; an unknown one is refused."""
+    family = "parameters: {t: free}\nA: [[0, 0], [t, 0]]\nb: [0, 1]\n"
+    path = tmp_path / "family.gark.yaml"
+    path.write_text(family, encoding="utf-8")
+    plain = "{A: [[0, 0], [1/2, 0]], b: [0, 1]}"
+    arguments = ("diff", str(path), "-")
+    assert gark(*arguments, "--set", "t=1/2", stdin=plain).code == 0
+    assert gark(*arguments, "--set", "t=1/3", stdin=plain).code == 1
+    assert gark(*arguments, "--set", "t=1/3", stdin=family).code == 0
+    refused = gark(*arguments, "--set", "tau=1", stdin=plain)
+    assert refused.code == 2
+    assert "t is free" in refused.err
+    unknown = gark(*arguments, "--set", "t=1", "--set", "s=1", stdin=plain)
+    assert unknown.code == 2
+    assert "neither file has such a parameter" in unknown.err
+
+
 def test_files_that_cannot_be_read() -> None:
     """One that is not there is a mistake of the call."""
     run = gark("diff", "methods/rk4.gark.yaml", "nowhere.gark.yaml")
