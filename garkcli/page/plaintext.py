@@ -57,8 +57,10 @@ SIGNS = {
     "\N{COMBINING DOT ABOVE}": "'",
     "\N{COMBINING CIRCUMFLEX ACCENT}": "^",
     "\N{COMBINING TILDE}": "~",
+    "\N{COMBINING MACRON}": "_",
     # a letter that is no accented one
     "ø": "o",
+    "æ": "ae",
     "ß": "ss",
     # punctuation
     "–": "-",

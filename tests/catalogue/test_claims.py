@@ -7,12 +7,15 @@ from __future__ import annotations
 import csv
 import json
 import re
+from decimal import Decimal
 from pathlib import Path
 from typing import Any
 
 import pytest
 
-from garkcli.methodfile.load import load
+from garkcli.methodfile.load import load, loads
+from garkcli.page.plaintext import ascii_form
+from garkcli.tableau.pointwise import numeric_entries
 from tests.cli.harness import gark
 
 ROOT = Path(__file__).resolve().parents[2]
@@ -91,6 +94,94 @@ def test_misprinted_tables_have_lost_order(judged: dict[str, Any]) -> None:
         good = judged[right]
         assert "order" in description
         assert bad["nonautonomous_order"] < good["nonautonomous_order"]
+
+
+TWINS = [
+    {"cash-4-2", "cash-4-3"},  # another embedded method
+    {"feagin-12", "feagin-12-misprint"},  # another node
+    {"rectangular", "rectangular-from-methods"},  # the paper's two ways
+]
+"""Files whose coefficients are the same, and what is not."""
+
+
+def test_no_method_is_there_twice() -> None:
+    """Up to the order of the stages and 9 digits no two files have the same blocks and weights, but
+    for the twins, which differ in something else.
+    """
+    found: dict[object, set[str]] = {}
+    for name, file in FILES.items():
+        method = load(str(file))
+        printed = numeric_entries(method.tableau, 15)
+        blocks = [_sorted(block) for row in printed.A for block in row]
+        weights = [sorted(map(_rounded, row)) for row in printed.b]
+        key = str((method.structure, blocks, weights))
+        found.setdefault(key, set()).add(name)
+    again = [names for names in found.values() if len(names) > 1]
+    assert sorted(map(sorted, again)) == sorted(map(sorted, TWINS))
+    assert len(found) >= 200
+
+
+def _rounded(x: Any) -> float:
+    return round(float(x.str(20, radius=False)), 9) + 0.0
+
+
+def _sorted(block: Any) -> object:
+    """What renumbering does not change: rows and columns as sorted lists, and the diagonal."""
+    if block is None:
+        return None
+    rows = [[_rounded(x) for x in row] for row in block]
+    columns = [list(column) for column in zip(*rows, strict=True)]
+    diagonal = [row[i] for i, row in enumerate(rows) if i < len(row)]
+    parts = (map(sorted, rows), map(sorted, columns), diagonal)
+    return [sorted(part) for part in parts]
+
+
+FAMILIES = {
+    "dirk/implicit-midpoint": ("gauss", 1),
+    "irk/gauss-2": ("gauss", 2),
+    "irk/gauss-3": ("gauss", 3),
+    "irk/lobatto-iiia-3": ("lobatto-iiia", 3),
+    "irk/lobatto-iiia-4": ("lobatto-iiia", 4),
+    "irk/lobatto-iiib-3": ("lobatto-iiib", 3),
+    "irk/lobatto-iiib-4": ("lobatto-iiib", 4),
+    "irk/lobatto-iiic-3": ("lobatto-iiic", 3),
+    "irk/lobatto-iiic-4": ("lobatto-iiic", 4),
+    "irk/lobatto-iiie-2": ("lobatto-iiie", 2),
+    "irk/radau-ia-2": ("radau-ia", 2),
+    "irk/radau-iia-2": ("radau-iia", 2),
+    "irk/radau-iia-3": ("radau-iia", 3),
+    "irk/radau-iib-2": ("radau-iib", 2),
+}
+
+
+@pytest.mark.parametrize("file", FAMILIES)
+def test_tables_in_radicals_are_members_of_families(file: str) -> None:
+    """The coefficients as printed, against those that follow from the definition, to 30 digits."""
+    family, stages = FAMILIES[file]
+    text = f"methods: {{family: {family}, stages: {stages}}}\n"
+    made, printed = (
+        numeric_entries(method.tableau, 30)
+        for method in (loads(text), load(str(DATA / f"{file}.gark.yaml")))
+    )
+    for left, right in ((made.A, printed.A), (made.b, printed.b)):
+        assert _digits(left) == _digits(right)
+
+
+def _digits(cells: Any) -> Any:
+    """Numbers in nested tuples to 28 decimals."""
+    if isinstance(cells, tuple):
+        return [_digits(x) for x in cells]
+    return f"{Decimal(cells.str(33, radius=False)):.28f}".replace(
+        "-0.0", "0.0"
+    )
+
+
+def test_every_sign_of_the_files_has_an_ascii_form() -> None:
+    """Names and references are shown on streams without Greek and accents, too."""
+    texts = [file.read_text(encoding="utf-8") for file in FILES.values()]
+    signs = {sign for sign in "".join(texts) if not sign.isascii()}
+    assert signs
+    assert [x for x in signs if set(ascii_form(x)) & {"\\", "?"}] == []
 
 
 def test_references_say_where_the_digits_are_from() -> None:
