@@ -5,7 +5,7 @@ BIN    := $(VENV)/bin
 READY  := $(VENV)/.ready
 
 .DEFAULT_GOAL := help
-.PHONY: help run test lint types layers pytest portable bridges bench fuzz catalogue figures format clean
+.PHONY: help run test lint types layers pytest portable bridges bench fuzz readback catalogue figures format clean
 
 help: ## this list
 	@grep -E '^[a-z]+:.*## ' $(MAKEFILE_LIST) | sed 's/:.*## /\t/' | expand -t 12
@@ -54,6 +54,9 @@ fuzz: $(READY) ## some minutes of fuzzing, see docs/fuzzing.md
 	$(BIN)/python tests/fuzz/long_run.py --cases 20000 --problems
 	$(BIN)/python tests/fuzz/atheris_fuzz.py --target files -max_total_time=60
 	$(BIN)/python tests/fuzz/atheris_fuzz.py --target numbers -max_total_time=60
+
+readback: $(READY) ## every method of the catalogue exported and imported again, in every format
+	GARK_WHOLE_CATALOGUE=1 $(BIN)/python -m pytest -n 0 tests/bridges/test_round_trip.py
 
 catalogue: $(READY) ## make the index of the catalogue anew, and the copies in methods/
 	$(BIN)/python -m garkcli.catalogue

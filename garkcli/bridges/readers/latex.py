@@ -57,6 +57,7 @@ def find(text: str, source: str) -> list[FoundTable]:
     return found
 
 
+_Parts = tuple[list[int], list[list[list[str]]], list[list[str]]]
 _Array = tuple[int, str, str, str]
 
 
@@ -141,9 +142,7 @@ def _numbers(cells: list[str]) -> list[str]:
     return [number_of(cell) if cell else "" for cell in cells]
 
 
-def _read(
-    columns: str, body: str
-) -> tuple[list[int], list[list[list[str]]], list[list[str]]]:
+def _read(columns: str, body: str) -> _Parts:
     """The columns of each vector field, the rows of each set of stages, the rows of weights.
 
     Raises:
@@ -255,6 +254,8 @@ def _pair(
         of_p = _read(second[2], second[3])
     except Unreadable:
         return None
+    if len(of_q[1]) == len(of_p[0]) == 2 and len(of_p[1]) == 1:
+        return _semi_separable(first[0], of_q, of_p, source)
     parts = []
     for groups, stages, weights in (of_q, of_p):
         if len(stages) != 1:
@@ -280,6 +281,27 @@ def _pair(
         parts=("q", "p"),
         structure="general" if is_shared else "separable",
     )
+
+
+def _semi_separable(
+    line: int, of_q: _Parts, of_p: _Parts, source: str
+) -> FoundTable | None:
+    """A pair whose second Hamiltonian is of q alone: vector fields V1, F1 and F2.
+
+    V1 and F1 have the stages of the first rows of Q, which are those of P; F2 has the others,
+    which see V1 alone.
+    """
+    groups, _, weights = of_p
+    grid_q, nodes = _blocks([sum(of_q[0])], of_q[1])
+    grid_p, _ = _blocks(groups, of_p[1])
+    shared = (grid_q[0][0], *grid_p[0])
+    of_forces = tuple(map(_filled, _split(weights[0], groups)))
+    b = (_filled(of_q[2][0]), *of_forces)
+    grid: Grid = (shared, shared, (grid_q[1][0], None, None))
+    if [len(x) for x in b[1:]] != [len(x) for x in nodes if x]:
+        return None
+    c = (nodes[0], *nodes)
+    return FoundTable(source, line, NAME, "", grid, b, c)
 
 
 READER = Reader(
