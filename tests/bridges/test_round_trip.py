@@ -45,6 +45,7 @@ READERS = {
     "matlab": "matlab",
     "rklab": "matlab",
     "julia": "julia",
+    "ordinarydiffeq": "julia",
     "rungekutta-jl": "tsv",
     "mathematica": "mathematica",
     "latex": "latex",
