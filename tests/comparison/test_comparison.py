@@ -26,7 +26,8 @@ from garkcli.errors import LimitExceeded
 from garkcli.methodfile.load import load, loads
 from garkcli.methodfile.writer import write_tableau_file
 from garkcli.order.conditions import elementary_weight
-from garkcli.report import diff_markdown
+from garkcli.page.paint import Paint
+from garkcli.report import diff_json, diff_markdown, diff_text
 from garkcli.report.schemas import report_schema
 from garkcli.tableau.garkmethod import GarkMethod
 from tests.cli.harness import ROOT, gark
@@ -310,35 +311,43 @@ def test_few_conditions_are_compared_of_many() -> None:
     assert MAX_CONDITIONS >= 1000
 
 
-def test_reports(tmp_path: Path) -> None:
-    """Text of 80 columns, JSON after its schema, Markdown, and what the exit codes say."""
+def test_reports() -> None:
+    """Text of 80 columns, JSON after its schema, Markdown with a verdict, for every relation."""
     schema = report_schema("diff")
-    renumbered_text = write_tableau_file(
-        renumbered(sheet_of(RK4), [[2, 0, 1, 3]]).tableau, "turned"
-    )
     texts = {
-        "different": (MISPRINT, 1, 1),
-        "same": (renumbered_text, 0, 1),
-        "identical": (RK4.text, 0, 0),
-        "more colours": (PAIR_OF_COLOURS, 1, 1),
-        "decimals": (ROUNDED, 0, 1),
+        "different": MISPRINT,
+        "same": RENUMBERED,
+        "identical": RK4.text,
+        "more colours": PAIR_OF_COLOURS,
+        "within-rounding": ROUNDED,
     }
-    for name, (text, code, strict) in texts.items():
-        path = tmp_path / f"{name}.gark.yaml"
-        path.write_text(text, encoding="utf-8")
-        arguments = ("diff", "methods/rk4.gark.yaml", str(path))
-        run = gark(*arguments)
-        assert run.code == code, name
-        lines = [x for x in run.out.splitlines() if "gark.yaml" not in x]
+    for name, text in texts.items():
+        found = compare(RK4, loads(text))
+        assert found.relation == name or name == "more colours"
+        files = ("first.gark.yaml", "second.gark.yaml")
+        lines = diff_text.render(found, files, Paint()).splitlines()
         assert max(map(len, lines)) <= 80
-        assert gark(*arguments, "--strict").code == strict
-        found = json.loads(gark(*arguments, "--format", "json").out)
-        jsonschema.validate(found, schema)
-        assert found["first"]["name"] == RK4.name
-        shown = gark(*arguments, "--format", "markdown").out
-        assert shown.count("**") == 2
+        data = json.loads(diff_json.render(found, files))
+        jsonschema.validate(data, schema)
+        assert data["relation"] == found.relation
+        assert diff_markdown.render(found, files).count("**") == 2
 
 
+def test_exit_codes() -> None:
+    """0 where the methods are the same, with --strict where every entry is."""
+    for text, code, strict in (
+        (MISPRINT, 1, 1),
+        (RENUMBERED, 0, 1),
+        (RK4.text, 0, 0),
+    ):
+        arguments = ("diff", "methods/rk4.gark.yaml", "-")
+        assert gark(*arguments, stdin=text).code == code
+        assert gark(*arguments, "--strict", stdin=text).code == strict
+
+
+RENUMBERED = write_tableau_file(
+    renumbered(sheet_of(RK4), [[2, 0, 1, 3]]).tableau, "turned"
+)
 PAIR_OF_COLOURS = "ark: {A: [[[0]], [[1]]], b: [1]}"
 ROUNDED = (
     RK4.text.split("expect")[0].replace("1/6", "0.166666666667")
