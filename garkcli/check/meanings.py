@@ -4,12 +4,16 @@ from __future__ import annotations
 
 from collections.abc import Callable, Iterator, Mapping
 from dataclasses import dataclass
-from typing import Any
+from typing import TYPE_CHECKING, Any
 
 from garkcli.check.findings import KINDS
 from garkcli.errors import UsageProblem, did_you_mean
 from garkcli.glossary.registry import by_word, plain
 from garkcli.glossary.term import Term
+
+if TYPE_CHECKING:
+    from garkcli.constructions.schemes.flows import Splitting
+    from garkcli.constructions.schemes.scheme import Scheme
 
 
 @dataclass(frozen=True)
@@ -42,7 +46,7 @@ def meanings(word: str) -> list[Meaning]:
 
     Args:
         word: a term, a label of a report, a claim, a key of method files, a family, a transfer
-            rule, a shape, or the code of a finding; in any case, with hyphens or blanks.
+            rule, a scheme, a shape, or the code of a finding; in any case, with hyphens or blanks.
 
     Raises:
         UsageProblem: nobody knows it.
@@ -73,6 +77,8 @@ def _senses() -> Iterator[Sense]:
     yield _design_key, list(_keys("design"))
     yield _family, list(_families())
     yield _rule, list(_rules())
+    yield _scheme, list(_schemes())
+    yield _splitting, list(_splittings())
     yield _finding, list(KINDS)
 
 
@@ -178,6 +184,31 @@ def _rule(name: str) -> Meaning:
     return Meaning(
         "transfer rule", name, _sentence(_rules()[name]), source="gark list"
     )
+
+
+def _schemes() -> Mapping[str, Scheme]:
+    from garkcli.constructions.schemes.registry import SCHEMES
+
+    return SCHEMES
+
+
+def _scheme(name: str) -> Meaning:
+    found = _schemes()[name]
+    text = f"{_sentence(found.summary)} Order {found.order}."
+    return Meaning("scheme of compose", name, text, source=found.reference)
+
+
+def _splittings() -> Mapping[str, Splitting]:
+    from garkcli.constructions.schemes.flows import SPLITTINGS
+
+    return SPLITTINGS
+
+
+def _splitting(name: str) -> Meaning:
+    found = _splittings()[name]
+    text = f"{_sentence(found.summary)} Order {found.order}."
+    source = found.reference or "gark list"
+    return Meaning("scheme of splitting", name, text, source=source)
 
 
 def _finding(code: str) -> Meaning:
