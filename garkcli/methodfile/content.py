@@ -7,7 +7,7 @@ from __future__ import annotations
 
 from typing import TYPE_CHECKING, Literal, cast
 
-from yaml.nodes import MappingNode, Node
+from yaml.nodes import MappingNode, Node, ScalarNode
 
 from garkcli.methodfile import further
 from garkcli.methodfile.description import (
@@ -16,6 +16,7 @@ from garkcli.methodfile.description import (
     FORMS,
     PLAIN,
     STRUCTURES,
+    ConstructionText,
     Content,
     Description,
     Form,
@@ -31,6 +32,7 @@ from garkcli.methodfile.spelled_out import SpelledOutReader
 from garkcli.transfer import RULES
 
 if TYPE_CHECKING:
+    from garkcli.methodfile.constructed.parts import Open
     from garkcli.methodfile.shaped import Shaped
 
 KEYS_OF_METHOD = (
@@ -44,6 +46,9 @@ KEYS_OF_METHOD = (
     "linear",
 )
 """The keys of a method, wherever it stands."""
+_EXAMPLE = (
+    "write for instance {family: rk4}, {A: …, b: …} or a name of the catalogue"
+)
 _START = "give A and b, or one of the keys methods, tableau, ark, prk"
 _HOMES = {
     "claims go under expect, for instance expect: {order: 4}": (
@@ -66,15 +71,19 @@ CURES |= further.CURES
 class ContentReader:
     """Reads the coefficients of one method of a file.
 
+    Args:
+        opened: what reads methods of the catalogue.
+
     Attributes:
         source: the file, where faults are noted.
         numbers: its coefficients.
         shaped: the tableau of its ``unknown``; None without that.
     """
 
-    def __init__(self, source: Source, numbers: Numbers) -> None:
+    def __init__(self, source: Source, numbers: Numbers, opened: Open) -> None:
         self.source = source
         self.numbers = numbers
+        self._open = opened
         self.spelled_out = SpelledOutReader(source, numbers)
         self.shaped: Shaped | None = None
 
@@ -181,6 +190,32 @@ class ContentReader:
         """Whether it is a splitting whose flows are exact: of a separable problem."""
         return form == "splitting" and "of" not in keys_of(entries[form])
 
+    def _constructed(
+        self, form: Form, node: Node, structure: Structure
+    ) -> ConstructionText | None:
+        """A method made from others."""
+        from garkcli.methodfile.constructed.parts import PartReader
+        from garkcli.methodfile.constructed.registry import construction
+
+        parts = PartReader(self.source, self.numbers, self._inside, self._open)
+        return construction(form).read(parts, node, structure)
+
+    def _inside(self, node: Node, where: str) -> Description | None:
+        """A method inside of a construction, which may be one itself."""
+        reader = ContentReader(self.source, self.numbers, self._open)
+        if isinstance(node, MappingNode) and "family" in keys_of(node):
+            key = ScalarNode("tag:yaml.org,2002:str", "methods")
+            family: Entries = {"methods": node}
+            root = MappingNode("tag:yaml.org,2002:map", [(key, node)])
+            root.start_mark = node.start_mark
+            return reader.read(root, family)
+        entries = self.source.mapping(
+            node, where, KEYS_OF_METHOD, CURES, _EXAMPLE
+        )
+        if not isinstance(node, MappingNode):
+            return None
+        return reader.read(node, entries)
+
     def _is_conjugate(self, node: Node | None) -> bool:
         if node is None:
             return False
@@ -234,9 +269,7 @@ class ContentReader:
             return self.spelled_out.tableau(node, entries.get("linear"))
         # rare forms
         if form in CONSTRUCTIONS:
-            from garkcli.methodfile.constructed.registry import read
-
-            return read(form, self.source, self.numbers, node, structure)
+            return self._constructed(form, node, structure)
         from garkcli.methodfile.ark_prk import ArkReader, PrkReader
 
         if form == "ark":

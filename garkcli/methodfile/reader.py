@@ -34,6 +34,7 @@ from garkcli.methodfile.source import Source
 from garkcli.methodfile.words import shortened
 
 if TYPE_CHECKING:
+    from garkcli.methodfile.constructed.parts import Opened
     from garkcli.methodfile.shaped import Shaped
 
 KEYS = (
@@ -64,6 +65,10 @@ _DECIMAL = re.compile(
 class Reader:
     """Reads one file.
 
+    Args:
+        settings: values of parameters that are given from outside of it.
+        inside: the methods of the catalogue for the sake of which it is read.
+
     Attributes:
         source: the file, where faults are noted.
         numbers: its coefficients.
@@ -72,10 +77,16 @@ class Reader:
         design: what stands under ``design``; None without that.
     """
 
-    def __init__(self, source: Source, settings: Mapping[str, str]) -> None:
+    def __init__(
+        self,
+        source: Source,
+        settings: Mapping[str, str],
+        inside: tuple[str, ...] = (),
+    ) -> None:
         self.source = source
         self.numbers = Numbers(source, settings=settings)
-        self.content = ContentReader(source, self.numbers)
+        self.content = ContentReader(source, self.numbers, self._opened)
+        self._inside = inside
         self.keys: frozenset[str] = frozenset()
         self.design: Node | None = None
         self._root: MappingNode | None = None
@@ -123,6 +134,26 @@ class Reader:
     def shaped(self) -> Shaped | None:
         """The tableau of its ``unknown``; None without that."""
         return self.content.shaped
+
+    def _opened(self, name: str) -> Opened:
+        """A method of the catalogue that this one is made from.
+
+        Raises:
+            MethodFileError: there is none, or it is made from itself.
+        """
+        from garkcli.methodfile.constructed.parts import Opened
+        from garkcli.methodfile.naming import read_argument
+
+        text, found = read_argument(f"catalogue:{name}")
+        source = Source(found, text)
+        if found in self._inside:
+            source.fault(None, f"{found} is made from itself")
+            raise source.error()
+        reader = Reader(source, {}, (*self._inside, found))
+        description = reader.read()
+        if description is None:
+            raise source.error()
+        return Opened(source, reader.numbers, description)
 
     def _is_problem_file(self, root: Node) -> bool:
         """Note a file of the other kind."""

@@ -2,7 +2,9 @@
 
 from __future__ import annotations
 
-from collections.abc import Iterable
+from collections.abc import Callable, Iterable
+from dataclasses import dataclass
+from typing import TypeAlias
 
 from flint import fmpq
 from yaml.nodes import MappingNode, Node, ScalarNode
@@ -12,31 +14,50 @@ from garkcli.families.registry import FAMILIES
 from garkcli.methodfile.build import families_of, nodes_to_spell_out
 from garkcli.methodfile.coefficient_schema import Schema
 from garkcli.methodfile.description import Description, PartText
-from garkcli.methodfile.nodes import keys_of
 from garkcli.methodfile.numbers import Entry, Numbers
-from garkcli.methodfile.source import Entries, Source
+from garkcli.methodfile.source import Source
 
-EXAMPLE = (
-    "write for instance {family: rk4}, {A: …, b: …} or a name of the catalogue"
-)
 AT_POINTS = "its substeps cannot be spelled out"
 METHOD: Schema = {"$ref": "#/definitions/part"}
 """A method inside of a construction, in the JSON Schema."""
-_opened: list[str] = []
-"""The methods of the catalogue that are being read, one for the sake of another."""
+
+
+@dataclass(frozen=True)
+class Opened:
+    """A method of the catalogue, as it was read."""
+
+    source: Source
+    numbers: Numbers
+    description: Description
+
+
+Open: TypeAlias = Callable[[str], Opened]
+"""Reads a method of the catalogue.
+
+Raises:
+    MethodFileError: there is none of that name, or it is no method on its own.
+"""
+Written: TypeAlias = Callable[[Node, str], Description | None]
+"""Reads a method that stands in this file, called so in messages."""
 
 
 class PartReader:
     """Reads what constructions of one file are made from.
 
-    Attributes:
+    Args:
         source: the file, where faults are noted.
         numbers: its coefficients.
+        written: what reads methods that are spelled out.
+        opened: what reads methods of the catalogue.
     """
 
-    def __init__(self, source: Source, numbers: Numbers) -> None:
+    def __init__(
+        self, source: Source, numbers: Numbers, written: Written, opened: Open
+    ) -> None:
         self.source = source
         self.numbers = numbers
+        self._written = written
+        self._open = opened
 
     def method(
         self, node: Node, where: str, why: str = AT_POINTS
@@ -55,29 +76,6 @@ class PartReader:
         if description is None:
             return None
         return _part(self.source, self.numbers, description, why)
-
-    def _written(self, node: Node, where: str) -> Description | None:
-        """A method that is spelled out here."""
-        # a construction holds methods, and a method may be a construction
-        from garkcli.methodfile.content import (
-            CURES,
-            KEYS_OF_METHOD,
-            ContentReader,
-        )
-
-        reader = ContentReader(self.source, self.numbers)
-        if isinstance(node, MappingNode) and "family" in keys_of(node):
-            key = ScalarNode("tag:yaml.org,2002:str", "methods")
-            family: Entries = {"methods": node}
-            root = MappingNode("tag:yaml.org,2002:map", [(key, node)])
-            root.start_mark = node.start_mark
-            return reader.read(root, family)
-        entries = self.source.mapping(
-            node, where, KEYS_OF_METHOD, CURES, EXAMPLE
-        )
-        if not isinstance(node, MappingNode):
-            return None
-        return reader.read(node, entries)
 
     def _named(
         self, node: ScalarNode, where: str, why: str
@@ -111,29 +109,16 @@ class PartReader:
         Raises:
             MethodFileError: there is none, or it is no method on its own.
         """
-        from garkcli.methodfile.load import described
-        from garkcli.methodfile.naming import read_argument
-
-        text, found = read_argument(f"catalogue:{name}")
-        if found in _opened:
-            circle = Source(found, text)
-            circle.fault(None, f"{found} is made from itself")
-            raise circle.error()
-        _opened.append(found)
-        try:
-            reader, description = described(text, found, {})
-            if reader.numbers.free:
-                message = f"{found} is a family with free parameters"
-                cure = (
-                    "write its coefficients here, with parameters of this file"
-                )
-                reader.source.fault(None, message, cure)
-            reader.source.close()
-            part = _part(reader.source, reader.numbers, description, why)
-            reader.source.close()
-        finally:
-            _opened.pop()
-        self.numbers.entries += reader.numbers.entries
+        opened = self._open(name)
+        if opened.numbers.free:
+            message = f"{name} is a family with free parameters"
+            cure = "write its coefficients here, with parameters of this file"
+            opened.source.fault(None, message, cure)
+        opened.source.close()
+        description = opened.description
+        part = _part(opened.source, opened.numbers, description, why)
+        opened.source.close()
+        self.numbers.entries += opened.numbers.entries
         return part
 
     def number(self, node: Node, where: str) -> Entry:

@@ -10,8 +10,6 @@ from yaml.nodes import Node
 from garkcli.methodfile.coefficient_schema import Schema
 from garkcli.methodfile.constructed.parts import PartReader
 from garkcli.methodfile.description import ConstructionText, Structure
-from garkcli.methodfile.numbers import Numbers
-from garkcli.methodfile.source import Source
 
 
 class Construction(Protocol):
@@ -30,15 +28,3 @@ def construction(key: str) -> Construction:
     """The module of a construction."""
     found: object = import_module(f"garkcli.methodfile.constructed.{key}")
     return cast("Construction", found)
-
-
-def read(
-    key: str,
-    source: Source,
-    numbers: Numbers,
-    node: Node,
-    structure: Structure,
-) -> ConstructionText | None:
-    """What a file says under the key of a construction."""
-    parts = PartReader(source, numbers)
-    return construction(key).read(parts, node, structure)
