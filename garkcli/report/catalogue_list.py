@@ -89,8 +89,9 @@ _TYPES = {
 }
 """Words for how the stages depend on each other, the narrower before the wider."""
 _HEADS = ("name", "order", "stages", "kind", "type", "is", "reference")
-_NARROWEST = 12
-"""Least columns that are worth a reference."""
+_LONGEST_NAME = 26
+"""Longest name that is in one line with what is told of its method."""
+_GAP = "  "
 
 
 def render(
@@ -132,21 +133,27 @@ def _text(entries: Sequence[Entry], paint: Paint, width: int) -> str:
 
 
 def _table(rows: Sequence[Sequence[str]], width: int) -> list[str]:
-    """Rows as lines of at most ``width``, the last column cut to what is left."""
-    fixed = aligned([row[:-1] for row in rows], right=False)
-    room = width - max(map(len, fixed)) - 2
-    if room < _NARROWEST:
-        return [line[:width] for line in fixed]
-    longest = max(map(len, fixed))
+    """Rows as lines of at most ``width``, the last column cut; a long name has its own line."""
+    column = min(max(len(row[0]) for row in rows), _LONGEST_NAME)
+    facts = aligned([row[1:-1] for row in rows], right=False)
+    longest = max(map(len, facts))
+    room = width - column - longest - 2 * len(_GAP)
     lines = []
-    for line, row in zip(fixed, rows, strict=True):
-        whole = f"{line.ljust(longest)}  {_cut(row[-1], room)}"
-        lines.append(whole.rstrip())
+    for row, told in zip(rows, facts, strict=True):
+        name = row[0]
+        if len(name) > column:
+            lines.append(name)
+            name = ""
+        reference = _cut(row[-1], room)
+        cells = (name.ljust(column), told.ljust(longest), reference)
+        lines.append(_GAP.join(cells).rstrip())
     return lines
 
 
 def _cut(text: str, room: int) -> str:
-    return text if len(text) <= room else f"{text[: room - 1]}…"
+    if len(text) <= room:
+        return text
+    return f"{text[: room - 1]}…" if room > 1 else ""
 
 
 def _row(entry: Entry) -> tuple[str, ...]:

@@ -63,6 +63,8 @@ PACKAGED = (
     "tests/docs",
     "tests/cli/test_snapshots.py",
     "tests/methodfile/test_examples.py",
+    "tests/catalogue/test_index.py",
+    "tests/catalogue/test_package_data.py",
 )
 """Everything that reads files beside the package."""
 PROCESSES = ("tests/methodfile/test_hostile.py", "tests/cli")
