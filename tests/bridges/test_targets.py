@@ -4,53 +4,32 @@ from __future__ import annotations
 
 import os
 import re
-from collections.abc import Sequence
-from dataclasses import replace
 from fractions import Fraction
 from pathlib import Path
-from typing import Any
 
 import pytest
 from flint import fmpq
 
 from garkcli.bridges.cannot import CannotExport
-from garkcli.bridges.payload import Payload
-from garkcli.bridges.preparing import prepared
-from garkcli.bridges.readers.registry import reader_named
 from garkcli.bridges.registry import bridges
-from garkcli.bridges.rounding import nearest_float
 from garkcli.bridges.structure import table
 from garkcli.bridges.tables import with_first_stage, with_last_stage
 from garkcli.bridges.targets import torchdiffeq
 from garkcli.methodfile.load import loads
 from garkcli.order.certificate import find_order
+from tests.bridges.examples import (
+    BOGACKI,
+    GAUSS,
+    MIDPOINTS,
+    RALSTON,
+    SDIRK,
+    VERLET,
+    payload_of,
+    written,
+)
 from tests.cli.harness import ROOT
 
 TEXTS = Path(__file__).parent / "texts"
-RALSTON = """\
-name: Ralston-Euler
-A: [[0, 0], [2/3, 0]]
-b: [1/4, 3/4]
-embedded: [1, 0]
-reference: A. Ralston, Runge-Kutta methods with minimum error bounds, 1962
-"""
-MIDPOINTS = """\
-name: midpoints
-ark:
-  A: [[[0, 0], [1/2, 0]], [[0, 0], [0, 1/2]]]
-  b: [0, 1]
-"""
-SDIRK = (
-    "parameters: {g: 1 - sqrt(2)/2}\nA: [[g, 0], [1 - g, g]]\nb: [1 - g, g]\n"
-)
-VERLET = """\
-name: Störmer-Verlet
-prk:
-  q: {A: [[0], [1]], b: [1], c: [0, 1]}
-  p: {A: [[1/2, 0]], b: [1/2, 1/2], c: [1/2]}
-structure: separable
-"""
-GAUSS = "methods: [{family: gauss, stages: 2}]\n"
 OF_RALSTON = (
     "amrex",
     "boost",
@@ -79,16 +58,6 @@ OF_MIDPOINTS = (
     "tempus",
 )
 OF_VERLET = ("geometricintegrators", "julia", "matlab", "rootedtrees")
-
-
-def payload_of(text: str) -> Payload:
-    """A method as writers see it, of no version of ours."""
-    return replace(prepared(loads(text)), version="0")
-
-
-def written(target: str, text: str) -> str:
-    """What a target is given of a method file."""
-    return bridges()[target].written(payload_of(text))
 
 
 RECORDED = [
@@ -192,18 +161,6 @@ def test_a_last_stage_is_put_in(target: str) -> None:
     text = written(target, RALSTON)
     assert "0.25, 0.75, 0" in text
     assert "2/3, 1" in text
-
-
-BOGACKI = """\
-name: BS
-A:
-  - [0, 0, 0, 0]
-  - [1/2, 0, 0, 0]
-  - [0, 3/4, 0, 0]
-  - [2/9, 1/3, 4/9, 0]
-b: [2/9, 1/3, 4/9, 0]
-embedded: [7/24, 1/4, 1/3, 1/8]
-"""
 
 
 @pytest.mark.parametrize("target", ["torchdiffeq", "torchode", "diffrax"])
@@ -377,44 +334,3 @@ def test_programs_say_which_errors_are_the_same(target: str) -> None:
     assert "gark converge FILE" in " ".join(program.split())
     assert problem.startswith("name: one right-hand side")
     assert program.isascii()
-
-
-READ_BACK = {
-    "julia": "julia",
-    "mathematica": "mathematica",
-    "matlab": "matlab",
-    "rklab": "matlab",
-    "ordinarydiffeq": "julia",
-    "rungekutta-jl": "tsv",
-}
-"""From a target to the reader of what it writes."""
-
-
-@pytest.mark.parametrize("target", READ_BACK)
-@pytest.mark.parametrize("method", [RALSTON, MIDPOINTS, VERLET])
-def test_what_is_written_is_read(target: str, method: str) -> None:
-    """Blocks and weights come back, in the place of each; they have short decimals or fractions."""
-    payload = payload_of(method)
-    bridge = bridges()[target]
-    assert bridge.reads_back
-    if payload.kind not in bridge.kinds:
-        return
-    reader = reader_named(READ_BACK[target])
-    (found,) = reader.find(bridge.written(payload), f"x{bridge.suffix}")
-    assert not found.trouble
-    for l, blocks in enumerate(payload.A):
-        read = found.A[l] if len(found.A) > l else found.A[0]
-        for block, other in zip(blocks, read, strict=True):
-            assert (block is None) == (other is None)
-            for row, texts in zip(block or (), other or (), strict=True):
-                assert near(row, texts)
-        assert near(payload.b[l], found.b[l])
-    if payload.embedded and target != "rungekutta-jl":
-        assert found.embedded
-        assert near(payload.embedded[0], found.embedded[0])
-
-
-def near(row: Sequence[Any], texts: Sequence[str]) -> bool:
-    """Whether texts are the entries of a row, or the floats nearest to these."""
-    pairs = zip(row, texts, strict=True)
-    return all(float(Fraction(y)) == nearest_float(x) for x, y in pairs)
