@@ -3,6 +3,7 @@
 from __future__ import annotations
 
 from collections.abc import Iterator, Sequence
+from typing import NamedTuple
 
 from yaml.nodes import Node, SequenceNode
 
@@ -44,6 +45,13 @@ def names_beside(name_of_b: str) -> tuple[str, str]:
     name_of_embedded = before + embedded + after
     name_of_dense = before + dense + after
     return name_of_embedded, name_of_dense
+
+
+class _Colours(NamedTuple):
+    """Several colours: how many stages each has, and whether one row may stand for all of them."""
+
+    stages: Sequence[int]
+    is_shared: bool
 
 
 class FurtherReader:
@@ -88,49 +96,60 @@ class FurtherReader:
             stages: how many weights each colour has.
             is_shared: whether a single row, or block, may stand for every colour.
         """
-        embedded: list[Row | None] = [None] * len(stages)
-        dense: list[Rows | None] = [None] * len(stages)
-        if "embedded" in entries:
-            node = entries["embedded"]
-            items = self._a_colour(node, "embedded", stages, 1, is_shared)
-            for l, item in items:
-                where = _name(node, item, "embedded", l)
-                embedded[l] = self._row(item, where, stages[l])
-        parts = None
-        if "dense" in entries:
-            parts = self._parts(entries["dense"], "dense")
-        if parts is not None:
-            degree, node = parts
-            where = "dense, weights"
-            for l, item in self._a_colour(node, where, stages, 2, is_shared):
-                name = _name(node, item, where, l)
-                dense[l] = self._block(item, name, stages[l], degree)
+        colours = _Colours(stages, is_shared)
+        embedded = self._rows(entries, colours)
+        dense = self._blocks(entries, colours)
         texts = []
         for row, block in zip(embedded, dense, strict=True):
             text = _further(entries, row, block)
             texts.append(text)
         return tuple(texts)
 
+    def _rows(self, entries: Entries, colours: _Colours) -> list[Row | None]:
+        """The embedded weights of each colour."""
+        rows: list[Row | None] = [None] * len(colours.stages)
+        if "embedded" not in entries:
+            return rows
+        node = entries["embedded"]
+        where = "embedded"
+        for l, item in self._a_colour(node, where, colours, 1):
+            name = _name(node, item, where, l)
+            rows[l] = self._row(item, name, colours.stages[l])
+        return rows
+
+    def _blocks(
+        self, entries: Entries, colours: _Colours
+    ) -> list[Rows | None]:
+        """The dense output of each colour."""
+        blocks: list[Rows | None] = [None] * len(colours.stages)
+        if "dense" not in entries:
+            return blocks
+        parts = self._parts(entries["dense"], "dense")
+        if parts is None:
+            return blocks
+        degree, node = parts
+        where = "dense, weights"
+        for l, item in self._a_colour(node, where, colours, 2):
+            name = _name(node, item, where, l)
+            stages = colours.stages[l]
+            blocks[l] = self._block(item, name, stages, degree)
+        return blocks
+
     def _a_colour(
-        self,
-        node: Node,
-        where: str,
-        stages: Sequence[int],
-        depth: int,
-        is_shared: bool,
+        self, node: Node, where: str, of: _Colours, depth: int
     ) -> Iterator[tuple[int, Node]]:
         """What belongs to each colour, itself ``depth`` lists deep."""
-        colours = len(stages)
-        if is_shared and _depth(node) == depth:
+        colours = len(of.stages)
+        is_one = _depth(node) == depth
+        if of.is_shared and is_one:
             for l in range(colours):
                 yield l, node
             return
         rows = "row" if depth == 1 else "block"
         cure = _A_ROW_A_COLOUR if depth == 1 else _A_BLOCK_A_COLOUR
-        if is_shared:
+        if of.is_shared:
             cure += f", or a single shared {rows}"
         items = self.source.items(node, where, cure)
-        is_one = _depth(node) == depth
         if len(items) == colours and not is_one:
             yield from enumerate(items)
         elif isinstance(node, SequenceNode):

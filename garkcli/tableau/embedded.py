@@ -130,7 +130,8 @@ def with_weights(tableau: Tableau, weights: Weights) -> Tableau:
         wanted = counted(tableau.size, "colour")
         raise ShapeMismatch(f"{found} of weights for {wanted}")
     if not all(isinstance(space, PointSpace) for space in tableau.spaces):
-        message = "weights of single stages, and there are none but points"
+        message = "the weights are those of single stages, "
+        message += "and a family is kept in the algebra of its nodes"
         raise ShapeMismatch(message, "spell the method out")
     colours = []
     for colour, row in zip(tableau.colours, weights, strict=True):
