@@ -5,7 +5,6 @@ from __future__ import annotations
 import re
 from collections.abc import Callable, Iterable, Iterator
 from dataclasses import dataclass, replace
-from functools import cached_property
 from typing import Literal, TypeAlias
 
 from garkcli.bridges.importing import orders_of, read
@@ -14,12 +13,11 @@ from garkcli.bridges.plausible import is_plausible
 from garkcli.bridges.readers.found import FoundTable
 from garkcli.bridges.readers.registry import find_tables, readers_for
 from garkcli.bridges.sources import source_text
+from garkcli.bridges.subject import Subject, short
 from garkcli.check.explained import repair_text, witness_text
 from garkcli.errors import MethodFileError
-from garkcli.exact.display import to_text
 from garkcli.exact.field import ZERO, Number
 from garkcli.methodfile.build import MethodFile
-from garkcli.order.nonautonomous import with_time
 from garkcli.order.tolerance import within
 from garkcli.tableau.embedded import with_weights
 from garkcli.tableau.tableau import Tableau
@@ -118,7 +116,7 @@ def audit(table: FoundTable) -> Audited | None:
     if not is_plausible(table, method):
         return None
     order, embedded_order = orders_of(method, table)
-    subject = _Subject(table, method, order, embedded_order)
+    subject = Subject(table, method, order, embedded_order)
     findings: list[AuditFinding] = []
     for check in CHECKS:
         findings += check(subject)
@@ -138,68 +136,7 @@ def _of_trouble(table: FoundTable) -> AuditFinding:
     return AuditFinding("unread", table.trouble, level="note")
 
 
-@dataclass(frozen=True)
-class _Subject:
-    """A table as it is checked."""
-
-    table: FoundTable
-    method: MethodFile
-    order: Judged
-    embedded_order: Judged | None
-
-    @property
-    def tableau(self) -> Tableau:
-        return self.method.tableau
-
-    @cached_property
-    def wrong_rows(self) -> tuple[str, ...]:
-        """The nodes that are no row sums, beyond what rounding explains, in words."""
-        tolerance = allowed(self.method)
-        found: dict[str, None] = {}
-        for l, m in self.tableau.edges():
-            block = self.tableau.block(l, m) or ()
-            nodes = self.tableau.colours[l].c
-            pairs = zip(block, nodes, strict=True)
-            for i, (row, node) in enumerate(pairs, start=1):
-                total = sum(row, ZERO)
-                if not within(total - node, (len(row) + 1) * tolerance):
-                    found[_row_text(i, total, node)] = None
-        return tuple(found)
-
-    @cached_property
-    def nonautonomous(self) -> Judged | None:
-        """The order where f depends on t, with the nodes as they are."""
-        timed = with_time(self.tableau)
-        if timed is None:
-            return None
-        if not self.wrong_rows:
-            return self.order
-        return judged(self.method, timed, self.table.order)
-
-    @property
-    def misses_order(self) -> bool:
-        """Whether the order is lower than declared, and known to be."""
-        declared = self.table.order
-        if declared is None or self.order.order >= declared:
-            return False
-        return not self.order.is_open
-
-
-def _row_text(i: int, total: Number, node: Number) -> str:
-    sums = f"row {i} has the sum {_short(total)}"
-    return f"{sums}, its node is {_short(node)}"
-
-
-def _short(number: Number) -> str:
-    text = to_text(number)
-    if len(text) <= 24:
-        return text
-    from garkcli.exact.display import to_decimal
-
-    return to_decimal(number, 12)
-
-
-def _order(subject: _Subject) -> Iterator[AuditFinding]:
+def _order(subject: Subject) -> Iterator[AuditFinding]:
     """The declared order against the true one."""
     declared, found = subject.table.order, subject.order
     if declared is None:
@@ -232,7 +169,7 @@ def _witness(found: Judged, tableau: Tableau) -> str:
     return f"; {witness_text(found.witness, tableau.size > 1)}"
 
 
-def _is_transposed(subject: _Subject) -> bool:
+def _is_transposed(subject: Subject) -> bool:
     """Whether the declared order is that of the transposed matrix."""
     tableau, declared = subject.tableau, subject.table.order
     block = tableau.block(0, 0)
@@ -245,7 +182,7 @@ def _is_transposed(subject: _Subject) -> bool:
     return judged(subject.method, other, declared).order >= declared
 
 
-def _culprit(subject: _Subject, declared: int) -> str:
+def _culprit(subject: Subject, declared: int) -> str:
     """The row that does not fit its node, or the entry that restores the order."""
     rows = subject.wrong_rows
     if len(rows) == 1:
@@ -255,7 +192,7 @@ def _culprit(subject: _Subject, declared: int) -> str:
 
 
 def _repair(
-    subject: _Subject, tableau: Tableau, found: Judged, declared: int
+    subject: Subject, tableau: Tableau, found: Judged, declared: int
 ) -> str:
     """The one entry whose change restores an order, in words; empty where it is not known."""
     stages = sum(space.stages for space in tableau.spaces)
@@ -275,7 +212,7 @@ def _repair(
     return repair_text(blame.repairs[0], names)
 
 
-def _embedded(subject: _Subject) -> Iterator[AuditFinding]:
+def _embedded(subject: Subject) -> Iterator[AuditFinding]:
     """The declared order of the embedded weights against the true one."""
     found = subject.embedded_order
     if found is None or subject.method.embedded is None:
@@ -300,17 +237,17 @@ def _embedded(subject: _Subject) -> Iterator[AuditFinding]:
         yield AuditFinding("embedded-order-higher", message, level="warning")
 
 
-def _explains(subject: _Subject, found: Judged) -> bool:
+def _explains(subject: Subject, found: Judged) -> bool:
     """Whether the matrix is to blame, which is told with the order already."""
     declared = subject.table.embedded_order or 0
     return subject.misses_order and 0 < found.order < declared
 
 
 def _sums(weights: Iterable[Iterable[Number]]) -> str:
-    return " and ".join(_short(sum(row, ZERO)) for row in weights)
+    return " and ".join(short(sum(row, ZERO)) for row in weights)
 
 
-def _weights(subject: _Subject) -> Iterator[AuditFinding]:
+def _weights(subject: Subject) -> Iterator[AuditFinding]:
     """Weights whose sum is not 1, where no declared order tells."""
     if subject.order.order or subject.order.is_open:
         return
@@ -319,7 +256,7 @@ def _weights(subject: _Subject) -> Iterator[AuditFinding]:
         yield AuditFinding("weights", f"the weights have the sum {total}")
 
 
-def _nodes(subject: _Subject) -> Iterator[AuditFinding]:
+def _nodes(subject: Subject) -> Iterator[AuditFinding]:
     """Nodes that are no row sums, as far as they cost an order."""
     rows = subject.wrong_rows
     if not rows or subject.misses_order:
@@ -345,7 +282,7 @@ def _nodes(subject: _Subject) -> Iterator[AuditFinding]:
         yield AuditFinding("nodes", text, level=level)
 
 
-def _is_turned(subject: _Subject) -> bool:
+def _is_turned(subject: Subject) -> bool:
     """Whether the columns of the only matrix sum to the nodes."""
     tableau = subject.tableau
     block = tableau.block(0, 0)
@@ -357,7 +294,7 @@ def _is_turned(subject: _Subject) -> bool:
     return all(within(sum(x, ZERO) - c, tolerance) for x, c in pairs)
 
 
-def _flags(subject: _Subject) -> Iterator[AuditFinding]:
+def _flags(subject: Subject) -> Iterator[AuditFinding]:
     """Properties that the source declares."""
     tableau = subject.tableau
     block = tableau.block(0, 0)
@@ -370,6 +307,6 @@ def _flags(subject: _Subject) -> Iterator[AuditFinding]:
         yield AuditFinding("fsal", message)
 
 
-_Check: TypeAlias = Callable[[_Subject], Iterator[AuditFinding]]
+_Check: TypeAlias = Callable[[Subject], Iterator[AuditFinding]]
 CHECKS: tuple[_Check, ...] = (_order, _weights, _nodes, _embedded, _flags)
 """What is looked at, in the order in which it is told."""

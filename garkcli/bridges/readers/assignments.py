@@ -6,8 +6,9 @@ from collections.abc import Callable, Iterator, Mapping, MutableMapping
 from dataclasses import dataclass
 
 from garkcli.bridges.readers.found import Unreadable
+from garkcli.bridges.readers.grammar import Grammar
 from garkcli.bridges.readers.lexing import Token
-from garkcli.bridges.readers.parsing import Grammar, ValueParser
+from garkcli.bridges.readers.parsing import ValueParser
 from garkcli.bridges.readers.scalars import Value
 
 MAX_NAMES = 20_000

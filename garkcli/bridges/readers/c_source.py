@@ -9,9 +9,10 @@ from dataclasses import dataclass, field
 
 from garkcli.bridges.readers.cells import Cells
 from garkcli.bridges.readers.found import MAX_STAGES, Unreadable
+from garkcli.bridges.readers.grammar import Grammar
 from garkcli.bridges.readers.lexing import C, Token, tokens_of, without
 from garkcli.bridges.readers.naming import Scope, role_of
-from garkcli.bridges.readers.parsing import Grammar, ValueParser
+from garkcli.bridges.readers.parsing import ValueParser
 from garkcli.bridges.readers.scalars import (
     Scalar,
     Value,

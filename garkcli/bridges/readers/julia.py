@@ -14,9 +14,9 @@ from garkcli.bridges.readers.found import (
     Unreadable,
     troubled,
 )
+from garkcli.bridges.readers.grammar import Grammar
 from garkcli.bridges.readers.lexing import JULIA, Token, tokens_of, without
 from garkcli.bridges.readers.naming import ROLES, Scope
-from garkcli.bridges.readers.parsing import Grammar
 from garkcli.bridges.readers.scalars import Value, is_row, rows_of, whole
 from garkcli.bridges.readers.shaping import square, weights
 

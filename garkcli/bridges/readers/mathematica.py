@@ -11,6 +11,7 @@ from garkcli.bridges.readers.found import (
     Reader,
     Unreadable,
 )
+from garkcli.bridges.readers.grammar import Grammar
 from garkcli.bridges.readers.lexing import (
     MATHEMATICA,
     Token,
@@ -18,7 +19,6 @@ from garkcli.bridges.readers.lexing import (
     without,
 )
 from garkcli.bridges.readers.naming import ROLES, Scope
-from garkcli.bridges.readers.parsing import Grammar
 from garkcli.bridges.readers.scalars import (
     Scalar,
     Value,

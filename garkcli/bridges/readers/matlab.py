@@ -14,9 +14,9 @@ from garkcli.bridges.readers.found import (
     Rows,
     Unreadable,
 )
+from garkcli.bridges.readers.grammar import Grammar
 from garkcli.bridges.readers.lexing import MATLAB, Token, tokens_of, without
 from garkcli.bridges.readers.naming import Scope
-from garkcli.bridges.readers.parsing import Grammar
 from garkcli.bridges.readers.scalars import Value, rows_of
 from garkcli.bridges.readers.shaping import is_zero
 

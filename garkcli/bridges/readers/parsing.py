@@ -8,56 +8,31 @@ them before; no function is ever called.
 from __future__ import annotations
 
 from collections.abc import Mapping, Sequence
-from dataclasses import dataclass, field
 
+from garkcli.bridges.readers.calls import (
+    SHAPES,
+    end_of_argument,
+    passed_on,
+    root_value,
+)
 from garkcli.bridges.readers.found import Unreadable
+from garkcli.bridges.readers.grammar import Grammar
 from garkcli.bridges.readers.lexing import Token
+from garkcli.bridges.readers.matrices import joined
 from garkcli.bridges.readers.scalars import (
-    ROOTS,
     UNKNOWN,
-    Scalar,
     Value,
     combined,
     negated,
     number,
     of_text,
     power,
-    real_root,
-    rooted,
     transposed,
     whole,
-    zeros,
 )
 
 MAX_DEPTH = 40
 """Deepest nesting of brackets, signs and functions."""
-
-
-@dataclass(frozen=True)
-class Grammar:
-    """How values are written in a language.
-
-    Attributes:
-        lists: brackets around lists with commas between the items.
-        matrices: brackets around rows with semicolons or line ends, items with blanks between.
-        calls: brackets around the arguments of a function.
-        roots: names of functions that are roots; in lower letters.
-        passed: functions that pass on their last argument: types, roundings, wrappers.
-        nothing: names of what is no value.
-        is_implicit: whether two factors side by side are a product.
-        has_indices: whether ``A[0]`` is an entry of A.
-        commas_join: whether a comma in a matrix joins blocks, as a blank does.
-    """
-
-    lists: Mapping[str, str] = field(default_factory=dict)
-    matrices: Mapping[str, str] = field(default_factory=dict)
-    calls: Mapping[str, str] = field(default_factory=lambda: {"(": ")"})
-    roots: Mapping[str, str] = field(default_factory=lambda: ROOTS)
-    passed: frozenset[str] = frozenset()
-    nothing: frozenset[str] = frozenset()
-    is_implicit: bool = False
-    has_indices: bool = False
-    commas_join: bool = True
 
 
 _QUOTIENTS = frozenset({"/", "//", "./"})
@@ -96,9 +71,7 @@ class ValueParser:
         Raises:
             Unreadable: none does.
         """
-        self.place = place
-        self._depth = 0
-        self._in_matrix = False
+        self._begin(place)
         return self._sum()
 
     def arguments_at(self, place: int) -> list[tuple[str, Value]]:
@@ -108,10 +81,13 @@ class ValueParser:
         Raises:
             Unreadable: the bracket is not closed.
         """
+        self._begin(place)
+        return self._arguments(is_lenient=True)
+
+    def _begin(self, place: int) -> None:
         self.place = place
         self._depth = 0
         self._in_matrix = False
-        return self._arguments(is_lenient=True)
 
     @property
     def _next(self) -> Token:
@@ -174,9 +150,7 @@ class ValueParser:
         return token.kind == "sign" and token.text == "("
 
     def _factor(self) -> Value:
-        self._depth += 1
-        if self._depth > MAX_DEPTH:
-            raise Unreadable(f"nested more than {MAX_DEPTH} deep")
+        self._deeper()
         try:
             if self._is("-"):
                 self.place += 1
@@ -187,6 +161,11 @@ class ValueParser:
             return self._power()
         finally:
             self._depth -= 1
+
+    def _deeper(self) -> None:
+        self._depth += 1
+        if self._depth > MAX_DEPTH:
+            raise Unreadable(f"nested more than {MAX_DEPTH} deep")
 
     def _power(self) -> Value:
         base = self._atom()
@@ -216,7 +195,8 @@ class ValueParser:
 
     def _bracketed(self, opener: str) -> Value:
         grammar = self.grammar
-        if opener == "&" and self.tokens[self.place + 1].kind == "name":
+        behind = self.tokens[min(self.place + 1, len(self.tokens) - 1)]
+        if opener == "&" and behind.kind == "name":
             return self._address()
         if opener in grammar.matrices:
             return self._matrix(grammar.matrices[opener])
@@ -293,30 +273,16 @@ class ValueParser:
         return self._bracketed(token.text) if is_list else None
 
     def _called(self, name: str) -> Value:
-        plain = name.lower()
-        if plain in self.grammar.roots:
+        kind = self.grammar.roots.get(name.lower())
+        if kind is not None:
             values = [value for _, value in self._arguments()]
-            return _root(self.grammar.roots[plain], values)
-        is_zeros = name == "zeros"
-        is_shape = is_zeros or name == "reshape"
+            return root_value(kind, values)
+        is_shape = name in SHAPES
         if name not in self.grammar.passed and not is_shape:
             raise Unreadable(f"the function {name} is not known")
         found = self._arguments(is_lenient=True)
-        if name == "reshape":
-            return _reshaped([value for _, value in found])
-        if is_zeros:
-            sizes = [whole(value) for _, value in found]
-            return zeros([x for x in sizes if x is not None])
-        values = [value for _, value in found if isinstance(value, Scalar)]
-        lists = [value for _, value in found if isinstance(value, list)]
-        if lists:
-            return lists[-1]
-        if values:
-            return values[0]
-        words = [value for _, value in found if isinstance(value, str)]
-        if words:
-            return of_text(words[0])
-        raise Unreadable(f"{name} of what is no number")
+        values = [value for _, value in found]
+        return SHAPES[name](values) if is_shape else passed_on(name, values)
 
     def _arguments(self, is_lenient: bool = False) -> list[tuple[str, Value]]:
         closer = self.grammar.calls[self._next.text]
@@ -327,15 +293,19 @@ class ValueParser:
         while not self._is(closer):
             key = self._keyword()
             found.append((key, self._argument(closer, is_lenient)))
-            self._skip_lines()
-            if self._is(",") or self._is(";"):
-                self.place += 1
-                self._skip_lines()
-            elif not self._is(closer):
-                raise Unreadable(f"{closer} is expected")
+            self._to_the_next(closer)
         self.place += 1
         self._in_matrix = in_matrix
         return found
+
+    def _to_the_next(self, closer: str) -> None:
+        """Over the sign between two items; the last one has its bracket behind it."""
+        self._skip_lines()
+        if self._is(",") or self._is(";"):
+            self.place += 1
+            self._skip_lines()
+        elif not self._is(closer):
+            raise Unreadable(f"{closer} is expected")
 
     def _keyword(self) -> str:
         """The name before = that an argument may have."""
@@ -360,44 +330,20 @@ class ValueParser:
         except Unreadable:
             if not is_lenient:
                 raise
-            self.place = start
             self._depth = depth
             self._in_matrix = False
-            self._skip_argument()
+            self.place = end_of_argument(self.tokens, start)
             return UNKNOWN
 
-    def _skip_argument(self) -> None:
-        """To the comma or bracket behind what cannot be read."""
-        open_brackets = 0
-        while self._next.kind != "end":
-            token = self._next
-            if token.kind == "sign" and token.text in ("(", "[", "{"):
-                open_brackets += 1
-            elif token.kind == "sign" and token.text in (")", "]", "}"):
-                open_brackets -= 1
-                if open_brackets < 0:
-                    return
-            elif not open_brackets and token.text in (",", ";"):
-                return
-            self.place += 1
-        raise Unreadable("a bracket is not closed")
-
     def _list(self, closer: str) -> Value:
-        self._depth += 1
-        if self._depth > MAX_DEPTH:
-            raise Unreadable(f"nested more than {MAX_DEPTH} deep")
+        self._deeper()
         in_matrix, self._in_matrix = self._in_matrix, False
         self.place += 1
         items: list[Value] = []
         self._skip_lines()
         while not self._is(closer):
             items.append(self._sum())
-            self._skip_lines()
-            if self._is(","):
-                self.place += 1
-                self._skip_lines()
-            elif not self._is(closer):
-                raise Unreadable(f"{closer} is expected")
+            self._to_the_next(closer)
         self.place += 1
         self._depth -= 1
         self._in_matrix = in_matrix
@@ -405,9 +351,7 @@ class ValueParser:
 
     def _matrix(self, closer: str) -> Value:
         """Rows parted by semicolons or line ends, items by blanks or commas."""
-        self._depth += 1
-        if self._depth > MAX_DEPTH:
-            raise Unreadable(f"nested more than {MAX_DEPTH} deep")
+        self._deeper()
         in_matrix, self._in_matrix = self._in_matrix, True
         self.place += 1
         rows: list[list[Value]] = [[]]
@@ -432,90 +376,4 @@ class ValueParser:
         self._in_matrix = in_matrix
         if is_list:
             return [item for row in rows for item in row]
-        return _joined(rows, has_semicolons)
-
-
-def _reshaped(values: Sequence[Value]) -> Value:
-    """``reshape(list, rows, columns)``: the list has the columns one after the other."""
-    if len(values) != 3 or not isinstance(values[0], list):
-        raise Unreadable("reshape of what is no list")
-    rows, columns = whole(values[1]), whole(values[2])
-    entries = values[0]
-    if rows is None or columns is None or rows * columns != len(entries):
-        raise Unreadable("a shape that does not fit")
-    return [
-        [entries[j * rows + i] for j in range(columns)] for i in range(rows)
-    ]
-
-
-def _root(kind: str, values: Sequence[Value]) -> Value:
-    if kind == "sqrt" and len(values) == 1:
-        return rooted(values[0], 2)
-    if kind == "cbrt" and len(values) == 1:
-        return rooted(values[0], 3)
-    if kind == "power" and len(values) == 2:
-        return power(values[0], values[1])
-    if kind == "rational" and len(values) == 2:
-        return combined("/", values[0], values[1])
-    if kind == "root" and len(values) == 2:
-        index = whole(values[1])
-        if index is not None and index > 1:
-            return rooted(values[0], index)
-    if kind == "algebraic" and len(values) == 2:
-        return real_root(values[0], values[1])
-    raise Unreadable("a function with other arguments than it has")
-
-
-def _joined(rows: list[list[Value]], has_semicolons: bool) -> Value:
-    """The matrix of rows, whose items may be rows and blocks themselves."""
-    if rows and not rows[-1]:
-        rows = rows[:-1]
-    has_lists = any(isinstance(x, list) for row in rows for x in row)
-    if len(rows) == 1 and not has_lists:
-        return list(rows[0])
-    if not has_lists:
-        return [list(row) for row in rows]
-    if len(rows) == 1 and not has_semicolons:
-        return _side_by_side(rows[0])
-    blocks: list[Value] = []
-    for row in rows:
-        beside = _side_by_side(row)
-        if isinstance(beside, list) and any(
-            isinstance(x, list) for x in beside
-        ):
-            blocks += beside
-        else:
-            blocks.append(beside)
-    return blocks
-
-
-def _side_by_side(items: list[Value]) -> Value:
-    """Columns and blocks beside each other; a list of lists stays as it is."""
-    if all(isinstance(x, Scalar) for x in items):
-        return list(items)
-    has_matrix = any(
-        isinstance(x, list) and any(isinstance(y, list) for y in x)
-        for x in items
-    )
-    lists = [x for x in items if isinstance(x, list)]
-    if has_matrix and len(lists) == len(items):
-        heights = {len(x) for x in lists}
-        if len(heights) == 1:
-            return _beside(lists)
-    if len(lists) == len(items):
-        return list(items)
-    # a row: [q, b]
-    row: list[Value] = []
-    for item in items:
-        row += item if isinstance(item, list) else [item]
-    return row
-
-
-def _beside(blocks: Sequence[list[Value]]) -> Value:
-    joined: list[Value] = []
-    for parts in zip(*blocks, strict=True):
-        row: list[Value] = []
-        for part in parts:
-            row += part if isinstance(part, list) else [part]
-        joined.append(row)
-    return joined
+        return joined(rows, has_semicolons)

@@ -1,0 +1,103 @@
+"""What functions in sources mean: roots, types that pass a number on, shapes of lists."""
+
+from __future__ import annotations
+
+from collections.abc import Callable, Mapping, Sequence
+
+from garkcli.bridges.readers.found import Unreadable
+from garkcli.bridges.readers.lexing import Token
+from garkcli.bridges.readers.scalars import (
+    Scalar,
+    Value,
+    combined,
+    of_text,
+    power,
+    real_root,
+    rooted,
+    whole,
+    zeros,
+)
+
+
+def passed_on(name: str, values: Sequence[Value]) -> Value:
+    """What a type, a rounding or a wrapper passes on: a list, else a number, else a text.
+
+    Raises:
+        Unreadable: it has none of these.
+    """
+    lists = [value for value in values if isinstance(value, list)]
+    if lists:
+        return lists[-1]
+    numbers = [value for value in values if isinstance(value, Scalar)]
+    if numbers:
+        return numbers[0]
+    words = [value for value in values if isinstance(value, str)]
+    if words:
+        return of_text(words[0])
+    raise Unreadable(f"{name} of what is no number")
+
+
+def _zeros(values: Sequence[Value]) -> Value:
+    sizes = [whole(value) for value in values]
+    return zeros([size for size in sizes if size is not None])
+
+
+def reshaped(values: Sequence[Value]) -> Value:
+    """``reshape(list, rows, columns)``: the list has the columns one after the other."""
+    if len(values) != 3 or not isinstance(values[0], list):
+        raise Unreadable("reshape of what is no list")
+    rows, columns = whole(values[1]), whole(values[2])
+    entries = values[0]
+    if rows is None or columns is None or rows * columns != len(entries):
+        raise Unreadable("a shape that does not fit")
+    return [
+        [entries[j * rows + i] for j in range(columns)] for i in range(rows)
+    ]
+
+
+def root_value(kind: str, values: Sequence[Value]) -> Value:
+    if kind == "sqrt" and len(values) == 1:
+        return rooted(values[0], 2)
+    if kind == "cbrt" and len(values) == 1:
+        return rooted(values[0], 3)
+    if kind == "power" and len(values) == 2:
+        return power(values[0], values[1])
+    if kind == "rational" and len(values) == 2:
+        return combined("/", values[0], values[1])
+    if kind == "root" and len(values) == 2:
+        index = whole(values[1])
+        if index is not None and index > 1:
+            return rooted(values[0], index)
+    if kind == "algebraic" and len(values) == 2:
+        return real_root(values[0], values[1])
+    raise Unreadable("a function with other arguments than it has")
+
+
+def end_of_argument(tokens: Sequence[Token], place: int) -> int:
+    """The place of the comma or bracket behind what cannot be read.
+
+    Raises:
+        Unreadable: there is none.
+    """
+    open_brackets = 0
+    for end in range(place, len(tokens)):
+        token = tokens[end]
+        is_sign = token.kind == "sign"
+        if is_sign and token.text in _OPENERS:
+            open_brackets += 1
+        elif is_sign and token.text in _CLOSERS:
+            open_brackets -= 1
+            if open_brackets < 0:
+                return end
+        elif not open_brackets and token.text in {",", ";"}:
+            return end
+    raise Unreadable("a bracket is not closed")
+
+
+_OPENERS = frozenset("([{")
+_CLOSERS = frozenset(")]}")
+SHAPES: Mapping[str, Callable[[Sequence[Value]], Value]] = {
+    "zeros": _zeros,
+    "reshape": reshaped,
+}
+"""Functions that make lists."""

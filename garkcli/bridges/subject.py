@@ -1,0 +1,83 @@
+"""A table as an audit checks it: its method, and what several checks need once."""
+
+from __future__ import annotations
+
+from dataclasses import dataclass
+from functools import cached_property
+
+from garkcli.bridges.judging import Judged, allowed, judged
+from garkcli.bridges.readers.found import FoundTable
+from garkcli.exact.display import to_decimal, to_text
+from garkcli.exact.field import ZERO, Number
+from garkcli.methodfile.build import MethodFile
+from garkcli.order.nonautonomous import with_time
+from garkcli.order.tolerance import within
+from garkcli.tableau.tableau import Tableau
+
+
+@dataclass(frozen=True)
+class Subject:
+    """A table as it is checked.
+
+    Attributes:
+        table: as it was found.
+        method: as it is read.
+        order: of the method.
+        embedded_order: with the embedded weights; None without them.
+    """
+
+    table: FoundTable
+    method: MethodFile
+    order: Judged
+    embedded_order: Judged | None
+
+    @property
+    def tableau(self) -> Tableau:
+        """The method."""
+        return self.method.tableau
+
+    @cached_property
+    def wrong_rows(self) -> tuple[str, ...]:
+        """The nodes that are no row sums, beyond what rounding explains, in words."""
+        tolerance = allowed(self.method)
+        found: dict[str, None] = {}
+        for l, m in self.tableau.edges():
+            block = self.tableau.block(l, m) or ()
+            nodes = self.tableau.colours[l].c
+            pairs = zip(block, nodes, strict=True)
+            for i, (row, node) in enumerate(pairs, start=1):
+                total = sum(row, ZERO)
+                if not within(total - node, (len(row) + 1) * tolerance):
+                    found[_row_text(i, total, node)] = None
+        return tuple(found)
+
+    @cached_property
+    def nonautonomous(self) -> Judged | None:
+        """The order where f depends on t, with the nodes as they are."""
+        timed = with_time(self.tableau)
+        if timed is None:
+            return None
+        if not self.wrong_rows:
+            return self.order
+        return judged(self.method, timed, self.table.order)
+
+    @property
+    def misses_order(self) -> bool:
+        """Whether the order is lower than declared, and known to be."""
+        declared = self.table.order
+        if declared is None or self.order.order >= declared:
+            return False
+        return not self.order.is_open
+
+
+def _row_text(i: int, total: Number, node: Number) -> str:
+    sums = f"row {i} has the sum {short(total)}"
+    return f"{sums}, its node is {short(node)}"
+
+
+def short(number: Number) -> str:
+    """A number as people read it: exactly where that is short."""
+    text = to_text(number)
+    if len(text) <= 24:
+        return text
+    return to_decimal(number, 12)
