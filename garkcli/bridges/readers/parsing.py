@@ -7,17 +7,14 @@ them before; no function is ever called.
 
 from __future__ import annotations
 
-from collections.abc import Mapping, Sequence
-
 from garkcli.bridges.readers.calls import (
     SHAPES,
     end_of_argument,
     passed_on,
     root_value,
 )
+from garkcli.bridges.readers.cursor import Cursor
 from garkcli.bridges.readers.found import Unreadable
-from garkcli.bridges.readers.grammar import Grammar
-from garkcli.bridges.readers.lexing import Token
 from garkcli.bridges.readers.matrices import joined
 from garkcli.bridges.readers.scalars import (
     UNKNOWN,
@@ -31,39 +28,13 @@ from garkcli.bridges.readers.scalars import (
     whole,
 )
 
-MAX_DEPTH = 40
-"""Deepest nesting of brackets, signs and functions."""
-
-
 _QUOTIENTS = frozenset({"/", "//", "./"})
 _PRODUCTS = frozenset({"*", ".*"})
 _POWERS = frozenset({"^", "**", ".^"})
 
 
-class ValueParser:
-    """Reads values from a list of tokens, from a place on.
-
-    Args:
-        tokens: with one of kind ``end`` behind them.
-        grammar: of the language.
-        names: what names stand for.
-
-    Attributes:
-        place: of the next token.
-    """
-
-    def __init__(
-        self,
-        tokens: Sequence[Token],
-        grammar: Grammar,
-        names: Mapping[str, Value],
-    ) -> None:
-        self.tokens = tokens
-        self.grammar = grammar
-        self.names = names
-        self.place = 0
-        self._depth = 0
-        self._in_matrix = False
+class ValueParser(Cursor):
+    """Reads values from a list of tokens, from a place on; see ``Cursor``."""
 
     def value_at(self, place: int) -> Value:
         """The value that begins at a place; ``place`` is behind it then.
@@ -83,38 +54,6 @@ class ValueParser:
         """
         self._begin(place)
         return self._arguments(is_lenient=True)
-
-    def _begin(self, place: int) -> None:
-        self.place = place
-        self._depth = 0
-        self._in_matrix = False
-
-    @property
-    def _next(self) -> Token:
-        return self.tokens[self.place]
-
-    def _is(self, sign: str) -> bool:
-        token = self._next
-        return token.kind == "sign" and token.text == sign
-
-    def _skip_lines(self) -> None:
-        while self._next.kind == "line":
-            self.place += 1
-
-    def _ends_item(self) -> bool:
-        """Whether a new item of a row of a matrix begins here: blanks part them."""
-        token = self._next
-        if not self._in_matrix or not token.is_spaced:
-            return False
-        if token.kind != "sign" or token.text in self._openers:
-            return True
-        behind = self.tokens[self.place + 1]
-        return token.text in "+-" and not behind.is_spaced
-
-    @property
-    def _openers(self) -> frozenset[str]:
-        grammar = self.grammar
-        return frozenset({"(", *grammar.lists, *grammar.matrices})
 
     def _sum(self) -> Value:
         value = self._product()
@@ -143,12 +82,6 @@ class ValueParser:
             else:
                 return value
 
-    def _begins_factor(self) -> bool:
-        token = self._next
-        if token.kind in {"name", "number"}:
-            return True
-        return token.kind == "sign" and token.text == "("
-
     def _factor(self) -> Value:
         self._deeper()
         try:
@@ -161,11 +94,6 @@ class ValueParser:
             return self._power()
         finally:
             self._depth -= 1
-
-    def _deeper(self) -> None:
-        self._depth += 1
-        if self._depth > MAX_DEPTH:
-            raise Unreadable(f"nested more than {MAX_DEPTH} deep")
 
     def _power(self) -> Value:
         base = self._atom()
@@ -213,12 +141,6 @@ class ValueParser:
             # (double) 1: the type is passed over
             return self._factor()
         return value
-
-    def _close(self, closer: str) -> None:
-        self._skip_lines()
-        if not self._is(closer):
-            raise Unreadable(f"{closer} is expected")
-        self.place += 1
 
     def _named(self) -> Value:
         name = self._next.text
@@ -297,15 +219,6 @@ class ValueParser:
         self.place += 1
         self._in_matrix = in_matrix
         return found
-
-    def _to_the_next(self, closer: str) -> None:
-        """Over the sign between two items; the last one has its bracket behind it."""
-        self._skip_lines()
-        if self._is(",") or self._is(";"):
-            self.place += 1
-            self._skip_lines()
-        elif not self._is(closer):
-            raise Unreadable(f"{closer} is expected")
 
     def _keyword(self) -> str:
         """The name before = that an argument may have."""
