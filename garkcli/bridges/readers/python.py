@@ -32,7 +32,7 @@ from garkcli.bridges.readers.shaping import (
 )
 
 NAME = "python"
-SCIPY = frozenset({"RungeKutta", "OdeSolver"})
+SCIPY = frozenset({"RungeKutta"})
 _TABLEAUS = frozenset({"ButcherTableau", "_ButcherTableau"})
 MAX_NESTING = 30
 """Deepest nesting of classes and functions."""
