@@ -2,11 +2,14 @@
 
 from __future__ import annotations
 
+import json
 import re
 import tomllib
 from pathlib import Path
 
 import pytest
+
+from garkcli.methodfile.shelves import key_of
 
 ROOT = Path(__file__).resolve().parents[2]
 DATA = ROOT / "garkcli" / "catalogue" / "data"
@@ -41,3 +44,14 @@ def test_the_methods_beside_the_package_are_copies(copy: Path) -> None:
     """``methods/`` is what a reader of the repository works with: the same files, byte by byte."""
     (original,) = [path for path in FILES if path.name == copy.name]
     assert copy.read_bytes() == original.read_bytes()
+
+
+def test_a_name_or_alias_means_one_method() -> None:
+    """However it is spelt: nobody is asked which of two was meant."""
+    index = ROOT / "garkcli" / "catalogue" / "index.json"
+    methods = json.loads(index.read_text(encoding="utf-8"))["methods"]
+    meant: dict[str, set[str]] = {}
+    for method in methods:
+        for name in (method["name"], *method["aliases"]):
+            meant.setdefault(key_of(name), set()).add(method["name"])
+    assert [name for name, those in meant.items() if len(those) > 1] == []
