@@ -12,7 +12,7 @@ from collections.abc import Iterable, Iterator, Sequence
 from contextlib import suppress
 from itertools import chain
 
-from garkcli.errors import Fault, MethodFileError, nearest, printable
+from garkcli.errors import MAX_WORD, Fault, MethodFileError, nearest, printable
 from garkcli.methodfile.file_kind import METHOD_FILE
 from garkcli.methodfile.folders import STDIN
 from garkcli.methodfile.reading import read_text
@@ -84,7 +84,9 @@ def can_be_name(argument: object) -> bool:
     separators = {"/", os.sep, os.altsep}
     if any(sign in argument for sign in separators if sign):
         return False
-    return "\0" not in argument and not argument.endswith(_OF_FILES)
+    if len(argument) > len(PREFIX) + MAX_WORD or "\0" in argument:
+        return False
+    return not argument.endswith(_OF_FILES)
 
 
 def _without_prefix(argument: str) -> str:

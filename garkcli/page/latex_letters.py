@@ -17,44 +17,54 @@ _SIGNS = {
     "^": r"\textasciicircum{}",
     "<": r"\textless{}",
     ">": r"\textgreater{}",
-    "ß": r"{\ss}",
-    "ø": r"{\o}",
-    "Ø": r"{\O}",
-    "æ": r"{\ae}",
-    "Æ": r"{\AE}",
-    "œ": r"{\oe}",
-    "Œ": r"{\OE}",
-    "ł": r"{\l}",
-    "Ł": r"{\L}",
-    "đ": r"{\dj}",
-    "ı": r"{\i}",
-    "–": "--",
-    "—": "---",
-    "−": "$-$",
-    "’": "'",
-    "‘": "`",
-    "“": "``",
-    "”": "''",
-    "×": r"$\times$",
-    "\N{NO-BREAK SPACE}": "~",
+    "LATIN SMALL LETTER SHARP S": r"{\ss}",
+    "LATIN SMALL LETTER O WITH STROKE": r"{\o}",
+    "LATIN CAPITAL LETTER O WITH STROKE": r"{\O}",
+    "LATIN SMALL LETTER AE": r"{\ae}",
+    "LATIN CAPITAL LETTER AE": r"{\AE}",
+    "LATIN SMALL LIGATURE OE": r"{\oe}",
+    "LATIN CAPITAL LIGATURE OE": r"{\OE}",
+    "LATIN SMALL LETTER L WITH STROKE": r"{\l}",
+    "LATIN CAPITAL LETTER L WITH STROKE": r"{\L}",
+    "LATIN SMALL LETTER D WITH STROKE": r"{\dj}",
+    "LATIN SMALL LETTER DOTLESS I": r"{\i}",
+    "EN DASH": "--",
+    "EM DASH": "---",
+    "MINUS SIGN": "$-$",
+    "RIGHT SINGLE QUOTATION MARK": "'",
+    "LEFT SINGLE QUOTATION MARK": "`",
+    "LEFT DOUBLE QUOTATION MARK": "``",
+    "RIGHT DOUBLE QUOTATION MARK": "''",
+    "MULTIPLICATION SIGN": r"$\times$",
+    "NO-BREAK SPACE": "~",
 }
+"""By the sign, or by its name in Unicode where it is no ASCII."""
 _ACCENTS = {
-    "\N{COMBINING GRAVE ACCENT}": "`",
-    "\N{COMBINING ACUTE ACCENT}": "'",
-    "\N{COMBINING CIRCUMFLEX ACCENT}": "^",
-    "\N{COMBINING TILDE}": "~",
-    "\N{COMBINING DIAERESIS}": '"',
-    "\N{COMBINING MACRON}": "=",
-    "\N{COMBINING DOT ABOVE}": ".",
-    "\N{COMBINING BREVE}": "u ",
-    "\N{COMBINING CARON}": "v ",
-    "\N{COMBINING CEDILLA}": "c ",
-    "\N{COMBINING OGONEK}": "k ",
-    "\N{COMBINING RING ABOVE}": "r ",
-    "\N{COMBINING DOUBLE ACUTE ACCENT}": "H ",
+    "COMBINING GRAVE ACCENT": "`",
+    "COMBINING ACUTE ACCENT": "'",
+    "COMBINING CIRCUMFLEX ACCENT": "^",
+    "COMBINING TILDE": "~",
+    "COMBINING DIAERESIS": '"',
+    "COMBINING MACRON": "=",
+    "COMBINING DOT ABOVE": ".",
+    "COMBINING BREVE": "u ",
+    "COMBINING CARON": "v ",
+    "COMBINING CEDILLA": "c ",
+    "COMBINING OGONEK": "k ",
+    "COMBINING RING ABOVE": "r ",
+    "COMBINING DOUBLE ACUTE ACCENT": "H ",
 }
+"""The commands of accents, by their names in Unicode."""
 _DOTLESS = {"i": r"\i", "j": r"\j"}
-_BASE = {"ß": "ss", "ø": "o", "æ": "ae", "œ": "oe", "ł": "l", "đ": "d"}
+_BASE = {
+    "LATIN SMALL LETTER SHARP S": "ss",
+    "LATIN SMALL LETTER O WITH STROKE": "o",
+    "LATIN SMALL LETTER AE": "ae",
+    "LATIN SMALL LIGATURE OE": "oe",
+    "LATIN SMALL LETTER L WITH STROKE": "l",
+    "LATIN SMALL LETTER D WITH STROKE": "d",
+}
+"""Letters that are no accented ones, as they are spelt without them."""
 
 
 def letters(text: str) -> str:
@@ -69,21 +79,25 @@ def letters(text: str) -> str:
 
 
 def _letter(sign: str) -> str:
-    if sign in _SIGNS:
-        return _SIGNS[sign]
-    if sign.isascii():
-        return sign
+    known = _SIGNS.get(sign if sign.isascii() else _name(sign))
+    if known is not None or sign.isascii():
+        return known or sign
     base, *marks = list(unicodedata.normalize("NFD", sign))
-    if len(marks) == 1 and base.isascii() and marks[0] in _ACCENTS:
-        accent = _ACCENTS[marks[0]]
+    accent = _ACCENTS.get(_name(marks[0])) if len(marks) == 1 else None
+    if accent is not None and base.isascii():
         above = accent not in {"c ", "k "}
         return rf"{{\{accent}{_DOTLESS.get(base, base) if above else base}}}"
     return _greek(sign)
 
 
+def _name(sign: str) -> str:
+    """What Unicode calls a sign, or several signs nothing."""
+    return unicodedata.name(sign, "") if len(sign) == 1 else ""
+
+
 def _greek(sign: str) -> str:
     """A Greek letter as LaTeX names it; any other sign as it is."""
-    words = unicodedata.name(sign, "").split()
+    words = _name(sign).split()
     if words[:1] != ["GREEK"] or "LETTER" not in words or len(words) != 4:
         return sign
     name = words[3].lower().replace("lamda", "lambda")
@@ -104,5 +118,5 @@ def ascii_letters(text: str) -> str:
 
 def _spelt(sign: str) -> str:
     """A letter that is no accented one, as it is spelt without it."""
-    base = _BASE.get(sign.lower(), sign)
+    base = _BASE.get(_name(sign.lower()), sign)
     return base.capitalize() if sign.isupper() else base
