@@ -96,6 +96,8 @@ RUNS: dict[str, list[tuple[str, ...]]] = {
         for option in ("--a-stable", "--l-stable", "--p-stable")
         for of in ((), ("--pair",))
     ],
+    "import": [("tests/bridges/sources",)],
+    "audit": [("tests/bridges/sources",), ("tests/bridges/texts",)],
     "sweep": [("tests/examples/sweeps/small.yaml", "--rows", os.devnull)],
     "certificate": [(file,) for file in FILES],
     "list": [()],
