@@ -5,6 +5,7 @@ from __future__ import annotations
 import ast
 import importlib.util
 import json
+import os
 import subprocess
 import sys
 from collections.abc import Callable
@@ -258,6 +259,12 @@ def _block_twice(data: dict[str, Any]) -> None:
     first["A"][0][0] = "7"
 
 
+def _no_coupling(data: dict[str, Any]) -> None:
+    """Without the blocks between colours the conditions of mixed trees are gone."""
+    blocks = data["method"]["blocks"]
+    data["method"]["blocks"] = [x for x in blocks if x["space"] == x["colour"]]
+
+
 def _endless(data: dict[str, Any]) -> None:
     data["method"]["spaces"][0]["stages"] = 10**12
 
@@ -272,6 +279,7 @@ def _endless(data: dict[str, Any]) -> None:
         _half_a_pair,
         _no_space,
         _block_twice,
+        _no_coupling,
         _endless,
     ],
 )
@@ -311,6 +319,40 @@ def test_what_is_assumed_is_said(
     first, second, *_ = capsys.readouterr().out.splitlines()
     assert first.endswith("x?  method: order 9")
     assert second.endswith("where the vector field is linear: 1")
+
+
+def test_what_is_not_seen_is_said(
+    tmp_path: Path, capsys: pytest.CaptureFixture[str]
+) -> None:
+    """Conditions that a missing block takes away are an assumption, and it is named."""
+    data = certificate("A: [[0, 0], [1/2, 0]]\nb: [0, 1]\n")
+    spanning = [[["[]_1"]]] + [[[]]] * 8
+    data["method"] |= {"blocks": [], "spanning": spanning, "order": 9}
+    data["method"]["witness"] = None
+    path = ROOT / "methods" / "stoermer-verlet.gark.yaml"
+    separable = certificate(path.read_text(encoding="utf-8"))
+    for proof, assumed in (
+        (data, "free of what 1 drives: 1"),
+        (separable, "free of what 1 drives: 1; free of what 2 drives: 2"),
+    ):
+        assert judged(proof, tmp_path) == 0
+        line = capsys.readouterr().out.splitlines()[1]
+        assert line.endswith(f", where the vector field is {assumed}")
+
+
+def test_names_in_any_encoding(tmp_path: Path) -> None:
+    """A name that the terminal has no letters for is no fault of the proof."""
+    path = tmp_path / "proof.json"
+    data = certificate(COLLOCATION) | {"name": "Störmer α"}
+    path.write_text(json.dumps(data), encoding="utf-8")
+    run = subprocess.run(
+        [sys.executable, str(SCRIPT), str(path)],
+        capture_output=True,
+        env={**os.environ, "PYTHONIOENCODING": "ascii"},
+        check=False,
+    )
+    assert run.returncode == 0
+    assert b"St\\xf6rmer \\u03b1" in run.stdout
 
 
 @pytest.mark.parametrize("ends", [("2", "3"), ("-10", "10")])
