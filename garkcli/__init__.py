@@ -13,7 +13,7 @@ from garkcli.version import __version__ as __version__
 if TYPE_CHECKING:
     from garkcli.api.arguments import of_methods
     from garkcli.api.arrays import from_arrays
-    from garkcli.api.asserting import assert_order
+    from garkcli.api.asserting import assert_order, find_orders
     from garkcli.api.construction import diagonal_method, gark
     from garkcli.api.methods import (
         analyse,
@@ -82,6 +82,7 @@ _HOMES = {
     "diagonal_method": "api.construction",
     "elementary_weight": "order.conditions",
     "find_order": "api.methods",
+    "find_orders": "api.asserting",
     "find_parameters": "design.design",
     "find_property": "api.properties",
     "format_tree": "trees.notation",
@@ -162,6 +163,7 @@ __all__ = [
     "diagonal_method",
     "elementary_weight",
     "find_order",
+    "find_orders",
     "find_parameters",
     "find_property",
     "format_tree",

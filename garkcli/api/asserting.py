@@ -1,4 +1,6 @@
-"""Orders asserted in tests of one's own, with what speaks against them in the failure."""
+"""All orders of a method, and orders asserted in tests of one's own, with what speaks against them
+in the failure.
+"""
 
 from __future__ import annotations
 
@@ -85,6 +87,38 @@ def assert_order(
         failures += _failure(found, _PARTS[key], value, tolerance)
     if failures:
         raise AssertionError("\n".join(failures))
+
+
+def find_orders(
+    method: Any, limit: int = DEFAULT_LIMIT
+) -> dict[str, int | str]:
+    """The order of a method and those of its embedded weights, its conjugate and its pair, within
+    its tolerance: what ``assert_order`` takes.
+
+    Args:
+        method: as ``assert_order`` takes it.
+        limit: the order at which to stop.
+
+    Returns:
+        The orders of what there is, ``">= 60"`` where the search stopped at 60.
+
+    >>> find_orders("rk4")
+    {'order': 4, 'conjugate': 4, 'pair': 4}
+    >>> assert_order("rk4", **find_orders("rk4"))
+    """
+    asked = as_method(method)
+    orders: dict[str, int | str] = {}
+    for key, part in _PARTS.items():
+        if key == "embedded" and asked.embedded is None:
+            continue
+        try:
+            found = find_order(part.of(asked), limit)
+        except ZeroWeight:
+            continue
+        orders[key] = found.order
+        if found.is_lower_bound:
+            orders[key] = f">= {found.order}"
+    return orders
 
 
 @dataclass(frozen=True)

@@ -49,7 +49,7 @@ class Witness:
         return self.value - self.required
 
 
-@dataclass(frozen=True)
+@dataclass(frozen=True, repr=False)
 class Order:
     """The outcome: every condition up to ``order`` holds.
 
@@ -64,6 +64,10 @@ class Order:
     def is_lower_bound(self) -> bool:
         """Whether the search stopped at its limit with nothing failing."""
         return self.witness is None
+
+    def __repr__(self) -> str:
+        least = "at least " if self.is_lower_bound else ""
+        return f"<Order {least}{self.order}>"
 
 
 @dataclass(frozen=True)

@@ -11,6 +11,7 @@ from flint import fmpq
 from garkcli.errors import counted
 from garkcli.tableau.embedded import DenseOutput, Further, Weights
 from garkcli.tableau.tableau import Tableau
+from garkcli.upward import found
 
 if TYPE_CHECKING:
     from garkcli.tableau.pointwise import Entries
@@ -69,6 +70,51 @@ class GarkMethod:
     def c(self) -> Any:
         """The nodes; of several colours a row each."""
         return self._of_one(self._entries.c)
+
+    @property
+    def order(self) -> int:
+        """The order, exactly or within the tolerance of the method, as ``find_order`` has it; where
+        that is a lower bound, the bound.
+        """
+        order: int = found("api.methods", "find_order")(self).order
+        return order
+
+    @property
+    def orders(self) -> dict[str, int | str]:
+        """The order of the method and those of its embedded weights, of its conjugate and of its
+        pair, as ``find_orders`` has them.
+        """
+        orders: dict[str, int | str]
+        orders = found("api.asserting", "find_orders")(self)
+        return orders
+
+    @property
+    def conjugate(self) -> GarkMethod:
+        """The symplectic conjugate, with the tolerance of the method.
+
+        Raises:
+            ZeroWeight: a conjugate would divide by zero.
+        """
+        made: GarkMethod = found("api.methods", "conjugate")(self)
+        return made
+
+    @property
+    def pair(self) -> GarkMethod:
+        """The symplectic pair (Q, P) of the method and its conjugate: colours V¹…Vᴺ, F¹…Fᴺ.
+
+        Raises:
+            ZeroWeight: a conjugate would divide by zero.
+        """
+        made: GarkMethod = found("api.methods", "pair")(self)
+        return made
+
+    @property
+    def is_symplectic(self) -> bool:
+        """Whether the method is its own conjugate; of a partitioned one, whether its parts are each
+        other's. Within its tolerance where it has one.
+        """
+        is_so: bool = found("api.methods", "is_symplectic")(self)
+        return is_so
 
     @property
     def further(self) -> Further:
