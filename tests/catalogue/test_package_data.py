@@ -5,9 +5,12 @@ from __future__ import annotations
 import json
 import re
 import tomllib
+from fractions import Fraction
+from math import factorial
 from pathlib import Path
 
 import pytest
+import yaml
 
 from garkcli.methodfile.shelves import key_of
 
@@ -55,3 +58,42 @@ def test_a_name_or_alias_means_one_method() -> None:
         for name in (method["name"], *method["aliases"]):
             meant.setdefault(key_of(name), set()).add(method["name"])
     assert [name for name, those in meant.items() if len(those) > 1] == []
+
+
+def test_hyphens_do_not_choose_the_method() -> None:
+    """Nor other signs: ``SDIRK2`` is ``sdirk-2``. But ``RadauIIA5`` has order 5 where people know
+    it from, with three stages.
+    """
+    index = ROOT / "garkcli" / "catalogue" / "index.json"
+    methods = json.loads(index.read_text(encoding="utf-8"))["methods"]
+    meant: dict[str, set[str]] = {}
+    for method in methods:
+        for name in (method["name"], *method["aliases"]):
+            letters = re.sub(r"[^a-z0-9*]", "", name.casefold())
+            meant.setdefault(letters, set()).add(method["name"])
+    several = {name for name, those in meant.items() if len(those) > 1}
+    assert several == {"radauiia5"}
+
+
+def test_merson_is_as_printed() -> None:
+    """Its second row of weights has order 5 for linear problems, for which it is called 4("5"), and
+    its estimate is Merson's (2 k1 - 9 k3 + 8 k4 - k5)/30.
+    """
+    text = (DATA / "erk" / "merson-4.gark.yaml").read_text(encoding="utf-8")
+    file = yaml.load(text, yaml.BaseLoader)
+    weights = [Fraction(x) for x in file["b"]]
+    embedded = [Fraction(x) for x in file["embedded"]]
+    of_stages = [Fraction(1)] * 5
+    for order in range(1, 6):
+        sums = zip(embedded, of_stages, strict=True)
+        assert sum(b * k for b, k in sums) == Fraction(1, factorial(order))
+        rows = [[Fraction(x) for x in row] for row in file["A"]]
+        of_stages = [
+            sum(
+                (a * k for a, k in zip(row, of_stages, strict=False)),
+                Fraction(),
+            )
+            for row in rows
+        ]
+    pairs = zip(weights, embedded, strict=True)
+    assert [30 * (b - e) for b, e in pairs] == [2, 0, -9, 8, -1]
