@@ -72,6 +72,7 @@ _NUMBERED = re.compile(
     r"(?P<l>[0-9]{1,2})(?:_(?P<m>[0-9]{1,2}))?"
 )
 """Names of arrays with the numbers of vector fields."""
+_BEFORE_VALUES = frozenset({"return", "else", "do", "case"})
 MAX_SCOPES = 60
 """Deepest nesting of blocks."""
 _DEFINITION = re.compile(r"#[ \t]*define[ \t]+([A-Za-z_]\w*)[ \t]+(.+)")
@@ -113,12 +114,21 @@ class Block:
 
 @dataclass(frozen=True)
 class Call:
-    """A call of a function that makes a table."""
+    """A call of a function that makes a table.
+
+    Attributes:
+        name: of the function.
+        line: where it is called.
+        title: of the block around it.
+        arguments: what it is given.
+        label: the first argument where it is a constant in capitals: ``TSRK5DP``.
+    """
 
     name: str
     line: int
     title: str
     arguments: tuple[Value, ...]
+    label: str = ""
 
 
 class CSource:
@@ -205,21 +215,31 @@ class CSource:
         token = self._tokens[place]
         if not self._is(place + 1, "("):
             return None
-        if token.text in self._wanted:
+        inside = self._tokens[place + 2]
+        if token.text in self._wanted and not self._is_declared(place):
             try:
                 found = self._parser.arguments_at(place + 1)
             except Unreadable:
                 return None
             values = tuple(value for _, value in found)
             title = self._title or self._blocks[-1].scope.title
-            return Call(token.text, token.line, title, values)
+            label = inside.text if inside.text.isupper() else ""
+            return Call(token.text, token.line, title, values, label)
         if len(self._blocks) == 1 and not self._parens:
             # a function, or the macro ARK_BUTCHER_TABLE(NAME, {
             self._title = token.text
             if token.text.isupper() or token.text.endswith("_TABLE"):
-                inside = self._tokens[place + 2]
                 self._title = inside.text if inside.kind == "name" else ""
         return None
+
+    def _is_declared(self, place: int) -> bool:
+        """Whether a function is declared or defined here: its type stands before its name."""
+        if not place:
+            return False
+        before = self._tokens[place - 1]
+        if before.kind == "sign":
+            return before.text == "*"
+        return before.kind == "name" and before.text not in _BEFORE_VALUES
 
     def _is(self, place: int, sign: str) -> bool:
         token = self._tokens[min(place, len(self._tokens) - 1)]

@@ -134,7 +134,10 @@ class _Finder:
         )
         if blocks is not None:
             found = [blocks]
-        self.found += self._listed or found
+        # the lists of {amat, bvec, cvec} are often named before
+        listed = [_coefficients_of(table) for table in self._listed]
+        self.found += self._listed
+        self.found += [x for x in found if _coefficients_of(x) not in listed]
         self._listed = []
         self._values = {}
         self._line = 0
@@ -149,6 +152,10 @@ class _Finder:
         listed = _coefficients(event, self._source)
         if listed is not None:
             self._listed.append(listed)
+
+
+def _coefficients_of(table: FoundTable) -> tuple[object, ...]:
+    return table.A, table.b, table.c
 
 
 def _coefficients(event: Assigned, source: str) -> FoundTable | None:

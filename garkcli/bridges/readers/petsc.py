@@ -34,7 +34,7 @@ def find(text: str, source: str) -> list[FoundTable]:
 
 def _registered(call: Call, source: str) -> FoundTable:
     name = call.arguments[0] if call.arguments else None
-    title = name if isinstance(name, str) else call.title
+    title = name if isinstance(name, str) else call.label or call.title
     line = call.line
     order = whole(call.arguments[1]) if len(call.arguments) > 1 else None
     empty = FoundTable(source, line, NAME, title, (), (), order=order)

@@ -34,8 +34,9 @@ from garkcli.bridges.readers.shaping import (
 NAME = "python"
 SCIPY = frozenset({"RungeKutta"})
 _TABLEAUS = frozenset({"ButcherTableau", "_ButcherTableau"})
+_WITH_VALUE = (ast.Assign, ast.AnnAssign, ast.Return, ast.Expr)
 MAX_NESTING = 30
-"""Deepest nesting of classes and functions."""
+"""Deepest nesting of classes and functions, and of dictionaries."""
 
 
 def find(text: str, source: str) -> list[FoundTable]:
@@ -105,7 +106,7 @@ class _Finder:
                     self._literals.imported(node)
                 case ast.Assign() | ast.AnnAssign():
                     self._assignment(node, scope)
-            if isinstance(node, (ast.Assign, ast.Return, ast.Expr)):
+            if isinstance(node, _WITH_VALUE):
                 self._tableaus(node, scope)
 
     def _assignment(
@@ -135,9 +136,6 @@ class _Finder:
         name = _plain_name(target)
         if not name:
             return
-        if isinstance(expression, ast.Dict):
-            self._dictionary(name, expression)
-            return
         value = _copied(self._literals.value(expression))
         self._names[name] = value
         self._lines[name] = line
@@ -158,37 +156,53 @@ class _Finder:
             raise Unreadable("an entry of what is no list")
         _set(array, indices[-1], value, self._literals)
 
-    def _dictionary(self, name: str, node: ast.Dict) -> None:
-        """A table as ``{"A": …, "b": …}``."""
+    def _dictionaries(self, name: str, node: ast.expr, depth: int = 0) -> None:
+        """Tables as ``{"A": …, "b": …}``: one, lists of them, and those under other keys."""
+        if depth > MAX_NESTING:
+            return
+        match node:
+            case ast.Dict():
+                self._dictionary(name, node, depth)
+            case ast.List(elts=items) | ast.Tuple(elts=items):
+                for item in items:
+                    self._dictionaries(name, item, depth + 1)
+            case ast.Call(func=ast.Name(id="dict"), args=[]):
+                self._of_keywords(name, node)
+
+    def _dictionary(self, name: str, node: ast.Dict, depth: int) -> None:
         scope = Scope(name)
-        own: dict[str, Value] = {}
         for key, expression in zip(node.keys, node.values, strict=True):
             if not isinstance(key, ast.Constant):
                 continue
             if not isinstance(key.value, str):
                 continue
             try:
-                own[key.value] = _listed(self._literals.value(expression))
+                value = _listed(self._literals.value(expression))
             except Unreadable:
+                self._dictionaries(key.value, expression, depth + 1)
                 continue
-            scope.add(key.value, own[key.value], node.lineno)
+            scope.add(key.value, value, node.lineno)
         self.found += scope.tables(self._source, NAME)
 
     def _tableaus(self, node: ast.stmt, scope: Scope) -> None:
-        """``ButcherTableau(c=…, b_sol=…, a_lower=…)`` of other libraries."""
+        """``ButcherTableau(c=…, b_sol=…, a_lower=…)`` of other libraries; dictionaries."""
         value = getattr(node, "value", None)
-        if not isinstance(value, ast.Call) or called(value) not in _TABLEAUS:
-            return
         name = scope.title
-        if isinstance(node, ast.Assign):
-            name = _plain_name(node.targets[0]) or name
+        for target in targets_of(node):
+            name = _plain_name(target) or name
+        if isinstance(value, ast.Call) and called(value) in _TABLEAUS:
+            self._of_keywords(name, value)
+        elif isinstance(value, ast.expr):
+            self._dictionaries(name, value)
+
+    def _of_keywords(self, name: str, call: ast.Call) -> None:
         inner = Scope(name)
-        for keyword in value.keywords:
+        for keyword in call.keywords:
             try:
-                found = self._literals.value(keyword.value)
+                found = _listed(self._literals.value(keyword.value))
             except Unreadable:
                 continue
-            inner.add(keyword.arg or "", found, value.lineno)
+            inner.add(keyword.arg or "", found, call.lineno)
         self.found += inner.tables(self._source, NAME)
 
 

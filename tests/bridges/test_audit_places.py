@@ -1,0 +1,96 @@
+"""gark audit: tables in places where solvers keep them, and what only looks like a table."""
+
+from __future__ import annotations
+
+import json
+from pathlib import Path
+
+import pytest
+
+from tests.cli.harness import gark
+
+NESTED = """
+from fractions import Fraction as F
+TABLES = {
+    "heun": {"A": [[0, 0], [1, 0]], "b": [F(1, 2)] * 2, "c": [0, 1], "order": 2},
+    "more": [
+        {"name": "a digit", "A": [[0, 0], [1, 0]], "b": [0.5, 0.6], "c": [0, 1], "order": 2},
+        dict(name="a node", A=[[0, 0], [1, 0]], b=[0.5, 0.5], c=[0, 0.5], order=2),
+    ],
+}
+SYSTEMS = [{"A": [[4, 1], [1, 3]], "b": [1, 2]}]
+
+def third(x):
+    return {"A": [[0, 0], [1, 0]], "b": ["1/2", "1/2"], "c": [0, 1], "order": 3, "at": x}
+"""
+WITH = """
+RalstonCoefficients[2, p_] := N[{{{2/3}}, {1/4, 3/4}, {2/3}}, p];
+GoodCoefficients[4, p_] := With[{amat = {{1/2}, {0, 1/2}, {0, 0, 1}},
+  bvec = {1/6, 1/3, 1/3, 1/6}, cvec = {1/2, 1/2, 1}}, N[{amat, bvec, cvec}, p]];
+BadCoefficients[4, p_] := With[{amat = {{1/2}, {0, 1/2}, {0, 0, 1}},
+  bvec = {1/6, 1/3, 1/3, 1/6}, cvec = {1/2, 1/3, 1}}, N[{amat, bvec, cvec}, p]];
+"""
+DECLARED = """
+PETSC_EXTERN PetscErrorCode TSRKRegister(TSRKType, PetscInt, PetscInt, const PetscReal[],
+  const PetscReal[], const PetscReal[], const PetscReal[], PetscInt, const PetscReal[]);
+ARKodeButcherTable ARKodeButcherTable_Create(int s, int q, int p, sunrealtype* c,
+                                             sunrealtype* A, sunrealtype* b, sunrealtype* d)
+{
+  return NULL;
+}
+"""
+CALLED = """
+static PetscErrorCode all(void)
+{
+  const PetscReal A[4] = {0, 0, 1, 0}, b[2] = {0.5, 0.5};
+  PetscCall(TSRKRegister(TSRK2B, 2, 2, A, b, NULL, NULL, 0, NULL));
+  return TSRKRegister("third", 3, 2, A, b, NULL, NULL, 0, NULL);
+}
+"""
+
+
+def told(name: str, text: str, folder: Path) -> dict[str, list[str]]:
+    """The codes of the findings of each table of a source, by name."""
+    (folder / name).write_text(text, encoding="utf-8")
+    run = gark("audit", str(folder), "--format", "json")
+    assert run.code in {0, 1}, run.err
+    return {
+        table["name"]: [finding["code"] for finding in table["findings"]]
+        for table in json.loads(run.out)["tables"]
+    }
+
+
+def test_dictionaries_in_dictionaries_and_lists(tmp_path: Path) -> None:
+    """Python keeps tables so: by name in a dictionary, in lists, returned; systems are none."""
+    assert told("tables.py", NESTED, tmp_path) == {
+        "heun": [],
+        "a digit": ["order"],
+        "a node": ["nodes"],
+        "third": ["order"],
+    }
+
+
+def test_lists_of_a_with_beside_a_plain_function(tmp_path: Path) -> None:
+    """NDSolve's coefficients in With are read too, where another function has them in place."""
+    found = told("methods.wl", WITH, tmp_path)
+    assert found["RalstonCoefficients"] == []
+    (tmp_path / "methods.wl").unlink()
+    run = gark("audit", "-", "--format", "json", stdin=WITH)
+    codes = [
+        [finding["code"] for finding in table["findings"]]
+        for table in json.loads(run.out)["tables"]
+    ]
+    assert codes == [[], [], ["nodes"]]
+
+
+@pytest.mark.parametrize("name", ["petscts.h", "rk.c"])
+def test_a_declaration_is_no_table(name: str, tmp_path: Path) -> None:
+    """A header that declares constructors has no tables, and a constructor is none itself."""
+    (tmp_path / name).write_text(DECLARED, encoding="utf-8")
+    assert gark("audit", str(tmp_path)).code == 2
+
+
+def test_a_method_has_the_name_of_its_constant(tmp_path: Path) -> None:
+    """PETSc's own methods are registered under constants, not under texts."""
+    found = told("rk.c", CALLED, tmp_path)
+    assert found == {"TSRK2B": [], "third": ["order"]}
