@@ -63,7 +63,7 @@ class Bridge:
         if payload.kind not in self.kinds:
             raise CannotExport(
                 f"{self.name} has no {_KINDS[payload.kind]}",
-                f"{' and '.join(_holding(payload.kind))} have",
+                f"these have: {', '.join(_holding(payload.kind))}",
             )
         return self.write(payload)
 

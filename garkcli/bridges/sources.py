@@ -4,12 +4,12 @@ from __future__ import annotations
 
 import os
 import sys
-from collections.abc import Iterable, Iterator
+from collections.abc import Callable, Iterable, Iterator
 from pathlib import PurePath
 
 from garkcli.bridges.readers.found import MAX_CHARACTERS
 from garkcli.bridges.readers.registry import suffixes
-from garkcli.errors import UsageProblem
+from garkcli.errors import UsageProblem, printable
 
 STDIN = "-"
 STDIN_NAME = "<stdin>"
@@ -17,16 +17,47 @@ MAX_FILES = 100_000
 """Most files of a source tree that are looked at."""
 
 
-def source_files(paths: Iterable[str]) -> Iterator[str]:
+def _no_one(text: str) -> None:
+    del text
+
+
+def source_files(
+    paths: Iterable[str], told: Callable[[str], None] = _no_one
+) -> Iterator[str]:
     """The files meant by ``paths``: of a folder all that some reader reads, in order.
 
-    Hidden files and folders are left out, and links to folders are not followed.
+    Hidden files and folders are left out, and links to folders are not followed. A file of a folder
+    that cannot be read is no reason to read none.
+
+    Args:
+        paths: files and folders.
+        told: who is told of files of a folder that are left out, and why.
     """
     for path in paths:
         if path == STDIN or not os.path.isdir(path):
             yield path
-        else:
-            yield from _below(path)
+            continue
+        for file in _below(path):
+            reason = _why_not(file)
+            if reason:
+                told(f"{printable(file)} is left out: {reason}")
+            else:
+                yield file
+
+
+def _why_not(path: str) -> str:
+    """Why a file of a folder is not read; empty where it is."""
+    try:
+        size = os.stat(path).st_size
+    except OSError as error:
+        return str(error.strerror)
+    if not os.path.isfile(path):
+        return "it is no ordinary file"
+    if not os.access(path, os.R_OK):
+        return "it is protected"
+    if size > MAX_CHARACTERS:
+        return f"it has more than {MAX_CHARACTERS} bytes"
+    return ""
 
 
 def _below(folder: str) -> Iterator[str]:

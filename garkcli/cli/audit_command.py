@@ -36,7 +36,7 @@ def command(paths: tuple[str, ...], output: Output) -> int:
     from garkcli.report.audited import FORMATS as RENDERERS
     from garkcli.report.audited import render_text
 
-    files = list(source_files(paths))
+    files = list(source_files(paths, output.note))
     found: list[Audited] = []
     shows_bar = output.verbosity >= 0 and output.may_show_progress
     for path in tracked(iter(files), len(files), "reading", shows_bar):

@@ -84,7 +84,7 @@ def command(
 
         make_folder(folder)
     readers = _readers(source_format)
-    paths = list(source_files(sources))
+    paths = list(source_files(sources, output.note))
     results = list(collected(paths, readers, is_recognising))
     if not any(result.method is not None for result in results):
         raise _nothing(sources, paths, results)

@@ -14,6 +14,8 @@ JSON = frozenset({"json", "ndjson", "sarif"})
 """Formats that are JSON: a sign may always be written as ``\\u1234``."""
 YAML = frozenset({"yaml"})
 XML = frozenset({"junit"})
+TABBED = frozenset({"rungekutta-jl"})
+"""Tables whose columns are parted by tabs, which command nothing."""
 _COLOURS = re.compile(r"(\x1b\[(?:[012]|3[1-6]|31;1)m)")
 
 
@@ -42,9 +44,10 @@ def written_out(
 def _written_out(text: str, format: str) -> str:
     if text.replace("\n", "").isprintable():
         return text
+    blank = "\n\t" if format in TABBED else "\n"
     signs = []
     for sign in text:
-        is_harmless = sign == "\n" or sign.isprintable()
+        is_harmless = sign in blank or sign.isprintable()
         signs.append(sign if is_harmless else escaped(sign, format))
     return "".join(signs)
 

@@ -3,6 +3,7 @@
 from __future__ import annotations
 
 import json
+import os
 from pathlib import Path
 
 import pytest
@@ -94,3 +95,21 @@ def test_a_method_has_the_name_of_its_constant(tmp_path: Path) -> None:
     """PETSc's own methods are registered under constants, not under texts."""
     found = told("rk.c", CALLED, tmp_path)
     assert found == {"TSRK2B": [], "third": ["order"]}
+
+
+def test_files_that_cannot_be_read_stop_no_audit(tmp_path: Path) -> None:
+    """A link that leads nowhere, a pipe and a file of five million bytes are told, and passed by."""
+    (tmp_path / "a.c").symlink_to("nowhere.c")
+    os.mkfifo(tmp_path / "b.c")
+    (tmp_path / "c.json").write_text(" " * 5_000_000)
+    (tmp_path / "d.c").write_text(CALLED, encoding="utf-8")
+    for command in ("audit", "import"):
+        run = gark(command, ".", cwd=tmp_path)
+        assert run.code == int(command == "audit")
+        told = run.err.splitlines()
+        assert [line.partition(" ")[0] for line in told] == [
+            "./a.c",
+            "./b.c",
+            "./c.json",
+        ]
+    assert gark("audit", "c.json", cwd=tmp_path).code == 2

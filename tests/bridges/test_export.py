@@ -176,3 +176,23 @@ def test_names_of_classes_are_names(name: str) -> None:
     """No keyword, and no digit first."""
     payload = prepared(loads(f'name: "{name}"\nA: [[0]]\nb: [1]\n'))
     compile(f"class {payload.class_name}: pass", "name", "exec")
+
+
+@pytest.mark.parametrize("target", sorted(bridges()))
+def test_files_are_what_a_target_writes(target: str, tmp_path: Path) -> None:
+    """No sign of it is changed on its way to the file or to the terminal, tabs of tables neither."""
+    path = ROOT / "methods/rk4.gark.yaml"
+    payload = prepared(load(str(path)))
+    bridge = bridges()[target]
+    if payload.kind not in bridge.kinds:
+        run = gark("export", str(path), "--to", target)
+        assert run.code == 2
+        assert "these have: amrex, boost, c," in run.err
+        return
+    written = bridge.written(payload)
+    output = tmp_path / "method"
+    assert (
+        gark("export", str(path), "--to", target, "-o", str(output)).code == 0
+    )
+    assert output.read_text(encoding="utf-8") == written
+    assert gark("export", str(path), "--to", target).out == written

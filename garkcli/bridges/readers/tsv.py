@@ -32,7 +32,7 @@ def find(text: str, source: str) -> list[FoundTable]:
                 source,
                 number + 1,
                 NAME,
-                PurePath(source).stem.removeprefix("<"),
+                _name(source),
                 ((tuple(row[1:] for row in rows[:-1]),),),
                 (rows[-1][1:],),
                 (tuple(row[0] for row in rows[:-1]),),
@@ -40,6 +40,11 @@ def find(text: str, source: str) -> list[FoundTable]:
             )
         )
     return found
+
+
+def _name(source: str) -> str:
+    """The name of the file; standard input, ``<stdin>``, has none."""
+    return "" if source.startswith("<") else PurePath(source).stem
 
 
 def _rows(lines: list[str], stages: int) -> list[tuple[str, ...]] | None:
