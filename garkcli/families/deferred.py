@@ -23,8 +23,8 @@ from garkcli.families.family import Option, Options, Recipe
 from garkcli.families.stagelist import START, StageList, Weights, combined
 from garkcli.tableau.method import Method
 from garkcli.tableau.point_space import PointSpace
-from garkcli.tableau.pointwise import simple_nodes
 from garkcli.tableau.polynomial_space import PolynomialSpace, antiderivative
+from garkcli.tableau.simple_nodes import simple_nodes
 
 _COLLOCATION: Mapping[str, Callable[[int], Method]] = {
     "radau-iia": radau.radau_iia,

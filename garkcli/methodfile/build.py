@@ -302,7 +302,7 @@ def _family_nodes(
     """
     if not isinstance(space, PolynomialSpace):
         return None
-    from garkcli.tableau.pointwise import simple_nodes  # few files need it
+    from garkcli.tableau.simple_nodes import simple_nodes  # few files need it
 
     nodes = simple_nodes(space)
     if nodes is None:

@@ -28,8 +28,8 @@ from garkcli.exact.nodes import Expression, Root
 from garkcli.exact.parametric import Parameters, Parametric, Rule
 from garkcli.exact.rewriting import format_expression
 from garkcli.tableau.point_space import PointSpace
-from garkcli.tableau.pointwise import simple_nodes
 from garkcli.tableau.polynomial_space import PolynomialSpace
+from garkcli.tableau.simple_nodes import simple_nodes
 from garkcli.tableau.tableau import Edge, Tableau
 
 NAME = "_node"

@@ -11,12 +11,11 @@ from collections.abc import Callable, Mapping, Sequence
 from dataclasses import dataclass, replace
 from typing import TypeAlias
 
-from flint import arb, arb_mat, ctx, fmpq_poly
+from flint import arb, arb_mat, ctx
 
 from garkcli.errors import LimitExceeded
 from garkcli.exact.display import to_ball
 from garkcli.exact.domain import Domain
-from garkcli.exact.enclosing import enclose
 from garkcli.exact.field import ONE, ZERO, Algebraic, Number
 from garkcli.exact.matrix import (
     Matrix,
@@ -26,12 +25,12 @@ from garkcli.exact.matrix import (
     identity,
     multiply,
 )
-from garkcli.exact.nodes import Chain, Expression, Literal, Root
-from garkcli.exact.radicands import square_free
+from garkcli.exact.nodes import Expression
 from garkcli.tableau.embedded import Further
 from garkcli.tableau.method import Method
 from garkcli.tableau.point_space import PointSpace
 from garkcli.tableau.polynomial_space import PolynomialSpace
+from garkcli.tableau.simple_nodes import simple_nodes
 from garkcli.tableau.stages import StageSpace
 from garkcli.tableau.tableau import Edge, Tableau
 from garkcli.tableau.vandermonde import coordinates_at_nodes, powers_of_nodes
@@ -123,43 +122,6 @@ def _listed(tableau: Tableau, digits: int) -> Entries:
     A = [tuple(tableau.block(l, m) for m in colours) for l in colours]
     b = tuple(colour.b for colour in tableau.colours)
     return Entries(c, tuple(A), b, is_exact=True, digits=digits)
-
-
-def simple_nodes(space: PolynomialSpace) -> tuple[Expression, ...] | None:
-    """The nodes in ascending order, as expressions with at most a square root each; None if they
-    need more.
-
-    >>> from garkcli.families.registry import diagonal_method
-    >>> from garkcli.exact.rewriting import format_expression
-    >>> [format_expression(c) for c in simple_nodes(diagonal_method("gauss", 2).space)]
-    ['1/2-((1/6)*sqrt(3))', '1/2+(1/6)*sqrt(3)']
-    """
-    nodes: list[Expression] = []
-    _, factors = space.modulus.factor()
-    for factor, _ in factors:
-        if factor.degree() > 2:
-            return None
-        nodes += _roots(fmpq_poly(factor))
-    return tuple(sorted(nodes, key=_position))
-
-
-def _roots(factor: fmpq_poly) -> list[Expression]:
-    """The roots of a linear factor, or of a quadratic one as m ± r√d with rational m, r and d."""
-    if factor.degree() == 1:
-        return [Literal(-factor[0] / factor[1])]
-    constant, linear, leading = factor.coeffs()
-    middle = -linear / (2 * leading)
-    radicand = middle * middle - constant / leading
-    d = square_free(radicand)
-    scale = Literal((radicand / d).sqrt())
-    root = Root(Literal(d), 2)
-    half_width = Chain("**", (scale, root))
-    operands = (Literal(middle), half_width)
-    return [Chain("+-", operands), Chain("++", operands)]
-
-
-def _position(node: Expression) -> float:
-    return float(enclose(node))
 
 
 def method_in_points(method: Method, nodes: Vector) -> Method:
