@@ -74,11 +74,15 @@ def mri(coupling: Coupling, fast: Method, steps: int) -> Tableau:
         steps: how many between two slow stages that are apart in time.
 
     Raises:
-        MethodError: the first stage is not the beginning, or there are too many stages.
+        MethodError: the nodes are not from 0 to 1, or there are too many stages.
     """
-    if coupling.nodes[0]:
-        message = f"the slow stages begin at {coupling.nodes[0]}, not at 0"
+    first, last = coupling.nodes[0], coupling.nodes[-1]
+    if first:
+        message = f"the slow stages begin at {first}, not at 0"
         raise MethodError(message, "take a slow method with c_1 = 0")
+    if last != ONE:
+        message = f"the slow stages end at {last}, not at 1"
+        raise MethodError(message, "give the end of the step as last node")
     apart = len(coupling.nodes) - 1
     refuse_large(apart * (steps * fast.stages + 2), _SMALLER)
     return merged(_Infinitesimal(coupling, fast, steps).tableau())

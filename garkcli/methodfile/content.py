@@ -7,6 +7,7 @@ from __future__ import annotations
 
 from typing import TYPE_CHECKING, Literal, cast
 
+from flint import fmpq
 from yaml.nodes import MappingNode, Node, ScalarNode
 
 from garkcli.methodfile import further
@@ -78,6 +79,7 @@ class ContentReader:
         source: the file, where faults are noted.
         numbers: its coefficients.
         shaped: the tableau of its ``unknown``; None without that.
+        tolerance: the rounding of its coefficients; None where they are meant exactly.
     """
 
     def __init__(self, source: Source, numbers: Numbers, opened: Open) -> None:
@@ -86,6 +88,7 @@ class ContentReader:
         self._open = opened
         self.spelled_out = SpelledOutReader(source, numbers)
         self.shaped: Shaped | None = None
+        self.tolerance: fmpq | None = None
 
     def read(self, root: MappingNode, entries: Entries) -> Description | None:
         """What the keys of a method say; None, with faults noted, where they make none."""
@@ -197,12 +200,19 @@ class ContentReader:
         from garkcli.methodfile.constructed.parts import PartReader
         from garkcli.methodfile.constructed.registry import construction
 
-        parts = PartReader(self.source, self.numbers, self._inside, self._open)
+        parts = PartReader(
+            self.source,
+            self.numbers,
+            self._inside,
+            self._open,
+            self.tolerance,
+        )
         return construction(form).read(parts, node, structure)
 
     def _inside(self, node: Node, where: str) -> Description | None:
         """A method inside of a construction, which may be one itself."""
         reader = ContentReader(self.source, self.numbers, self._open)
+        reader.tolerance = self.tolerance
         if isinstance(node, MappingNode) and "family" in keys_of(node):
             key = ScalarNode("tag:yaml.org,2002:str", "methods")
             family: Entries = {"methods": node}

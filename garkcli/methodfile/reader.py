@@ -113,6 +113,7 @@ class Reader:
         tolerance = self._tolerance(entries.get("tolerance"))
         claims = expectations.read(source, entries.get("expect"))
         read_parameters(self.numbers, entries.get("parameters"))
+        self.content.tolerance = tolerance
         found = self.content.read(root, entries)
         if found is None:
             return None

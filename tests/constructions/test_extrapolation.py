@@ -66,6 +66,36 @@ def test_rounded_methods_are_extrapolated_within_their_tolerance() -> None:
     assert find_order(method).order == 8
 
 
+@pytest.mark.parametrize(
+    ("rounded", "exact"),
+    [
+        (
+            "{A: [[], [0.6666666666666667]], b: [0.25, 0.75]}",
+            "{A: [[], [2/3]], b: [1/4, 3/4]}",
+        ),
+        (
+            "{A: [[0.25, -0.0386751345948129], [0.5386751345948129, 0.25]], b: [0.5, 0.5]}",
+            "{family: gauss, stages: 2}",
+        ),
+        (
+            "{adjoint: {A: [[], [0.6666666666666667]], b: [0.25, 0.75]}}",
+            "{adjoint: {A: [[], [2/3]], b: [1/4, 3/4]}}",
+        ),
+    ],
+)
+def test_the_tolerance_of_the_file_holds_for_its_methods(
+    rounded: str, exact: str
+) -> None:
+    """A method that is spelled out in decimals is extrapolated as the one that it is meant to be:
+    with as many rows, though its exact order is smaller.
+    """
+    text = f"extrapolate: {{of: {rounded}, order: 6}}\ntolerance: 1e-15"
+    method = loads(text)
+    meant = loads(f"extrapolate: {{of: {exact}, order: 6}}")
+    assert method.stages == meant.stages
+    assert find_order(method).order == 6
+
+
 def test_free_parameters() -> None:
     """A base with free parameters is extrapolated when its order and symmetry are said."""
     text = "parameters: {t: free}\nextrapolate: {of: {A: [[0, 0], [t, 0]], b: [0, 1]}, sequence: [1, 2]%s}"

@@ -64,6 +64,8 @@ FAULTS = {
     "multirate: {mis: {splitting: {scheme: lie}}, fast: heun, steps: 2}": "of one vector field",
     "multirate: {slow: heun, fast: rk4, steps: 300}": "stages (limit 400)",
     "multirate: {mri: {c: [0, 1]}, fast: heun, steps: 2}": "c and gamma are needed",
+    "multirate: {mri: {c: [0, 1], gamma: []}, fast: heun, steps: 2}": "gamma: no matrices",
+    "multirate: {mri: {c: [0, 2/3], gamma: [[[2/3]]]}, fast: heun, steps: 2}": "the slow stages end at 2/3",
     "multirate: {mri: {c: [0, 1], gamma: [[[1], [1]]]}, fast: heun, steps: 2}": "gamma^0 is 2 by 1 for 2 nodes",
     "multirate: {slow: heun, fast: heun, steps: 2, coupling: {fast-slow: [[0, 0], [0, 0]]}}": "slow-fast missing",
     "multirate: {slow: heun, fast: heun, steps: 2, coupling: {fast-slow: [[0, 0], [0, 0]], slow-fast: [[0, lambda]]}}": "slow-fast is 1 by 2",

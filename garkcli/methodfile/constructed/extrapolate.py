@@ -53,7 +53,7 @@ def read(
         source.fault(node, "extrapolate: how far is missing", cure)
     if part is None or len(source.faults) > before:
         return None
-    tolerance = part.tolerance
+    tolerance = tolerance_of([part], parts.tolerance)
 
     def make(tableaus: Sequence[Tableau], _: Vector) -> Tableau:
         (base,) = tableaus

@@ -5,7 +5,7 @@ from __future__ import annotations
 from collections.abc import Sequence
 
 from flint import fmpq
-from yaml.nodes import MappingNode, Node, ScalarNode
+from yaml.nodes import MappingNode, Node, ScalarNode, SequenceNode
 
 from garkcli.errors import counted
 from garkcli.exact.nodes import Expression, Literal
@@ -203,6 +203,9 @@ class _Multirate:
             message = f"{key}: {len(items)} matrices (limit {MAX_POWERS})"
             self.source.fault(node, message)
             return []
+        if not items and isinstance(node, SequenceNode):
+            message = f"{key}: no matrices"
+            self.source.fault(node, message, _FORM_OF_MRI)
         found: list[Rows] = []
         for k, item in enumerate(items):
             name = f"{key}^{k}"

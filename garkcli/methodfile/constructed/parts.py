@@ -49,13 +49,20 @@ class PartReader:
         numbers: its coefficients.
         written: what reads methods that are spelled out.
         opened: what reads methods of the catalogue.
+        tolerance: the rounding that the file states; None where it states none.
     """
 
     def __init__(
-        self, source: Source, numbers: Numbers, written: Written, opened: Open
+        self,
+        source: Source,
+        numbers: Numbers,
+        written: Written,
+        opened: Open,
+        tolerance: fmpq | None = None,
     ) -> None:
         self.source = source
         self.numbers = numbers
+        self.tolerance = tolerance
         self._written = written
         self._open = opened
 
