@@ -17,6 +17,8 @@ from garkcli.methodfile.description import Description, PartText
 from garkcli.methodfile.numbers import Entry, Numbers
 from garkcli.methodfile.source import Source
 
+_FORM = "write for instance rk4, {family: heun} or {A: …, b: …}"
+_NO_FILE = "put it as NAME.gark.yaml in a folder of GARK_PATH, and write NAME"
 AT_POINTS = "its substeps cannot be spelled out"
 METHOD: Schema = {"$ref": "#/definitions/part"}
 """A method inside of a construction, in the JSON Schema."""
@@ -89,7 +91,7 @@ class PartReader:
     ) -> PartText | None:
         """A single method of a family, or one of the catalogue."""
         name = self.source.scalar(node, where)
-        if name is None:
+        if name is None or self._refused(node, where, name):
             return None
         family = FAMILIES.get(name)
         if family is not None and family.is_single and not family.options:
@@ -109,6 +111,17 @@ class PartReader:
                 message = f"{where}: {name}: {first.message}"
             self.source.fault(node, message, first.help)
             return None
+
+    def _refused(self, node: Node, where: str, name: str) -> bool:
+        """Note what is no name: nothing at all, or a file."""
+        if not name:
+            self.source.fault(node, f"{where}: a method is missing", _FORM)
+        elif name.endswith((".yaml", ".yml")) or {"/", "\\"} & set(name):
+            message = f"{where}: a name is expected here, not a file"
+            self.source.fault(node, message, _NO_FILE)
+        else:
+            return False
+        return True
 
     def _of_catalogue(self, name: str, why: str) -> PartText:
         """A method of the catalogue, its coefficients among those of this file.
