@@ -90,6 +90,7 @@ def check_file(
             method, claims, _blame(method, analysis), reach
         ),
         constants=constants,
+        left_behind=method.left_behind,
     )
 
 

@@ -69,6 +69,7 @@ def check_every(
         every=found,
         claims=verify_every(family.claims, found),
         text=file.text,
+        left_behind=family.left_behind,
     )
 
 

@@ -57,6 +57,7 @@ class Outcome:
         is_crash: whether the program failed, not the file; ``faults`` say how.
         wants_properties: whether all properties were asked for.
         every: what holds for every value, of a file with free parameters; it has no analysis.
+        left_behind: further weights of the methods that it is made from, in words.
     """
 
     file: str
@@ -73,6 +74,7 @@ class Outcome:
     needed: tuple[str, ...] = ()
     wants_properties: bool = False
     every: EveryValue | None = None
+    left_behind: tuple[str, ...] = ()
 
     @property
     def failed_claims(self) -> tuple[Claim, ...]:

@@ -68,6 +68,7 @@ class MethodFile(GarkMethod):
         aliases: what else it is called.
         bibliography: the fields of the reference; None where it is plain text.
         printed: the coefficients as they are written.
+        left_behind: further weights of methods inside of a construction, which it has not.
     """
 
     source: str
@@ -81,6 +82,7 @@ class MethodFile(GarkMethod):
     aliases: tuple[str, ...] = ()
     bibliography: Reference | None = None
     printed: Printed = field(default=(), repr=False, compare=False)
+    left_behind: tuple[str, ...] = ()
 
 
 class Builder:

@@ -247,6 +247,26 @@ def further_of(content: Content) -> tuple[FurtherText, ...]:
     return content.further
 
 
+def left_behind(content: Content) -> tuple[str, ...]:
+    """What a construction does not take over from its parts: in words, most often nothing.
+
+    Their further weights are for their own step: an adjoint of embedded weights, for instance, is
+    at other stages than that of the method.
+    """
+    if not isinstance(content, ConstructionText):
+        return ()
+    found: dict[str, None] = {}
+    for part in content.parts:
+        inside = part.description.content
+        found |= dict.fromkeys(left_behind(inside))
+        for text in further_of(inside):
+            if text.embedded is not None:
+                found["embedded weights"] = None
+            if text.dense is not None:
+                found["dense output"] = None
+    return tuple(found)
+
+
 @dataclass(frozen=True)
 class ClaimText:
     """One claim of ``expect``: its key, its value as plain data, and where it stands."""

@@ -23,6 +23,7 @@ from garkcli.methodfile.description import (
     PrkText,
     Structure,
     TableauText,
+    left_behind,
 )
 from garkcli.methodfile.family_values import FamilyValues
 from garkcli.methodfile.load import (
@@ -55,6 +56,7 @@ class FamilyFile(Family):
         wanted_at: where ``design: …`` stands; None where there is none.
         structure: which vector fields the problem has.
         claims: what ``expect`` says.
+        left_behind: further weights of methods inside of a construction, which it has not.
     """
 
     source: str
@@ -65,6 +67,7 @@ class FamilyFile(Family):
     wanted_at: Extent | None = None
     structure: Structure = "general"
     claims: tuple[ClaimText, ...] = ()
+    left_behind: tuple[str, ...] = ()
 
 
 def load_family(
@@ -165,6 +168,7 @@ def loads_family(
         places=places,
         shape=_shape(reader),
         structure=description.structure,
+        left_behind=left_behind(description.content),
         claims=description.claims,
     )
 

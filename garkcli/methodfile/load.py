@@ -14,7 +14,7 @@ from garkcli.methodfile.build import (
     families_of,
     nodes_to_spell_out,
 )
-from garkcli.methodfile.description import Description
+from garkcli.methodfile.description import Description, left_behind
 from garkcli.methodfile.finding import find_files
 from garkcli.methodfile.folders import STDIN, SUFFIX
 from garkcli.methodfile.naming import is_both, read_argument
@@ -116,6 +116,7 @@ def loads(
         aliases=description.aliases,
         bibliography=description.bibliography,
         printed=made.values.printed,
+        left_behind=left_behind(description.content),
     )
 
 

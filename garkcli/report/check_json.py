@@ -135,11 +135,18 @@ _HEAD: tuple[Field[Outcome], ...] = (
     Field("file", TEXT, lambda x: x.file),
     Field("name", TEXT, lambda x: x.name),
 )
+_LEFT_BEHIND: Field[Outcome] = Field(
+    "left_behind",
+    array(TEXT),
+    lambda x: list(x.left_behind) or None,
+    is_optional=True,
+)
 _CHECKED: Record[Outcome] = Record(
     *_HEAD,
     Field("ok", FLAG, lambda x: x.ok),
     Field("structure", _STRUCTURE, lambda x: x.structure),
     *inside(lambda x: x.analysis, _ANALYSIS),
+    _LEFT_BEHIND,
     EVERY_PROPERTY,
     *HINTS,
     _CLAIM.every("claims", lambda x: x.claims),
@@ -149,6 +156,7 @@ _EVERY: Record[Outcome] = Record(
     Field("ok", FLAG, lambda x: x.ok),
     Field("structure", _STRUCTURE, lambda x: x.structure),
     *inside(lambda x: x.every, EVERY_FIELDS),
+    _LEFT_BEHIND,
     EVERY_VERDICTS,
     _CLAIM.every("claims", lambda x: x.claims),
 )

@@ -106,6 +106,7 @@ def _every(
         return lines + _missing(outcome, paint)
     lines = [paint("strong", line) for line in _title(outcome)]
     lines += every_lines(outcome, found, paint)
+    lines += _left_behind(outcome)
     missing = _missing(outcome, paint)
     for block in (missing, claims):
         if block:
@@ -205,6 +206,7 @@ def _full(
         from garkcli.report.check_further import further_lines
 
         lines += further_lines(analysis, paint, shown)
+    lines += _left_behind(outcome)
     if analysis.suggestion is not None:
         lines += suggestion_lines(
             analysis.suggestion, analysis.tolerance, paint
@@ -232,6 +234,14 @@ def _full(
 
         lines += ["", *blame_lines(outcome.blame, tableau, paint)]
     return lines
+
+
+def _left_behind(outcome: Outcome) -> list[str]:
+    """That a construction is without the further weights of what it is made from."""
+    if not outcome.left_behind:
+        return []
+    what = " and ".join(outcome.left_behind)
+    return [f"      the {what} of its parts are left behind"]
 
 
 def _kind(tableau: Tableau, structure: str, tolerance: fmpq | None) -> str:

@@ -9,11 +9,16 @@ import yaml
 from jsonschema import Draft7Validator
 
 from garkcli.api.methods import find_order
+from garkcli.check.check_file import check_file
 from garkcli.errors import MethodFileError
 from garkcli.methodfile.load import loads
 from garkcli.methodfile.schema import method_file_schema
+from garkcli.page.paint import Paint
+from garkcli.report.check_json import as_data, check_report_schema
+from garkcli.report.check_text import render
 
 VALIDATOR = Draft7Validator(method_file_schema())
+REPORT = Draft7Validator(check_report_schema())
 FAULTS = {
     "compose: {of: heun}": "no substeps",
     "compose: {scheme: suzuki}": "of missing beside scheme",
@@ -160,6 +165,39 @@ def test_names_of_the_catalogue(
         with pytest.raises(MethodFileError, match=message) as caught:
             loads(f"adjoint: {name}")
         assert [(x.line, x.column) for x in caught.value.faults] == [(1, 10)]
+
+
+@pytest.mark.parametrize(
+    "text",
+    [
+        "compose: {of: %s, steps: [1/2, 1/2]}",
+        "adjoint: {adjoint: %s}",
+        "extrapolate: {of: %s, order: 4}",
+        "splitting: {scheme: strang, of: [heun, %s]}",
+        "multirate: {mis: heun, fast: %s, steps: 2}",
+        "parameters: {t: free}\ncompose: {of: %s, steps: [t, 1 - t]}",
+    ],
+)
+def test_further_weights_are_left_behind(text: str, tmp_path: Path) -> None:
+    """Embedded weights and dense output of the methods inside are not those of the result, which
+    check says in text and in JSON; without them it says nothing.
+    """
+    pair = "{A: [[], [1]], b: [1/2, 1/2], embedded: [1, 0], "
+    pair += "dense: {degree: 2, weights: [[1, -1/2], [0, 1/2]]}}"
+    for base, left in (
+        (pair, ["embedded weights", "dense output"]),
+        ("heun", None),
+    ):
+        path = tmp_path / "made.yaml"
+        path.write_text(text % base, encoding="utf-8")
+        outcome = check_file(str(path), limit=4)
+        assert outcome.is_read
+        report = render([outcome], Paint())
+        said = "the embedded weights and dense output of its parts"
+        assert (said in report) == (left is not None)
+        (data,) = as_data([outcome])["files"]
+        assert data.get("left_behind") == left
+        REPORT.validate(as_data([outcome]))
 
 
 def test_adjoint_twice_is_the_method() -> None:
