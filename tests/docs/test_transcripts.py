@@ -19,6 +19,9 @@ from tests.docs.transcripts import (
 PAGES = [
     ROOT / "README.md",
     ROOT / "docs" / "tour.md",
+    ROOT / "docs" / "tutorial-student.md",
+    ROOT / "docs" / "tutorial-maintainer.md",
+    ROOT / "docs" / "tutorial-designer.md",
     ROOT / "docs" / "stability.md",
     ROOT / "docs" / "modified-equation.md",
     ROOT / "docs" / "energy.md",

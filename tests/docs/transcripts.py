@@ -17,6 +17,9 @@ from tests.cli.harness import ROOT, gark
 FOLDERS = ("methods", "problems", "tests/examples", "tools")
 """What a page may use from the checkout."""
 
+FILES = {"yaml", "c", "python", "toml"}
+"""The languages of blocks that are files."""
+
 
 @dataclass(frozen=True)
 class Step:
@@ -36,16 +39,17 @@ class Step:
 def steps(page: Path) -> Iterator[Step]:
     """The files and commands of a page in order.
 
-    A file is a block of YAML or C after a line that ends with its name: `` `name.yaml`: ``. Commands are
-    the lines of console blocks that begin with a dollar sign; those of make are left out.
+    A file is a block of YAML, C, Python or TOML after a line that ends with its name:
+    `` `name.yaml`: ``. Commands are the lines of console blocks that begin with a dollar sign;
+    those of make are left out.
     """
     text = page.read_text(encoding="utf-8")
     pattern = re.compile(
-        r"(?:`([\w./-]+\.(?:yaml|c))`:\n\n)?```(\w+)\n(.*?)^```$",
+        r"(?:`([\w./-]+\.(?:yaml|c|py|toml))`:\n\n)?```(\w+)\n(.*?)^```$",
         re.DOTALL | re.MULTILINE,
     )
     for name, language, block in pattern.findall(text):
-        if language in {"yaml", "c"} and name and "/" not in name:
+        if language in FILES and name and "/" not in name:
             yield Step("", block, name)
         if language == "console":
             for part in re.split(r"^\$ ", block, flags=re.MULTILINE)[1:]:
