@@ -36,7 +36,15 @@ if TYPE_CHECKING:
     from garkcli.design.design import find_parameters
     from garkcli.design.minimise.minimise import minimise
     from garkcli.design.search.run import search_methods
-    from garkcli.errors import GarkError, MethodFileError
+    from garkcli.errors import (
+        ExpressionError,
+        GarkError,
+        HasFreeParameters,
+        MethodError,
+        MethodFileError,
+        UsageProblem,
+        ZeroWeight,
+    )
     from garkcli.longtime import longtime as _longtime
     from garkcli.longtime import symplecticity as _symplecticity
     from garkcli.methodfile.build import MethodFile
@@ -89,6 +97,11 @@ _HOMES = {
     "from_arrays": "api.arrays",
     "gark": "api.construction",
     "GarkError": "errors",
+    "ZeroWeight": "errors",
+    "UsageProblem": "errors",
+    "MethodError": "errors",
+    "HasFreeParameters": "errors",
+    "ExpressionError": "errors",
     "GarkMethod": "tableau.garkmethod",
     "hamiltonian": "problems.builtin",
     "integrate": "stepping.step",
@@ -140,15 +153,32 @@ _OF_METHODS = frozenset(
     }
 )
 """Functions of tableaus, which are handed out as functions of whatever has a tableau."""
+_OF_NUMBERS = _OF_METHODS | {
+    "check_file",
+    "integrate",
+    "load",
+    "load_family",
+    "load_problem",
+    "loads",
+    "loads_family",
+    "loads_problem",
+    "trajectory",
+}
+"""Functions of exact numbers, which are handed out as functions of numbers of every kind."""
 
 __all__ = [
+    "ExpressionError",
     "GarkError",
     "GarkMethod",
+    "HasFreeParameters",
+    "MethodError",
     "MethodFile",
     "MethodFileError",
     "Oscillator",
     "Tableau",
     "Tree",
+    "UsageProblem",
+    "ZeroWeight",
     "analyse",
     "assert_order",
     "backward_analysis",
@@ -203,6 +233,8 @@ def __getattr__(name: str) -> Any:
     value = getattr(import_module(f"garkcli.{_HOMES[name]}"), name)
     if name in _OF_METHODS:
         value = import_module("garkcli.api.arguments").of_methods(value)
+    if name in _OF_NUMBERS:
+        value = import_module("garkcli.api.arguments").of_numbers(value)
     globals()[name] = value  # the next use finds it at once
     return value
 

@@ -1,10 +1,10 @@
 """Functions of tableaus as functions of methods: a loaded method stands for its tableau, and its
-tolerance is that of the function.
+tolerance is that of the function. Functions of exact numbers as functions of numbers of any kind.
 """
 
 from __future__ import annotations
 
-from collections.abc import Callable
+from collections.abc import Callable, Mapping
 from functools import wraps
 from inspect import signature
 from typing import Any, Concatenate, ParamSpec, TypeAlias, TypeVar, cast
@@ -12,7 +12,7 @@ from typing import Any, Concatenate, ParamSpec, TypeAlias, TypeVar, cast
 from flint import fmpq
 
 from garkcli.errors import MethodError
-from garkcli.exact.expression import read_decimal
+from garkcli.exact.given import EXACTLY, number_text, rational_of
 from garkcli.tableau.forms import gark
 from garkcli.tableau.garkmethod import GarkMethod
 from garkcli.tableau.method import Method
@@ -50,10 +50,7 @@ def tolerance_of(method: AnyMethod, given: object = None) -> fmpq | None:
     """
     if given is None:
         return method.tolerance if isinstance(method, GarkMethod) else None
-    value: Any = given
-    if isinstance(given, (str, float)):
-        value = read_decimal(str(given).lower())
-    value = fmpq(value)
+    value = rational_of(given, "tolerance", is_rounded=True)
     if not 0 <= value < 1:
         raise MethodError(
             "a tolerance lies between 0 and 1", "for instance '1e-13'"
@@ -100,3 +97,57 @@ def of_methods(
         )
 
     return cast("Callable[Concatenate[AnyMethod, P], R]", wrapped)
+
+
+def of_numbers(function: Callable[P, R]) -> Callable[P, R]:
+    """A function of exact numbers, for numbers of every kind.
+
+    What is converted says its annotation: ``fmpq`` where a rational number is taken, a sequence of
+    them, or a mapping of texts that are coefficients.
+    """
+    shape = signature(function)
+    makers = {
+        name: _MAKERS[str(parameter.annotation)]
+        for name, parameter in shape.parameters.items()
+        if str(parameter.annotation) in _MAKERS
+    }
+    if not makers:
+        return function
+
+    @wraps(function)
+    def wrapped(*arguments: P.args, **named: P.kwargs) -> R:
+        try:
+            bound = shape.bind(*arguments, **named)
+        except TypeError:
+            return function(*arguments, **named)  # says what is wrong
+        for name, make in makers.items():
+            given = bound.arguments.get(name)
+            if given is not None:
+                bound.arguments[name] = make(given, name)
+        return function(*bound.args, **bound.kwargs)
+
+    return wrapped
+
+
+def _rational(given: Any, where: str) -> fmpq:
+    return rational_of(given, where, is_rounded=where == "tolerance")
+
+
+def _rationals(given: Any, where: str) -> list[fmpq]:
+    return [rational_of(x, f"{where}[{i}]") for i, x in enumerate(given)]
+
+
+def _texts(given: Mapping[str, Any], where: str) -> dict[str, str]:
+    return {
+        name: number_text(x, f"{where}[{name!r}]", False, EXACTLY)
+        for name, x in given.items()
+    }
+
+
+_MAKERS: dict[str, Callable[[Any, str], Any]] = {
+    "fmpq": _rational,
+    "fmpq | None": _rational,
+    "Sequence[fmpq] | None": _rationals,
+    "Mapping[str, str]": _texts,
+}
+"""By its annotation how an argument is made of what is given."""

@@ -6,8 +6,8 @@ import re
 from collections.abc import Iterable
 from typing import Any
 
-from garkcli.api.numbers import number_text
 from garkcli.errors import MethodError
+from garkcli.exact.given import number_text
 from garkcli.methodfile.build import MethodFile
 from garkcli.methodfile.load import loads
 from garkcli.methodfile.writer import quoted

@@ -16,6 +16,7 @@ from garkcli.errors import ExpressionError, UsageProblem
 from garkcli.exact.domain import Domain
 from garkcli.exact.expression import parse
 from garkcli.exact.field import ONE, ZERO
+from garkcli.exact.given import rational_of
 from garkcli.exact.matrix import Matrix
 from garkcli.tableau.tableau import Colour, Tableau
 
@@ -43,6 +44,16 @@ class Oscillator:
     shares: Shares
 
     def __post_init__(self) -> None:
+        omega = rational_of(self.omega, "omega")
+        shares = tuple(
+            (
+                rational_of(k, f"shares[{l}][0]"),
+                rational_of(v, f"shares[{l}][1]"),
+            )
+            for l, (k, v) in enumerate(self.shares)
+        )
+        object.__setattr__(self, "omega", omega)
+        object.__setattr__(self, "shares", shares)
         if self.omega <= 0:
             raise UsageProblem(
                 f"the frequency {self.omega} is not positive",

@@ -10,7 +10,7 @@ from typing import Any
 
 from flint import fmpq, fmpz
 
-from garkcli.errors import MethodError
+from garkcli.errors import ExpressionError, MethodError
 from garkcli.exact.display import to_text
 from garkcli.exact.field import Algebraic
 
@@ -18,7 +18,15 @@ FLOAT_DIGITS = 15
 """Decimal digits that every float keeps: a decimal of so many is the only one its float prints."""
 
 
-def number_text(x: Any, where: str, is_rounded: bool) -> str:
+EXACTLY = "give it exactly, as a Fraction or a text such as '1/3'"
+"""What helps where a float is a rounded number."""
+OR_ROUNDED = f"{EXACTLY}, or say tolerance='1e-13'"
+"""The same where rounding may be named."""
+
+
+def number_text(
+    x: Any, where: str, is_rounded: bool, cure: str = OR_ROUNDED
+) -> str:
     """The text of a coefficient.
 
     A float stands for the decimal that it prints. With more than 15 digits that is a rounded
@@ -28,6 +36,7 @@ def number_text(x: Any, where: str, is_rounded: bool) -> str:
         x: a number, or its text.
         where: what it is, for messages.
         is_rounded: whether a tolerance was given.
+        cure: what to do about a rounded number.
 
     Raises:
         MethodError: it is no number, or it was rounded and no tolerance was given.
@@ -47,7 +56,7 @@ def number_text(x: Any, where: str, is_rounded: bool) -> str:
     if isinstance(x, Decimal) and x.is_finite():
         return str(x)
     if _is_float(x):
-        return _float_text(x, where, is_rounded)
+        return _float_text(x, where, is_rounded, cure)
     package = kind.__module__.partition(".")[0]
     if package == "sympy":
         return _sympy_text(x, where)
@@ -82,14 +91,14 @@ def _is_float(x: Any) -> bool:
     return is_of_numpy and kind.__name__.startswith(("float", "longdouble"))
 
 
-def _float_text(x: Any, where: str, is_rounded: bool) -> str:
+def _float_text(x: Any, where: str, is_rounded: bool, cure: str) -> str:
     value = float(x)
     if not isfinite(value):
         message = f"{where}: {value} is no number"
         raise MethodError(message, "coefficients are finite")
     if value != x:
-        cure = "give the text of the number, or a Fraction"
-        raise MethodError(f"{where}: {x} has more digits than a float", cure)
+        message = f"{where}: {x} has more digits than a float"
+        raise MethodError(message, "give its text, or a Fraction")
     text = repr(value)
     mantissa, *_ = text.lower().partition("e")
     significant = mantissa.replace(".", "").lstrip("-0").rstrip("0")
@@ -98,14 +107,8 @@ def _float_text(x: Any, where: str, is_rounded: bool) -> str:
     is_subnormal = 0 < abs(value) < float_info.min
     if (is_long or is_subnormal) and not is_rounded:
         message = f"{where}: {text} is a rounded number"
-        raise MethodError(message, _CURE_OF_ROUNDED)
+        raise MethodError(message, cure)
     return text
-
-
-_CURE_OF_ROUNDED = (
-    "give it exactly, as a Fraction or a text such as '1/3',"
-    " or say tolerance='1e-13'"
-)
 
 
 def _sympy_text(x: Any, where: str, is_part: bool = False) -> str:
@@ -162,3 +165,37 @@ def _sympy_power(x: Any, where: str) -> str:
 
 
 _ROOTS = {2: "sqrt", 3: "cbrt"}
+
+
+def rational_of(x: Any, where: str, is_rounded: bool = False) -> fmpq:
+    """A number of any kind as the rational number that it is.
+
+    Args:
+        x: a number, or its text.
+        where: what it is, for messages.
+        is_rounded: whether floats of more than 15 digits are taken too.
+
+    Raises:
+        MethodError: it is no rational number; of a text with the position of the fault.
+
+    >>> rational_of(0.1, "h"), rational_of("1/3 - 1/4", "h")
+    (1/10, 1/12)
+    """
+    if isinstance(x, fmpq):
+        return x
+    from garkcli.exact.domain import Domain  # most numbers need no parser
+    from garkcli.exact.expression import parse
+
+    text = number_text(x, where, is_rounded, EXACTLY)
+    try:
+        expression = parse(text)
+        number = Domain([expression]).evaluate(expression)
+    except ExpressionError as error:
+        place = f"character {error.start + 1} of {text!r}"
+        message = f"{where}: {error.message}, {place}"
+        cure = error.help or "write a rational number, such as 1/4"
+        raise MethodError(message, cure) from None
+    if isinstance(number, Algebraic):
+        cure = "give a rational number, such as '1/4'"
+        raise MethodError(f"{where}: {text} is irrational", cure)
+    return number
