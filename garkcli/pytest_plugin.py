@@ -166,7 +166,10 @@ class GarkItem(pytest.Item):
         assert isinstance(self.parent, GarkFile)
         outcome = self.parent.outcome
         if not outcome.is_read and not self.is_first:
-            pytest.skip("the file cannot be read")
+            # told of the method file, not of this one
+            raise pytest.skip.Exception(
+                "the file cannot be read", _use_item_location=True
+            )
         found = filter(self._is_about, findings(outcome))
         parts = [self._text(finding, outcome) for finding in found]
         if parts:

@@ -11,6 +11,8 @@ from pathlib import Path
 import pytest
 import yaml
 
+from tests.cli.harness import gark
+
 ROOT = Path(__file__).resolve().parents[2]
 GOOD = "methods/collocation.gark.yaml"
 BAD = "tests/examples/failing/collocation-misprinted.gark.yaml"
@@ -64,6 +66,7 @@ def test_a_file_that_is_called_like_an_option(tmp_path: Path) -> None:
         "FILES": odd.name,
         "ARGUMENTS": "",
         "RUNNER_TEMP": str(tmp_path),
+        "GITHUB_STEP_SUMMARY": str(tmp_path / "summary.md"),
     }
     done = run(f"cd {tmp_path}\n{step['run']}", **variables)
     assert done.returncode == 0, done.stderr
@@ -84,7 +87,9 @@ def test_the_python_of_the_other_steps_is_left_alone() -> None:
 
 @pytest.mark.parametrize(("file", "code"), [(GOOD, 0), (BAD, 1)])
 def test_action(file: str, code: int, tmp_path: Path) -> None:
-    """The action's last step passes a right file, and annotates the line of a wrong claim."""
+    """The action's last step passes a right file, and annotates the line of a wrong claim; either
+    way the summary has the table.
+    """
     action = yaml.safe_load((ROOT / "action.yml").read_text())
     step = action["runs"]["steps"][-1]
     inputs = {name: x["default"] for name, x in action["inputs"].items()} | {
@@ -97,22 +102,50 @@ def test_action(file: str, code: int, tmp_path: Path) -> None:
             text,
         )
         for name, text in step["env"].items()
-    } | {"RUNNER_TEMP": str(tmp_path)}
+    } | {
+        "RUNNER_TEMP": str(tmp_path),
+        "GITHUB_STEP_SUMMARY": str(tmp_path / "summary.md"),
+    }
     result = run(step["run"], **variables)
     assert result.returncode == code, result.stderr
     line = (ROOT / BAD).read_text().splitlines().index(
         "expect: {order: 4}"
     ) + 1
     assert (f"::error file={BAD},line={line}," in result.stdout) == bool(code)
+    summary = (tmp_path / "summary.md").read_text(encoding="utf-8")
+    assert summary == gark("check", file, "--format", "markdown").out
 
 
-def test_action_installs_this_project() -> None:
-    """What the action installs is the directory it lies in, and that directory is the project."""
+@pytest.mark.parametrize(
+    ("version", "installed"),
+    [("", "/the/checkout"), ("0.1.0", "garkcli==0.1.0")],
+)
+def test_action_installs_this_project(
+    version: str, installed: str, tmp_path: Path
+) -> None:
+    """What the action installs is the directory it lies in, and that directory is the project; a
+    release where one is asked for.
+    """
+    folder = tmp_path / "gark" / "bin"
+    folder.mkdir(parents=True)
+    python = folder / "python"
+    python.write_text('#!/bin/sh\necho "$*"\n')
+    python.chmod(0o755)
     action = yaml.safe_load((ROOT / "action.yml").read_text())
     install = next(
         step
         for step in action["runs"]["steps"]
         if step.get("name") == "install"
     )
-    assert install["run"].rstrip().endswith('"$GITHUB_ACTION_PATH"')
+    assert install["env"]["VERSION"] == "${{ inputs.version }}"
+    assert action["inputs"]["version"]["default"] == ""
+    done = run(
+        install["run"],
+        PYTHON=str(python),
+        VERSION=version,
+        RUNNER_TEMP=str(tmp_path),
+        GITHUB_ACTION_PATH="/the/checkout",
+    )
+    last = done.stdout.splitlines()[-1]
+    assert last == f"-m pip install --quiet {installed}"
     assert 'name = "garkcli"' in (ROOT / "pyproject.toml").read_text()

@@ -67,6 +67,20 @@ PACKAGED = (
     "tests/catalogue/test_package_data.py",
 )
 """Everything that reads files beside the package."""
+INSTALLED = (
+    "tests/docs/test_transcripts.py",
+    "tests/docs/test_command_line_docs.py",
+    "tests/docs/test_ci_docs.py",
+    "tests/docs/test_python_docs.py",
+    "tests/cli/test_snapshots.py",
+    "tests/cli/test_names.py",
+    "tests/cli/test_show.py",
+    "tests/cli/test_new.py",
+    "tests/cli/test_claims.py",
+    "tests/cli/test_project.py",
+    "tests/integration",
+)
+"""Commands as people use them: every one, by what the documentation and the records show."""
 PROCESSES = ("tests/methodfile/test_hostile.py", "tests/cli")
 """Everything that starts and stops processes."""
 
@@ -129,6 +143,11 @@ def circumstances() -> Iterator[Circumstance]:
     what = "the tree of the source distribution"
     yield Circumstance(
         "sdist", what, newest, PACKAGED, tree=_source_distribution
+    )
+    what = "the wheel, without the sources of the package"
+    wheel = Venv(sys.executable, "wheel")
+    yield Circumstance(
+        "wheel", what, wheel, INSTALLED, tree=_without_the_package
     )
     for name in KERNELS.get(platform.machine(), ()):
         what = f"the {name} kernel of OpenBLAS"
@@ -193,7 +212,12 @@ def _interpreters() -> Iterator[str]:
         )
 
 
-def _asked(python: Path, program: str, variables: dict[str, str]) -> str:
+def _asked(
+    python: Path,
+    program: str,
+    variables: dict[str, str],
+    cwd: Path | None = None,
+) -> str:
     """What a program prints under ``variables``.
 
     Raises:
@@ -201,6 +225,7 @@ def _asked(python: Path, program: str, variables: dict[str, str]) -> str:
     """
     done = subprocess.run(
         [str(python), "-c", program],
+        cwd=cwd,
         env={**os.environ, **variables},
         capture_output=True,
         text=True,
@@ -286,9 +311,12 @@ def _ascii(python: Path) -> dict[str, str]:
     return variables
 
 
-def _source_distribution(python: Path) -> Path:
+_WHERE = "import garkcli; print(garkcli.__file__)"
+
+
+def _source_distribution(python: Path, name: str = "sdist") -> Path:
     """Made, and unpacked where nothing else is."""
-    folder = CACHE / "sdist"
+    folder = CACHE / name
     shutil.rmtree(folder, ignore_errors=True)
     done([str(python), "-m", "build", "--sdist", "--outdir", str(folder), "."])
     (archive,) = folder.glob("*.tar.gz")
@@ -296,4 +324,17 @@ def _source_distribution(python: Path) -> Path:
         file.extractall(folder, filter="data")
     archive.unlink()
     (tree,) = folder.iterdir()
+    return tree
+
+
+def _without_the_package(python: Path) -> Path:
+    """The tree of the source distribution, whose wheel is installed and whose package is gone."""
+    tree = _source_distribution(python, "wheel")
+    pip = [str(python), "-m", "pip", "--quiet", "--disable-pip-version-check"]
+    done([*pip, "install", "--force-reinstall", "--no-deps", str(tree)])
+    for folder in ("garkcli", "garkcli.egg-info", "build"):
+        shutil.rmtree(tree / folder, ignore_errors=True)
+    place = _asked(python, _WHERE, {}, cwd=tree)
+    if "site-packages" not in place:
+        raise NotHad(f"the package is taken from {place}")
     return tree

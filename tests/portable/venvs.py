@@ -17,7 +17,8 @@ CACHE = ROOT / ".portable"
 """Environments and records of runs; ignored by git, and safe to delete."""
 FLOOR = re.compile(r"^([\w.-]+)>=([\w.]+)$")
 
-Versions = Literal["newest", "floors", "no-libyaml"]
+Versions = Literal["newest", "floors", "no-libyaml", "wheel"]
+"""``wheel`` is the newest of each, and gark not from the checkout: its wheel is installed."""
 
 
 class NotHad(Exception):
