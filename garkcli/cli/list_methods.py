@@ -26,6 +26,7 @@ _COUNTS = {
     "embedded-order": "The order of embedded weights.",
     "conjugate-order": "The order of the symplectic conjugate.",
     "pair-order": "The order of the symplectic pair.",
+    "nonautonomous-order": "The order for y' = f(t, y), with the printed nodes.",
     "stages": "The stages, of several colours the most.",
     "colours": "The vector fields.",
 }

@@ -30,7 +30,7 @@ PREFIX = "catalogue:"
 _OF_FILES = (".yaml", ".yml", ".json")
 """No name ends so."""
 _MOST_SHOWN = 6
-"""Most methods that are listed where an alias means several."""
+"""Most methods that are listed where an alias means several, or a name is cut short."""
 
 
 def read_argument(argument: str, path: str = "") -> tuple[str, str]:
@@ -152,10 +152,9 @@ def _only(name: str, methods: Sequence[Shelved]) -> Shelved:
         return methods[0]
     names = dict.fromkeys(method.name for method in methods)
     several = list(names) if len(names) > 1 else [x.place for x in methods]
-    shown = ", ".join(several[:_MOST_SHOWN])
-    if len(several) > _MOST_SHOWN:
-        shown += ", …"
-    message = f"{printable(name)!r} means {len(several)} methods: {shown}"
+    message = (
+        f"{printable(name)!r} means {len(several)} methods: {_first(several)}"
+    )
     raise MethodFileError(name, [Fault(message, "name one of them")])
 
 
@@ -172,7 +171,16 @@ def _unknown(name: str) -> Fault:
     near = nearest(name, _names())
     if near:
         return Fault(message, f"did you mean {near!r}?")
+    begun = names_beginning(name)
+    if begun:
+        return Fault(message, f"names that begin so: {_first(begun)}")
     return Fault(message, "gark list methods shows the names")
+
+
+def _first(names: Sequence[str]) -> str:
+    """Some names in a line."""
+    shown = ", ".join(names[:_MOST_SHOWN])
+    return f"{shown}, …" if len(names) > _MOST_SHOWN else shown
 
 
 def _names() -> list[str]:

@@ -80,6 +80,8 @@ _MARKS = {
     "R": ("symmetric", "symmetric (reversible)"),
 }
 """One letter each of what most people look for."""
+_WITH_TIME = ("t", "another order for y' = f(t, y)")
+"""The letter of methods whose printed nodes fail them."""
 _TYPES = {
     "explicit": "explicit",
     "sdirk": "SDIRK",
@@ -196,13 +198,22 @@ def _type(entry: Entry) -> str:
 
 def _marks(entry: Entry) -> str:
     marks = [mark for mark, (key, _) in _MARKS.items() if entry[key]]
+    marks += _WITH_TIME[0] if _fails_with_time(entry) else ""
     return "".join(marks) + ("~" if entry["exact"] is False else "")
+
+
+def _fails_with_time(entry: Entry) -> bool:
+    """Whether its order is another one where the vector fields depend on time."""
+    order = entry["nonautonomous_order"]
+    return order is not None and order != entry["order"]
 
 
 def _legend(rows: Sequence[Sequence[str]]) -> list[str]:
     """What the signs of these rows mean."""
     present = set("".join(row[5] for row in rows))
     told = [f"{x}: {what}" for x, (_, what) in _MARKS.items() if x in present]
+    if _WITH_TIME[0] in present:
+        told.append(": ".join(_WITH_TIME))
     if "~" in present:
         told.append("~: rounded")
     if any("*" in row[1] for row in rows):
@@ -250,6 +261,7 @@ def _markdown(entries: Sequence[Entry]) -> str:
     for entry in entries:
         name, order, stages, kind, type_, _, _ = _row(entry)
         told = [what for key, what in _MARKS.values() if entry[key]]
+        told += [_WITH_TIME[1]] if _fails_with_time(entry) else []
         told += ["rounded"] if entry["exact"] is False else []
         reference = printable(entry["reference"])
         cells = [f"`{name}`", order, stages, kind, type_, ", ".join(told)]

@@ -39,6 +39,9 @@ EVERY = {entry["name"]: entry for entry in all_entries()}
 FILTERS: dict[str, Callable[[Entry], bool]] = {
     "--order >=4": lambda x: x["order"] >= 4,
     "--order 2..3": lambda x: 2 <= x["order"] <= 3,
+    "--nonautonomous-order <=2": lambda x: (
+        x["nonautonomous_order"] is not None and x["nonautonomous_order"] <= 2
+    ),
     "--stages <3": lambda x: x["stages"] < 3,
     "--colours 2": lambda x: x["colours"] == 2,
     "--stage-order 1": lambda x: x["stage_order"] == 1,
@@ -180,6 +183,16 @@ def test_the_text_fits_and_says_what_its_letters_mean() -> None:
     marks = set("".join(row[place : place + 6].split(" ")[0] for row in rows))
     for mark in marks:
         assert f"{mark}: " in legend
+
+
+def test_a_table_with_a_wrong_node_has_its_mark() -> None:
+    """The order alone would recommend a method of order 1 for y' = f(t, y)."""
+    run = gark("list", "methods", "feagin", "--order", "12")
+    marked = {
+        line.split()[0] for line in run.out.splitlines() if " t~ " in line
+    }
+    assert marked == {"feagin-12-misprint"}
+    assert "t: another order for y' = f(t, y)" in run.out
 
 
 def test_csv_has_every_column() -> None:

@@ -94,6 +94,9 @@ def test_a_file_that_is_called_as_a_method(own: Path) -> None:
 def test_an_unknown_name_has_its_nearest() -> None:
     """Names and aliases are compared; else the list of all is named."""
     assert "'collocation'" in fault("colocation").help
+    begun = "dormand-prince-5, dormand-prince-6, dormand-prince-8"
+    assert fault("Dormand-Prince").help.endswith(begun)
+    assert fault("verner").help.endswith(", …")
     assert "gark list methods" in fault("qqqqqqq").help
     assert "no method of this name" in fault("catalogue:qqqqqqq").message
 
