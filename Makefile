@@ -5,7 +5,7 @@ BIN    := $(VENV)/bin
 READY  := $(VENV)/.ready
 
 .DEFAULT_GOAL := help
-.PHONY: help run test lint types layers pytest portable bridges bench fuzz readback catalogue figures format clean
+.PHONY: help run test lint types layers pytest portable bridges bench fuzz readback catalogue figures docs format clean
 
 help: ## this list
 	@grep -E '^[a-z]+:.*## ' $(MAKEFILE_LIST) | sed 's/:.*## /\t/' | expand -t 12
@@ -63,6 +63,10 @@ catalogue: $(READY) ## make the index of the catalogue anew, and the copies in m
 
 figures: $(READY) ## draw the figures of the documentation anew
 	$(BIN)/python docs/figures/rectangular.py
+
+docs: $(READY) ## the documentation as a site, in build/docs; a warning, such as a link to nowhere, fails
+	$(BIN)/python -m pip install --quiet --disable-pip-version-check --editable ".[docs]"
+	$(BIN)/python -m sphinx -q --fail-on-warning --keep-going docs build/docs
 
 format: $(READY) ## put the code into its one format
 	$(BIN)/ruff check --fix .

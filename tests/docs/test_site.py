@@ -1,18 +1,35 @@
-"""docs/index.md: the pages of the documentation, in their order."""
+"""docs/index.md and docs/conf.py: the pages of the documentation, in their order."""
 
 from __future__ import annotations
 
+import re
+import runpy
 from pathlib import Path
 
 from tests.docs.test_links import links
 
 DOCS = Path(__file__).resolve().parents[2] / "docs"
+INDEX = (DOCS / "index.md").read_text(encoding="utf-8")
 ELSEWHERE = {"index.md", "package-page.md"}
 """The index itself, and the page of the package index, which has no links."""
 
 
+def pages() -> list[str]:
+    """What the index has to name."""
+    found = {page.name for page in DOCS.glob("*.md")} - ELSEWHERE
+    return sorted(found)
+
+
 def test_the_index_has_every_page_once() -> None:
     """A page is in one of its parts, and in no other."""
-    named = [x for x in links(DOCS / "index.md") if "/" not in x]
-    exist = {page.name for page in DOCS.glob("*.md")} - ELSEWHERE
-    assert sorted(named) == sorted(exist)
+    assert sorted(links(DOCS / "index.md")) == pages()
+
+
+def test_the_margin_has_what_the_index_has() -> None:
+    """The contents made for Sphinx: each part with its pages, in order; conf.py needs no Sphinx."""
+    made = runpy.run_path(str(DOCS / "conf.py"))["contents"](INDEX)
+    captions = re.findall(r"^:caption: (.+)$", made, re.MULTILINE)
+    assert captions == re.findall(r"^## (.+)$", INDEX, re.MULTILINE)
+    assert made.count("```{toctree}") == len(captions) >= 5
+    named = re.findall(r"^([\w-]+)$", made, re.MULTILINE)
+    assert [f"{name}.md" for name in named] == links(DOCS / "index.md")

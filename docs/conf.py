@@ -1,0 +1,58 @@
+"""The documentation as a site, which `make docs` builds with Sphinx.
+
+The pages are plain Markdown that reads well where the code is hosted, so
+they have no directives. What Sphinx needs besides, the contents in the
+margin, is made here from the headings and lists of `index.md`.
+"""
+
+from __future__ import annotations
+
+import re
+from typing import TYPE_CHECKING
+
+from garkcli.version import __version__
+
+if TYPE_CHECKING:
+    from sphinx.application import Sphinx
+
+project = "gark"
+author = "The gark authors"
+release = version = __version__
+extensions = ["myst_parser"]
+exclude_patterns = ["package-page.md"]  # the page of the package index
+html_theme = "furo"
+html_title = f"gark {__version__}"
+html_show_copyright = False
+html_copy_source = False
+myst_heading_anchors = 4  # links to headings, as code hosts have them
+smartquotes = False  # transcripts are quoted as they are printed
+highlight_language = "text"
+# What a command prints may be what no lexer knows: it is then shown plain.
+suppress_warnings = ["misc.highlighting_failure"]
+
+
+def contents(index: str) -> str:
+    """Hidden tables of contents, one for each part of the index.
+
+    Args:
+        index: the text of index.md.
+    """
+    parts = re.split(r"^## ", index, flags=re.MULTILINE)[1:]
+    return "\n".join(_contents_of_part(part) for part in parts)
+
+
+def _contents_of_part(part: str) -> str:
+    caption = part.partition("\n")[0]
+    pages = re.findall(r"\]\(([\w-]+)\.md\)", part)
+    head = ["```{toctree}", ":hidden:", f":caption: {caption}", ""]
+    return "\n".join([*head, *pages, "```", ""])
+
+
+def _add_contents(_: Sphinx, page: str, source: list[str]) -> None:
+    if page == "index":
+        source[0] += "\n" + contents(source[0])
+
+
+def setup(app: Sphinx) -> None:
+    """Add the tables of contents to the index when it is read."""
+    app.connect("source-read", _add_contents)
