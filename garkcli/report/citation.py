@@ -54,7 +54,8 @@ def together(cited: Sequence[Cited]) -> list[Cited]:
         key = _work(one) if one.text else one.methods
         before = found.get(key)
         methods = (*before.methods, *one.methods) if before else one.methods
-        found[key] = Cited(methods, one.text, one.reference)
+        each = tuple(dict.fromkeys(methods))  # one may be named twice
+        found[key] = Cited(each, one.text, one.reference)
     return list(found.values())
 
 

@@ -4,6 +4,7 @@ from __future__ import annotations
 
 import json
 import re
+from dataclasses import replace
 from pathlib import Path
 
 import pytest
@@ -104,12 +105,14 @@ def test_keys_are_of_ascii_and_tell_publications_apart() -> None:
 
 
 def test_methods_of_one_publication_are_together() -> None:
-    """Another table of it makes no other publication; another year does."""
+    """Another table of it makes no other publication; another year does. None is told twice."""
     one = cited(authors=("A. B",), year="1999", where="table 1")
-    two = cited(authors=("A. B",), year="1999", where="table 2")
+    two = replace(
+        cited(authors=("A. B",), year="1999", where="table 2"), methods=("n",)
+    )
     three = cited(authors=("A. B",), year="2000", where="table 1")
-    found = together([one, two, three, Cited(("x",), "", None)])
-    assert [len(x.methods) for x in found] == [2, 1, 1]
+    found = together([one, two, one, three, Cited(("x",), "", None)])
+    assert [x.methods for x in found] == [("m", "n"), ("m",), ("x",)]
     bare = together([Cited(("x",), "", None), Cited(("y",), "", None)])
     assert [x.methods for x in bare] == [("x",), ("y",)]
 
