@@ -251,7 +251,7 @@ def _size_of(family: Family, size: int | None) -> int:
     have = str(family.smallest)
     if not family.is_single:
         have += " or more"
-    if size > family.largest:
+    if size > family.largest and not family.is_single:
         have += f", at most {family.largest}"
     of_size = f"{family.size} {size}"
     if family.size == "stages":

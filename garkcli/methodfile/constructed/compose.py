@@ -4,6 +4,7 @@ from __future__ import annotations
 
 from collections.abc import Sequence
 from dataclasses import dataclass
+from math import prod
 
 from flint import fmpq
 from yaml.nodes import MappingNode, Node
@@ -12,6 +13,7 @@ from garkcli.constructions.adjoint import adjoint
 from garkcli.constructions.composition import Substep, composed
 from garkcli.constructions.schemes.registry import OTHER_NAMES, SCHEMES
 from garkcli.constructions.schemes.scheme import MAX_ORDER, Scheme
+from garkcli.exact.domain import MAX_DEGREE
 from garkcli.exact.expression import read_decimal
 from garkcli.exact.matrix import Vector
 from garkcli.exact.nodes import Literal
@@ -111,7 +113,10 @@ class _Composition:
             else:
                 self.source.choice(node, "compose, scheme", SCHEMES)
             return
+        before = len(self.source.faults)
         base, wanted = self._orders(entries, found)
+        if len(self.source.faults) > before:
+            return
         if found.tolerance:
             self.tolerance = read_decimal(found.tolerance)
         for text, is_adjoint in found.parts(base, wanted):
@@ -128,7 +133,25 @@ class _Composition:
             return 0, 0
         base = self._order(entries, "from", 2, 2)
         wanted = self._order(entries, "order", base + 2, base + 2)
+        self._refuse_radicals(entries, scheme, base, wanted)
         return base, wanted
+
+    def _refuse_radicals(
+        self, entries: Entries, scheme: Scheme, base: int, wanted: int
+    ) -> None:
+        """Note an order for which the roots of all repetitions are too much together.
+
+        The substeps that take a symmetric method of order p further have a root of degree p + 1.
+        """
+        degree = prod(order + 1 for order in range(base, wanted, 2))
+        if degree <= MAX_DEGREE:
+            return
+        message = (
+            f"{scheme.name} from order {base} to {wanted} has radicals of"
+        )
+        message += f" degree {degree} together (limit {MAX_DEGREE})"
+        cure = "take fewer repetitions, or a rounded scheme, such as yoshida-8"
+        self.source.fault(entries["order"], message, cure)
 
     def _order(
         self, entries: Entries, key: str, default: int, smallest: int

@@ -15,7 +15,7 @@ from garkcli.constructions.multirate import (
     mri,
     slowest_first,
 )
-from garkcli.errors import MethodError
+from garkcli.errors import MethodError, counted
 from garkcli.exact.field import Number
 from garkcli.exact.matrix import Matrix, Vector
 from garkcli.methodfile.numbers import Rows
@@ -44,7 +44,7 @@ class Infinitesimal:
 
     def __call__(self, tableaus: Sequence[Tableau], values: Vector) -> Tableau:
         """The method."""
-        fast = _diagonal(tableaus[0])
+        fast = _diagonal(tableaus[0], "fast")
         return mri(self.coupling(tableaus, values), fast, self.steps)
 
 
@@ -52,7 +52,7 @@ def of_mis(steps: int) -> Make:
     """Constant couplings, from a slow method."""
 
     def coupling(tableaus: Sequence[Tableau], _: Vector) -> Coupling:
-        return mis_coupling(_diagonal(tableaus[1]))
+        return mis_coupling(_diagonal(tableaus[1], "mis"))
 
     return Infinitesimal(coupling, steps)
 
@@ -61,7 +61,7 @@ def named(word: str, steps: int) -> Make:
     """A coupling by name."""
 
     def made(tableaus: Sequence[Tableau], _: Vector) -> Tableau:
-        fast, slow = map(_diagonal, tableaus)
+        fast, slow = _both(tableaus)
         if word == SLOWEST_FIRST:
             return slowest_first(slow, fast, steps)
         return by_rule(slow, fast, steps, RULES[word])
@@ -76,7 +76,7 @@ def given(blocks: Sequence[Sequence[Rows]]) -> Make:
     ]
 
     def made(tableaus: Sequence[Tableau], values: Vector) -> Tableau:
-        fast, slow = map(_diagonal, tableaus)
+        fast, slow = _both(tableaus)
         rest = iter(values)
         of_fast = tuple(_filled(rows, rest) for rows in lengths[0])
         of_slow = tuple(_filled(rows, rest) for rows in lengths[1])
@@ -127,14 +127,21 @@ def _filled(lengths: Sequence[int], rest: Iterator[Number]) -> Matrix:
     )
 
 
-def _diagonal(tableau: Tableau) -> Method:
-    """The one colour of a method.
+def _both(tableaus: Sequence[Tableau]) -> tuple[Method, Method]:
+    """The fast method and the slow one."""
+    fast, slow = tableaus
+    return _diagonal(fast, "fast"), _diagonal(slow, "slow")
+
+
+def _diagonal(tableau: Tableau, key: str) -> Method:
+    """The one colour of the method that stands under a key.
 
     Raises:
         MethodError: it has several.
     """
     block = tableau.block(0, 0)
     if tableau.size != 1 or block is None:
-        message = "a fast or slow method is of one vector field"
-        raise MethodError(message, "give methods of one colour")
+        message = f"multirate, {key}: a method of {counted(tableau.size, 'colour')}, "
+        message += "where one of one vector field is expected"
+        raise MethodError(message, "give a method of one colour")
     return Method("", tableau.space(0), block, tableau.colours[0].b)

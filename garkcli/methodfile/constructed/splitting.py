@@ -209,10 +209,12 @@ def read(
     if "b" in entries and "a" not in entries:
         ways.append("b")
     if len(ways) != 1:
-        message = "splitting: no flows"
         if ways:
             message = f"splitting: the flows are given by {ways[0]} already"
-        source.fault(entries[ways[1]] if ways else node, message, _FORM)
+            cure = f"keep one of {', '.join(ways)}"
+            source.fault(entries[ways[1]], message, cure)
+        else:
+            source.fault(node, "splitting: no flows", _FORM)
     elif ways[0] in {"a", "b"}:
         made.alternating(entries)
     elif ways[0] == "flows":
