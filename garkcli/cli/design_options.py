@@ -25,6 +25,16 @@ CLAIMS = {
 }
 """What a file claims of the order found, by whose it is."""
 
+
+def _finite(
+    _context: click.Context, _parameter: click.Parameter, seconds: float
+) -> float:
+    """A number of seconds; nan, which no limit of a range holds off, is none."""
+    if seconds != seconds:
+        raise click.BadParameter("nan is no number of seconds")
+    return seconds
+
+
 _OF_THE_ORDER = (
     click.option(
         "--order",
@@ -48,6 +58,7 @@ _OF_THE_ORDER = (
         "--seconds",
         type=click.FloatRange(min=0, min_open=True),
         default=60,
+        callback=_finite,
         show_default=True,
         metavar="T",
         help="After so many an order is left undecided.",

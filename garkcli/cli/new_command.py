@@ -64,7 +64,7 @@ def command(
     if tableau is not None:
         if transfer is not None:
             raise UsageProblem("--transfer goes with --family", "leave it out")
-        text = _of_tableau(name, tableau)
+        text = of_tableau_text(name, tableau)
     else:
         text = _of_families(name, families, transfer or "collocation")
     text = _with_claims(text)
@@ -106,13 +106,21 @@ def _title(place: str | None) -> str:
     return base.removesuffix(".yaml").removesuffix(".gark") or base
 
 
-def _of_tableau(name: str, text: str) -> str:
+def of_tableau_text(name: str, text: str) -> str:
+    """A method file of a pasted tableau; ``-`` is standard input.
+
+    Raises:
+        MethodError: it is no tableau, or no text.
+    """
     from garkcli.methodfile.pasted import read_pasted
     from garkcli.methodfile.template import of_tableau
 
     if text == "-":
-        text = sys.stdin.read()
-    elif "\n" not in text.strip():
+        from garkcli.methodfile.file_kind import METHOD_FILE
+        from garkcli.methodfile.reading import read_text
+
+        text, _ = read_text("-", METHOD_FILE)
+    if "\n" not in text.strip():
         text = text.replace(";", "\n")
     return of_tableau(name, read_pasted(text))
 

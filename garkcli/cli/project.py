@@ -76,7 +76,7 @@ def _table(path: str, name: str) -> dict[str, Any] | None:
     try:
         with open(path, "rb") as stream:
             data = stream.read(MOST_BYTES + 1)
-        if name == SHARED and b"tool.gark" not in data:
+        if name == SHARED and b"gark" not in data:
             return None
         if len(data) > MOST_BYTES:
             raise UsageProblem(
@@ -90,8 +90,14 @@ def _table(path: str, name: str) -> dict[str, Any] | None:
         ) from None
     if name == OWN:
         return whole
-    table = whole.get("tool", {}).get("gark")
-    return table if isinstance(table, dict) else None
+    tools = whole.get("tool")
+    table = tools.get("gark") if isinstance(tools, dict) else None
+    if table is None or isinstance(table, dict):
+        return table
+    raise UsageProblem(
+        f"{printable(os.path.relpath(path))}: tool.gark is no table",
+        "write its keys below [tool.gark]",
+    )
 
 
 def _project(file: str, folder: str, table: dict[str, Any]) -> Project:
@@ -105,9 +111,10 @@ def _project(file: str, folder: str, table: dict[str, Any]) -> Project:
         if key not in _READERS:
             cure = did_you_mean(key, list(_READERS))
             raise UsageProblem(f"{shown}: no key {key!r}", cure)
-        wanted, is_right = _READERS[key]
+        wanted, example, is_right = _READERS[key]
         if not is_right(value):
-            raise UsageProblem(f"{shown}: {key} is not {wanted}", "mend it")
+            cure = f"write {key} = {example}"
+            raise UsageProblem(f"{shown}: {key} is not {wanted}", cure)
     required = table.get("require-claims", False)
     paths = [
         os.path.relpath(os.path.join(folder, path))
@@ -139,7 +146,7 @@ def _is_claims(value: object) -> bool:
 def _is_format(value: object) -> bool:
     from garkcli.report.check_formats import FORMATS
 
-    return value in {"auto", *FORMATS}
+    return isinstance(value, str) and value in {"auto", *FORMATS}
 
 
 def _count(least: int, most: int) -> Callable[[object], bool]:
@@ -150,11 +157,19 @@ def _count(least: int, most: int) -> Callable[[object], bool]:
     return is_right
 
 
-_READERS: dict[str, tuple[str, Callable[[object], bool]]] = {
-    "paths": ("a list of files, folders or patterns", _is_texts),
-    "require-claims": ("true, false, or a list of claims", _is_claims),
-    "format": ("a format of gark check", _is_format),
-    "max-order": ("a number from 1 to 400", _count(1, 400)),
-    "jobs": ("a number from 0 to 256", _count(0, 256)),
+_READERS: dict[str, tuple[str, str, Callable[[object], bool]]] = {
+    "paths": (
+        "a list of files, folders or patterns",
+        '["methods"]',
+        _is_texts,
+    ),
+    "require-claims": (
+        "true, false, or a list of claims",
+        'true or ["order"]',
+        _is_claims,
+    ),
+    "format": ("a format of gark check", '"github"', _is_format),
+    "max-order": ("a number from 1 to 400", "12", _count(1, 400)),
+    "jobs": ("a number from 0 to 256", "2", _count(0, 256)),
 }
-"""The keys with what their values are."""
+"""The keys with what their values are, an example, and whether a value is one."""

@@ -75,9 +75,16 @@ def _with_block(
         raise MethodFileError(source, [fault], text)
     if not claims:
         return text
+    # below the last key and comment, before ... of YAML, as far in as the keys are
+    end = root.end_mark.index
+    before, after = text[:end], text[end:]
+    line_end = _line_end(text)
+    margin = " " * root.start_mark.column
     lines = [f"{INDENT}{key}: {value}" for key, value in claims.items()]
-    before = text if text.endswith("\n") else text + "\n"
-    return "\n".join([before + "expect:", *lines, ""])
+    block = [margin + line + line_end for line in ("expect:", *lines)]
+    if not before.endswith("\n"):
+        before += line_end
+    return before + "".join(block) + after
 
 
 def _replacements(
@@ -106,10 +113,16 @@ def _additions(
     if expect.flow_style:
         yield end, end, "".join(f", {x}" for x in new)
         return
-    margin = "\n" + " " * first.start_mark.column
-    line_end = text.find("\n", end)
-    place = len(text) if line_end < 0 else line_end
+    margin = _line_end(text) + " " * first.start_mark.column
+    place = text.find(_line_end(text), end)
+    if place < 0:
+        place = len(text)
     yield place, place, "".join(margin + x for x in new)
+
+
+def _line_end(text: str) -> str:
+    """How the lines of a file end."""
+    return "\r\n" if "\r\n" in text else "\n"
 
 
 def _end(text: str, node: Node) -> int:

@@ -15,7 +15,7 @@ import re
 from dataclasses import dataclass
 from itertools import takewhile
 
-from garkcli.errors import MethodError
+from garkcli.errors import MethodError, counted
 
 MOST_LINES = 1000
 _RULE = re.compile(r"[\s|+=─│┼-]*|\\hline")
@@ -137,13 +137,13 @@ def _made(
     for i, row in enumerate(rows, start=1):
         if len(row) > stages:
             raise MethodError(
-                f"row {i} has {len(row)} entries, and there are {stages} stages",
+                f"row {i} has {len(row)} entries, for {counted(stages, 'stage')}",
                 "a line a stage, and a line of weights below",
             )
     for row in weights:
         if len(row) != stages:
             raise MethodError(
-                f"{len(row)} weights for {stages} stages",
+                f"{counted(len(row), 'weight')} for {counted(stages, 'stage')}",
                 "a weight a stage, zeros too",
             )
     filled = tuple(row + ("0",) * (stages - len(row)) for row in rows)

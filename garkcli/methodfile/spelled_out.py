@@ -207,6 +207,8 @@ class SpelledOutReader:
             return None
         colours = len(b)
         rows = self.source.items(entries["A"], "A")
+        if not isinstance(entries["A"], SequenceNode):
+            return None  # said above
         if len(rows) != colours:
             found = counted(len(rows), "row")
             message = f"A has {found} of blocks and b {colours} of weights"

@@ -54,6 +54,30 @@ def test_a_file_without_claims(tmp_path: Path) -> None:
     assert check_file(path).failed_claims == ()
 
 
+@pytest.mark.parametrize(
+    ("text", "before", "after"),
+    [
+        ("---\nA: [[0]]\nb: [1]\n...\n", "b: [1]\nexpect:\n", "\n...\n"),
+        ("  A: [[0]]\n  b: [1]\n", "b: [1]\n  expect:\n", "\n"),
+        ("A: [[0]]\nb: [1]  # end", "# end\nexpect:\n", "\n"),
+        ("A: [[0]]\r\nb: [1]\r\n", "\r\nexpect:\r\n", "\r\n"),
+    ],
+    ids=["end of YAML", "indented", "no end of line", "CRLF"],
+)
+def test_the_place_of_claims(
+    text: str, before: str, after: str, tmp_path: Path
+) -> None:
+    """Before the end that YAML writes, as far in as the keys, with the ends of lines that are
+    there; the file can be read again.
+    """
+    written = write_claims("a file", text, {"order": "1", "explicit": "true"})
+    assert before in written
+    assert written.endswith("explicit: true" + after)
+    assert ("\r" in text) == (written.count("\r\n") == written.count("\n"))
+    outcome = check_file(put(tmp_path, written))
+    assert (len(outcome.claims), outcome.failed_claims) == (2, ())
+
+
 def test_the_claims_of_a_file(tmp_path: Path) -> None:
     """They get the values that are true, in their places, with comments beside them."""
     expect = "expect:  # mine\n    order: 3  # hoped for\n    C:\n      - [2]\n    # end\n"

@@ -2,6 +2,8 @@
 
 from __future__ import annotations
 
+import io
+import sys
 from pathlib import Path
 
 import pytest
@@ -10,7 +12,8 @@ from hypothesis import strategies as st
 
 from garkcli import load, loads
 from garkcli.check.check_file import check_file
-from garkcli.errors import MethodError
+from garkcli.cli.new_command import of_tableau_text
+from garkcli.errors import MethodError, MethodFileError
 from garkcli.methodfile.pasted import Pasted, read_pasted
 from tests.cli.harness import gark
 
@@ -45,6 +48,22 @@ def test_a_tableau_of_a_book(tmp_path: Path) -> None:
     assert method.tableau == load("methods/rk4.gark.yaml").tableau
 
 
+def test_a_line_on_standard_input() -> None:
+    """Semicolons part lines there too."""
+    text = "0 |; 1/2 | 1/2; | 0 1"
+    piped = gark("new", "--tableau", "-", stdin=text)
+    assert piped.code == 0
+    assert piped.out == gark("new", "--tableau", text).out
+
+
+def test_standard_input_is_text(monkeypatch: pytest.MonkeyPatch) -> None:
+    """Bytes that are no UTF-8 are a fault of the input."""
+    stream = io.TextIOWrapper(io.BytesIO(b"0 |\n\xff | 1\n"), "utf-8")
+    monkeypatch.setattr(sys, "stdin", stream)
+    with pytest.raises(MethodFileError, match="not UTF-8"):
+        of_tableau_text("a method", "-")
+
+
 def test_a_tableau_in_latex() -> None:
     """Signs of LaTeX part nodes and rows; a second line of weights is embedded."""
     found = read_pasted(IN_LATEX)
@@ -72,7 +91,7 @@ def test_families(tmp_path: Path) -> None:
         (["--tableau", "1"], "no tableau"),
         (["--tableau", "0 | 0;1 | 1"], "no line of weights"),
         (["--tableau", "0 | 0 1;| 1"], "row 1 has 2 entries"),
-        (["--tableau", "0 | 0;| 1 2"], "2 weights for 1 stages"),
+        (["--tableau", "0 | 0;| 1 2"], "2 weights for 1 stage"),
         (["--tableau", "0 | 0;|1;|1;|1"], "3 lines stand below"),
         (["--tableau", "0 | 0;| y"], "'y' is not a parameter"),
         (["--tableau", "0 | 0;| 1", "--family", "gauss:2"], "at once"),

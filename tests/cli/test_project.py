@@ -46,6 +46,31 @@ def test_paths_and_format(project: Path, name: str, head: str) -> None:
     assert len(json.loads(run.out)["files"]) == 1
 
 
+@pytest.mark.parametrize(
+    ("name", "text", "message"),
+    [
+        (".gark.toml", "format = ['json']", "format is not a format"),
+        (".gark.toml", "require-claims = [['a']]", "or a list of claims"),
+        ("pyproject.toml", "tool = {gark = 1}", "tool.gark is no table"),
+    ],
+)
+def test_values_of_another_kind(
+    project: Path, name: str, text: str, message: str
+) -> None:
+    """A list where a word belongs, a number where a table does: said, with what to write."""
+    put(project, name, text)
+    run = gark("check", "tables", cwd=project)
+    assert (run.code, message in run.err) == (2, True)
+    assert "help: write" in run.err
+
+
+def test_other_tools_are_not_read(project: Path) -> None:
+    """A pyproject.toml that speaks of gark elsewhere, or has no table of tools, means nothing."""
+    for text in ("# tool.gark\ntool = 1\n", "[project]\nname = 'gark'\n"):
+        put(project, "pyproject.toml", text)
+        assert gark("check", "tables", cwd=project).code == 0
+
+
 def test_claims_that_are_required(project: Path) -> None:
     """A list names claims without which a file fails; true asks for any."""
     put(project, ".gark.toml", 'require-claims = ["order", "symplectic"]\n')

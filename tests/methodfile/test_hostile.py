@@ -18,6 +18,8 @@ from pathlib import Path
 
 import pytest
 
+from garkcli import loads
+from garkcli.errors import MethodFileError
 from tests.cli.harness import ROOT, Run
 from tests.cli.harness import gark as call
 
@@ -654,3 +656,12 @@ def test_a_fault_of_our_own_in_full() -> None:
     assert run.stderr.startswith("Traceback")
     assert "in find_order" in run.stderr
     assert "RuntimeError: broken" in run.stderr
+
+
+@pytest.mark.parametrize("text", ["null", "1", "{a: 1}"])
+def test_a_matrix_that_is_no_list_is_one_fault(text: str) -> None:
+    """It is not counted as a matrix without rows as well."""
+    with pytest.raises(MethodFileError) as caught:
+        loads(f"A: {text}\nb: [1]\n")
+    (fault,) = caught.value.faults
+    assert "a list is expected" in fault.message

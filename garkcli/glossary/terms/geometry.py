@@ -23,7 +23,7 @@ TERMS = (
         "conjugate",
         "The method that drives momenta where the given one drives positions, so that both together"
         " are symplectic. It exists where no weight is zero.",
-        "Â^{l,m} = (𝟙 − (B^{l})⁻¹ (A^{m,l})ᵀ) B^{m}",
+        "Â^{l,m} = (𝟙𝟙ᵀ − (B^{l})⁻¹ (A^{m,l})ᵀ) B^{m}",
         paper(
             _VARIATIONAL + ", definition of symplectic conjugate GARK methods"
         ),
@@ -70,7 +70,8 @@ TERMS = (
         "The largest p for which a step changes the energy by O(h^(p+1)) on every Hamiltonian"
         " problem.",
         "",
-        "E. Faou, E. Hairer, T.-L. Pham, Energy conservation with non-symplectic methods (2004)",
+        "E. Faou, E. Hairer, T.-L. Pham, Energy conservation with non-symplectic methods: examples"
+        " and counter-examples (2004)",
         (),
         ("order", "symplectic order"),
     ),

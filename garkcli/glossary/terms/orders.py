@@ -131,8 +131,8 @@ TERMS = (
     ),
     Term(
         "D(ζ)",
-        "The weights pass through a block from the left: conditions with one vertex at the root"
-        " follow from simpler ones.",
+        "The weights pass through a block from the left: the condition of a tree whose root has"
+        " k − 1 leaves and one branch more follows from simpler ones.",
         "(A^{l,m})ᵀ B^{l} (c^{l})^(k−1) = B^{m} (𝟙 − (c^{m})^k) / k,  k = 1, …, ζ",
         paper(_ORDER + ", definition of the simplifying conditions"),
         ("D", "D(zeta)"),
@@ -149,7 +149,8 @@ TERMS = (
     ),
     Term(
         "sharper bound",
-        "A bound by the same numbers that is never smaller than the paper's.",
+        "A bound by the same numbers that is never smaller than the paper's; χ is the least"
+        " ζ^{l,m} + η^{m,n} of a block and one that follows it.",
         "min{r, 2η+2, ξ+1, χ+2, η+ζ+3}",
         "this project, docs/sharper-bound.md",
         ("pair, sharper", "sharp bound"),
@@ -179,7 +180,8 @@ TERMS = (
         "The order that a method has up to a change of coordinates before the first and after the"
         " last step.",
         "",
-        "J. Butcher, in Conference on the Numerical Solution of Differential Equations (1969)",
+        "J. Butcher, The effective order of Runge-Kutta methods, in Conference on"
+        " the Numerical Solution of Differential Equations (1969)",
         (),
         ("order", "modified equation"),
     ),

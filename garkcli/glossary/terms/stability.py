@@ -60,11 +60,11 @@ TERMS = (
     ),
     Term(
         "phase lag",
-        "By how much the angle of a step on the oscillator differs from hω; its order is the power"
-        " of h, its constant the first coefficient.",
-        "",
+        "By how much the angle of a step on the oscillator differs from hω: order q and constant k"
+        " where the first term of it has the power q + 1.",
+        "arccos(tr R / (2 √det R)) − hω = k (hω)^(q+1) + …",
         "P. van der Houwen, B. Sommeijer, Explicit Runge-Kutta(-Nyström) methods with reduced phase"
-        " errors (1987)",
+        " errors for computing oscillating solutions (1987)",
         ("phase order", "phase constant"),
         ("trace",),
     ),
