@@ -1,4 +1,4 @@
-"""The links between the pages: README.md and docs/*.md."""
+"""The links between the pages: README.md, CONTRIBUTING.md and docs/*.md."""
 
 from __future__ import annotations
 
@@ -10,7 +10,11 @@ import pytest
 ROOT = Path(__file__).resolve().parents[2]
 README = ROOT / "README.md"
 PACKAGE_PAGE = ROOT / "docs" / "package-page.md"
-PAGES = [README, *sorted((ROOT / "docs").glob("*.md"))]
+PAGES = [
+    README,
+    ROOT / "CONTRIBUTING.md",
+    *sorted((ROOT / "docs").glob("*.md")),
+]
 
 
 def prose(page: Path) -> str:
