@@ -8,7 +8,7 @@ from click.shell_completion import CompletionItem
 from garkcli.cli.options import CONTEXT, Output, common
 
 
-class _Word(click.ParamType[str]):
+class _Word(click.ParamType):  # type: ignore[type-arg]
     """A word that is known; shells complete it."""
 
     name = "word"

@@ -2,6 +2,7 @@
 
 from __future__ import annotations
 
+import re
 import sys
 import tomllib
 from pathlib import Path
@@ -117,3 +118,10 @@ def test_what_could_not_be_had_is_no_failure() -> None:
         "circumstance",
         *"abcd",
     ]
+
+
+def test_no_type_of_click_has_a_parameter() -> None:
+    """In its oldest declared version they are no generic classes: to subscript one is an error."""
+    for path in (ROOT / "garkcli" / "cli").glob("*.py"):
+        text = path.read_text(encoding="utf-8")
+        assert not re.search(r"^class .*click\.\w+\[", text, re.M), path
