@@ -72,6 +72,7 @@ INSTALLED = (
     "tests/docs/test_command_line_docs.py",
     "tests/docs/test_ci_docs.py",
     "tests/docs/test_python_docs.py",
+    "tests/docs/test_man_page.py",
     "tests/cli/test_snapshots.py",
     "tests/cli/test_names.py",
     "tests/cli/test_show.py",
