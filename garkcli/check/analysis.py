@@ -16,6 +16,7 @@ from garkcli.order.simplifying import Simplifying, consistent_blocks
 from garkcli.tableau.conjugate import conjugate
 from garkcli.tableau.forms import pair
 from garkcli.tableau.tableau import Tableau
+from garkcli.upward import found
 
 if TYPE_CHECKING:
     from collections.abc import Callable, Mapping, Sequence
@@ -106,6 +107,10 @@ class Analysis:
             self.limit,
             tolerance,
         )
+
+    def _repr_html_(self) -> str:
+        html: str = found("report.notebook", "analysis_html")(self)
+        return html
 
     def __repr__(self) -> str:
         orders = [f"order {self.order.order}"]

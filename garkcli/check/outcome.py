@@ -6,7 +6,8 @@ from dataclasses import dataclass
 from typing import TYPE_CHECKING
 
 from garkcli.check.analysis import Analysis
-from garkcli.errors import Fault
+from garkcli.errors import Fault, counted, printable
+from garkcli.upward import found
 
 if TYPE_CHECKING:
     from garkcli.check.every_value import EveryValue
@@ -37,7 +38,7 @@ class Claim:
     why: str = ""
 
 
-@dataclass(frozen=True)
+@dataclass(frozen=True, repr=False)
 class Outcome:
     """One checked file.
 
@@ -118,3 +119,16 @@ class Outcome:
         if not self.is_read:
             return 3 if self.is_crash else 2
         return 0 if self.ok else 1
+
+    def _repr_html_(self) -> str:
+        html: str = found("report.notebook", "outcome_html")(self)
+        return html
+
+    def __repr__(self) -> str:
+        said = counted(len(self.faults), "fault")
+        if self.is_read:
+            said = counted(len(self.claims), "claim")
+        failed = len(self.failed_claims)
+        if failed:
+            said += f", {failed} failed"
+        return f"<Outcome {printable(self.name)}: {said}>"

@@ -78,17 +78,13 @@ def displays(
         return _cell(cell, entries)
 
     shown = _Shown(entries, text or usual, feet)
-    if not tableau.is_partitioned:
-        colours = range(tableau.size)
-        yield from _display(_array(shown, distinct_rows(tableau), colours))
-        return
     arrays = []
     columns = 0
-    for letter, part in (("Q", "q"), ("P", "p")):
-        numbered = enumerate(tableau.colours)
-        driven = [m for m, colour in numbered if colour.part == part]
-        stages = _stages_of(tableau, driven)
+    for letter, stages, driven in parts_of(tableau):
         array = _array(shown, stages, driven)
+        if not letter:
+            yield from _display(array)
+            return
         arrays.append([f"{letter}: \\quad", *array])
         columns += sum(len(entries.b[m]) for m in driven)
     if columns <= MAX_BESIDE:
@@ -97,6 +93,21 @@ def displays(
     else:
         for array in arrays:
             yield from _display(array)
+
+
+def parts_of(
+    tableau: Tableau,
+) -> Iterator[tuple[str, Sequence[int], Sequence[int]]]:
+    """The arrays that a tableau is printed as: a letter or none, a colour for each group of rows,
+    the colours of the columns.
+    """
+    if not tableau.is_partitioned:
+        yield "", distinct_rows(tableau), range(tableau.size)
+        return
+    for letter, part in (("Q", "q"), ("P", "p")):
+        numbered = enumerate(tableau.colours)
+        driven = [m for m, colour in numbered if colour.part == part]
+        yield letter, _stages_of(tableau, driven), driven
 
 
 def _stages_of(tableau: Tableau, driven: Sequence[int]) -> list[int]:

@@ -47,29 +47,30 @@ class GarkMethod:
     dense: DenseOutput | None = None
 
     @cached_property
-    def _entries(self) -> Entries:
+    def entries(self) -> Entries:
+        """All entries together, those of embedded weights and dense output among them."""
         from garkcli.tableau import (
             pointwise,
         )  # loaded when entries are asked for
 
-        return pointwise.entries(self.tableau)
+        return pointwise.entries(self.tableau).beside(self.further)
 
     @property
     def A(self) -> Any:  # noqa: N802 -- the name it has everywhere
         """The matrix, row by row; of several colours ``A[l][m]`` is a block, or None where colour l
         does not see colour m. Colours count from 0.
         """
-        return self._of_one(self._entries.A, is_block=True)
+        return self._of_one(self.entries.A, is_block=True)
 
     @property
     def b(self) -> Any:
         """The weights; of several colours a row each."""
-        return self._of_one(self._entries.b)
+        return self._of_one(self.entries.b)
 
     @property
     def c(self) -> Any:
         """The nodes; of several colours a row each."""
-        return self._of_one(self._entries.c)
+        return self._of_one(self.entries.c)
 
     @property
     def order(self) -> int:
@@ -131,6 +132,14 @@ class GarkMethod:
         """The number of stages of each colour."""
         colours = range(self.tableau.size)
         return tuple(self.tableau.space(l).stages for l in colours)
+
+    def _repr_html_(self) -> str:
+        html: str = found("report.notebook", "method_html")(self)
+        return html
+
+    def _repr_latex_(self) -> str | None:
+        latex: str | None = found("report.notebook", "method_latex")(self)
+        return latex
 
     def __repr__(self) -> str:
         name = f"{self.name}: " if self.name else ""

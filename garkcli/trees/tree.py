@@ -7,6 +7,8 @@ from itertools import groupby
 from math import factorial, prod
 from typing import TYPE_CHECKING
 
+from garkcli.upward import found
+
 if TYPE_CHECKING:
     from collections.abc import Iterable, Iterator
 
@@ -82,6 +84,11 @@ class Tree:
 
     def __hash__(self) -> int:
         return hash(self._key)
+
+    def _repr_svg_(self) -> str:
+        """The picture that a notebook shows; colours count from 1 there."""
+        picture: str = found("trees.svg", "draw_svg_sheet")([self])
+        return picture
 
     def __repr__(self) -> str:
         if not self.branches:

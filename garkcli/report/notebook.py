@@ -1,0 +1,179 @@
+"""How a notebook shows methods and what is found of them: tables in plain HTML, and LaTeX.
+
+Nothing is coloured, so that a page is readable whatever its background; all text is escaped.
+"""
+
+from __future__ import annotations
+
+from collections.abc import Iterable, Iterator, Sequence
+from html import escape
+from typing import TYPE_CHECKING
+
+from garkcli.check.explained import witness_text
+from garkcli.page.cells import cell_text, remark
+from garkcli.page.plain import printable
+from garkcli.page.tableau_latex import displays, parts_of
+
+if TYPE_CHECKING:
+    from garkcli.check.analysis import Analysis, AnyOrder
+    from garkcli.check.outcome import Claim, Outcome
+    from garkcli.tableau.garkmethod import GarkMethod
+    from garkcli.tableau.pointwise import Cell, Entries
+
+MAX_COLUMNS = 24
+"""Most stages side by side; a larger tableau is named, not shown."""
+_LINE = "1px solid"
+
+
+def method_latex(method: GarkMethod) -> str | None:
+    """The tableau as arrays of LaTeX; None where it is too large to be looked at."""
+    if _is_large(method):
+        return None
+    entries = method.entries
+    lines = displays(method.tableau, entries, entries.embedded)
+    return "\n".join(lines)
+
+
+def method_html(method: GarkMethod) -> str:
+    """The tableau as a table, Q and P for a method for positions and momenta."""
+    if _is_large(method):
+        return f"<pre>{_text(repr(method))}</pre>"
+    tables = []
+    for letter, stages, colours in parts_of(method.tableau):
+        title = ", ".join(x for x in (method.name, letter) if x)
+        rows = _rows(method, stages, colours)
+        tables.append(_table(title, rows))
+    note = remark(method.entries)
+    return "\n".join([*tables, f"<p>{_text(note)}</p>"] if note else tables)
+
+
+def _is_large(method: GarkMethod) -> bool:
+    return sum(method.stages) > MAX_COLUMNS
+
+
+def _rows(
+    method: GarkMethod, stages: Sequence[int], colours: Sequence[int]
+) -> Iterator[str]:
+    """The stages of each colour of ``stages``, then the rows of weights."""
+    tableau, entries = method.tableau, method.entries
+    if len(colours) > 1:
+        heads = ['<th scope="col"></th>']
+        for m in colours:
+            name = _text(tableau.colours[m].name)
+            span = len(entries.b[m])
+            heads.append(f'<th scope="col" colspan="{span}">{name}</th>')
+        yield f"<tr>{''.join(heads)}</tr>"
+    for l in stages:
+        for i, node in enumerate(entries.c[l]):
+            groups = []
+            for m in colours:
+                block = entries.A[l][m]
+                blank = [""] * len(entries.b[m])
+                groups.append(
+                    blank if block is None else _cells(block[i], entries)
+                )
+            yield _row(_cells([node], entries)[0], groups, is_first=i == 0)
+    feet = [entries.b]
+    if entries.embedded is not None:
+        feet.append(entries.embedded)
+    for number, weights in enumerate(feet):
+        groups = [_cells(weights[m], entries) for m in colours]
+        yield _row("", groups, is_first=number == 0)
+
+
+def _cells(row: Iterable[Cell], entries: Entries) -> list[str]:
+    return [cell_text(x, entries.digits) for x in row]
+
+
+def _row(head: str, groups: Sequence[Sequence[str]], is_first: bool) -> str:
+    """A row of the tableau: a line to the left of each block, one above where it is the first."""
+    above = f"border-top:{_LINE};" if is_first else ""
+    cells = [f'<td style="{above}">{_text(head)}</td>']
+    for group in groups:
+        for j, text in enumerate(group):
+            left = f"border-left:{_LINE};" if j == 0 else ""
+            cells.append(f'<td style="{above}{left}">{_text(text)}</td>')
+    return f"<tr>{''.join(cells)}</tr>"
+
+
+def analysis_html(found: Analysis) -> str:
+    """What is found of a method, a row each."""
+    return _table("", map(_pair, _facts(found)))
+
+
+def outcome_html(outcome: Outcome) -> str:
+    """What became of a file: what is found, and its claims or its faults."""
+    rows: list[str] = []
+    if outcome.analysis is not None:
+        rows += map(_pair, _facts(outcome.analysis))
+    if outcome.every is not None:
+        parameters = ", ".join(outcome.every.parameters)
+        rows.append(
+            _pair(
+                (
+                    f"order for every {parameters}",
+                    str(outcome.every.order.order),
+                )
+            )
+        )
+    rows += map(_pair, map(_claim, outcome.claims))
+    for fault in outcome.faults:
+        place = f"line {fault.line}" if fault.line else "fault"
+        said = [x for x in (fault.message, fault.help) if x]
+        rows.append(_pair((place, "; ".join(said))))
+    return _table(outcome.name, rows)
+
+
+def _claim(claim: Claim) -> tuple[str, str]:
+    """A claim, and whether it holds."""
+    label = f"claim {claim.claim}: {claim.expected}"
+    if claim.holds:
+        return label, "holds"
+    why = f", {claim.why}" if claim.why else ""
+    return label, f"fails: found {claim.found}{why}"
+
+
+def _facts(found: Analysis) -> Iterator[tuple[str, str]]:
+    """What ``gark check`` says first, label and text."""
+    many = found.tableau.size > 1
+    yield "order", _order(found.order, many)
+    if found.embedded is not None:
+        yield "embedded order", _order(found.embedded.order, many)
+    if found.conjugate_order is not None:
+        yield "conjugate order", _order(found.conjugate_order, many)
+    if found.pair_order is not None:
+        yield "pair order", _order(found.pair_order, True)
+    if found.obstacle:
+        yield "no conjugate", found.obstacle
+    yield "bound", f"order ≥ {found.bound}"
+    yield "symplectic", "yes" if found.symplectic else "no"
+    if found.tolerance is not None:
+        yield "within", str(found.tolerance)
+
+
+def _order(order: AnyOrder, many: bool) -> str:
+    """An order, and the tree at which it ends."""
+    if order.is_lower_bound or order.witness is None:
+        return f"at least {order.order}"
+    return f"{order.order}; {witness_text(order.witness, many)}"
+
+
+def _pair(fact: tuple[str, str]) -> str:
+    label, text = map(_text, fact)
+    left = "text-align:left"
+    return (
+        f'<tr><th scope="row" style="{left}">{label}</th>'
+        f'<td style="{left}">{text}</td></tr>'
+    )
+
+
+def _table(title: str, rows: Iterable[str]) -> str:
+    caption = f"<caption>{_text(title)}</caption>" if title else ""
+    style = "border-collapse:collapse"
+    body = "\n".join(rows)
+    return f'<table style="{style}">{caption}<tbody>\n{body}\n</tbody></table>'
+
+
+def _text(text: str) -> str:
+    """A text without controls, as it stands in HTML."""
+    return escape(printable(text))
