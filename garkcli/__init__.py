@@ -14,6 +14,12 @@ if TYPE_CHECKING:
     from garkcli.api.arguments import of_methods
     from garkcli.api.arrays import from_arrays
     from garkcli.api.asserting import assert_order, find_orders
+    from garkcli.api.calls import (
+        all_trees,
+        claims_of,
+        find_stability,
+        with_claims,
+    )
     from garkcli.api.construction import diagonal_method, gark
     from garkcli.api.methods import (
         analyse,
@@ -27,8 +33,11 @@ if TYPE_CHECKING:
     from garkcli.backward import energy as _energy
     from garkcli.backward import formulas as _formulas
     from garkcli.backward import summary as _summary
+    from garkcli.bridges.audit import audited as audit
+    from garkcli.bridges.calls import export, import_methods
     from garkcli.catalogue.mapping import Catalogue
     from garkcli.check.check_file import check_file
+    from garkcli.check.meanings import meanings as explain
     from garkcli.check.proof import prove_method
     from garkcli.comparison.comparison import compare
     from garkcli.convergence import convergence as _convergence
@@ -51,19 +60,27 @@ if TYPE_CHECKING:
     from garkcli.methodfile.family import load_family, loads_family
     from garkcli.methodfile.load import load, loads
     from garkcli.methodfile.problem import load_problem, loads_problem
+    from garkcli.methodfile.problem_schema import problem_file_schema
+    from garkcli.methodfile.schema import method_file_schema
     from garkcli.order import conditions as _conditions
+    from garkcli.order import listing as _listing
     from garkcli.order import simplifying as _simplifying
     from garkcli.problems.builtin import hamiltonian
     from garkcli.problems.oscillator import Oscillator
+    from garkcli.report.calls import certificate, cite, names, run_sweep
+    from garkcli.report.schemas import report_schema
     from garkcli.stepping import integrator as _integrator
     from garkcli.stepping.step import integrate, trajectory
+    from garkcli.sweep.load import sweep_schema
     from garkcli.tableau import forms as _forms
     from garkcli.tableau.garkmethod import GarkMethod
     from garkcli.tableau.tableau import Tableau
+    from garkcli.trees.count import count_trees
     from garkcli.trees.notation import format_tree, parse_tree
     from garkcli.trees.tree import Tree
 
     catalogue: Catalogue
+    all_conditions = of_methods(_listing.all_conditions)
     backward_analysis = of_methods(_summary.backward_analysis)
     bind = of_methods(_integrator.bind)
     conditions = of_methods(_conditions.conditions)
@@ -77,6 +94,24 @@ if TYPE_CHECKING:
     symplecticity_defects = of_methods(_symplecticity.symplecticity_defects)
 
 _HOMES = {
+    "all_conditions": "order.listing",
+    "all_trees": "api.calls",
+    "audit": "bridges.audit:audited",
+    "certificate": "report.calls",
+    "cite": "report.calls",
+    "claims_of": "api.calls",
+    "count_trees": "trees.count",
+    "explain": "check.meanings:meanings",
+    "export": "bridges.calls",
+    "find_stability": "api.calls",
+    "import_methods": "bridges.calls",
+    "method_file_schema": "methodfile.schema",
+    "names": "report.calls",
+    "problem_file_schema": "methodfile.problem_schema",
+    "report_schema": "report.schemas",
+    "run_sweep": "report.calls",
+    "sweep_schema": "sweep.load",
+    "with_claims": "api.calls",
     "analyse": "api.methods",
     "backward_analysis": "backward.summary",
     "bind": "stepping.integrator",
@@ -132,13 +167,14 @@ _HOMES = {
     "trajectory": "stepping.step",
     "Tree": "trees.tree",
 }
-"""The module that each public name comes from."""
+"""The module that each public name comes from, and what it is called there where that differs."""
 
 _ROOMS = ("catalogue",)
 """Rooms that are public themselves."""
 
 _OF_METHODS = frozenset(
     {
+        "all_conditions",
         "backward_analysis",
         "bind",
         "conditions",
@@ -179,27 +215,38 @@ __all__ = [
     "Tree",
     "UsageProblem",
     "ZeroWeight",
+    "all_conditions",
+    "all_trees",
     "analyse",
     "assert_order",
+    "audit",
     "backward_analysis",
     "bind",
     "catalogue",
+    "certificate",
     "check_file",
+    "cite",
+    "claims_of",
     "compare",
     "conditions",
     "conjugate",
     "converge",
     "convert",
+    "count_trees",
     "diagonal_method",
     "elementary_weight",
+    "explain",
+    "export",
     "find_order",
     "find_orders",
     "find_parameters",
     "find_property",
+    "find_stability",
     "format_tree",
     "from_arrays",
     "gark",
     "hamiltonian",
+    "import_methods",
     "integrate",
     "is_symplectic",
     "load",
@@ -209,19 +256,26 @@ __all__ = [
     "loads_family",
     "loads_problem",
     "long_run",
+    "method_file_schema",
     "method_of",
     "minimise",
     "modified_formula",
     "modified_run",
+    "names",
     "pair",
     "parse_tree",
+    "problem_file_schema",
     "prove_method",
     "reduced",
+    "report_schema",
+    "run_sweep",
     "search_methods",
     "simplifying",
+    "sweep_schema",
     "symplectic_pair",
     "symplecticity_defects",
     "trajectory",
+    "with_claims",
 ]
 
 
@@ -230,7 +284,8 @@ def __getattr__(name: str) -> Any:
         return import_module(f"garkcli.{name}")
     if name not in _HOMES:
         raise AttributeError(f"module 'garkcli' has no attribute {name!r}")
-    value = getattr(import_module(f"garkcli.{_HOMES[name]}"), name)
+    home, _, other = _HOMES[name].partition(":")
+    value = getattr(import_module(f"garkcli.{home}"), other or name)
     if name in _OF_METHODS:
         value = import_module("garkcli.api.arguments").of_methods(value)
     if name in _OF_NUMBERS:

@@ -75,7 +75,6 @@ def _schema(of_problems: bool, report: str | None) -> dict[str, Any]:
 
 
 def _sweep_schema() -> dict[str, Any]:
-    from garkcli.methodfile.sweep_schema import sweep_file_schema
-    from garkcli.sweep.columns import columns, property_kind
+    from garkcli.sweep.load import sweep_schema
 
-    return sweep_file_schema({name: property_kind(name) for name in columns()})
+    return sweep_schema()

@@ -2,7 +2,7 @@
 
 from __future__ import annotations
 
-from typing import cast
+from typing import Any, cast
 
 from garkcli.methodfile.sweep_file import read_sweep
 from garkcli.methodfile.sweep_search import SearchText
@@ -36,3 +36,10 @@ def _template(given: TemplateText, search: SearchText) -> Template:
     if not given.order:
         return Template(*plain)
     return Template(*plain, given.order, search.seeds, search.starts)
+
+
+def sweep_schema() -> dict[str, Any]:
+    """The JSON Schema of spec files."""
+    from garkcli.methodfile.sweep_schema import sweep_file_schema
+
+    return sweep_file_schema({name: property_kind(name) for name in columns()})
