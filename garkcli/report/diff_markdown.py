@@ -29,14 +29,17 @@ def render(found: Comparison, files: tuple[str, str]) -> str:
 
 
 def _orders(found: Comparison) -> Iterator[str]:
+    orders = [pair for pair in found.orders if pair.exists]
+    if not orders:
+        return
     yield from ("", "| | first | second |", "|---|---|---|")
-    for pair in found.orders:
+    for pair in orders:
         yield f"| {pair.name} | {_order(pair.one)} | {_order(pair.other)} |"
 
 
 def _order(order: AnyOrder | None) -> str:
     if order is None:
-        return ""
+        return "none"
     return f"≥ {order.order}" if order.is_lower_bound else str(order.order)
 
 

@@ -406,3 +406,13 @@ def test_files_that_cannot_be_read() -> None:
     run = gark("diff", "methods/rk4.gark.yaml", "nowhere.gark.yaml")
     assert run.code == 2
     assert "no such file" in run.err
+
+
+def test_orders_that_neither_has_are_no_rows() -> None:
+    """In Markdown as in text: a conjugate of neither is left out, one of one alone is none."""
+    midpoint = loads("A: [[0, 0], [1/2, 0]]\nb: [0, 1]\n")
+    files = ("one", "other")
+    neither = diff_markdown.render(compare(midpoint, midpoint), files)
+    assert "order of the conjugate" not in neither
+    one = diff_markdown.render(compare(midpoint, RK4), files)
+    assert "| order of the conjugate | none | 4 |" in one
