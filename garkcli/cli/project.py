@@ -117,7 +117,7 @@ def _project(file: str, folder: str, table: dict[str, Any]) -> Project:
             raise UsageProblem(f"{shown}: {key} is not {wanted}", cure)
     required = table.get("require-claims", False)
     paths = [
-        os.path.relpath(os.path.join(folder, path))
+        _from_here(os.path.join(folder, path))
         for path in table.get("paths", ())
     ]
     names = {"format": "format", "max-order": "max_order", "jobs": "jobs"}
@@ -129,6 +129,14 @@ def _project(file: str, folder: str, table: dict[str, Any]) -> Project:
         tuple(required) if isinstance(required, list) else (),
         defaults,
     )
+
+
+def _from_here(path: str) -> str:
+    """The path from the folder we are in, where there is one: on Windows not to another drive."""
+    try:
+        return os.path.relpath(path)
+    except ValueError:
+        return path
 
 
 def _is_texts(value: object) -> bool:

@@ -2,6 +2,7 @@
 
 from __future__ import annotations
 
+import os
 from collections.abc import Mapping, Sequence
 from typing import Any
 
@@ -75,7 +76,12 @@ def _result(finding: Finding, place: int) -> dict[str, Any]:
     }
 
 
-def _uri(path: str) -> str:
+def _uri(path: str, separator: str = os.sep) -> str:
+    r"""A path as SARIF wants it, with slashes on every system.
+
+    >>> _uri(r"tables\my rk.gark.yaml", "\\")
+    'tables/my%20rk.gark.yaml'
+    """
     from urllib.parse import quote
 
-    return quote(path, safe="/", errors="replace")
+    return quote(path.replace(separator, "/"), safe="/", errors="replace")

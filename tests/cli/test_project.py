@@ -3,10 +3,12 @@
 from __future__ import annotations
 
 import json
+import os
 from pathlib import Path
 
 import pytest
 
+from garkcli.cli.project import find_project
 from tests.cli.harness import gark
 
 METHOD = "A: [[0, 0], [1/2, 0]]\nb: [0, 1]\n"
@@ -119,3 +121,21 @@ def test_what_is_not_ours(project: Path) -> None:
     (inner / ".git").mkdir(parents=True)
     put(project, ".gark.toml", 'paths = ["tables"]\n')
     assert "Missing argument" in gark("check", cwd=inner).err
+
+
+def test_paths_on_another_drive_stay_whole(
+    project: Path, monkeypatch: pytest.MonkeyPatch
+) -> None:
+    """Where no path leads there from here, as on Windows, they are taken as they are written."""
+    place = str(project / "tables")
+    put(project, ".gark.toml", f"paths = [{json.dumps(place)}]\n")
+    relative = os.path.relpath
+
+    def without_other_drives(path: str, start: str = os.curdir) -> str:
+        if path == place:
+            raise ValueError("path is on mount 'D:', start on mount 'C:'")
+        return relative(path, start)
+
+    monkeypatch.chdir(project)
+    monkeypatch.setattr(os.path, "relpath", without_other_drives)
+    assert find_project().paths == (place,)
