@@ -11,6 +11,8 @@ import pytest
 from flint import fmpq
 
 from garkcli.bridges.cannot import CannotExport
+from garkcli.bridges.importing import fmpq_of
+from garkcli.bridges.readers.registry import find_tables, reader_named
 from garkcli.bridges.registry import bridges
 from garkcli.bridges.structure import table
 from garkcli.bridges.tables import with_first_stage, with_last_stage
@@ -202,9 +204,16 @@ def test_the_middle_is_that_of_dense_output() -> None:
 
 
 def test_errors_are_differences() -> None:
-    """diffrax, torchdiffeq, torchode and Boost take b minus the embedded weights; others these."""
+    """diffrax, torchdiffeq, torchode and Boost take b minus the embedded weights, the classes of
+    SciPy have the other sign; others these.
+    """
     for target in ("diffrax", "torchdiffeq", "torchode", "boost"):
         assert "-0.75, 0.75" in written(target, RALSTON)
+    text = written("scipy", RALSTON)
+    assert "E = np.array([0.75, -0.75, 0]" in text
+    table = find_tables(text, "x.py", [reader_named("python")])[0]
+    assert table.embedded is not None
+    assert [float(fmpq_of(x)) for x in table.embedded[0]] == [1, 0]
     assert 'name="bstar" type="string" value="1.0 0.0"' in written(
         "tempus", RALSTON
     )

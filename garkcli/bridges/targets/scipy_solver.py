@@ -105,11 +105,13 @@ def _attributes(payload: Payload, found: Table) -> list[str]:
 
 
 def _errors(found: Table, kept: int) -> Row:
-    """The differences b − b̂ of the stages, and of f at the new value."""
+    """The differences b̂ − b of the stages, and of f at the new value: the sign that the classes of
+    SciPy have.
+    """
     if found.embedded is None:
         return (ZERO,) * (kept + 1)
     pairs = zip(found.b, found.embedded, strict=True)
-    errors = tuple(b - other for b, other in pairs)
+    errors = tuple(other - b for b, other in pairs)
     return errors if kept < found.stages else (*errors, ZERO)
 
 
