@@ -86,11 +86,13 @@ def orders_of(
     method: MethodFile, table: FoundTable
 ) -> tuple[Judged, Judged | None]:
     """The order of a method and that of its embedded weights, within what their digits say."""
-    order = judged(method, method.tableau, table.order)
+    admitted = fmpq_of(table.tolerance) if table.tolerance else None
+    order = judged(method, method.tableau, table.order, tolerance=admitted)
     if method.embedded is None:
         return order, None
     other = with_weights(method.tableau, method.embedded)
-    return order, judged(method, other, table.embedded_order)
+    embedded = judged(method, other, table.embedded_order, tolerance=admitted)
+    return order, embedded
 
 
 def place_of(table: FoundTable) -> str:

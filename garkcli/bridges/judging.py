@@ -7,7 +7,7 @@ from dataclasses import dataclass
 from flint import arb, fmpq
 
 from garkcli.methodfile.build import MethodFile
-from garkcli.methodfile.printed import printed_units
+from garkcli.methodfile.printed import approximant_units
 from garkcli.order.certificate import (
     DEFAULT_LIMIT,
     Order,
@@ -63,6 +63,7 @@ def judged(
     tableau: Tableau,
     declared: int | None = None,
     limit: int = DEFAULT_LIMIT,
+    tolerance: fmpq | None = None,
 ) -> Judged:
     """The order of a tableau that is made of the numbers of a file.
 
@@ -75,12 +76,15 @@ def judged(
         tableau: the method, or the same with embedded weights.
         declared: the order that its source declares; the search goes one further at least.
         limit: where the search stops.
+        tolerance: the rounding that the source admits; None where it says none.
     """
     reach = max(limit, (declared or 0) + 1)
     exact = find_order(tableau, reach)
     if exact.is_lower_bound:
         return Judged(exact.order, is_limited=True)
-    units = printed_units(method.printed)
+    if tolerance:
+        return _within(find_order_within(tableau, tolerance, reach), exact)
+    units = approximant_units(method.printed)
     largest = max(units.values(), default=fmpq(0))
     if not largest:
         return _exactly(exact)
@@ -124,5 +128,5 @@ def _within(found: RoundedOrder, exact: Order) -> Judged:
 
 def allowed(method: MethodFile) -> fmpq:
     """How far a number of a file may be off: ten units of the last place of its decimals."""
-    units = printed_units(method.printed)
+    units = approximant_units(method.printed)
     return SLACK * max(units.values(), default=fmpq(0))

@@ -23,6 +23,10 @@ Printed: TypeAlias = Sequence[tuple[Expression, Number]]
 """Coefficients as they are written, with their values."""
 FEWEST_DIGITS = 6
 """A number with fewer digits is meant exactly."""
+SHORTENED = 4
+"""So many digits fewer has the denominator of a decimal in lowest terms, at most."""
+LONG_DENOMINATOR = 10**9
+"""Fractions with a smaller denominator are no approximants."""
 
 
 def printed_units(printed: Printed) -> dict[Number, fmpq]:
@@ -50,6 +54,46 @@ def printed_units(printed: Printed) -> dict[Number, fmpq]:
             # equal values may be printed to different lengths
             units[value] = max(unit, units.get(value, unit))
     return units
+
+
+def approximant_units(printed: Printed) -> dict[Number, fmpq]:
+    """The same for the source of a solver, where whole numbers are what they are.
+
+    A fraction with a long denominator q may be an approximant of an irrational number, as those of
+    Kennedy and Carpenter are: good ones are off by 1/q^2, and a hundred times that is admitted.
+    One that is a decimal in lowest terms is taken for that decimal. Every other fraction is exact,
+    so that a wrong digit of it is no rounding.
+
+    >>> from garkcli.exact.expression import parse
+    >>> texts = ("19372/6561", "1767732205903/4055673282236")
+    >>> values = (fmpq(19372, 6561), fmpq(1767732205903, 4055673282236))
+    >>> units = approximant_units(list(zip(map(parse, texts), values, strict=True)))
+    >>> units[values[0]], 0 < units[values[1]] < fmpq(1, 10**22)
+    (0, True)
+    """
+    units = printed_units([pair for pair in printed if not _is_whole(pair[0])])
+    for expression, value in printed:
+        if _is_whole(expression):
+            units.setdefault(value, _approximation(value))
+    return units
+
+
+def _is_whole(expression: Expression) -> bool:
+    """Whether only whole numbers are in it."""
+    return all(x.text.isdigit() for x in _literals(expression))
+
+
+def _approximation(value: Number) -> fmpq:
+    """By how much a fraction may be off."""
+    if not isinstance(value, fmpq):
+        return fmpq(0)
+    q = int(value.q)
+    for places in range(FEWEST_DIGITS, len(str(q)) + SHORTENED):
+        # a decimal that was written as a fraction, in lowest terms
+        if not 10**places % q and 10**places < q * 10**SHORTENED:
+            return fmpq(1, 10**places)
+    is_long = q >= LONG_DENOMINATOR
+    return fmpq(100, q * q) if is_long else fmpq(0)
 
 
 def _literals(expression: Expression) -> Iterator[Literal]:

@@ -113,3 +113,48 @@ def test_files_that_cannot_be_read_stop_no_audit(tmp_path: Path) -> None:
             "./c.json",
         ]
     assert gark("audit", "c.json", cwd=tmp_path).code == 2
+
+
+@pytest.fixture(scope="module")
+def dormand_prince() -> str:
+    """A class of SciPy with fractions of many digits."""
+    return gark("export", "dormand-prince-5", "--to", "scipy").out
+
+
+@pytest.mark.parametrize(
+    ("before", "after", "code"),
+    [
+        ("19372/6561", "19371/6561", "order"),
+        ("-5103/18656", "-5104/18656", "order"),
+        ("-71/1920", "-71/1921", "embedded-weights"),
+        ("71/16695", "71/16696", "embedded-weights"),
+    ],
+)
+def test_a_digit_of_a_long_fraction_is_no_rounding(
+    before: str, after: str, code: str, dormand_prince: str, tmp_path: Path
+) -> None:
+    """Whole numbers of any length are what they are, in sums with others too."""
+    assert before in dormand_prince
+    assert told("right.py", dormand_prince, tmp_path) == {
+        "DormandPrince54": []
+    }
+    (tmp_path / "right.py").unlink()
+    wrong = dormand_prince.replace(before, after)
+    assert code in told("wrong.py", wrong, tmp_path)["DormandPrince54"]
+
+
+def test_an_exact_method_is_imported_as_exact() -> None:
+    """Fractions of eighty digits, of which the conditions of order 9 are missed by little."""
+    text = gark("export", "tsitouras-papakostas-8", "--to", "json").out
+    run = gark("import", "-", "--format", "yaml", stdin=text)
+    assert "tolerance" not in run.out
+    assert run.out.endswith("expect: {order: 8, embedded-order: 7}\n")
+
+
+@pytest.mark.parametrize("name", ["ssp-53-nodepy", "ssp-53", "tsitouras-5"])
+def test_decimals_that_became_fractions(name: str) -> None:
+    """JSON has the decimals of a rounded method as fractions, which are as rounded as before."""
+    text = gark("export", name, "--to", "json").out
+    order = json.loads(text)["order"]
+    run = gark("import", "-", "--format", "yaml", stdin=text)
+    assert f"expect: {{order: {order}" in run.out
