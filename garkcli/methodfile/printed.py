@@ -79,8 +79,8 @@ def approximant_units(printed: Printed) -> dict[Number, fmpq]:
 
 
 def _is_whole(expression: Expression) -> bool:
-    """Whether only whole numbers are in it."""
-    return all(x.text.isdigit() for x in _literals(expression))
+    """Whether only whole numbers are in it, 2.0 as C has it among them."""
+    return all(x.value.q == 1 for x in _literals(expression))
 
 
 def _approximation(value: Number) -> fmpq:

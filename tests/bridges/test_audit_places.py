@@ -158,3 +158,20 @@ def test_decimals_that_became_fractions(name: str) -> None:
     order = json.loads(text)["order"]
     run = gark("import", "-", "--format", "yaml", stdin=text)
     assert f"expect: {{order: {order}" in run.out
+
+
+@pytest.mark.parametrize("name", ["ark-324", "esdirk-436", "qesdirk-436"])
+def test_approximants_are_no_misprints(name: str, tmp_path: Path) -> None:
+    """Quotients of thirteen digits, as Kennedy and Carpenter print them, beside longer decimals; a
+    last digit that is wrong is found.
+    """
+    text = gark("export", name, "--to", "sundials").out
+    assert not any(told("right.c", text, tmp_path).values())
+    (tmp_path / "right.c").unlink()
+    place = text.index(
+        ".0) / SUN_RCONST(", text.index("b[") if "b[" in text else 0
+    )
+    digit = text[place - 1]
+    other = str((int(digit) + 1) % 10)
+    wrong = text[: place - 1] + other + text[place:]
+    assert any(told("wrong.c", wrong, tmp_path).values())
