@@ -33,6 +33,7 @@ PAGES = [
     ROOT / "docs" / "conversion.md",
     ROOT / "docs" / "import.md",
     ROOT / "docs" / "audit.md",
+    ROOT / "docs" / "comparison.md",
 ]
 
 
