@@ -1,6 +1,24 @@
 """gark: order conditions and design of generalized additive Runge-Kutta methods, decided exactly.
 
-The public names are loaded when they are first used, so importing the package costs nothing.
+A method: load, loads, from_arrays, diagonal_method, gark, method_of; catalogue["rk4"]; from other
+    sources import_methods, audit. MethodFile, GarkMethod, Tableau.
+What is true of it: find_order, find_orders, find_property, find_stability, is_symplectic, analyse,
+    simplifying, claims_of; of a file check_file; in tests assert_order; proved by prove_method,
+    certificate.
+Methods from it: conjugate, pair, symplectic_pair, reduced, convert; side by side: compare.
+Trees: Tree, parse_tree, format_tree, all_trees, count_trees; conditions, all_conditions,
+    elementary_weight.
+On problems: hamiltonian, load_problem, loads_problem, Oscillator; converge, long_run,
+    symplecticity_defects; bind, integrate, trajectory.
+The modified equation: backward_analysis, modified_formula, modified_run.
+Design: load_family, loads_family, find_parameters, minimise, search_methods; run_sweep.
+To others: export, cite, with_claims, method_file_schema, problem_file_schema, sweep_schema,
+    report_schema; what there is: names, explain.
+Errors: GarkError, and of it MethodFileError, HasFreeParameters, MethodError, ZeroWeight,
+    ExpressionError, UsageProblem.
+
+Help has each of them: help(garkcli.find_order); docs/python.md has examples. The names are loaded
+when they are first used, so importing the package costs nothing.
 """
 
 from __future__ import annotations

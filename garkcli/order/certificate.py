@@ -18,6 +18,7 @@ from typing import TypeAlias, cast
 
 from flint import fmpq
 
+from garkcli.exact.display import to_decimal, to_text
 from garkcli.exact.field import Number, coordinates
 from garkcli.exact.linear_map import LinearMap
 from garkcli.exact.matrix import Vector, dot
@@ -29,7 +30,7 @@ DEFAULT_LIMIT = 60
 """The order at which the search stops when nothing has failed."""
 
 
-@dataclass(frozen=True)
+@dataclass(frozen=True, repr=False)
 class Witness:
     """A tree whose order condition fails.
 
@@ -47,6 +48,15 @@ class Witness:
     def residual(self) -> Number:
         """Value − required; not zero."""
         return self.value - self.required
+
+    def __repr__(self) -> str:
+        value = to_text(self.value)
+        if len(value) > 30:
+            value = to_decimal(self.value, 8)
+        tree = str(self.tree)
+        if len(tree) > 30:
+            tree = f"of order {self.tree.order}"
+        return f"<Witness {tree}: {value} instead of {self.required}>"
 
 
 @dataclass(frozen=True, repr=False)

@@ -90,6 +90,11 @@ class Tree:
         picture: str = found("trees.svg", "draw_svg_sheet")([self])
         return picture
 
+    def __str__(self) -> str:
+        """The bracket text, with colours from 1 as people count them."""
+        text: str = found("trees.notation", "format_tree")(self)
+        return text
+
     def __repr__(self) -> str:
         if not self.branches:
             return f"Tree({self.root})"

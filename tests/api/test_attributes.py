@@ -124,4 +124,12 @@ def test_an_order_is_shown_in_a_line() -> None:
     """Without its witness, which is an attribute."""
     found = find_order(METHODS["catalogue"])
     assert repr(found) == "<Order 4>"
+    assert found.witness is not None
+    tree = str(found.witness.tree)
+    assert tree == "[[[[[]_1]_1]_1]_1]_1"
+    assert repr(found.witness) == f"<Witness {tree}: 0 instead of 1/120>"
+    many = find_order(diagonal_method("gauss", 4))
+    assert many.witness is not None
+    assert "of order 9" in repr(many.witness)
+    assert len(repr(many.witness)) < 80
     assert garkcli.find_order(METHODS["rounded"]).order == 4

@@ -3,6 +3,7 @@
 from __future__ import annotations
 
 import inspect
+import re
 from pathlib import Path
 
 import pytest
@@ -177,6 +178,16 @@ def test_the_package_lists_its_names() -> None:
         assert getattr(garkcli, name) is thing
     with pytest.raises(AttributeError, match="no attribute 'find_oder'"):
         garkcli.find_oder  # noqa: B018 -- the misspelt name is the point
+
+
+def test_help_of_the_package_has_every_name() -> None:
+    """What ``help(garkcli)`` begins with names all that is public, and nothing else."""
+    told = inspect.getdoc(garkcli)
+    assert told is not None
+    words = set(re.findall(r"\w+", told))
+    assert set(garkcli.__all__) <= words
+    named = {word for word in words if "_" in word}
+    assert named <= set(garkcli.__all__)
 
 
 def test_the_example_of_a_file_on_disk(tmp_path: Path) -> None:
