@@ -175,3 +175,11 @@ def test_approximants_are_no_misprints(name: str, tmp_path: Path) -> None:
     other = str((int(digit) + 1) % 10)
     wrong = text[: place - 1] + other + text[place:]
     assert any(told("wrong.c", wrong, tmp_path).values())
+
+
+@pytest.mark.parametrize("name", ["sdirk-2", "implicit-midpoint"])
+def test_implicit_methods_of_petsc(name: str, tmp_path: Path) -> None:
+    """They are registered as pairs whose explicit part is zero, which is no wrong method."""
+    text = gark("export", name, "--to", "petsc").out
+    assert "TSARKIMEXRegister" in text
+    assert list(told("right.c", text, tmp_path).values()) == [[]]

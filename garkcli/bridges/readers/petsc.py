@@ -3,6 +3,7 @@
 from __future__ import annotations
 
 from collections.abc import Callable, Mapping
+from itertools import chain
 
 from garkcli.bridges.readers.c_source import Block, Call, CSource
 from garkcli.bridges.readers.found import (
@@ -16,7 +17,12 @@ from garkcli.bridges.readers.found import (
     troubled,
 )
 from garkcli.bridges.readers.scalars import Scalar, Value, combined, whole
-from garkcli.bridges.readers.shaping import square, symplectic, weights
+from garkcli.bridges.readers.shaping import (
+    is_zero,
+    square,
+    symplectic,
+    weights,
+)
 
 NAME = "petsc"
 
@@ -92,6 +98,11 @@ def _arkimex(empty: FoundTable, values: tuple[Value, ...]) -> FoundTable:
         embedded = (of_explicit or of_implicit, of_implicit)
     b = (b_explicit, b_implicit)
     row = (explicit, implicit)
+    if all(map(is_zero, (*b_explicit, *chain.from_iterable(explicit)))):
+        # nothing is explicit: the way to register an implicit method
+        return _table(
+            empty, ((implicit,),), (b_implicit,), (c_implicit,), of_implicit
+        )
     grid: Grid = (row,)
     c: tuple[Row, ...] = (c_explicit,)
     if values[8] is None and values[5] is not None:
