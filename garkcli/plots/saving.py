@@ -3,14 +3,16 @@
 from __future__ import annotations
 
 import warnings
+from importlib.util import find_spec
 from io import BytesIO
 from pathlib import Path
-
-from matplotlib import rc_context
-from matplotlib.figure import Figure
+from typing import TYPE_CHECKING
 
 from garkcli.errors import UsageProblem
 from garkcli.page.writing import refuse_unwritable, write_whole
+
+if TYPE_CHECKING:
+    from matplotlib.figure import Figure
 
 SUFFIXES = (".png", ".svg", ".pdf")
 """The kinds of file that figures can be saved as."""
@@ -20,7 +22,8 @@ def check_suffix(path: Path) -> None:
     """Refuse a file name that ``save`` has no format or no folder for, before the work is done.
 
     Raises:
-        UsageProblem: the suffix is none of ``SUFFIXES``, or there is no such folder.
+        UsageProblem: the suffix is none of ``SUFFIXES``, there is no such folder, or no
+            matplotlib, which draws.
     """
     suffix = path.suffix
     if suffix.lower() not in SUFFIXES:
@@ -28,6 +31,9 @@ def check_suffix(path: Path) -> None:
         message = f"no figure can be saved to {path.name!r}, {kind}"
         endings = ", ".join(SUFFIXES)
         raise UsageProblem(message, f"end it in {endings}")
+    if find_spec("matplotlib") is None:
+        cure = "install garkcli[plot]; text and JSON do without"
+        raise UsageProblem("a figure needs matplotlib", cure)
     refuse_unwritable(str(path))
 
 
@@ -37,6 +43,8 @@ def save(figure: Figure, path: Path) -> None:
     Raises:
         UsageProblem: the suffix is none of ``SUFFIXES``, or the file cannot be written.
     """
+    from matplotlib import rc_context
+
     check_suffix(path)
     suffix = path.suffix.lower()
     kind = suffix.removeprefix(".")

@@ -148,4 +148,5 @@ def test_action_installs_this_project(
     )
     last = done.stdout.splitlines()[-1]
     assert last == f"-m pip install --quiet {installed}"
-    assert 'name = "garkcli"' in (ROOT / "pyproject.toml").read_text()
+    project = (ROOT / "pyproject.toml").read_text(encoding="utf-8")
+    assert 'name = "garkcli"' in project

@@ -109,7 +109,11 @@ def test_as_a_program(tmp_path: Path) -> None:
     def run(*paths: Path) -> subprocess.CompletedProcess[str]:
         command = [sys.executable, "-I", str(SCRIPT), *map(str, paths)]
         return subprocess.run(
-            command, capture_output=True, text=True, check=False
+            command,
+            capture_output=True,
+            text=True,
+            encoding="utf-8",
+            check=False,
         )
 
     assert run(good).returncode == 0

@@ -57,7 +57,7 @@ MEASURED = (
     "tests/cli/test_snapshots.py",
 )
 """Everything that computes in numpy's floats, or compares with a recorded text."""
-FILES = ("tests/methodfile", "tests/docs", "tests/cli")
+FILES = ("tests/methodfile", "tests/docs", "tests/cli", "tests/integration")
 """Everything that reads or writes YAML."""
 PACKAGED = (
     "tests/docs",

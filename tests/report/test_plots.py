@@ -21,11 +21,12 @@ from garkcli.convergence.result import Convergence
 from garkcli.errors import UsageProblem
 from garkcli.families.registry import diagonal_method
 from garkcli.page.asciiplot import SEVERAL, terminal_curves, terminal_plot
+from garkcli.plots import saving
 from garkcli.plots.convergence_plot import (
     comparison_figure,
     convergence_figure,
 )
-from garkcli.plots.saving import save
+from garkcli.plots.saving import check_suffix, save
 from garkcli.problems.oscillator import Oscillator
 from garkcli.tableau.forms import gark
 
@@ -401,3 +402,13 @@ def test_a_figure_of_one_method_names_it() -> None:
     assert last == "Oscillator to t = 4: observed order 4.00"
     assert names[0].startswith("$the$ method")
     assert max(map(len, names)) <= 60
+
+
+def test_who_has_no_matplotlib_is_told(
+    monkeypatch: pytest.MonkeyPatch, tmp_path: Path
+) -> None:
+    """Before the work, with what to install."""
+    check_suffix(tmp_path / "a.png")
+    monkeypatch.setattr(saving, "find_spec", lambda _: None)
+    with pytest.raises(UsageProblem, match="a figure needs matplotlib"):
+        check_suffix(tmp_path / "a.png")
