@@ -7,7 +7,7 @@ from __future__ import annotations
 
 from collections.abc import Iterable, Iterator, Sequence
 from html import escape
-from typing import TYPE_CHECKING
+from typing import TYPE_CHECKING, TypeAlias
 
 from garkcli.check.explained import witness_text
 from garkcli.page.cells import cell_text, remark
@@ -17,12 +17,15 @@ from garkcli.page.tableau_latex import displays, parts_of
 if TYPE_CHECKING:
     from garkcli.check.analysis import Analysis, AnyOrder
     from garkcli.check.outcome import Claim, Outcome
+    from garkcli.errors import Fault
     from garkcli.tableau.garkmethod import GarkMethod
     from garkcli.tableau.pointwise import Cell, Entries
 
 MAX_COLUMNS = 24
 """Most stages side by side; a larger tableau is named, not shown."""
 _LINE = "1px solid"
+Fact: TypeAlias = tuple[str, str]
+"""A label and a text."""
 
 
 def method_latex(method: GarkMethod) -> str | None:
@@ -55,45 +58,66 @@ def _rows(
     method: GarkMethod, stages: Sequence[int], colours: Sequence[int]
 ) -> Iterator[str]:
     """The stages of each colour of ``stages``, then the rows of weights."""
-    tableau, entries = method.tableau, method.entries
+    entries = method.entries
     if len(colours) > 1:
-        heads = ['<th scope="col"></th>']
-        for m in colours:
-            name = _text(tableau.colours[m].name)
-            span = len(entries.b[m])
-            heads.append(f'<th scope="col" colspan="{span}">{name}</th>')
-        yield f"<tr>{''.join(heads)}</tr>"
+        yield _heads(method, colours)
     for l in stages:
         for i, node in enumerate(entries.c[l]):
-            groups = []
-            for m in colours:
-                block = entries.A[l][m]
-                blank = [""] * len(entries.b[m])
-                groups.append(
-                    blank if block is None else _cells(block[i], entries)
-                )
-            yield _row(_cells([node], entries)[0], groups, is_first=i == 0)
+            head = cell_text(node, entries.digits)
+            groups = [_stage(entries, l, i, m) for m in colours]
+            yield _row(head, groups, is_first=i == 0)
     feet = [entries.b]
     if entries.embedded is not None:
         feet.append(entries.embedded)
-    for number, weights in enumerate(feet):
+    is_first = True
+    for weights in feet:
         groups = [_cells(weights[m], entries) for m in colours]
-        yield _row("", groups, is_first=number == 0)
+        yield _row("", groups, is_first)
+        is_first = False
+
+
+def _heads(method: GarkMethod, colours: Sequence[int]) -> str:
+    """The names of the colours over their columns."""
+    heads = ['<th scope="col"></th>']
+    for m in colours:
+        name = _text(method.tableau.colours[m].name)
+        span = len(method.entries.b[m])
+        attributes = f'scope="col" colspan="{span}"'
+        heads.append(f"<th {attributes}>{name}</th>")
+    joined = "".join(heads)
+    return f"<tr>{joined}</tr>"
+
+
+def _stage(entries: Entries, l: int, i: int, m: int) -> list[str]:
+    """Row i of the block l, m; blanks where there is none."""
+    block = entries.A[l][m]
+    if block is None:
+        return [""] * len(entries.b[m])
+    return _cells(block[i], entries)
 
 
 def _cells(row: Iterable[Cell], entries: Entries) -> list[str]:
-    return [cell_text(x, entries.digits) for x in row]
+    digits = entries.digits
+    return [cell_text(x, digits) for x in row]
 
 
 def _row(head: str, groups: Sequence[Sequence[str]], is_first: bool) -> str:
     """A row of the tableau: a line to the left of each block, one above where it is the first."""
-    above = f"border-top:{_LINE};" if is_first else ""
-    cells = [f'<td style="{above}">{_text(head)}</td>']
+    above = ""
+    if is_first:
+        above = f"border-top:{_LINE};"
+    cells = [_cell(head, above)]
     for group in groups:
-        for j, text in enumerate(group):
-            left = f"border-left:{_LINE};" if j == 0 else ""
-            cells.append(f'<td style="{above}{left}">{_text(text)}</td>')
-    return f"<tr>{''.join(cells)}</tr>"
+        style = f"{above}border-left:{_LINE};"
+        for text in group:
+            cells.append(_cell(text, style))
+            style = above
+    joined = "".join(cells)
+    return f"<tr>{joined}</tr>"
+
+
+def _cell(text: str, style: str) -> str:
+    return f'<td style="{style}">{_text(text)}</td>'
 
 
 def analysis_html(found: Analysis) -> str:
@@ -103,28 +127,31 @@ def analysis_html(found: Analysis) -> str:
 
 def outcome_html(outcome: Outcome) -> str:
     """What became of a file: what is found, and its claims or its faults."""
-    rows: list[str] = []
+    facts: list[Fact] = []
     if outcome.analysis is not None:
-        rows += map(_pair, _facts(outcome.analysis))
-    if outcome.every is not None:
-        parameters = ", ".join(outcome.every.parameters)
-        rows.append(
-            _pair(
-                (
-                    f"order for every {parameters}",
-                    str(outcome.every.order.order),
-                )
-            )
-        )
-    rows += map(_pair, map(_claim, outcome.claims))
-    for fault in outcome.faults:
-        place = f"line {fault.line}" if fault.line else "fault"
-        said = [x for x in (fault.message, fault.help) if x]
-        rows.append(_pair((place, "; ".join(said))))
-    return _table(outcome.name, rows)
+        facts += _facts(outcome.analysis)
+    every = outcome.every
+    if every is not None:
+        parameters = ", ".join(every.parameters)
+        order = str(every.order.order)
+        facts.append((f"order for every {parameters}", order))
+    facts += map(_claim, outcome.claims)
+    facts += map(_fault, outcome.faults)
+    return _table(outcome.name, map(_pair, facts))
 
 
-def _claim(claim: Claim) -> tuple[str, str]:
+def _fault(fault: Fault) -> Fact:
+    """Where a file is at fault, what is wrong, and the cure."""
+    place = "fault"
+    if fault.line:
+        place = f"line {fault.line}"
+    text = fault.message
+    if fault.help:
+        text += f"; {fault.help}"
+    return place, text
+
+
+def _claim(claim: Claim) -> Fact:
     """A claim, and whether it holds."""
     label = f"claim {claim.claim}: {claim.expected}"
     if claim.holds:
@@ -133,7 +160,7 @@ def _claim(claim: Claim) -> tuple[str, str]:
     return label, f"fails: found {claim.found}{why}"
 
 
-def _facts(found: Analysis) -> Iterator[tuple[str, str]]:
+def _facts(found: Analysis) -> Iterator[Fact]:
     """What ``gark check`` says first, label and text."""
     many = found.tableau.size > 1
     yield "order", _order(found.order, many)
@@ -158,7 +185,7 @@ def _order(order: AnyOrder, many: bool) -> str:
     return f"{order.order}; {witness_text(order.witness, many)}"
 
 
-def _pair(fact: tuple[str, str]) -> str:
+def _pair(fact: Fact) -> str:
     label, text = map(_text, fact)
     left = "text-align:left"
     return (
