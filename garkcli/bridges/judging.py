@@ -2,10 +2,12 @@
 
 from __future__ import annotations
 
+from collections.abc import Mapping
 from dataclasses import dataclass
 
 from flint import arb, fmpq
 
+from garkcli.exact.field import Number
 from garkcli.methodfile.build import MethodFile
 from garkcli.methodfile.printed import approximant_units
 from garkcli.order.certificate import (
@@ -84,7 +86,7 @@ def judged(
         return Judged(exact.order, is_limited=True)
     if tolerance:
         return _within(find_order_within(tableau, tolerance, reach), exact)
-    units = approximant_units(method.printed)
+    units = _coarsest(approximant_units(method.printed))
     largest = max(units.values(), default=fmpq(0))
     if not largest:
         return _exactly(exact)
@@ -93,6 +95,15 @@ def judged(
     if found.order == exact.order and found.doubt is None:
         return _exactly(exact)
     return _within(found, exact)
+
+
+def _coarsest(units: Mapping[Number, fmpq]) -> dict[Number, fmpq]:
+    """The last places of rounded decimals, all as coarse as the coarsest.
+
+    A product of two decimals of 15 digits has 30, and is no better than they are.
+    """
+    largest = max(units.values(), default=fmpq(0))
+    return {x: largest if unit else unit for x, unit in units.items()}
 
 
 class _Effects:

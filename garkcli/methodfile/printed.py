@@ -25,16 +25,27 @@ FEWEST_DIGITS = 6
 """A number with fewer digits is meant exactly."""
 SHORTENED = 4
 """So many digits fewer has the denominator of a decimal in lowest terms, at most."""
+MANY_DIGITS = 14
+"""In the source of a solver a decimal of so many digits is a rounded one, however long others are:
+products of two that are written out have twice as many.
+"""
 LONG_DENOMINATOR = 10**9
 """Fractions with a smaller denominator are no approximants."""
 
 
-def printed_units(printed: Printed) -> dict[Number, fmpq]:
+def printed_units(
+    printed: Printed, many: int | None = None
+) -> dict[Number, fmpq]:
     """By how much each value may be off if its last digits are rounded, one unit of them.
 
     A decimal is taken for rounded when it has more than half as many digits as the longest one of
     the file: beside 0.7886751345948129 the number 0.25 is exact. A long numerator or denominator
     may be off by one. Units are rounded up, by less than a tenth.
+
+    Args:
+        printed: coefficients as they are written, with their values.
+        many: a decimal of so many digits is taken for rounded whatever the longest has; None for no
+            such number.
 
     >>> from garkcli.exact.expression import parse
     >>> units = printed_units([(parse(x), fmpq(1, 2)) for x in ("0.50000000", "1/2")])
@@ -45,7 +56,8 @@ def printed_units(printed: Printed) -> dict[Number, fmpq]:
     for expression, _ in printed:
         for literal in _literals(expression):
             longest = max(longest, _digits(literal))
-    fewest = max(FEWEST_DIGITS, longest // 2 + 1)
+    half = longest // 2 + 1
+    fewest = max(FEWEST_DIGITS, half if many is None else min(half, many))
     units: dict[Number, fmpq] = {}
     with ctx.workprec(4 * longest + 128):
         for expression, value in printed:
@@ -71,7 +83,8 @@ def approximant_units(printed: Printed) -> dict[Number, fmpq]:
     >>> units[values[0]], 0 < units[values[1]] < fmpq(1, 10**22)
     (0, True)
     """
-    units = printed_units([pair for pair in printed if not _is_whole(pair[0])])
+    decimals = [pair for pair in printed if not _is_whole(pair[0])]
+    units = printed_units(decimals, MANY_DIGITS)
     for expression, value in printed:
         if _is_whole(expression):
             units.setdefault(value, _approximation(value))

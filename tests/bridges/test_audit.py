@@ -296,6 +296,24 @@ def test_every_planted_error_is_found(name: str, tmp_path: Path) -> None:
     assert summary["wrong"] == 1
 
 
+def test_products_are_no_better_than_their_factors(tmp_path: Path) -> None:
+    """Weights of 15 digits beside products of them that are written out in 30: a sum that is off by
+    the rounding of the former is no error, one that is off by more is.
+    """
+    table = (
+        "double A[4] = {0.0, 0.0, 0.577350269189626, 0.0};\n"
+        "double c[2] = {0.0, 0.577350269189626};\n"
+        "double b[2] = {0.133974596215560894837234396224,"
+        " 0.866025403784440};\nint order = 2;\n"
+    )
+    path = tmp_path / "product.c"
+    path.write_text(table, encoding="utf-8")
+    run = gark("audit", str(tmp_path))
+    assert (run.code, "none wrong" in run.out) == (0, True)
+    path.write_text(table.replace("0.8660254", "0.8660264"), encoding="utf-8")
+    assert gark("audit", str(tmp_path)).code == 1
+
+
 def test_an_order_that_is_higher_is_a_warning(tmp_path: Path) -> None:
     """It is told, and fails nothing: a code may well declare less than a method has."""
     text = (SOURCES / "kutta.m").read_text(encoding="utf-8")
