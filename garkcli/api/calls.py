@@ -69,7 +69,7 @@ def find_stability(method: AnyMethod, tolerance: object = None) -> Stability:
         tolerance: the rounding of the coefficients; that of the method where it is not given, 0 for
             none.
 
-    >>> find_stability(as_method("gauss3")).linear[0].a_stable
+    >>> find_stability(as_method("gauss-3")).linear[0].a_stable
     True
     """
     near = tolerance_of(method, tolerance)

@@ -86,7 +86,7 @@ def modified_equation(tableau: Tableau, order: int) -> ModifiedEquation:
     >>> midpoint = loads("methods: [{family: gauss, stages: 1}]").tableau
     >>> equation = modified_equation(midpoint, 3)
     >>> [(str(u), str(b)) for u, b in equation.terms(3)]
-    [('Tree(0, [Tree(0), Tree(0)])', '-1/12'), ('Tree(0, [Tree(0, [Tree(0)])])', '1/12')]
+    [('[[]_1,[]_1]_1', '-1/12'), ('[[[]_1]_1]_1', '1/12')]
     """
     forest = Forest.seen_by(tableau, order)
     weights = elementary_weights(tableau, forest)
