@@ -15,6 +15,8 @@ from tests.oracles.brute import Trees, Weights, brute_order, density
 ENTRIES = entries()
 EXACT = [name for name, entry in ENTRIES.items() if entry["exact"]]
 ROUNDED = [name for name, entry in ENTRIES.items() if not entry["exact"]]
+LARGE = {"Feagin12", "sprk_Sofroniou_10_36"}
+"""Methods of many stages whose order is held against the same table by the test of all claims."""
 
 
 def test_the_catalogue_is_whole() -> None:
@@ -66,7 +68,7 @@ def test_exact_methods_have_their_verified_order(name: str) -> None:
     assert not found.is_lower_bound
 
 
-@pytest.mark.parametrize("name", ROUNDED)
+@pytest.mark.parametrize("name", [x for x in ROUNDED if x not in LARGE])
 def test_rounded_methods_have_their_verified_order_within_their_rounding(
     name: str,
 ) -> None:

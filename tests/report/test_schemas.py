@@ -233,7 +233,9 @@ def test_what_is_wrong_is_refused(command: str) -> None:
     """At each place of a report: a field that nobody described, a value of another type; and a
     report of another command.
     """
-    report = max(reports(command), key=lambda x: len(objects(x)))
+    report: Any = max(reports(command), key=lambda x: len(objects(x)))
+    if isinstance(report, list):
+        report = report[:1]  # the others are the same objects again
     for path in objects(report):
         copy, here = changed(report, path)
         if {"invariant_errors", "values", "parameters"} & {*path}:
