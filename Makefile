@@ -35,7 +35,7 @@ layers: $(READY)
 pytest: $(READY)
 	$(BIN)/python -m pytest
 
-portable: ## the suite under other circumstances, see docs/portability.md; ONLY=kernel,floors
+portable: ## the suite under other circumstances, see docs/contributing/portability.md; ONLY=kernel,floors
 	$(PYTHON) -m tests.portable.run --only "$(ONLY)"
 
 bridges: $(READY) ## exported methods in the codes they are for, see docs/bridges.md; ONLY=scipy,petsc
@@ -45,7 +45,7 @@ bench: $(READY) ## benchmarks, as ratios within one run
 	$(BIN)/python -m pip install --quiet --disable-pip-version-check --editable ".[bench]"
 	$(BIN)/python -m pytest tests/benchmarks -s --override-ini addopts="-q --import-mode=importlib" --override-ini norecursedirs=".*"
 
-fuzz: $(READY) ## some minutes of fuzzing, see docs/fuzzing.md
+fuzz: $(READY) ## some minutes of fuzzing, see docs/contributing/fuzzing.md
 	$(BIN)/python -m pip install --quiet --disable-pip-version-check --editable ".[fuzz]"
 	GARK_RANDOM_EXAMPLES=1 GARK_FUZZ_EXAMPLES=3000 $(BIN)/python -m pytest tests/fuzz
 	-$(BIN)/python tests/fuzz/long_run.py --hostile

@@ -2,12 +2,15 @@
 
 The pages are plain Markdown that reads well where the code is hosted, so
 they have no directives. What Sphinx needs besides, the contents in the
-margin, is made here from the headings and lists of `index.md`.
+margin, is made here from the headings and lists of `index.md`; and
+`CONTRIBUTING.md`, which stands outside of this folder, is the first page
+for contributors.
 """
 
 from __future__ import annotations
 
 import re
+from pathlib import Path
 from typing import TYPE_CHECKING
 
 from garkcli.version import __version__
@@ -43,16 +46,26 @@ def contents(index: str) -> str:
 
 def _contents_of_part(part: str) -> str:
     caption = part.partition("\n")[0]
-    pages = re.findall(r"\]\(([\w-]+)\.md\)", part)
+    pages = re.findall(r"\]\(([\w/-]+)\.md\)", part)
     head = ["```{toctree}", ":hidden:", f":caption: {caption}", ""]
     return "\n".join([*head, *pages, "```", ""])
 
 
-def _add_contents(_: Sphinx, page: str, source: list[str]) -> None:
+def contributing() -> str:
+    """CONTRIBUTING.md with its links as seen from `contributing/`."""
+    root = Path(__file__).resolve().parents[1]
+    text = (root / "CONTRIBUTING.md").read_text(encoding="utf-8")
+    from_here = text.replace("](docs/contributing/", "](")
+    return from_here.replace("](docs/", "](../")
+
+
+def _complete(_: Sphinx, page: str, source: list[str]) -> None:
     if page == "index":
         source[0] += "\n" + contents(source[0])
+    elif page == "contributing/index":
+        source[0] = contributing()
 
 
 def setup(app: Sphinx) -> None:
-    """Add the tables of contents to the index when it is read."""
-    app.connect("source-read", _add_contents)
+    """Complete pages when they are read."""
+    app.connect("source-read", _complete)

@@ -11,7 +11,7 @@ from hypothesis import strategies as st
 os.environ.pop("PYTHONDONTWRITEBYTECODE", None)
 sys.dont_write_bytecode = False
 
-# the same examples every time: what passes here passes there; see docs/fuzzing.md
+# the same examples every time: what passes here passes there; see docs/contributing/fuzzing.md
 IS_RANDOM = os.environ.get("GARK_RANDOM_EXAMPLES") == "1"
 settings.register_profile(
     "gark", deadline=None, max_examples=25, derandomize=not IS_RANDOM

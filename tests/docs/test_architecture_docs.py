@@ -1,4 +1,4 @@
-"""docs/architecture.md names every file of the package in its room, and no other."""
+"""docs/contributing/architecture.md names every file of the package in its room, and no other."""
 
 from __future__ import annotations
 
@@ -8,7 +8,9 @@ from pathlib import Path
 import pytest
 
 ROOT = Path(__file__).resolve().parents[2]
-TEXT = (ROOT / "docs" / "architecture.md").read_text(encoding="utf-8")
+TEXT = (ROOT / "docs" / "contributing" / "architecture.md").read_text(
+    encoding="utf-8"
+)
 ROOMS = sorted(
     path.parent.name for path in (ROOT / "garkcli").glob("*/__init__.py")
 )

@@ -1,4 +1,4 @@
-"""The links between the pages: README.md, CONTRIBUTING.md and docs/*.md."""
+"""The links between the pages: README.md, CONTRIBUTING.md and those of docs."""
 
 from __future__ import annotations
 
@@ -13,19 +13,28 @@ PACKAGE_PAGE = ROOT / "docs" / "package-page.md"
 PAGES = [
     README,
     ROOT / "CONTRIBUTING.md",
-    *sorted((ROOT / "docs").glob("*.md")),
+    *sorted((ROOT / "docs").rglob("*.md")),
 ]
 
 
-def prose(page: Path) -> str:
+def without_code(text: str) -> str:
     """The text of a page without its blocks of code."""
-    text = page.read_text(encoding="utf-8")
     return re.sub(r"^```.*?^```$", "", text, flags=re.DOTALL | re.MULTILINE)
 
 
+def prose(page: Path) -> str:
+    """What a page says."""
+    return without_code(page.read_text(encoding="utf-8"))
+
+
 def links(page: Path) -> list[str]:
+    """The targets of the links of a page."""
+    return links_of(page.read_text(encoding="utf-8"))
+
+
+def links_of(page: str) -> list[str]:
     """The targets of links and pictures, those to other machines left out."""
-    text = re.sub(r"`[^`\n]*`(?!\])", "", prose(page))
+    text = re.sub(r"`[^`\n]*`(?!\])", "", without_code(page))
     targets = re.findall(r"\]\(([^)\s]+)\)", text)
     return [target for target in targets if "://" not in target]
 
@@ -51,7 +60,9 @@ def missing(page: Path) -> list[str]:
     return found
 
 
-@pytest.mark.parametrize("page", PAGES, ids=lambda page: page.name)
+@pytest.mark.parametrize(
+    "page", PAGES, ids=lambda page: page.relative_to(ROOT).as_posix()
+)
 def test_every_link_leads_somewhere(page: Path) -> None:
     """A file that is there, and a heading that it has."""
     assert missing(page) == []

@@ -114,7 +114,7 @@ def test_every_command_of_the_documentation_exists() -> None:
 
     texts = [
         path.read_text(encoding="utf-8")
-        for path in (README, *sorted((ROOT / "docs").glob("*.md")))
+        for path in (README, *sorted((ROOT / "docs").rglob("*.md")))
     ]
     named = {
         word for text in texts for word in re.findall(r"`gark ([a-z]+)", text)

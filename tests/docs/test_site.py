@@ -6,7 +6,7 @@ import re
 import runpy
 from pathlib import Path
 
-from tests.docs.test_links import links
+from tests.docs.test_links import links, links_of
 
 DOCS = Path(__file__).resolve().parents[2] / "docs"
 INDEX = (DOCS / "index.md").read_text(encoding="utf-8")
@@ -16,8 +16,8 @@ ELSEWHERE = {"index.md", "package-page.md"}
 
 def pages() -> list[str]:
     """What the index has to name."""
-    found = {page.name for page in DOCS.glob("*.md")} - ELSEWHERE
-    return sorted(found)
+    found = {x.relative_to(DOCS).as_posix() for x in DOCS.rglob("*.md")}
+    return sorted(found - ELSEWHERE)
 
 
 def test_the_index_has_every_page_once() -> None:
@@ -31,5 +31,16 @@ def test_the_margin_has_what_the_index_has() -> None:
     captions = re.findall(r"^:caption: (.+)$", made, re.MULTILINE)
     assert captions == re.findall(r"^## (.+)$", INDEX, re.MULTILINE)
     assert made.count("```{toctree}") == len(captions) >= 5
-    named = re.findall(r"^([\w-]+)$", made, re.MULTILINE)
+    named = re.findall(r"^([\w/-]+)$", made, re.MULTILINE)
     assert [f"{name}.md" for name in named] == links(DOCS / "index.md")
+
+
+def test_the_margin_leads_to_contributing() -> None:
+    """Its page on the site is CONTRIBUTING.md, whose links lead somewhere from there."""
+    made = runpy.run_path(str(DOCS / "conf.py"))["contributing"]()
+    assert made.startswith("# Contributing\n")
+    folder = DOCS / "contributing"
+    found = links_of(made)
+    assert len(found) >= 4
+    for link in found:
+        assert (folder / link.partition("#")[0]).is_file(), link

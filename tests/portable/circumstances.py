@@ -1,4 +1,4 @@
-"""What the suite is run under by ``make portable``: see docs/portability.md."""
+"""What the suite is run under by ``make portable``: see docs/contributing/portability.md."""
 
 from __future__ import annotations
 
