@@ -20,6 +20,17 @@ FOLDERS = ("methods", "problems", "tests/examples", "tools")
 FILES = {"yaml", "c", "python", "toml"}
 """The languages of blocks that are files."""
 
+PROGRAMS = ("gark", "python3", "sed", "cp", "cat", "grep", "head", "cc")
+"""The programs that sessions run."""
+
+NOT_RUN = {
+    "make": "it installs, or runs what runs this",
+}
+"""Commands that stand in sessions and are left out, by their first word, with the reason."""
+
+MEANT_FOR_A_SHELL = {"|", ">", ">>", "<", "&&", ";", "&"}
+"""Words that a shell takes for itself: these commands have none."""
+
 
 @dataclass(frozen=True)
 class Step:
@@ -41,7 +52,7 @@ def steps(page: Path) -> Iterator[Step]:
 
     A file is a block of YAML, C, Python or TOML after a line that ends with its name:
     `` `name.yaml`: ``. Commands are the lines of console blocks that begin with a dollar sign;
-    those of make are left out.
+    those of ``NOT_RUN`` are left out.
     """
     text = page.read_text(encoding="utf-8")
     pattern = re.compile(
@@ -55,7 +66,7 @@ def steps(page: Path) -> Iterator[Step]:
             for part in re.split(r"^\$ ", block, flags=re.MULTILINE)[1:]:
                 command, _, shown = part.partition("\n")
                 command = command.partition("  #")[0].strip()
-                if not command.startswith("make "):
+                if command.split()[0] not in NOT_RUN:
                     yield Step(command, shown.rstrip("\n"))
 
 
@@ -101,6 +112,7 @@ def run(command: str, folder: Path, as_process: bool) -> tuple[int, list[str]]:
     imports nothing twice.
     """
     words = shlex.split(command)
+    assert not MEANT_FOR_A_SHELL & set(words), command
     if words[0] == "gark" and not as_process:
         done = gark(*words[1:], cwd=folder)
         return int(str(done.code)), (done.err + done.out).splitlines()
