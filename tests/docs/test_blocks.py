@@ -10,6 +10,7 @@ from collections.abc import Callable
 from pathlib import Path
 from typing import Any
 
+import click
 import pytest
 import yaml
 
@@ -19,14 +20,13 @@ from garkcli.methodfile.description import FORMS
 from garkcli.methodfile.family import loads_family
 from garkcli.methodfile.load import loads
 from garkcli.methodfile.problem import loads_problem
-from garkcli.sweep.load import load_plan
+from garkcli.methodfile.shelves import GROUP
 from tests.cli.harness import ROOT
 from tests.docs.blocks import Block, blocks, pages
 from tests.docs.transcripts import NOT_RUN, PROGRAMS, steps
 
 TESTED = {
-    ("README.md", "python"): "test_python_docs.py",
-    ("docs/architecture.md", "text"): "test_architecture_docs.py",
+    ("docs/contributing/architecture.md", "text"): "test_architecture_docs.py",
     ("docs/ci.md", "python"): "test_ci_docs.py",
     ("docs/ci.md", "sh"): "test_ci_docs.py",
     ("docs/command-line.md", "text"): "test_command_line_docs.py",
@@ -35,7 +35,7 @@ TESTED = {
 }
 """Blocks that a test of their page compares with what the program does, by page and language."""
 
-ANY_METHOD = "A: [[]]\nb: [1]\n"
+ANY_METHOD = "A: [[0]]\nb: [1]\n"
 TWO_METHODS = """\
 methods:
   - {family: gauss, stages: 2}
@@ -104,7 +104,9 @@ def check_steps(part: Any, block: Block) -> None:
     elif isinstance(part, str) and part.startswith("gark "):
         line = part.partition(">>")[0]
         _, name, *arguments = shlex.split(line, comments=True)
-        gark.commands[name].make_context(name, arguments)
+        command = gark.get_command(click.Context(gark), name)
+        assert command is not None, f"{block.where}: {line}"
+        command.make_context(name, arguments)
 
 
 def check_method(block: Block, names: set[str]) -> None:
@@ -113,7 +115,9 @@ def check_method(block: Block, names: set[str]) -> None:
     if names & {"transfer"} and "methods" not in names:
         text += "parameters: {tau: 1/2}\n" + TWO_METHODS
         text += THIRD if "1,3" in text else ""
-    elif not names & set(FORMS):
+    elif "methods" in names and "transfer" not in names:
+        text += "transfer: collocation\n"
+    elif not names & {"A", "unknown", *FORMS}:
         text += ANY_METHOD
     if {"unknown", "design"} & names or '"?"' in text:
         assert loads_family(text).tableau.size, block.where
@@ -132,8 +136,7 @@ def check_toml(block: Block) -> None:
         assert all(f'"{x}"' in plugin for x in options if x != "testpaths")
     elif "project" in data:
         (group,) = data["project"]["entry-points"]
-        names = (ROOT / "garkcli/catalogue").glob("*.py")
-        assert any(f'"{group}"' in x.read_text("utf-8") for x in names)
+        assert group == GROUP, block.where
     else:
         Path("pyproject.toml").write_text(block.text, encoding="utf-8")
         assert find_project().file == "pyproject.toml", block.where

@@ -8,13 +8,16 @@ import shlex
 import shutil
 import xml.etree.ElementTree as ET
 from pathlib import Path
+from types import SimpleNamespace
 from typing import Any
 
 import pytest
 import yaml
 
+from garkcli import load
 from garkcli.methodfile.load import loads
 from garkcli.report.check_formats import FORMATS
+from garkcli.tableau.method import Method
 from tests.cli.harness import gark
 
 ROOT = Path(__file__).resolve().parents[2]
@@ -127,6 +130,30 @@ def test_a_method_file_loads(text: str, tmp_path: Path) -> None:
     assert loads(text).claims
     (tmp_path / "m.gark.yaml").write_text(text)
     assert gark("check", "m.gark.yaml", cwd=tmp_path).code == 0
+
+
+def test_a_test_of_ones_own_passes() -> None:
+    """The tests that the page shows pass with a solver whose table is right, and one of them fails
+    with one that is wrong.
+    """
+    (text,) = [text for language, text in BLOCKS if language == "python"]
+
+    def loaded(name: str) -> Method:
+        in_a_project = {"methods/dirk.gark.yaml": "bogacki-shampine-3"}
+        return load(in_a_project.get(name, name))
+
+    def passes(b: list[float]) -> None:
+        table = SimpleNamespace(A=[[0, 0], [2 / 3, 0]], b=b, c=[0, 2 / 3])
+        names: dict[str, Any] = {"solver": table}
+        exec(text, names)
+        tests = [names[x] for x in names if x.startswith("test_")]
+        assert tests
+        for test in tests:
+            test(loaded)
+
+    passes([1 / 4, 3 / 4])
+    with pytest.raises(AssertionError):
+        passes([1 / 2, 1 / 2])
 
 
 def test_every_format_has_its_row() -> None:

@@ -45,7 +45,6 @@ def test_lists_are_in_the_files_that_are_named() -> None:
         ("garkcli/glossary/terms/orders.py", "TERMS"),
         ("garkcli/bridges/targets/mfem.py", "BRIDGES"),
         ("garkcli/bridges/readers/julia.py", "READER"),
-        ("tests/docs/test_transcripts.py", "PAGES"),
     ):
         assert f"`{name}`" in TEXT
         text = (ROOT / folder).read_text(encoding="utf-8")

@@ -5,6 +5,7 @@ from __future__ import annotations
 import json
 import re
 from collections.abc import Iterator
+from pathlib import Path
 from typing import Any
 
 import pytest
@@ -145,7 +146,7 @@ def test_every_key_is_on_the_page(name: str) -> None:
 def test_the_example_of_a_check_is_real() -> None:
     """Each pair of key and value that it shows is in the report that it is said to be from."""
     found = json.loads(gark("check", METHOD, "--format", "json").out)
-    (example,) = re.findall(r"```json\n(.*?)```", PAGE, re.DOTALL)
+    example, _ = re.findall(r"```json\n(.*?)```", PAGE, re.DOTALL)
     whole = example.replace("{…}", "null").replace(", …", "")
     shown = json.loads(whole)
     assert list(shown) == list(found)
@@ -164,6 +165,20 @@ def test_the_example_of_a_check_is_real() -> None:
     }
     for key in set(method) - shortened - {"claims"}:
         assert method[key] == real[key], key
+
+
+def test_the_example_of_an_export_is_real(tmp_path: Path) -> None:
+    """It is what the method with these coefficients is written as, but for texts left out."""
+    _, example = re.findall(r"```json\n(.*?)```", PAGE, re.DOTALL)
+    shown = json.loads(example)
+    fields = {key: shown[key] for key in ("A", "b", "c", "embedded")}
+    (tmp_path / "m.yaml").write_text(json.dumps(fields), encoding="utf-8")
+    found = json.loads(
+        gark("export", "m.yaml", "--to", "json", cwd=tmp_path).out
+    )
+    left_out = {key for key in shown if shown[key] == "…"}
+    assert left_out == {"name", "reference"}
+    assert {**found, "name": "…", "reference": "…"} == shown
 
 
 def test_what_a_failing_check_adds_is_on_the_page() -> None:

@@ -5,7 +5,6 @@ run.
 from __future__ import annotations
 
 import re
-import shlex
 from pathlib import Path
 
 import pytest
@@ -19,7 +18,6 @@ from garkcli.methodfile.problem_text import (
     MAX_TERMS,
     MAX_VARIABLES,
 )
-from tests.cli.harness import gark
 
 ROOT = Path(__file__).resolve().parents[2]
 PAGE = ROOT / "docs" / "problem-file.md"
@@ -41,17 +39,6 @@ def test_the_example_is_the_built_in_problem() -> None:
     assert own.terms == built_in.terms
     assert own.initial == built_in.initial
     assert own.invariants == built_in.invariants
-
-
-def test_commands_run(monkeypatch: pytest.MonkeyPatch) -> None:
-    """The command on the page ends with agreement."""
-    monkeypatch.chdir(ROOT)
-    commands = re.findall(r"^    gark (.*)$", TEXT, re.MULTILINE)
-    assert commands
-    for command in commands:
-        run = gark(*shlex.split(command), "--steps", "1/16,1/32,1/64")
-        assert run.code == 0, run.err
-        assert "they agree" in run.out
 
 
 def test_words_are_those_of_the_program() -> None:
