@@ -9,14 +9,15 @@ from dataclasses import dataclass
 from typing import TYPE_CHECKING, Any, TypeAlias
 
 import numpy as np
-from matplotlib.axes import Axes
-from matplotlib.legend import Legend
 
 from garkcli.exact.display import to_float
 from garkcli.exact.polynomial import Polynomial
 from garkcli.stability.linear import StabilityFunction
 
 if TYPE_CHECKING:
+    from matplotlib.axes import Axes
+    from matplotlib.legend import Legend
+
     from garkcli.arrays import Array, Complexes, Floats
 
 COLOURS = ("#24558f", "#a02417", "#3f7f3f", "#7a4f9a", "#8a6d1a", "#30777a")

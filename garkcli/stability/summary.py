@@ -113,7 +113,10 @@ def stability(
     True
     """
     linear = _linear(tableau)
-    oscillator = _oscillator(tableau, problem)
+    if problem is None:
+        oscillator = usual_oscillator(tableau)
+    else:
+        oscillator = oscillator_stability(tableau, problem)
     algebraic = algebraic_stability(tableau)
     colours = None
     if linear and tableau.size > 1:
@@ -138,7 +141,7 @@ def stability_of_rounded(tableau: Tableau, tolerance: fmpq) -> Stability:
 
     order = find_order_within(tableau, tolerance).order
     found = []
-    for name, shares in _directions(tableau):
+    for name, shares in directions(tableau):
         decided = stability_within(tableau, shares, tolerance, order)
         R = stability_function(tableau, shares)
         one = LinearStability(
@@ -167,13 +170,13 @@ def stability_of_rounded(tableau: Tableau, tolerance: fmpq) -> Stability:
 
 def _linear(tableau: Tableau) -> tuple[LinearStability, ...]:
     found = []
-    for name, shares in _directions(tableau):
+    for name, shares in directions(tableau):
         one = linear_stability(tableau, name, shares)
         found.append(one)
     return tuple(found)
 
 
-def _directions(tableau: Tableau) -> list[tuple[str, list[Number]]]:
+def directions(tableau: Tableau) -> list[tuple[str, list[Number]]]:
     """The directions of (λ_1, …, λ_N) that are looked at, with their names."""
     blocks = starmap(tableau.block, product(range(tableau.size), repeat=2))
     is_complete = all(block is not None for block in blocks)
@@ -207,11 +210,8 @@ def linear_stability(
     )
 
 
-def _oscillator(
-    tableau: Tableau, problem: Oscillator | None
-) -> OscillatorStability | None:
-    if problem is not None:
-        return oscillator_stability(tableau, problem)
+def usual_oscillator(tableau: Tableau) -> OscillatorStability | None:
+    """The method on the oscillator in its usual split; None where it has none."""
     unit = fmpq(1)
     try:
         usual = Oscillator.default(terms_of(tableau), unit)

@@ -1,0 +1,147 @@
+"""Errors over step sizes, with the slope that the order asks for."""
+
+from __future__ import annotations
+
+from collections.abc import Iterable
+from math import floor
+from typing import Any
+
+from flint import arb, fmpq
+
+from garkcli.convergence.convergence import converge
+from garkcli.convergence.result import Convergence
+from garkcli.page.asciiplot import log10
+from garkcli.plots.slopes import Curve, place_line
+from garkcli.report.convergence import order_text, predicted
+from garkcli.report.convergence_data import problem_name
+from garkcli.report.costs import curve
+from garkcli.webpage.pictures.drawing import Frame, Point
+from garkcli.webpage.pictures.picture import NotDrawn, Picture
+from garkcli.webpage.pictures.scales import Mark, decade_marks
+from garkcli.webpage.pictures.subject import Subject
+
+_HEIGHT = 240
+_TITLE = "Convergence"
+_MOST_LABELS = 6
+_RADIUS = 3
+
+
+def draw(subject: Subject) -> Picture:
+    """The convergence test of one method, on the problem that sees every tree of it.
+
+    Raises:
+        NotDrawn: it is large, makes no error, or is for no such problem.
+    """
+    if subject.is_large:
+        raise NotDrawn(
+            "The method has too many stages to be tested for a picture; gark converge does it."
+        )
+    method = subject.method
+    result = converge(subject.stepped, tolerance=method.tolerance)
+    errors = _curve(curve(result, "h"), "error")
+    if errors is None or len(errors.xs) < 2:
+        raise NotDrawn("The method makes no error on the problem of the test.")
+    order = result.visible_order
+    energies = _curve(_energy_errors(result), "energy error")
+    curves = [x for x in (errors, energies) if x is not None]
+    reference = place_line([errors], order, curves, is_whole=True)
+    slope = Curve(reference.xs, reference.ys, f"slope {order}", {})
+    frame = _frame([*curves, slope])
+    _draw(frame, 0, errors, has_points=True)
+    _draw(frame, 1, slope, has_points=False)
+    if energies is not None:
+        _draw(frame, 2, energies, has_points=True)
+    description = _description(result)
+    sizes = [row.h for row in result.rows if row.error > 0]
+    up = decade_marks(frame.y.low, frame.y.high, 7)
+    marks = _step_marks(sizes), up
+    svg = frame.finished(_TITLE, description, marks, ("step size h", "error"))
+    note = _note(subject, result)
+    return Picture("convergence", _TITLE, description, svg, note)
+
+
+def _energy_errors(result: Convergence) -> list[tuple[fmpq, arb]]:
+    found = []
+    for row in result.rows:
+        error = row.energy_error
+        if error is not None and error > 0:
+            found.append((row.h, error))
+    return found
+
+
+def _curve(points: Iterable[tuple[Any, Any]], label: str) -> Curve | None:
+    """Points in decimal logarithms; None where there are none."""
+    pairs = [(log10(x), log10(y)) for x, y in points]
+    if not pairs:
+        return None
+    xs, ys = zip(*pairs, strict=True)
+    return Curve(xs, ys, label, {})
+
+
+def _frame(curves: list[Curve]) -> Frame:
+    """With a twentieth of its width, and of its height, around the curves."""
+    horizontal = _ends([x for drawn in curves for x in drawn.xs])
+    vertical = _ends([y for drawn in curves for y in drawn.ys])
+    return Frame.of(horizontal, vertical, _HEIGHT)
+
+
+def _ends(numbers: list[float]) -> Point:
+    low, high = min(numbers), max(numbers)
+    around = 0.05 * (high - low) or 0.5
+    return low - around, high + around
+
+
+def _draw(frame: Frame, k: int, drawn: Curve, has_points: bool) -> None:
+    points = list(zip(drawn.xs, drawn.ys, strict=True))
+    frame.curve(k, points, 1.6)
+    if has_points:
+        frame.dots(k, points, _RADIUS)
+    frame.legend.append((k, drawn.label))
+
+
+def _step_marks(sizes: list[fmpq]) -> list[Mark]:
+    """The step sizes themselves, as many as there is space for."""
+    apart = -(-len(sizes) // _MOST_LABELS)
+    return [Mark(log10(h), _size(h)) for h in sizes[::apart]]
+
+
+def _size(h: fmpq) -> str:
+    exact = str(h)
+    if len(exact) <= 6:
+        return exact
+    exponent = floor(log10(h))
+    digits = float(arb(h) / arb(10) ** exponent)
+    return f"{digits:.2g}e{exponent}"
+
+
+def _description(result: Convergence) -> str:
+    sizes = [row.h for row in result.rows]
+    observed = order_text(result.observed_order)
+    return (
+        f"Error at t = {result.t_end} over the step size, from h = {sizes[0]} to h = {sizes[-1]}, "
+        f"both axes logarithmic: the observed order is {observed}, beside a line of slope "
+        f"{result.visible_order}."
+    )
+
+
+def _note(subject: Subject, result: Convergence) -> str:
+    observed = order_text(result.observed_order)
+    name = problem_name(result)
+    which = (
+        "the symplectic pair" if subject.is_stepped_as_pair else "the method"
+    )
+    text = (
+        f"Numerical: {which} on the problem {name} to t = {result.t_end}. "
+        f"Observed order {observed}, proved order {predicted(result)}: {_VERDICTS[result.verdict]}."
+    )
+    if result.plateau:
+        text += " The last errors are those of the rounded coefficients."
+    return text
+
+
+_VERDICTS = {
+    "agree": "they agree",
+    "disagree": "they do not agree",
+    "undecided": "these steps do not decide whether they agree",
+    "reduced": "steps that do not resolve a stiff problem show a smaller one",
+}

@@ -1,0 +1,145 @@
+"""The energy error over a long time, on an orbit of Kepler's problem."""
+
+from __future__ import annotations
+
+from math import isfinite
+
+from garkcli.longtime.history import InvariantHistory, LongRun
+from garkcli.longtime.longtime import long_run, usual
+from garkcli.page.figures import measured
+from garkcli.problems.builtin import hamiltonian
+from garkcli.problems.oscillator import terms_of
+from garkcli.stepping.fields import with_joined_terms
+from garkcli.stepping.step import StepFailed
+from garkcli.webpage.pictures.drawing import Frame, Point
+from garkcli.webpage.pictures.picture import NotDrawn, Picture
+from garkcli.webpage.pictures.scales import (
+    common_exponent,
+    linear_marks,
+    power_of_ten,
+)
+from garkcli.webpage.pictures.subject import Subject
+
+STEPS = 5000
+_POINTS = 600
+_PROBLEM = "kepler"
+_HEIGHT = 200
+_TITLE = "Energy error over a long time"
+
+
+def draw(subject: Subject) -> Picture:
+    """The energy error of one method.
+
+    Raises:
+        NotDrawn: it is large or not for the problem, a step fails, or nothing is above round-off.
+    """
+    if subject.is_large:
+        raise NotDrawn(
+            "The method has too many stages to be put to work for a picture; gark energy does it."
+        )
+    run = _run(subject)
+    history = run.invariants[0]
+    if history.verdict in ("exact", "round-off"):
+        raise NotDrawn(
+            f"The energy error stays below round-off in {run.steps} steps of {run.step} on "
+            "Kepler's problem."
+        )
+    points = _finite(run, history)
+    frame, exponent = _frame(points)
+    factor = 10.0**-exponent
+    frame.curve(0, [(t, e * factor) for t, e in points], 1.1)
+    start, end = frame.x.low, frame.x.high
+    frame.line((start, 0.0), (end, 0.0), ' stroke-width="0.7"')
+    _draw_drift(frame, history, points, factor)
+    description = _description(run, history)
+    label = "H(t) − H(0)"
+    if exponent:
+        label += f" in {power_of_ten(exponent)}"
+    across = linear_marks(start, end, 6)
+    marks = across, linear_marks(frame.y.low, frame.y.high, 6)
+    svg = frame.finished(_TITLE, description, marks, ("time t", label))
+    note = _note(subject, run, history)
+    return Picture("energy", _TITLE, description, svg, note)
+
+
+def _run(subject: Subject) -> LongRun:
+    tableau = with_joined_terms(subject.stepped)
+    problem = hamiltonian(_PROBLEM, terms_of(tableau))
+    step, _ = usual(problem)
+    try:
+        return long_run(
+            tableau,
+            problem,
+            STEPS * step,
+            step,
+            points=_POINTS,
+            tolerance=subject.method.tolerance,
+        )
+    except StepFailed as error:
+        raise NotDrawn(f"A step fails on Kepler's problem: {error}.") from None
+
+
+def _finite(run: LongRun, history: InvariantHistory) -> list[Point]:
+    pairs = zip(run.times, history.errors, strict=True)
+    return [(t, e) for t, e in pairs if isfinite(e)]
+
+
+def _frame(points: list[Point]) -> tuple[Frame, int]:
+    """The frame, and the power of ten that its numbers are in."""
+    errors = [e for _, e in points]
+    exponent = common_exponent(errors)
+    factor = 10.0**-exponent
+    low = min(0.0, *errors) * factor
+    high = max(0.0, *errors) * factor
+    around = 0.06 * (high - low) or 1.0
+    horizontal = points[0][0], points[-1][0]
+    vertical = low - around, high + around
+    return Frame.of(horizontal, vertical, _HEIGHT), exponent
+
+
+def _draw_drift(
+    frame: Frame,
+    history: InvariantHistory,
+    points: list[Point],
+    factor: float,
+) -> None:
+    """The line of a drift, in the middle of what the errors do besides."""
+    drift = history.drift
+    if drift is None or history.verdict != "drifts":
+        return
+    if history.shape != "line":
+        return
+    left = [e - drift * t for t, e in points]
+    middle = (max(left) + min(left)) / 2
+    times = frame.x.low, frame.x.high
+    line = [(t, (middle + drift * t) * factor) for t in times]
+    frame.curve(1, line, 1.6)
+    names = "energy error", "its drift"
+    frame.legend.extend(enumerate(names))
+
+
+_WORDS = {
+    "bounded": "no drift can be told",
+    "drifts": "it drifts",
+    "unstable": "it blows up, or the orbit escapes",
+    "undecided": "the run is too short to tell whether it drifts",
+}
+
+
+def _description(run: LongRun, history: InvariantHistory) -> str:
+    largest = measured(history.max_error, history.round_off, 2)
+    return (
+        f"Energy error against time, from 0 to {run.end:g}: at most {largest}; "
+        f"{_WORDS[history.verdict]}."
+    )
+
+
+def _note(subject: Subject, run: LongRun, history: InvariantHistory) -> str:
+    which = (
+        "the symplectic pair" if subject.is_stepped_as_pair else "the method"
+    )
+    largest = measured(history.max_error, history.round_off, 2)
+    return (
+        f"Numerical: {which} on Kepler's problem, {run.steps} steps of "
+        f"{run.step}; the largest error is {largest}, and {_WORDS[history.verdict]}."
+    )

@@ -1,0 +1,154 @@
+"""The stability region |R(z)| ≤ 1: of all colours alike, and of each alone with the others at 0."""
+
+from __future__ import annotations
+
+from typing import TYPE_CHECKING
+
+import numpy as np
+
+from garkcli.plots.plane import Window, modulus, window_of
+from garkcli.stability.linear import StabilityFunction, stability_function
+from garkcli.stability.summary import directions
+from garkcli.webpage.pictures.contours import Point, outlines
+from garkcli.webpage.pictures.drawing import INSIDE, Frame, colour, path_of
+from garkcli.webpage.pictures.drawing import dashes as dashes_of
+from garkcli.webpage.pictures.picture import NotDrawn, Picture
+from garkcli.webpage.pictures.scales import linear_marks
+from garkcli.webpage.pictures.subject import Subject
+
+if TYPE_CHECKING:
+    from garkcli.arrays import Floats
+
+_HEIGHT = 300
+_NODES = 180
+"""Nodes a side of the grid; even, so that none is on the imaginary axis of a symmetric one, where
+|R| may be 1.
+"""
+_MOST_CURVES = 4
+_FLAT = 3.0
+"""What logarithms are cut off at, near zeros and poles."""
+_THINNED = 0.04  # cells
+_TITLE = "Stability region"
+
+
+def draw(subject: Subject) -> Picture:
+    """The regions of one method, in one picture.
+
+    Raises:
+        NotDrawn: the linear test equation has no meaning for it.
+    """
+    found = directions(subject.method.tableau)
+    if not found:
+        raise NotDrawn(
+            "There is no stability function: colours drive positions or momenta only, or do not "
+            "see one another."
+        )
+    named = [
+        (
+            _label(name, len(found)),
+            stability_function(subject.method.tableau, x),
+        )
+        for name, x in found[:_MOST_CURVES]
+    ]
+    functions = [R for _, R in named]
+    window = window_of(functions, is_symmetric=False)
+    frame = frame_of(window)
+    for k, R in enumerate(functions):
+        draw_region(frame, window, R, k)
+    if len(named) > 1:
+        frame.legend.extend(enumerate(name for name, _ in named))
+    description = _description([name for name, _ in named], window)
+    labels = "Re z", "Im z"
+    svg = finished(frame, window, _TITLE, description, labels)
+    note = "Filled: |R(z)| ≤ 1."
+    more = len(found) - len(named)
+    if more > 0:
+        note += f" The regions of the last {more} colours alone are left out."
+    return Picture("region", _TITLE, description, svg, note)
+
+
+_THIN = ' stroke-width="0.7"'
+
+
+def _label(name: str, count: int) -> str:
+    if count == 1:
+        return "|R(z)| ≤ 1"
+    return "all colours alike" if name == "all" else f"colour {name} alone"
+
+
+def frame_of(window: Window) -> Frame:
+    """A frame for a part of the plane, both scales alike."""
+    across = window.right - window.left
+    up = 2 * window.top
+    unit = min(INSIDE / across, _HEIGHT / up)
+    width, height = across * unit, up * unit
+    horizontal = window.left, window.right
+    return Frame.of(horizontal, (-window.top, window.top), height, width)
+
+
+def finished(
+    frame: Frame,
+    window: Window,
+    title: str,
+    description: str,
+    labels: tuple[str, str],
+) -> str:
+    """The picture with both axes of the plane."""
+    frame.line((window.left, 0.0), (window.right, 0.0), _THIN)
+    frame.line((0.0, -window.top), (0.0, window.top), _THIN)
+    across = linear_marks(window.left, window.right, 6)
+    up = linear_marks(-window.top, window.top, 6)
+    return frame.finished(title, description, (across, up), labels)
+
+
+def draw_region(
+    frame: Frame,
+    window: Window,
+    R: StabilityFunction,
+    k: int,
+    is_filled: bool = True,
+) -> None:
+    """Where |R(z)| ≤ 1, as the k-th curve and what it surrounds."""
+    x = np.linspace(window.left, window.right, _NODES)
+    y = np.linspace(-window.top, window.top, _NODES)
+    level = _level(R, x, y)
+    data = ""
+    for loop in outlines(level, _THINNED):
+        points = [_in_plane(point, x, y) for point in loop]
+        data += path_of(frame.place(points)) + "Z"
+    if not data:
+        return
+    opacity = 0.16 if is_filled else 0
+    paint = f"fill:{colour(k)};stroke:{colour(k)}"
+    frame.draw(
+        f'<path d="{data}" style="{paint}" fill-opacity="{opacity:g}" fill-rule="evenodd" '
+        f'stroke-width="1.6"{dashes_of(k)}/>'
+    )
+
+
+def _level(R: StabilityFunction, x: Floats, y: Floats) -> Floats:
+    """Log |R| at the nodes, cut off; poles are outside."""
+    z = x[np.newaxis, :] + 1j * y[:, np.newaxis]
+    size = modulus(R, z)
+    with np.errstate(divide="ignore"):
+        logarithm = np.log(size)
+    level: Floats = np.clip(np.nan_to_num(logarithm, nan=_FLAT), -_FLAT, _FLAT)
+    return level
+
+
+def _in_plane(point: Point, x: Floats, y: Floats) -> Point:
+    """From columns and rows to the complex plane."""
+    column, row = point
+    across = float(x[1] - x[0])
+    up = float(y[1] - y[0])
+    return float(x[0]) + column * across, float(y[0]) + row * up
+
+
+def _description(names: list[str], window: Window) -> str:
+    where = (
+        f"The complex plane from {window.left:.3g} to {window.right:.3g} and from "
+        f"{-window.top:.3g} i to {window.top:.3g} i, filled where |R(z)| is at most 1"
+    )
+    if len(names) == 1:
+        return f"{where}."
+    return f"{where}, one outline each for: {', '.join(names)}."

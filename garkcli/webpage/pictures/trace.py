@@ -1,0 +1,113 @@
+"""The trace of the step matrix on the harmonic oscillator, and where it is stable."""
+
+from __future__ import annotations
+
+from itertools import pairwise
+
+import numpy as np
+
+from garkcli.exact.roots import RealRoot
+from garkcli.plots.plane import values
+from garkcli.stability.oscillator import OscillatorStability
+from garkcli.stability.summary import directions, usual_oscillator
+from garkcli.webpage.pictures.drawing import Frame, Point
+from garkcli.webpage.pictures.picture import NotDrawn, Picture
+from garkcli.webpage.pictures.scales import linear_marks
+from garkcli.webpage.pictures.subject import Subject
+
+_HEIGHT = 200
+_POINTS = 360
+_HIGHEST = 2.0
+_WITHOUT_END = 8.0
+"""How far z goes where all of it is stable."""
+_TITLE = "Oscillator"
+
+
+def draw(subject: Subject) -> Picture:
+    """|tr M|/2 over z = hω of one method.
+
+    Raises:
+        NotDrawn: it has no split for the oscillator, or its steps do not keep areas, so that the
+            trace alone does not decide; or its coefficients are rounded.
+    """
+    if subject.method.tolerance is not None:
+        raise NotDrawn(
+            "With rounded coefficients nothing is decided about the oscillator."
+        )
+    found = usual_oscillator(subject.method.tableau)
+    if found is None:
+        raise NotDrawn("The method has no split for the oscillator.")
+    if not found.determinant.is_one:
+        raise NotDrawn(_why_not(subject))
+    ends = _ends(found)
+    end = 1.25 * max((high for _, high in ends if high), default=_WITHOUT_END)
+    frame = Frame.of((0.0, end), (0.0, _HIGHEST), _HEIGHT)
+    for low, high in ends:
+        _shade(frame, low, end if high is None else high)
+    for part in _parts(found, end):
+        frame.curve(0, part, 1.6)
+    frame.line((0.0, 1.0), (end, 1.0), ' stroke-width="0.8"')
+    description = _description(ends)
+    marks = linear_marks(0.0, end, 6), linear_marks(0.0, _HIGHEST, 4)
+    labels = "z = hω", "|tr M(z)| / 2"
+    svg = frame.finished(_TITLE, description, marks, labels)
+    note = "The step matrix M on q̈ = −ω²q; shaded where it is stable."
+    return Picture("oscillator", _TITLE, description, svg, note)
+
+
+def _why_not(subject: Subject) -> str:
+    """Where steps do not keep areas; empty where the region tells what there is to tell."""
+    if directions(subject.method.tableau):
+        return ""
+    return "The steps on the oscillator do not keep areas: the trace alone does not decide."
+
+
+def _ends(found: OscillatorStability) -> list[tuple[float, float | None]]:
+    """The stable z, as intervals; None where there is no end."""
+    intervals = []
+    for interval in found.stable:
+        low = 0.0 if interval.start is None else _root(interval.start)
+        high = None if interval.end is None else _root(interval.end)
+        intervals.append((low, high))
+    return intervals
+
+
+def _root(x: RealRoot) -> float:
+    """The z of x = z²."""
+    square = float(x.ball(64))
+    z: float = square**0.5
+    return z
+
+
+def _shade(frame: Frame, low: float, high: float) -> None:
+    corners = [(low, 0.0), (high, 0.0), (high, _HIGHEST), (low, _HIGHEST)]
+    frame.polygon(corners, 'fill-opacity="0.12"')
+
+
+def _parts(found: OscillatorStability, end: float) -> list[list[Point]]:
+    """The curve where it is in the frame or just above, cut where it leaves."""
+    z = np.linspace(0.0, end, _POINTS)
+    x = z**2
+    with np.errstate(divide="ignore", invalid="ignore"):
+        trace = values(found.trace.numerator, x)
+        trace = trace / values(found.trace.denominator, x)
+    half = np.nan_to_num(np.abs(trace) / 2, nan=np.inf)
+    # a point above the frame is where a line to it leaves the frame
+    heights = np.minimum(half, 2 * _HIGHEST).tolist()
+    parts: list[list[Point]] = [[]]
+    for here, there in pairwise(zip(z.tolist(), heights, strict=True)):
+        is_seen = here[1] <= _HIGHEST or there[1] <= _HIGHEST
+        if not is_seen:
+            parts.append([])
+            continue
+        parts[-1] += [there] if parts[-1] else [here, there]
+    return [part for part in parts if part]
+
+
+def _description(ends: list[tuple[float, float | None]]) -> str:
+    spans = []
+    for low, high in ends:
+        until = "on" if high is None else f"to {high:.4g}"
+        spans.append(f"from {low:.4g} {until}")
+    where = ", ".join(spans) or "nowhere"
+    return f"Half the modulus of the trace over z; stable {where}."

@@ -1,0 +1,280 @@
+"""The pictures of a method as SVG of our own."""
+
+from __future__ import annotations
+
+import re
+from dataclasses import replace
+from itertools import pairwise
+from math import hypot
+from xml.etree import ElementTree as ET
+
+import numpy as np
+import pytest
+from hypothesis import given
+from hypothesis import strategies as st
+from hypothesis.extra.numpy import arrays
+
+from garkcli import from_arrays, load, loads
+from garkcli.webpage.pictures import STYLE, Picture, pictures
+from garkcli.webpage.pictures.contours import Point, outlines
+from garkcli.webpage.pictures.drawing import shortened
+from garkcli.webpage.pictures.scales import linear_marks
+
+MOST_CHARACTERS = 60_000
+RK4 = [[0, 0, 0, 0], ["1/2", 0, 0, 0], [0, "1/2", 0, 0], [0, 0, 1, 0]]
+WEIGHTS = ["1/6", "1/3", "1/3", "1/6"]
+EULERS = "ark: {A: [[[0, 0], [1, 0]], [[0, 0], [0, 1]]], b: [[1, 0], [0, 1]]}"
+HOSTILE = '<script>alert("&")</script>'
+
+
+def by_name(found: list[Picture]) -> dict[str, Picture]:
+    """Pictures by their names."""
+    return {picture.name: picture for picture in found}
+
+
+@pytest.fixture(scope="module")
+def of_rk4() -> dict[str, Picture]:
+    """The pictures of the classical method, by name."""
+    return by_name(pictures(from_arrays(RK4, WEIGHTS)))
+
+
+@pytest.fixture(scope="module")
+def of_pair() -> dict[str, Picture]:
+    """The pictures of the paper's collocation example."""
+    method = load("methods/collocation.gark.yaml")
+    return by_name(pictures(method))
+
+
+def parsed(picture: Picture) -> ET.Element:
+    """The picture as XML."""
+    return ET.fromstring(picture.svg)
+
+
+def is_inside(loops: list[list[Point]], x: float, y: float) -> bool:
+    """Whether an odd number of the loops' sides lies to the right of a point."""
+    crossings = 0
+    for loop in loops:
+        for (a, b), (c, d) in pairwise([*loop, loop[0]]):
+            if (b > y) != (d > y):
+                crossings += a + (c - a) * (y - b) / (d - b) > x
+    return crossings % 2 == 1
+
+
+@given(
+    arrays(
+        float,
+        st.tuples(st.integers(2, 6), st.integers(2, 6)),
+        elements=st.sampled_from([-1.0, -0.25, 0.25, 1.0]),
+    )
+)
+def test_outlines_surround_what_is_inside(level: np.ndarray) -> None:
+    """A node of any grid lies within the outlines exactly where its value is negative."""
+    loops = outlines(level, tolerance=0.0)
+    rows, columns = level.shape
+    for i in range(rows):
+        for j in range(columns):
+            # a little beside the node: sides end on lines between nodes
+            inside = is_inside(loops, j + 1e-6, i + 1e-6)
+            assert inside == (level[i, j] < 0)
+
+
+def test_thinned_outlines_stay_on_the_line() -> None:
+    """The outline of a disc is its circle within the tolerance, with far fewer points."""
+    x = np.arange(40.0) - 19.3
+    level = np.hypot(x[np.newaxis, :], x[:, np.newaxis]) - 12.0
+    (whole,) = outlines(level, tolerance=0.0)
+    (loop,) = outlines(level, tolerance=0.1)
+    assert len(loop) < len(whole) / 2
+    far = [abs(hypot(a - 19.3, b - 19.3) - 12.0) for a, b in loop]
+    assert max(far) < 0.15
+
+
+def test_a_hole_is_an_outline_too() -> None:
+    """A ring has two outlines; with the even-odd rule its middle stays empty."""
+    x = np.arange(40.0) - 19.3
+    radius = np.hypot(x[np.newaxis, :], x[:, np.newaxis])
+    loops = outlines(np.abs(radius - 10.0) - 3.0, tolerance=0.05)
+    assert len(loops) == 2
+    assert not is_inside(loops, 19.3, 19.3)
+    assert is_inside(loops, 29.3, 19.31)
+
+
+@given(st.floats(-1e6, 1e6), st.floats(1e-6, 1e6), st.integers(3, 9))
+def test_marks_are_round_and_few(low: float, width: float, most: int) -> None:
+    """Marks lie between the ends, at most one more than asked for, and are evenly apart."""
+    marks = linear_marks(low, low + width, most)
+    assert len(marks) <= most + 1
+    around = 1e-6 * (abs(low) + width)
+    assert all(low - around <= x.at <= low + width + around for x in marks)
+
+
+def test_pictures_stand_in_a_page(
+    of_rk4: dict[str, Picture], of_pair: dict[str, Picture]
+) -> None:
+    """Well-formed, small, named for a screen reader, without ids, addresses or fixed letters, in
+    colours that the page may set.
+    """
+    drawn = [x for x in (*of_rk4.values(), *of_pair.values()) if x.svg]
+    names = [x.name for x in drawn]
+    assert names == [
+        "region",
+        "convergence",
+        "energy",
+        "region",
+        "oscillator",
+        "convergence",
+        "energy",
+    ]
+    for picture in drawn:
+        svg = parsed(picture)
+        assert svg.get("role") == "img"
+        assert svg[0].tag == "title"
+        assert svg[0].text == picture.title
+        assert svg[1].text == picture.description
+        assert picture.note.endswith(".")
+        assert " id=" not in picture.svg
+        assert "http" not in picture.svg
+        assert "font-family" not in picture.svg
+        assert "var(--picture-1," in picture.svg
+        assert len(picture.svg) < MOST_CHARACTERS
+    assert "--picture-4:" in STYLE
+
+
+def test_the_same_method_gives_the_same_pictures(
+    of_rk4: dict[str, Picture],
+) -> None:
+    """Nothing is drawn by lot or by the clock."""
+    again = pictures(from_arrays(RK4, WEIGHTS))
+    assert again == list(of_rk4.values())
+
+
+def test_the_outline_of_the_region_is_where_r_has_modulus_one(
+    of_rk4: dict[str, Picture],
+) -> None:
+    """Points of the outline, taken back through the marks of both axes, have |R(z)| = 1 for the
+    polynomial that everybody knows.
+    """
+    svg = parsed(of_rk4["region"])
+    nested = svg.find("svg")
+    assert nested is not None
+    unit, x0, y0 = _plane(svg)
+    data = str(nested[0].get("d"))
+    pairs = re.findall(r"(-?[\d.]+) (-?[\d.]+)", data)
+    assert len(pairs) > 20
+    for a, b in pairs:
+        z = complex((float(a) - x0) / unit, (y0 - float(b)) / unit)
+        R = 1 + z + z**2 / 2 + z**3 / 6 + z**4 / 24
+        assert abs(abs(R) - 1) < 0.02
+
+
+def _plane(svg: ET.Element) -> tuple[float, float, float]:
+    """Units of the picture in 1, and where 0 is, from the marks below."""
+    below = {}
+    beside = {}
+    for text in svg.findall("text"):
+        label = str(text.text).replace("−", "-")
+        if re.fullmatch(r"-?\d+", label):
+            is_below = text.get("text-anchor") == "middle"
+            where = below if is_below else beside
+            axis = "x" if is_below else "y"
+            where[int(label)] = float(str(text.get(axis)))
+    unit = (below[0] - below[-2]) / 2
+    assert beside[-2] - beside[0] == pytest.approx(2 * unit, abs=0.2)
+    return unit, below[0], beside[0] - 4
+
+
+def test_dots_of_the_convergence_picture_have_the_slope(
+    of_rk4: dict[str, Picture],
+) -> None:
+    """Between the two smallest steps the error falls as the order says, by the scales of the
+    marks.
+    """
+    svg = parsed(of_rk4["convergence"])
+    marks = {str(x.text): x for x in svg.findall("text")}
+    half = float(str(marks["1/8"].get("x"))) - float(
+        str(marks["1/16"].get("x"))
+    )
+    up = float(str(marks["10⁻¹²"].get("y"))) - float(
+        str(marks["10⁻¹⁰"].get("y"))
+    )
+    nested = svg.find("svg")
+    assert nested is not None
+    dots = nested.findall("circle")
+    errors = [x for x in dots if "picture-1" in str(x.get("style"))]
+    high, low = (float(str(x.get("cy"))) for x in errors[-2:])
+    decades = (low - high) / (up / 2)
+    assert decades / np.log10(2) == pytest.approx(4, abs=0.05)
+    assert half > 0
+    assert "Observed order 4.00, proved order 4" in of_rk4["convergence"].note
+
+
+def test_the_pair_is_put_to_work(of_pair: dict[str, Picture]) -> None:
+    """A file of ``methods`` steps as its symplectic pair, whose energy does not drift."""
+    assert "the symplectic pair" in of_pair["convergence"].note
+    assert "the symplectic pair" in of_pair["energy"].note
+    assert "no drift" in of_pair["energy"].note
+    assert "its drift" not in of_pair["energy"].svg
+
+
+def test_a_drift_is_drawn(of_rk4: dict[str, Picture]) -> None:
+    """The classical method loses energy, and the picture has the line of it."""
+    assert "it drifts" in of_rk4["energy"].note
+    assert ">its drift<" in of_rk4["energy"].svg
+
+
+def test_an_implicit_explicit_pair_has_its_region() -> None:
+    """What is filled of forward and backward Euler, R = (1 + z1)/(1 − z2), is the disc |1 + z1| ≤ 1:
+    its area, but for the squares on the edge, and all of it on the left.
+    """
+    pair = by_name(pictures(loads(EULERS)))["pair"]
+    assert "decided exactly" in pair.note
+    svg = parsed(pair)
+    nested = svg.find("svg")
+    assert nested is not None
+    unit, x0, _ = _plane(svg)
+    area = 0.0
+    for path in nested.findall("path"):
+        if 'fill-opacity="0.35"' not in ET.tostring(path, "unicode"):
+            continue
+        numbers = re.findall(r"-?[\d.]+", str(path.get("d")))
+        left, bottom, right, _, _, top, *_ = map(float, numbers)
+        area += (right - left) * (bottom - top) / unit**2
+        assert right < x0 + 1
+    assert area == pytest.approx(np.pi, rel=0.08)
+
+
+def test_what_is_not_drawn_has_a_reason() -> None:
+    """Large methods are not put to work, and a sentence says so."""
+    stages = 41
+    zeros = [[0] * stages for _ in range(stages)]
+    weights = [1] + [0] * (stages - 1)
+    found = by_name(pictures(from_arrays(zeros, weights)))
+    assert found["region"].svg
+    for name in ("convergence", "energy"):
+        assert found[name].svg == ""
+        assert "too many stages" in found[name].note
+
+
+def test_names_from_files_are_text() -> None:
+    """A name of a colour is no markup, and a long one is cut."""
+    method = loads(EULERS)
+    first, second = method.tableau.colours
+    colours = (replace(first, name=HOSTILE), second)
+    tableau = replace(method.tableau, colours=colours)
+    region = pictures(replace(method, tableau=tableau, name=HOSTILE))[0]
+    labels = [x.text for x in parsed(region).findall("text")]
+    assert any(HOSTILE in str(label) for label in labels)
+    assert "<script" not in region.svg
+    assert len(shortened("x" * 500)) < 50
+    assert shortened("a\x1b[0m") == r"a\x1b[0m"
+
+
+def test_circles_are_told_from_noise() -> None:
+    """The region of a method with |R| = 1 on the whole imaginary axis has one straight side there:
+    what rounding does on the axis is not seen.
+    """
+    gauss = loads("methods: [{family: gauss, stages: 2}]")
+    region = pictures(gauss)[0]
+    nested = parsed(region).find("svg")
+    assert nested is not None
+    assert str(nested[0].get("d")).count("M") == 1
