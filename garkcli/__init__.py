@@ -12,7 +12,7 @@ On problems: hamiltonian, load_problem, loads_problem, Oscillator; converge, lon
     symplecticity_defects; bind, integrate, trajectory.
 The modified equation: backward_analysis, modified_formula, modified_run.
 Design: load_family, loads_family, find_parameters, minimise, search_methods; run_sweep.
-To others: export, cite, with_claims, method_file_schema, problem_file_schema, sweep_schema,
+To others: export, cite, report_page, with_claims, method_file_schema, problem_file_schema, sweep_schema,
     report_schema; what there is: names, explain.
 Errors: GarkError, and of it MethodFileError, HasFreeParameters, MethodError, ZeroWeight,
     ExpressionError, UsageProblem.
@@ -96,6 +96,7 @@ if TYPE_CHECKING:
     from garkcli.trees.count import count_trees
     from garkcli.trees.notation import format_tree, parse_tree
     from garkcli.trees.tree import Tree
+    from garkcli.webpage.calls import report_page
 
     catalogue: Catalogue
     all_conditions = of_methods(_listing.all_conditions)
@@ -126,6 +127,7 @@ _HOMES = {
     "method_file_schema": "methodfile.schema",
     "names": "report.calls",
     "problem_file_schema": "methodfile.problem_schema",
+    "report_page": "webpage.calls",
     "report_schema": "report.schemas",
     "run_sweep": "report.calls",
     "sweep_schema": "sweep.load",
@@ -285,6 +287,7 @@ __all__ = [
     "problem_file_schema",
     "prove_method",
     "reduced",
+    "report_page",
     "report_schema",
     "run_sweep",
     "search_methods",

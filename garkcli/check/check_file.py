@@ -59,6 +59,21 @@ def check_file(
         return Outcome(
             error.source, error.source, faults=error.faults, text=error.text
         )
+    return check_method(method, limit, want_constants)
+
+
+def check_method(
+    method: MethodFile,
+    limit: int = DEFAULT_LIMIT,
+    want_constants: bool = False,
+) -> Outcome:
+    """Check a method that was read.
+
+    Args:
+        method: with its claims.
+        limit: where the search for orders stops, unless a claim reaches further.
+        want_constants: compute the error constants too.
+    """
 
     def units() -> Mapping[Number, fmpq]:
         # few methods are asked

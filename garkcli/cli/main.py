@@ -57,6 +57,7 @@ COMMANDS = {
     "list": "families, transfer rules, problems, methods of the catalogue",
     "show": "all about one method: tableau, properties, reference",
     "cite": "where methods were published, for a bibliography",
+    "report": "all about methods as one HTML page",
     "schema": "the JSON Schemas of method files, problem files and reports",
 }
 """Every command with its line in the help; the module of the same name in this room has it."""

@@ -13,7 +13,8 @@ from garkcli.page.plain import inert
 JSON = frozenset({"json", "ndjson", "sarif"})
 """Formats that are JSON: a sign may always be written as ``\\u1234``."""
 YAML = frozenset({"yaml"})
-XML = frozenset({"junit"})
+XML = frozenset({"junit", "html"})
+"""Formats in which a sign may be written as a reference to its number."""
 TABBED = frozenset({"rungekutta-jl"})
 """Tables whose columns are parted by tabs, which command nothing."""
 _COLOURS = re.compile(r"(\x1b\[(?:[012]|3[1-6]|31;1)m)")

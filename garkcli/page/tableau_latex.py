@@ -161,16 +161,22 @@ def _dense(entries: Entries) -> Iterator[str]:
     """The polynomials of dense output, one a line."""
     if entries.dense is None:
         return
-    has_colours = len(entries.dense) > 1
     yield r"\["
     yield r"\begin{aligned}"
-    for l, rows in enumerate(entries.dense, start=1):
-        letter = f"b^{{[{l}]}}" if has_colours else "b"
-        for i, row in enumerate(rows, start=1):
-            terms = _polynomial([_cell(x, entries) for x in row])
-            yield f"  {letter}_{{{i}}}(\\theta) &= {terms} \\\\"
+    for weight, polynomial in dense_polynomials(entries):
+        yield f"  {weight} &= {polynomial} \\\\"
     yield r"\end{aligned}"
     yield r"\]"
+
+
+def dense_polynomials(entries: Entries) -> Iterator[tuple[str, str]]:
+    """The weights of dense output and their polynomials in θ."""
+    found = entries.dense or ()
+    for l, rows in enumerate(found, start=1):
+        letter = f"b^{{[{l}]}}" if len(found) > 1 else "b"
+        for i, row in enumerate(rows, start=1):
+            terms = _polynomial([_cell(x, entries) for x in row])
+            yield f"{letter}_{{{i}}}(\\theta)", terms
 
 
 def _polynomial(coefficients: Sequence[str]) -> str:

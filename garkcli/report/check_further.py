@@ -59,17 +59,22 @@ def _embedded(
 
 
 def _estimate(found: Estimator, has_colours: bool) -> list[str]:
+    """The estimate of the error, and how large its leading term is."""
+    lines = labelled("error estimate", [estimate_text(found)])
+    if not found.is_zero and found.constants is not None:
+        lines += _norms(found.constants.all, has_colours)
+    return lines
+
+
+def estimate_text(found: Estimator) -> str:
     """The estimate of the error: its leading term, the sums of b less the embedded weights."""
     if found.is_zero:
-        return labelled("error estimate", ["zero: the embedded weights are b"])
+        return "zero: the embedded weights are b"
     what = "leading term not found"
     if found.order is not None:
         what = f"of order h^{found.order}"
     sums = ", ".join(map(_short, found.sums))
-    lines = labelled("error estimate", [f"{what}, sum of b - embedded {sums}"])
-    if found.constants is not None:
-        lines += _norms(found.constants.all, has_colours)
-    return lines
+    return f"{what}, sum of b - embedded {sums}"
 
 
 def _short(number: Number) -> str:
@@ -111,11 +116,11 @@ def _dense(found: DenseFacts, has_colours: bool, paint: Paint) -> list[str]:
         room = _WIDTH - len(_INSIDE)
         folds = folded(text, room, "  ")
         lines += indented(folds, _INSIDE)
-    fit = _fit(found)
+    fit = fit_text(found)
     return lines + labelled("dense output", [fit])
 
 
-def _fit(found: DenseFacts) -> str:
+def fit_text(found: DenseFacts) -> str:
     """How the pieces of single steps fit together."""
     if not found.ends_at_step:
         return "does not end where the step does: b(1) is not b"

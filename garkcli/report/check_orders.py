@@ -139,15 +139,23 @@ def _failure(
 
 
 def _undecided(head: str, order: RoundedOrder) -> list[str]:
-    """What is left open, and why."""
+    """What is left open, and why: on a line of its own where it is long."""
+    doubt = doubt_text(order)
+    if order.doubt is None:
+        return [f"{head}; {doubt}"]
+    return [head, f"      {doubt}"]
+
+
+def doubt_text(order: RoundedOrder) -> str:
+    """Why the next order is left open."""
     next_order, doubt = order.order + 1, order.doubt
     if doubt is None:
-        return [f"{head}; order {next_order} is too much to decide"]
+        return f"order {next_order} is too much to decide"
     why = "a weight may be zero within it"
     if doubt.effect is not None:
         why = f"rounding may make up to {size(doubt.effect)} of that"
     reached = f"residuals reach {size(doubt.reached)}"
-    return [head, f"      order {next_order} is not decided: {reached}, {why}"]
+    return f"order {next_order} is not decided: {reached}, {why}"
 
 
 def suggestion_lines(

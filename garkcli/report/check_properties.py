@@ -164,7 +164,7 @@ def every_property_lines(subject: Subject) -> list[str]:
     lines = []
     for key in KEYS:
         verdict = subject.verdict(key)
-        text = _value(verdict)
+        text = verdict_text(verdict)
         if verdict.why and verdict.value is not True:
             text += f": {verdict.why}"
         first, *others = folded(text, _WIDTH - len(margin), "")
@@ -173,7 +173,8 @@ def every_property_lines(subject: Subject) -> list[str]:
     return lines
 
 
-def _value(verdict: Verdict) -> str:
+def verdict_text(verdict: Verdict) -> str:
+    """The answer in a word or a number."""
     if verdict.value is None:
         return "not decided" if verdict.is_undecided else "no meaning"
     if verdict.value is True:

@@ -196,7 +196,7 @@ def _full(
     outcome: Outcome, analysis: Analysis, paint: Paint, digits: int | None
 ) -> list[str]:
     tableau = analysis.tableau
-    kind = _kind(tableau, outcome.structure, analysis.tolerance)
+    kind = kind_text(tableau, outcome.structure, analysis.tolerance)
     lines = [paint("strong", line) for line in _title(outcome)]
     lines += indented(_wrapped(kind))
     lines.append("")
@@ -244,7 +244,8 @@ def _left_behind(outcome: Outcome) -> list[str]:
     return [f"      the {what} of its parts are left behind"]
 
 
-def _kind(tableau: Tableau, structure: str, tolerance: fmpq | None) -> str:
+def kind_text(tableau: Tableau, structure: str, tolerance: fmpq | None) -> str:
+    """What is judged, and in which arithmetic."""
     colours = counted(tableau.size, "colour")
     stages = ", ".join(_stage_counts(tableau))
     text = f"{colours}, stages {stages}"

@@ -206,13 +206,13 @@ def _mark(condition: Condition | None, paint: Paint) -> str:
     """Whether a condition holds, exactly or within the tolerance."""
     if condition is None:
         return ""
-    if _is_parametric(condition.residual):
+    if is_parametric(condition.residual):
         return paint("note", "varies") + " "
     holds = "holds  " if condition.is_exact else "within "
     return paint.verdict(condition.holds, holds, "FAILS  ")
 
 
-def _is_parametric(number: object) -> bool:
+def is_parametric(number: object) -> bool:
     """Whether a number depends on free parameters."""
     return isinstance(number, Parametric)
 
@@ -238,7 +238,7 @@ def _miss(condition: Condition, digits: int | None) -> str:
     value = shown(condition.value, digits)
     residual = shown(condition.residual, digits)
     longest = max(len(value), len(residual))
-    is_number = not _is_parametric(condition.value)
+    is_number = not is_parametric(condition.value)
     if digits is None and longest > MOST_DIGITS and is_number:
         value = f"about {to_decimal(condition.value, 8)}"
         residual = to_decimal(condition.residual, 4)
@@ -254,7 +254,7 @@ def _latex_values(condition: Condition, digits: int | None) -> tuple[str, str]:
         shown_residual = _latex_decimal(residual, digits)
         return shown_value, shown_residual
     texts = (to_text(value), to_text(residual))
-    is_number = not _is_parametric(value)
+    is_number = not is_parametric(value)
     if max(map(len, texts)) > MOST_DIGITS and is_number:
         about = _latex_decimal(value, 8)
         shown_residual = _latex_decimal(residual, 4)

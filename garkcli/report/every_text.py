@@ -51,6 +51,11 @@ def every_line(outcome: Outcome, found: EveryValue, paint: Paint) -> str:
 
 
 def _kind(found: EveryValue) -> list[str]:
+    return folded(f"  {every_kind_text(found)}", _WIDTH, "  ")
+
+
+def every_kind_text(found: EveryValue) -> str:
+    """What is judged, and which parameters are free."""
     tableau = found.tableau
     spaces = [tableau.space(l) for l in range(tableau.size)]
     stages = ", ".join(str(space.stages) for space in spaces)
@@ -62,7 +67,7 @@ def _kind(found: EveryValue) -> list[str]:
     verb = "is" if len(names) == 1 else "are"
     colours = counted(tableau.size, "colour")
     text = f"{colours}, stages {stages}; {shown} {verb} free:"
-    return folded(f"  {text} what holds for every value", _WIDTH, "  ")
+    return f"{text} what holds for every value"
 
 
 def _orders(outcome: Outcome, found: EveryValue, paint: Paint) -> list[str]:
@@ -241,14 +246,15 @@ def _properties(outcome: Outcome, found: EveryValue) -> list[str]:
     margin = " " * (longest + 4)
     for key in KEYS:
         verdict = found.verdict(key)
-        text = fact_text(verdict, name, _property)
+        text = fact_text(verdict, name, property_text)
         first, *rest = folded(text, _WIDTH - len(margin), "")
         lines.append(f"  {key:{longest}}  {first}")
         lines += indented(rest, margin)
     return lines
 
 
-def _property(value: object) -> str:
+def property_text(value: object) -> str:
+    """An answer in a word or a number."""
     if value is None:
         return "no meaning"
     return told(value)

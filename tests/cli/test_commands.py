@@ -77,6 +77,7 @@ RUNS = [
     (("list",), ("text", "json")),
     (("show", COLLOCATION), ("text", "json")),
     (("cite", COLLOCATION), ("bibtex", "text", "json")),
+    (("report", VERLET, "--no-pictures"), ("html",)),
     (("list", "methods", "rk4"), ("text", "json", "csv", "markdown")),
     (("claims", VERLET), ("text", "json")),
     (("diff", VERLET, VERLET), ("text", "json", "markdown")),

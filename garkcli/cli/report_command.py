@@ -1,0 +1,70 @@
+"""``gark report``."""
+
+from __future__ import annotations
+
+from typing import Any
+
+import click
+
+from garkcli.cli.method_argument import files_argument
+from garkcli.cli.options import (
+    CONTEXT,
+    Output,
+    common,
+    refuse_settings_of_several,
+    settings_option,
+)
+
+
+@click.command("report", context_settings=CONTEXT)
+@files_argument()
+@click.option(
+    "--order",
+    "-n",
+    type=click.IntRange(1, 100),
+    metavar="n",
+    help="List the order conditions up to n, not up to the first order that fails.",
+)
+@click.option(
+    "--pictures/--no-pictures",
+    default=True,
+    show_default=True,
+    help="Draw stability, errors over step sizes, energy.",
+)
+@settings_option
+@common(["html"])
+def command(
+    files: tuple[str, ...],
+    settings: dict[str, str],
+    output: Output,
+    **options: Any,
+) -> int:
+    """All about methods as one HTML page, to be looked at, printed and passed on.
+
+    FILE is a method file, a directory, a pattern or a name of the catalogue, as for gark check.
+    The page needs no network: tableau, conjugate and pair typeset, the orders with the tree at
+    which each ends, B, C and D, the order conditions to be filtered, pictures, properties, claims,
+    references. Of several methods it has a table that compares them, and a part each.
+
+    Exit code: 0 every claim holds, 1 a claim fails, 2 a file cannot be read as a method; the page
+    is written in each case, and says so.
+    """
+    from garkcli.cli.streams import say_faults
+    from garkcli.methodfile.finding import find_files
+    from garkcli.page.progress import tracked
+    from garkcli.webpage.page import render
+    from garkcli.webpage.reported import reported
+
+    paths = list(find_files(files))
+    refuse_settings_of_several(settings, paths)
+    found = (
+        reported(path, options["order"], options["pictures"], settings)
+        for path in paths
+    )
+    shows_bar = output.may_show_progress
+    methods = list(tracked(found, len(paths), "reporting", shows_bar))
+    output.write(render(methods))
+    for method in methods:
+        if not method.outcome.is_read:
+            say_faults(method.outcome)
+    return max(method.outcome.exit_code for method in methods)

@@ -1,0 +1,29 @@
+"""The page as a call."""
+
+from __future__ import annotations
+
+from typing import Any
+
+from garkcli.errors import MethodError
+from garkcli.webpage.page import render
+from garkcli.webpage.reported import reported
+
+
+def report_page(
+    *methods: Any, order: int | None = None, pictures: bool = True
+) -> str:
+    """All that is found of methods as one HTML page, which needs nothing else: ``gark report``.
+
+    Args:
+        methods: names, paths, or methods; several are compared in a table. The faults of a file
+            that cannot be read are part of the page.
+        order: up to which order conditions are listed; None for the first order that fails.
+        pictures: whether stability, errors and energy are drawn.
+
+    Raises:
+        MethodError: there is no method, or something that is none.
+    """
+    if not methods:
+        raise MethodError("a page of no method", "give at least one")
+    found = [reported(x, order, has_pictures=pictures) for x in methods]
+    return render(found)

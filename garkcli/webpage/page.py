@@ -1,0 +1,105 @@
+"""The page: the sections of some methods put into one document."""
+
+from __future__ import annotations
+
+from base64 import b64encode
+from collections.abc import Iterator, Sequence
+from functools import cache
+from hashlib import sha256
+from importlib.resources import files
+
+from jinja2 import Environment, PackageLoader, StrictUndefined
+from markupsafe import Markup
+
+from garkcli.errors import counted, printable
+from garkcli.webpage.heading import COLUMNS, comparison_row, heading
+from garkcli.webpage.registry import SECTIONS
+from garkcli.webpage.reported import Reported
+from garkcli.webpage.section import Content, Section
+from garkcli.webpage.tree_picture import dots
+
+
+def render(methods: Sequence[Reported]) -> str:
+    """The page of some methods.
+
+    Args:
+        methods: at least one; several are compared in a table.
+    """
+    has_several = len(methods) > 1
+    shown = [
+        _method(method, number) for number, method in enumerate(methods, 1)
+    ]
+    compared = [comparison_row(x) for x in methods] if has_several else []
+    sizes = [x.tableau.size for x in methods if x.tableau is not None]
+    script = _static("page.js")
+    page = _environment().get_template("page.html")
+    return page.render(
+        title=_title(methods),
+        methods=shown,
+        has_several=has_several,
+        compared=compared,
+        columns=COLUMNS,
+        dots=dots(sizes),
+        style=Markup(_static("page.css")),
+        script=Markup(script),
+        policy=_policy(script),
+    )
+
+
+def _title(methods: Sequence[Reported]) -> str:
+    if len(methods) == 1:
+        return methods[0].outcome.name
+    return counted(len(methods), "method")
+
+
+def _method(method: Reported, number: int) -> Content:
+    """A method with its sections."""
+    place = f"m{number}"
+    return {
+        "place": place,
+        "heading": heading(method),
+        "sections": list(_sections(method)),
+    }
+
+
+def _sections(method: Reported) -> Iterator[tuple[Section, Content]]:
+    """The sections that have something to say, with what their templates are given."""
+    for section in SECTIONS:
+        content = section.content(method)
+        if content is not None:
+            yield section, content
+
+
+def _policy(script: str) -> str:
+    """What a browser is allowed to do with the page: to run its one script, and to load nothing."""
+    digest = b64encode(sha256(script.encode()).digest()).decode()
+    return (
+        "default-src 'none'; style-src 'unsafe-inline'; img-src data:; "
+        f"script-src 'sha256-{digest}'"
+    )
+
+
+@cache
+def _environment() -> Environment:
+    """Templates that write every text so that it is none of the page's markup."""
+    return Environment(
+        loader=PackageLoader("garkcli.webpage"),
+        autoescape=True,
+        undefined=StrictUndefined,
+        trim_blocks=True,
+        lstrip_blocks=True,
+        finalize=_visible,
+    )
+
+
+def _visible(value: object) -> object:
+    """A text whose every sign can be seen; what is markup already stays as it is."""
+    if isinstance(value, str) and not isinstance(value, Markup):
+        return printable(value)
+    return value
+
+
+@cache
+def _static(name: str) -> str:
+    place = files("garkcli.webpage") / "static" / name
+    return place.read_text(encoding="utf-8")

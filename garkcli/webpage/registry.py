@@ -1,0 +1,28 @@
+"""The sections of the page, in their order."""
+
+from __future__ import annotations
+
+from garkcli.webpage.section import Section
+from garkcli.webpage.sections import (
+    claims,
+    conditions,
+    faults,
+    orders,
+    pictures,
+    properties,
+    reference,
+    simplifying,
+    tableau,
+)
+
+SECTIONS: tuple[Section, ...] = (
+    faults.SECTION,
+    tableau.SECTION,
+    orders.SECTION,
+    claims.SECTION,
+    simplifying.SECTION,
+    properties.SECTION,
+    pictures.SECTION,
+    conditions.SECTION,
+    reference.SECTION,
+)

@@ -1,0 +1,112 @@
+"""The order conditions of the method with their values, and what they are filtered by."""
+
+from __future__ import annotations
+
+from collections.abc import Iterator
+from dataclasses import dataclass
+
+from garkcli.exact.field import ZERO
+from garkcli.order.conditions import Condition
+from garkcli.order.listing import all_conditions, count_conditions
+from garkcli.report.conditions import is_parametric
+from garkcli.report.conditions_data import ConditionRow
+from garkcli.report.conditions_json import row_data
+from garkcli.tableau.tableau import Tableau
+from garkcli.trees.notation import format_tree
+from garkcli.webpage.mathml import typeset, typeset_number
+from garkcli.webpage.reported import Reported
+from garkcli.webpage.section import Content, Section
+from garkcli.webpage.tree_picture import tree_picture
+
+MOST_CONDITIONS = 500
+"""Rows of the table; further orders are counted and left out."""
+_STATES = ("holds", "within", "varies", "fails")
+
+
+@dataclass(frozen=True)
+class Listed:
+    """The conditions that are shown.
+
+    Attributes:
+        rows: of whole orders.
+        upto: the last of these orders.
+        left_out: how many of the next order are left out; 0 where it is not wanted.
+    """
+
+    rows: list[Condition]
+    upto: int
+    left_out: int
+
+
+def _content(method: Reported) -> Content | None:
+    tableau = method.tableau
+    if tableau is None:
+        return None
+    listed = _listed(method, tableau, _wanted(method))
+    rows = list(_rows(listed.rows, tableau.size > 1))
+    states = {row["state"] for row in rows}
+    roots = sorted({row["root"] for row in rows})
+    names = [colour.name for colour in tableau.colours]
+    return {
+        "rows": rows,
+        "upto": listed.upto,
+        "left_out": listed.left_out,
+        "orders": range(1, listed.upto + 1),
+        "roots": [(root, names[root - 1]) for root in roots],
+        "states": [state for state in _STATES if state in states],
+        "failing": sum(row["state"] in ("fails", "varies") for row in rows),
+        "tolerance": method.data.get("tolerance"),
+        "file": method.outcome.file,
+    }
+
+
+def _wanted(method: Reported) -> int:
+    """Up to which order: that which was asked for, or the first of which a condition fails."""
+    if method.wanted_order is not None:
+        return method.wanted_order
+    outcome = method.outcome
+    found = outcome.analysis or outcome.every
+    assert found is not None
+    return found.order.order + 1
+
+
+def _listed(method: Reported, tableau: Tableau, wanted: int) -> Listed:
+    """Whole orders as long as there is room."""
+    tolerance = method.tolerance or ZERO
+    rows: list[Condition] = []
+    for n in range(1, wanted + 1):
+        count = count_conditions(tableau, n)
+        if len(rows) + count > MOST_CONDITIONS:
+            return Listed(rows, n - 1, count)
+        rows += all_conditions(tableau, n, tolerance)
+    return Listed(rows, wanted, 0)
+
+
+def _rows(found: list[Condition], has_colours: bool) -> Iterator[Content]:
+    """What ``gark conditions`` says of each, with the tree drawn and the formulas typeset."""
+    for condition in found:
+        row = ConditionRow(condition.tree, False, condition)
+        data = row_data(row)
+        name = format_tree(condition.tree, has_colours)
+        title = f"tree of order {condition.tree.order}, {name}"
+        yield {
+            **data,
+            "tree": name,
+            "picture": tree_picture(condition.tree, title, has_colours),
+            "formula": typeset(row.latex),
+            "weight": typeset_number(condition.value),
+            "off": typeset_number(condition.residual),
+            "state": _state(condition),
+        }
+
+
+def _state(condition: Condition) -> str:
+    """Whether it holds: exactly, within the tolerance, for some values of the parameters."""
+    if condition.is_exact:
+        return "holds"
+    if is_parametric(condition.residual):
+        return "varies"
+    return "within" if condition.holds else "fails"
+
+
+SECTION = Section("conditions", "Order conditions", _content)

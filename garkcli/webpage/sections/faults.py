@@ -1,0 +1,32 @@
+"""Why a file is no method, and the cure."""
+
+from __future__ import annotations
+
+from garkcli.errors import Fault
+from garkcli.webpage.reported import Reported
+from garkcli.webpage.section import Content, Section
+
+
+def _content(method: Reported) -> Content | None:
+    outcome = method.outcome
+    if outcome.is_read:
+        return None
+    lines = outcome.text.splitlines()
+    return {"faults": [_shown(fault, lines) for fault in outcome.faults]}
+
+
+def _shown(fault: Fault, lines: list[str]) -> Content:
+    """A fault with the line that it is in."""
+    line = ""
+    if 0 < fault.line <= len(lines):
+        line = lines[fault.line - 1]
+    return {
+        "line": fault.line,
+        "column": fault.column,
+        "text": line,
+        "message": fault.message,
+        "help": fault.help,
+    }
+
+
+SECTION = Section("faults", "What is wrong with the file", _content)

@@ -1,0 +1,228 @@
+"""The orders, what decided them, and the trees at which they end."""
+
+from __future__ import annotations
+
+from collections.abc import Iterator
+from dataclasses import dataclass
+
+from garkcli.check.analysis import Analysis, AnyOrder
+from garkcli.check.every_facts import Fact
+from garkcli.check.every_orders import EveryOrder
+from garkcli.check.every_value import EveryValue
+from garkcli.check.every_words import fact_text
+from garkcli.exact.display import decimal
+from garkcli.order.certificate import Order, Witness
+from garkcli.order.dense import DenseOrder
+from garkcli.order.nonautonomous import with_time
+from garkcli.report.check_further import estimate_text, fit_text
+from garkcli.report.check_orders import doubt_text, order_number, size
+from garkcli.tableau.tableau import Tableau
+from garkcli.trees.notation import condition_latex, format_tree
+from garkcli.trees.tree import Tree
+from garkcli.webpage.mathml import typeset, typeset_number
+from garkcli.webpage.reported import Reported
+from garkcli.webpage.section import Content, Section
+from garkcli.webpage.tree_picture import tree_picture
+
+
+@dataclass(frozen=True)
+class Shown:
+    """An order as the page has it.
+
+    Attributes:
+        label: whose order it is.
+        number: it, or that it is at least that.
+        how: in a word what kind of answer it is.
+        text: in a sentence.
+        witness: the condition at which it ends.
+        notes: further sentences.
+    """
+
+    label: str
+    number: str
+    how: str
+    text: str
+    witness: Content | None = None
+    notes: tuple[str, ...] = ()
+
+
+def _content(method: Reported) -> Content | None:
+    outcome = method.outcome
+    if outcome.every is not None:
+        found = list(_of_every_value(outcome.every))
+    elif outcome.analysis is not None:
+        found = list(_of_method(outcome.analysis))
+    else:
+        return None
+    return {"orders": found}
+
+
+def _of_method(analysis: Analysis) -> Iterator[Shown]:
+    """Every order that there is, in the order of ``gark check``."""
+    timed = None if not analysis.inconsistent else with_time(analysis.tableau)
+    clock = ""
+    if timed is not None:
+        clock = f"On y' = f(t, y) with the nodes as printed; colour {timed.size} is time."
+    yield _order("order", analysis.order, analysis.tableau)
+    if analysis.nonautonomous_order is not None and timed is not None:
+        order = analysis.nonautonomous_order
+        yield _order("non-autonomous order", order, timed, clock)
+    yield from _further(analysis, clock)
+    for label, found, tableau in (
+        ("conjugate order", analysis.conjugate_order, analysis.conjugate),
+        ("pair order", analysis.pair_order, analysis.pair),
+    ):
+        if found is None or tableau is None:
+            yield Shown(label, "none", "exact", analysis.obstacle)
+        else:
+            yield _order(label, found, tableau)
+
+
+def _further(analysis: Analysis, clock: str) -> Iterator[Shown]:
+    """The orders of embedded weights and of dense output."""
+    embedded, dense = analysis.embedded, analysis.dense
+    has_colours = analysis.tableau.size > 1
+    if embedded is not None:
+        estimate = estimate_text(embedded.estimator)
+        note = f"Error estimate: {estimate}."
+        yield _order("embedded order", embedded.order, embedded.tableau, note)
+        order = embedded.nonautonomous_order
+        timed = with_time(embedded.tableau)
+        if order is not None and clock and timed is not None:
+            yield _order("embedded non-autonomous order", order, timed, clock)
+    if dense is not None:
+        fit = f"The output is {fit_text(dense)}."
+        if not dense.ends_at_step:
+            fit = f"The output {fit_text(dense)}."
+        yield _dense(dense.order, dense.degree, has_colours, fit)
+
+
+def _order(
+    label: str, order: AnyOrder, tableau: Tableau, *notes: str
+) -> Shown:
+    """An order of a tableau."""
+    witness = None
+    if order.witness is not None:
+        witness = _witness(order.witness, tableau.size > 1)
+    text, how = said(order)
+    return Shown(label, order_number(order), how, text, witness, notes)
+
+
+def said(order: AnyOrder) -> tuple[str, str]:
+    """What is known of an order in a sentence, and in a word what kind of answer that is."""
+    number = order.order
+    every = f"Every condition up to order {number}"
+    if isinstance(order, Order):
+        if order.is_lower_bound:
+            return (
+                f"{every} is proved; no further was looked.",
+                "proved, at least",
+            )
+        return f"{every} is proved; one of order {number + 1} fails.", "exact"
+    tolerance = decimal(order.tolerance)
+    largest = size(order.largest_residual)
+    text = f"{every} is met within {tolerance}, residuals up to {largest}"
+    how = f"within {tolerance}"
+    if order.undecided:
+        return f"{text}; {doubt_text(order)}.", f"{how}, next not decided"
+    if order.witness is None:
+        return f"{text}; no further was looked.", f"{how}, at least"
+    return f"{text}; one of order {number + 1} fails.", how
+
+
+def _witness(witness: Witness, has_colours: bool) -> Content:
+    """The condition that fails."""
+    return {
+        **_tree(witness.tree, has_colours),
+        "value": typeset_number(witness.value),
+        "required": typeset_number(witness.required),
+        "residual": typeset_number(witness.residual),
+    }
+
+
+def _tree(tree: Tree, has_colours: bool) -> Content:
+    """A tree drawn, written, and as a condition."""
+    name = format_tree(tree, has_colours)
+    title = f"tree of order {tree.order}, {name}"
+    return {
+        "order": tree.order,
+        "tree": name,
+        "picture": tree_picture(tree, title, has_colours),
+        "condition": typeset(condition_latex(tree)),
+    }
+
+
+def _dense(
+    order: DenseOrder, degree: int, has_colours: bool, fit: str
+) -> Shown:
+    """The order of dense output."""
+    number = str(order.order)
+    every = f"Every condition up to order {number} holds for every θ"
+    how = "exact"
+    if order.tolerance is not None:
+        how = f"within {decimal(order.tolerance)}"
+    text = f"{every}, of degree {degree}, {how}."
+    if order.is_lower_bound:
+        number = f"at least {number}"
+    if order.undecided:
+        text += f" Order {order.order + 1} is too much to decide."
+        how += ", next not decided"
+    witness = None
+    found = order.witness
+    if found is not None:
+        witness = _witness(found.witness, has_colours)
+        text += f" One of order {found.witness.tree.order} fails at θ^{found.power}."
+    return Shown("dense order", number, how, text, witness, (fit,))
+
+
+def _of_every_value(every: EveryValue) -> Iterator[Shown]:
+    """The orders for every value of the parameters, and where they are higher."""
+    name = next(iter(every.parameters), "")
+    for label, order in (
+        ("order", every.order),
+        ("embedded order", every.embedded),
+        ("conjugate order", every.conjugate),
+        ("pair order", every.pair),
+    ):
+        if order is not None:
+            yield _every(label, order, name)
+        elif label != "embedded order":
+            yield Shown(label, "none", "exact", every.obstacle)
+
+
+def _every(label: str, order: EveryOrder, name: str) -> Shown:
+    """An order that every value has."""
+    number = str(order.order)
+    text = f"Every condition up to order {number} is proved for every value."
+    if order.witness is None:
+        return Shown(label, f"at least {number}", "for every value", text)
+    witness = {
+        **_tree(order.witness, order.tableau.size > 1),
+        "residual": typeset_number(order.residual),
+    }
+    higher = _higher(order, name)
+    return Shown(label, number, "for every value", text, witness, (higher,))
+
+
+def _higher(order: EveryOrder, name: str) -> str:
+    """For which values the order is higher."""
+    next_order = order.order + 1
+    if order.dimension is not None and order.dimension < 0:
+        return f"No value has order {next_order}."
+    special = tuple(x for x in order.fact.special if x[1] is not None)
+    if special:
+        found = fact_text(Fact(order.order, special), name, _in_words)
+    elif order.fact.zeros:
+        found = fact_text(Fact(order.order, zeros=order.fact.zeros), "")
+        return f"Order {found.split('; ', 1)[1]}."
+    else:
+        return f"No real value of the file has order {next_order}."
+    told = found.split("; ", 1)[1]
+    return told[:1].upper() + told[1:] + "."
+
+
+def _in_words(value: object) -> str:
+    return f"order {value}"
+
+
+SECTION = Section("orders", "Orders", _content)

@@ -1,0 +1,37 @@
+"""Where the method was published."""
+
+from __future__ import annotations
+
+from garkcli.report.citation import Cited, render
+from garkcli.webpage.reported import Reported
+from garkcli.webpage.section import Content, Section
+
+_ADDRESSES = ("https://", "http://")
+"""What an address of a reference begins with that may be a link."""
+
+
+def _content(method: Reported) -> Content | None:
+    if not method.reference:
+        return None
+    fields = method.bibliography
+    cited = Cited(
+        (method.outcome.file,), method.reference, method.bibliography
+    )
+    found = {
+        "text": method.reference,
+        "doi": "",
+        "url": "",
+        "coefficients": "",
+        "note": "",
+        "bibtex": render([cited], "bibtex"),
+    }
+    if fields is not None:
+        found["doi"] = fields.doi
+        found["coefficients"] = fields.coefficients
+        found["note"] = fields.note
+        if fields.url.startswith(_ADDRESSES):
+            found["url"] = fields.url
+    return found
+
+
+SECTION = Section("reference", "Reference", _content)

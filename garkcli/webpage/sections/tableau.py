@@ -1,0 +1,243 @@
+"""The tableau, its symplectic conjugate and their pair, entry by entry."""
+
+from __future__ import annotations
+
+from collections.abc import Iterator, Sequence
+from dataclasses import dataclass
+
+from flint import arb, fmpq
+from markupsafe import Markup
+
+from garkcli.check.analysis import is_pair_of_itself
+from garkcli.exact.display import to_ball, to_text
+from garkcli.exact.parametric import Parametric
+from garkcli.page.cells import remark
+from garkcli.page.tableau_latex import dense_polynomials, parts_of
+from garkcli.report.tableau_text import readable
+from garkcli.tableau.conjugate import conjugate
+from garkcli.tableau.embedded import NOTHING, Further
+from garkcli.tableau.forms import pair
+from garkcli.tableau.pointwise import Cell, Entries, Row, entries
+from garkcli.tableau.tableau import Tableau
+from garkcli.webpage.mathml import typeset, typeset_cell
+from garkcli.webpage.reported import Reported
+from garkcli.webpage.section import Content, Section
+
+MOST_COLUMNS = 64
+"""Most stages side by side; a larger tableau is left out."""
+LONGEST = 64
+"""Signs of an exact entry; a longer one is shown as a decimal."""
+_DIGITS = 17
+
+
+@dataclass(frozen=True)
+class Block:
+    """Cells of a colour in one row.
+
+    Attributes:
+        colour: the number of the colour, from 1.
+        is_own: whether the row is of the same colour.
+        cells: as MathML, blanks where there is no block.
+    """
+
+    colour: int
+    is_own: bool
+    cells: list[Markup]
+
+
+@dataclass(frozen=True)
+class Line:
+    """A row of a tableau.
+
+    Attributes:
+        head: the node, or the name of the weights.
+        blocks: from left to right.
+        group: where it is the first of its colours, their names, else empty.
+        size: how many rows the group has.
+        colour: the number of the first of these colours, from 1.
+    """
+
+    head: Markup
+    blocks: list[Block]
+    group: str = ""
+    size: int = 0
+    colour: int = 0
+
+
+@dataclass(frozen=True)
+class Table:
+    """A tableau, or why it is not shown.
+
+    Attributes:
+        title: whose it is.
+        parts: one, or Q and P.
+        remark: that entries are decimals.
+        left_out: why it is not shown.
+        is_same: whether it is that of the method.
+    """
+
+    title: str
+    parts: Sequence[Content] = ()
+    remark: str = ""
+    left_out: str = ""
+    is_same: bool = False
+
+
+def _content(method: Reported) -> Content | None:
+    tableau = method.tableau
+    if tableau is None:
+        return None
+    analysis = method.outcome.analysis
+    if analysis is None:
+        shown = list(_of_family(method))
+        dense: list[tuple[Markup, Markup]] = []
+    else:
+        further = NOTHING
+        if method.method is not None:
+            further = method.method.further
+        tolerance = method.tolerance
+        found = _entries(tableau, tolerance, further)
+        shown = [_table("The method", tableau, found)]
+        dense = [
+            (typeset(left), typeset(right))
+            for left, right in dense_polynomials(found)
+        ]
+        shown += _companions(
+            tableau,
+            {
+                "Its symplectic conjugate": analysis.conjugate,
+                "Their symplectic pair": analysis.pair,
+            },
+            tolerance,
+        )
+    found_of = analysis or method.outcome.every
+    obstacle = found_of.obstacle if found_of is not None else ""
+    return {"tables": shown, "dense": dense, "obstacle": obstacle}
+
+
+def _companions(
+    tableau: Tableau,
+    found: dict[str, Tableau | None],
+    tolerance: fmpq | None,
+) -> Iterator[Table]:
+    """Those of the conjugate and the pair that are not the method itself."""
+    for title, other in found.items():
+        if other is None or is_pair_of_itself(tableau, other):
+            continue
+        if other == tableau:
+            yield Table(title, is_same=True)
+            continue
+        yield _table(title, other, _entries(other, tolerance, NOTHING))
+
+
+def _of_family(method: Reported) -> Iterator[Table]:
+    """The tableaus of a file with free parameters, where their nodes can be written down."""
+    every = method.outcome.every
+    assert every is not None
+    family = every.family
+    made = {"The method": every.tableau}
+    if every.conjugate is not None:
+        made["Its symplectic conjugate"] = conjugate(every.tableau)
+    if every.pair is not None and not every.tableau.is_partitioned:
+        made["Their symplectic pair"] = pair(every.tableau)
+    for title, tableau in made.items():
+        printed = family.printed(tableau)
+        if printed is None:
+            why = "the nodes have no simple radicals beside free parameters"
+            yield Table(title, left_out=why)
+            continue
+        yield _table(title, printed, entries(printed))
+
+
+def _entries(
+    tableau: Tableau, tolerance: fmpq | None, further: Further
+) -> Entries:
+    """The entries as they are shown: long ones of rounded methods in decimals."""
+    found = entries(tableau, _DIGITS).beside(further)
+    return found if tolerance is None else readable(found)
+
+
+def _table(title: str, tableau: Tableau, found: Entries) -> Table:
+    """A tableau with its title, or that it is too large to be shown."""
+    widest = max(
+        sum(len(found.b[m]) for m in colours)
+        for _, _, colours in parts_of(tableau)
+    )
+    if widest > MOST_COLUMNS:
+        why = f"it has {widest} columns; gark tableau and gark conjugate print it"
+        return Table(title, left_out=why)
+    note = remark(found)
+    shortened = found.changed(_short)
+    if not note and shortened != found:
+        note = f"entries of more than {LONGEST} signs as decimals, {found.digits} digits"
+    parts = [_part(tableau, shortened, *part) for part in parts_of(tableau)]
+    return Table(title, parts, note)
+
+
+def _short(cell: Cell) -> Cell:
+    """An entry as it is shown: a decimal where its exact form is longer than a line."""
+    if isinstance(cell, (arb, Parametric)) or len(to_text(cell)) <= LONGEST:
+        return cell
+    return to_ball(cell, _DIGITS)
+
+
+def _part(
+    tableau: Tableau,
+    found: Entries,
+    letter: str,
+    stages: Sequence[int],
+    colours: Sequence[int],
+) -> Content:
+    """The rows of some colours over the columns of others."""
+    names = [colour.name for colour in tableau.colours]
+    heads = [(m + 1, names[m], len(found.b[m])) for m in colours]
+    lines = [x for l in stages for x in _lines(tableau, found, l, colours)]
+    feet = [_foot(typeset("b"), found.b, found, colours)]
+    if found.embedded is not None:
+        label = typeset(r"\hat{b}")
+        feet.append(_foot(label, found.embedded, found, colours))
+    return {
+        "letter": letter,
+        "heads": heads,
+        "lines": lines,
+        "feet": feet,
+        "has_colours": tableau.size > 1,
+        "has_embedded": found.embedded is not None,
+    }
+
+
+def _lines(
+    tableau: Tableau, found: Entries, l: int, colours: Sequence[int]
+) -> Iterator[Line]:
+    """The stages of a colour, and of those that share them."""
+    space = tableau.colours[l].space
+    together = [x.name for x in tableau.colours if x.space == space]
+    nodes = found.c[l]
+    for i, node in enumerate(nodes):
+        blocks = []
+        for m in colours:
+            block = found.A[l][m]
+            row: Sequence[Markup] = [Markup()] * len(found.b[m])
+            if block is not None:
+                row = _typeset(block[i], found)
+            blocks.append(Block(m + 1, l == m, list(row)))
+        head = typeset_cell(node, found.digits)
+        group = ", ".join(together) if i == 0 else ""
+        yield Line(head, blocks, group, len(nodes), l + 1)
+
+
+def _foot(
+    label: Markup,
+    weights: Sequence[Row],
+    found: Entries,
+    colours: Sequence[int],
+) -> Line:
+    blocks = [Block(m + 1, True, _typeset(weights[m], found)) for m in colours]
+    return Line(label, blocks)
+
+
+def _typeset(row: Row, found: Entries) -> list[Markup]:
+    return [typeset_cell(cell, found.digits) for cell in row]
+
+
+SECTION = Section("tableau", "Tableau", _content)

@@ -1,0 +1,74 @@
+"""A tree as a picture within the page: dots that all trees share, with the numbers of colours."""
+
+from __future__ import annotations
+
+from collections.abc import Iterable
+
+from markupsafe import Markup, escape
+
+from garkcli.trees.drawing import PALETTE, layout
+from garkcli.trees.tree import Tree
+
+STEP_X = 22
+STEP_Y = 24
+RADIUS = 8
+MARGIN = 2
+"""In pixels."""
+
+
+def tree_picture(tree: Tree, title: str, has_colours: bool) -> Markup:
+    """The root at the bottom, as Butcher draws trees.
+
+    Args:
+        tree: any.
+        title: what a screen reader says.
+        has_colours: whether dots carry the numbers of their colours.
+    """
+    vertices = layout(tree)
+    edge = RADIUS + MARGIN
+    top = max(v.y for v in vertices)
+    xs = [round(edge + v.x * STEP_X) for v in vertices]
+    ys = [edge + (top - v.y) * STEP_Y for v in vertices]
+    lines = []
+    dots = []
+    for v, x, y in zip(vertices, xs, ys, strict=True):
+        name = dot_name(v.colour, has_colours)
+        dots.append(f'<use href="#{name}" x="{x}" y="{y}"/>')
+        if v.parent >= 0:
+            lines.append(f"M{xs[v.parent]} {ys[v.parent]}L{x} {y}")
+    width = max(xs) + edge
+    height = max(ys) + edge
+    size = f'viewBox="0 0 {width} {height}" width="{width}" height="{height}"'
+    path = "".join(lines)
+    edges = f'<path d="{path}"/>' if path else ""
+    drawn = "".join(dots)
+    said = escape(title)
+    return Markup(
+        f'<svg class="tree" role="img" {size}>'
+        f"<title>{said}</title>{edges}{drawn}</svg>"
+    )
+
+
+def dot_name(colour: int, has_colours: bool) -> str:
+    """The name of the dot of a colour, from 0."""
+    return f"dot{colour + 1}" if has_colours else "dot"
+
+
+def dots(counts: Iterable[int]) -> Markup:
+    """The definitions of the dots that trees are drawn with.
+
+    Args:
+        counts: the numbers of colours of the methods.
+    """
+    most = max(counts, default=1)
+    found = [f'<circle id="dot" class="dot plain" r="{RADIUS - 2}"/>']
+    for colour in range(most):
+        fill, ink = PALETTE[colour % len(PALETTE)]
+        disc = f'<circle class="dot" r="{RADIUS}" fill="{fill}"/>'
+        number = f'<text class="digit" y="4" fill="{ink}">{colour + 1}</text>'
+        found.append(f'<g id="dot{colour + 1}">{disc}{number}</g>')
+    defined = "".join(found)
+    return Markup(
+        '<svg class="defs" width="0" height="0" aria-hidden="true">'
+        f"<defs>{defined}</defs></svg>"
+    )
