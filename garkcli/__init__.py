@@ -12,8 +12,8 @@ On problems: hamiltonian, load_problem, loads_problem, Oscillator; converge, lon
     symplecticity_defects; bind, integrate, trajectory.
 The modified equation: backward_analysis, modified_formula, modified_run.
 Design: load_family, loads_family, find_parameters, minimise, search_methods; run_sweep.
-To others: export, cite, report_page, with_claims, method_file_schema, problem_file_schema, sweep_schema,
-    report_schema; what there is: names, explain.
+To others: export, cite, report_page, with_claims, method_file_schema, problem_file_schema,
+    sweep_schema, report_schema; what there is: names, explain.
 Errors: GarkError, and of it MethodFileError, HasFreeParameters, MethodError, ZeroWeight,
     ExpressionError, UsageProblem.
 

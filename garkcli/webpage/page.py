@@ -13,6 +13,7 @@ from markupsafe import Markup
 
 from garkcli.errors import counted, printable
 from garkcli.webpage.heading import COLUMNS, comparison_row, heading
+from garkcli.webpage.pictures import STYLE
 from garkcli.webpage.registry import SECTIONS
 from garkcli.webpage.reported import Reported
 from garkcli.webpage.section import Content, Section
@@ -40,7 +41,7 @@ def render(methods: Sequence[Reported]) -> str:
         compared=compared,
         columns=COLUMNS,
         dots=dots(sizes),
-        style=Markup(_static("page.css")),
+        style=Markup(_static("page.css") + STYLE),
         script=Markup(script),
         policy=_policy(script),
     )
@@ -88,6 +89,7 @@ def _environment() -> Environment:
         undefined=StrictUndefined,
         trim_blocks=True,
         lstrip_blocks=True,
+        keep_trailing_newline=True,
         finalize=_visible,
     )
 

@@ -2,8 +2,8 @@
 
 from __future__ import annotations
 
-from collections.abc import Iterator
-from dataclasses import dataclass
+from collections.abc import Iterator, Sequence
+from dataclasses import dataclass, replace
 
 from garkcli.check.analysis import Analysis, AnyOrder
 from garkcli.check.every_facts import Fact
@@ -36,6 +36,7 @@ class Shown:
         text: in a sentence.
         witness: the condition at which it ends.
         notes: further sentences.
+        is_again: whether another order above ends at the same condition.
     """
 
     label: str
@@ -44,6 +45,7 @@ class Shown:
     text: str
     witness: Content | None = None
     notes: tuple[str, ...] = ()
+    is_again: bool = False
 
 
 def _content(method: Reported) -> Content | None:
@@ -54,7 +56,16 @@ def _content(method: Reported) -> Content | None:
         found = list(_of_method(outcome.analysis))
     else:
         return None
-    return {"orders": found}
+    return {"orders": list(_told_once(found))}
+
+
+def _told_once(found: Sequence[Shown]) -> Iterator[Shown]:
+    """The orders, those marked whose condition was told with another."""
+    told = []
+    for one in found:
+        yield replace(one, is_again=one.witness in told)
+        if one.witness is not None:
+            told.append(one.witness)
 
 
 def _of_method(analysis: Analysis) -> Iterator[Shown]:

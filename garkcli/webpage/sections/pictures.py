@@ -2,9 +2,9 @@
 
 from __future__ import annotations
 
-from importlib.util import find_spec
+from markupsafe import Markup
 
-from garkcli.upward import found
+from garkcli.webpage.pictures import Picture, pictures
 from garkcli.webpage.reported import Reported
 from garkcli.webpage.section import Content, Section
 
@@ -12,10 +12,13 @@ from garkcli.webpage.section import Content, Section
 def _content(method: Reported) -> Content | None:
     if method.method is None or not method.has_pictures:
         return None
-    if find_spec("garkcli.webpage.pictures") is None:
-        return None
-    drawn = found("webpage.pictures", "pictures")(method.method)
+    drawn = [_shown(picture) for picture in pictures(method.method)]
     return {"pictures": drawn} if drawn else None
+
+
+def _shown(picture: Picture) -> Content:
+    """A picture, whose SVG is made of numbers and of text that is escaped there."""
+    return {"about": picture, "svg": Markup(picture.svg)}
 
 
 SECTION = Section("pictures", "Pictures", _content)
