@@ -11,7 +11,6 @@ from typing import NoReturn
 
 import click
 
-from garkcli import __version__
 from garkcli.cli.options import help_option
 from garkcli.cli.signals import INTERRUPTED, READER_GONE, Ended, ending
 from garkcli.cli.streams import (
@@ -27,6 +26,7 @@ from garkcli.cli.streams import (
 )
 from garkcli.errors import GarkError, MethodFileError, did_you_mean
 from garkcli.page.plain import printable
+from garkcli.version import __version__
 
 REPORT_TO = "the issue tracker of the project"
 COMPLETION = "_GARK_COMPLETE"

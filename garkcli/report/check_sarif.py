@@ -6,11 +6,11 @@ import os
 from collections.abc import Mapping, Sequence
 from typing import Any
 
-from garkcli import __version__
 from garkcli.check.findings import KINDS, Finding, findings
 from garkcli.check.outcome import Outcome
 from garkcli.page.json_text import to_json
 from garkcli.page.plain import printable
+from garkcli.version import __version__
 
 
 def render(outcomes: Sequence[Outcome]) -> str:

@@ -12,7 +12,6 @@ from typing import Generic, NamedTuple, TypeAlias, TypeVar
 
 from flint import fmpq, fmpq_poly
 
-from garkcli import __version__
 from garkcli.check.proof import MethodProof
 from garkcli.exact.cells import between
 from garkcli.exact.display import to_ball
@@ -37,6 +36,7 @@ from garkcli.tableau.polynomial_space import PolynomialSpace
 from garkcli.tableau.stages import StageSpace
 from garkcli.tableau.tableau import Colour, Tableau
 from garkcli.trees.notation import format_tree
+from garkcli.version import __version__
 
 SCHEMA = "gark/certificate/1"
 Part = TypeVar("Part")
