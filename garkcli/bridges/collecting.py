@@ -3,7 +3,7 @@
 from __future__ import annotations
 
 import re
-from collections.abc import Iterable, Iterator, Sequence
+from collections.abc import Callable, Iterable, Iterator, Sequence
 from dataclasses import dataclass, replace
 from pathlib import PurePath
 
@@ -79,10 +79,15 @@ class Result:
             yield f"{text} stays a decimal"
 
 
+def _no_one(table: FoundTable) -> None:
+    del table
+
+
 def collected(
     paths: Iterable[str],
     chosen: Sequence[Reader] = (),
     is_recognising: bool = False,
+    left_out: Callable[[FoundTable], None] = _no_one,
 ) -> Iterator[Result]:
     """The tables of all sources, in order.
 
@@ -90,6 +95,7 @@ def collected(
         paths: files, ``-`` for standard input.
         chosen: who reads them; those of the endings of their names where none are given.
         is_recognising: whether exact forms of decimals are looked for.
+        left_out: who is told of tables that are left out, as they may be no methods.
 
     Raises:
         UsageProblem: a source cannot be read.
@@ -107,6 +113,7 @@ def collected(
             )
             # who names the format means the arrays that are there
             if is_other and not chosen:
+                left_out(table)
                 continue
             yield replace(result, stem=names.unique(name))
 

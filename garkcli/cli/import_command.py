@@ -7,13 +7,13 @@ from typing import TYPE_CHECKING
 import click
 
 from garkcli.cli.options import CONTEXT, PATH, Output, help_option
-from garkcli.errors import UsageProblem, counted
+from garkcli.errors import UsageProblem, counted, printable
 
 if TYPE_CHECKING:
     from collections.abc import Mapping, Sequence
 
     from garkcli.bridges.collecting import Result
-    from garkcli.bridges.readers.found import Reader
+    from garkcli.bridges.readers.found import FoundTable, Reader
 
 
 @click.command("import", context_settings=CONTEXT)
@@ -85,9 +85,14 @@ def command(
         make_folder(folder)
     readers = _readers(source_format)
     paths = list(source_files(sources, output.note))
-    results = list(collected(paths, readers, is_recognising))
+    left_out: list[FoundTable] = []
+    results = list(collected(paths, readers, is_recognising, left_out.append))
     if not any(result.method is not None for result in results):
-        raise _nothing(sources, paths, results)
+        raise _nothing(sources, paths, results, left_out)
+    for table in left_out:
+        # of a folder one expects other arrays of such names
+        if table.source in sources:
+            output.note(f"{_other(table)}; {_take_it(table)}")
     files = {} if folder is None else _written(results, folder)
     _report(results, files, output)
     return 0
@@ -101,8 +106,23 @@ def _readers(name: str | None) -> Sequence[Reader]:
     return [reader_named(name)]
 
 
+def _other(table: FoundTable) -> str:
+    """What is told of arrays that may be no method."""
+    place = f"{printable(table.source)}:{table.line}"
+    if table.c[0] is None:
+        return f"{place}: A and b without nodes may be no method"
+    return f"{place}: A, b and c are no method, by their sums"
+
+
+def _take_it(table: FoundTable) -> str:
+    return f"--from {table.format} takes them for one"
+
+
 def _nothing(
-    sources: Sequence[str], paths: Sequence[str], results: Sequence[Result]
+    sources: Sequence[str],
+    paths: Sequence[str],
+    results: Sequence[Result],
+    left_out: Sequence[FoundTable],
 ) -> UsageProblem:
     """Why there is nothing to be written."""
     from garkcli.bridges.readers.registry import all_readers
@@ -112,6 +132,8 @@ def _nothing(
         name = result.table.name or "a table"
         message = f"{place}: {name} is no method: {result.trouble}"
         return UsageProblem(message, "see docs/import.md for what is read")
+    for table in left_out:
+        return UsageProblem(_other(table), _take_it(table))
     looked_at = counted(len(paths), "file")
     where = ", ".join(sources[:3])
     known = ", ".join(all_readers())

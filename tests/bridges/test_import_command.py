@@ -79,3 +79,21 @@ def test_decimals_become_exact() -> None:
     run = gark("import", "-", "--from", "python", "--recognise", stdin=text)
     assert "0.6666666666666666 is 2/3, 6.7e-17 away" in run.out
     assert "tolerance" not in run.out
+
+
+def test_arrays_that_may_be_no_method_are_told(tmp_path: Path) -> None:
+    """Of a file that is named: as the error where there is nothing else, and beside what there is."""
+    path = tmp_path / "gauss.jl"
+    matrix = "[1//4 1//4-sqrt(3)/6; 1//4+sqrt(3)/6 1//4]"
+    path.write_text(f"A = {matrix}\nb = [1//2, 1//2]\n", encoding="utf-8")
+    refused = gark("import", "gauss.jl", cwd=tmp_path)
+    assert refused.code == 2
+    assert "gauss.jl:1: A and b without nodes may be no" in refused.err
+    assert "help: --from julia takes them for one" in refused.err
+    chosen = gark("import", "gauss.jl", "--from", "julia", cwd=tmp_path)
+    assert (chosen.code, chosen.err) == (0, "")
+    (tmp_path / "kutta.py").write_text(KUTTA, encoding="utf-8")
+    both = gark("import", "gauss.jl", "kutta.py", cwd=tmp_path)
+    assert both.code == 0
+    assert both.err.startswith("gauss.jl:1: A and b without nodes")
+    assert gark("import", str(tmp_path)).err == ""

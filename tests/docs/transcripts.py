@@ -18,7 +18,7 @@ from tests.cli.harness import ROOT, gark
 FOLDERS = ("methods", "problems", "tests/examples", "tools")
 """What a page may use from the checkout."""
 
-FILES = {"yaml", "c", "python", "toml"}
+FILES = {"yaml", "c", "python", "toml", "julia"}
 """The languages of blocks that are files."""
 
 PROGRAMS = ("gark", "python3", "sed", "cp", "cat", "grep", "head", "cc")
@@ -54,13 +54,13 @@ class Step:
 def steps(page: Path) -> Iterator[Step]:
     """The files and commands of a page in order.
 
-    A file is a block of YAML, C, Python or TOML after a line that ends with its name:
+    A file is a block of YAML, C, Python, TOML or Julia after a line that ends with its name:
     `` `name.yaml`: ``. Commands are the lines of console blocks that begin with a dollar sign;
     those of ``NOT_RUN`` are left out.
     """
     text = page.read_text(encoding="utf-8")
     pattern = re.compile(
-        r"(?:`([\w./-]+\.(?:yaml|c|py|toml))`:\n\n)?```(\w+)\n(.*?)^```$",
+        r"(?:`([\w./-]+\.(?:yaml|c|py|toml|jl))`:\n\n)?```(\w+)\n(.*?)^```$",
         re.DOTALL | re.MULTILINE,
     )
     for name, language, block in pattern.findall(text):
