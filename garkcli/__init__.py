@@ -8,14 +8,14 @@ What is true of it: find_order, find_orders, find_property, find_stability, is_s
 Methods from it: conjugate, pair, symplectic_pair, reduced, convert; side by side: compare.
 Trees: Tree, parse_tree, format_tree, all_trees, count_trees; conditions, all_conditions,
     elementary_weight.
-On problems: hamiltonian, load_problem, loads_problem, Oscillator; converge, long_run,
+On problems: problem, hamiltonian, load_problem, loads_problem, Oscillator; converge, long_run,
     symplecticity_defects; bind, integrate, trajectory.
 The modified equation: backward_analysis, modified_formula, modified_run.
 Design: load_family, loads_family, find_parameters, minimise, search_methods; run_sweep.
 To others: export, cite, report_page, with_claims, method_file_schema, problem_file_schema,
     sweep_schema, report_schema; what there is: names, explain.
 Errors: GarkError, and of it MethodFileError, HasFreeParameters, MethodError, ZeroWeight,
-    ExpressionError, UsageProblem.
+    ExpressionError, TreeError, UsageProblem.
 
 Help has each of them: help(garkcli.find_order); docs/python.md has examples. The names are loaded
 when they are first used, so importing the package costs nothing.
@@ -29,198 +29,194 @@ from typing import TYPE_CHECKING, Any
 from garkcli.version import __version__ as __version__
 
 if TYPE_CHECKING:
-    from garkcli.api.arguments import of_methods
+    from garkcli.api.anymethod import method_of
     from garkcli.api.arrays import from_arrays
-    from garkcli.api.asserting import assert_order, find_orders
+    from garkcli.api.asserting import (
+        assert_order,
+        find_orders,
+    )
     from garkcli.api.calls import (
-        all_trees,
         claims_of,
         find_stability,
+        prove_method,
         with_claims,
     )
-    from garkcli.api.construction import diagonal_method, gark
+    from garkcli.api.construction import (
+        diagonal_method,
+        gark,
+    )
+    from garkcli.api.design import (
+        find_parameters,
+        minimise,
+        search_methods,
+    )
+    from garkcli.api.files import (
+        check_file,
+        compare,
+        convert,
+        load,
+        load_family,
+        load_problem,
+        loads,
+        loads_family,
+        loads_problem,
+    )
     from garkcli.api.methods import (
         analyse,
         conjugate,
         find_order,
         is_symplectic,
-        method_of,
         pair,
+        simplifying,
+        symplectic_pair,
     )
-    from garkcli.api.properties import find_property, reduced
-    from garkcli.backward import energy as _energy
-    from garkcli.backward import formulas as _formulas
-    from garkcli.backward import summary as _summary
-    from garkcli.bridges.audit import audited as audit
-    from garkcli.bridges.calls import export, import_methods
+    from garkcli.api.modified import (
+        backward_analysis,
+        modified_formula,
+        modified_run,
+    )
+    from garkcli.api.problems import (
+        hamiltonian,
+        problem,
+    )
+    from garkcli.api.properties import (
+        find_property,
+        reduced,
+    )
+    from garkcli.api.runs import (
+        bind,
+        converge,
+        integrate,
+        long_run,
+        symplecticity_defects,
+        trajectory,
+    )
+    from garkcli.api.trees import (
+        all_conditions,
+        all_trees,
+        conditions,
+        count_trees,
+        elementary_weight,
+        format_tree,
+    )
+    from garkcli.bridges.calls import (
+        audit,
+        export,
+        import_methods,
+    )
     from garkcli.catalogue.mapping import Catalogue
-    from garkcli.check.check_file import check_file
     from garkcli.check.meanings import meanings as explain
-    from garkcli.check.proof import prove_method
-    from garkcli.comparison.comparison import compare
-    from garkcli.convergence import convergence as _convergence
-    from garkcli.conversion.convert import convert
-    from garkcli.design.design import find_parameters
-    from garkcli.design.minimise.minimise import minimise
-    from garkcli.design.search.run import search_methods
     from garkcli.errors import (
         ExpressionError,
         GarkError,
         HasFreeParameters,
         MethodError,
         MethodFileError,
+        TreeError,
         UsageProblem,
         ZeroWeight,
     )
-    from garkcli.longtime import longtime as _longtime
-    from garkcli.longtime import symplecticity as _symplecticity
     from garkcli.methodfile.build import MethodFile
-    from garkcli.methodfile.family import load_family, loads_family
-    from garkcli.methodfile.load import load, loads
-    from garkcli.methodfile.problem import load_problem, loads_problem
     from garkcli.methodfile.problem_schema import problem_file_schema
     from garkcli.methodfile.schema import method_file_schema
-    from garkcli.order import conditions as _conditions
-    from garkcli.order import listing as _listing
-    from garkcli.order import simplifying as _simplifying
-    from garkcli.problems.builtin import hamiltonian
     from garkcli.problems.oscillator import Oscillator
-    from garkcli.report.calls import certificate, cite, names, run_sweep
+    from garkcli.report.calls import (
+        certificate,
+        cite,
+        names,
+        run_sweep,
+    )
     from garkcli.report.schemas import report_schema
-    from garkcli.stepping import integrator as _integrator
-    from garkcli.stepping.step import integrate, trajectory
     from garkcli.sweep.load import sweep_schema
-    from garkcli.tableau import forms as _forms
     from garkcli.tableau.garkmethod import GarkMethod
     from garkcli.tableau.tableau import Tableau
-    from garkcli.trees.count import count_trees
-    from garkcli.trees.notation import format_tree, parse_tree
+    from garkcli.trees.notation import parse_tree
     from garkcli.trees.tree import Tree
     from garkcli.webpage.calls import report_page
 
     catalogue: Catalogue
-    all_conditions = of_methods(_listing.all_conditions)
-    backward_analysis = of_methods(_summary.backward_analysis)
-    bind = of_methods(_integrator.bind)
-    conditions = of_methods(_conditions.conditions)
-    converge = of_methods(_convergence.converge)
-    elementary_weight = of_methods(_conditions.elementary_weight)
-    long_run = of_methods(_longtime.long_run)
-    modified_formula = of_methods(_formulas.modified_formula)
-    modified_run = of_methods(_energy.modified_run)
-    simplifying = of_methods(_simplifying.simplifying)
-    symplectic_pair = of_methods(_forms.symplectic_pair)
-    symplecticity_defects = of_methods(_symplecticity.symplecticity_defects)
 
 _HOMES = {
-    "all_conditions": "order.listing",
-    "all_trees": "api.calls",
-    "audit": "bridges.audit:audited",
+    "all_conditions": "api.trees",
+    "all_trees": "api.trees",
+    "analyse": "api.methods",
+    "assert_order": "api.asserting",
+    "audit": "bridges.calls",
+    "backward_analysis": "api.modified",
+    "bind": "api.runs",
     "certificate": "report.calls",
+    "check_file": "api.files",
     "cite": "report.calls",
     "claims_of": "api.calls",
-    "count_trees": "trees.count",
+    "compare": "api.files",
+    "conditions": "api.trees",
+    "conjugate": "api.methods",
+    "converge": "api.runs",
+    "convert": "api.files",
+    "count_trees": "api.trees",
+    "diagonal_method": "api.construction",
+    "elementary_weight": "api.trees",
     "explain": "check.meanings:meanings",
     "export": "bridges.calls",
-    "find_stability": "api.calls",
-    "import_methods": "bridges.calls",
-    "method_file_schema": "methodfile.schema",
-    "names": "report.calls",
-    "problem_file_schema": "methodfile.problem_schema",
-    "report_page": "webpage.calls",
-    "report_schema": "report.schemas",
-    "run_sweep": "report.calls",
-    "sweep_schema": "sweep.load",
-    "with_claims": "api.calls",
-    "analyse": "api.methods",
-    "backward_analysis": "backward.summary",
-    "bind": "stepping.integrator",
-    "assert_order": "api.asserting",
-    "check_file": "check.check_file",
-    "compare": "comparison.comparison",
-    "conditions": "order.conditions",
-    "conjugate": "api.methods",
-    "converge": "convergence.convergence",
-    "convert": "conversion.convert",
-    "diagonal_method": "api.construction",
-    "elementary_weight": "order.conditions",
+    "ExpressionError": "errors",
     "find_order": "api.methods",
     "find_orders": "api.asserting",
-    "find_parameters": "design.design",
+    "find_parameters": "api.design",
     "find_property": "api.properties",
-    "format_tree": "trees.notation",
+    "find_stability": "api.calls",
+    "format_tree": "api.trees",
     "from_arrays": "api.arrays",
     "gark": "api.construction",
     "GarkError": "errors",
-    "ZeroWeight": "errors",
-    "UsageProblem": "errors",
-    "MethodError": "errors",
-    "HasFreeParameters": "errors",
-    "ExpressionError": "errors",
     "GarkMethod": "tableau.garkmethod",
-    "hamiltonian": "problems.builtin",
-    "integrate": "stepping.step",
+    "hamiltonian": "api.problems",
+    "HasFreeParameters": "errors",
+    "import_methods": "bridges.calls",
+    "integrate": "api.runs",
     "is_symplectic": "api.methods",
-    "load": "methodfile.load",
-    "load_family": "methodfile.family",
-    "load_problem": "methodfile.problem",
-    "loads": "methodfile.load",
-    "loads_family": "methodfile.family",
-    "loads_problem": "methodfile.problem",
-    "long_run": "longtime.longtime",
-    "method_of": "api.methods",
-    "minimise": "design.minimise.minimise",
+    "load": "api.files",
+    "load_family": "api.files",
+    "load_problem": "api.files",
+    "loads": "api.files",
+    "loads_family": "api.files",
+    "loads_problem": "api.files",
+    "long_run": "api.runs",
+    "method_file_schema": "methodfile.schema",
+    "method_of": "api.anymethod",
+    "MethodError": "errors",
     "MethodFile": "methodfile.build",
     "MethodFileError": "errors",
-    "modified_formula": "backward.formulas",
-    "modified_run": "backward.energy",
+    "minimise": "api.design",
+    "modified_formula": "api.modified",
+    "modified_run": "api.modified",
+    "names": "report.calls",
     "Oscillator": "problems.oscillator",
     "pair": "api.methods",
     "parse_tree": "trees.notation",
-    "prove_method": "check.proof",
+    "problem": "api.problems",
+    "problem_file_schema": "methodfile.problem_schema",
+    "prove_method": "api.calls",
     "reduced": "api.properties",
-    "search_methods": "design.search.run",
-    "simplifying": "order.simplifying",
-    "symplectic_pair": "tableau.forms",
-    "symplecticity_defects": "longtime.symplecticity",
+    "report_page": "webpage.calls",
+    "report_schema": "report.schemas",
+    "run_sweep": "report.calls",
+    "search_methods": "api.design",
+    "simplifying": "api.methods",
+    "sweep_schema": "sweep.load",
+    "symplectic_pair": "api.methods",
+    "symplecticity_defects": "api.runs",
     "Tableau": "tableau.tableau",
-    "trajectory": "stepping.step",
+    "trajectory": "api.runs",
+    "TreeError": "errors",
     "Tree": "trees.tree",
+    "UsageProblem": "errors",
+    "with_claims": "api.calls",
+    "ZeroWeight": "errors",
 }
 """The module that each public name comes from, and what it is called there where that differs."""
 
 _ROOMS = ("catalogue",)
 """Rooms that are public themselves."""
-
-_OF_METHODS = frozenset(
-    {
-        "all_conditions",
-        "backward_analysis",
-        "bind",
-        "conditions",
-        "converge",
-        "elementary_weight",
-        "long_run",
-        "modified_formula",
-        "modified_run",
-        "simplifying",
-        "symplectic_pair",
-        "symplecticity_defects",
-    }
-)
-"""Functions of tableaus, which are handed out as functions of whatever has a tableau."""
-_OF_NUMBERS = _OF_METHODS | {
-    "check_file",
-    "integrate",
-    "load",
-    "load_family",
-    "load_problem",
-    "loads",
-    "loads_family",
-    "loads_problem",
-    "trajectory",
-}
-"""Functions of exact numbers, which are handed out as functions of numbers of every kind."""
 
 __all__ = [
     "ExpressionError",
@@ -233,6 +229,7 @@ __all__ = [
     "Oscillator",
     "Tableau",
     "Tree",
+    "TreeError",
     "UsageProblem",
     "ZeroWeight",
     "all_conditions",
@@ -284,6 +281,7 @@ __all__ = [
     "names",
     "pair",
     "parse_tree",
+    "problem",
     "problem_file_schema",
     "prove_method",
     "reduced",
@@ -307,10 +305,6 @@ def __getattr__(name: str) -> Any:
         raise AttributeError(f"module 'garkcli' has no attribute {name!r}")
     home, _, other = _HOMES[name].partition(":")
     value = getattr(import_module(f"garkcli.{home}"), other or name)
-    if name in _OF_METHODS:
-        value = import_module("garkcli.api.arguments").of_methods(value)
-    if name in _OF_NUMBERS:
-        value = import_module("garkcli.api.arguments").of_numbers(value)
     globals()[name] = value  # the next use finds it at once
     return value
 

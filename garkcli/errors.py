@@ -10,6 +10,7 @@ GarkError                     what is wrong, and the cure
 │   ├── BlockTooLarge         interpolation whose exact entries would fill the memory
 │   ├── ZeroWeight            a conjugate divides by a weight that is zero
 │   └── UnknownFamily         no such family, or not with that many stages
+├── TreeError                 a text that is no tree, or trees that there are none of
 ├── NoLegendreTransform       a Lagrangian whose Hamiltonian is not found
 ├── MethodFileError           one or more faults of a method or problem file, each with its position
 │   └── HasFreeParameters     a family of methods where one method is expected
@@ -83,6 +84,12 @@ class VanishingDenominator(MethodError, ZeroDivisionError):
 
 class UnknownFamily(MethodError):
     """No family of that name, or not with that many stages."""
+
+
+class TreeError(GarkError, ValueError):
+    """A text is no tree, or there are no trees of that order or of those colours."""
+
+    __str__ = GarkError.__str__
 
 
 class NoLegendreTransform(GarkError):

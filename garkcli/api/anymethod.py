@@ -1,23 +1,32 @@
-"""What stands for a method: a name, a path, arrays, or a method itself."""
+"""What stands for a method: a method itself, a tableau, a path, a name of the catalogue, arrays."""
 
 from __future__ import annotations
 
 import os
-from collections.abc import Mapping
-from typing import Any
+from collections.abc import Mapping, Sequence
+from typing import Any, TypeAlias
 
-from garkcli.api.arguments import tableau_of
+from flint import fmpq
+
 from garkcli.api.arrays import from_arrays
-from garkcli.api.methods import method_of
 from garkcli.errors import MethodError
+from garkcli.exact.given import rational_of
 from garkcli.methodfile.load import load
+from garkcli.tableau.forms import gark
 from garkcli.tableau.garkmethod import GarkMethod
+from garkcli.tableau.method import Method
+from garkcli.tableau.tableau import Tableau
 
+AnyMethod: TypeAlias = "GarkMethod | Tableau | Method | str | os.PathLike[str] | Sequence[Any] | Mapping[str, Any]"  # noqa: E501 -- one name for all of them
+"""A method, a tableau; a path or a name of the catalogue; arrays ``(A, b)``, ``(A, b, c)`` or
+``(A, b, c, embedded)``, or a mapping of what ``from_arrays`` takes.
+"""
 _ROWS = ("A", "b", "c", "embedded")
+_CURE = "load a file with load(path), or make one with from_arrays(A, b)"
 
 
-def as_method(given: Any) -> GarkMethod:
-    """The method that is meant.
+def method_of(given: AnyMethod) -> GarkMethod:
+    """The method that is meant, with its entries as they are printed.
 
     Args:
         given: a method, a tableau; a path, or a name of the catalogue; a tuple ``(A, b)``,
@@ -27,11 +36,17 @@ def as_method(given: Any) -> GarkMethod:
         MethodError: it is none of these.
         MethodFileError: there is no such file or name, or it is no method.
 
-    >>> as_method(([[0, 0], [1, 0]], ["1/2", "1/2"])).stages
+    >>> method_of(([[0, 0], [1, 0]], ["1/2", "1/2"])).stages
     (2,)
-    >>> as_method("rk4").name
+    >>> method_of("rk4").name
     'the classical Runge-Kutta method'
     """
+    if isinstance(given, GarkMethod):
+        return given
+    if isinstance(given, Tableau):
+        return GarkMethod(tableau=given)
+    if isinstance(given, Method):
+        return GarkMethod(tableau=gark([given], {}), name=given.name)
     if isinstance(given, (str, os.PathLike)):
         return load(os.fspath(given))
     if isinstance(given, Mapping):
@@ -43,8 +58,45 @@ def as_method(given: Any) -> GarkMethod:
                 "give (A, b), (A, b, c) or (A, b, c, embedded)",
             )
         return from_arrays(*given)
-    tableau_of(given)  # what is no method is refused here
-    return method_of(given)
+    raise MethodError(
+        f"a method is expected, not {type(given).__name__}", _CURE
+    )
+
+
+def tableau_of(given: AnyMethod) -> Tableau:
+    """The tableau of a method.
+
+    Raises:
+        MethodError: it is none.
+        MethodFileError: there is no such file or name, or it is no method.
+    """
+    if isinstance(given, Tableau):
+        return given
+    return method_of(given).tableau
+
+
+def tolerance_of(method: object, given: object = None) -> fmpq | None:
+    """The tolerance that was given, or else that of the method's file.
+
+    Raises:
+        MethodError: what was given is no number between 0 and 1.
+    """
+    if given is None:
+        return method.tolerance if isinstance(method, GarkMethod) else None
+    value = rational_of(given, "tolerance", is_rounded=True)
+    if not 0 <= value < 1:
+        raise MethodError(
+            "a tolerance lies between 0 and 1", "for instance '1e-13'"
+        )
+    return value or None
+
+
+def with_tolerance(
+    given: AnyMethod, tolerance: object = None
+) -> tuple[GarkMethod, fmpq | None]:
+    """A method with the tolerance that it is judged within: the one given, or its own."""
+    method = method_of(given)
+    return method, tolerance_of(method, tolerance)
 
 
 def _of_mapping(given: Mapping[str, Any]) -> GarkMethod:

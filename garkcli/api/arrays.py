@@ -3,7 +3,7 @@
 from __future__ import annotations
 
 import re
-from collections.abc import Iterable
+from collections.abc import Iterable, Mapping
 from typing import Any
 
 from garkcli.errors import MethodError
@@ -34,9 +34,9 @@ def from_arrays(
 
     Args:
         A: the matrix, shape (s, s); the rows of a triangle may end at the diagonal or before it. Of
-            N colours a nested list ``A[l][m]`` of blocks, shape (s_l, s_m), None where colour l
-            does not see colour m.
-        b: the weights, length s; of N colours a row each.
+            N colours N rows of N blocks, shape (s_l, s_m), None where colour l does not see colour
+            m; or a mapping of pairs (l, m), counted from 1, to blocks.
+        b: the weights, length s; of N colours a row each, or a mapping of colours to rows.
         c: the nodes, length s; of N colours a row each.
         embedded: embedded weights, as b.
         name: what to call the method.
@@ -56,13 +56,13 @@ def from_arrays(
     ((1, 0),)
     """
     writer = _Writer(is_rounded=tolerance is not None)
-    A = _listed(A)
+    A = _listed(_in_rows(A, "A"))
     entries: dict[str, str] = {}
     if name:
         entries["name"] = _quoted(name)
     entries["A"] = writer.text(A, "A")
     for key, rows in (("b", b), ("c", c), ("embedded", embedded)):
-        listed = _listed(rows)
+        listed = _listed(_in_rows(rows, key))
         if _depth(A) <= 2:
             listed = _one_row(listed)
         if listed is not None or key == "b":
@@ -85,15 +85,61 @@ class _Writer:
     def __init__(self, is_rounded: bool) -> None:
         self.is_rounded = is_rounded
 
-    def text(self, value: Any, where: str) -> str:
+    def text(self, value: Any, where: str, *place: int) -> str:
         if value is None:
             return "null"
         if isinstance(value, list):
             items = [
-                self.text(x, f"{where}[{i}]") for i, x in enumerate(value)
+                self.text(x, where, *place, i)
+                for i, x in enumerate(value, start=1)
             ]
             return f"[{', '.join(items)}]"
-        return _quoted(number_text(value, where, self.is_rounded))
+        called = _called(where, place)
+        return _quoted(number_text(value, called, self.is_rounded))
+
+
+def _called(where: str, place: tuple[int, ...]) -> str:
+    """An entry as files call it, with colours, rows and entries counted from 1.
+
+    >>> _called("A", (1, 2)), _called("b", (3,)), _called("A", (1, 2, 3, 4)), _called("b", (2, 1))
+    ('A, row 1, entry 2', 'b, entry 3', 'A{1,2}, row 3, entry 4', 'b{2}, entry 1')
+    """
+    inner = 2 if where == "A" else 1
+    colours, entry = place[:-inner], place[-inner:]
+    if colours:
+        where += f"{{{','.join(map(str, colours))}}}"
+    words = ("row", "entry")[-len(entry) :] if entry else ()
+    parts = [f"{word} {i}" for word, i in zip(words, entry, strict=True)]
+    return ", ".join([where, *parts])
+
+
+def _in_rows(value: Any, where: str) -> Any:
+    """What is given by colours counted from 1 as nested lists; anything else as it is.
+
+    Raises:
+        MethodError: a key is no colour, or no pair of colours.
+    """
+    if not isinstance(value, Mapping):
+        return value
+    is_of_blocks = where == "A"
+    for key in value:
+        parts = key if is_of_blocks and isinstance(key, tuple) else (key,)
+        is_right = len(parts) == (2 if is_of_blocks else 1)
+        if not is_right or not all(_is_colour(x) for x in parts):
+            what = "pair of colours" if is_of_blocks else "colour"
+            example = "{(1, 2): [[1]]}" if is_of_blocks else "{1: [1]}"
+            raise MethodError(
+                f"{where}: {key!r} is no {what}",
+                f"colours count from 1, as in {example}",
+            )
+    if not is_of_blocks:
+        return [value.get(l) for l in range(1, max(value, default=0) + 1)]
+    size = range(1, max(map(max, value), default=0) + 1)
+    return [[value.get((l, m)) for m in size] for l in size]
+
+
+def _is_colour(x: object) -> bool:
+    return isinstance(x, int) and not isinstance(x, bool) and x >= 1
 
 
 def _listed(value: Any) -> Any:
@@ -102,7 +148,7 @@ def _listed(value: Any) -> Any:
         return value
     if hasattr(value, "tolist"):
         value = value.tolist()
-    if isinstance(value, dict):
+    if isinstance(value, Mapping):
         raise MethodError("a mapping is no array", "give A, b and c as lists")
     if isinstance(value, Iterable) and not isinstance(value, str):
         return [_listed(item) for item in value]

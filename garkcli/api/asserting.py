@@ -10,7 +10,7 @@ from dataclasses import dataclass, replace
 from numbers import Integral
 from typing import Any, TypeAlias
 
-from garkcli.api.anymethod import as_method
+from garkcli.api.anymethod import method_of
 from garkcli.api.methods import conjugate, find_order, pair
 from garkcli.check.agreement import agrees
 from garkcli.check.analysis import AnyOrder
@@ -72,7 +72,7 @@ def assert_order(
       fails at order 3: [[[]]]: 0 instead of 1/6, off by -1/6
     """
     __tracebackhide__ = True
-    found = as_method(method)
+    found = method_of(method)
     wanted = {
         "order": order,
         "embedded": embedded,
@@ -106,7 +106,7 @@ def find_orders(
     {'order': 4, 'conjugate': 4, 'pair': 4}
     >>> assert_order("rk4", **find_orders("rk4"))
     """
-    asked = as_method(method)
+    asked = method_of(method)
     orders: dict[str, int | str] = {}
     for key, part in _PARTS.items():
         if key == "embedded" and asked.embedded is None:

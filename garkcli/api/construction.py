@@ -3,19 +3,23 @@
 from __future__ import annotations
 
 from collections.abc import Mapping, Sequence
+from typing import Any, TypeAlias
 
-from garkcli.api.methods import method_of
+from garkcli.api.anymethod import AnyMethod, method_of
+from garkcli.api.arrays import from_arrays
+from garkcli.api.numbers import Whole, whole
 from garkcli.errors import MethodError, did_you_mean
-from garkcli.exact.matrix import Matrix
 from garkcli.families import registry
 from garkcli.tableau import forms
 from garkcli.tableau.garkmethod import GarkMethod
 from garkcli.tableau.method import Method
-from garkcli.tableau.tableau import Edge, Tableau
 from garkcli.transfer import RULES
 
+Blocks: TypeAlias = "Mapping[tuple[int, int], Any]"
+"""Matrices by pairs (l, m) of colours, counted from 1."""
 
-def diagonal_method(name: str, stages: int | None = None) -> GarkMethod:
+
+def diagonal_method(name: str, stages: Whole | None = None) -> GarkMethod:
     """The member of a family, with its entries as they are printed.
 
     Args:
@@ -28,29 +32,35 @@ def diagonal_method(name: str, stages: int | None = None) -> GarkMethod:
     >>> diagonal_method("lobatto-iiia", 2).A
     ((0, 0), (1/2, 1/2))
     """
-    return method_of(registry.diagonal_method(name, stages))
+    many = None if stages is None else whole(stages, "stages")
+    return method_of(registry.diagonal_method(name, many))
 
 
 def gark(
-    methods: Sequence[GarkMethod | Method],
-    transfer: str | Mapping[Edge, Matrix] = "collocation",
-) -> Tableau:
-    """The tableau with diagonal ``methods`` and the blocks between them, eq. (GARK).
+    methods: Sequence[AnyMethod | Method],
+    transfer: str | Blocks = "collocation",
+) -> GarkMethod:
+    """The method with diagonal ``methods`` and the blocks between them, eq. (GARK).
 
     Args:
-        methods: of one colour each.
-        transfer: a rule for all blocks, or the block of every pair (l, m) of colours, counted from
-            0, in the stage spaces of the methods.
+        methods: of one colour each: whatever ``method_of`` takes.
+        transfer: a rule for all blocks, as ``gark list transfer`` shows it; or the blocks between
+            them, by pairs (l, m) of colours counted from 1, of shape (s_l, s_m). A pair that is
+            left out is a block that is not there.
 
     Raises:
-        MethodError: there is no such rule, or a method has several colours.
+        MethodError: there is no such rule, a method has several colours, or a block goes with none
+            of them.
 
-    >>> gark([diagonal_method("gauss", 2), diagonal_method("lobatto-iiia", 3)])
-    <Tableau 2 colours, stages 2, 3>
+    >>> gark(["gauss-2", "lobatto-iiia-3"])
+    <GarkMethod 2 colours, stages 2, 3>
+    >>> gark([([["1/2"]], [1]), ([[0]], [1])], {(1, 2): [[1]]}).A
+    {(1, 1): ((1/2,),), (1, 2): ((1,),), (2, 1): None, (2, 2): ((0,),)}
     """
-    diagonal = [_diagonal(method) for method in methods]
+    given = [method_of(method) for method in methods]
+    diagonal = [_diagonal(method) for method in given]
     if not isinstance(transfer, str):
-        return forms.gark(diagonal, transfer)
+        return _with_blocks(given, transfer)
     if transfer not in RULES:
         raise MethodError(
             f"no transfer rule {transfer!r}", did_you_mean(transfer, RULES)
@@ -63,13 +73,28 @@ def gark(
         for m, other in numbered
         if l != m
     }
-    return forms.gark(diagonal, blocks)
+    return method_of(forms.gark(diagonal, blocks))
 
 
-def _diagonal(method: GarkMethod | Method) -> Method:
+def _with_blocks(methods: Sequence[GarkMethod], blocks: Blocks) -> GarkMethod:
+    """The method with these blocks off the diagonal, as they are given."""
+    size = range(1, len(methods) + 1)
+    for key in blocks:
+        if key not in {(l, m) for l in size for m in size if l != m}:
+            raise MethodError(
+                f"transfer: {key!r} is no block between two of the methods",
+                f"give pairs of different colours from 1 to {len(methods)}",
+            )
+    A = {**blocks}
+    for l, method in enumerate(methods, start=1):
+        A[l, l] = method.A
+    b = [method.b for method in methods]
+    c = [method.c for method in methods]
+    return from_arrays(A, b, c)
+
+
+def _diagonal(method: GarkMethod) -> Method:
     """The one colour of a method, in its own stage space."""
-    if isinstance(method, Method):
-        return method
     tableau = method.tableau
     block = tableau.block(0, 0)
     if tableau.size != 1 or block is None:

@@ -1,38 +1,49 @@
 """What is asked of a method most: its order, its conjugate, its pair, everything at once.
 
-Each takes a tableau, a loaded method or a diagonal one, and decides within the tolerance of the
-method's file unless another is given.
+Each takes whatever stands for a method, and decides within the tolerance of the method's file
+unless another is given.
 """
 
 from __future__ import annotations
 
-from collections.abc import Callable
-from typing import Protocol, cast, overload
+from collections.abc import Callable, Iterable, Mapping, Sequence
+from os import PathLike
+from typing import Any, Protocol, cast, overload
 
-from garkcli.api.arguments import AnyMethod, tableau_of, tolerance_of
+from garkcli.api.anymethod import (
+    AnyMethod,
+    method_of,
+    tableau_of,
+    with_tolerance,
+)
+from garkcli.api.numbers import Number, Whole, colour_of, whole
 from garkcli.check import deciding
 from garkcli.check.analysis import Analysis, AnyOrder
+from garkcli.exact.field import ZERO
 from garkcli.order import certificate
+from garkcli.order import simplifying as conditions
 from garkcli.order.certificate import DEFAULT_LIMIT
+from garkcli.order.simplifying import Simplifying
 from garkcli.tableau import conjugate as conjugation
 from garkcli.tableau import forms
-from garkcli.tableau.embedded import NOTHING
 from garkcli.tableau.garkmethod import Derivation, GarkMethod
 from garkcli.tableau.method import Method
 from garkcli.tableau.tableau import Tableau
 
 
 def find_order(
-    method: AnyMethod, limit: int = DEFAULT_LIMIT, tolerance: object = None
+    method: AnyMethod,
+    limit: Whole = DEFAULT_LIMIT,
+    tolerance: Number | None = None,
 ) -> AnyOrder:
-    r"""The order of a method: exactly, or within its tolerance.
+    """The order of a method: exactly, or within its tolerance.
 
     The conjugate and the pair of a rounded method have the orders that ``analyse`` says: its
     rounding goes on into their coefficients.
 
     Args:
-        method: a loaded method, a diagonal one, or a tableau.
-        limit: the order at which to stop.
+        method: whatever ``method_of`` takes.
+        limit: the order at which to stop, at least 1.
         tolerance: the rounding of the coefficients; that of the method where it is not given, 0 for
             none.
 
@@ -40,18 +51,17 @@ def find_order(
         An ``Order``, or a ``RoundedOrder`` within a tolerance; both have ``order``, ``witness`` and
         ``is_lower_bound``.
 
-    >>> from garkcli.methodfile.load import loads
-    >>> find_order(loads("A: [[0, 0], [1/2, 0]]\nb: [0, 1]")).order
-    2
+    >>> find_order("rk4")
+    <Order 4>
+    >>> find_order("rk4").witness
+    <Witness [[[[[]_1]_1]_1]_1]_1: 0 instead of 1/120>
     """
-    near = tolerance_of(method, tolerance)
+    limit = whole(limit, "limit", 1)
+    is_own = tolerance is None
+    method, near = with_tolerance(method, tolerance)
     if near is None:
-        return certificate.find_order(tableau_of(method), limit)
-    if (
-        tolerance is None
-        and isinstance(method, GarkMethod)
-        and method.base is not None
-    ):
+        return certificate.find_order(method.tableau, limit)
+    if is_own and method.base is not None:
         found = deciding.analyse(method.base.tableau, limit, near)
         order = (
             found.pair_order
@@ -62,33 +72,73 @@ def find_order(
             return order
     from garkcli.order.rounded import find_order_within
 
-    return find_order_within(tableau_of(method), near, limit)
+    return find_order_within(method.tableau, near, limit)
 
 
 def analyse(
-    method: AnyMethod, limit: int = DEFAULT_LIMIT, tolerance: object = None
+    method: AnyMethod,
+    limit: Whole = DEFAULT_LIMIT,
+    tolerance: Number | None = None,
 ) -> Analysis:
     """Decide everything that ``gark check`` reports; no order beyond ``limit`` is looked for.
 
     Args:
-        method: a loaded method, a diagonal one, or a tableau.
-        limit: where the search for orders stops.
+        method: whatever ``method_of`` takes.
+        limit: where the search for orders stops, at least 1.
         tolerance: the rounding of the coefficients; that of the method where it is not given, 0 for
             none.
+
+    >>> found = analyse("gauss-2")
+    >>> found, found.bound, found.symplectic
+    (<Analysis order 4, conjugate 4, pair 4>, 4, True)
     """
-    further = method.further if isinstance(method, GarkMethod) else NOTHING
-    near = tolerance_of(method, tolerance)
-    return deciding.analyse(tableau_of(method), limit, near, further=further)
+    limit = whole(limit, "limit", 1)
+    method, near = with_tolerance(method, tolerance)
+    return deciding.analyse(
+        method.tableau, limit, near, further=method.further
+    )
 
 
-def is_symplectic(method: AnyMethod, tolerance: object = None) -> bool:
+def simplifying(
+    method: AnyMethod,
+    limit: Whole = DEFAULT_LIMIT,
+    tolerance: Number | None = None,
+) -> Simplifying:
+    """The simplifying assumptions B(r), C(η) and D(ζ) of every colour and every block.
+
+    Args:
+        method: whatever ``method_of`` takes.
+        limit: where each search stops, at least 1.
+        tolerance: the rounding of the coefficients; that of the method where it is not given, 0 for
+            none.
+
+    Returns:
+        ``B`` has a number a colour, ``C`` and ``D`` one a block, None where there is no block, in
+        rows; ``bound`` and ``sharp_bound`` are what they say of the order.
+
+    >>> simplifying("gauss-2")
+    Simplifying(B=(4,), C=((2,),), D=((2,),))
+    """
+    limit = whole(limit, "limit", 1)
+    method, near = with_tolerance(method, tolerance)
+    return conditions.simplifying(method.tableau, limit, near or ZERO)
+
+
+def is_symplectic(method: AnyMethod, tolerance: Number | None = None) -> bool:
     """Whether a method is its own conjugate; for a partitioned one, whether its parts are each
     other's. Within the tolerance of the method where it has one.
+
+    Args:
+        method: whatever ``method_of`` takes.
+        tolerance: as in ``find_order``.
+
+    >>> is_symplectic("gauss-2"), is_symplectic("rk4")
+    (True, False)
     """
-    near = tolerance_of(method, tolerance)
+    method, near = with_tolerance(method, tolerance)
     if near is None:
-        return conjugation.is_symplectic(tableau_of(method))
-    return deciding.analyse(tableau_of(method), 1, near).symplectic
+        return conjugation.is_symplectic(method.tableau)
+    return deciding.analyse(method.tableau, 1, near).symplectic
 
 
 class _OfSameKind(Protocol):
@@ -97,7 +147,15 @@ class _OfSameKind(Protocol):
     @overload
     def __call__(self, method: Tableau) -> Tableau: ...
     @overload
-    def __call__(self, method: GarkMethod | Method) -> GarkMethod: ...
+    def __call__(
+        self,
+        method: GarkMethod
+        | Method
+        | str
+        | PathLike[str]
+        | Sequence[Any]
+        | Mapping[str, Any],
+    ) -> GarkMethod: ...
 
 
 def _of_same_kind(
@@ -109,19 +167,26 @@ def _of_same_kind(
 
 @_of_same_kind
 def conjugate(method: AnyMethod) -> Tableau | GarkMethod:
-    """The symplectic conjugate; that of a loaded method keeps its name and tolerance.
+    """The symplectic conjugate, with the name and the tolerance of the method.
+
+    The conjugate of a conjugate is the method itself; that of a bare tableau is a tableau.
+
+    Args:
+        method: whatever ``method_of`` takes.
 
     Raises:
         ZeroWeight: a conjugate would divide by zero.
+
+    >>> conjugate("rk4").A[0]
+    (1/6, -2/3, 1/3, 1/6)
     """
     if isinstance(method, Tableau):
         return conjugation.conjugate(method)
-    if isinstance(method, GarkMethod):
-        is_conjugate = method.derivation == "conjugate"
-        # the conjugate twice is the method itself
-        if is_conjugate and method.base is not None:
-            return method.base
-    made = conjugation.conjugate(tableau_of(method))
+    method = method_of(method)
+    is_conjugate = method.derivation == "conjugate"
+    if is_conjugate and method.base is not None:
+        return method.base
+    made = conjugation.conjugate(method.tableau)
     return _derived(method, made, "conjugate")
 
 
@@ -129,36 +194,63 @@ def conjugate(method: AnyMethod) -> Tableau | GarkMethod:
 def pair(method: AnyMethod) -> Tableau | GarkMethod:
     """The symplectic pair (Q, P) of a method and its conjugate: 2N colours V¹…Vᴺ, F¹…Fᴺ.
 
+    That of a bare tableau is a tableau.
+
+    Args:
+        method: whatever ``method_of`` takes.
+
     Raises:
         ZeroWeight: a conjugate would divide by zero.
+
+    >>> pair("heun").stages, pair("heun").order
+    ((2, 2), 2)
     """
     if isinstance(method, Tableau):
         return forms.pair(method)
-    return _derived(method, forms.pair(tableau_of(method)), "pair")
+    method = method_of(method)
+    return _derived(method, forms.pair(method.tableau), "pair")
 
 
 def _derived(
-    method: GarkMethod | Method, tableau: Tableau, derivation: Derivation
+    method: GarkMethod, tableau: Tableau, derivation: Derivation
 ) -> GarkMethod:
-    base = method if isinstance(method, GarkMethod) else method_of(method)
-    name = f"{derivation} of {base.name}" if base.name else ""
+    name = f"{derivation} of {method.name}" if method.name else ""
     return GarkMethod(
         tableau=tableau,
         name=name,
-        tolerance=base.tolerance,
+        tolerance=method.tolerance,
         derivation=derivation,
-        base=base,
+        base=method,
     )
 
 
-def method_of(method: AnyMethod) -> GarkMethod:
-    """A tableau or a diagonal method with its entries as they are printed.
+def symplectic_pair(
+    method: AnyMethod, velocities: Iterable[Whole], forces: Iterable[Whole]
+) -> GarkMethod:
+    """The pair (Q, P) of a method and its conjugate for the vector fields that a problem has.
 
-    >>> from garkcli.families.registry import diagonal_method
-    >>> method_of(diagonal_method("gauss", 2)).A[0]
-    (1/4, 1/4 - sqrt(3)/6)
+    Colours V^l for l in ``velocities`` and F^l for l in ``forces``, which share their stages. With
+    all of both it is ``pair``; of a semi-separable problem {1} and {1, 2}; of a separable one {1}
+    and {2}, eqs. (varGARK).
+
+    Args:
+        method: whatever ``method_of`` takes.
+        velocities: colours, counted from 1.
+        forces: colours, counted from 1.
+
+    Raises:
+        MethodError: there is no such colour, or the method is partitioned already.
+        ZeroWeight: a conjugate that is needed would divide by zero.
+
+    >>> symplectic_pair("collocation", [1], [2])
+    <GarkMethod 2 colours, stages 2, 3>
     """
-    if isinstance(method, GarkMethod):
-        return method
-    name = method.name if isinstance(method, Method) else ""
-    return GarkMethod(tableau=tableau_of(method), name=name)
+    tableau = tableau_of(method)
+    count = tableau.size
+    return method_of(
+        forms.symplectic_pair(
+            tableau,
+            [colour_of(l, "velocities", count) for l in velocities],
+            [colour_of(l, "forces", count) for l in forces],
+        )
+    )

@@ -86,6 +86,9 @@ class ModifiedEnergy:
             "agree" if self.is_lower_bound or excess <= CLOSE else "undecided"
         )
 
+    def __repr__(self) -> str:
+        return f"<ModifiedEnergy h^{self.power}: {self.verdict}>"
+
 
 @dataclass(frozen=True)
 class ModifiedRun:
@@ -109,6 +112,10 @@ class ModifiedRun:
     def is_refuted(self) -> bool:
         """Whether an observed order is below the exact one."""
         return any(x.verdict == "disagree" for x in self.energies)
+
+    def __repr__(self) -> str:
+        found = ", ".join(f"h^{x.power} {x.verdict}" for x in self.energies)
+        return f"<ModifiedRun {self.problem.name}: {found}>"
 
 
 def modified_run(

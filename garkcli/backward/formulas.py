@@ -77,6 +77,10 @@ class ModifiedFormula:
                 terms.append(PowerTerm(term.power, formulas))
         return replace(self, terms=tuple(terms))
 
+    def __repr__(self) -> str:
+        powers = ", ".join(f"h^{term.power}" for term in self.terms)
+        return f"<ModifiedFormula {self.of} of {self.problem.name}: {powers}>"
+
 
 def modified_formula(
     tableau: Tableau, problem: Hamiltonian, max_order: int

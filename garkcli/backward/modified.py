@@ -75,6 +75,9 @@ class ModifiedEquation:
                 return n - 1
         return self.max_order
 
+    def __repr__(self) -> str:
+        return f"<ModifiedEquation of trees up to order {self.max_order}>"
+
 
 def modified_equation(tableau: Tableau, order: int) -> ModifiedEquation:
     """The modified equation of ``tableau`` in trees of up to ``order`` vertices.

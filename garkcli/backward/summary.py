@@ -63,6 +63,11 @@ class BackwardAnalysis:
     hamiltonian: tuple[HamiltonianTerm, ...] | None = None
     tolerance: fmpq | None = None
 
+    def __repr__(self) -> str:
+        is_so = ", symplectic" if self.is_symplectic else ""
+        least = "at least " if self.order.is_lower_bound else ""
+        return f"<BackwardAnalysis order {least}{self.order.order}{is_so}>"
+
 
 def backward_analysis(
     tableau: Tableau, max_order: int, tolerance: fmpq | None = None

@@ -15,7 +15,7 @@ from garkcli.bridges.readers.registry import find_tables, readers_for
 from garkcli.bridges.sources import source_text
 from garkcli.bridges.subject import Subject, short
 from garkcli.check.explained import repair_text, witness_text
-from garkcli.errors import MethodFileError
+from garkcli.errors import MethodFileError, counted
 from garkcli.exact.field import ZERO, Number
 from garkcli.methodfile.build import MethodFile
 from garkcli.order.tolerance import within
@@ -87,6 +87,11 @@ class Audited:
     def has_errors(self) -> bool:
         """Whether a finding is an error."""
         return any(x.level == "error" for x in self.findings)
+
+    def __repr__(self) -> str:
+        name = self.table.name or f"line {self.table.line}"
+        findings = counted(len(self.findings), "finding")
+        return f"<Audited {name} of {self.table.source}: {findings}>"
 
 
 def audited(paths: Iterable[str]) -> Iterator[Audited]:

@@ -1,7 +1,14 @@
-"""Exports and imports as calls."""
+"""Exports, imports and audits as calls."""
 
 from __future__ import annotations
 
+import os
+from collections.abc import Iterable, Iterator
+from typing import TypeAlias
+
+from garkcli.api.anymethod import AnyMethod, method_of
+from garkcli.api.numbers import Whole, whole
+from garkcli.bridges.audit import Audited, audited
 from garkcli.bridges.collecting import collected
 from garkcli.bridges.preparing import prepared
 from garkcli.bridges.readers.registry import reader_named
@@ -9,18 +16,18 @@ from garkcli.bridges.registry import bridge_named
 from garkcli.bridges.sources import source_files
 from garkcli.errors import MethodError
 from garkcli.methodfile.build import MethodFile
-from garkcli.methodfile.load import load
+
+AnyPath: TypeAlias = "str | os.PathLike[str]"
+"""The path of a file or of a folder."""
 
 
-def export(
-    method: MethodFile | str, target: str, digits: int | None = None
-) -> str:
+def export(method: AnyMethod, target: str, digits: Whole | None = None) -> str:
     """The text that ``gark export`` writes.
 
     Args:
         method: from a file, a text or arrays; or a path or a name of the catalogue.
         target: as ``gark list exports`` shows it.
-        digits: of every number, where they are asked for.
+        digits: of every number, where they are asked for; exact otherwise.
 
     Raises:
         UsageProblem: there is no such target.
@@ -30,18 +37,18 @@ def export(
     >>> export("heun", "csv").splitlines()[0][:1]
     '#'
     """
-    if isinstance(method, str):
-        method = load(method)
+    method = method_of(method)
     if not isinstance(method, MethodFile):
         raise MethodError(
-            f"{type(method).__name__} is no method file",
+            f"{method!r} is no method file",
             "give what load, loads or from_arrays return",
         )
-    return bridge_named(target).written(prepared(method, digits))
+    many = None if digits is None else whole(digits, "digits", 1)
+    return bridge_named(target).written(prepared(method, many))
 
 
 def import_methods(
-    *paths: str, format: str | None = None, is_recognising: bool = False
+    *paths: AnyPath, format: str | None = None, is_recognising: bool = False
 ) -> list[MethodFile]:
     """The methods that ``gark import`` finds in files and folders; nothing in them is executed.
 
@@ -52,9 +59,33 @@ def import_methods(
 
     Raises:
         UsageProblem: a source cannot be read, or there is no such format.
+
+    >>> import_methods("tests/bridges/sources/kutta.csv")
+    [<MethodFile kutta: 1 colour, stages 3>]
     """
     readers = [] if format is None else [reader_named(format)]
-    results = collected(source_files(paths), readers, is_recognising)
+    results = collected(_files(paths), readers, is_recognising)
     return [
         result.method.method for result in results if result.method is not None
     ]
+
+
+def audit(paths: AnyPath | Iterable[AnyPath]) -> Iterator[Audited]:
+    """Every table of some sources with what is wrong with it: ``gark audit``.
+
+    Args:
+        paths: files and folders, or one of them.
+
+    Raises:
+        UsageProblem: a source cannot be read.
+
+    >>> [found.has_errors for found in audit("tests/bridges/sources/kutta.csv")]
+    [False]
+    """
+    if isinstance(paths, (str, os.PathLike)):
+        paths = [paths]
+    return audited(_files(paths))
+
+
+def _files(paths: Iterable[AnyPath]) -> Iterator[str]:
+    return source_files(os.fspath(path) for path in paths)

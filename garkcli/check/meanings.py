@@ -40,6 +40,9 @@ class Meaning:
     source: str = ""
     see: tuple[str, ...] = ()
 
+    def __repr__(self) -> str:
+        return f"<Meaning {self.name}: {self.kind}>"
+
 
 def meanings(word: str) -> list[Meaning]:
     """What a word means, in every sense that it has.

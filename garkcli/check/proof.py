@@ -37,6 +37,14 @@ class MethodProof:
             self.method.tableau, both.tableau
         )
 
+    def __repr__(self) -> str:
+        proofs = {"conjugate": self.conjugate, "pair": self.pair}
+        orders = [f"order {self.method.order.order}"]
+        for label, proof in proofs.items():
+            if proof is not None:
+                orders.append(f"{label} {proof.order.order}")
+        return f"<MethodProof {', '.join(orders)}>"
+
 
 def prove_method(
     method: GarkMethod, limit: int = DEFAULT_LIMIT

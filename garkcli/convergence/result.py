@@ -72,6 +72,10 @@ class Row:
     digits: int | None = None
     cost: Cost | None = None
 
+    def __repr__(self) -> str:
+        slope = "" if self.slope is None else f", slope {self.slope:.2f}"
+        return f"<Row h = {self.h}: error {float(self.error):.1e}{slope}>"
+
 
 @dataclass(frozen=True)
 class Visible:
@@ -202,6 +206,13 @@ class Convergence:
     def agrees(self) -> bool:
         """Whether the verdict is that they agree."""
         return self.verdict == "agree"
+
+    def __repr__(self) -> str:
+        seen = "no observed order"
+        if self.observed_order is not None:
+            seen = f"observed order {self.observed_order:.1f}"
+        name = getattr(self.problem, "name", "oscillator")
+        return f"<Convergence {name}: {seen}, {self.verdict}>"
 
 
 def absolute(x: arb) -> arb:

@@ -39,6 +39,9 @@ class Converted:
     left_out: tuple[str, ...] = ()
     loses_further: bool = False
 
+    def __repr__(self) -> str:
+        return f"<Converted {self.method!r}>"
+
 
 def convert(
     method: GarkMethod, to: str = "spelled-out", stages: int | None = None

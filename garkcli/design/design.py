@@ -81,6 +81,9 @@ class Step:
             return True
         return any(x.accepted and x.order is not None for x in self.found)
 
+    def __repr__(self) -> str:
+        return f"<Step order {self.order}: {self.kind}>"
+
 
 @dataclass(frozen=True)
 class Design:
@@ -106,6 +109,11 @@ class Design:
     def reaches(self, order: int) -> bool:
         """Whether some values have the order, of a family at least complex ones."""
         return self.last.order >= order and self.last.may_have_methods
+
+    def __repr__(self) -> str:
+        reached = [step.order for step in self.steps if step.may_have_methods]
+        highest = max(reached, default=0)
+        return f"<Design {self.family.name}: order {highest} is reached>"
 
 
 SHARE = 0.25

@@ -118,6 +118,20 @@ def plain_decimal(number: fmpq) -> str:
     return f"{sign}{whole}.{fraction}"
 
 
+def nearest_float(number: Algebraic) -> float:
+    """The float that is nearest to an irrational number: the one to which both ends of a narrow
+    enclosure are rounded.
+    """
+    digits = 20
+    while True:
+        ball = to_ball(number, digits)
+        with ctx.workprec(8 * digits):  # the ends are not rounded before
+            ends = {float(ball.lower()), float(ball.upper())}
+        if len(ends) == 1:
+            return ends.pop()
+        digits *= 2
+
+
 def to_float(number: Number) -> float:
     """The nearest float, or nearly so."""
     return float(to_ball(number))

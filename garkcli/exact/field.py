@@ -9,13 +9,14 @@ from __future__ import annotations
 from collections import Counter
 from collections.abc import Iterator, Mapping, Sequence
 from functools import cached_property
-from typing import TypeAlias
+from typing import Any, TypeAlias
 
 from flint import fmpq, fmpq_mat, fmpq_poly, fmpz
 
 from garkcli.exact.echelon import pivot_columns
 from garkcli.exact.nodes import Expression
 from garkcli.exact.rewriting import format_expression
+from garkcli.upward import found
 
 ZERO = fmpq(0)
 ONE = fmpq(1)
@@ -201,6 +202,15 @@ class Algebraic:
             if bit == "1":
                 result = result * base
         return result
+
+    def __float__(self) -> float:
+        """The nearest float; nothing is decided with it."""
+        value: float = found("exact.display", "nearest_float")(self)
+        return value
+
+    def _sympy_(self) -> Any:
+        """The same number for SymPy, which asks for it."""
+        return found("backward.formulas", "in_sympy")(self)
 
     def __bool__(self) -> bool:
         return True  # zero is rational, hence never an Algebraic

@@ -6,7 +6,7 @@ import numbers
 from decimal import Decimal
 from math import isfinite
 from sys import float_info
-from typing import Any
+from typing import Any, SupportsFloat, TypeAlias
 
 from flint import fmpq, fmpz
 
@@ -14,6 +14,8 @@ from garkcli.errors import ExpressionError, MethodError
 from garkcli.exact.display import to_text
 from garkcli.exact.field import Algebraic
 
+AnyNumber: TypeAlias = "SupportsFloat | str"
+"""A number of any kind, or its text."""
 FLOAT_DIGITS = 15
 """Decimal digits that every float keeps: a decimal of so many is the only one its float prints."""
 

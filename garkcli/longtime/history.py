@@ -68,6 +68,9 @@ class InvariantHistory:
     errors: tuple[float, ...]
     longer: fmpq | None = None
 
+    def __repr__(self) -> str:
+        return f"<InvariantHistory {self.name}: {self.verdict}>"
+
 
 @dataclass(frozen=True)
 class LongRun:
@@ -125,6 +128,12 @@ class LongRun:
         return any(
             x.verdict in ("drifts", "unstable") for x in self.invariants
         )
+
+    def __repr__(self) -> str:
+        name = getattr(self.problem, "name", "oscillator")
+        found = [f"{x.name} {x.verdict}" for x in self.invariants]
+        words = ", ".join([f"{self.steps} steps of {self.step}", *found])
+        return f"<LongRun {name}: {words}>"
 
 
 def count_steps(t_end: fmpq, step: fmpq) -> int:

@@ -67,6 +67,12 @@ class Condition:
         """
         return all(len(tree.colours) > 1 for tree in self.trees)
 
+    def __repr__(self) -> str:
+        what = f"{self.tree}: {self.value}"
+        if self.is_exact:
+            return f"<Condition {what}>"
+        return f"<Condition {what} instead of {self.required}>"
+
 
 def conditions(
     tableau: Tableau, trees: Iterable[Tree], tolerance: fmpq = ZERO

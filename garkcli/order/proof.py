@@ -32,6 +32,9 @@ class Proof:
     order: Order
     spanning: tuple[tuple[tuple[Tree, ...], ...], ...]
 
+    def __repr__(self) -> str:
+        return f"<Proof of {self.order!r}>"
+
 
 def prove(tableau: Tableau, limit: int = DEFAULT_LIMIT) -> Proof:
     """The exact order of a tableau and what decides it; no order beyond ``limit`` is looked for."""

@@ -13,6 +13,7 @@ from functools import cache
 
 from flint import fmpq
 
+from garkcli.errors import counted
 from garkcli.problems.expr import Expr, Exprs, Invariants
 from garkcli.problems.vectorfield import (
     GROUPS,
@@ -76,6 +77,11 @@ class Hamiltonian:
     def unsplit(self) -> Hamiltonian:
         """The same problem in one term."""
         return replace(self, terms=(self.energy,))
+
+    def __repr__(self) -> str:
+        terms = counted(len(self.terms), "term")
+        freedom = counted(self.dimension, "degree")
+        return f"<Hamiltonian {self.name}: {terms}, {freedom} of freedom>"
 
 
 @cache

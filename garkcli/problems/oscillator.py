@@ -7,8 +7,9 @@ momentum part only.
 
 from __future__ import annotations
 
+from collections.abc import Sequence
 from dataclasses import dataclass
-from typing import TypeAlias
+from typing import TYPE_CHECKING, TypeAlias
 
 from flint import fmpq
 
@@ -16,7 +17,7 @@ from garkcli.errors import ExpressionError, UsageProblem
 from garkcli.exact.domain import Domain
 from garkcli.exact.expression import parse
 from garkcli.exact.field import ONE, ZERO
-from garkcli.exact.given import rational_of
+from garkcli.exact.given import AnyNumber, rational_of
 from garkcli.exact.matrix import Matrix
 from garkcli.tableau.tableau import Colour, Tableau
 
@@ -28,6 +29,8 @@ Shares: TypeAlias = tuple[tuple[fmpq, fmpq], ...]
 class Oscillator:
     """q̇ = p, ṗ = −ω²q, divided among the terms of a split.
 
+    Numbers of any kind are taken.
+
     Attributes:
         omega: ω > 0, in radians per unit of time.
         shares: ``(k_l, v_l)`` for each term, its shares of the kinetic and of the potential energy;
@@ -36,6 +39,8 @@ class Oscillator:
     Errors:
         UsageProblem: ω is not positive, or a column does not sum to 1.
 
+    >>> Oscillator(0.5, [(1, 0), (0, 1)])
+    Oscillator(omega=1/2, shares=((1, 0), (0, 1)))
     >>> Oscillator.default(3, fmpq(1)).shares
     ((1, 0), (0, 1/2), (0, 1/2))
     """
@@ -43,14 +48,22 @@ class Oscillator:
     omega: fmpq
     shares: Shares
 
+    if TYPE_CHECKING:
+
+        def __init__(
+            self,
+            omega: AnyNumber,
+            shares: Sequence[tuple[AnyNumber, AnyNumber]],
+        ) -> None: ...
+
     def __post_init__(self) -> None:
         omega = rational_of(self.omega, "omega")
         shares = tuple(
             (
-                rational_of(k, f"shares[{l}][0]"),
-                rational_of(v, f"shares[{l}][1]"),
+                rational_of(k, f"shares of term {term}, kinetic"),
+                rational_of(v, f"shares of term {term}, potential"),
             )
-            for l, (k, v) in enumerate(self.shares)
+            for term, (k, v) in enumerate(self.shares, start=1)
         )
         object.__setattr__(self, "omega", omega)
         object.__setattr__(self, "shares", shares)
@@ -68,7 +81,7 @@ class Oscillator:
                 )
 
     @classmethod
-    def default(cls, terms: int, omega: fmpq) -> Oscillator:
+    def default(cls, terms: int, omega: AnyNumber = 1) -> Oscillator:
         """One term: unsplit. More: ½p² to the first, ½ω²q² in equal parts to the others."""
         if terms == 1:
             return cls(omega, ((ONE, ONE),))

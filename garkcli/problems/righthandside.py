@@ -10,6 +10,7 @@ from dataclasses import dataclass, replace
 
 from flint import arb, fmpq
 
+from garkcli.errors import counted
 from garkcli.problems.expr import Exprs, Invariants, rational
 from garkcli.problems.straightline import function
 from garkcli.problems.vectorfield import (
@@ -90,6 +91,11 @@ class RightHandSide:
     def unsplit(self) -> RightHandSide:
         """The same problem in one term."""
         return replace(self, terms=(self.total,))
+
+    def __repr__(self) -> str:
+        terms = counted(len(self.terms), "term")
+        unknowns = counted(len(self.variables), "unknown")
+        return f"<RightHandSide {self.name}: {terms}, {unknowns}>"
 
 
 def right_hand_side(problem: RightHandSide, term: int) -> VectorField:

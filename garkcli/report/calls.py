@@ -2,16 +2,15 @@
 
 from __future__ import annotations
 
-from typing import Protocol
-
+from garkcli.api.anymethod import AnyMethod, method_of
+from garkcli.api.calls import prove_method
 from garkcli.bridges.registry import bridges
 from garkcli.check.meanings import known_words
-from garkcli.check.proof import prove_method
 from garkcli.constructions.schemes.flows import SPLITTINGS
 from garkcli.constructions.schemes.registry import SCHEMES
+from garkcli.errors import UsageProblem, did_you_mean
 from garkcli.families.registry import FAMILIES
 from garkcli.problems.builtin import PROBLEMS
-from garkcli.reference import Reference
 from garkcli.report import citation, proof_json
 from garkcli.report.sweep import SweepReport
 from garkcli.sweep.load import load_plan
@@ -21,41 +20,46 @@ from garkcli.tableau.garkmethod import GarkMethod
 from garkcli.transfer import RULES
 
 
-class Published(Protocol):
-    """What a reference is known of: a method file."""
-
-    @property
-    def source(self) -> str:
-        """Its path or its name in the catalogue."""
-
-    @property
-    def reference(self) -> str:
-        """In one line; empty where there is none."""
-
-    @property
-    def bibliography(self) -> Reference | None:
-        """Its fields; None where it is plain text."""
-
-
-def cite(*methods: Published, format: str = "bibtex") -> str:
+def cite(*methods: AnyMethod, format: str = "bibtex") -> str:
     """Where methods were published, each publication once: ``gark cite``.
 
     Args:
-        methods: from files, texts or the catalogue.
+        methods: from files, texts or the catalogue; or paths and names.
         format: bibtex, text or json.
+
+    Raises:
+        UsageProblem: there is no such format.
+
+    >>> print(cite("rk4").splitlines()[1])
+    @article{Kutta1901,
     """
-    cited = [
-        citation.Cited((one.source,), one.reference, one.bibliography)
-        for one in methods
-    ]
+    if format not in citation.FORMATS:
+        message = f"no format {format!r}"
+        raise UsageProblem(message, did_you_mean(format, citation.FORMATS))
+    cited = [_cited(method_of(method)) for method in methods]
     return citation.render(citation.together(cited), format)
 
 
-def certificate(method: GarkMethod) -> str:
+def _cited(method: GarkMethod) -> citation.Cited:
+    """A method with its reference; without one where it is not from a file."""
+    source = getattr(method, "source", method.name)
+    reference = getattr(method, "reference", "")
+    fields = getattr(method, "bibliography", None)
+    return citation.Cited((source,), reference, fields)
+
+
+def certificate(method: AnyMethod) -> str:
     """What proves the orders of a method, as JSON text: ``gark certificate``.
+
+    Args:
+        method: whatever ``method_of`` takes; its coefficients are exact.
 
     Raises:
         MethodError: the coefficients are rounded.
+
+    >>> import json
+    >>> json.loads(certificate("heun"))["schema"]
+    'gark/certificate/1'
     """
     return proof_json.render(prove_method(method))
 

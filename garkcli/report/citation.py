@@ -125,12 +125,16 @@ def last_name(name: str) -> str:
     return before if comma else name.split()[-1]
 
 
+FORMATS = ("bibtex", "text", "json")
+"""What publications are written as."""
+
+
 def render(cited: Sequence[Cited], format: str) -> str:
     """The publications.
 
     Args:
         cited: each once.
-        format: bibtex, text or json.
+        format: one of ``FORMATS``.
     """
     if format == "json":
         return _REPORT.text(cited)

@@ -79,6 +79,9 @@ class SweepReport:
         """The rows of methods that could not be made."""
         return [row for row in self.done if "failure" in row]
 
+    def __repr__(self) -> str:
+        return f"<SweepReport {self.source}: {counted(len(self.done), 'row')}>"
+
 
 def render_text(report: SweepReport, width: int) -> str:
     """The best methods and the front, for people."""

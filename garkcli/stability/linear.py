@@ -18,6 +18,7 @@ from itertools import pairwise
 from garkcli.exact.cells import Interval, Point, sign_of, where
 from garkcli.exact.field import ONE, ZERO, Number
 from garkcli.exact.polynomial import Polynomial, gcd
+from garkcli.exact.polynomial_text import polynomial_text
 from garkcli.exact.roots import sign
 from garkcli.stability.step_function import step_function
 from garkcli.stepping.stage_system import stage_system
@@ -49,6 +50,12 @@ class StabilityFunction:
         return (
             self.numerator[self.denominator.degree] / self.denominator.leading
         )
+
+    def __repr__(self) -> str:
+        P, Q = (
+            polynomial_text(x, "z") for x in (self.numerator, self.denominator)
+        )
+        return f"<R(z) = {P}>" if Q == "1" else f"<R(z) = ({P})/({Q})>"
 
 
 def stability_function(

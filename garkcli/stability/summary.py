@@ -35,6 +35,13 @@ from garkcli.stability.within import StabilityWithin, stability_within
 from garkcli.tableau.tableau import Tableau
 
 
+def _word(word: str, is_so: bool | None) -> str:
+    """A property, with what is known of it."""
+    if is_so is None:
+        return f"{word} not decided"
+    return word if is_so else f"not {word}"
+
+
 @dataclass(frozen=True)
 class LinearStability:
     """What a stability function R(z) tells; None where rounded coefficients leave it open.
@@ -63,6 +70,12 @@ class LinearStability:
     imaginary: tuple[Interval, ...] | None
     ssp: SspCoefficient | None
     within: StabilityWithin | None = None
+
+    def __repr__(self) -> str:
+        words = _word("A-stable", self.a_stable)
+        if self.a_stable:
+            words += f", {_word('L-stable', self.l_stable)}"
+        return f"<LinearStability {self.name}: {words}>"
 
 
 @dataclass(frozen=True)
@@ -93,6 +106,15 @@ class Stability:
     def kind(self) -> str:
         """``linear`` where the linear test equation has a meaning, else ``oscillator``."""
         return "linear" if self.linear else "oscillator"
+
+    def __repr__(self) -> str:
+        if not self.linear:
+            return f"<Stability of {self.tableau!r} on the oscillator>"
+        together, *_ = self.linear
+        words = _word("A-stable", together.a_stable)
+        if together.a_stable:
+            words += f", {_word('L-stable', together.l_stable)}"
+        return f"<Stability {words}>"
 
 
 def stability(

@@ -98,6 +98,9 @@ class Integrator:
         with _precision(self.digits):
             return [self.number(arb(h) * a) for a in self.coefficients]
 
+    def __repr__(self) -> str:
+        return f"<Integrator {self.problem.name}: {self.digits} digits>"
+
 
 @dataclass(frozen=True, eq=False)
 class Binding:
@@ -165,6 +168,9 @@ class Binding:
         return write(
             self.graph, self.fields, self.problem.layout, is_for_balls=True
         )
+
+    def __repr__(self) -> str:
+        return f"<Binding {self.problem.name}: {self.tableau!r}>"
 
 
 def bind(tableau: Tableau, problem: Problem) -> Binding:

@@ -2,6 +2,7 @@
 
 from __future__ import annotations
 
+from collections.abc import Sequence
 from dataclasses import dataclass
 from functools import cached_property
 from typing import TYPE_CHECKING, Any, Literal, TypeAlias
@@ -9,6 +10,7 @@ from typing import TYPE_CHECKING, Any, Literal, TypeAlias
 from flint import fmpq
 
 from garkcli.errors import counted
+from garkcli.tableau.bycolour import ByColour
 from garkcli.tableau.embedded import DenseOutput, Further, Weights
 from garkcli.tableau.tableau import Tableau
 from garkcli.upward import found
@@ -57,20 +59,30 @@ class GarkMethod:
 
     @property
     def A(self) -> Any:  # noqa: N802 -- the name it has everywhere
-        """The matrix, row by row; of several colours ``A[l][m]`` is a block, or None where colour l
-        does not see colour m. Colours count from 0.
+        """The matrix, row by row, shape (s, s). Of several colours ``A[l, m]`` is a block, shape
+        (s_l, s_m), or None where colour l does not see colour m; colours count from 1.
         """
-        return self._of_one(self.entries.A, is_block=True)
+        blocks = self.entries.A
+        if self.tableau.size == 1:
+            return blocks[0][0]
+        numbered = enumerate(blocks, start=1)
+        return ByColour(
+            {
+                (l, m): block
+                for l, row in numbered
+                for m, block in enumerate(row, start=1)
+            }
+        )
 
     @property
     def b(self) -> Any:
-        """The weights; of several colours a row each."""
-        return self._of_one(self.entries.b)
+        """The weights, length s; of several colours ``b[l]`` has length s_l, colours from 1."""
+        return self._by_colour(self.entries.b)
 
     @property
     def c(self) -> Any:
-        """The nodes; of several colours a row each."""
-        return self._of_one(self.entries.c)
+        """The nodes, length s; of several colours ``c[l]`` has length s_l, colours from 1."""
+        return self._by_colour(self.entries.c)
 
     @property
     def order(self) -> int:
@@ -122,14 +134,15 @@ class GarkMethod:
         """The embedded weights and the dense output together."""
         return Further(self.embedded, self.dense)
 
-    def _of_one(self, whole: Any, is_block: bool = False) -> Any:
-        if self.tableau.size > 1:
-            return whole
-        return whole[0][0] if is_block else whole[0]
+    def _by_colour(self, rows: Sequence[Any]) -> Any:
+        """The row of the one colour, or the rows of all."""
+        if self.tableau.size == 1:
+            return rows[0]
+        return ByColour(dict(enumerate(rows, start=1)))
 
     @property
     def stages(self) -> tuple[int, ...]:
-        """The number of stages of each colour."""
+        """The number of stages s_l of each colour, in their order."""
         colours = range(self.tableau.size)
         return tuple(self.tableau.space(l).stages for l in colours)
 

@@ -21,6 +21,8 @@ from typing import TYPE_CHECKING, TypeAlias
 
 from flint import fmpz, fmpz_poly
 
+from garkcli.errors import TreeError
+
 if TYPE_CHECKING:
     from collections.abc import Collection, Sequence
 
@@ -57,11 +59,11 @@ class Admissible:
     ) -> Admissible:
         """Check and freeze; no ``edges`` means every edge.
 
-        Raises ``ValueError`` when ``edges`` is not a colours × colours matrix or a colour does not
+        Raises ``TreeError`` when ``edges`` is not a colours × colours matrix or a colour does not
         exist.
         """
         if colours < 1:
-            raise ValueError(
+            raise TreeError(
                 f"an N-tree needs at least one colour, not {colours}"
             )
         everything = range(colours)
@@ -70,7 +72,7 @@ class Admissible:
             lengths = {len(edges), *map(len, edges)}
             if lengths != {colours}:
                 shape = f"a {colours} by {colours} matrix"
-                raise ValueError(
+                raise TreeError(
                     f"edges must be {shape}, one row for each colour"
                 )
             rows = []
@@ -80,7 +82,7 @@ class Admissible:
         for colour in linear:
             if colour not in everything:
                 what = f"linear colour {colour}"
-                raise ValueError(
+                raise TreeError(
                     f"{what} is not one of the {colours} colours 0, 1, …"
                 )
         return cls(colours, tuple(rows), frozenset(linear))
@@ -130,7 +132,7 @@ def count_by_root(
 ) -> Counts:
     """The number of N-trees of one order for each root colour.
 
-    ``edges`` and ``linear`` as in :class:`Admissible`; raises ``ValueError`` for an order below 1.
+    ``edges`` and ``linear`` as in :class:`Admissible`; raises ``TreeError`` for an order below 1.
 
     >>> count_by_root(2, 4)
     (26, 26)
@@ -147,7 +149,7 @@ def _forests(
 ) -> dict[int, list[fmpz]]:
     """For each leader the numbers of forests f(0), …, f(order - 1) that may stand on it."""
     if order < 1:
-        raise ValueError(f"the order of a tree is at least 1, not {order}")
+        raise TreeError(f"the order of a tree is at least 1, not {order}")
     growing: dict[int, _Growing] = {}
     for leader in dict.fromkeys(leaders):
         below = admissible.branches[leader]

@@ -10,6 +10,7 @@ from __future__ import annotations
 import re
 from typing import TYPE_CHECKING
 
+from garkcli.errors import TreeError
 from garkcli.trees.tree import Tree
 
 if TYPE_CHECKING:
@@ -35,29 +36,32 @@ _BLANK = re.compile(r"\s*")
 _DIGITS = re.compile(r"[0-9]*")
 
 
-class NotationError(ValueError):
+class NotationError(TreeError):
     """A text that is not a tree: ``message`` what is wrong, ``help`` the cure, ``offset`` where
     (from 0).
     """
 
     def __init__(self, message: str, help: str, offset: int) -> None:
-        place = f"character {offset + 1}"
-        super().__init__(f"{message} at {place}; {help}")
-        self.message = message
-        self.help = help
+        super().__init__(message, help)
         self.offset = offset
+
+    def __str__(self) -> str:
+        return f"{self.message} at character {self.offset + 1}; {self.help}"
 
 
 def parse_tree(text: str) -> Tree:
     """Read a tree in bracket notation; blanks are free, and colours may be left out everywhere (all
     1).
 
-    Raises :class:`NotationError` with the offset of the fault, also for a text longer than
-    ``MAX_LENGTH``, with more vertices than ``MAX_VERTICES``, deeper than ``MAX_DEPTH`` or with a
-    colour beyond ``MAX_COLOUR``.
+    Args:
+        text: the branches of a vertex in brackets, then its colour, counted from 1.
+
+    Raises:
+        TreeError: it is no tree; its text says where, ``offset`` likewise, from 0. A tree has 1000
+            vertices at most, 150 of them on a path.
 
     >>> parse_tree("[[]_2, []_2]_1")
-    Tree(0, [Tree(1), Tree(1)])
+    <Tree [[]_2,[]_2]_1>
     >>> parse_tree("[[]]").order
     2
     """
@@ -174,7 +178,7 @@ def written_order(tree: Tree) -> list[Tree]:
 
 
 def format_tree(tree: Tree, colours: bool = True) -> str:
-    """Bracket notation, which :func:`parse_tree` reads again; ``colours=False`` leaves the colours
+    """Bracket notation, which ``parse_tree`` reads again; ``colours=False`` leaves the colours
     out.
 
     >>> format_tree(Tree(0, [Tree(1), Tree(0, [Tree(1)])]))

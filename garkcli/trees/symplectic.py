@@ -172,7 +172,7 @@ def superfluous_classes(
     a pair.
 
     >>> [c.representative for c in superfluous_classes(Structure.self_conjugate(1), 2)]
-    [Tree(0, [Tree(0)])]
+    [<Tree [[]_1]_1>]
     """
     _check(order)
     if structure.is_directed or order % 2:

@@ -17,8 +17,13 @@ class Tree:
     """The N-tree ``[u_1, …, u_m]^[l]``: a root of colour ``l`` and the branches left when it is
     removed.
 
-    ``root`` counts colours from 0. ``branches`` are kept in one canonical order, so that equal
-    trees compare equal whatever the order in which their branches were given.
+    Trees compare equal whatever the order in which their branches were given.
+
+    Attributes:
+        root: the colour l, counted from 0 as ``Tree(root, branches)`` takes it; ``colour`` is the
+            same counted from 1.
+        branches: the trees u_i, in one canonical order.
+        order: ρ(u), the number of vertices.
 
     >>> cherry = Tree(0, [Tree(1), Tree(1)])
     >>> cherry.order, cherry.density, cherry.symmetry
@@ -73,6 +78,11 @@ class Tree:
             yield from u.vertices()
 
     @property
+    def colour(self) -> int:
+        """The colour of the root, counted from 1."""
+        return self.root + 1
+
+    @property
     def colours(self) -> frozenset[int]:
         """The colours that occur, counted from 0."""
         return frozenset(u.root for u in self.vertices())
@@ -96,7 +106,4 @@ class Tree:
         return text
 
     def __repr__(self) -> str:
-        if not self.branches:
-            return f"Tree({self.root})"
-        branches = list(self.branches)
-        return f"Tree({self.root}, {branches!r})"
+        return f"<Tree {self}>"

@@ -173,8 +173,8 @@ def test_several_colours() -> None:
     made = from_arrays([[[[0]], None], [[[1]], [["1/2"]]]], [[1], [1]])
     text = "tableau: {A: [[[[0]], null], [[[1]], [[1/2]]]], b: [[1], [1]]}"
     assert made.tableau == loads(text).tableau
-    assert made.A[0][1] is None
-    assert made.A[1][0] == ((1,),)
+    assert made.A[1, 2] is None
+    assert made.A[2, 1] == ((1,),)
     assert from_arrays(made.A, made.b, made.c).tableau == made.tableau
 
 
@@ -207,7 +207,7 @@ def test_embedded_weights_of_every_kind() -> None:
         [[[[0]], None], [[[1]], [["1/2"]]]], [[1], [1]], embedded=[[0], [1]]
     )
     assert two.embedded == ((0,), (1,))
-    with pytest.raises(MethodError, match=r"^embedded\[1\]: 0.3333"):
+    with pytest.raises(MethodError, match=r"^embedded, entry 2: 0\.3333"):
         from_arrays(A, b, embedded=[1, 1 / 3])
     with pytest.raises(MethodFileError, match="embedded has 3 entries"):
         from_arrays(A, b, embedded=[1, 0, 0])
@@ -223,7 +223,7 @@ def test_rounded_floats_ask_for_a_tolerance() -> None:
         )  # the only digit that so small a float has
     with pytest.raises(MethodError, match="rounded number") as caught:
         from_arrays(A, b)
-    assert caught.value.message.startswith("A[0][1]")
+    assert caught.value.message.startswith("A, row 1, entry 2")
     assert "tolerance=" in caught.value.help
     made = from_arrays(A, b, tolerance="1e-15")
     assert made.tolerance == fmpq(1, 10**15)

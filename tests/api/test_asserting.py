@@ -18,8 +18,8 @@ from garkcli import (
     from_arrays,
     load,
     loads,
+    method_of,
 )
-from garkcli.api.anymethod import as_method
 from garkcli.errors import MethodError, MethodFileError
 from garkcli.order.certificate import find_order as exact_order
 from garkcli.tableau.tableau import Tableau
@@ -165,7 +165,7 @@ def test_files_that_are_not_there(tmp_path: Path) -> None:
 def test_methods_stay_what_they_are() -> None:
     """A method that is given is the one that is taken."""
     method = load(str(PATH))
-    assert as_method(method) is method
+    assert method_of(method) is method
     assert isinstance(method.tableau, Tableau)
-    assert as_method(method.tableau).tableau is method.tableau
-    assert find_order(as_method((RK4, WEIGHTS))).order == 4
+    assert method_of(method.tableau).tableau is method.tableau
+    assert find_order(method_of((RK4, WEIGHTS))).order == 4

@@ -110,10 +110,10 @@ def test_the_entries_of_conjugate_and_pair_are_those_printed() -> None:
     found = method.conjugate.A
     assert [[_fraction(x) for x in row] for row in found] == wanted
     both = method.pair
-    assert both.b == (method.b, method.b)
+    assert both.b == {1: method.b, 2: method.b}
     # where forces are evaluated velocities are seen by A
-    assert both.A[1][0] == method.A
-    assert both.A[0][1] == found
+    assert both.A[2, 1] == method.A
+    assert both.A[1, 2] == found
 
 
 def _fraction(x: fmpq) -> Fraction:

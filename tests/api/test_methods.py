@@ -29,16 +29,18 @@ from garkcli import (
     simplifying,
 )
 from garkcli.check.deciding import analyse as analyse_tableau
-from garkcli.errors import MethodError
+from garkcli.errors import MethodError, MethodFileError
 from garkcli.families.registry import diagonal_method as of_registry
 from garkcli.order.certificate import find_order as exact_order
 from garkcli.problems.oscillator import Oscillator
+from garkcli.tableau import forms
 from garkcli.transfer import RULES
 
 GAUSS = loads("methods: [{family: gauss, stages: 2}]")
 ROUNDED = loads(
     "A: [[0.25, -0.038675134594813], [0.538675134594813, 0.25]]\nb: [0.5, 0.5]\ntolerance: 1e-14"
 )
+OFF_DIAGONAL = [(1, 2), (2, 1)]
 KINDS = {
     "file": GAUSS,
     "tableau": GAUSS.tableau,
@@ -121,8 +123,13 @@ def test_gark_puts_diagonal_methods_together() -> None:
     )
     l, m = of_registry("gauss", 2), of_registry("lobatto-iiia", 3)
     rule = RULES["interpolation"]
-    wanted = gark([l, m], {(0, 1): rule(l, m), (1, 0): rule(m, l)})
-    assert gark([gauss, lobatto], "interpolation").blocks == wanted.blocks
+    wanted = forms.gark([l, m], {(0, 1): rule(l, m), (1, 0): rule(m, l)})
+    made = gark([gauss, lobatto], "interpolation")
+    assert made.tableau.blocks == wanted.blocks
+    again = gark([gauss, lobatto], {key: made.A[key] for key in OFF_DIAGONAL})
+    assert str(again.A) == str(made.A)
+    with pytest.raises(MethodError, match=r"\(0, 1\) is no block"):
+        gark([gauss, lobatto], {(0, 1): [[1]]})
     with pytest.raises(MethodError, match="no transfer rule"):
         gark([gauss, lobatto], "interpolate")
     with pytest.raises(MethodError, match="no diagonal method"):
@@ -130,14 +137,14 @@ def test_gark_puts_diagonal_methods_together() -> None:
 
 
 def test_what_is_no_method_is_refused() -> None:
-    """A path, or nothing at all, is no method; the error says how to get one."""
+    """A path to nowhere, or nothing at all, is no method; the error says how to get one."""
+    with pytest.raises(MethodFileError, match="no such file"):
+        find_order("methods/no-such.gark.yaml")
     with pytest.raises(
-        MethodError, match="a method is expected, not str"
+        MethodError, match="a method is expected, not NoneType"
     ) as caught:
-        find_order("methods/rk4.gark.yaml")  # type: ignore[arg-type]
-    assert "load(path)" in caught.value.help
-    with pytest.raises(MethodError, match="NoneType"):
         simplifying(None)  # type: ignore[arg-type]
+    assert "load(path)" in caught.value.help
 
 
 def test_entries_are_those_that_are_printed() -> None:
@@ -147,8 +154,8 @@ def test_entries_are_those_that_are_printed() -> None:
         "methods: [{family: gauss, stages: 1}, {family: kutta}]\ntransfer: collocation"
     )
     assert two.stages == (1, 3)
-    assert len(two.A[1][0]) == 3
-    assert two.b[0] == (1,)
+    assert len(two.A[2, 1]) == 3
+    assert two.b[1] == (1,)
     five = diagonal_method("gauss", 5)
     assert abs(float(five.c[0]) - 0.046910077030668) < 1e-15
     assert method_of(GAUSS) is GAUSS

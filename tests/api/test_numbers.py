@@ -27,6 +27,7 @@ from garkcli import (
     simplifying,
 )
 from garkcli.exact.given import rational_of
+from tests.api import typed_use
 
 MIDPOINT = loads("A: [[1/2]]\nb: [1]")
 ROUNDED = loads("A: [[0.499999999]]\nb: [1]")
@@ -70,6 +71,14 @@ def test_numbers_of_every_kind(kind: str) -> None:
     family = "parameters: {a: 1}\nA: [[a]]\nb: [1]"
     made = loads(family, settings={"a": x})
     assert made.A[0][0] == eighth
+
+
+def test_a_script_as_people_write_it() -> None:
+    """Everything that mypy takes in it is taken, and means the same."""
+    assert typed_use.orders() == [2, 2, 2, 4]
+    assert typed_use.parameters() == {"((1/4,),)"}
+    typed_use.runs()
+    typed_use.conditions_and_blocks()
 
 
 def test_steps_of_a_trajectory() -> None:

@@ -86,6 +86,10 @@ class FoundTable:
             return len(self.b[0]) if self.b else 0
         return sum(len(row) for row in self.b)
 
+    def __repr__(self) -> str:
+        name = self.name or f"line {self.line}"
+        return f"<FoundTable {name} of {self.source}>"
+
 
 Find: TypeAlias = Callable[[str, str], list[FoundTable]]
 """From the text of a source and its name to the tables in it."""

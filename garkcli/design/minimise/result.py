@@ -89,3 +89,6 @@ class Minimum:
     gradient: Polynomial | None = None
     parameter: str | None = None
     is_infinite: bool = False
+
+    def __repr__(self) -> str:
+        return f"<Minimum of {self.objective.key}>"

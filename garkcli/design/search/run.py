@@ -13,7 +13,7 @@ from garkcli.crew.work import Alone, Workers, in_order
 from garkcli.design.design import Whose
 from garkcli.design.search.search import Search
 from garkcli.design.search.told import Method, told
-from garkcli.errors import UsageProblem
+from garkcli.errors import UsageProblem, counted
 from garkcli.tableau.family import Family
 
 Start: TypeAlias = list[float]
@@ -43,6 +43,10 @@ class Result:
     methods: list[Method] = field(default_factory=list)
     seconds: float = 0.0
     is_interrupted: bool = False
+
+    def __repr__(self) -> str:
+        methods = counted(len(self.methods), "method")
+        return f"<Result {methods} of {counted(self.starts, 'start')}>"
 
 
 @dataclass(frozen=True)

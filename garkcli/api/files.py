@@ -1,0 +1,237 @@
+"""Method files and problem files, from paths and texts, with values of parameters of any kind."""
+
+from __future__ import annotations
+
+import os
+from typing import TypeAlias
+
+from garkcli.api.anymethod import AnyMethod, method_of
+from garkcli.api.numbers import (
+    Number,
+    Settings,
+    Whole,
+    rational_or_none,
+    texts,
+    whole,
+)
+from garkcli.check import check_file as checking
+from garkcli.check.outcome import Outcome
+from garkcli.comparison import comparison
+from garkcli.comparison.comparison import Comparison
+from garkcli.conversion import convert as conversion
+from garkcli.conversion.convert import Converted
+from garkcli.methodfile import family
+from garkcli.methodfile import load as methods
+from garkcli.methodfile import problem as problems
+from garkcli.methodfile.build import MethodFile
+from garkcli.methodfile.family import FamilyFile
+from garkcli.order.certificate import DEFAULT_LIMIT
+from garkcli.problems.problem import Problem
+
+AnyPath: TypeAlias = "str | os.PathLike[str]"
+NONE: Settings = {}
+
+
+def load(path: AnyPath, settings: Settings = NONE) -> MethodFile:
+    """Read a method file, or a method of the catalogue.
+
+    Args:
+        path: of the file, or ``-`` for standard input; or the name or an alias of a method of the
+            catalogue.
+        settings: values of its parameters, by name, in place of those in the file.
+
+    Raises:
+        MethodFileError: every fault of the file, with positions.
+        HasFreeParameters: a parameter has no value; ``load_family`` reads such a file.
+
+    >>> load("rk4")
+    <MethodFile the classical Runge-Kutta method: 1 colour, stages 4>
+    >>> load("rk4").b
+    (1/6, 1/3, 1/3, 1/6)
+    """
+    return methods.load(os.fspath(path), texts(settings, "settings"))
+
+
+def loads(
+    text: str, source: str = "<text>", settings: Settings = NONE
+) -> MethodFile:
+    r"""Read a method file from its text.
+
+    Args:
+        text: of the file.
+        source: what errors call it.
+        settings: values of its parameters, by name, in place of those in the file.
+
+    Raises:
+        MethodFileError: every fault of the text, with positions.
+        HasFreeParameters: a parameter has no value.
+
+    >>> made = loads("parameters: {a: 1/2}\nA: [[a]]\nb: [1]", settings={"a": 0.25})
+    >>> made.A, made.order
+    (((1/4,),), 1)
+    """
+    return methods.loads(text, source, texts(settings, "settings"))
+
+
+def load_family(
+    path: AnyPath,
+    settings: Settings = NONE,
+    deadline: float | None = None,
+) -> FamilyFile:
+    """Read a method file with free parameters.
+
+    Args:
+        path: of the file.
+        settings: values of parameters, by name, in place of those in the file.
+        deadline: the reading of ``time.monotonic``, in seconds, at which what is wanted and not
+            worked out is left unsettled; None for never.
+
+    Raises:
+        MethodFileError: every fault of the file, with positions.
+        MethodError: it has no free parameter.
+
+    >>> load_family("tests/examples/families/sdirk.gark.yaml").parameters
+    ('g',)
+    """
+    given = texts(settings, "settings")
+    return family.load_family(os.fspath(path), given, deadline)
+
+
+def loads_family(
+    text: str,
+    source: str = "<text>",
+    settings: Settings = NONE,
+    is_design: bool = True,
+    deadline: float | None = None,
+) -> FamilyFile:
+    r"""Read a method file with free parameters from its text.
+
+    Args:
+        text: of the file.
+        source: what errors call it.
+        settings: values of parameters, by name, in place of those in the file.
+        is_design: whether what stands under ``design`` is meant; else it is passed over.
+        deadline: as in ``load_family``.
+
+    Raises:
+        MethodFileError: every fault of the file, with positions.
+        MethodError: it has no free parameter.
+
+    >>> loads_family("parameters: {t: free}\nA: [[0, 0], [t, 0]]\nb: [0, 1]").parameters
+    ('t',)
+    """
+    given = texts(settings, "settings")
+    return family.loads_family(text, source, given, is_design, deadline)
+
+
+def load_problem(path: AnyPath, stiffness: Number | None = None) -> Problem:
+    """Read a problem file.
+
+    Args:
+        path: of the file, or ``-`` for standard input.
+        stiffness: the value of its parameter of this name, in place of its own.
+
+    Raises:
+        MethodFileError: every fault of the file, with positions.
+
+    >>> load_problem("problems/kepler.yaml").energy
+    px**2/2 + py**2/2 - 1/sqrt(x**2 + y**2)
+    """
+    value = rational_or_none(stiffness, "stiffness")
+    return problems.load_problem(os.fspath(path), value)
+
+
+def loads_problem(
+    text: str, source: str = "<text>", stiffness: Number | None = None
+) -> Problem:
+    """Read a problem file from its text; see ``load_problem``.
+
+    Args:
+        text: of the file.
+        source: what errors call it.
+        stiffness: as in ``load_problem``.
+
+    Raises:
+        MethodFileError: every fault of the text, with positions.
+
+    >>> text = "{variables: [x], hamiltonian: px**2/2 - cos(x), initial: {x: 1, px: 0}}"
+    >>> loads_problem(text).energy
+    px**2/2 - cos(x)
+    """
+    value = rational_or_none(stiffness, "stiffness")
+    return problems.loads_problem(text, source, value)
+
+
+def check_file(
+    path: AnyPath,
+    limit: Whole = DEFAULT_LIMIT,
+    want_constants: bool = False,
+    settings: Settings = NONE,
+) -> Outcome:
+    """Check a method file with its claims: ``gark check``.
+
+    Args:
+        path: a file, a name of the catalogue, or ``-`` for standard input.
+        limit: where the search for orders stops, unless a claim of the file reaches further.
+        want_constants: compute the error constants too.
+        settings: values of its parameters, by name, in place of those in the file.
+
+    Returns:
+        The outcome; ``ok`` where it could be read and every claim holds. A file that cannot be read
+        has its ``faults`` in it.
+
+    >>> found = check_file("rk4")
+    >>> found.ok, found.analysis.order, [claim.holds for claim in found.claims]
+    (True, <Order 4>, [True, True])
+    """
+    return checking.check_file(
+        os.fspath(path),
+        whole(limit, "limit", 1),
+        want_constants,
+        texts(settings, "settings"),
+    )
+
+
+def compare(
+    one: AnyMethod, other: AnyMethod, limit: Whole = DEFAULT_LIMIT
+) -> Comparison:
+    """Hold two methods against each other: ``gark diff``.
+
+    Methods are the same where a renumbering of stages or colours turns one into the other, once
+    colours that share stages have copies of their own, and stages without influence and equal
+    stages are left out.
+
+    Args:
+        one: whatever ``method_of`` takes.
+        other: another.
+        limit: where the search for orders stops.
+
+    >>> compare(([[0, 0], [1, 0]], ["1/2", "1/2"]), ([[0, 1], [0, 0]], [0.5, 0.5]))
+    <Comparison same>
+    """
+    return comparison.compare(
+        method_of(one), method_of(other), whole(limit, "limit", 1)
+    )
+
+
+def convert(
+    method: AnyMethod, to: str = "spelled-out", stages: Whole | None = None
+) -> Converted:
+    """The same method in another form: ``gark convert``.
+
+    Args:
+        method: whatever ``method_of`` takes.
+        to: the form: spelled-out, one-set-of-stages, partitioned or symplectic-pair; ``gark convert
+            --help`` has all.
+        stages: how many each colour gets at least, by stages in front that do nothing.
+
+    Raises:
+        UsageProblem: there is no such form.
+        CannotConvert: the method has none; the message says why.
+        ZeroWeight: a pair would divide by zero.
+
+    >>> convert("heun", stages=3).method.A
+    ((0, 0, 0), (0, 0, 0), (0, 1, 0))
+    """
+    many = None if stages is None else whole(stages, "stages", 1)
+    return conversion.convert(method_of(method), to, many)

@@ -1,0 +1,110 @@
+"""Numbers of Python, NumPy, SymPy and FLINT as the exact numbers that the rooms below take."""
+
+from __future__ import annotations
+
+from collections.abc import Iterable, Mapping
+from typing import Any, SupportsIndex, TypeAlias
+
+from flint import fmpq
+
+from garkcli.errors import MethodError, counted
+from garkcli.exact.given import EXACTLY, AnyNumber, number_text, rational_of
+
+Number: TypeAlias = AnyNumber
+"""A number, or its text: an int, a Fraction, a Decimal, a float of at most 15 digits, ``"1/3"``; a
+number of NumPy, SymPy or FLINT.
+"""
+Whole: TypeAlias = "SupportsIndex"
+"""A whole number of Python, NumPy, SymPy or FLINT."""
+Settings: TypeAlias = "Mapping[str, Number]"
+"""Values of parameters by their names."""
+
+
+def rational(given: Number, where: str) -> fmpq:
+    """The rational number that is meant.
+
+    Args:
+        given: a number of any kind, or its text.
+        where: the argument, for messages.
+
+    Raises:
+        MethodError: it is no number, it is irrational, or a float that is rounded.
+
+    >>> rational(0.25, "h"), rational("1/3 - 1/4", "h")
+    (1/4, 1/12)
+    """
+    return rational_of(given, where)
+
+
+def rational_or_none(given: Number | None, where: str) -> fmpq | None:
+    """The same, where None says that the default is meant."""
+    return None if given is None else rational(given, where)
+
+
+def rationals(given: Iterable[Number], where: str) -> list[fmpq]:
+    """Several of them; messages have the place in Python's indices.
+
+    Raises:
+        MethodError: one is none, or they cannot be gone through.
+    """
+    if not _is_list(given):
+        raise MethodError(f"{where}: {given!r} is no list", "give a list")
+    return [rational_of(x, f"{where}[{i}]") for i, x in enumerate(given)]
+
+
+def whole(given: Any, where: str, least: int = 0) -> int:
+    """A whole number that is at least ``least``.
+
+    Raises:
+        MethodError: it is none.
+
+    >>> whole(3.0, "order"), whole("12", "order")
+    (3, 12)
+    """
+    value = rational_of(given, where)
+    if value.q != 1 or value < least:
+        raise MethodError(
+            f"{where}: {given} is no whole number from {least} on",
+            f"give one, such as {max(least, 1)}",
+        )
+    return int(value.p)
+
+
+def colour_of(given: Any, where: str, count: int) -> int:
+    """A colour of a method as code counts it, from 0, of one that is counted from 1.
+
+    Raises:
+        MethodError: the method has no such colour.
+
+    >>> colour_of(2, "forces", 2)
+    1
+    """
+    colour = whole(given, where)
+    if not 1 <= colour <= count:
+        some = counted(count, "colour")
+        message = f"{where}: there is no colour {colour}"
+        raise MethodError(message, f"the method has {some}, counted from 1")
+    return colour - 1
+
+
+def texts(given: Settings, where: str) -> dict[str, str]:
+    """Values of parameters as the texts of coefficients.
+
+    Raises:
+        MethodError: one is no exact number, or they have no names.
+    """
+    if not _is_mapping(given):
+        cure = f"give a mapping, such as {where}={{'tau': '1/3'}}"
+        raise MethodError(f"{where}: {given!r} is no mapping", cure)
+    return {
+        name: number_text(x, f"{where}[{name!r}]", False, EXACTLY)
+        for name, x in given.items()
+    }
+
+
+def _is_list(given: object) -> bool:
+    return isinstance(given, Iterable) and not isinstance(given, str)
+
+
+def _is_mapping(given: object) -> bool:
+    return isinstance(given, Mapping)

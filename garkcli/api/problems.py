@@ -1,0 +1,118 @@
+"""Problems: built in, from files, or as values, in as many terms as a method is for."""
+
+from __future__ import annotations
+
+import os
+from typing import TypeAlias
+
+from flint import fmpq
+
+from garkcli.api.numbers import Number, Whole, rational_or_none, whole
+from garkcli.errors import MethodError, UsageProblem
+from garkcli.methodfile.problem import load_problem
+from garkcli.problems import builtin
+from garkcli.problems.hamiltonian import Hamiltonian
+from garkcli.problems.oscillator import Oscillator, terms_of
+from garkcli.problems.problem import Problem
+from garkcli.stepping.fields import with_joined_terms
+from garkcli.stepping.matching import split_into
+from garkcli.tableau.tableau import Tableau
+
+AnyProblem: TypeAlias = "Problem | Oscillator | str | os.PathLike[str]"
+"""A problem; the name of a built-in one, or the path of a problem file."""
+OSCILLATOR = "oscillator"
+"""The name of the problem that is solved by exact step maps."""
+
+
+def problem(
+    name: str,
+    terms: Whole = 1,
+    seed: Whole = 1,
+    stiffness: Number | None = None,
+) -> Problem:
+    """The built-in problem called ``name``, Hamiltonian or not, split into terms.
+
+    Args:
+        name: as ``gark list problems`` shows it.
+        terms: how many, one for each colour of a method.
+        seed: of those with random coefficients.
+        stiffness: of those that have one; 1 by default.
+
+    Raises:
+        UsageProblem: there is no such problem, it cannot be split so, or it has no stiffness.
+
+    >>> problem("van-der-pol", 2, stiffness=1000).terms[0]
+    (z, 0)
+    """
+    return builtin.problem(
+        name,
+        whole(terms, "terms", 1),
+        whole(seed, "seed"),
+        rational_or_none(stiffness, "stiffness"),
+    )
+
+
+def hamiltonian(name: str, terms: Whole = 1, seed: Whole = 1) -> Hamiltonian:
+    """The built-in Hamiltonian problem called ``name``, split into terms.
+
+    Args:
+        name: as ``gark list problems`` shows it.
+        terms: how many, one for each colour of a method.
+        seed: of those with random coefficients.
+
+    Raises:
+        UsageProblem: there is no such problem, it cannot be split so, or it is not Hamiltonian.
+
+    >>> hamiltonian("pendulum", 2)
+    <Hamiltonian pendulum: 2 terms, 1 degree of freedom>
+    >>> [str(x) for x in hamiltonian("pendulum", 2).terms]
+    ['px**2/2', '1 - cos(x)']
+    """
+    return builtin.hamiltonian(
+        name, whole(terms, "terms", 1), whole(seed, "seed")
+    )
+
+
+def problem_for(given: AnyProblem, tableau: Tableau) -> Problem | Oscillator:
+    """The problem that is meant, one that is named in as many terms as the method is for.
+
+    Raises:
+        UsageProblem: there is no such problem, or it has another number of terms.
+        MethodFileError: a file has faults.
+        MethodError: it is no problem.
+    """
+    if isinstance(given, (Problem, Oscillator)):
+        return given
+    if not isinstance(given, (str, os.PathLike)):
+        raise MethodError(
+            f"a problem is expected, not {type(given).__name__}",
+            "give the name of a built-in one, or what load_problem returns",
+        )
+    text = os.fspath(given)
+    terms = terms_of(with_joined_terms(tableau))
+    if text == OSCILLATOR:
+        return Oscillator.default(terms, fmpq(1))
+    is_path = text.endswith((".yaml", ".yml")) or os.sep in text
+    if is_path or not isinstance(given, str):
+        return split_into(load_problem(text), terms)
+    return builtin.problem(text, terms)
+
+
+def to_step(given: AnyProblem, tableau: Tableau) -> Problem:
+    """The same where steps are taken in numbers, not by exact step maps."""
+    found = problem_for(given, tableau)
+    if isinstance(found, Problem):
+        return found
+    raise UsageProblem(
+        "the oscillator has exact step maps",
+        "take the problem split-oscillator",
+    )
+
+
+def hamiltonian_for(given: AnyProblem, tableau: Tableau) -> Hamiltonian:
+    """The same where the problem has to be Hamiltonian."""
+    found = to_step(given, tableau)
+    if isinstance(found, Hamiltonian):
+        return found
+    message = f"{found.name} is not Hamiltonian"
+    raise UsageProblem(message, "choose one that is")

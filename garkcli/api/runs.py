@@ -1,0 +1,226 @@
+"""Methods on problems: convergence, long runs, single steps."""
+
+from __future__ import annotations
+
+from collections.abc import Iterator, Sequence
+from typing import Any
+
+from garkcli.api.anymethod import AnyMethod, tableau_of, with_tolerance
+from garkcli.api.numbers import (
+    Number,
+    Whole,
+    rational,
+    rational_or_none,
+    rationals,
+    whole,
+)
+from garkcli.api.problems import (
+    AnyProblem,
+    hamiltonian_for,
+    problem_for,
+    to_step,
+)
+from garkcli.convergence import convergence
+from garkcli.convergence.result import Convergence
+from garkcli.longtime import longtime, symplecticity
+from garkcli.longtime.history import SERIES, LongRun, State
+from garkcli.longtime.symplecticity import Defect
+from garkcli.problems.hamiltonian import FLOAT_DIGITS
+from garkcli.stepping import integrator as stepping
+from garkcli.stepping import step as steps_of
+from garkcli.stepping.integrator import Binding, Integrator, Real
+
+
+def converge(
+    method: AnyMethod,
+    problem: AnyProblem | None = None,
+    t_end: Number | None = None,
+    steps: Sequence[Number] | None = None,
+    tolerance: Number | None = None,
+    is_timed: bool = False,
+) -> Convergence:
+    """Test the convergence of a method on a problem: ``gark converge``.
+
+    The method steps as it is; for the symplectic pair give ``method.pair``.
+
+    Args:
+        method: whatever ``method_of`` takes.
+        problem: a problem, the name of a built-in one, or the path of a problem file; in as many
+            terms as the method is for, or in one that has a natural split. The oscillator is solved
+            by the exact step map. By default the problem with random coefficients that sees every
+            tree of the structure.
+        t_end: the final time; the problem's own by default, 4/ω for the oscillator.
+        steps: step sizes that divide ``t_end``, the largest first; by default a ladder.
+        tolerance: the rounding of the coefficients; that of the method where it is not given.
+            Slopes may then end on a plateau.
+        is_timed: whether to measure the time of the steps in floats as well, in seconds.
+
+    Raises:
+        UsageProblem: the problem is not of the form of the structure, a step does not divide
+            ``t_end``, or the stage equations of a given step have no unique solution.
+        StepFailed: Newton's method fails for a given step size, or for all of the default ladder.
+
+    >>> found = converge("rk4", "pendulum")
+    >>> found, round(found.observed_order, 1), found.verdict
+    (<Convergence pendulum: observed order 4.0, agree>, 4.0, 'agree')
+    >>> found.rows[0].h, float(found.rows[0].error) < 0.1
+    (1, True)
+    """
+    method, near = with_tolerance(method, tolerance)
+    tableau = method.tableau
+    return convergence.converge(
+        tableau,
+        None if problem is None else problem_for(problem, tableau),
+        rational_or_none(t_end, "t_end"),
+        None if steps is None else rationals(steps, "steps"),
+        near,
+        is_timed,
+    )
+
+
+def long_run(
+    method: AnyMethod,
+    problem: AnyProblem,
+    t_end: Number | None = None,
+    step: Number | None = None,
+    digits: Whole = FLOAT_DIGITS,
+    points: Whole = SERIES,
+    tolerance: Number | None = None,
+) -> LongRun:
+    """Step a problem for a long time and watch its energy and its other invariants:
+    ``gark energy``.
+
+    The method steps as it is; for the symplectic pair give ``method.pair``.
+
+    Args:
+        method: whatever ``method_of`` takes.
+        problem: as in ``converge``.
+        t_end: the final time, a whole number of steps; by default one that shows the long run.
+        step: the step size h; that of the problem by default.
+        digits: of the steps; floats up to 15. Those of the oscillator are exact.
+        points: about how many times are kept.
+        tolerance: the rounding of the coefficients; that of the method where it is not given. A
+            drift that it can cause is none of the method's.
+
+    Raises:
+        UsageProblem: the problem is not of the form of the structure, the step does not divide the
+            time, there are too many of them, or the stage equations of the oscillator have no
+            unique solution.
+        StepFailed: the stage equations of a step were not solved, and the energy had not blown up
+            before.
+
+    >>> run = long_run("stoermer-verlet", "pendulum", 50, "1/10")
+    >>> run, [(x.name, x.verdict) for x in run.invariants]
+    (<LongRun pendulum: 500 steps of 1/10, energy bounded>, [('energy', 'bounded')])
+    """
+    method, near = with_tolerance(method, tolerance)
+    found = problem_for(problem, method.tableau)
+    usual_step, usual_end = longtime.usual(found)
+    return longtime.long_run(
+        method.tableau,
+        found,
+        usual_end if t_end is None else rational(t_end, "t_end"),
+        usual_step if step is None else rational(step, "step"),
+        whole(digits, "digits", 1),
+        whole(points, "points", 1),
+        near,
+    )
+
+
+def symplecticity_defects(
+    method: AnyMethod,
+    problem: AnyProblem,
+    step: Number,
+    states: Sequence[State],
+) -> tuple[Defect, ...]:
+    """How far steps are from being symplectic: the entries of MᵀJM − J for their Jacobians M.
+
+    Args:
+        method: whatever ``method_of`` takes.
+        problem: as in ``converge``; it is Hamiltonian.
+        step: the step size h.
+        states: times, and (q, p) then, as ``LongRun.states`` has them.
+
+    Raises:
+        StepFailed: the stage equations of one were not solved.
+
+    >>> states = long_run("rk4", "pendulum", 1, "1/10").states[:1]
+    >>> [defect.is_seen for defect in symplecticity_defects("rk4", "pendulum", "1/10", states)]
+    [True]
+    """
+    tableau = tableau_of(method)
+    return symplecticity.symplecticity_defects(
+        tableau,
+        hamiltonian_for(problem, tableau),
+        rational(step, "step"),
+        states,
+    )
+
+
+def bind(method: AnyMethod, problem: AnyProblem) -> Binding:
+    """Make a method and a problem for each other, to step with any number of digits.
+
+    Args:
+        method: whatever ``method_of`` takes.
+        problem: as in ``converge``, but for the oscillator.
+
+    Raises:
+        UsageProblem: the problem is not of the form that the structure is for.
+
+    >>> made = bind("rk4", "pendulum")
+    >>> made.at(), made.at(50)
+    (<Integrator pendulum: 15 digits>, <Integrator pendulum: 50 digits>)
+    """
+    tableau = tableau_of(method)
+    return stepping.bind(tableau, to_step(problem, tableau))
+
+
+def integrate(
+    integrator: Integrator,
+    h: Number,
+    count: Whole,
+    initial: Sequence[Any] | None = None,
+) -> list[Real]:
+    """The state after ``count`` steps; see ``trajectory``.
+
+    >>> [round(x, 6) for x in integrate(bind("rk4", "pendulum").at(), "1/10", 10)]
+    [1.056272, -0.391965]
+    """
+    many = whole(count, "count")
+    return steps_of.integrate(integrator, rational(h, "h"), many, initial)
+
+
+def trajectory(
+    integrator: Integrator,
+    h: Number,
+    count: Whole,
+    initial: Sequence[Any] | None = None,
+    every: Whole = 1,
+) -> Iterator[list[Real]]:
+    """The state at the start and after each ``every`` of ``count`` steps.
+
+    Args:
+        integrator: ``bind(method, problem).at(digits)``.
+        h: the step size.
+        count: how many steps.
+        initial: where to start, shape (2d,) for (q, p) of a Hamiltonian problem, (d,) for y of any
+            other; the start of the problem by default.
+        every: how many steps from one state to the next; the last one is after ``count``.
+
+    Returns:
+        States of the shape of ``initial``: floats up to 15 digits, else midpoints of balls.
+
+    Raises:
+        StepFailed: the stage equations of a step were not solved.
+
+    >>> made = bind("rk4", "pendulum").at()
+    >>> [[round(x, 3) for x in y] for y in trajectory(made, 0.5, 4, every=2)]
+    [[1.0, 0.5], [1.056, -0.392], [0.292, -1.041]]
+    """
+    return steps_of.trajectory(
+        integrator,
+        rational(h, "h"),
+        whole(count, "count"),
+        initial,
+        whole(every, "every", 1),
+    )

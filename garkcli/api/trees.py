@@ -1,0 +1,175 @@
+"""Trees, in text or as values, and the order conditions of a method."""
+
+from __future__ import annotations
+
+from collections.abc import Collection, Iterable, Iterator, Sequence
+from typing import TypeAlias
+
+from garkcli.api.anymethod import AnyMethod, with_tolerance
+from garkcli.api.numbers import Number, Whole, colour_of, whole
+from garkcli.errors import MethodError, counted
+from garkcli.exact.field import ZERO
+from garkcli.exact.field import Number as Exact
+from garkcli.order import conditions as by_tree
+from garkcli.order import listing
+from garkcli.order.conditions import Condition
+from garkcli.tableau.tableau import Tableau
+from garkcli.trees import count, notation
+from garkcli.trees.blocks import iter_blocks
+from garkcli.trees.notation import parse_tree
+from garkcli.trees.tree import Tree
+
+AnyTree: TypeAlias = "Tree | str"
+"""A tree, or its text in bracket notation."""
+
+
+def tree_of(given: AnyTree) -> Tree:
+    """The tree that is meant.
+
+    Raises:
+        TreeError: a text is no tree; it says where.
+        MethodError: it is neither.
+    """
+    if isinstance(given, Tree):
+        return given
+    if isinstance(given, str):
+        return parse_tree(given)
+    raise MethodError(
+        f"a tree is expected, not {type(given).__name__}",
+        "give its text, such as '[[],[]]'",
+    )
+
+
+def format_tree(tree: AnyTree, colours: bool = True) -> str:
+    """A tree in bracket notation, with the colours of its vertices counted from 1.
+
+    Args:
+        tree: a tree, or its text, which is put into the one order that equal trees have.
+        colours: whether they are written.
+
+    >>> format_tree("[[]_2,[[]_1]_1]_1")
+    '[[[]_1]_1,[]_2]_1'
+    >>> format_tree("[[]_2,[[]_1]_1]_1", colours=False)
+    '[[[]],[]]'
+    """
+    return notation.format_tree(tree_of(tree), colours)
+
+
+def all_trees(order: Whole, colours: Whole = 1) -> Iterator[Tree]:
+    """The trees of an order, in the order of ``gark trees``.
+
+    Args:
+        order: how many vertices, at least 1.
+        colours: how many a vertex may have.
+
+    >>> [format_tree(u, colours=False) for u in all_trees(3)]
+    ['[[],[]]', '[[[]]]']
+    """
+    order = whole(order, "order", 1)
+    colours = whole(colours, "colours", 1)
+    for block in iter_blocks(colours, order):
+        for text in block.notation():
+            yield parse_tree(text)
+
+
+def count_trees(
+    colours: Whole,
+    order: Whole,
+    edges: Sequence[Sequence[bool]] | None = None,
+    linear: Collection[int] = (),
+) -> int:
+    """The number of trees of an order, without making one.
+
+    Args:
+        colours: how many a vertex may have, N.
+        order: how many vertices, at least 1.
+        edges: shape (N, N), whether a vertex of the colour of the row may carry a branch whose root
+            has the colour of the column; by default all may.
+        linear: colours, counted from 1, whose vertices carry one branch at most.
+
+    Raises:
+        TreeError: ``edges`` is no such matrix.
+
+    >>> [count_trees(1, n) for n in range(1, 9)]
+    [1, 1, 2, 4, 9, 20, 48, 115]
+    >>> count_trees(2, 5), count_trees(2, 5, edges=[[False, True], [True, False]])
+    (214, 18)
+    """
+    colours = whole(colours, "colours", 1)
+    order = whole(order, "order", 1)
+    few = [colour_of(l, "linear", colours) for l in linear]
+    return count.count_trees(colours, order, edges, few)
+
+
+def conditions(
+    method: AnyMethod,
+    trees: Iterable[AnyTree],
+    tolerance: Number | None = None,
+) -> Iterator[Condition]:
+    """The order conditions of some trees, eq. (bA).
+
+    Args:
+        method: whatever ``method_of`` takes.
+        trees: trees, or their texts.
+        tolerance: the rounding of the coefficients; that of the method where it is not given, 0 for
+            none.
+
+    Raises:
+        MethodError: the method has no such condition: a colour does not see another, or there is
+            no such colour.
+
+    >>> [(str(x.tree), x.value, x.residual) for x in conditions("heun", ["[[],[]]", "[[[]]]"])]
+    [('[[]_1,[]_1]_1', 1/2, 1/6), ('[[[]_1]_1]_1', 0, -1/6)]
+    """
+    method, near = with_tolerance(method, tolerance)
+    known = (_fitting(tree, method.tableau) for tree in trees)
+    return by_tree.conditions(method.tableau, known, near or ZERO)
+
+
+def all_conditions(
+    method: AnyMethod, order: Whole, tolerance: Number | None = None
+) -> Iterator[Condition]:
+    """Every order condition of one order; those that are identical come once.
+
+    Args:
+        method: whatever ``method_of`` takes.
+        order: of the trees, at least 1.
+        tolerance: as in ``conditions``.
+
+    >>> [x.holds for x in all_conditions("rk4", 4)]
+    [True, True, True, True]
+    """
+    order = whole(order, "order", 1)
+    method, near = with_tolerance(method, tolerance)
+    return listing.all_conditions(method.tableau, order, near or ZERO)
+
+
+def elementary_weight(method: AnyMethod, tree: AnyTree) -> Exact:
+    """b_lᵀ 𝒜^[u] of a tree u with a root of colour l, exact.
+
+    Args:
+        method: whatever ``method_of`` takes.
+        tree: a tree, or its text.
+
+    Raises:
+        MethodError: the method has no condition of this tree.
+
+    >>> elementary_weight("rk4", "[[[[]]]]"), elementary_weight("rk4", "[[[[[]]]]]")
+    (1/24, 0)
+    """
+    return next(conditions(method, [tree])).value
+
+
+def _fitting(given: AnyTree, tableau: Tableau) -> Tree:
+    """A tree whose colours the method has.
+
+    Raises:
+        MethodError: one of them it has not.
+    """
+    tree = tree_of(given)
+    largest = max(tree.colours) + 1
+    if largest > tableau.size:
+        message = f"the tree {tree} has colour {largest}"
+        cure = f"the method has {counted(tableau.size, 'colour')}"
+        raise MethodError(message, cure)
+    return tree

@@ -1,0 +1,183 @@
+"""What a session shows and takes: short values, colours from 1, whatever stands for a method."""
+
+from __future__ import annotations
+
+import math
+from collections.abc import Callable
+from typing import Any
+
+import numpy as np
+import pytest
+import sympy
+from hypothesis import given, settings
+from hypothesis import strategies as st
+
+import garkcli
+from garkcli import GarkError, MethodError, Tree, TreeError, load, loads
+
+FAMILY = (
+    "parameters: {t: free}\nA: [[0, 0], [t, 0]]\nb: [1 - 1/(2*t), 1/(2*t)]"
+)
+HEUN = ([[0, 0], [1, 0]], ["1/2", "1/2"])
+VERLET = load("stoermer-verlet")
+OF_A_METHOD: dict[str, Callable[[Any], Any]] = {
+    "find_order": garkcli.find_order,
+    "find_orders": garkcli.find_orders,
+    "analyse": garkcli.analyse,
+    "is_symplectic": garkcli.is_symplectic,
+    "simplifying": garkcli.simplifying,
+    "find_stability": garkcli.find_stability,
+    "find_property": lambda x: garkcli.find_property(x, "explicit"),
+    "claims_of": lambda x: garkcli.claims_of(x, ["order"]),
+    "with_claims": lambda x: garkcli.with_claims(x, ["order"]),
+    "conjugate": garkcli.conjugate,
+    "pair": garkcli.pair,
+    "symplectic_pair": lambda x: garkcli.symplectic_pair(x, [1], [1]),
+    "reduced": garkcli.reduced,
+    "convert": garkcli.convert,
+    "compare": lambda x: garkcli.compare(x, HEUN),
+    "conditions": lambda x: list(garkcli.conditions(x, ["[[]]"])),
+    "all_conditions": lambda x: list(garkcli.all_conditions(x, 3)),
+    "elementary_weight": lambda x: garkcli.elementary_weight(x, "[[]]"),
+    "converge": lambda x: garkcli.converge(x, "oscillator"),
+    "long_run": lambda x: garkcli.long_run(x, "oscillator", 1, 0.5),
+    "bind": lambda x: garkcli.bind(x, "pendulum"),
+    "backward_analysis": lambda x: garkcli.backward_analysis(x, 3),
+    "prove_method": garkcli.prove_method,
+    "certificate": lambda x: garkcli.certificate(x)[:9],
+    "export": lambda x: garkcli.export(x, "csv")[:9],
+    "cite": garkcli.cite,
+    "gark": lambda x: garkcli.gark([x, "gauss-1"]),
+    "assert_order": lambda x: garkcli.assert_order(x, 2),
+    "method_of": garkcli.method_of,
+}
+
+
+@pytest.mark.parametrize("name", OF_A_METHOD)
+def test_whatever_stands_for_a_method(name: str) -> None:
+    """Each call takes a value, a name, arrays; what is none is refused with the cure."""
+    call = OF_A_METHOD[name]
+    shown = repr(call(garkcli.from_arrays(*HEUN)))
+    assert repr(call(HEUN)) == shown
+    assert repr(call({"A": HEUN[0], "b": HEUN[1]})) == shown
+    call("heun")
+    with pytest.raises(GarkError, match=r"load\(path\)"):
+        call(3)
+    with pytest.raises(GarkError, match="no such file"):
+        call("no-such-method")
+
+
+def test_values_are_short() -> None:
+    """Nothing that a call returns fills a screen."""
+    found = garkcli.converge("rk4", "pendulum", steps=[0.5, 0.25])
+    run = garkcli.long_run("rk4", "pendulum", 2, 0.1)
+    family = garkcli.loads_family(FAMILY)
+    design = garkcli.find_parameters(family)
+    stability = garkcli.find_stability("gauss-2")
+    proof = garkcli.prove_method("rk4")
+    modified = garkcli.backward_analysis(VERLET, 3)
+    energies = garkcli.modified_run(VERLET, "pendulum", 2, longest=0.5)
+    (audited,) = garkcli.audit("tests/bridges/sources/kutta.csv")
+    bound = garkcli.bind("rk4", "pendulum")
+    values = [
+        *(call(HEUN) for call in OF_A_METHOD.values()),
+        *(found, *found.rows, found.problem, run, *run.invariants),
+        *(family, design, *design.steps, garkcli.minimise(design, "error")),
+        garkcli.search_methods(family, 2, starts=1),
+        *(stability, *stability.linear, stability.linear[0].R),
+        *(proof, proof.method, modified, modified.equation, energies),
+        *energies.energies,
+        garkcli.modified_formula(VERLET, "pendulum", 2),
+        *(audited, audited.table, bound, bound.at(20)),
+        *(garkcli.problem("van-der-pol"), *garkcli.explain("density")),
+        garkcli.check_file("rk4"),
+        Tree(0, [Tree(1)]),
+    ]
+    for value in values:
+        if not isinstance(value, (str, dict, list)):
+            assert len(repr(value)) < 120, repr(value)
+
+
+def test_colours_count_from_one() -> None:
+    """In entries, trees, arguments and errors."""
+    assert VERLET.A[1, 1] is None
+    assert str(VERLET.A[1, 2]) == "((1/2, 0),)"
+    assert str(VERLET.b) == "{1: (1,), 2: (1/2, 1/2)}"
+    assert list(VERLET.A) == [(1, 1), (1, 2), (2, 1), (2, 2)]
+    again = garkcli.from_arrays(VERLET.A, VERLET.b, VERLET.c)
+    assert garkcli.compare(again, VERLET).sameness is not None
+    for key in (0, 3, (0, 1)):
+        with pytest.raises(KeyError, match="count from 1, the last is 2"):
+            VERLET.b[key]
+    with pytest.raises(KeyError, match=r"no pair .* is \(2, 2\)"):
+        VERLET.A[0]
+    tree = garkcli.parse_tree("[[]_2]_1")
+    assert (repr(tree), tree.colour) == ("<Tree [[]_2]_1>", 1)
+    with pytest.raises(MethodError, match=r"\[\[\]_2\]_1 has colour 2"):
+        garkcli.elementary_weight("rk4", "[[]_2]_1")
+    with pytest.raises(MethodError, match="forces: there is no colour 0"):
+        garkcli.symplectic_pair("rk4", [1], [0])
+    with pytest.raises(MethodError, match="A: 0 is no pair of colours"):
+        garkcli.from_arrays({0: [[1]]}, {1: [1]})
+    with pytest.raises(MethodError, match="b: 'x' is no colour"):
+        garkcli.from_arrays({(1, 1): [[1]]}, {"x": [1]})
+    assert garkcli.count_trees(2, 3, linear=[1, 2]) == 8
+
+
+def test_trees_that_there_are_none_of() -> None:
+    """Texts, orders and colours that are no trees' are errors of the program, with their place."""
+    with pytest.raises(TreeError, match="at character 3; "):
+        garkcli.elementary_weight("rk4", "[[")
+    with pytest.raises(ValueError, match="edges must be"):
+        garkcli.count_trees(2, 3, edges=[[True]])
+    for call in (
+        lambda: list(garkcli.all_trees(0)),
+        lambda: list(garkcli.all_trees(2.5)),
+        lambda: garkcli.count_trees(0, 3),
+        lambda: garkcli.find_order("rk4", limit=0),
+        lambda: garkcli.diagonal_method("gauss", "two"),
+    ):
+        with pytest.raises(GarkError) as caught:
+            call()
+        assert caught.value.help
+    with pytest.raises(MethodError, match="a tree is expected, not int"):
+        garkcli.format_tree(3)  # type: ignore[arg-type]
+
+
+def test_what_names_nothing_is_refused() -> None:
+    """Problems, objectives and formats, with the nearest that there is."""
+    with pytest.raises(GarkError, match="pendulum"):
+        garkcli.converge("rk4", "pendulm")
+    with pytest.raises(GarkError, match="a problem is expected, not int"):
+        garkcli.converge("rk4", 3)  # type: ignore[arg-type]
+    with pytest.raises(GarkError, match="is not Hamiltonian"):
+        garkcli.modified_formula("rk4", "van-der-pol", 2)
+    with pytest.raises(GarkError, match="did you mean 'error'"):
+        garkcli.minimise(garkcli.loads_family(FAMILY), "eror")
+    with pytest.raises(GarkError, match="did you mean 'text'"):
+        garkcli.cite("rk4", format="txt")
+    with pytest.raises(MethodError, match="steps: '1/4' is no list"):
+        garkcli.converge("rk4", steps="1/4")
+    with pytest.raises(MethodError, match="settings: 3 is no mapping"):
+        load("rk4", settings=3)  # type: ignore[arg-type]
+
+
+@given(st.integers(2, 10**6))
+@settings(max_examples=10, deadline=None)
+def test_entries_are_numbers_of_others(n: int) -> None:
+    """The float of a root is the nearest one; NumPy and SymPy take entries as they are."""
+    ((x,),) = loads(f"A: [[1 + sqrt({n})]]\nb: [1]").A
+    if math.isqrt(n) ** 2 != n:
+        exact = sympy.Integer(1) + sympy.sqrt(n)
+        assert float(x) == float(exact.evalf(60))
+        assert sympy.sympify(x) == exact
+
+
+def test_arrays_of_entries() -> None:
+    """A tableau is an array of floats, and a matrix of exact numbers."""
+    method = load("gauss-3")
+    A = np.array(method.A, dtype=float)
+    assert A.shape == (3, 3)
+    assert np.allclose(A.sum(axis=1), np.array(method.c, dtype=float))
+    assert sympy.Matrix(method.A).trace() == sympy.Rational(1, 2)
+    assert np.array(load("gauss-6").A, dtype=float).shape == (6, 6)
