@@ -10,7 +10,7 @@ from typing import Any
 
 from flint import fmpq
 
-from garkcli.api.anymethod import as_method
+from garkcli.api.anymethod import method_of
 from garkcli.api.methods import analyse
 from garkcli.check.check_file import check_method
 from garkcli.check.every_file import check_every
@@ -106,7 +106,7 @@ def reported(
     wishes = _Wishes(order, has_pictures, settings)
     if isinstance(given, (str, os.PathLike)):
         return _of_path(os.fspath(given), wishes)
-    method = as_method(given)
+    method = method_of(given)
     if isinstance(method, MethodFile):
         return _of_file(method, wishes)
     name = method.name or "the method"
