@@ -5,7 +5,7 @@ BIN    := $(VENV)/bin
 READY  := $(VENV)/.ready
 
 .DEFAULT_GOAL := help
-.PHONY: help run test lint types layers pytest portable bridges bench fuzz readback catalogue figures docs man floors format clean
+.PHONY: help run test lint types layers pytest portable bridges bench fuzz readback catalogue figures docs man walk floors format clean
 
 help: ## this list
 	@grep -E '^[a-z]+:.*## ' $(MAKEFILE_LIST) | sed 's/:.*## /\t/' | expand -t 12
@@ -70,6 +70,9 @@ docs: $(READY) ## the documentation as a site, in build/docs; a warning, such as
 
 man: $(READY) ## make the manual page anew
 	$(BIN)/python docs/man/page.py
+
+walk: $(READY) ## README and tutorials as a newcomer does them: in empty folders, by a shell, with the wheel
+	$(BIN)/python -m tests.portable.walk
 
 floors: ## the suite with the oldest declared version of each dependency
 	$(MAKE) --no-print-directory portable ONLY=floors

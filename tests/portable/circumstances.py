@@ -35,6 +35,7 @@ OURS = (
     "OPENBLAS_CORETYPE",
     "NPY_DISABLE_CPU_FEATURES",
     "PYTHONHASHSEED",
+    "PYTEST_PLUGINS",
     "LANG",
     "LC_ALL",
     "TZ",
@@ -57,6 +58,13 @@ MEASURED = (
     "tests/cli/test_snapshots.py",
 )
 """Everything that computes in numpy's floats, or compares with a recorded text."""
+RECORDED = (
+    "tests/docs/test_transcripts.py",
+    "tests/docs/test_python_docs.py",
+    "tests/docs/test_json_docs.py",
+    "tests/cli/test_snapshots.py",
+)
+"""Everything that compares with a recorded text."""
 FILES = ("tests/methodfile", "tests/docs", "tests/cli", "tests/integration")
 """Everything that reads or writes YAML."""
 PACKAGED = (
@@ -157,6 +165,8 @@ def circumstances() -> Iterator[Circumstance]:
         )
     what = "numpy with its SIMD features disabled"
     yield Circumstance("no-simd", what, newest, MEASURED, _no_simd)
+    what = "functions of libm and LAPACK off by units of the last place"
+    yield Circumstance("noise", what, newest, RECORDED, _noise)
     what = "other orders of sets, another time zone"
     yield Circumstance("hash-seed", what, newest, WHOLE, _hash_seed)
     yield Circumstance(
@@ -280,6 +290,13 @@ def _no_simd(python: Path) -> dict[str, str]:
     if left := _asked(python, _FEATURES, variables):
         raise NotHad(f"numpy uses {left} all the same")
     return variables
+
+
+_PLUGIN = "tests.portable.noise"
+
+
+def _noise(python: Path) -> dict[str, str]:  # noqa: ARG001 -- any
+    return {"PYTEST_PLUGINS": _PLUGIN, "GARK_NOISE": "1"}
 
 
 def _hash_seed(python: Path) -> dict[str, str]:  # noqa: ARG001 -- any

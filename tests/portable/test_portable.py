@@ -2,15 +2,19 @@
 
 from __future__ import annotations
 
+import math
+import random
 import re
 import sys
 import tomllib
 from pathlib import Path
 
+import numpy as np
 import pytest
 
 from tests.portable import circumstances as module
 from tests.portable.circumstances import circumstances, other_pythons
+from tests.portable.noise import UNITS, arrays_off, off
 from tests.portable.run import Outcome, chosen, table
 from tests.portable.venvs import ROOT, NotHad, Venv, floors, version_of
 
@@ -125,3 +129,17 @@ def test_no_type_of_click_has_a_parameter() -> None:
     for path in (ROOT / "garkcli" / "cli").glob("*.py"):
         text = path.read_text(encoding="utf-8")
         assert not re.search(r"^class .*click\.\w+\[", text, re.M), path
+
+
+def test_noise_is_small_and_there() -> None:
+    """Floats and arrays are off by some units of the last place, not all of them by none; whole
+    numbers and zeros stay.
+    """
+    choose = random.Random(1)
+    found = [off(choose, 1.5) for _ in range(50)]
+    assert len({*found}) > 2
+    assert max(abs(x - 1.5) for x in found) <= UNITS * math.ulp(1.5)
+    assert (off(choose, 3), off(choose, 0.0)) == (3, 0.0)
+    ones, rank = arrays_off(choose, (np.ones(50), 3))
+    assert rank == 3
+    assert 0 < np.abs(ones - 1).max() <= 2 * UNITS * 2.0**-52
