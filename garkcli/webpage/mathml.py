@@ -23,6 +23,10 @@ _OPENING = re.compile(r"<math[^>]*>")
 _NEEDLESS = re.compile(r"<mrow>(<(m[ino])[^>]*>[^<]*</\2>)</mrow>")
 """A group of a single sign."""
 _ONES = re.compile(r"\\mathbbm\{1\}")
+_WEIGHTS = re.compile(r"\{b\^\{(\\\{[^{}]*\\\})\}\}\^T")
+"""The transposed weights of a colour: both above, at the same height."""
+_OF_ONE = re.compile(r"\^\{\\\{1(,1)?\\\}\}")
+"""The number of the only colour."""
 _DOUBLE_ONE = "\U0001d7d9"
 """The vector of ones as the paper has it, which MathML has as a letter."""
 _MOST_KEPT = 1 << 12
@@ -43,6 +47,18 @@ def typeset(latex: str) -> Markup:
     text = text.replace("<math><mrow>", "<math>", 1)
     text = text.removesuffix("</mrow></math>") + "</math>"
     return Markup(_NEEDLESS.sub(r"\1", text))
+
+
+def typeset_condition(latex: str, has_colours: bool) -> Markup:
+    """An order condition in the paper's notation.
+
+    Args:
+        latex: as ``condition_latex`` writes it.
+        has_colours: whether there are several; the number of a single one is left away.
+    """
+    if not has_colours:
+        return typeset(_OF_ONE.sub("", latex))
+    return typeset(_WEIGHTS.sub(r"b^{\1 T}", latex))
 
 
 def typeset_cell(cell: Cell, digits: int) -> Markup:

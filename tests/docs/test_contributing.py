@@ -42,6 +42,8 @@ def test_lists_are_in_the_files_that_are_named() -> None:
         ("garkcli/constructions/schemes/exact.py", "SCHEMES"),
         ("garkcli/constructions/schemes/rounded.py", "SCHEMES"),
         ("garkcli/cli/main.py", "COMMANDS"),
+        ("garkcli/webpage/registry.py", "SECTIONS"),
+        ("garkcli/webpage/sections/orders.py", "SECTION"),
         ("garkcli/glossary/terms/orders.py", "TERMS"),
         ("garkcli/bridges/targets/mfem.py", "BRIDGES"),
         ("garkcli/bridges/readers/julia.py", "READER"),

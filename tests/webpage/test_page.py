@@ -1,16 +1,503 @@
-"""The page of ``gark report``: well-formed, without a network, and saying what the other reports
-say.
+"""The page of ``gark report``: well-formed, without a network, harmless, and saying what the other
+reports say.
 """
 
 from __future__ import annotations
 
+import json
+import re
+from base64 import b64encode
+from dataclasses import replace
+from functools import cache
+from hashlib import sha256
+from itertools import pairwise
+from pathlib import Path
+from typing import Any
+from xml.etree.ElementTree import Element
+
 import pytest
 
+import garkcli
+from garkcli.check.check_file import check_file
 from garkcli.errors import MethodError
+from garkcli.order.listing import count_conditions
+from garkcli.page.safety import written_out
+from garkcli.report.check_json import as_data
 from garkcli.webpage.calls import report_page
+from garkcli.webpage.pictures import Picture
+from garkcli.webpage.registry import SECTIONS
+from garkcli.webpage.sections import conditions, pictures
+from tests.cli.harness import ROOT, gark
+from tests.webpage.reading import (
+    by_id,
+    elements,
+    name_of,
+    number_of,
+    read,
+    rows_of,
+    text_of,
+)
+
+VERLET = "methods/stoermer-verlet.gark.yaml"
+RECTANGULAR = "methods/rectangular.gark.yaml"
+DENSE = "tests/examples/valid/embedded-and-dense.gark.yaml"
+ROUNDED = "tests/examples/valid/rounded.gark.yaml"
+MULTIRATE = "tests/examples/valid/constructions-multirate.gark.yaml"
+FAMILY = "tests/examples/families/sdirk.gark.yaml"
+FAILING = "tests/examples/failing/collocation-misprinted.gark.yaml"
+UNREADABLE = "tests/examples/invalid/many-faults.gark.yaml"
+METHODS = ["rk4", RECTANGULAR, VERLET, DENSE, ROUNDED, MULTIRATE]
+"""Of one colour, of two, for positions and momenta, with more weights, rounded, made of others."""
+ALL = [*METHODS, FAMILY, FAILING, UNREADABLE]
+HOSTILE = """<script>alert(1)</script>"><img src=x onerror=alert(2)></style></title>{{ 7*7 }}"""
 
 
-def test_a_page_of_nothing_is_refused() -> None:
-    """A call without methods is a mistake that is told."""
+@cache
+def text(*methods: str) -> str:
+    """The page of some methods, with few conditions and no picture."""
+    return report_page(*methods, order=2, pictures=False)
+
+
+@cache
+def page(*methods: str) -> Element:
+    """The same, read."""
+    return read(text(*methods))
+
+
+@cache
+def checked(method: str) -> dict[str, Any]:
+    """What ``gark check --format json`` says of a method."""
+    (found,) = as_data([check_file(method)])["files"]
+    data: dict[str, Any] = found
+    return data
+
+
+def section(method: str, name: str) -> Element:
+    """A section of the page of one method."""
+    return by_id(page(method), f"m1-{name}")
+
+
+@pytest.mark.parametrize("method", ALL)
+def test_what_is_read_aloud_is_in_order(method: str) -> None:
+    """The page is well-formed; one heading of the first level and none left out below it; each name
+    once, and what is referred to is there; tables have captions and their heads a scope, pictures
+    a title, boxes that scroll a name.
+    """
+    root = page(method)
+    ids = [x.get("id") for x in elements(root) if x.get("id")]
+    assert len(ids) == len(set(ids))
+    levels = [int(name_of(x)[1]) for x in elements(root, *HEADINGS)]
+    assert levels.count(1) == 1
+    assert levels[0] == 1
+    assert all(b <= a + 1 for a, b in pairwise(levels))
+    for landmark in ("header", "nav", "main", "footer"):
+        assert len([*elements(root, landmark)]) == 1
+    for element in elements(root):
+        label = element.get("aria-labelledby")
+        assert label is None or label in ids
+        if element.get("role") == "region":
+            assert element.get("aria-label")
+    for head in elements(root, "th"):
+        assert head.get("scope") in ("col", "row", "colgroup", "rowgroup")
+    for table in elements(root, "table"):
+        assert name_of(table[0]) == "caption"
+        assert text_of(table[0])
+    for picture in elements(root, "svg"):
+        if picture.get("aria-hidden") != "true":
+            assert picture.get("role") == "img"
+            assert name_of(picture[0]) == "title"
+            assert text_of(picture[0])
+
+
+HEADINGS = ("h1", "h2", "h3", "h4", "h5", "h6")
+
+
+@pytest.mark.parametrize("method", ALL)
+def test_nothing_is_fetched(method: str) -> None:
+    """What a page refers to is within it, but for links to the publication; the policy in its head
+    forbids the rest, and allows the one script that it has, to the letter.
+    """
+    root = page(method)
+    ids = {x.get("id") for x in elements(root)}
+    for element in elements(root):
+        for key, value in element.attrib.items():
+            word = key.rpartition("}")[2]
+            assert word not in ("src", "srcset", "action", "data", "style")
+            assert not word.startswith("on")
+            if word == "href" and value.startswith("#"):
+                assert value[1:] in ids
+            elif word == "href":
+                assert name_of(element) == "a"
+                assert value.startswith(("https://", "http://"))
+    (style,) = elements(root, "style")
+    assert not re.search(r"url\(|@import|</", style.text or "")
+    (script,) = elements(root, "script")
+    digest = b64encode(sha256((script.text or "").encode()).digest())
+    (policy,) = [
+        x.get("content") or ""
+        for x in elements(root, "meta")
+        if x.get("http-equiv")
+    ]
+    assert "default-src 'none'" in policy
+    assert f"script-src 'sha256-{digest.decode()}'" in policy
+
+
+def test_the_same_method_has_the_same_page() -> None:
+    """To the letter, and nothing in it has to be written out for a terminal."""
+    again = report_page(DENSE, order=2, pictures=False)
+    assert again == text(DENSE)
+    assert written_out(again, "html") == again
+
+
+@pytest.mark.parametrize("method", METHODS)
+def test_orders_are_those_of_the_check(method: str) -> None:
+    """Each with its number, its tree drawn and written, and how far off its condition is."""
+    data = checked(method)
+    found = {}
+    for card in section(method, "orders").iter("div"):
+        if (card.get("class") or "").startswith("order "[:5]) and (
+            card.get("class") != "orders"
+        ):
+            (head,) = elements(card, "h3")
+            label, _, number = text_of(head).partition("order ")
+            found[label.strip()] = number, card
+    for prefix in ("", "conjugate", "pair", "embedded", "dense"):
+        number = data[f"{prefix}_order".lstrip("_")]
+        if number is None:
+            assert found.get(prefix, ("none",))[0] == "none"
+            continue
+        shown, card = found[prefix]
+        bound = data.get(f"{prefix}_order_is_lower_bound".lstrip("_"))
+        assert shown == (f"at least {number}" if bound else str(number))
+        witness = data.get(f"{prefix}_witness".lstrip("_"))
+        if witness is not None:
+            said = text_of(card)
+            tree = witness["tree"]
+            assert tree in said or tree.replace("_1", "") in said
+    exact = data["tolerance"] is None
+    assert ("exact" in text_of(section(method, "orders"))) == exact
+    if not exact:
+        assert f"within {data['tolerance']}" in text_of(found[""][1])
+
+
+def test_the_witness_is_exact() -> None:
+    """Value, required and residual of the classical method, as numbers in MathML."""
+    witness = checked("rk4")["witness"]
+    numbers = [
+        number_of(x) for x in elements(section("rk4", "orders"), "math")
+    ]
+    assert numbers[1:4] == ["0", "(1)/(120)", "-(1)/(120)"]
+    assert witness["residual"] == "-1/120"
+
+
+@pytest.mark.parametrize("method", ["rk4", "gauss-2", "dormand-prince-5"])
+def test_the_tableau_can_be_read_back(method: str) -> None:
+    """Its entries in MathML make the method again, exactly: A, b and c."""
+    table = next(elements(section(method, "tableau"), "table"))
+    (body,) = elements(table, "tbody")
+    rows = [
+        [number_of(x) for x in elements(row, "math")]
+        for row in elements(body, "tr")
+    ]
+    nodes = [row[0] for row in rows]
+    weights = [
+        number_of(x)
+        for x in next(elements(table, "tfoot")).findall("tr")[0].iter()
+        if name_of(x) == "math"
+    ]
+    made = garkcli.from_arrays([row[1:] for row in rows], weights[1:], nodes)
+    wanted = garkcli.load(method)
+    assert str((made.A, made.b, made.c)) == str((wanted.A, wanted.b, wanted.c))
+
+
+def test_blocks_have_their_places() -> None:
+    """A method for positions and momenta is Q and P; colours have names and numbers, blocks that do
+    not exist are blank; the dense output and the embedded weights are there.
+    """
+    captions = [
+        text_of(x)
+        for x in elements(section(RECTANGULAR, "tableau"), "caption")
+    ]
+    assert [caption[0] for caption in captions] == ["Q", "P"]
+    heads = [
+        text_of(x)
+        for x in elements(section(RECTANGULAR, "tableau"), "th")
+        if x.get("scope") == "colgroup"
+    ]
+    assert heads == ["1 q", "2 p"]
+    dense = section(DENSE, "tableau")
+    degree = len(checked(DENSE)["colours"])
+    assert degree == 1
+    stages = checked(DENSE)["colours"][0]["stages"]
+    formulas = next(elements(dense, "ul"))
+    assert len([*elements(formulas, "li")]) == stages
+    (first, *_) = elements(dense, "tfoot")
+    assert len(first.findall("tr")) == 2
+
+
+@pytest.mark.parametrize("method", METHODS)
+def test_simplifying_assumptions_are_those_of_the_check(method: str) -> None:
+    """B, C and D, cell by cell: the number stands in the cell."""
+    data = checked(method)["simplifying"]
+    tables = [*elements(section(method, "simplifying"), "table")]
+    for table, wanted in zip(
+        tables, ([data["B"]], data["C"], data["D"]), strict=True
+    ):
+        shown = [
+            [text_of(x) for x in row if name_of(x) == "td"]
+            for row in rows_of(table)
+        ]
+        numbers = [
+            ["–" if n is None else str(n) for n in row] for row in wanted
+        ]
+        assert [
+            [cell.removeprefix("≥ ") for cell in row] for row in shown
+        ] == numbers
+    assert f"order ≥ {data['bound']}" in text_of(
+        section(method, "simplifying")
+    )
+
+
+@pytest.mark.parametrize("method", [*METHODS, FAILING, FAMILY])
+def test_claims_are_those_of_the_check(method: str) -> None:
+    """What is claimed, what is found, and whether it holds, row by row."""
+    claims = checked(method)["claims"]
+    shown = section(method, "claims")
+    if not claims:
+        assert "claims nothing" in text_of(shown)
+        return
+    (table,) = elements(shown, "table")
+    rows = [
+        [text_of(cell) for cell in row]
+        for row in rows_of(table)
+        if len(row) > 1
+    ]
+    assert rows == [
+        [
+            claim["claim"],
+            claim["expected"],
+            claim["found"],
+            "holds" if claim["holds"] else "fails",
+            str(claim["line"]),
+        ]
+        for claim in claims
+    ]
+
+
+@pytest.mark.parametrize("method", [*METHODS, FAILING, FAMILY])
+def test_conditions_are_those_of_their_command(method: str) -> None:
+    """Tree, order, γ, σ and verdict of each row, which the filters look at too."""
+    run = gark("conditions", method, "--order", "2", "--format", "json")
+    wanted = json.loads(run.out)["conditions"]
+    shown = section(method, "conditions")
+    (table,) = elements(shown, "table")
+    lines = [*elements(next(elements(table, "tbody")), "tr")]
+    assert len(lines) == len(wanted)
+    states = set()
+    for line, row, one in zip(lines, rows_of(table), wanted, strict=True):
+        cells = [text_of(cell) for cell in row]
+        tree = one["tree"]
+        if len(garkcli_colours(method)) == 1:
+            tree = tree.replace("_1", "")
+        assert tree in cells[0]  # the title of the picture
+        assert cells[3].removesuffix(" times").startswith(tree)
+        assert cells[2] == str(one["order"]) == line.get("data-order")
+        assert cells[-2:] == [str(one["gamma"]), str(one["sigma"])]
+        assert line.get("data-root") == str(one["root"])
+        assert (cells[1] in ("holds", "within")) == one["holds"]
+        assert line.get("data-state") == cells[1]
+        states.add(cells[1])
+    form = next(elements(shown, "form"))
+    assert form.get("hidden") is not None
+    assert form.get("data-table") == table.get("id")
+    choices = {text_of(x) for x in elements(form, "option")}
+    assert states <= choices
+    (count,) = elements(form, "output")
+    assert count.get("aria-live") == "polite"
+
+
+def garkcli_colours(method: str) -> list[object]:
+    """The colours of a method."""
+    colours: list[object] = checked(method)["colours"]
+    return colours
+
+
+def test_a_large_table_is_bounded(monkeypatch: pytest.MonkeyPatch) -> None:
+    """Whole orders as long as there is room; of the next one it is told how many are left out, and
+    what lists them.
+    """
+    monkeypatch.setattr(conditions, "MOST_CONDITIONS", 10)
+    root = read(report_page(VERLET, order=4, pictures=False))
+    shown = by_id(root, "m1-conditions")
+    tableau = garkcli.load(VERLET).tableau
+    count = [count_conditions(tableau, n) for n in (1, 2, 3, 4)]
+    fitting = sum(sum(count[:n]) <= 10 for n in (1, 2, 3, 4))
+    assert 0 < fitting < 4
+    (table,) = elements(shown, "table")
+    assert len(rows_of(table)) == sum(count[:fitting])
+    said = text_of(shown)
+    assert f"The {count[fitting]} of order {fitting + 1} are left out" in said
+    assert f"gark conditions {VERLET} --only" in said
+
+
+@pytest.mark.parametrize("method", METHODS)
+def test_properties_are_those_of_the_check(method: str) -> None:
+    """The answers of the report in JSON, and why."""
+    data = checked(method)["properties"]
+    answers = {True: "yes", False: "no"}
+    table = next(elements(section(method, "properties"), "table"))
+    shown = {text_of(row[0]): text_of(row[1]) for row in rows_of(table)}
+    for key, answer in shown.items():
+        value = data.get(key.replace("-", "_"))
+        if isinstance(value, bool):
+            assert answer == answers[value], key
+        elif isinstance(value, int):
+            assert answer.removeprefix("at least ") == str(value), key
+    assert len(shown) == 21
+    said = text_of(section(method, "properties"))
+    assert f"symplectic {answers[data['symplectic']]}" in said
+
+
+def test_a_family_is_told_for_every_value() -> None:
+    """Entries are rational functions, conditions vary, and it is said where the order is higher."""
+    assert "Order 2 for every value of g." in text_of(page(FAMILY))
+    orders = text_of(section(FAMILY, "orders"))
+    assert "Order 3 where 6*g^2 - 6*g + 1 = 0" in orders
+    names = {text_of(x) for x in elements(section(FAMILY, "tableau"), "mi")}
+    assert "g" in names
+    further = read(report_page(FAMILY, order=3))
+    varying = text_of(by_id(further, "m1-conditions"))
+    assert "2 of them do not hold for every value" in varying
+    assert "varies" in varying
+
+
+def test_a_file_that_is_no_method_has_its_faults() -> None:
+    """Each with its place, the line and the cure."""
+    shown = section(UNREADABLE, "faults")
+    outcome = check_file(UNREADABLE)
+    faults = [*elements(shown, "li")]
+    assert len(faults) == len(outcome.faults) > 1
+    for item, fault in zip(faults, outcome.faults, strict=True):
+        said = text_of(item)
+        assert f"line {fault.line}, column {fault.column}" in said
+        assert " ".join(fault.message.split()) in said
+        assert " ".join(fault.help.split()) in said
+
+
+def test_several_methods_are_compared() -> None:
+    """A row each, with a link to its part; the parts have the sections of single pages."""
+    root = page("rk4", RECTANGULAR, FAMILY)
+    assert text_of(next(elements(root, "h1"))) == "3 methods"
+    table = next(elements(by_id(root, "comparison"), "table"))
+    rows = [[text_of(cell) for cell in row] for row in rows_of(table)]
+    assert [row[1] for row in rows] == ["4", "2, 3", "–"]
+    assert [row[2] for row in rows] == ["4", "4", "2 for every value"]
+    links = [x.get("href") for x in elements(table, "a")]
+    assert links == ["#m1", "#m2", "#m3"]
+    alone = text_of(section(RECTANGULAR, "orders"))
+    assert text_of(by_id(root, "m2-orders")) == alone
+
+
+HOSTILE_FILE = f"""
+name: '{HOSTILE}'
+description: '{HOSTILE}'
+reference:
+  authors: ['{HOSTILE}']
+  title: '{HOSTILE}'
+  year: "1901"
+  doi: 'javascript:alert(3)"'
+  url: 'javascript:alert(4)'
+  note: '{HOSTILE}'
+  coefficients: '{HOSTILE}'
+methods:
+  - {{name: '{HOSTILE}', A: [[0, 0], [1, 0]], b: [1/2, 1/2]}}
+  - {{name: 'a', A: [[1/2]], b: [1]}}
+transfer: {{blocks: {{"1,2": [[0], [1]], "2,1": [[1/2, 0]]}}}}
+"""
+
+
+def test_texts_of_strangers_are_texts(tmp_path: Path) -> None:
+    """A name, a description, a reference, a path: none of them becomes an element, an attribute, a
+    template or a link to a script, and all of them can be read.
+    """
+    folder = tmp_path / "<b onclick=alert(5)>"
+    folder.mkdir()
+    file = folder / "'&lt;<u>.gark.yaml"
+    file.write_text(HOSTILE_FILE, encoding="utf-8")
+    root = read(report_page(file, "rk4", order=2, pictures=False))
+    for name in ("script", "style"):
+        assert len([*elements(root, name)]) == 1
+    assert [*elements(root, "img", "b", "u")] == []
+    for element in elements(root):
+        for key, value in element.attrib.items():
+            assert not key.startswith("on")
+            assert not value.startswith("javascript:")
+    said = text_of(root)
+    assert said.count(HOSTILE) >= 4
+    assert "49" not in text_of(by_id(root, "m1-title"))
+    assert str(file) in said
+
+
+def test_signs_that_cannot_be_seen_are_written_out() -> None:
+    """Controls and letters that turn the direction of writing show as what they are."""
+    method = replace(garkcli.load("euler").conjugate, name="a\u202eb\x07c")
+    root = read(report_page(method, pictures=False))
+    assert text_of(next(elements(root, "h1"))) == r"a\u202eb\x07c"
+
+
+def test_methods_without_files_have_pages() -> None:
+    """A conjugate, and arrays: what there is to say of them is said."""
+    conjugated = garkcli.load("rk4").conjugate
+    arrays = ([[0, 0], [1, 0]], ["1/2", "1/2"])
+    root = read(report_page(conjugated, arrays, pictures=False))
+    orders = [text_of(by_id(root, f"m{k}-orders")) for k in (1, 2)]
+    assert orders[0].startswith("Orders order 4 exact")
+    assert orders[1].startswith("Orders order 2 exact")
     with pytest.raises(MethodError, match="at least one"):
         report_page()
+
+
+def test_exit_codes_are_those_of_the_check(tmp_path: Path) -> None:
+    """0, 1 where a claim fails, 2 where a file is no method; the page is written each time, and the
+    faults are told on stderr too.
+    """
+    for method, code in (("rk4", 0), (FAILING, 1), (UNREADABLE, 2)):
+        target = tmp_path / "page.html"
+        run = gark(
+            "report", method, "--no-pictures", "-n", "2", "-o", str(target)
+        )
+        assert (run.code, run.out) == (code, "")
+        assert ("error:" in run.err) == (code == 2)
+        written = target.read_text(encoding="utf-8")
+        assert written == report_page(method, order=2, pictures=False)
+    run = gark("report", FAMILY, "--set", "g=1/4", "--no-pictures", "-n", "1")
+    assert run.code == 0
+    assert "decided in rational arithmetic" in run.out
+    assert gark("report", "rk4", FAMILY, "--set", "g=1/4").code == 2
+
+
+def test_a_section_is_a_file_with_its_template() -> None:
+    """Every file of the folder is in the list, under its name, and no template is left over."""
+    room = ROOT / "garkcli" / "webpage"
+    names = [one.name for one in SECTIONS]
+    files = {x.stem for x in (room / "sections").glob("*.py")} - {"__init__"}
+    assert files == set(names)
+    assert len(names) == len(files)
+    shared = {"page", "head", "contents", "comparison"}
+    templates = {x.stem for x in (room / "templates").glob("*.html")}
+    assert templates == files | shared
+
+
+def test_pictures_stand_on_the_page(monkeypatch: pytest.MonkeyPatch) -> None:
+    """What is drawn is there as it is, with its note; a picture that is not there has its reason."""
+    drawn = '<svg role="img"><title>a curve</title><path d="M0 0L1 1"/></svg>'
+    found = [
+        Picture("one", "One", "a curve", drawn, "It rises."),
+        Picture("two", "Two", "", "", "Not drawn: <it> has none."),
+    ]
+    monkeypatch.setattr(pictures, "pictures", lambda _: found)
+    root = read(report_page("euler", order=1))
+    one, two = elements(by_id(root, "m1-pictures"), "figure")
+    assert text_of(one) == "One a curve It rises."
+    assert text_of(two) == "Two Not drawn: <it> has none."
+    assert [x.get("d") for x in elements(one, "path")] == ["M0 0L1 1"]

@@ -13,7 +13,7 @@ from garkcli.report.conditions_data import ConditionRow
 from garkcli.report.conditions_json import row_data
 from garkcli.tableau.tableau import Tableau
 from garkcli.trees.notation import format_tree
-from garkcli.webpage.mathml import typeset, typeset_number
+from garkcli.webpage.mathml import typeset_condition, typeset_number
 from garkcli.webpage.reported import Reported
 from garkcli.webpage.section import Content, Section
 from garkcli.webpage.tree_picture import tree_picture
@@ -93,7 +93,7 @@ def _rows(found: list[Condition], has_colours: bool) -> Iterator[Content]:
             **data,
             "tree": name,
             "picture": tree_picture(condition.tree, title, has_colours),
-            "formula": typeset(row.latex),
+            "formula": typeset_condition(row.latex, has_colours),
             "weight": typeset_number(condition.value),
             "off": typeset_number(condition.residual),
             "state": _state(condition),

@@ -19,7 +19,7 @@ from garkcli.report.check_orders import doubt_text, order_number, size
 from garkcli.tableau.tableau import Tableau
 from garkcli.trees.notation import condition_latex, format_tree
 from garkcli.trees.tree import Tree
-from garkcli.webpage.mathml import typeset, typeset_number
+from garkcli.webpage.mathml import typeset_condition, typeset_number
 from garkcli.webpage.reported import Reported
 from garkcli.webpage.section import Content, Section
 from garkcli.webpage.tree_picture import tree_picture
@@ -159,7 +159,7 @@ def _tree(tree: Tree, has_colours: bool) -> Content:
         "order": tree.order,
         "tree": name,
         "picture": tree_picture(tree, title, has_colours),
-        "condition": typeset(condition_latex(tree)),
+        "condition": typeset_condition(condition_latex(tree), has_colours),
     }
 
 

@@ -9,20 +9,47 @@ from garkcli.check.every_value import EveryValue
 from garkcli.check.every_words import fact_text
 from garkcli.properties.keys import KEYS
 from garkcli.properties.property import Verdict
+from garkcli.properties.registry import every_property
 from garkcli.report.check_properties import property_lines, verdict_text
 from garkcli.report.every_text import property_text
+from garkcli.tableau.tableau import Tableau
 from garkcli.webpage.reported import Reported
 from garkcli.webpage.section import Content, Section
+
+MOST_STAGES = 12
+"""Of methods whose coefficients are in a number field: with more, intervals of stability take up to
+ten seconds.
+"""
 
 
 def _content(method: Reported) -> Content | None:
     analysis = method.outcome.analysis
     if analysis is not None:
-        return {"lines": _lines(analysis), "verdicts": _verdicts(analysis)}
+        keys, left_out = _keys(analysis.tableau)
+        return {
+            "lines": _lines(analysis),
+            "verdicts": [_verdict(analysis, key) for key in keys],
+            "left_out": left_out,
+            "file": method.outcome.file,
+        }
     every = method.outcome.every
     if every is None:
         return None
-    return {"lines": [], "verdicts": _of_every_value(every)}
+    return {
+        "lines": [],
+        "verdicts": _of_every_value(every),
+        "left_out": [],
+        "file": method.outcome.file,
+    }
+
+
+def _keys(tableau: Tableau) -> tuple[list[str], list[str]]:
+    """The properties that are told, and those that are left out as they take long."""
+    stages = sum(space.stages for space in tableau.spaces)
+    if tableau.degree == 1 or stages <= MOST_STAGES:
+        return list(KEYS), []
+    slow = [one.key for one in every_property() if not one.is_cheap]
+    return [key for key in KEYS if key not in slow], slow
 
 
 def _lines(analysis: Analysis) -> list[tuple[str, str]]:
@@ -39,13 +66,12 @@ def _lines(analysis: Analysis) -> list[tuple[str, str]]:
     ]
 
 
-def _verdicts(analysis: Analysis) -> Iterator[Content]:
-    """Each property, what is true of it, and why."""
-    for key in KEYS:
-        verdict = analysis.subject.verdict(key)
-        why = "" if verdict.value is True else verdict.why
-        text = verdict_text(verdict)
-        yield {"key": key, "text": text, "why": why, "mark": _mark(verdict)}
+def _verdict(analysis: Analysis, key: str) -> Content:
+    """A property, what is true of it, and why."""
+    verdict = analysis.subject.verdict(key)
+    why = "" if verdict.value is True else verdict.why
+    text = verdict_text(verdict)
+    return {"key": key, "text": text, "why": why, "mark": _mark(verdict)}
 
 
 def _mark(verdict: Verdict) -> str:
