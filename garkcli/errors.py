@@ -24,8 +24,14 @@ from dataclasses import dataclass
 
 
 class GarkError(Exception):
-    """Base of all errors of the program: ``message`` says what and where, ``help`` says the
-    cure.
+    """Base of all errors of the program; its text is both.
+
+    Attributes:
+        message: what is wrong, and where.
+        help: the cure; empty where there is none.
+
+    >>> print(GarkError("no order is given", "write 4"))
+    no order is given; write 4
     """
 
     def __init__(self, message: str, help: str = "") -> None:
@@ -40,7 +46,12 @@ class GarkError(Exception):
 
 
 class ExpressionError(GarkError):
-    """A text is not an exact number. ``start`` and ``end`` are offsets into the text."""
+    """A text is not an exact number.
+
+    Attributes:
+        start: the offset of the fault in the text, from 0.
+        end: the offset behind it.
+    """
 
     def __init__(
         self, message: str, help: str = "", start: int = 0, end: int = 0
@@ -102,8 +113,13 @@ class UsageProblem(GarkError):
 
 @dataclass(frozen=True)
 class Fault:
-    """One fault of a method or problem file; ``line`` and ``column`` count from 1 and are 0 where
-    unknown.
+    """One fault of a method or problem file.
+
+    Attributes:
+        message: what is wrong.
+        help: the cure; empty where there is none.
+        line: where, from 1; 0 where that is not known.
+        column: likewise.
     """
 
     message: str
@@ -220,8 +236,13 @@ def counted(count: int, noun: str, plural: str = "") -> str:
 
 
 class MethodFileError(GarkError):
-    """A file that cannot be read as a method or a problem: every fault found in it, in file
-    order.
+    """A file that cannot be read as a method or a problem; its text has every fault with its place,
+    the line it stands in, and its cure.
+
+    Attributes:
+        source: the file as it was named.
+        faults: all of them, in file order.
+        text: of the file.
     """
 
     def __init__(

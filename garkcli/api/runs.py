@@ -181,7 +181,19 @@ def integrate(
     count: Whole,
     initial: Sequence[Any] | None = None,
 ) -> list[Real]:
-    """The state after ``count`` steps; see ``trajectory``.
+    """The state after ``count`` steps.
+
+    Args:
+        integrator: ``bind(method, problem).at(digits)``.
+        h: the step size.
+        count: how many steps.
+        initial: where to start, as in ``trajectory``.
+
+    Returns:
+        As ``trajectory``.
+
+    Raises:
+        StepFailed: the stage equations of a step were not solved.
 
     >>> [round(x, 6) for x in integrate(bind("rk4", "pendulum").at(), "1/10", 10)]
     [1.056272, -0.391965]

@@ -44,6 +44,12 @@ class Catalogue(ModuleType):
 
     Its keys are the names, those of folders in ``GARK_PATH`` first; aliases are looked up too, as
     on the command line. A method that is asked for twice is read twice.
+
+    >>> import garkcli
+    >>> garkcli.catalogue["rk4"].stages, "no-such-method" in garkcli.catalogue
+    ((4,), False)
+    >>> garkcli.catalogue.search("Verlet", order=2, symplectic=True)
+    ['leapfrog-2', 'stoermer-verlet']
     """
 
     def __getitem__(self, name: str) -> MethodFile:

@@ -45,7 +45,7 @@ class Meaning:
 
 
 def meanings(word: str) -> list[Meaning]:
-    """What a word means, in every sense that it has.
+    """What a word means, in every sense that it has: ``gark explain``.
 
     Args:
         word: a term, a label of a report, a claim, a key of method files, a family, a transfer
@@ -53,6 +53,9 @@ def meanings(word: str) -> list[Meaning]:
 
     Raises:
         UsageProblem: nobody knows it.
+
+    >>> meanings("density")[0].formula
+    'γ(u) = ρ(u) Π γ(u_i), over the branches u_i'
     """
     wanted = plain(word)
     exactly, nearly = [], []

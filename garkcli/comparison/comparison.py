@@ -74,7 +74,8 @@ class Comparison:
     """What is the same of two methods, and what is not.
 
     Attributes:
-        one, other: the methods.
+        one: a method.
+        other: another.
         forms: what kind of tableau each is.
         gaps: where entries differ as they stand; empty where the numbers of colours differ.
         sameness: in what sense they are the same method; None where they are not.

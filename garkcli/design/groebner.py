@@ -13,6 +13,7 @@ from typing import Any, TypeAlias, TypeVar
 from flint import Ordering, fmpz, fmpz_mpoly, fmpz_mpoly_ctx, fmpz_mpoly_vec
 
 from garkcli.design.msolve import basis_by_msolve, find_msolve, is_basis
+from garkcli.errors import GarkError
 
 T = TypeVar("T")
 Exponents: TypeAlias = tuple[int, ...]
@@ -22,8 +23,14 @@ Terms: TypeAlias = dict[Exponents, int]
 """A polynomial between processes: coefficients by exponents."""
 
 
-class NotDecided(Exception):
+class NotDecided(GarkError):
     """A Gröbner basis takes too long."""
+
+    def __init__(self) -> None:
+        super().__init__(
+            "not decided in the time there is",
+            "give it more seconds, or give parameters values",
+        )
 
 
 def groebner_basis(

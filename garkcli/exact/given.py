@@ -15,7 +15,9 @@ from garkcli.exact.display import to_text
 from garkcli.exact.field import Algebraic
 
 AnyNumber: TypeAlias = "SupportsFloat | str"
-"""A number of any kind, or its text."""
+"""An int, a Fraction, a Decimal, a float of at most 15 digits, a number of NumPy, SymPy or FLINT,
+or a text such as ``"1/3"``.
+"""
 FLOAT_DIGITS = 15
 """Decimal digits that every float keeps: a decimal of so many is the only one its float prints."""
 

@@ -65,10 +65,16 @@ class MethodFile(GarkMethod):
         is_conjugate: whether the file describes the conjugate of what it spells out.
         claims: what ``expect`` says.
         reference: where it was published, in one line.
+        description: in whole sentences.
         aliases: what else it is called.
         bibliography: the fields of the reference; None where it is plain text.
         printed: the coefficients as they are written.
         left_behind: further weights of methods inside of a construction, which it has not.
+
+    >>> from garkcli import load
+    >>> method = load("rk4")
+    >>> method.source, [claim.key for claim in method.claims]
+    ('rk4', ['order', 'symplectic'])
     """
 
     source: str

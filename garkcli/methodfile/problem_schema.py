@@ -44,7 +44,11 @@ _FORMULA: Schema = {
 
 
 def problem_file_schema() -> Schema:
-    """The schema as plain data."""
+    """The JSON Schema of problem files, as plain data.
+
+    >>> problem_file_schema()["title"]
+    'gark problem file'
+    """
     properties = _properties()
     return {
         "$schema": "http://json-schema.org/draft-07/schema#",

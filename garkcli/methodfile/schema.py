@@ -48,7 +48,11 @@ _MEASURE: Schema = {
 
 
 def method_file_schema() -> Schema:
-    """The schema as plain data."""
+    """The JSON Schema of method files, as plain data.
+
+    >>> method_file_schema()["title"]
+    'gark method file'
+    """
     forms = [{"required": [form]} for form in (*FORMS, "unknown")]
     return {
         "$schema": "http://json-schema.org/draft-07/schema#",

@@ -63,8 +63,9 @@ class Witness:
 class Order:
     """The outcome: every condition up to ``order`` holds.
 
-    ``witness`` fails at ``order + 1``; it is None when the search stopped at its limit, and
-    ``order`` is then a lower bound.
+    Attributes:
+        order: the order, or a lower bound where the search stopped at its limit.
+        witness: the tree whose condition fails at the next order; None where the search stopped.
     """
 
     order: int

@@ -2,8 +2,12 @@
 
 from __future__ import annotations
 
+import os
+
 from garkcli.api.anymethod import AnyMethod, method_of
 from garkcli.api.calls import prove_method
+from garkcli.api.numbers import Whole, whole
+from garkcli.bridges.calls import AnyPath
 from garkcli.bridges.registry import bridges
 from garkcli.check.meanings import known_words
 from garkcli.constructions.schemes.flows import SPLITTINGS
@@ -65,9 +69,9 @@ def certificate(method: AnyMethod) -> str:
 
 
 def run_sweep(
-    spec: str, rows: str, is_resumed: bool = False, jobs: int = 1
+    spec: AnyPath, rows: AnyPath, is_resumed: bool = False, jobs: Whole = 1
 ) -> SweepReport:
-    """Run a sweep, or what is left of it: ``gark sweep``.
+    r"""Run a sweep, or what is left of it: ``gark sweep``.
 
     Args:
         spec: its file.
@@ -78,12 +82,22 @@ def run_sweep(
     Raises:
         MethodFileError: every fault of the spec.
         UsageProblem: there are rows and nobody said that there may be.
+
+    >>> from pathlib import Path
+    >>> from tempfile import TemporaryDirectory
+    >>> text = "methods:\n  - {family: gauss, stages: [1, 2]}\ncolumns: [order]\n"
+    >>> with TemporaryDirectory() as folder:
+    ...     spec, rows = Path(folder, "spec.yaml"), Path(folder, "rows.jsonl")
+    ...     _ = spec.write_text(text)
+    ...     [row["order"] for row in run_sweep(spec, rows).done]
+    [2, 4]
     """
-    plan = load_plan(spec)
-    with RowStore(rows, is_resumed) as store:
-        for _ in sweep(plan, store, jobs):
+    source = os.fspath(spec)
+    plan = load_plan(source)
+    with RowStore(os.fspath(rows), is_resumed) as store:
+        for _ in sweep(plan, store, whole(jobs, "jobs", 1)):
             pass
-        return SweepReport(spec, plan, store.rows, top=10)
+        return SweepReport(source, plan, store.rows, top=10)
 
 
 def names() -> dict[str, list[str]]:

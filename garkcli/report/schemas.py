@@ -46,10 +46,16 @@ REPORTS = {
 
 
 def report_schema(command: str) -> dict[str, Any]:
-    """The JSON Schema of what ``gark COMMAND --format json`` writes.
+    """The JSON Schema of what ``gark COMMAND --format json`` writes, as plain data.
+
+    Args:
+        command: such as ``"check"``.
 
     Raises:
         UsageProblem: no schema is had for the command.
+
+    >>> report_schema("check")["type"]
+    'object'
     """
     if command not in REPORTS:
         raise UsageProblem(

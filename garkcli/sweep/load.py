@@ -39,7 +39,11 @@ def _template(given: TemplateText, search: SearchText) -> Template:
 
 
 def sweep_schema() -> dict[str, Any]:
-    """The JSON Schema of spec files."""
+    """The JSON Schema of the spec files of sweeps, as plain data.
+
+    >>> sweep_schema()["type"]
+    'object'
+    """
     from garkcli.methodfile.sweep_schema import sweep_file_schema
 
     return sweep_file_schema({name: property_kind(name) for name in columns()})

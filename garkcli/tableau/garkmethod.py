@@ -38,6 +38,11 @@ class GarkMethod:
         embedded: further weights at the same stages, a row of exact numbers a colour; None where
             there are none, as for a conjugate and a pair.
         dense: weights that are polynomials; None likewise.
+
+    >>> from garkcli import load
+    >>> method = load("rk4")
+    >>> method.A[3], method.b, method.order, method.conjugate.order
+    ((0, 0, 1, 0), (1/6, 1/3, 1/3, 1/6), 4, 4)
     """
 
     tableau: Tableau

@@ -58,6 +58,10 @@ class Tableau:
 
     Errors:
         ShapeMismatch: a block or a row of weights of the wrong size.
+
+    >>> from garkcli import load
+    >>> load("stoermer-verlet").tableau
+    <Tableau 2 colours, stages 1, 2>
     """
 
     spaces: tuple[StageSpace, ...]

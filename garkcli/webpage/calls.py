@@ -2,15 +2,14 @@
 
 from __future__ import annotations
 
-from typing import Any
-
+from garkcli.api.anymethod import AnyMethod
 from garkcli.errors import MethodError
 from garkcli.webpage.page import render
 from garkcli.webpage.reported import reported
 
 
 def report_page(
-    *methods: Any, order: int | None = None, pictures: bool = True
+    *methods: AnyMethod, order: int | None = None, pictures: bool = True
 ) -> str:
     """All that is found of methods as one HTML page, which needs nothing else: ``gark report``.
 
@@ -22,6 +21,9 @@ def report_page(
 
     Raises:
         MethodError: there is no method, or something that is none.
+
+    >>> report_page("heun", pictures=False).splitlines()[0]
+    '<!doctype html>'
     """
     if not methods:
         raise MethodError("a page of no method", "give at least one")

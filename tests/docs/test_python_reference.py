@@ -1,0 +1,79 @@
+"""docs/python-reference.md is made from the program, and every public name is told whole."""
+
+from __future__ import annotations
+
+import dataclasses
+import inspect
+import os
+from pathlib import Path
+
+import pytest
+
+import garkcli
+from garkcli.errors import GarkError
+from tests.docs.python_reference import (
+    VALUES,
+    Docstring,
+    home,
+    items,
+    of_class,
+    page,
+    returned,
+)
+
+PAGE = Path(__file__).resolve().parents[2] / "docs" / "python-reference.md"
+MARK = "<!-- names -->\n\n"
+NAMES = {name: getattr(garkcli, name) for name in garkcli.__all__}
+FUNCTIONS = [x for x in NAMES if inspect.isfunction(NAMES[x])]
+CLASSES = dict(map(home, VALUES)) | {
+    name: thing for name, thing in NAMES.items() if inspect.isclass(thing)
+}
+
+
+def test_the_page_is_made_from_the_program() -> None:
+    """Signatures, docstrings and examples are those of the program."""
+    text = PAGE.read_text(encoding="utf-8")
+    head, mark, found = text.partition(MARK)
+    assert mark
+    if os.environ.get("GARK_UPDATE_SNAPSHOTS"):
+        PAGE.write_text(head + mark + page(), encoding="utf-8")
+        return
+    assert found == page()
+
+
+def test_every_name_has_its_section() -> None:
+    """Once each, as has what a call says that it returns."""
+    headings = [
+        line.removeprefix("### ")
+        for line in page().splitlines()
+        if line.startswith("### ")
+    ]
+    assert len(headings) == len(set(headings))
+    assert {*garkcli.__all__} <= {*headings}
+    assert returned() <= {*headings, "Iterator", "Any"}
+
+
+@pytest.mark.parametrize("name", FUNCTIONS)
+def test_a_function_is_told_whole(name: str) -> None:
+    """Each argument, what goes wrong, and an example, which the doctests run."""
+    doc = Docstring.of(NAMES[name])
+    arguments = dict(items(doc.sections.get("Args", "")))
+    assert {*arguments} == {*inspect.signature(NAMES[name]).parameters}
+    assert all(arguments.values())
+    assert doc.examples
+    assert all(why for _, why in items(doc.sections.get("Raises", "")))
+
+
+@pytest.mark.parametrize("name", CLASSES)
+def test_a_value_is_told_whole(name: str) -> None:
+    """Each attribute that has a name."""
+    kind = CLASSES[name]
+    told = dict(items(of_class(kind).sections.get("Attributes", "")))
+    assert all(told.values())
+    if dataclasses.is_dataclass(kind):
+        for field in dataclasses.fields(kind):
+            is_base = field.name not in vars(kind)["__annotations__"]
+            is_told = field.name in told or field.name.startswith("_")
+            assert is_told or (name == "MethodFile" and is_base), field.name
+    elif issubclass(kind, GarkError):
+        assert inspect.getdoc(kind)
