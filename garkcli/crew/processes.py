@@ -2,10 +2,11 @@
 
 from __future__ import annotations
 
+import sys
 from collections import deque
 from collections.abc import Callable, Iterator, Sequence
 from contextlib import contextmanager, suppress
-from typing import TYPE_CHECKING, Generic
+from typing import TYPE_CHECKING, Generic, cast
 
 from garkcli.crew.work import Item, Outcome
 
@@ -71,18 +72,12 @@ class Crew(Generic[Item, Outcome]):
         size: int,
         crashed: Callable[[Item, str], Outcome],
     ) -> None:
-        import multiprocessing
+        from multiprocessing import get_context
 
         from garkcli.exact.pickling import register
 
         register()
-        # fork keeps the modules that are loaded already, where the system has it
-        method = (
-            "fork"
-            if "fork" in multiprocessing.get_all_start_methods()
-            else None
-        )
-        self.context: BaseContext = multiprocessing.get_context(method)
+        self.context: BaseContext = get_context(start_method())
         self.work = work
         self.items: Sequence[Item] = ()
         self.crashed = crashed
@@ -104,7 +99,7 @@ class Crew(Generic[Item, Outcome]):
 
         More items may follow once all of these are done.
         """
-        from multiprocessing.connection import Connection, wait
+        from multiprocessing.connection import wait
 
         self.items = items
         self.waiting = deque(range(len(items)))
@@ -117,11 +112,12 @@ class Crew(Generic[Item, Outcome]):
                 worker.connection: worker for worker in self.workers
             }
             for found in wait(list(by_connection)):
-                assert isinstance(found, Connection)
-                worker = by_connection[found]
+                # of a type of its own on Windows
+                connection = cast("Connection", found)
+                worker = by_connection[connection]
                 number = worker.items[0] if worker.items else -1
                 try:
-                    outcome = found.recv()
+                    outcome = connection.recv()
                 except (EOFError, OSError):
                     yield from self._bury(worker)
                     continue
@@ -165,6 +161,18 @@ class Crew(Generic[Item, Outcome]):
             why = _cause(worker.process.exitcode)
             yield items[0], self.crashed(self.items[items[0]], why)
         self._hire()
+
+
+def start_method() -> str:
+    """How processes begin: ``fork`` keeps the modules that are loaded already.
+
+    Windows has no fork, and on macOS a fork of a process whose libraries have begun threads may
+    crash.
+    """
+    from multiprocessing import get_all_start_methods
+
+    can_fork = "fork" in get_all_start_methods() and sys.platform != "darwin"
+    return "fork" if can_fork else "spawn"
 
 
 def _cause(code: int | None) -> str:

@@ -102,7 +102,7 @@ def _without_links(path: str) -> Path:
 
 def _own_stream(target: Path) -> int | None:
     """The descriptor that such a path means, or None."""
-    found = _OWN_STREAM.fullmatch(str(target))
+    found = _OWN_STREAM.fullmatch(target.as_posix())
     if found is None:
         return None
     word = found[1] or found[2]

@@ -13,6 +13,7 @@ import pytest
 
 from garkcli.check.baseline import MAX_BYTES
 from tests.cli.harness import ROOT, Run, gark
+from tests.had import needs_fork
 
 SLOW = "radicals-of-large-degree"
 """An unreadable example that takes seconds to be refused."""
@@ -343,7 +344,7 @@ main(["check", "-j", "2", *sys.argv[1:]])
 """``gark check -j 2`` in which a file with a deadly name ends what checks it."""
 
 
-@pytest.mark.skipif(os.name != "posix", reason="workers are forked")
+@needs_fork
 @pytest.mark.parametrize(
     ("how", "says"),
     [

@@ -14,10 +14,9 @@ from pathlib import Path
 import pytest
 
 from tests.cli.harness import ROOT
+from tests.had import needs_signals
 
-pytestmark = pytest.mark.skipif(
-    os.name != "posix", reason="signals between processes"
-)
+pytestmark = needs_signals
 PATIENCE = 60.0
 """Seconds to wait for a sign of life, on a machine that is very busy."""
 # nothing to be fast enough for: millions of trees

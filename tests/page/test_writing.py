@@ -16,6 +16,7 @@ from garkcli.cli.emitting import file_names, make_folder
 from garkcli.errors import UsageProblem
 from garkcli.page.writing import refuse_unwritable, write_whole
 from tests.cli.harness import ROOT, gark
+from tests.had import needs_fifos
 
 posix = pytest.mark.skipif(
     os.name != "posix", reason="links and permissions of POSIX"
@@ -83,7 +84,7 @@ def test_a_file_of_two_names_keeps_both(tmp_path: Path) -> None:
     assert (tmp_path / "one").samefile(tmp_path / "two")
 
 
-@posix
+@needs_fifos
 def test_a_pipe_is_written_through(tmp_path: Path) -> None:
     """A FIFO gets the report and stays one."""
     fifo = tmp_path / "pipe"

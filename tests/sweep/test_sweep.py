@@ -19,6 +19,7 @@ from hypothesis import given, settings
 from hypothesis import strategies as st
 
 from garkcli import analyse, loads
+from garkcli.crew.processes import start_method
 from garkcli.errors import MethodFileError, UsageProblem
 from garkcli.plots.sweep_plot import sweep_figure
 from garkcli.report.schemas import report_schema
@@ -32,6 +33,7 @@ from garkcli.sweep.ranking import best_first, kept, pareto_front
 from garkcli.sweep.row import Row, row_of
 from garkcli.sweep.store import RowStore
 from tests.cli.harness import gark
+from tests.had import needs_fifos, needs_locks
 
 SPEC = """name: small
 methods:
@@ -141,7 +143,7 @@ def test_damaged_rows_are_refused(line: str, tmp_path: Path) -> None:
         RowStore(str(path), is_resumed=True)
 
 
-@pytest.mark.skipif(os.name == "nt", reason="there are no such devices")
+@needs_fifos
 def test_rows_are_a_regular_file(tmp_path: Path) -> None:
     """What is endless or never comes is not read; the null device has no rows and keeps none."""
     pipe = tmp_path / "pipe"
@@ -201,7 +203,7 @@ def test_numbers_that_are_too_large_are_told_as_such(spec: Path) -> None:
     assert "a whole number of at most 6 digits" in second
 
 
-@pytest.mark.skipif(os.name == "nt", reason="there are no such locks")
+@needs_locks
 def test_a_file_in_use(tmp_path: Path) -> None:
     """Two processes do not write to one file."""
     path = str(tmp_path / "open.jsonl")
@@ -228,7 +230,7 @@ def test_side_by_side(spec: Path, monkeypatch: pytest.MonkeyPatch) -> None:
     monkeypatch.setattr(running, "CHUNK", 3)
     assert gark("sweep", str(spec), "--jobs", "2").code == 0
     assert {str(row["key"]): row for row in rows_in(rows)} == alone
-    if sys.platform != "linux":
+    if start_method() != "fork":
         return  # workers that are not forked do not see the change below
     rows.unlink()
     fatal = sorted(alone)[5]
